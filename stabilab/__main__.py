@@ -1,0 +1,4 @@
+"""python -m stabilab"""
+from .cli import main
+
+main()

@@ -1,0 +1,1 @@
+"""Published formulas as data, and the checker that says which of them are true."""

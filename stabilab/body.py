@@ -1,0 +1,43 @@
+"""The rigid body: three principal moments of inertia."""
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from .errors import InputError
+from .exact import exact_vector, floats
+
+AXIS_WORDS = ("minor", "middle", "major")
+
+
+@dataclass(frozen=True)
+class Body:
+    """A rigid body seen from its principal axes 1, 2, 3.
+
+    inertia: three principal moments of inertia about the centre of mass or a fixed point, kg m^2, in any order,
+    equal ones allowed; numbers or exact strings. `exact` keeps them unrounded. Raises InputError for a moment that
+    is not positive and where the largest exceeds the sum of the other two (no mass distribution does that).
+    """
+
+    inertia: tuple[float, float, float]
+    exact: tuple[Fraction, Fraction, Fraction] = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self):
+        moments = exact_vector(self.inertia, "inertia")
+        for number, moment in enumerate(moments, 1):
+            if moment <= 0:
+                raise InputError(f"inertia: moment {number} is {float(moment):g}; principal moments are positive")
+        largest = max(moments)
+        if 2 * largest > sum(moments):
+            raise InputError(
+                f"inertia: the triangle inequality is broken: {float(largest):.17g} exceeds the sum of the other two, "
+                f"{float(sum(moments) - largest):.17g}; no rigid body has these moments")
+        object.__setattr__(self, "exact", moments)
+        object.__setattr__(self, "inertia", floats(moments))
+
+    def axis_word(self, axis: int) -> str:
+        """"minor", "middle", "major" for axis 0, 1, 2 of a body with three different moments, "repeated-moment"
+        where the moment equals another one."""
+        if self.exact.count(self.exact[axis]) > 1:
+            return "repeated-moment"
+        return AXIS_WORDS[sorted(self.exact).index(self.exact[axis])]

@@ -1,0 +1,43 @@
+"""What an effect is: a part of the physics that contributes nothing unless it says so.
+
+A sixth effect is one new file with a subclass, one row in `effects/__init__.py`, one law in the law test, one case.
+The formulas use arithmetic only, so the same lines serve SymPy symbols, floats, arrays and exact fractions.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import ClassVar
+
+Triple = tuple
+
+
+@dataclass(frozen=True)
+class Effect:
+    """Base of every effect. `name` is its table in a case file; `keys` its keys there."""
+
+    name: ClassVar[str] = ""
+    keys: ClassVar[tuple[str, ...]] = ()
+    works: ClassVar[bool] = True  # False promises that the effect does no work; the law test holds it to that
+
+    def parameters(self) -> dict[str, Fraction]:
+        """Symbol name to exact value, in the order of declaration."""
+        return {}
+
+    def momentum(self, p: dict) -> Triple | None:
+        """Angular momentum carried inside the body, body frame, kg m^2/s, from the parameter symbols `p`."""
+        return None
+
+    def torque(self, omega: Triple, p: dict) -> Triple | None:
+        """Torque on the body, body frame, N m."""
+        return None
+
+
+def cross(u, v):
+    """Vector product of two triples of any scalar type."""
+    return (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
+
+
+def dot(u, v):
+    """Scalar product of two triples of any scalar type."""
+    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]

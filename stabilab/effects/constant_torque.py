@@ -1,0 +1,30 @@
+"""A torque constant in the body: a thruster stuck open."""
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import ClassVar
+
+from ..exact import exact_vector, floats
+from .base import Effect
+
+
+@dataclass(frozen=True)
+class ConstantTorque(Effect):
+    """Body-fixed torque M, N m, body frame (paper: Amer et al. 2024, eq. (1))."""
+
+    name: ClassVar[str] = "constant_torque"
+    keys: ClassVar[tuple[str, ...]] = ("torque", "mu")
+
+    vector: tuple[float, float, float]
+    exact: tuple[Fraction, Fraction, Fraction] = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self):
+        object.__setattr__(self, "exact", exact_vector(self.vector, "torque"))
+        object.__setattr__(self, "vector", floats(self.exact))
+
+    def parameters(self):
+        return dict(zip(("M1", "M2", "M3"), self.exact))
+
+    def torque(self, omega, p):
+        return (p["M1"], p["M2"], p["M3"])

@@ -1,0 +1,75 @@
+"""Exact numbers: what the user wrote, before any rounding."""
+from __future__ import annotations
+
+import math
+import re
+from fractions import Fraction
+from numbers import Integral, Rational, Real
+
+from .errors import InputError
+
+_DECIMAL = re.compile(r"\s*[+-]?(\d+(_?\d+)*\.?(\d+(_?\d+)*)?|\.\d+(_?\d+)*)([eE][+-]?\d{1,4})?\s*")
+_RATIO = re.compile(r"\s*[+-]?\d+\s*/\s*\d+\s*")
+
+
+def exact(value) -> Fraction:
+    """The rational number that `value` denotes: int, float (its binary value), Fraction, or a string holding a
+    decimal or a ratio ("0.1", "2/3"). Raises InputError for anything else, and where the double nearest to the
+    value would be infinite or would lose a nonzero value to zero."""
+    number = _parse(value)
+    try:
+        rounded = float(number)
+    except OverflowError:
+        raise InputError(f"{value!r} is larger than the largest double (about 1.8e308)") from None
+    if number and not rounded:
+        raise InputError(f"{value!r} is smaller than the smallest double (about 4.9e-324); write 0 if zero is meant")
+    return number
+
+
+def _parse(value) -> Fraction:
+    if isinstance(value, bool):
+        raise InputError(f"expected a number, got the truth value {str(value).lower()}")
+    if isinstance(value, (Integral, Rational)):
+        return Fraction(value.numerator, value.denominator) if isinstance(value, Rational) else Fraction(int(value))
+    if isinstance(value, Real):
+        if not math.isfinite(value):
+            raise InputError(f"expected a finite number, got {float(value)}")
+        return Fraction(float(value))
+    if isinstance(value, str):
+        if len(value) <= 400 and (_DECIMAL.fullmatch(value) or _RATIO.fullmatch(value)):
+            try:
+                return Fraction(value.replace("_", "").replace(" ", ""))
+            except ZeroDivisionError:
+                raise InputError(f'"{value}" divides by zero') from None
+        raise InputError(f'expected a decimal or a ratio such as "0.1" or "2/3", got "{value[:60]}"')
+    raise InputError(f"expected a number, got {type(value).__name__}")
+
+
+def exact_vector(values, name: str) -> tuple[Fraction, Fraction, Fraction]:
+    """Three exact numbers; InputError names `name` otherwise."""
+    try:
+        items = list(values) if not isinstance(values, str) else None
+    except TypeError:
+        items = None
+    if items is None or len(items) != 3:
+        came = type(values).__name__ if items is None else f"{len(items)} of them"
+        raise InputError(f"{name}: expected three numbers, got {came}")
+    try:
+        return tuple(exact(v) for v in items)
+    except InputError as error:
+        raise InputError(f"{name}: {error}") from None
+
+
+def sqrt_fraction(value: Fraction, bits: int = 240) -> Fraction:
+    """A rational within 2**-bits relative of the square root of a non-negative rational; exact for exact squares."""
+    n, d = value.numerator, value.denominator
+    rn, rd = math.isqrt(n), math.isqrt(d)
+    if rn * rn == n and rd * rd == d:
+        return Fraction(rn, rd)
+    shift = max(0, bits + (d.bit_length() - n.bit_length()) // 2 + d.bit_length())
+    return Fraction(math.isqrt((n << (2 * shift)) // d), 1 << shift)
+
+
+def floats(values) -> tuple[float, ...]:
+    """Each exact number rounded once, to the nearest double."""
+    return tuple(float(v) for v in values)
