@@ -20,6 +20,16 @@ class Effect:
     keys: ClassVar[tuple[str, ...]] = ()
     works: ClassVar[bool] = True  # False promises that the effect does no work; the law test holds it to that
 
+    @classmethod
+    def from_case(cls, table, context) -> Effect | None:
+        """The effect that its table in a case file states; None where the table is faulty (it keeps the faults).
+
+        table: reads values by key (`vector`, `number`, `one_of`, `fault`); context: what the rest of the case knows
+        (`body`, `torque_from_mu`). As it stands: three numbers under the only key.
+        """
+        vector = table.vector(cls.keys[0]) if table.required(*cls.keys) else None
+        return None if vector is None else cls(vector)
+
     def parameters(self) -> dict[str, Fraction]:
         """Symbol name to exact value, in the order of declaration."""
         return {}

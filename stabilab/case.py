@@ -1,0 +1,280 @@
+"""A case file: a body, its effects and one motion, read from TOML; every fault with file, line and key."""
+from __future__ import annotations
+
+import os
+import re
+import stat
+import tomllib
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from .body import Body
+from .case_expect import expected
+from .case_lines import KeyLines, key_lines
+from .case_table import Faults, Table, Written, did_you_mean, dotted
+from .effects import REGISTRY, effect_class
+from .errors import CaseError, InputError, Problem
+from .exact import floats
+from .scaling import Scaling, to_scaled, torque_from_mu
+from .scene import ScaledGyrostat, Scene
+
+LARGEST = 128 * 1024  # bytes; a case has one or two thousand, and a wrong file is refused before it is parsed
+TABLES = ("title", "source", "body", "effects", "scaled", "motion", "expect")
+STATES, SPANS = ("angular_velocity", "x"), ("span", "tau")
+STAND_IN = Body((3, 2, 1))  # lets the faults of the effects show where the body itself is at fault
+
+
+@dataclass(frozen=True)
+class Case:
+    """One case file.
+
+    scene: the Scene (rad/s, s) or ScaledGyrostat (x, tau) in the variables of the case, which `variables` names
+    ("physical" or "scaled"); physical: the Scene in kg m^2, N m, or None where the file gives [scaled]; scaling: the
+    change between the two, None where it is undefined. state: three components at time 0 in the case's variables,
+    body frame, or None; span: (from, to) in the case's time or None; expect: facts the case's test asserts; text: the
+    source.
+    """
+
+    path: str
+    title: str
+    source: str
+    scene: Scene | ScaledGyrostat
+    variables: str
+    physical: Scene | None = None
+    scaling: Scaling | None = None
+    state: tuple[float, float, float] | None = None
+    span: tuple[float, float] | None = None
+    expect: dict = field(default_factory=dict)
+    text: str = field(default="", repr=False)
+
+    @property
+    def name(self) -> str:
+        """The file's stem."""
+        return Path(self.path).stem
+
+
+def load(path) -> Case:
+    """The case in the TOML file `path`. Raises CaseError with all faults of the file at once.
+
+    The case is scaled where the file has [scaled], gives the motion as x, or gives no motion and the torque as mu
+    (and the scaling is defined); else physical. Decimals are read exactly, the motion is rounded once.
+    """
+    path = os.fspath(path)
+    text = _text(path)
+    data, faults = _parsed(path, text)
+    top = Table((), data, faults)
+    top.known(TABLES, "table or key")
+    title, source = top.text("title"), top.text("source")
+    physical, mu = _physical(top)
+    scaled = _scaled(top)
+    motion = _motion(top)
+    expect = expected(top.table("expect"))
+    scene, variables, scaling = _variables(top, motion, physical, scaled, mu)
+    span = _span(motion, variables, scaling)
+    if faults.problems:
+        raise CaseError(path, sorted(faults.problems, key=lambda p: p.line or 0))
+    return Case(path, title, source, scene, variables, physical, scaling, motion.state, span, expect, text)
+
+
+def _text(path) -> str:
+    """The file's text; a directory, a pipe, a device, a long file or other bytes than UTF-8 are refused."""
+    try:
+        mode = os.stat(path).st_mode
+        raw = None
+        if stat.S_ISREG(mode):  # a pipe without a writer would wait for ever
+            with open(path, "rb") as stream:
+                raw = stream.read(LARGEST + 1)
+    except FileNotFoundError:
+        raise CaseError(path, [Problem("", f"no such file{_neighbour(path)}")]) from None
+    except (OSError, ValueError) as error:
+        raise CaseError(path, [Problem("", f"cannot be read: {getattr(error, 'strerror', None) or error}")]) from None
+    if raw is None:
+        kind = "a directory" if stat.S_ISDIR(mode) else "a pipe or a device"
+        raise CaseError(path, [Problem("", f"expected a TOML file, this is {kind}")])
+    if len(raw) > LARGEST:
+        raise CaseError(path, [Problem("", f"longer than {LARGEST // 1024} KiB: this is no case file")])
+    try:
+        return raw.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = raw.count(b"\n", 0, error.start) + 1
+        raise CaseError(path, [Problem("", f"byte 0x{raw[error.start]:02x} is not UTF-8; save the file as UTF-8",
+                                       line)]) from None
+
+
+def _neighbour(path) -> str:
+    from difflib import get_close_matches
+    folder, name = os.path.split(path)
+    try:
+        near = get_close_matches(name, [n for n in os.listdir(folder or ".") if n.endswith(".toml")], n=1)
+    except OSError:
+        return ""
+    return f"; did you mean {os.path.join(folder, near[0])}?" if near else ""
+
+
+def _parsed(path, text: str) -> tuple[dict, Faults]:
+    lines = key_lines(text)
+    try:
+        if lines.too_deep:
+            raise RecursionError
+        return tomllib.loads(text, parse_float=Written), Faults(lines)
+    except RecursionError:
+        raise CaseError(path, [Problem("", "nested too deeply to be read", lines.too_deep)]) from None
+    except ValueError as error:
+        raise CaseError(path, _syntax_problems(str(error), text, lines)) from None
+
+
+def _syntax_problems(message: str, text: str, lines: KeyLines) -> list[Problem]:
+    """What the TOML reader said, with its line; a key written twice is named with both lines."""
+    if message.startswith("Exceeds the limit"):
+        found = re.search(r"\d(_?\d){4000}", text)
+        line = text.count("\n", 0, found.start()) + 1 if found else None
+        return [Problem("", "an integer of more than 4000 digits is no number for a case", line)]
+    place = re.search(r" \(at (?:line (\d+), column \d+|end of document)\)$", message)
+    line = int(place[1]) if place and place[1] else text.count("\n") + 1 if place else None
+    message = message[:place.start() if place else None]
+    if message.startswith(("Cannot", "Duplicate")) and lines.again:
+        return [Problem(dotted(key), f"written a second time; the first is in line {lines.line[key]}", again)
+                for key, again in lines.again.items()]
+    return [Problem("", f"not TOML: {message[:200]}", line)]
+
+
+@dataclass(frozen=True)
+class _Context:
+    """What an effect may need of the rest of the case."""
+
+    body: Body
+
+    def torque_from_mu(self, mu):
+        return torque_from_mu(self.body, mu)
+
+
+def _physical(top: Table) -> tuple[Scene | None, tuple | None]:
+    """The scene of [body] and [effects], and the dimensionless torque where the file gives it."""
+    if "scaled" in top:
+        for key in ("body", "effects"):
+            if key in top:
+                top.fault("[scaled] stands for [body] and [effects]: keep one or the other", key)
+        return None, None
+    body, effects = _body(top), top.table("effects")
+    if effects is None:
+        return (Scene(body) if body else None), None
+    made = []
+    for name, value in effects.data.items():
+        if name not in REGISTRY:
+            hint = did_you_mean(name, REGISTRY)
+            known = f" Known effects: {', '.join(REGISTRY)}" if "did you mean" in hint else ""
+            effects.fault(f"unknown effect{hint}{known}", name)
+            continue
+        table = effects.table(name)
+        if table is None:
+            continue
+        cls = effect_class(name)
+        table.known(cls.keys)
+        made.append(cls.from_case(table, _Context(body or STAND_IN)))
+    if body is None or None in made:
+        return None, None
+    torque = effects.data.get("constant_torque", {})
+    mu = Table((), torque, Faults(top.faults.lines)).vector("mu")
+    return Scene(body, *made), mu
+
+
+def _body(top: Table) -> Body | None:
+    table = top.table("body")
+    if table is None:
+        if "body" not in top:
+            top.fault("expected a table [body] with inertia (kg m^2), or [scaled] with a, b and mu")
+        return None
+    table.known(("inertia",))
+    moments = table.vector("inertia") if table.required("inertia") else None
+    negative = [index for index, moment in enumerate(moments or ()) if moment <= 0]
+    for index in negative:
+        table.fault(f"number {index + 1} is {float(moments[index])!r}; principal moments are positive", "inertia", index)
+    try:
+        return None if moments is None or negative else Body(moments)
+    except InputError as error:
+        table.fault(str(error).removeprefix("inertia: "), "inertia")
+        return None
+
+
+def _scaled(top: Table) -> ScaledGyrostat | None:
+    """The system of [scaled]: the paper's a, b, mu, any real numbers."""
+    table = top.table("scaled")
+    if table is None:
+        return None
+    table.known(("a", "b", "mu"))
+    table.required("a", "b", "mu")
+    a, b, mu = table.number("a"), table.number("b"), table.vector("mu")
+    return None if a is None or b is None or mu is None else ScaledGyrostat(a, b, mu)
+
+
+@dataclass(frozen=True)
+class _Motion:
+    """[motion] as it is written: which keys, and their numbers."""
+
+    table: Table
+    state_key: str | None = None
+    state: tuple[float, ...] | None = None
+    span_key: str | None = None
+    span: tuple | None = None
+
+
+def _motion(top: Table) -> _Motion:
+    table = top.table("motion")
+    if table is None:
+        return _Motion(Table(("motion",), {}, top.faults))
+    table.known(STATES + SPANS)
+    state_key, span_key = table.one_of(*STATES), table.one_of(*SPANS)
+    states, spans = {k: table.vector(k) for k in STATES}, {k: table.numbers(k, 2) for k in SPANS}
+    state, span = states.get(state_key), spans.get(span_key)
+    if span and not float(span[0]) < float(span[1]):
+        table.fault(f"expected two increasing numbers, got {float(span[0])!r} and {float(span[1])!r}", span_key)
+        span = None
+    if "scaled" in top:
+        for key, other in (("angular_velocity", "x"), ("span", "tau")):
+            if key in table:
+                table.fault(f"a [scaled] system has no body to convert {key} with: give {other}", key)
+    return _Motion(table, state_key, floats(state) if state else None, span_key, span)
+
+
+def _variables(top: Table, motion: _Motion, physical, scaled, mu):
+    """(scene, "physical" or "scaled", change of variables or None), by the rule in `load`."""
+    if physical is None:
+        return _in_range(top, scaled), "scaled", None
+    try:
+        physical.quadratic()  # refuses effects that the scaled system does not have
+        twin, scaling = to_scaled(physical, mu)
+    except InputError as error:
+        for key in ("x", "tau"):
+            if key in motion.table:
+                motion.table.fault(f"{error}", key)
+        return _in_range(top, physical), "physical", None
+    if motion.state_key == "x" or (mu is not None and motion.state_key is None):
+        return _in_range(top, twin), "scaled", scaling
+    return _in_range(top, physical), "physical", scaling
+
+
+def _in_range(top: Table, scene):
+    """The scene, if its rates can be formed in doubles."""
+    try:
+        scene is None or scene.quadratic().coefficients
+    except OverflowError:
+        top.fault("the coefficients of the equations of motion exceed the largest double (about 1.8e308): "
+                  "choose other units", "scaled" if "scaled" in top else "body")
+    except InputError:  # effects with other equations look after their own range
+        pass
+    return scene
+
+
+def _span(motion: _Motion, variables: str, scaling: Scaling | None) -> tuple[float, float] | None:
+    """The span in the case's time: s, or tau = t/scaling.time."""
+    given, wanted = motion.span_key, "tau" if variables == "scaled" else "span"
+    if motion.span is None or given == wanted:
+        return floats(motion.span) if motion.span else None
+    if scaling is None:
+        return None  # the fault is noted already
+    factor = scaling.time if given == "tau" else 1 / scaling.time
+    try:
+        return floats(t * factor for t in motion.span)
+    except OverflowError:
+        motion.table.fault("exceeds the largest double (about 1.8e308) in the other time unit", given)
+        return None
