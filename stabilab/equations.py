@@ -1,0 +1,237 @@
+"""Equations of motion of a scene: rates, torque by torque, and the balance laws that come with them.
+
+    D omega' = (D omega + h) x omega + tau,     h, tau: momenta and torques of the effects, each once
+    T' = omega . tau  (effects that do work),   (|H|^2 / 2)' = H . tau,   H = D omega + h
+
+Everything here is a SymPy value; numbers enter at `compiled`.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import reduce
+
+from .effects.base import cross, dot
+
+
+@dataclass(frozen=True)
+class Balance:
+    """A law grad(quantity) . rhs == rate, identically in state and parameters; `name` says which, `words` what."""
+
+    name: str
+    words: str
+    quantity: object
+    rate: object
+
+
+@dataclass(frozen=True)
+class Equations:
+    """Equations of motion as SymPy values.
+
+    state: symbols of the state; parameters: symbol name -> exact value, in order of declaration; symbols: name ->
+    symbol, same order; rhs: rates of the state, 1/s of it (1/tau when scaled); jacobian: immutable matrix
+    d rhs_i / d state_j; torques: name -> triple, the parts of inertia * rhs (body frame, N m); inertia: the factors
+    of the rates on the left; energy: kinetic energy; balances: the laws.
+    """
+
+    variables: str
+    state: tuple
+    parameters: dict
+    symbols: dict
+    inertia: tuple
+    torques: dict
+    rhs: tuple
+    jacobian: object
+    energy: object
+    balances: tuple[Balance, ...]
+
+    def numeric(self, expression):
+        """The expression with the exact parameter values put in (rationals; no rounding)."""
+        return expression.subs(values(self))
+
+    def derivative(self, quantity):
+        """Rate of a quantity along the motion; turn angles alpha_i (alpha_i' = state_i) may stand in it."""
+        motion = list(zip(self.state, self.rhs)) + list(zip(turn_angles(), self.state))
+        return sum(quantity.diff(variable) * rate for variable, rate in motion)
+
+
+def derive(scene) -> Equations:
+    """Equations of motion of a Scene (omega, rad/s, body frame) or of a ScaledGyrostat (x)."""
+    return _scaled(scene) if scene.variables == "scaled" else _physical(scene)
+
+
+def values(equations) -> dict:
+    """Symbol -> SymPy rational of every parameter."""
+    from sympy import Rational
+    return {equations.symbols[name]: Rational(v.numerator, v.denominator) for name, v in equations.parameters.items()}
+
+
+def turn_angles():
+    """Symbols alpha1, alpha2, alpha3: the integrals of the state's components over time."""
+    from sympy import symbols
+    return symbols("alpha1:4", real=True)
+
+
+def _symbols(names, **assumptions):
+    from sympy import Symbol
+    return {name: Symbol(name, real=True, **assumptions) for name in names}
+
+
+def _add(u, v):
+    return tuple(p + q for p, q in zip(u, v))
+
+
+def _jacobian(rhs, state):
+    from sympy import ImmutableMatrix
+    return ImmutableMatrix([[rate.diff(x) for x in state] for rate in rhs])
+
+
+def _physical(scene) -> Equations:
+    from sympy import Integer
+    omega = tuple(_symbols(scene.components).values())
+    parameters = dict(zip(("D1", "D2", "D3"), scene.body.exact))
+    symbols = _symbols(parameters, positive=True)
+    for effect in scene.effects:
+        parameters |= effect.parameters()
+        symbols |= _symbols(effect.parameters())
+    D = tuple(symbols[name] for name in ("D1", "D2", "D3"))
+    spin = tuple(d * w for d, w in zip(D, omega))
+    zero = (Integer(0),) * 3
+
+    torques, carried, outer, working = {"inertia": cross(spin, omega)}, zero, zero, zero
+    for effect in scene.effects:
+        momentum, torque = effect.momentum(symbols) or zero, effect.torque(omega, symbols) or zero
+        torques[effect.name] = _add(cross(momentum, omega), torque)
+        carried, outer = _add(carried, momentum), _add(outer, torque)
+        working = _add(working, torque) if effect.works else working
+
+    rhs = tuple(total / d for total, d in zip(reduce(_add, torques.values()), D))
+    energy, H = dot(spin, omega) / 2, _add(spin, carried)
+    balances = (
+        Balance("energy", "work and energy: T' = omega . (torques that do work)", energy, dot(omega, working)),
+        Balance("momentum", "angular momentum: (|H|^2/2)' = H . (outer torques)", dot(H, H) / 2, dot(H, outer)))
+    return Equations("physical", omega, parameters, symbols, D, torques, rhs, _jacobian(rhs, omega), energy, balances)
+
+
+def _scaled(scene) -> Equations:
+    from sympy import Integer
+    x1, x2, x3 = x = tuple(_symbols(scene.components).values())
+    parameters = dict(zip(("a", "b", "mu1", "mu2", "mu3"), scene.exact_ab + scene.exact_mu))
+    symbols = _symbols(parameters)
+    a, b, *mu = symbols.values()
+    torques = {"inertia": (x2 * x3, -x1 * x3, x1 * x2), "gyrostat": (Integer(0), -a * x3, b * x2),
+               "constant_torque": tuple(mu)}
+    rhs = reduce(_add, torques.values())
+    X, Y = x1 + a, x1 + b
+    circle = Balance("circle", "((x1+a)^2 + x2^2)' = 2 mu1 (x1+a) + 2 mu2 x2", X**2 + x2**2, 2 * mu[0] * X + 2 * mu[1] * x2)
+    hyperbola = Balance("hyperbola", "((x1+b)^2 - x3^2)' = 2 mu1 (x1+b) - 2 mu3 x3", Y**2 - x3**2, 2 * mu[0] * Y - 2 * mu[2] * x3)
+    energy = ((b - a) * x1**2 + b * x2**2 + a * x3**2) / 2
+    work = Balance("energy", "work and energy, (b circle - a hyperbola)/2: T' = (b-a) mu1 x1 + b mu2 x2 + a mu3 x3",
+                   energy, (b - a) * mu[0] * x1 + b * mu[1] * x2 + a * mu[2] * x3)
+    return Equations("scaled", x, parameters, symbols, (Integer(1),) * 3, torques, rhs, _jacobian(rhs, x), energy,
+                     (circle, hyperbola, work))
+
+
+def invariants(scene) -> tuple[Balance, ...]:
+    """The laws that hold for this very scene, its numbers put in.
+
+    A Balance whose rate is 0 is a constant of the motion; a constant rate grows exactly in proportion to time; a
+    quantity may hold turn angles alpha_i; a rate that is a multiple of its quantity makes quantity = 0 an invariant
+    plane. Derived from the assembled equations, so a new effect is judged without being named here.
+    """
+    equations = derive(scene)
+    laws = [*_conserved(equations)]
+    laws += _scaled_laws(equations) if equations.variables == "scaled" else _physical_laws(scene, equations)
+    return tuple(laws)
+
+
+def _conserved(equations):
+    words = {"energy": "no torque does work: kinetic energy is constant",
+             "momentum": "no outer torque: the size of the angular momentum is constant"}
+    for law in equations.balances:
+        if equations.numeric(law.rate) == 0 and (quantity := equations.numeric(law.quantity)) != 0:
+            yield Balance(law.name, words.get(law.name, f"no torque acts in it: the {law.name} is constant"), quantity, law.rate * 0)
+
+
+def _outer(scene, equations):
+    """(carried momentum, outer torque) of a physical scene as exact numbers, or None where they vary with the state."""
+    from sympy import Integer
+    zero, p = (Integer(0),) * 3, equations.symbols
+    momenta = [e.momentum(p) or zero for e in scene.effects]
+    torques = [e.torque(equations.state, p) or zero for e in scene.effects]
+    pair = tuple(tuple(equations.numeric(Integer(0) + v) for v in reduce(_add, rows, zero)) for rows in (momenta, torques))
+    return None if any(v.free_symbols for row in pair for v in row) else pair
+
+
+def _physical_laws(scene, equations):
+    known = _outer(scene, equations)
+    if known is None:
+        return
+    (lam, M), omega, alpha = known, equations.state, turn_angles()
+    D = [equations.numeric(d) for d in equations.inertia]
+    T, half_H2 = (equations.numeric(law.quantity) for law in equations.balances[:2])
+    if any(M):
+        yield Balance("energy with turn angles", "constant torque: T - M . (turn angles) is constant, alpha_i' = omega_i",
+                      T - dot(M, alpha), T * 0)
+    moments = {D[i] for i in range(3) if M[i]}
+    if len(moments) == 1:
+        d, rate = moments.pop(), dot(M, lam)
+        words = ("torque along a principal axis (or in a plane of equal moments), no gyrostatic component along it: the quadratic invariant C is constant"
+                 if rate == 0 else "torque along a principal axis: |H|^2/2 - D_M T grows by lambda . M each second, "
+                                   "so there is no equilibrium and no bounded motion")
+        yield Balance("quadratic", words, half_H2 - d * T, rate)
+    elif moments:
+        turned = dot(tuple(d * m for d, m in zip(D, M)), alpha)
+        yield Balance("momentum with turn angles", "constant torque: |H|^2/2 - (D M) . (turn angles) changes by lambda . M "
+                      "each second", half_H2 - turned, dot(M, lam))
+    for i, (j, k) in enumerate(((1, 2), (2, 0), (0, 1))):
+        if D[j] == D[k] and lam[j] == lam[k] == 0:
+            yield Balance(f"spin {i + 1}", f"symmetric body: the spin about axis {i + 1} changes by its torque alone",
+                          omega[i], M[i] / D[i])
+
+
+def _scaled_laws(equations):
+    x1, x2, x3 = equations.state
+    a, b, mu1, mu2, mu3 = (equations.numeric(s) for s in equations.symbols.values())
+    alpha = turn_angles()
+    if mu1 != 0 or mu2 != 0:
+        yield Balance("circle with turn angles", "((x1+a)^2 + x2^2)/2 - mu1 alpha1 - mu2 alpha2 changes by mu1 a per unit "
+                      "of tau, alpha_i' = x_i", ((x1 + a)**2 + x2**2) / 2 - mu1 * alpha[0] - mu2 * alpha[1], mu1 * a)
+    if mu1 != 0 or mu3 != 0:
+        yield Balance("hyperbola with turn angles", "((x1+b)^2 - x3^2)/2 - mu1 alpha1 + mu3 alpha3 changes by mu1 b per "
+                      "unit of tau, alpha_i' = x_i", ((x1 + b)**2 - x3**2) / 2 - mu1 * alpha[0] + mu3 * alpha[2], mu1 * b)
+    if mu2 == 0 and mu3 == 0 and mu1 != 0:
+        words = ("a = b, torque on axis 1: x2^2 + x3^2 is constant" if a == b else
+                 "torque on axis 1: J = x2^2 + x3^2 - 2(b-a) x1 changes by -2(b-a) mu1 per unit of tau, "
+                 "so there is no equilibrium and no bounded motion")
+        yield Balance("J", words, x2**2 + x3**2 - 2 * (b - a) * x1, -2 * (b - a) * mu1)
+    if mu1 == mu3:
+        yield Balance("plane x1 + b = x3", "mu1 = mu3: the plane x1 + b = x3 is invariant", x1 + b - x3, -x2 * (x1 + b - x3))
+    if mu1 == -mu3:
+        yield Balance("plane x1 + b = -x3", "mu1 = -mu3: the plane x1 + b = -x3 is invariant", x1 + b + x3, x2 * (x1 + b + x3))
+
+
+def lines(equations) -> tuple[str, ...]:
+    """The equations of motion as plain text, one line each."""
+    return tuple(f"{_left(d, x)}' = {_right(equations, i)}" for i, (d, x) in enumerate(zip(equations.inertia, equations.state)))
+
+
+def _left(d, x):
+    return str(x) if d == 1 else f"{d} {x}"
+
+
+def _right(equations, i):
+    from sympy import Poly, PolynomialError, prod
+    total = sum(part[i] for part in equations.torques.values())
+    try:
+        terms = Poly(total, *equations.state).terms()
+    except PolynomialError:
+        return total
+    return sum(factor * prod(x**n for x, n in zip(equations.state, powers)) for powers, factor in terms)
+
+
+def latex(equations) -> str:
+    """The equations of motion as a LaTeX align* environment."""
+    from sympy import latex as tex
+    rows = [rf"{'' if d == 1 else tex(d) + ' '}\dot{{{tex(x)}}} &= {tex(_right(equations, i))}"
+            for i, (d, x) in enumerate(zip(equations.inertia, equations.state))]
+    return "\\begin{align*}\n" + " \\\\\n".join(rows) + "\n\\end{align*}"
