@@ -1,0 +1,79 @@
+"""One visual style for every picture: colours, markers and line styles by meaning, and bytes that do not change."""
+from __future__ import annotations
+
+from contextlib import contextmanager
+from pathlib import Path
+
+# Okabe-Ito: told apart by colour-blind readers, and by their lightness in a grey print.
+BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILION, PURPLE, GREY = (
+    "#000000", "#E69F00", "#56B4E9", "#009E73", "#F0E442", "#0072B2", "#D55E00", "#CC79A7", "#7A7A7A")
+
+MEANING = {  # what a line or a point stands for -> how it is drawn
+    "stable": {"color": BLUE, "linestyle": "-", "linewidth": 2.0},
+    "unstable": {"color": VERMILION, "linestyle": "--", "linewidth": 1.8},
+    "separatrix": {"color": BLACK, "linestyle": "-", "linewidth": 1.9},
+    "separatrix 2": {"color": PURPLE, "linestyle": "-", "linewidth": 1.9},
+    "bounded": {"color": BLUE, "linestyle": "-", "linewidth": 1.4},
+    "spin-up": {"color": VERMILION, "linestyle": "-", "linewidth": 1.4},
+    "crossing": {"color": GREEN, "linestyle": "-.", "linewidth": 1.6},
+    "level": {"color": GREY, "linestyle": "-", "linewidth": 0.6},
+    "fold": {"color": GREEN, "linestyle": "-", "linewidth": 1.6},
+    "printed": {"color": ORANGE, "linestyle": ":", "linewidth": 2.0},
+    "dividing": {"color": BLACK, "linestyle": "-.", "linewidth": 1.3},
+    "this motion": {"color": ORANGE, "linestyle": "-", "linewidth": 2.2},
+}
+MARKER = {
+    "centre": {"marker": "o", "color": BLUE, "markersize": 6, "linestyle": "none"},
+    "saddle": {"marker": "o", "markerfacecolor": "white", "markeredgecolor": VERMILION, "markeredgewidth": 1.6,
+               "markersize": 6.5, "linestyle": "none"},
+    "degenerate": {"marker": "D", "color": GREEN, "markersize": 6, "linestyle": "none"},
+    "start": {"marker": "s", "color": BLACK, "markersize": 5, "linestyle": "none"},
+    "turning": {"marker": "^", "color": GREEN, "markersize": 6, "linestyle": "none"},
+}
+SHEETS = (SKY, ORANGE, GREEN, PURPLE, YELLOW, BLUE, VERMILION)  # surfaces, in order
+SERIES = (BLUE, ORANGE, GREEN, PURPLE, VERMILION)               # one curve each for a list of parameters
+
+DPI = 110
+_RC = {
+    "figure.dpi": DPI, "savefig.dpi": DPI, "figure.facecolor": "white", "axes.facecolor": "white",
+    "font.family": "DejaVu Sans", "font.size": 10, "axes.titlesize": 10.5, "axes.labelsize": 10.5,
+    "legend.fontsize": 8.5, "xtick.labelsize": 9, "ytick.labelsize": 9, "axes.linewidth": 0.8,
+    "axes.grid": True, "grid.color": "#DDDDDD", "grid.linewidth": 0.5, "axes.axisbelow": True,
+    "legend.frameon": True, "legend.framealpha": 0.92, "legend.edgecolor": "#BBBBBB", "lines.solid_capstyle": "round",
+    "mathtext.fontset": "dejavusans", "axes.formatter.use_mathtext": True, "svg.hashsalt": "stabilab",
+}
+
+
+@contextmanager
+def drawing():
+    """matplotlib.pyplot with this style and the file back end; figures opened inside are closed at the end."""
+    import matplotlib
+    matplotlib.use("Agg", force=False)
+    import matplotlib.pyplot as plt
+    before = set(plt.get_fignums())
+    with matplotlib.rc_context(_RC):
+        try:
+            yield plt
+        finally:
+            for number in set(plt.get_fignums()) - before:
+                plt.close(number)
+
+
+def save(figure, path) -> Path:
+    """Write a PNG whole or not at all, with no date or version inside: the same picture gives the same bytes."""
+    path = Path(path)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    waiting = path.with_name(f".{path.name}.part")
+    try:
+        figure.savefig(waiting, format="png", dpi=DPI, metadata={"Software": None})
+        waiting.replace(path)
+    finally:
+        waiting.unlink(missing_ok=True)
+    return path
+
+
+def axis_labels(scene) -> tuple[str, str, str]:
+    """Labels with units of the three components of the scene's state."""
+    if scene.variables == "scaled":
+        return ("$x_1$", "$x_2$", "$x_3$")
+    return tuple(rf"$\omega_{i}$ (rad/s)" for i in (1, 2, 3))
