@@ -1,0 +1,80 @@
+"""The same problem twice: as stabilab's scene and as an oracle's model. (The only file here that imports stabilab.)"""
+from __future__ import annotations
+
+import mpmath as mp
+import numpy as np
+
+from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
+
+from . import model
+from .energy import Reduced
+
+WORDS = {"bounded": 0, "spin-up": 1, "separatrix": 2, "equilibrium": 3, "undecided": 4}
+PAPER_BODY = (2000.0, 1500.0, 1000.0)  # Amer et al. 2024, section "Numerical results"
+
+
+def physical(inertia, momentum=(0.0, 0.0, 0.0), torque=(0.0, 0.0, 0.0)):
+    """(scene, model) of a body in physical variables; an effect that is zero is left out of the scene."""
+    inertia, momentum, torque = (tuple(map(float, v)) for v in (inertia, momentum, torque))
+    effects = [Gyrostat(momentum)] if any(momentum) else []
+    effects += [ConstantTorque(torque)] if any(torque) else []
+    return Scene(Body(inertia), *effects), model.physical(inertia, momentum, torque)
+
+
+def scaled(a, b, mu):
+    """(scene, model) of the dimensionless system."""
+    a, b, mu = float(a), float(b), tuple(map(float, mu))
+    return ScaledGyrostat(a, b, mu), model.scaled(a, b, mu)
+
+
+def paper(lambda1, mu):
+    """The paper's body in its scaled variables: a = lambda1/500, b = lambda1/250 (u = 1)."""
+    return scaled(lambda1 / 500, lambda1 / 250, mu)
+
+
+def brink(problem, perpendicular, distance, sense=1, digits=60):
+    """The double state nearest to relative distance `distance` from the separatrix in the torque axis's component,
+    above the given perpendicular pair (j, k cyclic after the axis); None where no barrier stands ahead of it."""
+    axis = next(i for i in range(3) if problem.m[i])
+    state = [0.0, 0.0, 0.0]
+    state[(axis + 1) % 3], state[(axis + 2) % 3] = perpendicular
+    with mp.workdps(digits):
+        motion = Reduced(problem, state, digits)
+        forward = 1 if motion.tilt > 0 else -1
+        if motion.kind == "elliptic":
+            heights = [-motion.W(t) for t, kind in motion._ahead(forward)[0] if kind == "saddle"]
+        else:
+            heights = [-motion.W(t) for t, kind in motion.stationary() if kind == "saddle"]
+        if not heights or max(heights) <= 0:
+            return None
+        state[axis] = float(sense * mp.sqrt(2 * max(heights)) * (1 + mp.mpf(distance)))
+    return tuple(state)
+
+
+def as_floats(rows):
+    """Nested list of mpf -> array of doubles."""
+    return np.array([[float(v) for v in row] for row in rows])
+
+
+def random_body(rng, decades=0.0):
+    """Three moments obeying the triangle inequality strictly, in random order, over the given decades of shape."""
+    parts = 10.0 ** rng.uniform(-decades / 2, decades / 2, 3) + rng.uniform(0.1, 1.0, 3)
+    return tuple(float(parts.sum() - p) for p in parts)
+
+
+def random_problem(rng, axis, variables="physical"):
+    """A random (scene, model) with the torque on `axis` (0, 1, 2) in either sense and both perpendicular gyrostatic
+    components; scaled: random a, b."""
+    size = float(rng.choice([-1, 1]) * 10 ** rng.uniform(-1, 1))
+    if variables == "scaled":
+        mu = [0.0, 0.0, 0.0]
+        mu[axis] = size
+        return scaled(*(rng.normal(size=2) * 1.5), mu)
+    momentum, torque = rng.normal(size=3), [0.0, 0.0, 0.0]
+    momentum[axis], torque[axis] = 0.0, size
+    return physical(random_body(rng), momentum, torque)
+
+
+def rank_axis(inertia, rank):
+    """Index of the minor (0), middle (1), major (2) axis."""
+    return int(np.argsort(inertia)[rank])
