@@ -1,0 +1,113 @@
+"""Figures 16-17 of Amer et al. 2024: torque on the middle axis, where its data have no separatrix at all."""
+from __future__ import annotations
+
+import numpy as np
+
+from . import paper, style
+from .plane import motion_curve, phase_plane
+
+LAMBDA_BEYOND = 1250  # c = b - a = 2.5, beyond the cusp 1.7548: there a figure-eight separatrix does exist
+CUSP = 4 * 3**-0.75
+
+
+def _equilibria(a, b, points=4000):
+    """(x1, x3, stable) along both branches x3 = g, x1 = -a + 1/g."""
+    for sign in (1, -1):
+        g = sign * np.geomspace(0.05, 20, points)
+        x1 = -a + 1 / g
+        yield x1, g, (x1 + a) * (x1 + b) + g * g > 0
+
+
+def _tube(scene, state):
+    """The closed curve of the motion through a state: states (n, 3)."""
+    plane = phase_plane(scene, state)
+    ys, Ws = motion_curve(plane, -8.0, 8.0)
+    return np.concatenate([plane.states(ys, Ws), plane.states(ys[::-1], -Ws[::-1])])
+
+
+def surfaces(plt):
+    """Fig. 16."""
+    figure = plt.figure(figsize=(10.6, 5.2), layout="constrained")
+    left = figure.add_subplot(1, 2, 1, projection="3d")
+    scene = paper.scene("middle", 100)
+    _nested(left, scene)
+    left.set_title(rf"$\lambda_1=100$, $c={scene.b - scene.a:g}$: nested closed motions, no separatrix", fontsize=9.5)
+    right = figure.add_subplot(1, 2, 2, projection="3d")
+    _figure_eight(right)
+    right.set_title(rf"$\lambda_1={LAMBDA_BEYOND}$, $c=2.5>{CUSP:.4f}$: figure-eight separatrix", fontsize=9.5)
+    from .figures_minor import _legend
+    _legend(figure, [("centres (stable)", style.MEANING["stable"]), ("saddles (unstable)", style.MEANING["unstable"]),
+                     ("motion of Table 3", style.MEANING["this motion"]), ("periodic motions", style.MEANING["bounded"])])
+    return figure
+
+
+def _nested(ax, scene):
+    for x1, x3, stable in _equilibria(scene.a, scene.b):
+        shown = (np.abs(x1) < 4) & (np.abs(x3) < 4)
+        ax.plot(np.where(shown & stable, x1, np.nan), 0 * x1, np.where(shown & stable, x3, np.nan), **style.MEANING["stable"])
+    for g in (-2.2, -1.2, -0.6, -0.4, 0.4, 0.6, 1.2, 2.2):
+        states = _tube(scene, (1 / g - scene.a, 0.9, g))
+        ax.plot(*states.T, **style.MEANING["bounded"])
+    ax.plot(*_tube(scene, paper.START_MIDDLE).T, **style.MEANING["this motion"])
+    ax.plot(*np.array(paper.START_MIDDLE)[:, None], **style.MARKER["start"])
+    _names(ax)
+    ax.view_init(24, -60)
+
+
+def _figure_eight(ax):
+    from .figures_minor import sheets
+    found = sheets(LAMBDA_BEYOND, reach=None, shape=(60, 121), axis="middle")
+    for number, sheet in enumerate(found.sheets):
+        p = np.asarray(sheet.points)
+        ax.plot_surface(p[..., 0], p[..., 1], p[..., 2], color=style.SHEETS[number % len(style.SHEETS)], alpha=0.75, rstride=2,
+                        cstride=3, linewidth=0.15, edgecolor="#333333")
+        ax.plot(*np.asarray(sheet.saddle).T, **style.MEANING["unstable"])
+        ax.plot(*np.asarray(sheet.centre).T, **style.MEANING["stable"])
+    _names(ax)
+    ax.view_init(20, -70)
+
+
+def _names(ax):
+    ax.set_xlabel("$x_1$", labelpad=-2)
+    ax.set_ylabel("$x_2$", labelpad=-2)
+    ax.set_zlabel("$x_3$", labelpad=-4)
+    ax.tick_params(pad=-1, labelsize=8)
+
+
+def projections(plt):
+    """Fig. 17."""
+    figure, axes = plt.subplots(1, 3, figsize=(11.4, 4.6), layout="constrained")
+    for ax, lam in zip(axes, (100, 500, LAMBDA_BEYOND)):
+        scene = paper.scene("middle", lam)
+        _projection(ax, scene, draw_motion=lam != LAMBDA_BEYOND)
+        ax.set_title(rf"$\lambda_1={lam}$, $c={scene.b - scene.a:g}$")
+    from .figures_minor import _legend
+    _legend(figure, [("stable equilibria", style.MEANING["stable"]), ("unstable equilibria", style.MEANING["unstable"]),
+                     (r"plane $x_1+b=x_3$ (periodic)", style.MEANING["dividing"]),
+                     (r"plane $x_1+b=-x_3$ (spin-up)", style.MEANING["spin-up"]),
+                     ("motion of Table 3", style.MEANING["this motion"]),
+                     ("folds", style.MARKER["degenerate"]), (r"printed: $x_1=x_3$", style.MEANING["printed"])])
+    return figure
+
+
+def _projection(ax, scene, draw_motion):
+    a, b, size = scene.a, scene.b, 7.5 if scene.b > 3 else 4.2
+    for x1, x3, stable in _equilibria(a, b):
+        for kind, mask in (("stable", stable), ("unstable", ~stable)):
+            ax.plot(np.where(mask, x1, np.nan), np.where(mask, x3, np.nan), **style.MEANING[kind])
+        folds = np.nonzero(np.diff(stable))[0]
+        ax.plot(x1[folds], x3[folds], zorder=5, **style.MARKER["degenerate"])
+    middle = -b / 2 if scene.b > 3 else 0.0
+    ends = np.array([middle - size, middle + size])
+    ax.plot(ends, ends + b, **style.MEANING["dividing"])
+    ax.plot(ends, -ends - b, **style.MEANING["spin-up"])
+    ax.plot(ends, ends, **style.MEANING["printed"])
+    if draw_motion:
+        states = _tube(scene, paper.START_MIDDLE)
+        ax.plot(states[:, 0], states[:, 2], **style.MEANING["this motion"])
+        ax.plot(paper.START_MIDDLE[0], paper.START_MIDDLE[2], zorder=6, **style.MARKER["start"])
+    ax.set_xlim(*ends)
+    ax.set_ylim(-size, size)
+    ax.set_aspect("equal")
+    ax.set_xlabel("$x_1$")
+    ax.set_ylabel("$x_3$")

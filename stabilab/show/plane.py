@@ -1,0 +1,268 @@
+"""The phase plane of a reduced motion: turn angle against rate, level curves, saddles, centres, separatrices."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+
+from ..analysis.reduction import Reduction, reduce
+from . import style
+
+
+@dataclass(frozen=True)
+class PhasePlane:
+    """The orbit of one state, unrolled: y is the canonical angle from the state on, W = dy/ds, V(0) = 0.
+
+    reduction, place (where the state lies on its circle, hyperbola or parabola), W0: rate of the state.
+    """
+
+    reduction: Reduction
+    place: tuple
+    W0: float
+    Q: float
+
+    @cached_property
+    def potential(self):
+        from ..analysis.potential import potential
+        return potential(self.reduction)
+
+    @cached_property
+    def unit(self) -> float:
+        """Turn angle about the axis (rad for a body) per canonical angle; its sign is that of the reflection."""
+        if self.reduction.e == 0:
+            return 1.0
+        g = self.reduction.constants
+        return g["flip"] / g["n"]
+
+    def height(self, y, origin=0.0):
+        """V(y) - V(origin), free of cancellation near an equilibrium at `origin`."""
+        y = np.asarray(y, float)
+        place = tuple(np.asarray(v) for v in self.potential.move(self.place, np.float64(origin)))
+        force = 0.0 if origin in self.saddles or origin in self.centres else self.potential.force(place)
+        return self.potential.rise(y - origin, place, force)
+
+    def rate(self, W):
+        """omega_i (or x_i) of canonical W."""
+        if self.reduction.e == 0:
+            return np.asarray(W) - float(self.reduction.s)
+        return self.reduction.component_i(np.asarray(W))
+
+    def components(self, y):
+        """omega_j, omega_k along the orbit."""
+        moved = self.potential.move(self.place, np.asarray(y, float))
+        if self.reduction.e == 0:
+            return moved
+        x, z = moved if self.reduction.e < 0 else ((moved[0] + moved[1]) / 2, (moved[0] - moved[1]) / 2)
+        return self.reduction.component_j(x), self.reduction.component_k(z)
+
+    def states(self, y, W):
+        """States (..., 3) at canonical (y, W)."""
+        out = np.empty((*np.shape(y), 3))
+        out[..., self.reduction.j], out[..., self.reduction.k] = self.components(y)
+        out[..., self.reduction.axis] = self.rate(W)
+        return out
+
+    @cached_property
+    def _critical(self):
+        """[(y, is a saddle)] on the orbit; for a circle within one turn of the state."""
+        found = []
+        if self.reduction.e == 0:
+            first, second, third = self.potential.derivatives(self.place)
+            force = self.potential.force(self.place)
+            for root in np.roots(np.trim_zeros([third / 6, second / 2, first, force], "f")):
+                if abs(root.imag) < 1e-9 * (1 + abs(root)):
+                    found.append(float(root.real))
+        else:
+            from ..analysis.conic import Conic
+            for x, z, exists, _ in Conic(self.reduction).critical_places(np.array([self.Q])):
+                if exists[0]:
+                    found += self._angle_to(float(x[0]), float(z[0]))
+        return [(y, bool(self.potential.slope(self.potential.move(self.place, np.float64(y))) > 0)) for y in sorted(found)]
+
+    def _angle_to(self, x, z):
+        if self.reduction.e < 0:
+            here = np.arctan2(*self.place)
+            return [float((np.arctan2(x, z) - here + np.pi) % (2 * np.pi) - np.pi)]
+        ratio = (x + z) / self.place[0] if self.place[0] else np.inf
+        other = self.place[1] / (x - z) if x != z else np.inf
+        for value in (ratio, other):
+            if 0 < value < np.inf and np.sign(x - z) in (0, np.sign(self.place[1])):
+                return [float(np.log(value))]
+        return []
+
+    @property
+    def saddles(self) -> list[float]:
+        return [y for y, saddle in self._critical if saddle]
+
+    @property
+    def centres(self) -> list[float]:
+        return [y for y, saddle in self._critical if not saddle]
+
+    def repeated(self, ys, low, high) -> list[float]:
+        """The places in [low, high]: a circle repeats them every turn."""
+        if self.reduction.e >= 0:
+            return [y for y in ys if low <= y <= high]
+        turn = 2 * np.pi
+        return sorted(y + turn * n for y in ys for n in range(int(np.floor((low - y) / turn)), int(np.ceil((high - y) / turn)) + 1)
+                      if low <= y + turn * n <= high)
+
+    def separatrix(self, saddle, low, high, points=2001):
+        """(y, W >= 0, NaN outside) of the level curve through the saddle: an exact square root, dense at its ends."""
+        y = np.unique(np.concatenate([np.linspace(low, high, points), saddle + np.geomspace(1e-6, 1, 60) * (high - saddle),
+                                      saddle - np.geomspace(1e-6, 1, 60) * (saddle - low), [saddle]]))
+        drop = -self.height(y, saddle)
+        drop[y == saddle] = 0.0
+        edges = [self._edge(saddle, y[i], y[i + 1]) for i in range(len(y) - 1) if drop[i] * drop[i + 1] < 0]
+        y = np.concatenate([y, edges])
+        drop = np.concatenate([drop, np.zeros(len(edges))])
+        order = np.argsort(y)
+        y, drop = y[order], drop[order]
+        return y, np.where(drop >= 0, np.sqrt(2 * np.maximum(drop, 0)), np.nan)
+
+    def _edge(self, saddle, left, right):
+        from scipy.optimize import brentq
+        return brentq(lambda y: float(self.height(y, saddle)), left, right, xtol=1e-13)
+
+    def loop(self, saddle, low, high):
+        """(far end, saddle) of the homoclinic loop through the saddle, None where it does not close in the window."""
+        y, W = self.separatrix(saddle, low, high)
+        at = int(np.argmin(np.abs(y - saddle)))
+        for step in (-1, 1):
+            i = at + step
+            while 0 <= i < len(y) and np.isfinite(W[i]) and W[i] > 0:
+                i += step
+            if 0 <= i < len(y) and abs(i - at) > 3:
+                return tuple(sorted((float(y[i]), saddle)))
+        return None
+
+
+def phase_plane(scene, state) -> PhasePlane | None:
+    """The phase plane of the motion from `state`; None where the scene does not reduce."""
+    reduction = reduce(scene)
+    if reduction is None:
+        return None
+    state = np.asarray(state, float)
+    if reduction.e == 0:
+        place = (state[reduction.j], state[reduction.k])
+        return PhasePlane(reduction, place, float(state[reduction.axis] + float(reduction.s)), 0.0)
+    x, z, w = (float(v) for v in reduction.canonical(state))
+    if reduction.e < 0:
+        return PhasePlane(reduction, (x, z), w, z * z + x * x)
+    return PhasePlane(reduction, (x + z, x - z), w, (z - x) * (z + x))
+
+
+def window(plane: PhasePlane) -> tuple[float, float]:
+    """The range of y worth drawing: a turn and a half of a circle; between high walls of a hyperbola or parabola."""
+    if plane.reduction.e < 0:
+        marks = plane.saddles + plane.centres
+        middle = float(np.mean(marks)) if marks else 0.0
+        return middle - 1.35 * np.pi, middle + 1.35 * np.pi
+    energy = plane.W0**2 / 2
+    marks = [0.0, *plane.saddles, *plane.centres]
+    floor = min(float(plane.height(m)) for m in marks)
+    target = floor + 2.5 * max(energy - floor, *(float(plane.height(m)) - floor for m in marks), 0.2)
+    low, high = min(marks), max(marks)
+    step = 0.02
+    while step < 60 and not (plane.height(low - step) > target and plane.height(high + step) > target):
+        step *= 1.15
+    return low - step, high + step
+
+
+def draw(ax, plane: PhasePlane, scale=1.0, offset=0.0, rate_scale=1.0, span=None, levels=22, motion=True):
+    """Draw level curves, separatrices, equilibria and the motion on `ax`; x axis: offset + scale*y."""
+    low, high = span or window(plane)
+    y = np.linspace(low, high, 700)
+    heights = plane.height(y)
+    tops = [float(plane.height(s)) for s in plane.repeated(plane.saddles, low, high)]
+    lift = max(plane.W0**2 / 2, *(tops or [0.0])) - float(np.min(heights))
+    top = np.sqrt(2 * lift) * 1.12 + 1e-12
+    W = np.linspace(-top, top, 500)
+    energy = W[:, None] ** 2 / 2 + heights[None, :]
+    limits = np.linspace(energy.min(), np.quantile(energy, 0.93), levels + 1)[1:]
+    ax.contour(offset + scale * y, rate_scale * plane.rate(W), energy, levels=limits, colors=style.MEANING["level"]["color"],
+               linewidths=0.5, linestyles="solid")
+    for saddle in plane.repeated(plane.saddles, low, high):
+        ys, Ws = plane.separatrix(saddle, low, high)
+        for sign in (1, -1):
+            ax.plot(offset + scale * ys, rate_scale * plane.rate(sign * Ws), **style.MEANING["separatrix"])
+    if motion:
+        ys, Ws = motion_curve(plane, low, high)
+        for sign in (1, -1):
+            ax.plot(offset + scale * ys, rate_scale * plane.rate(sign * Ws), **style.MEANING["this motion"])
+        ax.plot([offset], [rate_scale * plane.rate(plane.W0)], zorder=5, **style.MARKER["start"])
+    for kind, places in (("centre", plane.centres), ("saddle", plane.saddles)):
+        shown = np.array(plane.repeated(places, low, high))
+        ax.plot(offset + scale * shown, rate_scale * plane.rate(np.zeros(shown.shape)), zorder=5, **style.MARKER[kind])
+    ax.set_xlim(*sorted((offset + scale * low, offset + scale * high)))
+    ends = rate_scale * plane.rate(np.array([-top, top]))
+    ax.set_ylim(min(ends), max(ends))
+
+
+def motion_curve(plane: PhasePlane, low, high, points=4001):
+    """(y, W >= 0) of the motion through the state: its connected piece of the level curve inside [low, high]."""
+    from scipy.optimize import brentq
+    free = lambda v: plane.W0**2 / 2 - float(plane.height(v))
+    ends = []
+    for limit in (low, high):
+        grid = np.linspace(0.0, limit, points)
+        left = plane.W0**2 / 2 - plane.height(grid)
+        outside = np.nonzero(left[1:] < 0)[0]
+        if len(outside):
+            i = int(outside[0])
+            inside = free(grid[i])
+            limit = brentq(free, grid[i], grid[i + 1], xtol=1e-14) if inside > 0 else grid[i]
+        ends.append(float(limit))
+    phase = np.linspace(-np.pi / 2, np.pi / 2, 801)
+    y = (ends[0] + ends[1]) / 2 + (ends[1] - ends[0]) / 2 * np.sin(phase)
+    return y, np.sqrt(2 * np.maximum(plane.W0**2 / 2 - plane.height(y), 0.0))
+
+
+def plot(case, path) -> Path:
+    """The picture of a case, written to `path` (PNG): its phase plane where the motion reduces to one degree of
+    freedom, else three projections of the trajectory. Needs case.state; raises InputError without one."""
+    from ..errors import InputError
+    if case.state is None:
+        raise InputError(f"{case.path}: a picture needs a motion: add [motion] with angular_velocity or x")
+    plane = phase_plane(case.scene, case.state)
+    with style.drawing() as plt:
+        figure = _plane_picture(plt, case, plane) if plane else _projections(plt, case)
+        return style.save(figure, path)
+
+
+def _plane_picture(plt, case, plane):
+    from matplotlib.lines import Line2D
+    figure, ax = plt.subplots(figsize=(7.2, 4.8), layout="constrained")
+    draw(ax, plane, scale=plane.unit)
+    i = plane.reduction.axis
+    letter = rf"\alpha_{i + 1}"
+    unit = " (rad)" if case.variables == "physical" else ""
+    ax.set_xlabel(f"turn ${letter}$ about axis {i + 1} from the start{unit}")
+    ax.set_ylabel(style.axis_labels(case.scene)[i])
+    ax.set_title(case.title or case.name, wrap=True, parse_math=False)
+    rows = [("this motion", style.MEANING["this motion"]), ("separatrix", style.MEANING["separatrix"]),
+            ("other energies", style.MEANING["level"]), ("start", style.MARKER["start"]),
+            ("centre", style.MARKER["centre"]), ("saddle", style.MARKER["saddle"])]
+    present = {"separatrix": bool(plane.saddles), "saddle": bool(plane.saddles), "centre": bool(plane.centres)}
+    shown = [(name, look) for name, look in rows if present.get(name, True)]
+    handles = [Line2D([], [], **look) for _, look in shown]
+    figure.legend(handles, [name for name, _ in shown], loc="outside lower center", ncols=len(shown))
+    return figure
+
+
+def _projections(plt, case):
+    from ..analysis.trajectories import trajectory
+    span = case.span or (0.0, 15.0)
+    run = trajectory(case.scene, case.state, np.linspace(*span, 4001))
+    states, labels = np.asarray(run.states), style.axis_labels(case.scene)
+    figure, axes = plt.subplots(1, 3, figsize=(10.5, 3.7), layout="constrained")
+    for ax, (i, j) in zip(axes, ((0, 1), (0, 2), (1, 2))):
+        ax.plot(states[:, i], states[:, j], color=style.BLUE, linewidth=1.0)
+        ax.plot(states[0, i], states[0, j], **style.MARKER["start"])
+        ax.set_xlabel(labels[i])
+        ax.set_ylabel(labels[j])
+    unit = case.scene.time_unit.replace("tau", "τ")
+    figure.suptitle(f"{case.title or case.name}\n{span[0]:g} to {span[1]:g} {unit}; the square marks the start", fontsize=10,
+                    parse_math=False)
+    return figure
