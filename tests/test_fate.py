@@ -1,0 +1,261 @@
+"""Fate: labels and margins against the reduced potential at 60-100 digits and against tight integration."""
+from __future__ import annotations
+
+from fractions import Fraction
+
+import mpmath as mp
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import stabilab
+from stabilab import Fate
+
+from .oracles import brute, energy
+from .oracles.pairs import PAPER_BODY, WORDS, brink, paper, physical, random_problem, scaled
+
+BOUNDED, SPIN_UP, SEPARATRIX, EQUILIBRIUM, UNDECIDED = (int(f) for f in Fate)
+
+# Every way the paper's two solvable cases and their generalisation come: name -> (scene, model).
+FAMILIES = {
+    "minor scaled +": scaled(0.2, 0.4, (0, 0, 1)),
+    "minor scaled -": scaled(-0.7, 1.1, (0, 0, -0.6)),
+    "minor scaled a=b": scaled(0.5, 0.5, (0, 0, 2.0)),
+    "middle scaled +": scaled(0.2, 0.4, (0, 1, 0)),
+    "middle scaled -, |c| above the cusp": scaled(0.5, 3.1, (0, -0.8, 0)),
+    "middle scaled, |c| far above": scaled(-1.0, -5.0, (0, 1, 0)),
+    "minor physical": physical(PAPER_BODY, (100, 50, 0), (0, 0, 204.1)),
+    "minor physical, other sign": physical((3.0, 2.0, 1.5), (-0.4, 0.7, 0), (0, 0, -0.3)),
+    "minor on axis 1": physical((1.0, 1.5, 2.0), (0, 0.3, -0.2), (0.25, 0, 0)),
+    "middle physical": physical((3.0, 2.0, 1.5), (0.4, 0, -0.9), (0, 0.3, 0)),
+    "middle physical, other sign": physical((1.4, 2.2, 3.1), (2.0, 0, 1.5), (0, -0.1, 0)),
+    "major physical": physical((3.0, 2.0, 1.5), (0, 0.8, 0.6), (0.2, 0, 0)),
+    "major physical, other sign": physical((1.3, 2.0, 2.9), (-1.8, 0.6, 0), (0, 0, -0.15)),
+    "major without gyrostat": physical((3.0, 2.0, 1.5), (0, 0, 0), (-0.2, 0, 0)),
+}
+ELLIPTIC = [name for name in FAMILIES if not name.startswith("middle")]
+families = pytest.mark.parametrize("name", FAMILIES)
+
+
+def axis_of(problem):
+    return next(i for i in range(3) if problem.m[i])
+
+
+def sample(name, count, spread=2.5):
+    return np.random.default_rng(sorted(FAMILIES).index(name)).normal(size=(count, 3)) * spread
+
+
+@families
+def test_labels_of_random_states_equal_the_potential_oracle(name):
+    scene, problem = FAMILIES[name]
+    states = sample(name, 40)
+    expected = [WORDS[energy.label(problem, tuple(s), digits=60)] for s in states.tolist()]
+    np.testing.assert_array_equal(stabilab.fate(scene, states).labels, expected)
+
+
+@families
+def test_margins_of_random_states_equal_the_potential_oracle(name):
+    scene, problem = FAMILIES[name]
+    states = sample(name, 25)
+    margins = np.asarray(stabilab.fate(scene, states).margins)
+    axis, weight = axis_of(problem), float(problem.weight[axis_of(problem)])
+    for state, got in zip(states.tolist(), margins):
+        exact = energy.margin(problem, state, digits=60)
+        if exact is None:
+            assert got == (-np.inf if name in ELLIPTIC else np.inf)
+            continue
+        exact, kinetic = float(exact), 0.5 * weight * state[axis] ** 2
+        # the two terms of a margin are the height of the barrier over the state and the kinetic energy
+        assert abs(got - exact) <= 1e-12 * (abs(exact + kinetic) + kinetic), state
+
+
+@pytest.mark.parametrize("name", ["minor scaled +", "minor physical", "middle scaled +", "major physical, other sign"])
+def test_labels_equal_tight_integration(name):
+    pytest.importorskip("heyoka")
+    scene, problem = FAMILIES[name]
+    states = np.random.default_rng(99).normal(size=(120, 3)) * 2
+    result = stabilab.fate(scene, states)
+    for state, label, margin in zip(states.tolist(), result.labels, result.margins):
+        if abs(margin) > 1e-9:  # closer to the separatrix double-precision integration cannot tell
+            assert WORDS[brute.label(problem, state)] == label, state
+
+
+@pytest.mark.parametrize("side", [-1, +1])
+@pytest.mark.parametrize("sense", [-1, +1])
+@pytest.mark.parametrize("name", ELLIPTIC)
+def test_states_next_to_the_separatrix_are_labelled_by_the_side_they_are_on(name, sense, side):
+    """1e-3 to 1e-15 of the speed away: differences of two energies, or any tolerance, decide wrongly here."""
+    scene, problem = FAMILIES[name]
+    rng, states = np.random.default_rng(5), []
+    while len(states) < 13:
+        state = brink(problem, rng.normal(size=2) * 2, side * 10.0 ** -(3 + len(states)), sense)
+        if state is not None:
+            states.append(state)
+    expected = [WORDS[energy.label(problem, s)] for s in states]
+    result = stabilab.fate(scene, np.array(states))
+    np.testing.assert_array_equal(result.labels, expected)
+    signs = [-1 if energy.margin(problem, s) < 0 else 1 for s in states]
+    np.testing.assert_array_equal(np.sign(result.margins), signs)
+
+
+def test_consecutive_doubles_across_the_separatrix_change_label_exactly_once_and_never_tie():
+    """An exact tie would make an angle with algebraic cosine algebraic (Lindemann): no double is on the separatrix."""
+    scene, problem = FAMILIES["minor scaled +"]
+    u, v, w = -3.0, 1.0, brink(problem, (-3.0, 1.0), 0.0)[2]
+    speeds = [w]
+    for _ in range(6):
+        speeds = [np.nextafter(speeds[0], -np.inf), *speeds, np.nextafter(speeds[-1], np.inf)]
+    states = np.array([(u, v, s) for s in speeds])
+    expected = [WORDS[energy.label(problem, tuple(s))] for s in states.tolist()]
+    assert set(expected) == {BOUNDED, SPIN_UP} and expected == sorted(expected)
+    np.testing.assert_array_equal(stabilab.fate(scene, states).labels, expected)
+
+
+@pytest.mark.parametrize("name", ["minor scaled +", "middle scaled -, |c| above the cusp", "major physical"])
+def test_a_batch_answers_as_its_states_one_by_one(name):
+    scene, _ = FAMILIES[name]
+    states = sample(name, 24).reshape(2, 3, 4, 3)
+    whole = stabilab.fate(scene, states)
+    assert whole.labels.shape == whole.margins.shape == (2, 3, 4)
+    assert whole.labels.dtype == np.int8
+    for index in np.ndindex(2, 3, 4):
+        one = stabilab.fate(scene, states[index])
+        assert one.labels.shape == one.margins.shape == ()
+        assert one.labels == whole.labels[index]
+        # a margin may be evaluated by another route for one state: to 1e-12 of its terms
+        assert one.margins == pytest.approx(whole.margins[index], rel=1e-11, abs=1e-11)
+
+
+@pytest.mark.parametrize("shape", [(0, 3), (4, 0, 3)])
+def test_no_states_give_empty_answers(shape):
+    scene, _ = FAMILIES["minor scaled +"]
+    result = stabilab.fate(scene, np.empty(shape))
+    assert result.labels.shape == result.margins.shape == shape[:-1]
+
+
+@pytest.mark.parametrize("bad", [np.zeros(2), np.zeros((3, 4)), np.float64(1.0), [[0, 0, np.nan]], [[np.inf, 0, 0]]])
+def test_states_that_are_not_three_finite_numbers_are_refused(bad):
+    from stabilab.errors import InputError
+    with pytest.raises(InputError):
+        stabilab.fate(FAMILIES["minor scaled +"][0], bad)
+
+
+def half_ulp_box_meets_equilibria(problem, state, axis):
+    """Exact: w = 0 and the bilinear rate F changes sign over the box of half a unit in the last place around (u, v)."""
+    j, k = (axis + 1) % 3, (axis + 2) % 3
+    if state[axis] != 0:
+        return False
+    signs = set()
+    for a in (-1, 1):
+        for b in (-1, 1):
+            point = [Fraction(0)] * 3
+            point[j] = Fraction(state[j]) + a * Fraction(np.spacing(abs(state[j]))) / 2
+            point[k] = Fraction(state[k]) + b * Fraction(np.spacing(abs(state[k]))) / 2
+            rate = problem.rate(point)[axis]
+            signs.add((rate > 0) - (rate < 0))
+    return len(signs) > 1
+
+
+@pytest.mark.parametrize("name", ["minor scaled +", "middle scaled +", "minor scaled -", "minor physical", "major physical"])
+def test_rounded_equilibria_are_equilibria_and_their_neighbours_only_where_the_curve_is_that_near(name):
+    scene, problem = FAMILIES[name]
+    axis = axis_of(problem)
+    j, k = (axis + 1) % 3, (axis + 2) % 3
+    rng, states = np.random.default_rng(3), []
+    for v in (rng.normal(size=12) * 3).tolist():
+        # F = (kappa v + sigma) u + rho v + m = 0, solved exactly for u
+        u = -(problem.rho[axis] * Fraction(v) + problem.m[axis]) / (problem.kappa[axis] * Fraction(v) + problem.sigma[axis])
+        for steps in (0, 3):
+            state = [0.0] * 3
+            state[j], state[k] = float(u) + steps * np.spacing(abs(float(u))), v
+            states.append(state)
+    expected = [half_ulp_box_meets_equilibria(problem, s, axis) for s in states]
+    assert any(expected) and not all(expected)
+    np.testing.assert_array_equal(np.asarray(stabilab.fate(scene, np.array(states)).labels) == EQUILIBRIUM, expected)
+
+
+def test_torque_free_motion_is_bounded():
+    """Proof: energy is constant and positive definite."""
+    scene, _ = physical((3.0, 2.0, 1.5), (0.3, -0.2, 0.9))
+    states = np.random.default_rng(1).normal(size=(50, 3))
+    assert np.all(stabilab.fate(scene, states).labels == BOUNDED)
+
+
+def test_torque_free_state_with_the_energy_and_momentum_of_middle_spin_is_on_the_separatrix():
+    """D = (6, 5, 3): 2T D2 = |H|^2 iff D1 (D1-D2) w1^2 = D3 (D2-D3) w3^2 iff |w1| = |w3|; exact in doubles."""
+    scene, _ = physical((6.0, 5.0, 3.0))
+    states = np.array([(1.0, 0.7, 1.0), (0.5, -3.0, -0.5), (1.0, 0.7, np.nextafter(1.0, 2)), (1.0, 0.7, np.nextafter(1.0, 0))])
+    np.testing.assert_array_equal(stabilab.fate(scene, states).labels, [SEPARATRIX, SEPARATRIX, BOUNDED, BOUNDED])
+
+
+@pytest.mark.parametrize("state", [(2.0, 0.0, 0.0), (0.0, -1.5, 0.0), (0.0, 0.0, 0.3), (0.0, 0.0, 0.0)])
+def test_torque_free_spin_about_a_principal_axis_is_an_equilibrium(state):
+    scene, _ = physical((6.0, 5.0, 3.0))
+    assert stabilab.fate(scene, state).labels == EQUILIBRIUM
+
+
+@pytest.mark.parametrize("mu", [(0, 1, 1), (1, 0, 0.5), (1, 1, 1), (1e-9, 0, 1)])
+def test_torque_off_the_principal_axes_is_undecided_with_a_reason(mu):
+    scene, _ = scaled(0.2, 0.4, mu)
+    result = stabilab.fate(scene, np.ones((3, 3)))
+    assert np.all(result.labels == UNDECIDED)
+    assert "principal" in result.because
+
+
+def test_pure_spin_about_the_torque_axis_spins_up_in_the_sense_of_the_torque():
+    """Perpendicular components at the centre of the conic: w' = M_i/D_i for ever."""
+    scene, _ = physical(PAPER_BODY, (0, 0, 0), (0, 0, -5.0))
+    result = stabilab.fate(scene, np.array([[0.0, 0.0, 2.0], [0.0, 0.0, 0.0]]))
+    assert np.all(result.labels == SPIN_UP) and np.all(result.margins == -np.inf)
+
+
+@pytest.mark.parametrize("name", ["minor scaled -", "major physical", "minor physical"])
+def test_spin_up_is_about_the_torque_axis_in_its_sense(name):
+    scene, problem = FAMILIES[name]
+    result = stabilab.fate(scene, sample(name, 30))
+    axis, spins = axis_of(problem), result.labels == SPIN_UP
+    assert spins.any() and not spins.all()
+    np.testing.assert_array_equal(result.axis, np.where(spins, axis + 1, 0))
+    np.testing.assert_array_equal(result.sense, np.where(spins, 1 if problem.m[axis] > 0 else -1, 0))
+
+
+@pytest.mark.parametrize("state", [(4.5, 1.8, 3.4), (0.0, -1.0, 5.0), (-3.0, 0.0, 0.1)])
+def test_major_axis_torque_with_c_positive_spins_every_state_up(state):
+    """J = x2^2 + x3^2 - 2c x1 falls as J0 - 2c tau (theory, [S]): no orbit is bounded, and c > 0 leaves only x1 -> inf."""
+    scene, _ = paper(500, (1, 0, 0))
+    assert stabilab.fate(scene, np.array(state)).labels == SPIN_UP
+
+
+dyadic = st.integers(1, 1 << 16)
+exponent = st.integers(-30, 30)
+component = st.floats(-8, 8).map(lambda x: round(x, 9))
+
+
+@settings(deadline=None, max_examples=60, derandomize=True)
+@given(parts=st.tuples(dyadic, dyadic, dyadic), size=exponent, axis=st.integers(0, 2), lam=st.tuples(component, component),
+       torque=st.tuples(st.sampled_from([-1, 1]), st.integers(-12, 6)), state=st.tuples(component, component, component))
+def test_labels_of_any_body_gyrostat_and_torque_equal_the_potential_oracle(parts, size, axis, lam, torque, state):
+    a, b, c = parts
+    inertia = [float(n) * 2.0 ** (size - 16) for n in (b + c, a + c, a + b)]  # exact: the triangle inequality holds
+    momentum, moment = [0.0] * 3, [0.0] * 3
+    scale = 2.0 ** size
+    momentum[(axis + 1) % 3], momentum[(axis + 2) % 3] = lam[0] * scale, lam[1] * scale
+    moment[axis] = torque[0] * 10.0 ** torque[1] * scale
+    scene, problem = physical(inertia, momentum, moment)
+    word = energy.label(problem, state)
+    got = int(stabilab.fate(scene, np.array(state)).labels)
+    if got == EQUILIBRIUM and word != "equilibrium":
+        assert half_ulp_box_meets_equilibria(problem, state, axis)
+    else:
+        assert got == WORDS[word]
+
+
+def test_random_problems_on_every_axis_agree_with_the_potential_oracle():
+    rng = np.random.default_rng(2024)
+    for n in range(60):
+        axis = n % 3
+        scene, problem = random_problem(rng, axis) if n % 2 else random_problem(rng, 1 + n % 4 // 2, "scaled")
+        states = rng.normal(size=(3, 3)) * 3
+        expected = [WORDS[energy.label(problem, tuple(s), digits=60)] for s in states.tolist()]
+        np.testing.assert_array_equal(stabilab.fate(scene, states).labels, expected)

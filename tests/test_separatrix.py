@@ -1,0 +1,211 @@
+"""Separatrix sheets: vertices on the surface to rounding, rows from the fold outward, and what lies on either side."""
+from __future__ import annotations
+
+import mpmath as mp
+import numpy as np
+import pytest
+
+import stabilab
+from stabilab import Fate
+
+from .oracles import energy
+from .oracles.pairs import PAPER_BODY, WORDS, physical, scaled
+
+EPS = 2.0 ** -52
+CUSP = 4 * 3 ** -0.75  # |c| below which the middle axis has no saddle: g^4 + c g + 1 > 0 for all g
+
+SCENES = {
+    "minor a=b": scaled(0.5, 0.5, (0, 0, 1)),
+    "minor a<b": scaled(0.2, 0.4, (0, 0, 1)),
+    "minor, c < 0": scaled(1.4, 0.2, (0, 0, 1)),
+    "minor, other sign": scaled(0.2, 1.4, (0, 0, -1)),
+    "minor physical": physical(PAPER_BODY, (100, 0, 0), (0, 0, 204.1)),
+    "major physical": physical((3.0, 2.0, 1.5), (0, 0.8, 0.0), (0.2, 0, 0)),
+    "both components": physical((3.0, 2.0, 1.5), (0.4, -0.7, 0), (0, 0, 0.3)),
+    "middle, c = 3": scaled(0.5, 3.5, (0, 1, 0)),
+    "middle, c = -2.5": scaled(2.0, -0.5, (0, 1, 0)),
+    "middle, c = 3, other sign": scaled(0.5, 3.5, (0, -1, 0)),
+    "middle, c = 1.76": scaled(0.0, 1.76, (0, 1, 0)),
+}
+scenes = pytest.mark.parametrize("name", SCENES)
+
+
+@pytest.fixture(scope="module")
+def sheets():
+    """Every scene's sheets, computed once."""
+    return {name: stabilab.separatrix(scene).sheets for name, (scene, _) in SCENES.items()}
+
+
+def distance(problem, vertex, digits=60):
+    """(least |saddle energy - energy| over the saddles of the vertex's conic within a turn, size of the energy's terms
+    and of their change under rounding of the vertex)."""
+    with mp.workdps(digits):
+        motion = energy.Reduced(problem, tuple(map(float, vertex)), digits)
+        marks = [(a + n * motion.turn if motion.kind == "elliptic" else a) for a, kind in motion.stationary()
+                 if kind in ("saddle", "fold") for n in ((-1, 0, 1) if motion.kind == "elliptic" else (0,))]
+        if not marks:
+            return mp.inf, mp.inf
+        best = min(marks, key=lambda a: abs(motion.W(a) + motion.w0 ** 2 / 2))
+        gap = abs(motion.W(best) + motion.w0 ** 2 / 2)
+        return gap, motion.terms(best) + abs(motion.tilt) / (motion.k0 if motion.kind != "parabolic" else 1)
+
+
+def some(sheet, rows=6, columns=9):
+    n, m = sheet.points.shape[:2]
+    for r in np.linspace(1, n - 1, rows).astype(int):
+        for c in np.linspace(0, m - 1, columns).astype(int):
+            yield r, c
+
+
+def axis_of(problem):
+    return next(i for i in range(3) if problem.m[i])
+
+
+@scenes
+def test_every_scene_here_has_sheets_of_the_stated_shapes(name, sheets):
+    assert len(sheets[name]) >= 1
+    for sheet in sheets[name]:
+        n, m = sheet.points.shape[:2]
+        assert sheet.points.shape == (n, m, 3) and n > 2 and m > 2
+        assert np.shape(sheet.residual) == (n, m)
+        assert np.shape(sheet.saddle) == np.shape(sheet.centre) == (n, 3)
+        assert np.all(np.isfinite(sheet.points))
+
+
+@scenes
+def test_vertices_have_the_energy_of_their_saddle_to_rounding(name, sheets):
+    """Own formula at 60 digits. 16 eps: three rounded coordinates, each entering a handful of terms."""
+    _, problem = SCENES[name]
+    for sheet in sheets[name]:
+        for r, c in some(sheet):
+            gap, size = distance(problem, sheet.points[r, c])
+            # a vertex nearer to the fold than rounding may lie on a conic without a saddle
+            assert gap <= 16 * EPS * size, (sheet.name, r, c, sheet.points[r, c], float(gap / size))
+
+
+@scenes
+def test_saddles_and_centres_of_the_rows_are_equilibria_of_their_kind(name, sheets):
+    _, problem = SCENES[name]
+    axis = axis_of(problem)
+    for sheet in sheets[name]:
+        for r in np.linspace(1, len(sheet.saddle) - 1, 6).astype(int):
+            for point, steep in ((sheet.saddle[r], 1), (sheet.centre[r], -1)):
+                rate, slope, size = rate_and_slope(problem, point, axis)
+                assert point[axis] == 0
+                assert abs(rate) <= 8 * EPS * size
+                assert slope * steep > 0 or abs(slope) < 1e-6 * size, (sheet.name, r)
+
+
+def rate_and_slope(problem, point, axis):
+    """w', dw'/dalpha = kappa (p v'^2 + ...) written out, and the size of the terms of w'."""
+    j, k = (axis + 1) % 3, (axis + 2) % 3
+    u, v = float(point[j]), float(point[k])
+    ka, ro, si, m = (float(row[axis]) for row in (problem.kappa, problem.rho, problem.sigma, problem.m))
+    du = float(problem.kappa[j]) * v + float(problem.rho[j])
+    dv = float(problem.kappa[k]) * u + float(problem.sigma[k])
+    return (ka * u * v + ro * v + si * u + m, (ka * v + si) * du + (ka * u + ro) * dv,
+            abs(ka * u * v) + abs(ro * v) + abs(si * u) + abs(m))
+
+
+@scenes
+def test_rows_start_at_a_fold(name, sheets):
+    """There the saddle and the centre are one point, the loop around it has no size."""
+    _, problem = SCENES[name]
+    axis = axis_of(problem)
+    for sheet in sheets[name]:
+        size = np.max(np.abs(sheet.points))
+        np.testing.assert_allclose(sheet.points[0], np.broadcast_to(sheet.saddle[0], sheet.points[0].shape), atol=1e-7 * size)
+        np.testing.assert_allclose(sheet.saddle[0], sheet.centre[0], atol=1e-7 * size)
+        rate, slope, scale = rate_and_slope(problem, sheet.saddle[0], axis)
+        assert abs(rate) <= 1e-13 * scale
+        # the slope in alpha vanishes at a fold; its unit is rate times the conic's wave number squared, of order scale
+        steep = max(abs(rate_and_slope(problem, p, axis)[1]) for p in sheet.saddle)
+        assert abs(slope) <= 1e-6 * steep
+
+
+@scenes
+def test_rows_run_outward_and_columns_from_saddle_to_saddle(name, sheets):
+    for sheet in sheets[name]:
+        np.testing.assert_allclose(sheet.points[:, 0], sheet.points[:, -1], atol=1e-12 * np.max(np.abs(sheet.points)))
+        np.testing.assert_allclose(sheet.points[:, 0], sheet.saddle, atol=1e-12 * np.max(np.abs(sheet.points)))
+        steps = np.diff(np.asarray(sheet.invariant, float))
+        assert np.all(steps > 0) or np.all(steps < 0)
+
+
+@scenes
+def test_reported_residuals_are_at_rounding(name, sheets):
+    for sheet in sheets[name]:
+        assert np.all(np.abs(sheet.residual) <= 1e-14)
+
+
+@scenes
+def test_points_inside_and_outside_a_sheet_have_the_fates_of_their_sides(name, sheets):
+    scene, problem = SCENES[name]
+    axis = axis_of(problem)
+    elliptic = not name.startswith("middle")
+    for sheet in sheets[name]:
+        n, m = sheet.points.shape[:2]
+        states, sides = [], []
+        for r in np.linspace(n // 3, n - 1, 4).astype(int):
+            column = int(np.argmax(np.abs(sheet.points[r, :, axis])))
+            for side in (-1, 1):
+                state = np.array(sheet.points[r, column])
+                state[axis] *= 1 + side * 1e-6
+                states.append(state)
+                sides.append(side)
+        result = stabilab.fate(scene, np.array(states))
+        np.testing.assert_array_equal(result.labels, [WORDS[energy.label(problem, tuple(s), digits=60)] for s in np.array(states).tolist()])
+        if name == "both components":
+            continue  # an inner loop may have bounded motion on both sides: the oracle's labels above decide
+        outside = Fate.SPIN_UP if elliptic else Fate.BOUNDED  # around the figure-eight everything is bounded too
+        np.testing.assert_array_equal(result.labels, [Fate.BOUNDED if s < 0 else outside for s in sides])
+        np.testing.assert_array_equal(np.sign(result.margins), [-s for s in sides])
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+@pytest.mark.parametrize("a, b", [(0.2, 0.4), (1.4, 0.2), (0.5, 0.5)])
+def test_minor_axis_sheets_start_at_the_folds_of_the_quartic(a, b, sign):
+    """mu3 = +-1: equilibria x1 = -a - (c + s/h), x2 = h; fold h^4 - s c h - 1 = 0 (both real roots)."""
+    scene, _ = scaled(a, b, (0, 0, sign))
+    c = b - a
+    roots = sorted(float(mp.re(r)) for r in mp.polyroots([1, 0, 0, -sign * c, -1]) if abs(mp.im(r)) < 1e-12)
+    expected = sorted((-b - sign / h, h) for h in roots)
+    got = sorted({(round(float(s.saddle[0, 0]), 9), round(float(s.saddle[0, 1]), 9)) for s in stabilab.separatrix(scene).sheets})
+    np.testing.assert_allclose(got, expected, atol=1e-6)
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+@pytest.mark.parametrize("c", [0.0, 1.0, -1.75, 1.7547])
+def test_the_middle_axis_has_no_separatrix_up_to_the_cusp(c, sign):
+    assert abs(c) < CUSP
+    scene, _ = scaled(0.0, c, (0, sign, 0))
+    found = stabilab.separatrix(scene)
+    assert found.sheets == () and found.reason
+
+
+@pytest.mark.parametrize("c", [1.7549, -1.76, 2.5, -10.0])
+def test_the_middle_axis_has_a_figure_eight_beyond_the_cusp(c):
+    """Two lobes share each saddle: one around either centre."""
+    assert abs(c) > CUSP
+    scene, _ = scaled(0.0, c, (0, 1, 0))
+    found = stabilab.separatrix(scene)
+    assert len(found.sheets) >= 2
+    names = [s.name for s in found.sheets]
+    assert len(set(names)) == len(names)
+
+
+@pytest.mark.parametrize("inertia, momentum, torque", [
+    ((3.0, 2.0, 1.5), (0.3, 0.2, 0.0), (0.0, 0.0, 0.0)), ((2.0, 2.0, 1.5), (0.0, 0.0, 0.0), (0.0, 0.0, 0.3)),
+    ((3.0, 2.0, 1.5), (0.3, 0.0, 0.0), (0.1, 0.2, 0.0))])
+def test_scenes_without_a_sheet_say_why_instead_of_failing(inertia, momentum, torque):
+    scene, _ = physical(inertia, momentum, torque)
+    found = stabilab.separatrix(scene)
+    assert found.reason
+    if any(torque):
+        assert found.sheets == ()
+
+
+def test_shape_sets_rows_and_columns():
+    scene, _ = SCENES["minor a<b"]
+    for sheet in stabilab.separatrix(scene, shape=(7, 21)).sheets:
+        assert sheet.points.shape == (7, 21, 3)
