@@ -1,0 +1,218 @@
+"""Trajectories: the state at asked-for times, and how far the run departs from the laws of the motion.
+
+The laws are checked against the integrals of their rates, which ride along in the same run without steering its
+steps (feathered, see `compiled`), so a law with a non-zero rate is as good a witness as a constant.
+"""
+from __future__ import annotations
+
+import difflib
+
+import numpy as np
+
+from ..compiled import FEATHER, TAYLOR_TOLERANCE, _equations, heyoka_available, to_numpy, to_taylor
+from ..errors import InputError
+from .results import Trajectory
+
+SCIPY_METHODS = ("RK45", "RK23", "DOP853", "Radau", "BDF", "LSODA")
+METHODS = ("taylor", *SCIPY_METHODS)
+# SciPy's own default is 1e-3, too coarse to judge a motion by; 1e-10 is within reach of every method in the list.
+SCIPY_RTOL = 1e-10
+# What DOP853 can still hold in double precision; it stands in for the Taylor series.
+FALLBACK_RTOL = 1e-13
+# Absolute tolerance of the SciPy runs relative to the size of the state: keeps rtol meaningful at zero crossings.
+ATOL_SHARE = 1e-3
+STEP_LIMIT = 20_000_000
+OUTCOMES = {"err_nf_state": "the numbers overflowed", "step_limit": f"{STEP_LIMIT} steps were not enough"}
+
+
+def trajectory(scene, state, times, method: str = "taylor", rtol: float | None = None) -> Trajectory:
+    """States of a scene at the given times, the motion being at `state` (three numbers) at t = 0.
+
+    times: (n,) strictly increasing or decreasing, of any sign, in s (tau when scaled). method: "taylor" (heyoka; where
+    it is not installed SciPy's DOP853 at rtol 1e-13, and `method` and `reason` say so) or a method of
+    scipy.integrate.solve_ivp by name, in any case. rtol: relative tolerance; None is half an ulp for "taylor", 1e-10
+    for the others. Where the run cannot go on (overflow, a failing step) `status` is "stopped", `reason` says why, and
+    t, states hold the times that were reached. Raises InputError for states and times that are no such numbers and
+    for an unknown method.
+    """
+    method, state, times, rtol = _method(method), _state(state), _times(times), _rtol(rtol)
+    reason, landing = "all times reached", False
+    if method == "taylor" and not heyoka_available():
+        method, rtol, landing = "DOP853", max(rtol or 0.0, FALLBACK_RTOL), True
+        reason = "all times reached; heyoka is not installed, SciPy's DOP853 took its place"
+    system = to_numpy(_equations(scene))
+    if method == "taylor":
+        rtol = TAYLOR_TOLERANCE if rtol is None else max(rtol, TAYLOR_TOLERANCE)
+        run = _Taylor(system, rtol)
+    else:
+        rtol = SCIPY_RTOL if rtol is None else rtol
+        run = _SciPy(system, method, rtol, landing)
+    reached, states, drift, failures = [0.0] * (times == 0).sum(), [state] * (times == 0).sum(), {}, []
+    for chosen, sense in ((times < 0, -1), (times > 0, 1)):
+        grid = np.sort(times[chosen] * sense) * sense
+        if grid.size:
+            points, failure = run.run(state, grid)
+            reached += list(grid[:len(points)])
+            states += list(points[:, :state.size])
+            failures += [failure] if failure else []
+            for name, departure in _departures(system, state, points).items():
+                drift[name] = max(drift.get(name, 0.0), departure)
+    order = np.argsort(reached)[::1 if times.size < 2 or times[1] > times[0] else -1]
+    return Trajectory(np.array(reached)[order], np.array(states).reshape(-1, state.size)[order], method, rtol, drift,
+                      run.counters, "stopped" if failures else "reached", "; ".join(failures) or reason)
+
+
+def _method(name: str) -> str:
+    known = {m.lower(): m for m in METHODS}
+    if isinstance(name, str) and name.lower() in known:
+        return known[name.lower()]
+    close = difflib.get_close_matches(str(name).lower(), known, 1)
+    hint = f'; did you mean "{known[close[0]]}"?' if close else ""
+    raise InputError(f"method: there is no {name!r}; choose one of {', '.join(METHODS)}{hint}")
+
+
+def _numbers(values, name):
+    try:
+        array = np.atleast_1d(np.asarray(values, float))
+    except (TypeError, ValueError):
+        raise InputError(f"{name}: expected numbers, got {values!r}") from None
+    if array.ndim != 1 or not array.size or not np.isfinite(array).all():
+        raise InputError(f"{name}: expected finite numbers in one row, got {values!r}")
+    return array
+
+
+def _state(state):
+    array = _numbers(state, "state")
+    if array.size != 3:
+        raise InputError(f"state: expected three numbers, got {array.size} of them")
+    return array
+
+
+def _times(times):
+    array = _numbers(times, "times")
+    steps = np.diff(array)
+    if not ((steps > 0).all() or (steps < 0).all()):
+        raise InputError("times: expected strictly increasing or strictly decreasing times")
+    return array
+
+
+def _rtol(rtol):
+    if rtol is not None and not (isinstance(rtol, (int, float)) and 0 < rtol < 1):
+        raise InputError(f"rtol: expected a number between 0 and 1, got {rtol!r}")
+    return rtol
+
+
+def _departures(system, state, points) -> dict[str, float]:
+    """Law name -> largest |Q(t) - Q(0) - integral of its rate| over the largest size of its terms in the run."""
+    if not len(points):
+        return {}
+    n = state.size
+    start, now = system.invariants(state), system.invariants(points[:, :n])
+    sizes = system.law_sizes(np.vstack([state, points[:, :n]]))
+    result = {}
+    for i, (name, quantity) in enumerate(now.items()):
+        size = max(sizes[name].max(), np.abs(points[:, n + i]).max())
+        departure = np.abs(quantity - start[name] - points[:, n + i]).max()
+        result[name] = float(departure / size) if size > 0 else 0.0
+    return result
+
+
+class _Taylor:
+    """Runs of the Taylor series; counters add up over the runs."""
+
+    def __init__(self, system, rtol):
+        laws = system.equations.balances
+        self.integrator = to_taylor(system.equations, [law.rate for law in laws], rtol)
+        self.counters = {"steps": 0, "order": self.integrator.order}
+
+    def run(self, state, grid):
+        """(states and law integrals at the times of `grid`, failure or None); grid moves away from 0 without it."""
+        ta = self.integrator
+        ta.time = 0.0
+        ta.state[:] = 0.0
+        ta.state[:state.size] = state
+        with_start = np.concatenate([[0.0], grid])
+        with np.errstate(all="ignore"):
+            outcome, _, _, steps, *_, out = ta.propagate_grid(with_start, max_steps=STEP_LIMIT)
+        self.counters["steps"] += steps
+        out = np.asarray(out).reshape(-1, ta.state.size)[1:].copy()
+        out[:, state.size:] /= FEATHER
+        good = np.isfinite(out).all(axis=1)
+        out = out if good.all() else out[:np.argmin(good)]
+        return out, None if len(out) == len(grid) else _stopped(out, grid, OUTCOMES.get(outcome.name, outcome.name))
+
+
+class _SciPy:
+    """Runs of a SciPy method; counters add up over the runs. landing: end a step on each asked-for time (costs a
+    step, saves the interpolant's error)."""
+
+    def __init__(self, system, method, rtol, landing=False):
+        self.system, self.method, self.rtol, self.landing = system, method, rtol, landing
+        self.counters = {"steps": 0, "rate evaluations": 0, "jacobian evaluations": 0}
+
+    def run(self, state, grid):
+        """As of _Taylor."""
+        y, t, points, h = np.concatenate([state, np.zeros(len(self.system.equations.balances))]), 0.0, [], None
+        failure = None
+        with np.errstate(all="ignore"):
+            for piece in (grid[i:i + 1] for i in range(len(grid))) if self.landing else (grid,):
+                y, h, failure = self._piece(t, y, piece, h, points)
+                if failure:
+                    break
+                t = piece[-1]
+        out = np.array(points).reshape(-1, y.size)
+        out[:, state.size:] /= FEATHER
+        return out, failure and _stopped(out, grid, failure)
+
+    def _piece(self, t, y, grid, h, points):
+        """Steps from t to grid[-1], appending to `points`; (last state, last step, failure or None)."""
+        n = len(self.system.equations.state)
+        try:
+            solver = self._solver(t, y, grid[-1], h)
+        except (ValueError, OverflowError) as error:
+            return y, h, str(error)
+        done = 0
+        while solver.status == "running":
+            try:
+                message = solver.step()
+            except (ValueError, OverflowError) as error:  # SciPy's linear algebra refuses infinite entries
+                return y, h, str(error)
+            self.counters["steps"] += 1
+            if solver.status == "failed" or not np.isfinite(solver.y[:n]).all():
+                return y, h, message or "the numbers overflowed"
+            if self.counters["steps"] >= STEP_LIMIT:
+                return y, h, f"{STEP_LIMIT} steps were not enough"
+            h = abs(solver.t - solver.t_old) if solver.status == "running" or h is None else h
+            if abs(grid[done]) <= abs(solver.t):
+                inside = grid[done:][np.abs(grid[done:]) <= abs(solver.t)]
+                dense = solver.dense_output()
+                points += [solver.y.copy() if time == solver.t else dense(time) for time in inside]
+                done += len(inside)
+        self.counters["rate evaluations"] += int(solver.nfev)
+        self.counters["jacobian evaluations"] += int(solver.njev)
+        return solver.y, h, None
+
+    def _solver(self, t, y, end, h):
+        from scipy import integrate
+        n = len(self.system.equations.state)
+        weight = np.where(np.arange(y.size) < n, 1.0, FEATHER)
+
+        def rates(_, y):
+            return weight * self.system.rate_and_laws(y[:n].tolist())
+
+        floor = self.rtol * ATOL_SHARE * (np.abs(y[:n]).max() or 1.0)
+        options = {"jac": self._padded_jacobian(n, y.size)} if self.method in ("Radau", "BDF", "LSODA") else {}
+        options |= {} if h is None else {"first_step": min(h, abs(end - t))}
+        return getattr(integrate, self.method)(rates, t, y, end, rtol=self.rtol, atol=floor, **options)
+
+    def _padded_jacobian(self, n, size):
+        def jacobian(_, y):
+            full = np.zeros((size, size))
+            full[:n, :n] = self.system.jacobian(y[:n])
+            return full
+        return jacobian
+
+
+def _stopped(points, grid, why):
+    last = f"t = {grid[len(points) - 1]:.17g}" if len(points) else "the start"
+    return f"the run stopped after {last}: {why}"

@@ -1,0 +1,266 @@
+"""From symbols to numbers: the one gate to NumPy and to heyoka's Taylor series.
+
+An expression that is polynomial in the state keeps its monomials; each coefficient is formed from the exact
+parameters and rounded once (D2 - D3 of two nearly equal moments keeps all its digits), so the compiled code depends
+on the monomials alone and is shared by all scenes of the same structure within a process.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import lru_cache
+from threading import RLock
+
+import numpy as np
+
+from .equations import Equations, derive
+
+# Default tolerance of the Taylor series: half an ulp of 1. In a spin-up the phase grows as t^2, so a relative 1e-12
+# per step would cost 2e-5 at t = 1000; a tighter step costs a few per cent.
+TAYLOR_TOLERANCE = 2.0**-53
+# Quadratures ride along scaled by this power of two (exact), too small ever to steer the step size.
+FEATHER = 2.0**-300
+
+
+def heyoka_available() -> bool:
+    """Whether the Taylor integrator is installed (Linux wheels only); SciPy stands in where it is not."""
+    try:
+        import heyoka  # noqa: F401
+    except ImportError:
+        return False
+    return True
+
+
+@dataclass(frozen=True)
+class Form:
+    """Expressions in the state and in coefficient symbols c0, c1, ... with the numbers behind those."""
+
+    state: tuple
+    expressions: tuple
+    symbols: tuple
+    numbers: tuple[float, ...]
+
+    @property
+    def varying(self) -> tuple[bool, ...]:
+        """Which of the expressions depend on the state."""
+        return tuple(bool(e.free_symbols & set(self.state)) for e in self.expressions)
+
+
+def form(equations: Equations, expressions, drop_constants=False) -> Form:
+    """Expressions with one numbered coefficient per monomial; monomials whose coefficient is exactly 0 vanish."""
+    from sympy import Poly, PolynomialError
+    from .equations import values
+    known, symbols, numbers, result = values(equations), [], [], []
+    for expression in expressions:
+        try:
+            terms = Poly(expression, *equations.state).terms()
+        except PolynomialError:
+            result.append(_unstructured(expression, known, symbols, numbers))
+            continue
+        total = expression * 0
+        for powers, factor in terms:
+            if not (drop_constants and not any(powers)):
+                total += _coefficient(factor, known, symbols, numbers) * _monomial(equations.state, powers)
+        result.append(total)
+    return Form(equations.state, tuple(result), tuple(symbols), tuple(numbers))
+
+
+def _monomial(state, powers):
+    from sympy import prod
+    return prod(x**n for x, n in zip(state, powers))
+
+
+def _coefficient(factor, known, symbols, numbers):
+    """A symbol for the coefficient (its number rounded once), 0 where it vanishes, the integer itself where it is one."""
+    from sympy import Integer
+    if factor.is_Integer:
+        return factor
+    exact = factor.subs(known)
+    return Integer(0) if exact.is_zero else _numbered(_rounded(exact), symbols, numbers)
+
+
+def _unstructured(expression, known, symbols, numbers):
+    """An expression that is no polynomial in the state: every parameter and every ratio in it becomes a number."""
+    from sympy import Float, Rational
+    swap = {p: _numbered(_rounded(v), symbols, numbers) for p, v in known.items() if expression.has(p)}
+    swapped = expression.subs(swap)
+    return swapped.subs({r: Float(r, 17) for r in swapped.atoms(Rational) if not r.is_Integer})
+
+
+def _numbered(number, symbols, numbers):
+    from sympy import Symbol
+    symbols.append(Symbol(f"c{len(symbols)}", real=True))
+    numbers.append(number)
+    return symbols[-1]
+
+
+def _rounded(exact) -> float:
+    return float(Fraction(int(exact.p), int(exact.q))) if exact.is_Rational else float(exact.evalf(30))
+
+
+@dataclass(frozen=True)
+class System:
+    """A scene's equations as numbers. Arrays: batch first, component last; any float or complex type."""
+
+    equations: Equations
+    rhs: Form
+    entries: Form
+    quantities: Form
+    rates: Form
+
+    def __call__(self, x):
+        """Rates of the states x: (..., 3) -> (..., 3)."""
+        return _evaluate(self.rhs, x)
+
+    def rate(self, x) -> list:
+        """Rates of one state given as a list of three plain floats, as a list (no array overhead)."""
+        return _call(self.rhs, x)
+
+    def rate_and_laws(self, x) -> list:
+        """`rate` followed by the rates of the laws, as one list."""
+        return _call(self.rhs, x) + _call(self.rates, x)
+
+    def jacobian(self, x):
+        """d rate_i / d x_j: (..., 3) -> (..., 3, 3)."""
+        flat = _evaluate(self.entries, x)
+        n = len(self.equations.state)
+        return flat.reshape(flat.shape[:-1] + (n, n))
+
+    def invariants(self, x) -> dict:
+        """Law name -> its quantity (up to an additive constant) at the states x: (..., 3) -> (...)."""
+        flat = _evaluate(self.quantities, x)
+        return {law.name: flat[..., i] for i, law in enumerate(self.equations.balances)}
+
+    def law_rates(self, x) -> dict:
+        """Law name -> rate of its quantity at the states x: (..., 3) -> (...)."""
+        flat = _evaluate(self.rates, x)
+        return {law.name: flat[..., i] for i, law in enumerate(self.equations.balances)}
+
+    def law_sizes(self, x) -> dict:
+        """Law name -> sum of the absolute terms of its quantity: what a relative departure is measured against."""
+        from sympy import Add
+        form, sizes = self.quantities, {}
+        for law, expression in zip(self.equations.balances, form.expressions):
+            terms = Form(form.state, Add.make_args(expression), form.symbols, form.numbers)
+            sizes[law.name] = np.abs(_evaluate(terms, x)).sum(axis=-1)
+        return sizes
+
+
+def to_numpy(equations: Equations) -> System:
+    """The compiled system of derived equations (or of a scene)."""
+    equations = _equations(equations)
+    laws = equations.balances
+    return System(equations, form(equations, equations.rhs), form(equations, list(equations.jacobian)),
+                  form(equations, [law.quantity for law in laws], drop_constants=True),
+                  form(equations, [law.rate for law in laws]))
+
+
+def _equations(equations_or_scene) -> Equations:
+    return equations_or_scene if isinstance(equations_or_scene, Equations) else derive(equations_or_scene)
+
+
+@lru_cache(maxsize=256)
+def _function(arguments, expressions):
+    from sympy import lambdify
+    return lambdify(arguments, list(expressions), "numpy", cse=False)
+
+
+def _call(form: Form, x) -> list:
+    return _function(form.state + form.symbols, form.expressions)(*x, *form.numbers)
+
+
+def _evaluate(form: Form, x):
+    """Values of the form at x (..., 3), one per expression in the last place; constants are spread over the batch."""
+    x = np.asarray(x)
+    x = x if np.issubdtype(x.dtype, np.inexact) else x.astype(float)
+    out = np.empty(x.shape[:-1] + (len(form.expressions),), x.dtype)
+    function = _function(form.state + form.symbols, form.expressions)
+    for i, value in enumerate(function(*np.moveaxis(x, -1, 0), *form.numbers)):
+        out[..., i] = value
+    return out
+
+
+def to_taylor(equations: Equations, quadratures=(), tolerance: float = TAYLOR_TOLERANCE):
+    """A heyoka integrator at t = 0 whose state is the scene's, followed by FEATHER times one integral per quadrature.
+
+    quadratures: SymPy expressions of the state, integrated alongside without steering the step. Raises ImportError
+    where heyoka is not installed (ask `heyoka_available` first).
+    """
+    import copy
+    equations = _equations(equations)
+    everything = form(equations, (*equations.rhs, *quadratures))
+    integrator = copy.copy(_integrator(everything.state, everything.symbols, everything.expressions, tolerance))
+    integrator.pars[:] = everything.numbers
+    return integrator
+
+
+def to_taylor_events(equations: Equations, event_forms: Form, tolerance: float = TAYLOR_TOLERANCE):
+    """(integrator, found, lock): a heyoka integrator that notes every root of every event expression it passes.
+
+    event_forms: expressions over the numbered coefficients of `form(equations, (*rhs, *events))`, the rates first.
+    found: list of (time, index of event, state), filled while it runs. The integrator is shared: hold `lock`, set
+    time and state, empty `found`.
+    """
+    integrator, recorder = _event_integrator(event_forms.state, event_forms.symbols, event_forms.expressions, tolerance)
+    integrator.pars[:] = event_forms.numbers
+    return integrator, recorder.found, _LOCK
+
+
+_LOCK = RLock()
+
+
+class _Recorder:
+    def __init__(self):
+        self.found = []
+
+    def __deepcopy__(self, memo):  # heyoka copies its callbacks; the list must stay the same one
+        return self
+
+
+@dataclass(frozen=True)
+class _Note:
+    """Callback of one event."""
+
+    index: int
+    recorder: _Recorder
+    size: int
+
+    def __call__(self, integrator, time, sign):
+        integrator.update_d_output(time)
+        self.recorder.found.append((time, self.index, integrator.d_output[:self.size].copy()))
+
+
+def _heyoka_form(state, symbols, expressions):
+    import heyoka
+    variables = heyoka.make_vars(*map(str, state))
+    swap = dict(zip(state, variables)) | {s: heyoka.par[i] for i, s in enumerate(symbols)}
+    return variables, [_from_sympy(heyoka, e, swap) for e in expressions]
+
+
+def _from_sympy(heyoka, expression, swap):
+    """heyoka.from_sympy turns away ratios and lone numbers; `form` has left only integers and symbols."""
+    return heyoka.expression(float(expression)) if expression.is_number else heyoka.from_sympy(expression, swap)
+
+
+@lru_cache(maxsize=64)
+def _integrator(state, symbols, expressions, tolerance):
+    import heyoka
+    n = len(state)
+    variables, rates = _heyoka_form(state, symbols, expressions)
+    extra = heyoka.make_vars(*(f"quadrature{i}" for i in range(len(expressions) - n))) if len(expressions) > n else []
+    extra = extra if isinstance(extra, list) else [extra]
+    rates[n:] = [FEATHER * r for r in rates[n:]]
+    return heyoka.taylor_adaptive(list(zip([*variables, *extra], rates)), [0.0] * len(expressions),
+                                  pars=[0.0] * len(symbols), tol=tolerance)
+
+
+@lru_cache(maxsize=64)
+def _event_integrator(state, symbols, expressions, tolerance):
+    import heyoka
+    n, recorder = len(state), _Recorder()
+    variables, everything = _heyoka_form(state, symbols, expressions)
+    events = [heyoka.nt_event(e, _Note(i, recorder, n)) for i, e in enumerate(everything[n:])
+              if expressions[n + i].free_symbols & set(state)]
+    integrator = heyoka.taylor_adaptive(list(zip(variables, everything[:n])), [0.0] * n,
+                                        pars=[0.0] * len(symbols), tol=tolerance, nt_events=events)
+    return integrator, recorder
