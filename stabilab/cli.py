@@ -1,0 +1,253 @@
+"""The commands: each loads its cases, asks the analysis, and shows the answer. Data to stdout, messages to stderr."""
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+from typing import Annotated, List, Optional  # typer reads the annotations at run time
+
+import typer
+
+from .errors import BAD_INPUT, BUG, INTERRUPTED, OK, UNDECIDED, InputError, RenderingUnavailable, StabilabError, ToleranceNotMet
+
+PIPE_CLOSED = 141  # what a shell reports for a program that a closed pipe ended
+
+# Plain help: rich costs more time than the rest of `stabilab --help`.
+app = typer.Typer(name="stabilab", no_args_is_help=True, rich_markup_mode=None, pretty_exceptions_enable=False)
+
+CaseFile = Annotated[Path, typer.Argument(metavar="CASE", help="A case file (TOML).", show_default=False)]
+CaseFiles = Annotated[List[Path], typer.Argument(metavar="CASE...", help="Case files (TOML).", show_default=False)]
+Json = Annotated[bool, typer.Option("--json", help="JSON on stdout instead of text.")]
+
+
+def _version(wanted: bool):
+    if wanted:
+        from . import __version__
+        _print(f"stabilab {__version__}")
+        raise typer.Exit()
+
+
+@app.callback()
+def stabilab(version: Annotated[bool, typer.Option("--version", callback=_version, is_eager=True,
+                                                   help="Show the version and exit.")] = False):
+    """Where a rotating body's equilibria are, which are stable, and whether a motion stays bounded."""
+
+
+@app.command()
+def show(case: CaseFile):
+    """Show the scene, its equations of motion (text and LaTeX) and the invariants that hold.
+
+    Example: stabilab show cases/minor-axis-100.toml
+    """
+    from .show.scene_text import text
+    _print(text(_load([case])[0]))
+
+
+@app.command()
+def classify(cases: CaseFiles, json: Json = False, strict: Annotated[bool, typer.Option(
+        "--strict", help="Exit with 3 where a verdict or a fate is undecided.")] = False):
+    """Equilibria with their verdicts, and the fate of each case's motion.
+
+    Example: stabilab classify cases/minor-axis-100.toml --json
+    """
+    from .show import answers
+    loaded = _load(cases)
+    answered = [(case, _equilibria(case), _motion(case) if case.state else None) for case in loaded]
+    if json:
+        _print(answers.as_json([answers.classification(*answer) for answer in answered]))
+    else:
+        _print("\n\n".join(answers.classification_text(*answer) for answer in answered))
+    if strict and any(answers.undecided(found, motion) for _, found, motion in answered):
+        raise typer.Exit(UNDECIDED)
+
+
+@app.command()
+def extremes(cases: CaseFiles, json: Json = False,
+             csv: Annotated[bool, typer.Option("--csv", help="CSV on stdout instead of text.")] = False):
+    """The least and the greatest value of each component of a motion.
+
+    Example: stabilab extremes cases/minor-axis-*.toml --csv
+    """
+    from .show import answers
+    if json and csv:
+        raise typer.BadParameter("choose one of --json and --csv")
+    answered = [(case, _motion(case)) for case in _load(cases, motion=True)]
+    if json:
+        _print(answers.as_json([answers.extremes(*answer) for answer in answered]))
+    elif csv:
+        _print(answers.extremes_csv(answered))
+    else:
+        _print("\n".join(answers.extremes_text(*answer) for answer in answered))
+
+
+@app.command()
+def simulate(case: CaseFile,
+             at: Annotated[Optional[str], typer.Option(metavar="T1,T2,...", help="Times; the state is at 0. "
+                                                       "Default: 201 times over the span of the case.")] = None,
+             method: Annotated[str, typer.Option(help="taylor, or a method of SciPy's solve_ivp by name.")] = "taylor",
+             rtol: Annotated[Optional[float], typer.Option(help="Relative tolerance; default: the method's own.")] = None,
+             out: Annotated[Optional[Path], typer.Option(metavar="FILE.nc|.csv", help="Write the states to a file.")] = None,
+             json: Json = False):
+    """Follow the motion of a case and report how far it departs from the laws of motion.
+
+    Example: stabilab simulate cases/major-axis-100.toml --at 0,5,10,15 --json
+    """
+    from .show import answers, trajectory_files
+    loaded = _load([case], motion=True)[0]
+    times = _times(loaded, at)
+    if out:
+        trajectory_files.checked(out)
+    from .analysis.trajectories import trajectory
+    run = trajectory(loaded.scene, loaded.state, times, method=method, rtol=rtol)
+    if out:
+        trajectory_files.write(loaded, run, out)
+        _say(f"written: {out}")
+    if json or not out:
+        _print(answers.as_json(answers.simulation(loaded, run)) if json else answers.simulation_text(loaded, run))
+    if run.status != "reached":
+        raise ToleranceNotMet(f"{case}: {run.reason}")
+
+
+@app.command()
+def surface(case: CaseFile, out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the files.")] = ...):
+    """Write the separatrix surfaces (.vtp, .glb, .stl, .png) and a summary.
+
+    Example: stabilab surface cases/minor-axis-100.toml --out surfaces
+    """
+    from .show import answers
+    from .show.surface import write
+    try:
+        summary = write(_load([case])[0], out)
+    except RenderingUnavailable as unavailable:
+        if getattr(unavailable, "summary", None):
+            _print(answers.as_json(unavailable.summary))
+        raise
+    _print(answers.as_json(summary))
+
+
+@app.command()
+def plot(case: CaseFile, out: Annotated[Optional[Path], typer.Option(
+        metavar="FILE.png", help="Picture to write; default: CASE.png in the current folder.")] = None):
+    """Draw the motion of a case in its phase plane.
+
+    Example: stabilab plot cases/middle-axis-double-well.toml --out double-well.png
+    """
+    from .show.plane import plot as draw
+    loaded = _load([case], motion=True)[0]
+    _print(str(draw(loaded, out or Path(f"{loaded.name}.png"))))
+
+
+@app.command()
+def tables(out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the files.")] = ...):
+    """Write Tables 1-4 of the constant-torque paper as text, CSV, Markdown, LaTeX and HTML.
+
+    Example: stabilab tables --out tables
+    """
+    from .show.table import write_tables
+    _print_paths(write_tables(out), out)
+
+
+@app.command()
+def report(cases: Annotated[Optional[List[Path]], typer.Argument(
+               metavar="[CASE...]", help="Case files; none: the paper's tables and figures alone.", show_default=False)] = None,
+           out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the report.")] = Path("report")):
+    """Write tables, figures, surfaces and equations into one folder with an index.html.
+
+    Example: stabilab report --out report
+    """
+    from .show.report import write
+    _print_paths(write(_load(cases or []), out), Path(out) / "index.html")
+
+
+@app.command()
+def doctor():
+    """Say what is installed, whether pictures can be drawn here, and on which processor.
+
+    Example: stabilab doctor
+    """
+    from .show.doctor import text
+    _print(text())
+
+
+def _load(paths, motion: bool = False) -> list:
+    """All cases; the faults of all files at once. motion: each must state one."""
+    from .case import load
+    cases, faults = [], []
+    for path in paths:
+        try:
+            cases.append(load(path))
+        except InputError as error:
+            faults.append(str(error))
+    faults += [f"{case.path}: motion: expected x or angular_velocity in [motion]; this command needs a state"
+               for case in cases if motion and case.state is None]
+    if faults:
+        raise InputError("\n".join(faults))
+    return cases
+
+
+def _equilibria(case):
+    from .analysis.equilibria import equilibria
+    return equilibria(case.scene)
+
+
+def _motion(case):
+    from .analysis.motion import motion
+    return motion(case.scene, case.state, case.span)
+
+
+def _times(case, at: str | None) -> list[float]:
+    """The times asked for, in order; without any, 201 over the span of the case."""
+    if at is None:
+        if case.span is None:
+            raise InputError(f"{case.path}: motion: no span; give --at T1,T2,... or span (or tau) in [motion]")
+        start, end = case.span
+        return [start + (end - start) * i / 200 for i in range(200)] + [end]
+    from .exact import exact
+    return sorted({float(exact(word.strip())) for word in at.split(",")})
+
+
+def _print(text: str):
+    """Text to stdout; a reader that went away ends the program quietly."""
+    try:
+        sys.stdout.write(text.rstrip("\n") + "\n")
+        sys.stdout.flush()
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(PIPE_CLOSED)
+
+
+def _print_paths(paths, otherwise):
+    """The files a command wrote, one a line."""
+    _print("\n".join(map(str, paths)) if isinstance(paths, (list, tuple)) else str(paths or otherwise))
+
+
+def _say(text: str):
+    print(text, file=sys.stderr)
+
+
+def main() -> None:
+    """Run a command and end the process with its exit code."""
+    try:
+        app()
+        code = OK
+    except StabilabError as error:
+        _say(str(error))
+        code = error.exit_code
+    except KeyboardInterrupt:
+        code = INTERRUPTED
+    except OSError as error:
+        _say(f"{error.filename or 'stabilab'}: {error.strerror or error}")
+        code = BAD_INPUT if error.filename else BUG
+    except Exception as error:
+        _unexpected(error)
+        code = BUG
+    sys.exit(code)
+
+
+def _unexpected(error: Exception):
+    if os.environ.get("STABILAB_DEBUG") == "1":
+        import traceback
+        traceback.print_exc()
+        return
+    _say(f"stabilab failed unexpectedly: {type(error).__name__}: {error}\n"
+         "This is a fault of the program. Set STABILAB_DEBUG=1 to see where it happened.")
