@@ -32,12 +32,9 @@ def _version(name: str) -> str:
 
 
 def _rendering() -> str:
-    from ..errors import RenderingUnavailable
-    try:
-        from .renderer import probe
-        return probe()
-    except RenderingUnavailable as unavailable:
-        return str(unavailable)
+    from .render_probe import CURE, probe
+    found = probe()
+    return f"works ({found.words})" if found.available else f"does not work: {found.words}; cure: {CURE}"
 
 
 def _processor() -> str:

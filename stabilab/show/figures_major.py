@@ -23,33 +23,26 @@ def space(start):
     def picture(plt):
         from matplotlib.colors import LinearSegmentedColormap
         from mpl_toolkits.mplot3d.art3d import Line3DCollection
-        figure = plt.figure(figsize=(11.4, 4.5), layout="constrained")
+        figure = plt.figure(figsize=(11.4, 4.2), layout="constrained")
         colours = LinearSegmentedColormap.from_list("time", [style.SKY, style.BLUE, "#1B1B3A"])
         for index, (lam, states) in enumerate(_runs(start).items()):
             ax = figure.add_subplot(1, 3, index + 1, projection="3d")
-            pieces = Line3DCollection(np.stack([states[:-1], states[1:]], 1)[::2], cmap=colours, linewidth=0.9)
-            pieces.set_array(np.linspace(*paper.SPAN, len(states) - 1)[::2])
+            pieces = Line3DCollection(np.stack([states[:-1], states[1:]], 1), cmap=colours, linewidth=0.9)
+            pieces.set_array(np.linspace(*paper.SPAN, len(states) - 1))
             ax.add_collection3d(pieces)
             ax.plot(*states[:1].T, **style.MARKER["start"])
             for setter, column in zip((ax.set_xlim, ax.set_ylim, ax.set_zlim), states.T):
                 room = 0.05 * np.ptp(column)
                 setter(column.min() - room, column.max() + room)
             ax.view_init(22, -62)
-            _names(ax)
+            style.name_space(ax, 0.98)
             ax.set_title(rf"$\lambda_1={lam}$")
         bar = figure.colorbar(pieces, ax=figure.axes, shrink=0.6, pad=0.06)
-        bar.set_label(r"$\tau$")
+        bar.ax.set_title(r"$\tau$")
         figure.suptitle(f"Torque on the major axis from x(0) = ({', '.join(f'{v:g}' for v in start)}), "
                         r"$\tau\in[0,15]$; square: start")
         return figure
     return picture
-
-
-def _names(ax):
-    ax.set_xlabel("$x_1$", labelpad=-2)
-    ax.set_ylabel("$x_2$", labelpad=-2)
-    ax.set_zlabel("$x_3$", labelpad=-4)
-    ax.tick_params(pad=-1, labelsize=8)
 
 
 def projection(start, plane):
@@ -59,11 +52,11 @@ def projection(start, plane):
     def picture(plt):
         figure, axes = plt.subplots(1, 3, figsize=(10.8, 3.9), sharey=True, layout="constrained")
         for ax, (lam, states), colour in zip(axes, _runs(start).items(), style.SERIES):
-            ax.plot(states[:, i], states[:, j], color=colour, linewidth=0.9)
+            ax.plot(states[:, i], states[:, j], color=colour, linewidth=0.7)
             ax.plot(states[0, i], states[0, j], **style.MARKER["start"])
             ax.set_title(rf"$\lambda_1={lam}$")
             ax.set_xlabel(f"$x_{i + 1}$")
-            ax.set_aspect("equal" if plane == "23" else "auto")
+            ax.set_aspect("equal" if plane == "23" and start == paper.START_MAJOR else "auto")
         axes[0].set_ylabel(f"$x_{j + 1}$")
         figure.suptitle(f"Torque on the major axis from x(0) = ({', '.join(f'{v:g}' for v in start)}), "
                         r"$\tau\in[0,15]$; square: start")

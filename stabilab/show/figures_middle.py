@@ -35,8 +35,7 @@ def surfaces(plt):
     right = figure.add_subplot(1, 2, 2, projection="3d")
     _figure_eight(right)
     right.set_title(rf"$\lambda_1={LAMBDA_BEYOND}$, $c=2.5>{CUSP:.4f}$: figure-eight separatrix", fontsize=9.5)
-    from .figures_minor import _legend
-    _legend(figure, [("centres (stable)", style.MEANING["stable"]), ("saddles (unstable)", style.MEANING["unstable"]),
+    style.legend(figure, [("centres (stable)", style.MEANING["stable"]), ("saddles (unstable)", style.MEANING["unstable"]),
                      ("motion of Table 3", style.MEANING["this motion"]), ("periodic motions", style.MEANING["bounded"])])
     return figure
 
@@ -50,7 +49,7 @@ def _nested(ax, scene):
         ax.plot(*states.T, **style.MEANING["bounded"])
     ax.plot(*_tube(scene, paper.START_MIDDLE).T, **style.MEANING["this motion"])
     ax.plot(*np.array(paper.START_MIDDLE)[:, None], **style.MARKER["start"])
-    _names(ax)
+    style.name_space(ax)
     ax.view_init(24, -60)
 
 
@@ -63,15 +62,8 @@ def _figure_eight(ax):
                         cstride=3, linewidth=0.15, edgecolor="#333333")
         ax.plot(*np.asarray(sheet.saddle).T, **style.MEANING["unstable"])
         ax.plot(*np.asarray(sheet.centre).T, **style.MEANING["stable"])
-    _names(ax)
+    style.name_space(ax)
     ax.view_init(20, -70)
-
-
-def _names(ax):
-    ax.set_xlabel("$x_1$", labelpad=-2)
-    ax.set_ylabel("$x_2$", labelpad=-2)
-    ax.set_zlabel("$x_3$", labelpad=-4)
-    ax.tick_params(pad=-1, labelsize=8)
 
 
 def projections(plt):
@@ -81,8 +73,7 @@ def projections(plt):
         scene = paper.scene("middle", lam)
         _projection(ax, scene, draw_motion=lam != LAMBDA_BEYOND)
         ax.set_title(rf"$\lambda_1={lam}$, $c={scene.b - scene.a:g}$")
-    from .figures_minor import _legend
-    _legend(figure, [("stable equilibria", style.MEANING["stable"]), ("unstable equilibria", style.MEANING["unstable"]),
+    style.legend(figure, [("stable equilibria", style.MEANING["stable"]), ("unstable equilibria", style.MEANING["unstable"]),
                      (r"plane $x_1+b=x_3$ (periodic)", style.MEANING["dividing"]),
                      (r"plane $x_1+b=-x_3$ (spin-up)", style.MEANING["spin-up"]),
                      ("motion of Table 3", style.MEANING["this motion"]),

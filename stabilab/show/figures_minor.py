@@ -23,12 +23,6 @@ def _label(ax):
     ax.set_ylabel(r"$x = 2\,x_3$")
 
 
-def _legend(figure, rows):
-    from matplotlib.lines import Line2D
-    handles = [Line2D([], [], **look) for _, look in rows]
-    figure.legend(handles, [name for name, _ in rows], loc="outside lower center", ncols=min(4, len(rows)))
-
-
 def trajectories(plt):
     """Fig. 2."""
     figure, ax = plt.subplots(figsize=(7.4, 5.0), layout="constrained")
@@ -37,7 +31,7 @@ def trajectories(plt):
     _label(ax)
     radius = np.sqrt(plane.Q)
     ax.set_title(rf"Torque on the minor axis, $\lambda_1=100$: the circle $A={radius:.4f}$ of the start")
-    _legend(figure, [("this motion", style.MEANING["this motion"]), ("separatrices", style.MEANING["separatrix"]),
+    style.legend(figure, [("this motion", style.MEANING["this motion"]), ("separatrices", style.MEANING["separatrix"]),
                      ("other energies", style.MEANING["level"]), ("start", style.MARKER["start"]),
                      ("centre (stable)", style.MARKER["centre"]), ("saddle (unstable)", style.MARKER["saddle"])])
     return figure
@@ -78,7 +72,7 @@ def left_right(plt):
     ax.set_ylim(-14, 14)
     _label(ax)
     ax.set_title(rf"Left and right separatrices, $\lambda_1=100$, $A={np.sqrt(plane.Q):.4f}$")
-    _legend(figure, [("separatrices, one colour a family", style.MEANING["separatrix"]), ("", style.MEANING["separatrix 2"]),
+    style.legend(figure, [("left separatrix", style.MEANING["separatrix 2"]), ("right separatrix", style.MEANING["separatrix"]),
                      ("periodic motions", style.MEANING["bounded"]), ("spin-up", style.MEANING["spin-up"]),
                      ("upright crossing", style.MARKER["turning"]), ("centre", style.MARKER["centre"]),
                      ("saddle", style.MARKER["saddle"])])
@@ -99,7 +93,7 @@ def wheel_effect(plt):
         ax.set_xlabel("")
         ax.set_title(rf"$\lambda_1={lambda1}$: $c=b-a={lambda1 / 500:g}$, $A={np.sqrt(plane.Q):.4f}$")
     axes[-1].set_xlabel(r"$\alpha = 2\,\mathrm{atan2}(x_1+a,\ x_2)$")
-    _legend(figure, [("separatrices, one colour a family", style.MEANING["separatrix"]), ("", style.MEANING["separatrix 2"]),
+    style.legend(figure, [("left separatrix", style.MEANING["separatrix 2"]), ("right separatrix", style.MEANING["separatrix"]),
                      ("centre", style.MARKER["centre"]), ("saddle", style.MARKER["saddle"]),
                      ("upright crossing", style.MARKER["turning"]), ("printed position", printed)])
     return figure
@@ -124,17 +118,10 @@ def surfaces(plt):
             ax.plot(*np.asarray(sheet.saddle).T, **style.MEANING["unstable"])
             ax.plot(*np.asarray(sheet.centre).T, **style.MEANING["stable"])
         ax.view_init(elevation, azimuth)
-        _space(ax)
+        style.name_space(ax)
     figure.suptitle(r"Separatrix surfaces, torque on the minor axis, $\lambda_1=100$")
-    _legend(figure, [("centres (stable)", style.MEANING["stable"]), ("saddles (unstable)", style.MEANING["unstable"])])
+    style.legend(figure, [("centres (stable)", style.MEANING["stable"]), ("saddles (unstable)", style.MEANING["unstable"])])
     return figure
-
-
-def _space(ax):
-    ax.set_xlabel("$x_1$", labelpad=-2)
-    ax.set_ylabel("$x_2$", labelpad=-2)
-    ax.set_zlabel("$x_3$", labelpad=-4)
-    ax.tick_params(pad=-1, labelsize=8)
 
 
 def contour_map(plt):
@@ -162,7 +149,7 @@ def contour_map(plt):
     ax.set_ylabel("$x_2$")
     ax.set_title(r"Height $x_3>0$ of the separatrix surfaces, $\lambda_1=100$")
     figure.colorbar(mesh, ax=ax, label="$x_3$ on the surface", shrink=0.8)
-    _legend(figure, [("stable equilibria", style.MEANING["stable"]), ("unstable equilibria", style.MEANING["unstable"]),
+    style.legend(figure, [("stable equilibria", style.MEANING["stable"]), ("unstable equilibria", style.MEANING["unstable"]),
                      ("fold circles", style.MEANING["fold"]), (r"$(x_1+a)(x_1+b)=x_2^2$", style.MEANING["dividing"]),
                      ("edge of the stable regions", {"color": style.PURPLE, "linewidth": 1.4}),
                      (r"printed: $x_1+x_2=0$, radius $\sqrt{2}$", style.MEANING["printed"])])
@@ -231,9 +218,9 @@ def stable_motions(plt):
         for kind, mask in (("stable", stable), ("unstable", ~stable)):
             ax.plot(np.where(mask, x1, np.nan), np.where(mask, h, np.nan), 0 * h, **style.MEANING[kind])
     ax.view_init(28, -58)
-    _space(ax)
+    style.name_space(ax)
     ax.set_title(r"Periodic motions on their circles, $\lambda_1=100$")
-    _legend(figure, [("centres (stable)", style.MEANING["stable"]), ("saddles (unstable)", style.MEANING["unstable"])])
+    style.legend(figure, [("centres (stable)", style.MEANING["stable"]), ("saddles (unstable)", style.MEANING["unstable"])])
     return figure
 
 

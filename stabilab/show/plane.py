@@ -109,7 +109,7 @@ class PhasePlane:
                       if low <= y + turn * n <= high)
 
     def separatrix(self, saddle, low, high, points=2001):
-        """(y, W >= 0, NaN outside) of the level curve through the saddle: an exact square root, dense at its ends."""
+        """(y, W >= 0) of the curve that runs through the saddle, as far as it hangs together; dense at its ends."""
         y = np.unique(np.concatenate([np.linspace(low, high, points), saddle + np.geomspace(1e-6, 1, 60) * (high - saddle),
                                       saddle - np.geomspace(1e-6, 1, 60) * (saddle - low), [saddle]]))
         drop = -self.height(y, saddle)
@@ -119,22 +119,22 @@ class PhasePlane:
         drop = np.concatenate([drop, np.zeros(len(edges))])
         order = np.argsort(y)
         y, drop = y[order], drop[order]
-        return y, np.where(drop >= 0, np.sqrt(2 * np.maximum(drop, 0)), np.nan)
+        walls = np.nonzero(drop < 0)[0]
+        at = int(np.searchsorted(y, saddle))
+        first = int(walls[walls < at].max(initial=-1)) + 1
+        last = int(walls[walls > at].min(initial=len(y)))
+        return y[first:last], np.sqrt(2 * np.maximum(drop[first:last], 0))
 
     def _edge(self, saddle, left, right):
         from scipy.optimize import brentq
         return brentq(lambda y: float(self.height(y, saddle)), left, right, xtol=1e-13)
 
     def loop(self, saddle, low, high):
-        """(far end, saddle) of the homoclinic loop through the saddle, None where it does not close in the window."""
+        """(end, end) of the homoclinic loop through the saddle, None where it does not close in the window."""
         y, W = self.separatrix(saddle, low, high)
-        at = int(np.argmin(np.abs(y - saddle)))
-        for step in (-1, 1):
-            i = at + step
-            while 0 <= i < len(y) and np.isfinite(W[i]) and W[i] > 0:
-                i += step
-            if 0 <= i < len(y) and abs(i - at) > 3:
-                return tuple(sorted((float(y[i]), saddle)))
+        for end, at_wall in ((y[0], W[0] == 0), (y[-1], W[-1] == 0)):
+            if at_wall and abs(end - saddle) > 1e-4:
+                return tuple(sorted((float(end), saddle)))
         return None
 
 
@@ -232,7 +232,6 @@ def plot(case, path) -> Path:
 
 
 def _plane_picture(plt, case, plane):
-    from matplotlib.lines import Line2D
     figure, ax = plt.subplots(figsize=(7.2, 4.8), layout="constrained")
     draw(ax, plane, scale=plane.unit)
     i = plane.reduction.axis
@@ -245,9 +244,7 @@ def _plane_picture(plt, case, plane):
             ("other energies", style.MEANING["level"]), ("start", style.MARKER["start"]),
             ("centre", style.MARKER["centre"]), ("saddle", style.MARKER["saddle"])]
     present = {"separatrix": bool(plane.saddles), "saddle": bool(plane.saddles), "centre": bool(plane.centres)}
-    shown = [(name, look) for name, look in rows if present.get(name, True)]
-    handles = [Line2D([], [], **look) for _, look in shown]
-    figure.legend(handles, [name for name, _ in shown], loc="outside lower center", ncols=len(shown))
+    style.legend(figure, [row for row in rows if present.get(row[0], True)], columns=6)
     return figure
 
 

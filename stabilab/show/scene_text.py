@@ -17,13 +17,17 @@ def _head(case) -> str:
     rows += [f"  source: {case.source}"] if case.source else []
     rows += [f"  variables: {case.variables} ({', '.join(case.scene.components)}; time in {case.scene.time_unit})"]
     if case.physical:
-        effects = ", ".join(e.name.replace("_", " ") for e in case.physical.effects)
-        rows.append(f"  body with inertia {case.physical.body.inertia} kg m^2; effects: {effects or 'none'}")
+        rows.append(f"  body with inertia {case.physical.body.inertia} kg m^2")
+        rows += [f"  {effect.name.replace('_', ' ')}: {_values(effect)}" for effect in case.physical.effects]
     if case.scaling:
         rows.append(f"  one unit of tau is {float(case.scaling.time):.15g} s; "
                     f"omega_j = {', '.join(f'{float(r):.15g}' for r in case.scaling.rate)} times x_j (rad/s)")
     rows += [f"  motion from {case.state}"] if case.state else []
     return "\n".join(rows) + "\n"
+
+
+def _values(effect) -> str:
+    return ", ".join(f"{name} = {float(v):.15g}" for name, v in effect.parameters().items())
 
 
 def _parameters(equations) -> str:

@@ -8,10 +8,12 @@ from ..errors import InputError
 
 
 def checked(path) -> Path:
-    """The path, if its ending is one that can be written; InputError otherwise."""
+    """The path, if it can be written by its ending and its folder; InputError otherwise."""
     path = Path(path)
     if path.suffix not in WRITERS:
         raise InputError(f"{path}: expected a name that ends in {' or '.join(WRITERS)}, got {path.suffix or 'no ending'}")
+    if not path.parent.is_dir() or path.is_dir():
+        raise InputError(f"{path}: expected a file in a folder that exists" + (", this is a folder" if path.is_dir() else ""))
     return path
 
 
@@ -38,9 +40,8 @@ def _csv(case, run, path):
 def _netcdf(case, run, path):
     try:
         import xarray
-        import h5netcdf  # noqa: F401  (the engine below)
-    except ImportError as error:
-        raise InputError(f"{path.suffix} files need xarray and h5netcdf: pip install {error.name}; or write .csv") from None
+    except ImportError:
+        raise InputError("files that end in .nc need xarray: pip install xarray; or write .csv") from None
     from .. import __version__
     unit = "rad/s" if case.variables == "physical" else "1"
     time, letter = ("t", "omega") if case.variables == "physical" else ("tau", "x")
@@ -49,8 +50,8 @@ def _netcdf(case, run, path):
         {time: ((time,), run.t, {"units": "s" if case.variables == "physical" else "1"}), "axis": [1, 2, 3]},
         {"title": case.title, "source": case.source, "case": case.text, "program": f"stabilab {__version__}",
          "method": run.method, "rtol": run.rtol, "status": run.status,
-         **{f"departure from {name}": value for name, value in run.invariant_drift.items()}})
-    data.to_netcdf(path, engine="h5netcdf")
+         **{f"departure_from_{name}": value for name, value in run.invariant_drift.items()}})
+    data.to_netcdf(path, engine="scipy")  # NetCDF 3: every reader knows it, and no HDF5 library is needed
 
 
 WRITERS = {".nc": _netcdf, ".csv": _csv}

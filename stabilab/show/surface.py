@@ -1,0 +1,213 @@
+"""The separatrix as files: meshes of every sheet, a summary, a picture and a scene to turn round."""
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import RenderingUnavailable
+from . import style
+from .mesh import Mesh, glb, stl, triangulate
+
+SCHEMA = "stabilab.surface/1"
+
+
+def write(case, out, reach=None, shape=None, picture=True) -> dict:
+    """Write the separatrix of a case (or scene) into the folder `out` and return its summary.
+
+    NAME.vtp (double precision, point arrays "sheet" and "residual"), NAME.glb and NAME.stl (single precision, as those
+    formats are), NAME.json (the summary) and NAME.png; NAME is the case's file stem. Where there is no separatrix the
+    files are written all the same, empty, and the summary gives the reason. Raises RenderingUnavailable, after the
+    meshes and the summary are written, where this machine cannot draw.
+    """
+    from .render_probe import CURE, probe
+    out = Path(out)
+    scene, name = _scene(case)
+    found = _separatrix(scene, reach, shape)
+    meshes = [triangulate(sheet) for sheet in found.sheets]
+    renderer = probe() if picture else None
+    summary = summarise(case, found, meshes)
+    files = write_meshes(meshes, out, name)
+    if picture and renderer.available:
+        files.append(draw(scene, found, meshes, out / f"{name}.png"))
+    if picture:
+        summary["rendering"] = renderer.words if renderer.available else f"unavailable: {renderer.words}"
+    with style.whole_file(out / f"{name}.json") as waiting:
+        files.append(out / f"{name}.json")
+        summary["files"] = sorted(f.name for f in files)
+        waiting.write_text(json.dumps(summary, indent=1) + "\n", encoding="utf-8")
+    if picture and not renderer.available:
+        raise RenderingUnavailable(
+            f"the meshes are in {out} ({', '.join(summary['files'])}), but no picture could be drawn: {renderer.words}. "
+            f"Cure: {CURE}")
+    return summary
+
+
+def _scene(case):
+    return (case.scene, case.name) if hasattr(case, "scene") else (case, "surface")
+
+
+def _separatrix(scene, reach, shape):
+    from ..analysis.separatrix import separatrix
+    return separatrix(scene, reach=reach, **({"shape": shape} if shape else {}))
+
+
+def summarise(case, found, meshes) -> dict:
+    """Counts and the largest residual, sheet by sheet and in all; plain JSON values."""
+    scene, name = _scene(case)
+    rows = []
+    for sheet, mesh in zip(found.sheets, meshes):
+        invariant = np.asarray(sheet.invariant, float)
+        rows.append({"name": sheet.name, "rows": int(sheet.points.shape[0]), "columns": int(sheet.points.shape[1]),
+                     "vertices": len(mesh.points), "triangles": len(mesh.triangles),
+                     "largest_residual": float(mesh.residual.max(initial=0.0)),
+                     "invariant": [float(invariant.min()), float(invariant.max())],
+                     "bounds": [[float(v) for v in pair] for pair in zip(mesh.points.min(0), mesh.points.max(0))]})
+    return {"schema": SCHEMA, "case": getattr(case, "path", name), "variables": scene.variables,
+            "components": list(scene.components), "sheets": rows, "vertices": sum(r["vertices"] for r in rows),
+            "triangles": sum(r["triangles"] for r in rows),
+            "largest_residual": max((r["largest_residual"] for r in rows), default=0.0), "reason": found.reason}
+
+
+def write_meshes(meshes: list[Mesh], out: Path, name: str) -> list[Path]:
+    """NAME.vtp, NAME.glb, NAME.stl; none of them needs GL. Returns their paths."""
+    out.mkdir(parents=True, exist_ok=True)
+    files = [out / f"{name}.{kind}" for kind in ("vtp", "glb", "stl")]
+    with style.whole_file(files[0]) as waiting:
+        _write_vtp(meshes, waiting)
+    for path, data in zip(files[1:], (glb(meshes, style.SHEETS), stl(meshes))):
+        with style.whole_file(path) as waiting:
+            waiting.write_bytes(data)
+    return files
+
+
+def _write_vtp(meshes, path):
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+    writer = vtkXMLPolyDataWriter()
+    writer.SetFileName(str(path))
+    writer.SetInputData(polydata(meshes))
+    writer.SetDataModeToAppended()
+    writer.EncodeAppendedDataOff()
+    if not writer.Write():
+        raise OSError(f"{path}: VTK could not write it")
+
+
+def polydata(meshes):
+    """All sheets in one vtkPolyData: double-precision points, point arrays "sheet" (int32) and "residual" (float64)."""
+    from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+    from vtkmodules.vtkCommonCore import vtkPoints
+    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+    points = np.concatenate([m.points for m in meshes] or [np.zeros((0, 3))])
+    shifts = np.cumsum([0, *(len(m.points) for m in meshes)])
+    triangles = np.concatenate([m.triangles + s for m, s in zip(meshes, shifts)] or [np.zeros((0, 3), int)])
+    arrays = {"sheet": np.concatenate([np.full(len(m.points), i, np.int32) for i, m in enumerate(meshes)] or [np.zeros(0, np.int32)]),
+              "residual": np.concatenate([m.residual for m in meshes] or [np.zeros(0)])}
+    data, where, cells = vtkPolyData(), vtkPoints(), vtkCellArray()
+    where.SetDataTypeToDouble()
+    where.SetData(numpy_to_vtk(np.ascontiguousarray(points), deep=True))
+    cells.SetData(3, numpy_to_vtkIdTypeArray(np.ascontiguousarray(triangles, np.int64).ravel(), deep=True))
+    data.SetPoints(where)
+    data.SetPolys(cells)
+    for name, values in arrays.items():
+        array = numpy_to_vtk(values, deep=True)
+        array.SetName(name)
+        data.GetPointData().AddArray(array)
+    return data
+
+
+# -- pictures ----------------------------------------------------------------------------------------------------------
+
+
+def equilibrium_lines(scene, found, size):
+    """[("stable" | "unstable" | "degenerate", points (n, 3))] of the equilibrium curves within `size` of the origin."""
+    from ..analysis.equilibria import equilibria
+    lines = []
+    for curve in equilibria(scene).curves:
+        for segment in curve.segments:
+            points = np.array([curve.point(float(t)) for t in _spread(*segment.t)], float)
+            points = points[np.all(np.isfinite(points), axis=1) & (np.linalg.norm(points, axis=1) < size)]
+            if len(points) > 1:
+                lines.append((segment.linear, points))
+    return lines
+
+
+def _spread(low, high, number=600):
+    """Parameters inside (low, high), dense at both ends, geometric towards an infinite end and towards zero."""
+    if np.isfinite(low) and np.isfinite(high):
+        t = low + (high - low) * (1 - np.cos(np.linspace(1e-3, np.pi - 1e-3, number))) / 2
+        return t
+    if np.isfinite(low):
+        return low + np.geomspace(1e-4, 1e4, number) * max(1.0, abs(low))
+    if np.isfinite(high):
+        return high - np.geomspace(1e-4, 1e4, number)[::-1] * max(1.0, abs(high))
+    half = np.geomspace(1e-4, 1e4, number // 2)
+    return np.concatenate([-half[::-1], half])
+
+
+def plotter(scene, found, meshes, still=True):
+    """A pyvista plotter with the sheets, the equilibrium curves and the three axes; the caller closes it."""
+    from .render_probe import use
+    use()
+    import pyvista
+    pyvista.global_theme.multi_samples = 0 if not still else pyvista.global_theme.multi_samples
+    stage = pyvista.Plotter(off_screen=True, window_size=(1000, 800))
+    stage.set_background("white")
+    for number, mesh in enumerate(meshes):
+        if len(mesh.triangles):
+            faces = np.column_stack([np.full(len(mesh.triangles), 3), mesh.triangles]).ravel()
+            surface = pyvista.PolyData(mesh.points.astype(np.float32), faces)
+            surface.point_data["Normals"] = _normals(mesh)
+            stage.add_mesh(surface, color=style.SHEETS[number % len(style.SHEETS)], smooth_shading=False, opacity=1.0,
+                           specular=0.15, name=f"sheet {number}")
+    size = 1.15 * max([np.abs(m.points).max(initial=0.0) for m in meshes] or [0.0]) or 5.0
+    for number, (kind, points) in enumerate(equilibrium_lines(scene, found, 1.3 * size)):
+        look = style.MEANING["fold" if kind == "degenerate" else kind]
+        stage.add_mesh(pyvista.lines_from_points(points).tube(radius=size * 0.008), color=look["color"], name=f"line {number}")
+    for axis, colour in enumerate((style.VERMILION, style.GREEN, style.BLUE)):
+        ends = np.zeros((2, 3))
+        ends[:, axis] = (-size, size)
+        stage.add_mesh(pyvista.Line(*ends).tube(radius=size * 0.003), color=style.GREY, name=f"axis {axis}")
+        tip = np.zeros(3)
+        tip[axis] = size
+        cone = pyvista.Cone(center=tip, direction=np.eye(3)[axis], height=size * 0.06, radius=size * 0.02)
+        stage.add_mesh(cone, color=colour, name=f"tip {axis}")
+    if still:
+        tips = 1.08 * size * np.eye(3)
+        stage.add_point_labels(tips, list(scene.components), shape=None, font_size=22, text_color="black", show_points=False,
+                               always_visible=True)
+    stage.camera_position = [(2.6 * size, -3.4 * size, 2.0 * size), (0, 0, 0), (0, 0, 1)]
+    stage.reset_camera()
+    stage.camera.zoom(1.6)
+    return stage
+
+
+def _normals(mesh):
+    from .mesh import normals
+    return normals(mesh).astype(np.float32)
+
+
+def draw(scene, found, meshes, path) -> Path:
+    """The still picture (PNG), quantised to keep it small; needs a renderer that the probe approved."""
+    from PIL import Image
+    stage = plotter(scene, found, meshes)
+    try:
+        pixels = stage.screenshot(return_img=True)
+    finally:
+        stage.close()
+    image = Image.fromarray(pixels).quantize(256, dither=Image.Dither.NONE)
+    with style.whole_file(path) as waiting:
+        image.save(waiting, format="png", optimize=True)
+    return Path(path)
+
+
+def turntable(scene, found, meshes, path) -> Path:
+    """One self-contained HTML file in which the surfaces can be turned; needs a renderer that the probe approved."""
+    stage = plotter(scene, found, meshes, still=False)
+    try:
+        with style.whole_file(Path(path)) as waiting:
+            stage.trame.export_html(waiting.with_suffix(".html"))
+            waiting.with_suffix(".html").replace(waiting)
+    finally:
+        stage.close()
+    return Path(path)
