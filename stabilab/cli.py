@@ -35,7 +35,9 @@ def stabilab(version: Annotated[bool, typer.Option("--version", callback=_versio
 
 @app.command()
 def show(case: CaseFile):
-    """Show the scene, its equations of motion (text and LaTeX) and the invariants that hold.
+    """Show the equations of motion and the laws that hold.
+
+    Text and LaTeX; the laws are those of this very scene.
 
     Example: stabilab show cases/minor-axis-100.toml
     """
@@ -46,7 +48,7 @@ def show(case: CaseFile):
 @app.command()
 def classify(cases: CaseFiles, json: Json = False, strict: Annotated[bool, typer.Option(
         "--strict", help="Exit with 3 where a verdict or a fate is undecided.")] = False):
-    """Equilibria with their verdicts, and the fate of each case's motion.
+    """Find the equilibria, their stability, and the motion's fate.
 
     Example: stabilab classify cases/minor-axis-100.toml --json
     """
@@ -64,7 +66,7 @@ def classify(cases: CaseFiles, json: Json = False, strict: Annotated[bool, typer
 @app.command()
 def extremes(cases: CaseFiles, json: Json = False,
              csv: Annotated[bool, typer.Option("--csv", help="CSV on stdout instead of text.")] = False):
-    """The least and the greatest value of each component of a motion.
+    """Find the least and greatest rates of each motion.
 
     Example: stabilab extremes cases/minor-axis-*.toml --csv
     """
@@ -88,7 +90,9 @@ def simulate(case: CaseFile,
              rtol: Annotated[Optional[float], typer.Option(help="Relative tolerance; default: the method's own.")] = None,
              out: Annotated[Optional[Path], typer.Option(metavar="FILE.nc|.csv", help="Write the states to a file.")] = None,
              json: Json = False):
-    """Follow the motion of a case and report how far it departs from the laws of motion.
+    """Follow a motion in time.
+
+    Says how far the run departs from the laws of motion.
 
     Example: stabilab simulate cases/major-axis-100.toml --at 0,5,10,15 --json
     """
@@ -110,7 +114,9 @@ def simulate(case: CaseFile,
 
 @app.command()
 def surface(case: CaseFile, out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the files.")] = ...):
-    """Write the separatrix surfaces (.vtp, .glb, .stl, .png) and a summary.
+    """Write the separatrix surfaces as meshes and a picture.
+
+    Files: .vtp, .glb, .stl, .png; a summary goes to stdout (JSON).
 
     Example: stabilab surface cases/minor-axis-100.toml --out surfaces
     """
@@ -139,7 +145,9 @@ def plot(case: CaseFile, out: Annotated[Optional[Path], typer.Option(
 
 @app.command()
 def tables(out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the files.")] = ...):
-    """Write Tables 1-4 of the constant-torque paper as text, CSV, Markdown, LaTeX and HTML.
+    """Write Tables 1-4 of the constant-torque paper.
+
+    Formats: text, CSV, Markdown, LaTeX, HTML.
 
     Example: stabilab tables --out tables
     """
@@ -151,7 +159,9 @@ def tables(out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the
 def report(cases: Annotated[Optional[List[Path]], typer.Argument(
                metavar="[CASE...]", help="Case files; none: the paper's tables and figures alone.", show_default=False)] = None,
            out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the report.")] = Path("report")):
-    """Write tables, figures, surfaces and equations into one folder with an index.html.
+    """Write tables, figures and surfaces as one web page.
+
+    The folder needs no network: open its index.html.
 
     Example: stabilab report --out report
     """
@@ -161,7 +171,7 @@ def report(cases: Annotated[Optional[List[Path]], typer.Argument(
 
 @app.command()
 def doctor():
-    """Say what is installed, whether pictures can be drawn here, and on which processor.
+    """Say what is installed and whether pictures can be drawn.
 
     Example: stabilab doctor
     """
@@ -203,7 +213,10 @@ def _times(case, at: str | None) -> list[float]:
         start, end = case.span
         return [start + (end - start) * i / 200 for i in range(200)] + [end]
     from .exact import exact
-    return sorted({float(exact(word.strip())) for word in at.split(",")})
+    try:
+        return sorted({float(exact(word.strip())) for word in at.split(",")})
+    except InputError as error:
+        raise InputError(f"--at: {error}") from None
 
 
 def _print(text: str):
