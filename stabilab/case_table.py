@@ -48,7 +48,7 @@ class Table:
 
     def one_of(self, *keys: str) -> str | None:
         """The one key of `keys` that is present; a fault where two are."""
-        present = [key for key in keys if key in self.data]
+        present = [key for key in self.data if key in keys]
         if len(present) > 1:
             self.fault(f"{' and '.join(present)} say the same thing in two ways: keep one of them", present[1])
             return None
