@@ -1,0 +1,353 @@
+"""The hard cases: each named, with what goes wrong in straightforward code; answers from 60 to 200-digit oracles."""
+from __future__ import annotations
+
+import math
+
+import mpmath as mp
+import numpy as np
+import pytest
+
+import stabilab
+from stabilab import Fate
+
+from .oracles import energy
+from .oracles.pairs import PAPER_BODY, WORDS, brink, paper, physical, scaled
+from .test_extremes import assert_extremes
+
+BOUNDED, SPIN_UP, SEPARATRIX, EQUILIBRIUM, UNDECIDED = (int(f) for f in Fate)
+
+
+def agrees(pair, states, digits=120, extremes=True, tolerance=1e-11, period=True):
+    """Labels, and for states that are not equilibria their extremes and (bounded) periods, equal the oracle's.
+    Returns the words."""
+    scene, problem = pair
+    states = np.atleast_2d(np.asarray(states, float))
+    words = [energy.label(problem, tuple(s), digits=digits) for s in states.tolist()]
+    np.testing.assert_array_equal(stabilab.fate(scene, states).labels, [WORDS[w] for w in words])
+    margins = np.asarray(stabilab.fate(scene, states).margins)
+    assert not np.any(np.isnan(margins))
+    if extremes:
+        boxes, periods = stabilab.extremes(scene, states), stabilab.period(scene, states)
+        for state, word, box, got in zip(states.tolist(), words, boxes, periods):
+            if word in ("bounded", "spin-up"):
+                assert_extremes(box, energy.extremes(problem, state, digits=digits), tolerance)
+            if word == "bounded" and period:
+                assert got == pytest.approx(float(energy.period(problem, state, digits=digits)), rel=tolerance)
+    return words
+
+
+# 1. On and next to a separatrix --------------------------------------------------------------------------------------
+
+@pytest.mark.parametrize("decade", range(3, 16))
+def test_case_1_states_a_power_of_ten_off_the_separatrix_are_on_their_side(decade):
+    """Fails in code that subtracts two energies, or calls everything within a tolerance "separatrix"."""
+    pair = scaled(0.2, 0.4, (0, 0, 1))
+    sides = [brink(pair[1], (-3.0, 1.0), s * 10.0 ** -decade) for s in (-1, 1)]
+    assert agrees(pair, sides, extremes=False) == ["bounded", "spin-up"]
+
+
+# 2. Large circles: A = 1e3 ... 1e8 -----------------------------------------------------------------------------------
+
+@pytest.mark.parametrize("decade", range(3, 9))
+@pytest.mark.parametrize("sign", [1, -1])
+def test_case_2_a_tilt_of_order_one_decides_on_a_circle_of_any_radius(decade, sign):
+    """U is of order A^2 and the tilt of order 1: energies subtracted in double precision lose the tilt at A = 1e8.
+    The barrier over the start is of order A^2; speeds a tilt's worth away from it lie 1/A^2 apart, on either side."""
+    radius = 10.0 ** decade
+    pair = scaled(0.25, 0.75, (0, 0, sign))
+    states = []
+    for angle in (0.3, 1.9, 3.6, 5.1):
+        start = (radius * math.sin(angle) - 0.25, radius * math.cos(angle))
+        for off in (-1, 1):
+            state = brink(pair[1], start, off * 0.1 * max(radius ** -2, 1e-14))
+            states += [state] if state else []
+    assert len(states) == 8
+    words = agrees(pair, states, extremes=False)
+    assert words.count("bounded") >= 3 and words.count("spin-up") >= 3
+
+
+@pytest.mark.parametrize("decade", range(3, 9))
+def test_case_2_extremes_on_large_circles_keep_their_digits(decade):
+    radius = 10.0 ** decade
+    pair = scaled(0.25, 0.75, (0, 0, 1))
+    states = [(radius * math.sin(t), radius * math.cos(t), s * radius) for t in (0.3, 1.9, 3.6, 5.1) for s in (-0.3, 0.1)]
+    agrees(pair, states)
+
+
+# 3. Folds: saddle and centre merging ---------------------------------------------------------------------------------
+
+@pytest.mark.parametrize("decade", range(1, 6))
+@pytest.mark.parametrize("a, b", [(0.0, 0.0), (0.25, 1.0), (1.5, 0.25)])
+def test_case_3_the_well_that_is_about_to_vanish_still_holds_its_states(decade, a, b):
+    """Just outside the fold's circle the well is as deep as distance^3: a quartic solved for well separated roots
+    misses the pair or makes it complex."""
+    c, sign = b - a, 1
+    fold = max(float(mp.re(r)) for r in mp.polyroots([1, 0, 0, -c, -1]) if abs(mp.im(r)) < 1e-12)
+    h = fold * (1 - 10.0 ** -decade)  # a centre just before the fold
+    centre = (-b - 1 / h, h)
+    pair = scaled(a, b, (0, 0, sign))
+    inside = (*centre, 0.0)
+    speed = brink(pair[1], centre, 0.0)[2]
+    states = [(*centre, f * speed) for f in (-0.9, -0.3, 0.5, 0.99, 1.01, 1.5)]
+    assert agrees(pair, states) == ["bounded"] * 4 + ["spin-up"] * 2
+    assert stabilab.fate(pair[0], np.array(inside)).labels in (BOUNDED, EQUILIBRIUM)
+
+
+def test_case_3_the_exact_fold_is_an_equilibrium_and_holds_nothing():
+    """a = b = 0: fold h = 1, X = -1, A^2 = 2, where F has a double root; a state at rest elsewhere on that circle is
+    uphill or downhill of an inflection, never in a well."""
+    pair = scaled(0, 0, (0, 0, 1))
+    assert stabilab.fate(pair[0], np.array([-1.0, 1.0, 0.0])).labels == EQUILIBRIUM
+    states = [(1.0, 1.0, 0.0), (-1.0, -1.0, 0.3), (1.0, -1.0, -0.2), (-1.0, 1.0, 0.125)]
+    assert agrees(pair, states, extremes=False) == ["equilibrium" if pair[1].rate(s) == [0, 0, 0] else "spin-up" for s in states]
+
+
+# 4. Limits of the parameters -----------------------------------------------------------------------------------------
+
+@pytest.mark.parametrize("a, b", [(1.0, 1.0 + 2.0 ** -52), (1.0, 1.0 + 1e-9), (0.0, 1e-300), (-1e6, -2e6), (3e4, -1e4), (-0.2, -0.4)])
+@pytest.mark.parametrize("mu", [(0, 0, 1), (0, 0, -1), (0, 1, 0), (0, -1, 0)])
+def test_case_4_a_near_b_and_gyrostats_of_any_size_and_sign(a, b, mu):
+    """Formulas that divide by c = b - a, or whose c comes from a difference of rounded numbers, break here."""
+    rng = np.random.default_rng(8)
+    centre = (-a, 0, 0) if mu[2] else (-b, 0, 0)
+    agrees(scaled(a, b, mu), rng.normal(size=(4, 3)) * 2 + centre)
+
+
+@pytest.mark.parametrize("decade", [-12, -9, -6, -3, 3, 6, 9, 12])
+@pytest.mark.parametrize("axis", [0, 1, 2])
+@pytest.mark.parametrize("sign", [1, -1])
+def test_case_4_torques_tiny_and_huge_against_the_gyrostat(decade, axis, sign):
+    """A fixed tolerance takes a tiny torque for none (and calls spin-up bounded), a huge one for no gyrostat."""
+    momentum, torque = np.array([0.4, -0.7, 0.9]), np.zeros(3)
+    momentum[axis], torque[axis] = 0, sign * 10.0 ** decade
+    agrees(physical((3.0, 2.0, 1.5), momentum, torque), np.random.default_rng(axis).normal(size=(4, 3)), period=False)
+
+
+# 5. Middle axis next to the invariant planes -------------------------------------------------------------------------
+
+@pytest.mark.parametrize("tiny", [1e-3, 1e-8, 1e-15, 1e-30, 1e-100, 1e-300])
+@pytest.mark.parametrize("y", [1.0, -2.0, 0.125])
+def test_case_5_a_state_a_hair_off_the_spin_up_plane_turns_back(tiny, y):
+    """x1 + b = y + tiny exactly, x3 = -y: C = 2 y tiny. In doubles x1 + b rounds to y, and the state looks as if on the
+    plane; cosh and sinh of an angle near ln(1/tiny)/2 overflow or cancel. Proof of "bounded": U grows on both sides."""
+    pair = scaled(0.25, tiny, (0, 1, 0))
+    agrees(pair, [(y, s, -y) for s in (0.5, -1.0, 0.0)], digits=400 if tiny > 1e-200 else 900, tolerance=1e-11)
+    assert np.all(np.isfinite(stabilab.extremes(pair[0], np.array([y, 0.5, -y]))))
+
+
+@pytest.mark.parametrize("tiny", [1e-6, 1e-15, 1e-30, 1e-100])
+def test_case_5_the_largest_x2_grows_like_the_root_of_the_logarithm(tiny):
+    """x2max = sqrt(2 ln(1/tiny) + O(1)) (theory): far from overflow, though the angle's exponentials are not."""
+    scene, _ = scaled(0.0, tiny, (0, 1, 0))
+    top = stabilab.extremes(scene, np.array([1.0, 0.0, -1.0]))[1, 1]
+    assert abs(top ** 2 - 2 * math.log(1 / tiny)) < 4
+
+
+@pytest.mark.parametrize("x3", [1e-15, 1e-12, 1e-8, -1e-15])
+def test_case_5_states_with_an_invariant_of_1e_minus_30_are_bounded(x3):
+    """Both Y = x1 + b and x3 nearly vanish: almost pure spin, which would go on for ever."""
+    pair = scaled(0.5, 1.0, (0, 1, 0))
+    agrees(pair, [(-1.0, 0.5, x3), (-1.0, -3.0, x3), (-1.0 + abs(x3) * 2, 0.5, x3)], digits=200)
+
+
+@pytest.mark.parametrize("y, c, spins", [(1.0, 0.5, True), (-2.0, 1.5, True), (3.0, -1.0, True), (-1.5, 3.0, True)])
+def test_case_5_on_the_plane_itself_the_motion_spins_up(y, c, spins):
+    """Y = -x3 exactly (mu2 = 1): all of the plane for |c| < 2 or c Y < 0 (theory)."""
+    pair = scaled(0.0, c, (0, 1, 0))
+    words = agrees(pair, [(y - c, v, -y) for v in (0.5, -0.75, 3.0)], extremes=False)
+    assert words == ["spin-up"] * 3
+
+
+def test_case_5_part_of_the_plane_is_captured_when_c_exceeds_two():
+    """|c| > 2 and c Y > 0: a well opens on the plane Y = -x3; its states are bounded, faster ones spin up."""
+    c = 3.0
+    pair = scaled(0.0, c, (0, 1, 0))
+    words = agrees(pair, [(y - c, v, -y) for y in (0.5, 1.0, 2.0, 2.5) for v in (0.0625, -0.25, 1.0, 6.0)], extremes=False)
+    assert {"bounded", "spin-up"} <= set(words)
+
+
+@pytest.mark.parametrize("y", [0.5, 1.0, -2.0])
+def test_case_5_on_the_other_plane_the_motion_is_periodic(y):
+    """Y = +x3: (x2^2 + x3^2)/2 - c x3 - ln|x3| is constant (theory); closed level lines."""
+    c = 0.75
+    pair = scaled(0.0, c, (0, 1, 0))
+    state = (y - c, 0.5, y)
+    assert agrees(pair, [state]) == ["bounded"]
+    (low, high) = stabilab.extremes(pair[0], np.array(state))[2]
+    def level(v):
+        return v * v / 2 - c * v - math.log(abs(v))
+    assert level(low) == pytest.approx(level(high), rel=1e-11)
+    assert level(high) == pytest.approx(0.125 + level(y), rel=1e-11)
+
+
+# 6. Nearly and exactly symmetric bodies ------------------------------------------------------------------------------
+
+BODIES = {
+    "D1 = (1 + 1e-12) D2": (1000.0 * (1 + 1e-12), 1000.0, 700.0),
+    "D1 = D2 up to one ulp, oblate": (1000.0, 1000.0 * (1 + 2.0 ** -52), 1900.0),
+    "D1 = D2": (1000.0, 1000.0, 700.0),
+    "sphere": (3.0, 3.0, 3.0),
+    "nearly a sphere": (3.0, 3.0 * (1 + 1e-12), 3.0 * (1 - 1e-12)),
+    "rod": (1.0, 1.0, 1e-9),
+    "uneven rod": (1.0, 1.0 - 5e-10, 1e-9),
+    "flat plate, D1 = D2 + D3": (3.0, 2.0, 1.0),
+}
+
+
+@pytest.mark.parametrize("body", BODIES)
+@pytest.mark.parametrize("axis", [0, 1, 2])
+def test_case_6_symmetric_rod_like_and_flat_bodies(body, axis):
+    """Divisions by D_j - D_k: circles of radius 1e12, elliptic and hyperbolic formulas that should meet in a parabola."""
+    inertia = BODIES[body]
+    scale = np.max(inertia)
+    for moment in ((0.4, -0.7, 0.9), (0.0, 0.0, 0.0)):
+        momentum, torque = np.array(moment) * scale, np.zeros(3)
+        momentum[axis], torque[axis] = 0, 0.3 * scale
+        agrees(physical(inertia, momentum, torque), np.random.default_rng(axis).normal(size=(4, 3)), period=False)
+
+
+def test_case_6_the_symmetric_limit_is_reached_continuously():
+    """Margins and extremes of D1 = (1 + 1e-12) D2 differ from those of D1 = D2 by about 1e-12, not by 1."""
+    states = np.random.default_rng(2).normal(size=(20, 3))
+    boxes = []
+    for lift in (0.0, 1e-12):
+        scene, _ = physical((1000.0 * (1 + lift), 1000.0, 700.0), (0.0, 200.0, 300.0), (50.0, 0.0, 0.0))
+        boxes.append(stabilab.extremes(scene, states))
+    np.testing.assert_allclose(boxes[0], boxes[1], rtol=1e-8, atol=1e-9)
+
+
+# D = (4, 4, 2), lambda = (0, l2, 0), torque (M1, 0, 0): with angle a from the saddle (0, u, v), w3 = v - l2 a/2 and
+# w2 = u - v a/2 + l2 a^2/8, so w1' = (2 w2 w3 + l2 w3 + M1)/4 is a cubic in a and w1^2 = 2 integral a rational quartic.
+TIES = [(1.0, -50.0, (-10.5, -2.5), (1.0, -7.5, -3.5)), (2.0, -70.0, (-11.0, -3.5), (1.0, -9.0, -4.5)),
+        (4.0, -110.0, (-12.0, -5.5), (0.5, -10.5, -6.5)), (8.0, -64.0, (-12.0, -4.0), (8.0, -12.0, 4.0))]
+
+
+@pytest.mark.parametrize("l2, torque, saddle, state", TIES)
+def test_case_6_parabolic_states_exactly_on_a_separatrix_are_recognised(l2, torque, saddle, state):
+    """The only case with torque where doubles can tie: all numbers are rational. Any rounding in U(saddle) - E tips it."""
+    scene, problem = physical((4.0, 4.0, 2.0), (0.0, l2, 0.0), (torque, 0.0, 0.0))
+    assert problem.rate((0, *saddle)) == [0, 0, 0]
+    word = energy.label(problem, state)
+    assert word == "separatrix"
+    assert stabilab.fate(scene, np.array(state)).labels == SEPARATRIX
+    for speed in (np.nextafter(state[0], 10), np.nextafter(state[0], 0)):
+        near = (float(speed), *state[1:])
+        assert energy.label(problem, near) == "bounded"  # a double well: bounded on either side of the tie
+        assert stabilab.fate(scene, np.array(near)).labels == BOUNDED
+
+
+# 7. The ends of the equilibrium hyperbola, and its degeneration to lines ---------------------------------------------
+
+@pytest.mark.parametrize("h", [2.0 ** -20, 2.0 ** -40, 2.0 ** 20, 2.0 ** 40, -(2.0 ** -30)])
+def test_case_7_equilibria_far_out_on_the_hyperbola_are_found_and_judged(h):
+    """X = -1/h, x2 = h with a = b = 0: exact doubles at distances up to 1e12, where X x2 + 1 must not be lost."""
+    pair = scaled(0, 0, (0, 0, 1))
+    assert stabilab.fate(pair[0], np.array([-1 / h, h, 0.0])).labels == EQUILIBRIUM
+    nudge = 2.0 ** -10 * min(1.0, abs(h), 1 / abs(h))
+    agrees(pair, [(-1 / h, h, nudge), (-1 / h, h, -nudge)])
+
+
+@pytest.mark.parametrize("axis, momentum, torque", [(2, (100.0, 50.0, 0.0), -10.0), (1, (100.0, 0.0, 50.0), 5.0),
+                                                    (0, (0.0, 100.0, 50.0), -10.0)])
+def test_case_7_fates_where_the_equilibrium_conic_is_two_lines(axis, momentum, torque):
+    """M_i = -lambda_j lambda_k/(D_j - D_k): the centre of the hyperbola lies on it; closed forms divide by zero there."""
+    moment = [0.0] * 3
+    moment[axis] = torque
+    pair = physical(PAPER_BODY, momentum, moment)
+    j, k = (axis + 1) % 3, (axis + 2) % 3
+    gap = PAPER_BODY[j] - PAPER_BODY[k]
+    assert momentum[j] * momentum[k] / gap + torque == 0  # exactly degenerate
+    agrees(pair, np.random.default_rng(6).normal(size=(6, 3)) * 0.5)
+
+
+# 8. Exact equilibria and invariant planes as initial states ----------------------------------------------------------
+
+@pytest.mark.parametrize("a, b, mu, state", [
+    (0.0, 0.0, (0, 0, 1), (-2.0, 0.5, 0.0)), (0.0, 0.0, (0, 0, 1), (-0.5, 2.0, 0.0)), (0.25, 0.5, (0, 0, 1), (-2.5, 0.5, 0.0)),
+    (0.25, 0.5, (0, 0, -1), (1.5, 0.5, 0.0)), (0.25, 0.5, (0, 1, 0), (1.75, 0.0, 0.5)), (0.5, 0.5, (1, 0, 0), (-0.5, 2.0, -0.5)[:3])])
+def test_case_8_an_exact_equilibrium_is_neither_bounded_nor_spinning_up(a, b, mu, state):
+    """Saddle or centre: margin, period and turning points are 0/0 in naive code."""
+    scene, problem = scaled(a, b, mu)
+    if problem.rate([energy.Fraction(v) for v in state]) != [0, 0, 0]:
+        pytest.skip("not an equilibrium of this scene")
+    assert stabilab.fate(scene, np.array(state)).labels == EQUILIBRIUM
+    np.testing.assert_array_equal(stabilab.extremes(scene, np.array(state)), np.array([state, state]).T)
+    assert stabilab.period(scene, np.array(state)) == 0
+
+
+# 9. Long motions -----------------------------------------------------------------------------------------------------
+
+@pytest.mark.parametrize("speed", [-1e3, -1e6])
+def test_case_9_a_spin_that_must_first_be_braked_through_many_turns_has_exact_extremes(speed):
+    """Speed -1e6 is undone only after 8e10 turns: nobody can integrate that, the reduced potential needs two turns."""
+    pair = scaled(0.2, 0.4, (0, 0, 1))
+    assert set(agrees(pair, [(1.0, 2.0, speed), (-3.0, 0.5, speed)], tolerance=1e-13)) <= {"spin-up", "bounded"}
+
+
+# 10. Torque a hair off a principal axis ------------------------------------------------------------------------------
+
+@pytest.mark.parametrize("off", [1e-9, -1e-12, 1e-300])
+def test_case_10_a_torque_off_the_axis_by_any_amount_is_not_rounded_to_the_axis(off):
+    """Isolated equilibria, at distance 1/off, and no integral: a label from the reduced motion would be a guess."""
+    scene, _ = scaled(0.2, 0.4, (0, off, 1))
+    result = stabilab.fate(scene, np.array([2.5, 4.0, 0.1]))
+    assert result.labels == UNDECIDED and result.because
+
+
+# 11. Cancellation between a and b, circles without a radius, the cusp, minute orbits ----------------------------------
+
+@pytest.mark.parametrize("mu", [(0, 0, 1), (0, 0, -1), (0, 1, 0)])
+@pytest.mark.parametrize("base", [1e8, -1e8, 2.0 ** 40])
+def test_case_11_a_and_b_of_order_1e8_with_a_difference_of_order_one(base, mu):
+    """Everything depends on c = b - a; x1 + a loses eight digits when formed from rounded parts."""
+    pair = scaled(base, base + 0.75, mu)
+    states = np.random.default_rng(12).normal(size=(6, 3)) * 2 - (base, 0, 0)
+    agrees(pair, states, tolerance=1e-11)
+
+
+@pytest.mark.parametrize("radius", [0.0, 1e-8, 1e-160, 5e-324])
+@pytest.mark.parametrize("speed", [0.0, 0.5, -2.0])
+def test_case_11_circles_of_no_or_hardly_any_radius_spin_up_without_nan(radius, speed):
+    """The angle atan2(0, 0) has no meaning; the motion has: x3' = 1 + O(radius)."""
+    scene, _ = scaled(0.0, 0.5, (0, 0, 1))
+    state = np.array([0.0, radius, speed])  # X = x1 + a = 0
+    result = stabilab.fate(scene, state)
+    assert result.labels == SPIN_UP and result.margins == -np.inf
+    box = stabilab.extremes(scene, state)
+    assert box[2, 1] == np.inf and box[2, 0] == pytest.approx(min(speed, 0.0) if speed < 0 else speed, rel=1e-7)
+    np.testing.assert_allclose(box[:2], [[-radius, radius]] * 2, rtol=1e-11)
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_case_11_the_double_well_just_above_the_cusp_is_found(sign):
+    """|c| = 1.76 against the cusp 1.75477: saddles exist for a window of about 1e-4 of the invariant, which a scan misses.
+    Equilibria g with g^4 + c g + 1 < 0 are saddles; they and their neighbours must get their margins."""
+    c = 1.76 * sign
+    pair = scaled(0.0, c, (0, 1, 0))
+    g = -sign * 3 ** -0.25  # the middle of the window, where g^4 + c g + 1 is least for |c| at the cusp
+    assert g ** 4 + c * g + 1 < 0
+    saddle = (1 / g, 0.0, g)
+    scene, problem = pair
+    states = np.array([(saddle[0], s, saddle[2]) for s in (1e-5, -1e-5, 1e-3, 1e-2, 0.3)])
+    agrees(pair, states, tolerance=1e-10)
+    for state, margin in zip(states.tolist(), np.asarray(stabilab.fate(scene, states).margins)):
+        exact = energy.margin(problem, state)
+        assert exact is not None and abs(margin - float(exact)) <= 1e-12 * abs(float(exact)) + 1e-16
+    wide = np.array([(saddle[0] * 1.01, 1e-3, saddle[2])])
+    assert energy.margin(problem, tuple(wide[0])) is None
+    assert stabilab.fate(scene, wide).margins[0] == np.inf
+
+
+@pytest.mark.parametrize("amplitude", [1e-6, 1e-12, 1e-17, 1e-100])
+@pytest.mark.parametrize("mu, state", [((0, 0, 1), (-2.0, 0.5)), ((0, 0, 1), (-8.0, 0.125))])
+def test_case_11_an_orbit_of_any_smallness_about_a_centre_has_its_period_and_extremes(amplitude, mu, state):
+    """E - U(centre) is 1e-34 against terms of order one; x3max must come out as the amplitude, T as 2 pi/sqrt(m) with
+    m = X^2 - x2^2 = 1/h^2 - h^2 for a = b = 0."""
+    pair = scaled(0, 0, mu)
+    h = state[1]
+    probe = np.array([*state, amplitude])
+    assert agrees(pair, [probe], digits=300) == ["bounded"]
+    np.testing.assert_allclose(stabilab.extremes(pair[0], probe)[2], [-amplitude, amplitude], rtol=1e-11)
+    harmonic = 2 * math.pi / math.sqrt(h ** -2 - h ** 2)
+    # the correction to the harmonic period is of the order of (amplitude/h)^2
+    assert stabilab.period(pair[0], probe) == pytest.approx(harmonic, rel=max(100 * (amplitude / h) ** 2, 1e-11))
