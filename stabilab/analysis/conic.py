@@ -1,0 +1,180 @@
+"""The curve of equilibria in the plane of the reduction, cut where the invariant Q = Z^2 - e X^2 is stationary.
+
+G X Z + c Z + d X + mu = 0 is a hyperbola, two lines or one line. Between its folds (points where it touches an orbit)
+Q is monotone along it, so each piece meets an orbit at most once: that makes the search for all barriers and wells of
+every orbit complete and vectorised.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+import numpy as np
+
+from .rootfind import bracketed_newton, real_polynomial_roots
+
+
+@dataclass(frozen=True)
+class Piece:
+    """Part of the hyperbola X = (K/h - c)/G, Z = h - d/G with h between `inner` and `outer` in size (0 and inf at the
+    open ends), of one sign; `rising`: Q grows with |h|. barrier: it holds saddles (maxima of the potential)."""
+
+    sign: int
+    inner: float
+    outer: float
+    rising: bool
+    barrier: bool
+
+
+@dataclass(frozen=True)
+class Line:
+    """Equilibria (x0 + t dx, z0 + t dz): a degenerate conic."""
+
+    x0: float
+    z0: float
+    dx: float
+    dz: float
+
+
+class Conic:
+    """The equilibria of a reduction with e = -1 or +1 and their pieces. exact constants decide degeneracy."""
+
+    def __init__(self, reduction):
+        self.e = reduction.e
+        g = reduction.exact_constants
+        self.G, self.c, self.d, self.mu = (reduction.constants[n] for n in ("G", "c", "d", "mu"))
+        self.pieces: tuple[Piece, ...] = ()
+        self.lines: tuple[Line, ...] = ()
+        self.folds: tuple[float, ...] = ()
+        G, c, d, mu = g["G"], g["c"], g["d"], g["mu"]
+        if G == 0:
+            size = c * c + d * d
+            if size:
+                self.lines = (Line(float(-mu * d / size), float(-mu * c / size), float(-c), float(d)),)
+            self.K = self.shift = 0.0
+            return
+        # K through roots of rationals would miss an exact zero by 2^-240: recognise it in rational arithmetic
+        K = Fraction(0) if _conic_degenerates(reduction) else c * d / G - mu
+        self.K, self.shift = float(K), float(d / G)
+        if K == 0:
+            self.lines = (Line(float(-c / G), float(-d / G), 0.0, 1.0), Line(float(-c / G), float(-d / G), 1.0, 0.0))
+            return
+        quartic = [Fraction(1), -d / G, Fraction(0), -self.e * c * K / G**2, self.e * K * K / G**2]
+        self.folds = tuple(real_polynomial_roots([_shorten(a) for a in quartic]))
+        self.pieces = tuple(self._pieces())
+
+    def at(self, h):
+        """(X, Z) on the hyperbola."""
+        return (self.K / h - self.c) / self.G, h - self.shift
+
+    def invariant(self, h):
+        x, z = self.at(h)
+        return (z - x) * (z + x) if self.e > 0 else z * z + x * x
+
+    def _pieces(self):
+        for sign in (-1, 1):
+            cuts = sorted(abs(f) for f in self.folds if f * sign > 0)
+            for inner, outer in zip([0.0, *cuts], [*cuts, float("inf")]):
+                a, b = _inside(inner, outer)
+                x, z = self.at(sign * a)
+                slope = self.G * (z * z + self.e * x * x) + self.e * self.c * x + self.d * z
+                rising = self.invariant(sign * b) > self.invariant(sign * a)
+                yield Piece(sign, inner, outer, bool(rising), bool(slope > 0))
+
+    def critical_places(self, Q, wanted=None):
+        """Every equilibrium on the orbits Q (n,): a list of (X, Z, exists, barrier) with arrays (n,), barrier None
+        where it is to be decided from the slope. wanted: True for barriers only."""
+        found = []
+        for piece in self.pieces:
+            if wanted is None or piece.barrier == wanted:
+                x, z, exists = self._meet_piece(piece, Q)
+                found.append((x, z, exists, piece.barrier))
+        for line in self.lines:
+            found.extend((*hit, None) for hit in self._meet_line(line, Q))
+        return found
+
+    def _meet_piece(self, piece, Q):
+        """The point of a piece where the invariant is Q."""
+        inner, outer, sign = piece.inner, piece.outer, piece.sign
+        value = lambda size: self.invariant(sign * size)
+        with np.errstate(all="ignore"):
+            ends = [value(inner) if inner else self._end(inner), value(outer) if np.isfinite(outer) else np.inf]
+        low, high = (ends[0], ends[1]) if piece.rising else (ends[1], ends[0])
+        exists = (Q > low) & (Q < high)
+        x, z = np.zeros(Q.shape), np.zeros(Q.shape)
+        if exists.any():
+            size = self._solve(piece, Q[exists])
+            x[exists], z[exists] = self.at(sign * size)
+        return x, z, exists
+
+    def _end(self, inner):
+        """Limit of the invariant as |h| -> 0."""
+        return -self.e * np.inf if self.K else self.invariant(inner)
+
+    def _solve(self, piece, Q):
+        """|h| with invariant Q on a piece: Newton in log|h| for an open-ended piece, where both ends are powers."""
+        sign, K, c, G, s = piece.sign, self.K, self.c, self.G, self.shift
+        root = np.sqrt(np.abs(Q))
+        # bounds that no solution exceeds: |Z| and |X| are bounded by Q and by the other one's asymptote
+        reach = root + abs(c / G) + abs(s) + np.sqrt(abs(K / G)) + 1e-300
+        hi = np.minimum(piece.outer, 4 * reach)
+        lo = np.maximum(piece.inner, abs(K) / (4 * reach * abs(G)))
+        lo, hi = np.minimum(lo, hi), np.maximum(lo, hi)
+        if np.isinf(piece.outer):
+            start = np.clip(root + abs(s), lo, hi)
+        elif piece.inner == 0:
+            start = np.clip(abs(K) / (abs(G) * root + abs(c) + 1e-300), lo, hi)
+        else:
+            start = 0.5 * (lo + hi)
+
+        def fun(t, Q):
+            h = sign * np.exp(t)
+            x, z = (K / h - c) / G, h - s
+            value = ((z - x) * (z + x) if self.e > 0 else z * z + x * x) - Q
+            return value, 2 * (z * h + self.e * x * K / (h * G))
+        t = bracketed_newton(fun, np.log(lo), np.log(hi), np.log(start), (Q,), rising=piece.rising)
+        return np.exp(t)
+
+    def _meet_line(self, line, Q):
+        """Both points of a line where the invariant is Q: a quadratic in t."""
+        e = self.e
+        a = line.dz**2 - e * line.dx**2
+        b = line.z0 * line.dz - e * line.x0 * line.dx
+        k = line.z0**2 - e * line.x0**2 - Q
+        if a == 0:
+            t = -k / (2 * b) if b else np.zeros(Q.shape)
+            yield line.x0 + t * line.dx, line.z0 + t * line.dz, np.full(Q.shape, bool(b))
+            return
+        disc = b * b - a * k
+        exists = disc > 0
+        root = np.sqrt(np.where(exists, disc, 0))
+        for side in (-1, 1):
+            t = (-b + side * root) / a
+            yield line.x0 + t * line.dx, line.z0 + t * line.dz, exists
+
+
+def _inside(inner, outer):
+    """Two points inside (inner, outer), the first nearer to `inner`."""
+    if inner == 0 and np.isinf(outer):
+        return 0.5, 2.0
+    if inner == 0:
+        return outer / 3, outer / 1.5
+    if np.isinf(outer):
+        return inner * 1.5, inner * 3
+    return inner + (outer - inner) / 3, inner + (outer - inner) / 1.5
+
+
+def _shorten(value: Fraction, bits: int = 300) -> Fraction:
+    """The value to 300 bits: exact zeros stay, huge denominators go."""
+    if value.denominator.bit_length() <= bits:
+        return value
+    shift = bits + value.denominator.bit_length() - abs(value.numerator).bit_length()
+    return Fraction(round(value * 2**shift), 2**shift) if shift > 0 else value
+
+
+def _conic_degenerates(reduction) -> bool:
+    """True iff c d = G mu exactly: with cj = rho - kappa sj, ck = sigma - kappa sk, torque T this is cj ck = kappa T."""
+    r = reduction
+    sj, sk = r.q0 / r.q, r.p0 / r.p
+    torque = r.m + r.kappa * sj * sk - r.rho * sk - r.sigma * sj
+    return (r.rho - r.kappa * sj) * (r.sigma - r.kappa * sk) == r.kappa * torque

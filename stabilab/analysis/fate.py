@@ -1,0 +1,347 @@
+"""The fate of a state: bounded, spin-up, on the separatrix, at rest, or undecided; and its margin in energy.
+
+Decided by energy, never by running. On a circle (elliptic reduction) a motion is bounded iff a barrier at least as
+high as its energy stands ahead, in the direction of the torque, within one turn: one turn later the tilted potential
+has fallen. On a hyperbola or parabola the potential grows on both sides, so all motions are bounded but those on one
+of the invariant planes Q = 0. Inputs are taken as exact; what doubles cannot decide is decided in many digits.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import IntEnum
+from fractions import Fraction
+from functools import cached_property
+
+import numpy as np
+
+from ..errors import InputError
+from .landscape import EPS, TURN, Landscape, landscape
+from .precise import decide
+from .results import Fate
+
+CHUNK = 16384
+ROUNDINGS = 64  # units of rounding allowed for in the error bound of a margin: some thirty operations, each counted twice
+
+
+class Reason(IntEnum):
+    """Why a label was given; `REASONS` has the words."""
+
+    BELOW_BARRIER = 0
+    ABOVE_BARRIER = 1
+    NO_BARRIER = 2
+    WALLS = 3
+    PLANE_CAPTURED = 4
+    PLANE_ESCAPES = 5
+    PURE_SPIN = 6
+    TIE = 7
+    AT_REST = 8
+    TORQUE_FREE = 9
+    ASYMPTOTIC = 10
+    UNBOUNDED_LAW = 11
+    OFF_AXIS = 12
+
+
+REASONS = {
+    Reason.BELOW_BARRIER: "the energy is below the barrier of the reduced potential that stands ahead of it in the direction of the torque",
+    Reason.ABOVE_BARRIER: "the energy exceeds every barrier of the reduced potential within one turn ahead, and each later turn is lower still",
+    Reason.NO_BARRIER: "the orbit's circle carries no equilibrium, so the reduced potential falls all the way in the direction of the torque",
+    Reason.WALLS: "the reduced potential grows without bound on both sides of the motion",
+    Reason.PLANE_CAPTURED: "on the invariant plane Q = 0, below the barrier that stands ahead",
+    Reason.PLANE_ESCAPES: "on the invariant plane Q = 0 that decays in the direction of the torque, above any barrier: a set of measure zero",
+    Reason.PURE_SPIN: "pure spin about the torque's axis: the other two rates stay where the torque does not see them",
+    Reason.TIE: "the energy equals the barrier's: the motion tends to the saddle equilibrium",
+    Reason.AT_REST: "an equilibrium lies within half a unit in the last place of the state",
+    Reason.TORQUE_FREE: "no torque: the kinetic energy is constant, and it is positive definite",
+    Reason.ASYMPTOTIC: "no torque, on an invariant plane: the motion tends to a permanent rotation",
+    Reason.UNBOUNDED_LAW: "|H|^2/2 - D_i T grows steadily at the rate lambda_i M_i: no motion is bounded",
+    Reason.OFF_AXIS: "the torque is off the principal axes: no integral of motion bounds or releases it, and none is known",
+}
+
+
+@dataclass(frozen=True)
+class FateResult:
+    """Labels and margins of states (..., 3).
+
+    labels: (...,) int8 of `Fate`. margins: (...,) barrier minus energy in the scene's energy (J; or x_i^2/2 + U when
+    scaled): positive below the barrier; -inf where there is no barrier ahead, +inf where no separatrix bounds the
+    motion. axis: 1, 2, 3 of a spin-up, else 0; sense: its sign, else 0. reasons: (...,) `Reason` codes. precise: how
+    many states had to be decided in many digits. Iterating gives labels, margins.
+    """
+
+    labels: np.ndarray
+    margins: np.ndarray
+    axis: np.ndarray
+    sense: np.ndarray
+    reasons: np.ndarray
+    precise: int = 0
+    scene: object = field(default=None, repr=False, compare=False)
+    states: np.ndarray = field(default=None, repr=False, compare=False)
+
+    def __iter__(self):
+        return iter((self.labels, self.margins))
+
+    @property
+    def because(self):
+        """The reason in words: a string for one state, an object array otherwise."""
+        words = np.array([REASONS[Reason(code)] for code in np.ravel(self.reasons)], dtype=object)
+        return words[0] if self.reasons.ndim == 0 else words.reshape(self.reasons.shape)
+
+    @cached_property
+    def velocity_margins(self) -> np.ndarray:
+        """(...,) smallest change of the state that reaches the separatrix, in the state's unit; inf without one."""
+        from .distance import separatrix_distance
+        return separatrix_distance(self.scene, self.states)
+
+
+def checked_states(states) -> np.ndarray:
+    """States as a float array (..., 3); InputError otherwise."""
+    try:
+        array = np.asarray(states, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError("states: expected numbers in an array of shape (..., 3)") from None
+    if array.ndim < 1 or array.shape[-1] != 3:
+        raise InputError(f"states: expected an array of shape (..., 3), got shape {array.shape}")
+    if not np.isfinite(array).all():
+        raise InputError("states: every component must be finite; at least one is NaN or infinite")
+    return array
+
+
+def fate(scene, states) -> FateResult:
+    """The fate of every state of an array (..., 3) in the scene's variables (rad/s, or x when scaled).
+
+    scene: Scene or ScaledGyrostat. Returns a FateResult. Raises InputError for arrays of another shape, for non-finite
+    numbers, and for scenes with effects that this analysis does not cover.
+    """
+    array = checked_states(states)
+    flat = np.ascontiguousarray(array.reshape(-1, 3))
+    label_chunk = _labeller(scene)
+    n = len(flat)
+    out = {"labels": np.empty(n, np.int8), "margins": np.empty(n), "axis": np.zeros(n, np.int8),
+           "sense": np.zeros(n, np.int8), "reasons": np.empty(n, np.int8)}
+    precise = 0
+    for start in range(0, n, CHUNK):
+        part = slice(start, min(start + CHUNK, n))
+        precise += label_chunk(flat[part], {name: column[part] for name, column in out.items()})
+    shape = array.shape[:-1]
+    return FateResult(**{name: column.reshape(shape) for name, column in out.items()}, precise=precise, scene=scene,
+                      states=array)
+
+
+def _labeller(scene):
+    """The function that labels a chunk (n, 3) into the columns of `out` and returns how many needed many digits."""
+    land = landscape(scene)
+    if land is not None:
+        by_geometry = {-1: _label_circle, 1: _label_hyperbola, 0: _label_parabola}[land.e]
+
+        def label(states, out):
+            precise = by_geometry(land, states, out)
+            at_rest(scene, states, out)
+            return precise
+        return label
+    from .irreducible import labeller
+    return labeller(scene)
+
+
+def at_rest(scene, states, out):
+    """Mark states within half a unit in the last place of an equilibrium."""
+    found = equilibrium_mask(scene, states)
+    if found.any():
+        out["labels"][found], out["reasons"][found] = Fate.EQUILIBRIUM, Reason.AT_REST
+        out["axis"][found] = out["sense"][found] = 0
+
+
+def equilibrium_mask(scene, states) -> np.ndarray:
+    """(n,) True where rounding of the state's own components accounts for all of its rate.
+
+    First the rates in doubles, then, for the few that pass, exact rates against |J| ulp/2.
+    """
+    form = scene.quadratic()
+    kappa, rho, sigma, m = form.coefficients
+    candidate = np.ones(len(states), bool)
+    for i, (j, k) in enumerate(((1, 2), (2, 0), (0, 1))):
+        u, v = states[:, j], states[:, k]
+        terms = kappa[i] * u * v, rho[i] * v, sigma[i] * u
+        rate = terms[0] + terms[1] + terms[2] + m[i]
+        size = np.abs(terms[0]) + np.abs(terms[1]) + np.abs(terms[2]) + abs(m[i])
+        candidate &= np.abs(rate) <= 16 * EPS * size
+    for index in np.nonzero(candidate)[0]:
+        candidate[index] = _rests(form, states[index])
+    return candidate
+
+
+def _rests(form, state) -> bool:
+    x = [Fraction(float(v)) for v in state]
+    half = [Fraction(float(np.spacing(abs(v)))) / 2 if v else Fraction(0) for v in state]
+    rates, jacobian = form.rate(x), form.jacobian(x)
+    return all(abs(rate) <= sum(abs(a) * h for a, h in zip(row, half)) for rate, row in zip(rates, jacobian))
+
+
+def _label_circle(land: Landscape, states, out) -> int:
+    place, w, size = land.start(states)
+    margins, doubtful = circle_margins(land, place, w, size)
+    axis, sense = land.reduction.axis + 1, land.sense
+    doubtful = np.nonzero(doubtful)[0]
+    signs = np.sign(margins)
+    for index in doubtful:
+        tie = decide(land.reduction, states[index])
+        margins[index], signs[index] = tie.margin, tie.sign
+    out["margins"][:] = margins * land.reduction.energy_unit
+    if sense == 0:  # no torque: bounded either way
+        out["labels"][:], out["reasons"][:] = Fate.BOUNDED, Reason.TORQUE_FREE
+    else:
+        inside = signs > 0
+        out["labels"][:] = np.where(inside, Fate.BOUNDED, Fate.SPIN_UP)
+        out["reasons"][:] = np.where(inside, Reason.BELOW_BARRIER,
+                                     np.where(np.isneginf(margins), Reason.NO_BARRIER, Reason.ABOVE_BARRIER))
+        out["axis"][:], out["sense"][:] = np.where(inside, 0, axis), np.where(inside, 0, sense)
+    _mark_ties(out, signs == 0)
+    return len(doubtful)
+
+
+def _mark_ties(out, tie):
+    out["labels"][tie], out["reasons"][tie] = Fate.SEPARATRIX, Reason.TIE
+    out["axis"][tie] = out["sense"][tie] = 0
+
+
+def circle_margins(land: Landscape, place, w, size):
+    """(margins (n,), doubtful (n,)): highest barrier within one turn ahead minus the energy, in canonical units."""
+    pot = land.potential
+    offsets, spots, barrier = land.critical(place, barriers_only=True)
+    energy = 0.5 * w * w
+    best, doubtful = np.full(w.shape, -np.inf), np.zeros(w.shape, bool)
+    x, z = place
+    radius = np.hypot(x, z)
+    rounding = size[0] + size[1]
+    with np.errstate(all="ignore"):
+        angle_error = 32 * EPS * (1 + rounding / radius)
+        pull = np.abs(pot.G * x + pot.c) + abs(pot.d)
+        for column in range(offsets.shape[1]):
+            offset = np.where(barrier[:, column], offsets[:, column], np.nan)
+            spot = spots[:, :, column]
+            margin = -pot.rise(-offset, spot) - energy
+            scale = (pot.mu * (offset + rounding / radius) + energy
+                     + (pull + np.abs(pot.G * spot[0] + pot.c)) * (rounding + np.abs(spot[0]) + np.abs(spot[1])))
+            there = ~np.isnan(offset)
+            doubtful |= there & ((np.abs(margin) <= ROUNDINGS * EPS * scale)
+                                 | ((np.minimum(offset, TURN - offset) <= angle_error)
+                                    & (energy <= ROUNDINGS * EPS * scale)))
+            best = np.where(there & (margin > best), margin, best)
+        for fold in land.conic.folds:
+            edge = land.conic.invariant(fold)
+            doubtful |= np.abs(radius**2 - edge) <= ROUNDINGS * EPS * (rounding**2 + edge)
+    return best, doubtful & (radius > 0)
+
+
+def _label_hyperbola(land: Landscape, states, out) -> int:
+    place, w, size = land.start(states)
+    out["labels"][:], out["reasons"][:] = Fate.BOUNDED, Reason.WALLS
+    if land.sense == 0:
+        out["reasons"][:] = Reason.TORQUE_FREE
+    margins, signs, precise = _valley_margins(land, states, place, w, size)
+    tie = signs == 0
+    out["margins"][:] = margins * land.reduction.energy_unit
+    _mark_ties(out, tie)
+    on_plane = np.nonzero((place[0] == 0) | (place[1] == 0))[0]
+    for index in on_plane:
+        _label_plane(land, states[index], [v[index] for v in place], w[index], out, index)
+    return precise
+
+
+def _valley_margins(land, states, place, w, size):
+    """Margins to the barrier nearest in height; +inf where the orbit has none. Both sides of it are bounded."""
+    n = len(w)
+    margins, signs = np.full(n, np.inf), np.ones(n)
+    if land.e > 0 and not any(p.barrier for p in land.conic.pieces) and not land.conic.lines:
+        return margins, signs, 0
+    pot, energy = land.potential, 0.5 * w * w
+    offsets, spots, barrier = land.critical(place, barriers_only=True)
+    doubtful = np.zeros(n, bool)
+    with np.errstate(all="ignore"):
+        for column in range(offsets.shape[1]):
+            offset, spot = offsets[:, column], spots[:, :, column]
+            rise = pot.rise(-offset, spot)
+            margin = np.where(barrier[:, column], -rise - energy, np.inf)
+            nearer = np.abs(margin) < np.abs(margins)
+            margins = np.where(nearer, margin, margins)
+            force, slope = np.abs(pot.force(place)), np.abs(pot.slope(place))
+            scale = energy + np.abs(rise) + force * np.abs(offset) + slope * offset**2 + _roughness(land, place, size)
+            doubtful |= nearer & (np.abs(margin) <= ROUNDINGS * EPS * scale)
+    signs = np.sign(margins)
+    for index in np.nonzero(doubtful)[0]:
+        tie = decide(land.reduction, states[index])
+        signs[index], margins[index] = (tie.sign, tie.margin) if np.isfinite(tie.margin) else (1, np.inf)
+    return margins, signs, int(doubtful.sum())
+
+
+def _roughness(land, place, size):
+    """Magnitude of the potential's terms, whose rounding limits a height."""
+    pot, s = land.potential, size[0] + size[1]
+    if land.e > 0:
+        return np.abs(pot.G) * s * s + (abs(pot.e1) + abs(pot.e2)) * s + pot.mu
+    return np.abs(pot.kappa) * s * s + (abs(pot.rho) + abs(pot.sigma)) * s + abs(pot.m)
+
+
+def _label_plane(land, state, place, w, out, index):
+    """One state exactly on an invariant plane (or on both: pure spin)."""
+    xi, eta = place
+    pot, axis = land.potential, land.reduction.axis + 1
+    if xi == 0 and eta == 0:
+        _write(out, index, Fate.SPIN_UP if land.sense else Fate.BOUNDED, Reason.PURE_SPIN, -np.inf, axis, land.sense)
+        return
+    if land.sense == 0:
+        quarter = -0.25 * pot.G
+        edge = 0.5 * quarter * (xi * xi + eta * eta) - pot.e1 * xi + pot.e2 * eta + 0.5 * w * w
+        label = Fate.BOUNDED if edge < 0 else Fate.SEPARATRIX
+        reason = Reason.TORQUE_FREE if edge < 0 else Reason.ASYMPTOTIC
+        _write(out, index, label, reason, -edge * land.reduction.energy_unit)
+        return
+    if eta == 0:  # grows ahead, and the torque's tilt rises behind
+        _write(out, index, Fate.BOUNDED, Reason.WALLS, np.inf)
+        return
+    tie = decide(land.reduction, state)
+    margin = tie.margin * land.reduction.energy_unit
+    if tie.sign > 0:
+        _write(out, index, Fate.BOUNDED, Reason.PLANE_CAPTURED, margin)
+    elif tie.sign == 0:
+        _write(out, index, Fate.SEPARATRIX, Reason.TIE, 0.0)
+    else:
+        _write(out, index, Fate.SPIN_UP, Reason.PLANE_ESCAPES, margin, axis, land.sense)
+
+
+def _write(out, index, label, reason, margin, axis=0, sense=0):
+    spin = label == Fate.SPIN_UP
+    out["labels"][index], out["reasons"][index], out["margins"][index] = label, reason, margin
+    out["axis"][index], out["sense"][index] = axis * spin, sense * spin
+
+
+def _label_parabola(land: Landscape, states, out) -> int:
+    place, w, size = land.start(states)
+    out["labels"][:] = Fate.BOUNDED
+    out["reasons"][:] = Reason.TORQUE_FREE if land.sense == 0 else Reason.WALLS
+    margins, signs, precise = _valley_margins(land, states, place, w, size)
+    out["margins"][:] = margins * land.reduction.energy_unit
+    _mark_ties(out, signs == 0)
+    if land.sense:
+        for index in np.nonzero(flat_mask(land, states, place))[0]:
+            _write(out, index, Fate.SPIN_UP, Reason.PURE_SPIN, -np.inf, land.reduction.axis + 1, land.sense)
+    return precise
+
+
+def flat_mask(land, states, place):
+    """(n,) True where the force does not change along the parabola at all (exactly): nothing holds the spin back."""
+    first, second, third = land.potential.derivatives(place)
+    small = np.zeros(len(states), bool)
+    size = 1e-6 * (abs(land.potential.kappa) + abs(land.potential.rho) + abs(land.potential.sigma))
+    reach = 1 + np.abs(place[0]) + np.abs(place[1])
+    small |= (np.abs(first) <= size * reach**2 * 10) & (np.abs(third) <= size * reach**2 * 10)
+    for index in np.nonzero(small)[0]:
+        small[index] = _is_flat(land.reduction, states[index])
+    return small
+
+
+def _is_flat(r, state) -> bool:
+    u, v = Fraction(float(state[r.j])), Fraction(float(state[r.k]))
+    a, b = r.p * v + r.p0, r.q * u + r.q0
+    first = r.kappa * (a * v + u * b) + r.rho * b + r.sigma * a
+    second = r.kappa * (2 * a * b + r.p * b * v + u * r.q * a) + r.rho * r.q * a + r.sigma * r.p * b
+    return first == 0 and second == 0 and r.kappa * (r.q * a * a + r.p * b * b) == 0

@@ -1,0 +1,123 @@
+"""The reduced potential: differences of height and force along an orbit, free of cancellation.
+
+Each class is one geometry of the reduction (circle, hyperbola, parabola) with the same small interface. A *place* is a
+pair of arrays that moves along the orbit with the coordinate theta; `rise(y, place, force)` is V(theta + y) - V(theta).
+At an equilibrium (force 0) the first-order terms drop out analytically, so barriers and turning points keep their
+digits next to a separatrix.
+"""
+from __future__ import annotations
+
+import numpy as np
+
+
+def y_minus_sin(y):
+    """y - sin y without cancellation."""
+    y2 = y * y
+    small = y * y2 / 6 * (1 - y2 / 20 * (1 - y2 / 42 * (1 - y2 / 72 * (1 - y2 / 110 * (1 - y2 / 156)))))
+    return np.where(np.abs(y) < 0.7, small, y - np.sin(y))
+
+
+def exp_minus_two_terms(t):
+    """exp(t) - 1 - t without cancellation."""
+    series = np.zeros_like(t)
+    for n in range(17, 2, -1):
+        series = (1 + series) * t / n
+    return np.where(np.abs(t) < 0.7, 0.5 * t * t * (1 + series), np.expm1(t) - t)
+
+
+class Elliptic:
+    """Circle: place = (X, Z)."""
+
+    def __init__(self, constants: dict):
+        self.G, self.c, self.d, self.mu = (constants[name] for name in ("G", "c", "d", "mu"))
+
+    def force(self, place):
+        x, z = place
+        return self.mu + self.G * x * z + self.c * z + self.d * x
+
+    def slope(self, place):
+        """dF/dtheta; positive at a barrier, negative in a well."""
+        x, z = place
+        return self.G * (z - x) * (z + x) - self.c * x + self.d * z
+
+    def move(self, place, y):
+        x, z = place
+        half = np.sin(0.5 * y)
+        s, b = np.sin(y), -2 * half * half
+        return x + (z * s + x * b), z + (z * b - x * s)
+
+    def rise(self, y, place, force=0.0):
+        x, z = place
+        half = np.sin(0.5 * y)
+        s, b = np.sin(y), -2 * half * half
+        dx = z * s + x * b
+        return (-self.mu * y_minus_sin(y) - force * s - b * (self.G * x * x + self.c * x - self.d * z)
+                - 0.5 * self.G * dx * dx)
+
+
+class Hyperbolic:
+    """Hyperbola: place = (xi, eta) = (X + Z, X - Z), growing and decaying like exp(+-theta)."""
+
+    def __init__(self, constants: dict):
+        self.G, self.mu = constants["G"], constants["mu"]
+        self.e1 = 0.5 * (constants["c"] + constants["d"])
+        self.e2 = 0.5 * (constants["d"] - constants["c"])
+
+    def force(self, place):
+        xi, eta = place
+        return self.mu + 0.25 * self.G * (xi - eta) * (xi + eta) + self.e1 * xi + self.e2 * eta
+
+    def slope(self, place):
+        xi, eta = place
+        return 0.5 * self.G * (xi * xi + eta * eta) + self.e1 * xi - self.e2 * eta
+
+    def move(self, place, y):
+        return place[0] * np.exp(y), place[1] * np.exp(-y)
+
+    def rise(self, y, place, force=0.0):
+        xi, eta = place
+        quarter = -0.125 * self.G
+        two = exp_minus_two_terms
+        return (quarter * (xi * xi * two(2 * y) + eta * eta * two(-2 * y)) - self.e1 * xi * two(y)
+                + self.e2 * eta * two(-y) - force * y)
+
+
+class Parabolic:
+    """Parabola (two equal moments): place = (omega_j, omega_k); the potential is a polynomial of degree 4 or less."""
+
+    def __init__(self, reduction):
+        names = ("p", "p0", "q", "q0", "kappa", "rho", "sigma", "m")
+        self.p, self.p0, self.q, self.q0, self.kappa, self.rho, self.sigma, self.m = (
+            float(getattr(reduction, name)) for name in names)
+
+    def force(self, place):
+        u, v = place
+        return self.kappa * u * v + self.rho * v + self.sigma * u + self.m
+
+    def derivatives(self, place):
+        """F', F'', F''' along the orbit."""
+        u, v = place
+        a, b = self.p * v + self.p0, self.q * u + self.q0
+        first = self.kappa * (a * v + u * b) + self.rho * b + self.sigma * a
+        second = (self.kappa * (2 * a * b + self.p * b * v + u * self.q * a) + self.rho * self.q * a
+                  + self.sigma * self.p * b)
+        return first, second, 3 * self.kappa * (self.q * a * a + self.p * b * b)
+
+    def slope(self, place):
+        return self.derivatives(place)[0]
+
+    def move(self, place, y):
+        u, v = place
+        a, b = self.p * v + self.p0, self.q * u + self.q0
+        return u + y * (a + 0.5 * self.p * b * y), v + y * (b + 0.5 * self.q * a * y)
+
+    def rise(self, y, place, force=0.0):
+        first, second, third = self.derivatives(place)
+        return -y * (force + y * (first / 2 + y * (second / 6 + y * third / 24)))
+
+
+def potential(reduction):
+    """The potential of a reduction."""
+    if reduction.e == 0:
+        return Parabolic(reduction)
+    return (Elliptic if reduction.e < 0 else Hyperbolic)(reduction.constants)

@@ -1,0 +1,110 @@
+"""Vectorised root finding: Newton's method held inside a bracket."""
+from __future__ import annotations
+
+import numpy as np
+
+EPS = float(np.finfo(float).eps)
+
+
+def bracketed_newton(fun, lo, hi, start, args=(), rising=True, iterations=200):
+    """Roots of monotone functions, one per element.
+
+    fun(x, *args) -> (value, slope), all arrays (n,); lo, hi, start: arrays (n,), the root lies in [lo, hi] (ends may
+    be any way round the root's side is decided by `rising`, a bool or array). Newton steps that leave the bracket are
+    replaced by bisection, so it converges for every continuous monotone function; it stops at two units in the last
+    place. Returns (n,).
+    """
+    x = np.array(start, float)
+    lo, hi = np.array(np.broadcast_to(lo, x.shape), float), np.array(np.broadcast_to(hi, x.shape), float)
+    rising = np.broadcast_to(np.asarray(rising), x.shape)
+    args = tuple(np.broadcast_to(a, x.shape) for a in args)
+    out = x.copy()
+    live = np.arange(x.size)
+    last = np.full(x.shape, np.inf)  # size of the step before: Newton must at least halve it, else bisect
+    for round_ in range(iterations):
+        with np.errstate(all="ignore"):
+            value, slope = fun(x, *args)
+            step = value / slope
+        right = (value > 0) == rising  # the root is on the low side of x
+        hi = np.where(right, x, hi)
+        lo = np.where(right, lo, x)
+        new = x - step
+        inside = (new >= lo) & (new <= hi) & ((np.abs(step) < 0.5 * last) | (round_ < 3))
+        middle = 0.5 * (lo + hi)
+        new = np.where(inside, new, middle)
+        move = np.abs(new - x)
+        last = np.where(inside, np.abs(step), np.abs(hi - lo))
+        new = np.where(value == 0, x, new)
+        done = (value == 0) | (move <= 2 * EPS * np.abs(new)) | (hi - lo <= 2 * EPS * np.maximum(np.abs(lo), np.abs(hi)))
+        out[live] = new
+        if done.all():
+            break
+        if round_ >= 4:  # most are done by now: go on with the rest only
+            keep = ~done
+            live, x, lo, hi, last, rising = live[keep], new[keep], lo[keep], hi[keep], last[keep], rising[keep]
+            args = tuple(a[keep] for a in args)
+        else:
+            x = new
+    return out
+
+
+def real_polynomial_roots(coefficients) -> list[float]:
+    """Real roots, ascending, of a polynomial with exact (Fraction) coefficients, highest first.
+
+    The roots of the derivative separate those of the polynomial; signs at the separators are exact, so no root of odd
+    multiplicity is missed or invented. A root of even multiplicity is returned where a separator is an exact root.
+    """
+    coefficients = list(coefficients)
+    while coefficients and not coefficients[0]:
+        coefficients.pop(0)
+    degree = len(coefficients) - 1
+    if degree <= 0:
+        return []
+    if degree == 1:
+        return [float(-coefficients[1] / coefficients[0])]
+    derivative = [a * (degree - i) for i, a in enumerate(coefficients[:-1])]
+    from fractions import Fraction
+
+    def value(x):
+        total = 0
+        for a in coefficients:
+            total = total * x + a
+        return total
+
+    bound = 1 + max(abs(a / coefficients[0]) for a in coefficients[1:])
+    knots = [-bound, *(Fraction(r) for r in real_polynomial_roots(derivative)), bound]
+    roots = []
+    for left, right in zip(knots, knots[1:]):
+        fl, fr = value(left), value(right)
+        if fl == 0 and left != -bound:
+            roots.append(float(left))
+        if (fl > 0) != (fr > 0) and fl and fr:
+            roots.append(_bisect_newton(value, left, right, fl, coefficients))
+    return sorted(set(roots))
+
+
+def _bisect_newton(value, left, right, fl, coefficients):
+    """The root in (left, right), to the nearest double or its neighbour: floats guide, exact signs decide."""
+    from fractions import Fraction
+    slopes = [float(a) for a in coefficients]
+    lo, hi, sign = float(left), float(right), fl > 0
+    x = 0.5 * (lo + hi)
+    for _ in range(200):
+        f, df = 0.0, 0.0
+        for a in slopes:
+            df = df * x + f
+            f = f * x + a
+        exact_value = value(Fraction(x)) if abs(f) < 1e-6 * (abs(df * x) + abs(slopes[-1])) else f
+        if exact_value == 0:
+            return x
+        if (exact_value > 0) == sign:
+            lo = x
+        else:
+            hi = x
+        new = x - float(exact_value) / df if df else 0.5 * (lo + hi)
+        if not lo < new < hi:
+            new = 0.5 * (lo + hi)
+        if new == x or not lo < new < hi:
+            return new
+        x = new
+    return x
