@@ -35,7 +35,7 @@ def space(start):
                 room = 0.05 * np.ptp(column)
                 setter(column.min() - room, column.max() + room)
             ax.view_init(22, -62)
-            style.name_space(ax, 0.98)
+            style.name_space(ax, 0.9)
             ax.set_title(rf"$\lambda_1={lam}$")
         bar = figure.colorbar(pieces, ax=figure.axes, shrink=0.6, pad=0.06)
         bar.ax.set_title(r"$\tau$")

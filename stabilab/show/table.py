@@ -44,28 +44,31 @@ def cell(value) -> str:
 # -- what the tables say ------------------------------------------------------------------------------------------------
 
 
+TORQUE_COLUMNS = {"wheel": "gyrostat", "torque signs": "mu", "equilibria": "number", "form": "form",
+                  "condition": "condition", "characteristic polynomial": "polynomial", "spectrum": "spectrum",
+                  "linear": "linear", "nonlinear": "nonlinear"}
+_SIGNS = {"mu": "μ", "!=": "≠", "+-": "±", "sqrt": "√", "^2": "²", "^3": "³", "^4": "⁴", "<=": "≤", ">=": "≥"}
+
+
 def torque_signs() -> Table:
     """Table 1: every combination of torque signs, with the wheel (a != b) and without its effect (a = b)."""
-    from dataclasses import fields
-
     from ..analysis.torque_table import torque_table
-    header, rows = None, []
-    for a, b, words in ((paper.scene("minor", 100).a, paper.scene("minor", 100).b, "a ≠ b"), (0, 0, "a = b")):
-        for row in torque_table(a, b):
-            names = [f.name for f in fields(row)]
-            header = header or ("wheel", *(n.replace("_", " ") for n in names))
-            rows.append((words, *(_words(getattr(row, n)) for n in names)))
+    scene = paper.scene("minor", 100)
+    rows = [tuple(_signs(getattr(row, field)) for field in TORQUE_COLUMNS.values())
+            for pair in ((scene.a, scene.b), (scene.a, scene.a)) for row in torque_table(*pair)]
     return Table(1, "Equilibria and their stability under every constant torque", "All sign combinations of the torque "
                  "(μ1, μ2, μ3). The paper grants eight equilibria whenever μ1 μ2 μ3 ≥ 0; there are never more than two "
-                 "isolated ones, and curves only for a torque along one axis or none.", header or (), tuple(rows), wide=True)
+                 "isolated ones, and curves only for a torque along one axis or none.", tuple(TORQUE_COLUMNS), tuple(rows),
+                 wide=True)
 
 
-def _words(value):
-    if value is None or isinstance(value, (str, int, float)):
-        return value
-    if isinstance(value, (tuple, list)):
-        return ", ".join(str(_words(v)) for v in value)
-    return str(value)
+def _signs(value) -> str | None:
+    """Words with the usual mathematical signs; None for the dash that stands for nothing."""
+    if isinstance(value, tuple):
+        return f"({', '.join(value)})".replace("-", "−")
+    for plain, sign in _SIGNS.items():
+        value = value.replace(plain, sign)
+    return None if value == "-" else value
 
 
 EXTREMES_HEADER = ("case", "λ1", "a", "b", "x1(0)", "x2(0)", "x3(0)", "fate", "period", "x1 min", "x1 max", "x2 min",
@@ -123,7 +126,7 @@ def text(table: Table, width: int = 160) -> str:
     lines = [f"Table {table.number}. {table.title}", ""]
     if table.wide:
         for row in rows:
-            lines += [f"  {name}: {value}" for name, value in zip(table.header, row)] + [""]
+            lines += [f"  {name}: {value}" for name, value in zip(table.header, row) if value != "–"] + [""]
     else:
         widths = [max(len(row[i]) for row in [list(table.header), *rows]) for i in range(len(table.header))]
         for row in [list(table.header), *rows]:

@@ -1,0 +1,242 @@
+"""The report: one folder with every table, figure, surface, case and formula, readable from disk without a network."""
+from __future__ import annotations
+
+import math
+import os
+import sys
+import tempfile
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import StabilabError
+from . import figures, paper, surface, table
+
+PACKAGES = ("numpy", "scipy", "sympy", "heyoka", "matplotlib", "vtk", "pyvista", "python-flint")
+SURFACE_SHAPE = (80, 161)  # rows and columns of a sheet: smooth to the eye, 3 MB a scene
+
+
+def write(cases=None, out="report", progress=None) -> Path:
+    """Write the report on `cases` (paths or Case; all of the repository's where empty) into the folder `out`.
+
+    Everything is made in a temporary folder beside `out` and renamed into place, index.html last. Where 3-D pictures
+    cannot be drawn the report is written without them and says so. progress(words) is called before every step; by
+    default a line on stderr where that is a terminal. Returns the path of index.html; raises CaseError for a case file
+    with faults, before anything is written.
+    """
+    out = Path(out)
+    loaded = _load(cases)
+    out.parent.mkdir(parents=True, exist_ok=True)
+    with _progress(progress) as tell, tempfile.TemporaryDirectory(prefix=f".{out.name}.", dir=out.parent) as folder:
+        _make(loaded, Path(folder), tell, out)
+        return _put_in_place(Path(folder), out)
+
+
+def _load(cases):
+    from ..case import load
+    paths = list(cases or sorted(table.cases_folder().glob("*.toml"), key=lambda p: _natural(p.stem)))
+    return [item if hasattr(item, "scene") else load(item) for item in paths]
+
+
+def _natural(name):
+    stem, _, number = name.rpartition("-")
+    return (stem, int(number)) if number.isdigit() else (name, 0)
+
+
+@contextmanager
+def _progress(given):
+    if given or not sys.stderr.isatty():
+        yield given or (lambda words: None)
+        return
+    from rich.console import Console
+    console = Console(stderr=True)
+    with console.status("report") as status:
+        yield lambda words: status.update(f"report: {words}")
+
+
+def _make(cases, folder, tell, out):
+    """Fill the temporary folder."""
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+    environment = Environment(loader=FileSystemLoader(Path(__file__).parent / "templates"), autoescape=True,
+                              undefined=StrictUndefined)
+    tell("tables")
+    tables = _tables(folder)
+    drawn = figures.write(None, folder / "figures", tell)
+    tell("surfaces")
+    surfaces, note = _surfaces(cases, folder, tell)
+    sections = [_section(case, folder, tell) for case in cases]
+    tell("printed formulas")
+    from ..audit import check
+    page = environment.get_template("index.html").render(
+        title="Bounded motion and spin-up of a gyrostat under constant torque", paper=paper.PAPER, rendering_note=note,
+        cases=sections, tables=tables, surfaces=surfaces, audit=check(), versions=_versions(),
+        figures=[{**vars(row), "file": f"figures/{path.name}", "command": row.command}
+                 for row, path in zip(figures.FIGURES, drawn)],
+        command=f"stabilab report {' '.join(case.path for case in cases)} --out {out}")
+    (folder / "index.html").write_text(page, encoding="utf-8")
+
+
+def _put_in_place(folder, out) -> Path:
+    """Rename every file to its place under `out`, index.html last."""
+    files = sorted((f for f in folder.rglob("*") if f.is_file()), key=lambda f: f == folder / "index.html")
+    for file in files:
+        target = out / file.relative_to(folder)
+        target.parent.mkdir(parents=True, exist_ok=True)
+        os.replace(file, target)
+    return out / "index.html"
+
+
+def _tables(folder):
+    from markupsafe import Markup
+    rows = []
+    for one in table.tables():
+        names = []
+        for kind, make in table.FORMATS.items():
+            path = folder / "tables" / f"{one.stem}.{kind}"
+            path.parent.mkdir(exist_ok=True)
+            path.write_text(make(one), encoding="utf-8")
+            names.append(f"tables/{path.name}")
+        rows.append({"number": one.number, "title": one.title, "wide": one.wide, "rows": one.rows, "files": names,
+                     "html": Markup(table.html_fragment(one))})  # escaped cell by cell in table.py
+    return rows
+
+
+def _surfaces(cases, folder, tell):
+    """One entry for every different scene that has a separatrix; and what to say where nothing can be drawn."""
+    from .render_probe import CURE, probe
+    renderer, entries, seen = probe(), [], []
+    for case in cases:
+        if case.scene in seen:
+            continue
+        seen.append(case.scene)
+        entry = _surface(case, folder / "surfaces", renderer, tell)
+        if entry:
+            entries.append(entry)
+    note = "" if renderer.available else (f"3-D pictures could not be drawn on this machine ({renderer.words}); the meshes "
+                                          f"are here all the same. Cure: {CURE}")
+    return entries, note
+
+
+def _surface(case, folder, renderer, tell):
+    from ..analysis.separatrix import separatrix
+    try:
+        found = separatrix(case.scene, shape=SURFACE_SHAPE)
+    except StabilabError:
+        return None  # the case's own section gives the reason
+    if not found.sheets:
+        return None
+    tell(f"surface of {case.name}")
+    meshes = [surface.triangulate(sheet) for sheet in found.sheets]
+    summary = surface.summarise(case, found, meshes)
+    files = surface.write_meshes(meshes, folder, case.name)
+    still = scene = None
+    if renderer.available:
+        still = surface.draw(case.scene, found, meshes, folder / f"{case.name}.png")
+        scene = surface.turntable(case.scene, found, meshes, folder / f"{case.name}.html")
+    return {"title": case.title or case.name, "reason": found.reason, "triangles": summary["triangles"],
+            "residual": summary["largest_residual"], "files": [f"surfaces/{f.name}" for f in files],
+            "still": still and f"surfaces/{still.name}", "scene": scene and f"surfaces/{scene.name}",
+            "command": f"stabilab surface {case.path} --out surfaces"}
+
+
+# -- one case ----------------------------------------------------------------------------------------------------------
+
+
+def _section(case, folder, tell) -> dict:
+    """Everything the template says of a case, as plain words."""
+    tell(f"case {case.name}")
+    section = {"name": case.name, "title": case.title or case.name, "source": case.source, "path": case.path,
+               "text": case.text, "fate": "", "motion": [], "equilibria": [], "equilibria_kind": "", "equilibria_reason": "",
+               "picture": None, "problem": "", **_equations(case.scene)}
+    try:
+        section |= _equilibria(case.scene)
+        if case.state is not None:
+            section |= _motion(case)
+            section["picture"] = _picture(case, folder)
+    except StabilabError as error:
+        section["problem"] = str(error)
+    return section
+
+
+def _equations(scene):
+    from ..equations import derive, invariants, latex, lines
+    equations = derive(scene)
+    values = ", ".join(f"{name} = {float(value):.12g}" for name, value in equations.parameters.items())
+    return {"equations": lines(equations), "latex": latex(equations), "parameters": values,
+            "laws": [law.words for law in invariants(scene)]}
+
+
+def _equilibria(scene):
+    from ..analysis.equilibria import equilibria
+    found = equilibria(scene)
+    rows = [{"where": _triple(p.at), "linear": p.linear, "verdict": p.verdict, "because": p.because, "css": _css(p.verdict)}
+            for p in found.points]
+    for curve in found.curves:
+        rows += [{"where": f"{curve.name}: {curve.parametrisation}, t from {s.t[0]:.6g} to {s.t[1]:.6g}", "linear": s.linear,
+                  "verdict": s.verdict, "because": s.because, "css": _css(s.verdict)} for s in curve.segments]
+        rows += [{"where": f"fold at {_triple(fold)}", "linear": "degenerate", "verdict": "", "because": "", "css": ""}
+                 for fold in curve.folds]
+    return {"equilibria_kind": found.kind, "equilibria_reason": found.reason, "equilibria": rows}
+
+
+def _css(verdict):
+    return {"stable": "bounded", "unstable": "spin-up"}.get(verdict, "")
+
+
+def _triple(values):
+    return "(" + ", ".join(f"{v:.12g}" for v in values) + ")"
+
+
+def _motion(case):
+    from ..analysis.motion import motion
+    found = motion(case.scene, case.state, case.span)
+    names = case.scene.components
+    rows = [("start", _triple(found.at)), ("fate", found.fate.word + (f" about axis {found.axis}, "
+             f"{'positive' if found.sense > 0 else 'negative'} sense" if found.axis else "")), ("because", found.because)]
+    if found.margin_energy is not None:
+        rows.append(("energy below the separatrix", f"{found.margin_energy:.15g}"))
+    if found.margin_velocity is not None:
+        rows.append(("smallest change of state to it", f"{found.margin_velocity:.15g}"))
+    if found.period is not None:
+        rows.append(("period", f"{found.period:.15g} {case.scene.time_unit}"))
+    if found.extremes is not None:
+        rows += [(f"{name} ({found.extremes_over})", _range(pair)) for name, pair in zip(names, found.extremes)]
+    rows += [(f"invariant {name}", f"{value:.15g}") for name, value in found.invariants.items()]
+    rows += [(name, _evidence(value)) for name, value in found.evidence.items()]
+    if found.tolerance is not None:
+        rows.append(("tolerance reached", f"{found.tolerance:.2g}"))
+    return {"fate": found.fate.word, "motion": rows}
+
+
+def _range(pair):
+    low, high = ("unknown" if v is None else "unbounded" if math.isinf(v) else f"{v:.15g}" for v in pair)
+    return f"{low} to {high}"
+
+
+def _evidence(value):
+    if isinstance(value, float):
+        return f"{value:.12g}"
+    if isinstance(value, (list, tuple, np.ndarray)):
+        return "(" + ", ".join(_evidence(v) for v in value) + ")"
+    return str(value)
+
+
+def _picture(case, folder):
+    from .plane import plot
+    return f"cases/{plot(case, folder / 'cases' / f'{case.name}.png').name}"
+
+
+def _versions():
+    """(name, version) of the program, Python, the machine and the libraries that had a part."""
+    import platform
+    from importlib.metadata import PackageNotFoundError, version
+
+    from .. import __version__
+    rows = [("stabilab", __version__), ("Python", platform.python_version()), ("system", f"{platform.system()} {platform.machine()}")]
+    for name in PACKAGES:
+        try:
+            rows.append((name, version(name)))
+        except PackageNotFoundError:
+            rows.append((name, "not installed"))
+    return rows
