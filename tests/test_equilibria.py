@@ -1,0 +1,319 @@
+"""Equilibria against exact elimination (SymPy), the equations themselves, symmetries and the cases of the theory."""
+from __future__ import annotations
+
+import math
+import random
+import subprocess
+import sys
+from fractions import Fraction as F
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, equilibria
+from stabilab.analysis.equilibrium_conics import balance_fails, conic_curves
+from stabilab.analysis.pencil import pencil
+from stabilab.analysis.torque_free_equilibria import torque_free_curves
+from stabilab.errors import InputError
+
+D_PAPER = (2000, 1500, 1000)
+
+
+def physical(D, lam, M) -> Scene:
+    return Scene(Body(D), Gyrostat(lam), ConstantTorque(M))
+
+
+def euler(D, lam, M):
+    """The equations of motion written out here anew in SymPy: a list of three polynomials in x, y, z."""
+    import sympy as sp
+    w = sp.Matrix(sp.symbols("x y z"))
+    D, lam, M = (sp.Matrix([sp.Rational(F(v).numerator, F(v).denominator) for v in u]) for u in (D, lam, M))
+    return list((sp.diag(*D) * w + lam).cross(w) + M), list(w)
+
+
+def scaled_equations(a, b, mu):
+    import sympy as sp
+    x, y, z = w = sp.symbols("x y z")
+    a, b, *mu = (sp.Rational(F(v).numerator, F(v).denominator) for v in (a, b, *mu))
+    return [y * z + mu[0], -z * (x + a) + mu[1], y * (x + b) + mu[2]], list(w)
+
+
+def real_solutions(equations, w, form=(3, 7, 19)):
+    """Real values of a separating linear form over all solutions, by a Groebner basis: [] if none, None if a continuum."""
+    import sympy as sp
+    u = sp.Symbol("u")
+    basis = sp.groebner([*equations, u - sum(c * v for c, v in zip(form, w))], *w, u, order="lex")
+    if basis.exprs == [1]:
+        return []
+    last = [e for e in basis.exprs if e.free_symbols <= {u}]
+    return sorted(set(map(float, sp.real_roots(sp.Poly(last[0], u))))) if last else None
+
+
+def values(points, form=(3, 7, 19)):
+    return sorted(sum(c * float(v) for c, v in zip(form, x)) for x in points)
+
+
+def small(rng, zero=0.2):
+    return F(0) if rng.random() < zero else F(rng.randint(-9, 9), rng.choice((1, 2, 3)))
+
+
+def random_body(rng):
+    kind = rng.choice(("any", "any", "two equal", "sphere", "flat"))
+    if kind == "sphere":
+        return (F(3),) * 3
+    if kind == "two equal":
+        D = [F(4), F(4), F(rng.choice((1, 2, 7)))]
+    elif kind == "flat":
+        D = [F(5), F(3), F(2)]
+    else:
+        D = [F(rng.randint(10, 18)) for _ in range(3)]
+    rng.shuffle(D)
+    return tuple(D)
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_isolated_equilibria_are_those_of_exact_elimination(seed):
+    rng = random.Random(seed)
+    D, lam, M = random_body(rng), [small(rng) for _ in range(3)], [small(rng, 0.3) for _ in range(3)]
+    found = equilibria(physical(D, lam, M))
+    solutions = real_solutions(*euler(D, lam, M))
+    if found.kind in ("curves", "all"):
+        assert solutions is None
+    else:
+        assert solutions is not None and len(found.points) == len(solutions)
+        assert values(p.at for p in found.points) == pytest.approx(solutions, rel=1e-12, abs=1e-12)
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_scaled_isolated_equilibria_are_those_of_exact_elimination(seed):
+    rng = random.Random(1000 + seed)
+    a, mu = small(rng), [small(rng, 0.3) for _ in range(3)]
+    b = a if rng.random() < 0.3 else small(rng)
+    found, solutions = equilibria(ScaledGyrostat(a, b, mu)), real_solutions(*scaled_equations(a, b, mu))
+    if found.kind == "curves":
+        assert solutions is None
+    else:
+        assert values(p.at for p in found.points) == pytest.approx(solutions, rel=1e-12, abs=1e-12)
+
+
+CURVED = [  # D, lambda, M: hyperbola, lines that cross, one line, oblique torque on a symmetric body, torque-free
+    (D_PAPER, (100, 0, 0), (0, 0, 204)), ((5, 4, 2), (2, 3, 0), (0, 0, -6)), ((5, 4, 2), (2, 3, 0), (0, 0, 6)),
+    ((5, 4, 5), (2, 3, 0), (0, 0, -6)), ((2, 2, 1), (1, 2, 0), (0, 0, 1)), ((2, 2, 1), (2, 1, 3), (1, -2, 0)),
+    ((3, 3, 3), (1, 2, 3), (3, 0, -1)), ((5, 4, 2), (1, 2, 3), (0, 0, 0)), ((5, 4, 2), (1, 0, 3), (0, 0, 0)),
+    ((5, 4, 2), (0, 1, 0), (0, 0, 0)), ((4, 4, 2), (1, 2, 3), (0, 0, 0)), ((4, 4, 2), (1, 2, 0), (0, 0, 0)),
+    ((5, 4, 2), (0, 0, 0), (0, 0, 0)), ((3, 3, 3), (1, 2, 3), (0, 0, 0)), ((5, 4, 2), (0, 1, 2), (3, 0, 0))]
+
+
+@pytest.mark.parametrize("D, lam, M", CURVED)
+def test_curves_meet_any_plane_where_exact_elimination_says(D, lam, M):
+    import sympy as sp
+    p = pencil(physical(D, lam, M))
+    assert not any(M) or balance_fails(p) is None
+    curves = conic_curves(p) if any(M) else torque_free_curves(p)[0]
+    t, rng = sp.Symbol("t"), random.Random(7)
+    for _ in range(3):
+        normal, height = [rng.randint(1, 9) for _ in range(3)], rng.randint(1, 9)
+        equations, w = euler(D, lam, M)
+        expected = real_solutions([*equations, sum(n * v for n, v in zip(normal, w)) - height], w)
+        met = set()
+        for c in curves:
+            condition = sum((n * sp.Poly([sp.Rational(v.numerator, v.denominator) for v in reversed(q.c)] or [0], t)
+                             for n, q in zip(normal, c.numerators)), sp.Poly(0, t))
+            condition -= height * sp.Poly([sp.Rational(v.numerator, v.denominator) for v in reversed(c.denominator.c)], t)
+            if not condition.is_ground:
+                met |= {tuple(map(float, c.exact_point(F(str(sp.N(r, 40)))))) for r in sp.real_roots(condition)}
+        assert values(met) == pytest.approx(expected, rel=1e-9, abs=1e-9)
+
+
+@pytest.mark.parametrize("D, lam, M", CURVED)
+def test_every_sample_and_fold_of_a_curve_is_an_equilibrium(D, lam, M):
+    scene = physical(D, lam, M)
+    for curve in equilibria(scene).curves:
+        assert len(curve.samples) >= 3 * len(curve.segments)
+        for at in (*(s.at for s in curve.samples), *curve.folds):
+            assert residual(scene, at) <= 8 * 2**-53
+
+
+def residual(scene, at) -> float:
+    """Largest |rate| over the size of its terms and of the derivative times the rounding of `at`; exact arithmetic."""
+    x, form = [F(v) for v in at], scene.quadratic()
+    worst = 0.0
+    for i, (j, k) in enumerate(((1, 2), (2, 0), (0, 1))):
+        terms = (form.kappa[i] * x[j] * x[k], form.rho[i] * x[k], form.sigma[i] * x[j], form.m[i])
+        size = sum(map(abs, terms))
+        worst = max(worst, float(abs(sum(terms)) / size) if size else 0.0)
+    return worst
+
+
+decades = st.integers(-12, 12)
+mantissa = st.integers(-999, 999)
+number = st.builds(lambda m, e: F(m) * F(10) ** e, mantissa, st.integers(-6, 6))
+nonzero = number.filter(bool)
+body = st.tuples(st.integers(100, 200), st.integers(100, 200), st.integers(100, 200))
+
+
+@settings(max_examples=150, deadline=None)
+@given(body, st.tuples(number, number, number), st.tuples(number, number, number), decades)
+def test_every_returned_point_satisfies_the_equations_to_rounding(D, lam, M, e):
+    scene = physical(D, lam, [v * F(10) ** e for v in M])
+    found = equilibria(scene)
+    for p in (*found.points, *(s for c in found.curves for s in c.samples)):
+        assert residual(scene, p.at) <= 8 * 2**-53
+
+
+@settings(max_examples=60, deadline=None)
+@given(body, st.tuples(number, number, number), st.tuples(number, number, number))
+def test_relabelling_the_axes_relabels_the_answer(D, lam, M):
+    turn = lambda v: (v[1], v[2], v[0])  # noqa: E731
+    one, two = equilibria(physical(D, lam, M)), equilibria(physical(turn(D), turn(lam), turn(M)))
+    assert one.kind == two.kind and len(one.curves) == len(two.curves)
+    assert sorted(turn(p.at) for p in one.points) == sorted(p.at for p in two.points)
+    assert folds(one, turn) == folds(two)
+
+
+def folds(found, change=lambda v: v):
+    return sorted({tuple(v + 0.0 for v in change(f)) for c in found.curves for f in c.folds})
+
+
+@settings(max_examples=60, deadline=None)
+@given(body, st.tuples(number, number, number), st.tuples(number, number, number), st.integers(-20, 20))
+def test_faster_rotation_scales_the_answer(D, lam, M, power):
+    """omega -> s omega, lambda -> s lambda, M -> s^2 M, time -> time/s; s is a power of two, so every digit agrees."""
+    s = F(2) ** power
+    one, two = equilibria(physical(D, lam, M)), equilibria(physical(D, [s * v for v in lam], [s * s * v for v in M]))
+    grown = lambda v: tuple(float(s) * c for c in v)  # noqa: E731
+    assert [grown(p.at) for p in one.points] == [p.at for p in two.points]
+    assert [tuple(float(s) * z for z in p.eigenvalues) for p in one.points] == [p.eigenvalues for p in two.points]
+    assert folds(one, grown) == folds(two)
+
+
+SIGNS = [  # theory: (signs of x, signs of (a, b), signs of mu), time reversed or not
+    ((1, -1, -1), 1, (1, -1, -1)), ((-1, 1, -1), -1, (-1, 1, -1)), ((1, -1, 1), 1, (-1, 1, -1)), ((1, 1, -1), 1, (-1, -1, 1))]
+
+
+@settings(max_examples=60, deadline=None)
+@given(number, number, st.tuples(number, number, number), st.sampled_from(SIGNS))
+def test_sign_symmetries_carry_equilibria_to_equilibria(a, b, mu, symmetry):
+    sx, sab, smu = symmetry
+    one = equilibria(ScaledGyrostat(a, b, mu))
+    two = equilibria(ScaledGyrostat(sab * a, sab * b, [s * v for s, v in zip(smu, mu)]))
+    flip = lambda v: tuple(s * c + 0.0 for s, c in zip(sx, v))  # noqa: E731
+    assert sorted(flip(p.at) for p in one.points) == sorted(tuple(v + 0.0 for v in p.at) for p in two.points)
+    assert folds(one, flip) == folds(two)
+    assert [p.verdict for p in sorted(one.points, key=lambda p: flip(p.at))] == [p.verdict for p in sorted(two.points, key=lambda p: p.at)]
+
+
+def test_coordinates_are_correct_to_the_last_digit_for_nearly_equal_moments():
+    """Against 60-digit roots of the same conditions (mpmath), D1 - D2 = 1e-12 D1 and a torque off the axes."""
+    import mpmath as mp
+    with mp.workdps(60):
+        D = [mp.mpf(1), 1 - mp.mpf(10) ** -12, mp.mpf(1) / 2]
+        lam, M = [mp.mpf(1), mp.mpf(2), mp.mpf(-1)], [mp.mpf(3) / 7, mp.mpf(-2) / 3, mp.mpf(1)]
+        w = lambda s: rotated(D, lam, M, s)  # noqa: E731
+        f = lambda s: w(s)[1]  # noqa: E731
+        c, a1, b1 = f(mp.mpf(0)), f(mp.mpf(1)), f(mp.mpf(-1))
+        A, B = (a1 + b1) / 2 - c, (a1 - b1) / 2
+        disc = B * B - 4 * A * c
+        expected = sorted(tuple(map(float, w((-B + s * mp.sqrt(disc)) / (2 * A))[0])) for s in (1, -1)) if disc >= 0 else []
+    scene = physical(("1", 1 - F(1, 10**12), "1/2"), (1, 2, -1), (F(3, 7), F(-2, 3), 1))
+    assert [p.at for p in equilibria(scene).points] == expected
+
+
+def rotated(D, lam, M, s):
+    """(omega, remaining condition) at parameter s of the line M.omega = 0 = M.(D omega + lambda), plain mpmath algebra."""
+    import mpmath as mp
+    solve = mp.matrix([[M[0], M[1]], [D[0] * M[0], D[1] * M[1]]])
+    right = mp.matrix([-M[2] * s, -sum(l * m for l, m in zip(lam, M)) - D[2] * M[2] * s])
+    x = mp.lu_solve(solve, right)
+    omega = [x[0], x[1], s]
+    H = [d * v + l for d, v, l in zip(D, omega, lam)]
+    return omega, H[0] * omega[1] - H[1] * omega[0] + M[2]
+
+
+def test_torque_a_billionth_off_the_axis_has_its_isolated_equilibrium_far_away():
+    """mu2 = 0: (-a, -mu3/c, mu1 c/mu3) by hand from the two linear conditions, here with c = 1e-8."""
+    found = equilibria(ScaledGyrostat("0.2", "0.20000001", ("1e-9", 0, 1)))
+    (point,) = found.points
+    assert point.at == (-0.2, -1e8, 1e-17) and point.verdict == "unstable"
+
+
+def test_large_gyrostats_with_a_small_difference_keep_every_digit():
+    """x1 = -(a+b)/2 +- sqrt(c^2/4 + p), p = mu2 mu3/mu1 = 2, c = 1, by hand: roots -b+2 and -b-1."""
+    found = equilibria(ScaledGyrostat(10**8, 10**8 + 1, (1, 2, 1)))
+    assert [p.at[0] for p in found.points] == [-(1e8 + 2), -(1e8 - 1)]
+
+
+@pytest.mark.parametrize("scale", (F(10) ** -12, F(10) ** -3, F(1), F(10) ** 12))
+def test_folds_of_the_minor_axis_lie_on_the_fold_circle(scale):
+    """h^4 - c h - 1 = 0 and A^2 = h^2 + h^6 (theory) for mu3 = 1; mu3 = scale^2 stretches both by scale."""
+    c = F(1, 5)
+    (curve,) = equilibria(ScaledGyrostat(scale * F(3, 10), scale * (F(3, 10) + c), (0, 0, scale**2))).curves
+    assert len(curve.folds) == 2
+    for x1, x2, x3 in curve.folds:
+        h, X = x2 / float(scale), x1 / float(scale) + 0.3
+        assert x3 == 0 and h**4 - 0.2 * h - 1 == pytest.approx(0, abs=4e-15)
+        assert X * X + h * h == pytest.approx(h**2 + h**6, rel=1e-14)
+
+
+@pytest.mark.parametrize("c, count", [(0, 0), (F("1.7547653505"), 0), (F("1.7547653507"), 2), (F("-1.7547653507"), 2), (9, 2)])
+def test_the_middle_axis_has_folds_only_beyond_the_cusp(c, count):
+    """|c| > 4 3^(-3/4) = 1.75476535060... (theory)."""
+    (curve,) = equilibria(ScaledGyrostat(0, c, (0, 1, 0))).curves
+    assert len(curve.folds) == count
+
+
+def test_the_middle_axis_folds_are_the_roots_of_their_quartic():
+    """g^4 + c g + 1 = 0 (theory) solved by mpmath."""
+    import mpmath as mp
+    (curve,) = equilibria(ScaledGyrostat(0, "1.76", (0, 1, 0))).curves
+    with mp.workdps(50):
+        roots = sorted(float(r.real) for r in mp.polyroots([1, 0, 0, mp.mpf("1.76"), 1], maxsteps=200, extraprec=200)
+                       if abs(r.imag) < mp.mpf(10) ** -30)
+    assert [f[2] for f in curve.folds] == roots
+
+
+def test_the_major_axis_has_no_equilibrium_unless_a_equals_b():
+    assert equilibria(ScaledGyrostat("0.1", "0.2", (1, 0, 0))).kind == "none"
+    assert equilibria(ScaledGyrostat(0, "1e-300", (1, 0, 0))).kind == "none"
+    assert equilibria(ScaledGyrostat("0.2", "0.2", (1, 0, 0))).kind == "curves"
+
+
+def test_existence_turns_exactly_where_the_discriminant_vanishes():
+    """X Y = mu2 mu3/mu1 = -1 and c = 2: a double root at X = -1; a hair either way gives none or two."""
+    at = lambda mu1: equilibria(ScaledGyrostat(0, 2, (mu1, 1, 1)))  # noqa: E731
+    assert [p.at for p in at(-1).points] == [(-1.0, -1.0, -1.0)]
+    assert at(-1 - F(1, 10**40)).kind == "points" and len(at(-1 - F(1, 10**40)).points) == 2
+    assert at(-1 + F(1, 10**40)).kind == "none"
+
+
+def test_a_line_of_equilibria_exists_for_a_torque_on_no_axis():
+    """lambda = (l, (D1-D2) y2, (D1-D3) y3), M = l (0, y3, -y2): H = D1 omega + (l,0,0) for every rate about axis 1, so
+    H x omega + M = 0 by hand."""
+    (curve,) = equilibria(physical((4, 3, 2), (1, 5, 14), (0, 7, -5))).curves
+    assert curve.point(3.25) == (3.25, 5.0, 7.0)
+    assert real_solutions(*euler((4, 3, 2), (1, 5, 14), (0, 7, -5))) is None
+
+
+def test_a_free_sphere_is_in_equilibrium_everywhere_and_a_free_symmetric_body_on_a_plane_and_an_axis():
+    assert equilibria(Scene(Body((3, 3, 3)))).kind == "all"
+    names = [c.name for c in equilibria(physical((2, 2, 1), (0, 0, 1), (0, 0, 0))).curves]
+    assert names == ["line along the gyrostatic moment", "plane omega3 = 1"]
+
+
+def test_torque_along_the_symmetry_axis_cannot_be_balanced():
+    found = equilibria(physical((2, 2, 1), (0, 0, 0), (0, 0, 1)))
+    assert found.kind == "none" and "nothing balances" in found.reason
+
+
+def test_curve_points_are_refused_at_a_pole():
+    (curve,) = equilibria(ScaledGyrostat(0, 0, (0, 0, 1))).curves
+    for t in (0.0, math.inf, math.nan):
+        with pytest.raises(InputError):
+            curve.point(t)
+
+
+def test_classification_needs_no_numerical_library():
+    code = ("import sys; from stabilab import ScaledGyrostat, equilibria; equilibria(ScaledGyrostat(0, 1, (0, 0, 1)));"
+            "sys.exit(any(m in sys.modules for m in ('numpy', 'scipy', 'sympy', 'mpmath')))")
+    assert subprocess.run([sys.executable, "-c", code]).returncode == 0
