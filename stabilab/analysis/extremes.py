@@ -1,0 +1,249 @@
+"""Extremes of each component and the period, by roots on the reduced potential: no sampling, no running.
+
+omega_i is extreme where the potential is lowest inside the allowed interval; omega_j and omega_k at the turning points
+and where their own derivative along the orbit vanishes inside it.
+"""
+from __future__ import annotations
+
+import numpy as np
+
+from .fate import CHUNK, checked_states, fate
+from .landscape import TURN, Landscape, landscape
+from .results import Fate
+from .rootfind import bracketed_newton
+from .turning import interval, spots_along, turning_point
+
+SHIFT_LIMIT = 1e4  # canonical variables lose this factor of accuracy to the shift before the precise path takes over
+
+
+def extremes(scene, states, span=None):
+    """Smallest and largest value of each component over all t >= 0: array (..., 3, 2) in the scene's variables.
+
+    +-inf where a component grows without bound; at an equilibrium both are the state. Scenes without a reduction need
+    `span`, a time: their extremes hold over [0, span] (InputError without it). Raises InputError as `fate` does.
+    """
+    array = checked_states(states)
+    flat = array.reshape(-1, 3)
+    land = landscape(scene)
+    if land is None:
+        from .irreducible import extremes_one_by_one
+        return extremes_one_by_one(scene, flat, span).reshape(array.shape + (2,))
+    out = np.empty((len(flat), 3, 2))
+    for start in range(0, len(flat), CHUNK):
+        part = flat[start:start + CHUNK]
+        out[start:start + CHUNK] = _chunk(land, part, fate(scene, part))
+    return out.reshape(array.shape + (2,))
+
+
+def _chunk(land: Landscape, states, decided):
+    out = np.repeat(states[:, :, None], 2, axis=2)
+    place, w, size = land.start(states)
+    precise = needs_digits(land, states) & (decided.labels != Fate.EQUILIBRIUM)
+    labels = np.where(precise, -1, decided.labels)
+    trapped = (labels == Fate.BOUNDED) | (labels == Fate.SEPARATRIX)
+    if land.e < 0 and land.sense == 0:
+        rotating = trapped & (decided.margins < 0)
+        trapped &= ~rotating
+        _into(out, rotating, _rotating(land, *_pick(place, w, rotating)))
+    values, found = _trapped(land, *_pick(place, w, trapped))
+    _into(out, trapped, values)
+    precise[np.nonzero(trapped)[0][~found]] = True
+    spinning = labels == Fate.SPIN_UP
+    _into(out, spinning, _spinning(land, *_pick(place, w, spinning)))
+    if precise.any():
+        from .precise_extremes import extremes_and_period
+        for index in np.nonzero(precise)[0]:
+            out[index] = extremes_and_period(land.reduction, states[index], int(decided.labels[index]))[0]
+    out[:, :, 0] = np.minimum(out[:, :, 0], states)  # rounding must not exclude the state itself
+    out[:, :, 1] = np.maximum(out[:, :, 1], states)
+    return out
+
+
+def needs_digits(land: Landscape, states):
+    """(n,) True where the canonical shift is so large that doubles would lose digits (nearly equal moments)."""
+    shift = land.reduction.parabolic_shift_size
+    if shift == 0:
+        return np.zeros(len(states), bool)
+    return shift > SHIFT_LIMIT * np.maximum(np.abs(states).max(axis=1), 1e-300)
+
+
+def _pick(place, w, mask):
+    return tuple(v[mask] for v in place), w[mask]
+
+
+def _into(out, mask, values):
+    if mask.any():
+        out[mask] = values
+
+
+def _components(land, low, high, w_low, w_high):
+    """(n, 3, 2) from canonical ranges, whatever signs the change of variables has."""
+    a, b = land.components(low, w_low), land.components(high, w_high)
+    return np.stack([np.minimum(a, b), np.maximum(a, b)], axis=2)
+
+
+def _trapped(land, place, w):
+    """Extremes of motions between two turning points, and where both were found."""
+    if not len(w):
+        return np.empty((0, 3, 2)), np.empty(0, bool)
+    span = interval(land, place, w)
+    top = np.sqrt(2 * span.fastest)
+    low, high = _place_range(land, place, span.left, span.right, span.left_place, span.right_place)
+    return _components(land, low, high, -top, top), span.ok
+
+
+def _place_range(land, place, left, right, left_place, right_place):
+    """Canonical (X, Z) or (omega_j, omega_k) ranges over [left, right]: ends, and interior stationary points."""
+    if land.e > 0:
+        as_xz = lambda p: np.array([0.5 * (p[0] + p[1]), 0.5 * (p[0] - p[1])])
+    else:
+        as_xz = np.array
+    ends = as_xz(left_place), as_xz(right_place)
+    low, high = np.minimum(*ends), np.maximum(*ends)
+    interior = {-1: _circle_tops, 1: _hyperbola_tops, 0: _parabola_tops}[land.e]
+    for row, value, inside in interior(land, place, left, right):
+        low[row] = np.where(inside, np.minimum(low[row], value), low[row])
+        high[row] = np.where(inside, np.maximum(high[row], value), high[row])
+    if land.e > 0:  # back to light-cone places
+        low, high = (low[0] + low[1], low[0] - low[1]), (high[0] + high[1], high[0] - high[1])
+    return low, high
+
+
+def _circle_tops(land, place, left, right):
+    """+-A of X and Z where the interval contains the angle."""
+    radius, angle = np.hypot(*place), np.arctan2(*place)
+    for row, value, at in ((0, 1, np.pi / 2), (0, -1, -np.pi / 2), (1, 1, 0.0), (1, -1, np.pi)):
+        first = np.ceil((angle + left - at) / TURN) * TURN + at  # the first such angle not before the left end
+        yield row, value * radius, first <= angle + right
+
+
+def _hyperbola_tops(land, place, left, right):
+    """X is stationary where Z = 0 (xi = eta), Z where X = 0 (xi = -eta)."""
+    xi, eta = place
+    with np.errstate(all="ignore"):
+        product = xi * eta
+        at = 0.5 * np.log(np.abs(eta / xi))
+        inside = np.isfinite(at) & (at >= left) & (at <= right)
+        size = np.sqrt(np.abs(xi)) * np.sqrt(np.abs(eta))
+    yield 0, np.sign(xi) * size, inside & (product > 0)
+    yield 1, np.sign(xi) * size, inside & (product < 0)
+
+
+def _parabola_tops(land, place, left, right):
+    """The vertex of whichever component is quadratic."""
+    pot = land.potential
+    u, v = place
+    a, b = pot.p * v + pot.p0, pot.q * u + pot.q0
+    for row, speed, bend in ((0, a, pot.p * b), (1, b, pot.q * a)):
+        with np.errstate(all="ignore"):
+            at = -speed / bend
+        inside = np.isfinite(at) & (at >= left) & (at <= right)
+        yield row, (u, v)[row] + 0.5 * speed * np.where(inside, at, 0.0), inside
+
+
+def _rotating(land, place, w):
+    """Torque-free motions over all barriers of the circle: the whole circle, one sign of W."""
+    spots = spots_along(land, place, w)
+    energy = np.where(spots.there, spots.energy, np.nan)
+    with np.errstate(all="ignore"):
+        slow = np.sqrt(2 * np.nanmin(np.concatenate([energy, 0.5 * w[:, None] ** 2], axis=1), axis=1))
+        fast = np.sqrt(2 * np.nanmax(np.concatenate([energy, 0.5 * w[:, None] ** 2], axis=1), axis=1))
+    radius = np.hypot(*place)
+    sign = np.sign(w)
+    return _components(land, (-radius, -radius), (radius, radius), sign * slow, sign * fast)
+
+
+def _spinning(land, place, w):
+    """Extremes over the future of motions that spin up: W -> +inf in canonical variables."""
+    n = len(w)
+    if not n:
+        return np.empty((0, 3, 2))
+    if land.e < 0:
+        slowest = _slowest_ahead(land, place, w)
+        radius = np.hypot(*place)
+        return _components(land, (-radius, -radius), (radius, radius), slowest, np.full(n, np.inf))
+    if land.e > 0:
+        return _spinning_on_plane(land, place, w)
+    sense = land.sense
+    start = land.components(place, w)
+    return np.stack([np.where(np.arange(3) == land.reduction.axis, np.where(sense > 0, start, -np.inf), start),
+                     np.where(np.arange(3) == land.reduction.axis, np.where(sense > 0, np.inf, start), start)], axis=2)
+
+
+def _slowest_ahead(land, place, w):
+    """The least W over the future: over the barriers ahead, or on the way to the turning point behind if W < 0."""
+    spots = spots_along(land, place, w)
+    ahead = np.where(spots.there & (spots.offset > 0), spots.energy, np.inf)
+    with np.errstate(all="ignore"):
+        slowest = np.minimum(w, np.sqrt(2 * np.maximum(ahead.min(axis=1, initial=np.inf), 0)))
+    back = w < 0
+    if back.any():
+        place, w = _pick(place, w, back)
+        # the wells between the turning point on the left and the state
+        behind_energy = _fastest_behind(land, place, w)
+        slowest[back] = -np.sqrt(2 * behind_energy)
+    return slowest
+
+
+def _fastest_behind(land, place, w):
+    """Largest W^2/2 between the turning point behind and the state, for W < 0 on a tilted circle.
+
+    Wells further back than one turn are higher by 2 pi mu, so the first turn behind decides.
+    """
+    best, blocked = 0.5 * w * w, np.zeros(len(w), bool)
+    spots = spots_along(land, place, w)
+    for column in range(spots.offset.shape[1] - 1, -1, -1):
+        here = spots.there[:, column] & (spots.offset[:, column] < 0)
+        blocked |= here & spots.barrier[:, column] & (spots.energy[:, column] < 0)
+        well = here & ~blocked & ~spots.barrier[:, column]
+        best = np.where(well, np.maximum(best, spots.energy[:, column]), best)
+    return best
+
+
+def _spinning_on_plane(land, place, w):
+    """On the decaying plane xi = 0: eta shrinks to 0 after at most one excursion back to the turning point."""
+    n = len(w)
+    xi, eta = place
+    pot = land.potential
+    low_w, far = np.array(w), np.array(eta)
+    spots = spots_along(land, place, w)
+    with np.errstate(all="ignore"):
+        ahead = np.where(spots.there & (spots.offset > 0), spots.energy, np.inf).min(axis=1, initial=np.inf)
+        low_w = np.where(w >= 0, np.minimum(w, np.sqrt(2 * np.maximum(ahead, 0))), w)
+    back = (w < 0) & (eta != 0)
+    if back.any():
+        one, speed = _pick(place, w, back)
+        offset, fastest = _turn_back(land, one, speed)
+        low_w[back], far[back] = -np.sqrt(2 * fastest), eta[back] * np.exp(-offset)
+    zero = np.zeros(n)
+    return _components(land, (zero, np.minimum(far, 0)), (zero, np.maximum(far, 0)), low_w, np.full(n, np.inf))
+
+
+def _turn_back(land, place, w):
+    """(offset of the turning point behind, largest W^2/2 on the way) for W < 0 on the decaying plane."""
+    spots = spots_along(land, place, w)
+    offset, _, found = turning_point(land, spots, place, w, -1)
+    bare = ~found  # no equilibrium on the plane: the potential falls all the way, so it is monotone behind the state
+    if bare.any():
+        level, force = 0.5 * w[bare] ** 2, land.potential.force(place)[bare]
+        one = tuple(v[bare] for v in place)
+        reach = np.ones(level.shape)
+        while (short := land.potential.rise(-reach, one, force) < level).any():
+            reach[short] *= 2
+
+        def fun(t, level, force, *one):
+            return (land.potential.rise(-t, one, force) - level,
+                    land.potential.force(land.potential.move(one, -t)))
+        offset[bare] = -bracketed_newton(fun, np.zeros(level.shape), reach, 0.5 * reach, (level, force, *one))
+    passed = spots.there & (spots.offset < 0) & (spots.offset > offset[:, None])
+    fastest = np.where(passed, spots.energy, -np.inf).max(axis=1, initial=-np.inf)
+    return offset, np.maximum(fastest, 0.5 * w * w)
+
+
+def period(scene, states):
+    """Period of each motion, (...,) in the scene's time: inf where the motion does not repeat, 0 at an equilibrium.
+
+    Raises InputError as `fate` does, and for scenes whose motion has no known period (torque off the axes).
+    """
+    from .quadrature import periods
+    return periods(scene, states)

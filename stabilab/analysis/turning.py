@@ -1,0 +1,133 @@
+"""Where a bounded motion turns: the ends of its interval of the reduced coordinate, next to separatrices too."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .landscape import TURN, Landscape
+from .rootfind import bracketed_newton
+
+
+@dataclass(frozen=True)
+class Interval:
+    """The allowed interval of theta, as offsets from the state: left <= 0 <= right (n,), with places (2, n) there;
+    lowest (n,): the largest W^2/2 inside; middle: place (2, n) half-way; half: half the length; ok: (n,) False where no
+    interval was found (rounding at a fold, say)."""
+
+    left: np.ndarray
+    right: np.ndarray
+    left_place: np.ndarray
+    right_place: np.ndarray
+    fastest: np.ndarray
+    middle: np.ndarray
+    half: np.ndarray
+    ok: np.ndarray
+
+
+@dataclass(frozen=True)
+class Spots:
+    """Equilibria along the orbit, ascending in offset (n, m): places (2, n, m), energy above each (n, m) =
+    E - V(spot), barrier or well; `there` marks the real ones (the rest are padding at +inf)."""
+
+    offset: np.ndarray
+    place: np.ndarray
+    energy: np.ndarray
+    barrier: np.ndarray
+    there: np.ndarray
+
+
+def spots_along(land: Landscape, place, w) -> Spots:
+    """All equilibria near the state along its orbit, on a circle those of one turn behind and one ahead."""
+    offset, spot, barrier = land.critical(place)
+    energy = np.full(offset.shape, np.nan)
+    kinetic = 0.5 * w * w
+    with np.errstate(all="ignore"):
+        for column in range(offset.shape[1]):
+            energy[:, column] = kinetic + land.potential.rise(-offset[:, column], spot[:, :, column])
+        if land.e < 0:  # one turn earlier the tilt has lifted the potential by 2 pi mu
+            offset = np.concatenate([offset - TURN, offset], axis=1)
+            energy = np.concatenate([energy - TURN * land.potential.mu, energy], axis=1)
+            spot, barrier = np.concatenate([spot, spot], axis=2), np.concatenate([barrier, barrier], axis=1)
+    order = np.argsort(np.where(np.isnan(offset), np.inf, offset), axis=1, kind="stable")
+    take = lambda a: np.take_along_axis(a, order, axis=1)
+    offset = take(offset)
+    there = ~np.isnan(offset)
+    return Spots(np.where(there, offset, np.inf), np.stack([take(spot[0]), take(spot[1])]), take(energy),
+                 take(barrier) & there, there)
+
+
+def interval(land: Landscape, place, w) -> Interval:
+    """The allowed interval of each bounded state; places, w: (n,) arrays in canonical variables."""
+    spots = spots_along(land, place, w)
+    n = len(w)
+    ends = {}
+    for side in (1, -1):
+        ends[side] = turning_point(land, spots, place, w, side)
+    right, right_place, ok_r = ends[1]
+    left, left_place, ok_l = ends[-1]
+    right, left = np.maximum(right, 0.0), np.minimum(left, 0.0)
+    inside = spots.there & ~spots.barrier & (spots.offset >= left[:, None]) & (spots.offset <= right[:, None])
+    wells = np.where(inside, spots.energy, -np.inf)
+    fastest = np.maximum(wells.max(axis=1, initial=-np.inf), 0.5 * w * w)
+    half = 0.5 * (right - left)
+    middle = np.array(land.potential.move(place, 0.5 * (right + left)))
+    return Interval(left, right, left_place, right_place, fastest, middle, half, ok_r & ok_l & np.isfinite(half))
+
+
+def turning_point(land, spots, place, w, side):
+    """Turning point on one side: (offset, place, found)."""
+    n, m = spots.offset.shape
+    if m == 0:
+        return np.zeros(n), np.array(place), np.zeros(n, bool)
+    rows = np.arange(n)
+    beyond = spots.there & spots.barrier & (spots.energy <= 0) & (
+        (spots.offset > 0) if side > 0 else (spots.offset < 0))
+    has_barrier = beyond.any(axis=1)
+    b = np.argmax(beyond, axis=1) if side > 0 else m - 1 - np.argmax(beyond[:, ::-1], axis=1)
+    count = spots.there.sum(axis=1)
+    well = np.where(has_barrier, b - side, np.where(side > 0, count - 1, 0))
+    has_well = (well >= 0) & (well < count)
+    well = np.clip(well, 0, m - 1)
+    has_well &= ~spots.barrier[rows, well]
+    ok = has_well | has_barrier
+    nearer_barrier = -spots.energy[rows, b] < np.maximum(spots.energy[rows, well], 0)
+    anchored_at_barrier = has_barrier & (nearer_barrier | ~has_well)
+    anchor = np.where(anchored_at_barrier, b, well)
+    level = spots.energy[rows, anchor]
+    level = np.where(anchored_at_barrier, np.minimum(level, 0), np.maximum(level, 0))
+    spot = spots.place[:, rows, anchor]
+    with np.errstate(invalid="ignore"):
+        gap = np.abs(spots.offset[rows, b] - spots.offset[rows, well])
+    gap = np.where(has_barrier & has_well, gap, np.where(ok, np.inf, 1.0))
+    if land.e < 0:
+        gap = np.minimum(gap, TURN)
+    towards = np.where(anchored_at_barrier, -side, side)
+    reach = _reach(land, spot, level, gap, towards)
+    curvature = np.maximum(np.abs(land.potential.slope(tuple(spot))), 1e-300)
+    start = np.minimum(np.sqrt(2 * np.abs(level) / curvature), 0.5 * reach)
+
+    def fun(t, towards, level, *spot):
+        rise = land.potential.rise(towards * t, spot)
+        spot = land.potential.move(spot, towards * t)
+        return rise - level, -towards * land.potential.force(spot)
+    with np.errstate(all="ignore"):
+        y = bracketed_newton(fun, np.zeros(n), reach, start, (towards, level, *spot), rising=~anchored_at_barrier)
+    y = np.where(level == 0, 0.0, y) * towards
+    end = np.array(land.potential.move(tuple(spot), y))
+    offset = np.where(anchor == well, spots.offset[rows, well], spots.offset[rows, b]) + y
+    return np.where(ok, offset, 0.0), end, ok
+
+
+def _reach(land, spot, level, gap, towards):
+    """A step from the spot at which the potential has surely passed the level: the gap, or a doubling search."""
+    reach = np.where(np.isfinite(gap), gap, 1.0)
+    open_ = ~np.isfinite(gap)
+    with np.errstate(all="ignore"):
+        for _ in range(1100):
+            rise = land.potential.rise(towards * reach, tuple(spot))
+            short = open_ & np.where(level < 0, rise > level, rise < level)
+            if not short.any():
+                break
+            reach = np.where(short, np.minimum(2 * reach, reach + 64), reach)
+    return reach
