@@ -6,6 +6,7 @@ on the monomials alone and is shared by all scenes of the same structure within 
 """
 from __future__ import annotations
 
+from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
@@ -194,16 +195,18 @@ def to_taylor(equations: Equations, quadratures=(), tolerance: float = TAYLOR_TO
     return integrator
 
 
-def to_taylor_events(equations: Equations, event_forms: Form, tolerance: float = TAYLOR_TOLERANCE):
-    """(integrator, found, lock): a heyoka integrator that notes every root of every event expression it passes.
+@contextmanager
+def taylor_events(event_forms: Form, tolerance: float = TAYLOR_TOLERANCE):
+    """Context giving (integrator, found): a heyoka integrator that notes every root of every event it passes.
 
-    event_forms: expressions over the numbered coefficients of `form(equations, (*rhs, *events))`, the rates first.
-    found: list of (time, index of event, state), filled while it runs. The integrator is shared: hold `lock`, set
-    time and state, empty `found`.
+    event_forms: `form(equations, (*rhs, *events))`, the rates first. found: list of (time, index of event, state),
+    emptied at the start. The integrator is shared within the process and held by a lock: set its time and state.
     """
-    integrator, recorder = _event_integrator(event_forms.state, event_forms.symbols, event_forms.expressions, tolerance)
-    integrator.pars[:] = event_forms.numbers
-    return integrator, recorder.found, _LOCK
+    with _LOCK:
+        integrator, recorder = _event_integrator(event_forms.state, event_forms.symbols, event_forms.expressions, tolerance)
+        integrator.pars[:] = event_forms.numbers
+        recorder.found.clear()
+        yield integrator, recorder.found
 
 
 _LOCK = RLock()

@@ -1,0 +1,324 @@
+"""Endless growth: a torque along a principal axis that carries a gyrostatic component along it, too.
+
+Law (any lambda): (|H|^2/2 - D_i T)' = H.M - D_i omega.M = lambda_i M_i, because D omega . M = D_i omega . M for M on axis
+i. With lambda_i M_i != 0 a quadratic function of the state grows in proportion to time: no equilibrium, no bounded motion.
+What remains to be decided is about which axis the body spins up.
+
+Standard form (torque on the major or minor axis i, no gyrostatic component across it; `standard_form`):
+
+    u' = y2 y3 + 1,   y2' = -y3 (u - c/2),   y3' = y2 (u + c/2),      J = y2^2 + y3^2 - 2 c u,   J' = -2c.
+
+With phi = atan2(y3, y2), R^2 = y2^2 + y3^2:  P = phi' = u + (c/2) cos 2phi,  (R^2)' = c R^2 sin 2phi, and, R^2 put in by J,
+
+    P' = -dV/dphi,   V(phi, J) = -phi - (J/2) sin^2 phi + (c^2/8) sin^2 2phi,   E = P^2/2 + V,   E' = c sin^2 phi.
+
+y2 = y3 = 0 stays so: u = u0 + tau, spin-up. c > 0: 2cu = R^2 - J >= -J0 + 2c tau, so u -> +infinity: every motion spins up
+about axis i; only its release from a temporary capture is left to observe.
+
+Certificate "spin-up" (any c). K = E + phi = P^2/2 - (J/2) sin^2 phi + (c^2/8) sin^2 2phi has K' = P + c sin^2 phi, and
+P^2/2 >= L := K + min(J, 0)/2 - c^2/8. If P > 0 and L > c^2/2, then P > |c|, so K' > 0, and (K + J/2)' = P - c cos^2 phi > 0:
+L grows, P stays above |c|, for ever. L' >= sqrt(2L) - |c| > 0 gives sqrt(2L) ~ tau, P ~ tau; R then converges (integrate
+(ln R^2)' = c sin 2phi by parts in phi), and u = (R^2 - J)/(2c) ~ tau.
+
+Certificate "well" (c < 0). Fix phi_b in [pi/2, pi]; p = phi mod pi inside (pi - phi_b, phi_b), E < V(phi_b, J) at p's branch.
+While p stays inside, (V(phi_b, J) - E)' = |c| (sin^2 phi - sin^2 phi_b) >= 0, so phi_b is never reached; nor is pi - phi_b, where
+V is higher by 2 phi_b - pi. So p stays inside for ever, y3 keeps its sign, J -> infinity, R^2 = J + 2cP - c^2 cos 2phi ~ J. With
+e = (P^2/2 + (J/2) cos^2 phi - phi + (c^2/8) sin^2 2phi)/J: e' <= |c| (2 pi - P^2)/J^2, so P^2/J^2 is integrable although J ~ tau:
+the oscillation about phi = pi/2 dies out in angle, y3 ~ +-sqrt(2|c| tau). (phi_b = pi is the weaker certificate with pi - p.)
+
+Both certificates are monotone: once one holds it holds for ever, so it may be looked for at any later time.
+"""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+
+from ..errors import InputError
+from ..quadratic import CYCLE
+from .results import Fate
+
+# A certificate counts when its inequality holds by this share of the terms in it: 100 times their rounding.
+CLEARANCE = 2e-14
+STEP_BUDGET = 20_000_000
+
+
+@dataclass(frozen=True)
+class CapturedFate:
+    """What becomes of a motion that no bound holds.
+
+    axis, sense: 1, 2, 3 and +-1 of the spin-up (0 where unclear). J0, J_rate: the law J = J0 + J_rate t at the state, in
+    the scene's variables (|H|^2/2 - D_i T; x2^2 + x3^2 - 2(b-a) x1 when scaled). release_time: last reversal of the
+    turn about axis i, after which it spins up for ever (0: there is none; None: captured for ever, or not run to it);
+    release_estimate: when the barrier vanishes, at the latest (None where the motion is not captured for a while). certificate: "bound", "spin-up",
+    "well", "axis", "law", "evidence" or "none"; t_certificate: time at which it was found to hold; times in the scene's unit.
+    """
+
+    fate: Fate
+    axis: int
+    sense: int
+    because: str
+    release_time: float | None
+    release_estimate: float | None
+    J0: float
+    J_rate: float
+    certificate: str
+    t_certificate: float | None
+    steps: int
+
+
+@dataclass(frozen=True)
+class StandardForm:
+    """x[axes] = rates * (u - shift, y2, y3), t = time * tau; axes 0-based, first the torque's."""
+
+    c: float
+    axes: tuple[int, int, int]
+    rates: tuple[float, float, float]
+    shift: Fraction
+    time: float
+
+    def to_standard(self, x):
+        """State of the scene -> (u, y2, y3); the shift is added before rounding."""
+        i, p, q = self.axes
+        return (float(Fraction(float(x[i])) + self.shift) / self.rates[0], x[p] / self.rates[1], x[q] / self.rates[2])
+
+
+def standard_form(scene) -> StandardForm | None:
+    """The change to standard form, or None where there is none (see the module's docstring for what it needs).
+
+    x_i' = kappa_i x_p x_q + m,  x_p' = kappa_p x_q (x_i + alpha),  x_q' = kappa_q x_p (x_i + beta): with kappa_i kappa_q > 0 >
+    kappa_p kappa_q the rates r_i^2 = |m|/g, r_p^2 = g |m|/(kappa_i kappa_q), r_q^2 = g |m|/|kappa_i kappa_p|, g^2 = |kappa_p kappa_q|, and
+    the time 1/sqrt(g |m|) bring it to standard form; r_i has the sign of m, r_q that of m kappa_i.
+    """
+    form = scene.quadratic()
+    i = _torque_axis(form)
+    if i is None or form.rho[i] or form.sigma[i]:
+        return None
+    j, k = CYCLE[i]
+    if form.sigma[k] or form.rho[j] or not form.kappa[j] * form.kappa[k] < 0 or not form.kappa[i]:
+        return None
+    alpha = {j: form.sigma[j] / form.kappa[j], k: form.rho[k] / form.kappa[k]}
+    p, q = (j, k) if form.kappa[i] * form.kappa[k] > 0 else (k, j)
+    kappa, m = form.kappa, abs(form.m[i])
+    if alpha[p] == alpha[q]:
+        return None
+    g = math.sqrt(abs(kappa[p] * kappa[q]))
+    sign = 1 if form.m[i] > 0 else -1
+    r = math.sqrt(m / Fraction(g)) * sign
+    rates = (r, math.sqrt(Fraction(g) * m / (kappa[i] * kappa[q])),
+             math.sqrt(Fraction(g) * m / abs(kappa[i] * kappa[p])) * sign * (1 if kappa[i] > 0 else -1))
+    return StandardForm(float((alpha[q] - alpha[p]) / Fraction(r)), (i, p, q), rates, (alpha[p] + alpha[q]) / 2,
+                        1 / math.sqrt(Fraction(g) * m))
+
+
+def _torque_axis(form):
+    acting = [i for i in range(3) if form.m[i]]
+    return acting[0] if len(acting) == 1 else None
+
+
+def growth_law(scene):
+    """(axis 0-based, J(state), J_rate): the law of the module's docstring with its exact rate; None where it does not
+    apply (torque not along one principal axis, or no gyrostatic component along it)."""
+    if scene.variables == "scaled":
+        (a, b), mu = scene.exact_ab, scene.exact_mu
+        if not mu[0] or mu[1] or mu[2] or a == b:
+            return None
+        c = b - a
+        return 0, lambda x: float(Fraction(x[1])**2 + Fraction(x[2])**2 - 2 * c * Fraction(x[0])), float(-2 * c * mu[0])
+    D, lam, M = scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque")
+    i = next((n for n in range(3) if M[n]), None)
+    if i is None or any(M[n] for n in range(3) if n != i) or not lam[i]:
+        return None
+
+    def J(x):
+        x = [Fraction(v) for v in x]
+        return float(sum((d * v + h)**2 - D[i] * d * v * v for d, v, h in zip(D, x, lam)) / 2)
+    return i, J, float(lam[i] * M[i])
+
+
+def spin_up_margin(c, y) -> tuple[float, float]:
+    """(margin, size of its terms) of the certificate "spin-up" at y = (u, y2, y3): it holds where margin > 0."""
+    phi, P, J = _angle(c, y)
+    bend, depth, tail = P * P / 2, J / 2 * math.sin(phi)**2, c * c / 8 * math.sin(2 * phi)**2
+    size = bend + abs(depth) + abs(J) + c * c
+    return (bend - depth + tail + min(J, 0.0) / 2 - 0.625 * c * c if P > 0 else -size), size
+
+
+def well_margin(c, y) -> tuple[float, float]:
+    """(margin, size of its terms) of the certificate "well" (c < 0) at y, for the best barrier angle found."""
+    phi, P, J = _angle(c, y)
+    p = phi % math.pi
+
+    def rise(b):  # V(b) - V(p), differences formed term by term
+        return (p - b) - J / 2 * math.sin(b - p) * math.sin(b + p) + c * c / 8 * math.sin(2 * (b - p)) * math.sin(2 * (b + p))
+    barrier = _highest(rise, max(p, math.pi - p), J, c)
+    return rise(barrier) - P * P / 2, P * P / 2 + abs(J) / 2 + c * c / 8 + math.pi
+
+
+def _angle(c, y):
+    u, y2, y3 = y
+    phi = math.atan2(y3, y2)
+    return phi, u + c / 2 * math.cos(2 * phi), y2 * y2 + y3 * y3 - 2 * c * u
+
+
+def _highest(rise, low, J, c):
+    """An angle in [low, pi] where V is about highest (any angle makes a valid certificate)."""
+    places = [low + (math.pi - low) * n / 48 for n in range(49)] + [math.pi - (math.pi - low) * 4.0**-n for n in range(1, 24)]
+    b = max(places, key=rise)
+    for _ in range(6):  # Newton on V' = -1 - (J/2) sin 2b + (c^2/4) sin 4b, kept only where it climbs
+        slope, bend = -1 - J / 2 * math.sin(2 * b) + c * c / 4 * math.sin(4 * b), -J * math.cos(2 * b) + c * c * math.cos(4 * b)
+        if bend >= 0:
+            break
+        step = min(max(b - slope / bend, low), math.pi)
+        if rise(step) <= rise(b):
+            break
+        b = step
+    return b
+
+
+def captured_fate(scene, state, t_max: float = 1e6) -> CapturedFate:
+    """Which axis the motion from `state` (three numbers, the scene's variables) spins up about, and when it is released.
+
+    t_max: how long to look for a certificate, in the scene's time. Raises InputError for a scene whose torque is not along
+    one principal axis with a gyrostatic component along it.
+    """
+    from .trajectories import _state
+    state = tuple(_state(state).tolist())
+    law = growth_law(scene)
+    if law is None:
+        raise InputError("capture needs a torque along one principal axis and a gyrostatic component along that axis; "
+                         "this scene is for the reduction or for the torque off the axes")
+    axis, J, rate = law
+    change = standard_form(scene)
+    answer = _by_certificate(change, change.to_standard(state), t_max) if change else _without_form(scene, state, axis, t_max)
+    return CapturedFate(J0=J(state), J_rate=rate, **answer)
+
+
+def _by_certificate(change, y, t_max):
+    """Fields of CapturedFate from the standard form."""
+    c, (i, _, q), unit = change.c, change.axes, change.time
+    spin = dict(fate=Fate.SPIN_UP, axis=i + 1, sense=1 if change.rates[0] > 0 else -1)
+    if y[1] == y[2] == 0:
+        return spin | dict(because=f"pure spin about axis {i + 1}, which the torque speeds up for ever", release_time=0.0,
+                           release_estimate=None, certificate="axis", t_certificate=0.0, steps=0)
+    vanishing = max(0.0, (_angle(c, y)[2] - 2) / (2 * c)) * unit if c > 0 else None
+    name, t, y, last, steps = _search(c, y, t_max / unit)
+    estimate = None if name == "spin-up" and not last else vanishing
+    when = None if t is None else t * unit
+    known = dict(release_estimate=estimate, certificate=name, t_certificate=when, steps=steps)
+    if name == "well":
+        sense = (1 if change.rates[2] > 0 else -1) * (1 if y[2] > 0 else -1)
+        return known | dict(fate=Fate.SPIN_UP, axis=q + 1, sense=sense, release_time=None, because=(
+            f"captured about axis {q + 1} for ever: the barrier ahead grows faster than the energy, and the spin about axis "
+            f"{q + 1} grows like the square root of time"))
+    if name == "spin-up":
+        return spin | known | dict(release_time=last * unit, because=(
+            f"spin-up about axis {i + 1}: the turn about it can reverse no more (proved from t = {when:.6g} on)"))
+    if c > 0:
+        return spin | known | dict(certificate="bound", t_certificate=0.0, release_time=None, because=(
+            f"spin-up about axis {i + 1}: its rate is bounded below by a growing line; still captured when the search ended, "
+            f"release expected at about t = {estimate:.6g}"))
+    return known | dict(fate=Fate.UNDECIDED, axis=0, sense=0, release_time=None, because=(
+        f"unbounded, but neither spin-up about axis {i + 1} nor capture about axis {q + 1} was certain by t = {t_max:g} "
+        f"({steps} steps)"))
+
+
+def certificate(c, y) -> str | None:
+    """"spin-up" or "well" where the one or the other holds at y beyond rounding, None otherwise."""
+    margin, size = spin_up_margin(c, y)
+    if margin > CLEARANCE * size:
+        return "spin-up"
+    if c < 0:
+        margin, size = well_margin(c, y)
+        if margin > CLEARANCE * size:
+            return "well"
+    return None
+
+
+def _search(c, y, t_max):
+    """(certificate or "none", its time, state there, last reversal of the turn, steps): run until one holds."""
+    if found := certificate(c, y):
+        return found, 0.0, y, 0.0, 0
+    run, t, last, steps = _runner(c, y), 0.0, 0.0, 0
+    while t < t_max and steps < STEP_BUDGET:
+        t = min(t_max, t + max(1.0 / (1 + abs(c) + max(map(abs, y))), 0.2 * t))
+        t, y, reversal, taken = run(t, STEP_BUDGET - steps)
+        last, steps = reversal if reversal is not None else last, steps + taken
+        if not all(map(math.isfinite, y)):
+            break
+        if found := certificate(c, y):
+            return found, t, y, last, steps
+    return "none", None, y, last, steps
+
+
+def _runner(c, y):
+    """run(t, step limit) -> (time reached, state, last reversal of the turn on the way or None, steps)."""
+    from ..compiled import form, heyoka_available
+    from ..equations import derive
+    from ..scene import ScaledGyrostat
+    equations = derive(ScaledGyrostat(Fraction(c) / -2, Fraction(c) / 2, (1, 0, 0)))
+    _, x2, x3 = equations.state
+    turn = x2 * equations.rhs[2] - x3 * equations.rhs[1]  # R^2 phi'
+    maker = _taylor_runner if heyoka_available() else _scipy_runner
+    return maker(equations, form(equations, (*equations.rhs, turn)), y)
+
+
+def _taylor_runner(equations, forms, y):
+    from ..compiled import taylor_events
+    at = [0.0, y]
+
+    def run(t, limit):
+        with taylor_events(forms) as (integrator, found):
+            integrator.time = at[0]
+            integrator.state[:] = at[1]
+            steps = integrator.propagate_until(t, max_steps=limit)[3]
+            at[:] = integrator.time, tuple(integrator.state.tolist())
+            reversals = [time for time, *_ in found]
+        return at[0], at[1], max(reversals, default=None), steps
+    return run
+
+
+def _scipy_runner(equations, forms, y):
+    import numpy as np
+    from scipy.integrate import DOP853
+    from scipy.optimize import brentq
+    from ..compiled import to_numpy
+    from .trajectories import ATOL_SHARE, FALLBACK_RTOL
+    system, at = to_numpy(equations), [0.0, np.array(y)]
+
+    def turn(x):
+        rate = system.rate(list(x))
+        return x[1] * rate[2] - x[2] * rate[1]
+
+    def run(t, limit):
+        solver = DOP853(lambda _, x: np.array(system.rate(x.tolist())), at[0], at[1], t, rtol=FALLBACK_RTOL,
+                        atol=FALLBACK_RTOL * ATOL_SHARE)
+        steps, last = 0, None
+        while solver.status == "running" and steps < limit:
+            solver.step()
+            steps += 1
+            dense, times = solver.dense_output(), np.linspace(solver.t_old, solver.t, 9)
+            values = np.array([turn(x) for x in dense(times).T])
+            for n in np.nonzero(values[:-1] * values[1:] < 0)[0]:
+                last = brentq(lambda s: turn(dense(s)), times[n], times[n + 1])
+        at[:] = solver.t, solver.y
+        return solver.t, tuple(solver.y.tolist()), last, steps
+    return run
+
+
+def _without_form(scene, state, axis, t_max):
+    """Fields of CapturedFate where the standard form does not exist: exact spin of a symmetric body, else evidence."""
+    form = scene.quadratic()
+    sense = 1 if form.m[axis] > 0 else -1
+    if not (form.kappa[axis] or form.rho[axis] or form.sigma[axis]):
+        return dict(fate=Fate.SPIN_UP, axis=axis + 1, sense=sense, release_time=0.0, release_estimate=None, certificate="law",
+                    t_certificate=0.0, steps=0, because=f"the moments across axis {axis + 1} are equal: its spin grows exactly "
+                                                        "in proportion to time")
+    from .offaxis import growth
+    seen = growth(scene, state, t_max)
+    clear = seen.axis > 0
+    words = (f"spin-up about axis {seen.axis} by the evidence of a run to t = {seen.span:.6g} ({seen.words})" if clear else
+             f"no axis of spin-up was clear in a run to t = {seen.span:.6g}")
+    return dict(fate=Fate.SPIN_UP if clear else Fate.UNDECIDED, axis=seen.axis, sense=seen.sense, release_time=None,
+                release_estimate=None, certificate="evidence" if clear else "none", t_certificate=None, steps=seen.steps,
+                because=f"unbounded, because |H|^2/2 - D{axis + 1} T grows in proportion to time; {words}")

@@ -1,0 +1,129 @@
+"""Local extremes of a motion's components: every root of every rate over a span, none lost between samples.
+
+With heyoka the Taylor polynomial of each rate over each step is searched for all its real roots. SciPy's stand-in
+looks for sign changes on the step's own interpolant, which can miss a pair of roots closer than a sixteenth of a step.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..compiled import TAYLOR_TOLERANCE, _equations, form, heyoka_available, to_numpy, taylor_events
+from .trajectories import ATOL_SHARE, FALLBACK_RTOL, STEP_LIMIT, _state
+
+SUBSAMPLES = 16
+
+
+@dataclass(frozen=True)
+class RateRoots:
+    """Roots of the rates, in the order of the motion.
+
+    t: (n,) times; component: (n,) index 0, 1, 2 of the rate that vanishes; states: (n, 3) there; start, end: (3,)
+    states at t = 0 and at t_reached (the end of the span, or earlier where the run had to stop: `reason` says why);
+    method: "taylor" or "DOP853".
+    """
+
+    t: np.ndarray
+    component: np.ndarray
+    states: np.ndarray
+    start: np.ndarray
+    end: np.ndarray
+    t_reached: float
+    method: str
+    steps: int
+    reason: str
+
+    def extremes(self):
+        """(3, 2) smallest and largest value of each component over the span, its two ends included."""
+        result = np.sort(np.stack([self.start, self.end], axis=1), axis=1)
+        for i in range(3):
+            values = self.states[self.component == i, i]
+            if values.size:
+                result[i] = min(result[i, 0], values.min()), max(result[i, 1], values.max())
+        return result
+
+
+def roots_of_rates(scene, state, t_end: float, tolerance: float = TAYLOR_TOLERANCE) -> RateRoots:
+    """Every root of x_i' for 0 < |t| < |t_end|, for the motion that is at `state` (three numbers) at t = 0.
+
+    t_end: s (tau when scaled), of either sign. Raises InputError for a state that is not three finite numbers. Rates
+    that vanish identically have no roots.
+    """
+    state, equations = _state(state), _equations(scene)
+    with np.errstate(all="ignore"):
+        finite = np.isfinite(to_numpy(equations)(state)).all()
+    if not finite:
+        return _sorted([], state, state, 0.0, "none", 0, "stopped: the rates overflow at the start")
+    search = _taylor_roots if heyoka_available() else _scipy_roots
+    return search(equations, state, float(t_end), tolerance)
+
+
+def _taylor_roots(equations, state, t_end, tolerance):
+    forms = form(equations, (*equations.rhs, *equations.rhs))
+    with taylor_events(forms, tolerance) as (integrator, found), np.errstate(all="ignore"):
+        integrator.time = 0.0
+        integrator.state[:] = state
+        outcome, _, _, steps, *_ = integrator.propagate_until(t_end, max_steps=STEP_LIMIT)
+        end, t_reached, hits = integrator.state.copy(), integrator.time, list(found)
+    hits = [h for h in hits if h[0] != 0.0 and np.isfinite(h[2]).all()]
+    if not np.isfinite(end).all():
+        t_reached, _, end = hits[-1] if hits else (0.0, 0, state)
+    reason = "" if outcome.name == "time_limit" else f"stopped: {outcome.name}"
+    return _sorted(hits, state, end, t_reached, "taylor", steps, reason)
+
+
+def _sorted(hits, start, end, t_reached, method, steps, reason):
+    hits = sorted(hits, key=lambda h: abs(h[0]))
+    return RateRoots(np.array([h[0] for h in hits]), np.array([h[1] for h in hits], int),
+                     np.array([h[2] for h in hits]).reshape(-1, 3), np.array(start), np.array(end), float(t_reached),
+                     method, int(steps), reason)
+
+
+def _scipy_roots(equations, state, t_end, tolerance):
+    from scipy.integrate import DOP853
+    system = to_numpy(equations)
+    rtol = max(tolerance, FALLBACK_RTOL)
+    floor = rtol * ATOL_SHARE * (np.abs(state).max() or 1.0)
+
+    def run(t, y, end):
+        return DOP853(lambda _, x: np.array(system.rate(x.tolist())), t, y, end, rtol=rtol, atol=floor)
+
+    if t_end == 0:
+        return _sorted([], state, state, 0.0, "DOP853", 0, "")
+    solver, hits, steps = run(0.0, state, t_end), [], 0
+    with np.errstate(all="ignore"):
+        while solver.status == "running" and steps < STEP_LIMIT:
+            before = solver.y.copy()
+            solver.step()
+            if solver.status == "failed" or not np.isfinite(solver.y).all():
+                return _sorted(hits, state, before, solver.t_old or 0.0, "DOP853", steps, "stopped: the numbers overflowed")
+            steps += 1
+            hits += _step_roots(system, solver, before, run)
+    reason = "" if solver.status == "finished" else f"stopped: {STEP_LIMIT} steps were not enough"
+    return _sorted(hits, state, solver.y, solver.t, "DOP853", steps, reason)
+
+
+def _step_roots(system, solver, before, run):
+    """Sign changes of the rates within one step, each polished on the motion itself."""
+    from scipy.optimize import brentq
+    dense, hits = solver.dense_output(), []
+    times = np.linspace(solver.t_old, solver.t, SUBSAMPLES + 1)
+    rates = system(dense(times).T)
+    for i in range(3):
+        for left in np.nonzero(np.sign(rates[:-1, i]) * np.sign(rates[1:, i]) < 0)[0]:
+            t = brentq(lambda s: system.rate(dense(s).tolist())[i], times[left], times[left + 1], xtol=1e-300, rtol=1e-15)
+            hits.append((t, i, _land(run, solver.t_old, before, t)))
+        hits += [(times[n], i, dense(times[n])) for n in np.nonzero(rates[1:, i] == 0)[0] + 1
+                 if np.abs(rates[:, i]).max() > 0]
+    return hits
+
+
+def _land(run, t, y, t_end):
+    """The state at t_end by steps of the method that end there (free of the interpolant's error)."""
+    if t == t_end:
+        return y
+    solver = run(t, y, t_end)
+    while solver.status == "running":
+        solver.step()
+    return solver.y
