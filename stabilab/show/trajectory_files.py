@@ -1,31 +1,27 @@
 """Trajectories as files: NetCDF with units and provenance, or CSV. A file appears whole or not at all."""
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 from ..errors import InputError
+from .style import whole_file
 
 
 def checked(path) -> Path:
-    """The path, if it can be written by its ending and its folder; InputError otherwise."""
+    """The path, if it can be written by its ending; InputError otherwise."""
     path = Path(path)
     if path.suffix not in WRITERS:
         raise InputError(f"{path}: expected a name that ends in {' or '.join(WRITERS)}, got {path.suffix or 'no ending'}")
-    if not path.parent.is_dir() or path.is_dir():
-        raise InputError(f"{path}: expected a file in a folder that exists" + (", this is a folder" if path.is_dir() else ""))
+    if path.is_dir():
+        raise InputError(f"{path}: expected a file, this is a folder")
     return path
 
 
 def write(case, run, path) -> Path:
     """Write a Trajectory of a case to `path` (.nc or .csv), under a temporary name first, then renamed."""
     path = checked(path)
-    temporary = path.with_name(f".{path.name}.{os.getpid()}{path.suffix}")
-    try:
-        WRITERS[path.suffix](case, run, temporary)
-        os.replace(temporary, path)
-    finally:
-        temporary.unlink(missing_ok=True)
+    with whole_file(path) as waiting:
+        WRITERS[path.suffix](case, run, waiting)
     return path
 
 
