@@ -46,11 +46,12 @@ class Conic:
         self.pieces: tuple[Piece, ...] = ()
         self.lines: tuple[Line, ...] = ()
         self.folds: tuple[float, ...] = ()
+        self.fold_invariants: tuple[float, ...] = ()
         G, c, d, mu = g["G"], g["c"], g["d"], g["mu"]
+        size = c * c + d * d
+        self.limit = Line(float(-mu * d / size), float(-mu * c / size), float(-c), float(d)) if size else None
         if G == 0:
-            size = c * c + d * d
-            if size:
-                self.lines = (Line(float(-mu * d / size), float(-mu * c / size), float(-c), float(d)),)
+            self.lines = (self.limit,) if size else ()
             self.K = self.shift = 0.0
             return
         # K through roots of rationals would miss an exact zero by 2^-240: recognise it in rational arithmetic
@@ -62,6 +63,8 @@ class Conic:
         quartic = [Fraction(1), -d / G, Fraction(0), -self.e * c * K / G**2, self.e * K * K / G**2]
         self.folds = tuple(real_polynomial_roots([_shorten(a) for a in quartic]))
         self.pieces = tuple(self._pieces())
+        exact_places = [((K / Fraction(h) - c) / G, Fraction(h) - d / G) for h in self.folds]
+        self.fold_invariants = tuple(float(z * z - self.e * x * x) for x, z in exact_places)
 
     def at(self, h):
         """(X, Z) on the hyperbola."""
@@ -84,14 +87,23 @@ class Conic:
     def critical_places(self, Q, wanted=None):
         """Every equilibrium on the orbits Q (n,): a list of (X, Z, exists, barrier) with arrays (n,), barrier None
         where it is to be decided from the slope. wanted: True for barriers only."""
-        found = []
+        found, thin = [], self._nearly_straight(Q)
         for piece in self.pieces:
             if wanted is None or piece.barrier == wanted:
                 x, z, exists = self._meet_piece(piece, Q)
-                found.append((x, z, exists, piece.barrier))
+                found.append((x, z, exists & ~thin, piece.barrier))
+        if thin.any():
+            found.extend((x, z, exists & thin, None) for x, z, exists in self._meet_line(self.limit, Q))
         for line in self.lines:
             found.extend((*hit, None) for hit in self._meet_line(line, Q))
         return found
+
+    def _nearly_straight(self, Q):
+        """(n,) True where, inside the circle, the conic differs so little from a line that the line is the better guess
+        (two moments equal to many digits): X = (K/h - c)/G would lose all digits. The caller polishes along the orbit."""
+        if self.e > 0 or not self.pieces or self.limit is None:
+            return np.zeros(Q.shape, bool)
+        return abs(self.G) * np.sqrt(Q) < 1e-6 * np.hypot(self.c, self.d)
 
     def _meet_piece(self, piece, Q):
         """The point of a piece where the invariant is Q."""

@@ -226,8 +226,7 @@ def circle_margins(land: Landscape, place, w, size):
                                  | ((np.minimum(offset, TURN - offset) <= angle_error)
                                     & (energy <= ROUNDINGS * EPS * scale)))
             best = np.where(there & (margin > best), margin, best)
-        for fold in land.conic.folds:
-            edge = land.conic.invariant(fold)
+        for edge in land.conic.fold_invariants:
             doubtful |= np.abs(radius**2 - edge) <= ROUNDINGS * EPS * (rounding**2 + edge)
     return best, doubtful & (radius > 0)
 

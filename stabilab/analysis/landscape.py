@@ -116,8 +116,8 @@ class Landscape:
         return offset, spot, exists
 
     def _polish(self, spot):
-        """Two Newton steps along the orbit: whatever the conic lost, the force regains."""
-        for _ in range(2):
+        """Newton steps along the orbit: whatever the conic lost, the force regains."""
+        for _ in range(3):
             with np.errstate(all="ignore"):
                 y = -self.potential.force(spot) / self.potential.slope(spot)
             y = np.where(np.isfinite(y) & (np.abs(y) < 0.5), y, 0.0)

@@ -1,6 +1,9 @@
 """Vectorised root finding: Newton's method held inside a bracket."""
 from __future__ import annotations
 
+import math
+from fractions import Fraction
+
 import numpy as np
 
 EPS = float(np.finfo(float).eps)
@@ -63,7 +66,8 @@ def real_polynomial_roots(coefficients) -> list[float]:
     if degree == 1:
         return [float(-coefficients[1] / coefficients[0])]
     derivative = [a * (degree - i) for i, a in enumerate(coefficients[:-1])]
-    from fractions import Fraction
+    if not any(coefficients[1:]):
+        return [0.0]
 
     def value(x):
         total = 0
@@ -71,7 +75,8 @@ def real_polynomial_roots(coefficients) -> list[float]:
             total = total * x + a
         return total
 
-    bound = 1 + max(abs(a / coefficients[0]) for a in coefficients[1:])
+    # Fujiwara: no root exceeds twice the largest |a_i/a_0|^(1/i); as a power of two, so that the knots stay short
+    bound = Fraction(2) ** (2 + max(_log2(a / coefficients[0]) // i + 1 for i, a in enumerate(coefficients) if i and a))
     knots = [-bound, *(Fraction(r) for r in real_polynomial_roots(derivative)), bound]
     roots = []
     for left, right in zip(knots, knots[1:]):
@@ -83,28 +88,43 @@ def real_polynomial_roots(coefficients) -> list[float]:
     return sorted(set(roots))
 
 
+def _log2(value) -> int:
+    """Floor of log2|value|, give or take one, for exact numbers of any size."""
+    return abs(value.numerator).bit_length() - value.denominator.bit_length()
+
+
 def _bisect_newton(value, left, right, fl, coefficients):
     """The root in (left, right), to the nearest double or its neighbour: floats guide, exact signs decide."""
-    from fractions import Fraction
     slopes = [float(a) for a in coefficients]
     lo, hi, sign = float(left), float(right), fl > 0
-    x = 0.5 * (lo + hi)
-    for _ in range(200):
-        f, df = 0.0, 0.0
+    x = _between(lo, hi)
+    for _ in range(4000):
+        f, df, size = 0.0, 0.0, 0.0
         for a in slopes:
             df = df * x + f
             f = f * x + a
-        exact_value = value(Fraction(x)) if abs(f) < 1e-6 * (abs(df * x) + abs(slopes[-1])) else f
-        if exact_value == 0:
+            size = size * abs(x) + abs(a)
+        if not math.isfinite(size) or abs(f) < 1e-10 * size:
+            f = float(value(Fraction(x)))  # the sign must be exact
+        if f == 0:
             return x
-        if (exact_value > 0) == sign:
+        if (f > 0) == sign:
             lo = x
         else:
             hi = x
-        new = x - float(exact_value) / df if df else 0.5 * (lo + hi)
-        if not lo < new < hi:
-            new = 0.5 * (lo + hi)
-        if new == x or not lo < new < hi:
+        new = x - f / df if df and math.isfinite(df) else _between(lo, hi)
+        if not lo < new < hi or abs(new - x) > 0.9 * (hi - lo):
+            new = _between(lo, hi)
+        if not lo < new < hi or abs(new - x) <= 1e-17 * abs(x):
             return new
         x = new
     return x
+
+
+def _between(lo, hi):
+    """A point inside (lo, hi), geometric where the ends differ by orders of magnitude."""
+    if lo * hi > 0 and not 0.01 < abs(lo / hi) < 100:
+        return math.copysign(math.sqrt(abs(lo)) * math.sqrt(abs(hi)), lo)
+    if lo == 0 or hi == 0:
+        return (lo + hi) * 2.0**-16
+    return 0.5 * lo + 0.5 * hi
