@@ -1,0 +1,302 @@
+"""The commands: what goes to stdout, what to stderr, and which exit code."""
+import csv
+import json
+import math
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from stabilab import cli
+from stabilab.errors import CaseError
+
+ROOT = Path(__file__).parent.parent
+CASES = sorted((ROOT / "cases").glob("*.toml"))
+MINOR, OFF_AXIS = ROOT / "cases/minor-axis-100.toml", ROOT / "cases/off-axis-two.toml"
+STILL = "[body]\ninertia = [3, 2, 1]\n"
+
+
+@pytest.fixture
+def stabilab(monkeypatch, capsys):
+    """Run a command in this process: (exit code, stdout, stderr)."""
+    def run(*arguments):
+        monkeypatch.setattr(sys, "argv", ["stabilab", *map(str, arguments)])
+        with pytest.raises(SystemExit) as left:
+            cli.main()
+        captured = capsys.readouterr()
+        return left.value.code or 0, captured.out, captured.err
+    return run
+
+
+def strict_json(text):
+    """JSON as the standard has it: NaN and Infinity are refused."""
+    return json.loads(text, parse_constant=lambda word: pytest.fail(f"{word} in the JSON"))
+
+
+@pytest.fixture(scope="module")
+def classified():
+    """The JSON objects of all cases, from one run of the program."""
+    run = subprocess.run([sys.executable, "-m", "stabilab", "classify", *map(str, CASES), "--json"], capture_output=True,
+                         text=True, cwd=ROOT)
+    assert run.returncode == 0 and not run.stderr, run.stderr
+    return {answer["case"]: answer for answer in strict_json(run.stdout)}
+
+
+def test_classify_answers_once_per_case_with_the_documented_keys(classified):
+    assert list(classified) == [path.stem for path in CASES]
+    for answer in classified.values():
+        assert answer["schema"] == "stabilab.classify/1" and answer["variables"] in ("scaled", "physical")
+        assert {"kind", "reason", "points", "curves"} <= answer["equilibria"].keys()
+        assert {"at", "fate", "axis", "because", "margin", "period", "extremes", "invariants"} <= answer["motion"].keys()
+        assert answer["motion"]["margin"].keys() == {"energy", "angular_velocity"}
+        for point in answer["equilibria"]["points"]:
+            assert point.keys() == {"at", "eigenvalues", "linear", "verdict", "because"}
+            assert np.shape(point["eigenvalues"]) == (3, 2)
+        for curve in answer["equilibria"]["curves"]:
+            assert {"name", "samples", "folds", "segments"} <= curve.keys()
+
+
+@pytest.mark.parametrize("path", CASES, ids=lambda p: p.stem)
+def test_case_meets_what_it_expects(classified, path):
+    # The expected facts are written in the case files with their proofs; they come from no run of this program.
+    from stabilab.case import load
+    expect, answer = load(path).expect, classified[path.stem]
+    equilibria, motion = answer["equilibria"], answer["motion"]
+    assert equilibria["kind"] == expect.get("kind", equilibria["kind"])
+    if "points" in expect:
+        assert len(equilibria["points"]) == expect["points"]
+    if "verdicts" in expect:
+        assert [p["verdict"] for p in equilibria["points"]] == expect["verdicts"]
+    assert motion["fate"] == expect.get("fate", motion["fate"])
+    if "axis" in expect:
+        assert motion["axis"] == expect["axis"]
+    if "period" in expect:
+        assert motion["period"] == pytest.approx(expect["period"], rel=1e-14)
+    if "extremes" in expect:
+        assert np.allclose(motion["extremes"], expect["extremes"], rtol=1e-14, atol=1e-15)
+
+
+@pytest.mark.parametrize("path", CASES, ids=lambda p: p.stem)
+def test_listed_equilibria_are_at_rest(classified, path):
+    # Euler's equations written out here, from the numbers of the case alone.
+    from stabilab.case import load
+    case, found = load(path), classified[path.stem]["equilibria"]
+    points = [p["at"] for p in found["points"]] + [s["at"] for c in found["curves"] for s in c["samples"]]
+    for at in points:
+        rate, size = _rate_and_size(case.scene, np.array(at))
+        assert np.all(np.abs(rate) <= 1e-14 * size), at
+
+
+def _rate_and_size(scene, x):
+    if scene.variables == "scaled":
+        terms = np.array([[x[1] * x[2], 0, scene.mu[0]], [-x[2] * x[0], -x[2] * scene.a, scene.mu[1]],
+                          [x[1] * x[0], x[1] * scene.b, scene.mu[2]]])
+    else:
+        D, wheel, torque = (np.array(v, float) for v in (scene.body.inertia, scene.vector("gyrostat"), scene.vector("constant_torque")))
+        terms = np.stack([np.cross(D * x, x), np.cross(wheel, x), torque]).T
+        sizes = np.stack([[abs(D[1] * x[1] * x[2]) + abs(D[2] * x[1] * x[2]), abs(D[0] * x[0] * x[2]) + abs(D[2] * x[0] * x[2]),
+                           abs(D[0] * x[0] * x[1]) + abs(D[1] * x[0] * x[1])],
+                          np.abs(wheel).max() * np.abs(x).max() * np.ones(3), np.abs(torque)])
+        return terms.sum(axis=1), sizes.sum(axis=0)
+    return terms.sum(axis=1), np.abs(terms).sum(axis=1)
+
+
+def test_numbers_in_json_are_doubles_to_the_last_digit(stabilab):
+    code, out, _ = stabilab("classify", MINOR, "--json")
+    assert code == 0 and strict_json(out)[0]["motion"]["at"] == [2.5, 4.0, 0.1]
+
+
+def test_infinite_and_missing_values_become_null():
+    from stabilab.show.answers import as_json
+    value = {"a": [math.inf, -math.inf, math.nan, None, np.float64(0.1), np.int64(3), 1 + 2j], "b": np.array([[1.0, np.inf]])}
+    assert strict_json(as_json(value)) == {"a": [None, None, None, None, 0.1, 3, [1.0, 2.0]], "b": [[1.0, None]]}
+
+
+def test_case_without_a_motion_has_null_for_it(stabilab, tmp_path):
+    path = tmp_path / "still.toml"
+    path.write_text(STILL)
+    code, out, _ = stabilab("classify", path, "--json")
+    assert code == 0 and strict_json(out)[0]["motion"] is None
+
+
+def test_text_of_classify_names_fate_and_curve(stabilab):
+    code, out, err = stabilab("classify", MINOR, OFF_AXIS)
+    assert code == 0 and not err
+    assert "minor-axis-100" in out and "bounded" in out and "off-axis-two" in out and "unstable" in out
+
+
+def test_strict_turns_an_undecided_fate_into_exit_code_3(stabilab):
+    assert stabilab("classify", OFF_AXIS)[0] == 0
+    code, out, _ = stabilab("classify", OFF_AXIS, "--strict", "--json")
+    assert code == 3 and strict_json(out)[0]["motion"]["fate"] == "undecided"
+    assert stabilab("classify", MINOR, "--strict")[0] == 0
+
+
+def test_all_bad_files_are_named_and_nothing_is_printed(stabilab, tmp_path):
+    first, second = tmp_path / "first.toml", tmp_path / "second.toml"
+    first.write_text("[boby]\n")
+    second.write_text("[body]\ninertia = [1, 2, 30]\n")
+    code, out, err = stabilab("classify", first, MINOR, second, tmp_path / "third.toml")
+    assert code == 2 and not out and "Traceback" not in err
+    assert all(f"{path}:" in err for path in (first, second, tmp_path / "third.toml"))
+
+
+def test_extremes_of_the_ball_with_a_wheel(stabilab):
+    # omega turns about the wheel's axis: components across it swing by sqrt(0.3^2 + 0.4^2), by hand.
+    code, out, _ = stabilab("extremes", ROOT / "cases/sphere-wheel.toml", "--csv")
+    rows = list(csv.DictReader(out.splitlines()))
+    assert code == 0 and [row["component"] for row in rows] == ["omega1", "omega2", "omega3"]
+    assert np.allclose([[float(row["min"]), float(row["max"])] for row in rows], [[-0.5, 0.5], [-0.5, 0.5], [0.7, 0.7]], rtol=1e-14)
+    code, out, _ = stabilab("extremes", ROOT / "cases/sphere-wheel.toml", MINOR, "--json")
+    assert code == 0 and [answer["schema"] for answer in strict_json(out)] == ["stabilab.extremes/1"] * 2
+
+
+def test_unbounded_extremes_are_inf_in_csv_and_null_in_json(stabilab):
+    path = ROOT / "cases/symmetric-spin-up.toml"
+    assert ",inf," in stabilab("extremes", path, "--csv")[1]
+    assert strict_json(stabilab("extremes", path, "--json")[1])[0]["extremes"][2] == [-1.0, None]
+
+
+def test_simulate_follows_the_closed_form_of_the_ball(stabilab):
+    # D omega' = lambda x omega: a turn about axis 3 at 2 rad/s, by hand.
+    code, out, _ = stabilab("simulate", ROOT / "cases/sphere-wheel.toml", "--at", "2,0,0.5", "--json")
+    answer = strict_json(out)
+    assert code == 0 and answer["t"] == [0.0, 0.5, 2.0]
+    assert {"schema": "stabilab.simulate/1", "case": "sphere-wheel", "model": "exact", "time": "s"}.items() <= answer.items()
+    turned = [(0.3 + 0.4j) * np.exp(2j * t) for t in answer["t"]]
+    assert np.allclose(answer["state"]["omega"], [[z.real, z.imag, 0.7] for z in turned], rtol=1e-13)
+    assert max(answer["invariant_drift"].values()) < 1e-13 and answer["counters"]["steps"] > 0
+
+
+def test_simulate_takes_201_times_over_the_span_by_default(stabilab, tmp_path):
+    code, out, err = stabilab("simulate", MINOR, "--out", tmp_path / "run.csv")
+    rows = list(csv.reader((tmp_path / "run.csv").read_text().splitlines()))
+    assert code == 0 and not out and "run.csv" in err
+    assert rows[0] == ["tau", "x1", "x2", "x3"] and len(rows) == 202
+    assert [float(v) for v in rows[1]] == [0.0, 2.5, 4.0, 0.1] and float(rows[-1][0]) == 15.0
+
+
+def test_simulate_writes_netcdf_that_reads_back_to_the_last_bit(stabilab, tmp_path):
+    xarray = pytest.importorskip("xarray")
+    stabilab("simulate", MINOR, "--at", "0,1,2", "--out", tmp_path / "run.nc")
+    _, out, _ = stabilab("simulate", MINOR, "--at", "0,1,2", "--json")
+    with xarray.open_dataset(tmp_path / "run.nc", engine="scipy") as data:
+        assert data["x"].values.tolist() == strict_json(out)["state"]["x"] and data["tau"].values.tolist() == [0, 1, 2]
+        assert data.attrs["case"] == MINOR.read_text()
+    assert [p.name for p in tmp_path.iterdir()] == ["run.nc"]
+
+
+@pytest.mark.parametrize("arguments, words", [
+    (("--out", "run.txt"), "expected a name that ends in .nc or .csv"),
+    (("--at", "0,soon"), "--at: expected a decimal"),
+    (("--at", ""), "--at: expected a decimal"),
+    (("--method", "RK54"), "did you mean"),
+    (("--rtol", "-1"), "rtol"),
+    (("--rtol", "much"), "--rtol"),
+    (("--wrong",), "No such option"),
+])
+def test_wrong_options_of_simulate_end_with_2_and_a_reason(stabilab, arguments, words):
+    code, out, err = stabilab("simulate", MINOR, *arguments)
+    assert code == 2 and not out and words in err and "Traceback" not in err
+
+
+def test_motion_is_asked_for_where_it_is_needed(stabilab, tmp_path):
+    path = tmp_path / "still.toml"
+    path.write_text(STILL)
+    for command in ("extremes", "simulate", "plot"):
+        code, out, err = stabilab(command, path)
+        assert code == 2 and not out and "this command needs a state" in err
+
+
+def test_show_prints_equations_and_laws(stabilab):
+    code, out, _ = stabilab("show", ROOT / "cases/wheel-and-thruster.toml")
+    assert code == 0 and "D1 omega1' =" in out and "\\dot{\\omega_{1}}" in out and "Laws of this scene" in out
+
+
+def test_show_names_no_symbol_of_an_effect_that_is_not_there(stabilab):
+    code, out, _ = stabilab("show", ROOT / "cases/off-axis-two.toml")
+    assert code == 0 and "M1" in out and "lambda" not in out.split("Laws that hold for every value")[0]
+
+
+def test_plot_writes_a_picture_and_says_where(stabilab, tmp_path):
+    code, out, _ = stabilab("plot", MINOR, "--out", tmp_path / "minor.png")
+    assert code == 0 and out.strip() == str(tmp_path / "minor.png")
+    assert (tmp_path / "minor.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_every_command_has_help_with_an_example(stabilab):
+    code, out, _ = stabilab("--help")
+    commands = [line.split()[0] for line in out.split("Commands:")[1].splitlines() if line.startswith("  ")]
+    assert code == 0 and set(commands) == {"show", "classify", "extremes", "simulate", "surface", "plot", "tables", "report", "doctor"}
+    assert "--install-completion" in out and "..." not in out.split("Commands:")[1]
+    for command in commands:
+        code, out, _ = stabilab(command, "--help")
+        assert code == 0 and f"Example: stabilab {command}" in out
+
+
+def test_wrong_command_is_a_usage_error(stabilab):
+    code, out, err = stabilab("clasify")
+    assert code == 2 and not out and "classify" in err
+
+
+def test_version_is_the_packages(stabilab):
+    import stabilab as package
+    assert stabilab("--version")[:2] == (0, f"stabilab {package.__version__}\n")
+
+
+def test_exit_code_of_an_error_is_its_own(stabilab, monkeypatch):
+    def raising(error):
+        def fail(*_, **__):
+            raise error
+        return fail
+    from stabilab.errors import Problem, RenderingUnavailable, ToleranceNotMet
+    for error, code, words in [(RenderingUnavailable("no GL"), 4, "no GL"), (ToleranceNotMet("not met"), 5, "not met"),
+                               (CaseError("c.toml", [Problem("k", "bad", 3)]), 2, "c.toml:3: k: bad"),
+                               (ZeroDivisionError("oops"), 1, "ZeroDivisionError: oops"), (KeyboardInterrupt(), 130, ""),
+                               (PermissionError(13, "Permission denied", "/x"), 2, "/x: Permission denied")]:
+        monkeypatch.setattr(cli, "_load", raising(error))
+        came, out, err = stabilab("show", MINOR)
+        assert (came, out) == (code, "") and words in err and "Traceback" not in err
+    monkeypatch.setenv("STABILAB_DEBUG", "1")
+    monkeypatch.setattr(cli, "_load", raising(ZeroDivisionError("oops")))
+    assert "Traceback" in stabilab("show", MINOR)[2]
+
+
+@pytest.mark.skipif(os.name != "posix", reason="pipes and signals of POSIX")
+def test_reader_that_goes_away_ends_the_program_quietly():
+    read, write = os.pipe()
+    os.close(read)
+    run = subprocess.run([sys.executable, "-m", "stabilab", "show", str(MINOR)], stdout=write, stderr=subprocess.PIPE, cwd=ROOT)
+    os.close(write)
+    assert run.returncode == cli.PIPE_CLOSED and run.stderr == b""
+
+
+@pytest.mark.skipif(os.name != "posix", reason="pipes and signals of POSIX")
+def test_interrupt_ends_with_130_and_no_traceback(tmp_path):
+    run = subprocess.Popen([sys.executable, "-m", "stabilab", "simulate", str(ROOT / "cases/major-axis-100.toml"), "--at", "1e6",
+                            "--method", "RK45"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=ROOT)
+    deadline = time.time() + 30
+    while time.time() < deadline and "scipy" not in Path(f"/proc/{run.pid}/maps").read_text():
+        time.sleep(0.05)
+    time.sleep(0.5)
+    run.send_signal(signal.SIGINT)
+    out, err = run.communicate(timeout=30)
+    assert run.returncode == 130 and not out and b"Traceback" not in err
+
+
+def test_output_has_no_escape_codes(stabilab, monkeypatch):
+    monkeypatch.setenv("NO_COLOR", "1")
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    for arguments in (("classify", MINOR), ("--help",), ("clasify",)):
+        _, out, err = stabilab(*arguments)
+        assert "\x1b" not in out + err
+
+
+def test_doctor_names_versions_renderer_and_processor(stabilab):
+    code, out, _ = stabilab("doctor")
+    assert code == 0 and all(word in out for word in ("stabilab", "numpy", np.__version__, "rendering", "processor"))
