@@ -35,7 +35,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from ..errors import InputError
-from ..quadratic import CYCLE
+from .captured_form import growth_law, standard_form
 from .results import Fate
 
 # A certificate counts when its inequality holds by this share of the terms in it: 100 times their rounding.
@@ -65,75 +65,6 @@ class CapturedFate:
     certificate: str
     t_certificate: float | None
     steps: int
-
-
-@dataclass(frozen=True)
-class StandardForm:
-    """x[axes] = rates * (u - shift, y2, y3), t = time * tau; axes 0-based, first the torque's."""
-
-    c: float
-    axes: tuple[int, int, int]
-    rates: tuple[float, float, float]
-    shift: Fraction
-    time: float
-
-    def to_standard(self, x):
-        """State of the scene -> (u, y2, y3); the shift is added before rounding."""
-        i, p, q = self.axes
-        return (float(Fraction(float(x[i])) + self.shift) / self.rates[0], x[p] / self.rates[1], x[q] / self.rates[2])
-
-
-def standard_form(scene) -> StandardForm | None:
-    """The change to standard form, or None where there is none (see the module's docstring for what it needs).
-
-    x_i' = kappa_i x_p x_q + m,  x_p' = kappa_p x_q (x_i + alpha),  x_q' = kappa_q x_p (x_i + beta): with kappa_i kappa_q > 0 >
-    kappa_p kappa_q the rates r_i^2 = |m|/g, r_p^2 = g |m|/(kappa_i kappa_q), r_q^2 = g |m|/|kappa_i kappa_p|, g^2 = |kappa_p kappa_q|, and
-    the time 1/sqrt(g |m|) bring it to standard form; r_i has the sign of m, r_q that of m kappa_i.
-    """
-    form = scene.quadratic()
-    i = _torque_axis(form)
-    if i is None or form.rho[i] or form.sigma[i]:
-        return None
-    j, k = CYCLE[i]
-    if form.sigma[k] or form.rho[j] or not form.kappa[j] * form.kappa[k] < 0 or not form.kappa[i]:
-        return None
-    alpha = {j: form.sigma[j] / form.kappa[j], k: form.rho[k] / form.kappa[k]}
-    p, q = (j, k) if form.kappa[i] * form.kappa[k] > 0 else (k, j)
-    kappa, m = form.kappa, abs(form.m[i])
-    if alpha[p] == alpha[q]:
-        return None
-    g = math.sqrt(abs(kappa[p] * kappa[q]))
-    sign = 1 if form.m[i] > 0 else -1
-    r = math.sqrt(m / Fraction(g)) * sign
-    rates = (r, math.sqrt(Fraction(g) * m / (kappa[i] * kappa[q])),
-             math.sqrt(Fraction(g) * m / abs(kappa[i] * kappa[p])) * sign * (1 if kappa[i] > 0 else -1))
-    return StandardForm(float((alpha[q] - alpha[p]) / Fraction(r)), (i, p, q), rates, (alpha[p] + alpha[q]) / 2,
-                        1 / math.sqrt(Fraction(g) * m))
-
-
-def _torque_axis(form):
-    acting = [i for i in range(3) if form.m[i]]
-    return acting[0] if len(acting) == 1 else None
-
-
-def growth_law(scene):
-    """(axis 0-based, J(state), J_rate): the law of the module's docstring with its exact rate; None where it does not
-    apply (torque not along one principal axis, or no gyrostatic component along it)."""
-    if scene.variables == "scaled":
-        (a, b), mu = scene.exact_ab, scene.exact_mu
-        if not mu[0] or mu[1] or mu[2] or a == b:
-            return None
-        c = b - a
-        return 0, lambda x: float(Fraction(x[1])**2 + Fraction(x[2])**2 - 2 * c * Fraction(x[0])), float(-2 * c * mu[0])
-    D, lam, M = scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque")
-    i = next((n for n in range(3) if M[n]), None)
-    if i is None or any(M[n] for n in range(3) if n != i) or not lam[i]:
-        return None
-
-    def J(x):
-        x = [Fraction(v) for v in x]
-        return float(sum((d * v + h)**2 - D[i] * d * v * v for d, v, h in zip(D, x, lam)) / 2)
-    return i, J, float(lam[i] * M[i])
 
 
 def spin_up_margin(c, y) -> tuple[float, float]:
@@ -322,3 +253,41 @@ def _without_form(scene, state, axis, t_max):
     return dict(fate=Fate.SPIN_UP if clear else Fate.UNDECIDED, axis=seen.axis, sense=seen.sense, release_time=None,
                 release_estimate=None, certificate="evidence" if clear else "none", t_certificate=None, steps=seen.steps,
                 because=f"unbounded, because |H|^2/2 - D{axis + 1} T grows in proportion to time; {words}")
+
+
+def captured_extremes(scene, state, answer: CapturedFate | None = None):
+    """((3, 2) array of extremes over t >= 0, words saying over what they are known).
+
+    Growing components have +-inf at their growing end; in a capture "well" the two other components swing ever wider, like
+    t^(1/4) (their action is an adiabatic invariant), and have both. The finite end of a certified spin-up holds for all
+    time, P >= sqrt(2L) keeping it from falling lower; every other finite entry is over the span named.
+    """
+    import numpy as np
+    from .rate_roots import roots_of_rates
+    answer = answer or captured_fate(scene, state)
+    change = standard_form(scene)
+    unit = change.time if change else 1 / math.sqrt(max(abs(float(v)) for v in scene.quadratic().m))
+    span = max(1.5 * (answer.t_certificate or 0.0), 20 * unit)
+    roots = roots_of_rates(scene, state, span)
+    certain = answer.certificate in ("spin-up", "axis")
+    while answer.certificate == "spin-up" and not roots.reason and not _floor_holds(change, roots):
+        span *= 1.5
+        roots = roots_of_rates(scene, state, span)
+    extremes = roots.extremes()
+    if answer.certificate == "well":
+        others = [i for i in range(3) if i != answer.axis - 1]
+        extremes[others] = -np.inf, np.inf
+    if answer.axis:
+        extremes[answer.axis - 1, 1 if answer.sense > 0 else 0] = answer.sense * np.inf
+    where = f"{scene.time_unit} in [0, {roots.t_reached:g}]"
+    if answer.certificate == "axis":
+        return extremes, "all time"
+    return extremes, f"axis {answer.axis} for all time, the others over {where}" if certain else f"finite entries over {where}"
+
+
+def _floor_holds(change, roots):
+    """Whether u can fall no lower after the run than it did in it: u >= sqrt(2L) - |c|/2, L growing (module docstring)."""
+    c, i = change.c, change.axes[0]
+    margin, _ = spin_up_margin(c, change.to_standard(roots.end.tolist()))
+    u = [change.to_standard(x.tolist())[0] for x in (roots.start, roots.end, *roots.states[roots.component == i])]
+    return margin > 0 and math.sqrt(2 * (margin + c * c / 2)) - abs(c) / 2 >= min(u)

@@ -21,9 +21,12 @@ from .trajectories import _state, trajectory
 STEP_BUDGET = 1_000_000
 # Two points of a closed orbit are the same where they agree to this share of the orbit's size.
 SAME_POINT = 1e-9
-# An axis is called the spin-up's when in this many doublings of the run in a row it alone keeps its sense and its least
-# rate grows by this factor (a spin like the square root of time gives 1.41, a steady spin-up 2).
+# An axis is called the spin-up's when in this many doublings of the run in a row it keeps its sense and its least rate
+# grows by this factor, and no other axis does (a spin like the square root of time gives 1.41, a steady spin-up 2).
 DOUBLINGS, GROWTH = 3, 1.2
+# Or when it keeps its sense through the last doubling, ends ten times faster than the whole spin began, and holds this
+# share of the squared spin throughout.
+SHARE, FASTER = 0.9, 10.0
 
 
 @dataclass(frozen=True)
@@ -110,25 +113,31 @@ def _trend(energy):
 def growth(scene, state, t_max: float) -> Growth:
     """Run in doubling spans, up to t_max or the step budget, until one axis clearly holds the growing spin."""
     here, t, steps, stages = _state(state), 0.0, 0, []
+    begin = np.linalg.norm(here) + math.sqrt(max(abs(float(v)) for v in scene.quadratic().m))
     span = min(10 / math.sqrt(max(abs(float(v)) for v in scene.quadratic().m)), t_max)
     while t < t_max and steps < STEP_BUDGET:
         run = trajectory(scene, here, np.linspace(0, span, 257)[1:])
         if run.status == "stopped":
             return Growth(0, 0, t, run.reason, steps)
         t, here, steps = t + span, run.states[-1], steps + run.counters["steps"]
+        squares = run.states**2
+        share = (squares / squares.sum(axis=1, keepdims=True)).min(axis=0)
         stages.append((np.sign(run.states).sum(axis=0) / len(run.states), np.abs(run.states).min(axis=0)))
-        if len(stages) > DOUBLINGS and (i := _holder(stages[-DOUBLINGS - 1:])) is not None:
-            words = f"in {DOUBLINGS} doublings of the time it alone kept its sense, its least rate growing to {stages[-1][1][i]:.4g}"
+        i = _holder(stages[-DOUBLINGS - 1:]) if len(stages) > DOUBLINGS else None
+        if i is None and share.max() > SHARE and np.abs(here).max() > FASTER * begin:
+            i = int(share.argmax())
+        if i is not None and abs(stages[-1][0][i]) == 1:
+            words = f"it alone keeps its sense and grows; least rate in the last half of the run {stages[-1][1][i]:.4g}"
             return Growth(i + 1, int(stages[-1][0][i]), t, words, steps)
         span = min(t, t_max - t)
     return Growth(0, 0, t, "no axis holds the spin", steps)
 
 
 def _holder(stages):
-    """The axis that alone keeps its sense through the stages while its least rate grows; None if there is none."""
+    """The one axis that keeps its sense through the stages while its least rate grows; None where it is not one."""
     senses, least = (np.array(column) for column in zip(*stages))
-    steady = [i for i in range(3) if abs(senses[:, i].sum()) == len(stages)]
-    return steady[0] if len(steady) == 1 and (least[1:, steady[0]] > GROWTH * least[:-1, steady[0]]).all() else None
+    held = (np.abs(senses.sum(axis=0)) == len(stages)) & (least[1:] > GROWTH * least[:-1]).all(axis=0)
+    return int(held.argmax()) if held.sum() == 1 else None
 
 
 def extremes_over_period(scene, state) -> PeriodExtremes:
