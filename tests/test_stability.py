@@ -14,6 +14,7 @@ from scipy.integrate import solve_ivp
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, equilibria
 from stabilab.analysis.eigenvalues import eigenvalues
 from stabilab.analysis.polynomials import Poly, real_roots
+from stabilab.analysis.surd import Surd
 
 
 def physical(D, lam, M) -> Scene:
@@ -107,6 +108,27 @@ def test_a_triple_of_real_roots_survives_a_double_root():
     assert sorted(v.real for v in eigenvalues(F(-3), F(2))) == [-2.0, 1.0, 1.0]
     beside = eigenvalues(F(-3), 2 + F(1, 10**20))
     assert beside[1].imag == pytest.approx(1e-10 / math.sqrt(3), rel=1e-9)
+
+
+@settings(max_examples=200, deadline=None)
+@given(st.integers(-10**9, 10**9), st.integers(-10**4, 10**4), st.integers(0, 10**10))
+def test_surds_have_the_sign_and_the_digits_of_their_value(p, q, d):
+    """mpmath at 80 digits; d is often close to (p/q)^2, where rounding would decide wrongly."""
+    import mpmath as mp
+    for dd in {d, (p // q) ** 2 if q else 0, (p // q) ** 2 + 1 if q else 1}:
+        with mp.workdps(80):
+            value = p + q * mp.sqrt(dd)
+            value = mp.mpf(0) if abs(value) < mp.mpf(10) ** -60 else value
+            surd = Surd(F(p), F(q), F(dd))
+            assert surd.sign == mp.sign(value)
+            assert float(surd.fraction()) == float(value)
+
+
+def test_the_reason_names_the_sign_of_the_real_root():
+    """The real root of z^3 + m z + n has the sign of -n."""
+    for scene in SCENES[3:5]:
+        for p in equilibria(scene).points:
+            assert p.because.startswith("n > 0") == (p.eigenvalues[0].real < 0)
 
 
 @settings(max_examples=100, deadline=None)

@@ -9,7 +9,7 @@ a hyperbola; two crossing lines where it passes through its own centre; one line
 nothing, where d_P = d_Q. A torque oblique in a plane of equal moments is as good as one on a principal axis.
 
 Reduction to one degree of freedom: alpha' = e-component of x (e along M) makes the other two a linear flow in alpha,
-dx/dalpha = J(x) e, on which e''s rate is -U'(alpha). On the conic U' = 0 and U'' = m; J(x) e never vanishes there
+dx/dalpha = J(x) e, along which alpha'' = -U'(alpha). On the conic U' = 0 and U'' = m; J(x) e never vanishes there
 because M != 0, so (alpha, invariant of the flow, x.e) are coordinates near every equilibrium.
 """
 from __future__ import annotations

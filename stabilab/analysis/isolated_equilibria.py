@@ -5,8 +5,8 @@ parallel to M, so one quadratic remains:
 
     q(t) = det(D y + lambda, y, M)/M.M + 1 = q2 t^2 + q1 t + q0,   q2 = det(M, D M, D^2 M) up to a positive factor.
 
-q2 vanishes where a component of M does or two moments are equal. q vanishes identically where lambda = l v-axis part plus
-what cancels (D_v - D) y0: then the balance holds for every rate about the line (found from the coefficients, not assumed).
+q2 vanishes where a component of M does or two moments are equal. All of q vanishes where lambda = (D_v - D) y0 + l v, with
+D v = D_v v and M = l y0 x v: then D y + lambda = D_v y + l v, and the balance holds for every rate t about v.
 """
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ from fractions import Fraction
 
 from .equilibrium_curve import Grounds, RationalCurve, T, Verdict, decimal, line_text, size_of, straight_line
 from .equilibrium_conics import unit
-from .pencil import CYCLE, ONE, ZERO, Pencil, cross
+from .pencil import CYCLE, ONE, ZERO, Pencil
 from .polynomials import Poly
 from .results import CurveSegment, EquilibriumCurve, EquilibriumPoint
 from .stability import sample_parameters
