@@ -31,7 +31,7 @@ class Figure:
         return f"stabilab figures {self.number} --out figures"
 
 
-_LEVEL = "separatrices and motion: level sets of the exact potential, evaluated to rounding; grey lines: 700 x 500 grid"
+_LEVEL = "curves: level sets of the exact potential, evaluated to rounding"
 _RUN = "Taylor integration, relative tolerance 1.1e-16, 6001 points"
 _SHEET = "vertices on the surface to rounding (analysis.separatrix)"
 _LAW = ("x2² + x3² − 2(b−a)x1 falls by exactly 2(b−a)τ, so no motion is bounded and there is no equilibrium, stable or "
@@ -46,7 +46,8 @@ def _run(start, plane=None):
 FIGURES = (
     Figure(2, "Trajectories for a torque on the minor axis", "Level curves of x²/2 + A² cos α − 4A(b−a) sin(α/2) − 2α on the "
            "true circle (x1+a)² + x2² = A² with A = 4.8260. The paper draws F = 4.72 from x1² + x2² = F², which is not "
-           "constant, and −4Fb in place of −4A(b−a).", minor.trajectories, _LEVEL),
+           "constant, and −4Fb in place of −4A(b−a).", minor.trajectories,
+           f"{_LEVEL}; grey lines: traced on a 700 x 500 grid"),
     Figure(3, "Left and right separatrices", "Each saddle has one loop; triangles mark where a loop crosses the axis "
            "upright. Outside the loops every motion comes from the right, turns back and spins up to the right.",
            minor.left_right, _LEVEL),

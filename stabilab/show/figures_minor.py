@@ -152,7 +152,7 @@ def contour_map(plt):
     style.legend(figure, [("stable equilibria", style.MEANING["stable"]), ("unstable equilibria", style.MEANING["unstable"]),
                      ("fold circles", style.MEANING["fold"]), (r"$(x_1+a)(x_1+b)=x_2^2$", style.MEANING["dividing"]),
                      ("edge of the stable regions", {"color": style.PURPLE, "linewidth": 1.4}),
-                     (r"printed: $x_1+x_2=0$, radius $\sqrt{2}$", style.MEANING["printed"])])
+                     (r"printed: $x_1+x_2=0$, radius $\sqrt{2}$", style.MEANING["printed"])], columns=3)
     return figure
 
 

@@ -161,13 +161,18 @@ def window(plane: PhasePlane) -> tuple[float, float]:
         return middle - 1.35 * np.pi, middle + 1.35 * np.pi
     energy = plane.W0**2 / 2
     marks = [0.0, *plane.saddles, *plane.centres]
-    floor = min(float(plane.height(m)) for m in marks)
-    target = floor + 2.5 * max(energy - floor, *(float(plane.height(m)) - floor for m in marks), 0.2)
-    low, high = min(marks), max(marks)
+    heights = [float(plane.height(m)) for m in marks]
+    lift = max(energy - min(heights), max(heights) - min(heights), 0.2)
+    return tuple(_side(plane, edge, sense, min(heights) + 2.5 * lift, min(heights) - 6 * lift)
+                 for edge, sense in ((min(marks), -1), (max(marks), 1)))
+
+
+def _side(plane, edge, sense, ceiling, cellar):
+    """Where the potential, from `edge` on, leaves the range worth drawing; at most 12 away."""
     step = 0.02
-    while step < 60 and not (plane.height(low - step) > target and plane.height(high + step) > target):
-        step *= 1.15
-    return low - step, high + step
+    while step < 12 and cellar < plane.height(edge + sense * step) < ceiling:
+        step *= 1.1
+    return edge + sense * step
 
 
 def draw(ax, plane: PhasePlane, scale=1.0, offset=0.0, rate_scale=1.0, span=None, levels=22, motion=True):

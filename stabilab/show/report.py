@@ -71,7 +71,7 @@ def _make(cases, folder, tell, out):
     page = environment.get_template("index.html").render(
         title="Bounded motion and spin-up of a gyrostat under constant torque", paper=paper.PAPER, rendering_note=note,
         cases=sections, tables=tables, surfaces=surfaces, audit=check(), versions=_versions(),
-        figures=[{**vars(row), "file": f"figures/{path.name}", "command": row.command}
+        figures=[{**vars(row), "file": f"figures/{path.name}", "command": row.command, "size": _size(path)}
                  for row, path in zip(figures.FIGURES, drawn)],
         command=f"stabilab report {' '.join(case.path for case in cases)} --out {out}")
     (folder / "index.html").write_text(page, encoding="utf-8")
@@ -224,7 +224,16 @@ def _evidence(value):
 
 def _picture(case, folder):
     from .plane import plot
-    return f"cases/{plot(case, folder / 'cases' / f'{case.name}.png').name}"
+    path = plot(case, folder / "cases" / f"{case.name}.png")
+    return {"file": f"cases/{path.name}", "size": _size(path)}
+
+
+def _size(path):
+    """Width and height attributes of a picture: the page does not jump while it loads."""
+    from markupsafe import Markup
+    from PIL import Image
+    with Image.open(path) as image:
+        return Markup('width="{}" height="{}"').format(*image.size)
 
 
 def _versions():

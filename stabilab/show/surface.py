@@ -195,9 +195,7 @@ def draw(scene, found, meshes, path) -> Path:
         pixels = stage.screenshot(return_img=True)
     finally:
         stage.close()
-    image = Image.fromarray(pixels).quantize(256, dither=Image.Dither.NONE)
-    with style.whole_file(path) as waiting:
-        image.save(waiting, format="png", optimize=True)
+    style.write_small(Image.fromarray(pixels), path)
     return Path(path)
 
 
