@@ -122,9 +122,10 @@ def _motion_lines(case, m) -> list[str]:
     spin = f" about axis {m.axis}, sense {m.sense:+d}" if m.axis else ""
     rows = [("margin, energy", m.margin_energy, energy), ("margin, rate", m.margin_velocity, rate), ("period", m.period, time)]
     lines = [f"motion from {_triple(m.at)}: {m.fate.word}{spin}", f"  {m.because}"]
-    lines += [f"  {name:<16}{_number(value)} {unit}".rstrip() for name, value, unit in rows if value is not None]
-    lines += [f"  {name:<16}{_number(value)}" for name, value in m.invariants.items()]
-    lines += [f"  {name:<16}{value}" for name, value in m.evidence.items()]
+    lines += [f"  {name:<24}{_number(value)} {unit}".rstrip() for name, value, unit in rows if value is not None]
+    lines += [f"  {_spaced(name):<24}{_number(value)}" for name, value in m.invariants.items()]
+    lines += [f"  {_spaced(name):<24}{_number(value) if isinstance(value, float) else value}"
+              for name, value in m.evidence.items() if value is not None]
     return lines + ([f"  least and greatest over {m.extremes_over}:"] + _extreme_lines(case, m.extremes) if m.extremes else [])
 
 
@@ -140,6 +141,10 @@ def _number(value) -> str:
     if value is None:
         return "unknown"
     return "unbounded" if math.isinf(value) else f"{float(value) + 0.0:.12g}"
+
+
+def _spaced(name: str) -> str:
+    return name.replace("_", " ")
 
 
 def _triple(at) -> str:

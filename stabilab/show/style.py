@@ -73,14 +73,20 @@ def save(figure, path) -> Path:
 
 def write_small(image, path) -> None:
     """Write a Pillow image as a PNG of 256 colours, the style's own among them: well under 200 kB for a drawing."""
+    import numpy as np
     from PIL import Image
-    image, none = image.convert("RGB"), Image.Dither.NONE
-    common = image.quantize(240, dither=none).getpalette()[:3 * 240]
-    ours = [int(c[i:i + 2], 16) for c in (BLACK, "#FFFFFF", *SHEETS, GREY) for i in (1, 3, 5)]
-    palette = Image.new("P", (1, 1))
-    palette.putpalette((common + ours + [255] * 768)[:768])
+    image = image.convert("RGB")
+    ours = [[int(c[i:i + 2], 16) for i in (1, 3, 5)] for c in (BLACK, "#FFFFFF", *SHEETS, GREY)]
+    common = np.reshape(image.quantize(256 - len(ours), dither=Image.Dither.NONE).getpalette(), (-1, 3))
+    palette = np.vstack([ours, common])[:256].astype(np.int32)
+    colours, where = np.unique(np.asarray(image).reshape(-1, 3), axis=0, return_inverse=True)
+    # Pillow's own nearest-colour search is coarse (white comes out as 252): search exactly, in chunks
+    nearest = np.concatenate([((part[:, None].astype(np.int32) - palette) ** 2).sum(-1).argmin(1)
+                              for part in np.array_split(colours, len(colours) // 4096 + 1)])
+    small = Image.fromarray(nearest[where.ravel()].astype(np.uint8).reshape(image.size[::-1]))
+    small.putpalette(palette.astype(np.uint8).tobytes())
     with whole_file(path) as waiting:
-        image.quantize(palette=palette, dither=none).save(waiting, format="png", optimize=True)
+        small.save(waiting, format="png", optimize=True)
 
 
 @contextmanager

@@ -47,7 +47,7 @@ def cell(value) -> str:
 TORQUE_COLUMNS = {"wheel": "gyrostat", "torque signs": "mu", "equilibria": "number", "form": "form",
                   "condition": "condition", "characteristic polynomial": "polynomial", "spectrum": "spectrum",
                   "linear": "linear", "nonlinear": "nonlinear"}
-_SIGNS = {"mu": "μ", "!=": "≠", "+-": "±", "sqrt": "√", "^2": "²", "^3": "³", "^4": "⁴", "<=": "≤", ">=": "≥"}
+_SIGNS = {"mu1": "μ1", "mu2": "μ2", "mu3": "μ3", "!=": "≠", "+-": "±", "sqrt": "√", "^2": "²", "^3": "³", "^4": "⁴", "<=": "≤", ">=": "≥"}
 
 
 def torque_signs() -> Table:
@@ -188,7 +188,7 @@ def html_fragment(table: Table) -> str:
     """A <table> with everything escaped."""
     head = "".join(f'<th scope="col">{html.escape(h)}</th>' for h in table.header)
     body = "\n".join("<tr>" + "".join(
-        f'<td class="{"words" if isinstance(v, str) else "number"}">{html.escape(cell(v))}</td>' for v in row) + "</tr>"
+        f'<td class="{"words" if table.wide or isinstance(v, str) else "number"}">{html.escape(cell(v))}</td>' for v in row) + "</tr>"
         for row in table.rows)
     return (f'<table id="table-{table.number}">\n<caption>Table {table.number}. {html.escape(table.title)}</caption>\n'
             f"<thead><tr>{head}</tr></thead>\n<tbody>\n{body}\n</tbody>\n</table>\n<p class=\"note\">{html.escape(table.caption)}</p>\n")
