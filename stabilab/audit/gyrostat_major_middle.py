@@ -189,7 +189,7 @@ ROWS = (
               2e-4),
     Published("Fig. 12, text", "λ1 = 100: the body has a stable motion", "start (0, −1, 5) on the major axis", "wrong",
               "x2² + x3² − 2(b−a) x1 falls by exactly 2(b−a)τ: every motion with b > a leaves and spins up about axis "
-              "1; this one after about 60 units, the run of the figure ends at 15",
+              "1; this one at τ = 60.3, the run of the figure ends at 15",
               "change of that quantity over the run; change plus 2(b−a)τ", _capture, 1e-10),
     Published("captions of Figs 8-15", "τ in [0, 15] s", "time", "misprint", "τ is a number; t = τ/√k = 3.464 τ s",
               "1 − √k (seconds and τ coincide only for k = 1)",

@@ -36,34 +36,42 @@ def surfaces(plt):
     _figure_eight(right)
     right.set_title(rf"$\lambda_1={LAMBDA_BEYOND}$, $c=2.5>{CUSP:.4f}$: figure-eight separatrix", fontsize=9.5)
     style.legend(figure, [("centres (stable)", style.MEANING["stable"]), ("saddles (unstable)", style.MEANING["unstable"]),
-                     ("motion of Table 3", style.MEANING["this motion"]), ("periodic motions", style.MEANING["bounded"])])
+                     ("motion of Table 3", style.MEANING["this motion"]), ("periodic motions", {"color": style.SKY, "linewidth": 1.0})])
     return figure
+
+
+UPRIGHT = (1, 3, 2)  # the torque's axis stands upright in the 3-D panels
+
+
+def _upright(points):
+    """(n, 3) or (n, m, 3) as three arrays in the order of the panels' axes."""
+    points = np.asarray(points)
+    return tuple(points[..., i - 1] for i in UPRIGHT)
 
 
 def _nested(ax, scene):
     for x1, x3, stable in _equilibria(scene.a, scene.b):
-        shown = (np.abs(x1) < 4) & (np.abs(x3) < 4)
-        ax.plot(np.where(shown & stable, x1, np.nan), 0 * x1, np.where(shown & stable, x3, np.nan), **style.MEANING["stable"])
-    for g in (-2.2, -1.2, -0.6, -0.4, 0.4, 0.6, 1.2, 2.2):
-        states = _tube(scene, (1 / g - scene.a, 0.9, g))
-        ax.plot(*states.T, **style.MEANING["bounded"])
-    ax.plot(*_tube(scene, paper.START_MIDDLE).T, **style.MEANING["this motion"])
-    ax.plot(*np.array(paper.START_MIDDLE)[:, None], **style.MARKER["start"])
-    style.name_space(ax)
-    ax.view_init(24, -60)
+        shown = (np.abs(x1) < 3) & (np.abs(x3) < 3) & stable
+        ax.plot(np.where(shown, x1, np.nan), np.where(shown, x3, np.nan), 0 * x1, **style.MEANING["stable"])
+    for g in (-1.8, -1.0, -0.5, 0.5, 1.0, 1.8):
+        for height in (0.4, 0.8):
+            ax.plot(*_upright(_tube(scene, (1 / g - scene.a, height, g))), color=style.SKY, linewidth=1.0)
+    ax.plot(*_upright(_tube(scene, paper.START_MIDDLE)), **style.MEANING["this motion"])
+    ax.plot(*_upright(np.array([paper.START_MIDDLE])), **style.MARKER["start"])
+    style.name_space(ax, order=UPRIGHT)
+    ax.view_init(32, -118)
 
 
 def _figure_eight(ax):
     from .figures_minor import sheets
     found = sheets(LAMBDA_BEYOND, reach=None, shape=(60, 121), axis="middle")
     for number, sheet in enumerate(found.sheets):
-        p = np.asarray(sheet.points)
-        ax.plot_surface(p[..., 0], p[..., 1], p[..., 2], color=style.SHEETS[number % len(style.SHEETS)], alpha=0.75, rstride=2,
-                        cstride=3, linewidth=0.15, edgecolor="#333333")
-        ax.plot(*np.asarray(sheet.saddle).T, **style.MEANING["unstable"])
-        ax.plot(*np.asarray(sheet.centre).T, **style.MEANING["stable"])
-    style.name_space(ax)
-    ax.view_init(20, -70)
+        ax.plot_surface(*_upright(sheet.points), color=style.SHEETS[number % len(style.SHEETS)], alpha=0.55, rstride=4,
+                        cstride=6, linewidth=0.3, edgecolor="#333333")
+        ax.plot(*_upright(sheet.saddle), **style.MEANING["unstable"])
+        ax.plot(*_upright(sheet.centre), **style.MEANING["stable"])
+    style.name_space(ax, order=UPRIGHT)
+    ax.view_init(30, -125)
 
 
 def projections(plt):

@@ -8,7 +8,7 @@ from .plane import draw, motion_curve, phase_plane
 
 WINDOW = (-6.9, 9.6)  # alpha = 2 theta: both wells and their saddles; the plane repeats every 4 pi
 PRINTED_FIG4 = {100: ((0.0, 6.2), (-3.0, 3.3)), 300: ((0.19, 6.15), (-3.1, 3.29)), 500: ((0.32, 5.8), (-3.13, 3.28))}
-MAP_REACH = 6.0       # largest circle radius drawn in Figs 5 and 6
+MAP_REACH = 5.0       # largest circle drawn in Figs 5 and 6, in radii of the outer fold circle
 
 
 def _plane(lambda1):
@@ -172,10 +172,8 @@ def _upper(points):
 
 
 def _outline(points):
-    """Saddle line, then back along the far ends (x3 = 0) of the loops."""
-    far = points[np.arange(len(points)), np.argmax(np.linalg.norm(points - points[:, :1], axis=-1) *
-                                                   (np.abs(points[..., 2]) < 0.35 * np.abs(points[..., 2]).max(1, keepdims=True) + 1e-9), axis=1)]
-    return np.concatenate([points[::-1, 0], far])
+    """The line of saddles inward, then the far ends of the loops outward: where a sheet meets the plane x3 = 0."""
+    return np.concatenate([points[::-1, 0], points[:, points.shape[1] // 2]])
 
 
 def _fold_radii(c):

@@ -109,12 +109,11 @@ def legend(figure, rows, columns=4):
                   ncols=min(columns, len(rows)))
 
 
-def name_space(ax, zoom=0.92):
-    """Labels of the three axes of a 3-D picture, close to it and not clipped."""
+def name_space(ax, zoom=0.92, order=(1, 2, 3)):
+    """Labels of the three axes of a 3-D picture, close to it and not clipped; `order`: components along its axes."""
     from matplotlib.ticker import MaxNLocator
-    ax.set_xlabel("$x_1$", labelpad=-2)
-    ax.set_ylabel("$x_2$", labelpad=-2)
-    ax.set_zlabel("$x_3$", labelpad=-4)
+    for setter, component, pad in zip((ax.set_xlabel, ax.set_ylabel, ax.set_zlabel), order, (-2, -2, -4)):
+        setter(f"$x_{component}$", labelpad=pad)
     ax.tick_params(pad=-1, labelsize=8)
     for axis in (ax.xaxis, ax.yaxis, ax.zaxis):
         axis.set_major_locator(MaxNLocator(5))
