@@ -40,7 +40,8 @@ from .results import Fate
 
 # A certificate counts when its inequality holds by this share of the terms in it: 100 times their rounding.
 CLEARANCE = 2e-14
-STEP_BUDGET = 20_000_000
+# Steps of the search: ten seconds where the fate hangs on it, two where only the time of release does.
+STEP_BUDGET, RELEASE_BUDGET = 20_000_000, 4_000_000
 
 
 @dataclass(frozen=True)
@@ -50,7 +51,8 @@ class CapturedFate:
     axis, sense: 1, 2, 3 and +-1 of the spin-up (0 where unclear). J0, J_rate: the law J = J0 + J_rate t at the state, in
     the scene's variables (|H|^2/2 - D_i T; x2^2 + x3^2 - 2(b-a) x1 when scaled). release_time: last reversal of the
     turn about axis i, after which it spins up for ever (0: there is none; None: captured for ever, or not run to it);
-    release_estimate: when the barrier vanishes, at the latest (None where the motion is not captured for a while). certificate: "bound", "spin-up",
+    release_estimate: about when the barrier will have vanished at the latest (None where no capture was
+    seen or it lasts for ever). certificate: "bound", "spin-up",
     "well", "axis", "law", "evidence" or "none"; t_certificate: time at which it was found to hold; times in the scene's unit.
     """
 
@@ -132,7 +134,7 @@ def _by_certificate(change, y, t_max):
     if y[1] == y[2] == 0:
         return spin | dict(because=f"pure spin about axis {i + 1}, which the torque speeds up for ever", release_time=0.0,
                            release_estimate=None, certificate="axis", t_certificate=0.0, steps=0)
-    vanishing = max(0.0, (_angle(c, y)[2] - 2) / (2 * c)) * unit if c > 0 else None
+    vanishing = _release_estimate(c, _angle(c, y)[2]) * unit if c > 0 else None
     name, t, y, last, steps = _search(c, y, t_max / unit)
     estimate = None if name == "spin-up" and not last else vanishing
     when = None if t is None else t * unit
@@ -154,6 +156,12 @@ def _by_certificate(change, y, t_max):
         f"({steps} steps)"))
 
 
+def _release_estimate(c, J):
+    """When a temporary capture (c > 0) is over. Small c: P' > 0 everywhere once J < 2 (about). Any c: P = 0 needs
+    J = R^2 + c^2 cos 2phi >= -c^2."""
+    return max(0.0, (J - 2 if c * c < 2 else J + c * c) / (2 * c))
+
+
 def certificate(c, y) -> str | None:
     """"spin-up" or "well" where the one or the other holds at y beyond rounding, None otherwise."""
     margin, size = spin_up_margin(c, y)
@@ -171,9 +179,10 @@ def _search(c, y, t_max):
     if found := certificate(c, y):
         return found, 0.0, y, 0.0, 0
     run, t, last, steps = _runner(c, y), 0.0, 0.0, 0
-    while t < t_max and steps < STEP_BUDGET:
+    budget = STEP_BUDGET if c < 0 else RELEASE_BUDGET
+    while t < t_max and steps < budget:
         t = min(t_max, t + max(1.0 / (1 + abs(c) + max(map(abs, y))), 0.2 * t))
-        t, y, reversal, taken = run(t, STEP_BUDGET - steps)
+        t, y, reversal, taken = run(t, budget - steps)
         last, steps = reversal if reversal is not None else last, steps + taken
         if not all(map(math.isfinite, y)):
             break
