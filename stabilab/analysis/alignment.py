@@ -1,0 +1,48 @@
+"""Turning a symmetric body so that its torque lies along a principal axis: every axis in the plane of two equal
+moments is principal."""
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+
+from ..exact import sqrt_fraction
+
+
+def aligned(scene):
+    """(twin scene with the torque along one axis, rotation (3, 3) with omega_twin = rotation @ omega), or None.
+
+    The twin has the same moments; its torque lies exactly along an axis, and its gyrostatic component along the torque
+    is exactly zero where the scene's is.
+    """
+    if scene.variables != "physical":
+        return None
+    D, M, lam = scene.body.exact, scene.vector("constant_torque"), scene.vector("gyrostat")
+    acting = [i for i in range(3) if M[i]]
+    if len(acting) < 2 or len({D[i] for i in acting}) > 1:
+        return None
+    i, rest = acting[0], [n for n in range(3) if n != acting[0]]
+    length = sqrt_fraction(sum(m * m for m in M))
+    unit = [m / length for m in M]
+    # the second direction lies in the equal plane, across the torque
+    j = acting[1]
+    across = [Fraction(0)] * 3
+    size = sqrt_fraction(unit[i] ** 2 + unit[j] ** 2)
+    across[i], across[j] = -unit[j] / size, unit[i] / size
+    third = [unit[1] * across[2] - unit[2] * across[1], unit[2] * across[0] - unit[0] * across[2],
+             unit[0] * across[1] - unit[1] * across[0]]
+    even = (i, j, 3 - i - j) in ((0, 1, 2), (1, 2, 0), (2, 0, 1))
+    rows = {i: unit, j: across, 3 - i - j: third if even else [-v for v in third]}
+    rotation = [rows[n] for n in range(3)]
+    turned = [sum(r * v for r, v in zip(row, lam)) for row in rotation]
+    if sum(m * v for m, v in zip(M, lam)) == 0:
+        turned[i] = Fraction(0)
+    torque = [length if n == i else Fraction(0) for n in range(3)]
+    return _scene(scene.body, turned, torque), np.array([[float(v) for v in row] for row in rotation])
+
+
+def _scene(body, momentum, torque):
+    from ..effects.constant_torque import ConstantTorque
+    from ..effects.gyrostat import Gyrostat
+    from ..scene import Scene
+    return Scene(body, Gyrostat(tuple(momentum)), ConstantTorque(tuple(torque)))

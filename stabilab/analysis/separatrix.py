@@ -1,0 +1,268 @@
+"""The separatrix as surfaces: for each value of the invariant the homoclinic loop of each saddle, an exact curve.
+
+A sheet sweeps one branch of saddles outward from its fold, where the loop shrinks to a point. Along a loop
+W = +-sqrt(2 (V_saddle - V(theta))), the difference formed without cancellation, so vertices lie on the surface to
+rounding. On a circle the loop runs from its saddle against the torque and back; on a hyperbola (and without torque)
+each saddle has a loop on either side: a figure eight.
+"""
+from __future__ import annotations
+
+import numpy as np
+
+from .landscape import TURN, Landscape, landscape
+from .results import Separatrix, Sheet
+from .rootfind import bracketed_newton
+from .turning import spots_along
+
+OWN = 1e-9  # offsets below this are the saddle itself
+
+
+def separatrix(scene, reach: float | None = None, shape: tuple[int, int] = (96, 129)) -> Separatrix:
+    """Every sheet of the separatrix of a scene with an elliptic or hyperbolic reduction.
+
+    reach: how far out the sheets go, as a multiple of the radius sqrt|Q| of the outermost fold (default 4; where there
+    is no fold, of the smallest saddle's); must exceed 1. shape: (rows, columns) of each grid, at least (3, 5). Points
+    are in the scene's variables. A scene without saddles gives no sheets and the reason.
+    """
+    from ..errors import InputError
+    rows, columns = shape
+    if rows < 3 or columns < 5:
+        raise InputError(f"shape: expected at least (3, 5), got {tuple(shape)}")
+    if reach is not None and not reach > 1:
+        raise InputError(f"reach: expected a multiple of the fold's radius above 1, got {reach}")
+    land = landscape(scene)
+    if land is None:
+        return Separatrix((), "no reduction to one degree of freedom: the separatrix of this scene is not known in closed form")
+    if land.e == 0:
+        return Separatrix((), "parabolic reduction (two equal moments): all motions are bounded by walls on both sides, "
+                              "except pure spin about the torque; no sheet bounds a spin-up")
+    branches = list(_branches(land, reach or 4.0))
+    if not branches:
+        return Separatrix((), _why_none(land))
+    sheets = []
+    for number, place in enumerate(branches, 1):
+        for side, word in _sides(land):
+            sheet = _sheet(land, f"sheet {number}{word}", place, rows, columns, side)
+            if sheet is not None:
+                sheets.append(sheet)
+    reason = ("each sheet bounds the motions that oscillate about the centres inside it" if land.e < 0 and land.sense else
+              "both sides of each sheet are bounded: it parts oscillations about one centre from those around two")
+    return Separatrix(tuple(sheets), reason)
+
+
+def _why_none(land) -> str:
+    if land.conic.pieces or land.conic.lines:
+        return ("no equilibrium is a saddle of the reduced potential: each orbit has a single well, and there is no "
+                "separatrix surface")
+    return "there is no equilibrium, so there is no saddle and no separatrix surface"
+
+
+def _sides(land):
+    """Which way loops leave a saddle: against the torque on a tilted circle, both ways otherwise."""
+    if land.e < 0 and land.sense:
+        return ((-1, ""),)
+    return ((-1, ", left loop"), (1, ", right loop"))
+
+
+def _branches(land: Landscape, reach):
+    """For every branch of saddles its place as a function of s in [0, 1], s = 0 at the fold."""
+    conic = land.conic
+    base = [abs(q) for q in conic.fold_invariants]
+    for line in conic.lines:
+        base.append(abs(_line_foot(conic, line)[1]) or abs(conic.K / conic.G if conic.G and conic.K else 1.0))
+    limit = max(base, default=1.0) * reach * reach
+    for piece in conic.pieces:
+        if piece.barrier:
+            for low, high in _split(conic, piece, limit):
+                yield _along_piece(land, piece, low, high)
+    for line in conic.lines:
+        for low, high in _line_intervals(land, line, limit):
+            yield _along_line(land, line, low, high)
+
+
+def _split(conic, piece, limit):
+    """|h| intervals of a piece inside the limit on |Q|, starting at a fold, cut where Q = 0 (a plane)."""
+    ends = []
+    for q in (limit, -limit):
+        _, z, exists = conic._meet_piece(piece, np.array([q]))
+        if exists[0]:
+            ends.append(abs(z[0] + conic.shift))
+    inner, outer = piece.inner, piece.outer
+    if np.isinf(outer):
+        outer = max(ends) if ends else None
+    if inner == 0:
+        inner = min(ends) if ends else None
+    if inner is None or outer is None or not inner < outer:
+        return
+    cuts = [inner, outer]
+    if conic.e > 0:
+        _, z, exists = conic._meet_piece(piece, np.array([0.0]))
+        if exists[0]:
+            plane = abs(z[0] + conic.shift)
+            if inner < plane < outer:
+                cuts = [inner, plane, outer]
+    for low, high in zip(cuts, cuts[1:]):
+        yield (high, low) if abs(high - piece.inner) > 0 and high == piece.outer else (low, high)
+
+
+def _along_piece(land, piece, start, end):
+    def place(s):
+        h = piece.sign * (start + (end - start) * s)
+        x, z = land.conic.at(h)
+        return _as_place(land, x, z)
+    return place
+
+
+def _line_foot(conic, line):
+    """(t, Q) where the invariant is stationary along a line."""
+    e = conic.e
+    a = line.dz**2 - e * line.dx**2
+    t = -(line.z0 * line.dz - e * line.x0 * line.dx) / a if a else 0.0
+    x, z = line.x0 + t * line.dx, line.z0 + t * line.dz
+    return t, z * z - e * x * x
+
+
+def _line_intervals(land, line, limit):
+    """Intervals of t on a line where it holds saddles, each from its inner end outward."""
+    conic = land.conic
+    knots = [_line_foot(conic, line)[0]]
+    if conic.G:  # where the two lines cross
+        knots.append(-conic.d / conic.G - line.z0 if line.dz else -conic.c / conic.G - line.x0)
+    far = (2 * np.sqrt(limit) + abs(line.x0) + abs(line.z0)) / np.hypot(line.dx, line.dz) + max(abs(k) for k in knots)
+    knots = sorted({-far, *knots, far})
+    for low, high in zip(knots, knots[1:]):
+        t = 0.5 * (low + high)
+        spot = _as_place(land, np.array([line.x0 + t * line.dx]), np.array([line.z0 + t * line.dz]))
+        if land.potential.slope(spot)[0] > 0:
+            yield (low, high) if abs(low) < abs(high) else (high, low)
+
+
+def _along_line(land, line, start, end):
+    def place(s):
+        t = start + (end - start) * s
+        return _as_place(land, line.x0 + t * line.dx, line.z0 + t * line.dz)
+    return place
+
+
+def _as_place(land, x, z):
+    return (x, z) if land.e < 0 else (x + z, x - z)
+
+
+def _sheet(land, name, place_at, rows, columns, side):
+    """One sheet; rows are uniform in the branch's parameter, whose square is what the invariant grows by at a fold."""
+    s = np.linspace(0, 1, rows)
+    # the first row is the fold point itself; on a plane Q = 0 a loop need not close, so the last row stays short of it
+    q = land.invariant(place_at(s[-2:]))
+    if land.e > 0 and abs(q[1]) < 1e-9 * abs(q[0]):
+        s[-1] = 1 - 0.05 / rows
+    saddle = tuple(np.asarray(v, float) for v in place_at(s))
+    saddle = _polished(land, saddle, s)
+    end, centre, found = loop_end(land, saddle, side)
+    found[0] = True
+    end[0] = 0.0
+    centre[:, 0] = np.array(saddle)[:, 0]
+    if found.sum() < 2:
+        return None
+    saddle, end, centre = tuple(v[found] for v in saddle), end[found], centre[:, found]
+    out, back = np.linspace(0, 1, (columns + 1) // 2), np.linspace(1, 0, columns // 2 + 1)
+    share = np.concatenate([out, back[1:]])
+    share = np.sin(0.5 * np.pi * share) ** 2
+    y = end[:, None] * share
+    spot = tuple(v[:, None] for v in saddle)
+    with np.errstate(all="ignore"):
+        w = np.sqrt(2 * np.maximum(-land.potential.rise(y, spot), 0))
+    turning = len(out) - 1
+    w[:, 0] = w[:, -1] = 0.0
+    w[:, turning] = 0.0
+    w[:, :turning] *= side
+    w[:, turning:] *= -side
+    points = land.components(land.potential.move(spot, y), w)
+    zero = np.zeros(len(end))
+    return Sheet(name=name, points=points, residual=_residual(land, saddle, points),
+                 saddle=land.components(saddle, zero), centre=land.components(tuple(centre), zero),
+                 invariant=land.invariant(saddle))
+
+
+def _polished(land, saddle, s):
+    """The conic's points moved along their orbits to where the force vanishes (all but the fold itself)."""
+    moved = land._polish(saddle)
+    return tuple(np.where(s > 0, m, v) for m, v in zip(moved, saddle))
+
+
+def loop_end(land, saddle, side):
+    """(offset of the far end of the loop (n,), centre place (2, n), found (n,)) for saddles (2, n) and one side.
+
+    The loop ends where the potential, beyond the wells on that side, is back at the saddle's height.
+    """
+    n = len(saddle[0])
+    spots = spots_along(land, saddle, np.zeros(n))
+    end, centre, found = np.zeros(n), np.array(saddle, float), np.zeros(n, bool)
+    bracket = np.zeros((2, n))
+    offset = spots.offset * side
+    for row in range(n):
+        beyond = [c for c in np.argsort(offset[row], kind="stable") if spots.there[row, c] and offset[row, c] > OWN]
+        inner = None
+        for c in beyond:
+            if spots.barrier[row, c]:
+                if spots.energy[row, c] <= 0 or abs(offset[row, c] - TURN) < OWN:
+                    break
+            elif inner is None or spots.energy[row, c] > spots.energy[row, inner]:
+                inner, last = c, c
+            else:
+                last = c
+        else:
+            c = None
+        if inner is None:
+            continue
+        centre[:, row] = spots.place[:, row, inner]
+        spot = tuple(np.array([v[row]]) for v in saddle)
+        low = offset[row, last]
+        right_round = land.e < 0 and (c is None or abs(offset[row, c] - TURN) < OWN)
+        if right_round and land.sense == 0:
+            end[row], found[row] = side * TURN, True  # without torque the loop of the highest saddle goes right round
+            continue
+        # one turn back the saddle stands again, higher by 2 pi mu
+        high = TURN if right_round else offset[row, c] if c is not None else _wall(land, spot, low, side)
+        if high is not None:
+            bracket[:, row], found[row] = (low, high), True
+    solve = found & (end == 0)
+
+    def fun(t, *spot):
+        return land.potential.rise(side * t, spot), -side * land.potential.force(land.potential.move(spot, side * t))
+    low, high = bracket[:, solve]
+    end[solve] = side * bracketed_newton(fun, low, high, 0.5 * (low + high), tuple(v[solve] for v in saddle))
+    return end, centre, found
+
+
+def _wall(land, spot, low, side):
+    """A distance at which the wall beyond the last well is higher than the saddle; None beside an open plane."""
+    step = 1.0
+    with np.errstate(all="ignore"):
+        while step < 700:
+            if land.potential.rise(np.array([side * (low + step)]), spot)[0] > 0:
+                return low + step
+            step *= 2
+    return None
+
+
+def _residual(land, saddle, points):
+    """(n, m) energy of the rounded points above their saddle's, relative to the size of the energy's terms."""
+    place, w, size = land.start(points)
+    spot = tuple(v[:, None] for v in saddle)
+    pot = land.potential
+    with np.errstate(all="ignore"):
+        if land.e < 0:
+            y = np.arctan2(place[0] * spot[1] - place[1] * spot[0], place[0] * spot[0] + place[1] * spot[1])
+            low = pot.rise(y, spot)
+            # the loop may reach round by more than half a turn: take the branch that fits the kinetic energy
+            others = [low, pot.rise(y - TURN, spot), pot.rise(y + TURN, spot)]
+            departure = np.min([np.abs(0.5 * w * w + rise) for rise in others], axis=0)
+            scale = 0.5 * w * w + np.abs(pot.G) * (size[0]**2 + size[1]**2) + (abs(pot.c) + abs(pot.d)) * (size[0] + size[1]) + pot.mu
+        else:
+            big = np.abs(spot[0]) >= np.abs(spot[1])
+            y = np.where(big, np.log(np.abs(place[0] / spot[0])), -np.log(np.abs(place[1] / spot[1])))
+            departure = np.abs(0.5 * w * w + pot.rise(y, spot))
+            scale = (0.5 * w * w + np.abs(pot.G) * (size[0]**2 + size[1]**2)
+                     + (abs(pot.e1) + abs(pot.e2)) * (size[0] + size[1]) + pot.mu)
+    with np.errstate(all="ignore"):
+        return np.where(departure > 0, departure / scale, 0.0)
