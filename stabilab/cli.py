@@ -157,7 +157,7 @@ def tables(out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the
 
 @app.command()
 def report(cases: Annotated[Optional[List[Path]], typer.Argument(
-               metavar="[CASE...]", help="Case files; none: the paper's tables and figures alone.", show_default=False)] = None,
+               metavar="[CASE...]", help="Case files; none: all of the repository's.", show_default=False)] = None,
            out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the report.")] = Path("report")):
     """Write tables, figures and surfaces as one web page.
 

@@ -229,6 +229,21 @@ def test_plot_writes_a_picture_and_says_where(stabilab, tmp_path):
     assert (tmp_path / "minor.png").read_bytes().startswith(b"\x89PNG")
 
 
+def test_surface_without_a_renderer_writes_the_meshes_and_ends_with_4(stabilab, tmp_path, monkeypatch):
+    from stabilab.show import render_probe
+    monkeypatch.setattr(render_probe, "probe", lambda: render_probe.Renderer(False, "no GL here"))
+    code, _, err = stabilab("surface", MINOR, "--out", tmp_path)
+    assert code == 4 and "no GL here" in err and render_probe.CURE in err
+    assert {p.name for p in tmp_path.iterdir()} == {f"{MINOR.stem}.{end}" for end in ("vtp", "glb", "stl", "json")}
+    assert strict_json((tmp_path / f"{MINOR.stem}.json").read_text())["sheets"]
+
+
+def test_tables_writes_every_table_in_every_format_and_names_them(stabilab, tmp_path):
+    code, out, _ = stabilab("tables", "--out", tmp_path)
+    assert code == 0 and sorted(out.split()) == sorted(str(p) for p in tmp_path.iterdir())
+    assert {p.suffix for p in tmp_path.iterdir()} == {".txt", ".csv", ".md", ".tex", ".html"} and len(out.split()) == 20
+
+
 def test_every_command_has_help_with_an_example(stabilab):
     code, out, _ = stabilab("--help")
     commands = [line.split()[0] for line in out.split("Commands:")[1].splitlines() if line.startswith("  ")]
