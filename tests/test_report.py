@@ -52,7 +52,7 @@ def light(tmp_path_factory):
     hostile = folder / "hostile.toml"
     hostile.write_text(re.sub(r'(?m)^title = .*$', lambda m: f"title = '{HOSTILE}'", text), encoding="utf-8")
     try:
-        yield report.write([hostile], folder / "report")
+        return report.write([hostile], folder / "report")
     finally:
         patch.undo()
         render_probe.probe.cache_clear()

@@ -167,8 +167,8 @@ def _upper(points):
     upper = np.stack([index[1:, :-1], index[1:, 1:], index[:-1, 1:]], -1).reshape(-1, 3)
     flat, triangles = part.reshape(-1, 3), np.concatenate([lower, upper])
     corner = flat[triangles][..., :2]
-    twice = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
-    return flat, triangles[np.abs(twice) > 1e-12]
+    (u1, u2), (v1, v2) = (corner[:, 1] - corner[:, 0]).T, (corner[:, 2] - corner[:, 0]).T
+    return flat, triangles[np.abs(u1 * v2 - u2 * v1) > 1e-12]  # folded flat in the projection: nothing to shade
 
 
 def _outline(points):
