@@ -110,6 +110,7 @@ def _along_piece(land, piece, start, end):
         h = piece.sign * (start + (end - start) * s)
         x, z = land.conic.at(h)
         return _as_place(land, x, z)
+    place.piece = piece
     return place
 
 
