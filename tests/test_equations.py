@@ -1,0 +1,146 @@
+"""The derived equations and the gate to numbers."""
+import subprocess
+import sys
+from fractions import Fraction
+
+import numpy as np
+import pytest
+import sympy as sp
+
+from stabilab import Body, ConstantTorque, Gyrostat, Scene, ScaledGyrostat
+from stabilab.compiled import form, heyoka_available, to_numpy, to_taylor
+from stabilab.equations import derive, invariants, latex, lines
+
+BODY = Body((2000, "1500.5", 1000))
+WHEEL, THRUST = Gyrostat((100, "2/3", 0)), ConstantTorque((1, -2, "204.1"))
+SCENES = [Scene(BODY), Scene(BODY, WHEEL), Scene(BODY, THRUST), Scene(BODY, WHEEL, THRUST), Scene(BODY, THRUST, WHEEL),
+          ScaledGyrostat("0.2", "0.4", (1, -2, "1/3")), ScaledGyrostat(0, 0, (0, 0, 1))]
+
+
+def exact_states(count=4):
+    rng = np.random.default_rng(0)
+    return [[Fraction(int(v), 7) for v in rng.integers(-40, 40, 3)] for _ in range(count)]
+
+
+def at(equations, expression, x):
+    return equations.numeric(expression).subs(dict(zip(equations.state, [sp.Rational(v.numerator, v.denominator) for v in x])))
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_closed_forms_are_the_derived_equations_exactly(scene):
+    """QuadraticForm, written by hand for the analyses, against the one derivation; rational arithmetic on both sides."""
+    equations, quadratic = derive(scene), scene.quadratic()
+    for x in exact_states():
+        rows = quadratic.rate(x), quadratic.jacobian(x)
+        assert [at(equations, r, x) for r in equations.rhs] == [sp.Rational(v.numerator, v.denominator) for v in rows[0]]
+        derived = equations.jacobian.applyfunc(lambda e: at(equations, e, x))
+        assert [[sp.Rational(Fraction(v).numerator, Fraction(v).denominator) for v in row] for row in rows[1]] == derived.tolist()
+
+
+def test_parameters_keep_the_order_of_declaration():
+    assert list(derive(Scene(BODY, THRUST, WHEEL)).parameters) == [
+        "D1", "D2", "D3", "M1", "M2", "M3", "lambda1", "lambda2", "lambda3"]
+    assert derive(SCENES[5]).parameters["mu3"] == Fraction(1, 3)
+
+
+@pytest.mark.parametrize("effects, absent", [((), {"lambda1", "M1"}), ((WHEEL,), {"M1", "M2", "M3"}), ((THRUST,), {"lambda1"})])
+def test_unnamed_effects_leave_no_symbol_state_or_torque(effects, absent):
+    equations = derive(Scene(BODY, *effects))
+    names = {str(s) for r in equations.rhs for s in r.free_symbols} | set(equations.parameters)
+    assert not names & absent
+    assert len(equations.state) == 3 and list(equations.torques) == ["inertia", *(e.name for e in effects)]
+
+
+def test_zero_components_of_a_named_gyrostat_stay_symbols():
+    equations = derive(Scene(BODY, Gyrostat((0, 0, 0))))
+    assert {"lambda1", "lambda2", "lambda3"} <= {str(s) for r in equations.rhs for s in r.free_symbols}
+
+
+def run_python(code):
+    return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
+
+
+def test_unnamed_effects_are_not_imported():
+    code = ("import sys; from stabilab import Body, Scene; from stabilab.equations import derive; derive(Scene(Body((3, 2, 2))));"
+            "print(*[m for m in sys.modules if m.startswith('stabilab.effects.')])")
+    assert run_python(code).split() == ["stabilab.effects.base"]
+
+
+def test_deriving_waits_to_import_sympy_and_compiling_heyoka():
+    code = ("import sys, stabilab.equations, stabilab.compiled, stabilab.analysis.trajectories, stabilab.analysis.captured;"
+            "print(*[m for m in ('sympy', 'heyoka', 'scipy') if m in sys.modules])")
+    assert run_python(code).split() == []
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_numpy_rates_are_the_exact_rates_rounded(scene):
+    system = to_numpy(derive(scene))
+    states = exact_states(6)
+    batch = np.array([[float(v) for v in x] for x in states]).reshape(2, 3, 3)
+    exact = np.array([[float(v) for v in scene.quadratic().rate([Fraction(float(v)) for v in x])] for x in states]).reshape(2, 3, 3)
+    size = np.abs(batch).max()**2 + 1
+    assert np.abs(system(batch) - exact).max() <= 1e-15 * size
+    assert system.rate(batch[0, 0].tolist()) == system(batch)[0, 0].tolist()
+
+
+@pytest.mark.skipif(not heyoka_available(), reason="heyoka is not installed")
+@pytest.mark.parametrize("scene", SCENES)
+def test_numpy_and_heyoka_rates_agree(scene):
+    """The Taylor coefficients of first order are the rates."""
+    equations = derive(scene)
+    system, integrator = to_numpy(equations), to_taylor(equations)
+    for x in np.random.default_rng(2).normal(size=(5, 3)):
+        integrator.time, integrator.state[:] = 0.0, x
+        integrator.step(write_tc=True)
+        assert integrator.tc[:3, 1] == pytest.approx(system(x), rel=4e-16, abs=4e-16 * (1 + np.abs(x).max()**2))
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_jacobian_is_complex_step_and_finite_difference(scene):
+    system = to_numpy(derive(scene))
+    x = np.random.default_rng(3).normal(size=(4, 3)) * 2
+    jacobian = system.jacobian(x)
+    assert jacobian.shape == (4, 3, 3)
+    for j in range(3):
+        e = np.eye(3)[j]
+        complex_step = system(x + 1e-200j * e).imag / 1e-200
+        difference = (system(x + 0.5 * e) - system(x - 0.5 * e))  # exact for quadratic rates, up to rounding
+        assert np.abs(jacobian[..., j] - complex_step).max() < 1e-14
+        assert np.abs(jacobian[..., j] - difference).max() < 1e-13
+
+
+def test_nearly_equal_moments_keep_their_difference():
+    """D1 - D2 = 1e-12: the coefficient is formed before rounding, so all its digits stand."""
+    scene = Scene(Body(("1.000000000001", 1, "0.5")))
+    rate = to_numpy(derive(scene)).rate([1.0, 1.0, 0.0])[2]
+    assert rate == float(Fraction(1, 10**12) / Fraction(1, 2))
+
+
+def test_one_compilation_serves_all_scenes_of_a_structure():
+    one, other = (form(e, e.rhs) for e in (derive(Scene(Body((3, 2, n)))) for n in ("1.5", 4)))
+    assert one.expressions == other.expressions and one.numbers != other.numbers
+
+
+def test_equations_read_as_text_and_latex():
+    equations = derive(Scene(BODY, WHEEL, THRUST))
+    assert lines(equations)[0] == "D1 omega1' = M1 + lambda2*omega3 - lambda3*omega2 + omega2*omega3*(D2 - D3)"
+    assert r"D_{1} \dot{\omega_{1}} &=" in latex(equations)
+
+
+@pytest.mark.parametrize("scene, names", [
+    (Scene(BODY), ["energy", "momentum"]),
+    (Scene(BODY, Gyrostat((1, 2, 3))), ["energy", "momentum"]),
+    (Scene(BODY, Gyrostat((1, 2, 0)), ConstantTorque((0, 0, 5))), ["energy with turn angles", "quadratic"]),
+    (Scene(BODY, ConstantTorque((1, 0, 5))), ["energy with turn angles", "momentum with turn angles"]),
+    (Scene(Body((2, 2, 1)), Gyrostat((0, 0, 3)), ConstantTorque((0, 0, 1))), ["energy with turn angles", "quadratic", "spin 3"]),
+    (ScaledGyrostat(1, 2, (0, 0, 1)), ["circle", "hyperbola with turn angles"]),
+    (ScaledGyrostat(1, 2, (0, 1, 0)), ["hyperbola", "circle with turn angles", "plane x1 + b = x3", "plane x1 + b = -x3"]),
+    (ScaledGyrostat(1, 2, (1, 0, 0)), ["circle with turn angles", "hyperbola with turn angles", "J"]),
+])
+def test_each_scene_has_its_own_laws(scene, names):
+    assert [law.name for law in invariants(scene)] == names
+
+
+def test_growth_rate_of_the_quadratic_law_is_lambda_times_torque():
+    law = {v.name: v for v in invariants(Scene(BODY, Gyrostat((1, 2, 7)), ConstantTorque((0, 0, 5))))}["quadratic"]
+    assert law.rate == 35
