@@ -1,0 +1,32 @@
+# Two commands for everybody: `make report` and `make test`. Both make .venv from nothing but python3, pip and make.
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+STAMP := $(VENV)/.installed
+
+.PHONY: report test test-slow figures bench clean
+
+report: $(STAMP)
+	$(BIN)/stabilab report cases/*.toml --out report
+
+test: $(STAMP)
+	$(BIN)/python -m pytest -n 2 -m "not slow"
+
+test-slow: $(STAMP)
+	$(BIN)/python -m pytest -n 2 -m slow
+
+figures: $(STAMP)
+	$(BIN)/stabilab figures --out figures
+
+bench: $(STAMP)
+	$(BIN)/python -m benchmarks
+
+# constraints.txt pins what was tested, so that a fresh install gives the same versions
+$(STAMP): pyproject.toml constraints.txt
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e ".[test]"
+	$(BIN)/python -m compileall -q stabilab
+	touch $@
+
+clean:
+	rm -rf $(VENV) report
