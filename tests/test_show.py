@@ -11,7 +11,7 @@ import pytest
 
 from stabilab import errors
 from stabilab.analysis.results import Sheet, Separatrix
-from stabilab.show import figures, mesh, paper, plane, render_probe, style, surface, table
+from stabilab.show import figures, mesh, paper, phase, plane, render_probe, style, surface, table
 
 CASES = Path(__file__).parent.parent / "cases"
 
@@ -108,7 +108,7 @@ def test_a_file_is_written_whole_or_not_at_all(tmp_path):
 def test_saddles_without_wheel_are_where_the_paper_puts_them():
     """Amer et al. 2024, after (25): sin alpha = -2/F^2 for lambda1 = 0."""
     from stabilab import ScaledGyrostat
-    found = plane.phase_plane(ScaledGyrostat(0, 0, (0, 0, 1)), (3.0, 0.0, 0.0))
+    found = phase.phase_plane(ScaledGyrostat(0, 0, (0, 0, 1)), (3.0, 0.0, 0.0))
     start = np.arctan2(3.0, 0.0)
     for y in found.saddles + found.centres:
         assert np.sin(2 * (start + y)) == pytest.approx(-2 / 9, abs=1e-12)
@@ -118,7 +118,7 @@ def test_saddles_without_wheel_are_where_the_paper_puts_them():
 @pytest.mark.parametrize("lam", paper.LAMBDAS)
 def test_the_drawn_separatrix_is_a_level_curve_of_the_true_integral(lam):
     scene = paper.scene("minor", lam)
-    found = plane.phase_plane(scene, paper.START_MINOR)
+    found = phase.phase_plane(scene, paper.START_MINOR)
     saddle = found.saddles[0]
     y, W = found.separatrix(saddle, -4.0, 4.0)
     theta = np.arctan2(2.5 + scene.a, 4.0) + y
@@ -129,13 +129,13 @@ def test_the_drawn_separatrix_is_a_level_curve_of_the_true_integral(lam):
 
 def test_states_of_the_plane_go_back_to_the_start():
     for axis, start in (("minor", paper.START_MINOR), ("middle", paper.START_MIDDLE)):
-        found = plane.phase_plane(paper.scene(axis, 300), start)
+        found = phase.phase_plane(paper.scene(axis, 300), start)
         assert found.states(np.float64(0.0), np.float64(found.W0)) == pytest.approx(start, abs=1e-14)
 
 
 def test_the_motion_of_a_middle_axis_case_closes():
-    found = plane.phase_plane(paper.scene("middle", 100), paper.START_MIDDLE)
-    y, W = plane.motion_curve(found, -8, 8)
+    found = phase.phase_plane(paper.scene("middle", 100), paper.START_MIDDLE)
+    y, W = phase.motion_curve(found, -8, 8)
     assert W[0] == pytest.approx(0, abs=1e-6) and W[-1] == pytest.approx(0, abs=1e-6)
 
 

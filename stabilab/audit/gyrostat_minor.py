@@ -173,7 +173,8 @@ ROWS = (
               lambda: (_fig4(FIG4_PRINTED, True), _fig4(FIG4_TRUE, False))),
     Published("before eq. (35)", "F = 4.72, G1 = 2.54", "constants of x(0) = (2.5, 4, 0.1), λ1 = 100", "wrong",
               "F = 4.7170 but the printed (30) gives G1 = 3.5357; the true invariants are A = 4.8260, G = 4.1950",
-              "printed (30) at the data minus 2.54; true invariant at the data minus 4.195001333156914", lambda: (_g1(False) - G1_PRINTED, _g1(True) - 4.195001333156914), 1e-9),
+              "printed (30) at the data minus 2.54; true "
+              "invariant at the data minus 4.195001333156914", lambda: (_g1(False) - G1_PRINTED, _g1(True) - 4.195001333156914), 1e-9),
     Published("Fig. 6", "the line x1 + x2 = 0 parts stable from unstable equilibria", "dividing line", "wrong",
               "the curve (x1+a)(x1+b) = x2² does (the line only where a = b = 0)",
               "share of ten equilibria near the folds misjudged (λ1 = 500)", _dividing),

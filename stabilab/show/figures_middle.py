@@ -4,7 +4,7 @@ from __future__ import annotations
 import numpy as np
 
 from . import paper, style
-from .plane import motion_curve, phase_plane
+from .phase import motion_curve, phase_plane
 
 LAMBDA_BEYOND = 1250  # c = b - a = 2.5, beyond the cusp 1.7548: there a figure-eight separatrix does exist
 CUSP = 4 * 3**-0.75

@@ -4,7 +4,8 @@ from __future__ import annotations
 import numpy as np
 
 from . import paper, style
-from .plane import draw, motion_curve, phase_plane
+from .phase import motion_curve, phase_plane
+from .plane import draw
 
 WINDOW = (-6.9, 9.6)  # alpha = 2 theta: both wells and their saddles; the plane repeats every 4 pi
 PRINTED_FIG4 = {100: ((0.0, 6.2), (-3.0, 3.3)), 300: ((0.19, 6.15), (-3.1, 3.29)), 500: ((0.32, 5.8), (-3.13, 3.28))}
@@ -223,16 +224,13 @@ def stable_motions(plt):
 
 
 def _bounded_starts(scene):
-    """One state a circle, in both stable regions: 0.6 of the way up from the centre to the separatrix in energy."""
-    for_radius = {}
-    for A in (2.0, 3.0, 4.0, 4.825971404805462, 5.5):
-        plane = phase_plane(scene, (A - scene.a, 0.0, 0.0))
-        for centre in plane.centres:
-            for saddle in sorted(plane.repeated(plane.saddles, -10, 10)):
-                loop = plane.loop(saddle, -12, 12)
-                turn = 2 * np.pi
-                if loop and any(loop[0] < centre + k * turn < loop[1] for k in (-1, 0, 1)):
-                    deep = float(plane.height(saddle, centre if loop[0] < centre < loop[1] else
-                                              next(centre + k * turn for k in (-1, 1) if loop[0] < centre + k * turn < loop[1])))
-                    for_radius.setdefault((A, centre), plane.states(np.float64(centre), np.float64(np.sqrt(1.2 * deep))))
-    return list(for_radius.values())
+    """One state a loop, on circles of growing radius: 0.6 of the way up from the centre to the separatrix in energy."""
+    starts = []
+    for radius in (2.0, 3.0, 4.0, 4.825971404805462, 5.5):
+        plane = phase_plane(scene, (radius - scene.a, 0.0, 0.0))
+        for saddle in plane.saddles:
+            loop = plane.loop(saddle, -12.0, 12.0)
+            for centre in plane.repeated(plane.centres, *loop) if loop else ():
+                depth = float(plane.height(saddle, centre))
+                starts.append(plane.states(np.float64(centre), np.float64(np.sqrt(2 * 0.6 * depth))))
+    return starts

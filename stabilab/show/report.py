@@ -14,7 +14,7 @@ from ..errors import StabilabError
 from . import figures, paper, surface, table
 
 PACKAGES = ("numpy", "scipy", "sympy", "heyoka", "matplotlib", "vtk", "pyvista", "python-flint")
-SURFACE_SHAPE = (80, 161)  # rows and columns of a sheet: smooth to the eye, 3 MB a scene
+SURFACE_SHAPE = (48, 97)  # rows and columns of a sheet: smooth to the eye, 3 MB a scene
 
 
 def write(cases=None, out="report", progress=None) -> Path:

@@ -150,7 +150,6 @@ def plotter(scene, found, meshes, still=True):
     from .render_probe import use
     use()
     import pyvista
-    pyvista.global_theme.multi_samples = 0 if not still else pyvista.global_theme.multi_samples
     stage = pyvista.Plotter(off_screen=True, window_size=(1000, 800))
     stage.set_background("white")
     for number, mesh in enumerate(meshes):
@@ -158,8 +157,8 @@ def plotter(scene, found, meshes, still=True):
             faces = np.column_stack([np.full(len(mesh.triangles), 3), mesh.triangles]).ravel()
             surface = pyvista.PolyData(mesh.points.astype(np.float32), faces)
             surface.point_data["Normals"] = _normals(mesh)
-            stage.add_mesh(surface, color=style.SHEETS[number % len(style.SHEETS)], smooth_shading=False, opacity=1.0,
-                           specular=0.15, name=f"sheet {number}")
+            stage.add_mesh(surface, color=style.SHEETS[number % len(style.SHEETS)], smooth_shading=False, ambient=0.35,
+                           diffuse=0.7, specular=0.1, name=f"sheet {number}")
     size = 1.15 * max([np.abs(m.points).max(initial=0.0) for m in meshes] or [0.0]) or 5.0
     for number, (kind, points) in enumerate(equilibrium_lines(scene, found, 1.3 * size)):
         look = style.MEANING["fold" if kind == "degenerate" else kind]
