@@ -156,6 +156,20 @@ def tables(out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the
 
 
 @app.command()
+def figures(numbers: Annotated[Optional[List[int]], typer.Argument(
+                metavar="[N...]", help="Figure numbers, 2 to 17; none: all.", show_default=False)] = None,
+            out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the pictures.")] = Path("figures")):
+    """Draw the figures of the constant-torque paper.
+
+    Each picture gets a text file: caption, command, version, tolerance.
+
+    Example: stabilab figures 3 5 --out figures
+    """
+    from .show.figures import write
+    _print_paths(write(numbers, out), out)
+
+
+@app.command()
 def report(cases: Annotated[Optional[List[Path]], typer.Argument(
                metavar="[CASE...]", help="Case files; none: all of the repository's.", show_default=False)] = None,
            out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the report.")] = Path("report")):

@@ -1,0 +1,21 @@
+"""Run the comparisons and write RESULTS.md beside this file."""
+from pathlib import Path
+
+from .suite import machine, run_all
+
+
+def main():
+    rows, seconds = run_all()
+    lines = ["# Speed, side by side", "", f"Made by `make bench` in {seconds:.0f} s on {machine()}. Ratios are medians of "
+             "seven rounds in which both took turns; in brackets their range.", "",
+             "| what | stabilab | the other | ratio | error |", "| --- | --- | --- | --- | --- |"]
+    for row in rows:
+        low, high = row.spread
+        lines.append(f"| {row.name} | {row.ours} | {row.theirs} | {row.ratio:.0f} ({low:.0f} to {high:.0f}) | {row.error} |")
+    text = "\n".join(lines) + "\n"
+    Path(__file__).with_name("RESULTS.md").write_text(text, encoding="utf-8")
+    print(text)
+
+
+if __name__ == "__main__":
+    main()

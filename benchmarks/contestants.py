@@ -1,0 +1,92 @@
+"""What a careful user of the general tools would write: heyoka's batch mode with compaction, heyoka with events."""
+from __future__ import annotations
+
+import numpy as np
+
+
+def scaled_minor_system(a, b, heyoka):
+    """The paper's minor-axis system with the turn angle as a fourth state (theta' = x3)."""
+    x1, x2, x3, theta = heyoka.make_vars("x1", "x2", "x3", "theta")
+    return (x1, x2, x3, theta), [(x1, x2 * x3), (x2, -x3 * (x1 + a)), (x3, x2 * (x1 + b) + 1.0), (theta, x3 + 0.0 * x1)]
+
+
+class BatchFate:
+    """Integrate in batches until each state is decided: a full turn ahead is spin-up, the third reversal of the turn
+    is bounded (two reversals enclose the well). Decided states leave their lane at once (compaction)."""
+
+    def __init__(self, a, b, tolerance=1e-15, batch=8):
+        import heyoka
+        variables, system = scaled_minor_system(a, b, heyoka)
+        self.batch = batch
+        self.integrator = heyoka.taylor_adaptive_batch(system, np.zeros((4, batch)), tol=tolerance, high_accuracy=False)
+
+    def __call__(self, states):
+        """Labels (n,): 0 bounded, 1 spin-up."""
+        n, batch, ta = len(states), self.batch, self.integrator
+        labels = np.full(n, -1, np.int8)
+        lane, following = np.full(batch, -1), 0
+        reversals, sign = np.zeros(batch, int), np.zeros(batch)
+        lowest = np.zeros(batch)
+        state = ta.state
+        for i in range(batch):
+            if following < n:
+                state[:3, i], state[3, i] = states[following], 0.0
+                lane[i], sign[i], reversals[i], lowest[i] = following, np.sign(states[following][2]), 0, 0.0
+                following += 1
+        while (lane >= 0).any():
+            ta.step()
+            rate, theta = state[2], state[3]
+            lowest = np.minimum(lowest, theta)
+            turned = (np.sign(rate) != sign) & (rate != 0)
+            reversals += turned
+            sign = np.where(turned, np.sign(rate), sign)
+            spun = theta - np.maximum(lowest, -np.inf) > 2 * np.pi
+            done = (lane >= 0) & (spun & (rate > 0) & (theta > lowest + 2 * np.pi) | (reversals >= 3))
+            if done.any():
+                for i in np.nonzero(done)[0]:
+                    labels[lane[i]] = 0 if reversals[i] >= 3 else 1
+                    if following < n:
+                        state[:3, i], state[3, i] = states[following], 0.0
+                        lane[i], sign[i], reversals[i], lowest[i] = following, np.sign(states[following][2]), 0, 0.0
+                        following += 1
+                    else:
+                        lane[i] = -1
+                        state[:, i] = 0.0
+        return labels
+
+
+class EventExtremes:
+    """Extremes over one period: heyoka with events at the zeros of each rate, stopped at the third reversal of the turn."""
+
+    def __init__(self, a, b, tolerance=1e-16):
+        import heyoka
+        (x1, x2, x3, theta), system = scaled_minor_system(a, b, heyoka)
+        self.values = []
+
+        def note(ta, time, sign, component):
+            ta.update_d_output(time)
+            self.values.append((component, ta.d_output[component]))
+        rates = (x2 * x3, -x3 * (x1 + a), x2 * (x1 + b) + 1.0)
+        events = [heyoka.nt_event(rate, lambda ta, t, s, k=k: note(ta, t, s, k)) for k, rate in enumerate(rates)]
+        self.reversals = 0
+
+        def turned(ta, sign):
+            # x1 and x2 are extreme where x3 = 0: the stop cuts the step there, so note them here
+            self.values += [(0, ta.state[0]), (1, ta.state[1])]
+            self.reversals += 1
+            return self.reversals < 3
+        stop = heyoka.t_event(x3, callback=turned)
+        self.integrator = heyoka.taylor_adaptive(system, [0.0] * 4, tol=tolerance, nt_events=events, t_events=[stop])
+
+    def __call__(self, states):
+        out = np.empty((len(states), 3, 2))
+        ta = self.integrator
+        for n, state in enumerate(states):
+            ta.time, ta.state[:], self.reversals = 0.0, [*state, 0.0], 0
+            ta.reset_cooldowns()
+            self.values.clear()
+            ta.propagate_until(1e4)
+            out[n] = np.stack([state, state], axis=1)
+            for k, value in self.values:
+                out[n, k] = min(out[n, k, 0], value), max(out[n, k, 1], value)
+        return out
