@@ -149,7 +149,8 @@ def _conserved(equations):
              "momentum": "no outer torque: the size of the angular momentum is constant"}
     for law in equations.balances:
         if equations.numeric(law.rate) == 0 and (quantity := equations.numeric(law.quantity)) != 0:
-            yield Balance(law.name, words.get(law.name, f"no torque acts in it: the {law.name} is constant"), quantity, law.rate * 0)
+            plain = f"no torque acts in it: the {law.name} is constant"
+            yield Balance(law.name, words.get(law.name, plain), quantity, law.rate * 0)
 
 
 def _outer(scene, equations):
@@ -175,8 +176,8 @@ def _physical_laws(scene, equations):
     moments = {D[i] for i in range(3) if M[i]}
     if len(moments) == 1:
         d, rate = moments.pop(), dot(M, lam)
-        words = ("torque along a principal axis (or in a plane of equal moments), no gyrostatic component along it: the quadratic invariant C is constant"
-                 if rate == 0 else "torque along a principal axis: |H|^2/2 - D_M T grows by lambda . M each second, "
+        words = ("torque along a principal axis (or in a plane of equal moments), no gyrostatic component along it: "
+                 "the quadratic invariant C is constant" if rate == 0 else "torque along a principal axis: |H|^2/2 - D_M T grows by lambda . M each second, "
                                    "so there is no equilibrium and no bounded motion")
         yield Balance("quadratic", words, half_H2 - d * T, rate)
     elif moments:

@@ -233,3 +233,18 @@ def test_same_answers_without_heyoka(monkeypatch):
 def test_other_scenes_are_turned_away(scene):
     with pytest.raises(InputError, match="torque along one principal axis"):
         captured_fate(scene, (1, 2, 3))
+
+
+def test_three_equal_moments_spin_up_along_lambda():
+    """D w' = lambda x w + M is linear; its part along lambda is lambda . M t / D, the rest turns at a constant rate."""
+    scene = Scene(Body((2, 2, 2)), Gyrostat((1, 2, 0)), ConstantTorque((3, 0, 0)))
+    answer = captured_fate(scene, (1, 2, 3))
+    assert (answer.fate, answer.axis, answer.certificate) == (Fate.SPIN_UP, 0, "law")
+    states = trajectory(scene, (1, 2, 3), [50.0, 100.0]).states
+    assert states @ [1, 2, 0] == pytest.approx([5 + 3 * 25.0, 5 + 3 * 50.0], rel=1e-12)
+
+
+@pytest.mark.parametrize("size", [1e-12, 1e12])
+def test_tiny_and_huge_torques_are_answered_in_their_own_time(size):
+    answer = captured_fate(ScaledGyrostat(0, -0.3 * math.sqrt(size), (size, 0, 0)), np.array([-6.0, 2, -1]) * math.sqrt(size))
+    assert (answer.axis, answer.sense) == (lambda one: (one.axis, one.sense))(captured_fate(paper("-0.3"), (-6.0, 2, -1)))

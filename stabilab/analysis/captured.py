@@ -19,6 +19,7 @@ Certificate "spin-up" (any c). K = E + phi = P^2/2 - (J/2) sin^2 phi + (c^2/8) s
 P^2/2 >= L := K + min(J, 0)/2 - c^2/8. If P > 0 and L > c^2/2, then P > |c|, so K' > 0, and (K + J/2)' = P - c cos^2 phi > 0:
 L grows, P stays above |c|, for ever. L' >= sqrt(2L) - |c| > 0 gives sqrt(2L) ~ tau, P ~ tau; R then converges (integrate
 (ln R^2)' = c sin 2phi by parts in phi), and u = (R^2 - J)/(2c) ~ tau.
+For c > 0 also J < -c^2 suffices: P = 0 needs J = R^2 + c^2 cos 2phi >= -c^2, and J falls.
 
 Certificate "well" (c < 0). Fix phi_b in [pi/2, pi]; p = phi mod pi inside (pi - phi_b, phi_b), E < V(phi_b, J) at p's branch.
 While p stays inside, (V(phi_b, J) - E)' = |c| (sin^2 phi - sin^2 phi_b) >= 0, so phi_b is never reached; nor is pi - phi_b, where
@@ -40,8 +41,12 @@ from .results import Fate
 
 # A certificate counts when its inequality holds by this share of the terms in it: 100 times their rounding.
 CLEARANCE = 2e-14
-# Steps of the search: ten seconds where the fate hangs on it, two where only the time of release does.
-STEP_BUDGET, RELEASE_BUDGET = 20_000_000, 4_000_000
+# Steps of the search: several seconds where the fate hangs on it, one or two where only the time of release does.
+STEP_BUDGET, RELEASE_BUDGET = 5_000_000, 2_000_000
+# Steps after which the finite end of a spin-up is given over the span run, unproved beyond it.
+EXTREMES_BUDGET = 300_000
+# How long to look where the caller names no time, in the motion's own unit 1/sqrt(g |m|).
+PATIENCE = 1e6
 
 
 @dataclass(frozen=True)
@@ -109,10 +114,10 @@ def _highest(rise, low, J, c):
     return b
 
 
-def captured_fate(scene, state, t_max: float = 1e6) -> CapturedFate:
+def captured_fate(scene, state, t_max: float | None = None) -> CapturedFate:
     """Which axis the motion from `state` (three numbers, the scene's variables) spins up about, and when it is released.
 
-    t_max: how long to look for a certificate, in the scene's time. Raises InputError for a scene whose torque is not along
+    t_max: how long to look for a certificate, in the scene's time (None: a million of the motion's own units). Raises InputError for a scene whose torque is not along
     one principal axis with a gyrostatic component along it.
     """
     from .trajectories import _state
@@ -135,6 +140,7 @@ def _by_certificate(change, y, t_max):
         return spin | dict(because=f"pure spin about axis {i + 1}, which the torque speeds up for ever", release_time=0.0,
                            release_estimate=None, certificate="axis", t_certificate=0.0, steps=0)
     vanishing = _release_estimate(c, _angle(c, y)[2]) * unit if c > 0 else None
+    t_max = PATIENCE * unit if t_max is None else t_max
     name, t, y, last, steps = _search(c, y, t_max / unit)
     estimate = None if name == "spin-up" and not last else vanishing
     when = None if t is None else t * unit
@@ -152,8 +158,8 @@ def _by_certificate(change, y, t_max):
             f"spin-up about axis {i + 1}: its rate is bounded below by a growing line; still captured when the search ended, "
             f"release expected at about t = {estimate:.6g}"))
     return known | dict(fate=Fate.UNDECIDED, axis=0, sense=0, release_time=None, because=(
-        f"unbounded, but neither spin-up about axis {i + 1} nor capture about axis {q + 1} was certain by t = {t_max:g} "
-        f"({steps} steps)"))
+        f"unbounded, but neither spin-up about axis {i + 1} nor capture about axis {q + 1} was certain after {steps} steps "
+        f"(the search ends at t = {t_max:g})"))
 
 
 def _release_estimate(c, J):
@@ -165,7 +171,7 @@ def _release_estimate(c, J):
 def certificate(c, y) -> str | None:
     """"spin-up" or "well" where the one or the other holds at y beyond rounding, None otherwise."""
     margin, size = spin_up_margin(c, y)
-    if margin > CLEARANCE * size:
+    if margin > CLEARANCE * size or (c > 0 and _angle(c, y)[2] + c * c < -CLEARANCE * size):
         return "spin-up"
     if c < 0:
         margin, size = well_margin(c, y)
@@ -178,6 +184,8 @@ def _search(c, y, t_max):
     """(certificate or "none", its time, state there, last reversal of the turn, steps): run until one holds."""
     if found := certificate(c, y):
         return found, 0.0, y, 0.0, 0
+    if not math.isfinite(sum(v * v for v in y) * (1 + c * c)):
+        return "none", None, y, 0.0, 0
     run, t, last, steps = _runner(c, y), 0.0, 0.0, 0
     budget = STEP_BUDGET if c < 0 else RELEASE_BUDGET
     while t < t_max and steps < budget:
@@ -254,7 +262,12 @@ def _without_form(scene, state, axis, t_max):
         return dict(fate=Fate.SPIN_UP, axis=axis + 1, sense=sense, release_time=0.0, release_estimate=None, certificate="law",
                     t_certificate=0.0, steps=0, because=f"the moments across axis {axis + 1} are equal: its spin grows exactly "
                                                         "in proportion to time")
+    if not any(form.kappa):
+        return dict(fate=Fate.SPIN_UP, axis=0, sense=0, release_time=0.0, release_estimate=None, certificate="law", t_certificate=0.0,
+                    steps=0, because="three equal moments: the spin along lambda, which is on no axis, grows exactly in "
+                                     "proportion to time, the rest of the motion is bounded")
     from .offaxis import growth
+    t_max = PATIENCE / math.sqrt(abs(form.m[axis])) if t_max is None else t_max
     seen = growth(scene, state, t_max)
     clear = seen.axis > 0
     words = (f"spin-up about axis {seen.axis} by the evidence of a run to t = {seen.span:.6g} ({seen.words})" if clear else
@@ -279,9 +292,10 @@ def captured_extremes(scene, state, answer: CapturedFate | None = None):
     span = max(1.5 * (answer.t_certificate or 0.0), 20 * unit)
     roots = roots_of_rates(scene, state, span)
     certain = answer.certificate in ("spin-up", "axis")
-    while answer.certificate == "spin-up" and not roots.reason and not _floor_holds(change, roots):
+    while answer.certificate == "spin-up" and certain and not _floor_holds(change, roots):
         span *= 1.5
-        roots = roots_of_rates(scene, state, span)
+        certain = not roots.reason and roots.steps < EXTREMES_BUDGET
+        roots = roots_of_rates(scene, state, span) if certain else roots
     extremes = roots.extremes()
     if answer.certificate == "well":
         others = [i for i in range(3) if i != answer.axis - 1]

@@ -30,7 +30,8 @@ class StandardForm:
 
 
 def standard_form(scene) -> StandardForm | None:
-    """The change to standard form, or None where there is none (torque on a middle axis, a gyrostatic component across it, equal moments).
+    """The change to standard form, or None where there is none (torque on a middle axis, a gyrostatic component across it,
+    equal moments).
 
     x_i' = kappa_i x_p x_q + m,  x_p' = kappa_p x_q (x_i + alpha),  x_q' = kappa_q x_p (x_i + beta): with kappa_i kappa_q > 0 >
     kappa_p kappa_q the rates r_i^2 = |m|/g, r_p^2 = g |m|/(kappa_i kappa_q), r_q^2 = g |m|/|kappa_i kappa_p|, g^2 = |kappa_p kappa_q|, and

@@ -176,7 +176,8 @@ def _return(roots, state):
     if not len(roots.t):
         return None
     size = max(np.ptp(np.vstack([roots.states, state]), axis=0).max(), 1e-300)
-    same = (roots.component[1:] == roots.component[0]) & (np.abs(roots.states[1:] - roots.states[0]).max(axis=1) <= SAME_POINT * size)
+    apart = np.abs(roots.states[1:] - roots.states[0]).max(axis=1)
+    same = (roots.component[1:] == roots.component[0]) & (apart <= SAME_POINT * size)
     found = np.nonzero(same)[0]
     return int(found[0]) + 1 if found.size else None
 
