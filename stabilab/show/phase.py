@@ -167,7 +167,7 @@ def window(plane: PhasePlane) -> tuple[float, float]:
 
 def _side(plane, edge, sense, ceiling, cellar):
     """Where the potential, from `edge` on, leaves the range worth drawing; at most 12 away."""
-    step = 0.02
+    step = 1e-6
     while step < 12 and cellar < plane.height(edge + sense * step) < ceiling:
         step *= 1.1
     return edge + sense * step

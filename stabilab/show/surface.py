@@ -18,8 +18,8 @@ def write(case, out, reach=None, shape=None, picture=True) -> dict:
 
     NAME.vtp (double precision, point arrays "sheet" and "residual"), NAME.glb and NAME.stl (single precision, as those
     formats are), NAME.json (the summary) and NAME.png; NAME is the case's file stem. Where there is no separatrix the
-    files are written all the same, empty, and the summary gives the reason. Raises RenderingUnavailable, after the
-    meshes and the summary are written, where this machine cannot draw.
+    files are written all the same, empty, and the summary gives the reason. Raises RenderingUnavailable (with the
+    summary as its attribute `summary`), after the meshes are written, where this machine cannot draw.
     """
     from .render_probe import CURE, probe
     out = Path(out)
@@ -38,9 +38,11 @@ def write(case, out, reach=None, shape=None, picture=True) -> dict:
         summary["files"] = sorted(f.name for f in files)
         waiting.write_text(json.dumps(summary, indent=1) + "\n", encoding="utf-8")
     if picture and not renderer.available:
-        raise RenderingUnavailable(
+        unavailable = RenderingUnavailable(
             f"the meshes are in {out} ({', '.join(summary['files'])}), but no picture could be drawn: {renderer.words}. "
             f"Cure: {CURE}")
+        unavailable.summary = summary
+        raise unavailable
     return summary
 
 
