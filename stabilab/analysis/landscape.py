@@ -116,13 +116,22 @@ class Landscape:
         return offset, spot, exists
 
     def _polish(self, spot):
-        """Newton steps along the orbit: whatever the conic lost, the force regains."""
-        for _ in range(3):
-            with np.errstate(all="ignore"):
-                y = -self.potential.force(spot) / self.potential.slope(spot)
-            y = np.where(np.isfinite(y) & (np.abs(y) < 0.5), y, 0.0)
-            spot = self.potential.move(spot, y)
-        return spot
+        """Newton steps along the orbit: whatever the conic lost, the force regains. Most need one tiny step."""
+        first, second = spot
+        step = self._newton_step(spot)
+        first, second = self.potential.nudge(spot, np.where(np.abs(step) < 1e-5, step, 0.0))
+        far = np.abs(step) >= 1e-5
+        if far.any():
+            one = tuple(v[far] for v in spot)
+            for _ in range(3):
+                one = self.potential.move(one, self._newton_step(one))
+            first[far], second[far] = one
+        return first, second
+
+    def _newton_step(self, spot):
+        with np.errstate(all="ignore"):
+            step = -self.potential.force(spot) / self.potential.slope(spot)
+            return np.where(np.abs(step) < 0.5, step, 0.0)  # false for nan too
 
     def _critical_parabolic(self, place):
         force = self.potential.force(place)

@@ -12,9 +12,15 @@ import numpy as np
 
 def y_minus_sin(y):
     """y - sin y without cancellation."""
-    y2 = y * y
-    small = y * y2 / 6 * (1 - y2 / 20 * (1 - y2 / 42 * (1 - y2 / 72 * (1 - y2 / 110 * (1 - y2 / 156)))))
-    return np.where(np.abs(y) < 0.7, small, y - np.sin(y))
+    result, small = y - np.sin(y), np.abs(y) < 0.7
+    if np.any(small):
+        t = y[small] if np.ndim(y) else y
+        t2 = t * t
+        series = t * t2 / 6 * (1 - t2 / 20 * (1 - t2 / 42 * (1 - t2 / 72 * (1 - t2 / 110 * (1 - t2 / 156)))))
+        if not np.ndim(y):
+            return series
+        result[small] = series
+    return result
 
 
 def exp_minus_two_terms(t):
@@ -46,6 +52,12 @@ class Elliptic:
         s, b = np.sin(y), -2 * half * half
         return x + (z * s + x * b), z + (z * b - x * s)
 
+    def nudge(self, place, y):
+        """`move` for |y| < 1e-5, to rounding."""
+        x, z = place
+        b = -0.5 * y * y
+        return x + (z * y + x * b), z + (z * b - x * y)
+
     def rise(self, y, place, force=0.0):
         x, z = place
         half = np.sin(0.5 * y)
@@ -73,6 +85,8 @@ class Hyperbolic:
 
     def move(self, place, y):
         return place[0] * np.exp(y), place[1] * np.exp(-y)
+
+    nudge = move
 
     def rise(self, y, place, force=0.0):
         xi, eta = place
