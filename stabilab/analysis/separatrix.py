@@ -21,7 +21,8 @@ def separatrix(scene, reach: float | None = None, shape: tuple[int, int] = (96, 
     """Every sheet of the separatrix of a scene with an elliptic or hyperbolic reduction.
 
     reach: how far out the sheets go, as a multiple of the radius sqrt|Q| of the outermost fold (default 4; where there
-    is no fold, of the smallest saddle's); must exceed 1. shape: (rows, columns) of each grid, at least (3, 5). Points
+    is no fold, of the smallest saddle's); must exceed 1. shape: (rows, columns) of each grid, at least (3, 5), an even
+    number of columns becomes the next odd one. Points
     are in the scene's variables. A scene without saddles gives no sheets and the reason.
     """
     from ..errors import InputError
@@ -165,21 +166,22 @@ def _sheet(land, name, place_at, rows, columns, side):
     if found.sum() < 2:
         return None
     saddle, end, centre = tuple(v[found] for v in saddle), end[found], centre[:, found]
-    out, back = np.linspace(0, 1, (columns + 1) // 2), np.linspace(1, 0, columns // 2 + 1)
-    share = np.concatenate([out, back[1:]])
-    share = np.sin(0.5 * np.pi * share) ** 2
+    # out from the saddle with W against the torque, back with the other sign: the second half mirrors the first
+    share = np.sin(0.5 * np.pi * np.linspace(0, 1, columns // 2 + 1)) ** 2
     y = end[:, None] * share
     spot = tuple(v[:, None] for v in saddle)
     with np.errstate(all="ignore"):
         w = np.sqrt(2 * np.maximum(-land.potential.rise(y, spot), 0))
-    turning = len(out) - 1
     w[:, 0] = w[:, -1] = 0.0
-    w[:, turning] = 0.0
-    w[:, :turning] *= side
-    w[:, turning:] *= -side
-    points = land.components(land.potential.move(spot, y), w)
+    place = land.potential.move(spot, y)
+    half = land.components(place, side * w)
+    residual = _residual(land, saddle, half, y)
+    mirror = slice(-2, None, -1)
+    points = np.concatenate([half, half[:, mirror]], axis=1)
+    axis = land.reduction.axis
+    points[:, len(share):, axis] = land.reduction.component_i(-side * w[:, mirror])
     zero = np.zeros(len(end))
-    return Sheet(name=name, points=points, residual=_residual(land, saddle, points),
+    return Sheet(name=name, points=points, residual=np.concatenate([residual, residual[:, mirror]], axis=1),
                  saddle=land.components(saddle, zero), centre=land.components(tuple(centre), zero),
                  invariant=land.invariant(saddle))
 
@@ -246,24 +248,20 @@ def _wall(land, spot, low, side):
     return None
 
 
-def _residual(land, saddle, points):
-    """(n, m) energy of the rounded points above their saddle's, relative to the size of the energy's terms."""
+def _residual(land, saddle, points, y):
+    """(n, m) energy of the rounded points above their saddle's, relative to the size of the energy's terms; y: their
+    offsets from the saddle, which tell the turn that the angle of a rounded point belongs to."""
     place, w, size = land.start(points)
     spot = tuple(v[:, None] for v in saddle)
     pot = land.potential
     with np.errstate(all="ignore"):
         if land.e < 0:
-            y = np.arctan2(place[0] * spot[1] - place[1] * spot[0], place[0] * spot[0] + place[1] * spot[1])
-            low = pot.rise(y, spot)
-            # the loop may reach round by more than half a turn: take the branch that fits the kinetic energy
-            others = [low, pot.rise(y - TURN, spot), pot.rise(y + TURN, spot)]
-            departure = np.min([np.abs(0.5 * w * w + rise) for rise in others], axis=0)
-            scale = 0.5 * w * w + np.abs(pot.G) * (size[0]**2 + size[1]**2) + (abs(pot.c) + abs(pot.d)) * (size[0] + size[1]) + pot.mu
+            angle = np.arctan2(place[0] * spot[1] - place[1] * spot[0], place[0] * spot[0] + place[1] * spot[1])
+            seen, slopes = angle + TURN * np.round((y - angle) / TURN), abs(pot.c) + abs(pot.d)
         else:
             big = np.abs(spot[0]) >= np.abs(spot[1])
-            y = np.where(big, np.log(np.abs(place[0] / spot[0])), -np.log(np.abs(place[1] / spot[1])))
-            departure = np.abs(0.5 * w * w + pot.rise(y, spot))
-            scale = (0.5 * w * w + np.abs(pot.G) * (size[0]**2 + size[1]**2)
-                     + (abs(pot.e1) + abs(pot.e2)) * (size[0] + size[1]) + pot.mu)
-    with np.errstate(all="ignore"):
+            seen = np.where(big, np.log(np.abs(place[0] / spot[0])), -np.log(np.abs(place[1] / spot[1])))
+            slopes = abs(pot.e1) + abs(pot.e2)
+        departure = np.abs(0.5 * w * w + pot.rise(seen, spot))
+        scale = 0.5 * w * w + np.abs(pot.G) * (size[0] ** 2 + size[1] ** 2) + slopes * (size[0] + size[1]) + pot.mu
         return np.where(departure > 0, departure / scale, 0.0)
