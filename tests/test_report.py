@@ -119,8 +119,13 @@ def test_the_report_opens_in_a_browser_and_its_scene_draws(tmp_path, monkeypatch
     from PIL import Image
     if not render_probe.probe().available:
         pytest.skip("no renderer on this machine")
+
     monkeypatch.setattr(figures, "FIGURES", (figures.figure(9),))
     monkeypatch.setattr(figures, "NUMBERS", (9,))
+    def no_network(*_):
+        raise AssertionError("the report reached for the network")
+    for call in ("connect", "bind"):
+        monkeypatch.setattr(f"socket.socket.{call}", no_network)
     index = report.write([CASES / "minor-axis-100.toml"], tmp_path / "report")
     assert _troubles(_visit(index, tmp_path / "index.png")) == []
     scene = index.parent / "surfaces" / "minor-axis-100.html"

@@ -202,11 +202,40 @@ def draw(scene, found, meshes, path) -> Path:
 
 def turntable(scene, found, meshes, path) -> Path:
     """One self-contained HTML file in which the surfaces can be turned; needs a renderer that the probe approved."""
+    from trame_vtk.tools.vtksz2html import write_html
     stage = plotter(scene, found, meshes, still=False)
     try:
-        with style.whole_file(Path(path)) as waiting:
-            stage.trame.export_html(waiting.with_suffix(".html"))
-            waiting.with_suffix(".html").replace(waiting)
+        stage.render()
+        data = _scene_archive(stage.render_window)
     finally:
         stage.close()
+    with style.whole_file(Path(path)) as waiting, waiting.open("w", encoding="utf-8") as page:
+        write_html(data, page)
     return Path(path)
+
+
+def _scene_archive(window) -> bytes:
+    """The render window as the viewer's zip archive.
+
+    pyvista's own export_html starts a local web server, and one of its modules then fetches files from the network;
+    the serialisation underneath needs neither.
+    """
+    import io
+    import zipfile
+
+    from trame_vtk.modules.vtk.serializers import (SynchronizationContext, extract_array_hash, initialize_serializers,
+                                                   reference_id, serialize)
+    initialize_serializers()
+    context = SynchronizationContext()
+    context.set_ignore_last_dependencies(True)
+    camera = window.GetRenderers().GetFirstRenderer().GetActiveCamera()
+    description = serialize(None, window, reference_id(window), context, 1)
+    description["extra"] = {"vtkRefId": reference_id(window), "centerOfRotation": camera.GetFocalPoint(),
+                            "camera": reference_id(camera)}
+    arrays = {entry["hash"]: {**entry, "content": context.get_cached_data_array(entry["hash"], False)}
+              for entry in extract_array_hash(description)}
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr(zipfile.ZipInfo("index.json"), json.dumps({"hashes": arrays, "scene": description}),
+                         compress_type=zipfile.ZIP_DEFLATED)
+    return buffer.getvalue()
