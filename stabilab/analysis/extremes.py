@@ -13,6 +13,7 @@ from .results import Fate
 from .rootfind import bracketed_newton
 from .turning import interval, spots_along, turning_point
 
+EXTREMES_SHARE = 1e-7  # closer to the separatrix than this share of the energy terms, rounding costs extremes 1e-12
 SHIFT_LIMIT = 1e4  # canonical variables lose this factor of accuracy to the shift before the precise path takes over
 
 
@@ -38,7 +39,8 @@ def extremes(scene, states, span=None):
 def _chunk(land: Landscape, states, decided):
     out = np.repeat(states[:, :, None], 2, axis=2)
     place, w, size = land.start(states)
-    precise = needs_digits(land, states) & (decided.labels != Fate.EQUILIBRIUM)
+    precise = needs_digits(land, states) | near_separatrix(land, place, w, decided, EXTREMES_SHARE)
+    precise &= decided.labels != Fate.EQUILIBRIUM
     labels = np.where(precise, -1, decided.labels)
     trapped = (labels == Fate.BOUNDED) | (labels == Fate.SEPARATRIX)
     if land.e < 0 and land.sense == 0:
@@ -65,6 +67,19 @@ def needs_digits(land: Landscape, states):
     if shift == 0:
         return np.zeros(len(states), bool)
     return shift > SHIFT_LIMIT * np.maximum(np.abs(states).max(axis=1), 1e-300)
+
+
+def near_separatrix(land: Landscape, place, w, decided, share):
+    """(n,) True for bounded motions whose margin is below `share` of the energy's terms: turning points and periods
+    magnify the margin's rounding there, so many digits take over."""
+    unit, bounded = land.reduction.energy_unit, (decided.labels == Fate.BOUNDED) | (decided.labels == Fate.SEPARATRIX)
+    if land.e == 0:
+        return bounded & (np.abs(decided.margins) <= share * unit * 0.5 * w * w)
+    size = np.hypot(*place)
+    pot = land.potential
+    slopes = abs(pot.c) + abs(pot.d) if land.e < 0 else abs(pot.e1) + abs(pot.e2)
+    scale = 0.5 * w * w + abs(pot.mu) + np.abs(pot.G) * size**2 + slopes * size
+    return bounded & (np.abs(decided.margins) <= share * unit * scale)
 
 
 def _pick(place, w, mask):

@@ -9,12 +9,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from .extremes import CHUNK, _pick, needs_digits
+from .extremes import CHUNK, _pick, near_separatrix, needs_digits
 from .fate import checked_states, fate
 from .landscape import TURN, Landscape, landscape
 from .results import Fate
 from .turning import interval
 
+PERIOD_SHARE = 1e-5  # closer to the separatrix than this share of the energy terms, rounding costs the period 1e-11
 TOLERANCE = 4e-15  # two successive rules agree to this: some twenty roundings
 MIDPOINT_NODES = (16, 32, 64, 128, 256)
 
@@ -39,7 +40,7 @@ def _chunk(land: Landscape, states, decided):
     out[decided.labels == Fate.EQUILIBRIUM] = 0.0
     place, w, _ = land.start(states)
     bounded = decided.labels == Fate.BOUNDED
-    precise = needs_digits(land, states) & bounded
+    precise = (needs_digits(land, states) | near_separatrix(land, place, w, decided, PERIOD_SHARE)) & bounded
     trapped = bounded & ~precise
     if land.e < 0 and land.sense == 0:
         rotating = trapped & (decided.margins < 0)

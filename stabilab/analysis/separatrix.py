@@ -199,40 +199,37 @@ def loop_end(land, saddle, side):
     """
     n = len(saddle[0])
     spots = spots_along(land, saddle, np.zeros(n))
-    end, centre, found = np.zeros(n), np.array(saddle, float), np.zeros(n, bool)
-    bracket = np.zeros((2, n))
-    offset = spots.offset * side
-    for row in range(n):
-        beyond = [c for c in np.argsort(offset[row], kind="stable") if spots.there[row, c] and offset[row, c] > OWN]
-        inner = None
-        for c in beyond:
-            if spots.barrier[row, c]:
-                if spots.energy[row, c] <= 0 or abs(offset[row, c] - TURN) < OWN:
-                    break
-            elif inner is None or spots.energy[row, c] > spots.energy[row, inner]:
-                inner, last = c, c
-            else:
-                last = c
-        else:
-            c = None
-        if inner is None:
-            continue
-        centre[:, row] = spots.place[:, row, inner]
-        spot = tuple(np.array([v[row]]) for v in saddle)
-        low = offset[row, last]
-        right_round = land.e < 0 and (c is None or abs(offset[row, c] - TURN) < OWN)
-        if right_round and land.sense == 0:
-            end[row], found[row] = side * TURN, True  # without torque the loop of the highest saddle goes right round
-            continue
-        # one turn back the saddle stands again, higher by 2 pi mu
-        high = TURN if right_round else offset[row, c] if c is not None else _wall(land, spot, low, side)
-        if high is not None:
-            bracket[:, row], found[row] = (low, high), True
+    end, centre = np.zeros(n), np.array(saddle, float)
+    outward = np.argsort(np.where(spots.there, spots.offset * side, np.inf), axis=1, kind="stable")
+    take = lambda a: np.take_along_axis(a, outward, axis=1)
+    offset, energy, barrier = take(spots.offset * side), take(spots.energy), take(spots.barrier)
+    ahead = take(spots.there) & (offset > OWN)
+    stops = ahead & barrier & ((energy <= 0) | (np.abs(offset - TURN) < OWN))
+    rows, width = np.arange(n), offset.shape[1]
+    if width == 0:
+        return end, centre, np.zeros(n, bool)
+    stopped = stops.any(axis=1)
+    stop = np.where(stopped, np.argmax(stops, axis=1), width)
+    wells = ahead & ~barrier & (np.arange(width) < stop[:, None])
+    found = wells.any(axis=1)
+    deepest = np.argmax(np.where(wells, energy, -np.inf), axis=1)
+    low = offset[rows, width - 1 - np.argmax(wells[:, ::-1], axis=1)]
+    high = offset[rows, np.minimum(stop, width - 1)]
+    centre[:, found] = np.array([take(v) for v in spots.place])[:, rows, deepest][:, found]
+    if land.e < 0:
+        right_round = found & (~stopped | (np.abs(high - TURN) < OWN))
+        if land.sense == 0:
+            end[right_round] = side * TURN  # without torque the loop of the highest saddle goes right round
+        high = np.where(right_round, TURN, high)  # one turn back the saddle stands again, higher by 2 pi mu
+    else:
+        for row in np.nonzero(found & ~stopped)[0]:
+            wall = _wall(land, tuple(np.array([v[row]]) for v in saddle), low[row], side)
+            found[row], high[row] = wall is not None, wall or 0.0
     solve = found & (end == 0)
 
     def fun(t, *spot):
         return land.potential.rise(side * t, spot), -side * land.potential.force(land.potential.move(spot, side * t))
-    low, high = bracket[:, solve]
+    low, high = low[solve], high[solve]
     end[solve] = side * bracketed_newton(fun, low, high, 0.5 * (low + high), tuple(v[solve] for v in saddle))
     return end, centre, found
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 from ..body import Body
 from ..effects.constant_torque import ConstantTorque
 from ..effects.gyrostat import Gyrostat
-from ..scaling import scaling, to_scaled, torque_from_mu
+from ..scaling import to_scaled, torque_from_mu
 from ..scene import Scene, ScaledGyrostat
 
 PAPER = "Amer et al. 2024, Sci. Rep."
@@ -28,8 +28,3 @@ def physical(axis: str, lambda1: float) -> Scene:
     """The same system in physical variables."""
     body = Body(INERTIA)
     return Scene(body, Gyrostat((lambda1, 0, 0)), ConstantTorque(torque_from_mu(body, TORQUE[axis])))
-
-
-def time_scale() -> float:
-    """Seconds in one unit of tau."""
-    return float(scaling(Body(INERTIA), 1).time)
