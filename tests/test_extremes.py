@@ -94,7 +94,7 @@ def test_extremes_and_period_just_inside_the_separatrix_keep_their_digits(name, 
             continue
         found += 1
         assert_extremes(stabilab.extremes(scene, np.array(state)), energy.extremes(problem, state), 1e-11)
-        exact = float(energy.period(problem, state, nodes=24))
+        exact = float(energy.period(problem, state, nodes=30))
         assert stabilab.period(scene, np.array(state)) == pytest.approx(exact, rel=1e-11)
 
 

@@ -468,12 +468,12 @@ _GAUSS: dict = {}
 
 
 @_at(60)
-def period(model, state, digits=60, nodes=16):
+def period(model, state, digits=60, nodes=20):
     """Period of a bounded motion, mpf; 0 at an equilibrium, inf otherwise.
 
     2 integral dalpha/w with alpha = middle - half cos(phi), which removes the square roots at both turning points;
-    Gauss-Legendre on panels that shrink geometrically towards both ends and every equilibrium inside, where a saddle
-    close by makes the integrand steep. `nodes` per panel; a second call with more nodes bounds the error.
+    Gauss-Legendre on panels that shrink geometrically towards both ends and every saddle inside, where the integrand
+    may be steep. `nodes` per panel; a second call with more nodes bounds the error.
     """
     motion = Reduced(model, state, digits)
     if motion.still:
@@ -488,8 +488,9 @@ def period(model, state, digits=60, nodes=16):
         alpha = lo + near if 2 * phi < mp.pi else hi - near
         return half * mp.sin(phi) / mp.sqrt(abs(motion.g(alpha)))
 
-    fixed = [mp.mpf(0), mp.pi] + [mp.acos((middle - a) / half) for a in _inner(motion, lo, hi) if lo < a < hi]
-    cuts = sorted(set(fixed + [c + s * mp.mpf(2) ** -n for c in fixed for s in (1, -1) for n in range(0, 40)]))
+    saddles = [b for a, kind in motion.stationary() if kind != "centre" for b in _turns(motion, a) if lo < b < hi]
+    fixed = [mp.mpf(0), mp.pi] + [mp.acos((middle - a) / half) for a in saddles]
+    cuts = sorted(set(fixed + [c + s * mp.mpf(4) ** -n for c in fixed for s in (1, -1) for n in range(18)]))
     cuts = [c for c in cuts if 0 <= c <= mp.pi]
     total = mp.mpf(0)
     for a, b in zip(cuts, cuts[1:]):
