@@ -36,18 +36,28 @@ def sheets():
     return {name: stabilab.separatrix(scene).sheets for name, (scene, _) in SCENES.items()}
 
 
-def distance(problem, vertex, digits=60):
-    """(least |saddle energy - energy| over the saddles of the vertex's conic within a turn, size of the energy's terms
-    and of their change under rounding of the vertex)."""
+def excess(problem, vertex, digits=60):
+    """(saddle energy - energy for the nearest in energy of the saddles of the vertex's conic within a turn, size of the
+    terms of the energy); None without a saddle."""
     with mp.workdps(digits):
         motion = energy.Reduced(problem, tuple(map(float, vertex)), digits)
-        marks = [(a + n * motion.turn if motion.kind == "elliptic" else a) for a, kind in motion.stationary()
-                 if kind in ("saddle", "fold") for n in ((-1, 0, 1) if motion.kind == "elliptic" else (0,))]
+        turns = (-1, 0, 1) if motion.kind == "elliptic" else (0,)
+        marks = [a + n * motion.turn if n else a for a, kind in motion.stationary() if kind != "centre" for n in turns]
         if not marks:
-            return mp.inf, mp.inf
+            return None
         best = min(marks, key=lambda a: abs(motion.W(a) + motion.w0 ** 2 / 2))
-        gap = abs(motion.W(best) + motion.w0 ** 2 / 2)
-        return gap, motion.terms(best) + abs(motion.tilt) / (motion.k0 if motion.kind != "parabolic" else 1)
+        return -motion.W(best) - motion.w0 ** 2 / 2, motion.terms(best)
+
+
+def change_under_rounding(problem, vertex):
+    """How much the excess moves when each coordinate moves by one unit in the last place: no double does better."""
+    here, total = excess(problem, vertex), 0
+    for i in range(3):
+        moved = np.array(vertex, float)
+        moved[i] += np.spacing(abs(moved[i]))
+        there = excess(problem, moved)
+        total += abs(there[0] - here[0]) if there and here else 0
+    return total
 
 
 def some(sheet, rows=6, columns=9):
@@ -74,13 +84,17 @@ def test_every_scene_here_has_sheets_of_the_stated_shapes(name, sheets):
 
 @scenes
 def test_vertices_have_the_energy_of_their_saddle_to_rounding(name, sheets):
-    """Own formula at 60 digits. 16 eps: three rounded coordinates, each entering a handful of terms."""
+    """Own formula at 60 digits, against what one unit in the last place of the vertex does to it."""
     _, problem = SCENES[name]
     for sheet in sheets[name]:
         for r, c in some(sheet):
-            gap, size = distance(problem, sheet.points[r, c])
-            # a vertex nearer to the fold than rounding may lie on a conic without a saddle
-            assert gap <= 16 * EPS * size, (sheet.name, r, c, sheet.points[r, c], float(gap / size))
+            if abs(rate_and_slope(problem, sheet.saddle[r], axis_of(problem))[1]) <= 1e-9 * np.max(np.abs(sheet.saddle)):
+                continue  # a fold ends the sheet: rounding decides whether the vertex's own conic has a saddle at all
+            found = excess(problem, sheet.points[r, c])
+            assert found is not None, (sheet.name, r, c)
+            gap, size = abs(found[0]), found[1]
+            if gap > 16 * EPS * size:  # three rounded coordinates, each entering a handful of terms
+                assert gap <= 2 * change_under_rounding(problem, sheet.points[r, c]), (sheet.name, r, c, sheet.points[r, c], float(gap))
 
 
 @scenes
@@ -134,8 +148,12 @@ def test_rows_run_outward_and_columns_from_saddle_to_saddle(name, sheets):
 
 @scenes
 def test_reported_residuals_are_at_rounding(name, sheets):
+    """Towards a plane C = 0 the conic itself is known to eps |x|^2/|C| only, and the energy along with it."""
     for sheet in sheets[name]:
-        assert np.all(np.abs(sheet.residual) <= 1e-14)
+        loss = 0.0
+        if name.startswith("middle"):
+            loss = np.max(np.sum(sheet.points ** 2, axis=-1), axis=1, keepdims=True) / np.abs(np.asarray(sheet.invariant))[:, None]
+        assert np.all(np.abs(sheet.residual) <= 1e-14 + 16 * EPS * loss)
 
 
 @scenes
@@ -155,8 +173,8 @@ def test_points_inside_and_outside_a_sheet_have_the_fates_of_their_sides(name, s
                 sides.append(side)
         result = stabilab.fate(scene, np.array(states))
         np.testing.assert_array_equal(result.labels, [WORDS[energy.label(problem, tuple(s), digits=60)] for s in np.array(states).tolist()])
-        if name == "both components":
-            continue  # an inner loop may have bounded motion on both sides: the oracle's labels above decide
+        if name in ("both components", "major physical"):
+            continue  # two saddles on one circle: bounded motion on both sides of the lower one's loop
         outside = Fate.SPIN_UP if elliptic else Fate.BOUNDED  # around the figure-eight everything is bounded too
         np.testing.assert_array_equal(result.labels, [Fate.BOUNDED if s < 0 else outside for s in sides])
         np.testing.assert_array_equal(np.sign(result.margins), [-s for s in sides])
