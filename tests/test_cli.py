@@ -291,17 +291,67 @@ def test_reader_that_goes_away_ends_the_program_quietly():
     assert run.returncode == cli.PIPE_CLOSED and run.stderr == b""
 
 
-@pytest.mark.skipif(os.name != "posix", reason="pipes and signals of POSIX")
-def test_interrupt_ends_with_130_and_no_traceback(tmp_path):
-    run = subprocess.Popen([sys.executable, "-m", "stabilab", "simulate", str(ROOT / "cases/major-axis-100.toml"), "--at", "1e6",
-                            "--method", "RK45"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=ROOT)
-    deadline = time.time() + 30
-    while time.time() < deadline and "scipy" not in Path(f"/proc/{run.pid}/maps").read_text():
-        time.sleep(0.05)
-    time.sleep(0.5)
-    run.send_signal(signal.SIGINT)
-    out, err = run.communicate(timeout=30)
-    assert run.returncode == 130 and not out and b"Traceback" not in err
+def interrupted(arguments, delay, cwd=ROOT):
+    """(exit code, stdout, stderr) of a Python program that is interrupted `delay` s after it armed itself.
+
+    Its second thread shows that it is armed: the first thing it does, before anything slow is imported.
+    """
+    run = subprocess.Popen([sys.executable, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=cwd,
+                           # a test run in the background may hand down an ignored SIGINT
+                           preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+    try:
+        deadline = time.time() + 60
+        while len(os.listdir(f"/proc/{run.pid}/task")) < 2 and time.time() < deadline:
+            time.sleep(0.001)
+        time.sleep(delay)
+        run.send_signal(signal.SIGINT)
+        out, err = run.communicate(timeout=60)
+    finally:
+        run.kill()
+    return run.returncode, out, err
+
+
+def console_script():
+    """The command `stabilab` as pip would write it."""
+    import tomllib
+    target = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["scripts"]["stabilab"]
+    return ["-c", "import sys; from {} import {} as main; sys.exit(main())".format(*target.split(":"))]
+
+
+has_proc = pytest.mark.skipif(not Path("/proc/self/task").is_dir(), reason="watches the threads of a process in /proc")
+
+
+# In turn while typer, numpy, sympy and heyoka are imported (which swallows exceptions), and inside compiled code.
+@has_proc
+@pytest.mark.parametrize("delay", [0, 0.03, 0.1, 0.2, 0.3, 0.4, 0.5, 0.7, 2.0])
+@pytest.mark.parametrize("program", [["-m", "stabilab"], console_script()], ids=["module", "script"])
+def test_interrupt_ends_with_130_and_no_traceback(program, delay):
+    # 1e8 units of time take heyoka about a quarter of an hour, in one call into compiled code
+    assert interrupted([*program, "simulate", str(MINOR), "--at", "1e8"], delay) == (130, b"", b"")
+
+
+@has_proc
+@pytest.mark.parametrize("delay", [0.1, 1.0])
+def test_interrupt_of_a_run_in_python_ends_with_130_too(delay):
+    arguments = ["-m", "stabilab", "simulate", str(ROOT / "cases/major-axis-100.toml"), "--at", "1e6", "--method", "RK45"]
+    assert interrupted(arguments, delay) == (130, b"", b"")
+
+
+@has_proc
+@pytest.mark.parametrize("busy", ["while True: pass", "time.sleep(1000)", "deaf()"])
+def test_interrupt_leaves_no_half_written_file(tmp_path, busy):
+    code = ("import time\nfrom stabilab import interrupt\nfrom stabilab.show.style import whole_file\n"
+            "def deaf():\n    while True:\n        try: time.sleep(0.01)\n        except BaseException: pass\n"
+            "with whole_file('wanted.txt') as waiting:\n    waiting.write_text('half')\n    interrupt.arm()\n    " + busy)
+    assert interrupted(["-c", code], 0.1, tmp_path) == (130, b"", b"")
+    assert not list(tmp_path.iterdir())
+
+
+@has_proc
+def test_program_started_with_interrupts_ignored_goes_on_ignoring_them():
+    code = ("import os, signal\nsignal.signal(signal.SIGINT, signal.SIG_IGN)\nfrom stabilab import interrupt\n"
+            "interrupt.arm()\nos.kill(os.getpid(), signal.SIGINT)\nprint('alive')")
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True, cwd=ROOT).stdout == b"alive\n"
 
 
 def test_output_has_no_escape_codes(stabilab, monkeypatch):

@@ -9,7 +9,7 @@ import pytest
 ROOT = Path(__file__).parent.parent
 PACKAGE = ROOT / "stabilab"
 # A room imports from rooms of a lower floor, or from itself.
-FLOOR = {"__init__": 0, "errors": 0, "exact": 1, "body": 2, "quadratic": 2, "effects": 3, "scene": 4, "scaling": 5,
+FLOOR = {"__init__": 0, "errors": 0, "exact": 1, "interrupt": 1, "body": 2, "quadratic": 2, "effects": 3, "scene": 4, "scaling": 5,
          "case": 6, "equations": 6, "compiled": 7, "analysis": 8, "audit": 9, "show": 10, "cli": 11, "__main__": 12}
 HEAVY = {"sympy", "scipy", "matplotlib", "pyvista", "vtk", "vtkmodules", "heyoka", "xarray", "pandas", "mpmath", "flint",
          "rich", "jinja2", "pydantic", "numba", "trame", "h5netcdf", "hypothesis", "pytest"}
@@ -83,7 +83,7 @@ def loaded_by(*arguments) -> set[str]:
     """Top-level packages in sys.modules after a command ran to its end, in a fresh interpreter."""
     code = ("import sys, atexit\nsys.argv = ['stabilab'] + sys.argv[1:]\n"
             "atexit.register(lambda: print('LOADED', *sorted({m.split('.')[0] for m in sys.modules}), file=sys.stderr))\n"
-            "from stabilab.cli import main\nmain()\n")
+            "from stabilab.__main__ import main\nmain()\n")
     run = subprocess.run([sys.executable, "-c", code, *map(str, arguments)], capture_output=True, text=True, cwd=ROOT)
     assert run.returncode == 0, run.stderr
     return set(next(line for line in run.stderr.splitlines() if line.startswith("LOADED")).split()[1:])

@@ -3,17 +3,20 @@ from __future__ import annotations
 
 import math
 import os
+import shutil
 import sys
-import tempfile
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 
 from ..errors import StabilabError
+from ..interrupt import undoing
 from . import figures, paper, surface, table
 
 PACKAGES = ("numpy", "scipy", "sympy", "heyoka", "matplotlib", "vtk", "pyvista", "python-flint")
+SHOW_CURSOR = b"\x1b[?25h"  # the progress line hides it
 SURFACE_SHAPE = (48, 97)  # rows and columns of a sheet: smooth to the eye, 3 MB a scene
 
 
@@ -28,9 +31,9 @@ def write(cases=None, out="report", progress=None) -> Path:
     out = Path(out)
     loaded = _load(cases)
     out.parent.mkdir(parents=True, exist_ok=True)
-    with _progress(progress) as tell, tempfile.TemporaryDirectory(prefix=f".{out.name}.", dir=out.parent) as folder:
-        _make(loaded, Path(folder), tell, out)
-        return _put_in_place(Path(folder), out)
+    with _progress(progress) as tell, _temporary(out) as folder:
+        _make(loaded, folder, tell, out)
+        return _put_in_place(folder, out)
 
 
 def _load(cases):
@@ -45,13 +48,26 @@ def _natural(name):
 
 
 @contextmanager
+def _temporary(out):
+    """A folder beside `out` that vanishes at the end, however it comes."""
+    folder = out.parent / f".{out.name}.{os.getpid()}"
+    remove = partial(shutil.rmtree, folder, ignore_errors=True)
+    with undoing(remove):
+        try:
+            folder.mkdir()
+            yield folder
+        finally:
+            remove()
+
+
+@contextmanager
 def _progress(given):
     if given or not sys.stderr.isatty():
         yield given or (lambda words: None)
         return
     from rich.console import Console
     console = Console(stderr=True)
-    with console.status("report") as status:
+    with undoing(lambda: os.write(2, SHOW_CURSOR)), console.status("report") as status:
         yield lambda words: status.update(f"report: {words}")
 
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 from contextlib import contextmanager
 from pathlib import Path
 
+from ..interrupt import undoing
+
 # Okabe-Ito: told apart by colour-blind readers, and by their lightness in a grey print.
 BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILION, PURPLE, GREY = (
     "#000000", "#E69F00", "#56B4E9", "#009E73", "#F0E442", "#0072B2", "#D55E00", "#CC79A7", "#7A7A7A")
@@ -95,11 +97,12 @@ def whole_file(path):
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
     waiting = path.with_name(f".{path.name}.part")
-    try:
-        yield waiting
-        waiting.replace(path)
-    finally:
-        waiting.unlink(missing_ok=True)
+    with undoing(waiting.unlink):
+        try:
+            yield waiting
+            waiting.replace(path)
+        finally:
+            waiting.unlink(missing_ok=True)
 
 
 def legend(figure, rows, columns=4):

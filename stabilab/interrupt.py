@@ -1,0 +1,64 @@
+"""Ctrl-C: the program ends at once with 130, whatever it was doing, and takes its unfinished files with it.
+
+A KeyboardInterrupt is no way to do that: a library in the middle of an import or a callback may swallow it, turn it
+into an error of its own, or never see it while compiled code runs. So the signal itself ends the process.
+"""
+from __future__ import annotations
+
+import os
+import signal
+from contextlib import contextmanager
+
+from .errors import INTERRUPTED
+
+PATIENCE = 0.3  # s that the main thread has to answer the signal itself; compiled code may keep it busy for hours
+_undo = []      # what to undo on the way out, last first
+
+
+def arm():
+    """From now on an interrupt ends the process. A program that was started with the signal ignored goes on ignoring it."""
+    if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
+        return
+    signal.signal(signal.SIGINT, _end)
+    if os.name == "posix":
+        _watch()
+
+
+def disarm():
+    """The answer is given: what is left is the interpreter's own end, which an interrupt shall not spoil."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+@contextmanager
+def undoing(action):
+    """While the block runs, an interrupt calls action() before the process ends."""
+    _undo.append(action)
+    try:
+        yield
+    finally:
+        _undo.remove(action)
+
+
+def _end(*_):
+    for action in reversed(_undo):
+        try:
+            action()
+        except Exception:  # nothing may keep the process from ending
+            pass
+    os._exit(INTERRUPTED)
+
+
+def _watch():
+    """A second pair of eyes: a thread that ends the process where the main thread is deaf inside compiled code."""
+    import _thread
+    import time
+    heard, mouth = os.pipe()
+    os.set_blocking(mouth, False)
+    signal.set_wakeup_fd(mouth, warn_on_full_buffer=False)
+
+    def listen():
+        while os.read(heard, 1)[0] != signal.SIGINT:
+            pass
+        time.sleep(PATIENCE)
+        _end()
+    _thread.start_new_thread(listen, ())
