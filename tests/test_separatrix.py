@@ -227,3 +227,48 @@ def test_shape_sets_rows_and_columns():
     scene, _ = SCENES["minor a<b"]
     for sheet in stabilab.separatrix(scene, shape=(7, 21)).sheets:
         assert sheet.points.shape == (7, 21, 3)
+
+
+FREE = {"no effect at all": ((3, 2, 1), (0, 0, 0)), "wheel on the major axis": ((3, 2, 1), (0.3, 0, 0)),
+        "wheel on the middle axis": ((3, 2, 1), (0, 0.3, 0)), "wheel on the minor axis": ((3, 2, 1), (0, 0, 0.3)),
+        "wheel across the major axis": ((3.0, 2.0, 1.5), (0, 0.1, 0.2)), "wheel across the minor axis": ((3.0, 2.0, 1.5), (0.3, 0.2, 0))}
+
+
+@pytest.mark.parametrize("name", FREE)
+def test_without_torque_no_surface_comes_twice(name):
+    """Without torque the potential has period 2 pi: barriers of one height on a circle share one level set, in which a
+    barrier's right loop is the left loop of the next barrier at its height (or its own, right round). So two vertices of
+    different sheets coincide at saddles only. Were a sheet there twice, all its vertices would be met again."""
+    inertia, momentum = FREE[name]
+    scene, _ = physical(inertia, momentum, (0, 0, 0))
+    found = stabilab.separatrix(scene, shape=(24, 33)).sheets
+    assert len(found) >= 2
+    for one in found:
+        row = len(one.points) // 2
+        curve, level = one.points[row], one.invariant[row]
+        size = np.abs(curve).max()
+        for other in found:
+            if other is one or not min(other.invariant) <= level <= max(other.invariant):
+                continue
+            near = _row_at(scene, other, level)
+            gaps = np.min(np.linalg.norm(curve[:, None] - near[None], axis=2), axis=1)
+            assert np.count_nonzero(gaps < 0.02 * size) < 0.5 * len(curve), (one.name, other.name)
+
+
+def _row_at(scene, sheet, level):
+    """(n, 3) dense polyline of a sheet's row at one value of the invariant: its grid, refined, at the nearest row."""
+    fine = next(s for s in stabilab.separatrix(scene, shape=(400, 129)).sheets if s.name == sheet.name)
+    return fine.points[np.argmin(np.abs(fine.invariant - level))]
+
+
+def test_sheets_of_the_free_body_are_its_two_planes_through_the_middle_axis():
+    """Euler's top: |H|^2 = 2 T D2 gives D1(D1 - D2) w1^2 = D3(D2 - D3) w3^2, two planes, cut into two halves each by the
+    middle axis; a sheet holds the two halves about one end of a centre's axis, so two sheets cover both planes once."""
+    found = stabilab.separatrix(stabilab.Scene(stabilab.Body((3, 2, 1))), shape=(24, 33)).sheets
+    assert len(found) == 2
+    for sheet in found:
+        w1, _, w3 = np.moveaxis(sheet.points, -1, 0)
+        np.testing.assert_allclose(3 * w1 * w1, w3 * w3, atol=1e-13 * np.max(w3 * w3))
+    quarters = [set(map(tuple, np.sign(s.points[-1, 1:-1, [0, 2]]).T.astype(int).tolist())) for s in found]
+    quarters = [{q for q in found if all(q)} for found in quarters]
+    assert len(quarters[0] | quarters[1]) == 4 and not quarters[0] & quarters[1]

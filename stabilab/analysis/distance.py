@@ -152,7 +152,7 @@ class _Sheet:
         Q = np.array([(z - x) * (z + x) if land.e > 0 else z * z + x * x])
         xs, zs, _ = land.conic._meet_piece(self.piece, Q)
         spot = land._polish((xs, zs) if land.e < 0 else (xs + zs, xs - zs))
-        end, _, found = loop_end(land, spot, self.side)
+        end, _, found, _ = loop_end(land, spot, self.side)
         if land.e < 0:
             y = np.arctan2(x * spot[1] - z * spot[0], x * spot[0] + z * spot[1])
             y = np.where(y * self.side > 0, y, y + self.side * TURN)
@@ -194,7 +194,7 @@ def _newton(land, piece, side, state, start):
 def _points(land, branch, side, s, phi):
     """(rows, columns, 3) points of a sheet; nan where a row has no loop."""
     saddle = _polished(land, tuple(np.asarray(v, float) for v in branch(s)), s)
-    end, _, found = loop_end(land, saddle, side)
+    end, _, found, _ = loop_end(land, saddle, side)
     end = np.where(found | (s == 0), end, np.nan)
     y = end[:, None] * np.cos(0.5 * np.pi * phi) ** 2
     spot = tuple(v[:, None] for v in saddle)

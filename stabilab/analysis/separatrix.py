@@ -4,17 +4,24 @@ A sheet sweeps one branch of saddles outward from its fold, where the loop shrin
 W = +-sqrt(2 (V_saddle - V(theta))), the difference formed without cancellation, so vertices lie on the surface to
 rounding. On a circle the loop runs from its saddle against the torque and back; on a hyperbola (and without torque)
 each saddle has a loop on either side: a figure eight.
+
+Without torque the potential is periodic, so a saddle may see another one at its own height ahead (or itself, one turn
+on). The loop then runs from saddle to saddle and back, and the saddle at its far end sees the same closed curve on its
+other side. Such a loop is taken from one end only, its left one.
 """
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
-from .landscape import TURN, Landscape, landscape
+from .landscape import EPS, TURN, Landscape, landscape
 from .results import Separatrix, Sheet
 from .rootfind import bracketed_newton
 from .turning import spots_along
 
-OWN = 1e-9  # offsets below this are the saddle itself
+OWN = 1e-9        # offsets below this are the saddle itself
+LEVEL = 64 * EPS  # saddles whose heights differ by less, relative to the terms of the energy, are at one height
 
 
 def separatrix(scene, reach: float | None = None, shape: tuple[int, int] = (96, 129)) -> Separatrix:
@@ -42,13 +49,18 @@ def separatrix(scene, reach: float | None = None, shape: tuple[int, int] = (96, 
         return Separatrix((), _why_none(land))
     sheets = []
     for number, place in enumerate(branches, 1):
-        for side, word in _sides(land):
-            sheet = _sheet(land, f"sheet {number}{word}", place, rows, columns, side)
-            if sheet is not None:
-                sheets.append(sheet)
-    reason = ("each sheet bounds the motions that oscillate about the centres inside it" if land.e < 0 and land.sense else
-              "both sides of each sheet are bounded: it parts oscillations about one centre from those around two")
-    return Separatrix(tuple(sheets), reason)
+        loops = [(word, sheet) for side, word in _sides(land) if (sheet := _sheet(land, place, rows, columns, side))]
+        sheets += [replace(sheet, name=f"sheet {number}{word if len(loops) > 1 else ''}") for word, sheet in loops]
+    return Separatrix(tuple(sheets), _what_it_parts(land))
+
+
+def _what_it_parts(land) -> str:
+    if land.e > 0:
+        return "both sides of each sheet are bounded: it parts oscillations about one centre from those around two"
+    if land.sense == 0:
+        return ("both sides of each sheet are bounded: inside motions oscillate about a centre, outside about more of "
+                "them or right round the axis")
+    return "each sheet bounds the motions that oscillate about the centres inside it"
 
 
 def _why_none(land) -> str:
@@ -150,7 +162,7 @@ def _as_place(land, x, z):
     return (x, z) if land.e < 0 else (x + z, x - z)
 
 
-def _sheet(land, name, place_at, rows, columns, side):
+def _sheet(land, place_at, rows, columns, side):
     """One sheet; rows are uniform in the branch's parameter, whose square is what the invariant grows by at a fold."""
     s = np.linspace(0, 1, rows)
     # the first row is the fold point itself; on a plane Q = 0 a loop need not close, so the last row stays short of it
@@ -159,7 +171,8 @@ def _sheet(land, name, place_at, rows, columns, side):
         s[-1] = 1 - 0.05 / rows
     saddle = tuple(np.asarray(v, float) for v in place_at(s))
     saddle = _polished(land, saddle, s)
-    end, centre, found = loop_end(land, saddle, side)
+    end, centre, found, shared = loop_end(land, saddle, side)
+    found &= ~(shared & (side > 0))
     found[0] = True
     end[0] = 0.0
     centre[:, 0] = np.array(saddle)[:, 0]
@@ -181,7 +194,7 @@ def _sheet(land, name, place_at, rows, columns, side):
     axis = land.reduction.axis
     points[:, len(share):, axis] = land.reduction.component_i(-side * w[:, mirror])
     zero = np.zeros(len(end))
-    return Sheet(name=name, points=points, residual=np.concatenate([residual, residual[:, mirror]], axis=1),
+    return Sheet(name="", points=points, residual=np.concatenate([residual, residual[:, mirror]], axis=1),
                  saddle=land.components(saddle, zero), centre=land.components(tuple(centre), zero),
                  invariant=land.invariant(saddle))
 
@@ -193,9 +206,10 @@ def _polished(land, saddle, s):
 
 
 def loop_end(land, saddle, side):
-    """(offset of the far end of the loop (n,), centre place (2, n), found (n,)) for saddles (2, n) and one side.
+    """(offset of the far end of the loop (n,), centre place (2, n), found (n,), shared (n,)) for saddles (2, n), one side.
 
-    The loop ends where the potential, beyond the wells on that side, is back at the saddle's height.
+    The loop ends where the potential, beyond the wells on that side, is back at the saddle's height; shared: it ends at
+    a saddle there, for which this is the loop on the other side.
     """
     n = len(saddle[0])
     spots = spots_along(land, saddle, np.zeros(n))
@@ -204,10 +218,11 @@ def loop_end(land, saddle, side):
     take = lambda a: np.take_along_axis(a, outward, axis=1)
     offset, energy, barrier = take(spots.offset * side), take(spots.energy), take(spots.barrier)
     ahead = take(spots.there) & (offset > OWN)
-    stops = ahead & barrier & ((energy <= 0) | (np.abs(offset - TURN) < OWN))
+    level = ahead & barrier & _at_one_height(land, saddle, offset, energy)
+    stops = ahead & barrier & ((energy <= 0) | level | (np.abs(offset - TURN) < OWN))
     rows, width = np.arange(n), offset.shape[1]
     if width == 0:
-        return end, centre, np.zeros(n, bool)
+        return end, centre, np.zeros(n, bool), np.zeros(n, bool)
     stopped = stops.any(axis=1)
     stop = np.where(stopped, np.argmax(stops, axis=1), width)
     wells = ahead & ~barrier & (np.arange(width) < stop[:, None])
@@ -216,11 +231,12 @@ def loop_end(land, saddle, side):
     low = offset[rows, width - 1 - np.argmax(wells[:, ::-1], axis=1)]
     high = offset[rows, np.minimum(stop, width - 1)]
     centre[:, found] = np.array([take(v) for v in spots.place])[:, rows, deepest][:, found]
+    shared = found & stopped & level[rows, np.minimum(stop, width - 1)]
     if land.e < 0:
         right_round = found & (~stopped | (np.abs(high - TURN) < OWN))
-        if land.sense == 0:
-            end[right_round] = side * TURN  # without torque the loop of the highest saddle goes right round
         high = np.where(right_round, TURN, high)  # one turn back the saddle stands again, higher by 2 pi mu
+        shared |= right_round & (land.sense == 0)
+        end[shared] = side * high[shared]
     else:
         for row in np.nonzero(found & ~stopped)[0]:
             wall = _wall(land, tuple(np.array([v[row]]) for v in saddle), low[row], side)
@@ -231,7 +247,15 @@ def loop_end(land, saddle, side):
         return land.potential.rise(side * t, spot), -side * land.potential.force(land.potential.move(spot, side * t))
     low, high = low[solve], high[solve]
     end[solve] = side * bracketed_newton(fun, low, high, 0.5 * (low + high), tuple(v[solve] for v in saddle))
-    return end, centre, found
+    return end, centre, found, shared
+
+
+def _at_one_height(land, saddle, offset, energy):
+    """(n, m) where a spot is as high as the saddle, as only the periodic potential of a circle without torque has it."""
+    if land.e > 0 or land.sense:
+        return np.zeros(offset.shape, bool)
+    pot, Q = land.potential, land.invariant(saddle)[:, None]
+    return np.abs(energy) <= LEVEL * (np.abs(pot.G) * Q + (np.abs(pot.c) + np.abs(pot.d)) * np.sqrt(Q))
 
 
 def _wall(land, spot, low, side):
