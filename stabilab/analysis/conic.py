@@ -124,13 +124,17 @@ class Conic:
         return -self.e * np.inf if self.K else self.invariant(inner)
 
     def _solve(self, piece, Q):
-        """|h| with invariant Q on a piece: plain Newton where it converges at once, the safe search for the rest."""
-        size, done = self._solve_fast(piece, Q)
-        if not done.all():
-            size[~done] = self._solve_safely(piece, Q[~done])
+        """|h| with invariant Q on a piece: plain Newton, longer next to a fold; the safe search for the rest."""
+        size, rest = np.empty(Q.shape), np.arange(Q.size)
+        for steps in (6, 14):
+            size[rest], done = self._solve_fast(piece, Q[rest], steps)
+            rest = rest[~done]
+            if not rest.size:
+                return size
+        size[rest] = self._solve_safely(piece, Q[rest])
         return size
 
-    def _solve_fast(self, piece, Q, steps=6):
+    def _solve_fast(self, piece, Q, steps):
         """(|h|, converged) by Newton's method from the asymptote of an open-ended piece of a circle's conic."""
         if self.e > 0 or (piece.inner > 0) == np.isfinite(piece.outer):
             return np.empty(Q.shape), np.zeros(Q.shape, bool)

@@ -21,6 +21,8 @@ from .rootfind import bracketed_newton
 from .turning import spots_along
 
 OWN = 1e-9        # offsets below this are the saddle itself
+UNIFORM = 0.2     # of the fold's radius: up to there rows are uniform
+FLOOR = 0.1       # of the density of columns: no gap where a loop happens to be straight
 LEVEL = 64 * EPS  # saddles whose heights differ by less, relative to the terms of the energy, are at one height
 
 
@@ -163,8 +165,8 @@ def _as_place(land, x, z):
 
 
 def _sheet(land, place_at, rows, columns, side):
-    """One sheet; rows are uniform in the branch's parameter, whose square is what the invariant grows by at a fold."""
-    s = np.linspace(0, 1, rows)
+    """One sheet of a branch of saddles, on one side of them; None where no loop closes."""
+    s = _rows(land, place_at, rows)
     # the first row is the fold point itself; on a plane Q = 0 a loop need not close, so the last row stays short of it
     q = land.invariant(place_at(s[-2:]))
     if land.e > 0 and abs(q[1]) < 1e-9 * abs(q[0]):
@@ -180,23 +182,63 @@ def _sheet(land, place_at, rows, columns, side):
         return None
     saddle, end, centre = tuple(v[found] for v in saddle), end[found], centre[:, found]
     # out from the saddle with W against the torque, back with the other sign: the second half mirrors the first
-    share = np.sin(0.5 * np.pi * np.linspace(0, 1, columns // 2 + 1)) ** 2
-    y = end[:, None] * share
-    spot = tuple(v[:, None] for v in saddle)
-    with np.errstate(all="ignore"):
-        w = np.sqrt(2 * np.maximum(-land.potential.rise(y, spot), 0))
-    w[:, 0] = w[:, -1] = 0.0
-    place = land.potential.move(spot, y)
-    half = land.components(place, side * w)
+    y = end[:, None] * _shares(land, saddle, end, columns // 2 + 1)
+    w, half = _half_loops(land, saddle, y, side)
     residual = _residual(land, saddle, half, y)
     mirror = slice(-2, None, -1)
     points = np.concatenate([half, half[:, mirror]], axis=1)
     axis = land.reduction.axis
-    points[:, len(share):, axis] = land.reduction.component_i(-side * w[:, mirror])
+    points[:, w.shape[1]:, axis] = land.reduction.component_i(-side * w[:, mirror])
     zero = np.zeros(len(end))
     return Sheet(name="", points=points, residual=np.concatenate([residual, residual[:, mirror]], axis=1),
                  saddle=land.components(saddle, zero), centre=land.components(tuple(centre), zero),
                  invariant=land.invariant(saddle))
+
+
+def _half_loops(land, saddle, y, side):
+    """(W >= 0 (n, m), points (n, m, 3)) of the first halves of the loops at offsets y (n, m), 0 to the far end."""
+    spot = tuple(v[:, None] for v in saddle)
+    with np.errstate(all="ignore"):
+        w = np.sqrt(2 * np.maximum(-land.potential.rise(y, spot), 0))
+    w[:, 0] = w[:, -1] = 0.0
+    return w, land.components(land.potential.move(spot, y), side * w)
+
+
+def _rows(land, place_at, number, dense=257):
+    """(number,) parameters s of the rows: the saddle moves on by equal steps near the fold and by equal factors far out,
+    where the sheet only grows and hardly bends."""
+    s = 0.5 - 0.5 * np.cos(np.linspace(0, np.pi, dense))
+    x, z = place_at(s)
+    way = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(x), np.diff(z)))])
+    start = max(UNIFORM * np.sqrt(np.abs(land.invariant((x[0], z[0])))), 0.03 * way[-1])
+    stretched = np.log1p(way / start)
+    s = np.interp(np.linspace(0, stretched[-1], number), stretched, s)
+    s[-1] = 1.0
+    return s
+
+
+def _shares(land, saddle, end, number, dense=65, rows=8):
+    """(number,) shares of the way to the far end, 0 to 1, at which facets stray from the sheet about equally.
+
+    In u, share = sin^2(pi u/2), a loop is smooth at both ends; a chord over du strays from the sheet by |r_uu . n| du^2/8
+    with the sheet's normal n. So columns are uniform in the integral of |r_uu . n|^(1/2), for the worst of some rows.
+    """
+    u = np.linspace(0, 1, dense)
+    some = np.linspace(1, len(end) - 2, min(rows, len(end) - 2)).astype(int)
+    pick = np.concatenate([some, some + 1])
+    _, r = _half_loops(land, tuple(v[pick] for v in saddle), end[pick, None] * np.sin(0.5 * np.pi * u) ** 2, 1)
+    r, beside = r[:len(some)], r[len(some):]
+    along, second = r[:, 2:] - r[:, :-2], r[:, 2:] - 2 * r[:, 1:-1] + r[:, :-2]
+    with np.errstate(all="ignore"):
+        normal = np.cross(along, (beside - r)[:, 1:-1])
+        bend = np.abs(np.sum(second * normal, axis=-1)) / np.linalg.norm(normal, axis=-1)
+        density = np.sqrt(np.max(np.nan_to_num(bend / np.nanmax(bend)), axis=0))
+    density = np.nan_to_num(density, nan=1.0) + FLOOR
+    length = np.concatenate([[0.0], np.cumsum(0.5 * (np.r_[density[0], density] + np.r_[density, density[-1]]))])
+    place = np.interp(np.linspace(0, length[-1], number), length, u)
+    share = np.sin(0.5 * np.pi * place) ** 2
+    share[-1] = 1.0
+    return share
 
 
 def _polished(land, saddle, s):
@@ -245,9 +287,30 @@ def loop_end(land, saddle, side):
 
     def fun(t, *spot):
         return land.potential.rise(side * t, spot), -side * land.potential.force(land.potential.move(spot, side * t))
-    low, high = low[solve], high[solve]
-    end[solve] = side * bracketed_newton(fun, low, high, 0.5 * (low + high), tuple(v[solve] for v in saddle))
+    end[solve] = side * _root(fun, low[solve], high[solve], tuple(v[solve] for v in saddle))
     return end, centre, found, shared
+
+
+def _root(fun, low, high, args, steps=9):
+    """Where fun rises through zero between a well at `low` and `high` (n,): plain Newton, the safe search for the rest.
+
+    The first guess is exact for the cubic potential next to a fold, whose loop is half as long again as the way to
+    the well.
+    """
+    t = np.minimum(1.5 * low, 0.5 * (low + high))
+    with np.errstate(all="ignore"):
+        for _ in range(steps):
+            value, slope = fun(t, *args)
+            step = value / slope
+            t = t - step
+            size = np.abs(step)
+            if (size <= 1e-10 * t).all():
+                break
+    # a last step of 1e-10 leaves 1e-20 where convergence is quadratic
+    rest = ~((size <= 1e-10 * t) & (t > low) & (t < high))
+    if rest.any():
+        t[rest] = bracketed_newton(fun, low[rest], high[rest], 0.5 * (low[rest] + high[rest]), tuple(v[rest] for v in args))
+    return t
 
 
 def _at_one_height(land, saddle, offset, energy):
