@@ -8,12 +8,14 @@ from __future__ import annotations
 import numpy as np
 
 from .fate import CHUNK, checked_states, fate
-from .landscape import TURN, Landscape, landscape
+from .landscape import EPS, TURN, Landscape, landscape
 from .results import Fate
 from .rootfind import bracketed_newton
 from .turning import interval, spots_along, turning_point
 
 EXTREMES_SHARE = 1e-7  # closer to the separatrix than this share of the energy terms, rounding costs extremes 1e-12
+SPIN_UP_SHARE = 1e-4  # the same for the least rate of a motion that just passes a barrier: the root of a difference
+DIGITS = 1e-12  # rounding that leaves less than this goes to ball arithmetic
 SHIFT_LIMIT = 1e4  # canonical variables lose this factor of accuracy to the shift before the precise path takes over
 
 
@@ -39,10 +41,12 @@ def extremes(scene, states, span=None):
 def _chunk(land: Landscape, states, decided):
     out = np.repeat(states[:, :, None], 2, axis=2)
     place, w, size = land.start(states)
-    precise = needs_digits(land, states) | near_separatrix(land, place, w, decided, EXTREMES_SHARE)
+    share = np.where(decided.labels == Fate.SPIN_UP, SPIN_UP_SHARE, EXTREMES_SHARE)
+    precise = needs_digits(land, states) | near_separatrix(land, place, w, decided, share)
+    precise |= decided.labels == Fate.SEPARATRIX
     precise &= decided.labels != Fate.EQUILIBRIUM
     labels = np.where(precise, -1, decided.labels)
-    trapped = (labels == Fate.BOUNDED) | (labels == Fate.SEPARATRIX)
+    trapped = labels == Fate.BOUNDED
     if land.e < 0 and land.sense == 0:
         rotating = trapped & (decided.margins < 0)
         trapped &= ~rotating
@@ -53,9 +57,9 @@ def _chunk(land: Landscape, states, decided):
     spinning = labels == Fate.SPIN_UP
     _into(out, spinning, _spinning(land, *_pick(place, w, spinning)))
     if precise.any():
-        from .precise_extremes import extremes_and_period
+        from .precise_extremes import precise_extremes
         for index in np.nonzero(precise)[0]:
-            out[index] = extremes_and_period(land.reduction, states[index], int(decided.labels[index]))[0]
+            out[index] = precise_extremes(land.reduction, states[index], int(decided.labels[index]))
     out[:, :, 0] = np.minimum(out[:, :, 0], states)  # rounding must not exclude the state itself
     out[:, :, 1] = np.maximum(out[:, :, 1], states)
     return out
@@ -70,16 +74,16 @@ def needs_digits(land: Landscape, states):
 
 
 def near_separatrix(land: Landscape, place, w, decided, share):
-    """(n,) True for bounded motions whose margin is below `share` of the energy's terms: turning points and periods
-    magnify the margin's rounding there, so many digits take over."""
-    unit, bounded = land.reduction.energy_unit, (decided.labels == Fate.BOUNDED) | (decided.labels == Fate.SEPARATRIX)
+    """(n,) True where the margin is below `share` of the energy's terms: turning points and periods magnify the
+    margin's rounding there, so ball arithmetic takes over."""
+    unit = land.reduction.energy_unit
     if land.e == 0:
-        return bounded & (np.abs(decided.margins) <= share * unit * 0.5 * w * w)
+        return np.abs(decided.margins) <= share * unit * 0.5 * w * w
     size = np.hypot(*place)
     pot = land.potential
     slopes = abs(pot.c) + abs(pot.d) if land.e < 0 else abs(pot.e1) + abs(pot.e2)
     scale = 0.5 * w * w + abs(pot.mu) + np.abs(pot.G) * size**2 + slopes * size
-    return bounded & (np.abs(decided.margins) <= share * unit * scale)
+    return np.abs(decided.margins) <= share * unit * scale
 
 
 def _pick(place, w, mask):
@@ -104,7 +108,37 @@ def _trapped(land, place, w):
     span = interval(land, place, w)
     top = np.sqrt(2 * span.fastest)
     low, high = _place_range(land, place, span.left, span.right, span.left_place, span.right_place)
-    return _components(land, low, high, -top, top), span.ok
+    values = _components(land, low, high, -top, top)
+    return values, span.ok & _sharp(land, span, values)
+
+
+def _sharp(land, span, values):
+    """(n,) True where rounding leaves the extremes `DIGITS` against each component's size."""
+    r, blur = land.reduction, span.blur
+    ends = span.left_place, span.right_place
+    with np.errstate(all="ignore"):
+        size = np.abs(values).max(axis=2)
+        good = span.haze <= DIGITS * 2 * span.fastest
+        if land.e == 0:
+            return good & (_parabola_error(land, ends, blur) <= DIGITS * size[:, (r.j, r.k)].T).all(axis=0)
+        g = r.constants
+        for axis, scale, shift, other in ((r.j, g["rx"], g["sj"], 1), (r.k, g["rz"], g["sk"], 0)):
+            error = 0.0
+            for end, off in zip(ends, blur):
+                a, b = np.abs(end[0]), np.abs(end[1])
+                both, rate = a + b, (np.abs(end[other]) if land.e < 0 else 0.5 * (a + b))
+                error = np.maximum(error, EPS * both + rate * off)
+            good &= abs(scale) * error + EPS * abs(shift) <= DIGITS * size[:, axis]
+    return good
+
+
+def _parabola_error(land, ends, blur):
+    """(2, n) rounding error of omega_j and omega_k at the ends."""
+    pot, error = land.potential, 0.0
+    for (u, v), off in zip(ends, blur):
+        speed = np.abs(np.array([pot.p * v + pot.p0, pot.q * u + pot.q0]))
+        error = np.maximum(error, speed * off + 8 * EPS * (np.abs([u, v]) + speed))
+    return error
 
 
 def _place_range(land, place, left, right, left_place, right_place):
@@ -237,7 +271,7 @@ def _spinning_on_plane(land, place, w):
 def _turn_back(land, place, w):
     """(offset of the turning point behind, largest W^2/2 on the way) for W < 0 on the decaying plane."""
     spots = spots_along(land, place, w)
-    offset, _, found = turning_point(land, spots, place, w, -1)
+    offset, _, found, *_ = turning_point(land, spots, place, w, -1)
     bare = ~found  # no equilibrium on the plane: the potential falls all the way, so it is monotone behind the state
     if bare.any():
         level, force = 0.5 * w[bare] ** 2, land.potential.force(place)[bare]

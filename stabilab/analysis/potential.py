@@ -41,6 +41,11 @@ class Elliptic:
         x, z = place
         return self.mu + self.G * x * z + self.c * z + self.d * x
 
+    def terms(self, place):
+        """Size of the terms of the force: times the unit of rounding, its error."""
+        x, z = np.abs(place[0]), np.abs(place[1])
+        return self.mu + abs(self.G) * x * z + abs(self.c) * z + abs(self.d) * x
+
     def slope(self, place):
         """dF/dtheta; positive at a barrier, negative in a well."""
         x, z = place
@@ -79,6 +84,10 @@ class Hyperbolic:
         xi, eta = place
         return self.mu + 0.25 * self.G * (xi - eta) * (xi + eta) + self.e1 * xi + self.e2 * eta
 
+    def terms(self, place):
+        xi, eta = np.abs(place[0]), np.abs(place[1])
+        return self.mu + 0.25 * abs(self.G) * (xi * xi + eta * eta) + abs(self.e1) * xi + abs(self.e2) * eta
+
     def slope(self, place):
         xi, eta = place
         return 0.5 * self.G * (xi * xi + eta * eta) + self.e1 * xi - self.e2 * eta
@@ -107,6 +116,10 @@ class Parabolic:
     def force(self, place):
         u, v = place
         return self.kappa * u * v + self.rho * v + self.sigma * u + self.m
+
+    def terms(self, place):
+        u, v = np.abs(place[0]), np.abs(place[1])
+        return abs(self.kappa) * u * v + abs(self.rho) * v + abs(self.sigma) * u + abs(self.m)
 
     def derivatives(self, place):
         """F', F'', F''' along the orbit."""

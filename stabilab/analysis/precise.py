@@ -1,7 +1,7 @@
-"""The same reduction in many digits, one state at a time: where doubles cannot decide, or would lose digits.
+"""The reduced potential of one state in ball arithmetic: where doubles cannot decide, or would lose digits.
 
-Everything is evaluated as it stands, without care for cancellation, at a precision that is doubled until the question
-is settled: inputs (the state's doubles, the scene's rationals) are taken as exact.
+Inputs (the state's doubles, the scene's rationals) are exact; every number is a ball that surely holds the true value
+(python-flint). A question that the balls leave open raises `Unclear`, and `settled` asks it again with twice the bits.
 """
 from __future__ import annotations
 
@@ -9,207 +9,298 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 
-MAX_DIGITS = 800
+START_BITS = 128
+TIE_BITS = 4096  # two energies that agree in this many bits are called equal
 
 
-def _mp():
-    from mpmath import mp
-    return mp
+class Unclear(Exception):
+    """The balls overlap at this precision."""
+
+
+def settled(question, bits: int = START_BITS, most: int = 1 << 17):
+    """question(bits), with twice the bits as long as it is `Unclear`; the last Unclear when `most` are not enough."""
+    from flint import ctx
+    while True:
+        try:
+            with ctx.workprec(bits):
+                return question(bits)
+        except Unclear:
+            if bits >= most:
+                raise
+            bits *= 2
+
+
+def ball(value):
+    """The ball of a rational number."""
+    from flint import arb, fmpq
+    value = Fraction(value)
+    return arb(fmpq(value.numerator, value.denominator))
+
+
+def sign(number) -> int:
+    """Sign of a ball; Unclear where it holds zero and more."""
+    if number > 0:
+        return 1
+    if number < 0:
+        return -1
+    if number.is_zero():
+        return 0
+    raise Unclear
+
+
+@dataclass(frozen=True)
+class Spot:
+    """An equilibrium on the orbit at offset y. kind: +1 a maximum of V (barrier), -1 a minimum (well), 0 neither."""
+
+    y: object
+    kind: int
 
 
 class PreciseOrbit:
-    """The orbit of one state in `digits` digits: V along it, its equilibria, margin, turning points, period."""
+    """The orbit of one state: V along it as a function of the offset y = theta - theta_0, and its equilibria.
 
-    def __init__(self, reduction, state, digits: int = 60):
-        self.r, self.digits, self.state = reduction, digits, tuple(float(v) for v in state)
-        self.mp = _mp().clone() if hasattr(_mp(), "clone") else _mp()
-        self.mp.dps = digits
-        self._set_up()
+    To be made and used at one working precision, inside `settled`.
+    """
 
-    def number(self, value):
-        value = Fraction(value)
-        return self.mp.mpf(value.numerator) / value.denominator
-
-    def _set_up(self):
-        r, mp, num = self.r, self.mp, self.number
-        u, v = (Fraction(self.state[a]) for a in (r.j, r.k))
-        w = Fraction(self.state[r.axis]) + r.s
-        self.u, self.v = num(u), num(v)
+    def __init__(self, reduction, state):
+        r = self.r = reduction
+        self.state = tuple(float(v) for v in state)
+        self.u, self.v = (Fraction(self.state[a]) for a in (r.j, r.k))
+        speed = Fraction(self.state[r.axis]) + r.s
+        self.force_here = r.kappa * self.u * self.v + r.rho * self.v + r.sigma * self.u + r.m  # exact
         if r.e == 0:
-            self.flip, self.w, self.mu = 1, num(w), num(r.m)
-            force = r.kappa * u * v + r.rho * v + r.sigma * u + r.m
-            a, b = r.p * v + r.p0, r.q * u + r.q0
-            first = r.kappa * (a * v + u * b) + r.rho * b + r.sigma * a
-            second = r.kappa * (2 * a * b + r.p * b * v + u * r.q * a) + r.rho * r.q * a + r.sigma * r.p * b
-            third = 3 * r.kappa * (r.q * a * a + r.p * b * b)
-            self.local = tuple(num(c) for c in (force, first, second, third))
-            self.ab = num(a), num(b)
-            return
-        ap, aq, sp = abs(r.p), abs(r.q), 1 if r.p > 0 else -1
-        rp, rq = mp.sqrt(num(ap)), mp.sqrt(num(aq))
-        sj, sk = r.q0 / r.q, r.p0 / r.p
-        torque = r.m + r.kappa * sj * sk - r.rho * sk - r.sigma * sj
-        self.flip = -1 if torque < 0 else 1
-        n = rp * rq
-        self.n, self.rx, self.rz, self.sj, self.sk = n, rp, sp * rq, num(sj), num(sk)
-        self.G = num(r.kappa * sp * ap * aq)
-        self.c = self.flip * sp * num(r.rho - r.kappa * sj) * num(aq) * rp
-        self.d = num(r.sigma - r.kappa * sk) * num(ap) * rq
-        self.mu = self.flip * n * num(torque)
-        self.x = self.flip * num(u + sj) / rp
-        self.z = num(v + sk) / self.rz
-        self.w = self.flip * n * num(w)
-        self.on_plane = r.e > 0 and r.exact_invariant_sign(self.state) == 0
-        if self.on_plane:  # the roots' rounding must not lift the orbit off its plane
-            self.z = self.x if self.x * self.z > 0 else -self.x
+            self.flip, self.n, self.w, self.mu = 1, 1, ball(speed), ball(r.m)
+            self.on_plane = False
+            self._set_up_parabola()
+        else:
+            self._set_up_conic(speed)
+        self.energy = self.w * self.w / 2  # E - V(theta_0)
 
-    # --- the potential along the orbit, from the state: y = theta - theta_0
+    def _set_up_parabola(self):
+        r, u, v = self.r, self.u, self.v
+        a, b = r.p * v + r.p0, r.q * u + r.q0
+        first = r.kappa * (a * v + u * b) + r.rho * b + r.sigma * a
+        second = r.kappa * (2 * a * b + r.p * b * v + u * r.q * a) + r.rho * r.q * a + r.sigma * r.p * b
+        self.taylor = self.force_here, first, second / 2, r.kappa * (r.q * a * a + r.p * b * b) / 2
+        self.coefficients = [ball(c) for c in self.taylor]
+        self.speeds = [ball(c) for c in (u, a, r.p * b / 2, v, b, r.q * a / 2)]
+
+    def _set_up_conic(self, speed):
+        r = self.r
+        ap, aq, sp = abs(r.p), abs(r.q), 1 if r.p > 0 else -1
+        rp, rq = ball(ap).sqrt(), ball(aq).sqrt()
+        self.sj, self.sk = r.q0 / r.q, r.p0 / r.p
+        torque = r.m + r.kappa * self.sj * self.sk - r.rho * self.sk - r.sigma * self.sj
+        flip = self.flip = -1 if torque < 0 else 1
+        self.n, self.rx, self.rz = rp * rq, flip * rp, sp * rq
+        self.G = ball(r.kappa * sp * ap * aq)
+        self.c = flip * sp * ball((r.rho - r.kappa * self.sj) * aq) * rp
+        self.d = ball((r.sigma - r.kappa * self.sk) * ap) * rq
+        self.mu = flip * self.n * ball(torque)
+        self.w = flip * self.n * ball(speed)
+        self.shift_j, self.shift_k = ball(self.sj), ball(self.sk)
+        self.x, self.z = self._canonical(ball(self.u + self.sj), ball(self.v + self.sk))
+        # the invariant Q = Z^2 - e X^2, exactly
+        self.Q = (self.v + self.sk) ** 2 / aq - r.e * (self.u + self.sj) ** 2 / ap
+        self.on_plane = r.e > 0 and self.Q == 0
+        if r.e > 0:
+            self.xi, self.eta = self._light_cone(self.x, self.z)
+
+    def _canonical(self, u_shifted, v_shifted):
+        return u_shifted / self.rx, v_shifted / self.rz
+
+    def _light_cone(self, x, z):
+        """(xi, eta); on an invariant plane the one that vanishes is exactly zero."""
+        xi, eta = x + z, x - z
+        if not self.on_plane or (x.is_zero() and z.is_zero()):
+            return xi, eta
+        if 0 in xi and 0 in eta:
+            raise Unclear
+        return (xi * 0, eta) if 0 in xi else (xi, eta * 0)
+
+    # --- the potential along the orbit
     def place(self, y):
-        """(X, Z), or (omega_j, omega_k) for a parabola, at offset y."""
-        mp = self.mp
+        """(X, Z), or (omega_j, omega_k) on a parabola, at offset y."""
         if self.r.e < 0:
-            c, s = mp.cos(y), mp.sin(y)
+            s, c = y.sin_cos()
             return self.x * c + self.z * s, self.z * c - self.x * s
         if self.r.e > 0:
-            c, s = mp.cosh(y), mp.sinh(y)
-            return self.x * c + self.z * s, self.z * c + self.x * s
-        a, b = self.ab
-        p, q = self.number(self.r.p), self.number(self.r.q)
-        return self.u + y * (a + p * b * y / 2), self.v + y * (b + q * a * y / 2)
+            grow = y.exp()
+            xi, eta = self.xi * grow, self.eta / grow
+            return (xi + eta) / 2, (xi - eta) / 2
+        u, a, pb, v, b, qa = self.speeds
+        return u + y * (a + pb * y), v + y * (b + qa * y)
+
+    def components(self, y):
+        """(omega_j, omega_k) at offset y."""
+        first, second = self.place(y)
+        if self.r.e == 0:
+            return first, second
+        return self.rx * first - self.shift_j, self.rz * second - self.shift_k
+
+    def component_i(self, w):
+        """omega_i where theta' = w."""
+        return w * self.flip / self.n - ball(self.r.s)
 
     def height(self, y):
         """V(theta_0 + y) - V(theta_0)."""
         if self.r.e == 0:
-            f0, f1, f2, f3 = self.local
-            return -y * (f0 + y * (f1 / 2 + y * (f2 / 6 + y * f3 / 24)))
+            f0, f1, f2, f3 = self.coefficients
+            return -y * (f0 + y * (f1 / 2 + y * (f2 / 3 + y * f3 / 4)))
         x, z = self.place(y)
-        return (-self.mu * y - (x - self.x) * (self.G * (x + self.x) / 2 + self.c) - self.r.e * self.d * (z - self.z))
+        return -self.mu * y - (x - self.x) * (self.G * (x + self.x) / 2 + self.c) - self.r.e * self.d * (z - self.z)
 
     def force(self, y):
         if self.r.e == 0:
-            f0, f1, f2, f3 = self.local
-            return f0 + y * (f1 + y * (f2 / 2 + y * f3 / 6))
+            f0, f1, f2, f3 = self.coefficients
+            return f0 + y * (f1 + y * (f2 + y * f3))
         x, z = self.place(y)
         return self.mu + self.G * x * z + self.c * z + self.d * x
 
     def slope(self, y):
+        """dF/dtheta."""
         if self.r.e == 0:
-            _, f1, f2, f3 = self.local
-            return f1 + y * (f2 + y * f3 / 2)
+            _, f1, f2, f3 = self.coefficients
+            return f1 + y * (2 * f2 + y * 3 * f3)
         x, z = self.place(y)
         return self.G * (z * z + self.r.e * x * x) + self.r.e * self.c * x + self.d * z
 
+    # --- its equilibria
     @cached_property
-    def critical(self) -> list:
-        """Offsets of all equilibria on the orbit, ascending; elliptic: those in (0, 2 pi]."""
-        mp = self.mp
+    def spots(self) -> list[Spot]:
+        """All equilibria on the orbit, ascending; on a circle those with offsets in (0, 2 pi]."""
         if self.r.e == 0:
-            f0, f1, f2, f3 = self.local
-            roots = self._real(self._roots([f3 / 6, f2 / 2, f1, f0]))
-            return sorted(self._newton(y) for y in roots)
-        i = mp.j if self.r.e < 0 else mp.mpf(1)
-        x, z, e = self.x, self.z, self.r.e
-        # F = a0 + a1 C + b1 S + a2 C2 + b2 S2 with X = x C + z S, Z = z C + e x S
-        a1, b1 = self.c * z + self.d * x, self.c * e * x + self.d * z
-        a2, b2 = self.G * x * z, self.G * (z * z + e * x * x) / 2
-        a0 = self.mu
-        poly = [a2 / 2 + b2 / (2 * i), a1 / 2 + b1 / (2 * i), a0, a1 / 2 - b1 / (2 * i), a2 / 2 - b2 / (2 * i)]
-        found = []
-        for root in self._roots(poly):
-            if root == 0:
-                continue
-            if self.r.e < 0:
-                if abs(abs(root) - 1) < mp.mpf(10) ** (-self.digits // 4):
-                    y = mp.arg(root)
-                    found.append(self._newton(y))
-            else:
-                if abs(mp.im(root)) <= abs(root) * mp.mpf(10) ** (-self.digits // 4) and mp.re(root) > 0:
-                    found.append(self._newton(mp.log(mp.re(root))))
-        if self.r.e < 0:
-            turn = 2 * mp.pi
-            found = [y - turn * mp.floor(y / turn) or turn for y in found]
-        return sorted(found)
-
-    def _roots(self, poly):
-        mp = self.mp
-        size = max((abs(a) for a in poly), default=0)
-        poly = list(poly)
-        while poly and abs(poly[0]) <= size * mp.mpf(10) ** (-2 * self.digits):
-            poly.pop(0)
-        while poly and abs(poly[-1]) <= size * mp.mpf(10) ** (-2 * self.digits):
-            poly.pop()
-        if len(poly) < 2:
-            return []
-        try:
-            return mp.polyroots(poly, maxsteps=400, extraprec=8 * self.digits)
-        except mp.NoConvergence:
-            return mp.polyroots(poly, maxsteps=4000, extraprec=30 * self.digits)
-
-    def _real(self, roots):
-        mp = self.mp
-        return [mp.re(y) for y in roots if abs(mp.im(y)) <= (abs(y) + mp.eps) * mp.mpf(10) ** (-self.digits // 4)]
-
-    def _newton(self, y):
-        for _ in range(3):
-            slope = self.slope(y)
-            if slope == 0:
-                break
-            step = self.force(y) / slope
-            if abs(step) > 0.1:
-                break
-            y -= step
-        return y
-
-    def barriers(self):
-        """Offsets of the maxima of V: on a circle those ahead within one turn, on a plane those ahead, else all."""
-        ahead = self.r.e > 0 and self.on_plane
-        return [y for y in self.critical if self.slope(y) > 0 and (y > 0 or not ahead)]
-
-    @cached_property
-    def energy(self):
-        """E - V(theta_0) = W^2/2."""
-        return self.w * self.w / 2
-
-    @cached_property
-    def margin(self):
-        """Highest barrier ahead minus energy (elliptic), or the barrier nearest in height (else); None without one."""
-        heights = [self.height(y) - self.energy for y in self.barriers()]
-        if not heights:
-            return None
-        return max(heights) if self.r.e < 0 else min(heights, key=abs)
-
-    @property
-    def noise(self):
-        """A bound, with room, on the rounding error of `margin` at this precision."""
-        y = 2 * self.mp.pi
-        sizes = [self.energy, abs(self.mu) * y]
-        if self.r.e:
-            size = abs(self.x) + abs(self.z)
-            sizes += [abs(self.G) * size**2, (abs(self.c) + abs(self.d)) * size]
+            found = [(y, m) for y, m in real_roots(self.taylor)]
+            if self.force_here == 0:
+                found = [(y * 0 if 0 in y else y, m) for y, m in found]
         else:
-            sizes += [abs(self.height(y)) for y in self.barriers()]
-        return sum(sizes) * self.mp.mpf(10) ** (4 - self.digits)
+            found = [(y, m) for u, v, m in self._equilibria() if (y := self._offset(u, v)) is not None]
+        found.sort(key=lambda one: float(one[0].mid()))
+        for (a, _), (b, _) in zip(found, found[1:]):
+            if not a < b:
+                raise Unclear
+        return [Spot(y, self._kind(y, m, [o for o, _ in found])) for y, m in found]
+
+    def _equilibria(self):
+        """(omega_j + s_j, omega_k + s_k, multiplicity) as balls, of F = 0 on the conic of invariant Q."""
+        from flint import fmpq_poly
+        r, poly = self.r, lambda *c: fmpq_poly([_fmpq(a) for a in c])
+        ap, aq = abs(r.p), abs(r.q)
+        # in U = omega_j + s_j, V = omega_k + s_k:  F = kappa U V + rho_ V + sigma_ U + m_
+        rho, sigma = r.rho - r.kappa * self.sj, r.sigma - r.kappa * self.sk
+        m = r.m + r.kappa * self.sj * self.sk - r.rho * self.sk - r.sigma * self.sj
+        if r.kappa and r.kappa * m == rho * sigma:  # two lines
+            yield from self._on_line_v(-sigma / r.kappa)
+            yield from self._on_line_u(-rho / r.kappa)
+        elif r.kappa or sigma:  # U = -(rho V + m)/(kappa V + sigma) in V^2/aq - e U^2/ap = Q
+            top, bottom = poly(m, rho), poly(sigma, r.kappa)
+            square = poly(-self.Q, 0, 1 / aq)
+            for v, many in real_roots(list((square * bottom * bottom - _fmpq(Fraction(r.e) / ap) * top * top).coeffs())):
+                yield -(ball(rho) * v + ball(m)) / (ball(r.kappa) * v + ball(sigma)), v, many
+        elif rho:
+            yield from self._on_line_v(-m / rho)
+
+    def _on_line_v(self, v):
+        """The equilibria with omega_k + s_k = v."""
+        r = self.r
+        for u, many in real_roots([v * v / abs(r.q) - self.Q, 0, Fraction(-r.e) / abs(r.p)]):
+            yield u, ball(v), many
+
+    def _on_line_u(self, u):
+        r = self.r
+        for v, many in real_roots([-self.Q - r.e * u * u / abs(r.p), 0, 1 / abs(r.q)]):
+            yield ball(u), v, many
+
+    def _offset(self, u, v):
+        """Offset at which the orbit passes the equilibrium, or None where it is on another branch."""
+        x, z = self._canonical(u, v)
+        here = self.force_here == 0 and u.overlaps(ball(self.u + self.sj)) and v.overlaps(ball(self.v + self.sk))
+        if self.r.e < 0:
+            return self._angle(x, z, here)
+        xi, eta = self._light_cone(x, z)
+        if any(sign(a) != sign(b) for a, b in ((xi, self.xi), (eta, self.eta))):
+            return None
+        if here:
+            return x * 0
+        ways = [f * (a / b).log() for f, a, b in ((1, xi, self.xi), (-1, eta, self.eta)) if not b.is_zero()]
+        return max(ways, key=lambda y: y.rel_accuracy_bits())
+
+    def _angle(self, x, z, here):
+        """Angle in (0, 2 pi] from the state to (x, z) on the circle."""
+        from flint import arb
+        sine, cosine = x * self.z - z * self.x, x * self.x + z * self.z
+        if here:
+            return 2 * arb.pi()
+        if cosine > 0:
+            return (sine / cosine).atan() + (0 if sign(sine) > 0 else 2 * arb.pi())
+        if cosine < 0:
+            return arb.pi() + (sine / cosine).atan()
+        return (arb.pi() / 2 if sign(sine) > 0 else 3 * arb.pi() / 2) - (cosine / sine).atan()
+
+    def _kind(self, y, multiplicity, others) -> int:
+        if multiplicity == 1:
+            return sign(self.slope(y))
+        if multiplicity % 2 == 0:
+            return 0
+        gap = min([abs(float((o - y).mid())) for o in others if o is not y] + [0.1])
+        return sign(self.force(y + gap / 4))
+
+    @cached_property
+    def all_spots(self) -> list[Spot]:
+        """The equilibria, on a circle also those of the turn behind, ascending."""
+        if self.r.e >= 0:
+            return self.spots
+        from flint import arb
+        behind = [Spot(y * 0 if self._is_turn(y) else y - 2 * arb.pi(), k) for y, k in ((s.y, s.kind) for s in self.spots)]
+        return behind + self.spots
+
+    def _is_turn(self, y):
+        from flint import arb
+        return self.force_here == 0 and y.overlaps(2 * arb.pi())
+
+    def margins(self) -> list:
+        """Height minus energy of each barrier that the fate depends on: on a circle those ahead within one turn, on an
+        invariant plane those ahead, else all."""
+        return [self.height(s.y) - self.energy for s in self.spots
+                if s.kind > 0 and not (self.on_plane and s.y < 0)]
+
+
+def real_roots(coefficients) -> list:
+    """(root, multiplicity) of the real roots of a polynomial with rational coefficients, lowest first; certified."""
+    from flint import arb, fmpq_poly
+    poly = fmpq_poly([_fmpq(c) for c in coefficients])
+    if poly.degree() < 1:
+        return []
+    return [(arb(root.real), many) for root, many in poly.complex_roots() if root.imag.is_zero()]
+
+
+def _fmpq(value):
+    from flint import fmpq
+    return fmpq(value.numerator, value.denominator) if isinstance(value, Fraction) else fmpq(value)
 
 
 @dataclass(frozen=True)
 class Tie:
-    """Sign of a margin settled in many digits: sign 0 means that `digits` digits show no difference."""
+    """Sign of a margin settled in many bits: sign 0 means that `bits` bits show no difference."""
 
     sign: int
     margin: float
-    digits: int
+    bits: int
 
 
 def decide(reduction, state) -> Tie:
-    """Sign of the margin of one state, doubling the digits until it is clear; sign -1 with margin -inf: no barrier."""
-    digits = 40
-    while True:
-        orbit = PreciseOrbit(reduction, state, digits)
-        margin = orbit.margin
-        if margin is None:
-            return Tie(-1, float("-inf"), digits)
-        if abs(margin) > orbit.noise:
-            return Tie(1 if margin > 0 else -1, float(margin), digits)
-        if digits >= MAX_DIGITS:
-            return Tie(0, 0.0, digits)
-        digits *= 2
+    """Sign of the margin of one state, doubling the bits until it is clear; sign -1 with margin -inf: no barrier.
+
+    Margin: the highest barrier minus the energy on a circle, else that of the barrier nearest in height.
+    """
+    def question(bits):
+        margins = PreciseOrbit(reduction, state).margins()
+        if not margins:
+            return Tie(-1, float("-inf"), bits)
+        margin = margins[0]
+        for other in margins[1:]:
+            margin = margin.max(other) if reduction.e < 0 else min(margin, other, key=lambda v: abs(float(v.mid())))
+        if bits >= TIE_BITS and 0 in margin:
+            return Tie(0, 0.0, bits)
+        return Tie(sign(margin), float(margin.mid()), bits)
+    return settled(question)

@@ -1,145 +1,235 @@
-"""Extremes and period of one state in many digits: for nearly equal moments, where the centre of the orbit is so far
-away that doubles lose it, and wherever the fast path finds no interval."""
+"""Extremes of one state in ball arithmetic: next to a separatrix, for minute orbits, for nearly equal moments, and
+wherever else doubles would lose digits. Every digit returned is certain."""
 from __future__ import annotations
 
 import numpy as np
 
-from .precise import PreciseOrbit
+from .precise import START_BITS, TIE_BITS, PreciseOrbit, Unclear, settled, sign
 from .results import Fate
 
+CERTAIN_BITS = 56  # the balls of the extremes are this much narrower than the component is large
+MOST_BITS = 1 << 13  # a component that is still not settled is zero to this precision
 
-def extremes_and_period(reduction, state, label: int, digits: int = 50):
-    """((3, 2) array, period) of one state with the given `Fate` label, in the scene's variables."""
-    orbit = PreciseOrbit(reduction, state, digits)
+
+def precise_extremes(reduction, state, label: int):
+    """(3, 2) array of one state with the given `Fate` label, in the scene's variables."""
     if label == Fate.EQUILIBRIUM:
-        return np.repeat(np.asarray(state, float)[:, None], 2, axis=1), 0.0
-    if label == Fate.SPIN_UP:
-        return _unbounded(orbit), float("inf")
-    left, right = _turning_points(orbit)
-    if left is None:
-        return _round_the_circle(orbit)
-    inner = [y for y in _all_critical(orbit) if left < y < right]
-    fastest = max([orbit.energy, *(orbit.energy - orbit.height(y) for y in inner)])
-    top = orbit.mp.sqrt(2 * fastest)
-    result = _box(orbit, [left, right, *(y for y in _tops(orbit) if left < y < right), orbit.mp.mpf(0)], -top, top)
-    return result, _period(orbit, left, right, inner) if label == Fate.BOUNDED else float("inf")
+        return np.repeat(np.asarray(state, float)[:, None], 2, axis=1)
+    how = {Fate.SPIN_UP: _unbounded, Fate.SEPARATRIX: _asymptotic, Fate.BOUNDED: _bounded}[Fate(label)]
+
+    def question(bits):
+        orbit = PreciseOrbit(reduction, state)
+        return _rounded(orbit, *how(orbit), bits)
+    return settled(question, TIE_BITS if label == Fate.SEPARATRIX else START_BITS)
 
 
-def _all_critical(orbit):
-    """Offsets of the equilibria from one turn behind to one ahead, ascending."""
-    found = list(orbit.critical)
+def turning_points(orbit):
+    """Offsets of both turning points as balls; None for a torque-free rotation over all barriers."""
+    ends = [turning_point(orbit, side) for side in (-1, 1)]
+    return None if None in ends else ends
+
+
+def turning_point(orbit, side, tie=False):
+    """Offset of the turning point on one side (-1, +1); None where every barrier of a circle is lower.
+
+    tie: the motion is on the separatrix, so that a barrier that cannot be told from the energy is where it ends.
+    """
+    zero = orbit.energy * 0
+    if orbit.energy.is_zero() and (orbit.force_here > 0) - (orbit.force_here < 0) == -side * orbit.flip:
+        return zero  # at rest in this coordinate, pushed away from this side
+    inner = zero
+    for spot in _spots_towards(orbit, side):
+        over = orbit.height(spot.y) - orbit.energy
+        if tie and 0 in over:
+            return spot.y
+        if sign(over) >= 0:
+            return solve(orbit, inner, spot.y)
+        inner = spot.y
     if orbit.r.e < 0:
-        found += [y - 2 * orbit.mp.pi for y in orbit.critical]
-    return sorted(found)
+        return None
+    step, outer = 1, inner + side
+    while not sign(orbit.height(outer) - orbit.energy) > 0:
+        step *= 2
+        outer = inner + side * step
+    return solve(orbit, inner, outer)
 
 
-def _turning_points(orbit):
-    """Offsets of both turning points; (None, None) for a torque-free rotation over all barriers."""
-    ends = []
-    for side in (-1, 1):
-        spots = [y for y in _all_critical(orbit) if y * side > 0]
-        spots.sort(key=abs)
-        inner, outer = orbit.mp.mpf(0), None
-        for y in spots:
-            if orbit.height(y) >= orbit.energy:
-                outer = y
-                break
-            inner = y
-        if outer is None:
-            if orbit.r.e < 0:
-                return None, None
-            outer = inner + side
-            while orbit.height(outer) < orbit.energy:
-                outer = inner + 2 * (outer - inner)
-        ends.append(_bisect(orbit, inner, outer))
-    return ends
+def _spots_towards(orbit, side):
+    """The equilibria on one side, nearest first."""
+    ahead = [s for s in orbit.all_spots if (s.y > 0 if side > 0 else s.y < 0)]
+    return ahead if side > 0 else ahead[::-1]
 
 
-def _bisect(orbit, inner, outer):
-    """Offset between inner (below the energy) and outer (above) where the potential equals the energy."""
-    for _ in range(4 * orbit.digits):
-        middle = (inner + outer) / 2
-        if orbit.height(middle) < orbit.energy:
-            inner = middle
+def solve(orbit, inner, outer):
+    """The offset between inner (potential below the energy) and outer (above) where they are equal, as a ball.
+
+    Newton's method held in a bracket on the middles of the balls; the ball that is returned has a change of sign.
+    """
+    from flint import arb
+    lo, hi = arb(inner.mid()), arb(outer.mid())
+    side = 1 if hi > lo else -1
+    y, last = (lo + hi).mid() / 2, None
+    for _ in range(4000):
+        value = orbit.height(y) - orbit.energy
+        if 0 in value:
+            break
+        if value < 0:
+            lo = y
         else:
-            outer = middle
-    return (inner + outer) / 2
+            hi = y
+        slope = -orbit.force(y)
+        new = (y - value / slope).mid() if 0 not in slope else None
+        if new is None or not (lo < new < hi or hi < new < lo) or (last is not None and 2 * abs(new - y) > last):
+            new = ((lo + hi) / 2).mid()
+        last = abs(new - y).mid()
+        if new == y:
+            break
+        y = new.mid()
+    slope = orbit.force(y)
+    if 0 in slope:
+        raise Unclear
+    width = 4 * (arb((orbit.height(y) - orbit.energy).abs_upper()) / arb(slope.abs_lower())).abs_upper()
+    below, above = orbit.height(y - side * width) - orbit.energy, orbit.height(y + side * width) - orbit.energy
+    if not (below < 0 and above > 0):
+        raise Unclear
+    return arb(y, width)
+
+
+def _bounded(orbit):
+    ends = turning_points(orbit)
+    return _round_the_circle(orbit) if ends is None else _between(orbit, *ends)
+
+
+def _between(orbit, left, right):
+    """Offsets and rates that bound a motion between two turning points."""
+    top = (2 * _fastest(orbit, left, right)).sqrt()
+    return [left, right, *_tops_between(orbit, left, right), orbit.energy * 0], (-top, top)
+
+
+def _asymptotic(orbit):
+    """A motion on the separatrix: it tends to an equilibrium (or, without torque, along an invariant plane to a
+    permanent rotation) straight away, or after one turn."""
+    towards = sign(orbit.w) or (1 if orbit.force_here * orbit.flip > 0 else -1)
+    ahead = _asymptote(orbit, towards)
+    if ahead is not None:
+        end, last = ahead
+        low, high = sorted((orbit.energy * 0, end), key=lambda y: float(y.mid()))
+        slow, fast = orbit.energy.min(last), _fastest(orbit, low, high).max(last)
+        for spot in orbit.all_spots:
+            if low < spot.y and spot.y < high:
+                slow = slow.min(orbit.energy - orbit.height(spot.y))
+        rates = sorted((towards * (2 * slow).sqrt(), towards * (2 * fast).sqrt()), key=lambda w: float(w.mid()))
+        return [low, high, *_tops_between(orbit, low, high)], tuple(rates)
+    turn = turning_point(orbit, towards, True)
+    behind = _asymptote(orbit, -towards)
+    if turn is None or behind is None:
+        return _round_the_circle(orbit)
+    end, last = behind
+    low, high = sorted((turn, end), key=lambda y: float(y.mid()))
+    top = (2 * _fastest(orbit, low, high).max(last)).sqrt()
+    return [low, high, *_tops_between(orbit, low, high), orbit.energy * 0], (-top, top)
+
+
+FAR = 1 << 13  # exp(-FAR) is nothing against any double: an offset that stands for the end of an invariant plane
+
+
+def _asymptote(orbit, side):
+    """(offset, W^2/2 there) of the equilibrium or plane's end that the motion would tend to on that side, or None."""
+    zero = orbit.energy * 0
+    for spot in _spots_towards(orbit, side):
+        over = orbit.height(spot.y) - orbit.energy
+        if 0 in over:
+            return spot.y, zero
+        if over > 0:
+            return None
+    decays = orbit.r.e > 0 and orbit.on_plane and orbit.mu.is_zero() and sign(orbit.xi if side < 0 else orbit.eta)
+    if not decays:
+        return None
+    limit = orbit.x * (orbit.G * orbit.x / 2 + orbit.c) + orbit.d * orbit.z
+    return None if limit > orbit.energy else (zero + side * FAR, (orbit.energy - limit).max(zero))
+
+
+def _fastest(orbit, low, high):
+    """Largest W^2/2 between two offsets, the state's own included."""
+    fastest = orbit.energy
+    for spot in orbit.all_spots:
+        if not (spot.y < low or spot.y > high):
+            fastest = fastest.max(orbit.energy - orbit.height(spot.y))
+    return fastest
+
+
+def _tops_between(orbit, low, high):
+    return [y for y in _tops(orbit) if not (y < low or y > high)]
 
 
 def _tops(orbit):
     """Offsets where X or Z (or the components of a parabola) are stationary."""
-    mp, e = orbit.mp, orbit.r.e
+    from flint import arb
+    e = orbit.r.e
     if e < 0:
-        angle = mp.atan2(orbit.x, orbit.z)
-        return [k * mp.pi / 2 - angle for k in range(-6, 7)]
+        x, z = orbit.x, orbit.z
+        if x.is_zero() and z.is_zero():
+            return []
+        angle = arb.atan2(x, z) if not (0 in x and not z > 0) else arb.pi() + arb.atan2(-x, -z)
+        return [k * arb.pi() / 2 - angle for k in range(-8, 9)]
     if e > 0:
-        xi, eta = orbit.x + orbit.z, orbit.x - orbit.z
-        return [mp.log(abs(eta / xi)) / 2] if xi and eta else []
-    a, b = orbit.ab
-    p, q = orbit.number(orbit.r.p), orbit.number(orbit.r.q)
-    return [-speed / bend for speed, bend in ((a, p * b), (b, q * a)) if bend]
-
-
-def _to_components(orbit, y):
-    """(omega_j, omega_k) at offset y."""
-    first, second = orbit.place(y)
-    if orbit.r.e == 0:
-        return first, second
-    return orbit.flip * orbit.rx * first - orbit.sj, orbit.rz * second - orbit.sk
-
-
-def _box(orbit, offsets, w_low, w_high):
-    r = orbit.r
-    out = np.empty((3, 2))
-    pairs = [_to_components(orbit, y) for y in offsets]
-    for row, axis in enumerate((r.j, r.k)):
-        values = [float(pair[row]) for pair in pairs]
-        out[axis] = min(values), max(values)
-    scale = 1 if r.e == 0 else orbit.flip / orbit.n
-    ends = sorted(float(w * scale - orbit.number(r.s)) for w in (w_low, w_high))
-    out[r.axis] = ends
-    return out
+        xi, eta = orbit.xi, orbit.eta
+        return [(abs(eta) / abs(xi)).log() / 2] if sign(xi) and sign(eta) else []
+    _, a, pb, _, b, qa = orbit.speeds
+    return [-speed / (2 * bend) for speed, bend in ((a, pb), (b, qa)) if sign(bend)]
 
 
 def _round_the_circle(orbit):
     """Torque-free rotation: the whole circle, one sign of W."""
-    mp = orbit.mp
-    kinetic = [orbit.energy, *(orbit.energy - orbit.height(y) for y in orbit.critical)]
-    sign = 1 if orbit.w > 0 else -1
-    box = _box(orbit, _tops(orbit), sign * mp.sqrt(2 * min(kinetic)), sign * mp.sqrt(2 * max(kinetic)))
-    period = mp.quad(lambda y: 1 / mp.sqrt(2 * (orbit.energy - orbit.height(y))), mp.linspace(0, 2 * mp.pi, 17))
-    return box, float(period)
+    slow = fast = orbit.energy
+    for spot in orbit.spots:
+        value = orbit.energy - orbit.height(spot.y)
+        slow, fast = slow.min(value), fast.max(value)
+    turn = sign(orbit.w)
+    return [orbit.energy * 0, *_tops(orbit)], (turn * (2 * slow).sqrt(), turn * (2 * fast).sqrt())
 
 
 def _unbounded(orbit):
-    """Extremes over the future of a spin-up; omega_i from its least value to infinity."""
-    mp, r = orbit.mp, orbit.r
-    if r.e == 0 or (r.e > 0 and orbit.x == 0 and orbit.z == 0):
-        out = np.repeat(np.array(orbit.state)[:, None], 2, axis=1)
-        out[r.axis][(0 if r.sense < 0 else 1)] = r.sense * np.inf
-        return out
-    ahead = [orbit.energy - orbit.height(y) for y in orbit.critical if y > 0]
-    slowest = min([orbit.w, *(mp.sqrt(2 * max(v, 0)) for v in ahead)])
-    if orbit.w < 0:
-        best, spots = orbit.energy, sorted((y for y in _all_critical(orbit) if y < 0), reverse=True)
-        for y in spots:
-            if orbit.height(y) > orbit.energy:
-                break
-            best = max(best, orbit.energy - orbit.height(y))
-        slowest = -mp.sqrt(2 * best)
-    return _box(orbit, _tops(orbit), slowest, mp.inf)
+    """Spin-up: all of the orbit's conic that it passes, and W from its least value to infinity."""
+    zero = orbit.energy * 0
+    if orbit.r.e == 0 or (orbit.r.e > 0 and sign(orbit.xi) == sign(orbit.eta) == 0):
+        return [zero], (orbit.w, None)
+    least, back = orbit.w, sign(orbit.w) < 0
+    if back:
+        left = turning_point(orbit, -1)
+        # wells more than a turn behind are higher by the torque's tilt
+        least = -(2 * _fastest(orbit, zero - 7 if left is None else left, zero)).sqrt()
+    else:
+        for spot in orbit.spots:
+            if spot.y > 0:
+                least = least.min((2 * (orbit.energy - orbit.height(spot.y))).sqrt())
+    if orbit.r.e < 0:
+        return [zero, *_tops(orbit)], (least, None)
+    # on the decaying plane: from where it is, or where it turns back, to the plane's end
+    return [zero, *([left] if back else []), zero + FAR], (least, None)
 
 
-def _period(orbit, left, right, inner) -> float:
-    """Twice the time from one turning point to the other; nodes cluster at both ends and at every equilibrium."""
-    mp = orbit.mp
-    half, middle = (right - left) / 2, (right + left) / 2
-    if half == 0:
-        return float("inf")
+def _rounded(orbit, offsets, rates, bits):
+    """(3, 2) array of doubles; Unclear unless the balls are narrow against the component's size."""
+    r = orbit.r
+    out = np.empty((3, 2))
+    pairs = [orbit.components(y) for y in offsets]
+    for row, axis in enumerate((r.j, r.k)):
+        out[axis] = _range([pair[row] for pair in pairs], bits)
+    ends = [orbit.component_i(w) for w in rates if w is not None]
+    out[r.axis] = _range(ends, bits)
+    if rates[1] is None:
+        out[r.axis, 1 if r.sense > 0 else 0] = r.sense * np.inf
+    return out
 
-    def integrand(phi):
-        y = middle - half * mp.cos(phi)
-        rest = orbit.energy - orbit.height(y)
-        return half * mp.sin(phi) / mp.sqrt(2 * rest) if rest > 0 else mp.mpf(0)
-    knots = sorted({mp.mpf(0), mp.pi, *(mp.acos((middle - y) / half) for y in inner)})
-    return float(2 * mp.quad(integrand, knots, maxdegree=8))
+
+def _range(values, bits):
+    """(least, largest) of balls as doubles."""
+    low = high = values[0]
+    for value in values[1:]:
+        low, high = low.min(value), high.max(value)
+    size = max(float(abs(low).mid()), float(abs(high).mid()))
+    width = max(float(low.rad()), float(high.rad()))
+    if width > size * 2.0**-CERTAIN_BITS and bits < MOST_BITS:
+        raise Unclear
+    return float(low.mid()), float(high.mid())

@@ -11,11 +11,12 @@ import numpy as np
 
 from .extremes import CHUNK, _pick, near_separatrix, needs_digits
 from .fate import checked_states, fate
-from .landscape import TURN, Landscape, landscape
+from .landscape import EPS, TURN, Landscape, landscape
 from .results import Fate
 from .turning import interval
 
 PERIOD_SHARE = 1e-5  # closer to the separatrix than this share of the energy terms, rounding costs the period 1e-11
+DIGITS = 1e-11  # rounding that leaves less than this goes to ball arithmetic
 TOLERANCE = 4e-15  # two successive rules agree to this: some twenty roundings
 MIDPOINT_NODES = (16, 32, 64, 128, 256)
 
@@ -51,9 +52,9 @@ def _chunk(land: Landscape, states, decided):
     out[trapped] = values
     precise[np.nonzero(trapped)[0][~found]] = True
     if precise.any():
-        from .precise_extremes import extremes_and_period
+        from .precise_period import precise_period
         for index in np.nonzero(precise)[0]:
-            out[index] = extremes_and_period(land.reduction, states[index], int(decided.labels[index]))[1]
+            out[index] = precise_period(land.reduction, states[index], int(decided.labels[index]))
     return out
 
 
@@ -65,7 +66,18 @@ def libration_period(land: Landscape, place, w):
     half = np.maximum(span.half, 1e-300)
     modes = Modes(land, span.middle)
     values = _midpoint(modes, half)
-    return values, span.ok & np.isfinite(values)
+    return values, span.ok & np.isfinite(values) & _sharp(modes, half)
+
+
+def _sharp(modes, rho):
+    """(n,) True where H keeps its digits: rounding is small against H at the ends, and moves the middle, where the
+    curvature is taken, by little."""
+    with np.errstate(all="ignore"):
+        good = True
+        for left, power in ((0.0, 1), (1.0, 1), (0.5, 2)):
+            value, terms = modes.second_difference(rho, left, 1 - left), modes.terms(rho, left, 1 - left)
+            good &= EPS * terms**power <= DIGITS * value**power
+        return good
 
 
 def _midpoint(modes, half):
@@ -178,6 +190,16 @@ class Modes:
         other = object.__new__(Modes)
         other.e, other.data = self.e, self.data[:, rows]
         return other
+
+    def terms(self, rho, left, right):
+        """Size of the terms of H."""
+        if self.e < 0:
+            return sum(weight * np.abs(row) for weight, row in zip((1, 1, 4, 4), self.data))
+        if self.e == 0:
+            return np.abs(self.data[0]) + np.abs(self.data[1]) * rho + np.abs(self.data[2]) * 2 * rho * rho
+        sizes = object.__new__(Modes)
+        sizes.e, sizes.data = self.e, np.abs(self.data)
+        return sizes.second_difference(rho, left, right)
 
     def second_difference(self, rho, left, right):
         """V[l, r, theta] with theta - l = 2 rho left, r - theta = 2 rho right."""

@@ -5,15 +5,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .landscape import TURN, Landscape
+from .landscape import EPS, TURN, Landscape
 from .rootfind import bracketed_newton
 
 
 @dataclass(frozen=True)
 class Interval:
     """The allowed interval of theta, as offsets from the state: left <= 0 <= right (n,), with places (2, n) there;
-    lowest (n,): the largest W^2/2 inside; middle: place (2, n) half-way; half: half the length; ok: (n,) False where no
-    interval was found (rounding at a fold, say)."""
+    fastest (n,): the largest W^2/2 inside; middle: place (2, n) half-way; half: half the length; ok: (n,) False where no
+    interval was found (rounding at a fold, say). blur: (2, n) rounding error of both ends' offsets, left first;
+    haze: (n,) that of `fastest`."""
 
     left: np.ndarray
     right: np.ndarray
@@ -23,6 +24,8 @@ class Interval:
     middle: np.ndarray
     half: np.ndarray
     ok: np.ndarray
+    blur: np.ndarray
+    haze: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -64,22 +67,23 @@ def interval(land: Landscape, place, w) -> Interval:
     ends = {}
     for side in (1, -1):
         ends[side] = turning_point(land, spots, place, w, side)
-    right, right_place, ok_r = ends[1]
-    left, left_place, ok_l = ends[-1]
+    right, right_place, ok_r, blur_r, haze_r = ends[1]
+    left, left_place, ok_l, blur_l, haze_l = ends[-1]
     right, left = np.maximum(right, 0.0), np.minimum(left, 0.0)
     inside = spots.there & ~spots.barrier & (spots.offset >= left[:, None]) & (spots.offset <= right[:, None])
     wells = np.where(inside, spots.energy, -np.inf)
     fastest = np.maximum(wells.max(axis=1, initial=-np.inf), 0.5 * w * w)
     half = 0.5 * (right - left)
     middle = np.array(land.potential.move(place, 0.5 * (right + left)))
-    return Interval(left, right, left_place, right_place, fastest, middle, half, ok_r & ok_l & np.isfinite(half))
+    return Interval(left, right, left_place, right_place, fastest, middle, half, ok_r & ok_l & np.isfinite(half),
+                    np.array([blur_l, blur_r]), np.maximum(haze_l, haze_r) + EPS * fastest)
 
 
 def turning_point(land, spots, place, w, side):
-    """Turning point on one side: (offset, place, found)."""
+    """Turning point on one side: (offset, place, found, error of the offset, error of the energy over the anchor)."""
     n, m = spots.offset.shape
     if m == 0:
-        return np.zeros(n), np.array(place), np.zeros(n, bool)
+        return np.zeros(n), np.array(place), np.zeros(n, bool), np.zeros(n), np.zeros(n)
     rows = np.arange(n)
     beyond = spots.there & spots.barrier & (spots.energy <= 0) & (
         (spots.offset > 0) if side > 0 else (spots.offset < 0))
@@ -115,8 +119,12 @@ def turning_point(land, spots, place, w, side):
         y = bracketed_newton(fun, np.zeros(n), reach, start, (towards, level, *spot), rising=~anchored_at_barrier)
     y = np.where(level == 0, 0.0, y) * towards
     end = np.array(land.potential.move(tuple(spot), y))
-    offset = np.where(anchor == well, spots.offset[rows, well], spots.offset[rows, b]) + y
-    return np.where(ok, offset, 0.0), end, ok
+    start = spots.offset[rows, anchor]
+    with np.errstate(all="ignore"):
+        # the force at the anchor is zero only to rounding: that tilts the potential over the way from state and end
+        haze = EPS * land.potential.terms(tuple(spot)) * (np.abs(start) + np.abs(y))
+        blur = haze / np.abs(land.potential.force(tuple(end))) + EPS * np.abs(start)
+    return np.where(ok, start + y, 0.0), end, ok, blur, haze
 
 
 def _reach(land, spot, level, gap, towards):
