@@ -272,3 +272,18 @@ def test_sheets_of_the_free_body_are_its_two_planes_through_the_middle_axis():
     quarters = [set(map(tuple, np.sign(s.points[-1, 1:-1, [0, 2]]).T.astype(int).tolist())) for s in found]
     quarters = [{q for q in found if all(q)} for found in quarters]
     assert len(quarters[0] | quarters[1]) == 4 and not quarters[0] & quarters[1]
+
+
+@pytest.mark.parametrize("spread", [0.002, 0.01, 0.1])
+def test_distance_next_to_a_fold_is_that_of_a_dense_cloud_of_vertices(spread):
+    """The search for the nearest point shares the loops with the vertices, not the way to the nearest of them."""
+    scene, _ = SCENES["minor a<b"]
+    cloud = np.concatenate([sheet.points.reshape(-1, 3) for reach in (1.02, 1.3) for sheet in
+                            stabilab.separatrix(scene, reach=reach, shape=(300, 401)).sheets])
+    fold = stabilab.separatrix(scene).sheets[0].saddle[0]
+    states = fold + spread * np.random.default_rng(20).normal(size=(4, 3))
+    margins = stabilab.fate(scene, states).velocity_margins
+    nearest = np.array([np.linalg.norm(cloud - state, axis=1).min() for state in states])
+    assert np.all(margins <= nearest * (1 + 1e-9))
+    # a vertex lies within a cell's diagonal of the nearest point, so the cloud's distance is too large by less than that
+    assert np.all(margins >= nearest - 0.1 * spread)

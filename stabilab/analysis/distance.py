@@ -6,7 +6,8 @@ import numpy as np
 from .landscape import TURN, Landscape, landscape
 from .separatrix import _branches, _polished, _sides, loop_end
 
-ROWS, COLUMNS, STARTS, NEWTON = 28, 29, 3, 25
+ROWS, COLUMNS, STARTS, NEWTON = 36, 29, 3, 25
+GRADING = 3  # s = t^3: rows uniform in t crowd at the fold, where a sheet narrows to a point
 
 
 def separatrix_distance(scene, states) -> np.ndarray:
@@ -43,7 +44,7 @@ class _Coarse:
 
     def __init__(self, land, branch, side, state):
         self.branch, self.side = branch, side
-        self.s, self.phi = np.linspace(0, 1, ROWS) ** 1.5, np.linspace(-1, 1, COLUMNS)
+        self.s, self.phi = np.linspace(0, 1, ROWS) ** GRADING, np.linspace(-1, 1, COLUMNS)
         self.points = _points(land, branch, side, self.s, self.phi)
         distance = np.sqrt(((self.points - state) ** 2).sum(axis=-1))
         self.distance = np.where(np.isfinite(distance), distance, np.inf)
@@ -66,7 +67,7 @@ def _refined(land, grid, state, best) -> float:
         piece = getattr(grid.branch, "piece", None)
         refined = _newton(land, piece, grid.side, state, grid.points[row, column]) if piece else None
         if refined is None or refined > start:
-            refined = _zoom(land, grid, state, row, column)
+            refined = _descent(land, grid, state, row, column)
         best = min(best, refined)
         distance[max(row - 4, 0):row + 5, max(column - 4, 0):column + 5] = np.inf
     return best
@@ -88,22 +89,36 @@ def _nearest_saddle(land, branch, state) -> float:
     return least
 
 
-def _zoom(land, grid, state, row, column) -> float:
-    """The minimum near one vertex by a grid that shrinks about its nearest point: slow, for where Newton fails."""
-    s, phi = grid.s, grid.phi
-    ds, dphi = s[min(row + 1, len(s) - 1)] - s[max(row - 1, 0)], phi[1] - phi[0]
-    centre, least = [s[row], phi[column]], grid.distance[row, column]
-    for _ in range(14):
-        near_s = np.clip(centre[0] + ds * np.linspace(-1, 1, 7), 0, 1)
-        near_phi = np.clip(centre[1] + dphi * np.linspace(-1, 1, 7), -1, 1)
-        distance = np.sqrt(((_points(land, grid.branch, grid.side, near_s, near_phi) - state) ** 2).sum(axis=-1))
-        distance = np.where(np.isfinite(distance), distance, np.inf)
-        r, c = np.unravel_index(np.argmin(distance), distance.shape)
-        if distance[r, c] <= least:
-            centre, least = [near_s[r], near_phi[c]], distance[r, c]
-        if r not in (0, 6) and c not in (0, 6):
-            ds, dphi = ds * 0.4, dphi * 0.4
-        if ds < 1e-7 and dphi < 1e-7:
+def _descent(land, grid, state, row, column) -> float:
+    """The minimum near one vertex by damped Gauss-Newton steps in the sheet's own coordinates, for where Newton's method
+    on the surface fails: next to a fold, where there is no saddle on one side, and on sheets along a line."""
+    row = max(row, 1)  # at the fold itself all columns are one point
+    at = np.array([grid.s[row] ** (1 / GRADING), grid.phi[column]])
+    low, high = np.array([0.0, -1.0]), np.array([1.0, 1.0])
+    least, damping = grid.distance[row, column], 1e-3
+    width = 1e-4
+    for _ in range(30):
+        stencil = np.clip(at + np.array([-1.0, 0.0, 1.0])[:, None] * width, low, high)
+        points = _points(land, grid.branch, grid.side, stencil[:, 0] ** GRADING, stencil[:, 1]) - state
+        here = points[1, 1]
+        with np.errstate(all="ignore"):
+            slope = np.stack([(points[2, 1] - points[0, 1]) / (stencil[2, 0] - stencil[0, 0]),
+                              (points[1, 2] - points[1, 0]) / (stencil[2, 1] - stencil[0, 1])], axis=1)
+        if not (np.isfinite(here).all() and np.isfinite(slope).all()):
+            break
+        normal, force = slope.T @ slope, slope.T @ here
+        for _ in range(12):
+            step = np.linalg.lstsq(normal + damping * np.diag(np.diag(normal)), -force, rcond=None)[0]
+            trial = np.clip(at + step, low, high)
+            distance = np.linalg.norm(_points(land, grid.branch, grid.side, trial[:1] ** GRADING, trial[1:]) - state)
+            if distance < least:
+                break
+            damping *= 8
+        else:
+            break
+        gain, least, at, damping = least - distance, float(distance), trial, max(damping / 10, 1e-9)
+        width = np.clip(0.1 * np.abs(step), 1e-7, 1e-4)
+        if gain <= 1e-9 * least:
             break
     return float(least)
 
