@@ -80,9 +80,9 @@ class Motion:
     """Everything known about the motion from one state.
 
     axis: 1, 2, 3 of the spin-up, 0 otherwise; sense: +1 or -1 of the spin-up, 0 otherwise.
-    margin_energy: barrier minus energy (positive inside the well; None where no separatrix exists at this value of
-    the invariant). margin_velocity: smallest change of the state that reaches the separatrix (None where there is
-    none). period: None where the motion does not repeat. extremes: ((min, max),) * 3 over t >= 0, entries +-inf where
+    margin_energy: height of the barrier ahead minus energy (negative above it; None where no barrier stands ahead at
+    this value of the invariant). margin_velocity: smallest change of the state that reaches the separatrix, at
+    whatever value of the invariant (None where the scene has none). period: None where the motion does not repeat. extremes: ((min, max),) * 3 over t >= 0, entries +-inf where
     unbounded, None where unknown; extremes_over: "all time" or the span they were searched over.
     """
 

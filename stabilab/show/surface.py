@@ -66,7 +66,7 @@ def summarise(case, found, meshes) -> dict:
                      "largest_residual": float(mesh.residual.max(initial=0.0)),
                      "invariant": [float(invariant.min()), float(invariant.max())],
                      "bounds": [[float(v) for v in pair] for pair in zip(mesh.points.min(0), mesh.points.max(0))]})
-    return {"schema": SCHEMA, "case": getattr(case, "path", name), "variables": scene.variables,
+    return {"schema": SCHEMA, "case": getattr(case, "name", name), "variables": scene.variables,
             "components": list(scene.components), "sheets": rows, "vertices": sum(r["vertices"] for r in rows),
             "triangles": sum(r["triangles"] for r in rows),
             "largest_residual": max((r["largest_residual"] for r in rows), default=0.0), "reason": found.reason}
@@ -162,9 +162,8 @@ def plotter(scene, found, meshes, still=True):
             stage.add_mesh(surface, color=style.SHEETS[number % len(style.SHEETS)], smooth_shading=False, ambient=0.35,
                            diffuse=0.7, specular=0.1, name=f"sheet {number}")
     size = 1.15 * max([np.abs(m.points).max(initial=0.0) for m in meshes] or [0.0]) or 5.0
-    for number, (kind, points) in enumerate(equilibrium_lines(scene, found, 1.3 * size)):
-        look = style.MEANING["fold" if kind == "degenerate" else kind]
-        stage.add_mesh(pyvista.lines_from_points(points).tube(radius=size * 0.008), color=look["color"], name=f"line {number}")
+    for number, (kind, points) in enumerate(equilibrium_lines(scene, found, size)):
+        stage.add_mesh(pyvista.lines_from_points(points).tube(radius=size * 0.008), color=_colour(kind), name=f"line {number}")
     for axis, colour in enumerate((style.VERMILION, style.GREEN, style.BLUE)):
         ends = np.zeros((2, 3))
         ends[:, axis] = (-size, size)
@@ -174,13 +173,43 @@ def plotter(scene, found, meshes, still=True):
         cone = pyvista.Cone(center=tip, direction=np.eye(3)[axis], height=size * 0.06, radius=size * 0.02)
         stage.add_mesh(cone, color=colour, name=f"tip {axis}")
     if still:
-        tips = 1.08 * size * np.eye(3)
-        stage.add_point_labels(tips, list(scene.components), shape=None, font_size=22, text_color="black", show_points=False,
-                               always_visible=True)
+        _name_axes(stage, scene, size)
     stage.camera_position = [(2.6 * size, -3.4 * size, 2.0 * size), (0, 0, 0), (0, 0, 1)]
     stage.reset_camera()
-    stage.camera.zoom(1.6)
+    stage.camera.zoom(1.45)
     return stage
+
+
+def _name_axes(stage, scene, size):
+    """The components at the tips of the axes, and a round number on each of them for the scale."""
+    step = 10 ** np.floor(np.log10(0.9 * size))
+    mark = step * max(k for k in (1, 2, 5) if k * step <= 0.9 * size)
+    for at, words, font in ((1.08 * size, scene.components, 22), (mark, (f"{mark:g}",) * 3, 16)):
+        stage.add_point_labels(at * np.eye(3), list(words), shape=None, font_size=font, text_color="black",
+                               show_points=at == mark, point_color="black", point_size=7, render_points_as_spheres=True,
+                               always_visible=True)
+
+
+def _colour(kind):
+    return style.MEANING["fold" if kind == "degenerate" else kind]["color"]
+
+
+def _write_legend(image, scene, found, meshes):
+    """Into the lower corners of a picture: what the colours stand for, and the unit of the axes."""
+    from matplotlib import get_data_path
+    from PIL import ImageDraw, ImageFont
+    font = ImageFont.truetype(str(Path(get_data_path()) / "fonts/ttf/DejaVuSans.ttf"), 16)
+    pen, (width, height) = ImageDraw.Draw(image), image.size
+    kinds = dict.fromkeys(kind for kind, _ in equilibrium_lines(scene, found, np.inf)) if meshes else ()
+    rows = [(mesh.name, style.SHEETS[number % len(style.SHEETS)]) for number, mesh in enumerate(meshes)]
+    rows += [(f"{kind} equilibria", _colour(kind)) for kind in sorted(kinds)]
+    left = width - 44 - max((pen.textlength(words, font) for words, _ in rows), default=0)
+    for number, (words, colour) in enumerate(reversed(rows)):
+        top = height - 34 - 24 * number
+        pen.rectangle((left, top + 3, left + 14, top + 17), fill=colour)
+        pen.text((left + 22, top), words, fill="black", font=font)
+    unit = "components of \u03c9 in rad/s" if scene.variables == "physical" else "scaled components, no unit"
+    pen.text((20, height - 34), unit, fill="black", font=font)
 
 
 def _normals(mesh):
@@ -196,7 +225,9 @@ def draw(scene, found, meshes, path) -> Path:
         pixels = stage.screenshot(return_img=True)
     finally:
         stage.close()
-    style.write_small(Image.fromarray(pixels), path)
+    image = Image.fromarray(pixels)
+    _write_legend(image, scene, found, meshes)
+    style.write_small(image, path)
     return Path(path)
 
 
