@@ -22,7 +22,7 @@ from .turning import spots_along
 
 OWN = 1e-9        # offsets below this are the saddle itself
 UNIFORM = 0.2     # of the fold's radius: up to there rows are uniform
-FLOOR = 0.1       # of the density of columns: no gap where a loop happens to be straight
+FLOOR = 0.3       # of the density of columns: no gap where a loop happens to be straight
 LEVEL = 64 * EPS  # saddles whose heights differ by less, relative to the terms of the energy, are at one height
 
 

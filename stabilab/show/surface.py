@@ -184,7 +184,7 @@ def _name_axes(stage, scene, size):
     """The components at the tips of the axes, and a round number on each of them for the scale."""
     step = 10 ** np.floor(np.log10(0.9 * size))
     mark = step * max(k for k in (1, 2, 5) if k * step <= 0.9 * size)
-    for at, words, font in ((1.08 * size, scene.components, 22), (mark, (f"{mark:g}",) * 3, 16)):
+    for at, words, font in ((1.08 * size, scene.components, 22), (mark, (f"  {mark:g}",) * 3, 16)):
         stage.add_point_labels(at * np.eye(3), list(words), shape=None, font_size=font, text_color="black",
                                show_points=at == mark, point_color="black", point_size=7, render_points_as_spheres=True,
                                always_visible=True)
@@ -200,7 +200,7 @@ def _write_legend(image, scene, found, meshes):
     from PIL import ImageDraw, ImageFont
     font = ImageFont.truetype(str(Path(get_data_path()) / "fonts/ttf/DejaVuSans.ttf"), 16)
     pen, (width, height) = ImageDraw.Draw(image), image.size
-    kinds = dict.fromkeys(kind for kind, _ in equilibrium_lines(scene, found, np.inf)) if meshes else ()
+    kinds = {kind for kind, _ in equilibrium_lines(scene, found, np.inf)}
     rows = [(mesh.name, style.SHEETS[number % len(style.SHEETS)]) for number, mesh in enumerate(meshes)]
     rows += [(f"{kind} equilibria", _colour(kind)) for kind in sorted(kinds)]
     left = width - 44 - max((pen.textlength(words, font) for words, _ in rows), default=0)
