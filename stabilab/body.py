@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 
 from .errors import InputError
-from .exact import exact_vector, floats
+from .exact import exact, exact_vector, floats
 
 AXIS_WORDS = ("minor", "middle", "major")
 
@@ -15,11 +15,13 @@ class Body:
     """A rigid body seen from its principal axes 1, 2, 3.
 
     inertia: three principal moments of inertia about the centre of mass or a fixed point, kg m^2, in any order,
-    equal ones allowed; numbers or exact strings. `exact` keeps them unrounded. Raises InputError for a moment that
-    is not positive and where the largest exceeds the sum of the other two (no mass distribution does that).
+    equal ones allowed; numbers or exact strings. `exact` keeps them unrounded. mass: kg, only where the body also
+    travels. Raises InputError for a moment that is not positive and where the largest exceeds the sum of the other
+    two (no mass distribution does that).
     """
 
     inertia: tuple[float, float, float]
+    mass: float | None = None
     exact: tuple[Fraction, Fraction, Fraction] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self):
@@ -32,6 +34,11 @@ class Body:
             raise InputError(
                 f"inertia: the triangle inequality is broken: {float(largest):.17g} exceeds the sum of the other two, "
                 f"{float(sum(moments) - largest):.17g}; no rigid body has these moments")
+        if self.mass is not None:
+            mass = exact(self.mass)
+            if mass <= 0:
+                raise InputError(f"mass: expected a positive number of kg, got {float(mass):g}")
+            object.__setattr__(self, "mass", float(mass))
         object.__setattr__(self, "exact", moments)
         object.__setattr__(self, "inertia", floats(moments))
 

@@ -1,6 +1,7 @@
 """A case file: a body, its effects and one motion, read from TOML; every fault with file, line and key."""
 from __future__ import annotations
 
+import math
 import os
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -17,6 +18,8 @@ from .scene import ScaledGyrostat, Scene
 
 TABLES = ("title", "source", "body", "effects", "scaled", "motion", "expect")
 STATES, SPANS = ("angular_velocity", "x"), ("span", "tau")
+BLOCKS = {"attitude": "attitude", "vertical": "gamma", "velocity": "velocity", "position": "position"}  # key: block
+UNIT_SLACK = 1e-6  # a direction given to six decimals counts as a unit vector; the laws show |gamma| as it is
 STAND_IN = Body((3, 2, 1))  # lets the faults of the effects show where the body itself is at fault
 
 
@@ -27,8 +30,9 @@ class Case:
     scene: the Scene (rad/s, s) or ScaledGyrostat (x, tau) in the variables of the case, which `variables` names
     ("physical" or "scaled"); physical: the Scene in kg m^2, N m, or None where the file gives [scaled]; scaling: the
     change between the two, None where it is undefined. state: three components at time 0 in the case's variables,
-    body frame, or None; span: (from, to) in the case's time or None; expect: facts the case's test asserts; text: the
-    source.
+    body frame, or None; blocks: the other blocks of the state by name ("gamma", "velocity", "position" as three
+    numbers, "attitude" as psi, phi, theta of the 3-1-2 sequence, rad), where the file gives them; span: (from, to) in
+    the case's time or None; expect: facts the case's test asserts; text: the source.
     """
 
     path: str
@@ -41,6 +45,7 @@ class Case:
     state: tuple[float, float, float] | None = None
     span: tuple[float, float] | None = None
     expect: dict = field(default_factory=dict)
+    blocks: dict = field(default_factory=dict)
     text: str = field(default="", repr=False)
 
     @property
@@ -66,10 +71,11 @@ def load(path) -> Case:
     motion = _motion(top)
     expect = expected(top.table("expect"))
     scene, variables, scaling = _variables(top, motion, physical, scaled, mu)
+    _judge_blocks(motion, scene)
     span = _span(motion, variables, scaling)
     if faults.problems:
         raise CaseError(path, sorted(faults.problems, key=lambda p: p.line or 0))
-    return Case(path, title, source, scene, variables, physical, scaling, motion.state, span, expect, text)
+    return Case(path, title, source, scene, variables, physical, scaling, motion.state, span, expect, motion.blocks, text)
 
 
 @dataclass(frozen=True)
@@ -77,6 +83,7 @@ class _Context:
     """What an effect may need of the rest of the case."""
 
     body: Body
+    stand_in: bool = False  # the body itself is at fault: judge nothing by it
 
     def torque_from_mu(self, mu):
         return torque_from_mu(self.body, mu)
@@ -104,7 +111,7 @@ def _physical(top: Table) -> tuple[Scene | None, tuple | None]:
             continue
         cls = effect_class(name)
         table.known(cls.keys)
-        made.append(cls.from_case(table, _Context(body or STAND_IN)))
+        made.append(cls.from_case(table, _Context(body or STAND_IN, body is None)))
     if body is None or None in made:
         return None, None
     torque = effects.data.get("constant_torque", {})
@@ -118,13 +125,14 @@ def _body(top: Table) -> Body | None:
         if "body" not in top:
             top.fault("expected a table [body] with inertia (kg m^2), or [scaled] with a, b and mu")
         return None
-    table.known(("inertia",))
+    table.known(("inertia", "mass"))
+    mass = table.positive("mass")
     moments = table.vector("inertia") if table.required("inertia") else None
     negative = [index for index, moment in enumerate(moments or ()) if moment <= 0]
     for index in negative:
         table.fault(f"number {index + 1} is {float(moments[index])!r}; principal moments are positive", "inertia", index)
     try:
-        return None if moments is None or negative else Body(moments)
+        return None if moments is None or negative or (mass is None and "mass" in table) else Body(moments, mass)
     except InputError as error:
         table.fault(str(error).removeprefix("inertia: "), "inertia")
         return None
@@ -150,13 +158,14 @@ class _Motion:
     state: tuple[float, ...] | None = None
     span_key: str | None = None
     span: tuple | None = None
+    blocks: dict = field(default_factory=dict)
 
 
 def _motion(top: Table) -> _Motion:
     table = top.table("motion")
     if table is None:
         return _Motion(Table(("motion",), {}, top.faults))
-    table.known(STATES + SPANS)
+    table.known(STATES + SPANS + tuple(BLOCKS))
     state_key, span_key = table.one_of(*STATES), table.one_of(*SPANS)
     states, spans = {k: table.vector(k) for k in STATES}, {k: table.numbers(k, 2) for k in SPANS}
     state, span = states.get(state_key), spans.get(span_key)
@@ -167,7 +176,25 @@ def _motion(top: Table) -> _Motion:
         for key, other in (("angular_velocity", "x"), ("span", "tau")):
             if key in table:
                 table.fault(f"a [scaled] system has no body to convert {key} with: give {other}", key)
-    return _Motion(table, state_key, floats(state) if state else None, span_key, span)
+    blocks = {block: floats(vector) for key, block in BLOCKS.items() if (vector := table.vector(key)) is not None}
+    return _Motion(table, state_key, floats(state) if state else None, span_key, span, blocks)
+
+
+def _judge_blocks(motion: _Motion, scene):
+    """Starting values beyond the angular velocity: possible for this scene, and complete."""
+    table, given = motion.table, motion.blocks
+    for key, block in BLOCKS.items():
+        if block in given and getattr(scene, "variables", "") == "scaled":
+            table.fault("a scaled system has no attitude and no place: give a body and its effects", key)
+            return
+    for key in ("velocity", "position"):
+        if key in given and scene is not None and scene.body.mass is None:
+            table.fault("motion through space needs the mass of the body: give body.mass in kg", key)
+    length = math.hypot(*given["gamma"]) if "gamma" in given else 1.0
+    if abs(length - 1) > UNIT_SLACK:
+        table.fault(f"expected a unit vector, got one of length {length:.17g}", "vertical")
+    if motion.state is not None and scene is not None and "gamma" in scene.blocks and "gamma" not in given:
+        table.fault("vertical is missing: an effect of this scene asks where the vertical is (a unit vector, body frame)")
 
 
 def _variables(top: Table, motion: _Motion, physical, scaled, mu):

@@ -74,6 +74,15 @@ class Table:
         """One exact number."""
         return self._exact(self.data[key], key) if key in self.data else None
 
+    def positive(self, key: str, zero: bool = False) -> Fraction | None:
+        """One exact number above zero (or zero, where that is allowed)."""
+        value = self.number(key)
+        if value is None or value > 0 or (zero and value == 0):
+            return value
+        wanted = "a number that is not negative" if zero else "a positive number"
+        self.fault(f"expected {wanted}, got {float(value)!r}", key)
+        return None
+
     def numbers(self, key: str, count: int) -> tuple[Fraction, ...] | None:
         """`count` exact numbers, all of their faults noted."""
         value = self.data.get(key)

@@ -10,7 +10,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import reduce
 
+from .blocks import BLOCKS, ordered
 from .effects.base import cross, dot
+from .errors import InputError
+from .exact import exact
 
 
 @dataclass(frozen=True)
@@ -27,7 +30,7 @@ class Balance:
 class Equations:
     """Equations of motion as SymPy values.
 
-    state: symbols of the state; parameters: symbol name -> exact value, in order of declaration; symbols: name ->
+    blocks: the parts of the state (see `blocks`); state: symbols of the state; parameters: symbol name -> exact value, in order of declaration; symbols: name ->
     symbol, same order; rhs: rates of the state, 1/s of it (1/tau when scaled); jacobian: immutable matrix
     d rhs_i / d state_j; torques: name -> triple, the parts of inertia * rhs (body frame, N m); inertia: the factors
     of the rates on the left; energy: kinetic energy; balances: the laws.
@@ -43,6 +46,7 @@ class Equations:
     jacobian: object
     energy: object
     balances: tuple[Balance, ...]
+    blocks: tuple[str, ...] = ("omega",)
 
     def numeric(self, expression):
         """The expression with the exact parameter values put in (rationals; no rounding)."""
@@ -50,13 +54,16 @@ class Equations:
 
     def derivative(self, quantity):
         """Rate of a quantity along the motion; turn angles alpha_i (alpha_i' = state_i) may stand in it."""
-        motion = list(zip(self.state, self.rhs)) + list(zip(turn_angles(), self.state))
+        motion = list(zip(self.state, self.rhs)) + list(zip(turn_angles(), self.state[:3]))
         return sum(quantity.diff(variable) * rate for variable, rate in motion)
 
 
-def derive(scene) -> Equations:
-    """Equations of motion of a Scene (omega, rad/s, body frame) or of a ScaledGyrostat (x)."""
-    return _scaled(scene) if scene.variables == "scaled" else _physical(scene)
+def derive(scene, also=()) -> Equations:
+    """Equations of motion of a Scene (omega, rad/s, body frame) or of a ScaledGyrostat (x).
+
+    The state has the blocks that the scene's effects need, and those named in `also` (physical scenes only).
+    """
+    return _scaled(scene) if scene.variables == "scaled" else _physical(scene, ordered((*scene.blocks, *also)))
 
 
 def values(equations) -> dict:
@@ -85,31 +92,122 @@ def _jacobian(rhs, state):
     return ImmutableMatrix([[rate.diff(x) for x in state] for rate in rhs])
 
 
-def _physical(scene) -> Equations:
+def _physical(scene, names) -> Equations:
     from sympy import Integer
-    omega = tuple(_symbols(scene.components).values())
+    blocks = {name: tuple(_symbols(BLOCKS[name].components).values()) for name in names}
     parameters = dict(zip(("D1", "D2", "D3"), scene.body.exact))
     symbols = _symbols(parameters, positive=True)
     for effect in scene.effects:
         parameters |= effect.parameters()
         symbols |= _symbols(effect.parameters())
     D = tuple(symbols[name] for name in ("D1", "D2", "D3"))
-    spin = tuple(d * w for d, w in zip(D, omega))
+    motion = MotionView(scene, blocks, D, symbols)
     zero = (Integer(0),) * 3
 
-    torques, carried, outer, working = {"inertia": cross(spin, omega)}, zero, zero, zero
+    torques, carried, outer, working, potential = {"inertia": motion.inertial}, zero, zero, zero, Integer(0)
     for effect in scene.effects:
-        momentum, torque = effect.momentum(symbols) or zero, effect.torque(omega, symbols) or zero
-        torques[effect.name] = _add(cross(momentum, omega), torque)
+        momentum, torque = effect.momentum(symbols) or zero, effect.torque_along(motion, symbols) or zero
+        torques[effect.name] = _add(cross(momentum, motion.omega), torque)
         carried, outer = _add(carried, momentum), _add(outer, torque)
-        working = _add(working, torque) if effect.works else working
+        stored = effect.potential(motion, symbols)
+        potential += stored or 0
+        working = _add(working, torque) if effect.works and stored is None else working
 
-    rhs = tuple(total / d for total, d in zip(reduce(_add, torques.values()), D))
-    energy, H = dot(spin, omega) / 2, _add(spin, carried)
-    balances = (
-        Balance("energy", "work and energy: T' = omega . (torques that do work)", energy, dot(omega, working)),
-        Balance("momentum", "angular momentum: (|H|^2/2)' = H . (outer torques)", dot(H, H) / 2, dot(H, outer)))
-    return Equations("physical", omega, parameters, symbols, D, torques, rhs, _jacobian(rhs, omega), energy, balances)
+    if "velocity" in blocks:
+        if scene.body.mass is None:
+            raise InputError("velocity and position need the mass of the body: give body.mass in kg")
+        parameters["mass"] = exact(scene.body.mass)
+        symbols |= _symbols(("mass",), positive=True)
+    rates = {"omega": tuple(total / d for total, d in zip(reduce(_add, torques.values()), D))}
+    rates |= {name: rate(scene, motion, symbols) for name, rate in KINEMATICS.items() if name in blocks}
+    state, rhs = (tuple(v for name in names for v in part[name]) for part in (blocks, rates))
+    inertia = D + (Integer(1),) * (len(state) - 3)
+    energy, H = dot(motion.spin, motion.omega) / 2, _add(motion.spin, carried)
+    balances = [
+        Balance("energy", "work and energy: T' = omega . (torques that do work)" if potential == 0 else
+                "work and energy: (T + potential)' = omega . (other torques that do work)", energy + potential,
+                dot(motion.omega, working)),
+        Balance("momentum", "angular momentum: (|H|^2/2)' = H . (outer torques)", dot(H, H) / 2, dot(H, outer))]
+    if "gamma" in blocks:
+        balances += _gamma_laws(scene, motion, symbols, H)
+    if "attitude" in blocks:
+        q = blocks["attitude"]
+        balances.append(Balance("quaternion", "the quaternion keeps its length", sum(a**2 for a in q), Integer(0)))
+    return Equations("physical", state, parameters, symbols, inertia, torques, rhs, _jacobian(rhs, state), energy,
+                     tuple(balances), names)
+
+
+def _gamma_laws(scene, motion, symbols, H):
+    """(H . gamma - area functions)' = gamma . (torques without one), and |gamma|."""
+    from sympy import Integer
+    zero, gamma = (Integer(0),) * 3, motion.gamma
+    quantity, rest = dot(H, gamma), zero
+    for effect in scene.effects:
+        area = effect.area(motion, symbols)
+        if area is None:
+            rest = _add(rest, effect.torque_along(motion, symbols) or zero)
+        else:
+            quantity -= area
+    yield Balance("area", "angular momentum along gamma: (H . gamma - shares of the torques)' = gamma . (other torques)",
+                  quantity, dot(rest, gamma))
+    yield Balance("gamma", "gamma is a unit vector fixed in space: |gamma|^2 is constant", dot(gamma, gamma), Integer(0))
+
+
+class MotionView:
+    """What an effect may see of the motion: the blocks of the state by name, the principal moments D, and
+    `undisturbed`."""
+
+    def __init__(self, scene, blocks, D, symbols):
+        self._scene, self._blocks, self._symbols, self.D = scene, blocks, symbols, D
+        self.__dict__ |= blocks
+        self.spin = tuple(d * w for d, w in zip(D, self.omega))
+        self.inertial = cross(self.spin, self.omega)
+
+    def undisturbed(self, free=False):
+        """(omega', omega'') along the motion without the small effects; free: of the body alone."""
+        from sympy import expand
+        total = self.inertial
+        for effect in () if free else self._scene.effects:
+            if not effect.small:
+                momentum = effect.momentum(self._symbols)
+                total = _add(total, cross(momentum, self.omega)) if momentum else total
+                total = _add(total, effect.torque_along(self, self._symbols) or (0, 0, 0))
+        first = tuple(t / d for t, d in zip(total, self.D))
+        change = list(zip(self.omega, first))
+        if "gamma" in self._blocks:
+            change += zip(self.gamma, cross(self.gamma, self.omega))
+        second = tuple(expand(sum(rate.diff(x) * v for x, v in change)) for rate in first)
+        return first, second
+
+
+def rotation(q):
+    """Rows of the matrix from body to space of a unit quaternion (q0, q1, q2, q3), any scalar type."""
+    a, b, c, d = q
+    return ((a*a + b*b - c*c - d*d, 2*(b*c - a*d), 2*(b*d + a*c)),
+            (2*(b*c + a*d), a*a - b*b + c*c - d*d, 2*(c*d - a*b)),
+            (2*(b*d - a*c), 2*(c*d + a*b), a*a - b*b - c*c + d*d))
+
+
+def _quaternion_rate(scene, motion, symbols):
+    """q' = q (0, omega)/2."""
+    a, b, c, d = motion.attitude
+    p, q, r = motion.omega
+    return ((-b*p - c*q - d*r) / 2, (a*p + c*r - d*q) / 2, (a*q + d*p - b*r) / 2, (a*r + b*q - c*p) / 2)
+
+
+def _acceleration(scene, motion, symbols):
+    """m v' = R f."""
+    zero = (motion.omega[0] * 0,) * 3
+    total = reduce(_add, (e.force(motion, symbols) or zero for e in scene.effects), zero)
+    return tuple(dot(row, total) / symbols["mass"] for row in rotation(motion.attitude))
+
+
+KINEMATICS = {
+    "gamma": lambda scene, motion, symbols: cross(motion.gamma, motion.omega),
+    "attitude": _quaternion_rate,
+    "velocity": _acceleration,
+    "position": lambda scene, motion, symbols: motion.velocity,
+}
 
 
 def _scaled(scene) -> Equations:
@@ -144,22 +242,31 @@ def invariants(scene) -> tuple[Balance, ...]:
     return tuple(laws)
 
 
+CONSERVED = {
+    "energy": "no torque does work: kinetic energy is constant",
+    "momentum": "no outer torque: the size of the angular momentum is constant",
+    "area": "no torque along gamma but the part accounted for: this area integral is constant",
+    "gamma": "gamma is a unit vector fixed in space",
+    "quaternion": "the quaternion of the attitude has length one"}
+
+
 def _conserved(equations):
-    words = {"energy": "no torque does work: kinetic energy is constant",
-             "momentum": "no outer torque: the size of the angular momentum is constant"}
     for law in equations.balances:
         if equations.numeric(law.rate) == 0 and (quantity := equations.numeric(law.quantity)) != 0:
-            plain = f"no torque acts in it: the {law.name} is constant"
-            yield Balance(law.name, words.get(law.name, plain), quantity, law.rate * 0)
+            words = CONSERVED.get(law.name, f"no torque acts in it: the {law.name} is constant")
+            if law.name == "energy" and law.quantity != equations.energy:
+                words = "all torques that do work have a potential: kinetic plus potential energy is constant"
+            yield Balance(law.name, words, quantity, law.rate * 0)
 
 
 def _outer(scene, equations):
     """(carried momentum, outer torque) of a physical scene as exact numbers, or None where they vary with the state."""
-    from sympy import Integer
+    from sympy import Integer, expand
     zero, p = (Integer(0),) * 3, equations.symbols
     momenta = [e.momentum(p) or zero for e in scene.effects]
-    torques = [e.torque(equations.state, p) or zero for e in scene.effects]
-    pair = tuple(tuple(equations.numeric(Integer(0) + v) for v in reduce(_add, rows, zero)) for rows in (momenta, torques))
+    parts = [equations.torques[e.name] for e in scene.effects]
+    torques = [tuple(a - b for a, b in zip(part, cross(h, equations.state[:3]))) for part, h in zip(parts, momenta)]
+    pair = tuple(tuple(equations.numeric(expand(Integer(0) + v)) for v in reduce(_add, rows, zero)) for rows in (momenta, torques))
     return None if any(v.free_symbols for row in pair for v in row) else pair
 
 
@@ -222,7 +329,7 @@ def _left(d, x):
 
 def _right(equations, i):
     from sympy import Poly, PolynomialError, prod
-    total = sum(part[i] for part in equations.torques.values())
+    total = sum(part[i] for part in equations.torques.values()) if i < 3 else equations.rhs[i]
     try:
         terms = Poly(total, *equations.state).terms()
     except PolynomialError:

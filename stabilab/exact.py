@@ -70,6 +70,16 @@ def sqrt_fraction(value: Fraction, bits: int = 240) -> Fraction:
     return Fraction(math.isqrt((n << (2 * shift)) // d), 1 << shift)
 
 
+def precise(name: str, *arguments, bits: int = 240) -> Fraction:
+    """A rational within about 2**-bits of a function of rationals ("cos", "sqrt") or of a constant ("pi")."""
+    from mpmath import mp, mpf
+    with mp.workprec(bits + 20):
+        values = [mpf(a.numerator) / a.denominator for a in arguments]
+        number = getattr(mp, name)
+        man, exp = (number(*values) if values else +number).man_exp
+    return Fraction(man) * Fraction(2) ** exp
+
+
 def floats(values) -> tuple[float, ...]:
     """Each exact number rounded once, to the nearest double."""
     return tuple(float(v) for v in values)

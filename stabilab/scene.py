@@ -4,6 +4,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from fractions import Fraction
 
+from .blocks import ordered
 from .body import Body
 from .effects.base import Effect
 from .errors import InputError
@@ -31,6 +32,11 @@ class Scene:
                 raise InputError(f"effect {name!r} is named twice; a scene holds each effect once")
         object.__setattr__(self, "body", body)
         object.__setattr__(self, "effects", flat)
+
+    @property
+    def blocks(self) -> tuple[str, ...]:
+        """The blocks of the state that its effects need (see `blocks`)."""
+        return ordered(name for effect in self.effects for name in effect.needs)
 
     def effect(self, name: str) -> Effect | None:
         """The effect called `name`, or None."""
@@ -65,6 +71,7 @@ class ScaledGyrostat:
     components = ("x1", "x2", "x3")
     time_unit = "tau"
     effects = ()
+    blocks = ("omega",)
 
     def __post_init__(self):
         object.__setattr__(self, "exact_ab", (exact(self.a), exact(self.b)))

@@ -131,7 +131,7 @@ class Separatrix:
 class Trajectory:
     """States at the asked-for times.
 
-    t: (n,) times; states: (n, 3); invariant_drift: law name -> largest relative departure from it over the run;
+    t: (n,) times; states: (n, N), blocks: where each block of the state stands in the N columns; invariant_drift: law name -> largest relative departure from it over the run;
     counters: integrator's own counts (steps, rate evaluations); status: "reached", "stopped" (reason says why).
     """
 
@@ -143,3 +143,8 @@ class Trajectory:
     counters: dict[str, int]
     status: str
     reason: str
+    blocks: dict = field(default_factory=lambda: {"omega": slice(0, 3)})
+
+    def block(self, name: str):
+        """(n, m) states of one block."""
+        return self.states[:, self.blocks[name]]

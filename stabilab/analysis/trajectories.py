@@ -9,7 +9,9 @@ import difflib
 
 import numpy as np
 
+from ..blocks import BLOCKS, ORDER, slices
 from ..compiled import FEATHER, TAYLOR_TOLERANCE, _equations, heyoka_available, to_numpy, to_taylor
+from ..equations import derive
 from ..errors import InputError
 from .results import Trajectory
 
@@ -26,7 +28,11 @@ OUTCOMES = {"err_nf_state": "the numbers overflowed", "step_limit": f"{STEP_LIMI
 
 
 def trajectory(scene, state, times, method: str = "taylor", rtol: float | None = None) -> Trajectory:
-    """States of a scene at the given times, the motion being at `state` (three numbers) at t = 0.
+    """States of a scene at the given times, the motion being at `state` at t = 0.
+
+    state: three numbers, the angular velocity (x when scaled); for scenes with more blocks of state all their
+    components in order, or a dict of blocks {"omega": ..., "gamma": ..., "attitude": ...} as in `blocks` (a block
+    beyond those that the scene needs is integrated too; a missing one starts at gamma = e3, the unit quaternion, rest).
 
     times: (n,) strictly increasing or decreasing, of any sign, in s (tau when scaled). method: "taylor" (heyoka; where
     it is not installed SciPy's DOP853 at rtol 1e-13, and `method` and `reason` say so) or a method of
@@ -35,12 +41,13 @@ def trajectory(scene, state, times, method: str = "taylor", rtol: float | None =
     t, states hold the times that were reached. Raises InputError for states and times that are no such numbers and
     for an unknown method.
     """
-    method, state, times, rtol = _method(method), _state(state), _times(times), _rtol(rtol)
+    method, times, rtol = _method(method), _times(times), _rtol(rtol)
+    equations, state = _start(scene, state)
     reason, landing = "all times reached", False
     if method == "taylor" and not heyoka_available():
         method, rtol, landing = "DOP853", max(rtol or 0.0, FALLBACK_RTOL), True
         reason = "all times reached; heyoka is not installed, SciPy's DOP853 took its place"
-    system = to_numpy(_equations(scene))
+    system = to_numpy(equations)
     if method == "taylor":
         rtol = TAYLOR_TOLERANCE if rtol is None else max(rtol, TAYLOR_TOLERANCE)
         run = _Taylor(system, rtol)
@@ -59,7 +66,8 @@ def trajectory(scene, state, times, method: str = "taylor", rtol: float | None =
                 drift[name] = max(drift.get(name, 0.0), departure)
     order = np.argsort(reached)[::1 if times.size < 2 or times[1] > times[0] else -1]
     return Trajectory(np.array(reached)[order], np.array(states).reshape(-1, state.size)[order], method, rtol, drift,
-                      run.counters, "stopped" if failures else "reached", "; ".join(failures) or reason)
+                      run.counters, "stopped" if failures else "reached", "; ".join(failures) or reason,
+                      {name: part for name, part in slices(equations.blocks).items()})
 
 
 def _method(name: str) -> str:
@@ -86,6 +94,31 @@ def _state(state):
     if array.size != 3:
         raise InputError(f"state: expected three numbers, got {array.size} of them")
     return array
+
+
+REST = {"gamma": (0.0, 0.0, 1.0), "attitude": (1.0, 0.0, 0.0, 0.0), "velocity": (0.0,) * 3, "position": (0.0,) * 3}
+
+
+def _start(scene, state):
+    """(equations, state as one row) of a start given as numbers or block by block."""
+    if not isinstance(state, dict):
+        equations, array = _equations(scene), _numbers(state, "state")
+        wanted = len(equations.state)
+        if array.size != wanted:
+            words = "three numbers" if wanted == 3 else f"{wanted} numbers ({', '.join(map(str, equations.state))})"
+            raise InputError(f"state: expected {words}, got {array.size} of them")
+        return equations, array
+    unknown = [name for name in state if name not in BLOCKS]
+    if unknown or "omega" not in state:
+        raise InputError(f"state: expected the block omega and any of {', '.join(ORDER[1:])}; got {', '.join(state) or 'none'}")
+    equations = derive(scene, state)
+    rows = []
+    for name in equations.blocks:
+        row = _numbers(state.get(name, REST.get(name)), f"state: {name}")
+        if row.size != len(BLOCKS[name].components):
+            raise InputError(f"state: {name} has {len(BLOCKS[name].components)} components, got {row.size}")
+        rows.append(row)
+    return equations, np.concatenate(rows)
 
 
 def _times(times):

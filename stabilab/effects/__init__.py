@@ -6,6 +6,12 @@ from importlib import import_module
 REGISTRY: dict[str, tuple[str, str]] = {
     "gyrostat": ("gyrostat", "Gyrostat"),
     "constant_torque": ("constant_torque", "ConstantTorque"),
+    "charge": ("charge", "Charge"),
+    "resistance": ("resistance", "Resistance"),
+    "liquid_cavity": ("liquid_cavity", "LiquidCavity"),
+    "newtonian_field": ("newtonian_field", "NewtonianField"),
+    "gravity": ("gravity", "Gravity"),
+    "body_force": ("body_force", "BodyForce"),
 }
 
 

@@ -19,6 +19,9 @@ class Effect:
     name: ClassVar[str] = ""
     keys: ClassVar[tuple[str, ...]] = ()
     works: ClassVar[bool] = True  # False promises that the effect does no work; the law test holds it to that
+    small: ClassVar[bool] = False  # True: left out of the undisturbed motion along which a liquid is carried
+    keeps_volume: ClassVar[bool] = True  # False: the flow may shrink volumes
+    needs: ClassVar[tuple[str, ...]] = ()  # the state blocks it cannot do without, of `stabilab.blocks.ORDER`
 
     @classmethod
     def from_case(cls, table, context) -> Effect | None:
@@ -40,6 +43,24 @@ class Effect:
 
     def torque(self, omega: Triple, p: dict) -> Triple | None:
         """Torque on the body, body frame, N m."""
+        return None
+
+    def torque_along(self, motion, p: dict) -> Triple | None:
+        """The torque where it depends on more than omega; `motion` has the blocks of the state by name (`omega`,
+        `gamma`), the principal moments `D`, and `undisturbed()`, the first and second rate of omega along the motion
+        without the small effects."""
+        return self.torque(motion.omega, p)
+
+    def potential(self, motion, p: dict):
+        """Potential energy, J, whose fall is the work of the torque; None where it has none."""
+        return None
+
+    def area(self, motion, p: dict):
+        """A function of the state whose rate is torque . gamma, N m; None where there is none in closed form."""
+        return None
+
+    def force(self, motion, p: dict) -> Triple | None:
+        """Force on the body, body frame, N; only a scene with translation asks."""
         return None
 
 

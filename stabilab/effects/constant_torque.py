@@ -16,6 +16,7 @@ class ConstantTorque(Effect):
 
     name: ClassVar[str] = "constant_torque"
     keys: ClassVar[tuple[str, ...]] = ("torque", "mu")
+    small: ClassVar[bool] = True
 
     vector: tuple[float, float, float]
     exact: tuple[Fraction, Fraction, Fraction] = field(init=False, repr=False, compare=False)

@@ -1,0 +1,70 @@
+"""A point charge on axis 3 of the body in a uniform magnetic field: a Lorentz torque k omega x e3."""
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import ClassVar
+
+from ..exact import exact, precise
+from .base import Effect, cross
+
+
+@dataclass(frozen=True)
+class Charge(Effect):
+    """Torque k omega x e3 with k = e H l^2 cos sigma, N m s (Galal et al., charged body: eq. (3) ff.).
+
+    charge e, C; field H, T; arm l, m; angle sigma between axis 3 and the field, rad, or "attitude": cos sigma is then
+    gamma3, taken from the motion. It acts like a gyrostatic moment -k along axis 3 in Euler's equations, yet it is no
+    part of the angular momentum. It does no work.
+    """
+
+    name: ClassVar[str] = "charge"
+    keys: ClassVar[tuple[str, ...]] = ("charge", "field", "arm", "angle")
+    works: ClassVar[bool] = False
+
+    charge: float
+    field_strength: float
+    arm: float
+    angle: float | str
+    exact: Fraction = field(init=False, repr=False, compare=False)
+    strength: float = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self):
+        scale = exact(self.charge) * exact(self.field_strength) * exact(self.arm) ** 2
+        if self.angle != "attitude":
+            scale *= precise("cos", exact(self.angle))
+        object.__setattr__(self, "exact", scale)
+        object.__setattr__(self, "strength", float(scale))
+
+    @classmethod
+    def from_case(cls, table, context):
+        if not table.required(*cls.keys):
+            return None
+        numbers = [table.number(key) for key in cls.keys[:3]]
+        angle = "attitude" if table.data["angle"] == "attitude" else table.number("angle")
+        return None if None in (*numbers, angle) else cls(*numbers, angle)
+
+    @property
+    def follows_attitude(self) -> bool:
+        """Whether cos sigma comes from the motion."""
+        return self.angle == "attitude"
+
+    @property
+    def needs(self):
+        return ("gamma",) if self.follows_attitude else ()
+
+    def parameters(self):
+        return {"eHl2" if self.follows_attitude else "k": self.exact}
+
+    def _strength(self, motion, p):
+        return p["eHl2"] * motion.gamma[2] if self.follows_attitude else p["k"]
+
+    def torque_along(self, motion, p):
+        k = self._strength(motion, p)
+        return cross(motion.omega, (0, 0, k))
+
+    def area(self, motion, p):
+        """gamma3' = gamma . (omega x e3), so the torque's share is k gamma3, or e H l^2 gamma3^2/2."""
+        if self.follows_attitude:
+            return p["eHl2"] * motion.gamma[2] ** 2 / 2
+        return p["k"] * motion.gamma[2]
