@@ -217,7 +217,7 @@ def _rows(land, place_at, number, dense=257):
     return s
 
 
-def _shares(land, saddle, end, number, dense=65, rows=8):
+def _shares(land, saddle, end, number, dense=49, rows=5):
     """(number,) shares of the way to the far end, 0 to 1, at which facets stray from the sheet about equally.
 
     In u, share = sin^2(pi u/2), a loop is smooth at both ends; a chord over du strays from the sheet by |r_uu . n| du^2/8
