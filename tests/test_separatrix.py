@@ -67,6 +67,10 @@ def some(sheet, rows=6, columns=9):
             yield r, c
 
 
+def at_fold(problem, sheet, row):
+    return abs(rate_and_slope(problem, sheet.saddle[row], axis_of(problem))[1]) <= 1e-9 * np.max(np.abs(sheet.saddle))
+
+
 def axis_of(problem):
     return next(i for i in range(3) if problem.m[i])
 
@@ -88,7 +92,7 @@ def test_vertices_have_the_energy_of_their_saddle_to_rounding(name, sheets):
     _, problem = SCENES[name]
     for sheet in sheets[name]:
         for r, c in some(sheet):
-            if abs(rate_and_slope(problem, sheet.saddle[r], axis_of(problem))[1]) <= 1e-9 * np.max(np.abs(sheet.saddle)):
+            if at_fold(problem, sheet, r):
                 continue  # a fold ends the sheet: rounding decides whether the vertex's own conic has a saddle at all
             found = excess(problem, sheet.points[r, c])
             assert found is not None, (sheet.name, r, c)
@@ -165,6 +169,8 @@ def test_points_inside_and_outside_a_sheet_have_the_fates_of_their_sides(name, s
         n, m = sheet.points.shape[:2]
         states, sides = [], []
         for r in np.linspace(n // 3, n - 1, 4).astype(int):
+            if at_fold(problem, sheet, r):
+                continue  # the far end of a branch between two folds: rounding decides whether there is a saddle at all
             column = int(np.argmax(np.abs(sheet.points[r, :, axis])))
             for side in (-1, 1):
                 state = np.array(sheet.points[r, column])
