@@ -1,0 +1,175 @@
+"""Closed-form motion of the charged, nearly axisymmetric body under constant body-fixed torque and force.
+
+The linear model of `axisymmetric_modes`, solved with both of its rates a and b (the paper's equation (8) replaces them by
+one). Every quantity is a sum of divided differences D of the exponential, regular at every resonance; with w^2 = ab,
+nu+- = r0 +- w, mu = M1/D1 + i M2/D2, Pi = p + iq, k0 = (w - a) q0 + i (b - w) p0, k1 the same of mu:
+
+    n-fold integral of Gamma:            J_n = Gamma0 D[0^n,-ir0] + Pi0 D[0^n,-ir0,iw] + mu D[0^(n+1),-ir0,iw]
+                                               + k0 D[0^n,-ir0,iw,-iw] + k1 D[0^(n+1),-ir0,iw,-iw]
+    n-fold integral of e^(ir0t) Gamma:   Z_n = Gamma0 D[0^(n+1)] + Pi0 D[0^(n+1),inu+] + mu D[0^(n+1),ir0,inu+]
+                                               + k0 D[0^(n+1),inu+,inu-] + k1 D[0^(n+1),ir0,inu+,inu-]
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import partial
+
+import numpy as np
+
+from ..errors import InputError
+from .axisymmetric_limits import SMALL_ANGLE, horizon
+from .axisymmetric_modes import ChargedBody, modes, resonances
+from .divided_differences import divided_differences
+from .twofold import twofold
+
+WITHIN, BEYOND = "small angles", "beyond small angles"
+
+
+@dataclass(frozen=True, eq=False)
+class AxisymmetricMotion:
+    """The motion in the linear model at the asked-for times; arrays (..., 3) over the batch of the body and of t.
+
+    omega: p, q, r, rad/s, body axes. angles: psi, phi, theta of the 3-1-2 sequence, rad, theta unwrapped. momentum: angular
+    momentum (body and rotor, without the charge), kg m^2/s, inertial, first order in the tilt. velocity, position:
+    inertial, m/s and m, None without a mass. tilt: |Gamma|, rad, (...). horizon: s, until when the tilt stays small
+    (`axisymmetric_limits.horizon`). status: "small angles" or "beyond small angles"; reason says from when on and why;
+    resonances: those that the data meet, in words.
+    """
+
+    t: np.ndarray
+    omega: np.ndarray
+    angles: np.ndarray
+    momentum: np.ndarray
+    velocity: np.ndarray | None
+    position: np.ndarray | None
+    tilt: np.ndarray
+    horizon: np.ndarray
+    status: str
+    reason: str
+    resonances: tuple[str, ...] = field(default=())
+
+
+def solution(body: ChargedBody, t, small_angle: float = SMALL_ANGLE) -> AxisymmetricMotion:
+    """The motion at times t (s, any shape, broadcast against the batch of the body).
+
+    small_angle: the tilt in rad up to which the model counts as valid; it decides status, reason and horizon, nothing
+    else. Raises InputError where the unstable motion exceeds the largest double.
+    """
+    t = _times(t)
+    terms = _Terms(body, t)
+    angles = terms.angles()
+    velocity, position = terms.translation() if body.mass is not None else (None, None)
+    tilt = np.hypot(angles[..., 0], angles[..., 1])
+    until = horizon(body, small_angle)
+    status, reason = _verdict(tilt, t, until, small_angle)
+    return AxisymmetricMotion(t, terms.angular_velocity(), angles, terms.momentum(), velocity, position, tilt, until,
+                              status, reason, resonances(body))
+
+
+def _times(t):
+    t = np.asarray(t, float)
+    if not np.all(np.isfinite(t)):
+        raise InputError(f"times: expected finite numbers, got {t}")
+    return t
+
+
+def _verdict(tilt, t, until, small):
+    promise = f"a tilt of {small:g} rad is not reached before t = {np.min(until):.6g} s (estimate from the torque and the start)"
+    if np.all(np.isinf(until)):
+        promise = f"the tilt stays below {small:g} rad for all time"
+    if np.all(tilt <= small):
+        return WITHIN, promise
+    first = np.min(np.abs(np.broadcast_to(t, tilt.shape)[tilt > small]))
+    return BEYOND, (f"the tilt reaches {np.max(tilt):.4g} rad and exceeds {small:g} rad at t = {first:.6g} s or before: "
+                    f"the small-angle equations no longer describe the body; {promise}")
+
+
+class _Terms:
+    """The divided differences at the times t and the coefficients in front of them."""
+
+    def __init__(self, body, t):
+        self.body, self.t = body, t
+        self.shape = np.broadcast_shapes(t.shape, *body.shapes)
+        D1, D2 = body.inertia[..., 0], body.inertia[..., 1]
+        self.p0, self.q0, self.m1, self.m2 = body.rates[..., 0], body.rates[..., 1], body.torque[..., 0] / D1, body.torque[..., 1] / D2
+        m = self.modes = modes(body)
+        self.a, self.b = m.a.value(), m.b.value()
+        self.nodes, self.low = _nodes(m, body.spin)
+        above, below = (x.where(~m.unstable, y) for x, y in ((m.root - m.a, -m.a), (m.b - m.root, m.b)))
+        growth = np.where(m.unstable, 1j * m.root.value(), 0.0)  # w = i s: its two terms do not cancel
+        self.above, self.below = above.value() + growth, below.value() - growth  # w - a and b - w
+        self.Gamma0 = body.attitude[..., 0] + 1j * body.attitude[..., 1]
+        self.turn = np.exp(1j * body.attitude[..., 2])
+
+    def _tables(self, names, counts):
+        return divided_differences([self.nodes[n] for n in names], counts, self.t, [self.low[n] for n in names])
+
+    def _vector(self, *components):
+        return np.stack([np.broadcast_to(c, self.shape) for c in components], axis=-1)
+
+    def angular_velocity(self):
+        """p, q of the real form: cos(wt), sin(wt)/w and (1 - cos(wt))/w^2 are even in w and real in the unstable band too."""
+        plus, minus, S, S2 = ((0, 1, 0), (0, 0, 1), (0, 1, 1), (1, 1, 1))
+        D = {c: v.real for c, v in self._tables("0+-", [plus, minus, S, S2]).items()}
+        C, S, S2 = (D[plus] + D[minus]) / 2, D[S], D[S2]
+        p = self.p0 * C + (self.m1 - self.a * self.q0) * S - self.a * self.m2 * S2
+        q = self.q0 * C + (self.m2 + self.b * self.p0) * S + self.b * self.m1 * S2
+        return self._vector(p, q, self.body.spin)
+
+    def _sum(self, names, folds):
+        """Gamma and mu carry one node more than Pi0 and k0: [names[1]] and [names[0] names[1]]; see the module's formulas."""
+        D = partial(self._tables, names)
+        return {n: self._combine(D, *counts) for n, counts in folds.items()}
+
+    def _combine(self, D, *counts):
+        value = D(counts)
+        Gamma, Pi, mu, k0, k1 = (value[c] for c in counts)
+        return (self.Gamma0 * Gamma + (self.p0 + 1j * self.q0) * Pi + (self.m1 + 1j * self.m2) * mu
+                + (self.above * self.q0 + 1j * self.below * self.p0) * k0
+                + (self.above * self.m2 + 1j * self.below * self.m1) * k1)
+
+    def J(self, *folds):
+        """The n-fold integrals of Gamma, for the n in folds."""
+        return self._sum("0b+-", {n: ((n, 1, 0, 0), (n, 1, 1, 0), (n + 1, 1, 1, 0), (n, 1, 1, 1), (n + 1, 1, 1, 1)) for n in folds})
+
+    def Z(self, *folds):
+        """The n-fold integrals of e^(i r0 t) Gamma, for the n in folds."""
+        return self._sum("0fhl", {n: ((n + 1, 0, 0, 0), (n + 1, 0, 1, 0), (n + 1, 1, 1, 0), (n + 1, 0, 1, 1), (n + 1, 1, 1, 1))
+                                  for n in folds})
+
+    def angles(self):
+        Gamma = self.J(0)[0]
+        return self._vector(Gamma.real, Gamma.imag, self.body.attitude[..., 2] + self.body.spin * self.t)
+
+    def momentum(self):
+        """G = e^(i theta0) [D1 p0 + i D2 q0 - i Gamma0 X + M D[0,ir0] - i k Z_0], the balance e^(i theta) (L - i Gamma X)' = e^(i theta) M."""
+        body, X = self.body, self.modes.X.value()
+        L0 = body.inertia[..., 0] * self.p0 + 1j * body.inertia[..., 1] * self.q0
+        M = body.torque[..., 0] + 1j * body.torque[..., 1]
+        wheel = self._tables("0f", [(1, 1)])[1, 1]
+        G = self.turn * (L0 - 1j * self.Gamma0 * X + M * wheel - 1j * body.charge_moment * self.Z(0)[0])
+        return self._vector(G.real, G.imag, body.inertia[..., 2] * body.spin + body.gyrostat)
+
+    def translation(self):
+        """Velocity and position from m v' = R f, R the rotation to first order in the tilt."""
+        body, t = self.body, self.t
+        f, f3 = body.force[..., 0] + 1j * body.force[..., 1], body.force[..., 2]
+        wheel, J, Z = self._tables("0f", [(1, 1), (2, 1)]), self.J(1, 2), self.Z(1, 2)
+        moved = []
+        for n, free in ((1, body.velocity), (2, body.position)):
+            across = self.turn * (f * wheel[n, 1] - 1j * f3 * Z[n])
+            along = f3 * t**n / n - (np.conj(f) * J[n]).imag
+            push = self._vector(across.real, across.imag, along) / body.mass[..., None]
+            moved.append(free + push if n == 1 else free + body.velocity * t[..., None] + push)
+        return tuple(np.broadcast_to(x, (*self.shape, 3)) for x in moved)
+
+
+def _nodes(m, spin):
+    """Nodes by letter and what rounding took from them: 0, + and - for +-iw, f and b for +-ir0, h and l for i nu+-."""
+    r0 = twofold(spin)
+    high, low = ((r0 + m.root).where(~m.unstable, r0), (r0 - m.root).where(~m.unstable, r0))
+    w, s = m.root.where(~m.unstable, 0.0), m.root.where(m.unstable, 0.0)
+    both = {"0": (0.0, 0.0), "+": (-s, w), "-": (s, -w), "f": (0.0, r0), "b": (0.0, -r0), "h": (-s, high), "l": (s, low)}
+    parts = {name: (twofold(re), twofold(im)) for name, (re, im) in both.items()}
+    return ({n: re.high + 1j * im.high for n, (re, im) in parts.items()},
+            {n: re.low + 1j * im.low for n, (re, im) in parts.items()})
