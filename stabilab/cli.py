@@ -86,7 +86,11 @@ def extremes(cases: CaseFiles, json: Json = False,
 def simulate(case: CaseFile,
              at: Annotated[Optional[str], typer.Option(metavar="T1,T2,...", help="Times; the state is at 0. "
                                                        "Default: 201 times over the span of the case.")] = None,
-             method: Annotated[str, typer.Option(help="taylor, or a method of SciPy's solve_ivp by name.")] = "taylor",
+             model: Annotated[str, typer.Option(help="exact, or an analytic solution that applies: linear, printed, "
+                                                     "averaged1, averaged2, lindstedt.")] = "exact",
+             order: Annotated[Optional[int], typer.Option(min=1, help="Order of the lindstedt expansion.")] = None,
+             method: Annotated[Optional[str], typer.Option(help="taylor (default), or a method of SciPy's solve_ivp by "
+                                                                "name; for the exact model.")] = None,
              rtol: Annotated[Optional[float], typer.Option(help="Relative tolerance; default: the method's own.")] = None,
              out: Annotated[Optional[Path], typer.Option(metavar="FILE.nc|.csv", help="Write the states to a file.")] = None,
              json: Json = False):
@@ -101,8 +105,8 @@ def simulate(case: CaseFile,
     times = _times(loaded, at)
     if out:
         trajectory_files.checked(out)
-    from .analysis.trajectories import trajectory
-    run = trajectory(loaded.scene, loaded.state, times, method=method, rtol=rtol)
+    from .analysis.models import follow
+    run = follow(loaded, times, model, method, rtol, order)
     if out:
         trajectory_files.write(loaded, run, out)
         _say(f"written: {out}")

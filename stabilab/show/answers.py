@@ -68,10 +68,25 @@ def extremes(case, motion) -> dict:
 
 def simulation(case, run) -> dict:
     """The object of `stabilab simulate --json`."""
-    letter = "x" if case.variables == "scaled" else "omega"
-    return {"schema": "stabilab.simulate/1", "case": case.name, "model": "exact", "time": case.scene.time_unit,
-            "t": run.t, "state": {letter: run.states}, "invariant_drift": run.invariant_drift, "counters": run.counters,
+    return {"schema": "stabilab.simulate/1", "case": case.name, "model": run.model, "time": case.scene.time_unit,
+            "t": run.t, "state": run.state, "invariant_drift": run.invariant_drift, "counters": run.counters,
             "method": run.method, "rtol": run.rtol, "status": run.status, "reason": run.reason}
+
+
+COLUMNS = {"omega": ("omega1", "omega2", "omega3"), "x": ("x1", "x2", "x3"), "gamma": ("gamma1", "gamma2", "gamma3"),
+           "angles": ("psi", "phi", "theta"), "momentum": ("H1", "H2", "H3"), "velocity": ("v1", "v2", "v3"),
+           "position": ("x1", "x2", "x3")}
+
+
+def columns(run) -> tuple[list[str], list[list[float]]]:
+    """Names and rows of everything a run has, time left out."""
+    import numpy as np
+    names, parts = [], []
+    for name, values in run.state.items():
+        values = np.asarray(values, float)
+        names += COLUMNS[name] if values.ndim == 2 else (name,)
+        parts.append(values.reshape(len(run.t), -1))
+    return names, np.hstack(parts).tolist()
 
 
 def extremes_csv(answered) -> str:
@@ -131,10 +146,13 @@ def _motion_lines(case, m) -> list[str]:
 
 def simulation_text(case, run) -> str:
     """Times and states in columns, then the departures from the laws of motion."""
-    head = "".join(f"{name:>25}" for name in (case.scene.time_unit, *case.scene.components))
-    rows = ["".join(f"{v:>25.16g}" for v in (t, *state)) for t, state in zip(run.t, run.states)]
+    names, rows = columns(run)
+    head = "".join(f"{name:>25}" for name in (case.scene.time_unit, *names))
+    lines = ["".join(f"{v:>25.16g}" for v in (t, *row)) for t, row in zip(run.t, rows)]
     laws = [f"# {name}: largest relative departure {value:.3g}" for name, value in run.invariant_drift.items()]
-    return "\n".join([head, *rows, f"# {run.method}, rtol {run.rtol:.3g}", *laws])
+    how = f"# {run.method}, rtol {run.rtol:.3g}" if run.rtol else f"# {run.model}: {run.method}"
+    notes = [f"# {run.reason}"] if run.reason and run.reason != "all times reached" else []
+    return "\n".join([head, *lines, how, *laws, *notes])
 
 
 def _number(value) -> str:

@@ -26,11 +26,19 @@ def write(case, run, path) -> Path:
 
 
 def _csv(case, run, path):
-    names = (case.scene.time_unit, *case.scene.components)
+    from .answers import columns
+    names, rows = columns(run)
     with open(path, "w", encoding="utf-8", newline="") as stream:
-        stream.write(",".join(names) + "\n")
-        for t, state in zip(run.t, run.states):
-            stream.write(",".join(repr(float(v)) for v in (t, *state)) + "\n")
+        stream.write(",".join((case.scene.time_unit, *names)) + "\n")
+        for t, row in zip(run.t, rows):
+            stream.write(",".join(repr(float(v)) for v in (t, *row)) + "\n")
+
+
+UNITS = {"omega": ("rad/s", "angular velocity, body frame"), "x": ("1", "angular velocity, body frame, scaled"),
+         "gamma": ("1", "unit vector fixed in space, body frame"), "angles": ("rad", "psi, phi, theta of the 3-1-2 sequence, continuous"),
+         "momentum": ("kg m^2/s", "angular momentum, inertial frame"), "velocity": ("m/s", "velocity, inertial frame"),
+         "position": ("m", "position, inertial frame"), "amplitude": ("rad/s", "amplitude of the transverse rate"),
+         "spin": ("rad/s", "averaged rate about axis 3"), "phase": ("rad", "phase of the transverse rate")}
 
 
 def _netcdf(case, run, path):
@@ -38,14 +46,15 @@ def _netcdf(case, run, path):
         import xarray
     except ImportError:
         raise InputError("files that end in .nc need xarray: pip install xarray; or write .csv") from None
+    import numpy as np
     from .. import __version__
-    unit = "rad/s" if case.variables == "physical" else "1"
-    time, letter = ("t", "omega") if case.variables == "physical" else ("tau", "x")
+    time = "t" if case.variables == "physical" else "tau"
+    parts = {name: ((time, "axis")[:np.ndim(values)], values, dict(zip(("units", "long_name"), UNITS[name])))
+             for name, values in run.state.items()}
     data = xarray.Dataset(
-        {letter: ((time, "axis"), run.states, {"units": unit, "long_name": "angular velocity, body frame"})},
-        {time: ((time,), run.t, {"units": "s" if case.variables == "physical" else "1"}), "axis": [1, 2, 3]},
+        parts, {time: ((time,), run.t, {"units": "s" if case.variables == "physical" else "1"}), "axis": [1, 2, 3]},
         {"title": case.title, "source": case.source, "case": case.text, "program": f"stabilab {__version__}",
-         "method": run.method, "rtol": run.rtol, "status": run.status,
+         "model": run.model, "method": run.method, **({"rtol": run.rtol} if run.rtol else {}), "status": run.status,
          **{f"departure_from_{name}": value for name, value in run.invariant_drift.items()}})
     data.to_netcdf(path, engine="scipy")  # NetCDF 3: every reader knows it, and no HDF5 library is needed
 

@@ -1,0 +1,51 @@
+"""The models a case can be followed with: the exact motion, and the analytic solutions that apply to its scene."""
+from __future__ import annotations
+
+import difflib
+from importlib import import_module
+
+from ..errors import InputError
+from .simulation import Simulation, simulate
+
+# model -> the modules that may have it, each with `applies(scene)` and `follow(model, case, times, order)`
+FAMILIES = ("axisymmetric_model", "averaging_model", "small_parameter_model")
+MODELS = ("exact", "linear", "printed", "averaged1", "averaged2", "lindstedt")
+
+
+def family(scene):
+    """The module of analytic solutions that applies to a scene, or None."""
+    if scene.variables == "scaled" or {e.name for e in scene.effects} <= {"gyrostat", "constant_torque"}:
+        return None
+    for name in FAMILIES:
+        module = import_module(f".{name}", __package__)
+        if module.applies(scene):
+            return module
+    return None
+
+
+def models_of(scene) -> tuple[str, ...]:
+    """The models that apply to a scene, the exact one first."""
+    found = family(scene)
+    return ("exact",) if found is None else ("exact", *found.MODELS)
+
+
+def follow(case, times, model: str = "exact", method: str | None = None, rtol: float | None = None,
+           order: int | None = None) -> Simulation:
+    """The motion of a case by one model at the given times.
+
+    order: of the expansion, for "lindstedt" only. Raises InputError for a model that does not apply to the scene, with
+    those that do, and as `simulate` does.
+    """
+    if model not in MODELS:
+        close = difflib.get_close_matches(str(model), MODELS, 1)
+        hint = f'; did you mean "{close[0]}"?' if close else ""
+        raise InputError(f"model: there is no {model!r}; choose one of {', '.join(MODELS)}{hint}")
+    if model == "exact":
+        return simulate(case.scene, case.state, times, case.blocks, method, rtol)
+    if model not in models_of(case.scene):
+        raise InputError(f"model: {model!r} does not apply to this scene; it has {', '.join(models_of(case.scene))}")
+    if method is not None or rtol is not None:
+        raise InputError(f"method, rtol: the model {model!r} is a formula; they belong to the model \"exact\"")
+    if order is not None and model != "lindstedt":
+        raise InputError(f"order: belongs to the model \"lindstedt\", not to {model!r}")
+    return family(case.scene).follow(model, case, times, order)

@@ -1,0 +1,111 @@
+"""Exact motions with more blocks of state than the angular velocity, against equations typed in by hand in mpmath."""
+import mpmath as mp
+import numpy as np
+import pytest
+
+from stabilab import Body, ConstantTorque, Gyrostat, Scene
+from stabilab.analysis.simulation import simulate
+from stabilab.attitude import angles, quaternion, to_space
+from stabilab.effects import effect_class
+from stabilab.errors import InputError
+
+from .oracles import euler
+
+
+def make(name, *arguments):
+    return effect_class(name)(*arguments)
+
+
+BODY = Body((8.7, 8.6, 11.1), 10)
+D = [mp.mpf("8.7"), mp.mpf("8.6"), mp.mpf("11.1")]
+CHARGED = Scene(Body(("8.7", "8.6", "11.1"), 10), make("charge", "0.003", 100, "1.02", "0.37"), Gyrostat((0, 0, "1.3")),
+                ConstantTorque((4, 0, 0)), make("body_force", (0, 0, 3)))
+
+
+def test_charged_body_and_its_angles_agree_with_the_kinematic_equations_of_the_paper():
+    """Equations (1), (14) of Galal et al. at 40 digits, to t = 1.5 s, where the angles are large already."""
+    with mp.workdps(40):
+        k = mp.mpf("0.003") * 100 * mp.mpf("1.02") ** 2 * mp.cos(mp.mpf("0.37"))
+        rates = euler.charged(D, k, [0, 0, mp.mpf("1.3")], [4, 0, 0])
+    run = simulate(CHARGED, (0, 0, 0.25), [0.5, 1.5])
+    for row, time in enumerate((0.5, 1.5)):
+        exact = np.array([float(v) for v in euler.integrate(rates, [0, 0, 0.25, 0, 0, 0], time, int(24 * time))])
+        np.testing.assert_allclose(run.state["omega"][row], exact[:3], rtol=0, atol=1e-13 * np.abs(exact[:3]).max())
+        np.testing.assert_allclose(run.state["angles"][row], exact[3:], rtol=0, atol=1e-12 * np.abs(exact[3:]).max())
+
+
+def test_top_agrees_with_euler_poisson_at_forty_digits():
+    scene = Scene(Body((3, 2, "1.5")), Gyrostat((1, 0, "0.5")), make("gravity", 20, ("0.1", "0.05", "0.2")), make("newtonian_field", "0.75"))
+    rates = euler.top([3, 2, mp.mpf("1.5")], [1, 0, mp.mpf("0.5")], [2, 1, 4], mp.mpf("0.75"))
+    start = ([0.5, -1.0, 4.0], [0.6, 0.0, 0.8])
+    run = simulate(scene, start[0], [2.0], {"gamma": start[1]})
+    exact = [float(v) for v in euler.integrate(rates, [*start[0], *start[1]], 2, 50)]
+    np.testing.assert_allclose(np.concatenate([run.state["omega"][0], run.state["gamma"][0]]), exact, rtol=0, atol=2e-13 * 5)
+    assert max(run.invariant_drift.values()) < 1e-14
+
+
+@pytest.mark.parametrize("kappa_over", [50, 1000])
+def test_liquid_agrees_with_the_chain_rule_by_hand(kappa_over):
+    scene = Scene(Body(("9.51", "9.3", 9)), make("liquid_cavity", 1250, kappa_over, "1.9"), Gyrostat((0, 0, "0.1")),
+                  make("resistance", "0.02"), ConstantTorque((0, 0, "-0.06")))
+    with mp.workdps(40):
+        rates = euler.liquid([mp.mpf("9.51"), mp.mpf("9.3"), mp.mpf(9)], mp.mpf("0.1"), mp.mpf("1.9") * 1250 / kappa_over,
+                             mp.mpf("0.02"), [0, 0, mp.mpf("-0.06")])
+    run = simulate(scene, (1.0, 0.25, 1.0), [0.5])
+    exact = np.array([float(v) for v in euler.integrate(rates, [1, 0.25, 1], 0.5, 24 if kappa_over > 50 else 48)])
+    np.testing.assert_allclose(run.state["omega"][0], exact, rtol=0, atol=1e-12 * np.abs(exact).max())
+
+
+def test_angles_and_quaternions_are_inverse_and_the_third_row_is_the_papers():
+    """R31 = -cos psi sin phi, R32 = sin psi, R33 = cos psi cos phi (equation (30))."""
+    rng = np.random.default_rng(3)
+    for psi, phi, theta in rng.uniform(-1.5, 1.5, size=(20, 3)):
+        q = quaternion(psi, phi, theta)
+        np.testing.assert_allclose(angles(q), (psi, phi, theta), atol=1e-14)
+        third = [to_space(q, e)[2] for e in np.eye(3)]
+        np.testing.assert_allclose(third, (-np.cos(psi) * np.sin(phi), np.sin(psi), np.cos(psi) * np.cos(phi)), atol=1e-15)
+
+
+def test_angles_count_whole_turns_between_far_apart_times():
+    """Spin about axis 3 of a free body: theta = omega3 t, whatever lies between the asked-for times."""
+    run = simulate(Scene(BODY), (0.0, 0.0, 3.0), [-100.0, 50.0, 1000.0], {"attitude": (0.0, 0.0, 0.25)})
+    np.testing.assert_allclose(run.state["angles"][:, 2], [0.25 - 300, 150.25, 3000.25], rtol=1e-13)
+
+
+def test_inertial_momentum_of_a_free_gyrostat_stands_still():
+    scene = Scene(BODY, Gyrostat((0.5, -1, 2)))
+    run = simulate(scene, (1.0, -0.5, 0.25), [0.0, 1.0, 10.0, 40.0], {"attitude": (0.1, -0.2, 0.3)})
+    spread = np.abs(run.state["momentum"] - run.state["momentum"][0]).max()
+    assert spread < 1e-13 * np.linalg.norm(run.state["momentum"][0])
+
+
+def test_a_force_along_the_spin_axis_of_a_steady_spin_gives_uniform_acceleration():
+    """x3 = f t^2/(2 m), v3 = f t/m: the axis stays where it is."""
+    scene = Scene(BODY, make("body_force", (0, 0, 3)))
+    run = simulate(scene, (0.0, 0.0, 2.0), [4.0])
+    np.testing.assert_allclose(run.state["velocity"][0], [0, 0, 1.2], atol=1e-14)
+    np.testing.assert_allclose(run.state["position"][0], [0, 0, 2.4], atol=1e-14)
+
+
+def test_gamma_and_attitude_tell_the_same_vertical():
+    """gamma started along the inertial third axis stays the third row of the rotation."""
+    scene = Scene(BODY, make("charge", "0.5", 2, 1, "attitude"), ConstantTorque((0.4, 0.1, 0)))
+    run = simulate(scene, (0.3, 0.1, 1.0), [3.0, 9.0], {"gamma": (0.0, 0.0, 1.0), "attitude": (0.0, 0.0, 0.0)})
+    for gamma, (psi, phi, theta) in zip(run.state["gamma"], run.state["angles"]):
+        third = [to_space(quaternion(psi, phi, theta), e)[2] for e in np.eye(3)]
+        np.testing.assert_allclose(gamma, third, atol=1e-13)
+
+
+def test_a_stiff_liquid_is_followed_by_an_implicit_method_that_says_so():
+    scene = Scene(Body(("9.51", "9.3", 9)), make("liquid_cavity", 1250, "0.01", "1.9"))
+    run = simulate(scene, (1.0, 0.5, 1.0), [2e5])
+    assert run.method == "Radau" and "stiff" in run.reason
+    momentum = np.linalg.norm(np.array([9.51, 9.3, 9]) * run.state["omega"][0])
+    assert momentum == pytest.approx(np.linalg.norm([9.51, 4.65, 9.0]), rel=1e-6)  # |H| is constant without rotor (theory)
+
+
+def test_states_of_a_wrong_shape_are_refused_with_what_was_expected():
+    with pytest.raises(InputError, match="gamma has 3 components, got 2"):
+        simulate(Scene(BODY), (0, 0, 1), [1.0], {"gamma": (0.0, 1.0)})
+    with pytest.raises(InputError, match="mass"):
+        simulate(Scene(Body((3, 2, 2))), (0, 0, 1), [1.0], {"velocity": (0.0, 0.0, 1.0)})
