@@ -12,7 +12,6 @@ nu+- = r0 +- w, mu = M1/D1 + i M2/D2, Pi = p + iq, k0 = (w - a) q0 + i (b - w) p
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import partial
 
 import numpy as np
 
@@ -116,39 +115,41 @@ class _Terms:
         q = self.q0 * C + (self.m2 + self.b * self.p0) * S + self.b * self.m1 * S2
         return self._vector(p, q, self.body.spin)
 
-    def _sum(self, names, folds):
-        """Gamma and mu carry one node more than Pi0 and k0: [names[1]] and [names[0] names[1]]; see the module's formulas."""
-        D = partial(self._tables, names)
-        return {n: self._combine(D, *counts) for n, counts in folds.items()}
-
-    def _combine(self, D, *counts):
-        value = D(counts)
-        Gamma, Pi, mu, k0, k1 = (value[c] for c in counts)
-        return (self.Gamma0 * Gamma + (self.p0 + 1j * self.q0) * Pi + (self.m1 + 1j * self.m2) * mu
-                + (self.above * self.q0 + 1j * self.below * self.p0) * k0
-                + (self.above * self.m2 + 1j * self.below * self.m1) * k1)
+    def _sums(self, names, folds, Gamma0):
+        """Five divided differences each, with the coefficients Gamma0, Pi0, mu, k0, k1 of the module's formulas."""
+        D = self._tables(names, {counts for five in folds.values() for counts in five})
+        k0 = self.above * self.q0 + 1j * self.below * self.p0
+        k1 = self.above * self.m2 + 1j * self.below * self.m1
+        five = (Gamma0, self.p0 + 1j * self.q0, self.m1 + 1j * self.m2, k0, k1)
+        return {n: sum(factor * D[counts] for factor, counts in zip(five, each)) for n, each in folds.items()}
 
     def J(self, *folds):
         """The n-fold integrals of Gamma, for the n in folds."""
-        return self._sum("0b+-", {n: ((n, 1, 0, 0), (n, 1, 1, 0), (n + 1, 1, 1, 0), (n, 1, 1, 1), (n + 1, 1, 1, 1)) for n in folds})
+        counts = {n: ((n, 1, 0, 0), (n, 1, 1, 0), (n + 1, 1, 1, 0), (n, 1, 1, 1), (n + 1, 1, 1, 1)) for n in folds}
+        return self._sums("0b+-", counts, self.Gamma0)
 
-    def Z(self, *folds):
-        """The n-fold integrals of e^(i r0 t) Gamma, for the n in folds."""
-        return self._sum("0fhl", {n: ((n + 1, 0, 0, 0), (n + 1, 0, 1, 0), (n + 1, 1, 1, 0), (n + 1, 0, 1, 1), (n + 1, 1, 1, 1))
-                                  for n in folds})
+    def Z(self, *folds, start=None):
+        """The n-fold integrals of e^(i r0 t) Gamma, for the n in folds; start: another tilt in place of Gamma0."""
+        counts = {n: ((n + 1, 0, 0, 0), (n + 1, 0, 1, 0), (n + 1, 1, 1, 0), (n + 1, 0, 1, 1), (n + 1, 1, 1, 1)) for n in folds}
+        return self._sums("0fhl", counts, self.Gamma0 if start is None else start)
 
     def angles(self):
         Gamma = self.J(0)[0]
         return self._vector(Gamma.real, Gamma.imag, self.body.attitude[..., 2] + self.body.spin * self.t)
 
     def momentum(self):
-        """G = e^(i theta0) [D1 p0 + i D2 q0 - i Gamma0 X + M D[0,ir0] - i k Z_0], the balance e^(i theta) (L - i Gamma X)' = e^(i theta) M."""
-        body, X = self.body, self.modes.X.value()
+        """From the balance (e^(i theta) (L - i Gamma X))' = e^(i theta) M, in which the charge is the -k of X = H3 - k:
+
+        G = e^(i theta0) [L0 - i Gamma0 H3 + M D[0,ir0] - i k (Z_0 - Gamma0)],   L = D1 p + i D2 q,   H3 = D3 r0 + lambda3.
+        """
+        body = self.body
+        H3 = (twofold(body.inertia[..., 2]) * body.spin + body.gyrostat).value()
         L0 = body.inertia[..., 0] * self.p0 + 1j * body.inertia[..., 1] * self.q0
         M = body.torque[..., 0] + 1j * body.torque[..., 1]
         wheel = self._tables("0f", [(1, 1)])[1, 1]
-        G = self.turn * (L0 - 1j * self.Gamma0 * X + M * wheel - 1j * body.charge_moment * self.Z(0)[0])
-        return self._vector(G.real, G.imag, body.inertia[..., 2] * body.spin + body.gyrostat)
+        away = self.Z(0, start=0.0)[0]  # what the tilt adds to Gamma0 in inertial axes
+        G = self.turn * (L0 - 1j * self.Gamma0 * H3 + M * wheel - 1j * body.charge_moment * away)
+        return self._vector(G.real, G.imag, H3)
 
     def translation(self):
         """Velocity and position from m v' = R f, R the rotation to first order in the tilt."""
