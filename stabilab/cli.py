@@ -117,6 +117,33 @@ def simulate(case: CaseFile,
 
 
 @app.command()
+def compare(case: CaseFile,
+            order: Annotated[Optional[int], typer.Option(min=1, help="Order of the lindstedt expansion.")] = None,
+            out: Annotated[Optional[Path], typer.Option(metavar="FILE.csv", help="Write the errors over time.")] = None,
+            json: Json = False):
+    """Set the analytic models of a case beside its exact motion.
+
+    Error over time, and when it first reaches 1 % and 10 %.
+
+    Example: stabilab compare cases/charged-body.toml
+    """
+    from .show import comparison
+    from .analysis.comparison import compare as set_side_by_side
+    from .analysis.models import models_of
+    loaded = _load([case], motion=True)[0]
+    if loaded.span is None:
+        raise InputError(f"{loaded.path}: motion: no span; compare needs span = [0, T] in [motion]")
+    if models_of(loaded.scene) == ("exact",):
+        raise InputError(f"{loaded.path}: no analytic model applies to this scene; there is nothing to compare")
+    found = set_side_by_side(loaded, order=order)
+    if out:
+        comparison.write(loaded, found, out)
+        _say(f"written: {out}")
+    from .show import answers
+    _print(answers.as_json(comparison.as_dict(loaded, found)) if json else comparison.text(loaded, found))
+
+
+@app.command()
 def surface(case: CaseFile, out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the files.")] = ...):
     """Write the separatrix surfaces as meshes and a picture.
 

@@ -45,10 +45,26 @@ def plot(case, path) -> Path:
     from ..errors import InputError
     if case.state is None:
         raise InputError(f"{case.path}: a picture needs a motion: add [motion] with angular_velocity or x")
+    if not {effect.name for effect in case.scene.effects} <= REDUCIBLE:
+        return _histories(case, path)
     plane = phase_plane(case.scene, case.state)
     with style.drawing() as plt:
         figure = _plane_picture(plt, case, plane) if plane else _projections(plt, case)
         return style.save(figure, path)
+
+
+REDUCIBLE = {"gyrostat", "constant_torque"}
+
+
+def _histories(case, path):
+    """Every part of the state over time, the analytic models beside the exact motion."""
+    from ..analysis.comparison import compare
+    from . import comparison
+    span = case.span or (0.0, 15.0)
+    found = compare(case, np.linspace(*span, 801))
+    parts = [name for name in comparison.NAMES if name in found.runs["exact"].state]
+    with style.drawing() as plt:
+        return style.save(comparison.picture(plt, case, found, parts), path)
 
 
 def _plane_picture(plt, case, plane):

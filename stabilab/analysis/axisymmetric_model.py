@@ -1,0 +1,45 @@
+"""The closed forms of the charged, nearly axisymmetric body as models of a case."""
+from __future__ import annotations
+
+from .simulation import Simulation
+
+MODELS = ("linear", "printed")
+COVERED = {"charge", "gyrostat", "constant_torque", "body_force"}
+
+
+def applies(scene) -> bool:
+    """Whether the linear model covers the scene: a charge of constant angle or a force, a gyrostatic moment along axis
+    3, a torque across it."""
+    names = {e.name for e in scene.effects}
+    charge = scene.effect("charge")
+    return (names <= COVERED and bool(names & {"charge", "body_force"}) and not (charge and charge.follows_attitude)
+            and not any(scene.vector("gyrostat")[:2]) and not scene.vector("constant_torque")[2])
+
+
+def body_of(case):
+    """The case as the closed forms take it."""
+    from .axisymmetric_modes import ChargedBody
+    scene, blocks = case.scene, case.blocks
+    charge, force = scene.effect("charge"), scene.effect("body_force")
+    p, q, r = case.state
+    rest = (0.0, 0.0, 0.0)
+    return ChargedBody(scene.body.inertia, r, float(scene.vector("gyrostat")[2]), charge.strength if charge else 0.0,
+                       tuple(float(v) for v in scene.vector("constant_torque")[:2]), (p, q), blocks.get("attitude", rest),
+                       force.vector if force else rest, scene.body.mass, blocks.get("velocity", rest), blocks.get("position", rest))
+
+
+def follow(model, case, times, order=None) -> Simulation:
+    """The case's motion by the linear model, corrected or as printed; the parts of the state that the exact motion has."""
+    if model == "printed":
+        from .axisymmetric_printed import printed
+        run, how = printed(body_of(case), times), "Galal et al., charged body, with its single frequency (8)"
+    else:
+        from .axisymmetric import solution
+        run, how = solution(body_of(case), times), "closed forms of the linear model"
+    parts = {"omega": run.omega}
+    blocks = set(case.scene.blocks) | set(case.blocks)
+    if blocks & {"attitude", "velocity", "position"}:
+        parts |= {"angles": run.angles, "momentum": run.momentum}
+    if blocks & {"velocity", "position"} and run.velocity is not None:
+        parts |= {"velocity": run.velocity, "position": run.position}
+    return Simulation(run.t, parts, model, how, None, status="reached", reason=f"{run.status}: {run.reason}")

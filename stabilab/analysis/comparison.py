@@ -1,0 +1,78 @@
+"""Each analytic model of a case beside its exact motion: how far off it is, and from when on."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .models import follow, models_of
+
+GRID = 801  # times over the span on which the error is looked at
+ZOOM = 65  # times between two of them, twice, to place a first error
+LEVELS = (0.01, 0.1)
+SHARED = ("omega", "gamma", "angles", "momentum", "velocity", "position")
+
+
+@dataclass(frozen=True)
+class Departure:
+    """Error of one part of the state under one model.
+
+    error: (n,) largest component's distance from the exact motion; scale: the largest exact component over the span,
+    against which `first` is measured: {0.01: time of the first 1 % error or None, 0.1: ...}; largest: of the span.
+    """
+
+    model: str
+    part: str
+    error: np.ndarray
+    scale: float
+    largest: float
+    first: dict
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """t: (n,) times; runs: model -> Simulation, the exact one first; departures: one per model and part of the state."""
+
+    t: np.ndarray
+    runs: dict
+    departures: tuple[Departure, ...]
+
+
+def compare(case, times=None, order: int | None = None) -> Comparison:
+    """All models of a case over its span (or at `times`, increasing from 0) against the exact motion.
+
+    The first times of 1 % and 10 % error are bracketed on the grid and refined by evaluating both models in between.
+    Raises InputError as `follow` does.
+    """
+    times = np.linspace(*case.span, GRID) if times is None else np.asarray(times, float)
+    runs = {name: follow(case, times, name, order=order if name == "lindstedt" else None) for name in models_of(case.scene)}
+    exact, found = runs["exact"], []
+    for name, run in list(runs.items())[1:]:
+        for part in (p for p in SHARED if p in run.state and p in exact.state):
+            found.append(_departure(case, name, part, run, exact, order))
+    return Comparison(times, runs, tuple(found))
+
+
+def _gap(run, exact, part):
+    return np.abs(np.asarray(run.state[part]) - np.asarray(exact.state[part])).max(axis=1)
+
+
+def _departure(case, name, part, run, exact, order):
+    error = _gap(run, exact, part)
+    scale = float(np.abs(exact.state[part]).max())
+    first = {level: _first(case, name, part, exact.t, error, level * scale, order) for level in LEVELS}
+    return Departure(name, part, error, scale, float(np.nanmax(error, initial=0.0)), first)
+
+
+def _first(case, name, part, times, error, level, order):
+    """The first time at which the error exceeds `level`, or None."""
+    for _ in range(3):
+        over = np.nonzero(~(error <= level))[0]
+        if not len(over):
+            return None
+        if over[0] == 0:
+            return float(times[0])
+        times = np.linspace(times[over[0] - 1], times[over[0]], ZOOM)
+        run = follow(case, times, name, order=order if name == "lindstedt" else None)
+        error = _gap(run, follow(case, times, "exact"), part)
+    return float(times[np.argmax(~(error <= level))])
