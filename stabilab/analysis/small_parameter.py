@@ -163,10 +163,12 @@ def _verdict(top, expansion, near, order, departure):
         status = "near resonance"
         reasons += [f"near the resonance {r.condition} (distance {r.distance:.3g}): its small divisor magnifies the terms"
                     for r in near if r.distance]
-    if len(expansion.terms) > 1 and expansion.terms[-1] >= expansion.terms[-2]:
+    terms = expansion.terms
+    # Without l_x, l_y odd orders hold p, q alone and even ones the rest: a term is measured against the two before it.
+    if len(terms) > 1 and terms[-1] > 0 and terms[-1] >= max(terms[-3:-1]):
         status = "diverging"
-        reasons.append(f"the terms do not fall ({expansion.terms[-2]:.3g}, then {expansion.terms[-1]:.3g}): the top is not fast "
-                       f"enough for this expansion (small parameter {expansion.size:.3g})")
+        reasons.append(f"the terms do not fall ({', '.join(f'{x:.3g}' for x in terms[-3:])}): the top is not fast enough for "
+                       f"this expansion (small parameter {expansion.size:.3g})")
     if top.Omega2 < 0:
         status = "unstable"
         reasons.append(f"Omega^2 = {float(top.Omega2):.3g} < 0 (C* lies between A and B): the periodic motion is unstable, "
@@ -177,13 +179,12 @@ def _verdict(top, expansion, near, order, departure):
         end = f"the expansion ends at order {expansion.order}" if expansion.order >= 0 else "there is no periodic motion to start from"
         reasons.append(f"exact resonance ({what}) under a forcing: {end}, order {order} does not exist")
     if expansion.order >= 0:
-        reasons.append(_how_far(departure, r0, expansion))
+        reasons.append(_how_far(departure, 0.0 if status == "diverging" else r0 * terms[-1] * expansion.size))
     return status, "; ".join(reasons)
 
 
-def _how_far(departure, r0, expansion) -> str:
-    away = float(np.hypot(*departure))
-    if away <= r0 * expansion.terms[-1] * expansion.size:
+def _how_far(departure, last) -> str:
+    if float(np.hypot(*departure)) <= last:
         return "the start lies on the periodic motion to within the last term"
     return (f"the start is not on the periodic motion: p, q differ by ({departure[0]:.6g}, {departure[1]:.6g}) rad/s, "
             f"a free wobble of that size which the expansion leaves out")

@@ -16,10 +16,11 @@ of solvability hold by the three integrals (`defect` keeps how well).
 from __future__ import annotations
 
 from dataclasses import dataclass
+from fractions import Fraction
 
 import numpy as np
 
-ROUNDING = 1e-13  # forcing of a resonant harmonic below this share of the largest one is rounding
+ROUNDED = 3  # digits lost to rounding: a forcing whose share of the largest one lies below the others is none
 # Below this tilt sin(theta0), or where it is no larger than the first-order tilt, the orders of nu are differences
 # divided by the tilt; they are formed in many digits.
 SMALL_TILT = 0.1
@@ -55,19 +56,17 @@ def expand(top, order: int) -> Expansion:
     tilt = float(np.hypot(*map(float, top.gamma[:2])))
     if tilt < SMALL_TILT:
         import mpmath
-        with mpmath.workdps(30 + 20 * (order + 1)):
-            return _Solver(top, order, lambda x: mpmath.mpf(x.numerator) / x.denominator, mpmath.mpc).run()
-    return _Solver(top, order, float, complex).run()
+        with mpmath.workdps(digits := 30 + 20 * (order + 1)):
+            return _Solver(top, order, lambda x: mpmath.mpf(x.numerator) / x.denominator, mpmath.mpc, digits).run()
+    return _Solver(top, order, float, complex, 16).run()
 
 
 class _Solver:
-    def __init__(self, top, order, number, cplx):
-        self.top, self.N, self.K = top, order, order + 2
-        self.number, self.complex = number, cplx
+    def __init__(self, top, order, number, cplx, digits):
+        self.exact, self.N, self.K = top, order, order + 2
+        self.number, self.complex, self.rounding = number, cplx, number(Fraction(1, 10**(digits - ROUNDED)))
         self.e = top.size or 1.0
-        from fractions import Fraction
         e = Fraction(self.e)
-        self.exact = top
         self.a, self.b = number(top.a), number(top.b)
         self.A1, self.B1, self.C1 = (number(x) for x in ((1 - top.b) / top.a, (top.a - 1) / top.b, top.b - top.a))
         self.alpha, self.beta = number(top.alpha), number(top.beta)
@@ -133,7 +132,7 @@ class _Solver:
     def derivative(self, f):
         return f * (self.complex(0, 1) * self.m)
 
-    def integral(self, f, name):
+    def integral(self, f):
         """Periodic integral of f that is 0 at s = 0; the mean of f vanishes by an integral of the motion."""
         out, K = f * 0, self.K
         self.note(f[K], f)
@@ -153,20 +152,20 @@ class _Solver:
         (y1, y2), (F1, F2, F3), k = self.y, self.F, self.k
         torque = 0 if n < 2 else (self.product(u, v, n - 2) * -self.C1 + y1 * v[n - 2] - y2 * u[n - 2]
                                   + F1 * g2[n - 2] - F2 * g1[n - 2] + k * self.C1 * P(g1, g2, n - 2))
-        self.w[n] = self.integral(torque - self.drift(self.w, n), "w")
+        self.w[n] = self.integral(torque - self.drift(self.w, n))
         if not self.precession(n, -self.drift(u, n) - self.A1 * P(self.w, v, n, 1) + self.w[n] * (y2 / self.a)
                                + (F2 * g3[n - 1] - F3 * g2[n - 1]) / self.a + k * self.A1 * P(g2, g3, n - 1),
                                -self.drift(v, n) - self.B1 * P(self.w, u, n, 1) - self.w[n] * (y1 / self.b)
                                + (F3 * g1[n - 1] - F1 * g3[n - 1]) / self.b + k * self.B1 * P(g1, g3, n - 1)):
             return False
-        self.g3[n] = self.integral(P(v, g1, n - 1) - P(u, g2, n - 1) - self.drift(g3, n), "g3")
+        self.g3[n] = self.integral(P(v, g1, n - 1) - P(u, g2, n - 1) - self.drift(g3, n))
         self.weight(n)
         return True
 
     def precession(self, n, Ru, Rv) -> bool:
         """u, v of order n: u' + alpha v = Ru, v' + beta u = Rv, harmonic by harmonic."""
         K, i = self.K, self.complex(0, 1)
-        floor = ROUNDING * max(float(np.abs(Ru).max()), float(np.abs(Rv).max()))
+        floor = self.rounding * max(np.abs(Ru).max(), np.abs(Rv).max())
         silent = (np.abs(Ru) <= floor) & (np.abs(Rv) <= floor)
         if not (self.at_rest(self.v[n], Ru[K], self.exact.alpha, floor, self.alpha)
                 and self.at_rest(self.u[n], Rv[K], self.exact.beta, floor, self.beta)):
