@@ -53,7 +53,7 @@ def solution(body: ChargedBody, t, small_angle: float = SMALL_ANGLE) -> Axisymme
     velocity, position = terms.translation() if body.mass is not None else (None, None)
     tilt = np.hypot(angles[..., 0], angles[..., 1])
     until = horizon(body, small_angle)
-    status, reason = _verdict(tilt, t, until, small_angle)
+    status, reason = verdict(tilt, t, until, small_angle)
     return AxisymmetricMotion(t, terms.angular_velocity(), angles, terms.momentum(), velocity, position, tilt, until,
                               status, reason, resonances(body))
 
@@ -66,7 +66,8 @@ def times(t):
     return t
 
 
-def _verdict(tilt, t, until, small):
+def verdict(tilt, t, until, small):
+    """Status and reason of a motion with this tilt at the times t."""
     promise = f"a tilt of {small:g} rad is not reached before t = {np.min(until):.6g} s (estimate from the torque and the start)"
     if np.all(np.isinf(until)):
         promise = f"the tilt stays below {small:g} rad for all time"

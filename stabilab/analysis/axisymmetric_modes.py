@@ -1,6 +1,6 @@
 """A spinning, nearly axisymmetric body with small tilt: its data, its two rates a and b, its frequencies and resonances.
 
-Euler's equations (1) of Amer et al., "charged axisymmetric" paper, with r = r0 and the small-angle kinematics (15):
+Euler's equations (Galal et al., charged body: eq. (1)) with r = r0 and the small-angle kinematics (15):
 
     p' = M1/D1 - a q,    q' = M2/D2 + b p,    Gamma' + i r0 Gamma = p + i q,    Gamma = psi + i phi
 

@@ -1,6 +1,6 @@
 """The paper's own motion of the charged axisymmetric body: one frequency where the linear equations have two rates.
 
-Amer, El-Kafly, Elneklawy, Galal: "charged axisymmetric" paper. Its step from (7) to (8) puts zeta1 D1 for zeta2 D2:
+Galal et al., charged body. Its step from (7) to (8) puts zeta1 D1 for zeta2 D2:
 
     p1' = A1 - W q1,  q1' = A2 + W p1,   W = zeta [r0 + Lambda/(zeta1 D1)],   p = p1/sqrt(zeta2),  q = q1/sqrt(zeta1)
 
@@ -16,7 +16,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..errors import InputError
-from .axisymmetric import times
+from .axisymmetric import times, verdict
+from .axisymmetric_limits import SMALL_ANGLE, horizon
 from .axisymmetric_modes import ChargedBody, modes
 from .axisymmetric_terms import Terms
 from .twofold import twofold
@@ -52,7 +53,8 @@ class PrintedMotion:
     """The paper's model at the asked-for times; units, frames and shapes as in `AxisymmetricMotion`.
 
     momentum: by (33). momentum_circle: by (35), (..., 2), kg m^2/s, inf for r0 = 0. frequency: W, rad/s, over the batch.
-    velocity, position: the integrals that the paper means (None without a mass); see MISPRINTS.
+    velocity, position: the integrals that the paper means (None without a mass); see MISPRINTS. status, reason: how far
+    this model's own tilt is small.
     """
 
     t: np.ndarray
@@ -63,9 +65,11 @@ class PrintedMotion:
     velocity: np.ndarray | None
     position: np.ndarray | None
     frequency: np.ndarray
+    status: str
+    reason: str
 
 
-def printed(body: ChargedBody, t) -> PrintedMotion:
+def printed(body: ChargedBody, t, small_angle: float = SMALL_ANGLE) -> PrintedMotion:
     """The paper's single-frequency motion at times t (s, any shape), evaluated without loss at its own resonances too.
 
     Raises InputError where D3 lies between D1 and D2 or equals one of them: the paper divides by zeta1 and zeta2 and takes
@@ -80,7 +84,8 @@ def printed(body: ChargedBody, t) -> PrintedMotion:
     swing = terms.vector(*_parts(1j * M * (1 - np.exp(1j * r0 * t)) / np.where(r0 == 0, 1.0, r0)))
     circle = np.where(np.broadcast_to(r0 == 0, terms.shape)[..., None], np.inf, swing)
     frequency = np.abs(m.root.value()) * np.sign(terms.a) * np.sign(body.inertia[..., 2] - body.inertia[..., 0])
-    return PrintedMotion(t, omega, angles, _momentum(body, omega, angles), circle, velocity, position, frequency)
+    return PrintedMotion(t, omega, angles, _momentum(body, omega, angles), circle, velocity, position, frequency,
+                         *verdict(np.hypot(angles[..., 0], angles[..., 1]), t, horizon(body, small_angle), small_angle))
 
 
 def one_frequency(body: ChargedBody):

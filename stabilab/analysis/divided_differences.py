@@ -130,4 +130,4 @@ def _homogeneous_series(gaps, n):
 def _accurate_exp(x, rest, t):
     """exp((x + rest) t), the rounding of the product made good."""
     (re, re_low), (im, im_low) = exact_product(x.real, t), exact_product(x.imag, t)
-    return np.exp(re + 1j * im) * (1 + (re_low + 1j * im_low + rest * t))
+    return np.exp(re + 1j * im) * np.exp(re_low + 1j * im_low + rest * t)
