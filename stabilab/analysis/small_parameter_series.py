@@ -21,9 +21,9 @@ from fractions import Fraction
 import numpy as np
 
 ROUNDED = 3  # digits lost to rounding: a forcing whose share of the largest one lies below the others is none
-# Below this tilt sin(theta0), or where it is no larger than the first-order tilt, the orders of nu are differences
-# divided by the tilt; they are formed in many digits.
-SMALL_TILT = 0.1
+# Where the weight's tilt sin(theta0) is below what the first orders add to it, the orders of nu are small differences over the
+# tilt: each order loses that ratio, so they are formed in many digits. A top that needs it for more is not fast.
+SMALL_TILT = 0.5
 LEAST_TILT = 1e-18  # stands for a weight along axis 3 exactly; the series is continuous there
 
 
@@ -53,12 +53,16 @@ class Expansion:
 
 def expand(top, order: int) -> Expansion:
     """The expansion of a `FastTop` to `order`."""
-    tilt = float(np.hypot(*map(float, top.gamma[:2])))
-    if tilt < SMALL_TILT:
+    if _nearly_upright(top):
         import mpmath
         with mpmath.workdps(digits := 30 + 20 * (order + 1)):
             return _Solver(top, order, lambda x: mpmath.mpf(x.numerator) / x.denominator, mpmath.mpc, digits).run()
     return _Solver(top, order, float, complex, 16).run()
+
+
+def _nearly_upright(top) -> bool:
+    rest = [float(y / d) if d else 0.0 for y, d in zip(top.tilt, (top.b * top.beta, top.a * top.alpha))]
+    return float(np.hypot(*map(float, top.gamma[:2]))) < min(SMALL_TILT, top.size + abs(rest[0]) + abs(rest[1]))
 
 
 class _Solver:
@@ -117,12 +121,14 @@ class _Solver:
         self.g1[n] = (self.G[n] + mirrored) / 2
         self.g2[n] = (self.G[n] - mirrored) / self.complex(0, 2)
 
-    def product(self, f, g, n, first=0, last=None):
-        """Order n of f g, the orders of f running from `first` to `last`."""
+    def product(self, f, g, n, first=0):
+        """Order n of f g, the orders of f running from `first` on. Order j holds harmonics up to j + 1 only (G; the
+        others up to j), by induction over the products below."""
         K, total = self.K, self.u[0] * 0
-        for j in range(first, (n if last is None else last) + 1):
-            if f[j].any() and g[n - j].any():
-                total = total + np.convolve(f[j], g[n - j])[K:-K]
+        for j in range(first, n + 1):
+            low, high = f[j, K - j - 1:K + j + 2], g[n - j, K - n + j - 1:K + n - j + 2]
+            if low.any() and high.any():
+                total[K - n - 2:K + n + 3] += np.convolve(low, high)
         return total
 
     def drift(self, f, n):
