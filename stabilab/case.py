@@ -9,6 +9,7 @@ from pathlib import Path
 from .body import Body
 from .case_expect import expected
 from .case_source import parsed, source_text
+from .case_sweep import combinations
 from .case_table import Faults, Table, did_you_mean
 from .effects import REGISTRY, effect_class
 from .errors import CaseError, InputError
@@ -16,7 +17,7 @@ from .exact import floats
 from .scaling import Scaling, to_scaled, torque_from_mu
 from .scene import ScaledGyrostat, Scene
 
-TABLES = ("title", "source", "body", "effects", "scaled", "motion", "expect")
+TABLES = ("title", "source", "body", "effects", "scaled", "motion", "expect", "sweep")
 STATES, SPANS = ("angular_velocity", "x"), ("span", "tau")
 BLOCKS = {"attitude": "attitude", "vertical": "gamma", "velocity": "velocity", "position": "position"}  # key: block
 UNIT_SLACK = 1e-6  # a direction given to six decimals counts as a unit vector; the laws show |gamma| as it is
@@ -47,11 +48,12 @@ class Case:
     expect: dict = field(default_factory=dict)
     blocks: dict = field(default_factory=dict)
     text: str = field(default="", repr=False)
+    variant: str = ""
 
     @property
     def name(self) -> str:
-        """The file's stem."""
-        return Path(self.path).stem
+        """The file's stem, and which combination of its [sweep] this is ("-2-1": second value of the first key)."""
+        return Path(self.path).stem + self.variant
 
 
 def load(path) -> Case:
@@ -60,11 +62,34 @@ def load(path) -> Case:
     The case is scaled where the file has [scaled], gives the motion as x, or gives no motion and the torque as mu
     (and the scaling is defined); else physical. Decimals are read exactly, the motion is rounded once.
     """
+    path, text, data, faults = _read(path)
+    return _built(path, text, data, faults)
+
+
+def load_all(path) -> list[Case]:
+    """The case in the file, or, where it has [sweep], one case for every combination of the values there.
+
+    [sweep] has keys such as "effects.gyrostat.momentum" = [[0, 0, 1], [0, 0, 2]]; each must stand in the file with its
+    first value. [expect] speaks of the file's own values and is left out. Raises CaseError as `load` does.
+    """
+    path, text, data, faults = _read(path)
+    base = _built(path, text, data, faults)
+    found = combinations(Table((), data, faults))
+    if not found:
+        return [base]
+    return [_built(path, text, values, Faults(faults.lines), suffix) for suffix, values in found]
+
+
+def _read(path):
     path = os.fspath(path)
     text = source_text(path)
-    data, faults = parsed(path, text)
+    return path, text, *parsed(path, text)
+
+
+def _built(path, text, data, faults, variant="") -> Case:
     top = Table((), data, faults)
     top.known(TABLES, "table or key")
+    combinations(top)  # notes the faults of [sweep]
     title, source = top.text("title"), top.text("source")
     physical, mu = _physical(top)
     scaled = _scaled(top)
@@ -75,7 +100,8 @@ def load(path) -> Case:
     span = _span(motion, variables, scaling)
     if faults.problems:
         raise CaseError(path, sorted(faults.problems, key=lambda p: p.line or 0))
-    return Case(path, title, source, scene, variables, physical, scaling, motion.state, span, expect, motion.blocks, text)
+    return Case(path, title, source, scene, variables, physical, scaling, motion.state, span, expect, motion.blocks, text,
+                variant)
 
 
 @dataclass(frozen=True)

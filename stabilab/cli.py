@@ -53,7 +53,7 @@ def classify(cases: CaseFiles, json: Json = False, strict: Annotated[bool, typer
     Example: stabilab classify cases/minor-axis-100.toml --json
     """
     from .show import answers
-    loaded = _load(cases)
+    loaded = _load(cases, sweep=True)
     answered = [(case, _equilibria(case), _motion(case) if case.state else None) for case in loaded]
     if json:
         _print(answers.as_json([answers.classification(*answer) for answer in answered]))
@@ -73,7 +73,7 @@ def extremes(cases: CaseFiles, json: Json = False,
     from .show import answers
     if json and csv:
         raise typer.BadParameter("choose one of --json and --csv")
-    answered = [(case, _motion(case)) for case in _load(cases, motion=True)]
+    answered = [(case, _motion(case)) for case in _load(cases, motion=True, sweep=True)]
     if json:
         _print(answers.as_json([answers.extremes(*answer) for answer in answered]))
     elif csv:
@@ -224,13 +224,13 @@ def doctor():
     _print(text())
 
 
-def _load(paths, motion: bool = False) -> list:
-    """All cases; the faults of all files at once. motion: each must state one."""
-    from .case import load
+def _load(paths, motion: bool = False, sweep: bool = False) -> list:
+    """All cases; the faults of all files at once. motion: each must state one; sweep: every case of a sweep file."""
+    from .case import load, load_all
     cases, faults = [], []
     for path in paths:
         try:
-            cases.append(load(path))
+            cases.extend(load_all(path) if sweep else [load(path)])
         except InputError as error:
             faults.append(str(error))
     faults += [f"{case.path}: motion: expected x or angular_velocity in [motion]; this command needs a state"

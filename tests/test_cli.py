@@ -21,18 +21,6 @@ MINOR, OFF_AXIS = ROOT / "cases/minor-axis-100.toml", ROOT / "cases/off-axis-two
 STILL = "[body]\ninertia = [3, 2, 1]\n"
 
 
-@pytest.fixture
-def stabilab(monkeypatch, capsys):
-    """Run a command in this process: (exit code, stdout, stderr)."""
-    def run(*arguments):
-        monkeypatch.setattr(sys, "argv", ["stabilab", *map(str, arguments)])
-        with pytest.raises(SystemExit) as left:
-            cli.main()
-        captured = capsys.readouterr()
-        return left.value.code or 0, captured.out, captured.err
-    return run
-
-
 def strict_json(text):
     """JSON as the standard has it: NaN and Infinity are refused."""
     return json.loads(text, parse_constant=lambda word: pytest.fail(f"{word} in the JSON"))

@@ -35,6 +35,8 @@ class Charge(Effect):
             scale *= precise("cos", exact(self.angle))
         object.__setattr__(self, "exact", scale)
         object.__setattr__(self, "strength", float(scale))
+        for name in ("charge", "field_strength", "arm", *(() if self.angle == "attitude" else ("angle",))):
+            object.__setattr__(self, name, float(exact(getattr(self, name))))
 
     @classmethod
     def from_case(cls, table, context):

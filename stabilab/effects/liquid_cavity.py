@@ -41,6 +41,8 @@ class LiquidCavity(Effect):
         if self.law not in TORQUES:
             raise InputError(f'torque: expected "consistent" or "printed", got {self.law!r}')
         object.__setattr__(self, "exact", density * P0 / viscosity)
+        for name, value in (("density", density), ("viscosity", viscosity), ("P0", P0)):
+            object.__setattr__(self, name, float(value))
 
     @classmethod
     def of_sphere(cls, density, viscosity, radius, law: str = "consistent"):
