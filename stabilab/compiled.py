@@ -49,21 +49,26 @@ class Form:
 
 def form(equations: Equations, expressions, drop_constants=False) -> Form:
     """Expressions with one numbered coefficient per monomial; monomials whose coefficient is exactly 0 vanish."""
-    from sympy import Poly, PolynomialError
     from .equations import values
-    known, symbols, numbers, result = values(equations), [], [], []
+    return _form(equations.state, tuple(values(equations).items()), tuple(expressions), drop_constants)
+
+
+@lru_cache(maxsize=128)  # a comparison asks for the same scene dozens of times, and this is most of a short run
+def _form(state, known, expressions, drop_constants) -> Form:
+    from sympy import Poly, PolynomialError
+    known, symbols, numbers, result = dict(known), [], [], []
     for expression in expressions:
         try:
-            terms = Poly(expression, *equations.state).terms()
+            terms = Poly(expression, *state).terms()
         except PolynomialError:
             result.append(_unstructured(expression, known, symbols, numbers))
             continue
         total = expression * 0
         for powers, factor in terms:
             if not (drop_constants and not any(powers)):
-                total += _coefficient(factor, known, symbols, numbers) * _monomial(equations.state, powers)
+                total += _coefficient(factor, known, symbols, numbers) * _monomial(state, powers)
         result.append(total)
-    return Form(equations.state, tuple(result), tuple(symbols), tuple(numbers))
+    return Form(state, tuple(result), tuple(symbols), tuple(numbers))
 
 
 def _monomial(state, powers):
