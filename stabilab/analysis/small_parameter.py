@@ -117,8 +117,10 @@ def _evaluate(expansion, r0, times):
 
 def _fourier(coefficients, s):
     """Sums of Fourier coefficients (..., 2K+1) at the phases s (n,): (..., n)."""
-    K = coefficients.shape[-1] // 2
-    return coefficients @ np.exp(1j * np.outer(np.arange(-K, K + 1), s))
+    z, total = np.exp(1j * s), np.zeros(coefficients.shape[:-1] + s.shape, complex)
+    for k in range(coefficients.shape[-1] - 1, -1, -1):  # by Horner's rule: no array over times and harmonics
+        total = total * z + coefficients[..., k, None]
+    return total * np.exp(-1j * (coefficients.shape[-1] // 2) * s)
 
 
 def _residual(top, expansion) -> float:

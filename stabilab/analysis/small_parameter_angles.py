@@ -97,8 +97,9 @@ def _phi(t, omega, gamma):
     rate = omega[:, 2] - _moment(omega, gamma) * gamma[:, 2] / np.maximum(sine, SINGULAR)**2
     expected = np.diff(t) * (rate[1:] + rate[:-1]) / 2
     step = np.diff(phi)
-    turns = np.where(singular[1:] | singular[:-1] | (np.abs(expected) > 2 * np.pi * t.size), -np.round(step / (2 * np.pi)),
-                     np.round((expected - step) / (2 * np.pi)))
+    # Beside a pole the rate says nothing: there the shorter way round is taken.
+    blind = singular[1:] | singular[:-1] | (np.abs(expected - np.diff(t) * (omega[1:, 2] + omega[:-1, 2]) / 2) > np.pi)
+    turns = np.where(blind, -np.round(step / (2 * np.pi)), np.round((expected - step) / (2 * np.pi)))
     return phi + 2 * np.pi * np.concatenate([[0.0], np.cumsum(turns)]), singular
 
 

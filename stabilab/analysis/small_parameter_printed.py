@@ -71,8 +71,8 @@ class PrintedMotion:
 
 
 def paper_numbers(scene, state) -> PaperNumbers:
-    """Eqs. (4) and (10) for a scene with gravity, gamma0'' > 0 and l_y = 0. Raises InputError elsewhere and, as
-    ZeroDivisionError, at the poles C = B, Omega^2 = 0 and Omega^2 = 1."""
+    """Eqs. (4) and (10) for a scene with gravity, gamma0'' > 0 and l_y = 0. Raises InputError elsewhere, and
+    ZeroDivisionError at the poles C = B, Omega^2 = 0 and Omega^2 = 1."""
     top = fast_top(scene, state)
     gamma0 = float(top.gamma[2])
     if not any(top.force) or gamma0 <= 0:
@@ -99,7 +99,7 @@ def paper_numbers(scene, state) -> PaperNumbers:
 
 def printed(scene, state, times) -> PrintedMotion:
     """The paper's (41) and (43) at the times, s, through r and gamma of the state at t = 0 (arguments as of `lindstedt`; its
-    p, q are not free)."""
+    p, q are not free). Raises InputError without gravity, for gamma0'' not between 0 and 1, and for l_y."""
     times, top = _times(times), fast_top(scene, state)
     try:
         n = paper_numbers(scene, state)
