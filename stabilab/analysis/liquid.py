@@ -63,9 +63,8 @@ def validity(parts: Content) -> Fraction:
     return (least / parts.kappa - moment / least) / (2 * most / least + 1)
 
 
-def linear_rates(D, Lambda, omega, w=1):
-    """Rows of w A, A = d/domega of D^-1 (D omega + Lambda) x omega at omega / w (any scalar type)."""
-    H = [d * x + l * w for d, x, l in zip(D, omega, Lambda)]
+def linear_rates(D, omega, H):
+    """Rows of the derivative by omega of D^-1 (D omega + Lambda) x omega, where H = D omega + Lambda (any scalar type)."""
     rows = []
     for i, (j, k) in enumerate(((1, 2), (2, 0), (0, 1))):  # D_i a_i = H_j omega_k - H_k omega_j
         row = [omega[0] * 0] * 3
@@ -77,7 +76,7 @@ def linear_rates(D, Lambda, omega, w=1):
 
 def jacobian(parts: Content, omega, w=1):
     """Rows of w^2 J at the permanent rotation omega / w."""
-    A = linear_rates(parts.D, parts.Lambda, omega, w)
+    A = linear_rates(parts.D, omega, [x * d + w * l for d, x, l in zip(parts.D, omega, parts.Lambda)])
     x, y, z = omega
     zero = x * 0
     turn = [[zero, -z, y], [z, zero, -x], [-y, x, zero]]

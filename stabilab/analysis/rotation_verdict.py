@@ -1,0 +1,78 @@
+"""The verdict on one permanent rotation, from signs of certified balls."""
+from __future__ import annotations
+
+from fractions import Fraction
+
+from .results import EquilibriumPoint
+from .rotation_spectrum import Field, coefficients, second_variation
+
+MINIMUM = ("stable", "energy-Casimir: at constant area integral the energy has a strict minimum on |gamma| = 1 (K positive definite), and it "
+                     "persists as the area changes")
+SADDLE = ("unstable", "det K < 0: b < 0 in z^4 + a z^2 + b, a positive eigenvalue")
+SPIRAL = ("unstable", "a^2 < 4 b in z^4 + a z^2 + b: four eigenvalues off the imaginary axis")
+REAL = ("unstable", "a < 0 < b, a^2 > 4 b in z^4 + a z^2 + b: two positive eigenvalues")
+GYROSCOPIC = ("undecided", "K is negative definite and all eigenvalues are imaginary: the gyroscopic terms stabilise the linear motion, and the "
+                           "energy, a saddle here, does not decide for the full one")
+SLEEPING = ("stable", "sleeping top: the spin about the axis of symmetry is a third integral; with distinct frequencies a combination of the "
+                      "three integrals is definite (Chetaev)")
+CIRCLE = ("unstable", "one of a circle of rotations about the axis of symmetry: with any small change of the spin about it gamma drifts round the "
+                      "circle, so neighbours leave this point")
+OPEN = ("undecided", "a coefficient of the spectrum vanishes here: the next order decides")
+SHELL = ("undecided", "a continuum of rotations at one Omega: its second variation vanishes along it, and a term of higher order decides")
+
+
+def judged(field: Field, Omega: Fraction, rotation) -> EquilibriumPoint:
+    """Spectrum and verdict of a `permanent_rotations.Rotation` at Omega; at = (omega, gamma)."""
+    from flint import fmpq
+    O = fmpq(Omega.numerator, Omega.denominator)
+    gamma, one = rotation.gamma, fmpq(1)
+    a, b = coefficients(field, O, rotation.mu, gamma, one)
+    determinant, trace = second_variation(field, O, rotation.mu, gamma, one)
+    at = tuple(float(v.mid()) for v in (*(O * g for g in gamma), *gamma))
+    if rotation.circle:
+        linear, reason = "degenerate", CIRCLE if rotation.circle == (0, 1) and _symmetric(field) else SHELL
+        return EquilibriumPoint(at, spectrum(a, 0 * b), linear, *reason)
+    linear, reason = _verdict(field, gamma, a, b, determinant, trace)
+    return EquilibriumPoint(at, spectrum(a, b), linear, *reason)
+
+
+def _symmetric(field: Field) -> bool:
+    """Whether axis 3 is an axis of symmetry of body, wheel and weight."""
+    return field.D[0] == field.D[1] and not any(v != 0 for v in (*field.s[:2], *field.Lambda[:2]))
+
+
+def _verdict(field, gamma, a, b, determinant, trace):
+    gap = a * a - 4 * b
+    if b < 0:
+        return "unstable", SADDLE
+    if determinant > 0 and trace > 0:
+        return ("stable" if gap > 0 else "degenerate"), MINIMUM
+    if gap < 0:
+        return "unstable", SPIRAL
+    if b > 0 and gap > 0:
+        if a < 0:
+            return "unstable", REAL
+        upright = gamma[0] == 0 and gamma[1] == 0 and _symmetric(field)
+        return "stable", SLEEPING if upright else GYROSCOPIC
+    return "degenerate", OPEN
+
+
+def spectrum(a, b) -> tuple[complex, ...]:
+    """0, 0 and the roots of z^4 + a z^2 + b (balls or exact numbers), opposite ones exactly opposite."""
+    from flint import acb, arb
+    a, b = arb(a), arb(b)
+    gap = a * a - 4 * b
+    if gap < 0:
+        z = ((acb(-a) + acb(gap).sqrt()) / 2).sqrt()
+        z = complex(float(z.real.mid()), float(z.imag.mid()))
+        return (0j, 0j, z, -z, z.conjugate(), -z.conjugate())
+    root = arb(max(float(gap.mid()), 0.0)).sqrt() if not gap > 0 else gap.sqrt()
+    far = -(a + root) / 2 if a >= 0 else (root - a) / 2
+    near = b / far if far != 0 else arb(0)
+    return (0j, 0j, *_pair(far), *_pair(near))
+
+
+def _pair(square):
+    value = float(square.mid())
+    z = complex(value**0.5, 0.0) if value > 0 else complex(0.0, (-value) ** 0.5)
+    return z, -z
