@@ -15,10 +15,12 @@ import numpy as np
 from ..errors import InputError
 from .averaging_form import NAMES, check, constants, normal_form
 
-RTOL = 1e-12
+RTOL = 1e-10  # the equations themselves are true to eps^2 at best
 # Width of the band of slow turn in which phases are kept, as a share of (|d| |omega| + |Gamma|)/J0: in powers of e it
-# is of order one, as the second order needs; twice this share from nu = 0 the kept part is exp(-16), at 2.5 times 1e-17.
-SHARE = 0.2
+# is of order one, as the second order needs; at twice the width from nu = 0 the kept part is exp(-16), at 2.5 times 1e-17.
+SHARE = 0.4
+# A removed harmonic leaves about (its rate)/nu of the state: within this many times the rate of nu = 0 it is kept.
+GUARD = 4.0
 SAMPLES = 400  # between asked-for times, to follow the angle of W
 INVERSIONS = 100
 
@@ -102,13 +104,12 @@ def _times(times):
 
 @dataclass(frozen=True)
 class Smallness:
-    """The numbers whose smallness the averaging assumes; `ratios`: words -> number that must stay below 1.
-
-    eps: small parameter; slow: fastest slow rate, 1/s.
-    """
+    """The numbers whose smallness the averaging assumes; `ratios`: words -> number that must stay below 1; `soft`: those
+    that only make the answer doubtful. eps: small parameter; slow: fastest slow rate, 1/s."""
 
     eps: float
     ratios: dict
+    soft: dict
     slow: float
 
     @classmethod
@@ -128,7 +129,9 @@ class Smallness:
                   "the torque (|M|/(J0 |omega|^2), with |Gamma|/J0 or the steady spin M3/(zeta J0) where that is larger)":
                       _over(moment / J, max(speed, abs(M[2]) / (zeta * J) if zeta else 0.0) ** 2)}
         slow = max(zeta, kappa * speed * turn / J, _over(moment, J * speed))
-        return cls(float(eps), ratios, slow)
+        # The liquid torque is of second degree in Gamma and the turn by Gamma is in nu: a large one spoils first order only.
+        soft = {"Gamma against J0 |omega|, for first order": _over(abs(g) / J, size) if kappa else 0.0}
+        return cls(float(eps), ratios, soft, slow)
 
     def refuse(self):
         """InputError for the first ratio that is not below 1."""
@@ -139,8 +142,9 @@ class Smallness:
 
     def horizon(self, order) -> str:
         """How far the answer may be trusted, in words."""
-        largest = max(self.ratios, key=self.ratios.get)
-        worst, reach = self.ratios[largest], f"{1 / self.slow:.3g} s" if self.slow else "all times"
+        ratios = self.ratios | (self.soft if order == 1 else {})
+        largest = max(ratios, key=ratios.get)
+        worst, reach = ratios[largest], f"{1 / self.slow:.3g} s" if self.slow else "all times"
         doubt = f"; doubtful here, for {largest} is {worst:.2g}" if worst > 0.3 else ""
         return (f"errors of order eps^{order} (eps = {self.eps:.3g}) in amplitude and spin up to about {reach} (the time of "
                 f"the slow change), in the phase they grow with time{doubt}")
@@ -156,10 +160,12 @@ class _Model:
     def __init__(self, scene, numbers, omega, order):
         self.order = order
         self.parameters = [float(numbers[n]) for n in NAMES]
-        J, d, _, g = self.parameters[:4]
+        J, d, h, g = self.parameters[:4]
         self.slope, self.offset = d / J, float(numbers["Gamma"] / numbers["J0"])
-        self.width = SHARE * (abs(d) * float(np.linalg.norm(omega)) + abs(g)) / J
-        self.means, self.kept, self.near = _functions(normal_form(scene), order)
+        size = float(np.linalg.norm(omega))
+        harmonics = abs(h) * size / J + (math.hypot(*self.parameters[6:8]) / (J * size) if size else 0.0)
+        self.width = max(SHARE * (abs(d) * size + abs(g)) / J, GUARD * harmonics)
+        self.means, self.kept, self.near = _functions(normal_form(scene), order, frozenset(n for n in NAMES if not numbers[n]))
 
     def removal(self, nu):
         """m = (1 - K)/nu, its derivative, and K = exp(-(nu/width)^4); without a width everything is kept."""
@@ -170,6 +176,15 @@ class _Model:
         safe = np.where(x == 0, 1.0, x)
         share = np.where(x == 0, 0.0, -np.expm1(-x**4) / safe)
         return share / self.width, (4 * x**2 * kept - share / safe) / self.width**2, kept
+
+    def removal_at(self, nu):
+        """`removal` of one float."""
+        x = nu / self.width if self.width else 0.0
+        if not x:
+            return 0.0, 0.0, 1.0
+        x = min(max(x, -1e60), 1e60)
+        kept, share = math.exp(-x**4), -math.expm1(-x**4) / x
+        return share / self.width, (4 * x**2 * kept - share / x) / self.width**2, kept
 
     def near_identity(self, Z, r):
         """(U_Z, U_r) at averaged variables; complex and real."""
@@ -207,7 +222,7 @@ class _Model:
             turn, spin = self.means(abs(W) ** 2, r, 0.0, 0.0, 0.0, *self.parameters)
             kept_W = kept_r = 0.0
         else:
-            removal = [float(v) for v in self.removal(np.float64(nu))]
+            removal = self.removal_at(nu)
             turn, spin = self.means(abs(W) ** 2, r, *removal, *self.parameters)
             kept_W = kept_r = 0.0
             if removal[2]:
@@ -236,12 +251,13 @@ class _Model:
 
 
 @lru_cache(maxsize=32)
-def _functions(form, order):
-    """(means(S, r, m, m1, K, ...), kept(Z, Zc, r, m, m1, K, ...), near(...)) of a normal form up to an order."""
-    from sympy import Symbol, lambdify
+def _functions(form, order, absent):
+    """(means(S, r, m, m1, K, ...), kept(Z, Zc, r, m, m1, K, ...), near(...)) up to an order; absent: names that are 0."""
+    from sympy import Symbol, expand, lambdify
     Z, Zc, r, m, m1, K = form.variables
-    both = [sum(part[:order]) for part in (form.turn, form.spin)]
+    gone = {s: 0 for s, n in zip(form.symbols, NAMES) if n in absent}
+    means = [sum(part[:order]) for part in (form.turn, form.spin)]
     kept = [sum(parts) for parts in zip(*form.kept)]
     inner = [r, m, m1, K, *form.symbols]
-    return (lambdify([Symbol("S", real=True), *inner], both, "numpy", cse=True),
-            lambdify([Z, Zc, *inner], kept, "numpy", cse=True), lambdify([Z, Zc, *inner], list(form.near), "numpy", cse=True))
+    return tuple(lambdify([*first, *inner], [expand(e.subs(gone)) for e in expressions], "numpy", cse=True) for first, expressions
+                 in (([Symbol("S", real=True)], means), ([Z, Zc], kept), ([Z, Zc], form.near)))

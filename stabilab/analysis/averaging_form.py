@@ -83,8 +83,8 @@ def _normal_form(state, rhs, items) -> NormalForm:
     fields = _orders(rhs, given, names)
     into = {p: (Z + Zc) / 2, q: I * (Z - Zc) / 2}
     fields = [tuple(expand(f.subs(into)) for f in (x - I * y, z)) for x, y, z in fields]
-    nu = (names["d"] * r - names["Gamma"]) / names["J0"]
-    if [expand(a - b) for a, b in zip(fields[0], (I * nu * Z, 0))] != [0, 0]:
+    nu = expand(fields[0][0] / (I * Z))  # (d r - Gamma)/J0
+    if nu.has(Z, Zc) or fields[0][1] != 0 or nu.diff(r, 2) != 0:
         raise InputError("averaging needs equations whose first order is a turn about axis 3; the effects of this scene give another")
     slope = nu.diff(r)
 
