@@ -69,6 +69,17 @@ def test_ordinary_bodies_keep_every_digit_from_1e_minus_12_to_1e9_s(shape):
         assert worst(v, twelve(solution(body_of(v), v["t"]))) <= ALLOWED, t
 
 
+@pytest.mark.parametrize("changes", [
+    dict(D1=2.4, D2=0.0024, D3=2.399, r0=0.0, lambda3=0.604, k=0.0, p0=0.0, t=1.2984),
+    dict(D1=2.4, D2=0.0024, D3=2.399, r0=0.0, lambda3=0.548, k=0.0, p0=0.0, t=1.1187),
+    dict(D1=3.1, D2=3.1, D3=0.0003, r0=1.0, lambda3=0.0, k=0.0, M1=0.0, M2=0.0, psi0=0.0, phi0=0.0, f3=0.0, v1=0.0, v2=0.0, v3=0.0,
+         t=2 * math.pi * 3.1 / 0.0003)],  # needs r0 + w to more digits than r0 and w have
+    ids=["a far below b", "a far below b, slower", "rod after a turn of its cone"])
+def test_extreme_shapes_keep_every_digit(changes):
+    v = START | changes
+    assert worst(v, twelve(solution(body_of(v), v["t"]))) <= ALLOWED
+
+
 def test_partial_fractions_lose_what_the_closed_forms_keep():
     """The tilt by residues, sum of e^(st) over the poles 0, -ir0, iw, -iw, for a torque, next to r0 = 0."""
     v = near_resonance("r0 = 0", 1e-6, 7.0) | dict(p0=0.0, q0=0.0, psi0=0.0, phi0=0.0)

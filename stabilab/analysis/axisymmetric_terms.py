@@ -8,6 +8,9 @@ transform of the linear equations, s/(s^2 + w^2) = 1/(s - iw) - iw/(s^2 + w^2)):
                                                + k0 D[0^n,-ir0,iw,-iw] + k1 D[0^(n+1),-ir0,iw,-iw]
     n-fold integral of e^(ir0t) Gamma:   Z_n = Gamma0 D[0^(n+1)] + Pi0 D[0^(n+1),inu+] + mu D[0^(n+1),ir0,inu+]
                                                + k0 D[0^(n+1),inu+,inu-] + k1 D[0^(n+1),ir0,inu+,inu-]
+
+That suits a near b, where k0 and k1 are small. Where one is much larger, or ab < 0, half of Pi0 and mu goes with -iw:
+s/(s^2 + w^2) = [1/(s - iw) + 1/(s + iw)]/2, and k0 = -a q0 + i b p0, k1 = -a m2 + i b m1 with m1 + i m2 = mu.
 """
 from __future__ import annotations
 
@@ -16,6 +19,8 @@ import numpy as np
 from .axisymmetric_modes import ChargedBody, Modes
 from .divided_differences import divided_differences
 from .twofold import twofold
+
+LOPSIDED = 4.0  # a/b beyond which the even split loses less: w - a cancels against 1 by sqrt(a/b)
 
 
 class Terms:
@@ -29,9 +34,10 @@ class Terms:
         self.m1, self.m2 = body.torque[..., 0] / D1, body.torque[..., 1] / D2
         self.a, self.b = m.a.value(), m.b.value()
         self.nodes, self.low = _nodes(m, body.spin)
-        above, below = (x.where(~m.unstable, y) for x, y in ((m.root - m.a, -m.a), (m.b - m.root, m.b)))
-        growth = np.where(m.unstable, 1j * m.root.value(), 0.0)  # w = i s: its two terms do not cancel
-        self.above, self.below = above.value() + growth, below.value() - growth  # w - a and b - w
+        a, b = np.abs(self.a), np.abs(self.b)
+        even = m.unstable | (a > LOPSIDED * b) | (b > LOPSIDED * a)
+        self.share = np.where(even, 0.5, 1.0)
+        self.above, self.below = (-m.a).where(even, m.root - m.a).value(), m.b.where(even, m.b - m.root).value()
         self.Gamma0 = body.attitude[..., 0] + 1j * body.attitude[..., 1]
         self.turn = np.exp(1j * body.attitude[..., 2])
 
@@ -51,21 +57,24 @@ class Terms:
         return self.vector(p, q, self.body.spin)
 
     def _sums(self, names, folds, Gamma0):
-        """Five divided differences each, with the coefficients Gamma0, Pi0, mu, k0, k1 of the module's formulas."""
-        D = self._tables(names, {counts for five in folds.values() for counts in five})
+        """The divided differences of each fold with the coefficients Gamma0, Pi0, mu, k0, k1 of the module's formulas."""
+        D = self._tables(names, {counts for each in folds.values() for counts in each})
         k0 = self.above * self.q0 + 1j * self.below * self.p0
         k1 = self.above * self.m2 + 1j * self.below * self.m1
-        five = (Gamma0, self.p0 + 1j * self.q0, self.m1 + 1j * self.m2, k0, k1)
-        return {n: sum(factor * D[counts] for factor, counts in zip(five, each)) for n, each in folds.items()}
+        Pi0, mu, rest = self.p0 + 1j * self.q0, self.m1 + 1j * self.m2, 1 - self.share
+        factors = (Gamma0, self.share * Pi0, rest * Pi0, self.share * mu, rest * mu, k0, k1)
+        return {n: sum(factor * D[counts] for factor, counts in zip(factors, each)) for n, each in folds.items()}
 
     def J(self, *folds):
         """The n-fold integrals of Gamma, for the n in folds."""
-        counts = {n: ((n, 1, 0, 0), (n, 1, 1, 0), (n + 1, 1, 1, 0), (n, 1, 1, 1), (n + 1, 1, 1, 1)) for n in folds}
+        counts = {n: ((n, 1, 0, 0), (n, 1, 1, 0), (n, 1, 0, 1), (n + 1, 1, 1, 0), (n + 1, 1, 0, 1), (n, 1, 1, 1), (n + 1, 1, 1, 1))
+                  for n in folds}
         return self._sums("0b+-", counts, self.Gamma0)
 
     def Z(self, *folds, start=None):
         """The n-fold integrals of e^(i r0 t) Gamma, for the n in folds; start: another tilt in place of Gamma0."""
-        counts = {n: ((n + 1, 0, 0, 0), (n + 1, 0, 1, 0), (n + 1, 1, 1, 0), (n + 1, 0, 1, 1), (n + 1, 1, 1, 1)) for n in folds}
+        counts = {n: ((n + 1, 0, 0, 0), (n + 1, 0, 1, 0), (n + 1, 0, 0, 1), (n + 1, 1, 1, 0), (n + 1, 1, 0, 1), (n + 1, 0, 1, 1),
+                      (n + 1, 1, 1, 1)) for n in folds}
         return self._sums("0fhl", counts, self.Gamma0 if start is None else start)
 
     def angles(self):
