@@ -23,7 +23,8 @@ REACH = 1.6  # a model that leaves the exact motion's range by more than this fa
 def as_dict(case, found) -> dict:
     """The object of `stabilab compare --json`."""
     return {"schema": "stabilab.compare/1", "case": case.name, "time": case.scene.time_unit, "t": found.t,
-            "models": {name: {"status": run.status, "reason": run.reason} for name, run in found.runs.items()},
+            "models": {name: {"status": run.status, "reason": run.reason} for name, run in found.runs.items()}
+            | {name: {"status": "refused", "reason": why} for name, why in found.refused.items()},
             "departures": [{"model": d.model, "part": d.part, "error": d.error, "scale": d.scale, "largest": d.largest,
                             "first": {f"{level:g}": time for level, time in d.first.items()}} for d in found.departures]}
 
@@ -31,12 +32,13 @@ def as_dict(case, found) -> dict:
 def text(case, found) -> str:
     """A line per model and part of the state, then what each model says of itself."""
     unit = case.scene.time_unit
-    lines = [f"{case.name}: {', '.join(list(found.runs)[1:])} against the exact motion, {found.t[0]:g} to {found.t[-1]:g} {unit}",
+    lines = [f"{case.name}: {', '.join(list(found.runs)[1:]) or 'no model'} against the exact motion, {found.t[0]:g} to {found.t[-1]:g} {unit}",
              f"  {'model':<12}{'part':<12}{'largest error':>16}{'of':>14}{'1 % from':>14}{'10 % from':>14}"]
     for d in found.departures:
         first = [f"{time:.6g} {unit}" if time is not None else "never" for time in d.first.values()]
         lines.append(f"  {d.model:<12}{d.part:<12}{d.largest:>16.4g}{d.scale:>14.4g}{first[0]:>14}{first[1]:>14}")
     notes = [f"  {name}: {run.reason}" for name, run in found.runs.items() if run.reason and run.reason != "all times reached"]
+    notes += [f"  {name}: no answer: {why}" for name, why in found.refused.items()]
     return "\n".join(lines + notes)
 
 
@@ -52,25 +54,25 @@ def write(case, found, path) -> Path:
     return path
 
 
-def picture(plt, case, found, parts=("omega",)):
-    """A figure: one row per part of the state, one column per component, every model over the exact motion."""
-    parts = [p for p in parts if p in found.runs["exact"].state]
+def picture(plt, case, runs, parts=("omega",)):
+    """A figure: one row per part of the state, one column per component, every model of `runs` over the exact motion."""
+    parts = [p for p in parts if p in runs["exact"].state]
     figure, axes = plt.subplots(len(parts), 3, figsize=(10.5, 0.9 + 2.3 * len(parts)), layout="constrained", squeeze=False,
                                 sharex=True)
     for row, part in zip(axes, parts):
         for column, ax in enumerate(row):
-            _curves(ax, found, part, column)
+            _curves(ax, runs, part, column)
             ax.set_ylabel(f"{NAMES[part][column]}{f' ({UNITS[part]})' if UNITS[part] else ''}")
     for ax in axes[-1]:
         ax.set_xlabel("t (s)")
     figure.suptitle(case.title or case.name, fontsize=10, parse_math=False, wrap=True)
-    style.legend(figure, [(name, LOOKS[name]) for name in found.runs], columns=6)
+    style.legend(figure, [(name, LOOKS[name]) for name in runs], columns=6)
     return figure
 
 
-def _curves(ax, found, part, column):
-    exact = np.asarray(found.runs["exact"].state[part])[:, column]
-    for name, run in found.runs.items():
+def _curves(ax, runs, part, column):
+    exact = np.asarray(runs["exact"].state[part])[:, column]
+    for name, run in runs.items():
         if part in run.state:
             ax.plot(run.t, np.asarray(run.state[part])[:, column], **LOOKS[name])
     middle, half = (exact.max() + exact.min()) / 2, (exact.max() - exact.min()) / 2

@@ -58,13 +58,12 @@ REDUCIBLE = {"gyrostat", "constant_torque"}
 
 def _histories(case, path):
     """Every part of the state over time, the analytic models beside the exact motion."""
-    from ..analysis.comparison import compare
+    from ..analysis.comparison import side_by_side
     from . import comparison
-    span = case.span or (0.0, 15.0)
-    found = compare(case, np.linspace(*span, 801))
-    parts = [name for name in comparison.NAMES if name in found.runs["exact"].state]
+    runs, _ = side_by_side(case, np.linspace(*(case.span or (0.0, 15.0)), 801))
+    parts = [name for name in comparison.NAMES if name in runs["exact"].state]
     with style.drawing() as plt:
-        return style.save(comparison.picture(plt, case, found, parts), path)
+        return style.save(comparison.picture(plt, case, runs, parts), path)
 
 
 def _plane_picture(plt, case, plane):
