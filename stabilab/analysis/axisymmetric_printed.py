@@ -43,7 +43,7 @@ MISPRINTS = {
              "the integral of (43)"),
     "(61)": ("I2 eta", "1 - e^(...) - 1 for e^(...) - 1", "the integral of the true (46)"),
     "(64)": ("I3 eta", "zeta3 and zeta4 are not defined: (sqrt(zeta1) +- sqrt(zeta2))/(2 zeta)", "the integral of (48)"),
-    "(65), (66)": ("I4, I5 eta", "integrals of the wrong (50), (51); Pi10 for its conjugate and wrong signs in (66)",
+    "(65), (66)": ("I4, I5 eta", "e^(-i r0 t) left out: (65) repeats (60); Pi10 for its conjugate and wrong signs in (66)",
                    "the integrals of the true (50), (51)"),
 }
 
