@@ -247,7 +247,8 @@ def _equilibria(case):
 
 def _motion(case):
     from .analysis.motion import motion
-    return motion(case.scene, case.state, case.span)
+    vertical = case.blocks["gamma"] if "gamma" in case.scene.blocks else ()
+    return motion(case.scene, (*case.state, *vertical), case.span)
 
 
 def _times(case, at: str | None) -> list[float]:

@@ -21,8 +21,15 @@ def equilibria(scene) -> Equilibria:
     States are in the scene's variables: rad/s in the principal axes, or the dimensionless x. kind is "none" (the reason
     says why), "points" (isolated), "curves" or "all". A plane of equilibria (equal moments) is one entry of `curves`
     named "plane ...": its point(t) runs along one line through the centre, its samples lie on several. Folds are also
-    among the samples, with their verdicts. Raises InputError for effects this analysis does not cover.
+    among the samples, with their verdicts. Scenes with charge, liquid, resistance, gravity, Newtonian field or body
+    force go to `other_effects`; there a point may be (omega, gamma), and kind "undecided" says that not all equilibria
+    are known. Raises InputError for effects this analysis does not cover.
     """
+    if scene.variables == "physical" and {e.name for e in scene.effects} - {"gyrostat", "constant_torque"}:
+        from .other_effects import other_equilibria
+        found = other_equilibria(scene)
+        if found is not None:
+            return found
     p = pencil(scene)
     if not any(p.M):
         return _torque_free(p)

@@ -386,15 +386,21 @@ def _symbolic_groups(parts: Content):
 
 def _isolated(field, Omega: Fraction, rotation: Rotation) -> EquilibriumCurve:
     """A circle or sphere of permanent rotations at one Omega."""
-    axes, gamma = rotation.circle, _float_gamma(rotation)
+    equation, parametrisation, point = around(Omega, rotation)
+    sample = judged(field, Omega, rotation)
+    segment = CurveSegment((float("-inf"), float("inf")), sample.linear, sample.verdict, sample.because)
+    name = f"{'sphere' if len(rotation.circle) == 3 else 'circle'} at Omega = {float(Omega):.12g}"
+    return EquilibriumCurve(name, equation, parametrisation, point, (segment,), (), (sample,))
+
+
+def around(Omega: Fraction, rotation: Rotation):
+    """(equation, parametrisation, point(t)) of the turns of a rotation within its circle; of a sphere one great circle."""
+    axes, gamma, rate = rotation.circle, _float_gamma(rotation), float(Omega)
     radius, names = gamma[axes[0]], ", ".join(f"gamma{i + 1}" for i in axes)
 
     def point(t: float):
         turned = list(gamma)
         turned[axes[0]], turned[axes[1]] = radius * cos(t), radius * sin(t)
-        return (*(float(Omega) * g for g in turned), *turned)
-    sample = judged(field, Omega, rotation)
-    segment = CurveSegment((float("-inf"), float("inf")), sample.linear, sample.verdict, sample.because)
-    return EquilibriumCurve(f"{'sphere' if len(axes) == 3 else 'circle'} at Omega = {float(Omega):.12g}",
-                            f"Omega = {float(Omega):.12g}, ({names}) of length {radius:.12g}",
-                            f"t: angle in the plane of gamma{axes[0] + 1}, gamma{axes[1] + 1}", point, (segment,), (), (sample,))
+        return (*(rate * g for g in turned), *turned)
+    return (f"Omega = {rate:.12g}, ({names}) of length {radius:.12g}",
+            f"t: angle in the plane of gamma{axes[0] + 1}, gamma{axes[1] + 1}", point)

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..compiled import TAYLOR_TOLERANCE, _equations, form, heyoka_available, to_numpy, taylor_events
-from .trajectories import ATOL_SHARE, FALLBACK_RTOL, STEP_LIMIT, _state
+from ..compiled import TAYLOR_TOLERANCE, form, heyoka_available, to_numpy, taylor_events
+from .trajectories import ATOL_SHARE, FALLBACK_RTOL, STEP_LIMIT, _start
 
 SUBSAMPLES = 16
 
@@ -19,7 +19,7 @@ SUBSAMPLES = 16
 class RateRoots:
     """Roots of the rates, in the order of the motion.
 
-    t: (n,) times; component: (n,) index 0, 1, 2 of the rate that vanishes; states: (n, 3) there; start, end: (3,)
+    t: (n,) times; component: (n,) index of the rate that vanishes; states: (n, N) there; start, end: (N,)
     states at t = 0 and at t_reached (the end of the span, or earlier where the run had to stop: `reason` says why);
     method: "taylor" or "DOP853".
     """
@@ -35,8 +35,8 @@ class RateRoots:
     reason: str
 
     def extremes(self):
-        """(3, 2) smallest and largest value of each component over the span, its two ends included."""
-        result = np.sort(np.stack([self.start, self.end], axis=1), axis=1)
+        """(3, 2) smallest and largest value of the first three components over the span, its two ends included."""
+        result = np.sort(np.stack([self.start[:3], self.end[:3]], axis=1), axis=1)
         for i in range(3):
             values = self.states[self.component == i, i]
             if values.size:
@@ -45,12 +45,12 @@ class RateRoots:
 
 
 def roots_of_rates(scene, state, t_end: float, tolerance: float = TAYLOR_TOLERANCE) -> RateRoots:
-    """Every root of x_i' for 0 < |t| < |t_end|, for the motion that is at `state` (three numbers) at t = 0.
+    """Every root of x_i' for 0 < |t| < |t_end|, for the motion that is at `state` (as `trajectory` takes it) at t = 0.
 
-    t_end: s (tau when scaled), of either sign. Raises InputError for a state that is not three finite numbers. Rates
+    t_end: s (tau when scaled), of either sign. Raises InputError for a state that is none. Rates
     that vanish identically have no roots.
     """
-    state, equations = _state(state), _equations(scene)
+    equations, state = _start(scene, state)
     with np.errstate(all="ignore"):
         finite = np.isfinite(to_numpy(equations)(state)).all()
     if not finite:
@@ -76,7 +76,7 @@ def _taylor_roots(equations, state, t_end, tolerance):
 def _sorted(hits, start, end, t_reached, method, steps, reason):
     hits = sorted(hits, key=lambda h: abs(h[0]))
     return RateRoots(np.array([h[0] for h in hits]), np.array([h[1] for h in hits], int),
-                     np.array([h[2] for h in hits]).reshape(-1, 3), np.array(start), np.array(end), float(t_reached),
+                     np.array([h[2] for h in hits]).reshape(-1, len(start)), np.array(start), np.array(end), float(t_reached),
                      method, int(steps), reason)
 
 

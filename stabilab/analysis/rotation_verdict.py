@@ -3,6 +3,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+from ..effects.base import cross
 from .results import EquilibriumPoint
 from .rotation_spectrum import Field, coefficients, second_variation
 
@@ -30,15 +31,25 @@ def judged(field: Field, Omega: Fraction, rotation) -> EquilibriumPoint:
     determinant, trace = second_variation(field, O, rotation.mu, gamma, one)
     at = tuple(float(v.mid()) for v in (*(O * g for g in gamma), *gamma))
     if rotation.circle:
-        linear, reason = "degenerate", CIRCLE if rotation.circle == (0, 1) and _symmetric(field) else SHELL
-        return EquilibriumPoint(at, spectrum(a, 0 * b), linear, *reason)
+        axis = 3 - sum(rotation.circle)
+        reason = CIRCLE if len(rotation.circle) == 2 and _symmetric(field, axis) else SHELL
+        return EquilibriumPoint(at, spectrum(a, 0 * b), "degenerate", *reason)
     linear, reason = _verdict(field, gamma, a, b, determinant, trace)
     return EquilibriumPoint(at, spectrum(a, b), linear, *reason)
 
 
-def _symmetric(field: Field) -> bool:
-    """Whether axis 3 is an axis of symmetry of body, wheel and weight."""
-    return field.D[0] == field.D[1] and not any(v != 0 for v in (*field.s[:2], *field.Lambda[:2]))
+def _symmetric(field: Field, k: int) -> bool:
+    """Whether axis k is an axis of symmetry of body, wheel, weight and charge."""
+    i, j = (n for n in range(3) if n != k)
+    return field.D[i] == field.D[j] and (k == 2 or field.E == 0) and not any(
+        v != 0 for n in (i, j) for v in (field.s[n], field.Lambda[n]))
+
+
+def _sleeps(field: Field, gamma) -> bool:
+    """Whether gamma lies along an axis of symmetry (for three equal moments: along the weight and the wheel)."""
+    if field.E == 0 and field.D[0] == field.D[1] == field.D[2]:
+        return not any(v != 0 for v in cross(field.s, field.Lambda))
+    return any(_symmetric(field, k) and all(gamma[n] == 0 for n in range(3) if n != k) for k in range(3))
 
 
 def _verdict(field, gamma, a, b, determinant, trace):
@@ -52,8 +63,7 @@ def _verdict(field, gamma, a, b, determinant, trace):
     if b > 0 and gap > 0:
         if a < 0:
             return "unstable", REAL
-        upright = gamma[0] == 0 and gamma[1] == 0 and _symmetric(field)
-        return "stable", SLEEPING if upright else GYROSCOPIC
+        return "stable", SLEEPING if _sleeps(field, gamma) else GYROSCOPIC
     return "degenerate", OPEN
 
 
