@@ -107,7 +107,7 @@ def judged(parts: Content, omega, gamma) -> tuple[Fate, str, dict]:
         return _directed(parts, omega, gamma)
     T0 = sum(float(d) * w * w for d, w in zip(parts.D, omega)) / 2
     if parts.kappa and any(parts.Lambda) and not parts.printed:
-        return _wheel_and_liquid(parts, omega, T0)
+        return _wheel_and_liquid(parts, T0)
     if parts.c:
         return _resisted(parts, T0)
     if any(parts.M):
@@ -162,18 +162,19 @@ def _liquid(parts: Content, omega, T0) -> tuple[Fate, str, dict]:
             "which sense is undecided, since its energy is not below that of rotation about the next axis", bounds)
 
 
-def _wheel_and_liquid(parts: Content, omega, T0) -> tuple[Fate, str, dict]:
-    """With Lambda the work of the liquid is a form of fourth degree, at most 0, and terms of second and third degree:
-    kappa (alpha |omega|^2 + beta |omega|^3) at most."""
-    moment = sqrt(sum(float(v) ** 2 for v in parts.Lambda))
-    least, most = float(min(parts.D)), float(max(parts.D))
-    alpha, beta = (moment / least) ** 2, moment / least + 2 * moment * most / least**2
-    reach = sqrt(2 * T0 / least)
-    why = ("with a wheel or a charge the liquid keeps |H| to first order in kappa only, and its work has terms of either sign")
-    if parts.c and not any(parts.M) and float(parts.kappa) * (alpha + beta * reach) < float(parts.c) * least * (1 - 1e-9):
-        return (Fate.BOUNDED, "resistance takes more than the liquid can give: T' <= -2 c T + kappa (alpha |omega|^2 + beta |omega|^3) < 0 from this "
-                "energy down, so the motion tends to rest", {"energy": T0, "rate_bound": reach})
-    return Fate.UNDECIDED, f"undecided: {why}; no bound is proved for this state", {"energy": T0}
+def _wheel_and_liquid(parts: Content, T0) -> tuple[Fate, str, dict]:
+    """With Lambda the liquid's work has parts of either sign, which resistance outweighs below a certain energy."""
+    from .liquid_balance import trap
+    found, x0 = trap(parts), sqrt(2 * T0)
+    if found is None or x0 >= found[1]:
+        return (Fate.UNDECIDED, "undecided: with a wheel or a charge the liquid keeps |H| to first order in kappa only, and its work has parts "
+                "of either sign; no bound is proved for this state", {"energy": T0})
+    x1, x2 = found
+    least = sqrt(float(min(parts.D)))
+    words = (f"resistance outweighs torque and liquid: sqrt(2 T) falls wherever it is between {x1:.6g} and {x2:.6g}, so |omega| <= "
+             f"{max(x0, x1) / least:.6g} rad/s always")
+    end = f" and <= {x1 / least:.6g} rad/s in the end; where it tends is undecided" if x1 else "; the motion tends to rest"
+    return Fate.BOUNDED, words + end, {"energy": T0, "rate_bound": max(x0, x1) / least, "late_rate_bound": x1 / least}
 
 
 def _directed(parts: Content, omega, gamma) -> tuple[Fate, str, dict]:

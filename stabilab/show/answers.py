@@ -56,7 +56,8 @@ def _motion(m) -> dict:
 def undecided(equilibria, motion) -> bool:
     """True where a verdict or the fate is undecided."""
     parts = [*equilibria.points, *(part for c in equilibria.curves for part in (*c.segments, *c.samples))]
-    return any(p.verdict == "undecided" for p in parts) or (motion is not None and motion.fate.word == "undecided")
+    unknown = equilibria.kind == "undecided" or any(p.verdict == "undecided" for p in parts)
+    return unknown or (motion is not None and motion.fate.word == "undecided")
 
 
 def extremes(case, motion) -> dict:

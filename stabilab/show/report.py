@@ -197,7 +197,7 @@ def _equilibria(scene):
 
 
 def _css(verdict):
-    return {"stable": "bounded", "unstable": "spin-up"}.get(verdict, "")
+    return {"stable": "bounded", "asymptotically stable": "bounded", "unstable": "spin-up"}.get(verdict, "")
 
 
 def _triple(values):

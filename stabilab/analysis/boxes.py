@@ -1,0 +1,142 @@
+"""All common zeros of three polynomials in a box, by exclusion and by proof of existence (Krawczyk), none lost.
+
+A box is put aside where the linear part at its middle outweighs all higher terms (no zero), settled where Krawczyk's test
+holds on the box half as large again (exactly one zero there), and halved otherwise. Rounding is covered by a slack far above it.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+BUDGET = 400_000
+WIDER = 1.5       # a zero on the edge of a box is found from both sides
+SLACK = 1e-11     # relative to the sum of the terms' sizes; some forty roundings of 1e-16 each
+
+
+@dataclass(frozen=True)
+class Zeros:
+    """points: (n, 3) approximations, each with a zero of its own proved next to it; complete: False where the budget of boxes ran out."""
+
+    points: np.ndarray
+    complete: bool
+    boxes: int
+
+
+class _Polynomials:
+    """Three polynomials {powers: coefficient} with all their derivatives, over batches of points (n, 3)."""
+
+    def __init__(self, polynomials):
+        self.f = [_arrays(p) for p in polynomials]
+        self.J = [[_arrays(_derivative(p, k)) for k in range(3)] for p in polynomials]
+        self.H = [[[_arrays(_derivative(_derivative(p, k), l)) for l in range(3)] for k in range(3)] for p in polynomials]
+        self.third = np.array([[[[_constant(_derivative(_derivative(_derivative(p, k), l), m)) for m in range(3)] for l in range(3)]
+                                for k in range(3)] for p in polynomials])
+
+    def values(self, x):
+        return np.stack([_value(p, x) for p in self.f], -1)
+
+    def sizes(self, x):
+        return np.stack([_value((np.abs(c), e), np.abs(x)) for c, e in self.f], -1)
+
+    def jacobian(self, x):
+        return np.stack([np.stack([_value(p, x) for p in row], -1) for row in self.J], -2)
+
+    def hessian(self, x):
+        return np.stack([np.stack([np.stack([_value(p, x) for p in row], -1) for row in rows], -2) for rows in self.H], -3)
+
+
+def _arrays(polynomial):
+    powers = np.array(list(polynomial) or [(0, 0, 0)])
+    return np.array([float(v) for v in polynomial.values()] or [0.0]), powers
+
+
+def _derivative(polynomial, k):
+    out = {}
+    for powers, value in polynomial.items():
+        if powers[k]:
+            lower = tuple(p - (i == k) for i, p in enumerate(powers))
+            out[lower] = out.get(lower, 0) + value * powers[k]
+    return out
+
+
+def _constant(polynomial) -> float:
+    if any(any(powers) for powers in polynomial):
+        raise ValueError("the polynomials are of third degree at most")
+    return float(sum(polynomial.values()))
+
+
+def _value(polynomial, x):
+    coefficients, powers = polynomial
+    return (coefficients * np.prod(x[:, None, :] ** powers[None], axis=2)).sum(axis=1)
+
+
+def zeros(polynomials, reach) -> Zeros:
+    """All common zeros of three polynomials {(i, j, k): coefficient}, of third degree at most, with |x_i| <= reach_i."""
+    system = _Polynomials(polynomials)
+    middles, halves = np.zeros((1, 3)), np.asarray(reach, float)[None] * 1.0123456789  # no zero of a symmetric system on an edge
+    found, used = [], 0
+    while len(middles):
+        used += len(middles)
+        if used > BUDGET:
+            return Zeros(_distinct(found), False, used)
+        keep, settled = _sieve(system, middles, halves)
+        found += [(m, WIDER * h, _polished(system, m)) for m, h in zip(middles[settled], halves[settled])]
+        middles, halves = _halved(middles[keep & ~settled], halves[keep & ~settled])
+    return Zeros(_distinct(found), True, used)
+
+
+def _sieve(system, m, h):
+    """(keep, settled) for boxes m +- h: not proved empty; proved to hold, half as large again, exactly one zero."""
+    J, H = system.jacobian(m), system.hessian(m)
+    Y = _inverses(J)
+    size = np.abs(Y) @ (SLACK * system.sizes(np.abs(m) + h))[..., None]
+    g = np.abs((Y @ system.values(m)[..., None])[..., 0])
+    linear = np.abs(Y @ J)
+    higher = lambda w: (np.abs(Y) @ (0.5 * np.einsum("nikl,nk,nl->ni", np.abs(H), w, w)  # noqa: E731
+                                     + np.einsum("iklm,nk,nl,nm->ni", np.abs(system.third), w, w, w) / 6)[..., None])[..., 0]
+    empty = (g > (linear @ h[..., None])[..., 0] + higher(h) + size[..., 0]).any(axis=1)
+    w = WIDER * h
+    change = np.einsum("nikl,nl->nik", np.abs(H), w) + 0.5 * np.einsum("iklm,nl,nm->nik", np.abs(system.third), w, w)
+    spread = np.abs(Y @ J - np.eye(3)) + np.abs(Y) @ change
+    settled = (g + (spread @ w[..., None])[..., 0] + size[..., 0] < w).all(axis=1) & ~empty
+    return ~empty, settled
+
+
+def _inverses(J):
+    """Inverses of the Jacobians, the unit matrix where there is none."""
+    scale = np.abs(J).max(axis=(1, 2), initial=0.0)
+    good = (scale > 0) & (np.abs(np.linalg.det(J / np.where(scale > 0, scale, 1)[:, None, None])) > 1e-10)
+    Y = np.tile(np.eye(3), (len(J), 1, 1))
+    if good.any():
+        Y[good] = np.linalg.inv(J[good])
+    return Y
+
+
+def _halved(m, h):
+    if not len(m):
+        return m, h
+    side = h.argmax(axis=1)
+    step = np.zeros_like(h)
+    rows = np.arange(len(m))
+    step[rows, side] = h[rows, side] / 2
+    smaller = h - step
+    return np.concatenate([m - step, m + step]), np.concatenate([smaller, smaller])
+
+
+def _polished(system, x):
+    for _ in range(20):
+        step = np.linalg.solve(system.jacobian(x[None])[0], system.values(x[None])[0])
+        x = x - step
+        if np.abs(step).max() <= 1e-15 * np.abs(x).max():
+            break
+    return x
+
+
+def _distinct(found):
+    """Each zero once: one that lies in another's box, where there is exactly one, is that other."""
+    out = []
+    for m, w, x in found:
+        if not any((np.abs(x - other) <= wide).all() for other, wide, _ in out):
+            out.append((m, w, x))
+    return np.array([x for _, _, x in out]).reshape(-1, 3)
