@@ -188,16 +188,18 @@ def tables(out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the
 
 @app.command()
 def figures(numbers: Annotated[Optional[List[int]], typer.Argument(
-                metavar="[N...]", help="Figure numbers, 2 to 17; none: all.", show_default=False)] = None,
+                metavar="[N...]", help="Figure numbers of one paper; none: all.", show_default=False)] = None,
+            paper: Annotated[Optional[str], typer.Option(metavar="NAME", help="constant-torque, charged, cavity or top. Default: "
+                                                         "constant-torque where numbers are given, else all.")] = None,
             out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the pictures.")] = Path("figures")):
-    """Draw the figures of the constant-torque paper.
+    """Draw the figures of the papers.
 
     Each picture gets a text file: caption, command, version, tolerance.
 
-    Example: stabilab figures 3 5 --out figures
+    Example: stabilab figures --paper charged 2 8 --out figures
     """
     from .show.figures import write
-    _print_paths(write(numbers, out), out)
+    _print_paths(write(numbers, out, paper_name=paper), out)
 
 
 @app.command()

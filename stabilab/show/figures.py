@@ -1,35 +1,15 @@
-"""The figures of the paper, one row each: number, title, caption with what the paper printed, and how to draw it."""
+"""The figures of the papers, one row each: number, title, caption with what the paper printed, and how to draw it."""
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Callable
 
 from ..errors import InputError
+from . import figures_cavity, figures_charged, figures_top
 from . import figures_major as major
 from . import figures_middle as middle
 from . import figures_minor as minor
 from . import paper, style
-
-
-@dataclass(frozen=True)
-class Figure:
-    """One figure: draw(plt) -> matplotlib figure; tolerance says how exact its curves are."""
-
-    number: int
-    title: str
-    caption: str
-    draw: Callable
-    tolerance: str
-
-    @property
-    def file(self) -> str:
-        return f"figure-{self.number:02d}.png"
-
-    @property
-    def command(self) -> str:
-        return f"stabilab figures {self.number} --out figures"
-
+from .figure import Figure
 
 _LEVEL = "curves: level sets of the exact potential, evaluated to rounding"
 _RUN = "Taylor integration, relative tolerance 1.1e-16, 6001 points"
@@ -86,26 +66,45 @@ FIGURES = (
 NUMBERS = tuple(f.number for f in FIGURES)
 
 
-def figure(number: int) -> Figure:
-    """The row of figure `number`; InputError where the paper's figure is not on record."""
-    for row in FIGURES:
+FIRST = "constant-torque"  # the paper that numbers without a name belong to
+PAPERS = {FIRST: paper.PAPER, "charged": figures_charged.PAPER, "cavity": figures_cavity.PAPER, "top": figures_top.PAPER}
+
+
+def of_paper(name: str) -> tuple[Figure, ...]:
+    """All figures of a paper by its short name. Raises InputError for other names."""
+    if name not in PAPERS:
+        raise InputError(f"paper: there is no {name!r}; choose one of {', '.join(PAPERS)}")
+    others = {"charged": figures_charged, "cavity": figures_cavity, "top": figures_top}
+    return others[name].FIGURES if name in others else FIGURES
+
+
+def figure(number: int, paper_name: str = FIRST) -> Figure:
+    """The row of figure `number` of a paper; InputError where the paper's figure is not on record."""
+    rows = of_paper(paper_name)
+    for row in rows:
         if row.number == number:
             return row
-    raise InputError(f"figure {number}: expected one of {NUMBERS[0]} to {NUMBERS[-1]}")
+    raise InputError(f"figure {number}: expected one of {rows[0].number} to {rows[-1].number}")
 
 
-def write(numbers=None, out="figures", progress=None) -> list[Path]:
-    """Draw figures (all of them for None) into the folder `out`: figure-NN.png and, beside it, figure-NN.txt with the
-    caption, command, version and tolerance. progress(words) is called before each. Returns the pictures' paths."""
+def write(numbers=None, out="figures", progress=None, paper_name: str | None = None) -> list[Path]:
+    """Draw figures into the folder `out`: figure-NN.png (charged-NN.png, ... for the other papers) and, beside it, a text
+    with the caption, command, version and tolerance. Without numbers: all of the paper, without a paper all of all; numbers
+    without a paper are those of the constant-torque paper. progress(words) is called before each. Returns the pictures' paths."""
+    if numbers:
+        rows = [figure(n, paper_name or FIRST) for n in numbers]
+    else:
+        rows = [row for name in ([paper_name] if paper_name else PAPERS) for row in of_paper(name)]
+    return [_write(row, Path(out), progress) for row in rows]
+
+
+def _write(row, out, progress):
     from .. import __version__
-    rows = [figure(n) for n in (numbers or NUMBERS)]
-    out, written = Path(out), []
-    for row in rows:
-        if progress:
-            progress(f"figure {row.number}")
-        with style.drawing() as plt:
-            written.append(style.save(row.draw(plt), out / row.file))
-        with style.whole_file(out / row.file.replace(".png", ".txt")) as waiting:
-            waiting.write_text(f"Figure {row.number} of {paper.PAPER}: {row.title}\n\n{row.caption}\n\nmade by: {row.command}\n"
-                               f"stabilab {__version__}\ntolerance: {row.tolerance}\n", encoding="utf-8")
-    return written
+    if progress:
+        progress(f"figure {row.number}{f' ({row.paper})' if row.paper else ''}")
+    with style.drawing() as plt:
+        path = style.save(row.draw(plt), out / row.file)
+    with style.whole_file(path.with_suffix(".txt")) as waiting:
+        waiting.write_text(f"Figure {row.number} of {PAPERS[row.paper or FIRST]}: {row.title}\n\n{row.caption}\n\nmade by: {row.command}\n"
+                           f"stabilab {__version__}\ntolerance: {row.tolerance}\n", encoding="utf-8")
+    return path

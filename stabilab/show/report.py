@@ -78,7 +78,7 @@ def _make(cases, folder, tell, out):
                               undefined=StrictUndefined)
     tell("tables")
     tables = _tables(folder)
-    drawn = figures.write(None, folder / "figures", tell)
+    drawn = figures.write(None, folder / "figures", tell, figures.FIRST)
     tell("surfaces")
     surfaces, note = _surfaces(cases, folder, tell)
     sections = [_section(case, folder, tell) for case in cases]
