@@ -16,7 +16,7 @@ from stabilab.analysis.equilibria import equilibria
 from stabilab.analysis.gyroscopic import content
 from stabilab.analysis.motion import motion
 from stabilab.analysis.other_motion import rates
-from stabilab.analysis.permanent_rotations import many_digits, rotations_at
+from stabilab.analysis.rotation_balance import many_digits, rotations_at
 from stabilab.analysis.results import Fate
 from stabilab.analysis.rotation_spectrum import Field
 from stabilab.analysis.trajectories import trajectory

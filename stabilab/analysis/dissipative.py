@@ -41,7 +41,7 @@ def _rest_with_liquid(parts: Content) -> Equilibria:
 
 def rest_positions(parts: Content) -> Equilibria:
     """Rest positions of a body in a field with a resisting medium: (omega, gamma) with omega = 0."""
-    from .permanent_rotations import many_digits, rotations_at
+    from .rotation_balance import many_digits, rotations_at
     from .rotation_spectrum import Field
     with many_digits():
         field = Field.of(parts)
@@ -86,7 +86,7 @@ def _spectrum(parts, field, rotation):
 
 
 def _continuum(rotation, point: EquilibriumPoint) -> EquilibriumCurve:
-    from .permanent_rotations import around
+    from .rotation_circles import around
     name = "every direction" if len(rotation.circle) == 3 else "circle of rest positions"
     segment = CurveSegment((float("-inf"), float("inf")), point.linear, point.verdict, point.because)
     equation, parametrisation, run = around(Fraction(0), rotation)

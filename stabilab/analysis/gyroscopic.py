@@ -15,8 +15,7 @@ from fractions import Fraction
 from ..quadratic import Exact3
 from ..scene import ZERO3
 
-PLAIN = {"gyrostat", "constant_torque"}
-KNOWN = PLAIN | {"charge", "resistance", "liquid_cavity", "newtonian_field", "gravity", "body_force"}
+KNOWN = {"gyrostat", "constant_torque", "charge", "resistance", "liquid_cavity", "newtonian_field", "gravity", "body_force"}
 ZERO = Fraction(0)
 
 
@@ -70,7 +69,7 @@ def content(scene) -> Content | None:
         if charge.follows_attitude:
             numbers["E"] = charge.exact
         else:
-            lam[2] -= charge.exact
+            lam[2] -= shortened(charge.exact)
             numbers["charged"] = bool(charge.exact)
     if liquid is not None:
         numbers |= {"kappa": liquid.exact, "printed": liquid.law == "printed"}
@@ -81,9 +80,13 @@ def content(scene) -> Content | None:
                    **numbers)
 
 
-def is_plain(scene) -> bool:
-    """Whether nothing but a gyrostat and a constant torque acts (or an effect that is not known here)."""
-    return scene.variables == "scaled" or {e.name for e in scene.effects} <= PLAIN or content(scene) is None
+def shortened(value: Fraction) -> Fraction:
+    """A cosine known to 240 bits, cut to 96: far within a double, and polynomials with it stay short. Short numbers stay exact."""
+    excess = value.denominator.bit_length() - 96
+    if excess <= 32:
+        return value
+    shift = 96 + value.denominator.bit_length() - value.numerator.bit_length()
+    return Fraction(round(value * 2**shift), 2**shift)
 
 
 def gyrostat_scene(parts: Content):

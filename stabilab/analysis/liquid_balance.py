@@ -113,7 +113,7 @@ def _region(parts: Content):
 def _point(parts: Content, polynomials, x) -> EquilibriumPoint:
     """Spectrum and verdict at a proved zero, sharpened to some fifty digits and enclosed in balls."""
     import numpy as np
-    from .permanent_rotations import many_digits
+    from .rotation_balance import many_digits
     with many_digits():
         ball = _enclosed(polynomials, x)
         derivatives = [[_derivative(p, k) for k in range(3)] for p in polynomials]

@@ -23,7 +23,7 @@ SHELL = ("undecided", "a continuum of rotations at one Omega: its second variati
 
 
 def judged(field: Field, Omega: Fraction, rotation) -> EquilibriumPoint:
-    """Spectrum and verdict of a `permanent_rotations.Rotation` at Omega; at = (omega, gamma)."""
+    """Spectrum and verdict of a `rotation_balance.Rotation` at Omega; at = (omega, gamma)."""
     from flint import fmpq
     O = fmpq(Omega.numerator, Omega.denominator)
     gamma, one = rotation.gamma, fmpq(1)

@@ -84,7 +84,7 @@ def _pieces(plane: Plane):
 def _omega(plane: Plane, tau: Fraction, side: int):
     """The root Omega at tau as a ball; None where the quadratic is linear and this side has none."""
     from flint import arb
-    from .permanent_rotations import rational
+    from .rotation_balance import rational
     a, b, c = (rational(p(tau)) for p in (plane.square, plane.linear, plane.constant))
     if a == 0:
         return arb(-c / b) if side < 0 and b != 0 else None
@@ -98,7 +98,7 @@ def _omega(plane: Plane, tau: Fraction, side: int):
 def _state(plane: Plane, tau: Fraction, side: int):
     """(Omega, gamma) as balls."""
     from flint import arb
-    from .permanent_rotations import rational
+    from .rotation_balance import rational
     j, k = CYCLE[plane.i]
     gamma = [arb(0)] * 3
     gamma[j], gamma[k] = (arb(rational(p(tau) / ONE(tau))) for p in (COS, SIN))
@@ -145,7 +145,7 @@ def _eigenvalues(e2, e3, e4):
 
 def _curve(parts, plane: Plane, lo, hi, side) -> EquilibriumCurve:
     """One side of the quadratic over one interval of tau."""
-    from .permanent_rotations import many_digits
+    from .rotation_balance import many_digits
     j, k = CYCLE[plane.i]
     ends = _angle(lo, -1), _angle(hi, 1)
     with many_digits():
