@@ -1,0 +1,122 @@
+"""Analytic models as models of a case: which apply, what `compare` says of them, and sweeps."""
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from stabilab import load
+from stabilab.analysis.comparison import compare
+from stabilab.analysis.models import follow, models_of
+from stabilab.case import load_all
+from stabilab.errors import CaseError, InputError
+
+CASES = Path(__file__).parent.parent / "cases"
+CHARGED, SMALL = CASES / "charged-body.toml", CASES / "charged-body-small-torque.toml"
+
+
+@pytest.mark.parametrize("name, models", [
+    ("minor-axis-100", ("exact",)), ("charged-body", ("exact", "linear", "printed")), ("charged-body-attitude", ("exact",)),
+    ("top-fast", ("exact", "lindstedt", "printed"))])
+def test_the_models_of_a_case_are_those_whose_assumptions_its_scene_meets(name, models):
+    assert models_of(load(CASES / f"{name}.toml").scene) == models
+
+
+def test_a_model_that_does_not_apply_is_refused_with_those_that_do():
+    with pytest.raises(InputError, match="'lindstedt' does not apply to this scene; it has exact, linear, printed"):
+        follow(load(CHARGED), [1.0], "lindstedt")
+    with pytest.raises(InputError, match='did you mean "linear"'):
+        follow(load(CHARGED), [1.0], "liner")
+    with pytest.raises(InputError, match="belong to the model"):
+        follow(load(CHARGED), [1.0], "linear", method="RK45")
+
+
+def test_models_have_the_parts_of_the_state_that_the_exact_motion_has():
+    case = load(CHARGED)
+    exact, linear = (follow(case, [0.5, 1.0], model) for model in ("exact", "linear"))
+    assert list(exact.state) == list(linear.state) == ["omega", "angles", "momentum", "velocity", "position"]
+    assert all(np.shape(linear.state[p]) == np.shape(exact.state[p]) for p in exact.state)
+
+
+def test_halving_the_torque_quarters_the_linear_models_error_or_better():
+    """What the linear model drops is of second order in the tilt, so its error in omega falls at least as the torque squared."""
+    text = SMALL.read_text()
+    errors = []
+    for torque in (0.008, 0.004, 0.002):
+        case = _written(text.replace("torque = [0.002, 0, 0]", f"torque = [{torque}, 0, 0]"))
+        errors.append(max(d.largest for d in compare(case, np.linspace(0, 20, 101)).departures
+                          if d.model == "linear" and d.part == "omega"))
+    assert errors[0] > 3.5 * errors[1] > 12 * errors[2] > 0
+
+
+def _written(text):
+    import tempfile
+    path = Path(tempfile.mkdtemp()) / "case.toml"
+    path.write_text(text)
+    return load(path)
+
+
+def test_the_first_time_of_an_error_is_where_the_error_passes_it():
+    case = load(CHARGED)
+    for departure in compare(case, np.linspace(0, 12, 241)).departures:
+        for level, time in departure.first.items():
+            if time is None:
+                continue
+            around = np.array([time * 0.995, time * 1.005])
+            gap = np.abs(np.asarray(follow(case, around, departure.model).state[departure.part])
+                         - np.asarray(follow(case, around, "exact").state[departure.part])).max(axis=1)
+            assert gap[0] <= level * departure.scale * 1.001 and gap[1] >= level * departure.scale * 0.999
+
+
+def test_compare_prints_strict_json_with_a_schema(stabilab):
+    code, out, _ = stabilab("compare", SMALL, "--json")
+    answer = json.loads(out, parse_constant=lambda word: pytest.fail(word))
+    assert code == 0 and answer["schema"] == "stabilab.compare/1" and set(answer["models"]) == {"exact", "linear", "printed"}
+    assert {"model", "part", "error", "scale", "largest", "first"} == set(answer["departures"][0])
+
+
+def test_compare_without_an_analytic_model_says_so(stabilab):
+    code, _, err = stabilab("compare", CASES / "minor-axis-100.toml")
+    assert code == 2 and "no analytic model" in err
+
+
+def test_simulate_gives_every_block_of_the_state_by_name(stabilab):
+    code, out, _ = stabilab("simulate", CHARGED, "--at", "0,1", "--json")
+    answer = json.loads(out)
+    assert code == 0 and set(answer["state"]) == {"omega", "angles", "momentum", "velocity", "position"}
+    assert answer["state"]["angles"][0] == [0, 0, 0] and answer["model"] == "exact"
+
+
+# --- sweeps
+
+def test_a_sweep_file_is_every_combination_of_its_values():
+    cases = load_all(CASES / "charged-sweep.toml")
+    assert len(cases) == 27 and len({case.name for case in cases}) == 27
+    seen = {(c.scene.effect("charge").charge, c.scene.effect("gyrostat").moment[2], c.scene.effect("constant_torque").vector[0])
+            for c in cases}
+    assert seen == {(e, l, m) for e in (0.001, 0.003, 0.005) for l in (1.3, 1.6, 1.9) for m in (4, 4.5, 5)}
+    assert cases[1].name == "charged-sweep-1-1-2" and cases[1].scene.effect("constant_torque").vector[0] == 4.5
+
+
+def test_a_file_without_a_sweep_is_one_case():
+    assert [case.name for case in load_all(CHARGED)] == ["charged-body"]
+
+
+@pytest.mark.parametrize("row, words", [
+    ('"effects.gyrostat.moment" = [1]', "no key effects.gyrostat.moment"),
+    ('"effects.gyrostat.momentum" = 3', "expected a list of the values"),
+    ('"effects.gyrostat.momentum" = []', "expected a list of the values"),
+    ('"title" = ["a", "b"]', "no key title")])
+def test_faults_of_a_sweep_are_named_with_their_line(tmp_path, row, words):
+    path = tmp_path / "sweep.toml"
+    path.write_text(CHARGED.read_text() + f"\n[sweep]\n{row}\n")
+    with pytest.raises(CaseError, match=words) as error:
+        load_all(path)
+    assert f"sweep.toml:{len(path.read_text().splitlines())}" in str(error.value)
+
+
+def test_a_fault_in_one_of_the_values_is_a_fault_of_the_file(tmp_path):
+    path = tmp_path / "sweep.toml"
+    path.write_text(CHARGED.read_text() + '\n[sweep]\n"body.mass" = [10, -1]\n')
+    with pytest.raises(CaseError, match="expected a positive number"):
+        load_all(path)
