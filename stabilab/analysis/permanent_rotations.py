@@ -19,7 +19,7 @@ from .gyroscopic import Content
 from .results import CurveSegment, Equilibria, EquilibriumCurve, EquilibriumPoint
 from .rotation_balance import many_digits, rotations_at, rounded_gamma
 from .rotation_circles import circles
-from .rotation_cuts import NEXT_TO, cuts_of, separated
+from .rotation_cuts import cuts_of, separated, step_at
 from .rotation_spectrum import Field
 from .rotation_verdict import judged
 from .stability import _inside, sample_parameters
@@ -48,7 +48,7 @@ def _branches(field, cuts):
         found = rotations_at(field, _inside(lo, hi, size))
         joined = {}
         if lo is not None:
-            step = size * NEXT_TO
+            step = step_at(cuts, lo)
             before, after = rotations_at(field, lo - step), rotations_at(field, lo + step)
             if len(after) != len(found):
                 raise ArithmeticError("the branches of permanent rotations were not told apart")
@@ -98,7 +98,7 @@ def _curve(field, number, branch, cuts) -> EquilibriumCurve:
         segments.append(CurveSegment(where, middle.linear, middle.verdict, middle.because))
         samples += [_at(field, branch, t) for t in _chosen(lo, hi, size, cuts)]
         if run is not runs[-1]:
-            changes.append(_at(field, branch, hi - size * NEXT_TO).at)
+            changes.append(_at(field, branch, hi - step_at(cuts, hi)).at)
     circle = rotations_at(field, _inside(*branch[0][:2], size))[branch[0][2]].circle
     name = f"branch {number}" + (f", a circle about axis {6 - sum(i + 1 for i in circle)}" if circle else "")
     first, last = segments[0].t[0], segments[-1].t[1]

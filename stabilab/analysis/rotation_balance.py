@@ -7,7 +7,7 @@ from fractions import Fraction
 
 from .rotation_spectrum import Field
 
-BITS = 256
+BITS = 320
 
 
 @dataclass(frozen=True)
@@ -62,17 +62,28 @@ def rotations_at(field: Field, Omega: Fraction) -> list[Rotation]:
         mu = fmpq_poly([0, 1])
         n = {axes[0]: S[axes[0]] - mu for axes in acting}
         P = secular(acting, n, b, fmpq_poly([1]))
-        for root in sorted((r.real for r, _ in P.numer().complex_roots() if r.imag == 0), key=lambda r: r.mid()):
-            gamma = [arb(0)] * 3
-            for axes in acting:
-                for i in axes:
-                    gamma[i] = -b[i] / (S[i] - root)
-            if all(g.is_finite() for g in gamma):  # a double root at S_g is none of the polynomial's own
-                found.append(Rotation(root, tuple(gamma)))
+        found += _directions(P, S, b, acting)
     for axes, idle in parted:
         if idle:
             found += _free_part(axes, acting, S, b, fmpq(1), arb)
     return found
+
+
+def _directions(P, S, b, acting) -> list[Rotation]:
+    """gamma_i = -b_i/(S_i - mu) at every real root mu of P, rising; with more digits where b is so small that S_i - mu has none left."""
+    from flint import arb, ctx
+    for bits in (ctx.prec, 4 * ctx.prec, 16 * ctx.prec):
+        with many_digits(bits):
+            found = []
+            for root in sorted((r.real for r, _ in P.numer().complex_roots() if r.imag == 0), key=lambda r: r.mid()):
+                gamma = [arb(0)] * 3
+                for axes in acting:
+                    for i in axes:
+                        gamma[i] = -b[i] / (S[i] - root)
+                found.append(Rotation(root, tuple(gamma)))
+        if all(g.is_finite() and g.rad() < 1e-40 for rotation in found for g in rotation.gamma):
+            return found
+    raise ArithmeticError("a permanent rotation was not told from another in a thousand digits")
 
 
 def secular(acting, n, b, one):

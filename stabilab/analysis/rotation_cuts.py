@@ -10,7 +10,8 @@ from fractions import Fraction
 from .rotation_balance import groups_at, secular
 from .rotation_spectrum import Field, coefficients
 
-NEXT_TO = Fraction(1, 2**90)   # of a cut: where branches on its two sides are compared
+NEXT_TO = Fraction(1, 2**90)  # of the distance to the next cut: where branches on the two sides of one are compared
+SHARED = Fraction(1, 2**200)
 
 
 def cuts_of(field: Field) -> list[Fraction]:
@@ -85,11 +86,15 @@ def _fraction(ball) -> Fraction:
 
 
 def separated(cuts) -> list[Fraction]:
-    """The cuts rising, each once."""
-    values = sorted(cuts)
-    size = max(map(abs, values), default=Fraction(1))
+    """The cuts rising, each once: a root that two polynomials share comes out the same within 2**-200."""
     out = []
-    for value in values:
-        if not out or value - out[-1] > size * NEXT_TO * 4:
+    for value in sorted(cuts):
+        if not out or value - out[-1] > SHARED * max(abs(value), abs(out[-1])):
             out.append(value)
     return out
+
+
+def step_at(cuts, cut: Fraction) -> Fraction:
+    """How far beside a cut its branches are compared: far below the distance to the next one."""
+    others = [abs(cut - other) for other in cuts if other != cut] or [abs(cut) or Fraction(1)]
+    return min(others) * NEXT_TO
