@@ -179,8 +179,11 @@ def test_readme_has_a_picture():
 
 def test_fates_and_exit_codes_in_readme_are_those_of_the_program():
     from stabilab import Fate
+    from stabilab.effects import REGISTRY
     rows = [line.split("|")[1].strip() for line in README.read_text().splitlines() if line.startswith("|")]
-    assert {row.strip("`") for row in rows if row.startswith("`")} == {fate.word for fate in Fate}
+    fates, effects = rows[rows.index("fate"):], rows[rows.index("effect"):rows.index("fate")]
+    assert {row.strip("`") for row in fates if row.startswith("`")} == {fate.word for fate in Fate}
+    assert [row[1:].split("`")[0] for row in effects if row.startswith("`")] == list(REGISTRY)
     codes = {errors.OK, errors.BUG, errors.BAD_INPUT, errors.UNDECIDED, errors.NO_RENDERING, errors.TOLERANCE_NOT_MET, errors.INTERRUPTED}
     assert {int(row) for row in rows if row.isdigit()} == codes
 

@@ -35,7 +35,7 @@ def text(case, found) -> str:
     lines = [f"{case.name}: {', '.join(list(found.runs)[1:]) or 'no model'} against the exact motion, {found.t[0]:g} to {found.t[-1]:g} {unit}",
              f"  {'model':<12}{'part':<12}{'largest error':>16}{'of':>14}{'1 % from':>14}{'10 % from':>14}"]
     for d in found.departures:
-        first = [f"{time:.6g} {unit}" if time is not None else "never" for time in d.first.values()]
+        first = [f"{time:.4g} {unit}" if time is not None else "never" for time in d.first.values()]
         lines.append(f"  {d.model:<12}{d.part:<12}{d.largest:>16.4g}{d.scale:>14.4g}{first[0]:>14}{first[1]:>14}")
     notes = [f"  {name}: {run.reason}" for name, run in found.runs.items() if run.reason and run.reason != "all times reached"]
     notes += [f"  {name}: no answer: {why}" for name, why in found.refused.items()]
