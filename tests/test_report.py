@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import stabilab
-from stabilab.show import figures, render_probe, report
+from stabilab.show import chapters, figures, render_probe, report
 
 CASES = Path(__file__).parent.parent / "cases"
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
@@ -46,6 +46,7 @@ def light(tmp_path_factory):
     patch.setattr(render_probe, "_CHILD", "raise SystemExit(3)")
     patch.setattr(figures, "FIGURES", (figures.figure(9),))
     patch.setattr(figures, "NUMBERS", (9,))
+    patch.setattr(chapters, "CHAPTERS", ())
     patch.setattr(report, "SURFACE_SHAPE", (10, 21))
     folder = tmp_path_factory.mktemp("light")
     text = (CASES / "minor-axis-100.toml").read_text(encoding="utf-8")
@@ -122,6 +123,7 @@ def test_the_report_opens_in_a_browser_and_its_scene_draws(tmp_path, monkeypatch
 
     monkeypatch.setattr(figures, "FIGURES", (figures.figure(9),))
     monkeypatch.setattr(figures, "NUMBERS", (9,))
+    monkeypatch.setattr(chapters, "CHAPTERS", ())
     def no_network(*_):
         raise AssertionError("the report reached for the network")
     for call in ("connect", "bind"):

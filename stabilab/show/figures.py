@@ -105,6 +105,7 @@ def _write(row, out, progress):
     with style.drawing() as plt:
         path = style.save(row.draw(plt), out / row.file)
     with style.whole_file(path.with_suffix(".txt")) as waiting:
-        waiting.write_text(f"Figure {row.number} of {PAPERS[row.paper or FIRST]}: {row.title}\n\n{row.caption}\n\nmade by: {row.command}\n"
+        waiting.write_text(f"Figure {row.number} of {PAPERS[row.paper or FIRST]}: {row.title}\n\n{row.caption}\n\nmade by: "
+            f"{row.command}\n"
                            f"stabilab {__version__}\ntolerance: {row.tolerance}\n", encoding="utf-8")
     return path

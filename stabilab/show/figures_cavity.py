@@ -39,38 +39,45 @@ SLOW = (panels.Row(panels.TIME, "$a$ (rad/s)", _slow("amplitude")), panels.Row(p
 
 def _family(plt, family, rows, title, own=False):
     symbol, unit, files = FAMILIES[family]
-    columns = [panels.Column(rf"${symbol}={value:g}$ {unit}", panels.motions(name, "", SPAN, POINTS)) for value, name in files.items()]
+    columns = [panels.Column(rf"${symbol}={value:g}$ {unit}", panels.motions(name, "", SPAN, POINTS, crowd=2)) for value, name in files.items()]
     return panels.draw(plt, f"{title}: {DATA[family]}, $M_1=M_2=0$", columns, rows, own=own)
 
 
-_TOL = ("exact motion: Taylor integration, relative tolerance 1.1e-16; averaged: relative tolerance 1e-12; printed: its polynomials to "
-        "rounding; 2001 points")
+_TOL = ("exact motion: Taylor integration, relative tolerance 1.1e-16; averaged: relative tolerance 1e-12; printed: its "
+        "polynomials to rounding; 2001 points")
 _PLANE = f"{_TOL}; rates by central differences"
-_HOW = ("Exact: a = sqrt(p^2 + q^2) and the angle of (p, -q); averaged, second order: the averaged variables, which start beside them. ")
+_HOW = ("Exact: a = sqrt(p^2 + q^2) and the angle of (p, -q); averaged, second order: the averaged variables, which start "
+            "beside them. ")
 _SHORT = "The printed polynomials of second degree turn back: phi falls from {} s on, in truth it still grows at 20 s. "
-_SLOW = "In 20 s the body turns {} rad, not a tenth of a turn: with lambda3 = 0.1 there are no waves. The print must have taken a lambda3 it does not state. "
-_LIQUID = ("The printed liquid torque is that of a body without rotor; with this one the true motion dies out within {} s (1 %), the printed wave "
-           "hardly decays. ")
-_DONE = "Completed data: values in the title where the paper gives none; P0 = 1.9 m^7 means 25 t of liquid in a body of 9 kg m^2."
-_CHARGE = ("1000 and 10,000 C are not charges that a body can hold. At 10,000 C the liquid's own time exceeds that of the turn: averaging "
-           "refuses, and the law of the liquid torque itself no longer holds. ")
+_SLOW = ("In 20 s the body turns {} rad, not a tenth of a turn: with lambda3 = 0.1 there are no waves. The print must have "
+         "taken a lambda3 it does not state. ")
+_LIQUID = ("The printed liquid torque is that of a body without rotor; with this one the true motion dies out within {} s (1 "
+           "%), the printed wave hardly decays. ")
+_DONE = ("Completed data: values in the title where the paper gives none; P0 = 1.9 m^7 means 25 t of liquid in a body of 9 kg "
+         "m^2. Models out of the exact motion's range are cut.")
+_CHARGE = ("1000 and 10,000 C are not charges that a body can hold. At 10,000 C the liquid's own time exceeds that of the "
+           "turn: averaging refuses, and the law of the liquid torque itself no longer holds. ")
 
 
 def _figures():
     slow, rates, planes = partial(_family, rows=SLOW), partial(_family, rows=RATES), partial(_family, rows=PLANES)
     for n, family, draw, title, words, tolerance in (
-            (2, "small", slow, "Amplitude, spin and phase", _HOW + "At lambda3 = 0.15 and 0.2 the printed q loses its real value at 15.5 and 7.7 s, where d2 r = Gamma/eps; "
+            (2, "small", slow, "Amplitude, spin and phase", _HOW + "At lambda3 = 0.15 and 0.2 the printed q loses its real "
+                "value at 15.5 and 7.7 s, where d2 r = Gamma/eps; "
              "the true motion is regular there. ", _TOL),
             (3, "large", rates, "Angular velocities", _LIQUID.format("4.3, 2.7 and 1.9"), _TOL),
-            (4, "large", planes, "Phase planes", "The text has closed curves; the true motion spirals in within one turn. " + _LIQUID.format("4.3, 2.7 and 1.9"), _PLANE),
+            (4, "large", planes, "Phase planes", "The text has closed curves; the true motion spirals in within one turn. "
+                + _LIQUID.format("4.3, 2.7 and 1.9"), _PLANE),
             (5, "zeta", slow, "Amplitude, spin and phase", _SHORT.format("18.8, 16.6 and 14.9"), _TOL),
             (6, "zeta", rates, "Angular velocities", _SLOW.format("0.47, 0.46 and 0.44"), _TOL),
-            (7, "zeta", planes, "Phase planes", "The text has spirals; over 20 s with these data the curves are arcs. ", _PLANE),
+            (7, "zeta", planes, "Phase planes", "The text has spirals; over 20 s with these data the curves are arcs. ",
+             _PLANE),
             (8, "M3", slow, "Amplitude, spin and phase", _SHORT.format("18.0, 16.6 and 15.5"), _TOL),
             (9, "M3", rates, "Angular velocities", _SLOW.format("0.48, 0.46 and 0.43"), _TOL),
             (10, "M3", planes, "Phase planes", "The text has spirals; over 20 s with these data the curves are arcs. ", _PLANE),
             (11, "e", partial(slow, own=True), "Amplitude, spin and phase", _CHARGE, _TOL),
-            (12, "e", rates, "Angular velocities", _CHARGE + "The text says that the charge acts slightly: the printed liquid torque does not know of it. ", _TOL),
+            (12, "e", rates, "Angular velocities", _CHARGE + "The text says that the charge acts slightly: the printed "
+                "liquid torque does not know of it. ", _TOL),
             (13, "e", partial(planes, own=True), "Phase planes", _CHARGE, _PLANE)):
         yield Figure(n, f"{title}: {NAMES[family]}", words + _DONE, partial(draw, family=family, title=title), tolerance, "cavity")
 

@@ -48,18 +48,22 @@ def _family(plt, family, rows, title):
                        words={"lindstedt": "corrected expansion, order 2"})
 
 
-_TOL = ("exact motion: Taylor integration, relative tolerance 1.1e-16; printed and corrected: their formulas to rounding; 2601 points")
-_FAST = ("Table 1 is no fast top: M g L/(C r0^2) = 8.2 and eps delta1 = 4.5 where both should be small, so r goes from 5 to -4.7 rad/s in 0.1 s, "
-         "and no expansion in 1/r0 follows, corrected or not (its terms grow). {}Curves out of the exact motion's range are cut.")
+_TOL = ("exact motion: Taylor integration, relative tolerance 1.1e-16; printed and corrected: their formulas to rounding; "
+            "2601 points")
+_FAST = ("Table 1 is no fast top: M g L/(C r0^2) = 8.2 and eps delta1 = 4.5 where both should be small, so r goes from 5 to "
+         "-4.7 rad/s in 0.1 s, and no expansion in 1/r0 follows, corrected or not (its terms grow). {}Curves out of the "
+            "exact motion's range are "
+            "cut.")
 _UNIT = "The printed |gamma|, which is 1, reaches 13; the printed r reaches -73 rad/s. "
 _FREE = "The text calls the closed printed curves stable and free of chaos; the true curves do not close. "
-_PSI = ("The printed nutation swings far with the period 2 pi/r0 = 1.26 s, the true one little and irregularly; phi swings to and fro by 1.1 rad, "
-        "it does not turn with r0 t. ")
+_PSI = ("The printed nutation swings far with the period 2 pi/r0 = 1.26 s, the true one little and irregularly; phi swings "
+        "to and fro by 1.1 rad, it does not turn with r0 t. ")
 
 
 def _figures():
     for n, family, rows, title, words in (
-            (2, "lx", HISTORIES, "Histories", _UNIT + "The text sees l_x change q and gamma'' only; in truth it changes all six. "),
+            (2, "lx", HISTORIES, "Histories", _UNIT + "The text sees l_x change q and gamma'' only; in truth it changes all "
+                "six. "),
             (3, "lz", HISTORIES, "Histories", _UNIT), (4, "lx", PLANES, "Phase planes", _FREE), (5, "lz", PLANES, "Phase planes", _FREE),
             (6, "lx", ANGLES, "Euler angles", _PSI), (7, "lz", ANGLES, "Euler angles", _PSI)):
         name = "l_x = 30, 60, 90" if family == "lx" else "l_z = 30, 60, 90"

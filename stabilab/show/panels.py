@@ -16,6 +16,7 @@ from .comparison import LOOKS
 TIME = "t (s)"
 THIN = {"linewidth": 1.0, "antialiased": False}
 WIDE = 3.0  # a model may stretch the axis to this many times the exact motion's range; beyond that it is cut
+TALL = 1.45  # a plane of one scale, against a history
 MARGIN = 0.06
 CORNERS = ((1.0, 1.01, "right", "bottom"), (0.0, 1.01, "left", "bottom"), (0.98, 0.97, "right", "top"))  # of the words on cuts
 ORDER = ("printed", "averaged1", "linear", "averaged2", "lindstedt")  # in the legend, after the exact motion
@@ -48,7 +49,7 @@ class Column:
     mark: float | None = None
 
 
-@lru_cache(maxsize=4)
+@lru_cache(maxsize=32)
 def sweep(name: str) -> dict:
     """Variant -> case of a sweep file of the repository ("" for a file without sweep)."""
     from ..case import load_all
@@ -57,10 +58,11 @@ def sweep(name: str) -> dict:
 
 
 @lru_cache(maxsize=64)
-def motions(name: str, variant: str, end: float, count: int, order: int | None = None) -> dict:
-    """model -> Simulation of a case of the repository at `count` times from 0 to `end`; models that refuse are left out."""
+def motions(name: str, variant: str, end: float, count: int, order: int | None = None, crowd: int = 1) -> dict:
+    """model -> Simulation of a case of the repository at `count` times from 0 to `end`, crowd > 1: closer at the start;
+    models that refuse are left out."""
     from ..analysis.comparison import side_by_side
-    return side_by_side(sweep(name)[variant], np.linspace(0.0, end, count), order)[0]
+    return side_by_side(sweep(name)[variant], end * np.linspace(0.0, 1.0, count) ** crowd, order)[0]
 
 
 def draw(plt, title, columns, rows, **options):
@@ -71,14 +73,15 @@ def draw(plt, title, columns, rows, **options):
 def draw_lines(plt, title, lines, width=3.5, height=2.05, words=None, mark_words="", own=False):
     """The figure of lines (Row, [Column, ...]). A line shares its limits, unless each panel has its own."""
     words, count = WORDS | (words or {}), len(lines[0][1])
-    figure, axes = plt.subplots(len(lines), count, figsize=(width * count, 0.9 + height * len(lines)), layout="constrained",
-                                squeeze=False, sharey=False if own else "row")
+    heights = [height * (TALL if row.equal and len(lines) > 1 else 1) for row, _ in lines]
+    figure, axes = plt.subplots(len(lines), count, figsize=(width * count, 1 + sum(heights)), layout="constrained", squeeze=False,
+                                sharey=False if own else "row", height_ratios=heights)
     for i, ((row, columns), line) in enumerate(zip(lines, axes)):
-        shared = [_limits(row, columns, axis) for axis in (0, 1)]
+        shared = _window(row, columns)
         for column, ax in zip(columns, line):
-            _panel(ax, row, column, [_limits(row, [column], axis) for axis in (0, 1)] if own else shared)
+            _panel(ax, row, column, _window(row, [column]) if own else shared)
             if not i or [c.heading for c in columns] != [c.heading for c in lines[i - 1][1]]:
-                ax.set_title(column.heading)
+                ax.set_title(column.heading, pad=14)  # above the words on cuts
             if not row.over_time or i + 1 == len(lines) or not lines[i + 1][0].over_time:
                 ax.set_xlabel(row.xlabel)
         line[0].set_ylabel(row.ylabel)
@@ -99,15 +102,15 @@ def _panel(ax, row, column, limits):
             continue
         x, y = (np.asarray(v, float) for v in picked)
         ax.plot(*_clipped(x, y, limits), **LOOKS[name] | (THIN if name == "lindstedt" else {}))
-        top = max(y[np.isfinite(y)], key=abs, default=0.0)
-        if len(y) and (np.nanmax(y) > limits[1][1] or np.nanmin(y) < limits[1][0]):
-            far.append((name, top))
+        low, high = (limits[1][0] - np.nanmin(y), np.nanmax(y) - limits[1][1]) if len(y) else (0, 0)
+        if max(low, high) > 0:
+            far.append((name, np.nanmax(y) if high > low else np.nanmin(y)))
     if column.mark is not None and row.over_time:
         ax.axvline(column.mark, **style.MEANING["crossing"])
     ax.set_xlim(*limits[0])
     ax.set_ylim(*limits[1])
     if row.equal:
-        ax.set_aspect("equal", adjustable="datalim")
+        ax.set_aspect("equal", adjustable="box")
     for (name, top), (x, y, side, edge) in zip(far, CORNERS):
         ax.text(x, y, f"cut: reaches {top:.3g}", color=LOOKS[name]["color"], ha=side, va=edge, fontsize=7.5, transform=ax.transAxes)
 
@@ -116,6 +119,15 @@ def _clipped(x, y, limits):
     """The curve with what lies far outside of the limits brought near them: long lines off the page cost ink and bytes."""
     reach = [(high - low) * 4 for low, high in limits]
     return [np.clip(v, low - r, high + r) for v, (low, high), r in zip((x, y), limits, reach)]
+
+
+def _window(row, columns):
+    """Limits of both axes; for a plane of one scale a square."""
+    limits = [_limits(row, columns, axis) for axis in (0, 1)]
+    if not row.equal:
+        return limits
+    side = max(high - low for low, high in limits)
+    return [((low + high - side) / 2, (low + high + side) / 2) for low, high in limits]
 
 
 def _limits(row, columns, axis):

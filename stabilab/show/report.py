@@ -13,7 +13,7 @@ import numpy as np
 
 from ..errors import StabilabError
 from ..interrupt import undoing
-from . import figures, paper, surface, table
+from . import chapters, figures, paper, surface, table
 
 PACKAGES = ("numpy", "scipy", "sympy", "heyoka", "matplotlib", "vtk", "pyvista", "python-flint")
 SHOW_CURSOR = b"\x1b[?25h"  # the progress line hides it
@@ -82,12 +82,13 @@ def _make(cases, folder, tell, out):
     tell("surfaces")
     surfaces, note = _surfaces(cases, folder, tell)
     sections = [_section(case, folder, tell) for case in cases]
+    others = chapters.sections(folder, tell)
     tell("printed formulas")
     from ..audit import check
     page = environment.get_template("index.html").render(
         title="Bounded motion and spin-up of a gyrostat under constant torque", paper=paper.PAPER, rendering_note=note,
-        cases=sections, tables=tables, surfaces=surfaces, audit=check(), versions=_versions(),
-        figures=[{**vars(row), "file": f"figures/{path.name}", "command": row.command, "size": _size(path)}
+        cases=sections, chapters=others, tables=tables, surfaces=surfaces, audit=check(), versions=_versions(),
+        figures=[{**vars(row), "file": f"figures/{path.name}", "command": row.command, "size": chapters.size(path)}
                  for row, path in zip(figures.FIGURES, drawn)],
         command=f"stabilab report {' '.join(case.path for case in cases)} --out {out}")
     (folder / "index.html").write_text(page, encoding="utf-8")
@@ -241,15 +242,7 @@ def _evidence(value):
 def _picture(case, folder):
     from .plane import plot
     path = plot(case, folder / "cases" / f"{case.name}.png")
-    return {"file": f"cases/{path.name}", "size": _size(path)}
-
-
-def _size(path):
-    """Width and height attributes of a picture: the page does not jump while it loads."""
-    from markupsafe import Markup
-    from PIL import Image
-    with Image.open(path) as image:
-        return Markup('width="{}" height="{}"').format(*image.size)
+    return {"file": f"cases/{path.name}", "size": chapters.size(path)}
 
 
 def _versions():
