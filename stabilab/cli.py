@@ -144,6 +144,35 @@ def compare(case: CaseFile,
 
 
 @app.command()
+def precision(case: CaseFile, json: Json = False,
+              csv: Annotated[bool, typer.Option("--csv", help="CSV on stdout instead of text.")] = False,
+              out: Annotated[Optional[Path], typer.Option(metavar="FILE.png|.csv", help="Write the picture or the points.")] = None,
+              quick: Annotated[bool, typer.Option("--quick", help="Few settings: seconds instead of a minute.")] = False):
+    """Measure what accuracy costs: every method, error and time.
+
+    Judged by a Taylor series in many digits that knows its own error.
+
+    Example: stabilab precision cases/minor-axis-100.toml --quick
+    """
+    if json and csv:
+        raise typer.BadParameter("choose one of --json and --csv")
+    from .show import answers
+    from .show import precision as shown
+    from .analysis.precision import precision as measure
+    from .analysis.precision_front import keep
+    if out:
+        shown.checked(out)
+    found = measure(_load([case], motion=True)[0], quick)
+    keep(found)
+    if out:
+        shown.write(found, out)
+        _say(f"written: {out}")
+    _print(answers.as_json(shown.as_dict(found)) if json else shown.csv(found) if csv else shown.text(found))
+    if not found.questions:
+        raise ToleranceNotMet(f"{case}: {found.reference.reason}")
+
+
+@app.command()
 def surface(case: CaseFile, out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the files.")] = ...):
     """Write the separatrix surfaces as meshes and a picture.
 

@@ -259,7 +259,7 @@ def test_tables_writes_every_table_in_every_format_and_names_them(stabilab, tmp_
 def test_every_command_has_help_with_an_example(stabilab):
     code, out, _ = stabilab("--help")
     commands = [line.split()[0] for line in out.split("Commands:")[1].splitlines() if line.startswith("  ")]
-    assert code == 0 and set(commands) == {"show", "classify", "extremes", "simulate", "compare", "surface", "plot",
+    assert code == 0 and set(commands) == {"show", "classify", "extremes", "simulate", "compare", "precision", "surface", "plot",
                                         "tables", "figures", "report", "doctor"}
     assert "--install-completion" in out and "..." not in out.split("Commands:")[1]
     for command in commands:

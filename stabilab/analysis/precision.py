@@ -1,0 +1,240 @@
+"""What accuracy costs: every way to follow one motion, over a ladder of settings, against a reference that knows its error.
+
+Error: the largest relative error over the asked-for times (each block of the state against its largest size), or of the
+derived answer. Cost: steps, evaluations and wall time; the fastest of several runs, warmed up; what is done once for all
+runs (compiling) apart.
+"""
+from __future__ import annotations
+
+import math
+import time
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from .precision_answers import answer_methods, fate_methods, known_period
+from .precision_methods import Method, Problem, methods, problem
+from .precision_reference import WORK, Reference, reference, relative_errors
+from .trajectories import SCIPY_METHODS
+
+TIMES = 16  # states over the span
+QUICK_WORK = WORK // 4
+MOST_EVALUATIONS, QUICK_EVALUATIONS = 60_000, 4_000  # by the growth from rung to rung; a rung that would need more is left out
+REPEATS, QUICK_REPEATS = (7, 0.2), (3, 0.05)  # runs of each rung, and seconds after which fewer do
+QUESTIONS = {"span": "states over the span", "end": "state at the end", "extremes": "extremes", "period": "period"}
+PRICED = 2.0  # digits: over less, a price of one says nothing
+EPS = 2.0**-53
+
+
+@dataclass(frozen=True)
+class Point:
+    """One setting of one method on one question.
+
+    error: relative; seconds: fastest run (for one of `lanes` motions followed at once), slowest: the slowest of
+    `repeats`; compile: seconds of what is done once. setting: what `value` is (rtol, nodes, order; formula: nothing).
+    parts: the blocks of the state that the method knows; "" for all.
+    """
+
+    question: str
+    method: str
+    setting: str
+    value: float
+    error: float
+    steps: int | None
+    evaluations: int | None
+    seconds: float
+    slowest: float
+    repeats: int
+    compile: float
+    lanes: int = 1
+    parts: str = ""
+
+    @property
+    def digits(self) -> float:
+        """Correct digits; 0 where nothing is right or no answer came."""
+        return max(0.0, -math.log10(self.error)) if 0 < self.error < 1 else 0.0 if self.error else math.inf
+
+
+@dataclass(frozen=True)
+class FateAnswer:
+    """One way to the fate: its word and the seconds it takes."""
+
+    method: str
+    word: str
+    seconds: float
+    slowest: float
+    repeats: int
+
+
+@dataclass(frozen=True)
+class Precision:
+    """All that was measured of a case.
+
+    times (n,): where states are compared, as far as the reference agrees with itself; reference: without its states in
+    outputs; sensitivity: relative change of the state over the span per relative change of the start, as one random
+    (seeded) change in the last place shows it, None where not known. left_out: (method, value, why).
+    """
+
+    case: object
+    task: Problem = field(repr=False)
+    times: np.ndarray
+    reference: Reference = field(repr=False)
+    points: tuple[Point, ...]
+    fates: tuple[FateAnswer, ...]
+    sensitivity: float | None
+    left_out: tuple[tuple, ...]
+    quick: bool
+
+    def of(self, question, method=None) -> list[Point]:
+        """The points of a question (and a method), coarse to fine."""
+        return [p for p in self.points if p.question == question and method in (None, p.method)]
+
+    @property
+    def questions(self) -> list[str]:
+        return [q for q in QUESTIONS if self.of(q)]
+
+    def front(self, question="end") -> list[Point]:
+        """The points that no other beats in both error and time, cheapest first. The batch stands apart: it needs
+        several motions at once."""
+        return pareto(p for p in self.of(question) if p.lanes == 1 and not p.parts)
+
+
+def pareto(points) -> list[Point]:
+    """Points that no other beats in both error and seconds, cheapest first."""
+    best, found = math.inf, []
+    for p in sorted(points, key=lambda p: (p.seconds, p.error)):
+        if p.error < best and p.error < 1:
+            found.append(p)
+            best = p.error
+    return found
+
+
+def digit_price(points) -> float | None:
+    """Factor in time for one more digit, by least squares of log time on digits over points where digits still grow."""
+    rows, top = [], 0.0
+    for p in points:
+        if p.digits > top + 0.2:
+            rows.append((p.digits, math.log(p.seconds)))
+            top = p.digits
+    if len(rows) < 2 or rows[-1][0] - rows[0][0] < PRICED:
+        return None
+    digits, logs = np.array(rows).T
+    return float(math.exp(np.polyfit(digits, logs, 1)[0]))
+
+
+def precision(case, quick: bool = False, progress=None) -> Precision:
+    """Measure a case. quick: few settings, small limits. progress(words) is called before each method.
+
+    Raises InputError for a case without a motion and a span, and for rates that are no polynomials.
+    """
+    tell = progress or (lambda words: None)
+    task = problem(case, TIMES)
+    tell("reference")
+    period = known_period(task)
+    exact = reference(case.scene, task.start, task.times, task.equations.blocks, period is not None, QUICK_WORK if quick else WORK)
+    points, left_out = [], []
+    for method in methods(task, quick) if len(exact.t) else ():
+        tell(method.name)
+        _states(task, method, exact, quick, points, left_out)
+    for method in answer_methods(task, period, quick) if exact.period else ():
+        tell(f"{method.name}, period and extremes")
+        _answers(task, method, exact, quick, points, left_out)
+    fates = tuple(FateAnswer(name, word, *timing) for name, call in fate_methods(task) for word, *timing in [_timed(call)])
+    return Precision(case, task, exact.t, exact, tuple(points), fates, _sensitivity(task, exact), tuple(left_out), quick)
+
+
+def _timed(call, quick=False):
+    """(answer of the first run, fastest, slowest, repeats) of the runs after it."""
+    answer, seconds, (most, enough) = call(), [], (QUICK_REPEATS if quick else REPEATS)
+    while len(seconds) < most and (not seconds or sum(seconds) < enough):
+        start = time.perf_counter()
+        call()
+        seconds.append(time.perf_counter() - start)
+    return answer, min(seconds), max(seconds), len(seconds)
+
+
+def _rungs(task, method: Method, quick, left_out):
+    """(setting, run, seconds of preparation) up the ladder; the evaluations of the last run are to be sent back."""
+    most, last, growth = QUICK_EVALUATIONS if quick else MOST_EVALUATIONS, 0, 1.0
+    for index, value in enumerate(method.ladder):
+        expected = last * growth
+        if method.name in SCIPY_METHODS and expected > most:
+            left_out.append((method.name, value, f"some {expected:.1g} evaluations expected, {most} allowed"))
+            continue
+        start = time.perf_counter()
+        run = method.prepare(task, value)
+        used = yield value, run, time.perf_counter() - start
+        growth = max(1.0, used / last) if used and last else 1.0
+        last = used or 0
+
+
+def _states(task, method, exact, quick, points, left_out):
+    ladder = _rungs(task, method, quick, left_out)
+    used = None
+    while True:
+        try:
+            value, run, compiled = next(ladder) if used is None else ladder.send(used)
+        except StopIteration:
+            return
+        for question, times in (("span", exact.t), ("end", exact.t[-1:])):
+            answer, fast, slow, repeats = _timed(lambda: run(times), quick)
+            error = _state_error(task, answer, exact, len(times))
+            known = "" if set(answer.parts) == set(task.slices) else ", ".join(answer.parts)
+            points.append(Point(question, method.name, method.setting, value, error, answer.steps, answer.evaluations,
+                                fast / method.lanes, slow / method.lanes, repeats, compiled, method.lanes, known))
+        used = answer.evaluations or 0
+
+
+def _state_error(task, answer, exact, count) -> float:
+    """Largest relative error over the last `count` times, inf where an answer is missing; never below the reference's own."""
+    worst = float(exact.error[-count:].max())
+    for name, values in answer.parts.items():
+        part = task.slices[name]
+        size = np.abs(exact.states[:, part]).max(initial=0.0) or 1.0
+        gap = np.abs((values - exact.states[-count:, part]) - exact.rest[-count:, part]).max() / size
+        worst = max(worst, float(gap)) if np.isfinite(gap) else math.inf
+    return worst
+
+
+def _answers(task, method, exact, quick, points, left_out):
+    ladder, used = _rungs(task, method, quick, left_out), None
+    while True:
+        try:
+            value, run, compiled = next(ladder) if used is None else ladder.send(used)
+        except StopIteration:
+            return
+        answer, fast, slow, repeats = _timed(lambda: run(None), quick)
+        for question, error in (("period", _period_error(answer, exact)), ("extremes", _extremes_error(answer, exact))):
+            points.append(Point(question, method.name, method.setting, value, error, answer.steps, answer.evaluations, fast,
+                                slow, repeats, compiled))
+        used = answer.evaluations or 0
+
+
+def _period_error(answer, exact) -> float:
+    high, low, own = exact.period
+    error = abs((answer.parts["period"][0] - high) - low) / high
+    return max(float(error), own) if np.isfinite(error) else math.inf
+
+
+def _extremes_error(answer, exact) -> float:
+    high, low = exact.extremes[..., 0], exact.extremes[..., 1]
+    error = np.abs((answer.parts["extremes"] - high) - low).max() / (np.abs(high).max() or 1.0)
+    return max(float(error), exact.extremes_error) if np.isfinite(error) else math.inf
+
+
+def _sensitivity(task, exact) -> float | None:
+    """Largest relative change of the state over the span per relative change of the start, for one change of every
+    component by about a unit in its last place."""
+    from .precision_reference import Recursion, _pairs, one_run
+    if not len(exact.t):
+        return None
+    signs = np.random.default_rng(1).choice([-1.0, 1.0], task.start.size)
+    nudged = np.where(task.start == 0, EPS * signs * np.abs(task.start).max(), task.start * (1 + 2 * EPS * signs))
+    moved = np.abs(nudged - task.start).max() / (np.abs(task.start).max() or 1.0)
+    if not moved:
+        return None
+    found, _ = one_run(Recursion(task.equations), nudged, exact.t, 30, [WORK])
+    n = len(found)
+    states, rest = _pairs(found)
+    shift = relative_errors(states, exact.states[:n], exact.rest[:n] - rest, task.slices)
+    return float(shift.max() / moved)
