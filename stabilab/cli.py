@@ -92,6 +92,8 @@ def simulate(case: CaseFile,
              method: Annotated[Optional[str], typer.Option(help="taylor (default), or a method of SciPy's solve_ivp by "
                                                                 "name; for the exact model.")] = None,
              rtol: Annotated[Optional[float], typer.Option(help="Relative tolerance; default: the method's own.")] = None,
+             digits: Annotated[Optional[int], typer.Option(metavar="N", help="Reach N digits (1 to 15) the cheapest way, check "
+                                                           "them, or exit with 5.")] = None,
              out: Annotated[Optional[Path], typer.Option(metavar="FILE.nc|.csv", help="Write the states to a file.")] = None,
              json: Json = False):
     """Follow a motion in time.
@@ -105,13 +107,14 @@ def simulate(case: CaseFile,
     times = _times(loaded, at)
     if out:
         trajectory_files.checked(out)
-    from .analysis.models import follow
-    run = follow(loaded, times, model, method, rtol, order)
+    run, reached = _followed(loaded, times, model, method, rtol, order, digits)
     if out:
         trajectory_files.write(loaded, run, out)
         _say(f"written: {out}")
     if json or not out:
-        _print(answers.as_json(answers.simulation(loaded, run)) if json else answers.simulation_text(loaded, run))
+        told = {"digits": reached and {"asked": reached.asked, "reached": reached.digits, "because": reached.because}}
+        last = f"\n# {reached.digits:.1f} digits: {reached.because}" if reached else ""
+        _print(answers.as_json(answers.simulation(loaded, run) | told) if json else answers.simulation_text(loaded, run) + last)
     if run.status != "reached":
         raise ToleranceNotMet(f"{case}: {run.reason}")
 
@@ -280,6 +283,19 @@ def _motion(case):
     from .analysis.motion import motion
     vertical = case.blocks["gamma"] if "gamma" in case.scene.blocks else ()
     return motion(case.scene, (*case.state, *vertical), case.span)
+
+
+def _followed(case, times, model, method, rtol, order, digits):
+    """(the motion, what the check of its digits showed or None)."""
+    if digits is None:
+        from .analysis.models import follow
+        return follow(case, times, model, method, rtol, order), None
+    if model != "exact" or method or rtol or order:
+        raise InputError("--digits chooses method and tolerance of the exact motion itself: give it without --model, --method, "
+                         "--rtol and --order")
+    from .analysis.precision_digits import simulate_to
+    reached = simulate_to(case, times, digits)
+    return reached.run, reached
 
 
 def _times(case, at: str | None) -> list[float]:

@@ -2,6 +2,7 @@
 import csv
 import json
 import math
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from types import SimpleNamespace
@@ -12,8 +13,10 @@ import pytest
 
 from stabilab import load
 from stabilab.analysis import precision as measuring
-from stabilab.analysis import precision_front
+from stabilab.analysis import precision_digits, precision_front
 from stabilab.analysis.precision import Point, digit_price, pareto, precision
+from stabilab.analysis.precision_digits import candidates, simulate_to
+from stabilab.analysis.precision_front import FrontPoint
 from stabilab.analysis.precision_methods import methods, problem
 from stabilab.analysis.precision_reduced import ladder, reduced
 from stabilab.analysis.precision_reference import Recursion, reference, relative_errors
@@ -259,7 +262,8 @@ def test_picture_shows_a_panel_a_question_and_a_line_a_method(measured):
 
 
 def test_page_has_words_picture_and_front_of_every_case(tmp_path, monkeypatch, measured):
-    monkeypatch.setattr(measuring, "precision", lambda case, quick: measured)
+    one = replace(measured, points=tuple(measured.of("span")))  # a small picture
+    monkeypatch.setattr(measuring, "precision", lambda case, quick: one)
     told = []
     path = shown.page([FREE], tmp_path, told.append)
     html = path.read_text(encoding="utf-8")
@@ -310,3 +314,74 @@ def test_a_folder_that_cannot_be_written_keeps_nothing(tmp_path, monkeypatch, me
     (tmp_path / "file").write_text("")
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file"))
     assert precision_front.keep(measured) is None
+
+
+# -- digits asked for --------------------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def judged():
+    """Case name -> (case, times, reference) of the paper's motions."""
+    found = {}
+    for name in ("minor-axis-100", "middle-axis-300", "major-axis-500", "major-axis-captured"):
+        one, times = case(name), np.array([0.0, 5.0, 15.0])
+        found[name] = one, times, reference(one.scene, one.state, times)
+    return found
+
+
+@pytest.mark.parametrize("digits", [3, 6, 9, 12, 15])
+def test_digits_asked_for_are_reached(judged, digits, tmp_path, monkeypatch):
+    # against the reference in many digits, which the check itself does not use below 15
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    for name, (one, times, exact) in judged.items():
+        reached = simulate_to(one, times, digits)
+        error = relative_errors(reached.run.state["x"], exact.states, exact.rest, exact.slices).max()
+        assert error <= 10.0**-digits and reached.digits >= digits, name
+        assert error <= 10.0**-reached.digits * 1.01 + 2.0**-53, name  # what it says of itself holds
+
+
+def test_a_measured_front_is_followed_and_checked(tmp_path, monkeypatch, judged):
+    # a front that lies: RK23 at 1e-3 "has 11 digits"; the check sees through it and the next setting serves
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    one, times, exact = judged["minor-axis-100"]
+    lie, honest = FrontPoint("RK23", 1e-3, 11.0, 1e-6), FrontPoint("DOP853", 1e-9, 7.6, 2e-6)
+    monkeypatch.setattr(precision_digits, "front", lambda case: (lie, honest))
+    assert candidates(one, times, 6)[:2] == [("RK23", 1e-3), ("DOP853", 1e-9)]
+    assert ("DOP853", 1e-9) not in candidates(one, times, 7)  # no digit to spare
+    assert ("RK23", 1e-3) not in candidates(one, 100 * times, 6)  # measured for a shorter span
+    reached = simulate_to(one, times, 6)
+    assert reached.run.method == "DOP853"
+    assert relative_errors(reached.run.state["x"], exact.states, exact.rest, exact.slices).max() <= 1e-6
+
+
+def test_reduced_form_serves_digits_where_it_was_measured_to(monkeypatch, judged):
+    one, times, exact = judged["minor-axis-100"]
+    monkeypatch.setattr(precision_digits, "front", lambda case: (FrontPoint("reduced", 64, 13.8, 1e-6),))
+    reached = simulate_to(one, times, 12)
+    assert reached.run.method == "reduced form" and reached.run.counters["evaluations"] > 64
+    assert relative_errors(reached.run.state["x"], exact.states, exact.rest, exact.slices).max() <= 1e-12
+
+
+def test_digits_that_nothing_reaches_end_with_5(stabilab, tmp_path, monkeypatch):
+    # an attitude: many digits are not set up for it, doubles lose some on the way
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    code, out, err = stabilab("simulate", CASES / "charged-body.toml", "--at", "0,50", "--digits", "15")
+    assert code == 5 and not out and "15 digits asked for" in err
+
+
+def test_simulate_tells_the_digits_and_how_they_were_checked(stabilab, tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    path = CASES / "minor-axis-100.toml"
+    code, out, _ = stabilab("simulate", path, "--at", "0,5", "--digits", "9", "--json")
+    told = json.loads(out)["digits"]
+    assert code == 0 and told["asked"] == 9 and told["reached"] >= 9 and "last place" in told["because"]
+    code, out, _ = stabilab("simulate", path, "--at", "0,5", "--digits", "9")
+    assert code == 0 and "digits: " in out.splitlines()[-1]
+    assert json.loads(stabilab("simulate", path, "--at", "0,5", "--json")[1])["digits"] is None
+
+
+@pytest.mark.parametrize("options", [("--digits", "16"), ("--digits", "0"), ("--digits", "6", "--rtol", "1e-3"),
+                                     ("--digits", "6", "--method", "RK45")])
+def test_digits_that_make_no_sense_are_refused(stabilab, options):
+    code, out, err = stabilab("simulate", CASES / "minor-axis-100.toml", "--at", "1", *options)
+    assert code == 2 and not out and "digits" in err
