@@ -150,6 +150,7 @@ def compare(case: CaseFile,
 def precision(case: CaseFile, json: Json = False,
               csv: Annotated[bool, typer.Option("--csv", help="CSV on stdout instead of text.")] = False,
               out: Annotated[Optional[Path], typer.Option(metavar="FILE.png|.csv", help="Write the picture or the points.")] = None,
+              until: Annotated[Optional[float], typer.Option(metavar="T", help="End of the span; default: the case's own.")] = None,
               quick: Annotated[bool, typer.Option("--quick", help="Few settings: seconds instead of a minute.")] = False):
     """Measure what accuracy costs: every method, error and time.
 
@@ -165,7 +166,7 @@ def precision(case: CaseFile, json: Json = False,
     from .analysis.precision_front import keep
     if out:
         shown.checked(out)
-    found = measure(_load([case], motion=True)[0], quick)
+    found = measure(_load([case], motion=True)[0], quick, until)
     keep(found)
     if out:
         shown.write(found, out)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -122,12 +122,14 @@ def digit_price(points) -> float | None:
     return float(math.exp(np.polyfit(digits, logs, 1)[0]))
 
 
-def precision(case, quick: bool = False, progress=None) -> Precision:
-    """Measure a case. quick: few settings, small limits. progress(words) is called before each method.
+def precision(case, quick: bool = False, until: float | None = None, progress=None) -> Precision:
+    """Measure a case. quick: few settings, small limits. until: end of the span in place of the case's own.
+    progress(words) is called before each method.
 
     Raises InputError for a case without a motion and a span, and for rates that are no polynomials.
     """
     tell = progress or (lambda words: None)
+    case = case if until is None else replace(case, span=(0.0, float(until)))
     task = problem(case, TIMES)
     tell("reference")
     period = known_period(task)
@@ -159,7 +161,7 @@ def _rungs(task, method: Method, quick, left_out):
     for index, value in enumerate(method.ladder):
         expected = last * growth
         if method.name in SCIPY_METHODS and expected > most:
-            left_out.append((method.name, value, f"some {expected:.1g} evaluations expected, {most} allowed"))
+            left_out.append((method.name, value, f"more than the {most} evaluations allowed, by the growth so far"))
             continue
         start = time.perf_counter()
         run = method.prepare(task, value)
@@ -179,6 +181,9 @@ def _states(task, method, exact, quick, points, left_out):
         for question, times in (("span", exact.t), ("end", exact.t[-1:])):
             answer, fast, slow, repeats = _timed(lambda: run(times), quick)
             error = _state_error(task, answer, exact, len(times))
+            if math.isinf(error):
+                left_out.append((method.name, value, "no answer over the whole span"))
+                break
             known = "" if set(answer.parts) == set(task.slices) else ", ".join(answer.parts)
             points.append(Point(question, method.name, method.setting, value, error, answer.steps, answer.evaluations,
                                 fast / method.lanes, slow / method.lanes, repeats, compiled, method.lanes, known))
@@ -233,7 +238,7 @@ def _sensitivity(task, exact) -> float | None:
     moved = np.abs(nudged - task.start).max() / (np.abs(task.start).max() or 1.0)
     if not moved:
         return None
-    found, _ = one_run(Recursion(task.equations), nudged, exact.t, 30, [WORK])
+    found, _ = one_run(Recursion(task.equations), nudged, exact.t, 30, [WORK], exact.period is not None)
     n = len(found)
     states, rest = _pairs(found)
     shift = relative_errors(states, exact.states[:n], exact.rest[:n] - rest, task.slices)

@@ -158,30 +158,40 @@ def _length(rows, order, digits):
 def one_run(recursion, start, times, digits, budget, orbit=False):
     """(states at the times reached, (period, extremes) or None) as balls at `digits` decimal digits.
 
-    times: of one sign, moving away from 0. orbit: go on to the first return.
+    times: of one sign, moving away from 0. orbit: the motion is known to repeat: its return is found, and later times
+    are folded by the period, so that they cost nothing.
     """
     from flint import ctx
-    found, loop = [], Loop(recursion) if orbit else None
-    sense = -1 if len(times) and times[-1] < 0 else 1
+    found, passed, loop = [], [], Loop() if orbit else None
     with ctx.workprec(int((digits + GUARD) * 3.33)):
         wanted = [_number(t) for t in times]
         try:
-            for step in steps(recursion, start, digits, budget, sense):
+            for step in steps(recursion, start, digits, budget, -1 if len(times) and times[-1] < 0 else 1):
                 while len(found) < len(wanted) and abs(wanted[len(found)] - step.start) <= abs(step.length):
                     found.append(step.at((wanted[len(found)] - step.start).mid()))
-                if loop and not loop.closed:
+                if loop:
+                    passed.append(step)
                     loop.take(step)
+                    if loop.closed:
+                        found += [_folded(passed, t, loop.period) for t in wanted[len(found):]]
                 if len(found) == len(wanted) and (loop is None or loop.closed):
                     break
         except Exhausted:
             pass
-        return found, loop.result() if loop and loop.closed else None
+        return found, (loop.period, loop.extremes) if loop and loop.closed else None
+
+
+def _folded(passed, time, period):
+    """State at a time beyond the first return."""
+    within = (time - (time / period).floor() * period).mid()
+    step = next((s for s in passed if s.start <= within and within - s.start <= s.length), passed[-1])
+    return step.at((within - step.start).mid())
 
 
 class Loop:
     """Watches a motion until it returns to its start: the time of return and the extremes on the way."""
 
-    def __init__(self, recursion):
+    def __init__(self):
         self.closed, self.period, self.extremes = False, None, None
 
     def take(self, step):
@@ -208,9 +218,6 @@ class Loop:
         row[0] = row[0] - sum(map(mul, self.normal, self.home))
         after = 1e-9 if step.start == 0 else 0.0
         return [s for s in _roots(row, step.length) if s > step.length * after and value(row, s, 1) > 0]
-
-    def result(self):
-        return self.period, self.extremes
 
 
 def _roots(row, length):
@@ -266,14 +273,15 @@ def relative_errors(values, states, rest, slices) -> np.ndarray:
 def reference(scene, start, times, blocks=(), orbit=False, work: int = WORK) -> Reference:
     """The motion from `start` (N numbers, taken as exact) at increasing (or decreasing) times of one sign.
 
-    blocks: blocks of state beyond those the scene needs. orbit: find the first return and the extremes up to it as
-    well. work: multiplications allowed. Where two precisions do not agree within it, the longest part of the span that
+    blocks: blocks of state beyond those the scene needs. orbit: the motion is known to repeat: find its period and
+    extremes as well, and fold later times by the period. work: multiplications allowed. Where two precisions do not agree within it, the longest part of the span that
     does is returned, with status "stopped". Raises InputError for rates that are no polynomials.
     """
     from ..blocks import slices
     equations = derive(scene, blocks)
     recursion, times, budget = Recursion(equations), np.asarray(times, float), [work]
     parts, before, best = slices(equations.blocks), None, None
+    orbit = orbit and not (times < 0).any()
     empty = np.empty((0, recursion.size))
     for digits in DIGITS:
         now = one_run(recursion, start, times, digits, budget, orbit)

@@ -123,8 +123,10 @@ def _model_words(found):
         points = found.of("span", name)
         if points:
             best = min(points, key=lambda p: p.error)
-            off = "no answer over the whole span" if math.isinf(best.error) else f"its own error is {best.error:.2g} of the state"
-            yield f"The model {name}{setting(best)}: {off}, whatever is spent on it{f' (of {best.parts} alone)' if best.parts else ''}."
+            yield (f"The model {name}{setting(best)}: its own error is {best.error:.2g} of the state, whatever is spent on it"
+                   f"{f' (of {best.parts} alone)' if best.parts else ''}.")
+        elif any(m == name for m, *_ in found.left_out):
+            yield f"The model {name} has no answer over the whole span."
 
 
 def duration(seconds) -> str:
@@ -151,9 +153,16 @@ def text(found) -> str:
         lines += ["", _title(found, question),
                   f"  {'method':<14}{'setting':<15}{'error':>9}{'digits':>8}{'steps':>9}{'evaluations':>13}{'time':>10}{'slowest':>10}{'compile':>10}"]
         lines += [_line(p, id(p) in front) for p in found.of(question)]
-    finest = {name: f"{value:.0e} and finer: {why}" for name, value, why in reversed(found.left_out)}
-    lines += [f"  left out: {name}, rtol {rest}" for name, rest in reversed(finest.items())]
+    lines += [f"  left out: {line}" for line in _left_out(found)]
     return "\n".join([*lines, "", *words(found), "", caption()])
+
+
+def _left_out(found):
+    """A line per method and reason: the coarsest setting that it holds for."""
+    first = {}
+    for name, value, why in found.left_out:
+        first.setdefault((name, why), []).append(value)
+    return [f"{name}, {values[0]:g}{' and finer' if len(values) > 1 else ''}: {why}" for (name, why), values in first.items()]
 
 
 def _line(p, best) -> str:
