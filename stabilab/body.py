@@ -22,7 +22,7 @@ class Body:
 
     inertia: tuple[float, float, float]
     mass: float | None = None
-    exact: tuple[Fraction, Fraction, Fraction] = field(init=False, repr=False, compare=False)
+    exact: tuple[Fraction, Fraction, Fraction] = field(init=False, repr=False)
 
     def __post_init__(self):
         moments = exact_vector(self.inertia, "inertia")

@@ -65,8 +65,8 @@ class ScaledGyrostat:
     a: float
     b: float
     mu: tuple[float, float, float]
-    exact_ab: tuple[Fraction, Fraction] = field(init=False, repr=False, compare=False)
-    exact_mu: tuple[Fraction, Fraction, Fraction] = field(init=False, repr=False, compare=False)
+    exact_ab: tuple[Fraction, Fraction] = field(init=False, repr=False)
+    exact_mu: tuple[Fraction, Fraction, Fraction] = field(init=False, repr=False)
     variables = "scaled"
     components = ("x1", "x2", "x3")
     time_unit = "tau"

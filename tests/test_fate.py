@@ -259,3 +259,14 @@ def test_random_problems_on_every_axis_agree_with_the_potential_oracle():
         states = rng.normal(size=(3, 3)) * 3
         expected = [WORDS[energy.label(problem, tuple(s), digits=60)] for s in states.tolist()]
         np.testing.assert_array_equal(stabilab.fate(scene, states).labels, expected)
+
+
+def test_scenes_that_differ_in_an_exact_number_alone_are_different_scenes():
+    """"0.2" is a fifth, 0.2 a double beside it: equal floats must not make one scene answer for the other from memory."""
+    fifth, double = stabilab.ScaledGyrostat("0.2", "0.4", (0, 0, 1)), stabilab.ScaledGyrostat(0.2, 0.4, (0, 0, 1))
+    assert fifth != double and fifth == stabilab.ScaledGyrostat("1/5", "2/5", (0, 0, "1"))
+    assert stabilab.Gyrostat(("0.1", 0, 0)) != stabilab.Gyrostat((0.1, 0, 0))
+    state = brink(FAMILIES["minor scaled +"][1], (-3.0, 1.0), -1e-14)
+    stabilab.fate(fifth, np.array(state))
+    margin = float(stabilab.fate(double, np.array(state)).margins)
+    assert margin == pytest.approx(float(energy.margin(FAMILIES["minor scaled +"][1], state)), rel=1e-6)

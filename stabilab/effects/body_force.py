@@ -19,7 +19,7 @@ class BodyForce(Effect):
     needs = ("position",)
 
     vector: tuple[float, float, float]
-    exact: tuple[Fraction, Fraction, Fraction] = field(init=False, repr=False, compare=False)
+    exact: tuple[Fraction, Fraction, Fraction] = field(init=False, repr=False)
 
     def __post_init__(self):
         object.__setattr__(self, "exact", exact_vector(self.vector, "force"))

@@ -26,8 +26,8 @@ class Charge(Effect):
     field_strength: float
     arm: float
     angle: float | str
-    exact: Fraction = field(init=False, repr=False, compare=False)
-    strength: float = field(init=False, repr=False, compare=False)
+    exact: Fraction = field(init=False, repr=False)
+    strength: float = field(init=False, repr=False)
 
     def __post_init__(self):
         scale = exact(self.charge) * exact(self.field_strength) * exact(self.arm) ** 2

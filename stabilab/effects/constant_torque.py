@@ -19,7 +19,7 @@ class ConstantTorque(Effect):
     small: ClassVar[bool] = True
 
     vector: tuple[float, float, float]
-    exact: tuple[Fraction, Fraction, Fraction] = field(init=False, repr=False, compare=False)
+    exact: tuple[Fraction, Fraction, Fraction] = field(init=False, repr=False)
 
     def __post_init__(self):
         object.__setattr__(self, "exact", exact_vector(self.vector, "torque"))

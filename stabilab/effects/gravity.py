@@ -20,7 +20,7 @@ class Gravity(Effect):
 
     weight: float
     centre_of_mass: tuple[float, float, float]
-    exact: tuple[Fraction, Fraction, Fraction] = field(init=False, repr=False, compare=False)
+    exact: tuple[Fraction, Fraction, Fraction] = field(init=False, repr=False)
 
     def __post_init__(self):
         weight, centre = exact(self.weight), exact_vector(self.centre_of_mass, "centre_of_mass")

@@ -21,7 +21,7 @@ class Gyrostat(Effect):
     works: ClassVar[bool] = False
 
     moment: tuple[float, float, float]
-    exact: tuple[Fraction, Fraction, Fraction] = field(init=False, repr=False, compare=False)
+    exact: tuple[Fraction, Fraction, Fraction] = field(init=False, repr=False)
 
     def __post_init__(self):
         object.__setattr__(self, "exact", exact_vector(self.moment, "momentum"))

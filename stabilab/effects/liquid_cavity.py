@@ -31,7 +31,7 @@ class LiquidCavity(Effect):
     viscosity: float
     P0: float
     law: str = "consistent"
-    exact: Fraction = field(init=False, repr=False, compare=False)
+    exact: Fraction = field(init=False, repr=False)
 
     def __post_init__(self):
         density, viscosity, P0 = exact(self.density), exact(self.viscosity), exact(self.P0)

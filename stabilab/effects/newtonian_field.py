@@ -19,7 +19,7 @@ class NewtonianField(Effect):
     needs = ("gamma",)
 
     strength: float
-    exact: Fraction = field(init=False, repr=False, compare=False)
+    exact: Fraction = field(init=False, repr=False)
 
     def __post_init__(self):
         object.__setattr__(self, "exact", exact(self.strength))

@@ -20,7 +20,7 @@ class Resistance(Effect):
     keeps_volume: ClassVar[bool] = False
 
     coefficient: float
-    exact: Fraction = field(init=False, repr=False, compare=False)
+    exact: Fraction = field(init=False, repr=False)
 
     def __post_init__(self):
         value = exact(self.coefficient)
