@@ -120,3 +120,25 @@ def test_a_fault_in_one_of_the_values_is_a_fault_of_the_file(tmp_path):
     path.write_text(CHARGED.read_text() + '\n[sweep]\n"body.mass" = [10, -1]\n')
     with pytest.raises(CaseError, match="expected a positive number"):
         load_all(path)
+
+
+def test_a_charge_of_constant_angle_is_judged_as_the_gyrostat_that_turns_alike():
+    """k omega x e3 is the rate of a gyrostatic moment -k e3: same fates, extremes, periods for lambda3 - k (by hand)."""
+    import stabilab
+    from stabilab.effects import effect_class
+    body, torque = stabilab.Body((12, 9, 5)), stabilab.ConstantTorque((0.02, 0, 0))
+    charged = stabilab.Scene(body, torque, stabilab.Gyrostat((0, 0.25, 1)), effect_class("charge")(0.5, 2, 1, 0))
+    twin = stabilab.Scene(body, torque, stabilab.Gyrostat((0, 0.25, 0)))
+    states = np.random.default_rng(5).normal(size=(20, 3)) / 4
+    np.testing.assert_array_equal(stabilab.fate(charged, states).labels, stabilab.fate(twin, states).labels)
+    np.testing.assert_array_equal(stabilab.extremes(charged, states), stabilab.extremes(twin, states))
+    np.testing.assert_array_equal(stabilab.period(charged, states), stabilab.period(twin, states))
+    assert len(stabilab.separatrix(charged).sheets) == len(stabilab.separatrix(twin).sheets)
+
+
+def test_fate_refuses_a_scene_that_no_theorem_covers_by_name():
+    import stabilab
+    from stabilab.effects import effect_class
+    scene = stabilab.Scene(stabilab.Body((3, 2, 2)), effect_class("resistance")(0.1))
+    with pytest.raises(InputError, match="resistance"):
+        stabilab.fate(scene, [1.0, 0, 0])

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from .effective import effective
 from .fate import CHUNK, checked_states, fate
 from .landscape import EPS, TURN, Landscape, landscape
 from .results import Fate
@@ -25,7 +26,7 @@ def extremes(scene, states, span=None):
     +-inf where a component grows without bound; at an equilibrium both are the state. Scenes without a reduction need
     `span`, a time: their extremes hold over [0, span] (InputError without it). Raises InputError as `fate` does.
     """
-    array = checked_states(states)
+    scene, array = effective(scene), checked_states(states)
     flat = array.reshape(-1, 3)
     land = landscape(scene)
     if land is None:

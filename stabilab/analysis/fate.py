@@ -15,6 +15,7 @@ from functools import cached_property
 import numpy as np
 
 from ..errors import InputError
+from .effective import effective
 from .landscape import EPS, TURN, Landscape, landscape
 from .precise import decide
 from .results import Fate
@@ -112,7 +113,7 @@ def fate(scene, states) -> FateResult:
     scene: Scene or ScaledGyrostat. Returns a FateResult. Raises InputError for arrays of another shape, for non-finite
     numbers, and for scenes with effects that this analysis does not cover.
     """
-    array = checked_states(states)
+    scene, array = effective(scene), checked_states(states)
     flat = np.ascontiguousarray(array.reshape(-1, 3))
     label_chunk = _labeller(scene)
     n = len(flat)

@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from .extremes import CHUNK, _pick, near_separatrix, needs_digits
+from .effective import effective
 from .fate import checked_states, fate
 from .landscape import EPS, TURN, Landscape, landscape
 from .results import Fate
@@ -23,7 +24,7 @@ MIDPOINT_NODES = (16, 32, 64, 128, 256)
 
 def periods(scene, states):
     """See `extremes.period`."""
-    array = checked_states(states)
+    scene, array = effective(scene), checked_states(states)
     flat = array.reshape(-1, 3)
     land = landscape(scene)
     if land is None:

@@ -15,6 +15,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from .effective import effective
 from .landscape import EPS, TURN, Landscape, landscape
 from .results import Separatrix, Sheet
 from .rootfind import bracketed_newton
@@ -40,7 +41,7 @@ def separatrix(scene, reach: float | None = None, shape: tuple[int, int] = (96, 
         raise InputError(f"shape: expected at least (3, 5), got {tuple(shape)}")
     if reach is not None and not reach > 1:
         raise InputError(f"reach: expected a multiple of the fold's radius above 1, got {reach}")
-    land = landscape(scene)
+    land = landscape(effective(scene))
     if land is None:
         return Separatrix((), "no reduction to one degree of freedom: the separatrix of this scene is not known in closed form")
     if land.e == 0:
