@@ -258,7 +258,8 @@ def test_picture_shows_a_panel_a_question_and_a_line_a_method(measured):
         visible = [ax for ax in figure.axes if ax.get_visible()]
         assert len(visible) == len(measured.questions)
         drawn = [line for line in visible[0].lines if len(line.get_xdata()) and line.get_marker() not in ("None", None, "")]
-        assert len(drawn) == len({p.method for p in measured.of("span")})
+        assert len(drawn) == len({p.method for p in measured.of("span")}) + 1  # the front lies under them
+        assert len(drawn[0].get_xdata()) == len(measured.front("span")) > 1
         assert "cores" in figure.legends[0].get_title().get_text()
 
 
@@ -287,6 +288,19 @@ def test_command_answers_in_strict_json(stabilab, monkeypatch, tmp_path, measure
     assert {"processor", "cores", "system"} <= answer["machine"].keys() and answer["versions"]["stabilab"]
 
 
+def test_command_takes_another_end_of_the_span(stabilab, monkeypatch, tmp_path, measured):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    given = []
+    monkeypatch.setattr(measuring, "precision", lambda case, quick, until=None: given.append((quick, until)) or measured)
+    code, out, _ = stabilab("precision", CASES / "torque-free-body.toml", "--until", "1500", "--csv")
+    assert code == 0 and given == [(False, 1500.0)] and out.startswith("case,question,method")
+
+
+def test_times_reach_from_zero_to_the_end_of_the_span():
+    task = problem(replace(FREE, span=(0.0, 3.0)), 4)
+    assert task.times.tolist() == [0.75, 1.5, 2.25, 3.0]
+
+
 def test_command_refuses_other_endings_before_it_measures(stabilab, monkeypatch, tmp_path):
     monkeypatch.setattr(measuring, "precision", lambda case, quick, until=None: pytest.fail("measured"))
     code, out, err = stabilab("precision", CASES / "torque-free-body.toml", "--out", tmp_path / "p.pdf")
@@ -305,6 +319,9 @@ def test_front_is_kept_per_motion_machine_and_version(tmp_path, monkeypatch, mea
     assert [p.method for p in kept] == [p.method for p in measured.front("span")] and kept
     assert all(a.digits < b.digits and a.cost < b.cost for a, b in zip(kept, kept[1:]))
     assert precision_front.front(case("sphere-wheel")) == ()
+    coarse = replace(measured, points=measured.points[:1])
+    assert precision_front.keep(coarse) == path and precision_front.front(FREE) == kept  # quick: nothing is lost
+    assert precision_front.keep(replace(coarse, quick=False)) == path and len(precision_front.front(FREE)) == 1
     monkeypatch.setattr(precision_front, "versions", lambda: {"stabilab": "0"})
     assert precision_front.front(FREE) == ()
     path.write_text("{")

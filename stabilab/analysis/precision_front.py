@@ -37,8 +37,11 @@ def front(case) -> tuple[FrontPoint, ...]:
 
 
 def keep(measured) -> Path | None:
-    """Keep the front of a measurement (over the span); None where the folder cannot be written."""
+    """Keep the front of a measurement (over the span), a quick one only where there is none yet; the file, or None where
+    the folder cannot be written."""
     path = _file(measured.case)
+    if measured.quick and front(measured.case):
+        return path
     points = [asdict(FrontPoint(p.method, p.value, round(p.digits, 3), p.seconds)) for p in measured.front("span")]
     text = json.dumps({"schema": CACHE_SCHEMA, "case": measured.case.name, "machine": machine() | versions(), "front": points},
                       indent=1, allow_nan=False)

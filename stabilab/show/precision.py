@@ -259,7 +259,7 @@ def picture(plt, found):
     return figure
 
 
-FRONT = {"color": "#B8C4CC", "linewidth": 7, "alpha": 0.7, "solid_joinstyle": "round"}
+FRONT = {"color": "#CDD5DA", "linewidth": 7, "marker": "o", "markersize": 11, "markeredgewidth": 0, "solid_joinstyle": "round"}
 
 
 def _legend(found, method) -> str:
