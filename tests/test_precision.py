@@ -19,7 +19,8 @@ from stabilab.analysis.precision_digits import candidates, simulate_to
 from stabilab.analysis.precision_front import FrontPoint
 from stabilab.analysis.precision_methods import methods, problem
 from stabilab.analysis.precision_reduced import ladder, reduced
-from stabilab.analysis.precision_reference import Recursion, reference, relative_errors
+from stabilab.analysis.precision_reference import reference, relative_errors
+from stabilab.analysis.precision_series import Recursion
 from stabilab.body import Body
 from stabilab.effects.gyrostat import Gyrostat
 from stabilab.equations import derive

@@ -230,7 +230,8 @@ def _extremes_error(answer, exact) -> float:
 def _sensitivity(task, exact) -> float | None:
     """Largest relative change of the state over the span per relative change of the start, for one change of every
     component by about a unit in its last place."""
-    from .precision_reference import Recursion, _pairs, one_run
+    from .precision_reference import _pairs, one_run
+    from .precision_series import Recursion
     if not len(exact.t):
         return None
     signs = np.random.default_rng(1).choice([-1.0, 1.0], task.start.size)

@@ -13,7 +13,6 @@ import numpy as np
 
 from ..blocks import slices
 from ..compiled import TAYLOR_TOLERANCE, heyoka_available, to_numpy, to_taylor
-from ..equations import derive
 from ..errors import InputError
 from .models import follow, models_of
 from .simulation import start_of
