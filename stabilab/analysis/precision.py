@@ -19,7 +19,7 @@ from .trajectories import SCIPY_METHODS
 
 TIMES = 16  # states over the span
 QUICK_WORK = WORK // 4
-MOST_EVALUATIONS, QUICK_EVALUATIONS = 60_000, 4_000  # by the growth from rung to rung; a rung that would need more is left out
+MOST_EVALUATIONS, QUICK_EVALUATIONS = 60_000, 12_000  # by the growth from rung to rung; a rung that would need more is left out
 REPEATS, QUICK_REPEATS = (7, 0.2), (3, 0.05)  # runs of each rung, and seconds after which fewer do
 QUESTIONS = {"span": "states over the span", "end": "state at the end", "extremes": "extremes", "period": "period"}
 PRICED = 2.0  # digits: over less, a price of one says nothing

@@ -99,7 +99,10 @@ def reference(scene, start, times, blocks=(), orbit=False, work: int = WORK) -> 
     orbit = orbit and not (times < 0).any()
     empty = np.empty((0, recursion.size))
     for digits in DIGITS:
+        kept = 0 if before else budget[0] * 2 // 3  # of the work, for the second run: it costs twice the first
+        budget[0] -= kept
         now = one_run(recursion, start, times, digits, budget, orbit)
+        budget[0] = max(budget[0], 0) + kept if kept else budget[0]
         if before is not None:
             found = _compared(times, before, now, parts, work - budget[0])
             best = found if best is None or len(found.t) >= len(best.t) else best
