@@ -326,6 +326,8 @@ def test_front_is_kept_per_motion_machine_and_version(tmp_path, monkeypatch, mea
     coarse = replace(measured, points=measured.points[:1])
     assert precision_front.keep(coarse) == path and precision_front.front(FREE) == kept  # quick: nothing is lost
     assert precision_front.keep(replace(coarse, quick=False)) == path and len(precision_front.front(FREE)) == 1
+    short = replace(measured, quick=False, reference=replace(measured.reference, status="stopped"))
+    assert precision_front.keep(short) is None  # it would speak of times that were not judged
     monkeypatch.setattr(precision_front, "versions", lambda: {"stabilab": "0"})
     assert precision_front.front(FREE) == ()
     path.write_text("{")

@@ -37,8 +37,10 @@ def front(case) -> tuple[FrontPoint, ...]:
 
 
 def keep(measured) -> Path | None:
-    """Keep the front of a measurement (over the span), a quick one only where there is none yet; the file, or None where
-    the folder cannot be written."""
+    """Keep the front of a measurement over the whole span, a quick one only where there is none yet; the file, or None
+    where a part of the span was not judged or the folder cannot be written."""
+    if measured.reference.status != "agrees":
+        return None
     path = _file(measured.case)
     if measured.quick and front(measured.case):
         return path
