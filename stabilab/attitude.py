@@ -24,6 +24,12 @@ def angles(q):
     return np.stack([np.arctan2(r[2][1], across), np.arctan2(-r[2][0], r[2][2]), np.arctan2(-r[0][1], r[1][1])], axis=-1)
 
 
+def beyond(found):
+    """The other 3-1-2 angles (..., 3) of the same attitudes, with cos psi < 0 where `found` has cos psi > 0."""
+    psi, phi, theta = np.moveaxis(np.asarray(found, float), -1, 0)
+    return np.stack([np.pi - psi, phi + np.pi, theta + np.pi], axis=-1)
+
+
 def to_space(q, vectors):
     """Inertial components of body vectors (..., 3) at quaternions (..., 4)."""
     r = rotation(np.moveaxis(np.asarray(q, float), -1, 0))

@@ -72,6 +72,34 @@ def test_angles_count_whole_turns_between_far_apart_times():
     np.testing.assert_allclose(run.state["angles"][:, 2], [0.25 - 300, 150.25, 3000.25], rtol=1e-13)
 
 
+@pytest.mark.parametrize("times", [[10.0], [20.0], [-10.0, 20.0]])
+def test_angles_count_the_turns_of_a_pendulum_that_rests_at_the_asked_for_times(times):
+    """It leaves the upper rest by 1e-4 rad/s, whips round once in 11.3 s and is back near rest at 10 and 20 s: the angle
+    is the integral of the rate, by an independent fine run in small steps."""
+    from scipy.integrate import solve_ivp
+    scene = Scene(Body((12, 9, 5)), make("gravity", 100, (0, 0, "0.5")))
+    run = simulate(scene, (0.0, 1e-4, 0.0), times, {"gamma": (0, 0, -1), "attitude": (0, 0, 0)})
+    for time, phi in zip(times, run.state["angles"][:, 1]):
+        own = solve_ivp(lambda t, y: (y[1], 50 / 9 * np.sin(y[0])), (0, time), (0, 1e-4), rtol=1e-12, atol=1e-14, method="DOP853")
+        np.testing.assert_allclose(phi, own.y[0, -1], rtol=0, atol=1e-6)
+    assert abs(phi) > 6
+
+
+def test_angles_start_where_the_case_says_whichever_branch_it_takes():
+    """psi = 2 and (pi - 2, pi, pi) are one attitude; the run stays with the one that was given. Spin about axis 3: theta."""
+    for first in ((2.0, 0.1, -0.2), (2.0, 7.0, 9.0), (-9.0, 0.1, 0.2), (1.0, -4.0, 12.0)):
+        run = simulate(Scene(BODY), (0.0, 0.0, 0.5), [0.0, 0.125], {"attitude": first})
+        np.testing.assert_allclose(run.state["angles"][0], first, atol=1e-14)
+        assert np.abs(run.state["angles"][1] - first).max() < 0.3
+
+
+def test_the_points_for_counting_turns_come_from_the_method_that_was_asked_for():
+    """A rotation about axis 3 at 40 rad/s seen at its ends alone, by a method whose steps are not those of the series."""
+    for method in ("RK45", "Radau"):
+        run = simulate(Scene(BODY), (0.0, 0.0, 40.0), [0.0, 5.0], {"attitude": (0.0, 0.0, 0.0)}, method, 1e-6)
+        assert run.method == method and run.state["angles"][1, 2] == pytest.approx(200.0, rel=1e-3)
+
+
 def test_inertial_momentum_of_a_free_gyrostat_stands_still():
     scene = Scene(BODY, Gyrostat((0.5, -1, 2)))
     run = simulate(scene, (1.0, -0.5, 0.25), [0.0, 1.0, 10.0, 40.0], {"attitude": (0.1, -0.2, 0.3)})

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..attitude import angles, quaternion, to_space, unwrapped
+from ..attitude import angles, beyond, quaternion, to_space, unwrapped
 from ..blocks import ordered
 from .trajectories import trajectory
 
@@ -13,6 +13,7 @@ STIFF = 1e6  # fastest decay times duration beyond which an explicit method woul
 STIFF_METHOD, STIFF_RTOL = "Radau", 1e-10
 SHORT_WAY = 1.5  # rad: a step of phi or theta below half a turn by this margin cannot hide a whole one
 ROUNDS, POINTS = 12, 400_000  # of refining the times between the asked-for ones for unwrapping
+INSIDE = 5  # points a step: a Taylor step to the last digit turns the body by up to three radians
 
 
 @dataclass(frozen=True)
@@ -88,15 +89,15 @@ def _chosen(scene, start, times, method, rtol):
 
 def _with_attitude(scene, start, first, times, method, rtol, why):
     """The run with angles unwrapped over a grid fine enough that no turn is missed."""
-    inner, doubtful = _grid(scene, start, times), ""
+    inner, first, doubtful = _grid(scene, start, times, method, rtol), np.asarray(first, float), ""
     for _ in range(ROUNDS):
         run = trajectory(scene, start, inner, method, rtol)
         q = run.block("attitude")
-        wrapped = angles(q)
+        wrapped = angles(q) if np.cos(first[0]) >= 0 else beyond(angles(q))
         middle = int(np.argmin(np.abs(run.t)))
         path = np.empty_like(wrapped)
-        path[middle:] = unwrapped(wrapped[middle:], np.asarray(first, float))
-        path[:middle + 1] = unwrapped(wrapped[middle::-1], np.asarray(first, float))[::-1]
+        path[middle:] = unwrapped(wrapped[middle:], first)
+        path[:middle + 1] = unwrapped(wrapped[middle::-1], first)[::-1]
         wide = np.nonzero(np.abs(np.diff(path[:, 1:], axis=0)).max(axis=1, initial=0.0) > np.pi - SHORT_WAY)[0]
         if not len(wide) or len(inner) + len(wide) > POINTS or run.status != "reached":
             break
@@ -104,7 +105,8 @@ def _with_attitude(scene, start, first, times, method, rtol, why):
     if len(wide) and run.status == "reached":
         doubtful = (f"near t = {run.t[wide[0]]:.6g} the attitude passes the singular angle cos psi = 0; "
                     "phi and theta take the short way there")
-    at = np.searchsorted(run.t, times[np.isin(times, run.t)] if run.status != "reached" else np.sort(times))
+    ordered_times = np.sort(times)
+    at = np.searchsorted(run.t, ordered_times if run.status == "reached" else ordered_times[np.isin(ordered_times, run.t)])
     at = at if len(times) < 2 or times[0] < times[-1] else at[::-1]
     state = {name: run.block(name)[at] for name in run.blocks if name != "attitude"}
     state = {"omega": state.pop("omega"), **({"gamma": state.pop("gamma")} if "gamma" in state else {}),
@@ -113,18 +115,15 @@ def _with_attitude(scene, start, first, times, method, rtol, why):
     return Simulation(run.t[at], state, "exact", run.method, run.rtol, run.invariant_drift, run.counters, run.status, reason)
 
 
-def _grid(scene, start, times):
-    """The asked-for times, zero, and points between them where a coarse run turns by less than a radian a step."""
-    base = np.unique(np.concatenate([[0.0], times]))
-    run = trajectory(scene, start, base)
-    if run.status != "reached" or len(base) < 2:
-        return base
-    rates = np.linalg.norm(run.block("omega"), axis=1)
-    pieces = [base[:1]]
-    for (a, b), rate in zip(zip(base, base[1:]), np.maximum(rates, np.roll(rates, -1))):
-        count = int(min(np.ceil((b - a) * rate) + 4, POINTS // len(base) + 1))
-        pieces.append(np.linspace(a, b, count + 1)[1:])
-    return np.concatenate(pieces)
+def _grid(scene, start, times, method, rtol):
+    """The asked-for times, zero, and the method's own steps with points inside each: between the points of a step the
+    body turns by less than a radian or so, however it hurries between the asked-for times."""
+    base, steps = np.unique(np.concatenate([[0.0], times])), []
+    trajectory(scene, start, base, method, rtol, steps)
+    ends = np.unique(np.concatenate([base, steps]))
+    inside = max(1, min(INSIDE, POINTS // len(ends)))
+    share = np.arange(inside) / inside
+    return np.unique(np.concatenate([base, (ends[:-1, None] + np.diff(ends)[:, None] * share).ravel()]))
 
 
 def body_momentum(scene, omega):

@@ -27,7 +27,7 @@ STEP_LIMIT = 20_000_000
 OUTCOMES = {"err_nf_state": "the numbers overflowed", "step_limit": f"{STEP_LIMIT} steps were not enough"}
 
 
-def trajectory(scene, state, times, method: str = "taylor", rtol: float | None = None) -> Trajectory:
+def trajectory(scene, state, times, method: str = "taylor", rtol: float | None = None, steps: list | None = None) -> Trajectory:
     """States of a scene at the given times, the motion being at `state` at t = 0.
 
     state: three numbers, the angular velocity (x when scaled); for scenes with more blocks of state all their
@@ -37,7 +37,7 @@ def trajectory(scene, state, times, method: str = "taylor", rtol: float | None =
     times: (n,) strictly increasing or decreasing, of any sign, in s (tau when scaled). method: "taylor" (heyoka; where
     it is not installed SciPy's DOP853 at rtol 1e-13, and `method` and `reason` say so) or a method of
     scipy.integrate.solve_ivp by name, in any case. rtol: relative tolerance; None is half an ulp for "taylor", 1e-10
-    for the others. Where the run cannot go on (overflow, a failing step) `status` is "stopped", `reason` says why, and
+    for the others. steps: a list that takes the times at which the method ended its own steps. Where the run cannot go on (overflow, a failing step) `status` is "stopped", `reason` says why, and
     t, states hold the times that were reached. Raises InputError for states and times that are no such numbers and
     for an unknown method.
     """
@@ -58,7 +58,7 @@ def trajectory(scene, state, times, method: str = "taylor", rtol: float | None =
     for chosen, sense in ((times < 0, -1), (times > 0, 1)):
         grid = np.sort(times[chosen] * sense) * sense
         if grid.size:
-            points, failure = run.run(state, grid)
+            points, failure = run.run(state, grid, steps)
             reached += list(grid[:len(points)])
             states += list(points[:, :state.size])
             failures += [failure] if failure else []
@@ -158,15 +158,17 @@ class _Taylor:
         self.integrator = to_taylor(system.equations, [law.rate for law in laws], rtol)
         self.counters = {"steps": 0, "order": self.integrator.order}
 
-    def run(self, state, grid):
-        """(states and law integrals at the times of `grid`, failure or None); grid moves away from 0 without it."""
+    def run(self, state, grid, passed=None):
+        """(states and law integrals at the times of `grid`, failure or None); grid moves away from 0 without it.
+        passed: a list that takes the ends of the steps."""
         ta = self.integrator
+        note = {} if passed is None else {"callback": lambda ta: passed.append(ta.time) is None}
         ta.time = 0.0
         ta.state[:] = 0.0
         ta.state[:state.size] = state
         with_start = np.concatenate([[0.0], grid])
         with np.errstate(all="ignore"):
-            outcome, _, _, steps, *_, out = ta.propagate_grid(with_start, max_steps=STEP_LIMIT)
+            outcome, _, _, steps, *_, out = ta.propagate_grid(with_start, max_steps=STEP_LIMIT, **note)
         self.counters["steps"] += steps
         out = np.asarray(out).reshape(-1, ta.state.size)[1:].copy()
         out[:, state.size:] /= FEATHER
@@ -183,13 +185,13 @@ class _SciPy:
         self.system, self.method, self.rtol, self.landing = system, method, rtol, landing
         self.counters = {"steps": 0, "rate evaluations": 0, "jacobian evaluations": 0}
 
-    def run(self, state, grid):
+    def run(self, state, grid, passed=None):
         """As of _Taylor."""
         y, t, points, h = np.concatenate([state, np.zeros(len(self.system.equations.balances))]), 0.0, [], None
         failure = None
         with np.errstate(all="ignore"):
             for piece in (grid[i:i + 1] for i in range(len(grid))) if self.landing else (grid,):
-                y, h, failure = self._piece(t, y, piece, h, points)
+                y, h, failure = self._piece(t, y, piece, h, points, passed)
                 if failure:
                     break
                 t = piece[-1]
@@ -197,7 +199,7 @@ class _SciPy:
         out[:, state.size:] /= FEATHER
         return out, failure and _stopped(out, grid, failure)
 
-    def _piece(self, t, y, grid, h, points):
+    def _piece(self, t, y, grid, h, points, passed):
         """Steps from t to grid[-1], appending to `points`; (last state, last step, failure or None)."""
         n = len(self.system.equations.state)
         try:
@@ -211,6 +213,8 @@ class _SciPy:
             except (ValueError, OverflowError) as error:  # SciPy's linear algebra refuses infinite entries
                 return y, h, str(error)
             self.counters["steps"] += 1
+            if passed is not None:
+                passed.append(solver.t)
             if solver.status == "failed" or not np.isfinite(solver.y[:n]).all():
                 return y, h, message or "the numbers overflowed"
             if self.counters["steps"] >= STEP_LIMIT:
