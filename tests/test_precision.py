@@ -24,7 +24,7 @@ from stabilab.analysis.precision_series import Recursion
 from stabilab.body import Body
 from stabilab.effects.gyrostat import Gyrostat
 from stabilab.equations import derive
-from stabilab.errors import InputError
+from stabilab.errors import InputError, ToleranceNotMet
 from stabilab.scene import Scene
 from stabilab.show import precision as shown
 
@@ -409,3 +409,16 @@ def test_simulate_tells_the_digits_and_how_they_were_checked(stabilab, tmp_path,
 def test_digits_that_make_no_sense_are_refused(stabilab, options):
     code, out, err = stabilab("simulate", CASES / "minor-axis-100.toml", "--at", "1", *options)
     assert code == 2 and not out and "digits" in err
+
+
+def test_a_start_on_an_unstable_plane_is_beyond_doubles_but_not_beyond_many_digits(tmp_path, monkeypatch):
+    # On the plane x1 + b = -x3 (a law of the equations, see `show`) the distance from pure spin obeys u' = -x2 u: it dies out.
+    # Off it by rounding, the distance grows as fast.
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    one = case("middle-axis-spin-up")
+    reached = simulate_to(one, np.array([0.0, 12.0]), 10)
+    assert reached.run.method == "many digits"
+    x1, x2, x3 = reached.run.state["x"][-1]
+    assert abs(x1 + one.scene.b) < 1e-20 and abs(x3) < 1e-20 and x2 > 5
+    with pytest.raises(ToleranceNotMet, match="10 digits asked for"):
+        simulate_to(one, np.array([0.0, 20.0]), 10)

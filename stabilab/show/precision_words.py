@@ -6,6 +6,7 @@ from ..analysis.precision_front import machine, versions
 
 FORMULAS = ("linear", "printed", "averaged1", "averaged2", "lindstedt")
 WANTED = (3, 6, 9, 12, 15)  # digits whose price the words tell
+BLAMED = 20  # an error this many times the effect of the start's last place has other causes
 
 
 def words(found) -> list[str]:
@@ -39,7 +40,7 @@ def _question_words(found, question):
     missing = next((d for d in WANTED if d > prices[-1][0]), None)
     best = max(points, key=lambda p: p.digits)
     if missing:
-        yield f"No method gets {missing} digits: the best is {best.digits:.1f} ({best.method}{setting(best)}){_because(found, question, missing)}."
+        yield f"No method gets {missing} digits: the best is {best.digits:.1f} ({best.method}{setting(best)}){_because(found, question, missing, best)}."
 
 
 def title(found, question) -> str:
@@ -81,13 +82,14 @@ def price(factor) -> str:
     return f"x{factor:.2f}"
 
 
-def _because(found, question, missing) -> str:
-    if question in ("span", "end") and found.sensitivity is not None and found.sensitivity * EPS > 0.2 * 10.0**-missing:
-        return (f"; a change of the start in its last place (1e-16) moves the state by {found.sensitivity * EPS:.0e} within the span, "
+def _because(found, question, missing, best) -> str:
+    shift = (found.sensitivity or 0.0) * EPS if question in ("span", "end") else 0.0
+    if shift > max(0.2 * 10.0**-missing, best.error / BLAMED):
+        return (f"; a change of the start in its last place (1e-16) moves the state by {shift:.0e} within the span, "
                 "so doubles do not hold more")
     if found.left_out:
-        return "; finer settings were left out as too costly, or rounding has the last word"
-    return "; rounding in doubles has the last word"
+        return "; rounding on the way has the last word, or the finer settings that were left out"
+    return "; rounding on the way has the last word"
 
 
 def _fate_words(found):
