@@ -165,3 +165,26 @@ def test_overflow_stops_the_run_with_a_reason_and_no_nan(method):
 def test_bad_input_is_named(arguments, words):
     with pytest.raises(InputError, match=words):
         trajectory(TORQUED, *arguments)
+
+
+def test_a_run_cut_into_stretches_is_the_run_in_one(monkeypatch):
+    from stabilab.analysis import trajectories
+    scene, times = Scene(Body((12, 9, 5)), Gyrostat(("0.8", 0, 0)), ConstantTorque((0, 0, "0.02"))), [0.0, 1.0, 50.0, 300.0]
+    whole = trajectory(scene, (0.1, 0.05, 0.02), times)
+    monkeypatch.setattr(trajectories, "REPORT", 7)
+    cut = trajectory(scene, (0.1, 0.05, 0.02), times)
+    assert cut.counters["steps"] > 20 and cut.status == "reached"
+    np.testing.assert_allclose(cut.states, whole.states, rtol=0, atol=1e-14)
+    assert max(cut.invariant_drift.values()) < 1e-14
+
+
+def test_a_run_that_would_crawl_for_ever_stops_and_says_what_is_left(monkeypatch):
+    """Backwards in time the resistance spins the body up by e^20 a second, and the liquid's time shrinks as its square."""
+    from stabilab.analysis import trajectories
+    from stabilab.effects import effect_class
+    scene = Scene(Body(("9.51", "9.3", 9)), effect_class("resistance")(20), effect_class("liquid_cavity")(1250, 1000, "1.9"))
+    monkeypatch.setattr(trajectories, "REPORT", 5_000)
+    monkeypatch.setattr(trajectories, "STEP_LIMIT", 100_000)
+    run = trajectory(scene, (1.0, 0.0, 1.0), [-0.25, -1.0, -1.5])
+    assert run.status == "stopped" and run.t.tolist() == [-0.25] and "steps went from t =" in run.reason
+    assert 5_000 <= run.counters["steps"] <= 100_000

@@ -24,7 +24,8 @@ FALLBACK_RTOL = 1e-13
 # Absolute tolerance of the SciPy runs relative to the size of the state: keeps rtol meaningful at zero crossings.
 ATOL_SHARE = 1e-3
 STEP_LIMIT = 20_000_000
-OUTCOMES = {"err_nf_state": "the numbers overflowed", "step_limit": f"{STEP_LIMIT} steps were not enough"}
+REPORT, PATIENCE = 1_000_000, 5  # steps after which the rest is forecast; forecast over STEP_LIMIT that ends the run
+OUTCOMES = {"err_nf_state": "the numbers overflowed"}
 
 
 def trajectory(scene, state, times, method: str = "taylor", rtol: float | None = None, steps: list | None = None) -> Trajectory:
@@ -166,15 +167,28 @@ class _Taylor:
         ta.time = 0.0
         ta.state[:] = 0.0
         ta.state[:state.size] = state
-        with_start = np.concatenate([[0.0], grid])
-        with np.errstate(all="ignore"):
-            outcome, _, _, steps, *_, out = ta.propagate_grid(with_start, max_steps=STEP_LIMIT, **note)
-        self.counters["steps"] += steps
-        out = np.asarray(out).reshape(-1, ta.state.size)[1:].copy()
+        out, failure = self._passed(grid, note)
         out[:, state.size:] /= FEATHER
         good = np.isfinite(out).all(axis=1)
         out = out if good.all() else out[:np.argmin(good)]
-        return out, None if len(out) == len(grid) else _stopped(out, grid, OUTCOMES.get(outcome.name, outcome.name))
+        return out, None if len(out) == len(grid) else _stopped(out, grid, failure)
+
+    def _passed(self, grid, note):
+        """(states at the times of `grid` that were reached, why not all or None)."""
+        ta, rows, begun = self.integrator, [np.empty((0, self.integrator.state.size))], self.counters["steps"]
+        while True:
+            done = sum(map(len, rows))
+            last = ta.time
+            with np.errstate(all="ignore"):
+                outcome, _, _, steps, *_, out = ta.propagate_grid(np.concatenate([[last], grid[done:]]), max_steps=REPORT, **note)
+            self.counters["steps"] += steps
+            rows.append(np.array(out).reshape(-1, ta.state.size)[1:])
+            left = abs(grid[-1] - ta.time) / (abs(ta.time - last) or 1e-300) * REPORT
+            if outcome.name != "step_limit":
+                return np.concatenate(rows), OUTCOMES.get(outcome.name, outcome.name)
+            if self.counters["steps"] - begun >= STEP_LIMIT or left > PATIENCE * STEP_LIMIT:
+                return np.concatenate(rows), (f"the last {REPORT} steps went from t = {last:.9g} to {ta.time:.9g}, the rest would "
+                                              f"take some {left:.1g} steps")
 
 
 class _SciPy:
