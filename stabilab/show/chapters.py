@@ -5,12 +5,18 @@ own cases, and the times of the first 1 % and 10 % error come from `analysis.com
 """
 from __future__ import annotations
 
+import json
+import subprocess
+import sys
+from contextlib import contextmanager
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Callable
 
 import numpy as np
 
 from ..errors import StabilabError
+from ..interrupt import undoing
 from . import claims, comparison, figures, panels, style
 
 
@@ -63,9 +69,47 @@ CHAPTERS = (
 )
 
 
-def sections(folder, tell) -> list[dict]:
-    """What the template says of every chapter; pictures go to `folder`/figures. tell(words) is called before each step."""
-    return [_section(chapter, folder, tell) for chapter in CHAPTERS]
+MADE = "chapters.json"  # what the second process leaves in the folder
+
+
+@contextmanager
+def beside(folder):
+    """Make the chapters in a second process while the block runs: they share nothing with the rest of a report and take as
+    long. Gives collect(tell) -> what the template says of every chapter; pictures go to `folder`/figures."""
+    if not CHAPTERS:
+        yield lambda tell: []
+        return
+    child = subprocess.Popen([sys.executable, "-m", __name__, str(folder)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+    def stop():
+        child.kill()
+        child.wait()
+    with undoing(stop):
+        try:
+            yield lambda tell: _collect(child, folder, tell)
+        finally:
+            stop()
+
+
+def _collect(child, folder, tell):
+    tell("chapters")
+    made = Path(folder) / MADE
+    if child.wait() or not made.is_file():
+        return sections(folder, tell)  # here, so that whatever went wrong is reported
+    found = json.loads(made.read_text(encoding="utf-8"))
+    made.unlink()
+    return found
+
+
+def sections(folder, tell=lambda words: None) -> list[dict]:
+    """The chapters, made in this process; plain data. tell(words) is called before each step."""
+    return [_section(chapter, Path(folder), tell) for chapter in CHAPTERS]
+
+
+def main(folder):
+    """What the second process does."""
+    found = sections(folder)
+    (Path(folder) / MADE).write_text(json.dumps(found), encoding="utf-8")
 
 
 def _section(chapter, folder, tell) -> dict:
@@ -74,8 +118,8 @@ def _section(chapter, folder, tell) -> dict:
     drawn = figures.write(None, folder / "figures", tell, chapter.paper)
     section = {"id": chapter.paper, "title": chapter.title, "paper": figures.PAPERS[chapter.paper], "about": chapter.about, "problem": "",
                "claims": [], "compared": [], "sensible": None, "parameters": "", "end": chapter.end,
-               "figures": [{**vars(row), "file": f"figures/{path.name}", "command": row.command, "size": size(path)}
-                           for row, path in zip(rows, drawn)]}
+               "figures": [{"number": row.number, "title": row.title, "caption": row.caption, "tolerance": row.tolerance,
+                            "command": row.command, "file": f"figures/{path.name}", "size": size(path)} for row, path in zip(rows, drawn)]}
     try:
         tell(f"chapter {chapter.paper}: comparisons")
         section["parameters"] = _parameters(panels.sweep(chapter.compared[0][0])[chapter.compared[0][1]])
@@ -120,9 +164,12 @@ def _sensible(chapter, folder):
             "parameters": _parameters(case), "file": f"figures/{path.name}", "size": size(path), "path": f"cases/{case.name}.toml"}
 
 
-def size(path):
-    """Width and height attributes of a picture: the page does not jump while it loads."""
-    from markupsafe import Markup
+def size(path) -> list[int]:
+    """Width and height of a picture: the page does not jump while it loads."""
     from PIL import Image
     with Image.open(path) as image:
-        return Markup('width="{}" height="{}"').format(*image.size)
+        return list(image.size)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])

@@ -31,8 +31,8 @@ def write(cases=None, out="report", progress=None) -> Path:
     out = Path(out)
     loaded = _load(cases)
     out.parent.mkdir(parents=True, exist_ok=True)
-    with _progress(progress) as tell, _temporary(out) as folder:
-        _make(loaded, folder, tell, out)
+    with _progress(progress) as tell, _temporary(out) as folder, chapters.beside(folder) as others:
+        _make(loaded, folder, tell, out, others)
         return _put_in_place(folder, out)
 
 
@@ -71,8 +71,8 @@ def _progress(given):
         yield lambda words: status.update(f"report: {words}")
 
 
-def _make(cases, folder, tell, out):
-    """Fill the temporary folder."""
+def _make(cases, folder, tell, out, others):
+    """Fill the temporary folder. others(tell): the chapters."""
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
     environment = Environment(loader=FileSystemLoader(Path(__file__).parent / "templates"), autoescape=True,
                               undefined=StrictUndefined)
@@ -82,12 +82,11 @@ def _make(cases, folder, tell, out):
     tell("surfaces")
     surfaces, note = _surfaces(cases, folder, tell)
     sections = [_section(case, folder, tell) for case in cases]
-    others = chapters.sections(folder, tell)
     tell("printed formulas")
     from ..audit import check
     page = environment.get_template("index.html").render(
         title="Bounded motion and spin-up of a gyrostat under constant torque", paper=paper.PAPER, rendering_note=note,
-        cases=sections, chapters=others, tables=tables, surfaces=surfaces, audit=check(), versions=_versions(),
+        cases=sections, chapters=others(tell), tables=tables, surfaces=surfaces, audit=check(), versions=_versions(),
         figures=[{**vars(row), "file": f"figures/{path.name}", "command": row.command, "size": chapters.size(path)}
                  for row, path in zip(figures.FIGURES, drawn)],
         command=f"stabilab report {' '.join(case.path for case in cases)} --out {out}")
