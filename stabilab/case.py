@@ -77,7 +77,8 @@ def load_all(path) -> list[Case]:
     found = combinations(Table((), data, faults))
     if not found:
         return [base]
-    return [_built(path, text, values, Faults(faults.lines), suffix) for suffix, values in found]
+    swept = {tuple(key.split(".")): ("sweep", key) for key in data["sweep"]}
+    return [_built(path, text, values, Faults(faults.lines, swept), suffix) for suffix, values in found]
 
 
 def _read(path):
@@ -137,7 +138,10 @@ def _physical(top: Table) -> tuple[Scene | None, tuple | None]:
             continue
         cls = effect_class(name)
         table.known(cls.keys)
-        made.append(cls.from_case(table, _Context(body or STAND_IN, body is None)))
+        try:
+            made.append(cls.from_case(table, _Context(body or STAND_IN, body is None)))
+        except InputError as error:  # numbers that are good one by one, but not together
+            effects.fault(str(error), name)
     if body is None or None in made:
         return None, None
     torque = effects.data.get("constant_torque", {})
@@ -247,9 +251,19 @@ def _in_range(top: Table, scene):
     except OverflowError:
         top.fault("the coefficients of the equations of motion exceed the largest double (about 1.8e308): "
                   "choose other units", "scaled" if "scaled" in top else "body")
-    except InputError:  # effects with other equations look after their own range
-        pass
+    except InputError:  # other effects: their parameters, and these as rates
+        for effect in scene.effects:
+            if _too_large(effect, scene.body):
+                top.fault("its numbers, or these over the moments of inertia, exceed the largest double (about 1.8e308): "
+                          "choose other units", "effects", effect.name)
     return scene
+
+
+def _too_large(effect, body) -> bool:
+    try:
+        return not all(math.isfinite(float(v)) and math.isfinite(float(v / min(body.exact))) for v in effect.parameters().values())
+    except OverflowError:
+        return True
 
 
 def _span(motion: _Motion, variables: str, scaling: Scaling | None) -> tuple[float, float] | None:

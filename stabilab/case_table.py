@@ -17,14 +17,16 @@ class Written(str):
 
 
 class Faults:
-    """The faults found so far, each at the line of its key."""
+    """The faults found so far, each at the line of its key; moved: path -> path of the key that stands for it."""
 
-    def __init__(self, lines: KeyLines):
-        self.lines = lines
+    def __init__(self, lines: KeyLines, moved: dict | None = None):
+        self.lines, self.moved = lines, moved or {}
         self.problems: list[Problem] = []
 
     def add(self, path: tuple, message: str):
-        self.problems.append(Problem(dotted(path), message, self.lines.of(path)))
+        source = next((there for here, there in self.moved.items() if path[:len(here)] == here), path)
+        note = message if source is path else f"{message} (a value of [sweep])"
+        self.problems.append(Problem(dotted(path), note, self.lines.of(source)))
 
 
 class Table:

@@ -20,10 +20,15 @@ def exact(value) -> Fraction:
     try:
         rounded = float(number)
     except OverflowError:
-        raise InputError(f"{value!r} is larger than the largest double (about 1.8e308)") from None
+        raise InputError(f"{_short(value)} is larger than the largest double (about 1.8e308)") from None
     if number and not rounded:
-        raise InputError(f"{value!r} is smaller than the smallest double (about 4.9e-324); write 0 if zero is meant")
+        raise InputError(f"{_short(value)} is smaller than the smallest double (about 4.9e-324); write 0 if zero is meant")
     return number
+
+
+def _short(value) -> str:
+    """The number as it came, or that it is a long one."""
+    return repr(value) if len(repr(value)) <= 60 else "the number"
 
 
 def _parse(value) -> Fraction:
@@ -76,8 +81,9 @@ def precise(name: str, *arguments, bits: int = 240) -> Fraction:
     with mp.workprec(bits + 20):
         values = [mpf(a.numerator) / a.denominator for a in arguments]
         number = getattr(mp, name)
-        man, exp = (number(*values) if values else +number).man_exp
-    return Fraction(man) * Fraction(2) ** exp
+        value = number(*values) if values else +number
+        man, exp = value.man_exp  # of the size alone
+    return Fraction(-man if value < 0 else man) * Fraction(2) ** exp
 
 
 def floats(values) -> tuple[float, ...]:

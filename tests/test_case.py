@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, given, settings, strategies as st
 
-from stabilab.case import Case, load
+from stabilab.case import Case, load, load_all
 from stabilab.case_lines import key_lines
 from stabilab.errors import CaseError
 
@@ -271,3 +271,33 @@ def test_mutated_file_is_a_case_or_a_case_error(tmp_path, raw):
         assert all(p.line is None or 1 <= p.line <= raw.count(b"\n") + 1 for p in error.problems)
     else:
         assert isinstance(read, Case) and (read.state is None or all(map(math.isfinite, read.state)))
+
+
+CHARGE = BODY + "[effects.charge]\ncharge = 1\nfield = 1\narm = 1\nangle = {}\n"
+
+
+@pytest.mark.parametrize("angle", ["0.3", "1.5", "1.6", "2.9", "-2.9", "4.7", "5", "100"])
+def test_strength_of_a_charge_has_the_sign_of_the_cosine(case, angle):
+    assert case(CHARGE.format(angle)).scene.effect("charge").strength == pytest.approx(math.cos(float(angle)), rel=1e-15)
+
+
+@pytest.mark.parametrize("text, line, key, words", [
+    (CHARGE.format('"atitude"'), 7, "effects.charge.angle", '"attitude", got "atitude"'),
+    (CHARGE.format("0.3").replace("= 1\n", "= 1e160\n"), 3, "effects.charge", "largest double"),
+    (BODY + "[effects.newtonian_field]\nlambda = 1e300\nR = 1e-100\n", 3, "effects.newtonian_field", "largest double"),
+    (BODY + "[effects.gravity]\nweight = 1e300\ncentre_of_mass = [0, 0, 1e300]\n", 3, "effects.gravity", "other units"),
+    (BODY.replace("00.0", "e-200") + "[effects.gravity]\nweight = 1e200\ncentre_of_mass = [0, 0, 1]\n", 3, "effects.gravity", "other units"),
+    (BODY + "[effects.liquid_cavity]\ndensity = 1e300\nviscosity = 1e-300\nP0 = 1e30\n", 3, "effects.liquid_cavity", "other units")])
+def test_numbers_that_are_good_one_by_one_only_are_refused_at_their_effect(faults, text, line, key, words):
+    (found,) = faults(text)
+    assert found[:2] == (line, key) and words in found[2] and len(found[2]) < 200
+
+
+def test_a_bad_value_of_a_sweep_is_shown_where_it_stands(tmp_path):
+    path = tmp_path / "sweep.toml"
+    path.write_text(BODY + "[effects.gravity]\nweight = 1\ncentre_of_mass = [0, 0, 1]\n[motion]\nangular_velocity = [0, 0, 1]\n"
+                    'vertical = [0, 0, 1]\n[sweep]\n"motion.vertical" = [[0, 0, 1], [0, 1, 1]]\n')
+    with pytest.raises(CaseError) as caught:
+        load_all(path)
+    (problem,) = caught.value.problems
+    assert (problem.line, problem.key) == (10, "motion.vertical") and "unit vector" in problem.message and "[sweep]" in problem.message

@@ -56,20 +56,26 @@ def simulate(scene, omega, times, blocks=None, method: str | None = None, rtol: 
     times = np.atleast_1d(np.asarray(times, float))
     if scene.variables == "scaled":
         run = trajectory(scene, omega, times, method or "taylor", rtol)
-        return _simulation(run, {"x": run.states}, run.reason)
+        return _simulation(run, {"x": run.states})
     start = start_of(scene, omega, blocks or {})
     method, rtol, why = _chosen(scene, start, times, method, rtol)
     if len(start) == 1 and scene.blocks == ("omega",):
         run = trajectory(scene, omega, times, method, rtol)
-        return _simulation(run, {"omega": run.states}, why or run.reason)
+        return _simulation(run, {"omega": run.states}, why)
     if "attitude" not in start:
         run = trajectory(scene, start, times, method, rtol)
-        return _simulation(run, {name: run.block(name) for name in run.blocks}, why or run.reason)
+        return _simulation(run, {name: run.block(name) for name in run.blocks}, why)
     return _with_attitude(scene, start, (blocks or {}).get("attitude", (0.0, 0.0, 0.0)), times, method, rtol, why)
 
 
-def _simulation(run, state, reason):
-    return Simulation(run.t, state, "exact", run.method, run.rtol, run.invariant_drift, run.counters, run.status, reason)
+def _simulation(run, state, why=""):
+    return Simulation(run.t, state, "exact", run.method, run.rtol, run.invariant_drift, run.counters, run.status, _reason(run, why))
+
+
+def _reason(run, *why):
+    """Why it stopped, if it did, and what is to be said of the method; else that all times were reached."""
+    told = "; ".join(filter(None, (run.reason if run.status != "reached" else "", *why)))
+    return told or run.reason
 
 
 def _chosen(scene, start, times, method, rtol):
@@ -111,8 +117,8 @@ def _with_attitude(scene, start, first, times, method, rtol, why):
     state = {name: run.block(name)[at] for name in run.blocks if name != "attitude"}
     state = {"omega": state.pop("omega"), **({"gamma": state.pop("gamma")} if "gamma" in state else {}),
              "angles": path[at], "momentum": to_space(q[at], body_momentum(scene, run.block("omega")[at])), **state}
-    reason = "; ".join(filter(None, (why, doubtful))) or run.reason
-    return Simulation(run.t[at], state, "exact", run.method, run.rtol, run.invariant_drift, run.counters, run.status, reason)
+    return Simulation(run.t[at], state, "exact", run.method, run.rtol, run.invariant_drift, run.counters, run.status,
+                      _reason(run, why, doubtful))
 
 
 def _grid(scene, start, times, method, rtol):

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import ClassVar
 
+from ..errors import InputError
 from ..exact import exact, precise
 from .base import Effect, cross
 
@@ -34,6 +35,8 @@ class Charge(Effect):
         if self.angle != "attitude":
             scale *= precise("cos", exact(self.angle))
         object.__setattr__(self, "exact", scale)
+        if abs(scale) >= 2**1024:
+            raise InputError("charge x field x arm^2 is larger than the largest double (about 1.8e308)")
         object.__setattr__(self, "strength", float(scale))
         for name in ("charge", "field_strength", "arm", *(() if self.angle == "attitude" else ("angle",))):
             object.__setattr__(self, name, float(exact(getattr(self, name))))
@@ -43,7 +46,11 @@ class Charge(Effect):
         if not table.required(*cls.keys):
             return None
         numbers = [table.number(key) for key in cls.keys[:3]]
-        angle = "attitude" if table.data["angle"] == "attitude" else table.number("angle")
+        angle = table.data["angle"]
+        if isinstance(angle, str) and angle != "attitude" and angle.isalpha():
+            table.fault(f'expected a number (rad) or "attitude", got "{angle[:60]}"', "angle")
+            return None
+        angle = angle if angle == "attitude" else table.number("angle")
         return None if None in (*numbers, angle) else cls(*numbers, angle)
 
     @property
