@@ -74,7 +74,7 @@ def test_the_panel_says_how_far_a_cut_model_goes():
     with style.drawing() as plt:
         figure = panels.draw(plt, "", [_column(np.sin, np.exp)], [ROW])
         words = [text.get_text() for text in figure.axes[0].texts]
-    assert words == [f"cut: reaches {math.exp(10):.3g}"]
+    assert words == [f"cut: reaches {math.exp(10):.0f}"]
 
 
 def test_the_small_angles_of_the_charged_body_end_after_two_thirds_of_a_second():

@@ -24,7 +24,8 @@ from . import claims, comparison, figures, panels, style
 class Chapter:
     """paper: short name as of `figures`; about: what the paper does and where it stands; compared: (case file, variant) of the
     motions whose errors are listed; end: s; claims() -> rows (the text says, it is so, True where the text is right);
-    sensible: case file of the variant; sensible_end: s; why: what makes it sensible; parts: of the state to draw."""
+    sensible: case file of the variant; sensible_end: s; why: what makes it sensible; parts: of the state to draw, over
+    `window`, s."""
 
     paper: str
     title: str
@@ -36,6 +37,7 @@ class Chapter:
     sensible_end: float
     why: str
     parts: tuple
+    window: float
 
 
 POINTS = 401  # times at which models are set beside the exact motion
@@ -47,7 +49,7 @@ CHAPTERS = (
             "psi and phi. Euler's "
             "equations give two different rates a and b; equation (8) keeps one. The corrected closed form keeps both.",
             tuple((_SWEEP, v) for v in ("-1-2-1", "-3-2-1", "-1-3-1", "-1-2-3")), 50.0, claims.charged,
-            "charged-body-small-torque", 50.0, "the torque is so small that the tilt stays small for ever", ("omega", "angles", "position")),
+            "charged-body-small-torque", 50.0, "the torque is so small that the tilt stays small for ever", ("omega", "angles", "position"), 50.0),
     Chapter("cavity", "A body with a cavity of viscous liquid",
             "A nearly spherical body with a gyrostatic moment, a charge, a resisting medium, a constant torque and a liquid "
             "so viscous that it follows the body at once. The paper averages over the turn about axis 3 and takes the first "
@@ -58,14 +60,14 @@ CHAPTERS = (
             tuple((f"liquid-{name}", "") for name in ("base", "lambda3-0_2", "lambda3-15", "lambda3-25", "zeta-2_5", "torque-9",
                                                       "charge-1e3", "charge-1e4")), 20.0, claims.cavity,
             "liquid-sensible", 20000.0, "the cavity fits into the body, and the liquid is slow and viscous enough for its "
-            "law", ("omega",)),
+            "law", ("omega",), 3000.0),
     Chapter("top", "A fast top in a Newtonian field",
             "A body about a fixed point, nearly Lagrange's top, under its weight, the gradient of a Newtonian field and a "
             "gyrostatic moment (l_x, 0, l_z), expanded in 1/r0 for a fast spin. The corrected expansion keeps C* = C + "
             "l_z/r0, the permanent "
             "tilt by l_x and the frequency.",
             tuple((f"top-lx{a}-lz{b}", "") for a, b in ((30, 30), (90, 30), (30, 90))), 1.3, claims.top,
-            "top-fast", 2.0, "it spins fast, delta1 and delta2 are of order one, and gamma0'' is not near 0", ("omega", "gamma")),
+            "top-fast", 2.0, "it spins fast, delta1 and delta2 are of order one, and gamma0'' is not near 0", ("omega", "gamma"), 0.15),
 )
 
 
@@ -155,11 +157,12 @@ def _time(value):
 
 def _sensible(chapter, folder):
     """The variant: its errors and its picture."""
-    from ..analysis.comparison import compare
+    from ..analysis.comparison import compare, side_by_side
     case = panels.sweep(chapter.sensible)[""]
     found = compare(case, np.linspace(0.0, chapter.sensible_end, POINTS))
+    runs, _ = side_by_side(case, np.linspace(0.0, chapter.window, 1001))
     with style.drawing() as plt:
-        path = style.save(comparison.picture(plt, case, found.runs, chapter.parts), folder / "figures" / f"{chapter.paper}-sensible.png")
+        path = style.save(comparison.picture(plt, case, runs, chapter.parts), folder / "figures" / f"{chapter.paper}-sensible.png")
     return {"case": case.name, "title": case.title, "why": chapter.why, "end": chapter.sensible_end, "rows": _errors(case, None, found),
             "parameters": _parameters(case), "file": f"figures/{path.name}", "size": size(path), "path": f"cases/{case.name}.toml"}
 

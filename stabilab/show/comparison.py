@@ -17,7 +17,7 @@ NAMES = {"omega": (r"$\omega_1$", r"$\omega_2$", r"$\omega_3$"), "gamma": (r"$\g
          "angles": (r"$\psi$", r"$\phi$", r"$\theta$"), "momentum": (r"$H_1$", r"$H_2$", r"$H_3$"),
          "velocity": (r"$v_1$", r"$v_2$", r"$v_3$"), "position": (r"$x_1$", r"$x_2$", r"$x_3$")}
 UNITS = {"omega": "rad/s", "gamma": "", "angles": "rad", "momentum": "kg m$^2$/s", "velocity": "m/s", "position": "m"}
-REACH = 1.6  # a model that leaves the exact motion's range by more than this factor is cut off, and the title says so
+REACH = 1.6  # a model that leaves the exact motion's range by more than this factor is cut off, and the panel says so
 
 
 def as_dict(case, found) -> dict:
@@ -80,3 +80,9 @@ def _curves(ax, runs, part, column):
     wide = half * REACH or 1e-9 * max(abs(middle), 1)
     if half and (high - low) > 6 * half:  # a model far off must not flatten the motion itself
         ax.set_ylim(middle - 2 * wide, middle + 2 * wide)
+        out = [name for name, run in runs.items() if part in run.state and _leaves(np.asarray(run.state[part])[:, column], ax.get_ylim())]
+        ax.set_title(f"cut: {', '.join(out)}", loc="right", fontsize=8)
+
+
+def _leaves(values, limits):
+    return len(values) and (values.min() < limits[0] or values.max() > limits[1])

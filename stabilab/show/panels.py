@@ -112,7 +112,12 @@ def _panel(ax, row, column, limits):
     if row.equal:
         ax.set_aspect("equal", adjustable="box")
     for (name, top), (x, y, side, edge) in zip(far, CORNERS):
-        ax.text(x, y, f"cut: reaches {top:.3g}", color=LOOKS[name]["color"], ha=side, va=edge, fontsize=7.5, transform=ax.transAxes)
+        ax.text(x, y, f"cut: reaches {plain(top)}", color=LOOKS[name]["color"], ha=side, va=edge, fontsize=7.5, transform=ax.transAxes)
+
+
+def plain(value) -> str:
+    """Three digits without a power of ten where that reads better."""
+    return f"{value:.0f}" if 1000 <= abs(value) < 1e5 else f"{value:.3g}"
 
 
 def _clipped(x, y, limits):
