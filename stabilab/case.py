@@ -51,6 +51,12 @@ class Case:
     variant: str = ""
 
     @property
+    def start(self) -> tuple[float, ...] | None:
+        """The state at time 0, followed by the vertical (gamma) where an effect of the scene needs it."""
+        vertical = self.blocks["gamma"] if self.state and "gamma" in self.scene.blocks else ()
+        return None if self.state is None else (*self.state, *vertical)
+
+    @property
     def name(self) -> str:
         """The file's stem, and which combination of its [sweep] this is ("-2-1": second value of the first key)."""
         return Path(self.path).stem + self.variant

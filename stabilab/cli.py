@@ -282,8 +282,7 @@ def _equilibria(case):
 
 def _motion(case):
     from .analysis.motion import motion
-    vertical = case.blocks["gamma"] if "gamma" in case.scene.blocks else ()
-    return motion(case.scene, (*case.state, *vertical), case.span)
+    return motion(case.scene, case.start, case.span)
 
 
 def _followed(case, times, model, method, rtol, order, digits):

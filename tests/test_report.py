@@ -135,3 +135,11 @@ def test_the_report_opens_in_a_browser_and_its_scene_draws(tmp_path, monkeypatch
     pixels = np.asarray(Image.open(tmp_path / "scene.png").convert("RGB")).reshape(-1, 3)
     coloured = np.ptp(pixels.astype(int), axis=1) > 40  # the sheets are coloured, the ground is white
     assert 0.02 < coloured.mean() < 0.9
+
+
+def test_a_top_has_its_fate_and_no_problem_in_the_report(tmp_path):
+    """Its state has the vertical too: bounded by the energy (|gamma| = 1 bounds the potential)."""
+    from stabilab.case import load
+    from stabilab.show.report import _section
+    section = _section(load(CASES / "top-fast.toml"), tmp_path, lambda words: None)
+    assert section["fate"] == "bounded" and not section["problem"] and (tmp_path / section["picture"]["file"]).exists()
