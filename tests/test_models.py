@@ -142,3 +142,20 @@ def test_fate_refuses_a_scene_that_no_theorem_covers_by_name():
     scene = stabilab.Scene(stabilab.Body((3, 2, 2)), effect_class("resistance")(0.1))
     with pytest.raises(InputError, match="resistance"):
         stabilab.fate(scene, [1.0, 0, 0])
+
+
+def test_a_run_that_reaches_none_of_the_times_ends_with_5_and_an_empty_table(stabilab, tmp_path):
+    """The printed q of this case loses its real value at 7.7 s."""
+    case, out = CASES / "liquid-lambda3-0_2.toml", tmp_path / "run.csv"
+    code, text, err = stabilab("simulate", case, "--model", "printed", "--at", "15,16", "--out", out)
+    assert code == 5 and out.read_text().splitlines() == ["s,omega1,omega2,omega3,amplitude,spin,phase"] and "no real value" in err
+    code, text, err = stabilab("simulate", case, "--model", "printed", "--at", "15")
+    assert code == 5 and "omega1" in text and "Traceback" not in err
+
+
+@pytest.mark.parametrize("arguments", [("simulate", "top-fast.toml", "--at", "1"), ("compare", "charged-body.toml"),
+                                       ("simulate", "charged-body.toml", "--at", "1", "--model", "linear")])
+def test_an_order_without_an_expansion_to_take_it_is_refused(stabilab, arguments):
+    command, name, *rest = arguments
+    code, out, err = stabilab(command, CASES / name, *rest, "--order", "2")
+    assert (code, out) == (2, "") and 'order: belongs to the model "lindstedt"' in err

@@ -48,6 +48,8 @@ def compare(case, times=None, order: int | None = None) -> Comparison:
     The first times of 1 % and 10 % error are bracketed on the grid and refined by evaluating both models in between.
     Raises InputError as `follow` does.
     """
+    if order is not None and "lindstedt" not in models_of(case.scene):
+        raise InputError(f"order: belongs to the model \"lindstedt\"; this scene has {', '.join(models_of(case.scene))}")
     times = np.linspace(*case.span, GRID) if times is None else np.asarray(times, float)
     runs, refused = side_by_side(case, times, order)
     exact, found = runs["exact"], []

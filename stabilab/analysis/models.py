@@ -40,12 +40,12 @@ def follow(case, times, model: str = "exact", method: str | None = None, rtol: f
         close = difflib.get_close_matches(str(model), MODELS, 1)
         hint = f'; did you mean "{close[0]}"?' if close else ""
         raise InputError(f"model: there is no {model!r}; choose one of {', '.join(MODELS)}{hint}")
+    if order is not None and model != "lindstedt":
+        raise InputError(f"order: belongs to the model \"lindstedt\", not to {model!r}")
     if model == "exact":
         return simulate(case.scene, case.state, times, case.blocks, method, rtol)
     if model not in models_of(case.scene):
         raise InputError(f"model: {model!r} does not apply to this scene; it has {', '.join(models_of(case.scene))}")
     if method is not None or rtol is not None:
         raise InputError(f"method, rtol: the model {model!r} is a formula; they belong to the model \"exact\"")
-    if order is not None and model != "lindstedt":
-        raise InputError(f"order: belongs to the model \"lindstedt\", not to {model!r}")
     return family(case.scene).follow(model, case, times, order)

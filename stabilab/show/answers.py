@@ -86,7 +86,7 @@ def columns(run) -> tuple[list[str], list[list[float]]]:
     for name, values in run.state.items():
         values = np.asarray(values, float)
         names += COLUMNS[name] if values.ndim == 2 else (name,)
-        parts.append(values.reshape(len(run.t), -1))
+        parts.append(values.reshape(len(run.t), values.shape[-1] if values.ndim == 2 else 1))
     return names, np.hstack(parts).tolist()
 
 

@@ -81,7 +81,7 @@ _TOL = "exact motion: Taylor integration, relative tolerance 1.1e-16; models: cl
 _PLANE = f"{_TOL}; rates by central differences"
 _RATES = ("p and q obey Euler's equations, which do not ask for small angles; the models hold r at r0, in truth it grows to "
           "{} rad/s and shortens the period. The print adds a wrong frequency (8).")
-_ANGLES = ("The print lets psi and phi swing to {} rad as if they were small. In truth a tilt of 0.1 rad is outgrown after "
+_ANGLES = ("The print lets the tilt of psi and phi swing to {} rad as if it were small. In truth 0.1 rad is outgrown after "
            "{} s (green), psi turns back before pi/2, phi runs on, and theta is not r0 t.")
 _CIRCLE = ("By (35) G runs on a circle of radius M1/r0 = {} kg m^2/s. It leaves out the charge, whose force does change the "
            "momentum, and holds while the torque keeps its direction in the tilted body, some seconds.")
