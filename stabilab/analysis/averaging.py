@@ -130,7 +130,9 @@ class Smallness:
                       _over(moment / J, max(speed, abs(M[2]) / (zeta * J) if zeta else 0.0) ** 2)}
         slow = max(zeta, kappa * speed * turn / J, _over(moment, J * speed))
         # The liquid torque is of second degree in Gamma and the turn by Gamma is in nu: a large one spoils first order only.
-        soft = {"Gamma against J0 |omega|, for first order": _over(abs(g) / J, size) if kappa else 0.0}
+        # First order leaves M1, M2 out: their share comes round with the turn, if there is one.
+        soft = {"Gamma against J0 |omega|, for first order": _over(abs(g) / J, size) if kappa else 0.0,
+                "the torque across axis 3, left out in first order, against the turn": _over(math.hypot(*M[:2]) / J, turn * speed)}
         return cls(float(eps), ratios, soft, slow)
 
     def refuse(self):
