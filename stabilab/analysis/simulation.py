@@ -10,6 +10,7 @@ from ..blocks import ordered
 from .trajectories import trajectory
 
 STIFF = 1e6  # fastest decay times duration beyond which an explicit method would only shorten its steps
+TURNING = 700  # decays per radian of turn below which an attitude or gamma, which turn on, cost Radau more (measured)
 STIFF_METHOD, STIFF_RTOL = "Radau", 1e-10
 SHORT_WAY = 1.5  # rad: a step of phi or theta below half a turn by this margin cannot hide a whole one
 ROUNDS, POINTS = 12, 400_000  # of refining the times between the asked-for ones for unwrapping
@@ -87,7 +88,8 @@ def _chosen(scene, start, times, method, rtol):
     equations, state = _start(scene, start)
     fastest = float(np.max(-np.linalg.eigvals(to_numpy(equations).jacobian(state)).real, initial=0.0))
     stiffness = fastest * float(np.abs(times).max(initial=0.0))
-    if stiffness <= STIFF:
+    turn = float(np.linalg.norm(start["omega"])) if len(equations.blocks) > 1 else 0.0
+    if stiffness <= STIFF or fastest < TURNING * turn:
         return "taylor", rtol, ""
     return STIFF_METHOD, rtol or STIFF_RTOL, (f"stiff: the fastest decay, {fastest:.3g}/s, runs down {stiffness:.2g} times "
                                               f"over the span, so the implicit method {STIFF_METHOD} was taken")
