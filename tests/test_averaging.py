@@ -213,6 +213,7 @@ def test_orders_over_the_time_of_the_slow_change():
 PASSAGE = {"g": 2.0, "M": (1.0, -0.5, -6.0), "split": 2.0}
 
 
+@pytest.mark.slow
 def test_orders_through_zero_frequency():
     # r falls from 1 through d r = g (r = 1/2), where M1, M2 and D1 - D2 push in step: a jump of sqrt(e) that depends on the
     # phase there. First order knows no phase: nominal 1/2. Second order has it to order e: nominal 1 + 1/2.

@@ -94,6 +94,7 @@ def test_the_captions_of_the_charged_body_agree_with_the_exact_motion():
             assert re.search(rf"(?<![\d.]){value:.2f}(?!\d)|(?<![\d.]){value:.0f}(?![\d.])", caption), (number, value)
 
 
+@pytest.mark.slow
 def test_the_printed_liquid_is_impossible():
     """By hand: h^7 = 525 P0/(8 pi) gives h = 1.692 m, a ball of 20.3 m^3, 25.4 t at 1250 kg/m^3."""
     assert "1.69 m" in claims.cavity()[0]["is"] and "25.4 t" in claims.cavity()[0]["is"]
