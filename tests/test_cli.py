@@ -339,8 +339,8 @@ has_proc = pytest.mark.skipif(not Path("/proc/self/task").is_dir(), reason="watc
 @pytest.mark.parametrize("delay", [0, 0.03, 0.1, 0.2, 0.3, 0.4, 0.5, 0.7, 2.0])
 @pytest.mark.parametrize("program", [["-m", "stabilab"], console_script()], ids=["module", "script"])
 def test_interrupt_ends_with_130_and_no_traceback(program, delay):
-    # 1e8 units of time take heyoka about a quarter of an hour, in one call into compiled code
-    assert interrupted([*program, "simulate", str(MINOR), "--at", "1e8"], delay) == (130, b"", b"")
+    # 2e6 units of time keep heyoka for some twenty seconds, in calls of a second into compiled code (1e8 is given up at once)
+    assert interrupted([*program, "simulate", str(MINOR), "--at", "2e6"], delay) == (130, b"", b"")
 
 
 @has_proc
