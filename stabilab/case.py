@@ -75,8 +75,8 @@ def load(path) -> Case:
 def load_all(path) -> list[Case]:
     """The case in the file, or, where it has [sweep], one case for every combination of the values there.
 
-    [sweep] has keys such as "effects.gyrostat.momentum" = [[0, 0, 1], [0, 0, 2]]; each must stand in the file with its
-    first value. [expect] speaks of the file's own values and is left out. Raises CaseError as `load` does.
+    [sweep] has keys such as "effects.gyrostat.momentum" = [[0, 0, 1], [0, 0, 2]]; each must stand in the file with some
+    value of its own, which the sweep replaces. [expect] speaks of the file's own values and is left out. Raises CaseError as `load` does.
     """
     path, text, data, faults = _read(path)
     base = _built(path, text, data, faults)

@@ -22,7 +22,7 @@ def combinations(top: Table) -> list[tuple[str, dict]]:
         if not isinstance(values, list) or not values:
             table.fault(f"expected a list of the values that {key} takes, got {described(values)}", key)
         elif _holder(top.data, path) is None:
-            table.fault(f"this file has no key {key}; write it as \"effects.gyrostat.momentum\", with its first value in "
+            table.fault(f"this file has no key {key}; write it as \"effects.gyrostat.momentum\", with a value in "
                         "its place", key)
         else:
             paths.append(path)
