@@ -16,10 +16,16 @@ CHARGED, SMALL = CASES / "charged-body.toml", CASES / "charged-body-small-torque
 
 
 @pytest.mark.parametrize("name, models", [
-    ("minor-axis-100", ("exact",)), ("charged-body", ("exact", "linear", "printed")), ("charged-body-attitude", ("exact",)),
+    ("minor-axis-100", ("exact",)), ("charged-body", ("exact", "linear", "printed")), ("charged-body-attitude", ("exact", "linear", "printed")),
     ("top-fast", ("exact", "lindstedt", "printed"))])
 def test_the_models_of_a_case_are_those_whose_assumptions_its_scene_meets(name, models):
     assert models_of(load(CASES / f"{name}.toml").scene) == models
+
+
+def test_a_charge_that_follows_the_attitude_is_modelled_with_its_first_angle():
+    """gamma3 = 1 at the start: k = e H l^2 = 0.003 * 100 * 1.02^2, by hand."""
+    from stabilab.analysis.axisymmetric_model import body_of
+    assert float(np.max(body_of(load(CASES / "charged-body-attitude.toml")).charge_moment)) == pytest.approx(0.312120, rel=1e-12)
 
 
 def test_a_model_that_does_not_apply_is_refused_with_those_that_do():

@@ -8,11 +8,10 @@ COVERED = {"charge", "gyrostat", "constant_torque", "body_force"}
 
 
 def applies(scene) -> bool:
-    """Whether the linear model covers the scene: a charge of constant angle or a force, a gyrostatic moment along axis
-    3, a torque across it."""
+    """Whether the linear model covers the scene: a charge or a force, a gyrostatic moment along axis 3, a torque across
+    it. Where the charge's angle follows the attitude the model holds it at its first value, as the paper does."""
     names = {e.name for e in scene.effects}
-    charge = scene.effect("charge")
-    return (names <= COVERED and bool(names & {"charge", "body_force"}) and not (charge and charge.follows_attitude)
+    return (names <= COVERED and bool(names & {"charge", "body_force"})
             and not any(scene.vector("gyrostat")[:2]) and not scene.vector("constant_torque")[2])
 
 
@@ -22,8 +21,10 @@ def body_of(case):
     scene, blocks = case.scene, case.blocks
     charge, force = scene.effect("charge"), scene.effect("body_force")
     p, q, r = case.state
-    rest = (0.0, 0.0, 0.0)
-    return ChargedBody(scene.body.inertia, r, float(scene.vector("gyrostat")[2]), charge.strength if charge else 0.0,
+    rest, k = (0.0, 0.0, 0.0), 0.0
+    if charge is not None:
+        k = charge.strength * (blocks["gamma"][2] if charge.follows_attitude else 1.0)
+    return ChargedBody(scene.body.inertia, r, float(scene.vector("gyrostat")[2]), k,
                        tuple(float(v) for v in scene.vector("constant_torque")[:2]), (p, q), blocks.get("attitude", rest),
                        force.vector if force else rest, scene.body.mass, blocks.get("velocity", rest), blocks.get("position", rest))
 
@@ -42,4 +43,6 @@ def follow(model, case, times, order=None) -> Simulation:
         parts |= {"angles": run.angles, "momentum": run.momentum}
     if blocks & {"velocity", "position"} and run.velocity is not None:
         parts |= {"velocity": run.velocity, "position": run.position}
-    return Simulation(run.t, parts, model, how, None, status="reached", reason=f"{run.status}: {run.reason}")
+    held = case.scene.effect("charge") is not None and case.scene.effect("charge").follows_attitude
+    note = "; the charge's angle is held at its first value" if held else ""
+    return Simulation(run.t, parts, model, how, None, status="reached", reason=f"{run.status}: {run.reason}{note}")
