@@ -16,11 +16,19 @@ class Block:
 
 BLOCKS = {block.name: block for block in (
     Block("omega", ("omega1", "omega2", "omega3"), "rad/s", "angular velocity, body frame"),
-    Block("gamma", ("gamma1", "gamma2", "gamma3"), "", "unit vector fixed in space, seen from the body"),
+    Block("gamma", ("gamma1", "gamma2", "gamma3"), "", "unit vector fixed in space, body frame"),
     Block("attitude", ("q0", "q1", "q2", "q3"), "", "quaternion from body to space"),
     Block("velocity", ("v1", "v2", "v3"), "m/s", "velocity, inertial frame"),
     Block("position", ("x1", "x2", "x3"), "m", "position, inertial frame"))}
 ORDER = tuple(BLOCKS)
+# what a run may show: the blocks, and what is formed from them
+PARTS = BLOCKS | {part.name: part for part in (
+    Block("x", ("x1", "x2", "x3"), "", "angular velocity, body frame, scaled"),
+    Block("angles", ("psi", "phi", "theta"), "rad", "psi, phi, theta of the 3-1-2 sequence, continuous"),
+    Block("momentum", ("H1", "H2", "H3"), "kg m^2/s", "angular momentum, inertial frame"),
+    Block("amplitude", ("amplitude",), "rad/s", "amplitude of the transverse rate"),
+    Block("spin", ("spin",), "rad/s", "averaged rate about axis 3"),
+    Block("phase", ("phase",), "rad", "phase of the transverse rate"))}
 BRINGS = {"position": ("velocity", "attitude"), "velocity": ("attitude",)}  # what a block cannot do without
 
 

@@ -8,7 +8,7 @@ Everything here is a SymPy value; numbers enter at `compiled`.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import reduce
+from functools import lru_cache, reduce
 
 from .blocks import BLOCKS, ordered
 from .effects.base import cross, dot
@@ -30,8 +30,8 @@ class Balance:
 class Equations:
     """Equations of motion as SymPy values.
 
-    blocks: the parts of the state (see `blocks`); state: symbols of the state; parameters: symbol name -> exact value, in order of declaration; symbols: name ->
-    symbol, same order; rhs: rates of the state, 1/s of it (1/tau when scaled); jacobian: immutable matrix
+    blocks: the parts of the state (see `blocks`); state: symbols of the state; parameters: symbol name -> exact value,
+    in order of declaration; symbols: name -> symbol, same order; rhs: rates of the state, 1/s of it (1/tau when scaled); jacobian: immutable matrix
     d rhs_i / d state_j; torques: name -> triple, the parts of inertia * rhs (body frame, N m); inertia: the factors
     of the rates on the left; energy: kinetic energy; balances: the laws.
     """
@@ -92,6 +92,7 @@ def _jacobian(rhs, state):
     return ImmutableMatrix([[rate.diff(x) for x in state] for rate in rhs])
 
 
+@lru_cache(maxsize=32)  # one answer asks for the same equations several times, and a liquid takes a second
 def _physical(scene, names) -> Equations:
     from sympy import Integer
     blocks = {name: tuple(_symbols(BLOCKS[name].components).values()) for name in names}

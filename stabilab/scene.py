@@ -38,6 +38,14 @@ class Scene:
         """The blocks of the state that its effects need (see `blocks`)."""
         return ordered(name for effect in self.effects for name in effect.needs)
 
+    @property
+    def plain(self) -> bool:
+        """Whether it has no effect beyond a gyrostat and a constant torque."""
+        return not self._beyond()
+
+    def _beyond(self):
+        return [e.name for e in self.effects if e.name not in ("gyrostat", "constant_torque")]
+
     def effect(self, name: str) -> Effect | None:
         """The effect called `name`, or None."""
         return next((e for e in self.effects if e.name == name), None)
@@ -49,7 +57,7 @@ class Scene:
 
     def quadratic(self) -> QuadraticForm:
         """The rates with exact coefficients. Raises InputError for effects outside gyrostat and constant torque."""
-        other = [e.name for e in self.effects if e.name not in ("gyrostat", "constant_torque")]
+        other = self._beyond()
         if other:
             raise InputError(f"this analysis covers a gyrostat and a constant torque; the scene also has {', '.join(other)}")
         return euler_form(self.body.exact, self.vector("gyrostat"), self.vector("constant_torque"))
@@ -72,6 +80,7 @@ class ScaledGyrostat:
     time_unit = "tau"
     effects = ()
     blocks = ("omega",)
+    plain = True
 
     def __post_init__(self):
         object.__setattr__(self, "exact_ab", (exact(self.a), exact(self.b)))

@@ -25,7 +25,7 @@ def equilibria(scene) -> Equilibria:
     force go to `other_effects`; there a point may be (omega, gamma), and kind "undecided" says that not all equilibria
     are known. Raises InputError for effects this analysis does not cover.
     """
-    if scene.variables == "physical" and {e.name for e in scene.effects} - {"gyrostat", "constant_torque"}:
+    if not scene.plain:
         from .other_effects import other_equilibria
         found = other_equilibria(scene)
         if found is not None:

@@ -101,10 +101,6 @@ def roots(c2: Fraction, c1: Fraction) -> tuple[complex, complex, complex]:
     return 0j, complex(float(far), 0.0), complex(float(c1 / far) if far else 0.0, 0.0)
 
 
-def _sign(value) -> int:
-    return (value > 0) - (value < 0)
-
-
 def _word(c2, c1) -> str:
     if c2 > 0 and c1 > 0:
         return "stable"

@@ -18,6 +18,8 @@ from types import SimpleNamespace
 from ..effects.base import cross, dot
 from .gyroscopic import Content
 from .other_motion import liquid_torque
+from .precise import ball as ball_of
+from .precise import rational
 from .results import Equilibria, EquilibriumPoint
 
 ROUND = 1 + 1e-9  # more than all roundings of a bound
@@ -45,12 +47,16 @@ def balanced_equilibria(parts: Content) -> Equilibria:
     return Equilibria(kind, f"every box of angular velocities where {words} was proved empty or to hold exactly one equilibrium (Krawczyk)", points)
 
 
+def _in_polynomials(parts: Content):
+    """(omega as flint polynomials, the coefficients of the liquid's torque as flint's rationals)."""
+    from flint import Ordering, fmpq_mpoly_ctx
+    omega = fmpq_mpoly_ctx.get(("x", "y", "z"), Ordering.lex).gens()
+    return omega, SimpleNamespace(D=tuple(map(rational, parts.D)), Lambda=tuple(map(rational, parts.Lambda)), printed=parts.printed)
+
+
 def balance(parts: Content):
     """The three torques as flint polynomials in omega."""
-    from flint import Ordering, fmpq, fmpq_mpoly_ctx
-    w = fmpq_mpoly_ctx.get(("x", "y", "z"), Ordering.lex).gens()
-    rational = lambda v: fmpq(v.numerator, v.denominator)  # noqa: E731
-    exact = SimpleNamespace(D=tuple(map(rational, parts.D)), Lambda=tuple(map(rational, parts.Lambda)), printed=parts.printed)
+    w, exact = _in_polynomials(parts)
     H = [d * x + l for d, x, l in zip(exact.D, w, exact.Lambda)]
     c, kappa = rational(parts.c), rational(parts.kappa)
     return [t + rational(m) - c * d * x + kappa * v
@@ -63,10 +69,7 @@ def _dictionary(polynomial) -> dict:
 
 def bounds(parts: Content) -> tuple[float, float]:
     """(alpha, beta): |part of degree 2|, |part of degree 3| of omega . (torque of the liquid)/kappa are at most alpha x^2, beta x^3."""
-    from flint import Ordering, fmpq, fmpq_mpoly_ctx
-    w = fmpq_mpoly_ctx.get(("x", "y", "z"), Ordering.lex).gens()
-    rational = lambda v: fmpq(v.numerator, v.denominator)  # noqa: E731
-    exact = SimpleNamespace(D=tuple(map(rational, parts.D)), Lambda=tuple(map(rational, parts.Lambda)), printed=parts.printed)
+    w, exact = _in_polynomials(parts)
     work, out = _dictionary(dot(w, liquid_torque(exact, w))), {2: 0.0, 3: 0.0}
     for powers, value in work.items():
         if sum(powers) in out:  # on |y| = 1, y_i = sqrt(D_i) omega_i, a monomial is at most prod (k_i/n)^(k_i/2)
@@ -117,7 +120,7 @@ def _point(parts: Content, polynomials, x) -> EquilibriumPoint:
     with many_digits():
         ball = _enclosed(polynomials, x)
         derivatives = [[_derivative(p, k) for k in range(3)] for p in polynomials]
-        J = [[_value(q, ball) / _arb(d) for q in row] for row, d in zip(derivatives, parts.D)]
+        J = [[_value(q, ball) / ball_of(d) for q in row] for row, d in zip(derivatives, parts.D)]
         middle = np.array([[float(v.mid()) for v in row] for row in J])
         p2 = -(J[0][0] + J[1][1] + J[2][2])
         p1 = sum(J[i][i] * J[j][j] - J[i][j] * J[j][i] for i, j in ((0, 1), (0, 2), (1, 2)))
@@ -133,11 +136,6 @@ def _point(parts: Content, polynomials, x) -> EquilibriumPoint:
     return EquilibriumPoint(at, tuple(complex(z) for z in np.linalg.eigvals(middle)), word, *verdict)
 
 
-def _arb(v):
-    from flint import arb, fmpq
-    return arb(fmpq(v.numerator, v.denominator))
-
-
 def _derivative(polynomial, k):
     return {tuple(p - (i == k) for i, p in enumerate(powers)): v * powers[k] for powers, v in polynomial.items() if powers[k]}
 
@@ -146,7 +144,7 @@ def _value(polynomial, x):
     from flint import arb
     total = arb(0)
     for powers, value in polynomial.items():
-        term = _arb(value)
+        term = ball_of(value)
         for base, n in zip(x, powers):
             for _ in range(n):
                 term = term * base

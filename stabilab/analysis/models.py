@@ -14,7 +14,7 @@ MODELS = ("exact", "linear", "printed", "averaged1", "averaged2", "lindstedt")
 
 def family(scene):
     """The module of analytic solutions that applies to a scene, or None."""
-    if scene.variables == "scaled" or {e.name for e in scene.effects} <= {"gyrostat", "constant_torque"}:
+    if scene.plain:
         return None
     for name in FAMILIES:
         module = import_module(f".{name}", __package__)

@@ -12,10 +12,10 @@ from .results import Fate, Motion
 def motion(scene, state, span=None) -> Motion:
     """All that is known of the motion from `state` (three numbers in the scene's variables) at time 0.
 
-    Where gamma is part of the state: six numbers (omega, gamma), or a dict of blocks. span: (from, to), the times over which extremes are searched where the motion is not integrable. Raises InputError
-    as `fate` does.
+    Where gamma is part of the state: six numbers (omega, gamma), or a dict of blocks. span: (from, to), the times over
+    which extremes are searched where the motion is not integrable. Raises InputError as `fate` does.
     """
-    if scene.variables == "physical" and {e.name for e in scene.effects} - {"gyrostat", "constant_torque"}:
+    if not scene.plain:
         from .other_motion import other_motion
         found = other_motion(scene, state, span)
         if found is not None:

@@ -209,16 +209,15 @@ def _over_span(scene, omega, gamma, span) -> dict:
     from .rate_roots import roots_of_rates
     from .trajectories import _start
     start = {"omega": omega} | ({"gamma": gamma} if gamma else {})
-    from ..equations import derive
     from ..scene import Scene
     turning = Scene(scene.body, *(e for e in scene.effects if e.name != "body_force"))
     equations, state = _start(turning, start)
-    system, length = to_numpy(derive(turning)), float(span[1]) - float(span[0])
+    system, length = to_numpy(equations), float(span[1]) - float(span[0])
     J = system.jacobian(state)
     if not np.isfinite(J).all() or abs(np.linalg.eigvals(J).real).max() * length > STIFF:
         return {"extremes_over": "none: the decay is too fast for a search over the span"}
     found = roots_of_rates(turning, start, length)
-    ends = to_numpy(equations).invariants(np.vstack([found.start, found.end]))["energy"]
+    ends = system.invariants(np.vstack([found.start, found.end]))["energy"]
     return {"extremes": tuple((float(a), float(b)) for a, b in found.extremes()),
             "extremes_over": f"s in [{float(span[0]):g}, {float(span[0]) + found.t_reached:g}]",
             "evidence": {"span": found.t_reached, "energy_change": float(ends[1] - ends[0]),

@@ -32,9 +32,14 @@ def settled(question, bits: int = START_BITS, most: int = 1 << 17):
 
 def ball(value):
     """The ball of a rational number."""
-    from flint import arb, fmpq
-    value = Fraction(value)
-    return arb(fmpq(value.numerator, value.denominator))
+    from flint import arb
+    return arb(rational(Fraction(value)))
+
+
+def rational(value):
+    """A Fraction, or flint's own rational or integer, as flint's rational."""
+    from flint import fmpq
+    return fmpq(value.numerator, value.denominator) if isinstance(value, Fraction) else fmpq(value)
 
 
 def sign(number) -> int:
@@ -184,7 +189,7 @@ class PreciseOrbit:
     def _equilibria(self):
         """(omega_j + s_j, omega_k + s_k, multiplicity) as balls, of F = 0 on the conic of invariant Q."""
         from flint import fmpq_poly
-        r, poly = self.r, lambda *c: fmpq_poly([_fmpq(a) for a in c])
+        r, poly = self.r, lambda *c: fmpq_poly([rational(a) for a in c])
         ap, aq = abs(r.p), abs(r.q)
         # in U = omega_j + s_j, V = omega_k + s_k:  F = kappa U V + rho_ V + sigma_ U + m_
         rho, sigma = r.rho - r.kappa * self.sj, r.sigma - r.kappa * self.sk
@@ -195,7 +200,7 @@ class PreciseOrbit:
         elif r.kappa or sigma:  # U = -(rho V + m)/(kappa V + sigma) in V^2/aq - e U^2/ap = Q
             top, bottom = poly(m, rho), poly(sigma, r.kappa)
             square = poly(-self.Q, 0, 1 / aq)
-            for v, many in real_roots(list((square * bottom * bottom - _fmpq(Fraction(r.e) / ap) * top * top).coeffs())):
+            for v, many in real_roots(list((square * bottom * bottom - rational(Fraction(r.e) / ap) * top * top).coeffs())):
                 yield -(ball(rho) * v + ball(m)) / (ball(r.kappa) * v + ball(sigma)), v, many
         elif rho:
             yield from self._on_line_v(-m / rho)
@@ -268,15 +273,10 @@ class PreciseOrbit:
 def real_roots(coefficients) -> list:
     """(root, multiplicity) of the real roots of a polynomial with rational coefficients, lowest first; certified."""
     from flint import arb, fmpq_poly
-    poly = fmpq_poly([_fmpq(c) for c in coefficients])
+    poly = fmpq_poly([rational(c) for c in coefficients])
     if poly.degree() < 1:
         return []
     return [(arb(root.real), many) for root, many in poly.complex_roots() if root.imag.is_zero()]
-
-
-def _fmpq(value):
-    from flint import fmpq
-    return fmpq(value.numerator, value.denominator) if isinstance(value, Fraction) else fmpq(value)
 
 
 @dataclass(frozen=True)

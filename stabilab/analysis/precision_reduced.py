@@ -180,7 +180,7 @@ class Open:
 
 def path_of(scene, state):
     """The motion as an integral over a coordinate: Closed or Open and its path. Raises InputError where there is none."""
-    if scene.variables == "physical" and {e.name for e in scene.effects} - {"gyrostat", "constant_torque"}:
+    if not scene.plain:
         raise InputError("the scene has effects outside the reduced form")
     land = landscape(scene)
     if land is None:

@@ -1,10 +1,10 @@
 """All permanent rotations at one rate Omega: (S - mu) gamma = -b, |gamma| = 1, by one polynomial in mu."""
 from __future__ import annotations
 
-from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
 
+from .precise import rational
 from .rotation_spectrum import Field
 
 BITS = 320
@@ -19,21 +19,10 @@ class Rotation:
     circle: tuple = ()
 
 
-@contextmanager
 def many_digits(bits: int = BITS):
-    """flint works with `bits` bits inside."""
+    """Context in which flint works with `bits` bits."""
     from flint import ctx
-    before, ctx.prec = ctx.prec, bits
-    try:
-        yield
-    finally:
-        ctx.prec = before
-
-
-def rational(value: Fraction):
-    """A Fraction as flint's rational."""
-    from flint import fmpq
-    return fmpq(value.numerator, value.denominator)
+    return ctx.workprec(bits)
 
 
 def groups_at(S, b):

@@ -31,10 +31,7 @@ class Field:
 
     @classmethod
     def of(cls, parts):
-        from flint import fmpq
-
-        def rational(v):
-            return fmpq(v.numerator, v.denominator)
+        from .precise import rational
         return cls(*(tuple(map(rational, row)) for row in (parts.D, parts.Lambda, parts.s)), rational(parts.N), rational(parts.E))
 
     def stiffness(self, Omega):

@@ -5,6 +5,7 @@ from fractions import Fraction
 
 from ..effects.base import cross
 from .results import EquilibriumPoint
+from .precise import rational
 from .rotation_spectrum import Field, coefficients, second_variation
 
 MINIMUM = ("stable", "energy-Casimir: at constant area integral the energy has a strict minimum on |gamma| = 1 (K positive definite), and it "
@@ -25,7 +26,7 @@ SHELL = ("undecided", "a continuum of rotations at one Omega: its second variati
 def judged(field: Field, Omega: Fraction, rotation) -> EquilibriumPoint:
     """Spectrum and verdict of a `rotation_balance.Rotation` at Omega; at = (omega, gamma)."""
     from flint import fmpq
-    O = fmpq(Omega.numerator, Omega.denominator)
+    O = rational(Omega)
     gamma, one = rotation.gamma, fmpq(1)
     a, b = coefficients(field, O, rotation.mu, gamma, one)
     determinant, trace = second_variation(field, O, rotation.mu, gamma, one)

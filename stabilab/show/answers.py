@@ -3,6 +3,8 @@ from __future__ import annotations
 
 import math
 
+from ..blocks import PARTS
+
 UNITS = {"physical": ("rad/s", "s", "J"), "scaled": ("", "tau", "")}
 
 
@@ -74,18 +76,13 @@ def simulation(case, run) -> dict:
             "method": run.method, "rtol": run.rtol, "status": run.status, "reason": run.reason}
 
 
-COLUMNS = {"omega": ("omega1", "omega2", "omega3"), "x": ("x1", "x2", "x3"), "gamma": ("gamma1", "gamma2", "gamma3"),
-           "angles": ("psi", "phi", "theta"), "momentum": ("H1", "H2", "H3"), "velocity": ("v1", "v2", "v3"),
-           "position": ("x1", "x2", "x3")}
-
-
 def columns(run) -> tuple[list[str], list[list[float]]]:
     """Names and rows of everything a run has, time left out."""
     import numpy as np
     names, parts = [], []
     for name, values in run.state.items():
         values = np.asarray(values, float)
-        names += COLUMNS[name] if values.ndim == 2 else (name,)
+        names += PARTS[name].components
         parts.append(values.reshape(len(run.t), values.shape[-1] if values.ndim == 2 else 1))
     return names, np.hstack(parts).tolist()
 

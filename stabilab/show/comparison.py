@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ..blocks import PARTS
 from ..errors import InputError
 from . import style
 
@@ -16,7 +17,6 @@ LOOKS = {"exact": {"color": style.BLACK, "linewidth": 2.2}, "linear": {"color": 
 NAMES = {"omega": (r"$\omega_1$", r"$\omega_2$", r"$\omega_3$"), "gamma": (r"$\gamma_1$", r"$\gamma_2$", r"$\gamma_3$"),
          "angles": (r"$\psi$", r"$\phi$", r"$\theta$"), "momentum": (r"$H_1$", r"$H_2$", r"$H_3$"),
          "velocity": (r"$v_1$", r"$v_2$", r"$v_3$"), "position": (r"$x_1$", r"$x_2$", r"$x_3$")}
-UNITS = {"omega": "rad/s", "gamma": "", "angles": "rad", "momentum": "kg m$^2$/s", "velocity": "m/s", "position": "m"}
 REACH = 1.6  # a model that leaves the exact motion's range by more than this factor is cut off, and the panel says so
 
 
@@ -62,7 +62,8 @@ def picture(plt, case, runs, parts=("omega",)):
     for row, part in zip(axes, parts):
         for column, ax in enumerate(row):
             _curves(ax, runs, part, column)
-            ax.set_ylabel(f"{NAMES[part][column]}{f' ({UNITS[part]})' if UNITS[part] else ''}")
+            unit = PARTS[part].unit.replace("m^2", "m$^2$")
+            ax.set_ylabel(f"{NAMES[part][column]}{f' ({unit})' if unit else ''}")
     for ax in axes[-1]:
         ax.set_xlabel("t (s)")
     figure.suptitle(case.title or case.name, fontsize=10, parse_math=False, wrap=True)

@@ -45,15 +45,12 @@ def plot(case, path) -> Path:
     from ..errors import InputError
     if case.state is None:
         raise InputError(f"{case.path}: a picture needs a motion: add [motion] with angular_velocity or x")
-    if not {effect.name for effect in case.scene.effects} <= REDUCIBLE:
+    if not case.scene.plain:
         return _histories(case, path)
     plane = phase_plane(case.scene, case.state)
     with style.drawing() as plt:
         figure = _plane_picture(plt, case, plane) if plane else _projections(plt, case)
         return style.save(figure, path)
-
-
-REDUCIBLE = {"gyrostat", "constant_torque"}
 
 
 def _histories(case, path):

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from ..blocks import PARTS
 from ..errors import InputError
 from .style import whole_file
 
@@ -34,13 +35,6 @@ def _csv(case, run, path):
             stream.write(",".join(repr(float(v)) for v in (t, *row)) + "\n")
 
 
-UNITS = {"omega": ("rad/s", "angular velocity, body frame"), "x": ("1", "angular velocity, body frame, scaled"),
-         "gamma": ("1", "unit vector fixed in space, body frame"), "angles": ("rad", "psi, phi, theta of the 3-1-2 sequence, continuous"),
-         "momentum": ("kg m^2/s", "angular momentum, inertial frame"), "velocity": ("m/s", "velocity, inertial frame"),
-         "position": ("m", "position, inertial frame"), "amplitude": ("rad/s", "amplitude of the transverse rate"),
-         "spin": ("rad/s", "averaged rate about axis 3"), "phase": ("rad", "phase of the transverse rate")}
-
-
 def _netcdf(case, run, path):
     try:
         import xarray
@@ -49,7 +43,7 @@ def _netcdf(case, run, path):
     import numpy as np
     from .. import __version__
     time = "t" if case.variables == "physical" else "tau"
-    parts = {name: ((time, "axis")[:np.ndim(values)], values, dict(zip(("units", "long_name"), UNITS[name])))
+    parts = {name: ((time, "axis")[:np.ndim(values)], values, {"units": PARTS[name].unit or "1", "long_name": PARTS[name].words})
              for name, values in run.state.items()}
     data = xarray.Dataset(
         parts, {time: ((time,), run.t, {"units": "s" if case.variables == "physical" else "1"}), "axis": [1, 2, 3]},
