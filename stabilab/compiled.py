@@ -209,7 +209,7 @@ def taylor_events(event_forms: Form, tolerance: float = TAYLOR_TOLERANCE):
     """
     with _LOCK:
         integrator, recorder = _event_integrator(event_forms.state, event_forms.symbols, event_forms.expressions, tolerance)
-        integrator.pars[:] = event_forms.numbers
+        integrator.pars[:] = event_forms.numbers[:len(integrator.pars)]  # constant events, which are left out, may hold the last
         recorder.found.clear()
         yield integrator, recorder.found
 
@@ -269,6 +269,5 @@ def _event_integrator(state, symbols, expressions, tolerance):
     variables, everything = _heyoka_form(state, symbols, expressions)
     events = [heyoka.nt_event(e, _Note(i, recorder, n)) for i, e in enumerate(everything[n:])
               if expressions[n + i].free_symbols & set(state)]
-    integrator = heyoka.taylor_adaptive(list(zip(variables, everything[:n])), [0.0] * n,
-                                        pars=[0.0] * len(symbols), tol=tolerance, nt_events=events)
+    integrator = heyoka.taylor_adaptive(list(zip(variables, everything[:n])), [0.0] * n, tol=tolerance, nt_events=events)
     return integrator, recorder

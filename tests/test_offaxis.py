@@ -116,3 +116,11 @@ def test_equilibrium_has_period_zero_and_separatrix_none():
 def test_torque_is_turned_away_from_the_free_period():
     with pytest.raises(InputError, match="without torque"):
         extremes_over_period(OFF, (1, 2, 3))
+
+
+def test_a_rate_that_never_changes_has_no_roots_and_disturbs_no_other(either):
+    """A ball with a wheel along the torque: omega1, omega2 turn at lambda3/D (closed form), omega3' is constant."""
+    scene = Scene(Body((2, 2, 2)), Gyrostat((0, 0, 3)), ConstantTorque((0, 0, 0.5)))
+    roots = roots_of_rates(scene, (1.0, 0.0, 0.0), 5.0)
+    np.testing.assert_allclose(roots.t, np.pi / 3 * np.arange(1, 5), rtol=1e-9)
+    assert roots.component.tolist() == [1, 0, 1, 0]
