@@ -24,7 +24,7 @@ bench: $(STAMP)
 # constraints.txt pins what was tested, so that a fresh install gives the same versions
 $(STAMP): pyproject.toml constraints.txt
 	$(PYTHON) -m venv $(VENV)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e ".[test]"
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e ".[test,fast]"
 	$(BIN)/python -m compileall -q stabilab
 	touch $@
 

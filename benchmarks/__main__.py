@@ -8,10 +8,12 @@ def main():
     rows, seconds = run_all()
     lines = ["# Speed, side by side", "", f"Made by `make bench` in {seconds:.0f} s on {machine()}. Ratios are medians of "
              "seven rounds in which both took turns; in brackets their range.", "",
-             "| what | stabilab | the other | ratio | error |", "| --- | --- | --- | --- | --- |"]
+             "| what | stabilab | the other | ratio | wanted | error |", "| --- | --- | --- | --- | --- | --- |"]
     for row in rows:
         low, high = row.spread
-        lines.append(f"| {row.name} | {row.ours} | {row.theirs} | {row.ratio:.0f} ({low:.0f} to {high:.0f}) | {row.error} |")
+        wanted = f"{row.wanted:.3g}" if row.wanted else ""
+        note = f"; {row.note}" if row.note else ""
+        lines.append(f"| {row.name} | {row.ours} | {row.theirs} | {row.ratio:.3g} ({low:.3g} to {high:.3g}) | {wanted} | {row.error}{note} |")
     text = "\n".join(lines) + "\n"
     Path(__file__).with_name("RESULTS.md").write_text(text, encoding="utf-8")
     print(text)

@@ -3,20 +3,22 @@ import pytest
 
 pytest.importorskip("heyoka")
 
-from . import suite  # noqa: E402
+from . import fates, orbit_extremes, suite  # noqa: E402
+
+
+@pytest.mark.parametrize("topic", suite.TOPICS)
+def test_topic_gives_rows(topic):
+    if topic == "surfaces":
+        pytest.importorskip("pyvista")
+    for row in suite.topic_rows(topic, small=True):
+        assert row.name and row.ratio > 0 and row.spread[0] <= row.ratio <= row.spread[1] and row.error
 
 
 def test_batch_integration_agrees_with_the_energy_law():
     # heyoka's run to a decision shares nothing with the reduced potential
-    assert suite.fates(500, 200, 1).error.startswith("0 of ")
+    assert fates.against_batch(500, 200, 1).error.startswith("0 of ")
 
 
 def test_events_agree_with_the_roots_of_the_potential():
-    row = suite.orbit_extremes(60, 20, 1)
+    row = orbit_extremes.against_events(60, 20, 1)
     assert float(row.error.split()[-1]) < 1e-11  # the events' own accuracy at tolerance 1e-16
-
-
-@pytest.mark.slow
-def test_surface_comparison_runs():
-    pytest.importorskip("pyvista")
-    assert suite.surfaces(48, 1)[0].ratio > 0
