@@ -9,7 +9,7 @@ from pathlib import Path
 from .body import Body
 from .case_expect import expected
 from .case_source import parsed, source_text
-from .case_sweep import combinations
+from .case_sweep import combinations, swept
 from .case_table import Faults, Table, did_you_mean
 from .effects import REGISTRY, effect_class
 from .errors import CaseError, InputError
@@ -83,8 +83,8 @@ def load_all(path) -> list[Case]:
     found = combinations(Table((), data, faults))
     if not found:
         return [base]
-    swept = {tuple(key.split(".")): ("sweep", key) for key in data["sweep"]}
-    return [_built(path, text, values, Faults(faults.lines, swept), suffix) for suffix, values in found]
+    moved = {tuple(key.split(".")): ("sweep", key) for key in data["sweep"]}
+    return [_built(path, text, values, Faults(faults.lines, moved), suffix) for suffix, values in found]
 
 
 def _read(path):
@@ -96,7 +96,7 @@ def _read(path):
 def _built(path, text, data, faults, variant="") -> Case:
     top = Table((), data, faults)
     top.known(TABLES, "table or key")
-    combinations(top)  # notes the faults of [sweep]
+    swept(top)  # notes the faults of [sweep]
     title, source = top.text("title"), top.text("source")
     physical, mu = _physical(top)
     scaled = _scaled(top)

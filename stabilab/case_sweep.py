@@ -13,9 +13,16 @@ SWEPT = ("body", "effects", "scaled", "motion")
 def combinations(top: Table) -> list[tuple[str, dict]]:
     """(suffix, data) of every combination, the last key running fastest; empty without [sweep]. Suffix "-2-1": the
     second value of the first key, the first of the second. Faults are kept by the table."""
+    paths, choices = swept(top)
+    plain = {key: value for key, value in top.data.items() if key not in ("sweep", "expect")}
+    return [("".join(f"-{i}" for i, _ in pick), _with(plain, paths, pick)) for pick in product(*choices)] if paths else []
+
+
+def swept(top: Table) -> tuple[list[tuple], list[list]]:
+    """The paths that [sweep] replaces and the numbered values of each, both empty where it cannot be run; keeps the faults."""
     table = top.table("sweep")
     if table is None:
-        return []
+        return [], []
     paths, choices = [], []
     for key, values in table.data.items():
         path = tuple(key.split("."))
@@ -32,9 +39,8 @@ def combinations(top: Table) -> list[tuple[str, dict]]:
         count *= len(values)
     if count > MOST:
         table.fault(f"{count} combinations; at most {MOST} are run from one file")
-        return []
-    plain = {key: value for key, value in top.data.items() if key not in ("sweep", "expect")}
-    return [("".join(f"-{i}" for i, _ in pick), _with(plain, paths, pick)) for pick in product(*choices)] if paths else []
+        return [], []
+    return paths, choices
 
 
 def _holder(data, path):

@@ -6,10 +6,14 @@ from __future__ import annotations
 
 from datetime import date, time
 from fractions import Fraction
+from unicodedata import category
 
 from .case_lines import KeyLines
-from .errors import InputError, Problem
+from .errors import InputError, Problem, printable
 from .exact import exact
+
+
+UNSEEN = ("Cc", "Cf", "Cs")  # Unicode's categories of control, format (such as right-to-left override) and surrogate characters
 
 
 class Written(str):
@@ -67,10 +71,13 @@ class Table:
 
     def text(self, key: str, default: str = "") -> str:
         value = self.data.get(key, default)
-        if isinstance(value, str) and not isinstance(value, Written):
-            return value
-        self.fault(f'expected a text in quotes, got {described(value)}', key)
-        return default
+        if not isinstance(value, str) or isinstance(value, Written):
+            self.fault(f'expected a text in quotes, got {described(value)}', key)
+            return default
+        strange = next((c for c in value if c not in "\n\t" and category(c) in UNSEEN), None)
+        if strange:  # these texts go to terminals and pages
+            self.fault(f"character U+{ord(strange):04X} cannot be shown: remove it", key)
+        return value
 
     def number(self, key: str) -> Fraction | None:
         """One exact number."""
@@ -141,8 +148,7 @@ def dotted(path: tuple) -> str:
 
 
 def _quoted(key: str) -> str:
-    printable = "".join(c if c.isprintable() and c != '"' else repr(c)[1:-1] for c in key[:60])
-    return f'"{printable}"'
+    return '"' + printable(key[:60]).replace('"', '\\"') + '"'
 
 
 def described(value) -> str:

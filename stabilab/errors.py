@@ -18,6 +18,11 @@ class InputError(StabilabError, ValueError):
     exit_code = BAD_INPUT
 
 
+def printable(text: str) -> str:
+    """The text in one line that a terminal shows as it is: what a file holds may neither move the cursor nor forge a line."""
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in text)
+
+
 @dataclass(frozen=True)
 class Problem:
     """One fault of a case file; `line` is 1-based, None where the file as a whole is meant."""
@@ -28,15 +33,19 @@ class Problem:
 
 
 class CaseError(InputError):
-    """All faults of one case file at once."""
+    """All faults of one case file at once; the message shows the first of them."""
+
+    SHOWN = 50  # a file with more faults is another kind of file
 
     def __init__(self, path: str, problems: list[Problem]):
         self.path, self.problems = str(path), tuple(problems)
-        super().__init__("\n".join(self._line(p) for p in problems))
+        more = len(self.problems) - self.SHOWN
+        lines = [self._line(p) for p in self.problems[:self.SHOWN]]
+        super().__init__("\n".join(lines + ([f"{printable(self.path)}: and {more} more"] if more > 0 else [])))
 
     def _line(self, problem: Problem) -> str:
         where = self.path if problem.line is None else f"{self.path}:{problem.line}"
-        return f"{where}: {problem.key}: {problem.message}" if problem.key else f"{where}: {problem.message}"
+        return printable(f"{where}: {problem.key}: {problem.message}" if problem.key else f"{where}: {problem.message}")
 
 
 class RenderingUnavailable(StabilabError):
