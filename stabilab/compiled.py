@@ -9,7 +9,7 @@ from __future__ import annotations
 from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from threading import RLock
 
 import numpy as np
@@ -49,8 +49,13 @@ class Form:
 
 def form(equations: Equations, expressions, drop_constants=False) -> Form:
     """Expressions with one numbered coefficient per monomial; monomials whose coefficient is exactly 0 vanish."""
+    return _form(equations.state, _known(equations), tuple(expressions), drop_constants)
+
+
+@lru_cache(maxsize=64)
+def _known(equations) -> tuple:
     from .equations import values
-    return _form(equations.state, tuple(values(equations).items()), tuple(expressions), drop_constants)
+    return tuple(values(equations).items())
 
 
 @lru_cache(maxsize=128)  # a comparison asks for the same scene dozens of times, and this is most of a short run
@@ -144,17 +149,32 @@ class System:
 
     def law_sizes(self, x) -> dict:
         """Law name -> sum of the absolute terms of its quantity: what a relative departure is measured against."""
+        return {name: sizes for name, (_, sizes) in self.law_values(x).items()}
+
+    def law_values(self, x) -> dict:
+        """Law name -> (`invariants`, `law_sizes`) at the states x, each term formed once: (..., 3) -> two of (...)."""
+        x = np.asarray(x)
+        columns, nothing, found = np.moveaxis(x, -1, 0).copy(), np.zeros(x.shape[:-1]), {}
+        for name, terms in self._law_terms.items():
+            each = _function(terms.state + terms.symbols, terms.expressions)(*columns, *terms.numbers)
+            found[name] = sum(each, nothing), sum(map(np.abs, each), nothing)
+        return found
+
+    @cached_property
+    def _law_terms(self) -> dict:
         from sympy import Add
-        form, sizes = self.quantities, {}
-        for law, expression in zip(self.equations.balances, form.expressions):
-            terms = Form(form.state, Add.make_args(expression), form.symbols, form.numbers)
-            sizes[law.name] = np.abs(_evaluate(terms, x)).sum(axis=-1)
-        return sizes
+        form = self.quantities
+        return {law.name: Form(form.state, Add.make_args(expression), form.symbols, form.numbers)
+                for law, expression in zip(self.equations.balances, form.expressions)}
 
 
 def to_numpy(equations: Equations) -> System:
-    """The compiled system of derived equations (or of a scene)."""
-    equations = _equations(equations)
+    """The compiled system of derived equations (or of a scene), made once for one and the same equations."""
+    return _system(_equations(equations))
+
+
+@lru_cache(maxsize=64)
+def _system(equations) -> System:
     laws = equations.balances
     return System(equations, form(equations, equations.rhs), form(equations, list(equations.jacobian)),
                   form(equations, [law.quantity for law in laws], drop_constants=True),
@@ -198,6 +218,36 @@ def to_taylor(equations: Equations, quadratures=(), tolerance: float = TAYLOR_TO
     integrator = copy.copy(_integrator(everything.state, everything.symbols, everything.expressions, tolerance))
     integrator.pars[:] = everything.numbers
     return integrator
+
+
+@contextmanager
+def borrowed_taylor(forms: Form, tolerance: float = TAYLOR_TOLERANCE, lanes: int = 0):
+    """Context giving an integrator as `to_taylor` makes them, which goes back for the next user: copying one takes
+    longer than some hundred steps. Its time and state are those of its last user: set them.
+
+    forms: `form(equations, (*rhs, *quadratures))`. lanes: 0, or how many motions step together (state, pars and the
+    rest are then (..., lanes)). An integrator whose user failed is not handed on.
+    """
+    import copy
+    key = (forms.state, forms.symbols, forms.expressions, tolerance, lanes)
+    free = _free(*key)
+    try:
+        integrator = free.pop()  # one operation: safe among threads
+    except IndexError:
+        integrator = copy.copy(_integrator(*key))
+    integrator.pars[:] = np.reshape(forms.numbers, (-1, 1)) if lanes else forms.numbers
+    yield integrator
+    if len(free) < MOST_FREE:
+        free.append(integrator)
+
+
+MOST_FREE = 8
+
+
+@lru_cache(maxsize=64)
+def _free(state, symbols, expressions, tolerance, lanes) -> list:
+    """The integrators of this kind that nobody uses."""
+    return []
 
 
 @contextmanager
@@ -251,15 +301,16 @@ def _from_sympy(heyoka, expression, swap):
 
 
 @lru_cache(maxsize=64)
-def _integrator(state, symbols, expressions, tolerance):
+def _integrator(state, symbols, expressions, tolerance, lanes=0):
     import heyoka
     n = len(state)
     variables, rates = _heyoka_form(state, symbols, expressions)
     extra = heyoka.make_vars(*(f"quadrature{i}" for i in range(len(expressions) - n))) if len(expressions) > n else []
     extra = extra if isinstance(extra, list) else [extra]
     rates[n:] = [FEATHER * r for r in rates[n:]]
-    return heyoka.taylor_adaptive(list(zip([*variables, *extra], rates)), [0.0] * len(expressions),
-                                  pars=[0.0] * len(symbols), tol=tolerance)
+    make, shape = (heyoka.taylor_adaptive_batch, (lanes,)) if lanes else (heyoka.taylor_adaptive, ())
+    return make(list(zip([*variables, *extra], rates)), np.zeros((len(expressions), *shape)),
+                pars=np.zeros((len(symbols), *shape)), tol=tolerance)
 
 
 @lru_cache(maxsize=64)

@@ -26,7 +26,7 @@ class Balance:
     rate: object
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)  # one and the same object per scene: what is made of it is kept by identity
 class Equations:
     """Equations of motion as SymPy values.
 
@@ -211,6 +211,7 @@ KINEMATICS = {
 }
 
 
+@lru_cache(maxsize=32)
 def _scaled(scene) -> Equations:
     from sympy import Integer
     x1, x2, x3 = x = tuple(_symbols(scene.components).values())

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from stabilab import Body, ConstantTorque, Gyrostat, Scene, ScaledGyrostat, trajectory
+from stabilab import compiled
 from stabilab.analysis.trajectories import METHODS, SCIPY_METHODS
 from stabilab.compiled import heyoka_available
 from stabilab.errors import InputError
@@ -188,3 +189,24 @@ def test_a_run_that_would_crawl_for_ever_stops_and_says_what_is_left(monkeypatch
     run = trajectory(scene, (1.0, 0.0, 1.0), [-0.25, -1.0, -1.5])
     assert run.status == "stopped" and run.t.tolist() == [-0.25] and "steps went from t =" in run.reason
     assert 5_000 <= run.counters["steps"] <= 100_000
+
+
+@pytest.mark.parametrize("method", ["taylor", "DOP853"])
+@pytest.mark.parametrize("case", CASES)
+def test_leaving_the_laws_unchecked_leaves_every_bit_of_the_states(case, method):
+    checked, bare = (trajectory(case[0], case[2], [-3.0, 0.0, 8.0], method, laws=laws) for laws in (True, False))
+    assert (checked.states == bare.states).all() and checked.counters == bare.counters
+    assert checked.invariant_drift and bare.invariant_drift == {}
+
+
+@needs_heyoka
+def test_a_second_run_compiles_and_copies_no_integrator(monkeypatch):
+    """Two scenes of one structure share code and integrator; what the first left in it does not show in the second."""
+    import copy
+    one, other = (Scene(Body((9, 7, d)), Gyrostat((1, 2, 3)), ConstantTorque((1, "0.5", "0.2"))) for d in (4, 5))
+    first = trajectory(other, (1, 2, 3), [4.0]).states
+    trajectory(one, (1e200, 1e200, 1.0), [1.0])  # overflows
+    before = (compiled._integrator.cache_info().misses, compiled._free.cache_info().misses)
+    monkeypatch.setattr(copy, "copy", None)
+    assert (trajectory(other, (1, 2, 3), [4.0]).states == first).all()
+    assert (compiled._integrator.cache_info().misses, compiled._free.cache_info().misses) == before

@@ -10,7 +10,7 @@ import difflib
 import numpy as np
 
 from ..blocks import BLOCKS, ORDER, slices
-from ..compiled import FEATHER, TAYLOR_TOLERANCE, _equations, heyoka_available, to_numpy, to_taylor
+from ..compiled import FEATHER, TAYLOR_TOLERANCE, _equations, borrowed_taylor, form, heyoka_available, to_numpy
 from ..equations import derive
 from ..errors import InputError
 from .results import Trajectory
@@ -28,7 +28,8 @@ REPORT, PATIENCE = 1_000_000, 5  # steps after which the rest is forecast; forec
 OUTCOMES = {"err_nf_state": "the numbers overflowed"}
 
 
-def trajectory(scene, state, times, method: str = "taylor", rtol: float | None = None, steps: list | None = None) -> Trajectory:
+def trajectory(scene, state, times, method: str = "taylor", rtol: float | None = None, steps: list | None = None,
+               laws: bool = True) -> Trajectory:
     """States of a scene at the given times, the motion being at `state` at t = 0.
 
     state: three numbers, the angular velocity (x when scaled); for scenes with more blocks of state all their
@@ -38,7 +39,8 @@ def trajectory(scene, state, times, method: str = "taylor", rtol: float | None =
     times: (n,) strictly increasing or decreasing, of any sign, in s (tau when scaled). method: "taylor" (heyoka; where
     it is not installed SciPy's DOP853 at rtol 1e-13, and `method` and `reason` say so) or a method of
     scipy.integrate.solve_ivp by name, in any case. rtol: relative tolerance; None is half an ulp for "taylor", 1e-10
-    for the others. steps: a list that takes the times at which the method ended its own steps. Where the run cannot go on (overflow, a failing step) `status` is "stopped", `reason` says why, and
+    for the others. steps: a list that takes the times at which the method ended its own steps. laws: check the balance
+    laws (costs the Taylor series a fifth or so); without, `invariant_drift` is empty and the states stay the same. Where the run cannot go on (overflow, a failing step) `status` is "stopped", `reason` says why, and
     t, states hold the times that were reached. Raises InputError for states and times that are no such numbers and
     for an unknown method.
     """
@@ -51,22 +53,24 @@ def trajectory(scene, state, times, method: str = "taylor", rtol: float | None =
     system = to_numpy(equations)
     if method == "taylor":
         rtol = TAYLOR_TOLERANCE if rtol is None else max(rtol, TAYLOR_TOLERANCE)
-        run = _Taylor(system, rtol)
+        run = _Taylor(system, rtol, laws)
     else:
         rtol = SCIPY_RTOL if rtol is None else rtol
         run = _SciPy(system, method, rtol, landing)
-    reached, states, drift, failures = [0.0] * (times == 0).sum(), [state] * (times == 0).sum(), {}, []
+    still = (times == 0).sum()
+    reached, states, drift, failures = [np.zeros(still)], [np.tile(state, (still, 1))], {}, []
     for chosen, sense in ((times < 0, -1), (times > 0, 1)):
         grid = np.sort(times[chosen] * sense) * sense
         if grid.size:
             points, failure = run.run(state, grid, steps)
-            reached += list(grid[:len(points)])
-            states += list(points[:, :state.size])
+            reached.append(grid[:len(points)])
+            states.append(points[:, :state.size])
             failures += [failure] if failure else []
-            for name, departure in _departures(system, state, points).items():
+            for name, departure in _departures(system, state, points).items() if laws else ():
                 drift[name] = max(drift.get(name, 0.0), departure)
+    reached, states = np.concatenate(reached), np.concatenate(states)
     order = np.argsort(reached)[::1 if times.size < 2 or times[1] > times[0] else -1]
-    return Trajectory(np.array(reached)[order], np.array(states).reshape(-1, state.size)[order], method, rtol, drift,
+    return Trajectory(reached[order], states[order], method, rtol, drift,
                       run.counters, "stopped" if failures else "reached", "; ".join(failures) or reason,
                       {name: part for name, part in slices(equations.blocks).items()})
 
@@ -140,13 +144,10 @@ def _departures(system, state, points) -> dict[str, float]:
     """Law name -> largest |Q(t) - Q(0) - integral of its rate| over the largest size of its terms in the run."""
     if not len(points):
         return {}
-    n = state.size
-    start, now = system.invariants(state), system.invariants(points[:, :n])
-    sizes = system.law_sizes(np.vstack([state, points[:, :n]]))
-    result = {}
-    for i, (name, quantity) in enumerate(now.items()):
-        size = max(sizes[name].max(), np.abs(points[:, n + i]).max())
-        departure = np.abs(quantity - start[name] - points[:, n + i]).max()
+    n, result = state.size, {}
+    for i, (name, (quantity, sizes)) in enumerate(system.law_values(np.vstack([state, points[:, :n]])).items()):
+        size = max(sizes.max(), np.abs(points[:, n + i]).max())
+        departure = np.abs(quantity[1:] - quantity[0] - points[:, n + i]).max()
         result[name] = float(departure / size) if size > 0 else 0.0
     return result
 
@@ -154,35 +155,36 @@ def _departures(system, state, points) -> dict[str, float]:
 class _Taylor:
     """Runs of the Taylor series; counters add up over the runs."""
 
-    def __init__(self, system, rtol):
-        laws = system.equations.balances
-        self.integrator = to_taylor(system.equations, [law.rate for law in laws], rtol)
-        self.counters = {"steps": 0, "order": self.integrator.order}
+    def __init__(self, system, rtol, laws=True):
+        rates = [law.rate for law in system.equations.balances] if laws else []
+        self.forms, self.rtol = form(system.equations, (*system.equations.rhs, *rates)), rtol
+        with borrowed_taylor(self.forms, rtol) as ta:
+            self.counters = {"steps": 0, "order": ta.order}
 
     def run(self, state, grid, passed=None):
         """(states and law integrals at the times of `grid`, failure or None); grid moves away from 0 without it.
         passed: a list that takes the ends of the steps."""
-        ta = self.integrator
         note = {} if passed is None else {"callback": lambda ta: passed.append(ta.time) is None}
-        ta.time = 0.0
-        ta.state[:] = 0.0
-        ta.state[:state.size] = state
-        out, failure = self._passed(grid, note)
+        with borrowed_taylor(self.forms, self.rtol) as ta:
+            ta.time = 0.0
+            ta.state[:] = 0.0
+            ta.state[:state.size] = state
+            out, failure = self._passed(ta, grid, note)
         out[:, state.size:] /= FEATHER
         good = np.isfinite(out).all(axis=1)
         out = out if good.all() else out[:np.argmin(good)]
         return out, None if len(out) == len(grid) else _stopped(out, grid, failure)
 
-    def _passed(self, grid, note):
+    def _passed(self, ta, grid, note):
         """(states at the times of `grid` that were reached, why not all or None)."""
-        ta, rows, begun = self.integrator, [np.empty((0, self.integrator.state.size))], self.counters["steps"]
+        rows, begun = [], self.counters["steps"]
         while True:
             done = sum(map(len, rows))
             last = ta.time
             with np.errstate(all="ignore"):
                 outcome, _, _, steps, *_, out = ta.propagate_grid(np.concatenate([[last], grid[done:]]), max_steps=REPORT, **note)
             self.counters["steps"] += steps
-            rows.append(np.array(out).reshape(-1, ta.state.size)[1:])
+            rows.append(np.reshape(out, (-1, ta.state.size))[1:])
             left = abs(grid[-1] - ta.time) / (abs(ta.time - last) or 1e-300) * REPORT
             if outcome.name != "step_limit":
                 return np.concatenate(rows), OUTCOMES.get(outcome.name, outcome.name)
