@@ -40,7 +40,7 @@ def trajectory(scene, state, times, method: str = "taylor", rtol: float | None =
     it is not installed SciPy's DOP853 at rtol 1e-13, and `method` and `reason` say so) or a method of
     scipy.integrate.solve_ivp by name, in any case. rtol: relative tolerance; None is half an ulp for "taylor", 1e-10
     for the others. steps: a list that takes the times at which the method ended its own steps. laws: check the balance
-    laws (costs the Taylor series a fifth or so); without, `invariant_drift` is empty and the states stay the same. Where the run cannot go on (overflow, a failing step) `status` is "stopped", `reason` says why, and
+    laws (costs the Taylor series a fifth or so); without, `invariant_drift` is empty. Where the run cannot go on (overflow, a failing step) `status` is "stopped", `reason` says why, and
     t, states hold the times that were reached. Raises InputError for states and times that are no such numbers and
     for an unknown method.
     """
