@@ -2,6 +2,8 @@
 
 Inputs (the state's doubles, the scene's rationals) are exact; every number is a ball that surely holds the true value
 (python-flint). A question that the balls leave open raises `Unclear`, and `settled` asks it again with twice the bits.
+A question asked from DOUBLE_BITS on is tried with balls of doubles first (`double_balls`), which need no library: they
+answer most single states. The mechanics below is the same for both.
 """
 from __future__ import annotations
 
@@ -9,16 +11,82 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 
+from .double_balls import Doubles, Unclear
+from .polynomials import Poly
+
+DOUBLE_BITS = 53
+DOUBLE_SHARE = 1e-12  # of a margin: with less certainty balls of doubles do not settle it
 START_BITS = 128
 TIE_BITS = 4096  # two energies that agree in this many bits are called equal
 
 
-class Unclear(Exception):
-    """The balls overlap at this precision."""
+class Digits:
+    """Where python-flint's balls come from, at its working precision; `double_balls.Doubles` has the same interface."""
+
+    @staticmethod
+    def ball(value):
+        from flint import arb
+        return arb(rational(Fraction(value)))
+
+    @staticmethod
+    def pi():
+        from flint import arb
+        return arb.pi()
+
+    @staticmethod
+    def around(middle, width):
+        """The ball about the middle of one, as wide as `width` can be."""
+        from flint import arb
+        return arb(middle.mid(), width.abs_upper())
+
+    @staticmethod
+    def upper(value):
+        from flint import arb
+        return arb(value.abs_upper())
+
+    @staticmethod
+    def lower(value):
+        from flint import arb
+        return arb(value.abs_lower())
+
+    @staticmethod
+    def angle(y, x):
+        """atan2(y, x)."""
+        from flint import arb
+        return arb.atan2(y, x) if not (0 in y and not x > 0) else arb.pi() + arb.atan2(-y, -x)
+
+    @staticmethod
+    def real_roots(coefficients) -> list:
+        """(root, multiplicity) of the real roots of a polynomial with rational coefficients, lowest first; certified."""
+        from flint import arb, fmpq_poly
+        poly = fmpq_poly([rational(Fraction(c)) for c in coefficients])
+        if poly.degree() < 1:
+            return []
+        return [(arb(root.real), many) for root, many in poly.complex_roots() if root.imag.is_zero()]
+
+
+_numbers = Digits
+
+
+def numbers():
+    """The kind of balls in use: `Digits`, or `Doubles` while `settled` tries with these."""
+    return _numbers
 
 
 def settled(question, bits: int = START_BITS, most: int = 1 << 17):
-    """question(bits), with twice the bits as long as it is `Unclear`; the last Unclear when `most` are not enough."""
+    """question(bits), with more bits as long as it is `Unclear`; the last Unclear when `most` are not enough.
+
+    bits: at first. DOUBLE_BITS: with balls of doubles, then from START_BITS on.
+    """
+    global _numbers
+    if bits == DOUBLE_BITS:
+        _numbers = Doubles
+        try:
+            return question(bits)
+        except (Unclear, ArithmeticError):
+            bits = START_BITS
+        finally:
+            _numbers = Digits
     from flint import ctx
     while True:
         try:
@@ -32,8 +100,7 @@ def settled(question, bits: int = START_BITS, most: int = 1 << 17):
 
 def ball(value):
     """The ball of a rational number."""
-    from flint import arb
-    return arb(rational(Fraction(value)))
+    return _numbers.ball(value)
 
 
 def rational(value):
@@ -175,7 +242,7 @@ class PreciseOrbit:
     def spots(self) -> list[Spot]:
         """All equilibria on the orbit, ascending; on a circle those with offsets in (0, 2 pi]."""
         if self.r.e == 0:
-            found = [(y, m) for y, m in real_roots(self.taylor)]
+            found = [(y, m) for y, m in _numbers.real_roots(self.taylor)]
             if self.force_here == 0:
                 found = [(y * 0 if 0 in y else y, m) for y, m in found]
         else:
@@ -188,8 +255,7 @@ class PreciseOrbit:
 
     def _equilibria(self):
         """(omega_j + s_j, omega_k + s_k, multiplicity) as balls, of F = 0 on the conic of invariant Q."""
-        from flint import fmpq_poly
-        r, poly = self.r, lambda *c: fmpq_poly([rational(a) for a in c])
+        r = self.r
         ap, aq = abs(r.p), abs(r.q)
         # in U = omega_j + s_j, V = omega_k + s_k:  F = kappa U V + rho_ V + sigma_ U + m_
         rho, sigma = r.rho - r.kappa * self.sj, r.sigma - r.kappa * self.sk
@@ -198,9 +264,8 @@ class PreciseOrbit:
             yield from self._on_line_v(-sigma / r.kappa)
             yield from self._on_line_u(-rho / r.kappa)
         elif r.kappa or sigma:  # U = -(rho V + m)/(kappa V + sigma) in V^2/aq - e U^2/ap = Q
-            top, bottom = poly(m, rho), poly(sigma, r.kappa)
-            square = poly(-self.Q, 0, 1 / aq)
-            for v, many in real_roots(list((square * bottom * bottom - rational(Fraction(r.e) / ap) * top * top).coeffs())):
+            top, bottom, square = Poly((m, rho)), Poly((sigma, r.kappa)), Poly((-self.Q, 0, 1 / aq))
+            for v, many in _numbers.real_roots((square * bottom * bottom - top * top * (Fraction(r.e) / ap)).c):
                 yield -(ball(rho) * v + ball(m)) / (ball(r.kappa) * v + ball(sigma)), v, many
         elif rho:
             yield from self._on_line_v(-m / rho)
@@ -208,12 +273,12 @@ class PreciseOrbit:
     def _on_line_v(self, v):
         """The equilibria with omega_k + s_k = v."""
         r = self.r
-        for u, many in real_roots([v * v / abs(r.q) - self.Q, 0, Fraction(-r.e) / abs(r.p)]):
+        for u, many in _numbers.real_roots([v * v / abs(r.q) - self.Q, 0, Fraction(-r.e) / abs(r.p)]):
             yield u, ball(v), many
 
     def _on_line_u(self, u):
         r = self.r
-        for v, many in real_roots([-self.Q - r.e * u * u / abs(r.p), 0, 1 / abs(r.q)]):
+        for v, many in _numbers.real_roots([-self.Q - r.e * u * u / abs(r.p), 0, 1 / abs(r.q)]):
             yield ball(u), v, many
 
     def _offset(self, u, v):
@@ -232,15 +297,15 @@ class PreciseOrbit:
 
     def _angle(self, x, z, here):
         """Angle in (0, 2 pi] from the state to (x, z) on the circle."""
-        from flint import arb
+        pi = _numbers.pi()
         sine, cosine = x * self.z - z * self.x, x * self.x + z * self.z
         if here:
-            return 2 * arb.pi()
+            return 2 * pi
         if cosine > 0:
-            return (sine / cosine).atan() + (0 if sign(sine) > 0 else 2 * arb.pi())
+            return (sine / cosine).atan() + (0 if sign(sine) > 0 else 2 * pi)
         if cosine < 0:
-            return arb.pi() + (sine / cosine).atan()
-        return (arb.pi() / 2 if sign(sine) > 0 else 3 * arb.pi() / 2) - (cosine / sine).atan()
+            return pi + (sine / cosine).atan()
+        return (pi / 2 if sign(sine) > 0 else 3 * pi / 2) - (cosine / sine).atan()
 
     def _kind(self, y, multiplicity, others) -> int:
         if multiplicity == 1:
@@ -255,28 +320,17 @@ class PreciseOrbit:
         """The equilibria, on a circle also those of the turn behind, ascending."""
         if self.r.e >= 0:
             return self.spots
-        from flint import arb
-        behind = [Spot(y * 0 if self._is_turn(y) else y - 2 * arb.pi(), k) for y, k in ((s.y, s.kind) for s in self.spots)]
+        behind = [Spot(y * 0 if self._is_turn(y) else y - 2 * _numbers.pi(), k) for y, k in ((s.y, s.kind) for s in self.spots)]
         return behind + self.spots
 
     def _is_turn(self, y):
-        from flint import arb
-        return self.force_here == 0 and y.overlaps(2 * arb.pi())
+        return self.force_here == 0 and y.overlaps(2 * _numbers.pi())
 
     def margins(self) -> list:
         """Height minus energy of each barrier that the fate depends on: on a circle those ahead within one turn, on an
         invariant plane those ahead, else all."""
         return [self.height(s.y) - self.energy for s in self.spots
                 if s.kind > 0 and not (self.on_plane and s.y < 0)]
-
-
-def real_roots(coefficients) -> list:
-    """(root, multiplicity) of the real roots of a polynomial with rational coefficients, lowest first; certified."""
-    from flint import arb, fmpq_poly
-    poly = fmpq_poly([rational(c) for c in coefficients])
-    if poly.degree() < 1:
-        return []
-    return [(arb(root.real), many) for root, many in poly.complex_roots() if root.imag.is_zero()]
 
 
 @dataclass(frozen=True)
@@ -288,19 +342,44 @@ class Tie:
     bits: int
 
 
-def decide(reduction, state) -> Tie:
+def decide(reduction, state, bits: int = START_BITS) -> Tie:
     """Sign of the margin of one state, doubling the bits until it is clear; sign -1 with margin -inf: no barrier.
+
+    bits: at first; from DOUBLE_BITS the margin comes with at least twelve digits.
 
     Margin: the highest barrier minus the energy on a circle, else that of the barrier nearest in height.
     """
     def question(bits):
-        margins = PreciseOrbit(reduction, state).margins()
-        if not margins:
+        margin = _margin(reduction, state)
+        if margin is None:
             return Tie(-1, float("-inf"), bits)
-        margin = margins[0]
-        for other in margins[1:]:
-            margin = margin.max(other) if reduction.e < 0 else min(margin, other, key=lambda v: abs(float(v.mid())))
         if bits >= TIE_BITS and 0 in margin:
             return Tie(0, 0.0, bits)
+        if bits == DOUBLE_BITS and not DOUBLE_SHARE * abs(margin) > margin.rad():
+            raise Unclear
         return Tie(sign(margin), float(margin.mid()), bits)
+    return settled(question, bits)
+
+
+def _margin(reduction, state):
+    """The margin that `decide` speaks of, as a ball in canonical units; None where there is no barrier."""
+    margins = PreciseOrbit(reduction, state).margins()
+    if not margins:
+        return None
+    margin = margins[0]
+    for other in margins[1:]:
+        margin = margin.max(other) if reduction.e < 0 else min(margin, other, key=lambda v: abs(float(v.mid())))
+    return margin
+
+
+def precise_margin(reduction, state, digits: int):
+    """The margin of one state to `digits` decimal digits, as a ball in the scene's energy; None where there is no barrier,
+    and on the separatrix, where no digit of it is known but that all vanish."""
+    def question(bits):
+        margin = _margin(reduction, state)
+        if margin is None or (bits >= TIE_BITS and 0 in margin):
+            return None
+        if not 10 ** digits * margin.rad() < abs(margin):
+            raise Unclear
+        return margin * ball(reduction.weight / (abs(reduction.p * reduction.q) if reduction.e else 1))
     return settled(question)

@@ -2,25 +2,32 @@
 wherever else doubles would lose digits. Every digit returned is certain."""
 from __future__ import annotations
 
-import numpy as np
-
-from .precise import START_BITS, TIE_BITS, PreciseOrbit, Unclear, settled, sign
+from .precise import DOUBLE_BITS, START_BITS, TIE_BITS, PreciseOrbit, Unclear, ball, numbers, settled, sign
 from .results import Fate
 
 CERTAIN_BITS = 56  # the balls of the extremes are this much narrower than the component is large
+DOUBLE_CERTAIN = 42  # the same for balls of doubles: twelve digits and a half, as the extremes of arrays promise
 MOST_BITS = 1 << 13  # a component that is still not settled is zero to this precision
 
 
 def precise_extremes(reduction, state, label: int):
     """(3, 2) array of one state with the given `Fate` label, in the scene's variables."""
+    import numpy as np
+    return np.array([[float(v if isinstance(v, float) else v.mid()) for v in pair] for pair in extreme_balls(reduction, state, label)])
+
+
+def extreme_balls(reduction, state, label: int, certain: int = CERTAIN_BITS, doubles: bool = False):
+    """[(least, greatest)] of the three components as balls, 2^-certain of the component's size wide at most; floats
+    (infinite) where unbounded. doubles: balls of doubles will do where they are certain to DOUBLE_CERTAIN bits."""
     if label == Fate.EQUILIBRIUM:
-        return np.repeat(np.asarray(state, float)[:, None], 2, axis=1)
+        return [(ball(v), ball(v)) for v in map(float, state)]
     how = {Fate.SPIN_UP: _unbounded, Fate.SEPARATRIX: _asymptotic, Fate.BOUNDED: _bounded}[Fate(label)]
 
     def question(bits):
         orbit = PreciseOrbit(reduction, state)
-        return _rounded(orbit, *how(orbit), bits)
-    return settled(question, TIE_BITS if label == Fate.SEPARATRIX else START_BITS)
+        return _ranges(orbit, *how(orbit), DOUBLE_CERTAIN if bits == DOUBLE_BITS else certain, bits)
+    start = TIE_BITS if label == Fate.SEPARATRIX else DOUBLE_BITS if doubles else max(START_BITS, 2 * certain)
+    return settled(question, start)
 
 
 def turning_points(orbit):
@@ -65,8 +72,8 @@ def solve(orbit, inner, outer):
 
     Newton's method held in a bracket on the middles of the balls; the ball that is returned has a change of sign.
     """
-    from flint import arb
-    lo, hi = arb(inner.mid()), arb(outer.mid())
+    balls = numbers()
+    lo, hi = inner.mid(), outer.mid()
     side = 1 if hi > lo else -1
     y, last = (lo + hi).mid() / 2, None
     for _ in range(4000):
@@ -88,11 +95,11 @@ def solve(orbit, inner, outer):
     slope = orbit.force(y)
     if 0 in slope:
         raise Unclear
-    width = 4 * (arb((orbit.height(y) - orbit.energy).abs_upper()) / arb(slope.abs_lower())).abs_upper()
+    width = balls.upper(4 * (balls.upper(orbit.height(y) - orbit.energy) / balls.lower(slope)))
     below, above = orbit.height(y - side * width) - orbit.energy, orbit.height(y + side * width) - orbit.energy
     if not (below < 0 and above > 0):
         raise Unclear
-    return arb(y, width)
+    return balls.around(y, width)
 
 
 def _bounded(orbit):
@@ -164,14 +171,13 @@ def _tops_between(orbit, low, high):
 
 def _tops(orbit):
     """Offsets where X or Z (or the components of a parabola) are stationary."""
-    from flint import arb
     e = orbit.r.e
     if e < 0:
         x, z = orbit.x, orbit.z
         if x.is_zero() and z.is_zero():
             return []
-        angle = arb.atan2(x, z) if not (0 in x and not z > 0) else arb.pi() + arb.atan2(-x, -z)
-        return [k * arb.pi() / 2 - angle for k in range(-8, 9)]
+        angle, quarter = numbers().angle(x, z), numbers().pi() / 2
+        return [k * quarter - angle for k in range(-8, 9)]
     if e > 0:
         xi, eta = orbit.xi, orbit.eta
         return [(abs(eta) / abs(xi)).log() / 2] if sign(xi) and sign(eta) else []
@@ -209,27 +215,27 @@ def _unbounded(orbit):
     return [zero, *([left] if back else []), zero + FAR], (least, None)
 
 
-def _rounded(orbit, offsets, rates, bits):
-    """(3, 2) array of doubles; Unclear unless the balls are narrow against the component's size."""
+def _ranges(orbit, offsets, rates, certain, bits):
+    """[(least, greatest)] per component; Unclear unless the balls are narrow against the component's size."""
     r = orbit.r
-    out = np.empty((3, 2))
+    out = [None] * 3
     pairs = [orbit.components(y) for y in offsets]
     for row, axis in enumerate((r.j, r.k)):
-        out[axis] = _range([pair[row] for pair in pairs], bits)
-    ends = [orbit.component_i(w) for w in rates if w is not None]
-    out[r.axis] = _range(ends, bits)
+        out[axis] = _range([pair[row] for pair in pairs], certain, bits)
+    low, high = _range([orbit.component_i(w) for w in rates if w is not None], certain, bits)
     if rates[1] is None:
-        out[r.axis, 1 if r.sense > 0 else 0] = r.sense * np.inf
+        low, high = (low, float("inf")) if r.sense > 0 else (float("-inf"), high)
+    out[r.axis] = low, high
     return out
 
 
-def _range(values, bits):
-    """(least, largest) of balls as doubles."""
+def _range(values, certain, bits):
+    """(least, largest) of balls."""
     low = high = values[0]
     for value in values[1:]:
         low, high = low.min(value), high.max(value)
     size = max(float(abs(low).mid()), float(abs(high).mid()))
     width = max(float(low.rad()), float(high.rad()))
-    if width > size * 2.0**-CERTAIN_BITS and bits < MOST_BITS:
+    if width > size * 2.0**-certain and bits < MOST_BITS:
         raise Unclear
-    return float(low.mid()), float(high.mid())
+    return low, high

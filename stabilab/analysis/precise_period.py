@@ -8,26 +8,32 @@ from .precise import PreciseOrbit, Unclear, settled, sign
 from .precise_extremes import turning_points
 from .results import Fate
 
-BITS = 256  # nodes come within 1e-40 of the turning points, where E - V must keep its digits
-FINEST = 7  # halvings of the step
-AGREE = 1e-14  # two steps agree to this; the rule doubles its digits with every halving, so the second is exact
+DIGITS = 14  # two steps agree to so many; the rule doubles its digits with every halving, so the second is exact to a double
+SPARE = 8  # digits beyond those: terms that are smaller are left out
+FINEST = 9  # halvings of the step; the seventh serves a double
 
 
 def precise_period(reduction, state, label: int) -> float:
     """Period of one state with the given `Fate` label: inf where the motion does not repeat, 0 at an equilibrium."""
     if label == Fate.EQUILIBRIUM:
         return 0.0
-    if label != Fate.BOUNDED:
-        return float("inf")
+    return float("inf") if label != Fate.BOUNDED else float(period_ball(reduction, state).mid())
 
+
+def period_ball(reduction, state, digits: int = DIGITS):
+    """Period of a bounded motion as a ball that is at most 10^-digits of it wide: two steps of the rule agree to `digits`."""
     def question(bits):
         orbit = PreciseOrbit(reduction, state)
         ends = turning_points(orbit)
-        return _rotation(orbit) if ends is None else _libration(orbit, *ends)
-    return settled(question, BITS)
+        found = _rotation(orbit, digits) if ends is None else _libration(orbit, *ends, digits)
+        if not 10 ** digits * found.rad() < found:
+            raise Unclear
+        return found
+    # nodes come within 10^-2(digits + SPARE) of the turning points, where E - V must keep its digits
+    return settled(question, int(3.33 * (3 * digits + 2 * SPARE + 20)))
 
 
-def _libration(orbit, left, right):
+def _libration(orbit, left, right, digits):
     """Twice the time between the turning points; y = middle - half cos(phi) removes the roots at both ends."""
     from flint import arb
     half, middle = (right - left) / 2, (right + left) / 2
@@ -39,15 +45,15 @@ def _libration(orbit, left, right):
         phi = ((a if near > 0 else b) + near).mid()
         y = middle - half * phi.cos()
         return half * phi.sin() / _rate(orbit, y)
-    return 2 * _sum_over(integrand, knots)
+    return 2 * _sum_over(integrand, knots, digits)
 
 
-def _rotation(orbit):
+def _rotation(orbit, digits):
     """Once round the circle without torque."""
     from flint import arb
     spots = [s.y for s in orbit.spots]
     knots = [*spots, spots[0] + 2 * arb.pi()] if spots else [arb(0), 2 * arb.pi()]
-    return _sum_over(lambda near, a, b: 1 / _rate(orbit, (a if near > 0 else b) + near), knots)
+    return _sum_over(lambda near, a, b: 1 / _rate(orbit, (a if near > 0 else b) + near), knots, digits)
 
 
 def _rate(orbit, y):
@@ -57,39 +63,38 @@ def _rate(orbit, y):
     return (2 * kinetic).sqrt()
 
 
-def _sum_over(integrand, knots) -> float:
-    total = 0.0
-    for a, b in zip(knots, knots[1:]):
-        total += _tanh_sinh(integrand, a.mid(), b.mid())
-    return total
+def _sum_over(integrand, knots, digits):
+    return sum(_tanh_sinh(integrand, a.mid(), b.mid(), digits) for a, b in zip(knots, knots[1:]))
 
 
-def _tanh_sinh(integrand, a, b) -> float:
+def _tanh_sinh(integrand, a, b, digits):
     """Integral over (a, b); the step is halved until two results agree, each row goes on until its terms vanish."""
-    length, rows, before = (b - a).mid(), 0.0, None
+    from flint import arb
+    length, rows, before = (b - a).mid(), arb(0), None
+    least, agree = arb(10) ** -(digits + SPARE), arb(10) ** -digits
     for level in range(FINEST + 1):
-        for row in _rows(level):
+        for row in _rows(level, digits):
             for near, weight in row:
-                term = float((weight * integrand((near * length).mid(), a, b)).mid())
+                term = weight * integrand((near * length).mid(), a, b)
                 rows += term
-                if term < 1e-22 * rows:
+                if term < least * rows:
                     break
             else:
                 raise Unclear
-        now = rows * 2.0**-level
-        if before is not None and level > 2 and abs(now - before) <= AGREE * now:
-            return now * float(length)
+        now = rows * arb(2) ** -level
+        if before is not None and level > 2 and abs(now - before) <= agree * now:
+            return now * length
         before = now
     raise Unclear
 
 
-@lru_cache(maxsize=2 * FINEST + 2)
-def _nodes(level, side):
+@lru_cache(maxsize=64)
+def _nodes(level, side, digits):
     """Nodes as (distance from the nearer end / length, signed by the end; weight), outward from the middle."""
     from flint import arb, ctx
     step, nodes = arb(2) ** -level, []
-    with ctx.workprec(BITS):
-        for k in range(0 if side > 0 else 1, 7 * 2**level):
+    with ctx.workprec(int(3.33 * 2 * (digits + 2 * SPARE)) + 128):
+        for k in range(0 if side > 0 else 1, 12 * 2**level):
             if level and k % 2 == 0:
                 continue
             t = k * step
@@ -97,10 +102,10 @@ def _nodes(level, side):
             far = 1 / (1 + e)
             weight = arb.pi() * t.cosh() * far * (1 - far)
             nodes.append((-side * far.mid(), weight))
-            if far < 1e-300:
+            if far < arb(10) ** -300:
                 break
     return tuple(nodes)
 
 
-def _rows(level):
-    return _nodes(level, 1), _nodes(level, -1)
+def _rows(level, digits):
+    return _nodes(level, 1, digits), _nodes(level, -1, digits)
