@@ -15,7 +15,7 @@ _HOME = {
     "fate": "analysis.fate", "motion": "analysis.motion",
     "extremes": "analysis.extremes", "period": "analysis.extremes",
     "separatrix": "analysis.separatrix",
-    "trajectory": "analysis.trajectories",
+    "trajectory": "analysis.trajectories", "ensemble": "analysis.ensembles",
     "derive": "equations",
 }
 __all__ = [*_HOME, "__version__"]
