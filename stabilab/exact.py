@@ -8,8 +8,9 @@ from numbers import Integral, Rational, Real
 
 from .errors import InputError
 
-_DECIMAL = re.compile(r"\s*[+-]?(\d+(_?\d+)*\.?(\d+(_?\d+)*)?|\.\d+(_?\d+)*)([eE][+-]?\d{1,4})?\s*")
-_RATIO = re.compile(r"\s*[+-]?\d+\s*/\s*\d+\s*")
+_DIGITS = r"\d+(?:_\d+)*"  # one way only to match: else a long wrong number would be tried in exponentially many
+_DECIMAL = re.compile(rf"\s*[+-]?(?:{_DIGITS}(?:\.(?:{_DIGITS})?)?|\.{_DIGITS})(?:[eE][+-]?\d{{1,4}})?\s*", re.ASCII)
+_RATIO = re.compile(r"\s*[+-]?\d+\s*/\s*\d+\s*", re.ASCII)
 
 
 def exact(value) -> Fraction:
@@ -43,7 +44,7 @@ def _parse(value) -> Fraction:
     if isinstance(value, str):
         if len(value) <= 400 and (_DECIMAL.fullmatch(value) or _RATIO.fullmatch(value)):
             try:
-                return Fraction(value.replace("_", "").replace(" ", ""))
+                return Fraction("".join(value.replace("_", "").split()))
             except ZeroDivisionError:
                 raise InputError(f'"{value}" divides by zero') from None
         raise InputError(f'expected a decimal or a ratio such as "0.1" or "2/3", got "{value[:60]}"')
