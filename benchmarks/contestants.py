@@ -90,3 +90,46 @@ class EventExtremes:
             for k, value in self.values:
                 out[n, k] = min(out[n, k, 0], value), max(out[n, k, 1], value)
         return out
+
+
+def off_axis_rates(inertia, moment, torque):
+    """(variable, rate) of Euler's equations with numbers for coefficients, multiplied out: the fastest of the forms tried."""
+    import heyoka
+    (D1, D2, D3), (h1, h2, h3), (M1, M2, M3) = inertia, moment, torque
+    p, q, r = heyoka.make_vars("p", "q", "r")
+    return [(p, (D2 - D3) / D1 * q * r + h2 / D1 * r - h3 / D1 * q + M1 / D1),
+            (q, (D3 - D1) / D2 * r * p + h3 / D2 * p - h1 / D2 * r + M2 / D2),
+            (r, (D1 - D2) / D3 * p * q + h1 / D3 * q - h2 / D3 * p + M3 / D3)]
+
+
+class ScalarRuns:
+    """States of one motion on a grid of times that begins at 0, compiled beforehand."""
+
+    def __init__(self, system, tolerance):
+        import heyoka
+        self.integrator = heyoka.taylor_adaptive(system, [0.0] * len(system), tol=tolerance)
+
+    def __call__(self, start, times):
+        ta = self.integrator
+        ta.time = 0.0
+        ta.state[:] = start
+        return ta.propagate_grid(times)[-1]
+
+
+class BatchRuns:
+    """States of many motions on a grid of times that begins at 0, `lanes` at a time; their number is a multiple of that
+    or the last row starts earlier."""
+
+    def __init__(self, system, tolerance, lanes=8):
+        import heyoka
+        self.lanes, self.integrator = lanes, heyoka.taylor_adaptive_batch(system, np.zeros((len(system), lanes)), tol=tolerance)
+
+    def __call__(self, states, times):
+        ta, lanes, n = self.integrator, self.lanes, len(states)
+        grid, out = np.repeat(times[:, None], lanes, axis=1), np.empty((n, len(times), states.shape[1]))
+        for first in range(0, n, lanes):
+            part = slice(min(first, n - lanes), min(first, n - lanes) + lanes)
+            ta.set_time(0.0)
+            ta.state[:] = states[part].T
+            out[part] = ta.propagate_grid(grid)[1].transpose(2, 0, 1)
+        return out

@@ -6,7 +6,7 @@ from importlib import import_module
 
 from .rows import Row
 
-TOPICS = ("fates", "orbit_extremes", "surfaces")
+TOPICS = ("fates", "orbit_extremes", "surfaces", "trajectories")
 
 
 def topic_rows(topic, small=False) -> list[Row]:

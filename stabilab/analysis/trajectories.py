@@ -58,7 +58,7 @@ def trajectory(scene, state, times, method: str = "taylor", rtol: float | None =
         rtol = SCIPY_RTOL if rtol is None else rtol
         run = _SciPy(system, method, rtol, landing)
     still = (times == 0).sum()
-    reached, states, drift, failures = [np.zeros(still)], [np.tile(state, (still, 1))], {}, []
+    reached, states, drift, failures = [np.zeros(still)], [np.repeat(state[None], still, axis=0)], {}, []
     for chosen, sense in ((times < 0, -1), (times > 0, 1)):
         grid = np.sort(times[chosen] * sense) * sense
         if grid.size:
@@ -158,14 +158,14 @@ class _Taylor:
     def __init__(self, system, rtol, laws=True):
         rates = [law.rate for law in system.equations.balances] if laws else []
         self.forms, self.rtol = form(system.equations, (*system.equations.rhs, *rates)), rtol
-        with borrowed_taylor(self.forms, rtol) as ta:
-            self.counters = {"steps": 0, "order": ta.order}
+        self.counters = {"steps": 0}
 
     def run(self, state, grid, passed=None):
         """(states and law integrals at the times of `grid`, failure or None); grid moves away from 0 without it.
         passed: a list that takes the ends of the steps."""
         note = {} if passed is None else {"callback": lambda ta: passed.append(ta.time) is None}
         with borrowed_taylor(self.forms, self.rtol) as ta:
+            self.counters["order"] = ta.order
             ta.time = 0.0
             ta.state[:] = 0.0
             ta.state[:state.size] = state

@@ -1,0 +1,74 @@
+"""Motions that only numbers can follow: one against heyoka and SciPy, many against heyoka's batch mode."""
+from __future__ import annotations
+
+import numpy as np
+
+from stabilab import Body, ConstantTorque, Gyrostat, Scene, derive, ensemble, trajectory
+from stabilab.analysis.precision_reference import reference, relative_errors
+from stabilab.compiled import TAYLOR_TOLERANCE
+
+from .contestants import BatchRuns, ScalarRuns, off_axis_rates
+from .rows import Row, each
+from .timing import side_by_side
+
+INERTIA, MOMENT, TORQUE = (3.0, 2.0, 1.5), (0.3, -0.2, 0.5), (0.1, 0.2, 0.1)  # no axis or plane is singled out
+OFF_AXIS = Scene(Body(INERTIA), Gyrostat(("0.3", "-0.2", "0.5")), ConstantTorque(("0.1", "0.2", "0.1")))
+START = (0.1, 0.2, 0.3)
+SCIPY_RTOL = 1e-12
+
+
+def rows(small=False) -> list[Row]:
+    if small:
+        return [*against_heyoka(20.0, 5, 1, 2), against_scipy(5.0, 1, 2), *against_batch(20, 5.0, 3, 2)]
+    return [*against_heyoka(1000.0, 1000, 1), *against_heyoka(100.0, 100, 20), against_scipy(), *against_batch()]
+
+
+def against_heyoka(span, count, repeats, rounds=7) -> list[Row]:
+    """`trajectory` without and with the laws against heyoka as written by hand, at the same tolerance and times."""
+    times, raw = np.linspace(0, span, count), ScalarRuns(off_axis_rates(INERTIA, MOMENT, TORQUE), TAYLOR_TOLERANCE)
+    found, theirs = [], raw(START, times)
+    for laws in (False, True):
+        run = trajectory(OFF_AXIS, START, times, laws=laws)
+        timed = side_by_side(lambda: [trajectory(OFF_AXIS, START, times, laws=laws) for _ in range(repeats)],  # noqa: B023
+                             lambda: [raw(START, times) for _ in range(repeats)], repeats, repeats, rounds)
+        apart = np.abs(run.states - theirs).max() / np.abs(theirs).max()
+        found.append(Row(f"trajectory off the axes, {span:g} s, {count} times, {run.counters['steps']} steps, "
+                         f"laws {'' if laws else 'un'}checked", each(timed.ours), f"{each(timed.theirs)} heyoka by hand", timed.ratio,
+                         (timed.low, timed.high), f"same tolerance and steps; states {apart:.0e} apart", 1 / 1.15,
+                         "reading and checking the input costs some 0.1 ms a call" if span < 1000 else
+                         "the laws' integrals ride along and are compared at every time" if laws else ""))
+    return found
+
+
+def against_scipy(span=300.0, repeats=10, rounds=7) -> Row:
+    """`trajectory`, laws unchecked, against SciPy's DOP853 with the rates as a Python function; errors against many digits."""
+    from scipy.integrate import solve_ivp
+    times = np.linspace(0, span, 101)
+    (D1, D2, D3), (h1, h2, h3), (M1, M2, M3) = INERTIA, MOMENT, TORQUE
+
+    def rates(_, w):
+        a, b, c = D1 * w[0] + h1, D2 * w[1] + h2, D3 * w[2] + h3
+        return (b * w[2] - c * w[1] + M1) / D1, (c * w[0] - a * w[2] + M2) / D2, (a * w[1] - b * w[0] + M3) / D3
+
+    slow = lambda: solve_ivp(rates, (0, span), START, "DOP853", times, rtol=SCIPY_RTOL, atol=SCIPY_RTOL).y.T  # noqa: E731
+    fast = lambda: trajectory(OFF_AXIS, START, times, laws=False).states  # noqa: E731
+    timed = side_by_side(lambda: [fast() for _ in range(repeats)], slow, repeats, 1, rounds)
+    exact = reference(OFF_AXIS, START, times)
+    errors = [relative_errors(states, exact.states, exact.rest, exact.slices).max() for states in (fast(), slow())]
+    return Row(f"trajectory off the axes, {span:g} s, laws unchecked", each(timed.ours), f"{each(timed.theirs)} SciPy DOP853 at 1e-12 in Python",
+               timed.ratio, (timed.low, timed.high), "largest relative error: ours {:.0e}, theirs {:.0e}".format(*errors), 300)
+
+
+def against_batch(size=256, span=200.0, count=21, rounds=7) -> list[Row]:
+    """`ensemble` against heyoka's batch mode, rows of as many motions, in the order given."""
+    states, times = np.random.default_rng(1).normal(size=(size, 3)) * 0.5, np.linspace(0, span, count)
+    raw, found = BatchRuns(off_axis_rates(INERTIA, MOMENT, TORQUE), TAYLOR_TOLERANCE), []
+    theirs, ours = raw(states, times), ensemble(OFF_AXIS, states, times).states
+    apart = np.abs(ours - theirs).max() / np.abs(theirs).max()
+    for workers in (1, 2):
+        timed = side_by_side(lambda: ensemble(OFF_AXIS, states, times, workers=workers), lambda: raw(states, times),  # noqa: B023
+                             size, size, rounds)
+        found.append(Row(f"ensemble of {size} motions off the axes, {span:g} s, {count} times, {workers} worker{'s' * (workers > 1)}",
+                         each(timed.ours), f"{each(timed.theirs)} heyoka batch by hand", timed.ratio, (timed.low, timed.high),
+                         f"same tolerance; states {apart:.0e} apart", 1 / 1.1, "a row holds motions of like pace" if workers == 1 else ""))
+    return found
