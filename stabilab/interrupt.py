@@ -39,6 +39,17 @@ def undoing(action):
         _undo.remove(action)
 
 
+def end_with_parent():
+    """From now on the process ends when its standard input does: a child whose parent was killed shall not go on writing."""
+    import _thread
+
+    def listen():
+        while os.read(0, 1):
+            pass
+        _end()
+    _thread.start_new_thread(listen, ())
+
+
 def _end(*_):
     for action in reversed(_undo):
         try:

@@ -16,7 +16,7 @@ from typing import Callable
 import numpy as np
 
 from ..errors import StabilabError
-from ..interrupt import undoing
+from ..interrupt import end_with_parent, undoing
 from . import claims, comparison, figures, panels, style
 
 
@@ -81,11 +81,12 @@ def beside(folder):
     if not CHAPTERS:
         yield lambda tell: []
         return
-    child = subprocess.Popen([sys.executable, "-m", __name__, str(folder)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    child = subprocess.Popen([sys.executable, "-m", __name__, str(folder)], stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
     def stop():
         child.kill()
         child.wait()
+        child.stdin.close()
     with undoing(stop):
         try:
             yield lambda tell: _collect(child, folder, tell)
@@ -110,6 +111,7 @@ def sections(folder, tell=lambda words: None) -> list[dict]:
 
 def main(folder):
     """What the second process does."""
+    end_with_parent()
     found = sections(folder)
     (Path(folder) / MADE).write_text(json.dumps(found), encoding="utf-8")
 

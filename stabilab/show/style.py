@@ -4,7 +4,7 @@ from __future__ import annotations
 from contextlib import contextmanager
 from pathlib import Path
 
-from ..interrupt import undoing
+from ..files import whole_file
 
 # Okabe-Ito: told apart by colour-blind readers, and by their lightness in a grey print.
 BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILION, PURPLE, GREY = (
@@ -89,20 +89,6 @@ def write_small(image, path) -> None:
     small.putpalette(palette.astype(np.uint8).tobytes())
     with whole_file(path) as waiting:
         small.save(waiting, format="png", optimize=True)
-
-
-@contextmanager
-def whole_file(path):
-    """A temporary name beside `path` that becomes `path` when the block ends well, and vanishes when it does not."""
-    path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    waiting = path.with_name(f".{path.name}.part")
-    with undoing(waiting.unlink):
-        try:
-            yield waiting
-            waiting.replace(path)
-        finally:
-            waiting.unlink(missing_ok=True)
 
 
 def legend(figure, rows, columns=4):
