@@ -4,9 +4,7 @@ from __future__ import annotations
 import math
 from fractions import Fraction
 
-import numpy as np
-
-EPS = float(np.finfo(float).eps)
+EPS = 2.0**-52
 
 
 def bracketed_newton(fun, lo, hi, start, args=(), rising=True, iterations=200):
@@ -17,6 +15,7 @@ def bracketed_newton(fun, lo, hi, start, args=(), rising=True, iterations=200):
     replaced by bisection, so it converges for every continuous monotone function; it stops at two units in the last
     place. Returns (n,).
     """
+    import numpy as np
     x = np.array(start, float)
     lo, hi = np.array(np.broadcast_to(lo, x.shape), float), np.array(np.broadcast_to(hi, x.shape), float)
     rising = np.broadcast_to(np.asarray(rising), x.shape)
@@ -97,7 +96,7 @@ def _bisect_newton(value, left, right, fl, coefficients):
     """The root in (left, right), to the nearest double or its neighbour: floats guide, exact signs decide."""
     slopes = [float(a) for a in coefficients]
     lo, hi, sign = float(left), float(right), fl > 0
-    x = _between(lo, hi)
+    x = between(lo, hi)
     for _ in range(4000):
         f, df, size = 0.0, 0.0, 0.0
         for a in slopes:
@@ -112,16 +111,16 @@ def _bisect_newton(value, left, right, fl, coefficients):
             lo = x
         else:
             hi = x
-        new = x - f / df if df and math.isfinite(df) else _between(lo, hi)
+        new = x - f / df if df and math.isfinite(df) else between(lo, hi)
         if not lo < new < hi or abs(new - x) > 0.9 * (hi - lo):
-            new = _between(lo, hi)
+            new = between(lo, hi)
         if not lo < new < hi or abs(new - x) <= 1e-17 * abs(x):
             return new
         x = new
     return x
 
 
-def _between(lo, hi):
+def between(lo, hi):
     """A point inside (lo, hi), geometric where the ends differ by orders of magnitude."""
     if lo * hi > 0 and not 0.01 < abs(lo / hi) < 100:
         return math.copysign(math.sqrt(abs(lo)) * math.sqrt(abs(hi)), lo)
