@@ -3,31 +3,58 @@
 Each class is one geometry of the reduction (circle, hyperbola, parabola) with the same small interface. A *place* is a
 pair of arrays that moves along the orbit with the coordinate theta; `rise(y, place, force)` is V(theta + y) - V(theta).
 At an equilibrium (force 0) the first-order terms drop out analytically, so barriers and turning points keep their
-digits next to a separatrix.
+digits next to a separatrix. The formulas serve arrays and Python floats alike; floats load no NumPy.
 """
 from __future__ import annotations
 
-import numpy as np
+import math
+
+
+def sin(y):
+    """sin of a float or an array."""
+    if type(y) is float:
+        return math.sin(y)
+    import numpy as np
+    return np.sin(y)
+
+
+def exp(y):
+    """exp of a float or an array; inf beyond the largest double."""
+    if type(y) is float:
+        return math.exp(y) if y < 709.7 else math.inf
+    import numpy as np
+    return np.exp(y)
 
 
 def y_minus_sin(y):
     """y - sin y without cancellation."""
+    if type(y) is float:
+        return _odd_series(y) if abs(y) < 0.7 else y - math.sin(y)
+    import numpy as np
     result, small = y - np.sin(y), np.abs(y) < 0.7
     if np.any(small):
-        t = y[small] if np.ndim(y) else y
-        t2 = t * t
-        series = t * t2 / 6 * (1 - t2 / 20 * (1 - t2 / 42 * (1 - t2 / 72 * (1 - t2 / 110 * (1 - t2 / 156)))))
         if not np.ndim(y):
-            return series
-        result[small] = series
+            return _odd_series(y)
+        result[small] = _odd_series(y[small])
     return result
+
+
+def _odd_series(t):
+    """t - sin t for |t| < 0.7."""
+    t2 = t * t
+    return t * t2 / 6 * (1 - t2 / 20 * (1 - t2 / 42 * (1 - t2 / 72 * (1 - t2 / 110 * (1 - t2 / 156)))))
 
 
 def exp_minus_two_terms(t):
     """exp(t) - 1 - t without cancellation."""
-    series = np.zeros_like(t)
+    if type(t) is float and abs(t) >= 0.7:
+        return math.expm1(t) - t if t < 709.7 else math.inf
+    series = 0.0
     for n in range(17, 2, -1):
         series = (1 + series) * t / n
+    if type(t) is float:
+        return 0.5 * t * t * (1 + series)
+    import numpy as np
     return np.where(np.abs(t) < 0.7, 0.5 * t * t * (1 + series), np.expm1(t) - t)
 
 
@@ -43,7 +70,7 @@ class Elliptic:
 
     def terms(self, place):
         """Size of the terms of the force: times the unit of rounding, its error."""
-        x, z = np.abs(place[0]), np.abs(place[1])
+        x, z = abs(place[0]), abs(place[1])
         return self.mu + abs(self.G) * x * z + abs(self.c) * z + abs(self.d) * x
 
     def slope(self, place):
@@ -53,8 +80,8 @@ class Elliptic:
 
     def move(self, place, y):
         x, z = place
-        half = np.sin(0.5 * y)
-        s, b = np.sin(y), -2 * half * half
+        half = sin(0.5 * y)
+        s, b = sin(y), -2 * half * half
         return x + (z * s + x * b), z + (z * b - x * s)
 
     def nudge(self, place, y):
@@ -65,8 +92,8 @@ class Elliptic:
 
     def rise(self, y, place, force=0.0):
         x, z = place
-        half = np.sin(0.5 * y)
-        s, b = np.sin(y), -2 * half * half
+        half = sin(0.5 * y)
+        s, b = sin(y), -2 * half * half
         dx = z * s + x * b
         return (-self.mu * y_minus_sin(y) - force * s - b * (self.G * x * x + self.c * x - self.d * z)
                 - 0.5 * self.G * dx * dx)
@@ -85,7 +112,7 @@ class Hyperbolic:
         return self.mu + 0.25 * self.G * (xi - eta) * (xi + eta) + self.e1 * xi + self.e2 * eta
 
     def terms(self, place):
-        xi, eta = np.abs(place[0]), np.abs(place[1])
+        xi, eta = abs(place[0]), abs(place[1])
         return self.mu + 0.25 * abs(self.G) * (xi * xi + eta * eta) + abs(self.e1) * xi + abs(self.e2) * eta
 
     def slope(self, place):
@@ -93,7 +120,7 @@ class Hyperbolic:
         return 0.5 * self.G * (xi * xi + eta * eta) + self.e1 * xi - self.e2 * eta
 
     def move(self, place, y):
-        return place[0] * np.exp(y), place[1] * np.exp(-y)
+        return place[0] * exp(y), place[1] * exp(-y)
 
     nudge = move
 
@@ -118,7 +145,7 @@ class Parabolic:
         return self.kappa * u * v + self.rho * v + self.sigma * u + self.m
 
     def terms(self, place):
-        u, v = np.abs(place[0]), np.abs(place[1])
+        u, v = abs(place[0]), abs(place[1])
         return abs(self.kappa) * u * v + abs(self.rho) * v + abs(self.sigma) * u + abs(self.m)
 
     def derivatives(self, place):

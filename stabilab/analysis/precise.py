@@ -76,7 +76,7 @@ def numbers():
 def settled(question, bits: int = START_BITS, most: int = 1 << 17):
     """question(bits), with more bits as long as it is `Unclear`; the last Unclear when `most` are not enough.
 
-    bits: at first. DOUBLE_BITS: with balls of doubles, then from START_BITS on.
+    bits: at first. DOUBLE_BITS: with balls of doubles, then from START_BITS on, unless DOUBLE_BITS is also the `most`.
     """
     global _numbers
     if bits == DOUBLE_BITS:
@@ -84,6 +84,8 @@ def settled(question, bits: int = START_BITS, most: int = 1 << 17):
         try:
             return question(bits)
         except (Unclear, ArithmeticError):
+            if most == DOUBLE_BITS:
+                raise Unclear from None
             bits = START_BITS
         finally:
             _numbers = Digits

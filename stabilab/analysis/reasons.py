@@ -1,0 +1,49 @@
+"""Why a motion has the fate it has, in words; and whether a state is at rest, decided exactly."""
+from __future__ import annotations
+
+import math
+from enum import IntEnum
+from fractions import Fraction
+
+
+class Reason(IntEnum):
+    """Why a label was given; `REASONS` has the words."""
+
+    BELOW_BARRIER = 0
+    ABOVE_BARRIER = 1
+    NO_BARRIER = 2
+    WALLS = 3
+    PLANE_CAPTURED = 4
+    PLANE_ESCAPES = 5
+    PURE_SPIN = 6
+    TIE = 7
+    AT_REST = 8
+    TORQUE_FREE = 9
+    ASYMPTOTIC = 10
+    UNBOUNDED_LAW = 11
+    OFF_AXIS = 12
+
+
+REASONS = {
+    Reason.BELOW_BARRIER: "the energy is below the barrier of the reduced potential that stands ahead of it in the direction of the torque",
+    Reason.ABOVE_BARRIER: "the energy exceeds every barrier of the reduced potential within one turn ahead, and each later turn is lower still",
+    Reason.NO_BARRIER: "the orbit's circle carries no equilibrium, so the reduced potential falls all the way in the direction of the torque",
+    Reason.WALLS: "the reduced potential grows without bound on both sides of the motion",
+    Reason.PLANE_CAPTURED: "on the invariant plane Q = 0, below the barrier that stands ahead",
+    Reason.PLANE_ESCAPES: "on the invariant plane Q = 0 that decays in the direction of the torque, above any barrier: a set of measure zero",
+    Reason.PURE_SPIN: "pure spin about the torque's axis: the other two rates stay where the torque does not see them",
+    Reason.TIE: "the energy equals the barrier's: the motion tends to the saddle equilibrium",
+    Reason.AT_REST: "an equilibrium lies within half a unit in the last place of the state",
+    Reason.TORQUE_FREE: "no torque: the kinetic energy is constant, and it is positive definite",
+    Reason.ASYMPTOTIC: "no torque, on an invariant plane: the motion tends to a permanent rotation",
+    Reason.UNBOUNDED_LAW: "|H|^2/2 - D_i T grows steadily at the rate lambda_i M_i: no motion is bounded",
+    Reason.OFF_AXIS: "the torque is off the principal axes: no integral of motion bounds or releases it, and none is known",
+}
+
+
+def rests(form, state) -> bool:
+    """Whether rounding of the state's own components (half a unit in the last place) accounts for all of its exact rate."""
+    x = [Fraction(float(v)) for v in state]
+    half = [Fraction(math.ulp(float(v))) / 2 if v else Fraction(0) for v in state]
+    rates, jacobian = form.rate(x), form.jacobian(x)
+    return all(abs(rate) <= sum(abs(a) * h for a, h in zip(row, half)) for rate, row in zip(rates, jacobian))
