@@ -1,0 +1,149 @@
+"""Fate, extremes, period and invariants of one state of a scene with a reduction, without arrays.
+
+The mechanics is that of `precise` (the orbit, its equilibria, its turning points); it is asked in balls of doubles first
+and in many digits where these leave a question open. So a single state needs neither NumPy nor, as a rule, python-flint,
+every answer is certain to at least twelve digits, and near a separatrix there is no second formula to disagree with.
+Answers are those of `fate`, `extremes` and `period` for arrays: the same labels and reasons, numbers to rounding.
+"""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+from .precise import DOUBLE_BITS, TIE_BITS, PreciseOrbit, decide, settled, sign
+from .precise_extremes import extreme_balls
+from .reasons import REASONS, Reason, rests
+from .results import Fate
+
+INF = math.inf
+
+
+@dataclass(frozen=True)
+class OneFate:
+    """Fate of one state: as in `fate.FateResult`, the margin in the scene's energy."""
+
+    label: Fate
+    reason: Reason
+    margin: float
+    axis: int = 0
+    sense: int = 0
+
+    @property
+    def because(self) -> str:
+        return REASONS[self.reason]
+
+
+def fate_of(scene, reduction, state) -> OneFate:
+    """The fate of one state (three floats) of a scene with this reduction."""
+    found = {-1: _on_circle, 1: _on_hyperbola, 0: _on_parabola}[reduction.e](reduction, state)
+    unit = reduction.energy_unit
+    found = replace(found, margin=found.margin * unit)
+    if rests(scene.quadratic(), state):
+        return replace(found, label=Fate.EQUILIBRIUM, reason=Reason.AT_REST, axis=0, sense=0)
+    return found
+
+
+def _spin_up(r, reason, margin) -> OneFate:
+    return OneFate(Fate.SPIN_UP, reason, margin, r.axis + 1, r.sense)
+
+
+def _tie() -> OneFate:
+    return OneFate(Fate.SEPARATRIX, Reason.TIE, 0.0)
+
+
+def _on_circle(r, state) -> OneFate:
+    if _shifted(r, state) == (0, 0):  # the circle is a point: pure spin, and nothing stands in its way
+        found = None
+    else:
+        found = decide(r, state, DOUBLE_BITS)
+        if found.sign == 0:
+            return _tie()
+    margin = -INF if found is None else found.margin
+    if r.sense == 0:
+        return OneFate(Fate.BOUNDED, Reason.TORQUE_FREE, margin)
+    if found is not None and found.sign > 0:
+        return OneFate(Fate.BOUNDED, Reason.BELOW_BARRIER, margin)
+    return _spin_up(r, Reason.NO_BARRIER if margin == -INF else Reason.ABOVE_BARRIER, margin)
+
+
+def _shifted(r, state) -> tuple[Fraction, Fraction]:
+    """(omega_j + s_j, omega_k + s_k), exactly."""
+    return Fraction(state[r.j]) + r.q0 / r.q, Fraction(state[r.k]) + r.p0 / r.p
+
+
+def _valley(r, state) -> OneFate:
+    """Between walls: bounded on either side of a barrier, if there is one."""
+    tie = decide(r, state, DOUBLE_BITS)
+    if tie.sign == 0:
+        return _tie()
+    return OneFate(Fate.BOUNDED, Reason.WALLS if r.sense else Reason.TORQUE_FREE, INF if tie.margin == -INF else tie.margin)
+
+
+def _on_hyperbola(r, state) -> OneFate:
+    u, v = _shifted(r, state)
+    if v * v * abs(r.p) != u * u * abs(r.q):
+        return _valley(r, state)
+    if u == 0:
+        return _spin_up(r, Reason.PURE_SPIN, -INF) if r.sense else OneFate(Fate.BOUNDED, Reason.PURE_SPIN, -INF)
+    if r.sense == 0:
+        return _on_free_plane(r, state)
+    if (u > 0) == (v > 0) and r.sense * r.p > 0 or (u > 0) != (v > 0) and r.sense * r.p < 0:
+        return OneFate(Fate.BOUNDED, Reason.WALLS, INF)  # eta = 0: it grows ahead, and the torque's tilt rises behind
+    tie = decide(r, state, DOUBLE_BITS)
+    if tie.sign > 0:
+        return OneFate(Fate.BOUNDED, Reason.PLANE_CAPTURED, tie.margin)
+    return _tie() if tie.sign == 0 else _spin_up(r, Reason.PLANE_ESCAPES, tie.margin)
+
+
+def _on_free_plane(r, state) -> OneFate:
+    """On an invariant plane without torque: bounded below the height of the plane's end, else it tends to a rotation."""
+    def question(bits):
+        orbit = PreciseOrbit(r, state)
+        above = orbit.energy - orbit.x * (orbit.G * orbit.x / 2 + orbit.c) - orbit.d * orbit.z
+        if bits >= TIE_BITS and 0 in above:
+            return 0, 0.0
+        return sign(above), float(above.mid())
+    side, above = settled(question, DOUBLE_BITS)
+    return OneFate(*((Fate.BOUNDED, Reason.TORQUE_FREE) if side < 0 else (Fate.SEPARATRIX, Reason.ASYMPTOTIC)), -above)
+
+
+def _on_parabola(r, state) -> OneFate:
+    if r.sense and not any(settled(lambda bits: PreciseOrbit(r, state).taylor[1:], DOUBLE_BITS)):
+        return _spin_up(r, Reason.PURE_SPIN, -INF)  # the force is the same all along the orbit
+    return _valley(r, state)
+
+
+def extremes_of(reduction, state, label: Fate) -> tuple:
+    """((least, greatest),) * 3 over t >= 0 in the scene's variables; +-inf where unbounded."""
+    if label == Fate.EQUILIBRIUM:
+        return tuple((v, v) for v in state)
+    balls = extreme_balls(reduction, state, label, doubles=True)
+    # rounding must not exclude the state itself
+    return tuple((min(float(low), v), max(float(high), v)) for (low, high), v in zip(balls, state))
+
+
+def invariants_of(reduction, state) -> dict[str, float]:
+    """Q (the squared radius of the circle, or Z^2 - X^2 on a hyperbola) in canonical units, and the energy W^2/2 + V in
+    the scene's, with the turn angle counted from the direction X = 0; nothing on a parabola."""
+    r = reduction
+    if r.e == 0:
+        return {}
+
+    def question(bits):
+        o = PreciseOrbit(r, state)
+        found = {"Q": float(o.Q)}
+        angle = _angle(o)
+        if angle is not None:
+            energy = o.energy - o.mu * angle - o.x * (o.G * o.x / 2 + o.c) - r.e * o.d * o.z
+            found["energy"] = float(energy.mid()) * r.energy_unit
+        return found
+    return settled(question, DOUBLE_BITS)
+
+
+def _angle(orbit):
+    """The turn angle from the direction X = 0; None where there is none, on an invariant plane."""
+    from .precise import numbers
+    if orbit.r.e < 0:
+        return orbit.energy * 0 if orbit.Q == 0 else numbers().angle(orbit.x, orbit.z)
+    return None if orbit.on_plane else (abs(orbit.xi) / abs(orbit.eta)).log() / 2
