@@ -1,0 +1,163 @@
+"""One orbit as motion in a potential: x_j, x_k as functions of alpha with alpha' = x_i + s, and y^2/2 + U(alpha) = E."""
+from __future__ import annotations
+
+from fractions import Fraction
+
+from functools import lru_cache
+from types import SimpleNamespace
+
+from .numbers import ball, exact_sign
+from .rates import AHEAD
+
+
+class Orbit:
+    """The orbit of an exact state about axis i; the rates must be (x_i + s)(p x_k + p0), (x_i + s)(q x_j + q0) across it.
+
+    u, v: x_j and x_k; du/dalpha = p v + p0, dv/dalpha = q u + q0; y' = F(alpha), U' = -F, U(0) = 0. kind: -1 circle,
+    1 hyperbola, 0 parabola; tilt: the constant part of the force, in whose direction a circle's potential falls.
+    """
+
+    def __init__(self, rates, axis, state):
+        shift = _shift(rates, axis)
+        if shift is None:
+            raise ValueError("no reduction about this axis")
+        j, k = AHEAD[axis]
+        self.axis, self.j, self.k, self.s = axis, j, k, shift
+        self.p, self.p0, self.q, self.q0 = rates.kappa[j], rates.rho[j], rates.kappa[k], rates.sigma[k]
+        self.kappa, self.rho, self.sigma, self.m = (c[axis] for c in (rates.kappa, rates.rho, rates.sigma, rates.m))
+        self.u0, self.v0, self.y0 = state[j], state[k], state[axis] + shift
+        self.E = self.y0 * self.y0 / 2
+        self.kind = exact_sign(self.p * self.q)
+        self.F0 = self.kappa * self.u0 * self.v0 + self.rho * self.v0 + self.sigma * self.u0 + self.m
+        if self.kind:
+            self.a, self.b = -self.kappa / (2 * self.p), -self.kappa / (2 * self.q)
+            self.c = (-self.rho - self.b * self.q0) / self.p
+            self.d = (-self.sigma - self.a * self.p0) / self.q
+            self.tilt = self.m + self.c * self.p0 + self.d * self.q0
+            self.cu, self.cv = -self.q0 / self.q, -self.p0 / self.p
+        else:
+            self.tilt = self.m
+            self._series()
+
+    def _series(self):
+        """Coefficients of u, v, F, U in alpha: one of p, q vanishes, so u and v are polynomials."""
+        p, p0, q, q0, u0, v0 = self.p, self.p0, self.q, self.q0, self.u0, self.v0
+        self.us = [u0, p * v0 + p0, p * q0 / 2 if not q else Fraction(0)]
+        self.vs = [v0, q * u0 + q0, q * p0 / 2 if not p else Fraction(0)]
+        F = [Fraction(0)] * 5
+        for r, a in enumerate(self.us):
+            for t, b in enumerate(self.vs):
+                F[r + t] += self.kappa * a * b
+        for r in range(3):
+            F[r] += self.rho * self.vs[r] + self.sigma * self.us[r]
+        F[0] += self.m
+        self.Fs, self.Us = F, [Fraction(0), *(-c / (n + 1) for n, c in enumerate(F))]
+
+    @property
+    def balls(self):
+        """The constants as balls at the working precision."""
+        from flint import ctx
+        return _balls(self, ctx.prec)
+
+    @property
+    def turn(self):
+        """One turn of a circle in alpha."""
+        from flint import arb
+        return 2 * arb.pi() / self.balls.n
+
+    def place(self, alpha):
+        """(u, v) at a ball alpha, real or complex."""
+        g = self.balls
+        if self.kind == 0:
+            return _poly(g.us, alpha), _poly(g.vs, alpha)
+        if g.decays:  # one exponential, without the difference of two large ones
+            return self._on_plane((-g.decays * g.n * alpha).exp())
+        angle = g.n * alpha
+        s, c = (angle.sin(), angle.cos()) if self.kind < 0 else (angle.sinh(), angle.cosh())
+        return g.cu + g.du * c + g.su * s, g.cv + g.dv * c + g.sv * s
+
+    def decays(self) -> int:
+        """On a plane of a hyperbola: 1 where the place decays with growing alpha, -1 where it grows, else 0."""
+        a, b = self.p * self.v0 + self.p0, self.q * self.u0 + self.q0
+        du, dv = self.u0 - self.cu, self.v0 - self.cv
+        if self.kind < 1 or not (du or dv) or a * a != self.p * self.q * du * du or b * b != self.p * self.q * dv * dv:
+            return 0
+        return -exact_sign(a * du) or -exact_sign(b * dv)
+
+    def _on_plane(self, e):
+        g = self.balls
+        return g.cu + g.du * e, g.cv + g.dv * e
+
+    def slopes(self, alpha):
+        """(du/dalpha, dv/dalpha)."""
+        g, (u, v) = self.balls, self.place(alpha)
+        return g.p * v + g.p0, g.q * u + g.q0
+
+    def force(self, alpha):
+        """F = y'."""
+        return _poly(self.balls.Fs, alpha) if self.kind == 0 else self._force_at(*self.place(alpha))
+
+    def _force_at(self, u, v):
+        g = self.balls
+        return g.kappa * u * v + g.rho * v + g.sigma * u + g.m
+
+    def force_beyond(self, far):
+        """The force on a decaying plane of a hyperbola, over all |alpha| >= far in the direction of the decay."""
+        return self._force_at(*self._on_plane((-self.balls.n * far).exp().union(ball(0))))
+
+    def force_slope(self, alpha):
+        """dF/dalpha."""
+        g = self.balls
+        if self.kind == 0:
+            return _poly(g.dFs, alpha)
+        u, v = self.place(alpha)
+        du, dv = g.p * v + g.p0, g.q * u + g.q0
+        return g.kappa * (du * v + u * dv) + g.rho * dv + g.sigma * du
+
+    def potential(self, alpha):
+        """U, zero at alpha = 0."""
+        g = self.balls
+        if self.kind == 0:
+            return _poly(g.Us, alpha)
+        u, v = self.place(alpha)
+        return g.half_a * (u * u - g.u0 * g.u0) + g.half_b * (v * v - g.v0 * g.v0) + g.c * (u - g.u0) + g.d * (v - g.v0) - g.tilt * alpha
+
+    def excess(self, alpha):
+        """U - E: negative where the motion may be."""
+        return self.potential(alpha) - self.balls.E
+
+
+@lru_cache(maxsize=16)
+def _balls(orbit, bits):
+    """Every constant of an orbit as a ball of so many bits."""
+    o, names = orbit, ("p", "p0", "q", "q0", "kappa", "rho", "sigma", "m", "u0", "v0", "E", "tilt")
+    g = SimpleNamespace(**{name: ball(getattr(o, name)) for name in names})
+    if o.kind == 0:
+        g.us, g.vs, g.Fs, g.Us = ([ball(c) for c in row] for row in (o.us, o.vs, o.Fs, o.Us))
+        g.dFs = [ball(n * c) for n, c in enumerate(o.Fs)][1:]
+        return g
+    g.n, g.decays = ball(abs(o.p * o.q)).sqrt(), o.decays()
+    g.cu, g.du, g.su = ball(o.cu), ball(o.u0 - o.cu), ball(o.p * o.v0 + o.p0) / g.n
+    g.cv, g.dv, g.sv = ball(o.cv), ball(o.v0 - o.cv), ball(o.q * o.u0 + o.q0) / g.n
+    g.half_a, g.half_b, g.c, g.d = ball(o.a / 2), ball(o.b / 2), ball(o.c), ball(o.d)
+    return g
+
+
+def _poly(coefficients, alpha):
+    total = alpha * 0
+    for c in reversed(coefficients):
+        total = total * alpha + c
+    return total
+
+
+def _shift(rates, axis):
+    """s with which both rates across the axis are multiples of (x_i + s), and no torque acts there; None without one."""
+    j, k = AHEAD[axis]
+    if rates.m[j] or rates.m[k]:
+        return None
+    # rate j: kappa x_k x_i + rho x_i + sigma x_k;  rate k: kappa x_i x_j + rho x_j + sigma x_i
+    for s in [c / d for c, d in ((rates.sigma[j], rates.kappa[j]), (rates.rho[k], rates.kappa[k])) if d] or [Fraction(0)]:
+        if (rates.sigma[j] == s * rates.kappa[j] and s * rates.rho[j] == 0
+                and rates.rho[k] == s * rates.kappa[k] and s * rates.sigma[k] == 0):
+            return s
+    return None

@@ -1,0 +1,84 @@
+"""The rates of the three components, from the numbers of a scene: x_i' = kappa x_j x_k + rho x_k + sigma x_j + m."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from .numbers import Malformed, field, number, numbers
+
+AHEAD = ((1, 2), (2, 0), (0, 1))
+
+
+@dataclass(frozen=True)
+class Rates:
+    """Coefficients (each a list of three fractions), and two affine conditions (normal, constant) that every
+    equilibrium meets: normal . x + constant = 0. torque: whether any component of it acts."""
+
+    kappa: list
+    rho: list
+    sigma: list
+    m: list
+    conditions: tuple
+    torque: bool
+    parallel: tuple | None = None  # (D, lambda) of a body: without torque D x + lambda is parallel to x
+
+    @classmethod
+    def of_scene(cls, scene) -> "Rates":
+        """The rates of the certificate's scene."""
+        kind = field(scene, "variables", "scene", str)
+        if kind == "physical":
+            D, lam, M = (numbers(field(scene, key, "scene"), f"scene.{key}", 3) for key in ("inertia", "momentum", "torque"))
+            if min(D) <= 0:
+                raise Malformed("scene.inertia: expected positive moments")
+            return cls.of_body(D, lam, M)
+        if kind == "scaled":
+            a, b = (number(field(scene, key, "scene"), f"scene.{key}") for key in "ab")
+            return cls.of_scaled(a, b, numbers(field(scene, "mu", "scene"), "scene.mu", 3))
+        raise Malformed(f"scene.variables: expected 'physical' or 'scaled', got {kind!r}")
+
+    @classmethod
+    def of_body(cls, D, lam, M) -> "Rates":
+        """D x' = (D x + lambda) x x + M, written out."""
+        kappa = [(D[j] - D[k]) / D[i] for i, (j, k) in enumerate(AHEAD)]
+        rho = [lam[j] / D[i] for i, (j, k) in enumerate(AHEAD)]
+        sigma = [-lam[k] / D[i] for i, (j, k) in enumerate(AHEAD)]
+        m = [M[i] / D[i] for i in range(3)]
+        conditions = ((list(M), Fraction(0)), ([d * t for d, t in zip(D, M)], sum(l * t for l, t in zip(lam, M))))
+        return cls(kappa, rho, sigma, m, conditions, any(M), (D, lam))
+
+    @classmethod
+    def of_scaled(cls, a, b, mu) -> "Rates":
+        """x1' = x2 x3 + mu1, x2' = -x3 (x1 + a) + mu2, x3' = x2 (x1 + b) + mu3."""
+        o, one = Fraction(0), Fraction(1)
+        conditions = (([mu[0], mu[1], o], mu[0] * a), ([mu[0], o, -mu[2]], mu[0] * b))
+        return cls([one, -one, one], [o, o, b], [o, -a, o], list(mu), conditions, any(mu))
+
+    def at(self, x):
+        """The rates at x: fractions, balls or polynomials alike."""
+        return [self._lift(self.kappa[i], x) * x[j] * x[k] + self._lift(self.rho[i], x) * x[k]
+                + self._lift(self.sigma[i], x) * x[j] + self._lift(self.m[i], x) for i, (j, k) in enumerate(AHEAD)]
+
+    def jacobian(self, x):
+        """Rows of derivatives of the rates."""
+        rows = []
+        for i, (j, k) in enumerate(AHEAD):
+            row = [x[0] * 0] * 3
+            row[j] = self._lift(self.kappa[i], x) * x[k] + self._lift(self.sigma[i], x)
+            row[k] = self._lift(self.kappa[i], x) * x[j] + self._lift(self.rho[i], x)
+            rows.append(row)
+        return rows
+
+    @staticmethod
+    def _lift(value, x):
+        """A coefficient in the arithmetic of x."""
+        if isinstance(x[0], Fraction):
+            return value
+        from .numbers import ball, q
+        return ball(value) if type(x[0]).__name__ == "arb" else q(value)
+
+
+def characteristic(J):
+    """(m, n) of z^3 + m z + n for a matrix with zero diagonal."""
+    m = -(J[0][1] * J[1][0] + J[0][2] * J[2][0] + J[1][2] * J[2][1])
+    n = -(J[0][1] * J[1][2] * J[2][0] + J[0][2] * J[1][0] * J[2][1])
+    return m, n

@@ -1,0 +1,92 @@
+"""All zeros of a function on an interval, enclosed: cells without a zero, and cells where the function is monotone."""
+from __future__ import annotations
+
+from fractions import Fraction
+
+from .numbers import ball, hull, sign
+
+CELLS = 20_000
+SPLIT = Fraction(489, 1000)  # off the middle: a zero is less often where a cell is cut
+
+
+class Open(Exception):
+    """Not decided at this precision."""
+
+
+def zeros(f, df, low: Fraction, high: Fraction, at_low=False, at_high=False):
+    """Balls that hold one zero of f each, rising, and no zero on (low, high) is elsewhere.
+
+    at_low, at_high: f is known to vanish exactly at that end; such a zero is not listed.
+    """
+    from flint import ctx
+    found, stack, cells = [], [(low, high)], 0
+    smallest = (high - low) / 2**ctx.prec
+    while stack:
+        a, b = stack.pop()
+        cells += 1
+        if cells > CELLS or b - a < smallest:
+            raise Open
+        cell = hull(a, b)
+        if sign(f(cell)):
+            continue
+        if not sign(df(cell)):
+            c = a + (b - a) * SPLIT
+            stack += [(c, b), (a, c)]
+            continue
+        if (at_low and a == low) or (at_high and b == high):
+            continue  # monotone: the zero at the end is the only one
+        ends = sign(f(ball(a))), sign(f(ball(b)))
+        if None in ends or 0 in ends:
+            raise Open
+        if ends[0] != ends[1]:
+            found.append(narrowed(f, df, a, b))
+    return found
+
+
+def narrowed(f, df, a: Fraction, b: Fraction):
+    """The ball of the one zero of a function that is monotone on [a, b] and changes sign there: interval Newton."""
+    from flint import ctx
+    x = hull(a, b)
+    for _ in range(4 * ctx.prec.bit_length() + 40):
+        centre = x.mid()
+        slope = df(x)
+        if not sign(slope):
+            return _bisected(f, df, a, b)
+        new = centre - f(centre) / slope
+        if not new.overlaps(x):
+            raise Open
+        new = new.intersection(x)
+        if not new.rad() < x.rad() * 0.9:
+            return new
+        x = new
+    return x
+
+
+def _bisected(f, df, a, b):
+    """Halve the bracket until Newton's step may be tried again."""
+    left = sign(f(ball(a)))
+    for _ in range(200):
+        c = a + (b - a) * SPLIT
+        middle = sign(f(ball(c)))
+        if not left or not middle:
+            raise Open
+        a, b = (c, b) if middle == left else (a, c)
+        if sign(df(hull(a, b))):
+            return narrowed(f, df, a, b)
+    raise Open
+
+
+def below(value) -> Fraction:
+    """A rational below a ball."""
+    return _exact(value.lower())
+
+
+def above(value) -> Fraction:
+    """A rational above a ball."""
+    return _exact(value.upper())
+
+
+def _exact(value) -> Fraction:
+    mantissa, exponent = (int(v) for v in value.mid().man_exp())
+    edge = Fraction(mantissa) * Fraction(2) ** exponent
+    return edge
