@@ -1,8 +1,8 @@
 """A motion to as many digits as are asked for: the cheapest setting that was measured to reach them, checked afterwards.
 
-The check needs no reference: the same motion at another tolerance shows the error of the first, and a start moved by a
-unit in its last place shows what doubles can hold. What falls short is done again with the next setting, at last in
-many digits, rounded once.
+The check needs no reference: the same motion at another tolerance, its start moved by a unit in its last place, shows the
+error of the first run and what doubles can hold, for the price of one run more. What falls short is done again with the next
+setting, at last in many digits, rounded once.
 """
 from __future__ import annotations
 
@@ -11,73 +11,99 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..compiled import TAYLOR_TOLERANCE, heyoka_available
+from ..attitude import angles, beyond, to_space
+from ..compiled import TAYLOR_TOLERANCE
 from ..errors import InputError, ToleranceNotMet
 from .precision_front import SAFETY, front
-from .simulation import Simulation, simulate, start_of
+from .precision_told import CAUTION, DEFAULT, MOST, checked_digits, digits_of
+from .simulation import STIFF_METHOD, Simulation, body_momentum, simulate, start_of
 from .trajectories import FALLBACK_RTOL, SCIPY_METHODS, _start
 
-MOST = 15  # decimal digits that every double holds
 MANY = "many digits"
+OWN = ("as simulate chooses", 0.0)  # the finest Taylor series, which costs little more than a coarse one; Radau where the scene is stiff
+STIFF_FINE = (STIFF_METHOD, 1e-12)
 LAST_PLACE = 2.0**-52
-CAUTION = 4  # the differences are samples of the error, not bounds: several times their sum counts
+COUNTED = 1.0  # rad: angles this near to those of a run in doubles have the same number of turns
 
 
 @dataclass(frozen=True)
 class Reached:
-    """A motion that has the digits asked for. digits: those that the check showed; because: how they were checked."""
+    """A motion and the digits that the check showed. because: how they were checked."""
 
     run: Simulation
     asked: int
     digits: float
     because: str
 
+    @property
+    def enough(self) -> bool:
+        return self.run.status == "reached" and self.digits >= self.asked
 
-def simulate_to(case, times, digits: int = 10) -> Reached:
-    """The exact motion of a case at the times (sorted, as of `simulate`) to `digits` decimal digits: relative to the
-    largest size of each part of the state over the times.
+
+def simulate_to(case, times, digits: int = DEFAULT) -> Reached:
+    """The exact motion of a case at the times (as of `simulate`) to `digits` decimal digits: relative to the largest size of
+    each part of the state over the times.
 
     Raises InputError for digits outside 1 to 15, and ToleranceNotMet where no setting reaches them.
     """
-    if not (isinstance(digits, int) and 1 <= digits <= MOST):
-        raise InputError(f"digits: expected a whole number from 1 to {MOST} (what doubles hold), got {digits!r}")
-    times, best = np.atleast_1d(np.asarray(times, float)), 0.0
+    found = best_reached(case, times, digits)
+    if not found.enough:
+        raise ToleranceNotMet(missed(case, found))
+    return found
+
+
+def missed(case, found) -> str:
+    """Why digits were not reached, in words."""
+    if found.run.status != "reached":
+        return f"{case.path}: {found.run.reason}"
+    return f"{case.path}: {found.asked} digits asked for, {found.digits:.1f} reached ({found.because}); ask for fewer or for a shorter span"
+
+
+def best_reached(case, times, digits: int = DEFAULT) -> Reached:
+    """As `simulate_to`, but where no setting reaches the digits the motion that comes nearest. A run that stops early ends
+    the search."""
+    checked_digits(digits, MOST)
+    times, best = np.atleast_1d(np.asarray(times, float)), None
     for method, value in candidates(case, times, digits):
-        answer = _checked(case, times, method, value)
-        if answer is None:
+        found = _checked(case, times, method, value, digits)
+        if found is None:
             continue
-        run, error, because = answer
-        reached = min(-math.log10(error), MOST + 0.95) if error > 0 else MOST + 0.95
-        if reached >= digits:
-            return Reached(run, digits, reached, because)
-        best = max(best, reached)
-    raise ToleranceNotMet(f"{case.path}: {digits} digits asked for, {best:.1f} reached; ask for fewer or for a shorter span")
+        if found.enough or found.run.status != "reached":
+            return found
+        best = found if best is None or found.digits > best.digits else best
+    return best
 
 
 def candidates(case, times, digits) -> list[tuple[str, float]]:
     """(method, setting) to try, in order: what was measured to reach the digits with one to spare, cheapest first; then,
-    whatever was measured, the finest Taylor series, which costs little more than a coarse one; then many digits."""
+    whatever was measured, what `simulate` chooses itself; then many digits."""
     end = max(case.span, key=abs) if case.span else 0.0
     inside = np.all((times * np.sign(end) >= 0) & (np.abs(times) <= abs(end)))
     measured = [(p.method, p.rtol) for p in front(case) if inside and p.digits >= digits + SAFETY and p.method in RUNS]
-    rule = ("taylor", TAYLOR_TOLERANCE) if heyoka_available() else ("DOP853", FALLBACK_RTOL)
-    return list(dict.fromkeys([*measured, rule, (MANY, 0.0)]))
+    return list(dict.fromkeys([*measured, OWN, (MANY, 0.0)]))
 
 
-def _checked(case, times, method, value):
-    """(run, largest relative error that the check shows, words), or None where the method has no answer."""
+def _checked(case, times, method, value, asked) -> Reached | None:
+    """The motion by one setting with the digits that the check shows; None where that way has no answer."""
     if method == MANY:
-        return _many_digits(case, times)
+        return _many_digits(case, times, asked)
     try:
-        run, other, moved = (RUNS[method](one, times, method, v) for one, v in (
-            (case, value), (case, _other(method, value)), (_moved(case), value)))
+        run = RUNS[method](case, times, method, value)
     except InputError:
+        if (method, value) == OWN:
+            raise
         return None
-    if any(r.status != "reached" for r in (run, other, moved)):
-        return None
-    tolerance, place = _distance(run, other), _distance(run, moved)
-    setting = f"{'nodes' if method == 'reduced' else 'rtol'} {_other(method, value):.2g}"
-    return run, CAUTION * (tolerance + place), (f"{method} with {setting} differs by {tolerance:.1e}, a start moved in its last place by {place:.1e}")
+    if (method, value) == OWN:
+        method, value = run.method, run.rtol
+        if method == STIFF_METHOD and value > STIFF_FINE[1] and asked > -math.log10(value) - SAFETY:
+            return _checked(case, times, *STIFF_FINE, asked)
+    other_value = _other(method, value)
+    other = RUNS[method](_moved(case), times, method, other_value) if run.status == "reached" else run
+    if other.status != "reached":
+        return Reached(run, asked, 0.0, f"the check of {method} stopped early")
+    gap = _distance(run, other)
+    return Reached(run, asked, digits_of(CAUTION * gap), f"{method} with {'nodes' if method == 'reduced' else 'rtol'} {other_value:.2g} "
+                   f"from a start moved in its last place differs by {gap:.1e}")
 
 
 def _other(method, value):
@@ -85,14 +111,20 @@ def _other(method, value):
     if method == "reduced":
         return 2 * value
     finest = TAYLOR_TOLERANCE if method == "taylor" else FALLBACK_RTOL
-    return max(value / 1000, finest) if value > 4 * finest else value * 8
+    return max(value / 1000, finest) if value > 4 * finest and method != STIFF_METHOD else value * 8
+
+
+def moved_row(row) -> np.ndarray:
+    """Numbers each moved by about a unit in its last place; a zero by half a unit of the largest."""
+    row = np.asarray(row, float)
+    signs = np.random.default_rng(1).choice([-1.0, 1.0], row.size)
+    return row + signs * LAST_PLACE * np.where(row == 0, 0.5 * np.abs(row).max(), np.abs(row))
 
 
 def _moved(case):
-    """The case with every component of the rate moved by about a unit in its last place."""
-    top = max(map(abs, case.state)) or 1.0
-    signs = np.random.default_rng(1).choice([-1.0, 1.0], 3)
-    return replace(case, state=tuple(float(v + s * LAST_PLACE * (abs(v) or top / 2)) for v, s in zip(case.state, signs)))
+    """The case with its start moved; what is zero throughout (rest at the origin) stays."""
+    return replace(case, state=tuple(map(float, moved_row(case.state))),
+                   blocks={name: tuple(map(float, moved_row(row))) for name, row in case.blocks.items()})
 
 
 def _distance(one, two) -> float:
@@ -104,7 +136,8 @@ def _distance(one, two) -> float:
 
 
 def _integrated(case, times, method, rtol):
-    return simulate(case.scene, case.state, times, case.blocks, method, rtol)
+    own = (method, rtol) == OWN
+    return simulate(case.scene, case.state, times, case.blocks, None if own else method, None if own else rtol)
 
 
 def _reduced(case, times, method, nodes):
@@ -116,19 +149,19 @@ def _reduced(case, times, method, nodes):
                       reason=f"time as an integral over the reduced coordinate, {int(nodes)} nodes")
 
 
-RUNS = {"taylor": _integrated, **dict.fromkeys(SCIPY_METHODS, _integrated), "reduced": _reduced}
+RUNS = {"taylor": _integrated, OWN[0]: _integrated, **dict.fromkeys(SCIPY_METHODS, _integrated), "reduced": _reduced}
 
 
 def _first(case):
     return "x" if case.scene.variables == "scaled" else "omega"
 
 
-def _many_digits(case, times):
-    """The reference itself, rounded once; for states without an attitude, at times of one sign."""
+def _many_digits(case, times, asked) -> Reached | None:
+    """The reference itself, rounded once; at times of one sign."""
     from .precision_reference import reference
     scaled = case.scene.variables == "scaled"
     equations, start = _start(case.scene, case.state if scaled else start_of(case.scene, case.state, case.blocks))
-    if "attitude" in equations.blocks or (times.min() < 0 < times.max()):
+    if times.min() < 0 < times.max():
         return None
     order = np.argsort(np.abs(times), kind="stable")
     found = reference(case.scene, start, times[order], equations.blocks)
@@ -137,6 +170,26 @@ def _many_digits(case, times):
     states = np.empty_like(found.states)
     states[order] = found.states
     parts = {_first(case) if name == "omega" else name: states[:, part] for name, part in found.slices.items()}
+    error = float(found.error.max()) + 2.0**-53
+    if "attitude" in parts:
+        parts = _with_angles(case, times, parts)
+        if parts is None:
+            return None
+        error += 2.0**-51 / np.abs(np.cos(parts["angles"][:, 0])).min()  # phi and theta magnify the rounding of the quaternion
     because = f"Taylor series in {found.digits[0]} and {found.digits[1]} digits differ by {found.error.max():.0e}; rounded once"
-    return Simulation(times, parts, "exact", MANY, None, counters={"multiplications": found.work}, reason=because), (
-        float(found.error.max()) + 2.0**-53), because
+    run = Simulation(times, parts, "exact", MANY, None, counters={"multiplications": found.work}, reason=because)
+    return Reached(run, asked, digits_of(error), because)
+
+
+def _with_angles(case, times, parts):
+    """Angles and momentum in place of the quaternion: turns counted by a run in doubles; None where it is too far off to count."""
+    near, q = _integrated(case, times, *OWN), parts.pop("attitude")
+    if near.status != "reached":
+        return None
+    ways = [found + 2 * np.pi * np.round((near.state["angles"] - found) / (2 * np.pi)) for found in (angles(q), beyond(angles(q)))]
+    gaps = [np.abs(way - near.state["angles"]).max(axis=1, keepdims=True) for way in ways]
+    if np.minimum(*gaps).max() > COUNTED:
+        return None
+    found = np.where(gaps[0] <= gaps[1], *ways)
+    first = {name: parts.pop(name) for name in ("omega", "gamma") if name in parts}
+    return first | {"angles": found, "momentum": to_space(q, body_momentum(case.scene, first["omega"]))} | parts

@@ -139,13 +139,7 @@ class Loop:
             if max(abs(a - b) for a, b in zip(step.at(s), self.home)) < self.size * RETURNED:
                 self.closed, self.period, end = True, (step.start + s).mid(), s
                 break
-        for component, pair in enumerate(self.extremes):
-            row = step.rows[component]
-            slopes = [n * c for n, c in enumerate(row)][1:]
-            for s in [*_roots(slopes, step.length), end]:
-                if s <= end:
-                    v = value(row, s)
-                    pair[0], pair[1] = min(pair[0], v), max(pair[1], v)
+        widen(self.extremes, step, end)
 
     def _passages(self, step):
         """Later passages, in the direction of the motion, of the plane across the first velocity."""
@@ -153,6 +147,16 @@ class Loop:
         row[0] = row[0] - sum(map(mul, self.normal, self.home))
         after = 1e-9 if step.start == 0 else 0.0
         return [s for s in _roots(row, step.length) if s > step.length * after and value(row, s, 1) > 0]
+
+
+def widen(pairs, step, end):
+    """Let the least and greatest values of the first components take in a step as far as `end` after its start."""
+    for row, pair in zip(step.rows, pairs):
+        slopes = [n * c for n, c in enumerate(row)][1:]
+        for s in [*_roots(slopes, step.length), end]:
+            if abs(s) <= abs(end):
+                v = value(row, s)
+                pair[0], pair[1] = min(pair[0], v), max(pair[1], v)
 
 
 def _roots(row, length):

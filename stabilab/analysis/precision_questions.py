@@ -1,0 +1,242 @@
+"""Fate, extremes and period to as many digits as are asked for: the cheapest way that reaches them, checked afterwards.
+
+A motion with a reduction: formulas in doubles, checked in ball arithmetic, whose answer takes over where they fall short or
+where more digits are asked for. A motion that repeats without one: its return in a run, checked by a Taylor series in many
+digits run at two precisions. Any other: a run over the span, checked by a run at another tolerance from a start moved in its
+last place, and done again in many digits where that is not enough.
+"""
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from .precision_digits import moved_row
+from .precision_told import CAUTION, MOST, MOST_DECIMALS, Told, checked_digits, digits_of, nothing
+from .results import Fate
+
+FORMULA_DIGITS = 11  # the formulas hand over to balls where they hold less
+SAMPLE = 16  # states of an array that are checked one by one; where all agree the formulas serve for the rest
+SEARCH = 20  # evaluations of a rate's series that the search for its roots takes in a step
+
+
+def ask(question, scene, state, digits: int, span=None, known=None) -> Told:
+    """The extremes, the period, or the margin of the "fate" of one state, to `digits` decimal digits (1 to 50).
+
+    state, span: as of `motion`; known: what `motion` found, where that is at hand. Digits of extremes are relative to the
+    size of their component. Told.digits may be below what was asked: see Told.required.
+    """
+    digits = checked_digits(digits, MOST_DECIMALS)
+    if known is None:
+        from .motion import motion
+        known = motion(scene, state, span)
+    twin, land = _reduced(scene)
+    if question != "extremes" and _number(question, known) is None:
+        return nothing(question, digits, "the motion does not repeat" if question == "period" else "there is no margin in energy to be judged")
+    if land is not None:
+        return _by_formula(question, twin, land, known, digits)
+    if known.fate == Fate.EQUILIBRIUM:
+        return Told(question, _number(question, known), digits, math.inf, "exact", "the state is at rest")
+    if question == "fate":
+        return _free_margin(twin, known, digits)
+    if known.period:
+        return _by_return(question, twin, known, digits)
+    return _over_span(scene, state, span, known, digits)
+
+
+def ask_all(question, scene, states, digits: int, span=None) -> Told:
+    """The same for an array of states (..., 3), values (..., 3, 2) or (...,). Of many states a sample is checked."""
+    from .extremes import extremes, period
+    from .fate import checked_states, fate
+    array = checked_states(states)
+    rows = array.reshape(-1, 3)
+    picked = np.unique(np.linspace(0, len(rows) - 1, min(SAMPLE, len(rows))).astype(int))
+    told = [ask(question, scene, rows[i], digits, span) for i in picked]
+    plain = {"extremes": lambda: extremes(scene, rows, span), "period": lambda: period(scene, rows), "fate": lambda: fate(scene, rows).margins}[question]
+    if len(picked) < len(rows) and not all(t.method in ("formulas", "none") for t in told):
+        told = [ask(question, scene, row, digits, span) for row in rows]
+    values = plain()
+    if len(told) == len(rows):
+        values = np.array([old if t.values is None else t.values for old, t in zip(values, told)]).reshape(values.shape)
+    judged = [t for t in told if t.digits is not None]
+    worst = min(judged, key=lambda t: t.digits) if judged else told[0]
+    sampled = f"; {len(told)} of {len(rows)} states checked" if len(told) < len(rows) else ""
+    shape = array.shape[:-1]
+    texts = None if worst.decimals is None else np.array([t.decimals for t in told], dtype=object).reshape(*shape, *np.shape(worst.decimals))
+    return replace(worst, values=values.reshape(*shape, *values.shape[1:]), because=worst.because + sampled, decimals=texts)
+
+
+def _reduced(scene):
+    """(the scene that turns alike and has nothing but a wheel and a torque, its landscape or None)."""
+    from .effective import effective
+    from .landscape import landscape
+    twin = effective(scene)
+    return twin, landscape(twin) if twin.plain else None
+
+
+def _number(question, known):
+    return {"extremes": known.extremes, "period": known.period, "fate": known.margin_energy}[question]
+
+
+# -- motions with a reduction ------------------------------------------------------------------------------------------
+
+
+def _by_formula(question, scene, land, known, digits) -> Told:
+    values, label = _number(question, known), known.fate
+    state = known.at[:3]
+    wanted = max(digits, MOST) + 1
+    balls = _balls(question, land.reduction, state, label, wanted)
+    if balls is None:  # on the separatrix
+        return Told(question, 0.0, digits, math.inf, "balls", "the energy equals the barrier's in thousands of bits")
+    error = _gap(values, balls)
+    if digits <= FORMULA_DIGITS and error <= 10.0**-digits:
+        return Told(question, values, digits, digits_of(error), "formulas", f"formulas in doubles, {error:.1e} from ball arithmetic")
+    width = max(_width(balls), 10.0**-wanted)  # the balls of a period are narrower than its two rules agree
+    held = digits_of(width, wanted)
+    return Told(question, _floats(balls), digits, held if digits > MOST else min(held, MOST + 0.95), "balls",
+                f"ball arithmetic: the number is within {width:.0e}", _decimals(balls, digits) if digits > MOST else None)
+
+
+def _balls(question, reduction, state, label, digits):
+    """The answer in balls, nested as its floats are."""
+    from .precise import ball, precise_margin
+    from .precise_extremes import extreme_balls
+    from .precise_period import period_ball
+    if question == "extremes":
+        return extreme_balls(reduction, state, int(label), math.ceil(digits * math.log2(10)))
+    if question == "period":
+        return period_ball(reduction, state, digits) if label == Fate.BOUNDED else ball(0)
+    return precise_margin(reduction, state, digits)
+
+
+def _each(values):
+    """(value, size of its component) of a number or of pairs."""
+    if not isinstance(values, (list, tuple, np.ndarray)):
+        return [(values, values)]
+    return [(v, max((u for u in pair if math.isfinite(float(u))), key=lambda u: abs(float(u)), default=1)) for pair in values for v in pair]
+
+
+def _gap(values, balls) -> float:
+    """Largest distance of floats from balls, relative to the component's size."""
+    from flint import arb
+    worst = 0.0
+    for (value, _), (exact, size) in zip(_each(values), _each(balls)):
+        if math.isinf(float(value)) or math.isinf(float(exact)):
+            worst = worst if float(value) == float(exact) else math.inf
+        elif (far := float(abs(arb(float(value)) - exact).mid())) > 0:
+            worst = max(worst, far / abs(float(size)) if float(size) else math.inf)
+    return worst
+
+
+def _width(balls) -> float:
+    from flint import arb
+    return max(float(arb(v).rad()) / abs(float(size)) if float(size) else float(arb(v).rad()) for v, size in _each(balls) if math.isfinite(float(v)))
+
+
+def _floats(balls):
+    return tuple(tuple(map(float, pair)) for pair in balls) if isinstance(balls, list) else float(balls)
+
+
+def _decimals(balls, digits):
+    """Written out; a component's two ends to the same place."""
+    if isinstance(balls, list):
+        return [[_decimals(v, digits) for v in pair] for pair in balls]
+    from flint import arb
+    return str(balls) if isinstance(balls, float) else arb(balls).mid().str(digits, radius=False)
+
+
+# -- motions without one -----------------------------------------------------------------------------------------------
+
+
+def _free_margin(scene, known, digits) -> Told:
+    from .irreducible import free_margin, kind_of
+    if kind_of(scene) == "free":
+        (value, tie), (finer, _) = free_margin(scene, known.at[:3]), free_margin(scene, known.at[:3], 90)
+        error = 0.0 if tie else abs(value - finer) / abs(finer)
+        return Told("fate", finer, digits, digits_of(error), "sextic", "the saddles' sextic in 60 and in 90 digits")
+    from .fate import fate
+    value, moved = (float(fate(scene, s).margins) for s in (np.array(known.at), moved_row(np.array(known.at))))
+    error = CAUTION * abs(value - moved) / abs(value) if value else 1.0
+    return Told("fate", value, digits, digits_of(error), "formulas", f"formulas about the turned axis; a start moved in its last place differs by {error / CAUTION:.1e}")
+
+
+def _by_return(question, scene, known, digits) -> Told:
+    """A closed motion: its return in doubles against the return of a Taylor series in many digits."""
+    from flint import ctx
+    from .precise import ball
+    from .precision_reference import reference
+    values = _number(question, known)
+    exact = reference(scene, known.at[:3], [0.5 * known.period], orbit=True)
+    if exact.period is None:
+        return Told(question, values, digits, 0.0, "run", "no return was found in many digits within the work allowed")
+    with ctx.workprec(400):
+        add = lambda pair: ball(float(pair[0])) + ball(float(pair[1]))
+        found = add(exact.period) if question == "period" else [[add(v) for v in pair] for pair in exact.extremes]
+        own = max(exact.period[2] if question == "period" else exact.extremes_error, 1e-31)  # two doubles hold 32 digits
+        error = max(_gap(values, found), own)
+        pair = f"{exact.digits[0]} and {exact.digits[1]} digits"
+        if digits <= MOST and error <= 10.0**-digits:
+            return Told(question, values, digits, digits_of(error), "run", f"the return of a run in doubles, {error:.1e} from that of a Taylor series in {pair}")
+        best = digits_of(own, 31.0)
+        return Told(question, _floats(found), digits, best if digits > MOST else min(best, MOST + 0.95), "many digits",
+                    f"the return of a Taylor series in {pair}, {own:.0e} apart", _decimals(found, digits) if digits > MOST else None)
+
+
+def _over_span(scene, state, span, known, digits) -> Told:
+    from ..compiled import TAYLOR_TOLERANCE
+    from ..scene import Scene
+    from .rate_roots import roots_of_rates
+    from .trajectories import _start
+    if known.extremes is None:
+        return nothing("extremes", digits, known.extremes_over)
+    if scene.variables != "scaled":  # a force at the centre of mass does not turn the body
+        scene = Scene(scene.body, *(e for e in scene.effects if e.name != "body_force"))
+    length = float(span[1]) - (0.0 if scene.plain else float(span[0])) if span is not None else 0.0
+    equations, start = _start(scene, known.at)
+    values = np.array(known.extremes)
+    other = roots_of_rates(scene, moved_row(start), length, 8 * TAYLOR_TOLERANCE)
+    error = CAUTION * _apart(values, other.extremes()) if not other.reason else math.inf
+    because = f"a run over the span; one at rtol {8 * TAYLOR_TOLERANCE:.1e} from a start moved in its last place differs by {error / CAUTION:.1e}"
+    if digits <= MOST and error <= 10.0**-digits:
+        return Told("extremes", values, digits, digits_of(error), "run", because)
+    return _many_digits(equations, start, length, digits) or Told("extremes", values, digits, digits_of(error), "run", other.reason or because)
+
+
+def _apart(one, two) -> float:
+    size = np.abs(one).max(axis=-1, keepdims=True)
+    return float((np.abs(one - two) / np.where(size > 0, size, 1.0)).max())
+
+
+def _many_digits(equations, start, length, digits):
+    """Extremes over the span by a Taylor series, each precision checked by the one before; None where the work allowed is not enough."""
+    from flint import ctx
+    from .precision_reference import DIGITS, GUARD, WORK
+    from .precision_series import Exhausted, Recursion
+    recursion, before = Recursion(equations), None
+    for n in DIGITS:
+        budget = [WORK // 12 if before is None else WORK // 4]  # the second run costs twice the first
+        with ctx.workprec(int((n + GUARD) * 3.33)):
+            try:
+                now = _series_extremes(recursion, start, length, n, budget)
+            except Exhausted:
+                return None
+            error = max((abs(float((a - b) / (size or 1))) for p, q in zip(now, before) for a, b, size in zip(p, q, (max(map(abs, p)),) * 2)), default=0.0) if before else 1.0
+            error = max(error, 10.0**-n) if before else 1.0
+            if before and error <= 10.0**-digits:
+                held = digits_of(error, n)
+                return Told("extremes", _floats(now), digits, held if digits > MOST else min(held, MOST + 0.95), "many digits",
+                            f"Taylor series over the span in two precisions, {error:.0e} apart", _decimals(now, digits) if digits > MOST else None)
+            before = now
+    return None
+
+
+def _series_extremes(recursion, start, length, digits, budget):
+    from .precision_series import number, steps, widen
+    pairs, left = [[number(v)] * 2 for v in start[:3]], number(length)
+    for step in steps(recursion, start, digits, budget):
+        budget[0] -= SEARCH * len(pairs) * len(step.rows[0])
+        widen(pairs, step, min(step.length, left))
+        left = (left - step.length).mid()
+        if left <= 0:
+            return pairs
