@@ -18,6 +18,8 @@ app = typer.Typer(name="stabilab", no_args_is_help=True, rich_markup_mode=None, 
 CaseFile = Annotated[Path, typer.Argument(metavar="CASE", help="A case file (TOML).", show_default=False)]
 CaseFiles = Annotated[List[Path], typer.Argument(metavar="CASE...", help="Case files (TOML).", show_default=False)]
 Json = Annotated[bool, typer.Option("--json", help="JSON on stdout instead of text.")]
+Digits = Annotated[Optional[int], typer.Option(metavar="N", help="Reach N digits (1 to 50; default 10) the cheapest way and "
+                                                                 "check them; exit 5 where they are not reached.")]
 
 
 def _version(wanted: bool):
@@ -65,21 +67,34 @@ def classify(cases: CaseFiles, json: Json = False, strict: Annotated[bool, typer
 
 @app.command()
 def extremes(cases: CaseFiles, json: Json = False,
-             csv: Annotated[bool, typer.Option("--csv", help="CSV on stdout instead of text.")] = False):
+             csv: Annotated[bool, typer.Option("--csv", help="CSV on stdout instead of text.")] = False, digits: Digits = None):
     """Find the least and greatest rates of each motion.
 
     Example: stabilab extremes cases/minor-axis-*.toml --csv
     """
-    from .show import answers
     if json and csv:
         raise typer.BadParameter("choose one of --json and --csv")
-    answered = [(case, _motion(case)) for case in _load(cases, motion=True, sweep=True)]
-    if json:
-        _print(answers.as_json([answers.extremes(*answer) for answer in answered]))
-    elif csv:
-        _print(answers.extremes_csv(answered))
-    else:
-        _print("\n".join(answers.extremes_text(*answer) for answer in answered))
+    _tell("extremes", cases, digits, json, csv)
+
+
+@app.command()
+def fate(cases: CaseFiles, json: Json = False, digits: Digits = None):
+    """Say what becomes of each motion, and by how much.
+
+    Digits are those of the margin in energy; the label itself is certain.
+
+    Example: stabilab fate cases/minor-axis-100.toml --digits 30
+    """
+    _tell("fate", cases, digits, json)
+
+
+@app.command()
+def period(cases: CaseFiles, json: Json = False, digits: Digits = None):
+    """Find the period of each motion that repeats.
+
+    Example: stabilab period cases/minor-axis-100.toml --digits 30
+    """
+    _tell("period", cases, digits, json)
 
 
 @app.command()
@@ -93,7 +108,8 @@ def simulate(case: CaseFile,
                                                                 "name; for the exact model.")] = None,
              rtol: Annotated[Optional[float], typer.Option(help="Relative tolerance; default: the method's own.")] = None,
              digits: Annotated[Optional[int], typer.Option(metavar="N", help="Reach N digits (1 to 15) the cheapest way, check "
-                                                           "them, or exit with 5.")] = None,
+                                                           "them, or exit with 5. Default: 10, unless --model, --method "
+                                                           "or --rtol is given.")] = None,
              out: Annotated[Optional[Path], typer.Option(metavar="FILE.nc|.csv", help="Write the states to a file.")] = None,
              json: Json = False):
     """Follow a motion in time.
@@ -117,6 +133,9 @@ def simulate(case: CaseFile,
         _print(answers.as_json(answers.simulation(loaded, run) | told) if json else answers.simulation_text(loaded, run) + last)
     if run.status != "reached":
         raise ToleranceNotMet(f"{case}: {run.reason}")
+    if reached and not reached.enough:
+        from .analysis.precision_digits import missed
+        raise ToleranceNotMet(missed(loaded, reached))
 
 
 @app.command()
@@ -285,16 +304,46 @@ def _motion(case):
     return motion(case.scene, case.start, case.span)
 
 
+def _tell(question, paths, digits, json, csv=False):
+    """Answer a question for every case and say how many digits of it are known."""
+    from .show import answers
+    from .show import precision_answers as shown
+    answered = [(case, found, _told(question, case, found, digits)) for case in _load(paths, motion=True, sweep=True)
+                for found in [_motion(case)]]
+    if json:
+        _print(answers.as_json([getattr(shown, question)(*answer) for answer in answered]))
+    elif csv:
+        _print(shown.extremes_csv(answered))
+    else:
+        _print("\n".join(getattr(shown, f"{question}_text")(*answer, digits is not None) for answer in answered))
+    missing = [(case, told) for case, _, told in answered if not told.enough]
+    if missing:
+        from .analysis.precision_told import short
+        raise ToleranceNotMet("\n".join(f"{case.path}: {question}: {short(told)}" for case, told in missing))
+
+
+def _told(question, case, motion, digits):
+    """The answer with its digits; where none were asked for and a formula bounds its own error, that is the check."""
+    from .analysis.precision_told import DEFAULT, by_bound
+    found = by_bound(question, motion) if digits is None else None
+    if found is None:
+        from .analysis.precision_questions import ask
+        found = ask(question, case.scene, case.start, DEFAULT if digits is None else digits, case.span, motion)
+    return found
+
+
 def _followed(case, times, model, method, rtol, order, digits):
     """(the motion, what the check of its digits showed or None)."""
-    if digits is None:
+    chosen = model != "exact" or method or rtol or order
+    if digits is None and chosen:
         from .analysis.models import follow
         return follow(case, times, model, method, rtol, order), None
-    if model != "exact" or method or rtol or order:
+    if chosen:
         raise InputError("--digits chooses method and tolerance of the exact motion itself: give it without --model, --method, "
                          "--rtol and --order")
-    from .analysis.precision_digits import simulate_to
-    reached = simulate_to(case, times, digits)
+    from .analysis.precision_digits import best_reached
+    from .analysis.precision_told import DEFAULT
+    reached = best_reached(case, times, DEFAULT if digits is None else digits)
     return reached.run, reached
 
 
