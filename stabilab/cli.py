@@ -206,7 +206,7 @@ def surface(case: CaseFile, out: Annotated[Path, typer.Option(metavar="DIR", hel
     from .show import answers
     from .show.surface import write
     try:
-        summary = write(_load([case])[0], out)
+        summary = write(_load([case])[0], out, arguments=sys.argv[1:])
     except RenderingUnavailable as unavailable:
         if getattr(unavailable, "summary", None):
             _print(answers.as_json(unavailable.summary))
@@ -234,8 +234,10 @@ def tables(out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the
 
     Example: stabilab tables --out tables
     """
-    from .show.table import write_tables
-    _print_paths(write_tables(out), out)
+    from .show import manifest, table
+    with manifest.written(out, sys.argv[1:], table.case_files(table.STEMS), table.TOLERANCES) as folder:
+        made = table.write_tables(folder)
+    _print_paths([out / path.relative_to(folder) for path in made], out)
 
 
 @app.command()
@@ -250,8 +252,12 @@ def figures(numbers: Annotated[Optional[List[int]], typer.Argument(
 
     Example: stabilab figures --paper charged 2 8 --out figures
     """
-    from .show.figures import write
-    _print_paths(write(numbers, out, paper_name=paper), out)
+    from .show import figures as drawn
+    from .show import manifest, table
+    rows = drawn.chosen(numbers, paper)
+    with manifest.written(out, sys.argv[1:], table.case_files(), {row.file: row.tolerance for row in rows}) as folder:
+        made = drawn.write(numbers, folder, paper_name=paper)
+    _print_paths([out / path.relative_to(folder) for path in made], out)
 
 
 @app.command()
@@ -265,7 +271,21 @@ def report(cases: Annotated[Optional[List[Path]], typer.Argument(
     Example: stabilab report --out report
     """
     from .show.report import write
-    _print_paths(write(_load(cases or []), out), Path(out) / "index.html")
+    _print_paths(write(_load(cases or []), out, arguments=sys.argv[1:]), Path(out) / "index.html")
+
+
+@app.command()
+def rerun(manifest: Annotated[Path, typer.Argument(metavar="MANIFEST", help="A manifest.json, or the folder that holds it.",
+                                                   show_default=False)],
+          out: Annotated[Optional[Path], typer.Option(metavar="DIR", help="Keep the new files in an empty folder.")] = None):
+    """Repeat what made a folder and compare every byte.
+
+    Exits with 2 where inputs are missing or changed, with 5 where a file differs.
+
+    Example: stabilab rerun report/manifest.json
+    """
+    from .show.rerun import rerun as repeat
+    _print("\n".join(repeat(manifest, out)))
 
 
 @app.command()
@@ -299,9 +319,9 @@ def _equilibria(case):
     return equilibria(case.scene)
 
 
-def _motion(case):
+def _motion(case, brief=False):
     from .analysis.motion import motion
-    return motion(case.scene, case.start, case.span)
+    return motion(case.scene, case.start, case.span, brief)
 
 
 def _tell(question, paths, digits, json, csv=False):

@@ -87,15 +87,19 @@ def figure(number: int, paper_name: str = FIRST) -> Figure:
     raise InputError(f"figure {number}: expected one of {rows[0].number} to {rows[-1].number}")
 
 
+def chosen(numbers=None, paper_name: str | None = None) -> list[Figure]:
+    """Without numbers: all of the paper, without a paper all of all; numbers without a paper are those of the
+    constant-torque paper. Raises InputError for what does not exist."""
+    if numbers:
+        return [figure(n, paper_name or FIRST) for n in numbers]
+    return [row for name in ([paper_name] if paper_name else PAPERS) for row in of_paper(name)]
+
+
 def write(numbers=None, out="figures", progress=None, paper_name: str | None = None) -> list[Path]:
     """Draw figures into the folder `out`: figure-NN.png (charged-NN.png, ... for the other papers) and, beside it, a text
-    with the caption, command, version and tolerance. Without numbers: all of the paper, without a paper all of all; numbers
-    without a paper are those of the constant-torque paper. progress(words) is called before each. Returns the pictures' paths."""
-    if numbers:
-        rows = [figure(n, paper_name or FIRST) for n in numbers]
-    else:
-        rows = [row for name in ([paper_name] if paper_name else PAPERS) for row in of_paper(name)]
-    return [_write(row, Path(out), progress) for row in rows]
+    with the caption, command, version and tolerance; which: see `chosen`. progress(words) is called before each. Returns
+    the pictures' paths."""
+    return [_write(row, Path(out), progress) for row in chosen(numbers, paper_name)]
 
 
 def _write(row, out, progress):

@@ -3,61 +3,49 @@ from __future__ import annotations
 
 import math
 import os
-import shutil
 import sys
 from contextlib import contextmanager
-from functools import partial
 from pathlib import Path
 
 import numpy as np
 
 from ..errors import StabilabError
 from ..interrupt import undoing
-from . import chapters, figures, paper, surface, table
+from . import chapters, figures, manifest, paper, surface, table
 
 PACKAGES = ("numpy", "scipy", "sympy", "heyoka", "matplotlib", "vtk", "pyvista", "python-flint")
+TOLERANCES = {"verdicts, fates, periods": "exact structure of the equations, to rounding", "extremes": "roots, to rounding",
+              "trajectories": 1.1e-16}  # relative, of the Taylor series
 SHOW_CURSOR = b"\x1b[?25h"  # the progress line hides it
 SURFACE_SHAPE = (48, 97)  # rows and columns of a sheet: smooth to the eye, 3 MB a scene
 
 
-def write(cases=None, out="report", progress=None) -> Path:
+def write(cases=None, out="report", progress=None, arguments=None) -> Path:
     """Write the report on `cases` (paths or Case; all of the repository's where empty) into the folder `out`.
 
-    Everything is made in a temporary folder beside `out` and renamed into place, index.html last. Where 3-D pictures
-    cannot be drawn the report is written without them and says so. progress(words) is called before every step; by
-    default a line on stderr where that is a terminal. Returns the path of index.html; raises CaseError for a case file
-    with faults, before anything is written.
+    Everything is made in a temporary folder inside `out` and renamed into place, index.html and manifest.json last. Where
+    3-D pictures cannot be drawn the report is written without them and says so. progress(words) is called before every
+    step; by default a line on stderr where that is a terminal. arguments: of the command line, for the manifest. Returns
+    the path of index.html; raises CaseError for a case file with faults, before anything is written.
     """
     out = Path(out)
     loaded = _load(cases)
-    out.parent.mkdir(parents=True, exist_ok=True)
-    with _progress(progress) as tell, _temporary(out) as folder, chapters.beside(folder) as others:
-        _make(loaded, folder, tell, out, others)
-        return _put_in_place(folder, out)
+    inputs = dict.fromkeys([*(case.path for case in loaded), *table.case_files()])  # the papers' figures read the papers' cases
+    with (_progress(progress) as tell, manifest.written(out, arguments, inputs, TOLERANCES) as folder,
+          chapters.beside(folder) as others):
+        _make(loaded, folder, tell, bool(cases), others)
+    return out / "index.html"
 
 
 def _load(cases):
     from ..case import load
-    paths = list(cases or sorted(table.cases_folder().glob("*.toml"), key=lambda p: _natural(p.stem)))
+    paths = list(cases or sorted(table.case_files(), key=lambda p: _natural(Path(p).stem)))
     return [item if hasattr(item, "scene") else load(item) for item in paths]
 
 
 def _natural(name):
     stem, _, number = name.rpartition("-")
     return (stem, int(number)) if number.isdigit() else (name, 0)
-
-
-@contextmanager
-def _temporary(out):
-    """A folder beside `out` that vanishes at the end, however it comes."""
-    folder = out.parent / f".{out.name}.{os.getpid()}"
-    remove = partial(shutil.rmtree, folder, ignore_errors=True)
-    with undoing(remove):
-        try:
-            folder.mkdir()
-            yield folder
-        finally:
-            remove()
 
 
 @contextmanager
@@ -71,8 +59,8 @@ def _progress(given):
         yield lambda words: status.update(f"report: {words}")
 
 
-def _make(cases, folder, tell, out, others):
-    """Fill the temporary folder. others(tell): the chapters."""
+def _make(cases, folder, tell, named, others):
+    """Fill the temporary folder. named: the cases stood in the command; others(tell): the chapters."""
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
     environment = Environment(loader=FileSystemLoader(Path(__file__).parent / "templates"), autoescape=True,
                               undefined=StrictUndefined)
@@ -89,18 +77,8 @@ def _make(cases, folder, tell, out, others):
         cases=sections, chapters=others(tell), tables=tables, surfaces=surfaces, audit=check(), versions=_versions(),
         figures=[{**vars(row), "file": f"figures/{path.name}", "command": row.command, "size": chapters.size(path)}
                  for row, path in zip(figures.FIGURES, drawn)],
-        command=f"stabilab report {' '.join(case.path for case in cases)} --out {out}")
+        command=" ".join(["stabilab report", *(case.path for case in cases if named)]))
     (folder / "index.html").write_text(page, encoding="utf-8")
-
-
-def _put_in_place(folder, out) -> Path:
-    """Rename every file to its place under `out`, index.html last."""
-    files = sorted((f for f in folder.rglob("*") if f.is_file()), key=lambda f: f == folder / "index.html")
-    for file in files:
-        target = out / file.relative_to(folder)
-        target.parent.mkdir(parents=True, exist_ok=True)
-        os.replace(file, target)
-    return out / "index.html"
 
 
 def _tables(folder):

@@ -7,17 +7,18 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import RenderingUnavailable
-from . import style
+from . import manifest, style
 from .mesh import Mesh, glb, stl, triangulate
 
 SCHEMA = "stabilab.surface/1"
 
 
-def write(case, out, reach=None, shape=None, picture=True) -> dict:
+def write(case, out, reach=None, shape=None, picture=True, arguments=None) -> dict:
     """Write the separatrix of a case (or scene) into the folder `out` and return its summary.
 
     NAME.vtp (double precision, point arrays "sheet" and "residual"), NAME.glb and NAME.stl (single precision, as those
-    formats are), NAME.json (the summary) and NAME.png; NAME is the case's file stem. Where there is no separatrix the
+    formats are), NAME.json (the summary), NAME.png and manifest.json (arguments: of the command line, for it); NAME is the
+    case's file stem. Where there is no separatrix the
     files are written all the same, empty, and the summary gives the reason. Raises RenderingUnavailable (with the
     summary as its attribute `summary`), after the meshes are written, where this machine cannot draw.
     """
@@ -28,15 +29,16 @@ def write(case, out, reach=None, shape=None, picture=True) -> dict:
     meshes = [triangulate(sheet) for sheet in found.sheets]
     renderer = probe() if picture else None
     summary = summarise(case, found, meshes)
-    files = write_meshes(meshes, out, name)
-    if picture and renderer.available:
-        files.append(draw(scene, found, meshes, out / f"{name}.png"))
     if picture:
         summary["rendering"] = renderer.words if renderer.available else f"unavailable: {renderer.words}"
-    with style.whole_file(out / f"{name}.json") as waiting:
-        files.append(out / f"{name}.json")
-        summary["files"] = sorted(f.name for f in files)
-        waiting.write_text(json.dumps(summary, indent=1) + "\n", encoding="utf-8")
+    inputs = [case.path] if hasattr(case, "path") else []
+    with manifest.written(out, arguments, inputs, {"distance of a vertex from its surface": summary["largest_residual"]}) as folder:
+        files = write_meshes(meshes, folder, name)
+        if picture and renderer.available:
+            files.append(draw(scene, found, meshes, folder / f"{name}.png"))
+        summary["files"] = sorted([f"{name}.json", *(f.name for f in files)])
+        with style.whole_file(folder / f"{name}.json") as waiting:
+            waiting.write_text(json.dumps(summary, indent=1) + "\n", encoding="utf-8")
     if picture and not renderer.available:
         unavailable = RenderingUnavailable(
             f"the meshes are in {out} ({', '.join(summary['files'])}), but no picture could be drawn: {renderer.words}. "

@@ -5,6 +5,7 @@ import csv
 import html
 import io
 import math
+import os
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -90,6 +91,12 @@ def cases_folder() -> Path:
         if (folder / "minor-axis-100.toml").is_file():
             return folder
     raise InputError("the paper's case files (cases/minor-axis-100.toml and so on) are not here: run inside the repository")
+
+
+def case_files(stems=("*",)) -> list[str]:
+    """The repository's case files (of these stems), as paths from here where they lie below, else whole."""
+    paths = [path for stem in stems for path in sorted(cases_folder().glob(f"{stem}.toml"))]
+    return [os.path.relpath(p) if p.resolve().is_relative_to(Path.cwd()) else os.fspath(p) for p in paths]
 
 
 def extremes_table(number: int, folder: Path | None = None) -> Table:
@@ -202,6 +209,9 @@ def html_page(table: Table) -> str:
             f"</head>\n<body>\n{html_fragment(table)}</body></html>\n")
 
 
+# what tables() reads
+STEMS = tuple(f"{family}-{lam}" for families, *_ in EXTREMES.values() for family in families for lam in paper.LAMBDAS)
+TOLERANCES = {"equilibria and verdicts": "exact", "extremes and periods": "roots of the rates and of the reduced potential, to rounding"}
 FORMATS = {"txt": text, "csv": comma_separated, "md": markdown, "tex": latex, "html": html_page}
 
 
