@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 
-.PHONY: report test test-slow figures bench clean
+.PHONY: report test test-slow figures bench fuzz clean
 
 report: $(STAMP)
 	$(BIN)/stabilab report cases/*.toml --out report
@@ -20,6 +20,12 @@ figures: $(STAMP)
 
 bench: $(STAMP)
 	$(BIN)/python -m benchmarks
+
+# The case loader under a coverage-guided fuzzer; what breaks it is kept in .fuzz
+FUZZ_SECONDS ?= 600
+fuzz: $(STAMP)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e ".[fuzz]"
+	$(BIN)/python -m tests.fuzz $(FUZZ_SECONDS) .fuzz
 
 # constraints.txt pins what was tested, so that a fresh install gives the same versions
 $(STAMP): pyproject.toml constraints.txt
