@@ -329,7 +329,7 @@ def _tell(question, paths, digits, json, csv=False):
     from .show import answers
     from .show import precision_answers as shown
     answered = [(case, found, _told(question, case, found, digits)) for case in _load(paths, motion=True, sweep=True)
-                for found in [_motion(case)]]
+                for found in [_motion(case, brief=question == "extremes")]]
     if json:
         _print(answers.as_json([getattr(shown, question)(*answer) for answer in answered]))
     elif csv:

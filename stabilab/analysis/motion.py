@@ -1,87 +1,98 @@
 """Everything about the motion from one state: fate, margins, period, extremes, invariants."""
 from __future__ import annotations
 
-import numpy as np
+import math
 
-from .extremes import extremes, period
-from .fate import checked_states, fate
-from .landscape import landscape
+from .one_state import extremes_of, fate_of, invariants_of
+from .reduction import reduce
 from .results import Fate, Motion
 
 
-def motion(scene, state, span=None) -> Motion:
+def motion(scene, state, span=None, brief=False) -> Motion:
     """All that is known of the motion from `state` (three numbers in the scene's variables) at time 0.
 
     Where gamma is part of the state: six numbers (omega, gamma), or a dict of blocks. span: (from, to), the times over
-    which extremes are searched where the motion is not integrable. Raises InputError as `fate` does.
+    which extremes are searched where the motion is not integrable. brief: fate and extremes will do; what else costs
+    time (period, margin_velocity, invariants) may be left out. Raises InputError as `fate` does.
     """
     if not scene.plain:
         from .other_motion import other_motion
         found = other_motion(scene, state, span)
         if found is not None:
             return found
-    state = checked_states(state).reshape(3)
-    decided = fate(scene, state)
-    label = Fate(int(decided.labels))
-    fields = {"at": tuple(map(float, state)), "fate": label, "because": decided.because, "axis": int(decided.axis),
-              "sense": int(decided.sense)}
+    state, reduction = _checked(state), reduce(scene)
+    if reduction is None:
+        return _irreducible(scene, state, span)
+    decided = fate_of(scene, reduction, state)
+    fields = _common(state, decided.label, decided.because, decided.axis, decided.sense)
+    fields |= {"margin_energy": _finite(decided.margin), "tolerance": 1e-12,
+               "extremes": extremes_of(reduction, state, decided.label)}
+    return Motion(**fields, **({} if brief else _rest(scene, reduction, state, decided.label)))
+
+
+def _checked(state) -> tuple[float, float, float]:
+    """Three finite floats; InputError otherwise."""
+    try:
+        values = tuple(map(float, state))
+        if len(values) == 3 and all(map(math.isfinite, values)):
+            return values
+    except (TypeError, ValueError):
+        pass
+    from .fate import checked_states  # other shapes that hold one state, and the words for what is none
+    return tuple(checked_states(state).reshape(3).tolist())
+
+
+def _common(state, label, because, axis, sense) -> dict:
     if label == Fate.SPIN_UP:
-        fields["because"] += f"; it spins up about axis {fields['axis']}" if fields["axis"] else "; it spins up about the torque"
-    land = landscape(scene)
-    if land is not None:
-        return Motion(**fields, **_reduced(scene, land, state, decided, label))
-    from .irreducible import kind_of
-    return Motion(**{**fields, **_other(scene, kind_of(scene), state, span, label, decided)})
+        because += f"; it spins up about axis {axis}" if axis else "; it spins up about the torque"
+    return {"at": state, "fate": label, "because": because, "axis": axis, "sense": sense}
 
 
 def _finite(value):
-    return float(value) if np.isfinite(value) else None
+    return float(value) if math.isfinite(value) else None
 
 
-def _reduced(scene, land, state, decided, label) -> dict:
-    margin = _finite(decided.margins)
-    time = float(period(scene, state))
-    return {"margin_energy": margin, "margin_velocity": _finite(decided.velocity_margins),
-            "period": time if 0 < time < np.inf else None,
-            "extremes": _pairs(extremes(scene, state)), "invariants": invariants_at(land, state),
-            "tolerance": 1e-12}
+def _rest(scene, reduction, state, label) -> dict:
+    from .distance import separatrix_distance
+    from .one_period import period_of
+    return {"margin_velocity": _finite(float(separatrix_distance(scene, state))), "period": _repeats(period_of(reduction, state, label)),
+            "invariants": invariants_of(reduction, state)}
+
+
+def _repeats(time):
+    """The period, None where there is none (at rest, or a motion that does not repeat)."""
+    return time if 0 < time < math.inf else None
 
 
 def _pairs(array):
     return tuple((float(low), float(high)) for low, high in array)
 
 
-def invariants_at(land, state) -> dict[str, float]:
-    """Q (the squared radius of the circle, or Z^2 - X^2 on a hyperbola) in canonical units, and the energy
-    W^2/2 + V in the scene's, with the turn angle counted from the direction X = 0."""
-    place, w, _ = land.start(np.asarray(state, float)[None])
-    if land.e == 0:
-        return {}
-    pot, unit = land.potential, land.reduction.energy_unit
-    g = land.reduction.constants
-    x, z = place if land.e < 0 else (0.5 * (place[0] + place[1]), 0.5 * (place[0] - place[1]))
-    with np.errstate(all="ignore"):
-        theta = np.arctan2(x, z) if land.e < 0 else 0.5 * np.log(np.abs(place[0] / place[1]))
-        energy = 0.5 * w * w - pot.mu * theta - 0.5 * pot.G * x * x - g["c"] * x - land.e * g["d"] * z
-    found = {"Q": float(land.invariant(place)[0])}
-    if np.isfinite(energy[0]):
-        found["energy"] = float(energy[0] * unit)
-    return found
+def _irreducible(scene, state, span) -> Motion:
+    import numpy as np
+
+    from .fate import fate
+    from .irreducible import kind_of
+    state = np.array(state)
+    decided = fate(scene, state)
+    label = Fate(int(decided.labels))
+    fields = _common(tuple(state.tolist()), label, decided.because, int(decided.axis), int(decided.sense))
+    return Motion(**{**fields, **_other(scene, kind_of(scene), state, span, label, decided)})
 
 
 def _other(scene, kind, state, span, label, decided) -> dict:
     """Fields for scenes without a reduction."""
     if kind == "turned":
-        time = float(period(scene, state))
-        found = {"margin_energy": _finite(decided.margins), "period": time if 0 < time < np.inf else None}
+        from .extremes import extremes, period
+        found = {"margin_energy": _finite(float(decided.margins)), "period": _repeats(float(period(scene, state)))}
         if label == Fate.BOUNDED or span is not None:
             found["extremes"] = _pairs(extremes(scene, state, _length(span)))
         return found
     if kind == "free":
         from .offaxis import extremes_over_period
         closed = extremes_over_period(scene, state)
-        return {"margin_energy": _finite(decided.margins), "extremes": _pairs(closed.extremes), "extremes_over": closed.over,
-                "period": closed.period if 0 < closed.period < np.inf else None}
+        return {"margin_energy": _finite(float(decided.margins)), "extremes": _pairs(closed.extremes), "extremes_over": closed.over,
+                "period": _repeats(closed.period)}
     if label == Fate.EQUILIBRIUM:
         return {"extremes": tuple((float(v), float(v)) for v in state)}
     found = _evidence(scene, state, span) if span is not None else {}
