@@ -20,12 +20,16 @@ DIGITS = 1e-12  # rounding that leaves less than this goes to ball arithmetic
 SHIFT_LIMIT = 1e4  # canonical variables lose this factor of accuracy to the shift before the precise path takes over
 
 
-def extremes(scene, states, span=None):
+def extremes(scene, states, span=None, digits: int | None = None):
     """Smallest and largest value of each component over all t >= 0: array (..., 3, 2) in the scene's variables.
 
     +-inf where a component grows without bound; at an equilibrium both are the state. Scenes without a reduction need
-    `span`, a time: their extremes hold over [0, span] (InputError without it). Raises InputError as `fate` does.
+    `span`, a time: their extremes hold over [0, span] (InputError without it). digits (1 to 50): reach so many and check
+    them (ToleranceNotMet otherwise); without it eleven, by the formulas' own bound. Raises InputError as `fate` does.
     """
+    if digits is not None:
+        from .precision_questions import ask_all
+        return ask_all("extremes", scene, states, digits, span).required().values
     scene, array = effective(scene), checked_states(states)
     flat = array.reshape(-1, 3)
     land = landscape(scene)
@@ -290,10 +294,14 @@ def _turn_back(land, place, w):
     return offset, np.maximum(fastest, 0.5 * w * w)
 
 
-def period(scene, states):
+def period(scene, states, digits: int | None = None):
     """Period of each motion, (...,) in the scene's time: inf where the motion does not repeat, 0 at an equilibrium.
 
-    Raises InputError as `fate` does, and for scenes whose motion has no known period (torque off the axes).
+    digits: as of `extremes`. Raises InputError as `fate` does, and for scenes whose motion has no known period (torque off
+    the axes).
     """
+    if digits is not None:
+        from .precision_questions import ask_all
+        return ask_all("period", scene, states, digits).required().values
     from .quadrature import periods
     return periods(scene, states)

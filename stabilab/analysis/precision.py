@@ -195,6 +195,8 @@ def _state_error(task, answer, exact, count) -> float:
     worst = float(exact.error[-count:].max())
     for name, values in answer.parts.items():
         part = task.slices[name]
+        if name == "attitude":  # q and -q are one attitude; angles do not say which
+            values = values * np.where((values * exact.states[-count:, part]).sum(axis=1) < 0, -1.0, 1.0)[:, None]
         size = np.abs(exact.states[:, part]).max(initial=0.0) or 1.0
         gap = np.abs((values - exact.states[-count:, part]) - exact.rest[-count:, part]).max() / size
         worst = max(worst, float(gap)) if np.isfinite(gap) else math.inf

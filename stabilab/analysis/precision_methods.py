@@ -11,6 +11,7 @@ from typing import Callable
 
 import numpy as np
 
+from ..attitude import quaternion
 from ..blocks import slices
 from ..compiled import TAYLOR_TOLERANCE, heyoka_available, to_numpy, to_taylor
 from ..errors import InputError
@@ -191,6 +192,8 @@ def _model(name):
         def run(times):
             answer = follow(task.case, times, name, order=setting if name == "lindstedt" else None)
             known = {part: _filled(answer.state[part], len(times)) for part in task.slices if part in answer.state}
+            if "attitude" in task.slices and "angles" in answer.state:
+                known["attitude"] = _filled(quaternion(*np.asarray(answer.state["angles"], float).T).T, len(times))
             return Answer(known)
         return run
     return prepare

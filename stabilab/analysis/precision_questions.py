@@ -46,16 +46,17 @@ def ask(question, scene, state, digits: int, span=None, known=None) -> Told:
 
 
 def ask_all(question, scene, states, digits: int, span=None) -> Told:
-    """The same for an array of states (..., 3), values (..., 3, 2) or (...,). Of many states a sample is checked."""
+    """The same for an array of states (..., 3), values (..., 3, 2) or (...,); span: a time. Of many states a sample is checked."""
     from .extremes import extremes, period
     from .fate import checked_states, fate
     array = checked_states(states)
     rows = array.reshape(-1, 3)
     picked = np.unique(np.linspace(0, len(rows) - 1, min(SAMPLE, len(rows))).astype(int))
-    told = [ask(question, scene, rows[i], digits, span) for i in picked]
+    whole = None if span is None else (0.0, float(span))
+    told = [ask(question, scene, rows[i], digits, whole) for i in picked]
     plain = {"extremes": lambda: extremes(scene, rows, span), "period": lambda: period(scene, rows), "fate": lambda: fate(scene, rows).margins}[question]
     if len(picked) < len(rows) and not all(t.method in ("formulas", "none") for t in told):
-        told = [ask(question, scene, row, digits, span) for row in rows]
+        told = [ask(question, scene, row, digits, whole) for row in rows]
     values = plain()
     if len(told) == len(rows):
         values = np.array([old if t.values is None else t.values for old, t in zip(values, told)]).reshape(values.shape)
@@ -63,8 +64,8 @@ def ask_all(question, scene, states, digits: int, span=None) -> Told:
     worst = min(judged, key=lambda t: t.digits) if judged else told[0]
     sampled = f"; {len(told)} of {len(rows)} states checked" if len(told) < len(rows) else ""
     shape = array.shape[:-1]
-    texts = None if worst.decimals is None else np.array([t.decimals for t in told], dtype=object).reshape(*shape, *np.shape(worst.decimals))
-    return replace(worst, values=values.reshape(*shape, *values.shape[1:]), because=worst.because + sampled, decimals=texts)
+    texts = None if worst.decimals is None else np.array([t.decimals for t in told], dtype=object).reshape((*shape, *np.shape(worst.decimals)))
+    return replace(worst, values=values.reshape((*shape, *values.shape[1:])), because=worst.because + sampled, decimals=texts)
 
 
 def _reduced(scene):
