@@ -17,6 +17,7 @@ from .results import Trajectory
 
 SCIPY_METHODS = ("RK45", "RK23", "DOP853", "Radau", "BDF", "LSODA")
 METHODS = ("taylor", *SCIPY_METHODS)
+REDUCED = "reduced"  # follows nothing: see `reduced_motion`
 # SciPy's own default is 1e-3, too coarse to judge a motion by; 1e-10 is within reach of every method in the list.
 SCIPY_RTOL = 1e-10
 # What DOP853 can still hold in double precision; it stands in for the Taylor series.
@@ -38,7 +39,8 @@ def trajectory(scene, state, times, method: str = "taylor", rtol: float | None =
 
     times: (n,) strictly increasing or decreasing, of any sign, in s (tau when scaled). method: "taylor" (heyoka; where
     it is not installed SciPy's DOP853 at rtol 1e-13, and `method` and `reason` say so) or a method of
-    scipy.integrate.solve_ivp by name, in any case. rtol: relative tolerance; None is half an ulp for "taylor", 1e-10
+    scipy.integrate.solve_ivp by name, in any case; "reduced" (the quadrature of a scene with one degree of freedom, at a cost
+    that does not grow with the times; InputError where the motion has none). rtol: relative tolerance; None is half an ulp for "taylor", 1e-10
     for the others. steps: a list that takes the times at which the method ended its own steps. laws: check the balance
     laws (costs the Taylor series a fifth or so); without, `invariant_drift` is empty. Where the run cannot go on (overflow, a failing step) `status` is "stopped", `reason` says why, and
     t, states hold the times that were reached. Raises InputError for states and times that are no such numbers and
@@ -46,6 +48,8 @@ def trajectory(scene, state, times, method: str = "taylor", rtol: float | None =
     """
     method, times, rtol = _method(method), _times(times), _rtol(rtol)
     equations, state = _start(scene, state)
+    if method == REDUCED:
+        return _by_quadrature(scene, equations, state, times, rtol)
     reason, landing = "all times reached", False
     if method == "taylor" and not heyoka_available():
         method, rtol, landing = "DOP853", max(rtol or 0.0, FALLBACK_RTOL), True
@@ -76,12 +80,29 @@ def trajectory(scene, state, times, method: str = "taylor", rtol: float | None =
 
 
 def _method(name: str) -> str:
-    known = {m.lower(): m for m in METHODS}
+    known = {m.lower(): m for m in (*METHODS, REDUCED)}
     if isinstance(name, str) and name.lower() in known:
         return known[name.lower()]
     close = difflib.get_close_matches(str(name).lower(), known, 1)
     hint = f'; did you mean "{known[close[0]]}"?' if close else ""
-    raise InputError(f"method: there is no {name!r}; choose one of {', '.join(METHODS)}{hint}")
+    raise InputError(f"method: there is no {name!r}; choose one of {', '.join(known.values())}{hint}")
+
+
+def _by_quadrature(scene, equations, state, times, rtol):
+    from .reduced_motion import axis_way, reduced_motion
+    if equations.blocks != ("omega",):
+        raise InputError(f"method reduced: it gives the rates alone, and the state has the blocks {', '.join(equations.blocks)}; take "
+                         "method taylor")
+    if rtol is not None:
+        raise InputError("method reduced: it takes as many nodes as doubles need and has no tolerance; leave rtol out")
+    motion = reduced_motion(scene, state, backwards=bool((times < 0).any()))
+    states, turned, axis = axis_way(motion, times)
+    system = to_numpy(equations)
+    unit = np.vstack([np.zeros(3), np.eye(3)[axis]])
+    integrals = [row[0] * times + (row[1] - row[0]) * turned for row in system.law_rates(unit).values()]  # affine in that rate
+    drift = _departures(system, state, np.column_stack([states, *integrals]))
+    return Trajectory(times, states, REDUCED, None, drift, {"evaluations": motion.evaluations}, "reached",
+                      "all times reached, without steps: time as an integral over the reduced coordinate, inverted")
 
 
 def _numbers(values, name):
