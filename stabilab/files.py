@@ -88,7 +88,8 @@ def _explained(path):
     try:
         yield
     except OSError as error:
-        if error.filename and not os.fspath(error.filename).startswith(str(path)) and path.parent not in Path(error.filename).parents:
+        place = Path(os.fsdecode(error.filename or path))
+        if place not in (path, *path.parents) and path.parent not in place.parents:
             raise  # something else than writing
         raise InputError(f"{path}: cannot be written: {error.strerror or error}") from error
 
