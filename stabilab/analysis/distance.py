@@ -1,218 +1,241 @@
-"""How far a state is from the separatrix: the smallest change of the three rates that reaches it."""
+"""How far a state is from the separatrix: the smallest change of the three rates that reaches it.
+
+Each sheet of the separatrix is a surface in two parameters: along its branch of saddles (from the fold outward) and round the
+loop of each saddle. A coarse grid over all sheets finds the neighbourhoods of the nearest points, Newton's method on the
+squared distance refines them. In plain floats: the question concerns one state at a time and needs no arrays.
+"""
 from __future__ import annotations
 
-import numpy as np
+import math
+from dataclasses import dataclass
 
-from .landscape import TURN, Landscape, landscape
-from .separatrix import _branches, _polished, _sides, loop_end
+from .conic import Conic
+from .double_balls import real_roots_of
+from .loop import loop_end, settled_on
+from .potential import potential
+from .reduction import reduce
 
-ROWS, COLUMNS, STARTS, NEWTON = 36, 29, 3, 25
+ROWS, COLUMNS, STARTS, NEWTON = 36, 15, 3, 40
 GRADING = 3  # s = t^3: rows uniform in t crowd at the fold, where a sheet narrows to a point
+STEP = 1e-4  # of the differences that give the surface's tangents and curvature
 
 
-def separatrix_distance(scene, states) -> np.ndarray:
+def separatrix_distance(scene, states):
     """Euclidean distance (...,) of states (..., 3) from the nearest point of the scene's separatrix, in the unit of the
-    states; inf where the scene has none. A coarse grid over all sheets finds the neighbourhoods of the nearest points,
-    Newton's method on the conditions of a nearest point refines them; the sheets' edges, the saddles, are searched too.
-    """
+    states; inf where the scene has none."""
+    import numpy as np
     array = np.asarray(states, float)
-    flat = array.reshape(-1, 3)
-    land = landscape(scene)
-    if land is None or land.e == 0:
-        return np.full(array.shape[:-1], np.inf)
-    return np.array([_one(land, state) for state in flat]).reshape(array.shape[:-1])
+    reduction = reduce(scene)
+    flat = [distance_of(reduction, state) for state in array.reshape(-1, 3).tolist()]
+    return np.array(flat, float).reshape(array.shape[:-1])
 
 
-def _one(land: Landscape, state) -> float:
-    place, _, _ = land.start(state[None])
-    size = np.sqrt(place[0] ** 2 + place[1] ** 2)[0]
-    folds = [np.sqrt(abs(q)) for q in land.conic.fold_invariants] or [1.0]
-    # the nearest point lies no further out than the state plus its distance to a fold
-    reach = 2 + 2 * size / max(max(folds), 1e-300)
-    coarse = sorted((_Coarse(land, branch, side, state) for branch in _branches(land, reach) for side, _ in _sides(land)),
-                    key=lambda grid: grid.least)
-    best = np.inf
-    for grid in coarse:
-        best = min(best, grid.least, _nearest_saddle(land, grid.branch, state))
-    for grid in coarse:
-        best = _refined(land, grid, state, best)
+def distance_of(reduction, state) -> float:
+    """The distance of one state (three floats) of a scene with this reduction (None: it has none, so inf)."""
+    if reduction is None or reduction.e == 0:
+        return math.inf
+    geometry = _Geometry(reduction, state)
+    grids = sorted((_Grid(sheet) for sheet in geometry.sheets()), key=lambda grid: grid.least)
+    best = min((grid.least for grid in grids), default=math.inf)
+    for grid in grids:
+        best = _refined(grid, best)
     return best
 
 
-class _Coarse:
-    """A sheet on a coarse grid: (s in [0, 1] along the saddles, phi in [-1, 1] round the loop), and its distances."""
+class _Geometry:
+    """A reduction seen from one state: places in canonical variables, distances in the scene's own unit.
 
-    def __init__(self, land, branch, side, state):
-        self.branch, self.side = branch, side
-        self.s, self.phi = np.linspace(0, 1, ROWS) ** GRADING, np.linspace(-1, 1, COLUMNS)
-        self.points = _points(land, branch, side, self.s, self.phi)
-        distance = np.sqrt(((self.points - state) ** 2).sum(axis=-1))
-        self.distance = np.where(np.isfinite(distance), distance, np.inf)
-        self.least = float(self.distance.min())
+    The separatrix is symmetric in W, and so is the distance up to the sign of the state's: its nearest point has that sign.
+    """
+
+    def __init__(self, reduction, state):
+        self.e, self.sense = reduction.e, reduction.sense
+        self.pot, self.conic = potential(reduction), Conic(reduction)
+        g = reduction.constants
+        self.rx, self.rz, self.n = g["rx"], g["rz"], g["n"]
+        self.x, self.z, self.w = map(float, reduction.canonical_exact(state))
+        self.w = abs(self.w)
+
+    def away(self, saddle, y, turned):
+        """Vector from the state to the loop's point at offset y from a saddle, W of the sign of `turned`."""
+        w = math.copysign(math.sqrt(2 * max(-self.pot.rise(y, saddle), 0.0)), turned)
+        first, second = self.pot.move(saddle, y)
+        x, z = (first, second) if self.e < 0 else (0.5 * (first + second), 0.5 * (first - second))
+        return self.rx * (x - self.x), self.rz * (z - self.z), (w - self.w) / self.n
+
+    def sheets(self):
+        """The sheets that may hold the nearest point: it lies no further out than the state plus its distance to a fold."""
+        folds = [math.sqrt(abs(q)) for q in self.conic.fold_invariants] or [1.0]
+        reach = 2 + 2 * math.hypot(self.x, self.z) / max(*folds, 1e-300)
+        sides = (-1,) if self.e < 0 and self.sense else (-1, 1)
+        for along in saddle_branches(self.conic, self.pot, reach):
+            for side in sides:
+                yield _Sheet(self, along, side)
+
+
+@dataclass(frozen=True)
+class _Sheet:
+    """Points over (t, phi): saddles from the fold (t = 0) outward, round each loop from its far end (phi = 0) to the saddle
+    (phi = 1); phi < 0 is the other half of the loop."""
+
+    geometry: _Geometry
+    along: object
+    side: int
+
+    def loop(self, t):
+        """(saddle, signed length of its loop), None where no loop closes."""
+        g, s = self.geometry, t ** GRADING
+        x, z = self.along(s)
+        saddle = (x, z) if g.e < 0 else (x + z, x - z)
+        if s == 0:
+            return saddle, 0.0
+        saddle = settled_on(g.pot, saddle)
+        end = loop_end(g.pot, g.e, g.sense, saddle, self.side)
+        return None if end is None else (saddle, self.side * end)
+
+    def away(self, loop, phi):
+        saddle, end = loop
+        return self.geometry.away(saddle, end * math.cos(0.5 * math.pi * phi) ** 2, phi)
+
+
+class _Grid:
+    """A sheet on a coarse grid: vectors from the state and their lengths, None where there is no loop."""
+
+    def __init__(self, sheet):
+        self.sheet = sheet
+        self.t = [row / (ROWS - 1) for row in range(ROWS)]
+        self.phi = [column / (COLUMNS - 1) for column in range(COLUMNS)]
+        self.away = []
+        for t in self.t:
+            loop = sheet.loop(t)
+            self.away.append(loop and [sheet.away(loop, phi) for phi in self.phi])
+        self.distance = {(r, c): math.hypot(*v) for r, row in enumerate(self.away) if row for c, v in enumerate(row)}
+        self.least = min(self.distance.values(), default=math.inf)
 
     def cell(self, row, column) -> float:
         """Size of the grid's cells about a vertex: no point of them is nearer than the vertex by more than that."""
-        near = self.points[max(row - 1, 0):row + 2, max(column - 1, 0):column + 2].reshape(-1, 3)
-        return 2 * float(np.nanmax(np.sqrt(((near - self.points[row, column]) ** 2).sum(axis=-1))))
+        here = self.away[row][column]
+        return 2 * max((math.dist(here, self.away[r][c]) for r in range(row - 1, row + 2) for c in range(column - 1, column + 2)
+                        if (r, c) in self.distance), default=0.0)
 
 
-def _refined(land, grid, state, best) -> float:
+def _refined(grid, best) -> float:
     """The least of `best` and the distances refined from the lowest separate basins of a coarse grid."""
-    distance = grid.distance.copy()
+    left = dict(grid.distance)
     for _ in range(STARTS):
-        row, column = np.unravel_index(np.argmin(distance), distance.shape)
-        start = distance[row, column]
-        if not start - grid.cell(row, column) < best:
+        if not left:
             break
-        piece = getattr(grid.branch, "piece", None)
-        refined = _newton(land, piece, grid.side, state, grid.points[row, column]) if piece else None
-        if refined is None or refined > start:
-            refined = _descent(land, grid, state, row, column)
-        best = min(best, refined)
-        distance[max(row - 4, 0):row + 5, max(column - 4, 0):column + 5] = np.inf
+        row, column = min(left, key=left.get)
+        if not left[row, column] - grid.cell(row, column) < best:
+            break
+        best = min(best, _descent(grid.sheet, grid.t[row], grid.phi[column], left[row, column]))
+        left = {at: d for at, d in left.items() if abs(at[0] - row) > 4 or abs(at[1] - column) > 2}
     return best
 
 
-def _nearest_saddle(land, branch, state) -> float:
-    """Least distance to the branch of saddles, the edge of its sheet: a grid that shrinks about its nearest point."""
-    low, high, least = 0.0, 1.0, np.inf
-    for _ in range(30):
-        t = np.linspace(low, high, 33)
-        place = tuple(np.asarray(v, float) for v in branch(t))
-        points = land.components(place, np.zeros(len(t)))
-        distance = np.sqrt(((points - state) ** 2).sum(axis=-1))
-        k = int(np.argmin(distance))
-        least = min(least, float(distance[k]))
-        low, high = t[max(k - 2, 0)], t[min(k + 2, 32)]
-        if high - low < 1e-9:
-            break
+def _descent(sheet, t, phi, least) -> float:
+    """The minimum of the distance near one vertex, by Newton's method with the surface's tangents and curvature from
+    differences; damped where the squared distance is not convex. Vectors, not distances, are differenced: the gradient is
+    then as accurate against the distance itself, however near the surface is."""
+    damping = 0.0
+    for _ in range(NEWTON):
+        t = min(max(t, 2 * STEP), 1 - 2 * STEP)
+        loops = [sheet.loop(t + k * STEP) for k in (-1, 0, 1)]
+        if None in loops:
+            return least
+        v = [[sheet.away(loop, phi + k * STEP) for k in (-1, 0, 1)] for loop in loops]
+        here = v[1][1]
+        along, round_ = _slope(v[0][1], v[2][1]), _slope(v[1][0], v[1][2])
+        bend = _bend(v[0][1], here, v[2][1]), _bend(v[1][0], here, v[1][2])
+        twist = tuple((a - b - c + d) / (4 * STEP * STEP) for a, b, c, d in zip(v[2][2], v[2][0], v[0][2], v[0][0]))
+        least = min(least, math.hypot(*here))
+        gradient = _dot(along, here), _dot(round_, here)
+        squares = _dot(along, along), _dot(round_, round_)
+        aa, bb, ab = squares[0] + _dot(bend[0], here), squares[1] + _dot(bend[1], here), _dot(along, round_) + _dot(twist, here)
+        while True:
+            da, db = aa + damping * squares[0] + 1e-300, bb + damping * squares[1] + 1e-300
+            det = da * db - ab * ab
+            if da > 0 and db > 0 and det > 1e-6 * da * db:
+                move_t, move_phi = (ab * gradient[1] - db * gradient[0]) / det, (ab * gradient[0] - da * gradient[1]) / det
+                move_t, move_phi = max(-0.2, min(0.2, move_t)), max(-0.2, min(0.2, move_phi))
+                trial = sheet.loop(min(max(t + move_t, 2 * STEP), 1 - 2 * STEP))
+                if trial and math.hypot(*sheet.away(trial, phi + move_phi)) <= least * (1 + 1e-12):
+                    break
+            damping = max(4 * damping, 0.01)
+            if damping > 1e9:
+                return least
+        t, phi = t + move_t, phi + move_phi
+        damping = damping / 8 if damping > 0.02 else 0.0
+        if abs(move_t) + abs(move_phi) < 1e-9 or -_dot(gradient, (move_t, move_phi)) < 1e-15 * least * least:
+            return min(least, math.hypot(*sheet.away(trial, phi)))
     return least
 
 
-def _descent(land, grid, state, row, column) -> float:
-    """The minimum near one vertex by damped Gauss-Newton steps in the sheet's own coordinates, for where Newton's method
-    on the surface fails: next to a fold, where there is no saddle on one side, and on sheets along a line."""
-    row = max(row, 1)  # at the fold itself all columns are one point
-    at = np.array([grid.s[row] ** (1 / GRADING), grid.phi[column]])
-    low, high = np.array([0.0, -1.0]), np.array([1.0, 1.0])
-    least, damping = grid.distance[row, column], 1e-3
-    width = 1e-4
-    for _ in range(30):
-        stencil = np.clip(at + np.array([-1.0, 0.0, 1.0])[:, None] * width, low, high)
-        points = _points(land, grid.branch, grid.side, stencil[:, 0] ** GRADING, stencil[:, 1]) - state
-        here = points[1, 1]
-        with np.errstate(all="ignore"):
-            slope = np.stack([(points[2, 1] - points[0, 1]) / (stencil[2, 0] - stencil[0, 0]),
-                              (points[1, 2] - points[1, 0]) / (stencil[2, 1] - stencil[0, 1])], axis=1)
-        if not (np.isfinite(here).all() and np.isfinite(slope).all()):
-            break
-        normal, force = slope.T @ slope, slope.T @ here
-        for _ in range(12):
-            step = np.linalg.lstsq(normal + damping * np.diag(np.diag(normal)), -force, rcond=None)[0]
-            trial = np.clip(at + step, low, high)
-            distance = np.linalg.norm(_points(land, grid.branch, grid.side, trial[:1] ** GRADING, trial[1:]) - state)
-            if distance < least:
-                break
-            damping *= 8
-        else:
-            break
-        gain, least, at, damping = least - distance, float(distance), trial, max(damping / 10, 1e-9)
-        width = np.clip(0.1 * np.abs(step), 1e-7, 1e-4)
-        if gain <= 1e-9 * least:
-            break
-    return float(least)
+def _slope(before, after):
+    return tuple((b - a) / (2 * STEP) for a, b in zip(before, after))
 
 
-class _Sheet:
-    """Phi = W^2/2 + V - V_saddle(Q) and its gradient near a sheet, in coordinates with the scene's own metric."""
-
-    def __init__(self, land, piece, side):
-        self.land, self.piece, self.side = land, piece, side
-        g = land.reduction.constants
-        self.g, self.unit = g, np.array([g["rx"], g["rz"], 1 / g["n"]])
-        self.offset = np.array([g["sj"], g["sk"], float(land.reduction.s)])
-
-    def coordinates(self, point):
-        """Scene state -> p = (rx X, rz Z, W/n), at the same distances from one another."""
-        r, flip = self.land.reduction, self.g["flip"]
-        p = np.array([point[r.j], point[r.k], point[r.axis]]) + self.offset
-        return p * np.array([flip, 1.0, flip])
-
-    def value_and_gradient(self, p):
-        """(Phi (n,), gradient (n, 3), on the sheet's loop (n,)) at p (n, 3)."""
-        land, g, e = self.land, self.g, self.land.e
-        x, z, w = (p / self.unit).T
-        Q = (z - x) * (z + x) if e > 0 else z * z + x * x
-        xs, zs, exists = land.conic._meet_piece(self.piece, Q)
-        spot = land._polish((xs, zs) if e < 0 else (xs + zs, xs - zs))
-        with np.errstate(all="ignore"):
-            if e < 0:
-                xs, zs = spot
-                y = np.arctan2(x * zs - z * xs, x * xs + z * zs)
-                y = np.where(y * self.side > 0, y, y + self.side * TURN)
-            else:
-                xs, zs = 0.5 * (spot[0] + spot[1]), 0.5 * (spot[0] - spot[1])
-                y = np.log((x + z) / spot[0])
-            value = 0.5 * w * w + land.potential.rise(y, spot)
-            rate = (-(g["G"] * xs + g["c"]) * xs - e * g["d"] * zs) / (2 * Q)  # dV_saddle/dQ
-            slope_x = -g["G"] * x - g["c"] - g["mu"] * z / Q + 2 * e * rate * x
-            slope_z = -e * g["d"] + g["mu"] * x / Q - 2 * rate * z
-        gradient = np.stack([slope_x, slope_z, w], axis=1) / self.unit
-        return value, gradient, exists & np.isfinite(value) & (y * self.side >= 0)
-
-    def on_loop(self, p) -> bool:
-        """Whether p (3,) lies on the loop itself, not in a further well at the same energy."""
-        land = self.land
-        x, z, _ = p / self.unit
-        Q = np.array([(z - x) * (z + x) if land.e > 0 else z * z + x * x])
-        xs, zs, _ = land.conic._meet_piece(self.piece, Q)
-        spot = land._polish((xs, zs) if land.e < 0 else (xs + zs, xs - zs))
-        end, _, found, _ = loop_end(land, spot, self.side)
-        if land.e < 0:
-            y = np.arctan2(x * spot[1] - z * spot[0], x * spot[0] + z * spot[1])
-            y = np.where(y * self.side > 0, y, y + self.side * TURN)
-        else:
-            y = np.log((x + z) / spot[0])
-        return bool(found[0] and abs(y[0]) <= abs(end[0]) * (1 + 1e-9))
+def _bend(before, here, after):
+    return tuple((a - 2 * h + b) / (STEP * STEP) for a, h, b in zip(before, here, after))
 
 
-def _newton(land, piece, side, state, start):
-    """Distance to the stationary point of the distance that Newton's method finds from `start`; None if it finds none."""
-    sheet = _Sheet(land, piece, side)
-    target, p = sheet.coordinates(state), sheet.coordinates(start)
-    size = np.linalg.norm(p - target) + 1e-9 * np.abs(p).max()
-    steps = 1e-5 * np.abs(p).max() * np.vstack([np.zeros(3), np.eye(3), -np.eye(3)])
-    multiplier, step = None, np.inf
-    for _ in range(NEWTON):
-        values, gradients, ok = sheet.value_and_gradient(p + steps)
-        if not ok.all():
-            return None
-        value, gradient = values[0], gradients[0]
-        hessian = (gradients[1:4] - gradients[4:7]) / (2 * steps[1, 0])
-        hessian = 0.5 * (hessian + hessian.T)
-        if multiplier is None:
-            multiplier = -(p - target) @ gradient / (gradient @ gradient)
-        matrix = np.zeros((4, 4))
-        matrix[:3, :3], matrix[:3, 3], matrix[3, :3] = np.eye(3) + multiplier * hessian, gradient, gradient
-        try:
-            change = np.linalg.solve(matrix, -np.append(p - target + multiplier * gradient, value))
-        except np.linalg.LinAlgError:
-            return None
-        step = np.linalg.norm(change[:3])
-        factor = min(1.0, 0.5 * size / step) if step else 1.0
-        p, multiplier = p + factor * change[:3], multiplier + factor * change[3]
-        if step <= 1e-11 * (size + np.abs(p).max()):
-            return float(np.linalg.norm(p - target)) if sheet.on_loop(p) else None
-    return None
+def _dot(a, b) -> float:
+    return sum(u * v for u, v in zip(a, b))
 
 
-def _points(land, branch, side, s, phi):
-    """(rows, columns, 3) points of a sheet; nan where a row has no loop."""
-    saddle = _polished(land, tuple(np.asarray(v, float) for v in branch(s)), s)
-    end, _, found, _ = loop_end(land, saddle, side)
-    end = np.where(found | (s == 0), end, np.nan)
-    y = end[:, None] * np.cos(0.5 * np.pi * phi) ** 2
-    spot = tuple(v[:, None] for v in saddle)
-    with np.errstate(all="ignore"):
-        w = np.sign(phi) * np.sqrt(2 * np.maximum(-land.potential.rise(y, spot), 0))
-        return land.components(land.potential.move(spot, y), w)
+# --- branches of saddles
+def saddle_branches(conic, pot, reach):
+    """For every branch of saddles its place (X, Z) as a function of s in [0, 1], s = 0 at the fold, as far out as `reach`
+    times the radius sqrt|Q| of the outermost fold."""
+    base = [abs(q) for q in conic.fold_invariants]
+    base += [abs(_foot(conic, line)[1]) or abs(conic.K / conic.G if conic.G and conic.K else 1.0) for line in conic.lines]
+    limit = max(base, default=1.0) * reach * reach
+    for piece in conic.pieces:
+        if piece.barrier:
+            for start, end in _on_piece(conic, piece, limit):
+                yield lambda s, a=start, b=end, sign=piece.sign: conic.at(sign * (a + (b - a) * s))
+    for line in conic.lines:
+        for start, end in _on_line(conic, pot, line, limit):
+            yield lambda s, a=start, b=end, on=line: (on.x0 + (a + (b - a) * s) * on.dx, on.z0 + (a + (b - a) * s) * on.dz)
+
+
+def _on_piece(conic, piece, limit):
+    """|h| intervals of a piece inside the limit on |Q|, starting at a fold, cut where Q = 0 (a plane)."""
+    ends = [h for q in (limit, -limit) for h in _meet(conic, piece, q)]
+    inner = piece.inner or min(ends, default=None)
+    outer = piece.outer if math.isfinite(piece.outer) else max(ends, default=None)
+    if inner is None or outer is None or not inner < outer:
+        return
+    cuts = [inner, *(h for h in (_meet(conic, piece, 0.0) if conic.e > 0 else ()) if inner < h < outer), outer]
+    for low, high in zip(cuts, cuts[1:]):
+        yield (high, low) if high == piece.outer else (low, high)
+
+
+def _meet(conic, piece, q) -> list[float]:
+    """|h| on a piece where the invariant is q: Z^2 - e X^2 = q times h^2, a quartic."""
+    e, s, G = conic.e, conic.shift, conic.G
+    c, K = conic.c / G, conic.K / G
+    roots = real_roots_of([1.0, -2 * s, s * s - e * c * c - q, 2 * e * K * c, -e * K * K])
+    return sorted(abs(h) for h in roots if h * piece.sign > 0 and piece.inner < abs(h) < piece.outer)
+
+
+def _foot(conic, line):
+    """(t, Q) where the invariant is stationary along a line."""
+    a = line.dz**2 - conic.e * line.dx**2
+    t = -(line.z0 * line.dz - conic.e * line.x0 * line.dx) / a if a else 0.0
+    x, z = line.x0 + t * line.dx, line.z0 + t * line.dz
+    return t, z * z - conic.e * x * x
+
+
+def _on_line(conic, pot, line, limit):
+    """Intervals of t on a line where it holds saddles, each from its inner end outward."""
+    knots = [_foot(conic, line)[0]]
+    if conic.G:  # where the two lines cross
+        knots.append(-conic.d / conic.G - line.z0 if line.dz else -conic.c / conic.G - line.x0)
+    far = (2 * math.sqrt(limit) + abs(line.x0) + abs(line.z0)) / math.hypot(line.dx, line.dz) + max(map(abs, knots))
+    knots = sorted({-far, *knots, far})
+    for low, high in zip(knots, knots[1:]):
+        t = 0.5 * (low + high)
+        x, z = line.x0 + t * line.dx, line.z0 + t * line.dz
+        if pot.slope((x, z) if conic.e < 0 else (x + z, x - z)) > 0:
+            yield (low, high) if abs(low) < abs(high) else (high, low)

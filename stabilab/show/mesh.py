@@ -4,6 +4,7 @@ from __future__ import annotations
 import json
 import struct
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -21,21 +22,62 @@ class Mesh:
 def triangulate(sheet) -> Mesh:
     """The mesh of a sheet. Points of the grid that coincide (a row shrunk to the fold; columns 0 and -1 at the
     saddle) become one vertex, and triangles that lost a corner or their area are dropped."""
-    points = np.ascontiguousarray(sheet.points, dtype=float)
-    rows, columns = points.shape[:2]
-    flat = points.reshape(-1, 3) + 0.0  # -0.0 and 0.0 are one place
-    vertices, where = np.unique(flat, axis=0, return_inverse=True)
-    where = where.reshape(rows, columns)
-    a, b, c, d = where[:-1, :-1], where[1:, :-1], where[:-1, 1:], where[1:, 1:]
-    triangles = np.stack([np.stack([a, b, c], -1), np.stack([c, b, d], -1)], axis=2).reshape(-1, 3)
-    distinct = (triangles[:, 0] != triangles[:, 1]) & (triangles[:, 1] != triangles[:, 2]) & (triangles[:, 2] != triangles[:, 0])
-    triangles = triangles[distinct]
+    points = np.ascontiguousarray(sheet.points, dtype=float) + 0.0  # -0.0 and 0.0 are one place
+    residual = np.abs(np.asarray(sheet.residual, float))
+    tip, closed = bool((points[0] == points[0, 0]).all()), bool((points[:, 0] == points[:, -1]).all())
+    kept = np.s_[int(tip):, :points.shape[1] - int(closed)]
+    if _coincide(points, kept):
+        return _merged(sheet, points, residual)
+    if closed:
+        residual = np.maximum(residual, residual[:, [-1, *range(1, residual.shape[1])]])
+    vertices, values = points[kept].reshape(-1, 3), residual[kept].ravel()
+    if tip:
+        vertices, values = np.concatenate([points[0, :1], vertices]), np.append(residual[0].max(), values)
+    return Mesh(sheet.name, vertices, _plain_triangles(*points.shape[:2], tip, closed, sheet.cut), values)
+
+
+def _coincide(points, kept) -> bool:
+    """Whether neighbours of a grid, or a point and its mirror image, coincide elsewhere than at a tip and at saddles."""
+    rest, same = points[kept], lambda a, b: bool((a == b).all(axis=-1).any())
+    half = points.shape[1] // 2
+    there = points[kept[0]]
+    return (same(rest[1:], rest[:-1]) or same(rest[:, 1:], rest[:, :-1])
+            or same(there[:, 1:half], there[:, -2:-half - 1:-1]))
+
+
+def _merged(sheet, points, residual) -> Mesh:
+    """The mesh where any points may coincide."""
+    vertices, where = np.unique(points.reshape(-1, 3), axis=0, return_inverse=True)
+    triangles = _triangles(where.reshape(points.shape[:2]), sheet.cut)
     corner = vertices[triangles]
     area = np.linalg.norm(np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]), axis=1)
-    triangles = triangles[area > 0]
-    residual = np.zeros(len(vertices))
-    np.maximum.at(residual, where.ravel(), np.abs(np.asarray(sheet.residual, float)).ravel())
-    return Mesh(sheet.name, vertices, triangles, residual)
+    largest = np.zeros(len(vertices))
+    np.maximum.at(largest, where.ravel(), residual.ravel())
+    return Mesh(sheet.name, vertices, triangles[area > 0], largest)
+
+
+@lru_cache(maxsize=32)
+def _plain_triangles(rows, columns, tip, closed, cut):
+    """Triangles of a grid whose points are distinct but for a tip (row 0) and the saddles (columns 0 and -1)."""
+    where = np.arange((rows - tip) * (columns - closed)).reshape(rows - tip, columns - closed) + int(tip)
+    if closed:
+        where = np.concatenate([where, where[:, :1]], axis=1)
+    if tip:
+        where = np.concatenate([np.zeros((1, columns), int), where])
+    triangles = _triangles(where, cut)
+    triangles.flags.writeable = False  # meshes of one shape share it
+    return triangles
+
+
+def _triangles(where, cut):
+    """(t, 3) triangles of a grid of vertex numbers (n, m), cut as the sheet says, without those that lost a corner."""
+    a, b, c, d = where[:-1, :-1], where[1:, :-1], where[:-1, 1:], where[1:, 1:]
+    along = np.stack([np.stack([a, b, d], -1), np.stack([a, d, c], -1)], axis=2)
+    against = np.stack([np.stack([a, b, c], -1), np.stack([c, b, d], -1)], axis=2)
+    first = np.arange(where.shape[1] - 1) < where.shape[1] // 2
+    triangles = np.where((first == (cut > 0))[:, None, None], along, against).reshape(-1, 3)
+    p, q, r = triangles.T
+    return triangles[(p != q) & (q != r) & (r != p)]
 
 
 def normals(mesh: Mesh) -> np.ndarray:

@@ -1,0 +1,133 @@
+"""Rows and columns of a sheet, graded so that its flat facets stray from the surface about equally everywhere.
+
+A facet's edge with steps (du, ds) of the parameters strays from a surface r(u, s) with unit normal n by
+|L du^2 + 2 M du ds + N ds^2|/8, where L = r_uu.n, M = r_us.n, N = r_ss.n. Differences on a small trial grid give them:
+columns stand uniformly in the integral of sqrt|L|, rows in that of sqrt|N|, each for the worst of the others, and the
+numbers that an asked-for distance needs follow. The finished grid is measured in the same way.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .loops import Loops, loops
+
+TRIAL = 17              # rows and columns of the trial grid
+FLOOR = 0.3             # of the mean density: no gap where a sheet happens to be straight
+MIXTURES = np.array([1.0, 1.5, 2.0])  # columns against rows, relative to where both alone stray equally
+STRAIGHT = 1e-6         # of a sheet's size: a lesser sag between neighbours of the trial grid does not matter
+SHORT = 0.9995          # how far rows go towards a plane Q = 0
+UNIFORM = 0.2           # of the fold's radius: up to there trial rows are uniform
+SAFETY, ROUNDS, MOST = 1.03, 5, 1025  # the numbers of rows and columns grow by that much more, so often, up to there
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Loops of k strips; cut: +1 where quads of the first half are cut from (row, column) to (row + 1, column + 1), -1
+    the other way; error: (k,) largest distance of facets from the surface."""
+
+    loops: Loops
+    cut: int
+    error: np.ndarray
+
+
+def grid(land, strips, shape=None, accuracy=None) -> Grid:
+    """The graded loops of strips (see `loops`): shape (rows, columns of a half), or, without one, as few of both as keep
+    facets within `accuracy` of the sheets."""
+    trial = np.array([_trial_rows(land, along) for along, _ in strips])
+    even = np.linspace(0, 1, TRIAL)
+    first = loops(land, strips, trial, np.broadcast_to(even, trial.shape))
+    across, twist, down = _second_forms(land, first)
+    straight = STRAIGHT * np.abs(first.points).max()
+    dense_columns, columns = _density(across, 1, ((0, 0), (1, 0)), straight)
+    dense_rows, rows = _density(down, 2, ((0, 0), (1, 1)), straight)
+    if shape is None:
+        c, r = dense_columns[:, None, 1:], dense_rows[:, 1:-1, None]
+        shape = _numbers(across / (c * c), twist / (c * r), down / (r * r), columns[:, -1], rows[:, -1], accuracy)
+    for _ in range(ROUNDS):
+        s = _even_steps(rows, trial, shape[0])
+        made = loops(land, strips, s, _even_steps(columns, np.broadcast_to(even, trial.shape), shape[1]))
+        strays = _stray(*_second_forms(land, made), np.array([1, -1])[:, None, None, None])
+        best = int(np.argmin(strays.max(axis=1)))
+        worst = strays[best].max()
+        if accuracy is None or worst <= accuracy or min(shape) == MOST:
+            break
+        grow = SAFETY * np.sqrt(worst / accuracy)
+        shape = tuple(min(int(np.ceil((number - 1) * grow)) + 1, MOST) for number in shape)
+    return Grid(made, (1, -1)[best], strays[best])
+
+
+def _numbers(across, twist, down, columns, rows, accuracy):
+    """(rows, columns of a half) for facets within `accuracy`, from the forms (k, i, j) per squared density and the total
+    lengths (k,): the mixture and the cut with the fewest cells; all strips share them."""
+    mix = MIXTURES[:, None, None, None, None]
+    cut = np.array([1, -1])[:, None, None, None]
+    size = np.sqrt(_stray(across / mix**2, twist / mix, down, cut) / accuracy)  # (mixtures, cuts, k)
+    columns, rows = (size * columns * MIXTURES[:, None, None]).max(axis=-1), (size * rows).max(axis=-1)
+    best = np.unravel_index(np.argmin(columns * rows), rows.shape)
+    return tuple(int(np.clip(np.ceil(SAFETY * number[best]) + 1, 3, MOST)) for number in (rows, columns))
+
+
+def _second_forms(land, loops):
+    """(L, M, N), each (k, n - 2, m - 1), per step of the grid, at inner rows and all columns but the first: beyond the
+    far end the loop comes back as its mirror image. 0 beside rows without a loop."""
+    k, n, m = loops.w.shape
+    axis = land.reduction.axis
+    r = np.empty((3, k, n, m + 1))
+    r[..., :-1] = np.moveaxis(loops.points, -1, 0)
+    r[..., -1] = r[..., -3]
+    r[axis, ..., -1] = 2 * r[axis, ..., -2] - r[axis, ..., -3]
+    dot = lambda a, b: np.einsum("cknm,cknm->knm", a, b)
+    here, round_ = r[:, :, 1:-1, 1:-1], r[..., 2:] - r[..., :-2]
+    a, b = r[:, :, 2:, 1:-1] - r[:, :, :-2, 1:-1], round_[:, :, 1:-1]
+    normal = np.stack([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
+    size = np.sqrt(dot(normal, normal))
+    whole = loops.found[:, 2:] & loops.found[:, 1:-1] & loops.found[:, :-2]
+    normal *= whole[:, :, None] / np.maximum(size, np.finfo(float).tiny)
+    if loops.shared.any():  # the far end is a saddle, a corner of the loop and no bend
+        normal[:, loops.shared[:, 1:-1], -1] = 0
+    return (dot(r[:, :, 1:-1, 2:] - 2 * here + r[:, :, 1:-1, :-2], normal),
+            0.25 * dot(round_[:, :, 2:] - round_[:, :, :-2], normal),
+            dot(r[:, :, 2:, 1:-1] - 2 * here + r[:, :, :-2, 1:-1], normal))
+
+
+def _stray(across, twist, down, cut):
+    """Largest distance (..., k) of the edges' mid-points and the centres of a quad's facets from the surface."""
+    diagonal = across + down + 2 * cut * twist
+    edges = np.maximum(np.abs(diagonal), np.maximum(np.abs(across), np.abs(down)))
+    return np.maximum(edges / 8, np.abs(across + down + diagonal) / 18).max(axis=(-1, -2))
+
+
+def _density(form, other, edges, straight):
+    """(densities (k, j), their integral from the first on (k, j)) of rows or columns, from the form at inner ones and
+    the worst over the other axis; at the edges as beside them."""
+    inner = np.sqrt(np.abs(form).max(axis=other))
+    density = np.pad(inner, edges, mode="edge")
+    density = density + (FLOOR * density.mean(axis=1, keepdims=True) + np.sqrt(straight))
+    length = np.zeros(density.shape)
+    np.cumsum(0.5 * (density[:, 1:] + density[:, :-1]), axis=1, out=length[:, 1:])
+    return density, length
+
+
+def _even_steps(length, at, number):
+    """(k, number) parameters between those of `at` (k, j) at even steps of `length` (k, j)."""
+    out = np.array([np.interp(np.linspace(0, way[-1], number), way, x) for way, x in zip(length, at)])
+    out[:, -1] = at[:, -1]
+    return out
+
+
+def _trial_rows(land, along, dense=129):
+    """(TRIAL,) parameters s of rows: the saddle moves on by equal steps near the fold and by equal factors far out, where
+    the sheet only grows and hardly bends."""
+    s = 0.5 - 0.5 * np.cos(np.linspace(0, np.pi, dense))
+    place = along(s)
+    way = np.zeros(dense)
+    np.cumsum(np.hypot(np.diff(place[0]), np.diff(place[1])), out=way[1:])
+    q = land.invariant((place[0][[0, -1]], place[1][[0, -1]]))
+    start = max(UNIFORM * np.sqrt(abs(q[0])), 0.03 * way[-1])
+    stretched = np.log1p(way / start)
+    s = np.interp(np.linspace(0, stretched[-1], TRIAL), stretched, s)
+    # on a plane Q = 0 a loop need not close: the last row stays short of it
+    s[-1] = SHORT if land.e > 0 and abs(q[1]) < 1e-9 * abs(q[0]) else 1.0
+    return s
