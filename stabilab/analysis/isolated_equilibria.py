@@ -42,6 +42,12 @@ CONCAVE = Grounds(
 
 def off_axis_equilibria(p: Pencil) -> tuple[str, list[EquilibriumPoint], list[RationalCurve]]:
     """(reason, isolated points, curves) for M != 0 not an eigenvector of D."""
+    reason, states, curves = isolated_states(p)
+    return reason, sorted((isolated_point(p.form, x) for x in states), key=lambda e: e.at), curves
+
+
+def isolated_states(p: Pencil) -> tuple[str, list[tuple[Surd, Surd, Surd]], list[RationalCurve]]:
+    """The same with each isolated equilibrium as three exact surds."""
     start, v = meeting_line(p)
     q2, q1, q0 = quadratic_on_line(p, start, v)
     lead = "M is no eigenvector of D: the planes of the two balance conditions meet in a line, "
@@ -59,8 +65,7 @@ def off_axis_equilibria(p: Pencil) -> tuple[str, list[EquilibriumPoint], list[Ra
         roots = [Surd(middle)] if not disc else [Surd(middle, -half, disc), Surd(middle, half, disc)]
         why = ("on which a quadratic with a positive discriminant remains: two isolated equilibria" if disc else
                "on which a quadratic with a double root remains: one equilibrium, the fold of two")
-    states = [p.state(tuple(r * d + s for s, d in zip(start, v))) for r in roots]
-    return lead + why, sorted((isolated_point(p.form, x) for x in states), key=lambda e: e.at), []
+    return lead + why, [p.state(tuple(r * d + s for s, d in zip(start, v))) for r in roots], []
 
 
 def meeting_line(p: Pencil):

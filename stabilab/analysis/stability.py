@@ -71,10 +71,7 @@ def isolated_point(form, x: tuple[Surd, Surd, Surd]) -> EquilibriumPoint:
 
 def curve_with_verdicts(form, curve: RationalCurve) -> EquilibriumCurve:
     """Folds, segments and samples of a curve of equilibria (n = 0 along it)."""
-    m, _ = invariants(form, curve.numerators, curve.denominator)
-    for t in (*curve.poles, *curve.crossings):
-        m = m.without_root(t)
-    cuts = sorted({*curve.poles, *curve.crossings, *(real_roots(m) if m.degree > 0 else ())})
+    cuts = cuts_of(form, curve)
     ends = [None, *cuts, None]
     pieces = [_segment(form, curve, lo, hi) for lo, hi in zip(ends, ends[1:])]
     samples, folds = list(pieces[0][1]), []
@@ -86,6 +83,14 @@ def curve_with_verdicts(form, curve: RationalCurve) -> EquilibriumCurve:
         samples += points
     return EquilibriumCurve(curve.name, curve.equation, curve.parametrisation, curve.float_point(),
                             tuple(s for s, _ in pieces), tuple(folds), tuple(samples))
+
+
+def cuts_of(form, curve: RationalCurve) -> list[Fraction]:
+    """The parameters, rising, where stability may change: poles and crossings exactly, zeros of m to 160 bits."""
+    m, _ = invariants(form, curve.numerators, curve.denominator)
+    for t in (*curve.poles, *curve.crossings):
+        m = m.without_root(t)
+    return sorted({*curve.poles, *curve.crossings, *(real_roots(m) if m.degree > 0 else ())})
 
 
 def _segment(form, curve: RationalCurve, lo, hi):

@@ -112,6 +112,8 @@ def _check_fold(rates, curve, note, place, said, settled):
     both = signs[number] > 0 and signs[number + 1] > 0
     if not _agrees(ends, z) or linear != "degenerate":
         note(claim, "refuted", "m vanishes elsewhere, or does vanish here")
+    elif not rates.torque and ends[0] == ends[1] and rates.parallel and not any(curve.at(ends[0])):
+        note(claim, "proved" if verdict == "stable" else "refuted", "at rest without a torque: the energy is definite and constant")
     elif not settled or _crosses(rates, curve, ends):
         note(claim, "not checked", "curves of equilibria cross here, or the torque is oblique")
     else:

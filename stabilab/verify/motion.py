@@ -73,7 +73,11 @@ class _Facts:
         self.orbit = orbit
         circle, sense = orbit.kind < 0, exact_sign(orbit.tilt)
         self.ends, self.round = None, False
-        if circle and sense == 0:
+        if orbit.forceless():
+            self.fate, self.reason = "bounded", "no force along the orbit: this rate is constant, and so is the circle's radius"
+            if not circle:
+                raise Open
+        elif circle and sense == 0:
             self.fate, self.reason = "bounded", "no torque: the energy is constant and positive definite"
             ends = [_turning(orbit, side) for side in (-1, 1)]
             if None in ends:
@@ -101,7 +105,10 @@ class _Facts:
     def _extremes(self, sense):
         """[(low, high)] * 3 as balls, None where unbounded; None where they are not worked out here."""
         o = self.orbit
-        if self.ends is not None:
+        if o.forceless():
+            here = ball(o.y0 - o.s)
+            ranges = {o.axis: (here, here)} | dict(zip((o.j, o.k), _whole_circle(o)))
+        elif self.ends is not None:
             fastest = (-2 * _lowest(o, *self.ends)).sqrt()
             ranges = {o.axis: (-fastest - ball(o.s), fastest - ball(o.s))}
             ranges |= dict(zip((o.j, o.k), _ranges(o, *self.ends)))
@@ -242,7 +249,7 @@ def _ranges(orbit, left, right):
         # u'' = p (q u + q0), v'' = q (p v + p0)
         df = lambda x, w=which: ball(orbit.p if w == 0 else orbit.q) * orbit.slopes(x)[1 - w]  # noqa: E731
         values = [orbit.place(left)[which], orbit.place(right)[which]]
-        if not _constant(orbit, which):
+        if not orbit.constant(which):
             for z in zeros(f, df, low, high):
                 value = orbit.place(z)[which]
                 for end, there in ((left, values[0]), (right, values[1])):
@@ -254,12 +261,6 @@ def _ranges(orbit, left, right):
             least, most = least.min(value), most.max(value)
         out.append((least, most))
     return out
-
-
-def _constant(orbit, which) -> bool:
-    """Whether the component does not change along the orbit at all."""
-    first, second = orbit.p * orbit.v0 + orbit.p0, orbit.q * orbit.u0 + orbit.q0
-    return (first == 0 and orbit.p * second == 0) if which == 0 else (second == 0 and orbit.q * first == 0)
 
 
 def _whole_circle(orbit):
@@ -290,7 +291,7 @@ def _slowest_ahead(orbit, sense):
 
 def _released(orbit, ends):
     """(fate, reason) of an orbit without a wall on one side: pure spin, or a decaying plane of a hyperbola."""
-    if _constant(orbit, 0) and _constant(orbit, 1) and orbit.F0:
+    if orbit.constant(0) and orbit.constant(1) and orbit.F0:
         return "spin-up", "x_j and x_k stay constant, and so does the force"
     side = -1 if ends[0] is None else 1
     if orbit.kind > 0 and orbit.decays() == side == exact_sign(orbit.tilt):
@@ -317,6 +318,8 @@ def _check_numbers(claims, orbit, found, note):
 
 
 def _period(orbit, facts):
+    if orbit.forceless():
+        return orbit.turn / abs(ball(orbit.y0))
     return round_once(orbit) if facts.round else period_of(orbit, facts.ends)
 
 
@@ -333,6 +336,7 @@ def _check_extremes(claimed, found, note):
 
 
 def _within(true, low, high) -> str:
-    if ball(low) <= true.lower() and true.upper() <= ball(high):
+    least, most = below(true), above(true)
+    if low <= least and most <= high:
         return "proved"
-    return "not checked" if hull(low, high).overlaps(true) else "refuted"
+    return "not checked" if least <= high and low <= most else "refuted"

@@ -65,6 +65,15 @@ class Orbit:
         from flint import arb
         return 2 * arb.pi() / self.balls.n
 
+    def constant(self, which) -> bool:
+        """Whether u (0) or v (1) does not change along the orbit at all."""
+        first, second = self.p * self.v0 + self.p0, self.q * self.u0 + self.q0
+        return (first == 0 and self.p * second == 0) if which == 0 else (second == 0 and self.q * first == 0)
+
+    def forceless(self) -> bool:
+        """Whether the force vanishes all along."""
+        return not any((self.kappa, self.rho, self.sigma, self.m)) or (self.constant(0) and self.constant(1) and not self.F0)
+
     def place(self, alpha):
         """(u, v) at a ball alpha, real or complex."""
         g = self.balls

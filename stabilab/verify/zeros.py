@@ -77,16 +77,17 @@ def _bisected(f, df, a, b):
 
 
 def below(value) -> Fraction:
-    """A rational below a ball."""
-    return _exact(value.lower())
+    """The lower end of a ball, exactly."""
+    return _exact(value.mid()) - _exact(value.rad())
 
 
 def above(value) -> Fraction:
-    """A rational above a ball."""
-    return _exact(value.upper())
+    """The upper end of a ball, exactly."""
+    return _exact(value.mid()) + _exact(value.rad())
 
 
 def _exact(value) -> Fraction:
-    mantissa, exponent = (int(v) for v in value.mid().man_exp())
-    edge = Fraction(mantissa) * Fraction(2) ** exponent
-    return edge
+    """An exact ball as a fraction."""
+    value = value.mid() if value.is_exact() else value.upper()
+    mantissa, exponent = (int(v) for v in value.man_exp())
+    return Fraction(mantissa) * Fraction(2) ** exponent

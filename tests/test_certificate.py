@@ -1,0 +1,75 @@
+"""Certificates of the program's answers are proved by the separate checker, on cases of every kind."""
+import json
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, load
+from stabilab.analysis.certificate import certificate
+from stabilab.verify import verify
+
+CASES = sorted((Path(__file__).parent.parent / "cases").glob("*.toml"))
+# what the checker leaves open, by the documentation: crossings of curves, planes of equilibria, extremes on an invariant plane
+OPEN = {"torque-free-gyrostat": "fold", "symmetric-body": "complete", "middle-axis-spin-up": "x"}
+
+
+def checked(scene, state=None):
+    """The findings on a certificate that went through its file's form."""
+    return verify(json.loads(json.dumps(certificate(scene, state))))
+
+
+@pytest.mark.parametrize("path", CASES, ids=lambda p: p.stem)
+def test_the_certificate_of_a_case_is_proved(path):
+    case = load(path)
+    found = checked(case.scene, case.state) if case.scene.plain else None
+    if found is None:
+        assert certificate(case.scene)["uncertified"]  # says why there is none
+        return
+    left = [f for f in found.findings if f.status != "proved"]
+    assert all(f.status == "not checked" and OPEN[path.stem] in f.claim for f in left), left
+
+
+def small(rng):
+    """A small rational: degenerate scenes (equal moments, aligned vectors, folds) come up often."""
+    return Fraction(int(rng.integers(-3, 4)), int(rng.choice([1, 2, 4])))
+
+
+def random_scene(rng, degenerate):
+    if rng.random() < 0.3:
+        pick = small if degenerate else (lambda r: Fraction(float(r.normal())))
+        return ScaledGyrostat(pick(rng), pick(rng), tuple(pick(rng) for _ in range(3)))
+    D = [Fraction(int(v)) for v in rng.integers(2, 5, 3)] if degenerate else [Fraction(float(v)) for v in rng.uniform(1, 2, 3)]
+    pick = small if degenerate else (lambda r: Fraction(float(r.normal())))
+    lam, M = ([pick(rng) if rng.random() < 0.6 else Fraction(0) for _ in range(3)] for _ in range(2))
+    return Scene(Body(D), Gyrostat(lam), ConstantTorque(M))
+
+
+@pytest.mark.parametrize("degenerate", [False, True], ids=["generic", "degenerate"])
+@pytest.mark.parametrize("count, seed", [(60, 1), pytest.param(3000, 2, marks=pytest.mark.slow)])
+def test_no_equilibrium_is_missed_or_invented(degenerate, count, seed):
+    # exact elimination by the checker: common real roots of the rates on the line, the conic, or the curve where the conditions meet
+    rng = np.random.default_rng(seed + degenerate)
+    for _ in range(count):
+        scene = random_scene(rng, degenerate)
+        left = [f for f in checked(scene).findings if f.status == "refuted"
+                or (f.status != "proved" and not degenerate and "curves of equilibria cross" not in f.reason)]
+        assert not left, (scene, left)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_motion_is_proved_for_states_of_any_size(seed):
+    rng = np.random.default_rng(seed)
+    for _ in range(6):
+        scene = ScaledGyrostat(float(rng.normal()), float(rng.normal()), (0, 0, float(rng.choice([-1, 1]))))
+        state = rng.normal(size=3) * 10 ** rng.uniform(-6, 6)
+        found = checked(scene, tuple(map(float, state)))
+        assert found.status == "proved", [f for f in found.findings if f.status != "proved"]
+
+
+def test_a_state_at_an_exact_equilibrium_is_one_and_its_neighbour_is_not():
+    scene = ScaledGyrostat(0, 0, (0, 0, 1))  # x2 x1 = -1 (theory.md, section 1)
+    assert certificate(scene, (Fraction(-3), Fraction(1, 3), 0))["motion"]["fate"] == "equilibrium"
+    near = certificate(scene, (-3.0, 1 / 3, 0.0))["motion"]  # the double nearest 1/3 is no equilibrium
+    assert near is None or near["fate"] != "equilibrium"
