@@ -16,6 +16,7 @@ from ..errors import InputError
 from .relief import EPS, TURN, Arrays, Plain
 
 POINTS = 16
+FIXED = TURN / 8  # length of panels that are not cut further
 SETTLED = 4e-15  # last coefficients against the first: some ten times what rounding leaves of them
 DEEPEST = 80  # halvings of a passage; 1e-12 from a separatrix takes 20
 NEWTON = 12
@@ -168,12 +169,12 @@ def inverted(integral, rate, half, wanted, f):
 
 
 class Panels:
-    """Time from the start of a chain of passages. evaluations: of dt/dx; starts: times at the panels' beginnings;
+    """Time from the start of a chain of passages; with fewer than `POINTS` points a panel none is cut further. evaluations: of dt/dx; starts: times at the panels' beginnings;
     ends_of: the panels of each passage; nodes, weights: of the whole chain, passage by passage."""
 
-    def __init__(self, chain, points=POINTS, adaptive=True):
+    def __init__(self, chain, points=POINTS):
         self.chain, self.points, self.evaluations = chain, points, 0
-        found = [self._cut(passage, adaptive) for passage in chain]
+        found = [self._cut(passage, points >= POINTS) for passage in chain]
         self.owner = [n for n, part in enumerate(found) for _ in part[0]]
         self.low, self.half, rate, integral = (np.concatenate([part[k] for part in found]) for k in range(4))
         self.rates, self.integrals = rate, integral
@@ -186,7 +187,10 @@ class Panels:
     def _cut(self, passage, adaptive):
         """(low ends, half lengths, coefficients of dt/dx (n, points), of t (n, points + 1)) of a passage's panels."""
         nodes, forward, integral = _rule(self.points)
-        live = [(a, b) for a, b in zip(passage.cuts, passage.cuts[1:])]
+        live = list(zip(passage.cuts, passage.cuts[1:]))
+        if not adaptive:
+            live = [(a + (b - a) * m / n, a + (b - a) * (m + 1) / n) for a, b in live
+                    for n in [math.ceil((b - a) / FIXED)] for m in range(n)]
         done = []
         for depth in range(DEEPEST + 1):
             ends = np.array(live)

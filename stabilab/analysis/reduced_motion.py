@@ -41,7 +41,7 @@ def _motion(ground: Relief, state, nodes, backwards):
         return Resting(state)
     if ground.e < 0 and ground.turn and not any(s.kind > 0 and s.at > 0 and s.kinetic < 0 for s in ground.spots):
         _refuse_ties(ground, ground.spots)
-        return SpinUp(ground, nodes or POINTS, nodes is None, backwards)
+        return SpinUp(ground, nodes or POINTS, backwards)
     if ground.e < 0 and not any(s.kind > 0 and s.kinetic < 0 for s in ground.spots):
         _refuse_ties(ground, ground.spots)
         return _rotation(ground, nodes)

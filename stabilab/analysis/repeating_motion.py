@@ -14,7 +14,7 @@ import numpy as np
 from .passages import Panels, Passing, Turning, turning_offset
 from .relief import EPS, TURN, Arrays, Plain
 
-SAMPLES = (64, 128, 256)
+SAMPLES = (64, 128, 256, 512)
 NOISE = 4e-16  # coefficients of phi below this are rounding
 DIP = 1e-3  # kinetic energy over a hill against the largest: below it the hill's own coordinate is needed
 CHUNK = 4096

@@ -62,14 +62,14 @@ class SpinUp(Motion):
 
     period = math.inf
 
-    def __init__(self, relief, points=POINTS, adaptive=True, backwards=False):
+    def __init__(self, relief, points=POINTS, backwards=False):
         self.relief, self.work = relief, relief.turn
         self.round = Turn(relief)
         number, y = self.round.where()
         rest = max(relief.drops, key=lambda drop: drop[0].at - TURN * drop[1])
         self.from_rest = relief.w < 0 or backwards or rest[1] <= FROM_REST
         first = self._rest_passage(*rest) if self.from_rest else (self.round.passing(number, y), number)
-        self._run_up(*first, points, adaptive)
+        self._run_up(*first, points)
         self.start = self._time_of(number, y) if self.from_rest else 0.0
         self.sense = -1.0 if relief.w < 0 else 1.0
         self.evaluations = self.early.evaluations + self.late.evaluations
@@ -86,12 +86,12 @@ class SpinUp(Motion):
             a = turning_offset(below, 1, self.round.sides[h][1])
         return Turning(below, a, 1, self.round.sides[h][1], spot.at - drop * TURN), h - drop * len(self.round.hills)
 
-    def _run_up(self, first, number, points, adaptive):
+    def _run_up(self, first, number, points):
         """Panels to the end of the first turn, and those of the turn after, which serve all that follow: they are smoother."""
         count, self.first = len(self.round.hills), number
         self.turn = number // count + 1
-        self.early = Panels([first, *map(self.round.passing, range(number + 1, self.turn * count))], points, adaptive)
-        self.late = late = Panels([self.round.passing(self.turn * count + h) for h in range(count)], points, adaptive)
+        self.early = Panels([first, *map(self.round.passing, range(number + 1, self.turn * count))], points)
+        self.late = late = Panels([self.round.passing(self.turn * count + h) for h in range(count)], points)
         nodes, weights = np.polynomial.legendre.leggauss(points)
         x, owner = late.low[:, None] + late.half[:, None] * (1 + nodes), np.array(late.owner)
         self.weights = (late.half[:, None] * weights).ravel()
