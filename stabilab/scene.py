@@ -16,7 +16,8 @@ ZERO3 = (Fraction(0),) * 3
 
 @dataclass(frozen=True)
 class Scene:
-    """A body and its effects, each at most once. Effects not named here do not exist for any later step."""
+    """A body and its effects, each at most once. Effects not named here do not exist for any later step, and one of zero
+    strength is not kept: it equals an absent one in every answer because it is absent."""
 
     body: Body
     effects: tuple[Effect, ...] = ()
@@ -31,7 +32,7 @@ class Scene:
             if names.count(name) > 1:
                 raise InputError(f"effect {name!r} is named twice; a scene holds each effect once")
         object.__setattr__(self, "body", body)
-        object.__setattr__(self, "effects", flat)
+        object.__setattr__(self, "effects", tuple(e for e in flat if e.acts))
 
     @property
     def blocks(self) -> tuple[str, ...]:

@@ -91,9 +91,9 @@ def test_drift_shows_a_law_broken():
 
 
 def test_quadratures_do_not_steer_the_steps():
-    """A torque-free scene has laws of rate zero, a torqued one not; with torque 0 the runs must be the same."""
+    """A torque-free scene has laws of rate zero, a torqued one not; a torque far below the last place leaves the run as it is."""
     free = trajectory(Scene(BODY), (1, 2, 3), [20.0], "DOP853")
-    named = trajectory(Scene(BODY, ConstantTorque((0, 0, 0))), (1, 2, 3), [20.0], "DOP853")
+    named = trajectory(Scene(BODY, ConstantTorque((0, 0, "1e-100"))), (1, 2, 3), [20.0], "DOP853")
     assert free.counters["steps"] == named.counters["steps"] and (free.states == named.states).all()
 
 

@@ -37,6 +37,11 @@ class Effect:
         """Symbol name to exact value, in the order of declaration."""
         return {}
 
+    @property
+    def acts(self) -> bool:
+        """Whether its strength differs from zero: every formula of an effect is linear in its parameters."""
+        return any(self.parameters().values())
+
     def momentum(self, p: dict) -> Triple | None:
         """Angular momentum carried inside the body, body frame, kg m^2/s, from the parameter symbols `p`."""
         return None

@@ -54,7 +54,7 @@ class LiquidCavity(Effect):
         complete, shape = table.required("density", "viscosity"), table.one_of("P0", "radius")
         if shape is None and not ("P0" in table or "radius" in table):
             table.fault("expected P0 (m^7) or the radius of a spherical cavity (m)")
-        values = {key: table.positive(key) for key in ("density", "viscosity", "P0", "radius")}
+        values = {key: table.positive(key, zero=key != "viscosity") for key in ("density", "viscosity", "P0", "radius")}
         law = table.text("torque", "consistent")
         if law not in TORQUES:
             table.fault(f'expected "consistent" or "printed", got "{law}"', "torque")
