@@ -6,10 +6,9 @@ every orbit complete and vectorised.
 """
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from fractions import Fraction
-
-import numpy as np
 
 from .rootfind import bracketed_newton, real_polynomial_roots
 
@@ -101,12 +100,14 @@ class Conic:
     def _nearly_straight(self, Q):
         """(n,) True where, inside the circle, the conic differs so little from a line that the line is the better guess
         (two moments equal to many digits): X = (K/h - c)/G would lose all digits. The caller polishes along the orbit."""
+        import numpy as np
         if self.e > 0 or not self.pieces or self.limit is None:
             return np.zeros(Q.shape, bool)
         return abs(self.G) * np.sqrt(Q) < 1e-6 * np.hypot(self.c, self.d)
 
     def _meet_piece(self, piece, Q):
         """The point of a piece where the invariant is Q."""
+        import numpy as np
         inner, outer, sign = piece.inner, piece.outer, piece.sign
         value = lambda size: self.invariant(sign * size)
         with np.errstate(all="ignore"):
@@ -121,10 +122,12 @@ class Conic:
 
     def _end(self, inner):
         """Limit of the invariant as |h| -> 0."""
+        import numpy as np
         return -self.e * np.inf if self.K else self.invariant(inner)
 
     def _solve(self, piece, Q):
         """|h| with invariant Q on a piece: plain Newton, longer next to a fold; the safe search for the rest."""
+        import numpy as np
         size, rest = np.empty(Q.shape), np.arange(Q.size)
         for steps in (6, 14):
             size[rest], done = self._solve_fast(piece, Q[rest], steps)
@@ -136,6 +139,7 @@ class Conic:
 
     def _solve_fast(self, piece, Q, steps):
         """(|h|, converged) by Newton's method from the asymptote of an open-ended piece of a circle's conic."""
+        import numpy as np
         if self.e > 0 or (piece.inner > 0) == np.isfinite(piece.outer):
             return np.empty(Q.shape), np.zeros(Q.shape, bool)
         K, c, G, s = self.K, self.c, self.G, self.shift
@@ -165,6 +169,7 @@ class Conic:
 
     def _solve_safely(self, piece, Q):
         """|h| by bracketed Newton in log|h|, in which both ends of an open-ended piece are powers."""
+        import numpy as np
         sign, K, c, G, s = piece.sign, self.K, self.c, self.G, self.shift
         root = np.sqrt(np.abs(Q))
         # bounds that no solution exceeds: |Z| and |X| are bounded by Q and by the other one's asymptote
@@ -189,6 +194,7 @@ class Conic:
 
     def _meet_line(self, line, Q):
         """Both points of a line where the invariant is Q: a quadratic in t."""
+        import numpy as np
         e = self.e
         a = line.dz**2 - e * line.dx**2
         b = line.z0 * line.dz - e * line.x0 * line.dx
@@ -207,11 +213,11 @@ class Conic:
 
 def _inside(inner, outer):
     """Two points inside (inner, outer), the first nearer to `inner`."""
-    if inner == 0 and np.isinf(outer):
+    if inner == 0 and math.isinf(outer):
         return 0.5, 2.0
     if inner == 0:
         return outer / 3, outer / 1.5
-    if np.isinf(outer):
+    if math.isinf(outer):
         return inner * 1.5, inner * 3
     return inner + (outer - inner) / 3, inner + (outer - inner) / 1.5
 

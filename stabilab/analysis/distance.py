@@ -17,6 +17,7 @@ from .reduction import reduce
 
 ROWS, COLUMNS, STARTS, NEWTON = 36, 15, 3, 40
 GRADING = 3  # s = t^3: rows uniform in t crowd at the fold, where a sheet narrows to a point
+PLANE = 24.0  # and near an invariant plane 1 - s falls to exp(-PLANE), as loops grow there with the root of 1/(1 - s)
 STEP = 1e-4  # of the differences that give the surface's tangents and curvature
 
 
@@ -64,13 +65,17 @@ class _Geometry:
         return self.rx * (x - self.x), self.rz * (z - self.z), (w - self.w) / self.n
 
     def sheets(self):
-        """The sheets that may hold the nearest point: it lies no further out than the state plus its distance to a fold."""
-        folds = [math.sqrt(abs(q)) for q in self.conic.fold_invariants] or [1.0]
-        reach = 2 + 2 * math.hypot(self.x, self.z) / max(*folds, 1e-300)
+        """The sheets that may hold the nearest point: it lies no further out than the state plus its distance to a fold (or,
+        where the saddles are on lines, to the innermost of them)."""
+        conic = self.conic
+        ends = [conic.at(h) for h in conic.folds] + [_at(line, _foot(conic, line)) for line in conic.lines] or [(0.0, 0.0)]
+        far = min(math.hypot(self.rx * (x - self.x), self.rz * (z - self.z), self.w / self.n) for x, z in ends)
+        radius = math.hypot(self.x, self.z) + far / min(abs(self.rx), abs(self.rz))
+        limit = max(4 * max(x * x + z * z for x, z in ends), 1.1 * radius * radius)
         sides = (-1,) if self.e < 0 and self.sense else (-1, 1)
-        for along in saddle_branches(self.conic, self.pot, reach):
+        for along, to_plane in saddle_branches(conic, self.pot, limit):
             for side in sides:
-                yield _Sheet(self, along, side)
+                yield _Sheet(self, along, side, to_plane)
 
 
 @dataclass(frozen=True)
@@ -81,10 +86,13 @@ class _Sheet:
     geometry: _Geometry
     along: object
     side: int
+    to_plane: bool
 
     def loop(self, t):
         """(saddle, signed length of its loop), None where no loop closes."""
         g, s = self.geometry, t ** GRADING
+        if self.to_plane:
+            s = 1 - (1 - s) * math.exp(-PLANE * t ** 4)
         x, z = self.along(s)
         saddle = (x, z) if g.e < 0 else (x + z, x - z)
         if s == 0:
@@ -184,19 +192,17 @@ def _dot(a, b) -> float:
 
 
 # --- branches of saddles
-def saddle_branches(conic, pot, reach):
-    """For every branch of saddles its place (X, Z) as a function of s in [0, 1], s = 0 at the fold, as far out as `reach`
-    times the radius sqrt|Q| of the outermost fold."""
-    base = [abs(q) for q in conic.fold_invariants]
-    base += [abs(_foot(conic, line)[1]) or abs(conic.K / conic.G if conic.G and conic.K else 1.0) for line in conic.lines]
-    limit = max(base, default=1.0) * reach * reach
+def saddle_branches(conic, pot, limit):
+    """For every branch of saddles its place (X, Z) as a function of s in [0, 1], s = 0 at the fold, as far out as |Q| = limit;
+    and whether s = 1 lies on an invariant plane."""
     for piece in conic.pieces:
         if piece.barrier:
             for start, end in _on_piece(conic, piece, limit):
-                yield lambda s, a=start, b=end, sign=piece.sign: conic.at(sign * (a + (b - a) * s))
+                yield (lambda s, a=start, b=end, sign=piece.sign: conic.at(sign * (a + (b - a) * s)),
+                       conic.e > 0 and abs(conic.invariant(piece.sign * end)) < 1e-9 * abs(conic.invariant(piece.sign * start)))
     for line in conic.lines:
         for start, end in _on_line(conic, pot, line, limit):
-            yield lambda s, a=start, b=end, on=line: (on.x0 + (a + (b - a) * s) * on.dx, on.z0 + (a + (b - a) * s) * on.dz)
+            yield (lambda s, a=start, b=end, on=line: _at(on, a + (b - a) * s)), False
 
 
 def _on_piece(conic, piece, limit):
@@ -219,23 +225,24 @@ def _meet(conic, piece, q) -> list[float]:
     return sorted(abs(h) for h in roots if h * piece.sign > 0 and piece.inner < abs(h) < piece.outer)
 
 
-def _foot(conic, line):
-    """(t, Q) where the invariant is stationary along a line."""
+def _at(line, t):
+    return line.x0 + t * line.dx, line.z0 + t * line.dz
+
+
+def _foot(conic, line) -> float:
+    """Where along a line the invariant is stationary."""
     a = line.dz**2 - conic.e * line.dx**2
-    t = -(line.z0 * line.dz - conic.e * line.x0 * line.dx) / a if a else 0.0
-    x, z = line.x0 + t * line.dx, line.z0 + t * line.dz
-    return t, z * z - conic.e * x * x
+    return -(line.z0 * line.dz - conic.e * line.x0 * line.dx) / a if a else 0.0
 
 
 def _on_line(conic, pot, line, limit):
     """Intervals of t on a line where it holds saddles, each from its inner end outward."""
-    knots = [_foot(conic, line)[0]]
+    knots = [_foot(conic, line)]
     if conic.G:  # where the two lines cross
         knots.append(-conic.d / conic.G - line.z0 if line.dz else -conic.c / conic.G - line.x0)
     far = (2 * math.sqrt(limit) + abs(line.x0) + abs(line.z0)) / math.hypot(line.dx, line.dz) + max(map(abs, knots))
     knots = sorted({-far, *knots, far})
     for low, high in zip(knots, knots[1:]):
-        t = 0.5 * (low + high)
-        x, z = line.x0 + t * line.dx, line.z0 + t * line.dz
+        x, z = _at(line, 0.5 * (low + high))
         if pot.slope((x, z) if conic.e < 0 else (x + z, x - z)) > 0:
             yield (low, high) if abs(low) < abs(high) else (high, low)

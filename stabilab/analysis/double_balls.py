@@ -231,11 +231,11 @@ class Doubles:
         while c and not c[0]:
             c.pop(0)
         slopes = _derivative(c)
-        for t in _knots(slopes):
+        for t in real_roots_of(slopes):
             value, size = _value_and_size(c, t)
             if not abs(value) > FLAT * size or not size < LARGEST:
                 raise Unclear
-        return [(_root_ball(c, slopes, t), 1) for t in _knots(c)]
+        return [(_root_ball(c, slopes, t), 1) for t in real_roots_of(c)]
 
 
 def _is_double(value, m) -> bool:
@@ -256,7 +256,7 @@ def _derivative(c):
     return [a * (len(c) - 1 - i) for i, a in enumerate(c[:-1])]
 
 
-def _knots(c) -> list[float]:
+def real_roots_of(c) -> list[float]:
     """Real roots of odd multiplicity, ascending: between those of the derivative, by Newton's method in a bracket. A pair
     that rounding hides lies where the polynomial is flat to rounding."""
     if len(c) < 2:
@@ -265,7 +265,7 @@ def _knots(c) -> list[float]:
         return [-c[1] / c[0]]
     # Fujiwara: no root exceeds twice the largest |a_i/a_0|^(1/i)
     bound = 2.0 * max(abs(a / c[0]) ** (1 / i) for i, a in enumerate(c) if i) or 1.0
-    ends = [-bound, *(t for t in _knots(_derivative(c)) if abs(t) < bound), bound]
+    ends = [-bound, *(t for t in real_roots_of(_derivative(c)) if abs(t) < bound), bound]
     return [_crossing(c, low, high) for low, high in zip(ends, ends[1:])
             if (_value_and_size(c, low)[0] > 0) != (_value_and_size(c, high)[0] > 0)]
 

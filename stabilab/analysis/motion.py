@@ -27,7 +27,7 @@ def motion(scene, state, span=None, brief=False) -> Motion:
     fields = _common(state, decided.label, decided.because, decided.axis, decided.sense)
     fields |= {"margin_energy": _finite(decided.margin), "tolerance": 1e-12,
                "extremes": extremes_of(reduction, state, decided.label)}
-    return Motion(**fields, **({} if brief else _rest(scene, reduction, state, decided.label)))
+    return Motion(**fields, **({} if brief else _rest(reduction, state, decided.label)))
 
 
 def _checked(state) -> tuple[float, float, float]:
@@ -52,10 +52,10 @@ def _finite(value):
     return float(value) if math.isfinite(value) else None
 
 
-def _rest(scene, reduction, state, label) -> dict:
-    from .distance import separatrix_distance
+def _rest(reduction, state, label) -> dict:
+    from .distance import distance_of
     from .one_period import period_of
-    return {"margin_velocity": _finite(float(separatrix_distance(scene, state))), "period": _repeats(period_of(reduction, state, label)),
+    return {"margin_velocity": _finite(distance_of(reduction, state)), "period": _repeats(period_of(reduction, state, label)),
             "invariants": invariants_of(reduction, state)}
 
 
