@@ -8,55 +8,24 @@ of the invariant planes Q = 0. Inputs are taken as exact; what doubles cannot de
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from enum import IntEnum
 from fractions import Fraction
 from functools import cached_property
 
 import numpy as np
 
 from ..errors import InputError
+from .barrier_table import barrier_table
 from .effective import effective
+from .fast_fate import compiled_loops
 from .landscape import EPS, TURN, Landscape, landscape
 from .precise import decide
+from .reasons import REASONS, Reason, rests
 from .results import Fate
+from .table_fate import label_by_table
 
 CHUNK = 16384
+TABLE_FROM = 5000  # a table costs some ten milliseconds to build, as much as the general formula needs for these
 ROUNDINGS = 64  # units of rounding allowed for in the error bound of a margin: some thirty operations, each counted twice
-
-
-class Reason(IntEnum):
-    """Why a label was given; `REASONS` has the words."""
-
-    BELOW_BARRIER = 0
-    ABOVE_BARRIER = 1
-    NO_BARRIER = 2
-    WALLS = 3
-    PLANE_CAPTURED = 4
-    PLANE_ESCAPES = 5
-    PURE_SPIN = 6
-    TIE = 7
-    AT_REST = 8
-    TORQUE_FREE = 9
-    ASYMPTOTIC = 10
-    UNBOUNDED_LAW = 11
-    OFF_AXIS = 12
-
-
-REASONS = {
-    Reason.BELOW_BARRIER: "the energy is below the barrier of the reduced potential that stands ahead of it in the direction of the torque",
-    Reason.ABOVE_BARRIER: "the energy exceeds every barrier of the reduced potential within one turn ahead, and each later turn is lower still",
-    Reason.NO_BARRIER: "the orbit's circle carries no equilibrium, so the reduced potential falls all the way in the direction of the torque",
-    Reason.WALLS: "the reduced potential grows without bound on both sides of the motion",
-    Reason.PLANE_CAPTURED: "on the invariant plane Q = 0, below the barrier that stands ahead",
-    Reason.PLANE_ESCAPES: "on the invariant plane Q = 0 that decays in the direction of the torque, above any barrier: a set of measure zero",
-    Reason.PURE_SPIN: "pure spin about the torque's axis: the other two rates stay where the torque does not see them",
-    Reason.TIE: "the energy equals the barrier's: the motion tends to the saddle equilibrium",
-    Reason.AT_REST: "an equilibrium lies within half a unit in the last place of the state",
-    Reason.TORQUE_FREE: "no torque: the kinetic energy is constant, and it is positive definite",
-    Reason.ASYMPTOTIC: "no torque, on an invariant plane: the motion tends to a permanent rotation",
-    Reason.UNBOUNDED_LAW: "|H|^2/2 - D_i T grows steadily at the rate lambda_i M_i: no motion is bounded",
-    Reason.OFF_AXIS: "the torque is off the principal axes: no integral of motion bounds or releases it, and none is known",
-}
 
 
 @dataclass(frozen=True)
@@ -107,25 +76,57 @@ def checked_states(states) -> np.ndarray:
     return array
 
 
-def fate(scene, states) -> FateResult:
+def fate(scene, states, fast=None) -> FateResult:
     """The fate of every state of an array (..., 3) in the scene's variables (rad/s, or x when scaled).
 
-    scene: Scene or ScaledGyrostat. Returns a FateResult. Raises InputError for arrays of another shape, for non-finite
-    numbers, and for scenes with effects that this analysis does not cover.
+    scene: Scene or ScaledGyrostat. fast: True for numba's compiled loops (the extra `fast`), False for NumPy alone, None
+    for numba where it is installed and the array is large; the two give the same bytes. Returns a FateResult. Raises
+    InputError for arrays of another shape, for non-finite numbers, for scenes with effects that this analysis does not
+    cover, and for fast=True without numba.
+
+    Arrays of `TABLE_FROM` states or more look the barrier up in a table of the scene; smaller ones, and any state that
+    is near a tie, a fold or an equilibrium, solve for it. Labels are the same either way; margins may differ by 1e-12 of
+    their terms, the kinetic energy and the barrier's height over the state.
     """
     scene, array = effective(scene), checked_states(states)
     flat = np.ascontiguousarray(array.reshape(-1, 3))
-    label_chunk = _labeller(scene)
     n = len(flat)
-    out = {"labels": np.empty(n, np.int8), "margins": np.empty(n), "axis": np.zeros(n, np.int8),
-           "sense": np.zeros(n, np.int8), "reasons": np.empty(n, np.int8)}
-    precise = 0
-    for start in range(0, n, CHUNK):
-        part = slice(start, min(start + CHUNK, n))
-        precise += label_chunk(flat[part], {name: column[part] for name, column in out.items()})
+    out = _columns(n)
+    table = barrier_table(scene) if n >= TABLE_FROM else None
+    if table is None:
+        precise = _label_all(scene, flat, out)
+    else:
+        rest = label_by_table(table, flat, out, compiled_loops(n, fast))
+        precise = _label_some(scene, flat, out, rest)
     shape = array.shape[:-1]
     return FateResult(**{name: column.reshape(shape) for name, column in out.items()}, precise=precise, scene=scene,
                       states=array)
+
+
+def _columns(n):
+    return {"labels": np.empty(n, np.int8), "margins": np.empty(n), "axis": np.zeros(n, np.int8),
+            "sense": np.zeros(n, np.int8), "reasons": np.empty(n, np.int8)}
+
+
+def _label_all(scene, flat, out) -> int:
+    """Fill the columns by the general formula; how many states needed many digits."""
+    label_chunk, precise = _labeller(scene), 0
+    for start in range(0, len(flat), CHUNK):
+        part = slice(start, min(start + CHUNK, len(flat)))
+        precise += label_chunk(flat[part], {name: column[part] for name, column in out.items()})
+    return precise
+
+
+def _label_some(scene, flat, out, indices) -> int:
+    """`_label_all` for the states at `indices`, in chunks of them."""
+    precise = 0
+    for start in range(0, len(indices), CHUNK):
+        part = indices[start:start + CHUNK]
+        columns = _columns(len(part))
+        precise += _label_all(scene, flat[part], columns)
+        for name, column in columns.items():
+            out[name][part] = column
+    return precise
 
 
 def _labeller(scene):
@@ -166,15 +167,8 @@ def equilibrium_mask(scene, states) -> np.ndarray:
         size = np.abs(terms[0]) + np.abs(terms[1]) + np.abs(terms[2]) + abs(m[i])
         candidate &= np.abs(rate) <= 16 * EPS * size
     for index in np.nonzero(candidate)[0]:
-        candidate[index] = _rests(form, states[index])
+        candidate[index] = rests(form, states[index])
     return candidate
-
-
-def _rests(form, state) -> bool:
-    x = [Fraction(float(v)) for v in state]
-    half = [Fraction(float(np.spacing(abs(v)))) / 2 if v else Fraction(0) for v in state]
-    rates, jacobian = form.rate(x), form.jacobian(x)
-    return all(abs(rate) <= sum(abs(a) * h for a, h in zip(row, half)) for rate, row in zip(rates, jacobian))
 
 
 def _label_circle(land: Landscape, states, out) -> int:

@@ -1,0 +1,260 @@
+"""The barrier ahead of a state from tables: the arithmetic, the same for arrays (NumPy) and for one state (compiled).
+
+Every function here is made of correctly rounded operations alone (+ - * / sqrt floor, comparisons) in a fixed order, so
+that both ways of running it give the same bytes; the angle and the logarithm are therefore written out as polynomials.
+"""
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+# Of an orbit's range of sizes (radius A of a circle, invariant Q of a hyperbola) on which one barrier stands:
+# low < size <= high; v = u/(bend u + width), u = sqrt(side (size - origin)), measured from the fold at `origin`;
+# growth: the part of the height that is linear in A. Hyperbola: lead = +1 where xi keeps the sign `sign`, -1 where
+# eta does; steep: bound of d height/dQ; bulk: size of the height's terms.
+LOW, HIGH, ORIGIN, SIDE, BEND, WIDTH, GROWTH, LEAD, SIGN, STEEP, BULK = range(11)
+DEGREE, ANGLE = 5, 6  # coefficients 0..5 of a height, then 6..7 of the barrier's angle in turns: one cache line
+
+SIGN_BOUND = 320 * 2.0**-52  # five times the units of rounding that the general formula allows for
+MARGIN_BOUND = 1e-3  # times 1e-12: what a margin here may lose against the size of its terms
+FOLD_BOUND = 1e-10  # nearer to a fold, relative, the general formula answers
+TURN_BOUND = 1e-4  # so near to a barrier, in turns, it is not clear here whether it stands ahead or a turn away
+FORCE_BOUND = 1e-11  # a force so small may be an equilibrium's
+PLANE_BOUND = 1e-9  # so near to an invariant plane the general formula answers
+FAR = 1e6  # rounding of the place may be this many times the radius
+
+TURN, TURNS = 2 * math.pi, 1 / (2 * math.pi)
+_TAN_PI_8, _PI_4, _PI_2, _PI = math.tan(math.pi / 8), math.pi / 4, math.pi / 2, math.pi
+_SQRT_HALF, _LOG_2 = math.sqrt(0.5), math.log(2.0)
+
+
+def pick(condition, yes, no):
+    """yes where the condition holds, else no."""
+    return np.where(condition, yes, no)
+
+
+def angle(x, z):
+    """atan2(x, z) to a unit of rounding of pi: reduced to |q| <= tan(pi/8), there a polynomial (Chebyshev, 3e-18)."""
+    ax, az = np.abs(x), np.abs(z)
+    small, large = np.minimum(ax, az), np.maximum(ax, az)
+    near = small > _TAN_PI_8 * large
+    q = pick(near, small - large, small) / pick(near, small + large, large)
+    t = q * q
+    p = -0.050854078345894844 + t * (0.03923044778479309 + t * -0.019175404711104935)
+    p = -0.0666451052550892 + t * (0.05858140904866328 + t * p)
+    p = -0.0909090457530649 + t * (0.07692183125376892 + t * p)
+    p = -0.14285714284665682 + t * (0.11111111015187018 + t * p)
+    p = -0.3333333333333333 + t * (0.19999999999995516 + t * p)
+    value = q + q * (t * p)
+    value = pick(near, _PI_4 + value, value)
+    value = pick(ax > az, _PI_2 - value, value)
+    value = pick(z < 0, _PI - value, value)
+    return pick(x < 0, -value, value)
+
+
+def logarithm(mantissa, exponent):
+    """log(mantissa 2^exponent) for mantissas in [1/2, 1): reduced to [sqrt 1/2, sqrt 2), there 2 artanh (Chebyshev, 2e-18)."""
+    low = mantissa < _SQRT_HALF
+    m = pick(low, 2 * mantissa, mantissa)
+    n = pick(low, exponent - 1.0, exponent + 0.0)
+    q = (m - 1) / (m + 1)
+    t = q * q
+    p = 0.15331710618210773 + t * 0.14616585424888623
+    p = 0.22222211130259878 + t * (0.18182889455674947 + t * p)
+    p = 0.39999999999899444 + t * (0.2857142862600327 + t * p)
+    return n * _LOG_2 + (2 * q + q * (t * (0.666666666666667 + t * p)))
+
+
+def cell_position(size, side, origin, bend, width, count):
+    """Position in [0, count] of an orbit's size along the cells of a range; inside the range it is exact."""
+    u = np.sqrt(np.maximum(side * (size - origin), 0.0))
+    return np.minimum(u / (bend * u + width), 1.0) * count
+
+
+def height_polynomial(c0, c1, c2, c3, c4, c5, t):
+    return c0 + t * (c1 + t * (c2 + t * (c3 + t * (c4 + t * c5))))
+
+
+def angle_polynomial(c6, c7, t):
+    return c6 + t * c7
+
+
+def circle_height(x, z, phase, form):
+    """Minus the potential of a place on a circle, but for the part that the barrier shares (sqrt of Q) or grows with."""
+    G, c, d, mu = form
+    y = pick(G > 0, x, z)
+    return mu * phase + 0.5 * abs(G) * y * y + c * x - d * z
+
+
+def force(x, z, form):
+    G, c, d, mu = form
+    return mu + (G * x + c) * z + d * x
+
+
+def terms(rounding, form):
+    """Size of the terms of the potential but its tilt, at places whose magnitudes add up to `rounding`."""
+    G, c, d, mu = form
+    return rounding * (abs(G) * rounding + abs(c) + abs(d))
+
+
+def ahead(barrier_angle, turns):
+    """(turns from the state to the barrier, rounded down; whether that is clear)."""
+    offset = barrier_angle - turns
+    whole = np.floor(offset)
+    return whole, np.abs((offset - whole) - 0.5) < 0.5 - TURN_BOUND
+
+
+def trusted(margin, height, energy, scale):
+    """True where the sign of a margin is certain and its digits are as good as the general formula's; false for NaN."""
+    whole = scale + energy
+    return (np.abs(margin) > SIGN_BOUND * whole) & (np.abs(height) + energy > MARGIN_BOUND * whole)
+
+
+def fold_is_clear(size, origin, rounding):
+    return np.abs(size - origin) > FOLD_BOUND * (rounding + abs(origin))
+
+
+# --- loops for the compiler: short passes over blocks that stay in the cache, each simple enough to run on whole vectors
+
+BLOCK = 512
+
+
+def circle_loop(states, axes, frame, form, ranges, cells, unit, margins, labels, reasons, unsure):
+    """Margins, labels and reasons of states (n, 3) on circles; unsure: where the general formula has to answer."""
+    x, z, energy, size = np.empty(BLOCK), np.empty(BLOCK), np.empty(BLOCK), np.empty(BLOCK)
+    phase, best, height, barrier_angle = np.empty(BLOCK), np.empty(BLOCK), np.empty(BLOCK), np.empty(BLOCK)
+    t, cell, clear = np.empty(BLOCK), np.empty(BLOCK, np.int32), np.empty(BLOCK, np.bool_)
+    for start in range(0, states.shape[0], BLOCK):
+        m = min(BLOCK, states.shape[0] - start)
+        places(states[start:start + m], axes, frame, x, z, energy)
+        polar(x, z, size, phase, best, clear, m)
+        for b in range(ranges.shape[0]):
+            positions(size, ranges[b], cells.shape[1], cell, t, m)
+            looked_up(cells[b], cell, t, height, barrier_angle, m)
+            raise_best(size, phase, height, barrier_angle, ranges[b, LOW], ranges[b, HIGH], ranges[b, GROWTH], form[3], best,
+                       clear, m)
+            keep_off_fold(x, z, size, ranges[b, ORIGIN], frame[6], clear, m)
+        circle_margins(x, z, energy, size, phase, best, frame[6], form, unit, margins[start:start + m], clear)
+        circle_labels(margins[start:start + m], best, clear, labels[start:start + m], reasons[start:start + m],
+                      unsure[start:start + m])
+
+
+def places(states, axes, frame, x, z, energy):
+    i, j, k = axes
+    for n in range(states.shape[0]):
+        x[n], z[n] = (states[n, j] + frame[0]) * frame[1], (states[n, k] + frame[2]) * frame[3]
+        w = (states[n, i] + frame[4]) * frame[5]
+        energy[n] = 0.5 * w * w
+
+
+def polar(x, z, size, phase, best, clear, m):
+    for n in range(m):
+        size[n], phase[n] = np.sqrt(x[n] * x[n] + z[n] * z[n]), angle(x[n], z[n])
+        best[n], clear[n] = -np.inf, True
+
+
+def positions(size, span, count, cell, t, m):
+    """Each state's cell of a range, and its place in it from -1 to 1."""
+    for n in range(m):
+        position = cell_position(size[n], span[SIDE], span[ORIGIN], span[BEND], span[WIDTH], count)
+        cell[n] = np.int32(np.minimum(np.floor(position), count - 1.0))
+        t[n] = 2 * (position - cell[n]) - 1
+
+
+def looked_up(cells, cell, t, height, barrier_angle, m):
+    """What the table says: the one pass that cannot run on whole vectors, so it holds nothing else."""
+    for n in range(m):
+        c = np.uint64(cell[n])
+        height[n] = height_polynomial(cells[c, 0], cells[c, 1], cells[c, 2], cells[c, 3], cells[c, 4], cells[c, 5], t[n])
+        barrier_angle[n] = angle_polynomial(cells[c, 6], cells[c, 7], t[n])
+
+
+def raise_best(size, phase, height, barrier_angle, low, high, growth, mu, best, clear, m):
+    """Raise `best` to the height of this barrier where it stands."""
+    for n in range(m):
+        whole, known = ahead(barrier_angle[n], phase[n] * TURNS)
+        value = height[n] + growth * size[n]
+        value = value + mu * TURN * whole
+        inside = (low < size[n]) & (size[n] <= high)
+        clear[n] = clear[n] & ((known & (value == value)) | (inside ^ True))
+        best[n] = pick(inside & (value > best[n]), value, best[n])
+
+
+def keep_off_fold(x, z, size, origin, shift, clear, m):
+    for n in range(m):
+        clear[n] = clear[n] & fold_is_clear(size[n], origin, np.abs(x[n]) + np.abs(z[n]) + shift)
+
+
+def circle_margins(x, z, energy, size, phase, best, shift, form, unit, margins, clear):
+    for n in range(margins.shape[0]):
+        rounding = np.abs(x[n]) + np.abs(z[n]) + shift
+        height = best[n] + circle_height(x[n], z[n], phase[n], form)
+        scale = form[3] * (TURN + rounding / size[n]) + terms(rounding, form)
+        margin = height - energy[n]
+        margins[n] = margin * unit
+        clear[n] = (clear[n] & (rounding < FAR * size[n]) & (np.abs(force(x[n], z[n], form)) > FORCE_BOUND * scale)
+                    & trusted(margin, height, energy[n], scale))
+
+
+def circle_labels(margins, best, clear, labels, reasons, unsure):
+    for n in range(margins.shape[0]):
+        above = margins[n] < 0
+        labels[n], reasons[n] = above, above + (best[n] == -np.inf)
+        unsure[n] = not clear[n]
+
+
+def hyperbola_loop(states, axes, frame, form, ranges, cells, unit, margins, labels, reasons, unsure):
+    """As `circle_loop`, on hyperbolas: margins to the barrier nearest in height, +inf without one; all are bounded."""
+    x, z, energy, size, nearest = np.empty(BLOCK), np.empty(BLOCK), np.empty(BLOCK), np.empty(BLOCK), np.empty(BLOCK)
+    clear = np.empty(BLOCK, np.bool_)
+    for start in range(0, states.shape[0], BLOCK):
+        m = min(BLOCK, states.shape[0] - start)
+        places(states[start:start + m], axes, frame, x, z, energy)
+        cone(x, z, frame[6], form, size, nearest, clear, m)
+        for b in range(ranges.shape[0]):
+            keep_off_cone_fold(x, z, size, ranges[b, ORIGIN], frame[6], clear, m)
+            lower_nearest(x, z, energy, size, ranges[b], cells[b], frame[6], form, nearest, clear, m)
+        for n in range(m):
+            margins[start + n] = nearest[n] * unit
+            unsure[start + n] = clear[n] ^ True
+
+
+def cone(x, z, shift, form, size, nearest, clear, m):
+    for n in range(m):
+        xi, eta, rounding = x[n] + z[n], x[n] - z[n], np.abs(x[n]) + np.abs(z[n]) + shift
+        size[n], nearest[n] = -xi * eta, np.inf
+        clear[n] = ((np.minimum(np.abs(xi), np.abs(eta)) > PLANE_BOUND * rounding)
+                    & (np.abs(force(x[n], z[n], form)) > FORCE_BOUND * (terms(rounding, form) + form[3])))
+
+
+def keep_off_cone_fold(x, z, size, origin, shift, clear, m):
+    for n in range(m):
+        rounding = np.abs(x[n]) + np.abs(z[n]) + shift
+        clear[n] = clear[n] & fold_is_clear(size[n], origin, rounding * rounding)
+
+
+def lower_nearest(x, z, energy, size, span, cells, shift, form, nearest, clear, m):
+    """Bring the margin of this barrier into `nearest` where it stands: few states, so one by one."""
+    G, c, d, mu = form
+    for n in range(m):
+        place = x[n] + span[LEAD] * z[n]
+        if span[LOW] < size[n] and size[n] <= span[HIGH] and place * span[SIGN] > 0:
+            rounding = np.abs(x[n]) + np.abs(z[n]) + shift
+            position = cell_position(size[n], span[SIDE], span[ORIGIN], span[BEND], span[WIDTH], cells.shape[0])
+            cell = min(int(position), cells.shape[0] - 1)
+            t = 2 * (position - cell) - 1
+            mantissa, exponent = math.frexp(np.abs(place))
+            tilt = mu * span[LEAD] * logarithm(mantissa, exponent)
+            height = height_polynomial(cells[cell, 0], cells[cell, 1], cells[cell, 2], cells[cell, 3], cells[cell, 4],
+                                       cells[cell, 5], t) + tilt
+            height = height + ((0.5 * G * x[n] + c) * x[n] + d * z[n])
+            margin = height - energy[n]
+            scale = hyperbola_scale(terms(rounding, form), tilt, rounding, place, mu, span[STEEP], span[BULK])
+            clear[n] = clear[n] & trusted(margin, height, energy[n], scale)
+            if np.abs(margin) < np.abs(nearest[n]):
+                nearest[n] = margin
+
+
+def hyperbola_scale(scale, tilt, rounding, place, mu, steep, bulk):
+    return scale + np.abs(tilt) + mu * (1 + rounding / np.abs(place)) + steep * rounding * rounding + bulk
