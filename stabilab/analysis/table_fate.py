@@ -91,33 +91,30 @@ def _hyperbolas(table, states, out):
     x, z, w = canonical(table, states)
     energy = 0.5 * w * w
     with np.errstate(all="ignore"):
-        margin, clear = hyperbola_margins(table, x, z, energy)
+        height, scale, clear = hyperbola_heights(table, x, z)
+        margin = height - energy
         np.multiply(margin, table.unit, out=out["margins"])
-    return ~clear
+        return ~(clear & (np.isposinf(height) | arithmetic.trusted(margin, height, energy, scale)))
 
 
-def hyperbola_margins(table, x, z, energy):
-    """(margin to the barrier nearest in height (n,), +inf without one; clear (n,)) of places on hyperbolas."""
+def hyperbola_heights(table, x, z):
+    """As `circle_heights` for places on hyperbolas, +inf without a barrier: an orbit has one at most, for two would take
+    three wells between and beside them, and five equilibria."""
     form, mu = table.form, table.form[3]
     G, c, d, _ = form
     xi, eta, rounding = x + z, x - z, np.abs(x) + np.abs(z) + table.frame[6]
     size, scale = -xi * eta, arithmetic.terms(rounding, form)
     clear = np.minimum(np.abs(xi), np.abs(eta)) > arithmetic.PLANE_BOUND * rounding
     clear &= np.abs(arithmetic.force(x, z, form)) > arithmetic.FORCE_BOUND * (scale + mu)
-    margin = np.full(x.shape, np.inf)
+    height = np.full(x.shape, np.inf)
     for r, columns in zip(table.ranges, table.columns):
         clear &= arithmetic.fold_is_clear(size, r[ORIGIN], rounding * rounding)
         place = xi if r[LEAD] > 0 else eta
         inside = np.nonzero((r[LOW] < size) & (size <= r[HIGH]) & (place * r[SIGN] > 0))[0]
-        if not inside.size:
-            continue
         coefficients, t = _looked_up(columns, r, size[inside])
         place, u, v = place[inside], x[inside], z[inside]
         tilt = mu * r[LEAD] * arithmetic.logarithm(*np.frexp(np.abs(place)))
-        height = arithmetic.height_polynomial(*coefficients[:ANGLE], t) + tilt
-        height = height + ((0.5 * G * u + c) * u + d * v)
-        here = height - energy[inside]
-        terms = arithmetic.hyperbola_scale(scale[inside], tilt, rounding[inside], place, mu, r[STEEP], r[BULK])
-        clear[inside] &= arithmetic.trusted(here, height, energy[inside], terms)
-        margin[inside] = np.where(np.abs(here) < np.abs(margin[inside]), here, margin[inside])
-    return margin, clear
+        here = arithmetic.height_polynomial(*coefficients[:ANGLE], t) + tilt
+        height[inside] = here + ((0.5 * G * u + c) * u + d * v)
+        scale[inside] = arithmetic.hyperbola_scale(scale[inside], tilt, rounding[inside], place, mu, r[STEEP], r[BULK])
+    return height, scale, clear
