@@ -187,6 +187,10 @@ class Loops:
     w: np.ndarray
     points: np.ndarray
 
+    def at_rows(self, rows) -> "Loops":
+        """The loops of some rows only."""
+        return Loops(*(v[:, :, rows] if name in ("saddle", "centre") else v[:, rows] for name, v in vars(self).items()))
+
 
 def loops(land, strips, s, u) -> Loops:
     """The loops of strips, pairs (place along a branch, side), at parameters s (k, n) along them and u (k, m) round them.

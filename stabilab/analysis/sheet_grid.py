@@ -19,7 +19,7 @@ MIXTURES = np.array([1.0, 1.5, 2.0])  # columns against rows, relative to where 
 STRAIGHT = 1e-6         # of a sheet's size: a lesser sag between neighbours of the trial grid does not matter
 SHORT = 0.9995          # how far rows go towards a plane Q = 0
 UNIFORM = 0.2           # of the fold's radius: up to there trial rows are uniform
-SAFETY, ROUNDS, MOST = 1.03, 5, 1025  # the numbers of rows and columns grow by that much more, so often, up to there
+SAFETY, ROUNDS, MOST = 1.03, 12, 1025  # rows and columns grow by that much more than asked, so often, up to there
 
 
 @dataclass(frozen=True)
@@ -37,23 +37,23 @@ def grid(land, strips, shape=None, accuracy=None) -> Grid:
     facets within `accuracy` of the sheets."""
     trial = np.array([_trial_rows(land, along) for along, _ in strips])
     even = np.linspace(0, 1, TRIAL)
-    first = loops(land, strips, trial, np.broadcast_to(even, trial.shape))
+    first, edge = _measured_loops(land, strips, trial, np.broadcast_to(even, trial.shape))
     across, twist, down = _second_forms(land, first)
     straight = STRAIGHT * np.abs(first.points).max()
     dense_columns, columns = _density(across, 1, ((0, 0), (1, 0)), straight)
-    dense_rows, rows = _density(down, 2, ((0, 0), (1, 1)), straight)
+    dense_rows, rows = _density(down, 2, ((0, 0), (1, 1)), straight, 8 * edge)
     if shape is None:
         c, r = dense_columns[:, None, 1:], dense_rows[:, 1:-1, None]
         shape = _numbers(across / (c * c), twist / (c * r), down / (r * r), columns[:, -1], rows[:, -1], accuracy)
     for _ in range(ROUNDS):
         s = _even_steps(rows, trial, shape[0])
-        made = loops(land, strips, s, _even_steps(columns, np.broadcast_to(even, trial.shape), shape[1]))
-        strays = _stray(*_second_forms(land, made), np.array([1, -1])[:, None, None, None])
+        made, edge = _measured_loops(land, strips, s, _even_steps(columns, np.broadcast_to(even, trial.shape), shape[1]))
+        strays = np.maximum(_stray(*_second_forms(land, made), np.array([1, -1])[:, None, None, None]), edge)
         best = int(np.argmin(strays.max(axis=1)))
         worst = strays[best].max()
         if accuracy is None or worst <= accuracy or min(shape) == MOST:
             break
-        grow = SAFETY * np.sqrt(worst / accuracy)
+        grow = max(SAFETY * np.sqrt(worst / accuracy), 1.1)
         shape = tuple(min(int(np.ceil((number - 1) * grow)) + 1, MOST) for number in shape)
     return Grid(made, (1, -1)[best], strays[best])
 
@@ -67,6 +67,23 @@ def _numbers(across, twist, down, columns, rows, accuracy):
     columns, rows = (size * columns * MIXTURES[:, None, None]).max(axis=-1), (size * rows).max(axis=-1)
     best = np.unravel_index(np.argmin(columns * rows), rows.shape)
     return tuple(int(np.clip(np.ceil(SAFETY * number[best]) + 1, 3, MOST)) for number in (rows, columns))
+
+
+def _measured_loops(land, strips, s, u):
+    """(loops at rows s, how far the chords between the last two rows stray from the sheet (k,)): towards a plane Q = 0 the
+    bend grows beyond what inner rows tell, so a row in between is measured."""
+    more = np.concatenate([s[:, :-1], 0.5 * (s[:, -2:-1] + s[:, -1:]), s[:, -1:]], axis=1)
+    all_ = loops(land, strips, more, u)
+    before, between, last = (all_.points[:, row] for row in (-3, -2, -1))
+    chord, way = (last - before)[:, 1:-1], (between - before)[:, 1:-1]
+    normal = np.cross(chord, between[:, 2:] - between[:, :-2])
+    size = np.maximum(np.linalg.norm(normal, axis=-1), np.finfo(float).tiny)
+    part = np.sum(way * chord, axis=-1) / np.maximum(np.sum(chord * chord, axis=-1), np.finfo(float).tiny)
+    part = np.clip(part, 0.1, 0.9)  # of the chord, where the row in between passes; the sag is largest at a half
+    sag = np.abs(np.sum(way * normal, axis=-1)) / size / (4 * part * (1 - part))
+    kept = np.delete(np.arange(more.shape[1]), -2)
+    there = all_.found[:, -3:].all(axis=1)
+    return all_.at_rows(kept), np.where(there, sag.max(axis=1), 0.0)
 
 
 def _second_forms(land, loops):
@@ -99,11 +116,12 @@ def _stray(across, twist, down, cut):
     return np.maximum(edges / 8, np.abs(across + down + diagonal) / 18).max(axis=(-1, -2))
 
 
-def _density(form, other, edges, straight):
+def _density(form, other, edges, straight, last=0.0):
     """(densities (k, j), their integral from the first on (k, j)) of rows or columns, from the form at inner ones and
-    the worst over the other axis; at the edges as beside them."""
+    the worst over the other axis; at the edges as beside them, at the last one at least as the form `last` (k,) asks."""
     inner = np.sqrt(np.abs(form).max(axis=other))
     density = np.pad(inner, edges, mode="edge")
+    density[:, -1] = np.maximum(density[:, -1], np.sqrt(last))
     density = density + (FLOOR * density.mean(axis=1, keepdims=True) + np.sqrt(straight))
     length = np.zeros(density.shape)
     np.cumsum(0.5 * (density[:, 1:] + density[:, :-1]), axis=1, out=length[:, 1:])

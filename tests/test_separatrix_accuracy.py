@@ -1,0 +1,111 @@
+"""Grids of the separatrix chosen by the largest distance between facets and surface."""
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import stabilab
+from stabilab.analysis.landscape import landscape
+from stabilab.analysis.loops import loop_end, polished
+from stabilab.analysis.saddle_branches import saddle_branches
+from stabilab.analysis.turning import spots_along
+from stabilab.errors import InputError
+from stabilab.show.mesh import triangulate
+
+from .oracles.pairs import PAPER_BODY, physical, scaled
+
+SCENES = {
+    "minor a<b": scaled(0.2, 0.4, (0, 0, 1))[0],
+    "minor physical": physical(PAPER_BODY, (100, 0, 0), (0, 0, 204.1))[0],
+    "middle, c = 3": scaled(0.5, 3.5, (0, 1, 0))[0],
+    "no torque": physical((3, 2, 1), (0.3, 0, 0), (0, 0, 0))[0],
+}
+
+
+def largest_stray(scene, sheets, exact=2) -> float:
+    """Largest distance from the separatrix of facets' centres and edges' mid-points: to first order |margin|/|gradient|
+    of the fates' margins, then by the search for the nearest point for the worst. Neither knows the grid."""
+    meshes = [triangulate(sheet) for sheet in sheets]
+    a, b, c = np.concatenate([mesh.points[mesh.triangles] for mesh in meshes]).swapaxes(0, 1)
+    middles = np.concatenate([(a + b + c) / 3, (a + b) / 2, (b + c) / 2, (c + a) / 2])
+    margins = lambda states: stabilab.fate(scene, states).margins
+    step = 1e-6 * np.abs(middles).max()
+    with np.errstate(all="ignore"):
+        slope = np.stack([(margins(middles + d) - margins(middles - d)) / (2 * step) for d in step * np.eye(3)], axis=-1)
+        first = np.nan_to_num(np.abs(margins(middles)) / np.linalg.norm(slope, axis=-1), posinf=0)
+    return stabilab.fate(scene, middles[np.argsort(first)[-exact:]]).velocity_margins.max()
+
+
+@pytest.mark.parametrize("name, accuracy", [("minor a<b", 3e-2), ("minor physical", 3e-2), ("middle, c = 3", 3e-2)])
+def test_facets_stay_within_the_accuracy_asked_for_and_not_far_below(name, accuracy):
+    scene = SCENES[name]
+    sheets = stabilab.separatrix(scene, accuracy=accuracy).sheets
+    assert 0.5 * accuracy < max(sheet.error for sheet in sheets) <= accuracy
+    assert 0.3 * accuracy <= largest_stray(scene, sheets) <= accuracy
+
+
+def test_rows_and_columns_grow_like_the_root_of_the_accuracy():
+    """A flat facet of size h strays by a multiple of h^2."""
+    coarse, fine = (stabilab.separatrix(SCENES["minor a<b"], accuracy=a).sheets[0].points.shape for a in (3e-3, 3e-5))
+    for one, other in zip(coarse[:2], fine[:2]):
+        assert 8 < other / one < 13
+
+
+def test_the_error_of_a_given_shape_is_that_of_its_facets():
+    sheets = stabilab.separatrix(SCENES["minor a<b"], shape=(16, 33)).sheets
+    assert largest_stray(SCENES["minor a<b"], sheets) == pytest.approx(max(sheet.error for sheet in sheets), rel=0.15)
+
+
+def test_planes_of_a_free_body_need_the_smallest_grid_only():
+    """Euler's top parts at two planes."""
+    free = stabilab.Scene(stabilab.Body((3, 2, 1)))
+    for sheet in stabilab.separatrix(free, accuracy=1e-6).sheets:
+        assert sheet.points.shape == (3, 5, 3) and sheet.error < 1e-12
+
+
+@pytest.mark.parametrize("bad", [dict(accuracy=0), dict(accuracy=-1e-3), dict(accuracy=float("nan")),
+                                 dict(accuracy=1e-3, shape=(5, 9))])
+def test_a_bad_accuracy_is_refused(bad):
+    with pytest.raises(InputError, match="accuracy"):
+        stabilab.separatrix(SCENES["minor a<b"], **bad)
+
+
+@pytest.mark.parametrize("inertia, momentum, torque", [
+    ((3.0, 2.0, 1.5), (0.4, -0.7, 0), (0, 0, 0.3)), ((3.0, 2.0, 1.5), (0, 0.8, 0.0), (0.2, 0, 0)),
+    ((3, 2, 1), (0, 0, 0), (0, 0, 0.1)),
+    ((3, 2, 1), (5.0, -0.2, 0), (0, 0, -0.3)), ((2.0, 2.0 - 1e-9, 1.5), (0.3, 0.2, 0), (0, 0, 0.3))])
+def test_wells_from_the_cubic_of_a_circle_are_those_of_the_equilibrium_conic(inertia, momentum, torque):
+    """The conic's intersections with the circle share no code with the cubic for the angle from the saddle."""
+    land = landscape(physical(inertia, momentum, torque)[0])
+    for along in saddle_branches(land, 4.0):
+        s = np.linspace(0.02, 0.97, 41)
+        saddle = polished(land, tuple(np.asarray(v, float) for v in along(s)), s)
+        end, centre, found, shared = loop_end(land, saddle, -1)
+        assert not shared.any()
+        spots = spots_along(land, saddle, np.zeros(len(s)))
+        for row in np.nonzero(found)[0]:
+            passed = spots.there[row] & (spots.offset[row] < -1e-9) & (spots.offset[row] > end[row])
+            assert not (passed & spots.barrier[row] & (spots.energy[row] < 0)).any()
+            wells = passed & ~spots.barrier[row]
+            deepest = np.argmax(np.where(wells, spots.energy[row], -np.inf))
+            np.testing.assert_allclose(centre[:, row], spots.place[:, row, deepest], atol=1e-9 * np.abs(saddle).max())
+
+
+@pytest.mark.parametrize("cut", [1, -1])
+def test_both_cuts_of_a_grid_give_a_mesh_of_the_same_outline_and_the_mirror_image_of_itself(cut):
+    from dataclasses import replace
+    sheet = replace(stabilab.separatrix(SCENES["minor a<b"], shape=(6, 9)).sheets[0], cut=cut)
+    mesh = triangulate(sheet)
+    triangles = {frozenset(map(tuple, np.round(corner, 9) + 0.0)) for corner in mesh.points[mesh.triangles]}
+    mirrored = {frozenset(map(tuple, np.round(corner * [1, 1, -1], 9) + 0.0)) for corner in mesh.points[mesh.triangles]}
+    assert len(triangles) == len(mesh.triangles) == 2 * 8 * 5 - 8  # the tip takes one triangle of each of its quads
+    assert triangles == mirrored
+
+
+def test_a_grid_without_repeated_points_gives_the_mesh_that_merging_gives():
+    from stabilab.show.mesh import _merged
+    sheet = stabilab.separatrix(SCENES["minor a<b"], shape=(12, 17)).sheets[0]
+    plain, merged = triangulate(sheet), _merged(sheet, sheet.points + 0.0, np.abs(sheet.residual))
+    corners = lambda mesh: sorted(map(sorted, mesh.points[mesh.triangles].tolist()))
+    assert len(plain.points) == len(merged.points) and corners(plain) == corners(merged)
+    assert sorted(plain.residual) == sorted(merged.residual)
