@@ -13,10 +13,12 @@ from .timing import side_by_side
 HALF = 6.0        # of the side of the cube that the grid of margins fills
 REACH = 5.6       # with it the sheets go beyond every corner of the cube's section
 ACCURACY = 3e-3   # largest distance of our facets from the surface
-LIMIT = ("ours holds meshing too. What is left is some 600 calls of NumPy for arrays of a thousand numbers, most of them "
-         "1 to 5 microseconds each: a trial grid, the finished one, Newton steps for the loops' ends, the check of the "
-         "facets. Tried: all branches in one array, the far ends from a cubic in closed form instead of the general search "
-         "for equilibria, columns that follow the bend, a grid as coarse as the accuracy allows")
+LIMIT = ("ours holds meshing too. What limits it is the number of calls: many hundred of NumPy for arrays of a thousand "
+         "numbers at most (a trial grid, the finished one, Newton steps for the loops' ends, the check of the facets); a grid "
+         "of a tenth of the triangles takes almost as long. Tried: all branches in one array, far ends from a cubic in closed "
+         "form instead of the general search for equilibria, columns that follow the bend, a grid as coarse as the accuracy "
+         "allows, triangles from a template. Not tried: a compiled kernel for the loops")
+
 
 
 def rows(small=False) -> list[Row]:

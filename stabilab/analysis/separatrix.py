@@ -30,8 +30,9 @@ def separatrix(scene, reach: float | None = None, shape: tuple[int, int] | None 
     is no fold, of the smallest saddle's); must exceed 1. shape: (rows, columns) of each grid, at least (3, 5), an even
     number of columns becomes the next odd one (default (96, 129)). accuracy: in place of a shape, the largest distance
     allowed between the sheets and the flat facets of their meshes, in the unit of the points: the grids get as few rows
-    and columns as that needs, and every sheet tells as `error` what its facets were found to reach (more than asked for only where the largest
-    grids, 1025 rows, still bend as much). Points are in the scene's variables. A scene without saddles gives no sheets and the reason.
+    and columns as that needs, and every sheet tells as `error` what its facets were found to reach (more than asked for
+    only where the largest grids, of 1025 rows, still bend as much). Points are in the scene's variables. A scene without
+    saddles gives no sheets and the reason. Raises InputError for a shape, reach or accuracy out of range.
     """
     _check(reach, shape, accuracy)
     land = landscape(effective(scene))
