@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..errors import InputError
 from .effective import effective
 from .fate import CHUNK, checked_states, fate
 from .landscape import EPS, TURN, Landscape, landscape
@@ -20,43 +21,91 @@ DIGITS = 1e-12  # rounding that leaves less than this goes to ball arithmetic
 SHIFT_LIMIT = 1e4  # canonical variables lose this factor of accuracy to the shift before the precise path takes over
 
 
-def extremes(scene, states, span=None, digits: int | None = None):
+def extremes(scene, states, span=None, digits: int | None = None, fast: bool | None = None):
     """Smallest and largest value of each component over all t >= 0: array (..., 3, 2) in the scene's variables.
 
     +-inf where a component grows without bound; at an equilibrium both are the state. Scenes without a reduction need
     `span`, a time: their extremes hold over [0, span] (InputError without it). digits (1 to 50): reach so many and check
-    them (ToleranceNotMet otherwise); without it eleven, by the formulas' own bound. Raises InputError as `fate` does.
+    them (ToleranceNotMet otherwise); without it eleven, by the formulas' own bound. fast: whether numba (the extra `fast`)
+    may compile the work; None where it is installed and pays. Raises InputError as `fate` does, and where fast=True
+    finds no numba.
     """
     if digits is not None:
         from .precision_questions import ask_all
         return ask_all("extremes", scene, states, digits, span).required().values
     scene, array = effective(scene), checked_states(states)
-    flat = array.reshape(-1, 3)
+    if landscape(scene) is None:
+        from .irreducible import extremes_one_by_one
+        return extremes_one_by_one(scene, array.reshape(-1, 3), span).reshape(array.shape + (2,))
+    return extremes_and_periods(scene, array, fast, period=False)[0]
+
+
+def extremes_and_periods(scene, states, fast: bool | None = None, *, box=True, period=True):
+    """(extremes (..., 3, 2), periods (...,)) in one go, each as the function of its name gives it; None for one that
+    is not asked for. For scenes with a reduction only (InputError for others, and as `extremes` raises it)."""
+    scene, array = effective(scene), checked_states(states)
     land = landscape(scene)
     if land is None:
-        from .irreducible import extremes_one_by_one
-        return extremes_one_by_one(scene, flat, span).reshape(array.shape + (2,))
-    out = np.empty((len(flat), 3, 2))
+        raise InputError("extremes_and_periods: this scene has no reduction to one coordinate; ask for `extremes` with a"
+                         " span, or for `period`")
+    flat = np.ascontiguousarray(array.reshape(-1, 3))
+    boxes, periods = np.empty((len(flat) if box else 0, 3, 2)), np.empty(len(flat) if period else 0)
+    left_open = None
+    if fast is not False:
+        from .fast_extremes import by_kernel
+        left_open = by_kernel(land, flat, boxes, periods, fast)
     for start in range(0, len(flat), CHUNK):
-        part = flat[start:start + CHUNK]
-        out[start:start + CHUNK] = _chunk(land, part, fate(scene, part))
-    return out.reshape(array.shape + (2,))
+        rows = slice(start, start + CHUNK)
+        if left_open is None:
+            _fill(land, scene, flat[rows], boxes[rows], periods[rows])
+        elif left_open[rows].any():
+            _fill_open(land, scene, flat[rows], boxes[rows], periods[rows], left_open[rows])
+    return (boxes.reshape(array.shape + (2,)) if box else None, periods.reshape(array.shape[:-1]) if period else None)
 
 
-def _chunk(land: Landscape, states, decided):
+def _fill(land, scene, states, boxes, periods):
+    """One chunk: boxes (n, 3, 2) and periods (n,), each unless it is empty."""
+    decided = fate(scene, states)
+    start = land.start(states)
+    trapped = trapped_rows(land, decided)
+    span = interval(land, *_pick(start[0], start[1], trapped)) if len(boxes) and len(periods) and trapped.any() else None
+    if len(boxes):
+        boxes[:] = _chunk(land, states, decided, start, span)
+    if len(periods):
+        from .quadrature import period_chunk
+        periods[:] = period_chunk(land, states, decided, start, span)
+
+
+def _fill_open(land, scene, states, boxes, periods, bits):
+    """The same for those states of a chunk that the compiled kernel left open."""
+    for column, bit in ((boxes, 1), (periods, 2)):
+        rows = np.nonzero(bits & bit)[0]
+        if len(column) and len(rows):
+            some, none = np.empty((len(rows),) + column.shape[1:]), np.empty(0)
+            _fill(land, scene, states[rows], *((some, none) if bit == 1 else (none, some)))
+            column[rows] = some
+
+
+def trapped_rows(land, decided):
+    """(n,) True for motions between two turning points."""
+    trapped = decided.labels == Fate.BOUNDED
+    return trapped & (decided.margins >= 0) if land.e < 0 and land.sense == 0 else trapped
+
+
+def _chunk(land: Landscape, states, decided, start, span=None):
+    """span: the intervals of all `trapped_rows`, where they are known already."""
     out = np.repeat(states[:, :, None], 2, axis=2)
-    place, w, size = land.start(states)
+    place, w, size = start
     share = np.where(decided.labels == Fate.SPIN_UP, SPIN_UP_SHARE, EXTREMES_SHARE)
     precise = needs_digits(land, states) | near_separatrix(land, place, w, decided, share)
     precise |= decided.labels == Fate.SEPARATRIX
     precise &= decided.labels != Fate.EQUILIBRIUM
     labels = np.where(precise, -1, decided.labels)
-    trapped = labels == Fate.BOUNDED
-    if land.e < 0 and land.sense == 0:
-        rotating = trapped & (decided.margins < 0)
-        trapped &= ~rotating
-        _into(out, rotating, _rotating(land, *_pick(place, w, rotating)))
-    values, found = _trapped(land, *_pick(place, w, trapped))
+    rows = trapped_rows(land, decided)
+    trapped, rotating = rows & (labels == Fate.BOUNDED), ~rows & (labels == Fate.BOUNDED)
+    _into(out, rotating, _rotating(land, *_pick(place, w, rotating)))
+    span = None if span is None else span.take(trapped[rows])
+    values, found = _trapped(land, *_pick(place, w, trapped), span)
     _into(out, trapped, values)
     precise[np.nonzero(trapped)[0][~found]] = True
     spinning = labels == Fate.SPIN_UP
@@ -106,11 +155,11 @@ def _components(land, low, high, w_low, w_high):
     return np.stack([np.minimum(a, b), np.maximum(a, b)], axis=2)
 
 
-def _trapped(land, place, w):
+def _trapped(land, place, w, span=None):
     """Extremes of motions between two turning points, and where both were found."""
     if not len(w):
         return np.empty((0, 3, 2)), np.empty(0, bool)
-    span = interval(land, place, w)
+    span = interval(land, place, w) if span is None else span
     top = np.sqrt(2 * span.fastest)
     low, high = _place_range(land, place, span.left, span.right, span.left_place, span.right_place)
     values = _components(land, low, high, -top, top)
@@ -197,6 +246,8 @@ def _parabola_tops(land, place, left, right):
 
 def _rotating(land, place, w):
     """Torque-free motions over all barriers of the circle: the whole circle, one sign of W."""
+    if not len(w):
+        return np.empty((0, 3, 2))
     spots = spots_along(land, place, w)
     energy = np.where(spots.there, spots.energy, np.nan)
     with np.errstate(all="ignore"):
@@ -294,14 +345,14 @@ def _turn_back(land, place, w):
     return offset, np.maximum(fastest, 0.5 * w * w)
 
 
-def period(scene, states, digits: int | None = None):
+def period(scene, states, digits: int | None = None, fast: bool | None = None):
     """Period of each motion, (...,) in the scene's time: inf where the motion does not repeat, 0 at an equilibrium.
 
-    digits: as of `extremes`. Raises InputError as `fate` does, and for scenes whose motion has no known period (torque off
+    digits, fast: as of `extremes`. Raises InputError as `fate` does, and for scenes without a known period (torque off
     the axes).
     """
     if digits is not None:
         from .precision_questions import ask_all
         return ask_all("period", scene, states, digits).required().values
     from .quadrature import periods
-    return periods(scene, states)
+    return periods(scene, states, fast)

@@ -9,9 +9,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from .extremes import CHUNK, _pick, near_separatrix, needs_digits
+from .circle_kernel import ENOUGH, NARROW, NODES, divided_pair
 from .effective import effective
-from .fate import checked_states, fate
+from .extremes import _pick, extremes_and_periods, near_separatrix, needs_digits, trapped_rows
+from .fate import checked_states
 from .landscape import EPS, TURN, Landscape, landscape
 from .results import Fate
 from .turning import interval
@@ -19,37 +20,32 @@ from .turning import interval
 PERIOD_SHARE = 1e-5  # closer to the separatrix than this share of the energy terms, rounding costs the period 1e-11
 DIGITS = 1e-11  # rounding that leaves less than this goes to ball arithmetic
 TOLERANCE = 4e-15  # two successive rules agree to this: some twenty roundings
+PAIR_CHUNK = 2048  # a dozen arrays of so many doubles stay in the processor's second cache
 MIDPOINT_NODES = (16, 32, 64, 128, 256)
 
 
-def periods(scene, states):
+def periods(scene, states, fast=None):
     """See `extremes.period`."""
     scene, array = effective(scene), checked_states(states)
-    flat = array.reshape(-1, 3)
-    land = landscape(scene)
-    if land is None:
+    if landscape(scene) is None:
         from .irreducible import periods_one_by_one
-        return periods_one_by_one(scene, flat).reshape(array.shape[:-1])
-    out = np.empty(len(flat))
-    for start in range(0, len(flat), CHUNK):
-        part = flat[start:start + CHUNK]
-        out[start:start + CHUNK] = _chunk(land, part, fate(scene, part))
-    return out.reshape(array.shape[:-1])
+        return periods_one_by_one(scene, array.reshape(-1, 3)).reshape(array.shape[:-1])
+    return extremes_and_periods(scene, array, fast, box=False)[1]
 
 
-def _chunk(land: Landscape, states, decided):
+def period_chunk(land: Landscape, states, decided, start, span=None):
+    """(n,) periods of states with known fates and `land.start`; span: the intervals of the motions between two turning
+    points, where they are known already."""
     out = np.full(len(states), np.inf)
     out[decided.labels == Fate.EQUILIBRIUM] = 0.0
-    place, w, _ = land.start(states)
+    place, w, _ = start
     bounded = decided.labels == Fate.BOUNDED
     precise = (needs_digits(land, states) | near_separatrix(land, place, w, decided, PERIOD_SHARE)) & bounded
-    trapped = bounded & ~precise
-    if land.e < 0 and land.sense == 0:
-        rotating = trapped & (decided.margins < 0)
-        trapped &= ~rotating
-        out[rotating] = _rotation_period(land, *_pick(place, w, rotating))
+    rows = trapped_rows(land, decided)
+    trapped, rotating = rows & ~precise, bounded & ~rows & ~precise
+    out[rotating] = _rotation_period(land, *_pick(place, w, rotating))
     spot, speed = _pick(place, w, trapped)
-    values, found = libration_period(land, spot, speed)
+    values, found = libration_period(land, spot, speed, None if span is None else span.take(trapped[rows]))
     out[trapped] = values
     precise[np.nonzero(trapped)[0][~found]] = True
     if precise.any():
@@ -59,14 +55,14 @@ def _chunk(land: Landscape, states, decided):
     return out
 
 
-def libration_period(land: Landscape, place, w):
-    """(periods (n,), found (n,)) of motions between two turning points."""
+def libration_period(land: Landscape, place, w, span=None):
+    """(periods (n,), found (n,)) of motions between two turning points; span: their intervals where known already."""
     if not len(w):
         return np.empty(0), np.empty(0, bool)
-    span = interval(land, place, w)
+    span = interval(land, place, w) if span is None else span
     half = np.maximum(span.half, 1e-300)
     modes = Modes(land, span.middle)
-    values = _midpoint(modes, half)
+    values = _circle_periods(modes, half) if land.e < 0 else _midpoint(modes, half)
     return values, span.ok & np.isfinite(values) & _sharp(modes, half)
 
 
@@ -100,6 +96,49 @@ def _midpoint(modes, half):
                 return values
         before = now
     values[live] = _double_exponential(modes.take(live), half[live])
+    return values
+
+
+def _circle_periods(modes, half):
+    """`_midpoint` for circles: trapezoidal sums over mirrored pairs of nodes, which nest, doubled until the change says
+    that the next change would be rounding; the double-exponential rule takes the rest."""
+    values = np.empty(len(half))
+    for start in range(0, len(half), PAIR_CHUNK):
+        part = np.arange(start, min(start + PAIR_CHUNK, len(half)))
+        for narrow in (False, True):
+            rows = part[(half[part] < NARROW) == narrow]
+            if len(rows):
+                values[rows] = _pair_sums(modes, half, rows, narrow)
+    return values
+
+
+def _pair_sums(modes, half, rows, narrow):
+    values, live = np.full(len(rows), np.nan), np.arange(len(rows))
+    rho, (p1, q1, p2, q2) = half[rows], modes.data[:, rows]
+    whole_s, whole_c, total, before = np.sin(rho), np.cos(rho), np.zeros(len(rows)), None
+    first, size = 0, 8
+    while first < len(NODES):
+        last = first + size // 2 if first else 5
+        for node in range(first, last):
+            u = rho * NODES[node]
+            fu = np.sin(u) / u if NODES[node] else np.ones_like(u)
+            even, odd = divided_pair(u, fu, np.cos(u), rho, whole_s, whole_c, p1, q1, p2, q2, narrow)
+            weight = 0.5 if node in (0, 4) else 1.0  # the ends of [0, pi], and its middle, which is its own mirror image
+            with np.errstate(all="ignore"):
+                total += weight * (1 / np.sqrt(2 * (even + odd)) + 1 / np.sqrt(2 * (even - odd)))
+        size, first = size * 2 if first else size, last
+        now = total * (TURN / size)
+        if before is not None:
+            done = np.abs(now - before) <= ENOUGH * now
+            values[live[done]] = now[done]
+            if done.all():
+                return values
+            rest = ~done
+            live, now = live[rest], now[rest]
+            rho, p1, q1, p2, q2, whole_s, whole_c, total = (
+                a[rest] for a in (rho, p1, q1, p2, q2, whole_s, whole_c, total))
+        before = now
+    values[live] = _double_exponential(modes.take(rows[live]), half[rows[live]])
     return values
 
 

@@ -1,7 +1,7 @@
 """Where a bounded motion turns: the ends of its interval of the reduced coordinate, next to separatrices too."""
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
@@ -26,6 +26,10 @@ class Interval:
     ok: np.ndarray
     blur: np.ndarray
     haze: np.ndarray
+
+    def take(self, rows) -> "Interval":
+        """Those of some of the states."""
+        return Interval(**{field.name: getattr(self, field.name)[..., rows] for field in fields(self)})
 
 
 @dataclass(frozen=True)
