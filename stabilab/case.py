@@ -5,6 +5,7 @@ import math
 import os
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import NamedTuple
 
 from .body import Body
 from .case_expect import expected
@@ -111,8 +112,7 @@ def _built(path, text, data, faults, variant="") -> Case:
                 variant)
 
 
-@dataclass(frozen=True)
-class _Context:
+class _Context(NamedTuple):
     """What an effect may need of the rest of the case."""
 
     body: Body

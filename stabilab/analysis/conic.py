@@ -7,14 +7,13 @@ every orbit complete and vectorised.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from fractions import Fraction
+from typing import NamedTuple
 
 from .rootfind import bracketed_newton, real_polynomial_roots
 
 
-@dataclass(frozen=True)
-class Piece:
+class Piece(NamedTuple):
     """Part of the hyperbola X = (K/h - c)/G, Z = h - d/G with h between `inner` and `outer` in size (0 and inf at the
     open ends), of one sign; `rising`: Q grows with |h|. barrier: it holds saddles (maxima of the potential)."""
 
@@ -25,8 +24,7 @@ class Piece:
     barrier: bool
 
 
-@dataclass(frozen=True)
-class Line:
+class Line(NamedTuple):
     """Equilibria (x0 + t dx, z0 + t dz): a degenerate conic."""
 
     x0: float

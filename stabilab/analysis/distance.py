@@ -7,15 +7,13 @@ squared distance refines them. In plain floats: the question concerns one state 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-
 from .conic import Conic
 from .double_balls import real_roots_of
 from .loop import loop_end, settled_on
 from .potential import potential
 from .reduction import reduce
 
-ROWS, COLUMNS, STARTS, NEWTON = 36, 15, 3, 40
+ROWS, COLUMNS, STARTS, NEWTON = 28, 11, 3, 40
 GRADING = 3  # s = t^3: rows uniform in t crowd at the fold, where a sheet narrows to a point
 PLANE = 24.0  # and near an invariant plane 1 - s falls to exp(-PLANE), as loops grow there with the root of 1/(1 - s)
 STEP = 1e-4  # of the differences that give the surface's tangents and curvature
@@ -78,15 +76,12 @@ class _Geometry:
                 yield _Sheet(self, along, side, to_plane)
 
 
-@dataclass(frozen=True)
 class _Sheet:
     """Points over (t, phi): saddles from the fold (t = 0) outward, round each loop from its far end (phi = 0) to the saddle
     (phi = 1); phi < 0 is the other half of the loop."""
 
-    geometry: _Geometry
-    along: object
-    side: int
-    to_plane: bool
+    def __init__(self, geometry, along, side, to_plane):
+        self.geometry, self.along, self.side, self.to_plane = geometry, along, side, to_plane
 
     def loop(self, t):
         """(saddle, signed length of its loop), None where no loop closes."""

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Callable
+from typing import Callable, NamedTuple
 
 from ..errors import InputError
 from .polynomials import Poly
@@ -13,8 +13,7 @@ ONE_POLY = Poly((1,))
 Verdict = tuple[str, str]  # (word, because)
 
 
-@dataclass(frozen=True)
-class Grounds:
+class Grounds(NamedTuple):
     """Why a curve's points are what they are: verdicts for m > 0 and for a zero of m by the signs of m beside it."""
 
     positive: Verdict

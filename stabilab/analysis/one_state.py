@@ -8,8 +8,8 @@ Answers are those of `fate`, `extremes` and `period` for arrays: the same labels
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import NamedTuple
 
 from .precise import DOUBLE_BITS, TIE_BITS, PreciseOrbit, decide, settled, sign
 from .precise_extremes import extreme_balls
@@ -19,8 +19,7 @@ from .results import Fate
 INF = math.inf
 
 
-@dataclass(frozen=True)
-class OneFate:
+class OneFate(NamedTuple):
     """Fate of one state: as in `fate.FateResult`, the margin in the scene's energy."""
 
     label: Fate
@@ -38,9 +37,9 @@ def fate_of(scene, reduction, state) -> OneFate:
     """The fate of one state (three floats) of a scene with this reduction."""
     found = {-1: _on_circle, 1: _on_hyperbola, 0: _on_parabola}[reduction.e](reduction, state)
     unit = reduction.energy_unit
-    found = replace(found, margin=found.margin * unit)
+    found = found._replace(margin=found.margin * unit)
     if rests(scene.quadratic(), state):
-        return replace(found, label=Fate.EQUILIBRIUM, reason=Reason.AT_REST, axis=0, sense=0)
+        return found._replace(label=Fate.EQUILIBRIUM, reason=Reason.AT_REST, axis=0, sense=0)
     return found
 
 

@@ -9,8 +9,8 @@ So the equilibria of both are those of one Euler balance, with exact coefficient
 """
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
+from typing import NamedTuple
 
 from ..effects.base import cross, dot
 from ..quadratic import CYCLE, Exact3, QuadraticForm
@@ -18,8 +18,7 @@ from ..quadratic import CYCLE, Exact3, QuadraticForm
 ONE, ZERO = Fraction(1), Fraction(0)
 
 
-@dataclass(frozen=True)
-class Pencil:
+class Pencil(NamedTuple):
     """(D y + lam) x y + M = 0 with x_i = (y_i - u_i)/A_i; `form` gives the rates of x."""
 
     D: Exact3

@@ -7,9 +7,9 @@ answer most single states. The mechanics below is the same for both.
 """
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from typing import NamedTuple
 
 from .double_balls import Doubles, Unclear
 from .polynomials import Poly
@@ -122,8 +122,7 @@ def sign(number) -> int:
     raise Unclear
 
 
-@dataclass(frozen=True)
-class Spot:
+class Spot(NamedTuple):
     """An equilibrium on the orbit at offset y. kind: +1 a maximum of V (barrier), -1 a minimum (well), 0 neither."""
 
     y: object
@@ -335,8 +334,7 @@ class PreciseOrbit:
                 if s.kind > 0 and not (self.on_plane and s.y < 0)]
 
 
-@dataclass(frozen=True)
-class Tie:
+class Tie(NamedTuple):
     """Sign of a margin settled in many bits: sign 0 means that `bits` bits show no difference."""
 
     sign: int

@@ -12,10 +12,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from .array_results import Separatrix, Sheet
 from .effective import effective
 from .landscape import landscape
 from .loops import residual
-from .results import Separatrix, Sheet
 from .saddle_branches import saddle_branches, sides
 from .sheet_grid import Grid, grid
 

@@ -13,7 +13,7 @@ from ..blocks import BLOCKS, ORDER, slices
 from ..compiled import FEATHER, TAYLOR_TOLERANCE, _equations, borrowed_taylor, form, heyoka_available, to_numpy
 from ..equations import derive
 from ..errors import InputError
-from .results import Trajectory
+from .array_results import Trajectory
 
 SCIPY_METHODS = ("RK45", "RK23", "DOP853", "Radau", "BDF", "LSODA")
 METHODS = ("taylor", *SCIPY_METHODS)
