@@ -239,14 +239,13 @@ def turn(m, side, numbers, barrier, well, lane, end):
         over, under, wide = min(over, 0.0), max(under, 0.0), abs(b_at - w_at)
         start[a], level[a], towards[a] = (b_at if high else w_at), (over if high else under), (-side if high else side)
         anchor_x[a], anchor_z[a], gap[a] = (bx if high else wx), (bz if high else wz), wide
-        # from end to end V is nearly a cosine: in its angle psi, y is a cubic with the slopes that the curvatures give
         whole = under - over
         root = sqrt(min(-over, under) / whole)
         square = root * root
         psi = 2 / pi * root * (1 + square * (1 / 6 + square * (3 / 40 + square * (5 / 112 + square * 0.06))))
         at_b, at_w = pi / wide * sqrt(0.5 * whole / abs(b_bend[a])), pi / wide * sqrt(0.5 * whole / abs(w_bend[a]))
         near, far = (at_b if high else at_w), (at_w if high else at_b)
-        guess = wide * psi * (near * (1 - psi) * (1 - psi) + psi * (3 - 2 * psi) - far * psi * (1 - psi))
+        guess = wide * way_of_cosine(psi, near, far)
         y[a] = min(max(guess, 0.01 * psi * wide), wide)
     for rest in range(HALLEY_STEPS, -1, -1):
         last = 0.0 if rest == 0 else 1.0
@@ -273,6 +272,12 @@ def turn(m, side, numbers, barrier, well, lane, end):
         noise, place = EPS * terms * (abs(start[a]) + far), start[a] + towards[a] * far
         haze[a], blur[a] = noise, noise / blur[a] + EPS * abs(start[a]) + step
         at[a] = place if found else np.nan
+
+
+def way_of_cosine(psi, near, far):
+    """First guess of a turning point between a barrier and a well, as a share of the way: there V is nearly a cosine,
+    and in its angle psi (0 to 1) the way is a cubic with the slopes near, far that the curvatures at both ends give."""
+    return psi * (near * (1 - psi) * (1 - psi) + psi * (3 - 2 * psi) - far * psi * (1 - psi))
 
 
 def contains(angle, left, right, at):

@@ -17,7 +17,8 @@ from .circle_kernel import BOX, LINE, NODES, PERIOD
 from .landscape import Landscape
 
 PAYS = 20_000  # below this many orbits loading numba and its cached code (0.4 s) costs more than it saves
-INLINED = {"sinc_cos", "sinc_minus_cos", "y_minus_sin", "angle_of", "contains", "divided_pair"}  # else no loop vectorises
+INLINED = {"sinc_cos", "sinc_minus_cos", "y_minus_sin", "angle_of", "contains", "divided_pair",
+           "way_of_cosine"}  # else no loop vectorises
 FOLD_GUARD = 1e-4  # this close to a fold, relative, Newton's plain steps are not trusted
 
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
+from .circle_kernel import way_of_cosine
 from .landscape import EPS, TURN, Landscape
 from .rootfind import bracketed_newton
 
@@ -114,13 +115,18 @@ def turning_point(land, spots, place, w, side):
     reach = _reach(land, spot, level, gap, towards)
     curvature = np.maximum(np.abs(land.potential.slope(tuple(spot))), 1e-300)
     start = np.minimum(np.sqrt(2 * np.abs(level) / curvature), 0.5 * reach)
+    both = has_barrier & has_well
+    if both.any():
+        other = np.where(anchored_at_barrier, well, b)
+        start = np.where(both, _start_between(land, spots, rows, well, b, level, gap, spot, other), start)
 
     def fun(t, towards, level, *spot):
         rise = land.potential.rise(towards * t, spot)
         spot = land.potential.move(spot, towards * t)
         return rise - level, -towards * land.potential.force(spot)
     with np.errstate(all="ignore"):
-        y = bracketed_newton(fun, np.zeros(n), reach, start, (towards, level, *spot), rising=~anchored_at_barrier)
+        y = bracketed_newton(fun, np.zeros(n), reach, start, (towards, level, *spot), rising=~anchored_at_barrier,
+                             enough=1e-9)
     y = np.where(level == 0, 0.0, y) * towards
     end = np.array(land.potential.move(tuple(spot), y))
     start = spots.offset[rows, anchor]
@@ -129,6 +135,17 @@ def turning_point(land, spots, place, w, side):
         haze = EPS * land.potential.terms(tuple(spot)) * (np.abs(start) + np.abs(y))
         blur = haze / np.abs(land.potential.force(tuple(end))) + EPS * np.abs(start)
     return np.where(ok, start + y, 0.0), end, ok, blur, haze
+
+
+def _start_between(land, spots, rows, well, barrier, level, gap, spot, other):
+    """First guess of the way from the anchor to the turning point, where it lies between a well and a barrier."""
+    bend, far_bend = (np.abs(land.potential.slope(tuple(s))) for s in (spot, spots.place[:, rows, other]))
+    with np.errstate(all="ignore"):
+        whole = spots.energy[rows, well] - spots.energy[rows, barrier]
+        psi = 2 / np.pi * np.arcsin(np.sqrt(np.clip(np.abs(level) / whole, 0, 1)))
+        near, far = (np.pi * np.sqrt(0.5 * whole / b) / gap for b in (bend, far_bend))
+        guess = gap * way_of_cosine(psi, near, far)
+    return np.where((guess > 0) & (guess < gap), guess, 0.5 * gap)
 
 
 def _reach(land, spot, level, gap, towards):
