@@ -91,10 +91,15 @@ def extremes_csv(answered) -> str:
     """One line per case and component; inf where unbounded, empty where unknown."""
     rows = ["case,component,min,max,over"]
     for case, m in answered:
-        for name, pair in zip(case.scene.components, m.extremes or ((None, None),) * 3):
+        for name, pair in zip(case.scene.components, _pairs(m.extremes)):
             low, high = ("" if v is None else repr(float(v)) for v in pair)
             rows.append(f"{case.name},{name},{low},{high},{m.extremes_over}")
     return "\n".join(rows)
+
+
+def _pairs(extremes):
+    """Least and greatest of every component, None where unknown."""
+    return ((None, None),) * 3 if extremes is None else extremes
 
 
 def extremes_text(case, motion) -> str:
@@ -106,7 +111,7 @@ def extremes_text(case, motion) -> str:
 def _extreme_lines(case, pairs) -> list[str]:
     unit = UNITS[case.variables][0]
     return [f"  {name:<8}{_number(low):>24}{_number(high):>24}  {unit}".rstrip()
-            for name, (low, high) in zip(case.scene.components, pairs or ((None, None),) * 3)]
+            for name, (low, high) in zip(case.scene.components, _pairs(pairs))]
 
 
 def classification_text(case, equilibria, motion) -> str:
@@ -139,7 +144,7 @@ def _motion_lines(case, m) -> list[str]:
     lines += [f"  {_spaced(name):<24}{_number(value)}" for name, value in m.invariants.items()]
     lines += [f"  {_spaced(name):<24}{_number(value) if isinstance(value, float) else value}"
               for name, value in m.evidence.items() if value is not None]
-    return lines + ([f"  least and greatest over {m.extremes_over}:"] + _extreme_lines(case, m.extremes) if m.extremes else [])
+    return lines + ([f"  least and greatest over {m.extremes_over}:"] + _extreme_lines(case, m.extremes) if m.extremes is not None else [])
 
 
 def simulation_text(case, run) -> str:
