@@ -185,7 +185,7 @@ def precision(case: CaseFile, json: Json = False,
     from .analysis.precision_front import keep
     if out:
         shown.checked(out)
-    found = measure(_load([case], motion=True)[0], quick, until)
+    found = measure(_load([case], motion=True)[0], "quick" if quick else "full", until)
     keep(found)
     if out:
         shown.write(found, out)

@@ -38,6 +38,12 @@ class Page(HTMLParser):
             self.faults.append(f"stray </{tag}> at {self.getpos()}")
 
 
+def _small_page(cases, folder, tell):
+    path = folder / "small.html"
+    path.write_text(f"<!DOCTYPE html><title>{len(cases)}</title>", encoding="utf-8")
+    return path
+
+
 @pytest.fixture(scope="module")
 def light(tmp_path_factory):
     """A report on one hostile case with one figure, on a machine that cannot draw in 3-D."""
@@ -47,6 +53,7 @@ def light(tmp_path_factory):
     patch.setattr(figures, "FIGURES", (figures.figure(9),))
     patch.setattr(figures, "NUMBERS", (9,))
     patch.setattr(chapters, "CHAPTERS", ())
+    patch.setattr(report, "PAGES", (("What it costs <b>", "in time", _small_page), ("Nothing", "here", lambda cases, folder, tell: None)))
     patch.setattr(report, "SURFACE_SHAPE", (10, 21))
     folder = tmp_path_factory.mktemp("light")
     text = (CASES / "minor-axis-100.toml").read_text(encoding="utf-8")
@@ -73,6 +80,13 @@ def test_the_report_is_well_formed_and_every_link_leads_to_a_file(light):
 def test_a_hostile_title_is_text(light):
     text = light.read_text(encoding="utf-8")
     assert Page(text).scripts == 1 and "<script>alert" not in text and "&lt;script&gt;alert(" in text
+
+
+def test_pages_that_were_made_are_linked_and_the_others_left_out(light):
+    html = light.read_text(encoding="utf-8")
+    assert '<a href="small.html">What it costs &lt;b&gt;</a>: in time.' in html and "Nothing" not in html
+    assert (light.parent / "small.html").read_text(encoding="utf-8").endswith("<title>1</title>")
+    assert [title for title, _, _ in report.PAGES] == ["What accuracy costs", "How cost grows", "What each effect costs"]
 
 
 def test_without_gl_the_report_says_so_and_has_the_meshes(light):
@@ -124,6 +138,7 @@ def test_the_report_opens_in_a_browser_and_its_scene_draws(tmp_path, monkeypatch
     monkeypatch.setattr(figures, "FIGURES", (figures.figure(9),))
     monkeypatch.setattr(figures, "NUMBERS", (9,))
     monkeypatch.setattr(chapters, "CHAPTERS", ())
+    monkeypatch.setattr(report, "PAGES", ())
     def no_network(*_):
         raise AssertionError("the report reached for the network")
     for call in ("connect", "bind"):

@@ -18,12 +18,28 @@ from .precision_reference import WORK, Reference, reference, relative_errors
 from .trajectories import SCIPY_METHODS
 
 TIMES = 16  # states over the span
-QUICK_WORK = WORK // 4
-MOST_EVALUATIONS, QUICK_EVALUATIONS = 60_000, 12_000  # by the growth from rung to rung; a rung that would need more is left out
-REPEATS, QUICK_REPEATS = (7, 0.2), (3, 0.05)  # runs of each rung, and seconds after which fewer do
 QUESTIONS = {"span": "states over the span", "end": "state at the end", "extremes": "extremes", "period": "period"}
 PRICED = 2.0  # digits: over less, a price of one says nothing
 EPS = 2.0**-53
+
+
+@dataclass(frozen=True)
+class Effort:
+    """How much is measured. work: of the reference, multiplications; evaluations: a rung that would need more, by the growth
+    from rung to rung, is left out; every: rungs of a ladder; repeats: runs of a rung, and seconds after which fewer do; ends:
+    whether the state at the end is asked for besides those over the span; without: methods that are left out."""
+
+    work: int
+    evaluations: int
+    every: int
+    repeats: tuple[int, float]
+    ends: bool = True
+    without: tuple[str, ...] = ()
+
+
+EFFORTS = {"full": Effort(WORK, 60_000, 1, (7, 0.2)), "quick": Effort(WORK // 4, 12_000, 3, (3, 0.05)),
+           "brief": Effort(WORK // 12, 4_000, 3, (2, 0.01), False),
+           "glance": Effort(WORK // 24, 2_000, 3, (2, 0.005), False, ("taylor-batch", "RK45", "RK23", "Radau", "BDF"))}
 
 
 @dataclass(frozen=True)
@@ -83,7 +99,11 @@ class Precision:
     fates: tuple[FateAnswer, ...]
     sensitivity: float | None
     left_out: tuple[tuple, ...]
-    quick: bool
+    effort: str
+
+    @property
+    def quick(self) -> bool:
+        return self.effort != "full"
 
     def of(self, question, method=None) -> list[Point]:
         """The points of a question (and a method), coarse to fine."""
@@ -122,32 +142,32 @@ def digit_price(points) -> float | None:
     return float(math.exp(np.polyfit(digits, logs, 1)[0]))
 
 
-def precision(case, quick: bool = False, until: float | None = None, progress=None) -> Precision:
-    """Measure a case. quick: few settings, small limits. until: end of the span in place of the case's own.
-    progress(words) is called before each method.
+def precision(case, effort: str = "full", until: float | None = None, progress=None) -> Precision:
+    """Measure a case. effort: "full" (a minute), "quick" (few settings, small limits), "brief" (seconds) or "glance" (a second,
+    the methods that are likely to be best). until: end of the span in place of the case's own. progress(words) is called before each method.
 
     Raises InputError for a case without a motion and a span, and for rates that are no polynomials.
     """
     tell = progress or (lambda words: None)
     case = case if until is None else replace(case, span=(0.0, float(until)))
-    task = problem(case, TIMES)
+    task, most = problem(case, TIMES), EFFORTS[effort]
     tell("reference")
     period = known_period(task)
-    exact = reference(case.scene, task.start, task.times, task.equations.blocks, period is not None, QUICK_WORK if quick else WORK)
+    exact = reference(case.scene, task.start, task.times, task.equations.blocks, period is not None, most.work)
     points, left_out = [], []
-    for method in methods(task, quick) if len(exact.t) else ():
+    for method in (m for m in methods(task, most.every) if m.name not in most.without) if len(exact.t) else ():
         tell(method.name)
-        _states(task, method, exact, quick, points, left_out)
-    for method in answer_methods(task, period, quick) if exact.period else ():
+        _states(task, method, exact, most, points, left_out)
+    for method in answer_methods(task, period, most.every) if exact.period else ():
         tell(f"{method.name}, period and extremes")
-        _answers(task, method, exact, quick, points, left_out)
-    fates = tuple(FateAnswer(name, word, *timing) for name, call in fate_methods(task) for word, *timing in [_timed(call)])
-    return Precision(case, task, exact.t, exact, tuple(points), fates, _sensitivity(task, exact), tuple(left_out), quick)
+        _answers(task, method, exact, most, points, left_out)
+    fates = tuple(FateAnswer(name, word, *timing) for name, call in fate_methods(task) for word, *timing in [_timed(call, most)])
+    return Precision(case, task, exact.t, exact, tuple(points), fates, _sensitivity(task, exact), tuple(left_out), effort)
 
 
-def _timed(call, quick=False):
+def _timed(call, effort):
     """(answer of the first run, fastest, slowest, repeats) of the runs after it."""
-    answer, seconds, (most, enough) = call(), [], (QUICK_REPEATS if quick else REPEATS)
+    answer, seconds, (most, enough) = call(), [], effort.repeats
     while len(seconds) < most and (not seconds or sum(seconds) < enough):
         start = time.perf_counter()
         call()
@@ -155,13 +175,13 @@ def _timed(call, quick=False):
     return answer, min(seconds), max(seconds), len(seconds)
 
 
-def _rungs(task, method: Method, quick, left_out):
+def _rungs(task, method: Method, effort, left_out):
     """(setting, run, seconds of preparation) up the ladder; the evaluations of the last run are to be sent back."""
-    most, last, growth = QUICK_EVALUATIONS if quick else MOST_EVALUATIONS, 0, 1.0
-    for index, value in enumerate(method.ladder):
+    last, growth = 0, 1.0
+    for value in method.ladder:
         expected = last * growth
-        if method.name in SCIPY_METHODS and expected > most:
-            left_out.append((method.name, value, f"more than the {most} evaluations allowed, by the growth so far"))
+        if method.name in SCIPY_METHODS and expected > effort.evaluations:
+            left_out.append((method.name, value, f"more than the {effort.evaluations} evaluations allowed, by the growth so far"))
             continue
         start = time.perf_counter()
         run = method.prepare(task, value)
@@ -170,16 +190,22 @@ def _rungs(task, method: Method, quick, left_out):
         last = used or 0
 
 
-def _states(task, method, exact, quick, points, left_out):
-    ladder = _rungs(task, method, quick, left_out)
-    used = None
+def _climbed(task, method, effort, left_out):
+    """(setting, run, seconds of preparation, take) up the ladder; take(used) is to be called with the evaluations used."""
+    ladder, used = _rungs(task, method, effort, left_out), [None]
     while True:
         try:
-            value, run, compiled = next(ladder) if used is None else ladder.send(used)
+            rung = next(ladder) if used[0] is None else ladder.send(used[0])
         except StopIteration:
             return
-        for question, times in (("span", exact.t), ("end", exact.t[-1:])):
-            answer, fast, slow, repeats = _timed(lambda: run(times), quick)
+        yield *rung, lambda n: used.__setitem__(0, n or 0)
+
+
+def _states(task, method, exact, effort, points, left_out):
+    asked = [("span", exact.t), ("end", exact.t[-1:])][:2 if effort.ends else 1]
+    for value, run, compiled, take in _climbed(task, method, effort, left_out):
+        for question, times in asked:
+            answer, fast, slow, repeats = _timed(lambda: run(times), effort)
             error = _state_error(task, answer, exact, len(times))
             if math.isinf(error):
                 left_out.append((method.name, value, "no answer over the whole span"))
@@ -187,7 +213,7 @@ def _states(task, method, exact, quick, points, left_out):
             known = "" if set(answer.parts) == set(task.slices) else ", ".join(answer.parts)
             points.append(Point(question, method.name, method.setting, value, error, answer.steps, answer.evaluations,
                                 fast / method.lanes, slow / method.lanes, repeats, compiled, method.lanes, known))
-        used = answer.evaluations or 0
+        take(answer.evaluations)
 
 
 def _state_error(task, answer, exact, count) -> float:
@@ -203,18 +229,13 @@ def _state_error(task, answer, exact, count) -> float:
     return worst
 
 
-def _answers(task, method, exact, quick, points, left_out):
-    ladder, used = _rungs(task, method, quick, left_out), None
-    while True:
-        try:
-            value, run, compiled = next(ladder) if used is None else ladder.send(used)
-        except StopIteration:
-            return
-        answer, fast, slow, repeats = _timed(lambda: run(None), quick)
+def _answers(task, method, exact, effort, points, left_out):
+    for value, run, compiled, take in _climbed(task, method, effort, left_out):
+        answer, fast, slow, repeats = _timed(lambda: run(None), effort)
         for question, error in (("period", _period_error(answer, exact)), ("extremes", _extremes_error(answer, exact))):
             points.append(Point(question, method.name, method.setting, value, error, answer.steps, answer.evaluations, fast,
                                 slow, repeats, compiled))
-        used = answer.evaluations or 0
+        take(answer.evaluations)
 
 
 def _period_error(answer, exact) -> float:

@@ -10,7 +10,7 @@ from typing import Callable
 import numpy as np
 
 from ..compiled import form, heyoka_available, taylor_events
-from .precision_methods import IMPLICIT, SCIPY_LADDER, TAYLOR_LADDER, Answer, Method, Problem, _thinned
+from .precision_methods import IMPLICIT, SCIPY_LADDER, TAYLOR_LADDER, Answer, Method, Problem, thinned
 from .trajectories import ATOL_SHARE
 
 OVERRUN = 1.02  # periods to run: a coarse run comes home late
@@ -18,11 +18,11 @@ EARLY = 0.25  # periods before which a passage of the plane is no return
 EVENT_METHODS = ("RK45", "DOP853", "LSODA")
 
 
-def answer_methods(task: Problem, period: float, quick: bool = False) -> list[Method]:
+def answer_methods(task: Problem, period: float, every: int = 1) -> list[Method]:
     """Ways to the period and the extremes of a motion that repeats; run(None) gives parts "period" (1,) and "extremes" (3, 2)."""
     found = [Method("taylor", "rtol", TAYLOR_LADDER, _taylor(period))] if heyoka_available() else []
     found += [Method(name, "rtol", SCIPY_LADDER[:10], _scipy(name, period)) for name in EVENT_METHODS]
-    found = [Method(m.name, m.setting, _thinned(m.ladder), m.prepare) for m in found] if quick else found
+    found = [thinned(m, every) for m in found]
     return found + [Method("reduced", "formula", (1,), _roots), Method("balls", "formula", (1,), _balls)]
 
 

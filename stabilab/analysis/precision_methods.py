@@ -5,7 +5,7 @@
 """
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Callable
 
@@ -81,20 +81,20 @@ class Method:
     lanes: int = 1
 
 
-def methods(task: Problem, quick: bool = False) -> list[Method]:
-    """Every method that applies to a motion. quick: a third of each ladder."""
+def methods(task: Problem, every: int = 1) -> list[Method]:
+    """Every method that applies to a motion. every: rungs of each ladder to take, the last always."""
     found = []
     if heyoka_available():
         found += [Method("taylor", "rtol", TAYLOR_LADDER, _taylor), Method("taylor-batch", "rtol", TAYLOR_LADDER[1::2], _batch, LANES)]
     found += [Method(name, "rtol", SCIPY_LADDER, _scipy(name)) for name in SCIPY_METHODS]
     found += _reduced(task) + _models(task)
-    if quick:
-        found = [Method(m.name, m.setting, _thinned(m.ladder), m.prepare, m.lanes) for m in found]
-    return found
+    return [thinned(m, every) for m in found]
 
 
-def _thinned(ladder):
-    return tuple(dict.fromkeys((*ladder[:-1:3], ladder[-1]))) if len(ladder) > 2 else ladder
+def thinned(method: Method, every: int) -> Method:
+    """The method with every so-manieth rung of its ladder, and the last."""
+    ladder = method.ladder
+    return replace(method, ladder=tuple(dict.fromkeys((*ladder[:-1:every], ladder[-1])))) if len(ladder) > 2 else method
 
 
 def _split(task, states) -> dict:
@@ -157,12 +157,11 @@ def _scipy(name):
 
 
 def _reduced(task) -> list[Method]:
-    from .precision_reduced import ladder, path_of, reduced
+    from .precision_reduced import ladder, reduced
     if task.times[-1] < 0 or task.equations.blocks != ("omega",):
         return []
     try:
         rungs = ladder(task.scene, task.start)
-        path_of(task.scene, task.start)
     except InputError:
         return []
 

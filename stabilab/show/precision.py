@@ -88,35 +88,3 @@ def checked(path) -> Path:
     if path.suffix not in (".png", ".csv"):
         raise InputError(f"{path}: expected a name that ends in .png or .csv, got {path.suffix or 'no ending'}")
     return path
-
-
-# -- a page of the report ----------------------------------------------------------------------------------------------
-
-
-def page(cases, folder, tell=None, quick: bool = True) -> Path:
-    """Measure every case that has a motion and a span and write precision.html with its pictures (in precision/) into
-    the folder; returns its path. quick: coarse ladders, seconds a case. Cases of one motion are measured once."""
-    from jinja2 import Environment, FileSystemLoader, StrictUndefined
-
-    from ..analysis.precision import precision
-    folder, tell, sections, passed = Path(folder), tell or (lambda words: None), [], []
-    for case in cases:
-        if case.state is None or case.span is None:
-            passed.append(f"{case.name}: no motion with a span")
-            continue
-        tell(f"precision of {case.name}")
-        found = precision(case, quick)
-        if not found.questions:
-            passed.append(f"{case.name}: {found.reference.reason}")
-            continue
-        drawn = write(found, folder / "precision" / f"{case.name}.png")
-        write(found, folder / "precision" / f"{case.name}.csv")
-        sections.append({"name": case.name, "title": case.title or case.name, "words": words(found), "picture": f"precision/{drawn.name}",
-                         "csv": f"precision/{case.name}.csv", "command": f"stabilab precision {case.path}{' --quick' if quick else ''}",
-                         "front": [{"digits": f"{p.digits:.1f}", "method": p.method, "setting": setting(p)[2:], "time": duration(p.seconds)}
-                                   for p in found.front("span")]})
-    environment = Environment(loader=FileSystemLoader(Path(__file__).parent / "templates"), autoescape=True, undefined=StrictUndefined)
-    html = environment.get_template("precision.html").render(cases=sections, passed=passed, machine=caption(), quick=quick)
-    with style.whole_file(folder / "precision.html") as waiting:
-        waiting.write_text(html, encoding="utf-8")
-    return folder / "precision.html"

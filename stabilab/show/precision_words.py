@@ -35,12 +35,26 @@ def _question_words(found, question):
     if not prices:
         yield f"{head}: no method has {WANTED[0]} digits."
         return
+    yield from _six(found, points, head)
     parts = [f"{digits} digits cost {duration(p.seconds)} ({p.method}{setting(p)})" for digits, p in _merged(prices)]
     yield f"{head}: " + ", ".join(parts) + "." + _against(points, prices) + _digit_words(found, question)
     missing = next((d for d in WANTED if d > prices[-1][0]), None)
     best = max(points, key=lambda p: p.digits)
     if missing:
         yield f"No method gets {missing} digits: the best is {best.digits:.1f} ({best.method}{setting(best)}){_because(found, question, missing, best)}."
+
+
+SIX = 6  # digits at which the methods are set side by side
+
+
+def _six(found, points, head):
+    """What six digits cost by each method, cheapest first."""
+    enough = {}
+    for p in sorted(points, key=lambda p: p.seconds):
+        if p.digits >= SIX:
+            enough.setdefault(p.method, p)
+    if len(enough) > 1:
+        yield f"{head}: six digits cost " + ", ".join(f"{duration(p.seconds)} with {name}" for name, p in enough.items()) + "."
 
 
 def title(found, question) -> str:

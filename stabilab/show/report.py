@@ -17,6 +17,7 @@ PACKAGES = ("numpy", "scipy", "sympy", "heyoka", "matplotlib", "vtk", "pyvista",
 TOLERANCES = {"verdicts, fates, periods": "exact structure of the equations, to rounding", "extremes": "roots, to rounding",
               "trajectories": 1.1e-16}  # relative, of the Taylor series
 SHOW_CURSOR = b"\x1b[?25h"  # the progress line hides it
+GROWING = "minor-axis-100"  # the case about which the growth of cost is measured
 SURFACE_SHAPE = (48, 97)  # rows and columns of a sheet: smooth to the eye, 3 MB a scene
 
 
@@ -72,13 +73,41 @@ def _make(cases, folder, tell, named, others):
     sections = [_section(case, folder, tell) for case in cases]
     tell("printed formulas")
     from ..audit import check
+    told, pages = others(tell), _pages(cases, folder, tell)  # the chapters' process is done, so that times are disturbed least
     page = environment.get_template("index.html").render(
         title="Bounded motion and spin-up of a gyrostat under constant torque", paper=paper.PAPER, rendering_note=note,
-        cases=sections, chapters=others(tell), tables=tables, surfaces=surfaces, audit=check(), versions=_versions(),
+        cases=sections, chapters=told, pages=pages, tables=tables, surfaces=surfaces, audit=check(), versions=_versions(),
         figures=[{**vars(row), "file": f"figures/{path.name}", "command": row.command, "size": chapters.size(path)}
                  for row, path in zip(figures.FIGURES, drawn)],
         command=" ".join(["stabilab report", *(case.path for case in cases if named)]))
     (folder / "index.html").write_text(page, encoding="utf-8")
+
+
+def _precision(cases, folder, tell):
+    from .precision_page import page
+    return page(cases, folder, tell)
+
+
+def _growth(cases, folder, tell):
+    from .cost_growth import page
+    case = next((case for case in cases if case.name == GROWING), None)
+    return case and page(case, folder, tell)
+
+
+def _effects(cases, folder, tell):
+    from .effect_cost import page
+    return page(folder, tell)
+
+
+# what stands on pages of its own: (title, what it says, page(cases, folder, tell) -> its path, or None where the cases do not call for it)
+PAGES = (("What accuracy costs", "every way to follow each motion: error against time, and the cheapest way to each digit", _precision),
+         ("How cost grows", "with the number of states, the digits, and closeness to the separatrix", _growth),
+         ("What each effect costs", "state, equations and time as effects are added one at a time", _effects))
+
+
+def _pages(cases, folder, tell):
+    made = [(title, words, page(cases, folder, tell)) for title, words, page in PAGES]
+    return [{"title": title, "words": words, "file": path.name} for title, words, path in made if path]
 
 
 def _tables(folder):
