@@ -1,4 +1,4 @@
-"""Fates of large arrays: the table of barriers and its compiled loops against the oracle, the general formula and each other."""
+"""Fates of large arrays: the table of barriers and its compiled loops against the oracle and the general formula."""
 from __future__ import annotations
 
 import importlib

@@ -17,7 +17,10 @@ LOW, HIGH, ORIGIN, SIDE, BEND, WIDTH, GROWTH, LEAD, SIGN, STEEP, BULK = range(11
 DEGREE, ANGLE = 5, 6  # coefficients 0..5 of a height, then 6..7 of the barrier's angle in turns: one cache line
 
 SIGN_BOUND = 320 * 2.0**-52  # five times the units of rounding that the general formula allows for
-MARGIN_BOUND = 1e-3  # times 1e-12: what a margin here may lose against the size of its terms
+# Terms smaller than these shares of the rounding's scale are left to the general formula, to keep a margin to 1e-12 of its
+# terms: that allows 4.5 units of rounding of the scale on circles, 0.9 on hyperbolas, whose scale is a cruder bound;
+# the largest found in millions of random states are a sixth of that.
+MARGIN_BOUND, CONE_MARGIN_BOUND = 1e-3, 2e-4
 FOLD_BOUND = 1e-10  # nearer to a fold, relative, the general formula answers
 TURN_BOUND = 1e-4  # so near to a barrier, in turns, it is not clear here whether it stands ahead or a turn away
 FORCE_BOUND = 1e-11  # a force so small may be an equilibrium's
@@ -105,10 +108,10 @@ def ahead(barrier_angle, turns):
     return whole, np.abs((offset - whole) - 0.5) < 0.5 - TURN_BOUND
 
 
-def trusted(margin, height, energy, scale):
+def trusted(margin, height, energy, scale, margin_bound):
     """True where the sign of a margin is certain and its digits are as good as the general formula's; false for NaN."""
     whole = scale + energy
-    return (np.abs(margin) > SIGN_BOUND * whole) & (np.abs(height) + energy > MARGIN_BOUND * whole)
+    return (np.abs(margin) > SIGN_BOUND * whole) & (np.abs(height) + energy > margin_bound * whole)
 
 
 def fold_is_clear(size, origin, rounding):
@@ -194,7 +197,7 @@ def circle_margins(x, z, energy, size, phase, best, shift, form, unit, margins, 
         margin = height - energy[n]
         margins[n] = margin * unit
         clear[n] = (clear[n] & (rounding < FAR * size[n]) & (np.abs(force(x[n], z[n], form)) > FORCE_BOUND * scale)
-                    & trusted(margin, height, energy[n], scale))
+                    & trusted(margin, height, energy[n], scale, MARGIN_BOUND))
 
 
 def circle_labels(margins, best, clear, labels, reasons, unsure):
@@ -207,14 +210,15 @@ def circle_labels(margins, best, clear, labels, reasons, unsure):
 def hyperbola_loop(states, axes, frame, form, ranges, cells, unit, margins, labels, reasons, unsure):
     """As `circle_loop`, on hyperbolas: margins to the barrier nearest in height, +inf without one; all are bounded."""
     x, z, energy, size, nearest = np.empty(BLOCK), np.empty(BLOCK), np.empty(BLOCK), np.empty(BLOCK), np.empty(BLOCK)
-    clear = np.empty(BLOCK, np.bool_)
+    clear, inside = np.empty(BLOCK, np.bool_), np.empty(BLOCK, np.bool_)
     for start in range(0, states.shape[0], BLOCK):
         m = min(BLOCK, states.shape[0] - start)
         places(states[start:start + m], axes, frame, x, z, energy)
         cone(x, z, frame[6], form, size, nearest, clear, m)
         for b in range(ranges.shape[0]):
             keep_off_cone_fold(x, z, size, ranges[b, ORIGIN], frame[6], clear, m)
-            lower_nearest(x, z, energy, size, ranges[b], cells[b], frame[6], form, nearest, clear, m)
+            on_range(x, z, size, ranges[b], inside, m)
+            lower_nearest(x, z, energy, size, ranges[b], cells[b], frame[6], form, inside, nearest, clear, m)
         for n in range(m):
             margins[start + n] = nearest[n] * unit
             unsure[start + n] = clear[n] ^ True
@@ -234,24 +238,31 @@ def keep_off_cone_fold(x, z, size, origin, shift, clear, m):
         clear[n] = clear[n] & fold_is_clear(size[n], origin, rounding * rounding)
 
 
-def lower_nearest(x, z, energy, size, span, cells, shift, form, nearest, clear, m):
+def on_range(x, z, size, span, inside, m):
+    low, high, lead, sign = span[LOW], span[HIGH], span[LEAD], span[SIGN]
+    for n in range(m):
+        inside[n] = (low < size[n]) & (size[n] <= high) & ((x[n] + lead * z[n]) * sign > 0)
+
+
+def lower_nearest(x, z, energy, size, span, cells, shift, form, inside, nearest, clear, m):
     """Bring the margin of this barrier into `nearest` where it stands: few states, so one by one."""
     G, c, d, mu = form
+    lead = span[LEAD]
     for n in range(m):
-        place = x[n] + span[LEAD] * z[n]
-        if span[LOW] < size[n] and size[n] <= span[HIGH] and place * span[SIGN] > 0:
+        if inside[n]:
+            place = x[n] + lead * z[n]
             rounding = np.abs(x[n]) + np.abs(z[n]) + shift
             position = cell_position(size[n], span[SIDE], span[ORIGIN], span[BEND], span[WIDTH], cells.shape[0])
             cell = min(int(position), cells.shape[0] - 1)
             t = 2 * (position - cell) - 1
             mantissa, exponent = math.frexp(np.abs(place))
-            tilt = mu * span[LEAD] * logarithm(mantissa, exponent)
+            tilt = mu * lead * logarithm(mantissa, exponent)
             height = height_polynomial(cells[cell, 0], cells[cell, 1], cells[cell, 2], cells[cell, 3], cells[cell, 4],
                                        cells[cell, 5], t) + tilt
             height = height + ((0.5 * G * x[n] + c) * x[n] + d * z[n])
             margin = height - energy[n]
             scale = hyperbola_scale(terms(rounding, form), tilt, rounding, place, mu, span[STEEP], span[BULK])
-            clear[n] = clear[n] & trusted(margin, height, energy[n], scale)
+            clear[n] = clear[n] & trusted(margin, height, energy[n], scale, CONE_MARGIN_BOUND)
             if np.abs(margin) < np.abs(nearest[n]):
                 nearest[n] = margin
 

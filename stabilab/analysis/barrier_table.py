@@ -187,5 +187,6 @@ class _Hyperbola:
         height = -tilt - (0.5 * pot.G * x + g["c"]) * x - g["d"] * z
         scale = np.abs(tilt) + pot.mu + np.abs(x) * (abs(pot.G * x) + abs(g["c"])) + abs(g["d"] * z)
         steep = (np.abs(pot.G * x) + abs(g["c"]) + abs(g["d"])) / np.abs(place)
-        self.lead_sign_steep_bulk = (lead, float(np.sign(np.nanmedian(place))), float(np.nanmax(steep)), float(np.nanmax(scale)))
+        sign = float(np.sign(np.nanmedian(place)))
+        self.lead_sign_steep_bulk = (lead, sign, float(np.nanmax(steep)), float(np.nanmax(scale)))
         return tuple(v.reshape(size.shape) for v in (height, np.zeros(flat.shape), scale))

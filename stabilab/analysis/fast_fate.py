@@ -10,7 +10,7 @@ from . import barrier_heights as arithmetic
 HELPERS = ("angle", "logarithm", "cell_position", "height_polynomial", "angle_polynomial", "circle_height",
            "force", "terms", "ahead", "trusted", "fold_is_clear", "hyperbola_scale", "places", "polar", "positions",
            "looked_up", "raise_best", "keep_off_fold", "circle_margins", "circle_labels",
-           "cone", "keep_off_cone_fold", "lower_nearest")
+           "cone", "keep_off_cone_fold", "on_range", "lower_nearest")
 LARGE = 1_000_000  # loading numba costs half a second, what NumPy needs for some millions of states
 LOADED = 20_000  # once it is loaded
 

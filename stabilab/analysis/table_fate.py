@@ -54,7 +54,7 @@ def _circles(table, states, out):
         np.multiply(margin, table.unit, out=out["margins"])
         np.less(margin, 0, out=out["labels"].view(bool))
         np.add(out["labels"], np.isneginf(height), out=out["reasons"])
-        return ~(clear & arithmetic.trusted(margin, height, energy, scale))
+        return ~(clear & arithmetic.trusted(margin, height, energy, scale, arithmetic.MARGIN_BOUND))
 
 
 def circle_heights(table, x, z):
@@ -94,7 +94,8 @@ def _hyperbolas(table, states, out):
         height, scale, clear = hyperbola_heights(table, x, z)
         margin = height - energy
         np.multiply(margin, table.unit, out=out["margins"])
-        return ~(clear & (np.isposinf(height) | arithmetic.trusted(margin, height, energy, scale)))
+        return ~(clear & (np.isposinf(height)
+                          | arithmetic.trusted(margin, height, energy, scale, arithmetic.CONE_MARGIN_BOUND)))
 
 
 def hyperbola_heights(table, x, z):
