@@ -17,7 +17,7 @@ from .results import Fate
 
 NODES = (16, 32, 64, 128, 256, 512)
 AGREE = 1e-11  # two rules agree to this: the error of a geometric rule is squared by doubling its nodes
-SHARP = 1e-12  # relative error that rounding may leave in E - V
+SHARP = 1e-11  # relative error that rounding may leave in E - V, as for the periods of arrays
 
 
 def period_of(reduction, state, label: Fate) -> float:
@@ -56,7 +56,7 @@ def _libration(orbit, left, right) -> float:
             raise Unclear
         return value
     one, other = kinetic(half, 0), kinetic(half, 1)
-    if abs(one - other) > 10 * SHARP * one:
+    if abs(one - other) > SHARP * one:
         raise Unclear
 
     def integrand(phi):

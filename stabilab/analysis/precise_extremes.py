@@ -6,7 +6,7 @@ from .precise import DOUBLE_BITS, START_BITS, TIE_BITS, PreciseOrbit, Unclear, b
 from .results import Fate
 
 CERTAIN_BITS = 56  # the balls of the extremes are this much narrower than the component is large
-DOUBLE_CERTAIN = 42  # the same for balls of doubles: twelve digits and a half, as the extremes of arrays promise
+DOUBLE_CERTAIN = 40  # the same for balls of doubles: 1e-12, as the extremes of arrays promise
 MOST_BITS = 1 << 13  # a component that is still not settled is zero to this precision
 
 

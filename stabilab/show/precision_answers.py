@@ -21,7 +21,7 @@ def extremes(case, motion, told) -> dict:
 
 
 def _with(motion, told):
-    return motion if told.values is None else replace(motion, extremes=told.values)
+    return motion if told.values is None else replace(motion, extremes=tuple(tuple(map(float, pair)) for pair in told.values))
 
 
 def extremes_csv(answered) -> str:

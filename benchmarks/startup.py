@@ -1,0 +1,43 @@
+"""Small commands from the shell, each in a fresh interpreter, against `python -c "import typer"`."""
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from .rows import Row
+from .timing import side_by_side
+
+ROOT = Path(__file__).parent.parent
+CASE = "cases/minor-axis-100.toml"
+HELP = ("help of all commands, from typer alone", ("--help",))
+COMMANDS = (HELP, ("classify one state", ("classify", CASE)), ("extremes of one state", ("extremes", CASE)))
+TYPER = ("-c", "import typer")
+LIMIT = ("a command cannot be faster than the import of typer that it begins with. Beyond it: reading the case and its classes "
+         "(fractions, tomllib, some twenty dataclasses at half a millisecond each), exact equilibria, and for classify the "
+         "distance from the separatrix. Tried and left: NumPy (75 ms) and python-flint (40 ms) for one state; now balls of "
+         "doubles answer it, and python-flint is loaded only where they are unclear")
+
+
+def rows(small=False) -> list[Row]:
+    """Time of `import typer` over ours: 0.5 is twice as long. Byte code is written before the clock starts, as an installation
+    does; the contestants take turns."""
+    with tempfile.TemporaryDirectory() as cache:
+        environment = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"} | {"PYTHONPYCACHEPREFIX": cache}
+        return [_row(name, arguments, environment, 1 if small else 11) for name, arguments in (COMMANDS[1:2] if small else COMMANDS)]
+
+
+def _row(name, arguments, environment, rounds) -> Row:
+    def run(*command) -> str:
+        return subprocess.run([sys.executable, *command], env=environment, cwd=ROOT, check=True, capture_output=True, text=True).stdout
+
+    def ours():
+        return run("-m", "stabilab", *arguments)
+    said = ours()
+    assert said == ours() and said
+    timed = side_by_side(ours, lambda: run(*TYPER), 1, 1, rounds)
+    return Row(f"start-up: stabilab {name}", f"{timed.ours * 1e3:.0f} ms", f"{timed.theirs * 1e3:.0f} ms python -c \"import typer\"",
+               timed.ratio, (timed.low, timed.high), "ours answers, to 12 digits; theirs does nothing" if arguments != HELP[1]
+               else "none: text", 0.5, LIMIT if timed.ratio < 0.5 else "at most twice the import of typer")
