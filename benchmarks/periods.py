@@ -1,0 +1,90 @@
+"""Periods, and extremes with periods, of many bounded orbits."""
+from __future__ import annotations
+
+import numpy as np
+
+from stabilab import period
+from stabilab.analysis.extremes import extremes_and_periods
+
+from .contestants import EventExtremes
+from .orbit_extremes import SciPyEvents, bounded_states
+from .rows import SCENE, A, B, Row, each, numba_available
+from .timing import side_by_side
+
+WANTED = {False: 9, True: 40}
+
+
+def rows(small=False) -> list[Row]:
+    sizes = (100, 5, 2) if small else (20_000, 400, 7)
+    found = [alone(*sizes, fast=False), together(*sizes, fast=False)]
+    if numba_available():
+        sizes = sizes if small else (1_000_000, 4000, 7)
+        found += [alone(*sizes, fast=True), together(*sizes, fast=True)]
+    found.append(against_scipy(*((100, 2, 2) if small else (20_000, 10, 7)), fast=numba_available()))
+    return found
+
+
+def method(fast) -> str:
+    return "numba" if fast else "NumPy"
+
+
+def alone(size, sample, rounds, fast) -> Row:
+    """Periods against heyoka with one event, at the reversals of the turn."""
+    states = bounded_states(size)
+    part, events = states[:sample], TurnTimes(A, B)
+    timed = side_by_side(lambda: period(SCENE, states, fast=fast), lambda: events(part), len(states), len(part), rounds)
+    off = np.abs(period(SCENE, part, fast=fast) / events(part) - 1).max()
+    return Row(f"periods of {len(states)} orbits, {method(fast)}", each(timed.ours),
+               f"{each(timed.theirs)} heyoka with events at the turns only", timed.ratio, (timed.low, timed.high),
+               f"largest relative difference {off:.1e}", wanted=WANTED[fast])
+
+
+class TurnTimes:
+    """Periods by heyoka with one terminal event at x3 = 0, stopped at the third."""
+
+    def __init__(self, a, b, tolerance=1e-16):
+        import heyoka
+
+        from .contestants import scaled_minor_system
+        (x1, x2, x3, theta), system = scaled_minor_system(a, b, heyoka)
+        self.times = []
+
+        def turned(ta, sign):
+            self.times.append(ta.time)
+            return len(self.times) < 3
+        self.integrator = heyoka.taylor_adaptive(system, [0.0] * 4, tol=tolerance,
+                                                 t_events=[heyoka.t_event(x3, callback=turned)])
+
+    def __call__(self, states):
+        periods, ta = np.empty(len(states)), self.integrator
+        for n, state in enumerate(states):
+            ta.time, ta.state[:] = 0.0, [*state, 0.0]
+            ta.reset_cooldowns()
+            self.times.clear()
+            ta.propagate_until(1e4)
+            periods[n] = self.times[2] - self.times[0]
+        return periods
+
+
+def together(size, sample, rounds, fast) -> Row:
+    """Extremes and periods in one go against heyoka with events at the roots of the rates, whose run shows both."""
+    states = bounded_states(size)
+    part, events, turns = states[:sample], EventExtremes(A, B), TurnTimes(A, B)
+    timed = side_by_side(lambda: extremes_and_periods(SCENE, states, fast), lambda: events(part), len(states), len(part), rounds)
+    boxes, periods = extremes_and_periods(SCENE, part, fast)
+    off = max(np.abs(boxes - events(part)).max() / np.abs(part).max(), np.abs(periods / turns(part) - 1).max())
+    return Row(f"extremes and periods of {len(states)} orbits, {method(fast)}", each(timed.ours),
+               f"{each(timed.theirs)} heyoka with events", timed.ratio, (timed.low, timed.high),
+               f"largest relative difference {off:.1e}", wanted=WANTED[fast])
+
+
+def against_scipy(size, sample, rounds, fast) -> Row:
+    """Extremes and periods against SciPy with events, stopped at the end of a period."""
+    states = bounded_states(size)
+    part, events = states[:sample], SciPyEvents(A, B)
+    timed = side_by_side(lambda: extremes_and_periods(SCENE, states, fast), lambda: events(part), len(states), len(part), rounds)
+    exact = TurnTimes(A, B)(part)
+    ours, theirs = (np.abs(periods / exact - 1).max() for periods in (period(SCENE, part, fast=fast), events(part)[1]))
+    return Row(f"extremes and periods of {len(states)} orbits, {method(fast)}", each(timed.ours),
+               f"{each(timed.theirs)} SciPy DOP853 with events", timed.ratio, (timed.low, timed.high),
+               f"periods differ from heyoka's by {ours:.1e}, SciPy's (1e-12) by {theirs:.1e}", wanted=8000)
