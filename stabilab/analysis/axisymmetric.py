@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..errors import InputError
+from .axisymmetric_fractions import fractions
 from .axisymmetric_limits import SMALL_ANGLE, horizon
 from .axisymmetric_modes import ChargedBody, modes, resonances
 from .axisymmetric_terms import Terms
@@ -48,14 +49,33 @@ def solution(body: ChargedBody, t, small_angle: float = SMALL_ANGLE) -> Axisymme
     else. Raises InputError where the unstable motion exceeds the largest double.
     """
     t = times(t)
-    terms = Terms(body, t, modes(body))
-    angles = terms.angles()
-    velocity, position = terms.translation() if body.mass is not None else (None, None)
+    omega, angles, momentum, velocity, position = _parts(body, t)
     tilt = np.hypot(angles[..., 0], angles[..., 1])
     until = horizon(body, small_angle)
     status, reason = verdict(tilt, t, until, small_angle)
-    return AxisymmetricMotion(t, terms.angular_velocity(), angles, terms.momentum(), velocity, position, tilt, until,
-                              status, reason, resonances(body))
+    return AxisymmetricMotion(t, omega, angles, momentum, velocity, position, tilt, until, status, reason, resonances(body))
+
+
+def _parts(body, t):
+    """Rates, angles, momentum, velocity and position: late times as combinations that are formed once per body, the start
+    as it was given, what is left by divided differences at each time."""
+    late = fractions(body)
+    far = np.abs(t) >= late.wide if late is not None else np.zeros(t.shape, bool)
+    if not far.any():
+        return _terms(body, t)
+    parts = np.empty((5 if body.mass is not None else 3, *t.shape, 3))
+    parts[:, far] = late(t[far])
+    if (start := t == 0).any():
+        parts[:, start] = late.start[:, None]
+    if (near := ~far & ~start).any():
+        parts[:, near] = [part for part in _terms(body, t[near]) if part is not None]
+    return (*parts, None, None)[:5]
+
+
+def _terms(body, t):
+    terms = Terms(body, t, modes(body))
+    places = terms.translation() if body.mass is not None else (None, None)
+    return terms.angular_velocity(), terms.angles(), terms.momentum(), *places
 
 
 def times(t):

@@ -6,6 +6,7 @@ Gamma = steady + coning e^(-i r0 t) + B e^(iwt) + C e^(-iwt), and everything bel
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -14,6 +15,7 @@ from .axisymmetric_modes import ChargedBody, modes
 SMALL_ANGLE = 0.1  # rad: cos differs from 1 by 0.5 %, and so the linear rates from the true ones
 
 
+@lru_cache(maxsize=64)
 def horizon(body: ChargedBody, small_angle: float = SMALL_ANGLE):
     """Time in s until which the tilt |Gamma| stays below small_angle (rad), over the batch; inf where it does for ever.
 

@@ -12,6 +12,7 @@ r0^2 - ab = -XY/(D1 D2),   (b - a)/2 = (D1 - D2) Y/(2 D1 D2).
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -71,7 +72,7 @@ class ChargedBody:
 
 def _checked(name, value, components):
     try:
-        value = np.asarray(value, float)
+        value = np.array(value, float)  # a copy: what is made of a body is kept with it
     except (TypeError, ValueError):
         raise InputError(f"{name}: expected numbers, got {value!r}") from None
     if components and value.shape[-1:] != (components,):
@@ -103,6 +104,7 @@ class Modes:
         return self.root.value() * np.where(self.unstable, 1j, 1.0)
 
 
+@lru_cache(maxsize=64)
 def modes(body: ChargedBody) -> Modes:
     """The two rates and the frequency, with relative error far below the last place of the data."""
     D1, D2, D3 = (twofold(body.inertia[..., i]) for i in range(3))
@@ -115,6 +117,7 @@ def modes(body: ChargedBody) -> Modes:
     return Modes(a, b, D3 * r0 + Lam, (D3 - D1 - D2) * r0 + Lam, squared, root, squared.high < 0)
 
 
+@lru_cache(maxsize=64)
 def resonances(body: ChargedBody, tolerance: float = 1e-6) -> tuple[str, ...]:
     """The resonances and the unstable band that the data (any member of the batch) meet, in words.
 

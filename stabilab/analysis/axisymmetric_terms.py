@@ -87,14 +87,23 @@ class Terms:
 
         G = e^(i theta0) [L0 - i Gamma0 H3 + M D[0,ir0] - i k (Z_0 - Gamma0)],   L = D1 p + i D2 q,   H3 = D3 r0 + lambda3.
         """
-        body = self.body
-        H3 = (twofold(body.inertia[..., 2]) * body.spin + body.gyrostat).value()
-        L0 = body.inertia[..., 0] * self.p0 + 1j * body.inertia[..., 1] * self.q0
-        M = body.torque[..., 0] + 1j * body.torque[..., 1]
         wheel = self._tables("0f", [(1, 1)])[1, 1]
         away = self.Z(0, start=0.0)[0]  # what the tilt adds to Gamma0 in inertial axes
-        G = self.turn * (L0 - 1j * self.Gamma0 * H3 + M * wheel - 1j * body.charge_moment * away)
-        return self.vector(G.real, G.imag, H3)
+        G = self.turn * (self.still_momentum() + self.M * wheel - 1j * self.body.charge_moment * away)
+        return self.vector(G.real, G.imag, self.axial_momentum())
+
+    @property
+    def M(self):
+        return self.body.torque[..., 0] + 1j * self.body.torque[..., 1]
+
+    def axial_momentum(self):
+        """H3, which stays."""
+        return (twofold(self.body.inertia[..., 2]) * self.body.spin + self.body.gyrostat).value()
+
+    def still_momentum(self):
+        """L0 - i Gamma0 H3: G at the start, in axes turned by theta0."""
+        L0 = self.body.inertia[..., 0] * self.p0 + 1j * self.body.inertia[..., 1] * self.q0
+        return L0 - 1j * self.Gamma0 * self.axial_momentum()
 
     def translation(self):
         """Velocity and position from m v' = R f, R the rotation to first order in the tilt."""
