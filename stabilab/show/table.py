@@ -108,15 +108,12 @@ def extremes_table(number: int, folder: Path | None = None) -> Table:
 
 
 def _extremes_row(path, lam):
-    from ..analysis.extremes import extremes, period
-    from ..analysis.fate import fate
-    from ..analysis.results import Fate
+    from ..analysis.motion import motion
     from ..case import load
     case = load(path)
-    found, turn = extremes(case.scene, case.state), float(period(case.scene, case.state))
-    label = Fate(int(fate(case.scene, case.state).labels)).word
-    low_high = [float(v) for pair in found for v in pair]
-    return (case.name, lam, case.scene.a, case.scene.b, *case.state, label, turn if math.isfinite(turn) else None, *low_high)
+    found = motion(case.scene, case.start, case.span)  # of one state: the same bytes on every processor
+    low_high = [float(v) for pair in found.extremes for v in pair]
+    return (case.name, lam, case.scene.a, case.scene.b, *case.state, found.fate.word, found.period, *low_high)
 
 
 def tables() -> tuple[Table, ...]:
