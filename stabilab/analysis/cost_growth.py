@@ -19,7 +19,7 @@ REPORT_DECADE = 6  # the report's quick form stops here
 SPREAD = 1.5  # of random states about the case's own
 MANY = (16, 18, 21, 24, 27, 30)  # digits beyond doubles
 DISTANCES = tuple(range(1, 16))  # decades of relative distance in energy to the separatrix
-NODE_DIGITS, MOST_NODES = 10, 1 << 15
+NODE_DIGITS, MOST_NODES = 8, 1 << 15
 BITS = range(16, 129, 4)
 SLOW = 1.0  # seconds after which a run is not repeated
 
@@ -150,9 +150,10 @@ def _reached(states, exact) -> float:
 # -- with closeness to the separatrix ----------------------------------------------------------------------------------
 
 
-def near(case, decade: int) -> np.ndarray:
-    """The case's state with its rate about the torque's axis changed so that its energy lies below the barrier by 10^-decade of
-    the barrier's height above the turning energy. For a torque on an axis, no wheel momentum along it."""
+def near(case, decade: int) -> tuple[np.ndarray, float]:
+    """(state, distance): the case's state with its rate about the torque's axis changed so that its energy lies below the barrier
+    by 10^-decade of the barrier's height above a rate of zero, up to the rounding of the state; and the distance it then has.
+    For a torque on an axis, no wheel momentum along it."""
     from .fate import fate
     from .landscape import landscape
     axis = landscape(case.scene).reduction.axis
@@ -161,20 +162,20 @@ def near(case, decade: int) -> np.ndarray:
     height = float(fate(case.scene, state).margins)
     weight = 1.0 if case.scene.variables == "scaled" else float(case.scene.body.inertia[axis])
     state[axis] = math.sqrt(2 * height * (1 - 10.0**-decade) / weight)
-    return state
+    return state, float(fate(case.scene, state).margins) / height
 
 
 def with_closeness(case, tell=lambda words: None) -> list[Growth]:
     """Fate, extremes and period of single states 1e-1 to 1e-15 (relative, in energy) below the separatrix: the time, the bits that
-    the fate takes in balls, and the nodes of the plain midpoint rule that the period takes for ten digits."""
+    the fate takes in balls, and the nodes of the plain midpoint rule that the period takes for NODE_DIGITS digits."""
     found = []
     for decade in DISTANCES:
         tell(f"1e-{decade} from the separatrix")
-        state = near(case, decade)
+        state, distance = near(case, decade)
         for question, function in _FUNCTIONS.items():
             _, seconds, repeats = _timed(lambda: function()(case.scene, state), 5)
             count = {"fate": (bits_needed(case.scene, state), "bits"), "period": (nodes_needed(case.scene, state), "nodes")}.get(question, (None, ""))
-            found.append(Growth("separatrix", question, "as called", 10.0**-decade, seconds, repeats, *count))
+            found.append(Growth("separatrix", question, "as called", distance, seconds, repeats, *count))
     return found
 
 
@@ -195,7 +196,7 @@ def bits_needed(scene, state) -> int | None:
 
 
 def nodes_needed(scene, state) -> int | None:
-    """Nodes of the midpoint rule, doubled until the period has ten digits of that in balls; None where rounding forbids it."""
+    """Nodes of the midpoint rule, doubled until the period has NODE_DIGITS digits of that in balls; None where rounding forbids it."""
     from .landscape import landscape
     from .precise_period import precise_period
     from .quadrature import Modes, _inverse_speed
@@ -207,7 +208,7 @@ def nodes_needed(scene, state) -> int | None:
     modes, nodes = Modes(land, span.middle), 4
     while nodes <= MOST_NODES:
         phi = (np.arange(nodes) + 0.5) * (np.pi / nodes)
-        total = sum(float(_inverse_speed(modes, span.half, np.sin(0.5 * a) ** 2, np.cos(0.5 * a) ** 2)[0]) for a in phi) * 2 * np.pi / nodes
+        total = float(_inverse_speed(modes, span.half, np.sin(0.5 * phi) ** 2, np.cos(0.5 * phi) ** 2).sum()) * 2 * np.pi / nodes
         if abs(total - exact) <= 10.0**-NODE_DIGITS * exact:
             return nodes
         nodes *= 2

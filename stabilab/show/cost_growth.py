@@ -103,3 +103,14 @@ def words(rows, about) -> str:
     return (f"From 1e-1 to 1e-15 the fate's time goes from {duration(fates[-1].seconds)} to {duration(fates[0].seconds)}, and its bits in balls from "
             f"{fates[-1].count} to {fates[0].count}: a state is as hard as its margin is small. The period itself grows like the logarithm of the "
             f"distance; the midpoint rule takes {nodes[0].count} nodes at 1e-1 and {nodes[-1].count} at {nodes[-1].x:.0e}{lost}.")
+
+
+def main(case, folder) -> None:
+    """The whole measurement, every decade of states and every setting: minutes."""
+    from ..case import load
+    print(page(load(case), folder, full=True))
+
+
+if __name__ == "__main__":
+    import sys
+    main(*sys.argv[1:3])

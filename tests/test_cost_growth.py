@@ -1,0 +1,80 @@
+"""How cost grows: counts that do not depend on the machine, and pictures that hold what was measured."""
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from stabilab import load
+from stabilab.analysis import cost_growth
+from stabilab.analysis.cost_growth import Growth, bits_needed, engines, near, nodes_needed, with_closeness, with_states
+from stabilab.analysis.fate import fate
+from stabilab.analysis.results import Fate
+from stabilab.show import cost_growth as shown
+
+from .oracles import energy
+from .oracles.model import scaled
+
+MINOR = load(Path(__file__).parent.parent / "cases" / "minor-axis-100.toml")
+
+
+@pytest.mark.parametrize("decade", [1, 6, 13])
+def test_states_stand_at_the_distance_that_is_asked_for(decade):
+    # against the margin in 60 digits (tests/oracles/energy.py, mpmath)
+    state, distance = near(MINOR, decade)
+    model = scaled(MINOR.scene.a, MINOR.scene.b, MINOR.scene.mu)
+    at_rest = (*state[:2], 0.0)
+    exact = float(energy.margin(model, tuple(state), digits=60) / energy.margin(model, at_rest, digits=60))
+    assert exact == pytest.approx(distance, rel=1e-6) and distance == pytest.approx(10.0**-decade, rel=1e-2)
+    assert fate(MINOR.scene, state).labels == Fate.BOUNDED
+
+
+def test_bits_for_the_fate_grow_by_three_and_a_third_a_decade():
+    # a margin of 10^-n of the energy's terms is told from 0 by n log2(10) bits, and a few for the rounding on the way
+    for decade in (4, 8, 14):
+        bits = bits_needed(MINOR.scene, near(MINOR, decade)[0])
+        assert decade * math.log2(10) <= bits <= decade * math.log2(10) + 24
+
+
+def test_nodes_for_the_period_grow_towards_the_separatrix():
+    far, close = (nodes_needed(MINOR.scene, near(MINOR, n)[0]) for n in (1, 5))
+    assert 8 <= far <= 64 < close
+
+
+def test_every_question_is_measured_at_every_distance(monkeypatch):
+    monkeypatch.setattr(cost_growth, "DISTANCES", (2, 9))
+    rows = with_closeness(MINOR)
+    assert [(r.question, round(-math.log10(r.x))) for r in rows] == [(q, n) for n in (2, 9) for q in ("fate", "extremes", "period")]
+    assert all(r.seconds > 0 and r.repeats >= 1 for r in rows)
+
+
+def test_arrays_are_answered_by_every_engine_that_is_there(monkeypatch):
+    monkeypatch.setattr(cost_growth, "STATES", {"fate": (2, 3)})
+    rows = with_states(MINOR, full=True)
+    assert [r.x for r in rows if r.method == "NumPy"] == [100, 1000] and {r.count_name for r in rows} == {"states in balls"}
+    assert engines(lambda states: None) == [("NumPy", {})]
+    assert engines(lambda states, fast=None: None)[0] == ("NumPy", {"fast": False})
+
+
+ROWS = [Growth("states", "fate", "NumPy", 100.0, 1e-5, 3), Growth("states", "fate", "NumPy", 1000.0, 1e-4, 3),
+        Growth("digits", "states over the span", "taylor", 6.0, 1e-5, 3, 100, "evaluations"),
+        *(Growth("digits", q, m, x, x * 1e-3, 2) for q, m in (("states over the span", "Taylor in many digits"), ("period", "balls")) for x in (16.0, 30.0)),
+        *(Growth("separatrix", q, "as called", x, 1e-3, 2, n, "") for q, n in (("fate", 20), ("period", 64)) for x in (1e-1, 1e-15))]
+
+
+def test_page_has_words_and_a_picture_of_each_growth(tmp_path, monkeypatch):
+    for name, about in (("with_states", "states"), ("with_digits", "digits"), ("with_closeness", "separatrix")):
+        monkeypatch.setattr(shown, name, lambda *_, about=about: [r for r in ROWS if r.about == about])
+    html = shown.page(MINOR, tmp_path).read_text(encoding="utf-8")
+    for about, title in shown.TITLES.items():
+        assert title in html and (tmp_path / "growth" / f"{about}.png").stat().st_size > 5000
+    assert (tmp_path / "growth.csv").read_text().count("\n") == len(ROWS) + 1 and "nan" not in html
+
+
+def test_pictures_draw_every_measurement():
+    with shown.style.drawing() as plt:
+        for about in shown.TITLES:
+            rows = [r for r in ROWS if r.about == about]
+            figure = shown.picture(plt, rows, about)
+            drawn = sum((np.asarray(line.get_xdata(), float).tolist() for line in figure.axes[0].lines), [])
+            assert sorted(drawn) == sorted(r.x for r in rows) and figure.axes[0].get_ylabel() == "time (s)"
