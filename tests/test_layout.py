@@ -93,11 +93,27 @@ def test_help_loads_neither_numpy_nor_anything_heavy():
     assert not loaded_by("--help") & (HEAVY | {"numpy", "tomllib", "fractions"})
 
 
-@pytest.mark.parametrize("name", ["minor-axis-100", "middle-axis-300", "wheel-and-thruster", "thruster-stuck-major-axis"])
-def test_classify_of_a_constant_torque_loads_nothing_heavy(name):
-    loaded = loaded_by("classify", f"cases/{name}.toml", "--json")
-    assert not loaded & HEAVY
-    assert {"numpy", "json"} <= loaded  # the probe sees what is loaded
+@pytest.mark.parametrize("name", ["minor-axis-100", "middle-axis-300", "wheel-and-thruster", "thruster-negative-minor-axis",
+                                  "torque-free-gyrostat", "symmetric-body"])
+@pytest.mark.parametrize("command", ["classify", "extremes"])
+def test_one_state_under_a_constant_torque_loads_neither_numpy_nor_anything_heavy(command, name):
+    loaded = loaded_by(command, f"cases/{name}.toml", "--json")
+    assert not loaded & (HEAVY | {"numpy"})
+    assert {"stabilab", "fractions", "json"} <= loaded  # the probe sees what is loaded
+
+
+def test_one_state_that_doubles_cannot_settle_loads_the_library_for_many_digits_alone():
+    loaded = loaded_by("classify", "cases/middle-axis-double-well.toml")
+    assert "flint" in loaded and not loaded & (HEAVY - {"flint"} | {"numpy"})
+
+
+@pytest.mark.parametrize("arguments, needed", [
+    (("show", "cases/minor-axis-100.toml"), {"sympy", "mpmath"}),  # sympy brings mpmath, and both look for gmpy2 and flint
+    (("simulate", "cases/minor-axis-100.toml", "--at", "0,1"), {"heyoka", "sympy", "mpmath", "flint"}),
+    (("doctor",), set())])
+def test_a_command_loads_no_heavy_package_that_it_does_not_use(arguments, needed):
+    allowed = needed | ({"flint"} if "sympy" in needed else set())
+    assert not loaded_by(*arguments) & HEAVY - allowed
 
 
 def test_loading_a_case_needs_no_numpy():
