@@ -107,10 +107,11 @@ def beside_the_separatrix(count) -> Row:
         spans = np.array([precise_period(r, state, 0) for state in part])
         boxes_off.append((np.abs(got - exact).max(axis=2) / np.abs(exact).max(axis=2)).max())
         periods_off.append(np.abs(periods / spans - 1).max())
-        states.append(part)
+        if decade <= 9:  # closer, heyoka's run may pass the barrier by rounding and then spin up without end
+            states.append(part)
     states, events = np.concatenate(states), EventExtremes(A, B)
     timed = side_by_side(lambda: extremes(SCENE, states), lambda: events(states), len(states), len(states), 2)
     words = ", ".join(f"{x:.0e}/{t:.0e}" for x, t in zip(boxes_off, periods_off))
     return Row("extremes next to the separatrix", each(timed.ours), f"{each(timed.theirs)} heyoka with events", timed.ratio,
                (timed.low, timed.high), f"of extremes/periods at 1e-3, -6, -9, -12, -15 of the barrier: {words}",
-               note="ball arithmetic from 1e-7 on, where doubles would lose digits")
+               note="timed at 1e-3, -6, -9 alike; ball arithmetic from 1e-7 on, where doubles would lose digits")
