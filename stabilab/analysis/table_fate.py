@@ -9,7 +9,8 @@ from .barrier_table import BarrierTable
 from .landscape import TURN
 
 CHUNK = 8192  # a dozen temporary arrays of this length fit a core's own cache
-ABOVE, NONE, WALLS = 1, 2, 3  # codes of `fate.Reason`
+KEPT = 1 << 22  # bytes, more than all temporary arrays of a chunk; fresh pages for them would double the time
+WALLS = 3  # code of `fate.Reason`
 
 
 def label_by_table(table: BarrierTable, states, out, compiled=None) -> np.ndarray:
@@ -17,6 +18,7 @@ def label_by_table(table: BarrierTable, states, out, compiled=None) -> np.ndarra
 
     compiled: the loops of `fast_fate`, or None for NumPy; both give the same bytes.
     """
+    np.empty(KEPT, np.int8)  # freed at once: glibc then keeps that much free memory instead of returning it after every chunk
     unsure = [np.zeros(0, np.intp)]
     for start in range(0, len(states), CHUNK):
         part = slice(start, min(start + CHUNK, len(states)))
@@ -84,7 +86,7 @@ def _looked_up(columns, r, size):
     count = columns.shape[1]
     position = arithmetic.cell_position(size, r[SIDE], r[ORIGIN], r[BEND], r[WIDTH], count)
     cell = np.minimum(position.astype(np.intp), count - 1)
-    return [np.take(c, cell) for c in columns], 2 * (position - cell) - 1
+    return [np.take(c, cell, mode="clip") for c in columns], 2 * (position - cell) - 1
 
 
 def _hyperbolas(table, states, out):
