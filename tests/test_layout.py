@@ -94,7 +94,7 @@ def test_help_loads_neither_numpy_nor_anything_heavy():
 
 
 @pytest.mark.parametrize("name", ["minor-axis-100", "middle-axis-300", "wheel-and-thruster", "thruster-negative-minor-axis",
-                                  "torque-free-gyrostat", "symmetric-body"])
+                                  "thruster-stuck-major-axis", "torque-free-gyrostat", "symmetric-body"])
 @pytest.mark.parametrize("command", ["classify", "extremes"])
 def test_one_state_under_a_constant_torque_loads_neither_numpy_nor_anything_heavy(command, name):
     loaded = loaded_by(command, f"cases/{name}.toml", "--json")

@@ -152,8 +152,17 @@ class Ball:
         s, c = math.sin(self.m), math.cos(self.m)
         return Ball(s, self.r * min(1.0, abs(c) + self.r) + EPS * abs(s)), Ball(c, self.r * min(1.0, abs(s) + self.r) + EPS * abs(c))
 
+    def sin(self):
+        return self.sin_cos()[0]
+
     def cos(self):
         return self.sin_cos()[1]
+
+    def sinh(self):
+        if abs(self.m) + self.r > 600:
+            raise Unclear
+        value = math.sinh(self.m)
+        return Ball(value, self.r * math.cosh(abs(self.m) + self.r) * (1 + 4 * EPS) + 2 * EPS * abs(value))
 
     def exp(self):
         try:

@@ -220,8 +220,19 @@ class PreciseOrbit:
         if self.r.e == 0:
             f0, f1, f2, f3 = self.coefficients
             return -y * (f0 + y * (f1 / 2 + y * (f2 / 3 + y * f3 / 4)))
+        if abs(y) < 1:
+            return self._height_nearby(y)
         x, z = self.place(y)
         return -self.mu * y - (x - self.x) * (self.G * (x + self.x) / 2 + self.c) - self.r.e * self.d * (z - self.z)
+
+    def _height_nearby(self, y):
+        """The same with the exact force at the state taken out, so that a short way keeps its digits."""
+        half = (y / 2).sin() if self.r.e < 0 else (y / 2).sinh()
+        s, b = (y.sin(), -2 * half * half) if self.r.e < 0 else (y.sinh(), 2 * half * half)
+        dx = self.z * s + self.x * b
+        force = self.flip * self.n * ball(self.force_here)
+        return (-self.mu * (y - s) - force * s - b * (self.G * self.x * self.x + self.c * self.x + self.r.e * self.d * self.z)
+                - self.G * dx * dx / 2)
 
     def force(self, y):
         if self.r.e == 0:
