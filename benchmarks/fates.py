@@ -18,6 +18,9 @@ SCENES = {
 }
 BATCH = {False: 400, True: 4000}  # wanted ratios to heyoka's batch mode: NumPy, numba
 
+LIMITS = {False: "; NumPy's limit: some 250 passes over arrays at half a nanosecond a state",
+          True: "; numba's limit: two look-ups of eight coefficients a state"}
+
 
 def rows(small=False) -> list[Row]:
     size, sample, rounds = (6000, 50, 2) if small else (1_000_000, 4000, 7)
@@ -50,7 +53,7 @@ def _against(contestant, words, wanted, size, sample, rounds, name, fast) -> Row
     wrong = int(((answer.labels[:sample] == Fate.SPIN_UP) != (brute == 1))[clear].sum())
     return Row(f"fate of {size} states, {name}, {'numba' if fast else 'NumPy'}", each(timed.ours),
                f"{each(timed.theirs)} {words}", timed.ratio, (timed.low, timed.high), f"{wrong} of {int(clear.sum())} labels differ", wanted=wanted,
-               note=f"one thread; {answer.precise} states in ball arithmetic")
+               note=f"one thread; {answer.precise} states in ball arithmetic{LIMITS[fast]}")
 
 
 def against_writing(side=512, rounds=7, fresh=True) -> Row:
