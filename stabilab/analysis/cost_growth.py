@@ -17,11 +17,12 @@ SEED = 4
 STATES = {"fate": (2, 7), "extremes": (2, 5), "period": (2, 5)}  # decades of the number of states
 REPORT_DECADE = 6  # the report's quick form stops here
 SPREAD = 1.5  # of random states about the case's own
-MANY = (16, 18, 21, 24, 27, 30)  # digits beyond doubles
+MANY = (3, 6, 9, 12, 16, 18, 21, 24, 27, 30)  # digits of ball arithmetic; of Taylor series those beyond doubles
+DOUBLES = 15
 DISTANCES = tuple(range(1, 16))  # decades of relative distance in energy to the separatrix
 NODE_DIGITS, MOST_NODES = 8, 1 << 15
 BITS = range(16, 129, 4)
-SLOW = 1.0  # seconds after which a run is not repeated
+SLOW, ENOUGH = 1.0, 0.1  # seconds of the first run after which only one follows; seconds of all runs together
 
 
 @dataclass(frozen=True)
@@ -40,12 +41,12 @@ class Growth:
     count_name: str = ""
 
 
-def _timed(call, most=5):
+def _timed(call, most=30):
     """(answer, fastest, repeats) after one run that warms up; what takes long is run once more only."""
     start = time.perf_counter()
     answer = call()
     first, seconds = time.perf_counter() - start, []
-    while len(seconds) < (1 if first > SLOW else most):
+    while len(seconds) < (1 if first > SLOW else most) and (len(seconds) < 2 or sum(seconds) < ENOUGH):
         start = time.perf_counter()
         call()
         seconds.append(time.perf_counter() - start)
@@ -64,7 +65,7 @@ def with_states(case, full: bool = False, tell=lambda words: None) -> list[Growt
             tell(f"{question} of 1e{decade} states")
             states = np.random.default_rng(SEED).normal(size=(10**decade, 3)) * SPREAD + np.asarray(case.state)
             for engine, options in engines(_FUNCTIONS[question]()):
-                answer, seconds, repeats = _timed(lambda: _FUNCTIONS[question]()(case.scene, states, **options), 3)
+                answer, seconds, repeats = _timed(lambda: _FUNCTIONS[question]()(case.scene, states, **options))
                 precise = (int(answer.precise), "states in balls") if question == "fate" else (None, "")
                 found.append(Growth("states", question, engine, len(states), seconds, repeats, *precise))
     return found
@@ -119,9 +120,19 @@ def _many(task, exact, digits):
     from .precise import precise_margin
     from .precise_extremes import extreme_balls
     from .precise_period import period_ball
+    reduction, bits = landscape(task.scene).reduction, math.ceil(digits * math.log2(10))
+    if digits > DOUBLES:
+        yield _series(task, exact, digits)
+    for question, call in (("extremes", lambda: extreme_balls(reduction, task.start, Fate.BOUNDED, bits)),
+                           ("period", lambda: period_ball(reduction, task.start, digits)),
+                           ("margin", lambda: precise_margin(reduction, task.start, digits))):
+        _, seconds, repeats = _timed(call)
+        yield Growth("digits", question, "balls", digits, seconds, repeats)
+
+
+def _series(task, exact, digits) -> Growth:
     from .precision_reference import WORK, one_run
     from .precision_series import Recursion
-    reduction, bits = landscape(task.scene).reduction, math.ceil(digits * math.log2(10))
     spent = []
 
     def series():
@@ -129,14 +140,9 @@ def _many(task, exact, digits):
         run = one_run(Recursion(task.equations), task.start, task.times, digits + 2, budget)
         spent.append(WORK - budget[0])
         return run
-    (states, _), seconds, repeats = _timed(series, 2)
-    yield Growth("digits", "states over the span", "Taylor in many digits", min(_reached(states, exact), digits), seconds, repeats,
-                 spent[0], "multiplications")
-    for question, call in (("extremes", lambda: extreme_balls(reduction, task.start, Fate.BOUNDED, bits)),
-                           ("period", lambda: period_ball(reduction, task.start, digits)),
-                           ("margin", lambda: precise_margin(reduction, task.start, digits))):
-        _, seconds, repeats = _timed(call, 3)
-        yield Growth("digits", question, "balls", digits, seconds, repeats)
+    (states, _), seconds, repeats = _timed(series)
+    return Growth("digits", "states over the span", "Taylor in many digits", min(_reached(states, exact), digits), seconds, repeats,
+                  spent[0], "multiplications")
 
 
 def _reached(states, exact) -> float:
@@ -173,7 +179,7 @@ def with_closeness(case, tell=lambda words: None) -> list[Growth]:
         tell(f"1e-{decade} from the separatrix")
         state, distance = near(case, decade)
         for question, function in _FUNCTIONS.items():
-            _, seconds, repeats = _timed(lambda: function()(case.scene, state), 5)
+            _, seconds, repeats = _timed(lambda: function()(case.scene, state))
             count = {"fate": (bits_needed(case.scene, state), "bits"), "period": (nodes_needed(case.scene, state), "nodes")}.get(question, (None, ""))
             found.append(Growth("separatrix", question, "as called", distance, seconds, repeats, *count))
     return found

@@ -140,11 +140,11 @@ def _floats(balls):
 
 
 def _decimals(balls, digits):
-    """Written out; a component's two ends to the same place."""
+    """Written out with one digit more, so that writing costs none of them."""
     if isinstance(balls, list):
         return [[_decimals(v, digits) for v in pair] for pair in balls]
     from flint import arb
-    return str(balls) if isinstance(balls, float) else arb(balls).mid().str(digits, radius=False)
+    return str(balls) if isinstance(balls, float) else arb(balls).mid().str(digits + 1, radius=False)
 
 
 # -- motions without one -----------------------------------------------------------------------------------------------
