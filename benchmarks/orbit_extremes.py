@@ -22,7 +22,7 @@ def rows(small=False) -> list[Row]:
 
 def bounded_states(size):
     """States of the usual box that are bounded, and not closer to the separatrix than 1e-3 in energy."""
-    states = random_states(int(2.5 * size) + 20)
+    states = random_states(int(3.3 * size) + 20)
     return states[fate(SCENE, states).margins > 1e-3][:size]
 
 

@@ -18,6 +18,7 @@ from .oracles.pairs import brink, physical, scaled
 from .test_fate import FAMILIES, sample
 
 BODY = (2000, 1500, 1000)
+pytestmark = pytest.mark.filterwarnings("ignore:invalid value")  # inf - inf of spin-ups, masked where it occurs
 
 
 def scenes():
@@ -187,6 +188,23 @@ def test_extremes_and_periods_in_one_go_equal_each_alone():
     boxes, periods = extremes_and_periods(scene, states, fast=False)
     np.testing.assert_array_equal(boxes, stabilab.extremes(scene, states, fast=False))
     np.testing.assert_array_equal(periods, stabilab.period(scene, states, fast=False))
+
+
+def test_turning_points_take_few_rounds(monkeypatch):
+    """Counted: a first guess from a cosine between well and barrier, and roots that stay found."""
+    from stabilab.analysis import turning
+    rounds, solve = [], turning.bracketed_newton
+
+    def counting(fun, *args, **kwargs):
+        rounds.append(0)
+
+        def counted(*inner):
+            rounds[-1] += 1
+            return fun(*inner)
+        return solve(counted, *args, **kwargs)
+    monkeypatch.setattr(turning, "bracketed_newton", counting)
+    stabilab.extremes(FAMILIES["minor scaled +"][0], sample("minor scaled +", 500), fast=False)
+    assert rounds and max(rounds) <= 12
 
 
 def test_small_arrays_never_load_numba():

@@ -33,6 +33,7 @@ def bracketed_newton(fun, lo, hi, start, args=(), rising=True, iterations=200, e
         lo = np.where(right, lo, x)
         new = x - step
         inside = (new >= lo) & (new <= hi) & ((np.abs(step) < 0.5 * last) | (round_ < 3))
+        inside |= np.abs(step) <= enough * np.abs(x)  # at the root: rounding alone may point outside or fail to halve
         middle = 0.5 * (lo + hi)
         new = np.where(inside, new, middle)
         move = np.abs(new - x)
