@@ -77,14 +77,15 @@ def picture(plt, steps):
     left.set(yticks=list(places), yticklabels=names, xlabel="number", title="what the equations hold")
     left.invert_yaxis()
     left.legend(loc="upper right")
-    series = [("one state, floats", style.BLUE, "o", [s.one for _, s in steps]),
-              (f"one of {MANY} states, NumPy", style.GREEN, "s", [s.among_many for _, s in steps])]
+    series = [("rates of one state, floats", style.BLUE, "o", [s.one for _, s in steps]),
+              (f"rates of one of {MANY} states, NumPy", style.GREEN, "s", [s.among_many for _, s in steps])]
     if steps[0][1].taylor_step is not None:
         series.append(("one Taylor step, heyoka", style.VERMILION, "D", [s.taylor_step for _, s in steps]))
-    for label, colour, marker, values in series:
-        right.plot([v * 1e6 for v in values], places, color=colour, marker=marker, markersize=5, linewidth=1.3, label=label)
+    looks = [(label, {"color": colour, "marker": marker, "markersize": 5, "linewidth": 1.3}) for label, colour, marker, _ in series]
+    for (_, look), (*_, values) in zip(looks, series):
+        right.plot([v * 1e6 for v in values], places, **look)
     right.set(xscale="log", xlabel="least processor time (microseconds)", title="what they cost")
     right.tick_params(labelleft=False)
-    right.legend(loc="upper right")
+    style.legend(figure, looks, columns=3)
     figure.suptitle("Only the effects a scene calls for: one added after the other", fontsize=11)
     return figure
