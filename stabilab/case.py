@@ -13,7 +13,7 @@ from .case_source import parsed, source_text
 from .case_sweep import combinations, swept
 from .case_table import Faults, Table, did_you_mean
 from .effects import REGISTRY, effect_class
-from .errors import CaseError, InputError
+from .errors import CaseError, InputError, printable
 from .exact import floats
 from .scaling import Scaling, to_scaled, torque_from_mu
 from .scene import ScaledGyrostat, Scene
@@ -60,7 +60,7 @@ class Case:
     @property
     def name(self) -> str:
         """The file's stem, and which combination of its [sweep] this is ("-2-1": second value of the first key)."""
-        return Path(self.path).stem + self.variant
+        return printable(Path(self.path).stem) + self.variant
 
 
 def load(path) -> Case:

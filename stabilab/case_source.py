@@ -16,6 +16,10 @@ LARGEST = 128 * 1024  # bytes; a case has one or two thousand, and a wrong file 
 def source_text(path) -> str:
     """The file's text; a directory, a pipe, a device, a long file or other bytes than UTF-8 are refused."""
     try:
+        str(path).encode()
+    except UnicodeEncodeError:  # it could not be named in any answer
+        raise CaseError(path, [Problem("", "the name of this file is not UTF-8: rename it")]) from None
+    try:
         mode = os.stat(path).st_mode
         raw = None
         if stat.S_ISREG(mode):  # a pipe without a writer would wait for ever

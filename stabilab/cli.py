@@ -402,6 +402,8 @@ def _say(text: str):
 
 def main() -> None:
     """Run a command and end the process with its exit code."""
+    if hasattr(sys.stdout, "reconfigure"):
+        sys.stdout.reconfigure(errors="backslashreplace")  # a terminal or pipe that does not take every letter
     try:
         app()
         code = OK

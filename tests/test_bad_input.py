@@ -1,14 +1,22 @@
 """Whatever stands in a case file: it is a case, or an error that names file and line; nothing in it is ever run."""
+import ast
+import csv
+import os
+import re
+import subprocess
+import sys
 from fractions import Fraction
+from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, given, settings
 
+import stabilab as stabilab_package
 from stabilab import case_sweep
 from stabilab.case import load
-from stabilab.errors import CaseError, printable
+from stabilab.errors import BAD_INPUT, OK, CaseError, printable
 
-from .fuzz.grammar import mutated_cases, written_cases
+from .fuzz.grammar import CASES, mutated_cases, written_cases
 from .fuzz.judge import judged
 
 QUICK = settings(max_examples=400, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
@@ -82,3 +90,154 @@ def test_one_case_of_a_sweep_file_makes_no_combinations(tmp_path, monkeypatch):
     path.write_text(BODY + '[sweep]\n"body.inertia" = [[1, 1, 1], [2, 2, 1]]\n')
     monkeypatch.setattr(case_sweep, "_with", lambda *_: pytest.fail("a combination was made"))
     assert load(path).scene.body.exact == (3, 2, 1)
+
+
+# -- nothing of a case file is ever run --------------------------------------------------------------------------------
+
+SOURCES = sorted((Path(stabilab_package.__file__).parent).rglob("*.py"))
+RUNNING = {"eval", "exec", "compile", "__import__", "execfile", "breakpoint"}  # builtins that turn text into code
+UNPACKING = {"pickle", "cPickle", "_pickle", "dill", "cloudpickle", "joblib", "marshal", "shelve", "jsonpickle", "yaml"}
+EXPRESSIONS = {"sympify", "parse_expr", "parse_latex", "parse_mathematica", "S", "lambdify", "literal_eval", "from_string"}
+# The formulas of the papers are texts of the package itself; lambdify gets expressions that the program built.
+ALLOWED = {("audit/published.py", "sympify"), ("audit/published.py", "lambdify"), ("compiled.py", "lambdify"),
+           ("analysis/averaging.py", "lambdify")}
+
+
+def called(tree):
+    """(name, line) of every function called by its own or by its last name; methods of the program's own objects count too."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Call):
+            function = node.func
+            name = function.id if isinstance(function, ast.Name) else function.attr if isinstance(function, ast.Attribute) else ""
+            yield name, isinstance(function, ast.Name), node
+
+
+def dangers(path, tree):
+    found = []
+    for name, plain, node in called(tree):
+        if name in RUNNING and plain or name in EXPRESSIONS and (path, name) not in ALLOWED:
+            found.append((name, node.lineno))
+        if any(k.arg == "allow_pickle" and getattr(k.value, "value", None) is not False or
+               k.arg == "shell" and getattr(k.value, "value", None) is not False for k in node.keywords):
+            found.append((name, node.lineno))
+        if name == "load" and isinstance(node.func, ast.Attribute) and getattr(node.func.value, "id", "") in ("np", "numpy"):
+            found.append(("numpy.load", node.lineno))
+    for node in ast.walk(tree):
+        names = [a.name for a in node.names] if isinstance(node, ast.Import) else [node.module or ""] if isinstance(node, ast.ImportFrom) else []
+        found += [(name, node.lineno) for name in names if name.split(".")[0] in UNPACKING]
+    return found
+
+
+@pytest.mark.parametrize("path", SOURCES, ids=lambda p: str(p.relative_to(SOURCES[0].parent)))
+def test_no_module_turns_text_into_code_or_objects(path):
+    name = path.relative_to(Path(stabilab_package.__file__).parent).as_posix()
+    assert dangers(name, ast.parse(path.read_text(encoding="utf-8"))) == []
+
+
+def test_the_search_for_dangers_finds_each_of_them():
+    text = ("import pickle\nfrom joblib import load\neval(x)\nexec(x)\nsp.sympify(x)\nnp.load(x)\nf(x, allow_pickle=True)\n"
+            "subprocess.run(x, shell=True)\nroot.eval(x)\nre.compile(x)\n")
+    assert sorted(line for _, line in dangers("case.py", ast.parse(text))) == [1, 2, 3, 4, 5, 6, 7, 8]
+
+
+@pytest.mark.parametrize("text", ["__import__('os').mkdir('made')", "2*pi", "sqrt(2)", "9**9**9", "lambda: 0", "1 + 1", "(1)", "1;2", "1 if 1 else 2"])
+def test_an_expression_in_a_case_file_is_refused_not_run(judge, tmp_path, monkeypatch, text):
+    monkeypatch.chdir(tmp_path)
+    (message,) = judge(f'[scaled]\na = "{text}"\nb = 1\nmu = [0, 0, 1]\n')
+    assert "expected a decimal or a ratio" in message and not (tmp_path / "made").exists()
+
+
+# -- files that are none -----------------------------------------------------------------------------------------------
+
+
+def refused(stabilab, *arguments):
+    code, out, err = stabilab(*arguments)
+    assert code == BAD_INPUT and out == "" and "Traceback" not in err and err
+    return err
+
+
+@pytest.mark.parametrize("command", ["classify", "extremes", "show", "simulate", "plot", "precision", "compare", "surface", "report"])
+def test_every_command_refuses_what_is_no_file_with_2(stabilab, tmp_path, monkeypatch, command):
+    monkeypatch.chdir(tmp_path)
+    where = ["--out", "made"] if command in ("surface", "report") else []
+    os.mkfifo("pipe.toml") if hasattr(os, "mkfifo") else None
+    Path("folder.toml").mkdir()
+    Path("huge.toml").write_bytes(b"#" * 10_000_000)
+    Path("bytes.toml").write_bytes(os.urandom(0) + bytes(range(256)))
+    Path("deep.toml").write_text("a = " + "[" * 50_000)
+    Path("loop.toml").symlink_to("loop.toml")
+    for name in sorted(p.name for p in tmp_path.iterdir()) + ["absent.toml"]:
+        assert name in refused(stabilab, command, name, *where)
+    assert not Path("made").exists()
+
+
+@pytest.mark.skipif(os.name != "posix", reason="file permissions of POSIX")
+def test_a_file_that_may_not_be_read_or_vanishes_is_refused(tmp_path, monkeypatch, stabilab):
+    path = tmp_path / "my.toml"
+    path.write_text(BODY)
+    real = open
+
+    def failing(file, *rest, **named):
+        if str(file) == str(path):
+            raise failure
+        return real(file, *rest, **named)
+    monkeypatch.setattr("builtins.open", failing)
+    for failure, words in ((PermissionError(13, "Permission denied"), "Permission denied"), (OSError(5, "Input/output error"), "Input/output"),
+                           (FileNotFoundError(2, "No such file"), "no such file")):  # it vanished after it was looked at
+        assert words in refused(stabilab, "classify", path)
+
+
+@pytest.mark.parametrize("name", ["it's & <b> $x_1$ %.toml", "naïve Ω.toml", "new\nline.toml", "esc\x1b[31m.toml", "-.toml"])
+def test_any_file_name_is_answered(stabilab, tmp_path, monkeypatch, name):
+    monkeypatch.chdir(tmp_path)
+    Path(name).write_text(BODY)
+    for command in (("classify", "--json"), ("classify",), ("show",)):
+        code, out, err = stabilab(*command, f"./{name}")
+        assert code == OK and "\x1b" not in out + err, err
+    Path(name).write_text("x")
+    assert "\x1b" not in refused(stabilab, "classify", f"./{name}")
+
+
+@pytest.mark.skipif(os.name != "posix", reason="names of files are bytes on POSIX")
+def test_a_file_name_that_is_not_utf8_is_refused(stabilab, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    name = os.fsdecode(b"\xff.toml")
+    Path(name).write_text(BODY)
+    assert "not UTF-8" in refused(stabilab, "classify", name)
+
+
+def test_output_that_takes_ascii_only_is_no_fault(tmp_path):
+    (tmp_path / "my.toml").write_text('title = "Ω → ω"\n' + BODY, encoding="utf-8")
+    run = subprocess.run([sys.executable, "-m", "stabilab", "classify", tmp_path / "my.toml"], capture_output=True,
+                         env=os.environ | {"PYTHONIOENCODING": "ascii"})
+    assert run.returncode == OK and run.stdout.startswith(rb"my: \u03a9 \u2192 \u03c9"), run.stderr
+
+
+# -- pages and documents -----------------------------------------------------------------------------------------------
+
+HOSTILE = "<script>alert(1)</script> & \\\\input{/etc/passwd} $x_1$ %d {{ 7*7 }} \\\"q\\\" # ~ ^"
+
+
+def test_latex_of_a_hostile_title_is_text():
+    from stabilab.show.table import Table, comma_separated, html_page, latex, markdown
+    words = HOSTILE.replace("\\\\", "\\").replace('\\"', '"')
+    one = Table(9, words, words, (words, "b"), ((words, 1.0), ("=1+1", None)))
+    tex = latex(one)
+    bare = re.sub(r"\\(textbackslash|textasciitilde|textasciicircum)\{\}|\\[&%$#_{}]|\$[<>|]\$", "", tex)  # what was escaped
+    body = bare.split(r"\midrule")[1].split(r"\bottomrule")[0]
+    assert r"\input" not in tex and "<" not in body and body.count("&") == 2 and not set("%$#_{}~^") & set(body)
+    assert "<script>" not in html_page(one) and "&lt;script&gt;" in html_page(one)
+    assert all(line.count(" | ") == 1 for line in markdown(one).splitlines() if line.startswith("| "))
+    assert next(csv.reader(comma_separated(one).splitlines()))[0] == words
+
+
+def test_a_hostile_title_is_text_in_every_output_of_a_case(stabilab, tmp_path, monkeypatch):
+    """Text, JSON, pictures (no mathematics is set in titles) and meshes; the report has its own test."""
+    monkeypatch.chdir(tmp_path)
+    text = next(p for p in CASES if p.stem == "minor-axis-100").read_text(encoding="utf-8")
+    Path("my.toml").write_text(re.sub(r"(?m)^(title|source) = .*$", lambda m: f'{m[1]} = "{HOSTILE}"', text), encoding="utf-8")
+    for arguments in (["classify", "my.toml"], ["classify", "my.toml", "--json"], ["show", "my.toml"], ["plot", "my.toml"],
+                      ["simulate", "my.toml", "--at", "0,1", "--out", "my.nc"], ["simulate", "my.toml", "--at", "0,1", "--out", "my.csv"]):
+        code, out, err = stabilab(*arguments)
+        assert code == OK, err
+    assert "<script>" not in Path("my.csv").read_text()

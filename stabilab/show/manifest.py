@@ -140,4 +140,4 @@ def _kept(out, replaced) -> list[dict]:
 
 def _write(out, data):
     with files.whole_file(out / NAME) as waiting:
-        waiting.write_text(json.dumps(data, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+        waiting.write_text(json.dumps(data, indent=1) + "\n", encoding="utf-8")
