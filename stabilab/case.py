@@ -11,7 +11,7 @@ from .body import Body
 from .case_expect import expected
 from .case_source import parsed, source_text
 from .case_sweep import combinations, swept
-from .case_table import Faults, Table, did_you_mean
+from .case_table import Faults, Table, Uncertain, did_you_mean
 from .effects import REGISTRY, effect_class
 from .errors import CaseError, InputError, printable
 from .exact import floats
@@ -34,7 +34,8 @@ class Case:
     change between the two, None where it is undefined. state: three components at time 0 in the case's variables,
     body frame, or None; blocks: the other blocks of the state by name ("gamma", "velocity", "position" as three
     numbers, "attitude" as psi, phi, theta of the 3-1-2 sequence, rad), where the file gives them; span: (from, to) in
-    the case's time or None; expect: facts the case's test asserts; text: the source.
+    the case's time or None; expect: facts the case's test asserts; text: the source. uncertain: the numbers given with an
+    uncertainty, whose middles everything else holds; mu: the dimensionless torque where the file gives it for a body.
     """
 
     path: str
@@ -50,6 +51,8 @@ class Case:
     blocks: dict = field(default_factory=dict)
     text: str = field(default="", repr=False)
     variant: str = ""
+    uncertain: tuple[Uncertain, ...] = ()
+    mu: tuple | None = None
 
     @property
     def start(self) -> tuple[float, ...] | None:
@@ -109,7 +112,7 @@ def _built(path, text, data, faults, variant="") -> Case:
     if faults.problems:
         raise CaseError(path, sorted(faults.problems, key=lambda p: p.line or 0))
     return Case(path, title, source, scene, variables, physical, scaling, motion.state, span, expect, motion.blocks, text,
-                variant)
+                variant, tuple(faults.uncertain.values()), mu)
 
 
 class _Context(NamedTuple):
@@ -151,7 +154,7 @@ def _physical(top: Table) -> tuple[Scene | None, tuple | None]:
     if body is None or None in made:
         return None, None
     torque = effects.data.get("constant_torque", {})
-    mu = Table((), torque, Faults(top.faults.lines)).vector("mu")
+    mu = Table(("effects", "constant_torque"), torque, Faults(top.faults.lines)).vector("mu")
     return Scene(body, *made), mu
 
 
@@ -167,11 +170,30 @@ def _body(top: Table) -> Body | None:
     negative = [index for index, moment in enumerate(moments or ()) if moment <= 0]
     for index in negative:
         table.fault(f"number {index + 1} is {float(moments[index])!r}; principal moments are positive", "inertia", index)
+    if moments and not negative and not _possible(table, moments):
+        return None
     try:
         return None if moments is None or negative or (mass is None and "mass" in table) else Body(moments, mass)
     except InputError as error:
         table.fault(str(error).removeprefix("inertia: "), "inertia")
         return None
+
+
+def _possible(table: Table, moments) -> bool:
+    """Whether every body within the uncertainties exists; a fault where not."""
+    given = [table.faults.uncertain.get(table.path + ("inertia", i)) for i in range(3)]
+    low, high = ([m + sign * u.half if u else m for m, u in zip(moments, given)] for sign in (-1, 1))
+    if not any(given) or 2 * max(moments) > sum(moments):
+        return True  # `Body` says what is wrong with the middle
+    for index in range(3):
+        others = sum(low) - low[index]
+        if low[index] <= 0 or high[index] > others:
+            wrong = (f"moments down to {float(low[index])!r}" if low[index] <= 0 else
+                     f"{float(high[index])!r} beside others of {float(others)!r} together, which breaks the triangle inequality")
+            table.fault(f"number {index + 1}: the uncertainty reaches {wrong}; no rigid body has these: make it smaller",
+                        "inertia", index)
+            return False
+    return True
 
 
 def _scaled(top: Table) -> ScaledGyrostat | None:

@@ -6,11 +6,12 @@ from __future__ import annotations
 
 from datetime import date, time
 from fractions import Fraction
+from typing import NamedTuple
 from unicodedata import category
 
 from .case_lines import KeyLines
 from .errors import InputError, Problem, printable
-from .exact import exact
+from .exact import exact, plus_minus, states_uncertainty
 
 
 UNSEEN = ("Cc", "Cf", "Cs")  # Unicode's categories of control, format (such as right-to-left override) and surrogate characters
@@ -20,12 +21,27 @@ class Written(str):
     """A number with a point or an exponent as it stands in the file, so that 0.1 means one tenth exactly."""
 
 
+UNCERTAIN = {("body", "inertia"), ("effects", "gyrostat", "momentum"), ("effects", "constant_torque", "torque"),
+             ("effects", "constant_torque", "mu"), ("motion", "angular_velocity"), ("motion", "x"),
+             ("scaled", "a"), ("scaled", "b"), ("scaled", "mu")}  # the keys whose numbers may be uncertain
+
+
+class Uncertain(NamedTuple):
+    """A number known within bounds: its path in the file (with the list index), the middle and the half-width, exact."""
+
+    path: tuple
+    middle: Fraction
+    half: Fraction
+
+
 class Faults:
-    """The faults found so far, each at the line of its key; moved: path -> path of the key that stands for it."""
+    """The faults found so far, each at the line of its key; moved: path -> path of the key that stands for it. uncertain:
+    path -> the number with an uncertainty that was read there."""
 
     def __init__(self, lines: KeyLines, moved: dict | None = None):
         self.lines, self.moved = lines, moved or {}
         self.problems: list[Problem] = []
+        self.uncertain: dict[tuple, Uncertain] = {}
 
     def add(self, path: tuple, message: str):
         source = next((there for here, there in self.moved.items() if path[:len(here)] == here), path)
@@ -120,11 +136,23 @@ class Table:
 
     def _exact(self, value, *keys) -> Fraction | None:
         try:
+            if isinstance(value, str) and not isinstance(value, Written) and states_uncertainty(value):
+                return self._middle(value, keys)
             return _number(value)
         except InputError as error:
             place = f"number {keys[1] + 1}: " if len(keys) > 1 else ""
             self.fault(place + str(error), *keys)
             return None
+
+    def _middle(self, text: str, keys) -> Fraction:
+        """The middle of an uncertain number, which is noted."""
+        if self.path + keys[:1] not in UNCERTAIN:
+            raise InputError(f"takes no uncertainty, got {described(text)}; it may stand in inertia, momentum, torque, mu, a, b, "
+                             "angular_velocity and x")
+        found = Uncertain(self.path + keys, *plus_minus(text))
+        if found.half:
+            self.faults.uncertain[found.path] = found
+        return found.middle
 
 
 def _number(value) -> Fraction:
