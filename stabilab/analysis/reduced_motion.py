@@ -15,7 +15,9 @@ from .reduction import reduce
 from .relief import Relief, relief
 from .repeating_motion import DIP, SAMPLES, Around, Between, ByPanels, BySeries, Phase, Resting
 from .spin_up_motion import SpinUp
+from .tabulated_motion import tabulated
 
+MANY = 2000  # times that are worth a table
 DIGITS = 1e-11  # rounding of the potential about an equilibrium beyond which doubles are not enough
 
 
@@ -59,7 +61,9 @@ def _refuse_ties(ground, spots):
 
 def axis_way(motion, times):
     """(states (n, 3), integral of the rate about the torque's axis since time 0 (n,), that axis) at times of any sign."""
-    states, way = motion.follow(np.asarray(times, float))
+    times = np.asarray(times, float)
+    motion = tabulated(motion) if len(times) >= MANY else motion
+    states, way = motion.follow(times)
     scale, shift = motion.spin
     return states, scale * way - shift * times, motion.axis
 
