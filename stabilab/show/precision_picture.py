@@ -31,16 +31,17 @@ def picture(plt, found):
         raise InputError(f"{found.case.name}: nothing to draw: {found.reference.reason}")
     columns = min(2, len(questions))
     rows = -(-len(questions) // columns)
-    figure, axes = plt.subplots(rows, columns, figsize=(5.6 * columns, 4.0 * rows + 1.3), layout="constrained", squeeze=False)
+    figure, axes = plt.subplots(rows, columns, figsize=(5.6 * columns, 4.0 * rows + (1.3 if columns == 2 else 2.1)), layout="constrained", squeeze=False)
     for ax, question in zip(axes.flat, questions):
         _panel(ax, found, question)
     for ax in axes.flat[len(questions):]:
         ax.set_visible(False)
     shown = [m for m in LOOKS if any(p.method == m for p in found.points)]
-    style.legend(figure, [(_legend(found, m), LOOKS[m]) for m in shown] + [("front: none is both faster and better", FRONT)], columns=4)
+    style.legend(figure, [(_legend(found, m), LOOKS[m]) for m in shown] + [("front: none is both faster and better", FRONT)],
+                 columns=4 if columns == 2 else 2)
     figure.suptitle(f"{found.case.name}: what accuracy costs", fontsize=11, parse_math=False)
     note = f"Reference error {found.reference.error.max():.0e}. {caption()}"
-    width = 150 if columns == 2 else 78
+    width = 150 if columns == 2 else 84
     figure.legends[0].set_title("\n".join(textwrap.wrap(note, width)), prop={"size": 7.5})
     figure.legends[0].get_title().set(color=style.GREY, parse_math=False)
     return figure
