@@ -49,7 +49,10 @@ def show(case: CaseFile):
 
 @app.command()
 def classify(cases: CaseFiles, json: Json = False, strict: Annotated[bool, typer.Option(
-        "--strict", help="Exit with 3 where a verdict or a fate is undecided.")] = False):
+        "--strict", help="Exit with 3 where a verdict or a fate is undecided.")] = False,
+             certify: Annotated[bool, typer.Option("--certify", help="Prove the answer in exact numbers and balls, and write it as a "
+                                                                     "certificate that `stabilab verify` checks.")] = False,
+             out: Annotated[Path, typer.Option(metavar="FILE.json", help="Where the certificate goes.")] = Path("certificate.json")):
     """Find the equilibria, their stability, and the motion's fate.
 
     Example: stabilab classify cases/minor-axis-100.toml --json
@@ -61,7 +64,32 @@ def classify(cases: CaseFiles, json: Json = False, strict: Annotated[bool, typer
         _print(answers.as_json([answers.classification(*answer) for answer in answered]))
     else:
         _print("\n\n".join(answers.classification_text(*answer) for answer in answered))
-    if strict and any(answers.undecided(found, motion) for _, found, motion in answered):
+    certified = _certified(loaded, out) if certify else True
+    if strict and (not certified or any(answers.undecided(found, motion) for _, found, motion in answered)):
+        raise typer.Exit(UNDECIDED)
+
+
+@app.command()
+def verify(certificate: Annotated[Path, typer.Argument(metavar="CERTIFICATE", help="A certificate.json of classify --certify.",
+                                                       show_default=False)], json: Json = False,
+           strict: Annotated[bool, typer.Option("--strict", help="Exit with 3 where a claim could not be checked.")] = False):
+    """Check a certificate with separate code.
+
+    Shares only python-flint with the analysis. Exits with 5 where a claim is wrong.
+
+    Example: stabilab verify certificate.json
+    """
+    from .show import answers, certification
+    from .verify import verify_file
+    from .verify.numbers import Malformed
+    try:
+        found = verify_file(certificate)
+    except (Malformed, UnicodeDecodeError) as error:
+        raise InputError(f"{certificate}: {error}; expected a certificate of stabilab classify --certify") from None
+    _print(answers.as_json(certification.as_dict(found)) if json else certification.text(found))
+    if found.status == "refuted":
+        raise ToleranceNotMet(f"{certificate}: a claim is wrong")
+    if strict and found.status != "proved":
         raise typer.Exit(UNDECIDED)
 
 
@@ -319,6 +347,17 @@ def _equilibria(case):
     return equilibria(case.scene)
 
 
+def _certified(cases, out) -> bool:
+    """Write the certificate of one case; whether all of it could be certified."""
+    from .analysis.certificate import certificate
+    from .show import certification
+    if len(cases) != 1:
+        raise InputError(f"--certify: expected one case, got {len(cases)}; certify them one by one")
+    made = certificate(cases[0].scene, cases[0].state)
+    _say(f"written: {certification.write(made, out)}\n{certification.summary(made)}")
+    return not made["uncertified"]
+
+
 def _motion(case, brief=False):
     from .analysis.motion import motion
     return motion(case.scene, case.start, case.span, brief)
@@ -363,7 +402,7 @@ def _followed(case, times, model, method, rtol, order, digits):
                          "--rtol and --order")
     from .analysis.precision_digits import best_reached
     from .analysis.precision_told import DEFAULT
-    reached = best_reached(case, times, DEFAULT if digits is None else digits)
+    reached = best_reached(case, times, DEFAULT if digits is None else digits, measured=digits is not None)
     return reached.run, reached
 
 

@@ -13,8 +13,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from stabilab.errors import BAD_INPUT, OK, TOLERANCE_NOT_MET
-from stabilab.show import manifest, rerun
+from stabilab.errors import BAD_INPUT, NO_RENDERING, OK, TOLERANCE_NOT_MET
+from stabilab.show import manifest, render_probe, rerun
 
 ROOT = Path(__file__).parent.parent
 CASES = sorted(str(p.relative_to(ROOT)) for p in (ROOT / "cases").glob("*.toml"))
@@ -77,6 +77,16 @@ def test_answers_are_the_same_bytes_whatever_surrounds_them(answers, tmp_path, a
     assert differing(answers, outputs(tmp_path / "other", ANSWERS, **around)) == []
 
 
+def test_what_was_measured_on_a_machine_changes_no_answer_that_did_not_ask_for_it(tmp_path, monkeypatch, stabilab):
+    """A front that names another method is followed by --digits alone."""
+    from stabilab.analysis import precision_digits
+    from stabilab.analysis.precision_front import FrontPoint
+    without = stabilab("simulate", ROOT / FEW[0], "--at", "0,1,2")
+    monkeypatch.setattr(precision_digits, "front", lambda case: (FrontPoint("DOP853", 1e-13, 12.5, 1e-6),))
+    assert stabilab("simulate", ROOT / FEW[0], "--at", "0,1,2") == without and without[0] == OK
+    assert "DOP853" in stabilab("simulate", ROOT / FEW[0], "--at", "0,1,2", "--digits", "9")[1]
+
+
 @pytest.fixture(scope="module")
 def everything(tmp_path_factory):
     return outputs(tmp_path_factory.mktemp("bytes") / "plain", MORE + DRAWN)
@@ -128,12 +138,14 @@ def test_surfaces_and_formulas_differ_in_their_last_places_only(tmp_path, name):
 
 @pytest.fixture
 def made(tmp_path, monkeypatch, stabilab):
-    """A folder with a case of one's own and its surface, and what the command said."""
+    """A folder with the meshes of a case of one's own, as a machine without a renderer makes them."""
+    render_probe.probe.cache_clear()
+    monkeypatch.setattr(render_probe, "_CHILD", "raise SystemExit(3)")
     (tmp_path / "my.toml").write_bytes((ROOT / "cases/minor-axis-100.toml").read_bytes())
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("PYTHONPATH", str(ROOT))
-    code, _, err = stabilab("surface", "my.toml", "--out", "made")
-    assert code in rerun.ENDED, err
+    assert stabilab("surface", "my.toml", "--out", "made")[0] == NO_RENDERING
+    render_probe.probe.cache_clear()
     return tmp_path / "made"
 
 
@@ -154,6 +166,7 @@ def tables(tmp_path, monkeypatch, stabilab):
     return tmp_path / "made"
 
 
+@pytest.mark.slow
 def test_rerun_finds_the_same_bytes_from_another_folder(tables, stabilab, monkeypatch):
     """Of two commands in one folder both are repeated."""
     assert stabilab("figures", "9", "--out", "made")[0] == OK
