@@ -19,6 +19,7 @@ POINTS = 16
 FIXED = TURN / 8  # length of panels that are not cut further
 SETTLED = 4e-15  # last coefficients against the first: some ten times what rounding leaves of them
 DEEPEST = 80  # halvings of a passage; 1e-12 from a separatrix takes 20
+CROWD = 200  # panels of one size that are still cut: then it is rounding that keeps them from settling
 NEWTON = 12
 
 
@@ -203,7 +204,7 @@ class Panels:
                 raise InputError("the reduced form of this motion takes more digits than doubles have")
             rate = values @ forward.T
             good = np.abs(rate[:, -2:]).max(axis=1) <= SETTLED * np.abs(rate[:, 0]) if adaptive else np.ones(len(low), bool)
-            if depth == DEEPEST and not good.all():
+            if (depth == DEEPEST or len(live) > CROWD) and not good.all():
                 raise InputError("the reduced form of this motion takes more panels than it is set up for")
             done += [(low[n], half[n], rate[n], values[n] @ integral.T) for n in np.nonzero(good)[0]]
             live = [(a, b) for n in np.nonzero(~good)[0] for a, b in self._halves(*live[n])]

@@ -12,7 +12,7 @@ import math
 import numpy as np
 
 from .passages import Panels, Passing, Turning, turning_offset
-from .relief import EPS, TURN, Arrays, Plain
+from .relief import TURN, Arrays, Plain
 
 SAMPLES = (64, 128, 256, 512)
 NOISE = 4e-16  # coefficients of phi below this are rounding

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from .repeating_motion import Motion
 
 PARTS = (48, 96, 192, 384)
 DEGREE = 11
-SETTLED = 4e-16  # last coefficients against the largest value: below rounding
+SETTLED = 2e-15  # last coefficients against the largest value: what rounding of the samples leaves of them
 CHUNK = 1024
 
 
@@ -18,18 +19,24 @@ def tabulated(motion: Motion) -> Motion:
     """The motion from a table; itself where it does not repeat or turns too sharply for one (next to a separatrix)."""
     if not 0 < motion.period < math.inf:
         return motion
-    cheb = np.polynomial.chebyshev
-    nodes = cheb.chebpts1(DEGREE + 1)
-    fit = np.linalg.inv(cheb.chebvander(nodes, DEGREE))
+    nodes, fit, powers = _rule()
     for parts in PARTS:
         times = (np.arange(parts)[:, None] + 0.5 * (1 + nodes)) * (motion.period / parts)
         states, way = motion.follow(times.ravel())
         rows = fit @ np.column_stack([states, way]).reshape(parts, DEGREE + 1, 4)
         if (np.abs(rows[:, -2:]).max(axis=(0, 1)) <= SETTLED * np.abs(rows).max(axis=(0, 1))).all():
-            powers = np.array([np.pad(cheb.cheb2poly(row), (0, DEGREE + 1 - k)) for k, row in enumerate(np.eye(DEGREE + 1), 1)
-                               for row in (row[:k],)]).T
             return Tabulated(motion, powers @ rows, motion.evaluations + times.size)
     return motion
+
+
+@lru_cache(maxsize=1)
+def _rule():
+    """(nodes in (-1, 1), matrix from values there to Chebyshev's coefficients, matrix from those to powers)."""
+    cheb = np.polynomial.chebyshev
+    nodes, powers = cheb.chebpts1(DEGREE + 1), np.zeros((DEGREE + 1, DEGREE + 1))
+    for k in range(DEGREE + 1):
+        powers[:k + 1, k] = cheb.cheb2poly(np.eye(DEGREE + 1)[k, :k + 1])
+    return nodes, np.linalg.inv(cheb.chebvander(nodes, DEGREE)), powers
 
 
 class Tabulated(Motion):
