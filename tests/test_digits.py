@@ -7,7 +7,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from stabilab import extremes, load, period
+from stabilab import extremes, fate, load, period
 from stabilab.analysis import precision as measuring
 from stabilab.analysis import precision_digits, precision_questions
 from stabilab.analysis.precision_digits import best_reached, simulate_to
@@ -111,6 +111,10 @@ def test_arrays_are_checked_on_a_sample_and_redone_where_it_falls_short():
     for state, value in zip(states[:3], fine):
         assert float(abs(energy.period(model(one), tuple(state), digits=40) - value)) <= 1e-14 * value
     assert ask_all("fate", one.scene, states[0], 20).decimals.shape == ()
+    decided = fate(one.scene, states[:3], digits=15)
+    assert (decided.labels == fate(one.scene, states[:3]).labels).all()
+    for state, margin in zip(states[:3], decided.margins):
+        assert abs(energy.margin(model(one), tuple(state), digits=40) - margin) <= 1e-15 * abs(margin)
 
 
 def test_digits_that_are_not_reached_raise():

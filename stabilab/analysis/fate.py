@@ -7,7 +7,7 @@ of the invariant planes Q = 0. Inputs are taken as exact; what doubles cannot de
 """
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
 
@@ -76,18 +76,22 @@ def checked_states(states) -> np.ndarray:
     return array
 
 
-def fate(scene, states, fast=None) -> FateResult:
+def fate(scene, states, fast=None, digits: int | None = None) -> FateResult:
     """The fate of every state of an array (..., 3) in the scene's variables (rad/s, or x when scaled).
 
     scene: Scene or ScaledGyrostat. fast: True for numba's compiled loops (the extra `fast`), False for NumPy alone, None
     for numba where it is installed and the array is large; the two give the same bytes. Returns a FateResult. Raises
     InputError for arrays of another shape, for non-finite numbers, for scenes with effects that this analysis does not
-    cover, and for fast=True without numba.
+    cover, and for fast=True without numba. digits (1 to 50): give the margins so many, checked, as of `extremes` (the
+    labels have no digits to lose); ToleranceNotMet otherwise.
 
     Arrays of `TABLE_FROM` states or more look the barrier up in a table of the scene; smaller ones, and any state that
     is near a tie, a fold or an equilibrium, solve for it. Labels are the same either way; margins may differ by 1e-12 of
     their terms, the kinetic energy and the barrier's height over the state.
     """
+    if digits is not None:
+        from .precision_questions import ask_all
+        return replace(fate(scene, states, fast), margins=ask_all("fate", scene, states, digits).required().values)
     scene, array = effective(scene), checked_states(states)
     flat = np.ascontiguousarray(array.reshape(-1, 3))
     n = len(flat)
