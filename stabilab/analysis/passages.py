@@ -50,7 +50,8 @@ class Passing:
 
 
 class Turning:
-    """From (sense 1) or to (sense -1) the turning point at offset a of a spot: offset a + sense x^2, to `far`; at: as of `Passing`."""
+    """From (sense 1) or to (sense -1) the turning point at offset a of a spot: offset a + sense x^2, to `far`; at: as
+    of `Passing`."""
 
     def __init__(self, spot, a, sense, far, at=None):
         self.spot, self.a, self.sense, self.at_zero = spot, a, sense, spot.at if at is None else at
@@ -170,7 +171,9 @@ def inverted(integral, rate, half, wanted, f):
 
 
 class Panels:
-    """Time from the start of a chain of passages; with fewer than `POINTS` points a panel none is cut further. evaluations: of dt/dx; starts: times at the panels' beginnings;
+    """Time from the start of a chain of passages; with fewer than `POINTS` points a panel none is cut further.
+
+    evaluations: of dt/dx; starts: times at the panels' beginnings;
     ends_of: the panels of each passage; nodes, weights: of the whole chain, passage by passage."""
 
     def __init__(self, chain, points=POINTS):

@@ -34,7 +34,8 @@ def reduced_motion(scene, state, nodes: int | None = None, backwards: bool = Fal
         raise InputError("the scene has no reduction to one degree of freedom: its torque is off the principal axes, or the "
                          "gyrostatic moment has a component along it; take method taylor")
     motion = _motion(relief(reduction, state), state, nodes, backwards)
-    motion.axis, motion.spin = reduction.axis, (reduction.constants["flip"] / reduction.constants["n"] if reduction.e else 1.0, float(reduction.s))
+    scale = reduction.constants["flip"] / reduction.constants["n"] if reduction.e else 1.0
+    motion.axis, motion.spin = reduction.axis, (scale, float(reduction.s))
     return motion
 
 
@@ -74,8 +75,8 @@ def _libration(ground: Relief, nodes):
     right = min((n for n, s in enumerate(spots) if s.kind > 0 and s.kinetic <= 0 and s.at > 0), default=None)
     inner = spots[0 if left is None else left + 1:right]
     if not inner or inner[0].kind > 0 or inner[-1].kind > 0:
-        raise InputError("the motion does not repeat: no well holds it (spin-up on an invariant plane, or about the axis itself); "
-                         "take method taylor")
+        raise InputError("the motion does not repeat: no well holds it (spin-up on an invariant plane, or about the axis "
+                         "itself); take method taylor")
     left, right = (None if n is None else spots[n] for n in (left, right))
     _refuse_ties(ground, [s for s in (left, *inner, right) if s])
     start, a = _turn(left, inner[0], -1)

@@ -21,8 +21,8 @@ CHUNK = 4096
 
 
 class Phase:
-    """phi(psi) - psi as a Fourier series from samples of dt/dphi over a turn of phi; even: so is dt/dphi; settled: the series is
-    as long as doubles need."""
+    """phi(psi) - psi as a Fourier series from samples of dt/dphi over a turn of phi; even: so is dt/dphi; settled: the
+    series is as long as doubles need."""
 
     def __init__(self, rate, even):
         n = len(rate)
@@ -65,7 +65,7 @@ def _lead(slow, phi):
 
 
 class Between:
-    """offset = middle - half cos phi between turning points a (from spot `left`) and b (from `right`), `gap` apart from each other."""
+    """offset = middle - half cos phi between turning points a (from spot `left`) and b (from `right`)."""
 
     even = True
 

@@ -114,7 +114,8 @@ class SpinUp(Motion):
         n = mine[max(bisect_right(self.late.low[mine].tolist(), y) - 1, 0)]
         lengths = self.late.half * integral.sum(axis=1)
         xi = (y - self.late.low[n]) / self.late.half[n] - 1
-        return self.early.total + self._turns_take(turns) + float(lengths[:n].sum() + self.late.half[n] * clenshaw(integral[n].tolist(), xi))
+        within = lengths[:n].sum() + self.late.half[n] * clenshaw(integral[n].tolist(), xi)
+        return self.early.total + self._turns_take(turns) + float(within)
 
     # --- many turns on
     def _turns_take(self, turns):
@@ -154,7 +155,8 @@ class SpinUp(Motion):
         n = min(bisect_right(ends, within), len(ends) - 1)
         _, forward, integral = _rule(self.late.points)
         half = float(self.late.half[n])
-        xi = inverted((integral @ rates[n]).tolist(), (forward @ rates[n]).tolist(), half, within - (ends[n - 1] if n else 0.0), Plain)
+        within -= ends[n - 1] if n else 0.0
+        xi = inverted((integral @ rates[n]).tolist(), (forward @ rates[n]).tolist(), half, within, Plain)
         passage = self.late.chain[self.late.owner[n]]
         y = float(self.late.low[n]) + half * (1 + xi)
         energy = passage.energy(y, Plain) + turns * self.work
