@@ -4,6 +4,7 @@ from __future__ import annotations
 import math
 import os
 from dataclasses import dataclass, field
+from fractions import Fraction
 from pathlib import Path
 from typing import NamedTuple
 
@@ -36,6 +37,7 @@ class Case:
     numbers, "attitude" as psi, phi, theta of the 3-1-2 sequence, rad), where the file gives them; span: (from, to) in
     the case's time or None; expect: facts the case's test asserts; text: the source. uncertain: the numbers given with an
     uncertainty, whose middles everything else holds; mu: the dimensionless torque where the file gives it for a body.
+    exact_state: the decimals of the state as they were written, before the one rounding to doubles.
     """
 
     path: str
@@ -53,6 +55,7 @@ class Case:
     variant: str = ""
     uncertain: tuple[Uncertain, ...] = ()
     mu: tuple | None = None
+    exact_state: tuple[Fraction, Fraction, Fraction] | None = None
 
     @property
     def start(self) -> tuple[float, ...] | None:
@@ -112,7 +115,7 @@ def _built(path, text, data, faults, variant="") -> Case:
     if faults.problems:
         raise CaseError(path, sorted(faults.problems, key=lambda p: p.line or 0))
     return Case(path, title, source, scene, variables, physical, scaling, motion.state, span, expect, motion.blocks, text,
-                variant, tuple(faults.uncertain.values()), mu)
+                variant, tuple(faults.uncertain.values()), mu, motion.exact)
 
 
 class _Context(NamedTuple):
@@ -217,6 +220,7 @@ class _Motion:
     span_key: str | None = None
     span: tuple | None = None
     blocks: dict = field(default_factory=dict)
+    exact: tuple | None = None
 
 
 def _motion(top: Table) -> _Motion:
@@ -235,7 +239,7 @@ def _motion(top: Table) -> _Motion:
             if key in table:
                 table.fault(f"a [scaled] system has no body to convert {key} with: give {other}", key)
     blocks = {block: floats(vector) for key, block in BLOCKS.items() if (vector := table.vector(key)) is not None}
-    return _Motion(table, state_key, floats(state) if state else None, span_key, span, blocks)
+    return _Motion(table, state_key, floats(state) if state else None, span_key, span, blocks, state)
 
 
 def _judge_blocks(motion: _Motion, scene):

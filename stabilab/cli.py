@@ -353,7 +353,7 @@ def _certified(cases, out) -> bool:
     from .show import certification
     if len(cases) != 1:
         raise InputError(f"--certify: expected one case, got {len(cases)}; certify them one by one")
-    made = certificate(cases[0].scene, cases[0].state)
+    made = certificate(cases[0].scene, cases[0].exact_state)
     _say(f"written: {certification.write(made, out)}\n{certification.summary(made)}")
     return not made["uncertified"]
 

@@ -73,3 +73,34 @@ def test_a_state_at_an_exact_equilibrium_is_one_and_its_neighbour_is_not():
     assert certificate(scene, (Fraction(-3), Fraction(1, 3), 0))["motion"]["fate"] == "equilibrium"
     near = certificate(scene, (-3.0, 1 / 3, 0.0))["motion"]  # the double nearest 1/3 is no equilibrium
     assert near is None or near["fate"] != "equilibrium"
+
+
+def test_the_decimals_of_a_case_are_certified_as_they_were_written(tmp_path):
+    path = tmp_path / "tenth.toml"  # x2 (x1 + b) = -1 at (-10.1, 0.1, 0) exactly (theory.md, section 1): no double is 0.1
+    path.write_text('[scaled]\na = 0.1\nb = 0.1\nmu = [0, 0, 1]\n[motion]\nx = [-10.1, 0.1, 0]\n', encoding="utf-8")
+    case = load(path)
+    assert case.exact_state[1] == Fraction(1, 10) != case.state[1]
+    assert certificate(case.scene, case.exact_state)["motion"]["fate"] == "equilibrium"
+
+
+@pytest.mark.parametrize("name, code, words", [("minor-axis-100", 0, "proved: "), ("symmetric-body", 3, "not checked"), ("charged-body", 3, "no claims")])
+def test_certify_writes_what_verify_proves(name, code, words, tmp_path, capsys, monkeypatch):
+    import sys
+
+    from stabilab.cli import main
+    path = tmp_path / "certificate.json"
+
+    def run(*arguments):
+        monkeypatch.setattr(sys, "argv", ["stabilab", *map(str, arguments)])
+        with pytest.raises(SystemExit) as end:
+            main()
+        return end.value.code, capsys.readouterr()
+    case = Path(__file__).parent.parent / "cases" / f"{name}.toml"
+    assert run("classify", case, "--certify", "--out", path, "--strict")[0] == code
+    found, printed = run("verify", path, "--strict")
+    assert found == code and words in printed.out
+    path.write_text(path.read_text(encoding="utf-8").replace('"fate": "bounded"', '"fate": "spin-up"'), encoding="utf-8")
+    if "bounded" in printed.out:
+        assert run("verify", path)[0] == 5
+    path.write_text("[]", encoding="utf-8")
+    assert run("verify", path)[0] == 2

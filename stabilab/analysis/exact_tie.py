@@ -18,7 +18,7 @@ def exact_tie(orbit) -> bool:
     To be asked at the working precision at which the orbit was made; inputs are exact. False where a torque acts on a
     circle or a hyperbola. A barrier whose ball is clear of the energy plays no part.
     """
-    close = [s for s in orbit.spots if s.kind > 0 and 0 in orbit.height(s.y) - orbit.energy]
+    close = [s for s in orbit.barriers() if 0 in orbit.height(s.y) - orbit.energy]
     if not close or (orbit.r.e and orbit.r.sense):
         return False
     tied = _on_parabola if orbit.r.e == 0 else _on_conic

@@ -11,7 +11,7 @@ import math
 from fractions import Fraction
 from typing import NamedTuple
 
-from .precise import DOUBLE_BITS, TIE_BITS, PreciseOrbit, decide, settled, sign
+from .precise import DOUBLE_BITS, PreciseOrbit, decide, settled
 from .precise_extremes import extreme_balls
 from .reasons import REASONS, Reason, rests
 from .results import Fate
@@ -96,15 +96,13 @@ def _on_hyperbola(r, state) -> OneFate:
 
 
 def _on_free_plane(r, state) -> OneFate:
-    """On an invariant plane without torque: bounded below the height of the plane's end, else it tends to a rotation."""
-    def question(bits):
-        orbit = PreciseOrbit(r, state)
-        above = orbit.energy - orbit.x * (orbit.G * orbit.x / 2 + orbit.c) - orbit.d * orbit.z
-        if bits >= TIE_BITS and 0 in above:
-            return 0, 0.0
-        return sign(above), float(above.mid())
-    side, above = settled(question, DOUBLE_BITS)
-    return OneFate(*((Fate.BOUNDED, Reason.TORQUE_FREE) if side < 0 else (Fate.SEPARATRIX, Reason.ASYMPTOTIC)), -above)
+    """On an invariant plane without torque: bounded below the height of the plane's end, else it tends to a rotation.
+    Every term is rational."""
+    (u, v), sp = _shifted(r, state), 1 if r.p > 0 else -1
+    ap, aq, speed = abs(r.p), abs(r.q), Fraction(state[r.axis]) + r.s
+    rho, sigma = r.rho - r.kappa * r.q0 / r.q, r.sigma - r.kappa * r.p0 / r.p
+    above = float(ap * aq * speed * speed / 2 - sp * aq * u * (r.kappa * u / 2 + rho) - sp * ap * sigma * v)
+    return OneFate(*((Fate.BOUNDED, Reason.TORQUE_FREE) if above < 0 else (Fate.SEPARATRIX, Reason.ASYMPTOTIC)), -above)
 
 
 def _on_parabola(r, state) -> OneFate:

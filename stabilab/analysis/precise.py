@@ -17,7 +17,8 @@ from .polynomials import Poly
 DOUBLE_BITS = 53
 DOUBLE_SHARE = 1e-12  # of a margin: with less certainty balls of doubles do not settle it
 START_BITS = 128
-TIE_BITS = 4096  # two energies that agree in this many bits are called equal
+TIE_BITS = 4096  # with so many the extremes of a motion on the separatrix are worked out
+EXACT_BITS, MOST_BITS = 512, 1 << 17  # from these bits on algebra is asked whether two energies are equal; and where balls end
 
 
 class Digits:
@@ -137,7 +138,7 @@ class PreciseOrbit:
 
     def __init__(self, reduction, state):
         r = self.r = reduction
-        self.state = tuple(float(v) for v in state)
+        self.state = tuple(v if isinstance(v, Fraction) else float(v) for v in state)  # exact either way
         self.u, self.v = (Fraction(self.state[a]) for a in (r.j, r.k))
         speed = Fraction(self.state[r.axis]) + r.s
         self.force_here = r.kappa * self.u * self.v + r.rho * self.v + r.sigma * self.u + r.m  # exact
@@ -338,15 +339,18 @@ class PreciseOrbit:
     def _is_turn(self, y):
         return self.force_here == 0 and y.overlaps(2 * _numbers.pi())
 
+    def barriers(self) -> list[Spot]:
+        """The barriers that the fate depends on: on a circle those ahead within one turn, on an invariant plane those ahead,
+        else all."""
+        return [s for s in self.spots if s.kind > 0 and not (self.on_plane and s.y < 0)]
+
     def margins(self) -> list:
-        """Height minus energy of each barrier that the fate depends on: on a circle those ahead within one turn, on an
-        invariant plane those ahead, else all."""
-        return [self.height(s.y) - self.energy for s in self.spots
-                if s.kind > 0 and not (self.on_plane and s.y < 0)]
+        """Height minus energy of each of the `barriers`."""
+        return [self.height(s.y) - self.energy for s in self.barriers()]
 
 
 class Tie(NamedTuple):
-    """Sign of a margin settled in many bits: sign 0 means that `bits` bits show no difference."""
+    """Sign of a margin, settled with `bits` bits; 0 on the separatrix itself (by algebra: `exact_tie`)."""
 
     sign: int
     margin: float
@@ -354,43 +358,54 @@ class Tie(NamedTuple):
 
 
 def decide(reduction, state, bits: int = START_BITS) -> Tie:
-    """Sign of the margin of one state, doubling the bits until it is clear; sign -1 with margin -inf: no barrier.
+    """Sign of the margin of one state (doubles or fractions), doubling the bits until it is clear; sign -1 with margin -inf:
+    no barrier.
 
     bits: at first; from DOUBLE_BITS the margin comes with at least twelve digits.
 
     Margin: the highest barrier minus the energy on a circle, else that of the barrier nearest in height.
     """
     def question(bits):
-        margin = _margin(reduction, state)
+        orbit = PreciseOrbit(reduction, state)
+        margin = _margin(orbit)
         if margin is None:
             return Tie(-1, float("-inf"), bits)
-        if bits >= TIE_BITS and 0 in margin:
+        if _ties(orbit, margin, bits):
             return Tie(0, 0.0, bits)
         if bits == DOUBLE_BITS and not DOUBLE_SHARE * abs(margin) > margin.rad():
             raise Unclear
         return Tie(sign(margin), float(margin.mid()), bits)
-    return settled(question, bits)
+    return settled(question, bits, MOST_BITS)
 
 
-def _margin(reduction, state):
+def _margin(orbit):
     """The margin that `decide` speaks of, as a ball in canonical units; None where there is no barrier."""
-    margins = PreciseOrbit(reduction, state).margins()
+    margins = orbit.margins()
     if not margins:
         return None
     margin = margins[0]
     for other in margins[1:]:
-        margin = margin.max(other) if reduction.e < 0 else min(margin, other, key=lambda v: abs(float(v.mid())))
+        margin = margin.max(other) if orbit.r.e < 0 else min(margin, other, key=lambda v: abs(float(v.mid())))
     return margin
+
+
+def _ties(orbit, margin, bits) -> bool:
+    """Whether a margin that cannot be told from zero is zero; where algebra denies it, the most bits settle the matter."""
+    if bits < EXACT_BITS or 0 not in margin:
+        return False
+    from .exact_tie import exact_tie
+    return exact_tie(orbit) or bits >= MOST_BITS
 
 
 def precise_margin(reduction, state, digits: int):
     """The margin of one state to `digits` decimal digits, as a ball in the scene's energy; None where there is no barrier,
     and on the separatrix, where no digit of it is known but that all vanish."""
     def question(bits):
-        margin = _margin(reduction, state)
-        if margin is None or (bits >= TIE_BITS and 0 in margin):
+        orbit = PreciseOrbit(reduction, state)
+        margin = _margin(orbit)
+        if margin is None or _ties(orbit, margin, bits):
             return None
         if not 10 ** digits * margin.rad() < abs(margin):
             raise Unclear
         return margin * ball(reduction.weight / (abs(reduction.p * reduction.q) if reduction.e else 1))
-    return settled(question)
+    return settled(question, most=MOST_BITS)
