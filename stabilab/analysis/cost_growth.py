@@ -186,15 +186,16 @@ def with_closeness(case, tell=lambda words: None) -> list[Growth]:
 
 
 def bits_needed(scene, state) -> int | None:
-    """The least working precision at which the balls of barrier and energy part."""
+    """The least working precision at which the balls of every barrier part from the energy's."""
     from flint import ctx
 
     from .landscape import landscape
-    from .precise import Unclear, _margin, sign
+    from .precise import PreciseOrbit, Unclear, sign
     for bits in BITS:
         try:
             with ctx.workprec(bits):
-                sign(_margin(landscape(scene).reduction, state))
+                for margin in PreciseOrbit(landscape(scene).reduction, state).margins():
+                    sign(margin)
             return bits
         except Unclear:
             continue
