@@ -17,26 +17,26 @@ from stabilab.errors import BAD_INPUT, NO_RENDERING, OK, TOLERANCE_NOT_MET
 from stabilab.show import manifest, render_probe, rerun
 
 ROOT = Path(__file__).parent.parent
-CASES = sorted(str(p.relative_to(ROOT)) for p in (ROOT / "cases").glob("*.toml"))
-FEW = [f"cases/{name}.toml" for name in ("minor-axis-100", "middle-axis-300", "major-axis-100", "off-axis-two", "torque-free-body")]
+CASES = {p.stem: str(p) for p in sorted((ROOT / "cases").glob("*.toml"))}
+FEW = [CASES[name] for name in ("minor-axis-100", "middle-axis-300", "major-axis-100", "off-axis-two", "torque-free-body")]
 
-# Runs commands in one process; what they print goes to OUT/<number>.txt. "OUT" in an argument stands for the folder.
+# Runs commands in one process; what they print goes to <number>.txt.
 PROGRAM = """
 import contextlib, io, json, os, sys
 from pathlib import Path
-out, commands = Path(sys.argv[1]), json.loads(sys.argv[2])
+commands = json.loads(sys.argv[1])
 if os.environ.get("ONE_CPU"):
     os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
 from stabilab import cli
 for number, command in enumerate(commands):
-    sys.argv = ["stabilab", *(word.replace("OUT", str(out)) for word in command)]
+    sys.argv = ["stabilab", *command]
     told = io.StringIO()
     with contextlib.redirect_stdout(told):
         try:
             cli.main()
         except SystemExit as left:
             print("exit", left.code)
-    (out / f"{number}.txt").write_text(told.getvalue().replace(str(out), "OUT"))
+    Path(f"{number}.txt").write_text(told.getvalue())
 """
 LEAST = "X86_V3 X86_V4 AVX512_ICL AVX512_SPR AVX2 FMA3 AVX512F AVX512_SKX"  # names of old and new NumPy; unknown ones are ignored
 AROUND = {"again": {}, "one thread": {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "NUMBA_NUM_THREADS": "1", "ONE_CPU": "1"},
@@ -47,7 +47,7 @@ PROCESSORS = {"without AVX-512": "X86_V4 AVX512_ICL AVX512_SPR AVX512F AVX512_SK
 def outputs(folder, commands, **environment):
     """Path -> bytes of what the commands printed and wrote."""
     folder.mkdir()
-    done = subprocess.run([sys.executable, "-W", "ignore", "-c", PROGRAM, str(folder), json.dumps(commands)], cwd=ROOT, text=True,
+    done = subprocess.run([sys.executable, "-W", "ignore", "-c", PROGRAM, json.dumps(commands)], cwd=folder, text=True,
                           capture_output=True, env={**os.environ, "PYTHONPATH": str(ROOT), "PYTHONHASHSEED": "0", **environment})
     assert done.returncode == 0, done.stderr
     return {p.relative_to(folder).as_posix(): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
@@ -58,11 +58,11 @@ def differing(one, two):
 
 
 ANSWERS = [["classify", *FEW, "--json"], ["extremes", *FEW, "--json"], ["extremes", *FEW, "--csv"], ["show", FEW[0]],
-           ["simulate", FEW[0], "--at", "0,1,2", "--json"], ["simulate", FEW[3], "--out", "OUT/run.csv"]]
-MORE = [["classify", *CASES, "--json"], ["extremes", *CASES, "--csv"], ["tables", "--out", "OUT/tables"],
-        *(["simulate", path, "--out", f"OUT/{Path(path).stem}.csv"] for path in [*FEW, "cases/liquid-base.toml", "cases/top-fast.toml"])]
-DRAWN = [["surface", FEW[0], "--out", "OUT/surface"], ["plot", FEW[0], "--out", "OUT/plane.png"], ["figures", "9", "--out", "OUT/figures"],
-         ["compare", "cases/charged-body.toml", "--out", "OUT/errors.csv"], ["simulate", FEW[0], "--out", "OUT/run.nc"]]
+           ["simulate", FEW[0], "--at", "0,1,2", "--json"], ["simulate", FEW[3], "--out", "run.csv"]]
+MORE = [["classify", *CASES.values(), "--json"], ["extremes", *CASES.values(), "--csv"], ["tables", "--out", "tables"],
+        *(["simulate", path, "--out", f"{Path(path).stem}.csv"] for path in [*FEW, CASES["liquid-base"], CASES["top-fast"]])]
+DRAWN = [["surface", FEW[0], "--out", "surface"], ["plot", FEW[0], "--out", "plane.png"], ["figures", "9", "--out", "figures"],
+         ["compare", CASES["charged-body"], "--out", "errors.csv"], ["simulate", FEW[0], "--out", "run.nc"]]
 
 
 @pytest.fixture(scope="module")
@@ -81,10 +81,10 @@ def test_what_was_measured_on_a_machine_changes_no_answer_that_did_not_ask_for_i
     """A front that names another method is followed by --digits alone."""
     from stabilab.analysis import precision_digits
     from stabilab.analysis.precision_front import FrontPoint
-    without = stabilab("simulate", ROOT / FEW[0], "--at", "0,1,2")
+    without = stabilab("simulate", FEW[0], "--at", "0,1,2")
     monkeypatch.setattr(precision_digits, "front", lambda case: (FrontPoint("DOP853", 1e-13, 12.5, 1e-6),))
-    assert stabilab("simulate", ROOT / FEW[0], "--at", "0,1,2") == without and without[0] == OK
-    assert "DOP853" in stabilab("simulate", ROOT / FEW[0], "--at", "0,1,2", "--digits", "9")[1]
+    assert stabilab("simulate", FEW[0], "--at", "0,1,2") == without and without[0] == OK
+    assert "DOP853" in stabilab("simulate", FEW[0], "--at", "0,1,2", "--digits", "9")[1]
 
 
 @pytest.fixture(scope="module")
@@ -120,8 +120,8 @@ def test_surfaces_and_formulas_differ_in_their_last_places_only(tmp_path, name):
     from stabilab.show.render_probe import use
     use()
     import pyvista
-    wanted = [["surface", "cases/minor-axis-100.toml", "--out", "OUT/s"], ["surface", "cases/middle-axis-double-well.toml", "--out", "OUT/s"],
-              ["simulate", "cases/charged-body.toml", "--out", "OUT/run.csv"], ["compare", "cases/charged-body.toml", "--out", "OUT/errors.csv"]]
+    wanted = [["surface", CASES["minor-axis-100"], "--out", "s"], ["surface", CASES["middle-axis-double-well"], "--out", "s"],
+              ["simulate", CASES["charged-body"], "--out", "run.csv"], ["compare", CASES["charged-body"], "--out", "errors.csv"]]
     outputs(tmp_path / "one", wanted)
     outputs(tmp_path / "two", wanted, NPY_DISABLE_CPU_FEATURES=PROCESSORS[name])
     for case in ("minor-axis-100", "middle-axis-double-well"):
