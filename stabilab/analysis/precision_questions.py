@@ -159,7 +159,8 @@ def _free_margin(scene, known, digits) -> Told:
     from .fate import fate
     value, moved = (float(fate(scene, s).margins) for s in (np.array(known.at), moved_row(np.array(known.at))))
     error = CAUTION * abs(value - moved) / abs(value) if value else 1.0
-    return Told("fate", value, digits, digits_of(error), "formulas", f"formulas about the turned axis; a start moved in its last place differs by {error / CAUTION:.1e}")
+    because = f"formulas about the turned axis; a start moved in its last place differs by {error / CAUTION:.1e}"
+    return Told("fate", value, digits, digits_of(error), "formulas", because)
 
 
 def _by_return(question, scene, known, digits) -> Told:
@@ -178,7 +179,8 @@ def _by_return(question, scene, known, digits) -> Told:
         error = max(_gap(values, found), own)
         pair = f"{exact.digits[0]} and {exact.digits[1]} digits"
         if digits <= MOST and error <= 10.0**-digits:
-            return Told(question, values, digits, digits_of(error), "run", f"the return of a run in doubles, {error:.1e} from that of a Taylor series in {pair}")
+            because = f"the return of a run in doubles, {error:.1e} from that of a Taylor series in {pair}"
+            return Told(question, values, digits, digits_of(error), "run", because)
         best = digits_of(own, 31.0)
         return Told(question, _floats(found), digits, best if digits > MOST else min(best, MOST + 0.95), "many digits",
                     f"the return of a Taylor series in {pair}, {own:.0e} apart", _decimals(found, digits) if digits > MOST else None)
@@ -222,14 +224,22 @@ def _many_digits(equations, start, length, digits):
                 now = _series_extremes(recursion, start, length, n, budget)
             except Exhausted:
                 return None
-            error = max((abs(float((a - b) / (size or 1))) for p, q in zip(now, before) for a, b, size in zip(p, q, (max(map(abs, p)),) * 2)), default=0.0) if before else 1.0
-            error = max(error, 10.0**-n) if before else 1.0
+            error = max(_balls_apart(now, before), 10.0**-n) if before else 1.0
             if before and error <= 10.0**-digits:
                 held = digits_of(error, n)
                 return Told("extremes", _floats(now), digits, held if digits > MOST else min(held, MOST + 0.95), "many digits",
                             f"Taylor series over the span in two precisions, {error:.0e} apart", _decimals(now, digits) if digits > MOST else None)
             before = now
     return None
+
+
+def _balls_apart(now, before) -> float:
+    """Largest distance of pairs, relative to the size of their component."""
+    worst = 0.0
+    for one, two in zip(now, before):
+        size = max(map(abs, one))
+        worst = max([worst, *(float(abs(a - b) / (size or 1)) for a, b in zip(one, two))])
+    return worst
 
 
 def _series_extremes(recursion, start, length, digits, budget):
