@@ -7,7 +7,7 @@ import pytest
 
 import stabilab
 from stabilab import Fate
-from stabilab.analysis import circle_kernel, fast_extremes
+from stabilab.analysis import circle_kernel, fast_extremes, numba_door
 from stabilab.analysis.extremes import extremes_and_periods
 from stabilab.analysis.landscape import landscape
 from stabilab.analysis.precise_extremes import precise_extremes
@@ -215,11 +215,11 @@ def test_small_arrays_never_load_numba():
 
 
 def test_without_numba_fast_is_refused_and_none_takes_the_arrays(monkeypatch):
-    monkeypatch.setattr(fast_extremes, "available", lambda: False)
+    monkeypatch.setattr(numba_door, "installed", lambda: False)
     scene, states = FAMILIES["minor scaled +"][0], sample("minor scaled +", 5)
     with pytest.raises(InputError, match="stabilab\\[fast\\]"):
         stabilab.extremes(scene, states, fast=True)
-    monkeypatch.setattr(fast_extremes, "PAYS", 1)
+    monkeypatch.setattr(fast_extremes, "COLD", 1)
     assert np.isfinite(stabilab.extremes(scene, states)).any()
 
 

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 import stabilab
-from stabilab.analysis import barrier_heights, fast_fate
+from stabilab.analysis import barrier_heights, fast_fate, numba_door
 from stabilab.analysis.barrier_table import barrier_table
 from stabilab.analysis.fate_grid import fate_grid
 from stabilab.analysis.table_fate import canonical, circle_heights, label_by_table
@@ -256,7 +256,7 @@ def test_small_arrays_never_load_numba():
 def test_without_numba_large_arrays_are_answered_by_numpy_and_asking_for_numba_is_refused(monkeypatch):
     scene, states = FAMILIES["minor scaled +"][0], sample("minor scaled +", 6000)
     expected = stabilab.fate(scene, states, fast=False).margins
-    monkeypatch.setitem(sys.modules, "numba", None)  # what an import sees where the package is missing
+    monkeypatch.setattr(numba_door, "installed", lambda: False)
     monkeypatch.setattr(fast_fate, "LOADED", 0)
     fast_fate._loops.cache_clear()
     monkeypatch.setattr(fast_fate, "LARGE", 0)

@@ -6,26 +6,20 @@ scene, goes the way of the arrays.
 from __future__ import annotations
 
 from functools import lru_cache
-from importlib.util import find_spec
 from types import FunctionType
 
 import numpy as np
 
-from ..errors import InputError
 from . import circle_kernel
 from .circle_kernel import BOX, LINE, NODES, PERIOD
 from .landscape import Landscape
+from .numba_door import wanted
 
-PAYS = 20_000  # below this many orbits loading numba and its cached code (0.4 s) costs more than it saves
+# Loading numba and its cached code costs 1 to 2 s, compiling it once per machine some ten; NumPy takes some 5 us an orbit.
+COLD, WARM = 1_000_000, 20_000
 INLINED = {"sinc_cos", "sinc_minus_cos", "y_minus_sin", "angle_of", "contains", "divided_pair",
            "way_of_cosine"}  # else no loop vectorises
 FOLD_GUARD = 1e-4  # this close to a fold, relative, Newton's plain steps are not trusted
-
-
-@lru_cache(maxsize=1)
-def available() -> bool:
-    """Whether numba is installed; it is not imported."""
-    return find_spec("numba") is not None
 
 
 def by_kernel(land: Landscape, states, boxes, periods, fast=None):
@@ -34,14 +28,10 @@ def by_kernel(land: Landscape, states, boxes, periods, fast=None):
 
     fast: True, or None for "where it pays and numba is installed". InputError where True finds no numba.
     """
-    if fast and not available():
-        raise InputError("fast=True needs numba, which is not installed: pip install 'stabilab[fast]', or leave fast out")
-    if not len(states) or not fast and (len(states) < PAYS or not available()):
+    if not wanted(len(states), fast, bool(kernel.cache_info().currsize), COLD, WARM) or not len(states) or kernel_input(land) is None:
         return None
-    if kernel_input(land) is None:
-        return None
-    wanted = (BOX if len(boxes) else 0) | (PERIOD if len(periods) else 0)
-    return run_kernel(kernel(), land, states, wanted, boxes, periods)
+    asked = (BOX if len(boxes) else 0) | (PERIOD if len(periods) else 0)
+    return run_kernel(kernel(), land, states, asked, boxes, periods)
 
 
 @lru_cache(maxsize=64)

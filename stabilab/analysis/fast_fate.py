@@ -1,11 +1,10 @@
 """The loops of `barrier_heights` compiled by numba (the extra `fast`): one thread, kept on disk."""
 from __future__ import annotations
 
-import sys
 from functools import lru_cache
 
-from ..errors import InputError
 from . import barrier_heights as arithmetic
+from .numba_door import wanted
 
 HELPERS = ("angle", "logarithm", "cell_position", "height_polynomial", "angle_polynomial", "circle_height",
            "force", "terms", "ahead", "trusted", "fold_is_clear", "hyperbola_scale", "places", "polar", "positions",
@@ -15,26 +14,12 @@ LARGE = 1_000_000  # loading numba costs half a second, what NumPy needs for som
 LOADED = 20_000  # once it is loaded
 
 
-def installed() -> bool:
-    from importlib.util import find_spec
-    return find_spec("numba") is not None
-
-
 def compiled_loops(n: int, fast: bool | None):
     """{-1: loop for circles, +1: for hyperbolas}, or None where NumPy is to answer for n states.
 
     fast: True always, False never, None for large arrays where numba is installed. InputError: fast=True without numba.
     """
-    if fast is False or (fast is None and n < (LOADED if _loops.cache_info().currsize else LARGE)):
-        return None
-    if fast is None and "numba" not in sys.modules and not installed():
-        return None
-    try:
-        return _loops()
-    except ImportError:
-        if fast is None:
-            return None
-        raise InputError("fast=True needs numba: pip install 'stabilab[fast]'") from None
+    return _loops() if wanted(n, fast, bool(_loops.cache_info().currsize), LARGE, LOADED) else None
 
 
 @lru_cache(maxsize=1)

@@ -1,0 +1,25 @@
+"""When the extra `fast` (numba) is to answer: asked for, or so many states that loading it pays."""
+from __future__ import annotations
+
+from functools import lru_cache
+from importlib.util import find_spec
+
+from ..errors import InputError
+
+
+@lru_cache(maxsize=1)
+def installed() -> bool:
+    """Whether numba is installed; it is not imported."""
+    return find_spec("numba") is not None
+
+
+def wanted(n: int, fast: bool | None, loaded: bool, cold: int, warm: int) -> bool:
+    """fast: True always, False never, None from `cold` states on (from `warm` once the code is loaded) where numba is installed.
+
+    Raises InputError for fast=True without numba.
+    """
+    if fast is None:
+        return n >= (warm if loaded else cold) and installed()
+    if fast and not installed():
+        raise InputError("fast=True needs numba, which is not installed: pip install 'stabilab[fast]', or leave fast out")
+    return bool(fast)
