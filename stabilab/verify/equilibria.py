@@ -4,8 +4,9 @@ from __future__ import annotations
 from fractions import Fraction
 from itertools import combinations
 
-from .curves import check_curve, curve_of, identically_zero, whole_conic, whole_torque_free
-from .numbers import Malformed, ball, bracket, exact_sign, field, hull, sign
+from .complete import whole_conic, whole_torque_free
+from .curves import check_curve, curve_of, identically_zero
+from .numbers import Malformed, bracket, exact_sign, field, hull, sign
 from .rates import characteristic
 
 BITS, MOST_BITS = 128, 1 << 14
@@ -80,7 +81,7 @@ def _only_zero(rates, box):
                 new = _krawczyk(rates, x, arb_mat)
                 if new is None or not all(inside(a, b) for a, b in zip(new, x)):
                     break
-                proved, x = True, new
+                x = new
                 m, n = (sign(v) for v in characteristic(rates.jacobian(x)))
                 if n is not None and (n or m is not None):
                     return m, n
