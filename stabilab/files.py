@@ -45,7 +45,8 @@ def whole_file(path):
 @contextmanager
 def new_folder(out):
     """A temporary folder inside `out` (on the same disk, even where `out` is a mount of its own) that vanishes at the end,
-    however it comes, and `out` with it where it was made for it and nothing came into it. Raises InputError as `whole_file` does."""
+    however it comes, and `out` with it where it was made for it and nothing came into it. Raises InputError as `whole_file`
+    does."""
     out = Path(out)
     fresh = not out.exists()
     with _explained(out):

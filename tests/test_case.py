@@ -6,9 +6,8 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
-from hypothesis import HealthCheck, given, settings, strategies as st
 
-from stabilab.case import Case, load, load_all
+from stabilab.case import load, load_all
 from stabilab.case_lines import key_lines
 from stabilab.errors import CaseError
 
@@ -242,35 +241,6 @@ z = 1979-05-27 07:32:00
               ("a", "b", "list", 0): 8, ("a", "b", "list", 1, 1): 10, ("rows", 0, "x"): 13, ("rows", 1, "x"): 15}
     assert {path: line.get(path) for path in wanted} == wanted
     assert not key_lines(text.split("x = 'it")[0]).again
-
-
-SEEDS = [path.read_text() for path in CASES[::5]]
-TOKENS = ["[", "]", "[[", "]]", "{", "}", "=", ",", ".", '"', "'", '"""', "\\", "#", "\n", "nan", "inf", "-inf", "1e400", "-1",
-          "0", "0x1F", "1_0", '"2/3"', '"1/0"', "true", "body", "scaled", "effects", "mu", "torque", "x", "tau", "span",
-          "inertia", "\ufeff", "\0", "\r", "é", "[body]", "[motion]", "x = [0, 0, 0]", "1979-05-27", "9" * 5000, "1e-320"]
-
-
-@st.composite
-def mutated_cases(draw):
-    text = draw(st.sampled_from(SEEDS))
-    for _ in range(draw(st.integers(1, 6))):
-        at, length = draw(st.integers(0, len(text))), draw(st.integers(0, 30))
-        text = text[:at] + draw(st.sampled_from(TOKENS) | st.text(max_size=4)) + text[at + length:]
-    return text.encode("utf-8", "surrogatepass")
-
-
-@settings(max_examples=400, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture], derandomize=True)
-@given(mutated_cases())
-def test_mutated_file_is_a_case_or_a_case_error(tmp_path, raw):
-    path = tmp_path / "fuzz.toml"
-    path.write_bytes(raw)
-    try:
-        read = load(path)
-    except CaseError as error:
-        assert error.problems and all(p.message for p in error.problems)
-        assert all(p.line is None or 1 <= p.line <= raw.count(b"\n") + 1 for p in error.problems)
-    else:
-        assert isinstance(read, Case) and (read.state is None or all(map(math.isfinite, read.state)))
 
 
 CHARGE = BODY + "[effects.charge]\ncharge = 1\nfield = 1\narm = 1\nangle = {}\n"

@@ -202,6 +202,8 @@ def test_rerun_says_which_input_is_missing_or_changed(tmp_path, monkeypatch, sta
 
 
 @pytest.mark.parametrize("text, words", [("", "expected a manifest.json"), ("{}", "expected a manifest.json"), ("[1]", "expected a manifest.json"),
+                                         ('{"schema": "stabilab.manifest/1", "earlier": [], "arguments": ["tables"], "started_in": ".", '
+                                          '"command": "", "inputs": [], "outputs": []}', "expected a manifest.json"),
                                          ("[" * 100_000, "expected a manifest.json"), (b"\xff", "expected a manifest.json"), (None, "cannot be read")])
 def test_what_is_no_manifest_is_refused(tmp_path, stabilab, text, words):
     if text is not None:

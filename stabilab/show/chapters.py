@@ -81,7 +81,8 @@ def beside(folder):
     if not CHAPTERS:
         yield lambda tell: []
         return
-    child = subprocess.Popen([sys.executable, "-m", __name__, str(folder)], stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    child = subprocess.Popen([sys.executable, "-m", __name__, str(folder)], stdin=subprocess.PIPE,  # it ends with this process
+                             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
     def stop():
         child.kill()

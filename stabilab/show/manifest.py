@@ -14,9 +14,10 @@ from .. import files
 from ..errors import InputError
 
 SCHEMA, NAME = "stabilab.manifest/1", "manifest.json"
-TIMED = ("precision.html", "precision/", "growth.html", "growth.csv", "growth/", "effects.html", "effects.png")  # pages and pictures that show measured times: no two runs give the same bytes
-PACKAGES = ("numpy", "scipy", "sympy", "mpmath", "python-flint", "heyoka", "numba", "matplotlib", "pillow", "vtk", "pyvista", "trame-vtk",
-            "jinja2", "xarray", "typer")  # whatever can change a byte of an output
+TIMED = ("precision.html", "precision/", "growth.html", "growth.csv", "growth/", "effects.html",
+         "effects.png")  # pages and pictures that show measured times: no two runs give the same bytes
+PACKAGES = ("numpy", "scipy", "sympy", "mpmath", "python-flint", "heyoka", "numba", "matplotlib", "pillow", "vtk", "pyvista",
+            "trame-vtk", "jinja2", "xarray", "typer")  # whatever can change a byte of an output
 # the only random numbers: signs of a change in the last place of a start; states whose answers are timed
 SEEDS = {"analysis.precision": 1, "analysis.precision_digits": 1, "analysis.cost_growth": 4}
 
@@ -25,8 +26,8 @@ SEEDS = {"analysis.precision": 1, "analysis.precision_digits": 1, "analysis.cost
 def written(out, arguments=None, inputs=(), tolerances=None):
     """A folder for the files of one command. When the block ends well they are put into `out` and manifest.json is written.
 
-    arguments: of the command line, None for a call from Python, which cannot be repeated; inputs: paths of what the command reads,
-    hashed now; tolerances: what -> how exact. Raises InputError where an input or `out` is of no use.
+    arguments: of the command line, None for a call from Python, which cannot be repeated; inputs: paths of what the command
+    reads, hashed now; tolerances: what -> how exact. Raises InputError where an input or `out` is of no use.
     """
     out = Path(out)
     run = _run(out, arguments, [_described(path) for path in inputs])
@@ -56,14 +57,18 @@ def read(path) -> list[dict]:
     except OSError as error:
         raise InputError(f"{path}: cannot be read: {error.strerror or error}") from None
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
-        raise InputError(f"{path}: expected a manifest.json with schema {SCHEMA}, as stabilab writes into its output folders") from None
+        raise InputError(f"{path}: expected a manifest.json with schema {SCHEMA}, as stabilab writes into its output "
+                         "folders") from None
     return runs
 
 
 def _well_formed(run) -> bool:
     arguments = run["arguments"]
-    return (arguments is None or all(isinstance(word, str) for word in arguments)) and isinstance(run["started_in"], str) and all(
-        isinstance(row["path"], str) and isinstance(row["sha256"], str) for row in (*run["inputs"], *run["outputs"]))
+    if not isinstance(arguments, list | None) or not all(isinstance(run[key], dict) for key in ("program", "versions", "machine")):
+        return False
+    texts = [run["started_in"], str(run["command"]), *(arguments or ())]
+    texts += [row[key] for row in (*run["inputs"], *run["outputs"]) for key in ("path", "sha256")]
+    return all(isinstance(text, str) for text in texts)
 
 
 def sha256(path) -> str:

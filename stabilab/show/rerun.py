@@ -18,8 +18,9 @@ ENDED = (OK, NO_RENDERING)  # without a renderer everything but the pictures is 
 
 
 def rerun(path, out=None) -> list[str]:
-    """Repeat every command of the manifest (or folder) `path`, into the folder `out` or one that vanishes; lines that say what became
-    of each file. Raises InputError where inputs are missing or changed, ToleranceNotMet (with the lines) where files differ."""
+    """Repeat every command of the manifest (or folder) `path`, into the folder `out` or one that vanishes; lines that say
+    what became of each file. Raises InputError where inputs are missing or changed, ToleranceNotMet (with the lines) where
+    files differ."""
     path = Path(path)
     runs = manifest.read(path)
     folder = (path if path.is_dir() else path.parent).resolve()
@@ -27,7 +28,8 @@ def rerun(path, out=None) -> list[str]:
         if run["arguments"] is None:
             raise InputError(f"{path}: made by a call from Python, not by a command: it cannot be repeated")
         if run["arguments"][:1] not in COMMANDS:
-            raise InputError(f"{path}: expected a command that fills a folder ({', '.join(c for c, in COMMANDS)}), got {run['command']!r}")
+            known = ", ".join(name for name, in COMMANDS)
+            raise InputError(f"{path}: expected a command that fills a folder ({known}), got {run['command']!r}")
     starts = [_start(run, folder) for run in runs]
     lines, differ = [], 0
     with _target(out) as target:
@@ -59,7 +61,8 @@ def _compared(row, made) -> str:
 
 
 def _start(run, folder) -> Path:
-    """The folder from which the command's paths lead to its inputs: where it was started, or else here. InputError names what changed."""
+    """The folder from which the command's paths lead to its inputs: where it was started, or else here. InputError names
+    what changed."""
     faults = {}
     for start in ((folder / run["started_in"]).resolve(), Path.cwd()):
         faults[start] = [f"{row['path']}: {word}" for row in run["inputs"] if (word := _judged(start / row["path"], row))]
@@ -82,7 +85,8 @@ def _changed_surroundings(run) -> list[str]:
     now = manifest.environment()
     old = {"stabilab": run["program"].get("version"), **run["versions"]}
     new = {"stabilab": now["program"]["version"], **now["versions"]}
-    notes = [f"  note: {name} was {old.get(name)}, is {new.get(name)}" for name in sorted({*old, *new}) if old.get(name) != new.get(name)]
+    notes = [f"  note: {name} was {old.get(name)}, is {new.get(name)}" for name in sorted({*old, *new})
+             if old.get(name) != new.get(name)]
     if run["program"].get("sha256") != now["program"]["sha256"] and old["stabilab"] == new["stabilab"]:
         notes.append("  note: the program's own files changed since")
     if run["machine"] != now["machine"]:
