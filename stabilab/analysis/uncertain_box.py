@@ -21,8 +21,6 @@ from ..scaling import to_scaled, torque_from_mu
 from ..scene import Scene, ScaledGyrostat
 from .affine import EPS, LEAST, Affine, root, sign_over, squared
 
-PHYSICAL, SCALED = ("inertia", "momentum", "torque", "mu"), ("a", "b", "mu")
-NUMBERS = {"a": 1, "b": 1}  # all others have three
 
 
 @dataclass(frozen=True)
@@ -106,10 +104,6 @@ class Box:
             return euler_form(D, lam, numbers["torque"] if "torque" in numbers else _torque(D, numbers["mu"]))
         return scaled_form(*_scaled(D, lam[0], numbers))
 
-    def state(self, numbers):
-        """The three components of the state."""
-        return numbers["state"]
-
 
 def box_of(case) -> Box:
     """The box of a Case. Raises InputError for scenes beyond a gyrostat under a constant torque."""
@@ -129,7 +123,22 @@ def box_of(case) -> Box:
     half = {name: [Fraction(0)] * len(numbers) for name, numbers in middle.items()}
     for found in case.uncertain:
         half[_name(found.path)][found.path[-1] if isinstance(found.path[-1], int) else 0] = found.half
-    return Box(middle, {name: tuple(widths) for name, widths in half.items()}, case.variables)
+    box = Box(middle, {name: tuple(widths) for name, widths in half.items()}, case.variables)
+    _scalable(box)
+    return box
+
+
+def _scalable(box: Box):
+    """Scaled variables, and mu, need three moments in falling order and the gyrostatic moment along axis 1."""
+    if not box.bodily or (box.variables == "physical" and "mu" not in box.middle):
+        return
+    D, h = box.middle["inertia"], box.half["inertia"]
+    if not all(D[i] - h[i] > D[i + 1] + h[i + 1] for i in (0, 1)):
+        raise InputError("within the uncertainties the moments are not surely in falling order, as the scaled variables and mu need: "
+                         "give the torque in N m and the motion as angular_velocity")
+    if box.variables == "scaled" and any(box.half["momentum"][1:]):
+        raise InputError("the scaled variables need the gyrostatic moment along axis 1, without uncertainty across it: use physical "
+                         "variables")
 
 
 def _name(path) -> str:
