@@ -64,7 +64,8 @@ def read(path) -> list[dict]:
 
 def _well_formed(run) -> bool:
     arguments = run["arguments"]
-    if not isinstance(arguments, list | None) or not all(isinstance(run[key], dict) for key in ("program", "versions", "machine")):
+    if not (isinstance(arguments, list | None)
+            and all(isinstance(run[key], dict) for key in ("program", "versions", "machine"))):
         return False
     texts = [run["started_in"], str(run["command"]), *(arguments or ())]
     texts += [row[key] for row in (*run["inputs"], *run["outputs"]) for key in ("path", "sha256")]
