@@ -246,21 +246,22 @@ def test_surface_without_a_renderer_writes_the_meshes_and_ends_with_4(stabilab, 
     monkeypatch.setattr(render_probe, "probe", lambda: render_probe.Renderer(False, "no GL here"))
     code, _, err = stabilab("surface", MINOR, "--out", tmp_path)
     assert code == 4 and "no GL here" in err and render_probe.CURE in err
-    assert {p.name for p in tmp_path.iterdir()} == {f"{MINOR.stem}.{end}" for end in ("vtp", "glb", "stl", "json")}
+    assert {p.name for p in tmp_path.iterdir()} == {f"{MINOR.stem}.{end}" for end in ("vtp", "glb", "stl", "json")} | {"manifest.json"}
     assert strict_json((tmp_path / f"{MINOR.stem}.json").read_text())["sheets"]
 
 
 def test_tables_writes_every_table_in_every_format_and_names_them(stabilab, tmp_path):
     code, out, _ = stabilab("tables", "--out", tmp_path)
-    assert code == 0 and sorted(out.split()) == sorted(str(p) for p in tmp_path.iterdir())
-    assert {p.suffix for p in tmp_path.iterdir()} == {".txt", ".csv", ".md", ".tex", ".html"} and len(out.split()) == 20
+    written = [p for p in tmp_path.iterdir() if p.name != "manifest.json"]
+    assert code == 0 and sorted(out.split()) == sorted(map(str, written)) and (tmp_path / "manifest.json").exists()
+    assert {p.suffix for p in written} == {".txt", ".csv", ".md", ".tex", ".html"} and len(written) == 20
 
 
 def test_every_command_has_help_with_an_example(stabilab):
     code, out, _ = stabilab("--help")
     commands = [line.split()[0] for line in out.split("Commands:")[1].splitlines() if line.startswith("  ")]
     assert code == 0 and set(commands) == {"show", "classify", "extremes", "simulate", "compare", "precision", "surface", "plot",
-                                        "tables", "figures", "report", "doctor", "fate", "period"}
+                                        "tables", "figures", "report", "doctor", "fate", "period", "rerun", "verify"}
     assert "--install-completion" in out and "..." not in out.split("Commands:")[1]
     for command in commands:
         code, out, _ = stabilab(command, "--help")
