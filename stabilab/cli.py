@@ -60,12 +60,14 @@ def classify(cases: CaseFiles, json: Json = False, strict: Annotated[bool, typer
     from .show import answers
     loaded = _load(cases, sweep=True)
     answered = [(case, _equilibria(case), _motion(case) if case.state else None) for case in loaded]
+    boxes, shown = _over_boxes(loaded, "equilibria", "fate")
     if json:
-        _print(answers.as_json([answers.classification(*answer) for answer in answered]))
+        _print(answers.as_json([answers.classification(*answer) | shown.as_dict(box) for answer, box in zip(answered, boxes)]))
     else:
-        _print("\n\n".join(answers.classification_text(*answer) for answer in answered))
+        _print("\n\n".join(answers.classification_text(*answer) + shown.text(box) for answer, box in zip(answered, boxes)))
     certified = _certified(loaded, out) if certify else True
-    if strict and (not certified or any(answers.undecided(found, motion) for _, found, motion in answered)):
+    undecided = any(answers.undecided(found, motion) for _, found, motion in answered) or any(map(shown.undecided, boxes))
+    if strict and (not certified or undecided):
         raise typer.Exit(UNDECIDED)
 
 
@@ -132,8 +134,8 @@ def simulate(case: CaseFile,
              model: Annotated[str, typer.Option(help="exact, or an analytic solution that applies: linear, printed, "
                                                      "averaged1, averaged2, lindstedt.")] = "exact",
              order: Annotated[Optional[int], typer.Option(min=1, help="Order of the lindstedt expansion.")] = None,
-             method: Annotated[Optional[str], typer.Option(help="taylor (default), or a method of SciPy's solve_ivp by "
-                                                                "name; for the exact model.")] = None,
+             method: Annotated[Optional[str], typer.Option(help="taylor (default), a method of SciPy's solve_ivp by name, or "
+                                                                "reduced (any time at one cost); for the exact model.")] = None,
              rtol: Annotated[Optional[float], typer.Option(help="Relative tolerance; default: the method's own.")] = None,
              digits: Annotated[Optional[int], typer.Option(metavar="N", help="Reach N digits (1 to 15) the cheapest way, check "
                                                            "them, or exit with 5. Default: 10, unless --model, --method "
@@ -342,6 +344,15 @@ def _load(paths, motion: bool = False, sweep: bool = False) -> list:
     return cases
 
 
+def _over_boxes(cases, *questions):
+    """(what uncertain numbers do to the verdicts of each case, None where it has none; the module that shows it)."""
+    from .show import uncertain as shown
+    if not questions or not any(case.uncertain for case in cases):
+        return [None] * len(cases), shown
+    from .analysis.uncertain import uncertain
+    return [uncertain(case, questions) for case in cases], shown
+
+
 def _equilibria(case):
     from .analysis.equilibria import equilibria
     return equilibria(case.scene)
@@ -369,12 +380,14 @@ def _tell(question, paths, digits, json, csv=False):
     from .show import precision_answers as shown
     answered = [(case, found, _told(question, case, found, digits)) for case in _load(paths, motion=True, sweep=True)
                 for found in [_motion(case, brief=question == "extremes")]]
+    boxes, over = _over_boxes([case for case, *_ in answered], *(["fate"] if question == "fate" else []))
     if json:
-        _print(answers.as_json([getattr(shown, question)(*answer) for answer in answered]))
+        _print(answers.as_json([getattr(shown, question)(*answer) | over.as_dict(box) for answer, box in zip(answered, boxes)]))
     elif csv:
         _print(shown.extremes_csv(answered))
     else:
-        _print("\n".join(getattr(shown, f"{question}_text")(*answer, digits is not None) for answer in answered))
+        _print("\n".join(getattr(shown, f"{question}_text")(*answer, digits is not None) + over.text(box)
+                         for answer, box in zip(answered, boxes)))
     missing = [(case, told) for case, _, told in answered if not told.enough]
     if missing:
         from .analysis.precision_told import short
