@@ -12,7 +12,8 @@ from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
 from stabilab.analysis.double_balls import Ball, Doubles, Unclear
 from stabilab.analysis.distance import distance_of
 from stabilab.analysis.motion import motion
-from stabilab.analysis.precise import DOUBLE_BITS, START_BITS, decide, settled
+from stabilab.analysis.balls import DOUBLE_BITS, START_BITS, settled
+from stabilab.analysis.precise import decide
 from stabilab.analysis.reduction import reduce
 from stabilab.analysis.results import Fate
 

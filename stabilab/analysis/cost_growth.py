@@ -190,7 +190,8 @@ def bits_needed(scene, state) -> int | None:
     from flint import ctx
 
     from .landscape import landscape
-    from .precise import PreciseOrbit, Unclear, sign
+    from .balls import Unclear, sign
+    from .precise import PreciseOrbit
     for bits in BITS:
         try:
             with ctx.workprec(bits):

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from .precise import rational
+from .balls import rational
 
 
 def exact_tie(orbit) -> bool:

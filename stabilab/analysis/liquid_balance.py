@@ -18,8 +18,8 @@ from types import SimpleNamespace
 from ..effects.base import cross, dot
 from .gyroscopic import Content
 from .other_motion import liquid_torque
-from .precise import ball as ball_of
-from .precise import rational
+from .balls import ball as ball_of
+from .balls import rational
 from .results import Equilibria, EquilibriumPoint
 
 ROUND = 1 + 1e-9  # more than all roundings of a bound

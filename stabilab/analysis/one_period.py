@@ -11,7 +11,8 @@ import math
 
 from .double_balls import EPS, Unclear
 from .potential import potential
-from .precise import DOUBLE_BITS, PreciseOrbit, settled
+from .balls import DOUBLE_BITS, settled
+from .precise import PreciseOrbit
 from .precise_extremes import turning_points
 from .results import Fate
 

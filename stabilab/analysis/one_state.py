@@ -11,7 +11,8 @@ import math
 from fractions import Fraction
 from typing import NamedTuple
 
-from .precise import DOUBLE_BITS, PreciseOrbit, decide, settled
+from .balls import DOUBLE_BITS, settled
+from .precise import PreciseOrbit, decide
 from .precise_extremes import extreme_balls
 from .reasons import REASONS, Reason, rests
 from .results import Fate
@@ -140,7 +141,7 @@ def invariants_of(reduction, state) -> dict[str, float]:
 
 def _angle(orbit):
     """The turn angle from the direction X = 0; None where there is none, on an invariant plane."""
-    from .precise import numbers
+    from .balls import numbers
     if orbit.r.e < 0:
         return orbit.energy * 0 if orbit.Q == 0 else numbers().angle(orbit.x, orbit.z)
     return None if orbit.on_plane else (abs(orbit.xi) / abs(orbit.eta)).log() / 2

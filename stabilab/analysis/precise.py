@@ -1,9 +1,7 @@
 """The reduced potential of one state in ball arithmetic: where doubles cannot decide, or would lose digits.
 
-Inputs (the state's doubles, the scene's rationals) are exact; every number is a ball that surely holds the true value
-(python-flint). A question that the balls leave open raises `Unclear`, and `settled` asks it again with twice the bits.
-A question asked from DOUBLE_BITS on is tried with balls of doubles first (`double_balls`), which need no library: they
-answer most single states. The mechanics below is the same for both.
+Inputs (the state's doubles or fractions, the scene's rationals) are exact; every number is a ball that surely holds the true
+value (`balls`). The mechanics is the same for balls of doubles and of many digits.
 """
 from __future__ import annotations
 
@@ -11,116 +9,12 @@ from fractions import Fraction
 from functools import cached_property
 from typing import NamedTuple
 
-from .double_balls import Doubles, Unclear
+from .balls import DOUBLE_BITS, START_BITS, Unclear, ball, numbers, settled, sign
 from .polynomials import Poly
 
-DOUBLE_BITS = 53
 DOUBLE_SHARE = 1e-12  # of a margin: with less certainty balls of doubles do not settle it
-START_BITS = 128
 TIE_BITS = 4096  # with so many the extremes of a motion on the separatrix are worked out
 EXACT_BITS, MOST_BITS = 512, 1 << 17  # from these bits on algebra is asked whether two energies are equal; and where balls end
-
-
-class Digits:
-    """Where python-flint's balls come from, at its working precision; `double_balls.Doubles` has the same interface."""
-
-    @staticmethod
-    def ball(value):
-        from flint import arb
-        return arb(rational(Fraction(value)))
-
-    @staticmethod
-    def pi():
-        from flint import arb
-        return arb.pi()
-
-    @staticmethod
-    def around(middle, width):
-        """The ball about the middle of one, as wide as `width` can be."""
-        from flint import arb
-        return arb(middle.mid(), width.abs_upper())
-
-    @staticmethod
-    def upper(value):
-        from flint import arb
-        return arb(value.abs_upper())
-
-    @staticmethod
-    def lower(value):
-        from flint import arb
-        return arb(value.abs_lower())
-
-    @staticmethod
-    def angle(y, x):
-        """atan2(y, x)."""
-        from flint import arb
-        return arb.atan2(y, x) if not (0 in y and not x > 0) else arb.pi() + arb.atan2(-y, -x)
-
-    @staticmethod
-    def real_roots(coefficients) -> list:
-        """(root, multiplicity) of the real roots of a polynomial with rational coefficients, lowest first; certified."""
-        from flint import arb, fmpq_poly
-        poly = fmpq_poly([rational(Fraction(c)) for c in coefficients])
-        if poly.degree() < 1:
-            return []
-        return [(arb(root.real), many) for root, many in poly.complex_roots() if root.imag.is_zero()]
-
-
-_numbers = Digits
-
-
-def numbers():
-    """The kind of balls in use: `Digits`, or `Doubles` while `settled` tries with these."""
-    return _numbers
-
-
-def settled(question, bits: int = START_BITS, most: int = 1 << 17):
-    """question(bits), with more bits as long as it is `Unclear`; the last Unclear when `most` are not enough.
-
-    bits: at first. DOUBLE_BITS: with balls of doubles, then from START_BITS on, unless DOUBLE_BITS is also the `most`.
-    """
-    global _numbers
-    if bits == DOUBLE_BITS:
-        _numbers = Doubles
-        try:
-            return question(bits)
-        except (Unclear, ArithmeticError):
-            if most == DOUBLE_BITS:
-                raise Unclear from None
-            bits = START_BITS
-        finally:
-            _numbers = Digits
-    from flint import ctx
-    while True:
-        try:
-            with ctx.workprec(bits):
-                return question(bits)
-        except Unclear:
-            if bits >= most:
-                raise
-            bits *= 2
-
-
-def ball(value):
-    """The ball of a rational number."""
-    return _numbers.ball(value)
-
-
-def rational(value):
-    """A Fraction, or flint's own rational or integer, as flint's rational."""
-    from flint import fmpq
-    return fmpq(value.numerator, value.denominator) if isinstance(value, Fraction) else fmpq(value)
-
-
-def sign(number) -> int:
-    """Sign of a ball; Unclear where it holds zero and more."""
-    if number > 0:
-        return 1
-    if number < 0:
-        return -1
-    if number.is_zero():
-        return 0
-    raise Unclear
 
 
 class Spot(NamedTuple):
@@ -255,7 +149,7 @@ class PreciseOrbit:
     def spots(self) -> list[Spot]:
         """All equilibria on the orbit, ascending; on a circle those with offsets in (0, 2 pi]."""
         if self.r.e == 0:
-            found = [(y, m) for y, m in _numbers.real_roots(self.taylor)]
+            found = [(y, m) for y, m in numbers().real_roots(self.taylor)]
             if self.force_here == 0:
                 found = [(y * 0 if 0 in y else y, m) for y, m in found]
         else:
@@ -278,7 +172,7 @@ class PreciseOrbit:
             yield from self._on_line_u(-rho / r.kappa)
         elif r.kappa or sigma:  # U = -(rho V + m)/(kappa V + sigma) in V^2/aq - e U^2/ap = Q
             top, bottom, square = Poly((m, rho)), Poly((sigma, r.kappa)), Poly((-self.Q, 0, 1 / aq))
-            for v, many in _numbers.real_roots((square * bottom * bottom - top * top * (Fraction(r.e) / ap)).c):
+            for v, many in numbers().real_roots((square * bottom * bottom - top * top * (Fraction(r.e) / ap)).c):
                 yield -(ball(rho) * v + ball(m)) / (ball(r.kappa) * v + ball(sigma)), v, many
         elif rho:
             yield from self._on_line_v(-m / rho)
@@ -286,12 +180,12 @@ class PreciseOrbit:
     def _on_line_v(self, v):
         """The equilibria with omega_k + s_k = v."""
         r = self.r
-        for u, many in _numbers.real_roots([v * v / abs(r.q) - self.Q, 0, Fraction(-r.e) / abs(r.p)]):
+        for u, many in numbers().real_roots([v * v / abs(r.q) - self.Q, 0, Fraction(-r.e) / abs(r.p)]):
             yield u, ball(v), many
 
     def _on_line_u(self, u):
         r = self.r
-        for v, many in _numbers.real_roots([-self.Q - r.e * u * u / abs(r.p), 0, 1 / abs(r.q)]):
+        for v, many in numbers().real_roots([-self.Q - r.e * u * u / abs(r.p), 0, 1 / abs(r.q)]):
             yield ball(u), v, many
 
     def _offset(self, u, v):
@@ -310,7 +204,7 @@ class PreciseOrbit:
 
     def _angle(self, x, z, here):
         """Angle in (0, 2 pi] from the state to (x, z) on the circle."""
-        pi = _numbers.pi()
+        pi = numbers().pi()
         sine, cosine = x * self.z - z * self.x, x * self.x + z * self.z
         if here:
             return 2 * pi
@@ -333,11 +227,11 @@ class PreciseOrbit:
         """The equilibria, on a circle also those of the turn behind, ascending."""
         if self.r.e >= 0:
             return self.spots
-        behind = [Spot(y * 0 if self._is_turn(y) else y - 2 * _numbers.pi(), k) for y, k in ((s.y, s.kind) for s in self.spots)]
+        behind = [Spot(y * 0 if self._is_turn(y) else y - 2 * numbers().pi(), k) for y, k in ((s.y, s.kind) for s in self.spots)]
         return behind + self.spots
 
     def _is_turn(self, y):
-        return self.force_here == 0 and y.overlaps(2 * _numbers.pi())
+        return self.force_here == 0 and y.overlaps(2 * numbers().pi())
 
     def barriers(self) -> list[Spot]:
         """The barriers that the fate depends on: on a circle those ahead within one turn, on an invariant plane those ahead,

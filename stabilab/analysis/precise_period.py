@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from functools import lru_cache
 
-from .precise import PreciseOrbit, Unclear, settled, sign
+from .balls import Unclear, settled, sign
+from .precise import PreciseOrbit
 from .precise_extremes import turning_points
 from .results import Fate
 

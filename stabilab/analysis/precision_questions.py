@@ -101,7 +101,8 @@ def _by_formula(question, scene, land, known, digits) -> Told:
 
 def _balls(question, reduction, state, label, digits):
     """The answer in balls, nested as its floats are."""
-    from .precise import ball, precise_margin
+    from .balls import ball
+    from .precise import precise_margin
     from .precise_extremes import extreme_balls
     from .precise_period import period_ball
     if question == "extremes":
@@ -166,7 +167,7 @@ def _free_margin(scene, known, digits) -> Told:
 def _by_return(question, scene, known, digits) -> Told:
     """A closed motion: its return in doubles against the return of a Taylor series in many digits."""
     from flint import ctx
-    from .precise import ball
+    from .balls import ball
     from .precision_reference import reference
     values = _number(question, known)
     exact = reference(scene, known.at[:3], [0.5 * known.period], orbit=True)

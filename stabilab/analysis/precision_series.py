@@ -50,7 +50,7 @@ class Recursion:
 
     def numbers(self):
         """The rates with their coefficients as balls of the working precision."""
-        from .precise import ball
+        from .balls import ball
         return [[(row, ball(c).mid()) for row, c in rate] for rate in self.rates]
 
     def series(self, rates, x, order):
@@ -107,7 +107,7 @@ def steps(recursion, start, digits, budget, sense=1):
 
 
 def number(v):
-    from .precise import ball
+    from .balls import ball
     return ball(Fraction(v))
 
 

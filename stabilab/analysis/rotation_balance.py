@@ -4,7 +4,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from .precise import rational
+from .balls import rational
 from .rotation_spectrum import Field
 
 BITS = 320

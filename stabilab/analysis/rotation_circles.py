@@ -7,7 +7,7 @@ from math import cos, sin
 
 from .gyroscopic import Content
 from .results import CurveSegment, EquilibriumCurve
-from .precise import rational
+from .balls import rational
 from .rotation_balance import Rotation, rotations_at, rounded_gamma
 from .rotation_cuts import NEXT_TO
 from .rotation_spectrum import Field

@@ -31,7 +31,7 @@ class Field:
 
     @classmethod
     def of(cls, parts):
-        from .precise import rational
+        from .balls import rational
         return cls(*(tuple(map(rational, row)) for row in (parts.D, parts.Lambda, parts.s)), rational(parts.N), rational(parts.E))
 
     def stiffness(self, Omega):

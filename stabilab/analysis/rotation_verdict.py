@@ -5,7 +5,7 @@ from fractions import Fraction
 
 from ..effects.base import cross
 from .results import EquilibriumPoint
-from .precise import rational
+from .balls import rational
 from .rotation_spectrum import Field, coefficients, second_variation
 
 MINIMUM = ("stable", "energy-Casimir: at constant area integral the energy has a strict minimum on |gamma| = 1 (K positive definite), and it "

@@ -84,7 +84,7 @@ def _pieces(plane: Plane):
 def _omega(plane: Plane, tau: Fraction, side: int):
     """The root Omega at tau as a ball; None where the quadratic is linear and this side has none."""
     from flint import arb
-    from .precise import rational
+    from .balls import rational
     a, b, c = (rational(p(tau)) for p in (plane.square, plane.linear, plane.constant))
     if a == 0:
         return arb(-c / b) if side < 0 and b != 0 else None
@@ -98,7 +98,7 @@ def _omega(plane: Plane, tau: Fraction, side: int):
 def _state(plane: Plane, tau: Fraction, side: int):
     """(Omega, gamma) as balls."""
     from flint import arb
-    from .precise import rational
+    from .balls import rational
     j, k = CYCLE[plane.i]
     gamma = [arb(0)] * 3
     gamma[j], gamma[k] = (arb(rational(p(tau) / ONE(tau))) for p in (COS, SIN))
