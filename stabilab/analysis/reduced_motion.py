@@ -8,12 +8,12 @@ from __future__ import annotations
 import numpy as np
 
 from ..errors import InputError
-from .effective import effective
 from .fate import checked_states
+from .ordinary_motion import constants, ordinary
 from .passages import POINTS, Panels, Passing, Turn, Turning, turning_offset
-from .reduction import reduce
 from .relief import Relief, relief
-from .repeating_motion import DIP, SAMPLES, Around, Between, ByPanels, BySeries, Phase, Resting
+from .repeating_motion import (DIP, ROTATION_SAMPLES, SAMPLES, Around, Between, ByPanels, BySeries, Resting, Rotation,
+                               by_samples)
 from .spin_up_motion import SpinUp
 from .tabulated_motion import tabulated
 
@@ -28,14 +28,15 @@ def reduced_motion(scene, state, nodes: int | None = None, backwards: bool = Fal
     before 0 are wanted too. Raises InputError where the scene has no reduction, on a separatrix, for spin-up other than round
     a circle, and where doubles do not hold the answer.
     """
-    scene, state = effective(scene), checked_states(state).reshape(3)
-    reduction = reduce(scene)
+    state = checked_states(state).reshape(3).tolist()
+    reduction, plain = constants(scene)
     if reduction is None:
         raise InputError("the scene has no reduction to one degree of freedom: its torque is off the principal axes, or the "
                          "gyrostatic moment has a component along it; take method taylor")
-    motion = _motion(relief(reduction, state), state, nodes, backwards)
-    scale = reduction.constants["flip"] / reduction.constants["n"] if reduction.e else 1.0
-    motion.axis, motion.spin = reduction.axis, (scale, float(reduction.s))
+    motion = ordinary(plain, state, nodes, backwards) if plain else None
+    if motion is None:
+        motion = _motion(relief(reduction, state), state, nodes, backwards)
+    motion.axis, motion.spin = reduction.axis, plain.spin if plain else (1.0, float(reduction.s))
     return motion
 
 
@@ -83,9 +84,8 @@ def _libration(ground: Relief, nodes):
     end, b = _turn(right, inner[-1], 1)
     hills = [s for s in inner if s.kind > 0]
     if all(s.kinetic > DIP * inner[0].kinetic for s in hills):
-        path = Between(start, a, end, b)
-        if (phase := _phase(path, nodes)) is not None:
-            return BySeries(path, phase, ground.w)
+        if (motion := by_samples(BySeries, Between(start, a, end, b), ground.w, nodes, SAMPLES)) is not None:
+            return motion
     chain = [Turning(start, a, 1, inner[0].at - start.at),
              *(Passing(hill, hill.kinetic, inner[n - 1].at - hill.at, inner[n + 1].at - hill.at)
                for n, hill in enumerate(inner) if hill.kind > 0),
@@ -110,8 +110,8 @@ def _rotation(ground: Relief, nodes):
     sense = 1.0 if ground.w > 0 else -1.0
     if all(s.kinetic > DIP * max(s.kinetic for s in spots) for s in hills):
         path = Around(min(hills, key=lambda s: s.kinetic, default=ground.here), sense)
-        if (phase := _phase(path, nodes)) is not None:
-            return BySeries(path, phase, ground.w, sense)
+        if (motion := by_samples(Rotation, path, ground.w, nodes, ROTATION_SAMPLES)) is not None:
+            return motion
     turn = Turn(ground)
     number, y = turn.where()
     return _by_panels([turn.passing(n) for n in range(len(turn.hills))], number % len(turn.hills), y, ground.w, sense)
@@ -123,15 +123,3 @@ def _by_panels(chain, number, y, w, sense):
     motion = ByPanels(panels, start if sense or w >= 0 else -start, sense)
     motion.evaluations = panels.evaluations
     return motion
-
-
-def _phase(path, nodes):
-    """The series of a phase, as long as it takes (None: longer than `SAMPLES`), or of `nodes` samples."""
-    evaluations = 0
-    for n in (nodes,) if nodes else SAMPLES:
-        phase = Phase(path.samples(n), path.even)
-        evaluations += n
-        if phase.settled or nodes:
-            phase.evaluations = evaluations
-            return phase
-    return None

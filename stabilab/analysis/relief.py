@@ -12,8 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..errors import InputError
-from .precise import TIE_BITS, PreciseOrbit, Unclear, ball, settled, sign
+from .precise import TIE_BITS, PreciseOrbit, Unclear, ball, settled
 
 SURE_BITS = 60  # relative accuracy of a ball that is rounded to a double
 FLOOR_BITS = 90  # a sum of terms whose ball is smaller than its terms by so many bits counts as zero
@@ -24,7 +23,7 @@ TURN = 2 * math.pi
 class Plain:
     """Functions of one float."""
 
-    sin, cos, sqrt, expm1 = math.sin, math.cos, math.sqrt, math.expm1
+    sin, cos, sinh, cosh, sqrt, expm1 = math.sin, math.cos, math.sinh, math.cosh, math.sqrt, math.expm1
 
     @staticmethod
     def over(sine, t):
@@ -50,11 +49,11 @@ class Plain:
 class Arrays:
     """The same functions of arrays."""
 
-    sin, cos, sqrt, expm1 = np.sin, np.cos, np.sqrt, np.expm1
+    sin, cos, sinh, cosh, sqrt, expm1 = np.sin, np.cos, np.sinh, np.cosh, np.sqrt, np.expm1
 
     @staticmethod
     def over(sine, t):
-        return sine / np.where(t == 0, 1.0, t) + (t == 0)
+        return sine / t if t.all() else sine / np.where(t == 0, 1.0, t) + (t == 0)
 
     @staticmethod
     def rest(t):

@@ -1,30 +1,73 @@
 """A motion that repeats, at any time: librations between two turning points, rotations without torque.
 
-Well away from a separatrix the phase phi (offset = middle - half cos phi, or the angle itself) differs from the mean
-phase psi = 2 pi t/T by a Fourier series in psi. Its coefficients are means over phi, d_k = <exp(-i k psi(phi))>/(i k)
-(as Bessel's for Kepler's equation), so nothing is inverted: one sum gives the state at any time. Next to a separatrix,
-where the series is long, the panels of `passages` take over.
+Well away from a separatrix the time is a short Fourier series of the phase phi (offset = middle - half cos phi, or the angle
+itself): one time is inverted by Newton's method. For many, phi less the mean phase psi = 2 pi t/T is a series in psi with
+the coefficients d_k = <exp(-i k psi(phi))>/(i k), means over phi (as Bessel's for Kepler's equation), so nothing is
+inverted. Next to a separatrix, where the series are long, the panels of `passages` take over.
 """
 from __future__ import annotations
 
 import math
+from bisect import bisect_right
+from functools import cached_property, lru_cache
 
 import numpy as np
 
-from .passages import Panels, Passing, Turning, turning_offset
 from .relief import TURN, Arrays, Plain
 
-SAMPLES = (64, 128, 256, 512)
+SAMPLES = (48, 96, 192)  # over a turn of phi, for the time
+PHASES = (48, 96, 192, 384)  # for the phase
+ROTATION_SAMPLES = (64, 128, 256, 512)
+NEWTON = 20
 NOISE = 4e-16  # coefficients of phi below this are rounding
 DIP = 1e-3  # kinetic energy over a hill against the largest: below it the hill's own coordinate is needed
 CHUNK = 4096
 
 
-class Phase:
-    """phi(psi) - psi as a Fourier series from samples of dt/dphi over a turn of phi; even: so is dt/dphi; settled: the
-    series is as long as doubles need."""
+@lru_cache(maxsize=16)
+class Rule:
+    """Even functions of phi from their values at phi_m = m 2 pi/n, m = 0 ... n/2.
 
-    def __init__(self, rate, even):
+    matrix: to their n/2 + 1 coefficients (of cos k phi), to those of the integral less its mean (of sin k phi), and to the
+    integral at the nodes. low, high: 1 where the phase is told from the turning point on the left, or the right; way: from
+    there in units of 2 half, signed; near: cos^2 (phi/2) seen from there, signed.
+    """
+
+    def __init__(self, n):
+        last = n // 2
+        phi, k = np.arange(last + 1) * (TURN / n), np.arange(last + 1)
+        weights = np.where((k == 0) | (k == last), 0.5, 1.0)
+        fourier = 2.0 / last * np.cos(np.outer(k, phi)) * weights[:, None] * weights
+        slow = fourier * np.where((k > 0) & (k < last), 1 / np.maximum(k, 1), 0.0)[:, None]
+        self.sines = np.sin(np.outer(phi, k))
+        self.matrix = np.vstack([fourier, slow, np.outer(phi, fourier[0]) + self.sines @ slow])
+        self.phi, self.angles, self.k, self.weights = phi, phi.tolist(), k, weights / last
+        part = last // 2 + 1
+        self.low = (k < part).astype(float)
+        self.high = 1 - self.low
+        back = np.pi - phi
+        self.way = np.where(k < part, np.sin(0.5 * phi) ** 2, -np.sin(0.5 * back) ** 2)
+        self.near = np.where(k < part, np.cos(0.5 * phi) ** 2, -np.cos(0.5 * back) ** 2)
+
+
+class EvenPhase:
+    """phi(psi) - psi as a sine series, from phi - psi at the samples of a `Rule`; settled: it is as long as doubles need."""
+
+    def __init__(self, rule, slow, mean):
+        psi = rule.phi + rule.sines @ slow / mean
+        top = rule.k[1: 2 * len(rule.k) // 3]
+        series = np.cos(np.multiply.outer(top, psi)) @ rule.weights * (2 / top)
+        self.settled = _settled(series)
+        self.sines = _kept(series)
+
+    def __call__(self, psi, f):
+        return psi + f.sin(psi) * _clenshaw(self.sines, 2 * f.cos(psi))[0]
+
+
+class Phase:
+    """phi(psi) - psi as a Fourier series from samples of dt/dphi over a turn of phi; settled: it is as long as doubles need."""
+
+    def __init__(self, rate):
         n = len(rate)
         k = np.arange(1, n // 2)
         spectrum = np.fft.rfft(rate) / n
@@ -35,27 +78,33 @@ class Phase:
         psi = np.arange(n) * (TURN / n) + (lead - lead[0])
         top = k[: n // 3]
         series = np.exp(-1j * np.multiply.outer(top, psi)).mean(axis=1) / (1j * top)
-        constant = float(((np.arange(n) * (TURN / n) - psi) * rate).mean() / self.mean)
-        size = np.abs(series)
-        self.settled = bool(size[-len(top) // 4:].max() <= NOISE and np.abs(slow[-n // 8:]).max() <= 4 * NOISE)
-        kept = int(np.nonzero(size > NOISE / 8)[0].max(initial=-1)) + 1
+        self.constant = float(((np.arange(n) * (TURN / n) - psi) * rate).mean() / self.mean)
+        self.settled = _settled(series) and bool(np.abs(slow[-n // 8:]).max() <= 4 * NOISE)
+        kept = len(_kept(series))
         self.sines, self.cosines = (-2 * series.imag[:kept]).tolist(), (2 * series.real[:kept]).tolist()
-        self.constant = constant
         self.to_psi = lambda phi: phi + _lead(slow, phi) - _lead(slow, 0.0)
-        self.even, self.evaluations = even, n
 
     def __call__(self, psi, f):
-        sine, twice = f.sin(psi), 2 * f.cos(psi)
-        one = two = 0.0
-        for coefficient in self.sines[::-1]:
-            one, two = twice * one - two + coefficient, one
-        phi = psi + sine * one
-        if self.even:
-            return phi
-        one = two = 0.0
-        for coefficient in self.cosines[::-1]:
-            one, two = twice * one - two + coefficient, one
-        return phi + self.constant + (0.5 * twice * one - two)
+        twice = 2 * f.cos(psi)
+        one, two = _clenshaw(self.cosines, twice)
+        return psi + f.sin(psi) * _clenshaw(self.sines, twice)[0] + self.constant + (0.5 * twice * one - two)
+
+
+def _settled(series) -> bool:
+    return bool(np.abs(series[-len(series) // 4:]).max() <= NOISE)
+
+
+def _kept(series) -> list:
+    """The series without the rounding at its end."""
+    return series[:int(np.nonzero(np.abs(series) > NOISE / 8)[0].max(initial=-1)) + 1].tolist()
+
+
+def _clenshaw(coefficients, twice):
+    """(b_1, b_2) of Clenshaw's sum with twice = 2 cos psi."""
+    one = two = 0.0
+    for coefficient in coefficients[::-1]:
+        one, two = twice * one - two + coefficient, one
+    return one, two
 
 
 def _lead(slow, phi):
@@ -67,25 +116,19 @@ def _lead(slow, phi):
 class Between:
     """offset = middle - half cos phi between turning points a (from spot `left`) and b (from `right`)."""
 
-    even = True
-
     def __init__(self, left, a, right, b):
         self.left, self.a, self.right, self.b = left, a, right, b
         self.half = 0.5 * (right.at - left.at + (b - a))
 
-    def samples(self, n):
-        """dt/dphi at n even angles: mirror images about phi = 0."""
-        phi = np.arange(n // 2 + 1) * (TURN / n)
-        part = n // 4 + 1
-        first = self._rate(self.left, self.a, 1, phi[:part])
-        second = self._rate(self.right, self.b, -1, np.pi - phi[part:])
-        rate = np.concatenate([first, second])
-        return np.concatenate([rate, rate[-2:0:-1]])
-
-    def _rate(self, spot, a, sense, phi):
-        """From the turning point at phi = 0: K = way * share, and half sin phi = sqrt(way (2 half - way))."""
-        way = 2 * self.half * np.sin(0.5 * phi) ** 2
-        return np.sqrt(self.half * np.cos(0.5 * phi) ** 2 / (sense * spot.share(a, sense * way, Arrays)))
+    def samples(self, rule):
+        """dt/dphi at the angles of a `Rule`, from the turning point of each half: K = way * share, and half sin phi =
+        sqrt(way (2 half - way))."""
+        way, part = rule.way * (2 * self.half), len(rule.angles) // 2 + 1
+        if self.left is self.right:
+            share = self.left.share(self.a * rule.low + self.b * rule.high, way, Arrays)
+        else:
+            share = np.concatenate([self.left.share(self.a, way[:part], Arrays), self.right.share(self.b, way[part:], Arrays)])
+        return np.sqrt(rule.near * self.half / share)
 
     def phase(self, w):
         """phi of the state."""
@@ -120,8 +163,6 @@ class Between:
 class Around:
     """The angle itself, from the hill nearest in height, all round a circle without torque."""
 
-    even = False
-
     def __init__(self, spot, sense):
         self.spot, self.sense = spot, sense
 
@@ -152,13 +193,96 @@ class Motion:
 
 
 class BySeries(Motion):
-    """A motion on `path` whose phase is a series; sense: of its rotation, 0 for a libration."""
+    """A libration `between` turning points whose time is a series of its phase, from n samples over a turn."""
 
-    def __init__(self, path, phase, w, sense=0.0):
-        self.path, self.phase, self.sense, self.evaluations = path, phase, sense, phase.evaluations
-        self.period = TURN * phase.mean
-        self.start = phase.to_psi(path.phase(w))
-        self.pace = (sense or 1.0) / phase.mean
+    sense = 0.0
+
+    def __init__(self, between, w, n):
+        self.path, self.rule = between, Rule(n)
+        self.evaluations = n // 2 + 1
+        rates = between.samples(self.rule)
+        found, m = (self.rule.matrix @ rates).tolist(), n // 2 + 1
+        self.rates, self.times = rates.tolist(), found[2 * m:]
+        self.mean = found[0]
+        noise = NOISE * self.mean
+        self.settled = max(map(abs, found[2 * m - 1 - m // 4:2 * m - 1])) <= noise  # false for NaN
+        kept = m - 1
+        while kept > 1 and abs(found[m + kept - 1]) <= noise / 8:
+            kept -= 1
+        self._rows = list(zip(found[m + kept - 1:m:-1], found[kept - 1:0:-1]))
+        self._slow = found[m:2 * m]
+        self.period = TURN * self.mean
+        phi = between.phase(w)
+        self.start = math.copysign(self._time(abs(phi))[0], phi)
+
+    def _time(self, phi):
+        """(time since phi = 0, dt/dphi)."""
+        twice = 2 * math.cos(phi)
+        s = ss = c = cc = 0.0
+        for slow, fast in self._rows:
+            s, ss = twice * s - ss + slow, s
+            c, cc = twice * c - cc + fast, c
+        return self.mean * phi + s * math.sin(phi), self.mean + 0.5 * twice * c - cc
+
+    def _phi(self, time):
+        """phi at a time in [0, T/2]: from cubics between the samples, by Newton's method."""
+        times, rates, angles = self.times, self.rates, self.rule.angles
+        n = min(max(bisect_right(times, time) - 1, 0), len(times) - 2)
+        step = times[n + 1] - times[n]
+        u = (time - times[n]) / step
+        v = 1 - u
+        phi = (angles[n] * v * v * (1 + 2 * u) + angles[n + 1] * u * u * (1 + 2 * v)
+               + step * u * v * (v / rates[n] - u / rates[n + 1]))
+        for _ in range(NEWTON):
+            found, rate = self._time(phi)
+            moved = (found - time) / rate
+            phi -= moved
+            if -1e-8 <= moved <= 1e-8:  # the next step would square that
+                break
+        return phi
+
+    def _place(self, t):
+        """Phase in [-pi, pi]."""
+        time = math.remainder(t, self.period) + self.start
+        if abs(time) > 0.5 * self.period:
+            time -= math.copysign(self.period, time)
+        return math.copysign(self._phi(abs(time)), time)
+
+    def at(self, t):
+        spot, y, w = self.path.at(self._place(t))
+        return spot.state(y, w, Plain)
+
+    @cached_property
+    def phase(self) -> EvenPhase | None:
+        """None where the series of the phase is too long."""
+        slow, mean, rule = np.array(self._slow), self.mean, self.rule
+        for n in PHASES:
+            if n > 2 * len(rule.phi) - 2:
+                rule, slow = Rule(n), np.append(slow, np.zeros(n // 2 + 1 - len(slow)))
+            if (phase := EvenPhase(rule, slow, mean)).settled:
+                return phase
+        return None
+
+    def follow(self, times):
+        out, way = np.empty((len(times), 3)), np.empty(len(times))
+        for first in range(0, len(times), CHUNK):
+            part = slice(first, first + CHUNK)
+            if self.phase is None:
+                phi = np.array([self._place(t) for t in times[part].tolist()])
+            else:
+                phi = self.phase((self.start + np.fmod(times[part], self.period)) / self.mean, Arrays)
+            out[part], way[part] = self.path.follow(phi)
+        return out, way
+
+
+class Rotation(Motion):
+    """All round a circle without torque, the phase being a series; n samples a turn."""
+
+    def __init__(self, path, w, n):
+        self.path, self.sense = path, path.sense
+        self.phase, self.evaluations = Phase(path.samples(n)), n
+        self.settled, self.period = self.phase.settled, TURN * self.phase.mean
+        self.start, self.pace = self.phase.to_psi(path.phase(w)), path.sense / self.phase.mean
 
     def at(self, t):
         spot, y, w = self.path.at(self.phase(self.start + self.pace * math.fmod(t, self.period), Plain))
@@ -171,6 +295,18 @@ class BySeries(Motion):
             psi = self.start + self.pace * np.fmod(times[part], self.period)
             out[part], way[part] = self.path.follow(self.phase(psi, Arrays))
         return out, way + self.sense * TURN * np.trunc(times / self.period)
+
+
+def by_samples(kind, path, w, nodes, counts):
+    """The motion of a `kind` with as many samples as it takes (None: more than `counts` has), or with `nodes`."""
+    evaluations = 0
+    for n in (nodes,) if nodes else counts:
+        motion = kind(path, w, n)
+        evaluations += motion.evaluations
+        if motion.settled or nodes:
+            motion.evaluations = evaluations
+            return motion
+    return None
 
 
 class ByPanels(Motion):
