@@ -293,3 +293,30 @@ def test_distance_next_to_a_fold_is_that_of_a_dense_cloud_of_vertices(spread):
     assert np.all(margins <= nearest * (1 + 1e-9))
     # a vertex lies within a cell's diagonal of the nearest point, so the cloud's distance is too large by less than that
     assert np.all(margins >= nearest - 0.1 * spread)
+
+
+@pytest.mark.parametrize("name", ["minor a<b", "both components", "middle, c = 3"])
+def test_no_vertex_is_nearer_than_the_distance_says(name):
+    """States off the saddles and on the plane of symmetry, W = 0, where the distance may be stationary without being least:
+    a search that starts there on a ridge stays. Vertices are an upper bound that owes nothing to the search."""
+    scene, problem = SCENES[name]
+    sheets = stabilab.separatrix(scene, shape=(300, 401)).sheets
+    cloud = np.concatenate([sheet.points.reshape(-1, 3) for sheet in sheets])
+    rng = np.random.default_rng(21)
+    states = [sheet.saddle[row] + 0.05 * rng.normal(size=3) for sheet in sheets for row in (90, 200, 280)]
+    states += list(rng.uniform(-3, 3, (6, 3)))
+    states = np.array(states)
+    states[:, axis_of(problem)] = sheets[0].saddle[0, axis_of(problem)]
+    margins = stabilab.fate(scene, states).velocity_margins
+    nearest = np.array([np.linalg.norm(cloud - state, axis=1).min() for state in states])
+    assert np.all(margins <= nearest * (1 + 1e-9))
+
+
+def test_distance_reaches_a_loop_that_a_second_barrier_is_about_to_open():
+    """Two saddles on one circle: where the farther one sinks to the nearer one's height the loop jumps to another end, and the
+    nearest point lies on the last loop before. A dense cloud of vertices gives 0.19613; a coarse grid's vertex 0.19652."""
+    scene, _ = physical((3.0, 2.0, 1.5), (0.4, -0.7, 0), (0, 0, 0.3))
+    state = np.array([-0.12794675, 1.19927972, 0.0])
+    cloud = np.concatenate([sheet.points.reshape(-1, 3) for sheet in stabilab.separatrix(scene, reach=5.6, shape=(700, 801)).sheets])
+    nearest = np.linalg.norm(cloud - state, axis=1).min()
+    assert nearest * (1 - 1e-3) < stabilab.fate(scene, state).velocity_margins <= nearest

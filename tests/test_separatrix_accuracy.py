@@ -7,7 +7,7 @@ import pytest
 import stabilab
 from stabilab.analysis.landscape import landscape
 from stabilab.analysis.loops import loop_end, polished
-from stabilab.analysis.saddle_branches import saddle_branches
+from stabilab.analysis.saddle_branches import limit_of, saddle_branches
 from stabilab.analysis.turning import spots_along
 from stabilab.errors import InputError
 from stabilab.show.mesh import triangulate
@@ -77,9 +77,9 @@ def test_a_bad_accuracy_is_refused(bad):
 def test_wells_from_the_cubic_of_a_circle_are_those_of_the_equilibrium_conic(inertia, momentum, torque):
     """The conic's intersections with the circle share no code with the cubic for the angle from the saddle."""
     land = landscape(physical(inertia, momentum, torque)[0])
-    for along in saddle_branches(land, 4.0):
+    for branch in saddle_branches(land.conic, land.potential, limit_of(land.conic, 4.0)):
         s = np.linspace(0.02, 0.97, 41)
-        saddle = polished(land, tuple(np.asarray(v, float) for v in along(s)), s)
+        saddle = polished(land, tuple(np.asarray(v, float) for v in branch.place(s)), s)
         end, centre, found, shared = loop_end(land, saddle, -1)
         assert not shared.any()
         spots = spots_along(land, saddle, np.zeros(len(s)))

@@ -8,14 +8,15 @@ from __future__ import annotations
 
 import math
 from .conic import Conic
-from .double_balls import real_roots_of
 from .loop import loop_end, settled_on
 from .potential import potential
 from .reduction import reduce
+from .saddle_branches import FOLD, PLANE, foot, on_line, saddle_branches, sides
 
 ROWS, COLUMNS, STARTS, NEWTON = 28, 11, 3, 40
 GRADING = 3  # s = t^3: rows uniform in t crowd at the fold, where a sheet narrows to a point
-PLANE = 24.0  # and near an invariant plane 1 - s falls to exp(-PLANE), as loops grow there with the root of 1/(1 - s)
+TO_PLANE = 24.0  # and near an invariant plane 1 - s falls to exp(-TO_PLANE), as loops grow there with the root of 1/(1 - s)
+OFF = 0.25 / (COLUMNS - 1)  # starts keep off the saddle and the far end, where symmetry may hold a search on a ridge
 STEP = 1e-4  # of the differences that give the surface's tangents and curvature
 
 
@@ -66,30 +67,30 @@ class _Geometry:
         """The sheets that may hold the nearest point: it lies no further out than the state plus its distance to a fold (or,
         where the saddles are on lines, to the innermost of them)."""
         conic = self.conic
-        ends = [conic.at(h) for h in conic.folds] + [_at(line, _foot(conic, line)) for line in conic.lines] or [(0.0, 0.0)]
+        ends = [conic.at(h) for h in conic.folds] + [on_line(line, foot(conic, line)) for line in conic.lines] or [(0.0, 0.0)]
         far = min(math.hypot(self.rx * (x - self.x), self.rz * (z - self.z), self.w / self.n) for x, z in ends)
         radius = math.hypot(self.x, self.z) + far / min(abs(self.rx), abs(self.rz))
         limit = max(4 * max(x * x + z * z for x, z in ends), 1.1 * radius * radius)
-        sides = (-1,) if self.e < 0 and self.sense else (-1, 1)
-        for along, to_plane in saddle_branches(conic, self.pot, limit):
-            for side in sides:
-                yield _Sheet(self, along, side, to_plane)
+        for branch in saddle_branches(conic, self.pot, limit):
+            for side, _ in sides(self.e, self.sense):
+                yield _Sheet(self, branch, side)
 
 
 class _Sheet:
     """Points over (t, phi): saddles from the fold (t = 0) outward, round each loop from its far end (phi = 0) to the saddle
     (phi = 1); phi < 0 is the other half of the loop."""
 
-    def __init__(self, geometry, along, side, to_plane):
-        self.geometry, self.along, self.side, self.to_plane = geometry, along, side, to_plane
+    def __init__(self, geometry, branch, side):
+        self.geometry, self.branch, self.side = geometry, branch, side
 
     def loop(self, t):
         """(saddle, signed length of its loop), None where no loop closes."""
         g, s = self.geometry, t ** GRADING
-        if self.to_plane:
-            s = 1 - (1 - s) * math.exp(-PLANE * t ** 4)
-        x, z = self.along(s)
-        saddle = (x, z) if g.e < 0 else (x + z, x - z)
+        if self.branch.far == PLANE:
+            s = 1 - (1 - s) * math.exp(-TO_PLANE * t ** 4)
+        elif self.branch.far == FOLD:  # rows crowd there alike
+            s = t * t * (3 - 2 * t)
+        saddle = self.branch.place(s)
         if s == 0:
             return saddle, 0.0
         saddle = settled_on(g.pot, saddle)
@@ -129,9 +130,9 @@ def _refined(grid, best) -> float:
         if not left:
             break
         row, column = min(left, key=left.get)
-        if not left[row, column] - grid.cell(row, column) < best:
-            break
-        best = min(best, _descent(grid.sheet, grid.t[row], grid.phi[column], left[row, column]))
+        if left[row, column] - grid.cell(row, column) < best:
+            phi = min(max(grid.phi[column], OFF), 1 - OFF)
+            best = min(best, _descent(grid.sheet, grid.t[row], phi, left[row, column]))
         left = {at: d for at, d in left.items() if abs(at[0] - row) > 4 or abs(at[1] - column) > 2}
     return best
 
@@ -151,7 +152,8 @@ def _descent(sheet, t, phi, least) -> float:
         along, round_ = _slope(v[0][1], v[2][1]), _slope(v[1][0], v[1][2])
         bend = _bend(v[0][1], here, v[2][1]), _bend(v[1][0], here, v[1][2])
         twist = tuple((a - b - c + d) / (4 * STEP * STEP) for a, b, c, d in zip(v[2][2], v[2][0], v[0][2], v[0][0]))
-        least = min(least, math.hypot(*here))
+        now = math.hypot(*here)
+        least = min(least, now)
         gradient = _dot(along, here), _dot(round_, here)
         squares = _dot(along, along), _dot(round_, round_)
         aa, bb, ab = squares[0] + _dot(bend[0], here), squares[1] + _dot(bend[1], here), _dot(along, round_) + _dot(twist, here)
@@ -162,14 +164,14 @@ def _descent(sheet, t, phi, least) -> float:
                 move_t, move_phi = (ab * gradient[1] - db * gradient[0]) / det, (ab * gradient[0] - da * gradient[1]) / det
                 move_t, move_phi = max(-0.2, min(0.2, move_t)), max(-0.2, min(0.2, move_phi))
                 trial = sheet.loop(min(max(t + move_t, 2 * STEP), 1 - 2 * STEP))
-                if trial and math.hypot(*sheet.away(trial, phi + move_phi)) <= least * (1 + 1e-12):
+                if trial and math.hypot(*sheet.away(trial, phi + move_phi)) <= now * (1 + 1e-12):
                     break
             damping = max(4 * damping, 0.01)
             if damping > 1e9:
                 return least
         t, phi = t + move_t, phi + move_phi
         damping = damping / 8 if damping > 0.02 else 0.0
-        if abs(move_t) + abs(move_phi) < 1e-9 or -_dot(gradient, (move_t, move_phi)) < 1e-15 * least * least:
+        if abs(move_t) + abs(move_phi) < 1e-9 or -_dot(gradient, (move_t, move_phi)) < 1e-15 * now * now:
             return min(least, math.hypot(*sheet.away(trial, phi)))
     return least
 
@@ -184,60 +186,3 @@ def _bend(before, here, after):
 
 def _dot(a, b) -> float:
     return sum(u * v for u, v in zip(a, b))
-
-
-# --- branches of saddles
-def saddle_branches(conic, pot, limit):
-    """For every branch of saddles its place (X, Z) as a function of s in [0, 1], s = 0 at the fold, as far out as |Q| = limit;
-    and whether s = 1 lies on an invariant plane."""
-    for piece in conic.pieces:
-        if piece.barrier:
-            for start, end in _on_piece(conic, piece, limit):
-                yield (lambda s, a=start, b=end, sign=piece.sign: conic.at(sign * (a + (b - a) * s)),
-                       conic.e > 0 and abs(conic.invariant(piece.sign * end)) < 1e-9 * abs(conic.invariant(piece.sign * start)))
-    for line in conic.lines:
-        for start, end in _on_line(conic, pot, line, limit):
-            yield (lambda s, a=start, b=end, on=line: _at(on, a + (b - a) * s)), False
-
-
-def _on_piece(conic, piece, limit):
-    """|h| intervals of a piece inside the limit on |Q|, starting at a fold, cut where Q = 0 (a plane)."""
-    ends = [h for q in (limit, -limit) for h in _meet(conic, piece, q)]
-    inner = piece.inner or min(ends, default=None)
-    outer = piece.outer if math.isfinite(piece.outer) else max(ends, default=None)
-    if inner is None or outer is None or not inner < outer:
-        return
-    cuts = [inner, *(h for h in (_meet(conic, piece, 0.0) if conic.e > 0 else ()) if inner < h < outer), outer]
-    for low, high in zip(cuts, cuts[1:]):
-        yield (high, low) if high == piece.outer else (low, high)
-
-
-def _meet(conic, piece, q) -> list[float]:
-    """|h| on a piece where the invariant is q: Z^2 - e X^2 = q times h^2, a quartic."""
-    e, s, G = conic.e, conic.shift, conic.G
-    c, K = conic.c / G, conic.K / G
-    roots = real_roots_of([1.0, -2 * s, s * s - e * c * c - q, 2 * e * K * c, -e * K * K])
-    return sorted(abs(h) for h in roots if h * piece.sign > 0 and piece.inner < abs(h) < piece.outer)
-
-
-def _at(line, t):
-    return line.x0 + t * line.dx, line.z0 + t * line.dz
-
-
-def _foot(conic, line) -> float:
-    """Where along a line the invariant is stationary."""
-    a = line.dz**2 - conic.e * line.dx**2
-    return -(line.z0 * line.dz - conic.e * line.x0 * line.dx) / a if a else 0.0
-
-
-def _on_line(conic, pot, line, limit):
-    """Intervals of t on a line where it holds saddles, each from its inner end outward."""
-    knots = [_foot(conic, line)]
-    if conic.G:  # where the two lines cross
-        knots.append(-conic.d / conic.G - line.z0 if line.dz else -conic.c / conic.G - line.x0)
-    far = (2 * math.sqrt(limit) + abs(line.x0) + abs(line.z0)) / math.hypot(line.dx, line.dz) + max(map(abs, knots))
-    knots = sorted({-far, *knots, far})
-    for low, high in zip(knots, knots[1:]):
-        x, z = _at(line, 0.5 * (low + high))
-        if pot.slope((x, z) if conic.e < 0 else (x + z, x - z)) > 0:
-            yield (low, high) if abs(low) < abs(high) else (high, low)

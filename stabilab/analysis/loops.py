@@ -193,12 +193,12 @@ class Loops:
 
 
 def loops(land, strips, s, u) -> Loops:
-    """The loops of strips, pairs (place along a branch, side), at parameters s (k, n) along them and u (k, m) round them.
+    """The loops of strips, pairs (branch, side), at parameters s (k, n) along them and u (k, m) round them.
 
     A loop shared with the saddle at its far end is found from the left one only; at s = 0, the fold, it is a point.
     """
     k, n = s.shape
-    place = np.array([np.broadcast_arrays(*along(row)) for (along, _), row in zip(strips, s)], float)
+    place = np.array([np.broadcast_arrays(*branch.place(row)) for (branch, _), row in zip(strips, s)], float)
     saddle = np.array(polished(land, (place[:, 0].ravel(), place[:, 1].ravel()), s.ravel())).reshape(2, k, n)
     sides = np.array([side for _, side in strips])
     end, centre, found, shared = np.empty((k, n)), np.empty((2, k, n)), np.empty((k, n), bool), np.empty((k, n), bool)

@@ -16,7 +16,7 @@ from .array_results import Separatrix, Sheet
 from .effective import effective
 from .landscape import landscape
 from .loops import residual
-from .saddle_branches import saddle_branches, sides
+from .saddle_branches import limit_of, saddle_branches, sides
 from .sheet_grid import Grid, grid
 
 SHAPE = (96, 129)  # fine enough for pictures
@@ -41,10 +41,10 @@ def separatrix(scene, reach: float | None = None, shape: tuple[int, int] | None 
     if land.e == 0:
         return Separatrix((), "parabolic reduction (two equal moments): all motions are bounded by walls on both sides, "
                               "except pure spin about the torque; no sheet bounds a spin-up")
-    branches = list(saddle_branches(land, reach or 4.0))
+    branches = saddle_branches(land.conic, land.potential, limit_of(land.conic, reach or 4.0))
     if not branches:
         return Separatrix((), _why_none(land))
-    strips = [(along, side) for along in branches for side, _ in sides(land)]
+    strips = [(branch, side) for branch in branches for side, _ in sides(land.e, land.sense)]
     rows, columns = shape or SHAPE
     made = grid(land, strips, None if accuracy else (rows, columns // 2 + 1), accuracy)
     return Separatrix(tuple(_sheets(land, made, strips)), _what_it_parts(land))
@@ -74,7 +74,8 @@ def _sheets(land, made: Grid, strips):
     still = np.zeros(loops.end.shape)
     saddle, centre = (land.components(place, still) for place in (loops.saddle, loops.centre))
     invariant = land.invariant(loops.saddle)
-    words, per = [word for _, word in sides(land)], len(sides(land))
+    words = [word for _, word in sides(land.e, land.sense)]
+    per = len(words)
     for first in range(0, len(strips), per):
         kept = [strip for strip in range(first, first + per) if np.count_nonzero(loops.found[strip]) > 1]
         for strip in kept:

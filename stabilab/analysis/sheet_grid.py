@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .loops import Loops, loops
+from .saddle_branches import PLANE
 
 TRIAL = 17              # rows and columns of the trial grid
 FLOOR = 0.3             # of the mean density: no gap where a sheet happens to be straight
@@ -35,7 +36,7 @@ class Grid:
 def grid(land, strips, shape=None, accuracy=None) -> Grid:
     """The graded loops of strips (see `loops`): shape (rows, columns of a half), or, without one, as few of both as keep
     facets within `accuracy` of the sheets."""
-    trial = np.array([_trial_rows(land, along) for along, _ in strips])
+    trial = np.array([_trial_rows(land, branch) for branch, _ in strips])
     even = np.linspace(0, 1, TRIAL)
     first, edge = _measured_loops(land, strips, trial, np.broadcast_to(even, trial.shape))
     across, twist, down = _second_forms(land, first)
@@ -135,11 +136,11 @@ def _even_steps(length, at, number):
     return out
 
 
-def _trial_rows(land, along, dense=129):
+def _trial_rows(land, branch, dense=129):
     """(TRIAL,) parameters s of rows: the saddle moves on by equal steps near the fold and by equal factors far out, where
     the sheet only grows and hardly bends."""
     s = 0.5 - 0.5 * np.cos(np.linspace(0, np.pi, dense))
-    place = along(s)
+    place = np.broadcast_arrays(*branch.place(s))
     way = np.zeros(dense)
     np.cumsum(np.hypot(np.diff(place[0]), np.diff(place[1])), out=way[1:])
     q = land.invariant((place[0][[0, -1]], place[1][[0, -1]]))
@@ -147,5 +148,5 @@ def _trial_rows(land, along, dense=129):
     stretched = np.log1p(way / start)
     s = np.interp(np.linspace(0, stretched[-1], TRIAL), stretched, s)
     # on a plane Q = 0 a loop need not close: the last row stays short of it
-    s[-1] = SHORT if land.e > 0 and abs(q[1]) < 1e-9 * abs(q[0]) else 1.0
+    s[-1] = SHORT if branch.far == PLANE else 1.0
     return s
