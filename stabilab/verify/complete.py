@@ -89,13 +89,16 @@ def whole_torque_free(rates, kind, points, curves):
     """(status, reason): equilibria without a torque, where momentum and rotation are parallel."""
     if points:
         return "refuted", "without a torque no equilibrium is isolated"
+    free = rates.parallel is not None and not any(rates.parallel[1]) and len(set(rates.parallel[0])) == 1
+    if kind != ("all" if free else "curves"):
+        return "refuted", "without a torque they are curves, or every rate of rotation for a sphere that carries no gyrostatic moment"
     if rates.parallel is None:
         wanted = _scaled_lines(rates)
         missing = [w for w in wanted if not any(_is_the_line(c, *w) for c in curves)]
         return ("refuted" if missing else "proved"), "x2 x3 = x3 (x1 + a) = x2 (x1 + b) = 0 are three lines"
     D, lam = rates.parallel
-    if not any(lam) and len(set(D)) == 1:
-        return ("proved" if kind == "all" else "refuted"), "every rate of rotation is constant"
+    if free:
+        return "proved", "every rate of rotation is constant"
     if any(lam) and not any(_passes_every_s(D, lam, c) for c in curves):
         return "refuted", "no curve passes every s of D x + lambda = s x"
     for d in set(D):

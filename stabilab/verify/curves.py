@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from .numbers import Malformed, bracket, exact_sign, field, hull, numbers, q
+from .numbers import Malformed, bracket, entries, exact_sign, field, hull, numbers, q
 from .rates import characteristic
 
 
@@ -26,9 +26,9 @@ class Curve:
         self.tops, self.bottom = [top // common for top in self.tops], self.bottom // common
         self.degree = max(p.degree() for p in (*self.tops, self.bottom))
         self.claim = f"curve {table.get('name', '')!s:.60} ({where})"
-        self.segments = [_piece(s, f"{where}.segments[{i}]") for i, s in enumerate(table.get("segments") or [])]
+        self.segments = [_piece(s, f"{where}.segments[{i}]") for i, s in enumerate(entries(table, "segments", where))]
         self.folds = [(bracket(field(f, "t", w), f"{w}.t"), field(f, "linear", w, str), field(f, "verdict", w, str))
-                      for i, f in enumerate(table.get("folds") or []) for w in [f"{where}.folds[{i}]"]]
+                      for i, f in enumerate(entries(table, "folds", where)) for w in [f"{where}.folds[{i}]"]]
 
     def at(self, t):
         """The exact point at a rational parameter that is no pole."""

@@ -6,8 +6,9 @@ from itertools import combinations
 
 from .complete import whole_conic, whole_torque_free
 from .curves import check_curve, curve_of, identically_zero
-from .numbers import Malformed, bracket, exact_sign, field, hull, sign
+from .numbers import Malformed, bracket, entries, exact_sign, field, hull, sign
 from .rates import characteristic
+from .zeros import above, below
 
 BITS, MOST_BITS = 128, 1 << 14
 
@@ -15,8 +16,8 @@ BITS, MOST_BITS = 128, 1 << 14
 def check_equilibria(rates, claims, note):
     """Findings on the certificate's part `equilibria`."""
     kind = field(claims, "kind", "equilibria", str)
-    points = [_Point(p, f"equilibria.points[{i}]") for i, p in enumerate(claims.get("points") or [])]
-    curves = [curve_of(c, f"equilibria.curves[{i}]") for i, c in enumerate(claims.get("curves") or [])]
+    points = [_Point(p, f"equilibria.points[{i}]") for i, p in enumerate(entries(claims, "points", "equilibria"))]
+    curves = [curve_of(c, f"equilibria.curves[{i}]") for i, c in enumerate(entries(claims, "curves", "equilibria"))]
     for point in points:
         _check_point(rates, point, note)
     for curve in curves:
@@ -83,10 +84,15 @@ def _only_zero(rates, box):
                     break
                 x = new
                 m, n = (sign(v) for v in characteristic(rates.jacobian(x)))
-                if n is not None and (n or m is not None):
+                if n is not None and (n or m is not None) and all(map(_in_bracket, x, box)):
                     return m, n
         bits *= 4
     return None
+
+
+def _in_bracket(x, ends) -> bool:
+    """Whether the ball lies in the bracket itself: the ball that holds a bracket is a little wider."""
+    return ends[0] <= below(x) and above(x) <= ends[1]
 
 
 def inside(inner, outer):
@@ -163,7 +169,7 @@ def _on_a_line(rates, kind, points, curves):
 
 
 def _is_line(curve):
-    return curve.degree == 1
+    return curve.degree == 1 and curve.bottom.degree() == 0  # a pole would leave out one point
 
 
 def _common_factor(rates) -> list[Fraction]:

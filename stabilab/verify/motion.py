@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from .facts import Facts
-from .numbers import ball, bracket, exact_sign, field, numbers
+from .numbers import Malformed, ball, bracket, exact_sign, field, numbers
 from .orbit import Orbit
 from .period import period_of, round_once
 from .zeros import Open, above, below
@@ -87,6 +87,8 @@ def _period(orbit, facts):
 
 
 def _check_extremes(claimed, found, note):
+    if not (isinstance(claimed, list) and [len(pair) if isinstance(pair, list) else 0 for pair in claimed] == [2, 2, 2]):
+        raise Malformed(f"motion.extremes: expected three pairs of brackets, got {claimed!r:.80}")
     for i, pair in enumerate(claimed):
         for word, said, true in zip(("least", "greatest"), pair, found[i] if found else (None, None)):
             claim = f"{word} x{i + 1}"

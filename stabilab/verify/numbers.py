@@ -47,6 +47,11 @@ def field(table, key: str, where: str, kind=None):
     return table[key]
 
 
+def entries(table, key: str, where: str) -> list:
+    """table[key], a list; [] where it is missing or null."""
+    return field(table, key, where, list) if table.get(key) is not None else []
+
+
 def q(value: Fraction):
     """flint's rational."""
     from flint import fmpq
