@@ -14,26 +14,29 @@ from .uncertain_results import Over
 
 @dataclass(frozen=True)
 class Uncertainty:
-    """numbers: the uncertain numbers of the case; equilibria, fate: what they do to each (fate None without a state)."""
+    """numbers: the uncertain numbers of the case; equilibria, fate: what they do to each, None where not asked (and the fate
+    where there is no state)."""
 
     numbers: tuple
-    equilibria: Over
+    equilibria: Over | None
     fate: Over | None
 
 
-def uncertain(case) -> Uncertainty | None:
-    """What the uncertain numbers of a Case do to its verdicts, None where it has none."""
+def uncertain(case, questions=("equilibria", "fate")) -> Uncertainty | None:
+    """What the uncertain numbers of a Case do to its verdicts, None where it has none; questions: those to be answered."""
     if not case.uncertain:
         return None
     from .uncertain_box import box_of
     from .uncertain_equilibria import equilibria_over
     from .uncertain_fate import fate_over
+    ask = {"equilibria": equilibria_over, "fate": fate_over}
+    asked = [name for name in questions if name == "equilibria" or case.state is not None]
     try:
         box = box_of(case)
+        found = {name: ask[name](box) for name in asked}
     except InputError as error:
-        undecided = Over("undecided", "", str(error))
-        return Uncertainty(case.uncertain, undecided, undecided if case.state is not None else None)
-    return Uncertainty(case.uncertain, equilibria_over(box), fate_over(box))
+        found = {name: Over("undecided", None, str(error)) for name in asked}
+    return Uncertainty(case.uncertain, found.get("equilibria"), found.get("fate"))
 
 
 __all__ = ["Over", "Uncertainty", "uncertain"]

@@ -45,12 +45,13 @@ class Box:
 
     # -- one point, exactly
     def values(self, point, reach=1) -> dict:
-        """The numbers at a point (one number in [-1, 1] for each place), exact; a state is rounded, toward the middle."""
+        """The numbers at a point (one number in [-1, 1] for each place), exact: rounded toward the middle to what a case file
+        can state, decimals of a double's digits (a state to the double itself)."""
         out = {name: list(numbers) for name, numbers in self.middle.items()}
         for (name, i), e in zip(self.places, point):
             middle = out[name][i]
             value = middle + Fraction(reach) * Fraction(e) * self.half[name][i]
-            out[name][i] = _toward(value, middle) if name == "state" else value
+            out[name][i] = middle if value == middle else _toward(value, middle, Fraction if name == "state" else _decimal)
         return {name: tuple(numbers) for name, numbers in out.items()}
 
     def at(self, point, reach=1):
@@ -146,12 +147,18 @@ def _name(path) -> str:
     return "state" if key in ("angular_velocity", "x") else key
 
 
-def _toward(value: Fraction, middle: Fraction) -> Fraction:
-    """The double next to a value, on the middle's side."""
+def _toward(value: Fraction, middle: Fraction, read) -> Fraction:
+    """The number next to a value, on the middle's side, among those that `read` makes of doubles."""
     rounded = float(value)
-    if (Fraction(rounded) - value) * (value - middle) > 0:
+    while (read(rounded) - value) * (value - middle) > 0:
         rounded = math.nextafter(rounded, -math.inf if value > middle else math.inf)
-    return Fraction(rounded)
+    found = read(rounded)
+    return found if (found - middle) * (value - middle) >= 0 else middle
+
+
+def _decimal(number: float) -> Fraction:
+    """What the double's shortest decimal denotes."""
+    return Fraction(repr(number))
 
 
 def _shape_factors(D):

@@ -34,7 +34,7 @@ class Over:
     """
 
     answer: str
-    verdict: str
+    verdict: str | None
     because: str
     but: str = ""
     proved: float = 0.0

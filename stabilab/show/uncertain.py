@@ -1,0 +1,79 @@
+"""What uncertain numbers do to the verdicts, as JSON and text."""
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+SUBJECTS = {"equilibria": ("hold", "depend"), "fate": ("holds", "depends")}
+
+
+def as_dict(found) -> dict:
+    """{"uncertain": ...} to be joined to a command's object; nothing where no number is uncertain. Numbers of witnesses are
+    texts, to be written into a case file as they stand."""
+    if found is None:
+        return {}
+    return {"uncertain": {"numbers": [{"key": key(u), "middle": number(u.middle), "half_width": number(u.half)} for u in found.numbers],
+                          "equilibria": _over(found.equilibria), "fate": _over(found.fate)}}
+
+
+def _over(over) -> dict | None:
+    if over is None:
+        return None
+    return {"answer": over.answer, "verdict": over.verdict, "because": over.because, "except": over.but or None,
+            "proved_up_to": over.proved, "changes_at": over.changes_at, "parts": over.parts,
+            "witnesses": [{"verdict": w.verdict, **_numbers(w)}
+                          for w in over.witnesses]}
+
+
+def key(uncertain) -> str:
+    """The key of a case file, with the place in its list counted from one."""
+    *path, last = uncertain.path
+    return ".".join(path) + f"[{last + 1}]" if isinstance(last, int) else ".".join(uncertain.path)
+
+
+def number(value: Fraction) -> str:
+    """An exact number as a case file can state it: the shortest decimal where that is exact, else a ratio."""
+    shown = repr(float(value)).removesuffix(".0")
+    return shown if Fraction(shown) == value else str(value)
+
+
+def _numbers(witness) -> dict[str, list[str]]:
+    """All numbers of a witness as a case file can state them; a state is rounded to doubles as it is read."""
+    shown = {name: [number(v) for v in values] for name, values in witness.values.items()}
+    return shown | {"state": [repr(float(v)).removesuffix(".0") for v in witness.values["state"]]} if "state" in shown else shown
+
+
+def text(found) -> str:
+    """Lines that follow what a command says of a case; nothing where no number is uncertain."""
+    if found is None:
+        return ""
+    lines = ["uncertain: " + ", ".join(f"{key(u)} = {number(u.middle)} +- {number(u.half)}" for u in found.numbers)]
+    for name in SUBJECTS:
+        over = getattr(found, name)
+        lines += [] if over is None else _lines(name, over)
+    return "\n" + "\n".join(lines)
+
+
+def _lines(subject, over) -> list[str]:
+    holds, depends = SUBJECTS[subject]
+    lead = {"holds": f"{holds} all over the box", "depends": f"{depends} on them", "undecided": "undecided over the box"}[over.answer]
+    lines = [f"  {subject}: {lead}" + (f": {over.verdict}" if over.answer == "holds" else ""), f"    {over.because}"]
+    if over.but:
+        lines.append(f"    but for a set of measure zero: {over.but}")
+    if over.proved and math.isfinite(over.proved):
+        lines.append(f"    proved to stay for every change below {over.proved:.6g} times the uncertainties")
+    if over.changes_at is not None:
+        lines.append(f"    flips at {over.changes_at:.6g} times the uncertainties (found by search, checked exactly)")
+    elif over.answer == "holds" and over.proved < math.inf:
+        lines.append("    no change was found up to 100 times the uncertainties")
+    return lines + [line for w in over.witnesses for line in _witness(w)]
+
+
+def _witness(w) -> list[str]:
+    numbers = "; ".join(f"{name} = {', '.join(values)}" for name, values in _numbers(w).items())
+    return [f"    {w.verdict} at {numbers}"]
+
+
+def undecided(found) -> bool:
+    """Whether a verdict stays undecided over the box."""
+    return found is not None and any(over is not None and over.answer == "undecided" for over in (found.equilibria, found.fate))
