@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 
-.PHONY: report test test-slow figures bench fuzz clean
+.PHONY: report test test-slow figures bench fuzz hunt clean
 
 report: $(STAMP)
 	$(BIN)/stabilab report cases/*.toml --out report
@@ -26,6 +26,11 @@ FUZZ_SECONDS ?= 600
 fuzz: $(STAMP)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e ".[fuzz]"
 	$(BIN)/python -m tests.fuzz $(FUZZ_SECONDS) .fuzz
+
+# Turns the knobs of problems so that two ways to the answer part as far as they can; what exceeds its promise is kept in .hunt
+HUNT_SECONDS ?= 600
+hunt: $(STAMP)
+	$(BIN)/python -W ignore -m tests.hunt $(HUNT_SECONDS) .hunt
 
 # constraints.txt pins what was tested, so that a fresh install gives the same versions
 $(STAMP): pyproject.toml constraints.txt

@@ -11,6 +11,7 @@ from .reduction import reduce
 
 EPS = float(np.finfo(float).eps)
 TURN = 2 * np.pi
+LOST = 1e-3  # of the terms: a sum that is smaller than this share has lost more than three digits
 
 
 @lru_cache(maxsize=64)
@@ -42,22 +43,31 @@ class Landscape:
         x, z, w = r.canonical(states)
         g = r.constants
         size = np.abs(x) + abs(g["sj"] / g["rx"]), np.abs(z) + abs(g["sk"] / g["rz"])
-        return (x, z) if self.e < 0 else self._light_cone(x, z, states), w, size
+        return (self._circle if self.e < 0 else self._light_cone)(x, z, size[0] + size[1], states), w, size
 
-    def _light_cone(self, x, z, states):
-        """(xi, eta) = (X + Z, X - Z) with full relative accuracy: the small one from exact arithmetic near a plane."""
+    def _circle(self, x, z, size, states):
+        """(X, Z): from exact arithmetic next to the circle's centre, where the shift leaves a few digits of the angle."""
+        return self._exactly(np.hypot(x, z) < LOST * size, states, (x, z), lambda ex, ez: (ex, ez))
+
+    def _light_cone(self, x, z, size, states):
+        """(xi, eta) = (X + Z, X - Z) with full relative accuracy: from exact arithmetic near a plane or the centre."""
         xi, eta = x + z, x - z
-        close = np.minimum(np.abs(xi), np.abs(eta)) < 1e-3 * np.maximum(np.abs(x), np.abs(z))
-        if close.any():
-            xi, eta = np.array(xi), np.array(eta)
-            for index in zip(*np.nonzero(close)):
-                ex, ez, _ = self.reduction.canonical_exact(states[index])
-                sign = self.reduction.exact_invariant_sign(states[index])
-                xi[index], eta[index] = float(ex + ez), float(ex - ez)
-                if sign == 0:  # exactly on a plane: 240-bit roots may leave a remainder where there is none
-                    small = xi if abs(xi[index]) < abs(eta[index]) else eta
-                    small[index] = 0.0
-        return xi, eta
+        close = np.minimum(np.abs(xi), np.abs(eta)) < LOST * size
+        return self._exactly(close, states, (xi, eta), lambda ex, ez: (ex + ez, ex - ez))
+
+    def _exactly(self, close, states, place, of):
+        """The place with the rows of `close` formed anew by `of` from exact (X, Z)."""
+        if not close.any():
+            return place
+        first, second = (np.array(v) for v in place)
+        for index in zip(*np.nonzero(close)):
+            ex, ez, _ = self.reduction.canonical_exact(states[index])
+            first[index], second[index] = map(float, of(ex, ez))
+            if self.e > 0 and self.reduction.exact_invariant_sign(states[index]) == 0:
+                # exactly on a plane: 240-bit roots may leave a remainder where there is none
+                small = first if abs(first[index]) < abs(second[index]) else second
+                small[index] = 0.0
+        return first, second
 
     def invariant(self, place):
         """Q of each place; elliptic and hyperbolic."""

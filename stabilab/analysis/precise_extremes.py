@@ -2,11 +2,14 @@
 wherever else doubles would lose digits. Every digit returned is certain."""
 from __future__ import annotations
 
-from .precise import DOUBLE_BITS, START_BITS, TIE_BITS, PreciseOrbit, Unclear, ball, numbers, settled, sign
+from .balls import DOUBLE_BITS, START_BITS, Unclear, ball, numbers, settled, sign
+from .precise import TIE_BITS, PreciseOrbit
 from .results import Fate
 
 CERTAIN_BITS = 56  # the balls of the extremes are this much narrower than the component is large
 DOUBLE_CERTAIN = 40  # the same for balls of doubles: 1e-12, as the extremes of arrays promise
+# A root's ball in units of the height's over the slope: y is exact, so its height may be much narrower than its neighbours'.
+WIDER = 4, 64, 4096
 MOST_BITS = 1 << 13  # a component that is still not settled is zero to this precision
 
 
@@ -95,11 +98,13 @@ def solve(orbit, inner, outer):
     slope = orbit.force(y)
     if 0 in slope:
         raise Unclear
-    width = balls.upper(4 * (balls.upper(orbit.height(y) - orbit.energy) / balls.lower(slope)))
-    below, above = orbit.height(y - side * width) - orbit.energy, orbit.height(y + side * width) - orbit.energy
-    if not (below < 0 and above > 0):
-        raise Unclear
-    return balls.around(y, width)
+    reach = balls.upper(orbit.height(y) - orbit.energy) / balls.lower(slope)
+    for times in WIDER:
+        width = balls.upper(times * reach)
+        below, above = orbit.height(y - side * width) - orbit.energy, orbit.height(y + side * width) - orbit.energy
+        if below < 0 and above > 0:
+            return balls.around(y, width)
+    raise Unclear
 
 
 def _bounded(orbit):

@@ -1,0 +1,1 @@
+"""A search for wrong answers: `make hunt`."""

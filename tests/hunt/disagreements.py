@@ -1,0 +1,246 @@
+"""How far two ways to the same answer part, in units of what they promise: 1 is the limit, inf a wrong label.
+
+Each function takes (scene, oracle's model, state) and gives (size, words).
+"""
+from __future__ import annotations
+
+import json
+import math
+
+import numpy as np
+
+import stabilab
+from stabilab import Fate
+from stabilab.analysis.certificate import certificate
+from stabilab.errors import InputError
+from stabilab.verify import verify
+
+from ..oracles import energy
+from ..oracles.model import CYCLE
+from ..oracles.pairs import WORDS, physical, scaled
+
+ELEVEN_DIGITS = 1e-11  # what `extremes` and `period` promise without `digits`
+MARGIN = 1e-12  # what `fate` promises of a margin, relative to the kinetic energy and the barrier's height
+MANY = 6000  # more than fate's TABLE_FROM
+MOST_TURNS = 1000  # that a method is asked to follow
+UNITS_A_STEP = 8  # roundings of three components, their rates and the sum of the series
+EPS = float(np.finfo(float).eps)
+WRONG = math.inf
+NO_QUESTION = (0.0, "")
+
+
+def worst(*found):
+    return max(found, key=lambda pair: pair[0], default=NO_QUESTION)
+
+
+def certified(scene, problem, state):
+    """Arrays against the certificate, which the separate checker has proved."""
+    made = certificate(scene, state)
+    checked = verify(json.loads(json.dumps(made)))
+    refuted = [f for f in checked.findings if f.status == "refuted"]
+    if refuted:
+        return WRONG, f"refuted: {refuted[0].claim}: {refuted[0].reason}"
+    motion, states = made["motion"], np.array([state])
+    label = Fate(int(stabilab.fate(scene, states).labels[0]))
+    if motion is None or label == Fate.EQUILIBRIUM:  # a state may be at rest to half a unit in its last place
+        sure = label in (Fate.BOUNDED, Fate.SPIN_UP) and motion is None and "separatrix" in str(made["uncertified"])
+        return (WRONG, f"{label.word}, but a tie by the certificate") if sure else NO_QUESTION
+    if motion["fate"] != label.word:
+        return WRONG, f"{label.word}, proved {motion['fate']}"
+    box = stabilab.extremes(scene, states)[0]
+    found = [_against(box[i], motion["extremes"][i], "xyz"[i]) for i in range(3)] if motion["extremes"] else []
+    if motion["period"]:
+        found.append(_against(stabilab.period(scene, states), [motion["period"]], "period"))
+    return worst(*found)
+
+
+def _against(values, brackets, name):
+    """Doubles against brackets of exact numbers, relative to the largest of them."""
+    middles = [None if b is None else (float(energy.Fraction(b[0])) + float(energy.Fraction(b[1]))) / 2 for b in brackets]
+    size = max((abs(m) for m in middles if m is not None), default=0.0)
+    if any(np.isfinite(v) != (m is not None) for v, m in zip(values, middles)):
+        return WRONG, f"{name}: {list(values)}, proved {middles}"
+    off = max((abs(float(v) - m) for v, m in zip(values, middles) if m is not None), default=0.0)
+    return (off / size / ELEVEN_DIGITS if size else 0.0), f"{name}: {list(map(float, values))}, proved {middles}"
+
+
+def oracle(scene, problem, state):
+    """Label and margin against the reduced potential in 60 to 240 digits."""
+    result = stabilab.fate(scene, np.array(state))
+    label, margin = int(result.labels), float(result.margins)
+    if label == Fate.EQUILIBRIUM:
+        return NO_QUESTION
+    if math.isnan(margin):
+        return WRONG, "the margin is no number"
+    digits = _digits(state)
+    word = energy.label(problem, state, digits=digits)
+    if WORDS[word] != label:
+        return WRONG, f"{Fate(label).word}, oracle {word}"
+    motion = energy.Reduced(problem, state, digits)
+    saddles = [kind for _, kind in motion.stationary()].count("saddle") if not motion.at_centre else 0
+    if motion.kind != "elliptic" and saddles != 1 or motion.tilt == 0 or not math.isfinite(margin):
+        return NO_QUESTION
+    exact = energy.margin(problem, state, digits=digits)
+    if exact is None:
+        return WRONG, f"margin {margin} where there is no barrier"
+    return _margin_off(problem, motion.i, state, margin, float(exact))
+
+
+def _digits(state):
+    small = min((abs(v) for v in state if v), default=1.0)
+    return int(100 + max(0.0, -2 * math.log10(small)))
+
+
+def _margin_off(problem, axis, state, got, exact, promise=MARGIN):
+    kinetic = 0.5 * float(problem.weight[axis]) * state[axis] ** 2
+    terms = abs(exact + kinetic) + kinetic
+    return (abs(got - exact) / (promise * terms) if terms else 0.0), f"margin {got!r}, expected {exact!r}, terms {terms:g}"
+
+
+def tables(scene, problem, state):
+    """A large array (tables, with numba and without) against small ones (the general formula), in the state's neighbourhood."""
+    rng = np.random.default_rng(1)
+    off = 10.0 ** rng.uniform(-17, 0, (MANY, 1)) * rng.choice([-1, 1], (MANY, 3)) * rng.integers(0, 2, (MANY, 3))
+    states = np.array(state) * (1 + off)
+    one = stabilab.fate(scene, states, fast=False)
+    other = stabilab.fate(scene, states, fast=True)
+    few = [stabilab.fate(scene, states[i:i + 3000]) for i in range(0, MANY, 3000)]
+    for name in ("labels", "margins", "axis", "sense", "reasons"):
+        if getattr(one, name).tobytes() != getattr(other, name).tobytes():
+            return WRONG, f"{name}: numba and NumPy differ"
+        if name != "margins":
+            wrong = np.nonzero(np.concatenate([getattr(f, name) for f in few]) != getattr(one, name))[0]
+            if wrong.size:
+                return WRONG, f"{name} of {states[wrong[0]].tolist()} by table and by formula differ"
+    acting = [i for i in range(3) if problem.m[i]]
+    if not acting:
+        return NO_QUESTION
+    slow = np.concatenate([f.margins for f in few])
+    if (np.isfinite(slow) != np.isfinite(one.margins)).any():
+        return WRONG, "margins: a barrier by one way only"
+    kinetic = 0.5 * float(problem.weight[acting[0]]) * states[:, acting[0]] ** 2
+    with np.errstate(all="ignore"):
+        sizes = np.abs(slow - one.margins) / (2 * MARGIN * (np.abs(slow + kinetic) + kinetic))
+    at = int(np.nanargmax(np.where(np.isfinite(sizes), sizes, -1)))
+    return (float(sizes[at]) if np.isfinite(sizes[at]) else 0.0), f"margins {one.margins[at]!r}, {slow[at]!r} of {states[at].tolist()}"
+
+
+def one_state(scene, problem, state):
+    """The answer for one state without arrays against the arrays' answers."""
+    one, many = stabilab.motion(scene, state, brief=True), stabilab.fate(scene, np.array([state]))
+    if (one.fate, one.axis, one.sense) != (many.labels[0], many.axis[0], many.sense[0]):
+        return WRONG, f"{one.fate}, arrays {Fate(int(many.labels[0])).word}"
+    margin = float(many.margins[0])
+    if (one.margin_energy is None) != (not math.isfinite(margin)):
+        return WRONG, f"margin {one.margin_energy}, arrays {margin}"
+    box = stabilab.extremes(scene, np.array([state]))[0]
+    return worst(*(_between(box[i], one.extremes[i], "xyz"[i]) for i in range(3)))
+
+
+def _between(values, others, name, promise=ELEVEN_DIGITS):
+    pairs = [(float(a), float(b)) for a, b in zip(values, others)]
+    if any(math.isfinite(a) != math.isfinite(b) or (not math.isfinite(a) and a != b) for a, b in pairs):
+        return WRONG, f"{name}: {pairs}"
+    finite = [(a, b) for a, b in pairs if math.isfinite(a)]
+    size = max((max(abs(a), abs(b)) for a, b in finite), default=0.0)
+    off = max((abs(a - b) for a, b in finite), default=0.0)
+    return (off / size / (2 * promise) if size else 0.0), f"{name}: {pairs}"
+
+
+def methods(scene, problem, state):
+    """The state by quadrature against Taylor series, relative to what one unit in the last place of the state and of the
+    period does: the series rounds a few times a step and the quadrature a few times.
+    """
+    try:
+        speed = _speed(problem, state)
+        if not 0 < speed < 1e200 or _braked_turns(problem, state) > MOST_TURNS:
+            return NO_QUESTION
+        times = np.array([3.0, 20.0]) / speed
+        here, *beside = (stabilab.trajectory(scene, s, times, "reduced", laws=False).states for s in _one_unit_away(state))
+    except InputError:
+        return NO_QUESTION  # no such form; or a tie or a flat well one unit away: no measure of the condition
+    if not max(_speed(problem, x) for x in here.tolist()) * times[-1] < MOST_TURNS:
+        return NO_QUESTION  # the series would take minutes
+    run = stabilab.trajectory(scene, state, times, laws=False)
+    if run.status != "reached":
+        return NO_QUESTION
+    period = float(stabilab.period(scene, np.array(state)))
+    rates = np.array([[abs(float(r)) for r in problem.rate(x)] for x in here.tolist()])
+    effect = sum(np.abs(there - here).max(axis=1) for there in beside) + EPS * np.abs(here).max(axis=1)
+    effect += EPS * rates.max(axis=1) * (np.maximum(times, period) if math.isfinite(period) else times)
+    off = np.abs(run.states - here).max(axis=1)
+    sizes = off / (UNITS_A_STEP * (10 + run.counters["steps"]) * effect)
+    at = int(sizes.argmax())
+    return float(sizes[at]), f"t = {times[at]!r}: {here[at].tolist()} and {run.states[at].tolist()}"
+
+
+def _speed(problem, state):
+    """How fast the state changes, relative to its size."""
+    return max(abs(float(r)) for r in problem.rate(state)) / (max(map(abs, state)) or 1.0)
+
+
+def _braked_turns(problem, state):
+    """Turns that the torque needs to use up the spin about its axis."""
+    axis = next((i for i in range(3) if problem.m[i]), None)
+    return 0.0 if axis is None else state[axis] ** 2 / (4 * math.pi * abs(float(problem.m[axis])))
+
+
+def _one_unit_away(state):
+    """The state, and it with one component after another a unit in the last place larger."""
+    return [state, *(tuple(float(np.nextafter(v, np.inf)) if i == n else v for n, v in enumerate(state)) for i in range(3))]
+
+
+def twins(scene, problem, state):
+    """Renamed axes, half a turn, and units of time and mass that are powers of two: the same answers."""
+    return worst(*(_twin(scene, problem, state, name, *made) for name, made in _twins_of(scene, state).items()))
+
+
+def _twins_of(scene, state):
+    """name -> (scene, state, order of axes, signs, factor of rates, factor of energies)."""
+    if scene.variables == "scaled":
+        a, b, mu = scene.a, scene.b, scene.mu
+        return {"half a turn": (scaled(a, b, (mu[0], -mu[1], -mu[2]))[0], _signed(state, (1, -1, -1)), (0, 1, 2), (1, -1, -1), 1, 1),
+                "other side": (scaled(-a, -b, (-mu[0], mu[1], -mu[2]))[0], _signed(state, (-1, 1, -1)), (0, 1, 2), (-1, 1, -1), 1, 1)}
+    D, (lam, M) = list(map(float, scene.body.exact)), ([float(v) for v in scene.vector(n)] for n in ("gyrostat", "constant_torque"))
+    order = (1, 2, 0)
+    turn = lambda v: [v[i] for i in order]  # noqa: E731
+    fast, heavy = 2.0 ** 9, 2.0 ** -7
+    return {"renamed": (physical(turn(D), turn(lam), turn(M))[0], turn(state), order, (1, 1, 1), 1, 1),
+            "half a turn": (physical(D, _signed(lam, (-1, 1, -1)), _signed(M, (-1, 1, -1)))[0], _signed(state, (-1, 1, -1)),
+                            (0, 1, 2), (-1, 1, -1), 1, 1),
+            "faster": (physical(D, [v * fast for v in lam], [v * fast**2 for v in M])[0], [v * fast for v in state], (0, 1, 2),
+                       (1, 1, 1), fast, fast**2),
+            "heavier": (physical([v * heavy for v in D], [v * heavy for v in lam], [v * heavy for v in M])[0], state, (0, 1, 2),
+                        (1, 1, 1), 1, heavy)}
+
+
+def _signed(vector, signs):
+    return [float(v) * s for v, s in zip(vector, signs)]
+
+
+def _twin(scene, problem, state, name, other, image, order, signs, rate, unit):
+    one, two = stabilab.fate(scene, np.array([state])), stabilab.fate(other, np.array([image]))
+    if one.labels[0] != two.labels[0]:
+        return WRONG, f"{name}: {Fate(int(one.labels[0])).word} and {Fate(int(two.labels[0])).word}"
+    axis = next((i for i in range(3) if problem.m[i]), None)
+    margins = float(one.margins[0]), float(two.margins[0]) / unit
+    if axis is None:
+        if math.isfinite(margins[0]) != math.isfinite(margins[1]):
+            return NO_QUESTION  # without a torque the axis of the reduction is a choice
+        return worst()
+    if math.isfinite(margins[0]) != math.isfinite(margins[1]):
+        return WRONG, f"{name}: margins {margins}"
+    found = [NO_QUESTION]
+    if math.isfinite(margins[0]):
+        found.append(_margin_off(problem, axis, state, margins[1], margins[0], 2 * MARGIN))
+    box, image_box = stabilab.extremes(scene, np.array([state]))[0], stabilab.extremes(other, np.array([image]))[0] / rate
+    for i in range(3):
+        values = [v * signs[i] for v in box[order[i]]]
+        found.append(_between(sorted(values), image_box[i], f"component {i + 1}"))
+    times = stabilab.period(scene, np.array([state])), stabilab.period(other, np.array([image])) * rate
+    found.append(_between(*times, "period"))
+    size, words = worst(*found)
+    return size, f"{name}: {words}"
+
+
+DISAGREEMENTS = {f.__name__: f for f in (certified, oracle, tables, one_state, methods, twins)}
