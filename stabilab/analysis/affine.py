@@ -96,19 +96,20 @@ class Affine:
         """The square root; undefined where the box reaches zero."""
         least = self.c - self.reach
         least = np.where(least > 0, least, np.nan)
-        c = np.sqrt(self.c)
+        c = np.sqrt(np.where(self.c > 0, self.c, np.nan))
         return self._image(c, 0.5 / c, 0.25 / (least * np.sqrt(least)))
 
     def sin_cos(self):
         """(sine, cosine)."""
         s, c = np.sin(self.c), np.cos(self.c)
-        return self._image(s, c, 1.0), self._image(c, -s, 1.0)
+        return self._image(s, c, 1.0, 1.0), self._image(c, -s, 1.0, 1.0)
 
-    def _image(self, value, slope, bend):
-        """A function with this value and slope at c and a second derivative of at most `bend` over the box."""
+    def _image(self, value, slope, bend, size=0.0):
+        """A function with this value and slope at c and a second derivative of at most `bend` over the box; size: of what its
+        library rounds inside."""
         r, steep = self.reach, np.abs(slope)
         e = steep * self.e + 0.5 * bend * r * r
-        return Affine(value, _times(slope, self.g), e + ROUNDINGS * (np.abs(value) + steep * r + e) + 4 * EPS * r + LEAST)
+        return Affine(value, _times(slope, self.g), e + ROUNDINGS * (np.abs(value) + size * (1 + r) + steep * r + e) + LEAST)
 
 
 def lifted(value) -> Affine:

@@ -8,6 +8,7 @@ import numpy as np
 from ..errors import InputError
 from .affine import Affine, lifted, sign_over
 from .fate import fate
+from .irreducible import kind_of
 from .one_state import fate_of
 from .reasons import REASONS, Reason
 from .reduction import reduce
@@ -18,6 +19,8 @@ from .uncertain_proof import Family, Proof, prove
 from .uncertain_results import Over, Witness, bracketed, by_trial
 from .uncertain_search import UNKNOWN, confirmed, nearest_change
 
+
+UNBOUNDED = "unbounded"
 
 
 def fate_over(box: Box) -> Over | None:
@@ -54,6 +57,8 @@ def verdict_at(box: Box, point) -> str | None:
     except InputError:
         return None
     reduction = reduce(scene)
+    if reduction is None and kind_of(scene) == "law":
+        return UNBOUNDED  # about which axis is a question for a run, not for the law
     if reduction is None:
         found = fate(scene, np.array(state))
         return words(Fate(int(found.labels)), int(found.axis), int(found.sense))
@@ -103,25 +108,28 @@ def _on_circles(box, here, answer, family: Family) -> Over:
             return Proof(None, 0)
         return prove(family, claim, senses, stretch, most)
 
-    def change_from(code, word):
-        favoured = _against_gradient(family)
-        found = nearest_change(codes, code, len(box.places), favoured)
-        return found and confirmed(found, lambda p: answer(p) or word, word)
+    def nearest(code):
+        return nearest_change(codes, code, len(box.places), _against_gradient(family))
 
-    if here == Fate.SEPARATRIX.word:
-        return _tie(box, here, answer, codes, change_from)
-    code = int(codes(np.zeros((1, len(box.places))))[0])
-    return bracketed(box, here, answer, change_from(code, here), attempt,
+    middle = int(codes(np.zeros((1, len(box.places))))[0])
+    if here == Fate.SEPARATRIX.word or (middle == 0) != (claim == "bounded"):
+        return _tie(box, here, answer, codes, nearest)
+    change = nearest(middle)
+    change = change and confirmed(change, lambda p: answer(p) or here, here)
+    return bracketed(box, here, answer, change, attempt,
                      REASONS[Reason.BELOW_BARRIER if claim == "bounded" else Reason.ABOVE_BARRIER])
 
 
-def _tie(box, here, answer, codes, change_from) -> Over:
-    """The middle lies on the separatrix: what lies on either side."""
-    sides, corners = [], codes(np.vstack([np.eye(len(box.places)), -np.eye(len(box.places))]) * 1e-3)
-    for code in (0, *(set(corners.tolist()) - {0, UNKNOWN})):
-        change = change_from(code, Fate.BOUNDED.word if code == 0 else "spin-up")
-        if change is not None:
-            sides.append(Witness(answer(change.direction * change.stretch), box.values(change.direction * change.stretch)))
+def _tie(box, here, answer, codes, nearest) -> Over:
+    """The middle lies on the separatrix (or at rest on a saddle): what lies on either side."""
+    around = codes(1e-3 * np.vstack([np.eye(len(box.places)), -np.eye(len(box.places))]))
+    sides = []
+    for wanted, others in ((Fate.BOUNDED.word, set(around.tolist()) - {0, UNKNOWN}), ("spin-up", {0})):
+        for change in filter(None, map(nearest, sorted(others))):
+            points = [change.direction * s for s in (1.01 * change.stretch, 1e-6, 1e-3, 1.0) if s <= 1]
+            sides += [Witness(answer(p), box.values(p)) for p in points if (answer(p) or "").startswith(wanted)][:1]
+    if len({w.verdict for w in sides}) < 2:
+        return Over("undecided", here, "the middle lies on the separatrix itself, and only one side of it was found")
     return Over("depends", here, "the middle lies on the separatrix itself", changes_at=0.0, witnesses=tuple(sides))
 
 
@@ -202,7 +210,9 @@ def _under_law(box, here, answer, numbers, form, axis) -> Over:
     """A gyrostatic moment along the torque: |H|^2/2 - D_i T grows at the rate lambda_i M_i."""
     along = numbers["momentum"][axis] if box.variables == "physical" else -form.sigma[1] - form.rho[2]
     if int(np.ravel(sign_over(along * form.m[axis]))[0]):
-        return Over("holds", "unbounded", REASONS[Reason.UNBOUNDED_LAW] + f" (the middle: {here}; the axis it ends about is not followed "
-                    "over the box)", proved=1.0)
-    return by_trial(box, here, answer, f"the gyrostatic moment along the torque's axis {axis + 1} may vanish or not: where it does not, "
-                                       "there is no reduction to one degree of freedom, and no motion is bounded")
+        return Over("holds", UNBOUNDED, f"{REASONS[Reason.UNBOUNDED_LAW]}; the axis it ends about is not followed over the box",
+                    proved=1.0)
+    whether = lambda point: (found := answer(point)) and (UNBOUNDED if found.startswith("spin-up") else found)  # noqa: E731
+    return by_trial(box, whether(np.zeros(len(box.places))), whether,
+                    f"the gyrostatic moment along the torque's axis {axis + 1} may vanish or not: where it does not, there is no "
+                    "reduction to one degree of freedom, and no motion is bounded")
