@@ -16,7 +16,7 @@ from .hunt.__main__ import Hunt, aim, evolve
 from .hunt.disagreements import DISAGREEMENTS
 from .hunt.problems import KNOBS, problem_of
 from .oracles import energy
-from .oracles.pairs import physical, scaled
+from .oracles.pairs import WORDS, physical, scaled
 from .test_extremes import assert_extremes
 
 
@@ -46,6 +46,46 @@ def test_next_to_the_centre_of_the_hyperbola_the_shift_costs_no_digits(off):
     state = (float(-centre[0]) - off, float(-centre[1]) + off, 0.00125)
     assert_extremes(stabilab.extremes(scene, np.array(state)), energy.extremes(problem, state), 1e-11)
     assert float(stabilab.period(scene, np.array(state))) == pytest.approx(float(energy.period(problem, state)), rel=1e-11)
+
+
+# Places within rounding of an equilibrium: whether a barrier stands just ahead or just behind, and how far away the bottom of
+# the well is, was taken from an offset of which no digit is known.
+ON_TOP = {
+    "spins past a barrier at its feet: the margin was the next barrier's": (
+        scaled(0.6390328096348764, 19.411381920361986, (0, 0, -1)),
+        exactly("-0x1.35ef36ff33723p+4", "0x1.8b421db307979p+4", "-0x1.00dc3a311452fp-9")),
+    "comes back over 4989^2/2 of tilt to that barrier": (
+        scaled(0.027808992339770862, 18.80015810306688, (0, 0, -1)),
+        exactly("-0x1.2c27a45f16589p+4", "0x1.8b421db307979p+4", "-0x1.37d214eab5f1ep+12")),
+    "leaves a barrier at 4e-20 rad/s: the least speed came out as 0": (
+        physical((2.403762276104377, 33.491379775614966, 33.49137977327441), (0, 1.1453380320515387, 0.16505048492733648),
+                 (-1.4072510914200966, 0, 0)),
+        exactly("-0x1.6a2f33e19a86bp-65", "-0x1.112845fc94fabp+3", "-0x1.7906fec6dc254p-10")),
+    "falls from beside a barrier to one side, not to both": (
+        physical((2.979665712340891, 7.538506160772763, 5.329794373938648), (-0.0026659516336779003, 0, 0.01456763792456295),
+                 (0, 0.022652367379224502, 0)),
+        exactly("-0x1.2fb912987a882p-11", "-0x1.253adf6eea3d9p-67", "-0x1.15bb2ebb6355dp+4")),
+    "swings by 2e-17, not by the 4e-20 of its start": (
+        physical((2.4037622761043735, 1.900225948325099, 1.9002259481923007), (0, 1.1453380320515387, 0.16505048492733648),
+                 (-1.4072510914200966, 0, 0)),
+        exactly("-0x1.6a2f33e19a86fp-65", "-0x1.8e620ff224da5p+2", "0x1.539d02a06c163p-2")),
+    "swings by 2e-14 on a circle of 3e5": (
+        scaled(-0.7960307727593067, -0.5654503420136732, (0, 0, 767138576.5141534)),
+        exactly("0x1.4bf2b3a398269p+18", "-0x1.1a1b7e696010ap+11", "0x1.90090886ad427p-50")),
+}
+
+
+@pytest.mark.parametrize("name", ON_TOP)
+def test_at_the_place_of_an_equilibrium_extremes_margin_and_period_are_right(name):
+    (scene, problem), state = ON_TOP[name]
+    axis = next(i for i in range(3) if problem.m[i])
+    result = stabilab.fate(scene, np.array(state))
+    assert WORDS[energy.label(problem, state, digits=200)] == result.labels
+    exact, kinetic = float(energy.margin(problem, state, digits=200)), 0.5 * float(problem.weight[axis]) * state[axis] ** 2
+    assert abs(float(result.margins) - exact) <= 1e-12 * (abs(exact + kinetic) + kinetic)
+    for fast in (False, None):
+        assert_extremes(stabilab.extremes(scene, np.array(state), fast=fast), energy.extremes(problem, state, digits=200), 1e-11)
+    assert float(stabilab.period(scene, np.array(state))) == pytest.approx(float(energy.period(problem, state, digits=120)), rel=1e-11)
 
 
 # -- the search --------------------------------------------------------------------------------------------------------

@@ -18,6 +18,7 @@ from .turning import interval, spots_along, turning_point
 EXTREMES_SHARE = 1e-7  # closer to the separatrix than this share of the energy terms, rounding costs extremes 1e-12
 SPIN_UP_SHARE = 1e-4  # the same for the least rate of a motion that just passes a barrier: the root of a difference
 DIGITS = 1e-12  # rounding that leaves less than this goes to ball arithmetic
+ON_TOP = 1e-13  # of the terms of the force, some hundreds of roundings
 SHIFT_LIMIT = 1e4  # canonical variables lose this factor of accuracy to the shift before the precise path takes over
 
 
@@ -98,7 +99,7 @@ def _chunk(land: Landscape, states, decided, start, span=None):
     place, w, size = start
     share = np.where(decided.labels == Fate.SPIN_UP, SPIN_UP_SHARE, EXTREMES_SHARE)
     precise = needs_digits(land, states) | near_separatrix(land, place, w, decided, share)
-    precise |= decided.labels == Fate.SEPARATRIX
+    precise |= (decided.labels == Fate.SEPARATRIX) | on_top(land, place)
     precise &= decided.labels != Fate.EQUILIBRIUM
     labels = np.where(precise, -1, decided.labels)
     rows = trapped_rows(land, decided)
@@ -125,6 +126,12 @@ def needs_digits(land: Landscape, states):
     if shift == 0:
         return np.zeros(len(states), bool)
     return shift > SHIFT_LIMIT * np.maximum(np.abs(states).max(axis=1), 1e-300)
+
+
+def on_top(land: Landscape, place):
+    """(n,) True where the state is at the place of a barrier to rounding: before it or behind, doubles do not tell."""
+    pot = land.potential
+    return (np.abs(pot.force(place)) <= ON_TOP * pot.terms(place)) & (pot.slope(place) > 0)
 
 
 def near_separatrix(land: Landscape, place, w, decided, share):

@@ -221,9 +221,8 @@ def circle_margins(land: Landscape, place, w, size):
             scale = (pot.mu * (offset + rounding / radius) + energy
                      + (pull + np.abs(pot.G * spot[0] + pot.c)) * (rounding + np.abs(spot[0]) + np.abs(spot[1])))
             there = ~np.isnan(offset)
-            doubtful |= there & ((np.abs(margin) <= ROUNDINGS * EPS * scale)
-                                 | ((np.minimum(offset, TURN - offset) <= angle_error)
-                                    & (energy <= ROUNDINGS * EPS * scale)))
+            # at a barrier rounding decides whether it stands ahead or behind, and then the next one counts
+            doubtful |= there & ((np.abs(margin) <= ROUNDINGS * EPS * scale) | (np.minimum(offset, TURN - offset) <= angle_error))
             best = np.where(there & (margin > best), margin, best)
         for edge in land.conic.fold_invariants:
             doubtful |= np.abs(radius**2 - edge) <= ROUNDINGS * EPS * (rounding**2 + edge)

@@ -131,8 +131,10 @@ def turning_point(land, spots, place, w, side):
     end = np.array(land.potential.move(tuple(spot), y))
     start = spots.offset[rows, anchor]
     with np.errstate(all="ignore"):
-        # the force at the anchor is zero only to rounding: that tilts the potential over the way from state and end
-        haze = EPS * land.potential.terms(tuple(spot)) * (np.abs(start) + np.abs(y))
+        # the force at the anchor is zero only to rounding: that tilts the potential over the way from state and end, and
+        # the anchor itself is off by some roundings of the angle, which count where the whole motion is not much longer
+        bend, pull = np.abs(land.potential.slope(tuple(spot))), land.potential.terms(tuple(spot))
+        haze = EPS * (bend + pull) * (np.abs(start) + np.abs(y) + EPS * (1 + pull / np.maximum(bend, 1e-300)))
         blur = haze / np.abs(land.potential.force(tuple(end))) + EPS * np.abs(start)
     return np.where(ok, start + y, 0.0), end, ok, blur, haze
 

@@ -47,10 +47,12 @@ def certified(scene, problem, state):
         return (WRONG, f"{label.word}, but a tie by the certificate") if sure else NO_QUESTION
     if motion["fate"] != label.word:
         return WRONG, f"{label.word}, proved {motion['fate']}"
-    box = stabilab.extremes(scene, states)[0]
-    found = [_against(box[i], motion["extremes"][i], "xyz"[i]) for i in range(3)] if motion["extremes"] else []
-    if motion["period"]:
-        found.append(_against(stabilab.period(scene, states), [motion["period"]], "period"))
+    found = []
+    for fast in (False, True):
+        box = stabilab.extremes(scene, states, fast=fast)[0]
+        found += [_against(box[i], motion["extremes"][i], f"component {i + 1}") for i in range(3) if motion["extremes"]]
+        if motion["period"]:
+            found.append(_against(stabilab.period(scene, states, fast=fast), [motion["period"]], "period"))
     return worst(*found)
 
 
