@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 
-.PHONY: report test test-slow figures bench fuzz hunt clean
+.PHONY: report test test-slow figures bench fuzz hunt coverage mutate clean
 
 report: $(STAMP)
 	$(BIN)/stabilab report cases/*.toml --out report
@@ -31,6 +31,17 @@ fuzz: $(STAMP)
 HUNT_SECONDS ?= 600
 hunt: $(STAMP)
 	$(BIN)/python -W ignore -m tests.hunt $(HUNT_SECONDS) .hunt
+
+# Which lines and branches of the analysis the default suite runs; fails below 95 %
+coverage: $(STAMP)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e ".[strength]"
+	$(BIN)/python -m pytest -m "not slow" --cov --cov-report=term:skip-covered tests
+
+# How many small faults in the analysis the tests see (docs/strength.md); 0 faults a subject means all
+MUTANTS ?= 60
+mutate: $(STAMP)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e ".[strength]"
+	$(BIN)/python -m tests.mutate --sample $(MUTANTS)
 
 # constraints.txt pins what was tested, so that a fresh install gives the same versions
 $(STAMP): pyproject.toml constraints.txt

@@ -1,0 +1,65 @@
+"""`make mutate`: how many small faults, written into the analysis one at a time, do the tests see?
+
+python -m tests.mutate [--sample N] [--seed S] [--json FILE] [--only LINES] [SUBJECT...]; subjects are those of `SUBJECTS`.
+The faults are those of cosmic-ray's operators (annotations and arguments' defaults of None left alone), N drawn at random
+per subject; nothing is written into the tree. Each fault lives in a child process that imports the package afresh. Slow
+independent answers (`ORACLES`, which share no code with the package) are computed once and remembered.
+"""
+import argparse
+import json
+import sys
+import time
+
+from . import faults, runs
+
+# subject -> (modules, test files that belong to it)
+SUBJECTS = {
+    "equilibria": (("equilibria", "isolated_equilibria", "equilibrium_conics", "equilibrium_curve", "torque_free_equilibria", "pencil"),
+                   ("test_equilibria", "test_stability", "test_certificate", "test_small_faults")),
+    "stability": (("stability", "eigenvalues"), ("test_stability", "test_equilibria", "test_certificate", "test_small_faults")),
+    "reduction": (("reduction",), ("test_fate", "test_one_state", "test_extremes", "test_certificate", "test_small_faults")),
+    "fate": (("fate", "landscape", "table_fate"), ("test_fate", "test_one_state", "test_fate_speed", "test_small_faults")),
+    "extremes": (("extremes", "turning", "rootfind"), ("test_extremes", "test_one_state", "test_small_faults"))}
+
+
+def main(arguments=None):
+    parser = argparse.ArgumentParser(prog="python -m tests.mutate", description=__doc__.splitlines()[0])
+    parser.add_argument("subjects", nargs="*", metavar="SUBJECT", help=", ".join(SUBJECTS))
+    parser.add_argument("--sample", type=int, default=60, help="faults drawn per subject (0: all)")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--slowest", type=float, default=1.0, help="tests that take longer (s) are left out: the score is a lower bound")
+    parser.add_argument("--json", help="write every fault and what became of it")
+    parser.add_argument("--again", help="a file of --json: only the faults that survived there")
+    asked = parser.parse_args(arguments)
+    rows = []
+    for subject in asked.subjects or SUBJECTS:
+        modules, files = SUBJECTS[subject]
+        chosen = faults.drawn(modules, asked.sample, asked.seed)
+        if asked.again:
+            left = {(r["module"], r["operator"], r["occurrence"]) for r in json.load(open(asked.again)) if r["outcome"] == "survived"}
+            chosen = [f for f in chosen if (f.module, f.operator, f.occurrence) in left]
+        rows += judged(subject, chosen, files, asked.slowest)
+        if asked.json:
+            with open(asked.json, "w", encoding="utf-8") as file:
+                json.dump(rows, file, indent=1)
+    return rows
+
+
+def judged(subject, chosen, files, slowest):
+    """A row per fault; the score goes to stdout."""
+    start, rows = time.time(), []
+    tests = runs.Tests(files, slowest)
+    print(f"{subject}: {len(chosen)} faults, {len(tests.names)} tests in {tests.seconds:.0f} s of processor time", flush=True)
+    for fault in chosen:
+        outcome, by = tests.outcome(fault)
+        rows.append({"subject": subject, "module": fault.module, "operator": fault.operator, "occurrence": fault.occurrence,
+                     "line": fault.line, "was": fault.was, "now": fault.now, "outcome": outcome, "by": by})
+        if outcome == "survived":
+            print(f"  survived {fault.module}:{fault.line}\n    - {fault.was}\n    + {fault.now}", flush=True)
+    killed = sum(r["outcome"] != "survived" for r in rows)
+    print(f"{subject}: {killed} of {len(rows)} seen ({killed / max(len(rows), 1):.1%}), {time.time() - start:.0f} s", flush=True)
+    return rows
+
+
+if __name__ == "__main__":
+    sys.exit(not main())
