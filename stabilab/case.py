@@ -192,7 +192,7 @@ def _possible(table: Table, moments) -> bool:
         others = sum(low) - low[index]
         if low[index] <= 0 or high[index] > others:
             wrong = (f"moments down to {float(low[index])!r}" if low[index] <= 0 else
-                     f"{float(high[index])!r} beside others of {float(others)!r} together, which breaks the triangle inequality")
+                     f"{float(high[index])!r} beside others of {float(others)!r} together, against the triangle inequality")
             table.fault(f"number {index + 1}: the uncertainty reaches {wrong}; no rigid body has these: make it smaller",
                         "inertia", index)
             return False

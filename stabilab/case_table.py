@@ -147,8 +147,8 @@ class Table:
     def _middle(self, text: str, keys) -> Fraction:
         """The middle of an uncertain number, which is noted."""
         if self.path + keys[:1] not in UNCERTAIN:
-            raise InputError(f"takes no uncertainty, got {described(text)}; it may stand in inertia, momentum, torque, mu, a, b, "
-                             "angular_velocity and x")
+            raise InputError(f"takes no uncertainty, got {described(text)}; one may stand in inertia, momentum, torque, mu, "
+                             "a, b, angular_velocity and x")
         found = Uncertain(self.path + keys, *plus_minus(text))
         if found.half:
             self.faults.uncertain[found.path] = found

@@ -1,5 +1,6 @@
 """Uncertain numbers: what is said of a whole box is true of every point that other code can look at."""
 import json
+import re
 from fractions import Fraction
 from pathlib import Path
 
@@ -140,7 +141,7 @@ def test_a_box_across_the_separatrix_has_a_witness_on_each_side_that_the_ordinar
 
 
 def test_the_nearest_change_is_the_square_root_law_of_a_single_uncertain_rate(tmp_path):
-    # With omega_3 alone uncertain the flip is at the barrier's own speed, known from the margin in energy: margin = D3 (w^2 - w0^2)/2.
+    # With omega_3 alone uncertain the flip is at the barrier's own speed: margin in energy = D3 (w^2 - w0^2)/2.
     case = case_of(tmp_path, momentum="3, 2, 0", torque="0, 0, 0.1", state='0.2, 0.15, "1.7 +- 0.001"')
     from stabilab.analysis.motion import motion
     margin = motion(case.scene, case.state).margin_energy
@@ -151,7 +152,7 @@ def test_the_nearest_change_is_the_square_root_law_of_a_single_uncertain_rate(tm
 
 
 def test_a_start_on_the_separatrix_depends_with_both_sides(tmp_path):
-    # x = (0, h, 0) turned about: the saddle itself of the scaled minor axis, a = b = 0: circle A^2 = h^2 + 1/h^2, centre iff h^4 < 1
+    # scaled minor axis, a = b = 0: equilibria X = -1/h, x2 = h, centre iff h^4 < 1 (theory: h^4 - c h - 1 < 0)
     path = tmp_path / "case.toml"
     path.write_text('[scaled]\na = 0\nb = 0\nmu = [0, 0, "1 +- 1 %"]\n[motion]\nx = ["0.5 +- 1 %", -2, 0]\n')
     over = uncertain(load(path), ("fate",)).fate  # h = -2: a saddle, at rest
@@ -159,13 +160,14 @@ def test_a_start_on_the_separatrix_depends_with_both_sides(tmp_path):
     assert over.changes_at < 1e-3
 
 
-@pytest.mark.parametrize("scale", (1e-6, 1e-3, 1e3, 1e6))
+@pytest.mark.parametrize("scale", (1e-6, 1e6))
 def test_units_do_not_matter(tmp_path, scale):
     """Moments, momentum and torque in another unit of mass, and rates in another unit of time: the same dimensionless box."""
     def answer(mass, rate):
         rows = ([20, 15, 10], [3, 2, 0], [0, 0, 0.1], [0.2, 0.15, 1.6])
         factors = (mass, mass * rate, mass * rate**2, rate)
-        return uncertain(case_of(tmp_path, *(listed([float(v * f) for v in row], 0.01) for row, f in zip(rows, factors))), ("fate",)).fate
+        scaled = [listed([float(v * f) for v in row], 0.01) for row, f in zip(rows, factors)]
+        return uncertain(case_of(tmp_path, *scaled), ("fate",)).fate
     one, other = answer(1, 1), answer(scale, 1 / scale)
     assert (other.answer, other.verdict) == (one.answer, one.verdict)
     assert other.changes_at == pytest.approx(one.changes_at, rel=1e-4) and other.proved == pytest.approx(one.proved, rel=1e-3)
@@ -219,10 +221,11 @@ def test_affine_numbers_shrink_to_rounding_without_width_and_are_open_where_unde
 
 def test_between_walls_everything_is_bounded_but_for_a_set_of_measure_zero(tmp_path):
     # middle axis: hyperbolas; a start far from and across the invariant planes
-    far = uncertain(case_of(tmp_path, torque='0, "1 +- 10 %", 0', state='0.5, 0, "0.1 +- 10 %"', inertia=listed((20., 15., 10.), .01))).fate
+    rest = {"torque": '0, "1 +- 10 %", 0', "inertia": listed((20.0, 15.0, 10.0), 0.01)}
+    far = uncertain(case_of(tmp_path, state='0.5, 0, "0.1 +- 10 %"', **rest), ("fate",)).fate
     assert (far.answer, far.verdict, far.but) == ("holds", "bounded", "")
-    near = uncertain(case_of(tmp_path, torque='0, "1 +- 10 %", 0', state='"0 +- 0.5", 0, 0.1', inertia=listed((20., 15., 10.), .01))).fate
-    assert near.answer == "holds" and "measure zero" in near.but
+    near = uncertain(case_of(tmp_path, state='"0 +- 0.5", 0, 0.1', **rest), ("fate",)).fate
+    assert near.answer == "holds" and "invariant plane" in near.but
 
 
 def test_a_wheel_along_the_torque_leaves_nothing_bounded_and_may_not_vanish(tmp_path):
@@ -239,8 +242,9 @@ def test_off_the_axes_the_fate_stays_undecided_and_says_why(tmp_path):
 
 
 def test_moments_that_may_be_equal_are_no_ground_for_a_proof(tmp_path):
-    over = uncertain(case_of(tmp_path, inertia='"20 +- 1", "20 +- 1", 10', torque="1, 0, 0", state="0.3, 0.2, 0.1", momentum="0, 1, 1"))
-    assert over.fate.answer == "undecided" and "may be equal" in over.fate.because
+    case = case_of(tmp_path, inertia='"20 +- 1", "20 +- 1", 10', torque="1, 0, 0", state="0.3, 0.2, 0.1", momentum="0, 1, 1")
+    over = uncertain(case, ("fate",)).fate
+    assert over.answer == "undecided" and "may be equal" in over.because
 
 
 def test_a_torque_of_either_sign_cannot_say_which_way_a_body_spins_up(tmp_path):
@@ -283,7 +287,6 @@ def test_two_equilibria_that_may_meet_depend_on_the_numbers(tmp_path):
     assert fold.scene.plain
     text = (CASES / "off-axis-fold.toml").read_text()
     path = tmp_path / "case.toml"
-    import re
     path.write_text(re.sub(r"(momentum = \[)\s*([-\d.]+)", r'\1"\2 +- 1 %"', text, count=1) if "momentum" in text else
                     re.sub(r"^a = ([-\d.]+)", r'a = "\1 +- 1 %"', text, count=1, flags=re.M))
     over = uncertain(load(path), ("equilibria",)).equilibria
@@ -292,9 +295,12 @@ def test_two_equilibria_that_may_meet_depend_on_the_numbers(tmp_path):
 
 def test_the_number_of_equilibria_is_one_only_where_the_third_torque_vanishes(tmp_path):
     torque = '"0.1 +- 1 %", "0.2 +- 1 %", {}'
-    across = uncertain(case_of(tmp_path, momentum="3, 2, 1", torque=torque.format('"0.005 +- 0.01"')), ("equilibria",)).equilibria
+
+    def ask(third):
+        return uncertain(case_of(tmp_path, momentum="3, 2, 1", torque=torque.format(third)), ("equilibria",)).equilibria
+    across = ask('"0.005 +- 0.01"')
     assert across.answer == "holds" and "infinity" in across.but
-    on_it = uncertain(case_of(tmp_path, momentum="3, 2, 1", torque=torque.format('"0 +- 0.01"')), ("equilibria",)).equilibria
+    on_it = ask('"0 +- 0.01"')
     assert on_it.answer == "depends" and [w.verdict.split(":")[1].split()[0] for w in on_it.witnesses] == ["1", "2"]
 
 
@@ -308,7 +314,8 @@ def test_an_uncertain_start_has_no_part_in_the_equilibria(tmp_path):
 
 BAD = {'"2000 +- "': "expected a number and its uncertainty", '"2000 +- -20"': "half-width", '"+- 20"': "expected a number",
        '"2000 +- 20 +- 3"': "expected a number", '"2000 ± x %"': "expected a number", '"0 +- 1 %"': "percentage of zero",
-       '"2000 +- 1e400"': "larger than the largest double", '"2000 % +- 20"': "expected a number", '"nan +- 1"': "expected a number",
+       '"2000 +- 1e400"': "larger than the largest double", '"2000 % +- 20"': "expected a number",
+       '"nan +- 1"': "expected a number",
        '"2000 +- 3000"': "no rigid body"}
 
 

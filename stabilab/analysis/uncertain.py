@@ -2,7 +2,8 @@
 
 A case may state inertia, gyrostatic moment, torque and state with half-widths; together they span a box. For the whole box a
 verdict holds (proved), or it depends (with a point of the box on each side), or it stays undecided (with the reason); and the
-smallest change that flips it is bracketed: proved to be safe below one factor of the stated uncertainties, seen to flip at another.
+smallest change that flips it is bracketed: proved to be safe below one factor of the stated uncertainties, seen to flip at
+another.
 """
 from __future__ import annotations
 

@@ -109,8 +109,8 @@ class Box:
 def box_of(case) -> Box:
     """The box of a Case. Raises InputError for scenes beyond a gyrostat under a constant torque."""
     if not case.scene.plain:
-        raise InputError("what uncertain numbers do to the verdicts is known for a gyrostat under a constant torque alone; this "
-                         "scene has other effects")
+        raise InputError("what uncertain numbers do to the verdicts is known for a gyrostat under a constant torque alone; "
+                         "this scene has other effects")
     middle = {}
     if case.physical is not None:
         middle["inertia"] = case.physical.body.exact
@@ -135,11 +135,11 @@ def _scalable(box: Box):
         return
     D, h = box.middle["inertia"], box.half["inertia"]
     if not all(D[i] - h[i] > D[i + 1] + h[i + 1] for i in (0, 1)):
-        raise InputError("within the uncertainties the moments are not surely in falling order, as the scaled variables and mu need: "
-                         "give the torque in N m and the motion as angular_velocity")
+        raise InputError("within the uncertainties the moments are not surely in falling order, as the scaled variables and mu "
+                         "need: give the torque in N m and the motion as angular_velocity")
     if box.variables == "scaled" and any(box.half["momentum"][1:]):
-        raise InputError("the scaled variables need the gyrostatic moment along axis 1, without uncertainty across it: use physical "
-                         "variables")
+        raise InputError("the scaled variables need the gyrostatic moment along axis 1, without uncertainty across it: use "
+                         "physical variables")
 
 
 def _name(path) -> str:

@@ -69,8 +69,8 @@ def _balance(box, numbers, form):
 
 def _free(D, lam):
     if any(map(_there, lam)):
-        raise Unknown("without a torque, and with a gyrostatic moment, the stability along the curve of equilibria is not followed "
-                      "over a box")
+        raise Unknown("without a torque, and with a gyrostatic moment, the stability along the curve of equilibria is not "
+                      "followed over a box")
     pairs = [(i, j) for i, j in ((0, 1), (1, 2), (2, 0)) if _there(D[i] - D[j])]
     return [Condition(D[i] - D[j], f"moments {i + 1} and {j + 1} are equal") for i, j in pairs]
 

@@ -60,12 +60,14 @@ def _by_conditions(box, here, answer) -> Over:
             numbers = box.numbers(points, np.zeros_like(points))
             values = [np.broadcast_to(lifted(c.value).c, len(points)) for c in known(conditions(box, numbers))]
             odd = np.broadcast_to(box.impossible(numbers), len(points)) | ~np.all([np.isfinite(v) for v in values], axis=0)
-        return np.where(odd, UNKNOWN, sum((3**k) * (np.sign(np.nan_to_num(v)).astype(int) + 1) for k, v in enumerate(values) if not first[k].passes))
+        signs = [np.sign(np.nan_to_num(v)).astype(int) for v, c in zip(values, first) if not c.passes]
+        return np.where(odd, UNKNOWN, sum(3**k * (sign + 1) for k, sign in enumerate(signs)))
 
     if not first:
         return Over("holds", here, "the uncertain numbers have no part in the equilibria", proved=np.inf)
     if 0 in signs:
-        return by_trial(box, here, answer, "at the middle itself " + "; ".join(c.what for c, sign in zip(first, signs) if not sign))
+        vanishing = "; ".join(c.what for c, sign in zip(first, signs) if not sign)
+        return by_trial(box, here, answer, f"at the middle itself {vanishing}")
     change = nearest_change(codes, int(codes(np.zeros((1, n)))[0]), n)
     change = change and confirmed(change, lambda p: answer(p) or here, here)
     strict, passing = partial(_proof, all_of, box, first, signs), [c for c in first if c.passes]

@@ -21,6 +21,7 @@ from .uncertain_search import UNKNOWN, confirmed, nearest_change
 
 
 UNBOUNDED = "unbounded"
+TIE_STRETCHES = (1e-6, 1e-3, 1.0)
 
 
 def fate_over(box: Box) -> Over | None:
@@ -36,15 +37,15 @@ def fate_over(box: Box) -> Over | None:
         return Over("holds", here, REASONS[Reason.TORQUE_FREE], proved=np.inf)
     if len(acting) > 1:
         axes = " and ".join(str(i + 1) for i in acting)
-        return Over("undecided", here, f"the torque may act about axes {axes} together: off the principal axes there is no reduction to "
-                    "one degree of freedom, and no law is known that bounds the motion or lets it go")
+        return Over("undecided", here, f"the torque may act about axes {axes} together: off the principal axes there is no "
+                    "reduction to one degree of freedom, and no law is known that bounds the motion or lets it go")
     reduction = reduction_over(form, acting[0])
     if reduction is None:
         return _under_law(box, here, answer, numbers, form, acting[0])
     signs = _signs(reduction)
     if signs is None:
-        return by_trial(box, here, answer, "two of the moments of inertia may be equal within the box, where the geometry of the "
-                                           "motion changes from circles to hyperbolas: no proof is at hand")
+        return by_trial(box, here, answer, "two of the moments of inertia may be equal within the box, where the geometry of "
+                                           "the motion changes from circles to hyperbolas: no proof is at hand")
     if signs[0] * signs[1] >= 0:
         return _between_walls(box, here, answer, reduction, numbers, signs)
     return _on_circles(box, here, answer, Family(box, acting[0], signs))
@@ -108,29 +109,26 @@ def _on_circles(box, here, answer, family: Family) -> Over:
             return Proof(None, 0)
         return prove(family, claim, senses, stretch, most)
 
-    def nearest(code):
-        return nearest_change(codes, code, len(box.places), _against_gradient(family))
-
     middle = int(codes(np.zeros((1, len(box.places))))[0])
     if here == Fate.SEPARATRIX.word or (middle == 0) != (claim == "bounded"):
-        return _tie(box, here, answer, codes, nearest)
-    change = nearest(middle)
+        return _tie(box, here, answer, _against_gradient(family))
+    change = nearest_change(codes, middle, len(box.places), _against_gradient(family))
     change = change and confirmed(change, lambda p: answer(p) or here, here)
     return bracketed(box, here, answer, change, attempt,
                      REASONS[Reason.BELOW_BARRIER if claim == "bounded" else Reason.ABOVE_BARRIER])
 
 
-def _tie(box, here, answer, codes, nearest) -> Over:
+def _tie(box, here, answer, corners) -> Over:
     """The middle lies on the separatrix (or at rest on a saddle): what lies on either side."""
-    around = codes(1e-3 * np.vstack([np.eye(len(box.places)), -np.eye(len(box.places))]))
-    sides = []
-    for wanted, others in ((Fate.BOUNDED.word, set(around.tolist()) - {0, UNKNOWN}), ("spin-up", {0})):
-        for change in filter(None, map(nearest, sorted(others))):
-            points = [change.direction * s for s in (1.01 * change.stretch, 1e-6, 1e-3, 1.0) if s <= 1]
-            sides += [Witness(answer(p), box.values(p)) for p in points if (answer(p) or "").startswith(wanted)][:1]
-    if len({w.verdict for w in sides}) < 2:
-        return Over("undecided", here, "the middle lies on the separatrix itself, and only one side of it was found")
-    return Over("depends", here, "the middle lies on the separatrix itself", changes_at=0.0, witnesses=tuple(sides))
+    because, n, sides = "the middle lies on the separatrix itself", len(box.places), {}
+    for stretch in TIE_STRETCHES:
+        for direction in (*corners, *np.eye(n), *-np.eye(n)):
+            word = answer(direction * stretch)
+            if word not in (None, Fate.SEPARATRIX.word):
+                sides.setdefault(word, Witness(word, box.values(direction * stretch)))
+        if len(sides) > 1:
+            return Over("depends", here, because, changes_at=0.0, witnesses=tuple(sides.values()))
+    return Over("undecided", here, f"{because}, and only one side of it was found")
 
 
 def _senses(box, family, stretch):
@@ -163,18 +161,17 @@ def _between_walls(box, here, answer, r, numbers, signs) -> Over:
         flat = not signs[0] * signs[1] and _flat(r, state) or _spins(r, state)
         if flat and here.startswith("spin-up") and int(np.ravel(sign_over(r.m))[0]):
             return Over("holds", here, REASONS[Reason.PURE_SPIN], proved=1.0)
-        return by_trial(box, here, answer, "the middle lies on a set of measure zero, and no proof covers how the box leaves it")
-    on_planes = "; but for a set of measure zero: "
+        return by_trial(box, here, answer, "the middle lies on a set of measure zero, and no proof covers what is around it")
     if not signs[0] * signs[1]:
-        return Over("holds", here, REASONS[Reason.WALLS], proved=1.0, but=on_planes[2:] + "where the force is the same all along the "
-                    "parabola, nothing holds the spin back")
+        return Over("holds", here, REASONS[Reason.WALLS], proved=1.0,
+                    but="where the force is the same all along the parabola, nothing holds the spin back")
     if _certain_plane(r, state):
-        return Over("undecided", here, "every motion of the box lies on an invariant plane Q = 0, where a barrier decides, and the plane's "
-                    "motions are not followed over a box")
+        return Over("undecided", here, "every motion of the box lies on an invariant plane Q = 0, where a barrier decides, and "
+                    "the plane's motions are not followed over a box")
     with np.errstate(all="ignore"):
         orbit = orbit_of(r, state, signs)
         clear = all(int(np.ravel(sign_over(lifted(side)))[0]) for side in (orbit.x + orbit.z, orbit.x - orbit.z))
-    but = "" if clear else "the box meets an invariant plane Q = 0, where a motion may spin up or tend to a saddle: a set of measure zero"
+    but = "" if clear else "the box meets an invariant plane Q = 0, where a motion may spin up or tend to a saddle"
     return Over("holds", here, REASONS[Reason.WALLS], proved=1.0, but=but)
 
 
@@ -214,5 +211,5 @@ def _under_law(box, here, answer, numbers, form, axis) -> Over:
                     proved=1.0)
     whether = lambda point: (found := answer(point)) and (UNBOUNDED if found.startswith("spin-up") else found)  # noqa: E731
     return by_trial(box, whether(np.zeros(len(box.places))), whether,
-                    f"the gyrostatic moment along the torque's axis {axis + 1} may vanish or not: where it does not, there is no "
-                    "reduction to one degree of freedom, and no motion is bounded")
+                    f"the gyrostatic moment along the torque's axis {axis + 1} may vanish or not: where it does not, there is "
+                    "no reduction to one degree of freedom, and no motion is bounded")

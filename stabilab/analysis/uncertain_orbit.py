@@ -1,6 +1,6 @@
 """The reduced motion of many bodies, or of many boxes of bodies, at once: height of the potential over the energy ahead.
 
-Circles only (elliptic reduction). In the canonical variables of `reduction`, at the angle y ahead in the direction of the torque,
+Circles only (elliptic reduction). In the canonical variables of `reduction`, at the angle y ahead in the torque's direction,
 
     excess(y) = V(theta_0 + y) - E = -mu y - dX (G (X + dX/2) + c) + d dZ - W^2/2,
 
@@ -18,7 +18,7 @@ from .reduction import Reduction, reduction_about
 
 TURN = 2 * np.pi
 GRID = 96  # angles a turn on which the highest place ahead is looked for: the potential has two maxima a turn at most
-POLISH = 4  # Newton steps from there
+POLISH = 7  # Newton steps from there
 
 
 class Orbit(NamedTuple):
@@ -97,7 +97,7 @@ def highest_ahead(o: Orbit):
     with np.errstate(all="ignore"):
         for _ in range(POLISH):
             step = -force(o, y) / stiffness(o, y)
-            moved = np.clip(y + np.clip(step, -0.1, 0.1), TURN / (8 * GRID), TURN)
+            moved = np.clip(y + np.clip(step, -0.1, 0.1), TURN * 1e-12, TURN)
             higher = excess(o, moved)
             better = higher > top
             y, top = np.where(better, moved, y), np.where(better, higher, top)

@@ -126,7 +126,8 @@ def importance(slopes, rest, widths):
 def _slack(m: Orbit, angle):
     """What rounding may do to an excess of floats (n, 1)."""
     radius = np.abs(m.x) + np.abs(m.z)
-    return (1e3 * EPS * (np.abs(m.mu) * angle[:, None] + (np.abs(m.G) * radius + np.abs(m.c) + np.abs(m.d)) * radius + m.w * m.w))[:, 0]
+    waves = (np.abs(m.G) * radius + np.abs(m.c) + np.abs(m.d)) * radius
+    return (1e3 * EPS * (np.abs(m.mu) * angle[:, None] + waves + m.w * m.w))[:, 0]
 
 
 def _bounded(family, sense, stretch, most) -> Proof:

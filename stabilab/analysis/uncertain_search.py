@@ -19,7 +19,7 @@ UNKNOWN = -9          # the code of a point where there is no body, or nothing i
 
 
 class Change(NamedTuple):
-    """An answer changes along `direction` (largest entry 1 in size) at `stretch`: no longer the same there, still at `before`."""
+    """An answer changes along `direction` (largest entry 1 in size): another at `stretch`, still the same at `before`."""
 
     direction: np.ndarray
     stretch: float

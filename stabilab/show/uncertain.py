@@ -12,8 +12,8 @@ def as_dict(found) -> dict:
     texts, to be written into a case file as they stand."""
     if found is None:
         return {}
-    return {"uncertain": {"numbers": [{"key": key(u), "middle": number(u.middle), "half_width": number(u.half)} for u in found.numbers],
-                          "equilibria": _over(found.equilibria), "fate": _over(found.fate)}}
+    numbers = [{"key": key(u), "middle": number(u.middle), "half_width": number(u.half)} for u in found.numbers]
+    return {"uncertain": {"numbers": numbers, "equilibria": _over(found.equilibria), "fate": _over(found.fate)}}
 
 
 def _over(over) -> dict | None:
@@ -40,7 +40,9 @@ def number(value: Fraction) -> str:
 def _numbers(witness) -> dict[str, list[str]]:
     """All numbers of a witness as a case file can state them; a state is rounded to doubles as it is read."""
     shown = {name: [number(v) for v in values] for name, values in witness.values.items()}
-    return shown | {"state": [repr(float(v)).removesuffix(".0") for v in witness.values["state"]]} if "state" in shown else shown
+    if "state" in shown:
+        shown["state"] = [repr(float(v)).removesuffix(".0") for v in witness.values["state"]]
+    return shown
 
 
 def text(found) -> str:
@@ -56,8 +58,8 @@ def text(found) -> str:
 
 def _lines(subject, over) -> list[str]:
     holds, depends = SUBJECTS[subject]
-    lead = {"holds": f"{holds} all over the box", "depends": f"{depends} on them", "undecided": "undecided over the box"}[over.answer]
-    lines = [f"  {subject}: {lead}" + (f": {over.verdict}" if over.answer == "holds" else ""), f"    {over.because}"]
+    lead = {"holds": f"{holds} all over the box", "depends": f"{depends} on them", "undecided": "undecided over the box"}
+    lines = [f"  {subject}: {lead[over.answer]}" + (f": {over.verdict}" if over.answer == "holds" else ""), f"    {over.because}"]
     if over.but:
         lines.append(f"    but for a set of measure zero: {over.but}")
     if over.proved and math.isfinite(over.proved):
