@@ -6,7 +6,7 @@ import pytest
 
 import stabilab
 from stabilab.analysis.landscape import landscape
-from stabilab.analysis.loops import loop_end, polished
+from stabilab.analysis.loops import loop_ends, polished
 from stabilab.analysis.saddle_branches import limit_of, saddle_branches
 from stabilab.analysis.turning import spots_along
 from stabilab.errors import InputError
@@ -80,7 +80,7 @@ def test_wells_from_the_cubic_of_a_circle_are_those_of_the_equilibrium_conic(ine
     for branch in saddle_branches(land.conic, land.potential, limit_of(land.conic, 4.0)):
         s = np.linspace(0.02, 0.97, 41)
         saddle = polished(land, tuple(np.asarray(v, float) for v in branch.place(s)), s)
-        end, centre, found, shared = loop_end(land, saddle, -1)
+        end, centre, found, shared = loop_ends(land, saddle, -1)
         assert not shared.any()
         spots = spots_along(land, saddle, np.zeros(len(s)))
         for row in np.nonzero(found)[0]:

@@ -95,7 +95,7 @@ class _Sheet:
             return saddle, 0.0
         saddle = settled_on(g.pot, saddle)
         end = loop_end(g.pot, g.e, g.sense, saddle, self.side)
-        return None if end is None else (saddle, self.side * end)
+        return None if end is None else (saddle, self.side * end[0])
 
     def away(self, loop, phi):
         saddle, end = loop

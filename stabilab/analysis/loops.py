@@ -9,13 +9,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .landscape import EPS, TURN
-from .rootfind import bracketed_newton
-from .turning import spots_along
-
-OWN = 1e-9        # offsets below this are the saddle itself
-LEVEL = 64 * EPS  # saddles whose heights differ by less, relative to the terms of the energy, are at one height
-SHARPEST = 1e3    # bends tighter than the loop's length over this are not resolved
+from .circle_loops import NONE, SHARED, SHARPEST
+from .landscape import TURN
+from .loop import loop_end
 
 
 def polished(land, saddle, s):
@@ -24,150 +20,16 @@ def polished(land, saddle, s):
     return tuple(np.where(s > 0, m, v) for m, v in zip(moved, saddle))
 
 
-def loop_end(land, saddle, side):
-    """(offset of the far end of the loop (n,), centre place (2, n), found (n,), shared (n,)) for saddles (2, n), one side.
-
-    The loop ends where the potential, beyond the wells on that side, is back at the saddle's height; shared: it ends at
-    a saddle there, for which this is the loop on the other side.
-    """
-    n = len(saddle[0])
-    if land.e < 0 and land.sense and side < 0:
-        return (*_end_on_tilted_circle(land, saddle), np.zeros(n, bool))
-    spots = spots_along(land, saddle, np.zeros(n))
-    end, centre = np.zeros(n), np.array(saddle, float)
-    outward = np.argsort(np.where(spots.there, spots.offset * side, np.inf), axis=1, kind="stable")
-    take = lambda a: np.take_along_axis(a, outward, axis=1)
-    offset, energy, barrier = take(spots.offset * side), take(spots.energy), take(spots.barrier)
-    ahead = take(spots.there) & (offset > OWN)
-    level = ahead & barrier & _at_one_height(land, saddle, offset, energy)
-    stops = ahead & barrier & ((energy <= 0) | level | (np.abs(offset - TURN) < OWN))
-    rows, width = np.arange(n), offset.shape[1]
-    if width == 0:
-        return end, centre, np.zeros(n, bool), np.zeros(n, bool)
-    stopped = stops.any(axis=1)
-    stop = np.where(stopped, np.argmax(stops, axis=1), width)
-    wells = ahead & ~barrier & (np.arange(width) < stop[:, None])
-    found = wells.any(axis=1)
-    deepest = np.argmax(np.where(wells, energy, -np.inf), axis=1)
-    low = offset[rows, width - 1 - np.argmax(wells[:, ::-1], axis=1)]
-    high = offset[rows, np.minimum(stop, width - 1)]
-    centre[:, found] = np.array([take(v) for v in spots.place])[:, rows, deepest][:, found]
-    shared = found & stopped & level[rows, np.minimum(stop, width - 1)]
-    if land.e < 0:
-        right_round = found & (~stopped | (np.abs(high - TURN) < OWN))
-        high = np.where(right_round, TURN, high)  # one turn back the saddle stands again, higher by 2 pi mu
-        shared |= right_round & (land.sense == 0)
-        end[shared] = side * high[shared]
-    else:
-        for row in np.nonzero(found & ~stopped)[0]:
-            wall = _wall(land, tuple(np.array([v[row]]) for v in saddle), low[row], side)
-            found[row], high[row] = wall is not None, wall or 0.0
-    solve = found & (end == 0)
-
-    def fun(t, *spot):
-        return land.potential.rise(side * t, spot), -side * land.potential.force(land.potential.move(spot, side * t))
-    end[solve] = side * _root(fun, low[solve], high[solve], tuple(v[solve] for v in saddle))
-    return end, centre, found, shared
-
-
-def _end_on_tilted_circle(land, saddle):
-    """(offset of the far end, centre place, found) against the torque, where a loop ends within the turn: one turn back the
-    saddle stands again, higher by 2 pi mu.
-
-    Of the other equilibria on the circle there are three (well, barrier, well) or one: half their angle from the saddle
-    has a tangent t with a cubic, for along the orbit F(y) = 2 sin(y/2) (a0 C^3 + a1 C^2 S + a2 C S^2 + a3 S^3) with
-    C = cos(y/2), S = sin(y/2).
-    """
-    pot, (x, z) = land.potential, saddle
-    along, across = pot.G * (z - x) * (z + x), pot.d * z - pot.c * x
-    a0, a3 = along + across, -(pot.c * z + pot.d * x)
-    back = TURN - _angles_of_cubic(a0, a3 - 4 * pot.G * x * z, across - along, a3)  # distances against the torque
-    back = np.sort(np.where(back > 0, back, np.inf), axis=0)
-    low, centre, high = back[0], back[0], np.full(len(x), TURN)
-    three = np.nonzero(back[2] < np.inf)[0]
-    if three.size:
-        spot = x[three], z[three]
-        first, barrier, last = (pot.rise(-t[three], spot) for t in back)
-        low, high, centre = low.copy(), high.copy(), centre.copy()
-        held = barrier >= 0  # the barrier on the way is as high as the saddle
-        high[three[held]] = back[1, three[held]]
-        low[three[~held]] = back[2, three[~held]]
-        deeper = ~held & (last < first)
-        centre[three[deeper]] = back[2, three[deeper]]
-    found = (a0 > 0) & (low > OWN) & (low < high)
-    ends = np.zeros(len(x))
-
-    def fun(t, x, z):
-        return pot.rise(-t, (x, z)), pot.force(pot.move((x, z), -t))
-    if found.all():
-        ends = -_root(fun, low, high, saddle)
-    elif found.any():
-        ends[found] = -_root(fun, low[found], high[found], tuple(v[found] for v in saddle))
-    wells = np.array(land._polish(pot.move(saddle, np.where(found, -centre, 0.0))))
-    return ends, np.where(found, wells, saddle), found
-
-
-def _angles_of_cubic(a0, a1, a2, a3):
-    """(3, n) angles in [0, 2 pi) twice those at which a0 C^3 + a1 C^2 S + a2 C S^2 + a3 S^3 vanishes (C cosine, S sine);
-    nan where only one is real. In closed form, for the cotangent where the tangent may be infinite."""
-    swap = np.abs(a0) > np.abs(a3)
-    lead = np.where(swap, a0, a3)
-    with np.errstate(all="ignore"):
-        p, q, r = np.where(swap, a1, a2) / lead, np.where(swap, a2, a1) / lead, np.where(swap, a3, a0) / lead
-        third = p / 3
-        square, half = third * third - q / 3, third * (third * third - 0.5 * q) + 0.5 * r
-        rest = half * half - square ** 3
-        single = -np.copysign(np.cbrt(np.abs(half) + np.sqrt(np.maximum(rest, 0))), half)
-        roots = np.full((3, len(lead)), np.nan)
-        roots[0] = single + np.where(single == 0, 0, square / single) - third
-        three = rest < 0
-        if three.any():
-            size, angle = np.sqrt(square[three]), half[three]
-            turn = np.arccos(np.clip(angle / size ** 3, -1, 1)) / 3
-            roots[:, three] = -2 * size * np.cos(turn + np.array([[0.0], [TURN / 3], [-TURN / 3]])) - third[three]
-    angle = 2 * np.where(swap, np.arctan2(1.0, roots), np.arctan(roots))
-    return np.where(angle < 0, angle + TURN, angle)
-
-
-def _root(fun, low, high, args, steps=9):
-    """Where fun rises through zero between a well at `low` and `high` (n,): plain Newton, the safe search for the rest.
-
-    The first guess is exact for the cubic potential next to a fold, whose loop is half as long again as the way to
-    the well.
-    """
-    t = np.minimum(1.5 * low, 0.5 * (low + high))
-    with np.errstate(all="ignore"):
-        for _ in range(steps):
-            value, slope = fun(t, *args)
-            step = value / slope
-            t = t - step
-            size = np.abs(step)
-            if (size <= 1e-10 * t).all():
-                break
-    # a last step of 1e-10 leaves 1e-20 where convergence is quadratic
-    rest = ~((size <= 1e-10 * t) & (t > low) & (t < high))
-    if rest.any():
-        t[rest] = bracketed_newton(fun, low[rest], high[rest], 0.5 * (low[rest] + high[rest]), tuple(v[rest] for v in args))
-    return t
-
-
-def _at_one_height(land, saddle, offset, energy):
-    """(n, m) where a spot is as high as the saddle, as only the periodic potential of a circle without torque has it."""
-    if land.e > 0 or land.sense:
-        return np.zeros(offset.shape, bool)
-    pot, Q = land.potential, land.invariant(saddle)[:, None]
-    return np.abs(energy) <= LEVEL * (np.abs(pot.G) * Q + (np.abs(pot.c) + np.abs(pot.d)) * np.sqrt(Q))
-
-
-def _wall(land, spot, low, side):
-    """A distance at which the wall beyond the last well is higher than the saddle; None beside an open plane."""
-    step = 1.0
-    with np.errstate(all="ignore"):
-        while step < 700:
-            if land.potential.rise(np.array([side * (low + step)]), spot)[0] > 0:
-                return low + step
-            step *= 2
-    return None
+def loop_ends(land, saddle, side):
+    """(offset of the far end of the loop (n,), centre place (2, n), found (n,), shared (n,)) for saddles (2, n), one side;
+    shared: it ends at a saddle there, for which this is the loop on the other side."""
+    pot, n = land.potential, len(saddle[0])
+    ends, centres, kind = np.zeros(n), np.zeros(n), np.zeros(n, int)
+    for row, place in enumerate(zip(*(v.tolist() for v in saddle))):
+        found = loop_end(pot, land.e, land.sense, place, side)
+        if found:
+            ends[row], centres[row], kind[row] = found
+    return side * ends, np.array(land._polish(pot.move(saddle, side * centres))), kind != NONE, kind == SHARED
 
 
 @dataclass(frozen=True)
@@ -204,7 +66,7 @@ def loops(land, strips, s, u) -> Loops:
     end, centre, found, shared = np.empty((k, n)), np.empty((2, k, n)), np.empty((k, n), bool), np.empty((k, n), bool)
     for side in set(sides.tolist()):  # one search for all strips of a side
         pick = sides == side
-        one = loop_end(land, tuple(saddle[:, pick].reshape(2, -1)), side)
+        one = loop_ends(land, tuple(saddle[:, pick].reshape(2, -1)), side)
         end[pick], found[pick], shared[pick] = (v.reshape(-1, n) for v in (one[0], one[2], one[3]))
         centre[:, pick] = one[1].reshape(2, -1, n)
     found &= ~(shared & (sides[:, None] > 0))
