@@ -6,7 +6,7 @@ numba's cache on disk watches no other. Arrays come from the caller.
 """
 from __future__ import annotations
 
-from math import acos, atan, atan2, cos, copysign, exp, log, log1p, pi, sin, sqrt
+from math import acos, atan, atan2, cos, copysign, log1p, pi, sin, sinh, sqrt
 
 EPS = 2.220446049250313e-16
 TURN = 2 * pi
@@ -184,3 +184,243 @@ def crossing(g, x, z, side, low, high):
                 return new
         t = new
     return t
+
+
+# --- whole sheets: a strip is a branch of saddles with one side of loops, its grid n rows of the first halves of m columns
+def saddle_at(conic, strip, s):
+    """The saddle at the parameter s of a branch."""
+    G, c, K, shift = conic
+    t = strip[START] + (strip[END] - strip[START]) * s
+    if strip[ON_LINE] != 0:
+        return strip[X0] + t * strip[DX], strip[Z0] + t * strip[DZ]
+    return (K / t - c) / G, t - shift
+
+
+def trial_rows(conic, strip, fold_size, dense, s, way):
+    """Fill s with the parameters of trial rows: equal steps of the saddle near the fold, equal factors far out. fold_size: how
+    far from it steps are equal, as a share of its radius. way: room for `dense` numbers."""
+    x0, z0 = saddle_at(conic, strip, 0.0)
+    start, length = fold_size * sqrt(x0 * x0 + z0 * z0), 0.0
+    x, z = x0, z0
+    for i in range(dense):
+        x1, z1 = saddle_at(conic, strip, 0.5 - 0.5 * cos(pi * i / (dense - 1)))
+        length += sqrt((x1 - x) ** 2 + (z1 - z) ** 2)
+        way[i], x, z = length, x1, z1
+    start = max(start, 0.03 * length)
+    for i in range(dense):
+        way[i] = log1p(way[i] / start)
+    last, row = way[dense - 1], 1
+    s[0], s[len(s) - 1] = 0.0, 1.0
+    for i in range(1, dense):
+        here, before = 0.5 - 0.5 * cos(pi * i / (dense - 1)), 0.5 - 0.5 * cos(pi * (i - 1) / (dense - 1))
+        while row < len(s) - 1 and last * row / (len(s) - 1) <= way[i]:
+            part = (last * row / (len(s) - 1) - way[i - 1]) / (way[i] - way[i - 1])
+            s[row] = before + part * (here - before)
+            row += 1
+
+
+def fill_row(g, conic, sense, units, strip, side, s, u, place, points, off):
+    """One row: place gets saddle, centre, offset of the far end; points (m, 3) the loop at columns u; off (m,), unless it is
+    empty, their `departure`. Returns whether there is a loop."""
+    x, z = saddle_at(conic, strip, s)
+    x, z = settled(g, x, z) if s > 0 else (x, z)
+    end, deep, kind = loop_end(g, sense, x, z, side) if s > 0 else (0.0, 0.0, ENDS)
+    end, (cx, cz) = side * end, moved(x, z, side * deep)
+    cx, cz = settled(g, cx, cz) if deep > 0 else (cx, cz)
+    place[0], place[1], place[2], place[3], place[4] = x, z, cx, cz, end
+    far_x, far_z = moved(x, z, end)
+    pull = abs(force(g, far_x, far_z))
+    sharp = abs(end) * slope(g, far_x, far_z) / pull if pull > 0 else 0.0 if end == 0 else SHARPEST
+    sharp = min(max(sharp, 1e-8), SHARPEST)
+    q = sharp + sqrt(sharp * (sharp + 2))  # arccosh(1 + sharp) = log(1 + q)
+    half = 0.5 * log1p(q)
+    per_x, shift_j, per_z, shift_k, per_w, shift_i, j, k, i = units
+    m = len(u)
+    for a in range(m):
+        share = sinh(half * (1 - u[a])) / sinh(half)
+        y = end * (1 - share * share)
+        w = side * sqrt(2 * max(-rise(g, x, z, y), 0.0)) if 0 < a < m - 1 else 0.0
+        px, pz = moved(x, z, y)
+        points[a, j], points[a, k], points[a, i] = per_x * px - shift_j, per_z * pz - shift_k, per_w * w - shift_i
+        if len(off):
+            off[a] = departure(g, units, x, z, y, points[a])
+    return kind != NONE
+
+
+def departure(g, units, x, z, y, point):
+    """Energy of a rounded point above its saddle's, (x, z), relative to the size of the energy's terms; y: its offset."""
+    per_x, shift_j, per_z, shift_k, per_w, shift_i, j, k, i = units
+    px, pz, w = (point[j] + shift_j) / per_x, (point[k] + shift_k) / per_z, (point[i] + shift_i) / per_w
+    angle = atan2(px * z - pz * x, px * x + pz * z)
+    seen = angle + TURN * round((y - angle) / TURN)
+    size_x, size_z = abs(px) + abs(shift_j / per_x), abs(pz) + abs(shift_k / per_z)
+    scale = (0.5 * w * w + abs(g[0]) * (size_x * size_x + size_z * size_z) + (abs(g[1]) + abs(g[2])) * (size_x + size_z)
+             + abs(g[3]))
+    return abs(0.5 * w * w + rise(g, x, z, seen)) / scale
+
+
+def chord_sag(before, between, last):
+    """How far the chord between two rows strays from the sheet, from a row in between."""
+    sag = 0.0
+    for a in range(1, len(before) - 1):
+        c0, c1, c2 = last[a, 0] - before[a, 0], last[a, 1] - before[a, 1], last[a, 2] - before[a, 2]
+        w0, w1, w2 = between[a, 0] - before[a, 0], between[a, 1] - before[a, 1], between[a, 2] - before[a, 2]
+        r0, r1, r2 = (between[a + 1, 0] - between[a - 1, 0], between[a + 1, 1] - between[a - 1, 1],
+                      between[a + 1, 2] - between[a - 1, 2])
+        n0, n1, n2 = c1 * r2 - c2 * r1, c2 * r0 - c0 * r2, c0 * r1 - c1 * r0
+        part = (w0 * c0 + w1 * c1 + w2 * c2) / max(c0 * c0 + c1 * c1 + c2 * c2, TINY)
+        part = min(max(part, 0.1), 0.9)
+        size = max(sqrt(n0 * n0 + n1 * n1 + n2 * n2), TINY)
+        sag = max(sag, abs(w0 * n0 + w1 * n1 + w2 * n2) / size / (4 * part * (1 - part)))
+    return sag
+
+
+def second_forms(r, row, a, axis):
+    """(L, M, N) at an inner vertex of points r (n, m, 3) with the column beyond the last one mirrored."""
+    m = r.shape[1]
+    beyond = a + 1 == m
+    b = a - 1 if beyond else a + 1
+    e0, e1, e2 = r[row + 1, a, 0] - r[row - 1, a, 0], r[row + 1, a, 1] - r[row - 1, a, 1], r[row + 1, a, 2] - r[row - 1, a, 2]
+    across = twist = down = 0.0
+    n0 = n1 = n2 = 0.0
+    # differences round the loop in this row and its neighbours; the mirror image flips the component along the axis
+    d0, d1, d2 = r[row, b, 0] - r[row, a - 1, 0], r[row, b, 1] - r[row, a - 1, 1], r[row, b, 2] - r[row, a - 1, 2]
+    if beyond:
+        flip = 2 * (r[row, a, axis] - r[row, a - 1, axis])
+        d0, d1, d2 = (flip if axis == 0 else 0.0), (flip if axis == 1 else 0.0), (flip if axis == 2 else 0.0)
+    n0, n1, n2 = e1 * d2 - e2 * d1, e2 * d0 - e0 * d2, e0 * d1 - e1 * d0
+    size = 1 / max(sqrt(n0 * n0 + n1 * n1 + n2 * n2), TINY)
+    n0, n1, n2 = n0 * size, n1 * size, n2 * size
+    for c in range(3):
+        n = n0 if c == 0 else n1 if c == 1 else n2
+        here, left = r[row, a, c], r[row, a - 1, c]
+        after = r[row, b, c]
+        up = r[row + 1, b, c] - r[row + 1, a - 1, c]
+        under = r[row - 1, b, c] - r[row - 1, a - 1, c]
+        if beyond and c == axis:
+            after = 2 * here - left
+            up, under = 2 * (r[row + 1, a, c] - r[row + 1, a - 1, c]), 2 * (r[row - 1, a, c] - r[row - 1, a - 1, c])
+        across += n * (after - 2 * here + left)
+        twist += n * 0.25 * (up - under)
+        down += n * (r[row + 1, a, c] - 2 * here + r[row - 1, a, c])
+    return across, twist, down
+
+
+def stray(across, twist, down, cut):
+    """Largest distance of a quad's edges' mid-points and facets' centres from the surface."""
+    diagonal = across + down + 2 * cut * twist
+    edges = max(abs(diagonal), max(abs(across), abs(down)))
+    return max(edges / 8, abs(across + down + diagonal) / 18)
+
+
+def fill_strip(g, conic, sense, units, strip, side, s, u, found, places, points, off, spare):
+    """All rows of a strip; how far the chords between the last two rows stray. spare: room for a row's points."""
+    n = len(s)
+    for row in range(n):
+        found[row] = fill_row(g, conic, sense, units, strip, side, s[row], u, places[row], points[row], off[row])
+    m, half_way = len(u), 0.5 * (s[n - 2] + s[n - 1])
+    between = fill_row(g, conic, sense, units, strip, side, half_way, u, spare[m], spare[:m, :3], off[0, :0])
+    return chord_sag(points[n - 2, :m], spare[:m, :3], points[n - 1, :m]) if between and found[n - 2] and found[n - 1] else 0.0
+
+
+def lengths(density, floor, straight, out):
+    """Add the floor to densities and fill out with their integral from the first on."""
+    mean = 0.0
+    for a in range(len(density)):
+        mean += density[a]
+    for a in range(len(density)):
+        density[a] += floor * mean / len(density) + sqrt(straight)
+    out[0] = 0.0
+    for a in range(1, len(density)):
+        out[a] = out[a - 1] + 0.5 * (density[a] + density[a - 1])
+
+
+def trial(g, conic, sense, units, strips, sides, grading, accuracy, s, columns, rows, numbers, room):
+    """Fill s, columns, rows (k, t): trial rows and the integrals of the densities; numbers (mixtures, 2, 2): rows and columns
+    that `accuracy` (0: not asked) needs for each mixture and cut. grading: (floor, straight, fold's size, dense, mixtures);
+    room: arrays for a strip."""
+    floor, share, fold_size, dense, mixtures = grading
+    u, way, found, places, points, off, spare, forms, density = room
+    k, t = s.shape
+    largest = 0.0
+    for strip in range(k):
+        trial_rows(conic, strips[strip], fold_size, dense, s[strip], way)
+        edge = fill_strip(g, conic, sense, units, strips[strip], sides[strip], s[strip], u, found[strip], places,
+                          points[strip], off, spare)
+        density[strip, 0, 0] = edge
+        for row in range(t):
+            for a in range(t):
+                for c in range(3):
+                    largest = max(largest, abs(points[strip, row, a, c]))
+    straight = share * largest
+    numbers[:] = 0.0
+    for strip in range(k):
+        edge = density[strip, 0, 0]
+        density[strip] = 0.0
+        for row in range(1, t - 1):
+            whole = found[strip, row - 1] and found[strip, row] and found[strip, row + 1]
+            for a in range(1, t):
+                across, twist, down = second_forms(points[strip], row, a, units[8]) if whole else (0.0, 0.0, 0.0)
+                forms[strip, 0, row, a], forms[strip, 1, row, a], forms[strip, 2, row, a] = across, twist, down
+                density[strip, 0, a] = max(density[strip, 0, a], sqrt(abs(across)))
+                density[strip, 1, row] = max(density[strip, 1, row], sqrt(abs(down)))
+        density[strip, 0, 0], density[strip, 1, 0] = density[strip, 0, 1], density[strip, 1, 1]
+        density[strip, 1, t - 1] = max(density[strip, 1, t - 2], sqrt(8 * edge))
+        lengths(density[strip, 0], floor, straight, columns[strip])
+        lengths(density[strip, 1], floor, straight, rows[strip])
+        if accuracy > 0:
+            need(forms[strip], density[strip], columns[strip, t - 1], rows[strip, t - 1], mixtures, accuracy, numbers)
+
+
+def need(forms, density, columns, rows, mixtures, accuracy, numbers):
+    """Raise numbers to the rows and columns that one strip needs."""
+    t = density.shape[1]
+    for which in range(len(mixtures)):
+        mix = mixtures[which]
+        for cut in range(2):
+            worst = 0.0
+            for row in range(1, t - 1):
+                r = density[1, row]
+                for a in range(1, t):
+                    c = density[0, a] * mix
+                    worst = max(worst, stray(forms[0, row, a] / (c * c), forms[1, row, a] / (c * r), forms[2, row, a] / (r * r),
+                                             1.0 - 2.0 * cut))
+            size = sqrt(worst / accuracy)
+            numbers[which, cut, 0] = max(numbers[which, cut, 0], size * rows)
+            numbers[which, cut, 1] = max(numbers[which, cut, 1], size * columns * mix)
+
+
+def even_steps(length, at, out):
+    """Fill out with parameters between those of `at` at even steps of `length`."""
+    last, knot = length[len(length) - 1], 0
+    for a in range(len(out)):
+        want = last * a / (len(out) - 1)
+        while knot < len(length) - 2 and length[knot + 1] < want:
+            knot += 1
+        out[a] = at[knot] + (at[knot + 1] - at[knot]) * ((want - length[knot]) / (length[knot + 1] - length[knot]))
+    out[len(out) - 1] = at[len(at) - 1]
+
+
+def finished(g, conic, sense, units, strips, sides, s, even, columns, rows, at, u, found, places, points, residual, strays, spare):
+    """The graded loops: points (k, n, 2 m - 1, 3) all round with their residual, places (k, n, 5), strays (2, k) of both cuts."""
+    k, n, m = len(strips), len(at), len(u)
+    axis = units[8]
+    for strip in range(k):
+        even_steps(rows[strip], s[strip], at)
+        even_steps(columns[strip], even, u)
+        edge = fill_strip(g, conic, sense, units, strips[strip], sides[strip], at, u, found[strip], places[strip],
+                          points[strip], residual[strip], spare)
+        strays[0, strip] = strays[1, strip] = edge
+        for row in range(n):
+            for a in range(m, 2 * m - 1):
+                b = 2 * m - 2 - a
+                residual[strip, row, a] = residual[strip, row, b]
+                for c in range(3):
+                    points[strip, row, a, c] = points[strip, row, b, c]
+                points[strip, row, a, axis] = -2 * units[5] - points[strip, row, b, axis]
+        for row in range(1, n - 1):
+            if found[strip, row - 1] and found[strip, row] and found[strip, row + 1]:
+                for a in range(1, m):
+                    across, twist, down = second_forms(points[strip][:, :m], row, a, axis)
+                    strays[0, strip] = max(strays[0, strip], stray(across, twist, down, 1.0))
+                    strays[1, strip] = max(strays[1, strip], stray(across, twist, down, -1.0))

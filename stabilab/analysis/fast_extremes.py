@@ -68,19 +68,20 @@ def _open_piece(conic, piece):
 def kernel():
     """`circle_kernel.orbits`, compiled; kept on disk where there is a place for it."""
     try:
-        return _compiled(cache=True)
+        return compiled(circle_kernel, INLINED, cache=True)["orbits"]
     except RuntimeError:  # numba found no folder that it may write to
-        return _compiled(cache=False)
+        return compiled(circle_kernel, INLINED, cache=False)["orbits"]
 
 
-def _compiled(cache):
+def compiled(module, inlined, cache):
+    """The names of a module of straight-line kernels with all its functions compiled."""
     from numba import njit
-    names = dict(vars(circle_kernel))
+    names = dict(vars(module))
     for name, function in list(names.items()):
-        if isinstance(function, FunctionType) and function.__module__ == circle_kernel.__name__:
+        if isinstance(function, FunctionType) and function.__module__ == module.__name__:
             twin = FunctionType(function.__code__, names, name)
-            names[name] = njit(cache=cache, error_model="numpy", forceinline=name in INLINED)(twin)
-    return names["orbits"]
+            names[name] = njit(cache=cache, error_model="numpy", forceinline=name in inlined)(twin)
+    return names
 
 
 def run_kernel(orbits, land, states, wanted, boxes, periods):

@@ -95,7 +95,8 @@ def _shares(land, saddle, end, shared, u):
     far = land.potential.move(saddle, end)
     with np.errstate(all="ignore"):
         sharp = np.abs(end) * land.potential.slope(far) / np.abs(land.potential.force(far))
-        half = 0.5 * np.arccosh(1 + np.clip(np.nan_to_num(sharp), 1e-8, SHARPEST))[:, :, None]
+        sharp = np.clip(np.nan_to_num(sharp), 1e-8, SHARPEST)
+        half = 0.5 * np.log1p(sharp + np.sqrt(sharp * (sharp + 2)))[:, :, None]  # arccosh(1 + sharp)
     return 1 - (np.sinh(half * (1 - u)) / np.sinh(half)) ** 2
 
 

@@ -16,14 +16,15 @@ from .array_results import Separatrix, Sheet
 from .effective import effective
 from .landscape import landscape
 from .loops import residual
+from .numba_door import wanted
 from .saddle_branches import limit_of, saddle_branches, sides
-from .sheet_grid import Grid, grid
+from .sheet_grid import grid
 
 SHAPE = (96, 129)  # fine enough for pictures
 
 
 def separatrix(scene, reach: float | None = None, shape: tuple[int, int] | None = None,
-               accuracy: float | None = None) -> Separatrix:
+               accuracy: float | None = None, fast: bool = False) -> Separatrix:
     """Every sheet of the separatrix of a scene with an elliptic or hyperbolic reduction.
 
     reach: how far out the sheets go, as a multiple of the radius sqrt|Q| of the outermost fold (default 4; where there
@@ -31,8 +32,10 @@ def separatrix(scene, reach: float | None = None, shape: tuple[int, int] | None 
     number of columns becomes the next odd one (default (96, 129)). accuracy: in place of a shape, the largest distance
     allowed between the sheets and the flat facets of their meshes, in the unit of the points: the grids get as few rows
     and columns as that needs, and every sheet tells as `error` what its facets were found to reach (more than asked for
-    only where the largest grids, of 1025 rows, still bend as much). Points are in the scene's variables. A scene without
-    saddles gives no sheets and the reason. Raises InputError for a shape, reach or accuracy out of range.
+    only where the largest grids, of 1025 rows, still bend as much). fast: on circles with a torque compile the work with numba
+    (the extra `fast`); points agree to rounding, and loading numba costs more than some hundred surfaces. Points are in the scene's variables. A scene without
+    saddles gives no sheets and the reason. Raises InputError for a shape, reach or accuracy out of range, and for fast=True
+    without numba.
     """
     _check(reach, shape, accuracy)
     land = landscape(effective(scene))
@@ -46,8 +49,17 @@ def separatrix(scene, reach: float | None = None, shape: tuple[int, int] | None 
         return Separatrix((), _why_none(land))
     strips = [(branch, side) for branch in branches for side, _ in sides(land.e, land.sense)]
     rows, columns = shape or SHAPE
-    made = grid(land, strips, None if accuracy else (rows, columns // 2 + 1), accuracy)
-    return Separatrix(tuple(_sheets(land, made, strips)), _what_it_parts(land))
+    half = None if accuracy else (rows, columns // 2 + 1)
+    made = _by_kernel(land, strips, half, accuracy) if _goes_fast(land, fast) else _by_arrays(land, strips, half, accuracy)
+    return Separatrix(tuple(_sheets(land, strips, *made)), _what_it_parts(land))
+
+
+def _goes_fast(land, fast) -> bool:
+    # never on its own: the same case must give the same bytes, whatever was loaded before
+    if not fast:
+        return False
+    from .fast_sheets import serves
+    return wanted(1, True, False, 1, 1) and serves(land)
 
 
 def _check(reach, shape, accuracy):
@@ -62,27 +74,40 @@ def _check(reach, shape, accuracy):
         raise InputError(f"accuracy: expected a distance above 0 in the unit of the sheet's points, got {accuracy}")
 
 
-def _sheets(land, made: Grid, strips):
-    """A Sheet of every strip in which loops close; the second half of a loop mirrors the first, with W of the other sign."""
+def _by_kernel(land, strips, shape, accuracy):
+    from .fast_sheets import sheets_by_kernel
+    points, residual, *places, found, cut, error = sheets_by_kernel(land, strips, shape, accuracy)
+    return points, residual, *(np.moveaxis(place, -1, 0) for place in places), found, cut, error
+
+
+def _by_arrays(land, strips, shape, accuracy):
+    """(points (k, n, m, 3), residual (k, n, m), places (2, k, n) of saddles and of centres, found (k, n), cut, error (k,)): the
+    second half of a loop mirrors the first, with W of the other sign."""
+    made = grid(land, strips, shape, accuracy)
     loops, mirror, axis = made.loops, slice(-2, None, -1), land.reduction.axis
     points = np.concatenate([loops.points, loops.points[:, :, mirror]], axis=2)
     back = points[:, :, loops.w.shape[2]:, axis]
     back *= -1
     back += 2 * land.reduction.component_i(0.0)
     off = residual(land, loops)
-    off = np.concatenate([off, off[:, :, mirror]], axis=2)
-    still = np.zeros(loops.end.shape)
-    saddle, centre = (land.components(place, still) for place in (loops.saddle, loops.centre))
-    invariant = land.invariant(loops.saddle)
+    return (points, np.concatenate([off, off[:, :, mirror]], axis=2), loops.saddle, loops.centre, loops.found, made.cut,
+            made.error)
+
+
+def _sheets(land, strips, points, off, saddles, centres, found, cut, error):
+    """A Sheet of every strip in which loops close."""
+    still = np.zeros(found.shape)
+    saddle, centre = (land.components(place, still) for place in (saddles, centres))
+    invariant = land.invariant(saddles)
     words = [word for _, word in sides(land.e, land.sense)]
     per = len(words)
     for first in range(0, len(strips), per):
-        kept = [strip for strip in range(first, first + per) if np.count_nonzero(loops.found[strip]) > 1]
+        kept = [strip for strip in range(first, first + per) if np.count_nonzero(found[strip]) > 1]
         for strip in kept:
-            rows = loops.found[strip] if not loops.found[strip].all() else slice(None)
+            rows = found[strip] if not found[strip].all() else slice(None)
             name = f"sheet {first // per + 1}{words[strip - first] if len(kept) > 1 else ''}"
             yield Sheet(name, points[strip, rows], off[strip, rows], saddle[strip, rows], centre[strip, rows],
-                        invariant[strip, rows], float(made.error[strip]), made.cut)
+                        invariant[strip, rows], float(error[strip]), cut)
 
 
 def _what_it_parts(land) -> str:

@@ -19,6 +19,7 @@ FLOOR = 0.3             # of the mean density: no gap where a sheet happens to b
 MIXTURES = np.array([1.0, 1.5, 2.0])  # columns against rows, relative to where both alone stray equally
 STRAIGHT = 1e-6         # of a sheet's size: a lesser sag between neighbours of the trial grid does not matter
 SHORT = 0.9995          # how far rows go towards a plane Q = 0
+DENSE = 129             # steps along a branch that trial rows are chosen from
 UNIFORM = 0.2           # of the fold's radius: up to there trial rows are uniform
 SAFETY, ROUNDS, MOST = 1.03, 12, 1025  # rows and columns grow by that much more than asked, so often, up to there
 
@@ -54,8 +55,7 @@ def grid(land, strips, shape=None, accuracy=None) -> Grid:
         worst = strays[best].max()
         if accuracy is None or worst <= accuracy or min(shape) == MOST:
             break
-        grow = max(SAFETY * np.sqrt(worst / accuracy), 1.1)
-        shape = tuple(min(int(np.ceil((number - 1) * grow)) + 1, MOST) for number in shape)
+        shape = finer(shape, worst, accuracy)
     return Grid(made, (1, -1)[best], strays[best])
 
 
@@ -65,9 +65,19 @@ def _numbers(across, twist, down, columns, rows, accuracy):
     mix = MIXTURES[:, None, None, None, None]
     cut = np.array([1, -1])[:, None, None, None]
     size = np.sqrt(_stray(across / mix**2, twist / mix, down, cut) / accuracy)  # (mixtures, cuts, k)
-    columns, rows = (size * columns * MIXTURES[:, None, None]).max(axis=-1), (size * rows).max(axis=-1)
+    return fewest_cells((size * rows).max(axis=-1), (size * columns * MIXTURES[:, None, None]).max(axis=-1))
+
+
+def fewest_cells(rows, columns):
+    """(rows, columns of a half) of the grid with the fewest cells among steps (mixtures, cuts) of both."""
     best = np.unravel_index(np.argmin(columns * rows), rows.shape)
-    return tuple(int(np.clip(np.ceil(SAFETY * number[best]) + 1, 3, MOST)) for number in (rows, columns))
+    return tuple(min(max(int(np.ceil(SAFETY * number[best])) + 1, 3), MOST) for number in (rows, columns))
+
+
+def finer(shape, worst, accuracy):
+    """The next shape to try where facets stray by `worst`."""
+    grow = max(SAFETY * np.sqrt(worst / accuracy), 1.1)
+    return tuple(min(int(np.ceil((number - 1) * grow)) + 1, MOST) for number in shape)
 
 
 def _measured_loops(land, strips, s, u):
@@ -136,7 +146,7 @@ def _even_steps(length, at, number):
     return out
 
 
-def _trial_rows(land, branch, dense=129):
+def _trial_rows(land, branch, dense=DENSE):
     """(TRIAL,) parameters s of rows: the saddle moves on by equal steps near the fold and by equal factors far out, where
     the sheet only grows and hardly bends."""
     s = 0.5 - 0.5 * np.cos(np.linspace(0, np.pi, dense))
