@@ -14,7 +14,8 @@ from . import faults, runs
 
 # subject -> (modules, test files that belong to it)
 SUBJECTS = {
-    "equilibria": (("equilibria", "isolated_equilibria", "equilibrium_conics", "equilibrium_curve", "torque_free_equilibria", "pencil"),
+    "equilibria": (("equilibria", "isolated_equilibria", "equilibrium_conics", "equilibrium_curve",
+                     "torque_free_equilibria", "pencil"),
                    ("test_equilibria", "test_stability", "test_certificate", "test_small_faults")),
     "stability": (("stability", "eigenvalues"), ("test_stability", "test_equilibria", "test_certificate", "test_small_faults")),
     "reduction": (("reduction",), ("test_fate", "test_one_state", "test_extremes", "test_certificate", "test_small_faults")),
@@ -27,7 +28,8 @@ def main(arguments=None):
     parser.add_argument("subjects", nargs="*", metavar="SUBJECT", help=", ".join(SUBJECTS))
     parser.add_argument("--sample", type=int, default=60, help="faults drawn per subject (0: all)")
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--slowest", type=float, default=1.0, help="tests that take longer (s) are left out: the score is a lower bound")
+    parser.add_argument("--slowest", type=float, default=1.0,
+                        help="tests that take longer (s) are left out: the score is a lower bound")
     parser.add_argument("--json", help="write every fault and what became of it")
     parser.add_argument("--again", help="a file of --json: only the faults that survived there")
     asked = parser.parse_args(arguments)
@@ -36,7 +38,9 @@ def main(arguments=None):
         modules, files = SUBJECTS[subject]
         chosen = faults.drawn(modules, asked.sample, asked.seed)
         if asked.again:
-            left = {(r["module"], r["operator"], r["occurrence"]) for r in json.load(open(asked.again)) if r["outcome"] == "survived"}
+            with open(asked.again, encoding="utf-8") as file:
+                before = json.load(file)
+            left = {(r["module"], r["operator"], r["occurrence"]) for r in before if r["outcome"] == "survived"}
             chosen = [f for f in chosen if (f.module, f.operator, f.occurrence) in left]
         rows += judged(subject, chosen, files, asked.slowest)
         if asked.json:
@@ -57,7 +61,8 @@ def judged(subject, chosen, files, slowest):
         if outcome == "survived":
             print(f"  survived {fault.module}:{fault.line}\n    - {fault.was}\n    + {fault.now}", flush=True)
     killed = sum(r["outcome"] != "survived" for r in rows)
-    print(f"{subject}: {killed} of {len(rows)} seen ({killed / max(len(rows), 1):.1%}), {time.time() - start:.0f} s", flush=True)
+    print(f"{subject}: {killed} of {len(rows)} seen ({killed / max(len(rows), 1):.1%}), {time.time() - start:.0f} s",
+          flush=True)
     return rows
 
 
