@@ -13,10 +13,13 @@ from __future__ import annotations
 import math
 from functools import lru_cache
 
+from ..errors import InputError
 from .effective import effective
 from .reduction import reduce
+from .passages import POINTS
 from .relief import TURN
 from .repeating_motion import ROTATION_SAMPLES, SAMPLES, Around, Between, BySeries, Rotation, by_samples
+from .spin_up_motion import SpinUp
 
 LOST = 24.0  # terms of the force or the energy against what is left of them: roundings that count in the answer
 STEPS = 40  # of the search to one side
@@ -134,7 +137,7 @@ def ordinary(k: Constants, state, nodes=None, backwards=False):
     """The motion from a state (three floats), as of `reduced_motion`; None where doubles may lose digits."""
     try:
         return _ordinary(k, state, nodes, backwards)
-    except ArithmeticError:  # beyond the range of doubles
+    except (ArithmeticError, InputError):  # beyond the range of doubles, or of panels for them
         return None
 
 
@@ -162,6 +165,8 @@ def _round(here, ahead, nodes, backwards):
     _, least, terms = ahead
     if not terms <= LOST * least:
         return None
+    if here.k.mu and here.w > 0 and not backwards:
+        return SpinUp.from_here(here, here.w, TURN * here.k.mu, nodes or POINTS)
     if not here.k.mu:
         return by_samples(Rotation, Around(here, math.copysign(1.0, here.w)), here.w, nodes, ROTATION_SAMPLES[:2])
     return None

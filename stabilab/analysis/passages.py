@@ -16,7 +16,7 @@ from ..errors import InputError
 from .relief import EPS, TURN, Arrays, Plain
 
 POINTS = 16
-FIXED = TURN / 8  # length of panels that are not cut further
+FIXED = TURN / 8  # longest panel
 SETTLED = 4e-15  # last coefficients against the first: some ten times what rounding leaves of them
 DEEPEST = 80  # halvings of a passage; 1e-12 from a separatrix takes 20
 CROWD = 200  # panels of one size that are still cut: then it is rounding that keeps them from settling
@@ -139,12 +139,19 @@ def turning_offset(spot, sense, reach=None) -> float | None:
 
 
 @lru_cache(maxsize=32)
-def _rule(points):
-    """(nodes, matrix to the Chebyshev coefficients of the integrand, matrix to those of its integral from -1)."""
+def rule(points):
+    """(nodes and weights of Gauss, matrix to the Chebyshev coefficients of the integrand, matrix to those of its integral from
+    -1); both matrices act on rows from the right."""
     cheb = np.polynomial.chebyshev
-    nodes, _ = np.polynomial.legendre.leggauss(points)
+    nodes, weights = np.polynomial.legendre.leggauss(points)
     forward = np.linalg.inv(cheb.chebvander(nodes, points - 1))
-    return nodes, forward, cheb.chebint(forward, lbnd=-1)
+    return nodes, weights, forward.T.copy(), cheb.chebint(forward, lbnd=-1).T.copy()
+
+
+def _edges(cuts):
+    """The cuts and what divides the ways between them into parts no longer than `FIXED`."""
+    parts = [np.linspace(a, b, math.ceil((b - a) / FIXED) + 1)[:-1] for a, b in zip(cuts, cuts[1:])]
+    return np.concatenate([*parts, cuts[-1:]])
 
 
 def clenshaw(c, x):
@@ -173,53 +180,49 @@ def inverted(integral, rate, half, wanted, f):
 class Panels:
     """Time from the start of a chain of passages; with fewer than `POINTS` points a panel none is cut further.
 
-    evaluations: of dt/dx; starts: times at the panels' beginnings;
-    ends_of: the panels of each passage; nodes, weights: of the whole chain, passage by passage."""
+    evaluations: of dt/dx; starts: times at the panels' beginnings; owner: the passage of each; low, half: their ends and half
+    lengths; values (n, points): dt/dx at the nodes; rates, integrals: Chebyshev coefficients of dt/dx and of t."""
 
     def __init__(self, chain, points=POINTS):
         self.chain, self.points, self.evaluations = chain, points, 0
         found = [self._cut(passage, points >= POINTS) for passage in chain]
         self.owner = [n for n, part in enumerate(found) for _ in part[0]]
-        self.low, self.half, rate, integral = (np.concatenate([part[k] for part in found]) for k in range(4))
-        self.rates, self.integrals = rate, integral
-        self.lengths = self.half * integral.sum(axis=1)
-        ends = np.cumsum(self.lengths)
+        columns = found[0] if len(found) == 1 else [np.concatenate(column) for column in zip(*found)]
+        self.low, self.half, self.values, self.rates = columns
+        self.integrals = self.values @ rule(points)[3]
+        ends = np.cumsum(self.half * self.integrals.sum(axis=1))
         self.total = float(ends[-1])
         self.starts = np.concatenate([[0.0], ends[:-1]])
         self._starts = self.starts.tolist()
 
     def _cut(self, passage, adaptive):
-        """(low ends, half lengths, coefficients of dt/dx (n, points), of t (n, points + 1)) of a passage's panels."""
-        nodes, forward, integral = _rule(self.points)
-        live = list(zip(passage.cuts, passage.cuts[1:]))
-        if not adaptive:
-            live = [(a + (b - a) * m / n, a + (b - a) * (m + 1) / n) for a, b in live
-                    for n in [math.ceil((b - a) / FIXED)] for m in range(n)]
-        done = []
+        """(low ends, half lengths, dt/dx (n, points), its coefficients (n, points)) of a passage's panels, in order."""
+        nodes, _, forward, _ = rule(self.points)
+        edges = _edges(passage.cuts)
+        low, high, done = edges[:-1], edges[1:], []
         for depth in range(DEEPEST + 1):
-            ends = np.array(live)
-            low, half = ends[:, 0], 0.5 * (ends[:, 1] - ends[:, 0])
-            x = 0.5 * (ends[:, 0] + ends[:, 1])[:, None] + half[:, None] * nodes
+            half, middle = 0.5 * (high - low), 0.5 * (low + high)
+            x = middle[:, None] + half[:, None] * nodes
             with np.errstate(all="ignore"):
                 values = passage.rate(x.ravel()).reshape(x.shape)
             self.evaluations += x.size
             if not np.isfinite(values).all():
                 raise InputError("the reduced form of this motion takes more digits than doubles have")
-            rate = values @ forward.T
+            rate = values @ forward
             good = np.abs(rate[:, -2:]).max(axis=1) <= SETTLED * np.abs(rate[:, 0]) if adaptive else np.ones(len(low), bool)
-            if (depth == DEEPEST or len(live) > CROWD) and not good.all():
-                raise InputError("the reduced form of this motion takes more panels than it is set up for")
-            done += [(low[n], half[n], rate[n], values[n] @ integral.T) for n in np.nonzero(good)[0]]
-            live = [(a, b) for n in np.nonzero(~good)[0] for a, b in self._halves(*live[n])]
-            if not live:
+            if good.all():
+                done.append((low, half, values, rate))
                 break
-        done.sort(key=lambda panel: panel[0])
-        return tuple(np.array(column) for column in zip(*done))
-
-    @staticmethod
-    def _halves(a, b):
-        middle = 0.5 * (a + b)
-        return (a, middle), (middle, b)
+            if depth == DEEPEST or len(low) > CROWD:
+                raise InputError("the reduced form of this motion takes more panels than it is set up for")
+            done.append((low[good], half[good], values[good], rate[good]))
+            low, middle, high = low[~good], middle[~good], high[~good]
+            low, high = np.concatenate([low, middle]), np.concatenate([middle, high])
+        if len(done) == 1:
+            return done[0]
+        columns = [np.concatenate(column) for column in zip(*done)]
+        order = np.argsort(columns[0])
+        return [column[order] for column in columns]
 
     def time_at(self, number, x) -> float:
         """Time at coordinate x of passage `number`."""

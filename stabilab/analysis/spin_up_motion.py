@@ -14,12 +14,12 @@ import math
 from bisect import bisect_right
 from dataclasses import replace
 from fractions import Fraction
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 
 from ..errors import InputError
-from .passages import POINTS, Panels, Turn, Turning, _rule, clenshaw, inverted, turning_offset
+from .passages import POINTS, Panels, Passing, Turn, Turning, clenshaw, inverted, rule, turning_offset
 from .relief import TURN, Arrays, Plain
 from .repeating_motion import Motion
 
@@ -27,6 +27,10 @@ SMOOTH = 12.0  # kinetic energy in units of a turn's work: beyond it `TERMS` of 
 TERMS = 9
 FROM_REST = 64  # turns behind a state that moves ahead, up to which its motion is told from its rest
 MOST_TURNS = 2.0**50
+CHUNK = 256
+NEARBY = 6  # steps to the right turn from where the closed form puts it
+FLAT, FEW = 4.0, 20  # kinetic energies of a turn that differ by less than 2 FLAT turns' work: FEW points are right to 1e-17
+BEFORE = "this motion is told from its state on: ask reduced_motion for it with backwards=True"
 
 
 @lru_cache(maxsize=1)
@@ -63,13 +67,16 @@ class SpinUp(Motion):
     period = math.inf
 
     def __init__(self, relief, points=POINTS, backwards=False):
-        self.relief, self.work = relief, relief.turn
-        self.round = Turn(relief)
+        self.w, self.work, self.round = relief.w, relief.turn, Turn(relief)
         number, y = self.round.where()
         rest = max(relief.drops, key=lambda drop: drop[0].at - TURN * drop[1])
         self.from_rest = relief.w < 0 or backwards or rest[1] <= FROM_REST
-        first = self._rest_passage(*rest) if self.from_rest else (self.round.passing(number, y), number)
-        self._run_up(*first, points)
+        first, self.first = self._rest_passage(*rest) if self.from_rest else (self.round.passing(number, y), number)
+        count = len(self.round.hills)
+        self.turn = self.first // count + 1
+        self.early = Panels([first, *map(self.round.passing, range(self.first + 1, self.turn * count))], points)
+        self.run_up = self.early.total
+        self._whole_turn([self.round.passing(self.turn * count + h) for h in range(count)], points)
         self.start = self._time_of(number, y) if self.from_rest else 0.0
         self.sense = -1.0 if relief.w < 0 else 1.0
         self.evaluations = self.early.evaluations + self.late.evaluations
@@ -86,17 +93,12 @@ class SpinUp(Motion):
             a = turning_offset(below, 1, self.round.sides[h][1])
         return Turning(below, a, 1, self.round.sides[h][1], spot.at - drop * TURN), h - drop * len(self.round.hills)
 
-    def _run_up(self, first, number, points):
-        """Panels to the end of the first turn, and those of the turn after, which serve all that follow: they are smoother."""
-        count, self.first = len(self.round.hills), number
-        self.turn = number // count + 1
-        self.early = Panels([first, *map(self.round.passing, range(number + 1, self.turn * count))], points)
-        self.late = late = Panels([self.round.passing(self.turn * count + h) for h in range(count)], points)
-        nodes, weights = np.polynomial.legendre.leggauss(points)
-        x, owner = late.low[:, None] + late.half[:, None] * (1 + nodes), np.array(late.owner)
-        self.weights = (late.half[:, None] * weights).ravel()
-        self.a = np.concatenate([p.energy(x[owner == n].ravel(), Arrays) for n, p in enumerate(late.chain)]) / self.work
+    def _whole_turn(self, chain, points):
+        """Panels of the first whole turn: they serve all that follow, which are smoother."""
+        self.late = late = Panels(chain, points)
+        self.weights = (late.half[:, None] * rule(points)[1]).ravel()
         self.unit = 1 / math.sqrt(2 * self.work)
+        self.a = (self.unit / late.values.ravel()) ** 2
         self.steep = max(math.ceil(SMOOTH - float(self.a.min())), 0)
         one_by_one = self.unit / np.sqrt(self.a + np.arange(self.steep)[:, None]) @ self.weights
         self.table = np.concatenate([[0.0], np.cumsum(one_by_one)]).tolist()
@@ -107,15 +109,25 @@ class SpinUp(Motion):
         """Time from the start of the chain to offset y of passage `number`."""
         if number < self.turn * len(self.round.hills):
             n = number - self.first
-            return self.early.time_at(n, self.early.chain[n].x_of(y, self.relief.w))
+            return self.early.time_at(n, self.early.chain[n].x_of(y, self.w))
         turns, h = divmod(number - self.turn * len(self.round.hills), len(self.round.hills))
-        integral, rate = self._panels(self._rates(turns))
+        integral = self._rates(turns) @ rule(self.late.points)[3]
         mine = [n for n, owner in enumerate(self.late.owner) if owner == h]
         n = mine[max(bisect_right(self.late.low[mine].tolist(), y) - 1, 0)]
         lengths = self.late.half * integral.sum(axis=1)
         xi = (y - self.late.low[n]) / self.late.half[n] - 1
         within = lengths[:n].sum() + self.late.half[n] * clenshaw(integral[n].tolist(), xi)
-        return self.early.total + self._turns_take(turns) + float(within)
+        return self.run_up + self._turns_take(turns) + float(within)
+
+    @classmethod
+    def from_here(cls, spot, w, work, points=POINTS):
+        """The spin-up of a state with rate w > 0 that no hill slows down much, told from the state on, its `spot`."""
+        motion = cls.__new__(cls)
+        motion.w, motion.work, motion.from_rest, motion.sense = w, work, False, 1.0
+        motion.early, motion.run_up, motion.start = None, 0.0, 0.0
+        motion._whole_turn([Passing(spot, spot.kinetic, 0.0, TURN)], points)
+        motion.evaluations = motion.late.evaluations
+        return motion
 
     # --- many turns on
     def _turns_take(self, turns):
@@ -127,10 +139,6 @@ class SpinUp(Motion):
         """dt/dx at the nodes (panels, points)."""
         return (self.unit / np.sqrt(self.a + turns)).reshape(-1, self.late.points)
 
-    def _panels(self, rates):
-        _, forward, integral = _rule(self.late.points)
-        return rates @ integral.T, rates @ forward.T
-
     def _turns(self, left) -> int:
         """About how many turns are done in a time."""
         if left < self.table[-1]:
@@ -139,7 +147,7 @@ class SpinUp(Motion):
         return max(math.floor(root * root + 0.5 - self.level), self.steep)
 
     def _late(self, left):
-        """(spot, offset, W, way to the spot) at a time after the run-up."""
+        """(spot, offset, W) at a time after the run-up."""
         turns, moved = self._turns(left), 0
         while True:
             within = left - self._turns_take(turns) if turns else left
@@ -153,29 +161,93 @@ class SpinUp(Motion):
                 break
         within = min(max(within, 0.0), ends[-1])
         n = min(bisect_right(ends, within), len(ends) - 1)
-        _, forward, integral = _rule(self.late.points)
+        _, _, forward, integral = rule(self.late.points)
         half = float(self.late.half[n])
         within -= ends[n - 1] if n else 0.0
-        xi = inverted((integral @ rates[n]).tolist(), (forward @ rates[n]).tolist(), half, within, Plain)
+        xi = inverted((rates[n] @ integral).tolist(), (rates[n] @ forward).tolist(), half, within, Plain)
         passage = self.late.chain[self.late.owner[n]]
         y = float(self.late.low[n]) + half * (1 + xi)
         energy = passage.energy(y, Plain) + turns * self.work
-        return passage.spot, y, math.sqrt(2 * energy), passage.at_zero + TURN * turns
+        return passage.spot, y, math.sqrt(2 * energy)
 
     def at(self, t):
         time = self.start + self.sense * t
         sign = self.sense if time >= 0 else -self.sense
-        spot, y, w = (self.early.at(abs(time)) if abs(time) < self.early.total
-                      else self._late(abs(time) - self.early.total)[:3])
+        if time < 0 and not self.from_rest:
+            raise InputError(BEFORE)
+        spot, y, w = (self.early.at(abs(time)) if self.early and abs(time) < self.early.total
+                      else self._late(abs(time) - self.run_up))
         return spot.state(y, w * sign, Plain)
 
     def follow(self, times):
         passed = self.start + self.sense * times
         signs, passed = np.where(passed >= 0, self.sense, -self.sense), np.abs(passed)
-        soon, out, way = passed < self.early.total, np.empty((len(times), 3)), np.empty(len(times))
+        if not self.from_rest and (times < 0).any():
+            raise InputError(BEFORE)
+        soon, out, way = passed < self.run_up, np.empty((len(times), 3)), np.empty(len(times))
         if soon.any():
             out[soon], way[soon] = self.early.follow(passed[soon], signs[soon])
-        for row in np.nonzero(~soon)[0]:
-            spot, y, w, at_zero = self._late(float(passed[row]) - self.early.total)
-            out[row], way[row] = spot.state(y, w * signs[row], Plain), at_zero + y
+        rows = np.nonzero(~soon)[0]
+        for first in range(0, len(rows), CHUNK):
+            part = rows[first:first + CHUNK]
+            out[part], way[part] = self._follow_late(passed[part] - self.run_up, signs[part])
         return out, way
+
+    def _follow_late(self, left, signs):
+        """(states (n, 3) at times after the run-up, offsets of their places (n,))."""
+        late, points = self.late, self.late.points
+        turns, rates, ends, within = self._whole_turns(left)
+        rows = np.arange(len(left))
+        n = np.minimum((ends <= within[:, None]).sum(axis=1), ends.shape[1] - 1)
+        within = within - np.where(n > 0, ends[rows, n - 1], 0.0)
+        mine, (_, _, forward, integral) = rates.reshape(len(left), -1, points)[rows, n], rule(points)
+        half = late.half[n]
+        xi = inverted((mine @ integral).T, (mine @ forward).T, half, within, Arrays)
+        x, owner = late.low[n] + half * (1 + xi), np.array(late.owner)[n]
+        out, way = np.empty((len(left), 3)), np.empty(len(left))
+        for number, passage in enumerate(late.chain):
+            here = owner == number
+            if here.any():
+                w = np.sqrt(2 * (passage.energy(x[here], Arrays) + turns[here] * self.work))
+                out[here] = np.array(passage.spot.state(x[here], w * signs[here], Arrays)).T
+                way[here] = passage.at_zero + x[here] + TURN * turns[here]
+        return out, way
+
+    def _whole_turns(self, left):
+        """(turns done at each time, dt/dx at the nodes of the turn after, times at its panels' ends, time within it)."""
+        turns = np.array([self._turns(t) for t in left.tolist()], float)
+        rows, moved = np.arange(len(left)), np.zeros(len(left))
+        for _ in range(NEARBY):  # turns too short for the rounding of the time are not told apart
+            now = turns[rows]
+            step = np.where((left[rows] < self._many_turns_take(now)) & (now > 0), -1.0, 0.0)
+            step = np.where((step == 0) & (left[rows] >= self._many_turns_take(now + 1)), 1.0, step)
+            step[step * moved[rows] < 0] = 0.0  # to and fro between two turns is rounding
+            turns[rows] += step
+            moved[rows] = step
+            rows = rows[step != 0]
+            if not len(rows):
+                break
+        rates = self.unit / np.sqrt(self.a + turns[:, None])
+        ends = np.cumsum((rates * self.weights).reshape(len(left), -1, self.late.points).sum(axis=2), axis=1)
+        return turns, rates, ends, np.clip(left - self._many_turns_take(turns), 0.0, ends[:, -1])
+
+    def _many_turns_take(self, turns):
+        """Times of whole turns (n,)."""
+        done = np.array(self.table)[np.minimum(turns, self.steep).astype(int)]
+        many = turns > self.steep
+        if many.any():
+            a, weights = self._few
+            done[many] += self.unit * (partial(a + turns[many][:, None]) @ weights - self.passed)
+        return done
+
+    @cached_property
+    def _few(self):
+        """(nodes, weights) of the mean over a turn, as few as functions take that are analytic from a = -`SMOOTH` on."""
+        middle, reach = 0.5 * (self.a.max() + self.a.min()), 0.5 * (self.a.max() - self.a.min())
+        if not 0 < reach < FLAT:
+            return self.a, self.weights
+        cheb = np.polynomial.chebyshev
+        nodes = cheb.chebpts1(FEW)
+        moments = self.weights @ cheb.chebvander((self.a - middle) / reach, FEW - 1)
+        weights = moments @ (cheb.chebvander(nodes, FEW - 1).T * np.where(np.arange(FEW), 2 / FEW, 1 / FEW)[:, None])
+        return middle + reach * nodes, weights * (math.fsum(self.weights) / math.fsum(weights))  # their sum to the last digit
