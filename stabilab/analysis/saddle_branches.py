@@ -5,6 +5,7 @@ In plain floats; a branch gives its places for floats and arrays alike.
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import NamedTuple
 
 from .double_balls import real_roots_of
@@ -49,12 +50,13 @@ def limit_of(conic, reach) -> float:
     return max(base, default=1.0) * reach * reach
 
 
-def saddle_branches(conic, pot, limit) -> list[Branch]:
-    """Every branch of saddles of a conic of equilibria, as far out as |Q| = limit."""
+@lru_cache(maxsize=64)
+def saddle_branches(conic, pot, limit) -> tuple[Branch, ...]:
+    """Every branch of saddles of a conic of equilibria, as far out as |Q| = limit; kept for the next surface of a scene."""
     found = [branch for piece in conic.pieces if piece.barrier for branch in _on_piece(conic, piece, limit)]
     for line in conic.lines:
         found += [Branch(conic, line, start, end, OPEN) for start, end in _on_line(conic, pot, line, limit)]
-    return found
+    return tuple(found)
 
 
 def as_place(e, x, z):
@@ -74,7 +76,7 @@ def foot(conic, line) -> float:
 
 def _on_piece(conic, piece, limit):
     """Branches of a piece inside the limit on |Q|, starting at a fold, cut where Q = 0 (a plane)."""
-    ends = [h for q in (limit, -limit) for h in _meet(conic, piece, q)]
+    ends = [h for q in ((limit,) if conic.e < 0 else (limit, -limit)) for h in _meet(conic, piece, q)]
     inner = piece.inner or min(ends, default=None)
     outer = piece.outer if math.isfinite(piece.outer) else max(ends, default=None)
     if inner is None or outer is None or not inner < outer:

@@ -38,11 +38,17 @@ def triangulate(sheet) -> Mesh:
 
 def _coincide(points, kept) -> bool:
     """Whether neighbours of a grid, or a point and its mirror image, coincide elsewhere than at a tip and at saddles."""
-    rest, same = points[kept], lambda a, b: bool((a == b).all(axis=-1).any())
+    rest = points[kept]
     half = points.shape[1] // 2
     there = points[kept[0]]
-    return (same(rest[1:], rest[:-1]) or same(rest[:, 1:], rest[:, :-1])
-            or same(there[:, 1:half], there[:, -2:-half - 1:-1]))
+    return (_same(rest[1:], rest[:-1]) or _same(rest[:, 1:], rest[:, :-1])
+            or _same(there[:, 1:half], there[:, -2:-half - 1:-1]))
+
+
+def _same(a, b) -> bool:
+    """Whether any point of a (..., 3) is that of b in its place."""
+    equal = a[..., 0] == b[..., 0]
+    return bool(equal.any() and (equal & (a[..., 1] == b[..., 1]) & (a[..., 2] == b[..., 2])).any())
 
 
 def _merged(sheet, points, residual) -> Mesh:
