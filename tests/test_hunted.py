@@ -48,6 +48,14 @@ def test_next_to_the_centre_of_the_hyperbola_the_shift_costs_no_digits(off):
     assert float(stabilab.period(scene, np.array(state))) == pytest.approx(float(energy.period(problem, state)), rel=1e-11)
 
 
+def test_the_compiled_kernel_serves_circles_without_a_fold():
+    """Moment along both equal axes, D1 = D3, torque about the other: an empty tuple of folds, which numba refused to loop over."""
+    pytest.importorskip("numba")
+    scene, problem = physical((31.654399378285476, 0.063245553203366, 31.654399378285476), (-100, 0, -100), (0, -1000, 0))
+    state = exactly("0x1.96c946803cb76p+1", "-0x1.9c092949740b8p-7", "0x1.952d3d56f3435p+1")
+    assert_extremes(stabilab.extremes(scene, np.array(state), fast=True), energy.extremes(problem, state), 1e-11)
+
+
 # Places within rounding of an equilibrium: whether a barrier stands just ahead or just behind, and how far away the bottom of
 # the well is, was taken from an offset of which no digit is known.
 ON_TOP = {

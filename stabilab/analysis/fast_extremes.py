@@ -88,5 +88,6 @@ def run_kernel(orbits, land, states, wanted, boxes, periods):
     """Call `circle_kernel.orbits`, compiled or plain; (n,) bits of what it left open."""
     numbers, axes, pieces, folds = kernel_input(land)
     left_open = np.zeros(len(states), np.uint8)
+    folds = np.array(folds, float)  # numba compiles no loop over an empty tuple: a scene without folds
     orbits(states, numbers, axes, pieces, folds, wanted, NODES, boxes, periods, left_open)
     return left_open
