@@ -1,12 +1,14 @@
-"""The state at any time by quadrature: against Taylor series in many digits, Hurwitz's zeta function and the stepping methods."""
+"""The state at any time by quadrature: against Taylor series in many digits, zeta functions and the stepping methods."""
 import math
 
 import numpy as np
 import pytest
 
 from stabilab import Body, ConstantTorque, Gyrostat, Scene, ScaledGyrostat, fate, trajectory
+from stabilab.analysis.ordinary_motion import Here, constants, ordinary
 from stabilab.analysis.precision_reference import reference, relative_errors
-from stabilab.analysis.reduced_motion import reduced_motion
+from stabilab.analysis.reduced_motion import _motion, reduced_motion
+from stabilab.analysis.relief import Arrays, relief
 from stabilab.analysis.repeating_motion import ByPanels, BySeries
 from stabilab.analysis.spin_up_motion import SpinUp
 from stabilab.analysis.tabulated_motion import Tabulated, tabulated
@@ -35,7 +37,8 @@ def turning_speed(x1, x2):
 # -- motions that repeat
 
 
-@pytest.mark.parametrize("scene, state", [(MINOR, HELD), (MINOR, (4.5, -4.9, -1.4)), (MIDDLE, (1.0, 2.0, 0.5)), (MIDDLE, (-1.0, -2.0, 5.0)),
+@pytest.mark.parametrize("scene, state", [(MINOR, HELD), (MINOR, (4.5, -4.9, -1.4)), (MIDDLE, (1.0, 2.0, 0.5)),
+                                          (MIDDLE, (-1.0, -2.0, 5.0)),
                                           (Scene(Body((2000, 1500, 1000)), Gyrostat((100, 0, 0))), (1.0, 2.0, -1.0)),
                                           (Scene(Body((3, 2, "1.5"))), (1.0, 0.2, 2.5))])
 def test_late_state_of_a_repeating_motion_errs_by_its_period_alone(scene, state):
@@ -52,7 +55,8 @@ def test_scales_and_signs_of_the_torque_keep_the_digits(scale, sign):
         assert error_of(scene, state, np.array([0.3, 3.0]) / scale).max() < 2e-15
 
 
-@pytest.mark.parametrize("distance", [1e-3, 1e-12, pytest.param(1e-6, marks=pytest.mark.slow), pytest.param(1e-9, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("distance", [1e-3, 1e-12, pytest.param(1e-6, marks=pytest.mark.slow),
+                                      pytest.param(1e-9, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("side", [1, -1])
 def test_state_next_to_the_separatrix_keeps_its_digits(distance, side):
     state = (2.75, 1.125, turning_speed(2.75, 1.125) * (1 - side * distance))
@@ -62,7 +66,7 @@ def test_state_next_to_the_separatrix_keeps_its_digits(distance, side):
 
 
 def test_energies_subtracted_lose_the_period_that_divided_differences_keep():
-    """The hard case: 1e-9 from the separatrix the period by the textbook formula, energies subtracted, beside the quadrature."""
+    """The hard case: 1e-9 from the separatrix the period by the textbook formula, energies subtracted, and the quadrature."""
     state = (2.75, 1.125, turning_speed(2.75, 1.125) * (1 - 1e-9))
     motion = reduced_motion(MINOR, state)
     time, rest, _ = reference(MINOR, state, np.array([1.0]), orbit=True).period
@@ -197,6 +201,56 @@ def test_late_energy_and_circle_of_a_spin_up_hold_to_rounding():
         assert max(trajectory(MINOR, SPINNING, [time], "reduced").invariant_drift.values()) < 1e-15
 
 
+def test_spin_up_told_from_its_state_declines_times_before_it():
+    motion = reduced_motion(MINOR, SPINNING)
+    for ask in (motion.at, lambda t: motion.states([0.0, t])):
+        with pytest.raises(InputError, match="backwards=True"):
+            ask(-0.5)
+
+
+# -- plain doubles and balls
+
+
+def test_plain_doubles_and_balls_tell_the_same_motion():
+    """States that doubles answer, worked out in balls too: equilibria, heights and other coordinates, not the state's own."""
+    kinds, times = set(), np.linspace(0.0, 5.0, 7)
+    for scene, state in [(MINOR, HELD), (MINOR, SPINNING), *random_scenes(60, 7)]:
+        reduction, plain = constants(scene)
+        quick = ordinary(plain, state)
+        if quick is None:
+            continue
+        careful = _motion(relief(reduction, state), state, None, False)
+        exact = careful.states(times)
+        assert type(quick) is type(careful)
+        if math.isfinite(quick.period):
+            assert abs(quick.period - careful.period) <= 8 * EPS * quick.period
+        assert np.abs(quick.states(times) - exact).max() <= 64 * EPS * (1 + np.abs(exact).max())
+        kinds.add(type(quick))
+    assert kinds >= {BySeries, SpinUp}
+
+
+def test_states_next_to_a_separatrix_are_left_to_balls():
+    plain = constants(MINOR)[1]
+    assert ordinary(plain, HELD) is not None
+    for share in (1e-3, 1e-8, 1e-15, -1e-15, -1e-8, -1e-3):
+        assert ordinary(plain, (2.75, 1.125, turning_speed(2.75, 1.125) * (1 - share))) is None
+
+
+def test_search_for_turning_points_skips_none():
+    """Against a fine grid of energies, many wells and hills wide."""
+    plain, rng, met = constants(MINOR)[1], np.random.default_rng(20261123), 0
+    for state in rng.uniform([-5, -5, -6], [5, 5, 6], (60, 3)).tolist():
+        here = Here(plain, state)
+        grid = np.linspace(0.0, 2 * math.pi, 40_001)[1:]
+        for sense in (1, -1):
+            energy = here.energy(sense * grid, Arrays)
+            first = grid[np.argmax(energy < 0)] if (energy < 0).any() else 2 * math.pi
+            if (found := here.turning(sense, 2 * math.pi)) is not None:
+                assert first - 2e-4 < abs(found[0]) <= first
+                met += 1
+    assert met > 100
+
+
 # -- every geometry, against the stepping method
 
 
@@ -224,10 +278,10 @@ def test_random_bodies_agree_with_the_stepping_method():
     assert {BySeries, SpinUp} <= kinds
 
 
-@pytest.mark.parametrize("moments, momentum, torque", [((2, 2, 1), (0.1, 0.2, 0), (0, 0, 0.3)), ((2, 1, 1), (0, 0.2, 0), (0, 0, 0.3)),
-                                                       ((2, 1, 1), (0, 0.2, 0.3), (0, 0, 0)), ((1, 1, 1), (0, 0.2, 0), (0.3, 0, 0.0)),
-                                                       ((2, 1.9999, 1), (0.1, 0.2, 0), (0, 0, 0.3)),
-                                                       ((2, 1 + 1e-7, 1), (0, 0.2, 0), (0, 0, 0.3))])
+@pytest.mark.parametrize("moments, momentum, torque", [
+    ((2, 2, 1), (0.1, 0.2, 0), (0, 0, 0.3)), ((2, 1, 1), (0, 0.2, 0), (0, 0, 0.3)), ((2, 1, 1), (0, 0.2, 0.3), (0, 0, 0)),
+    ((1, 1, 1), (0, 0.2, 0), (0.3, 0, 0.0)), ((2, 1.9999, 1), (0.1, 0.2, 0), (0, 0, 0.3)),
+    ((2, 1 + 1e-7, 1), (0, 0.2, 0), (0, 0, 0.3))])
 def test_bodies_with_equal_and_nearly_equal_moments_agree_with_the_stepping_method(moments, momentum, torque):
     scene = Scene(Body(moments), Gyrostat(momentum), *([ConstantTorque(torque)] if any(torque) else []))
     times = np.array([-2.0, 0.5, 8.0])

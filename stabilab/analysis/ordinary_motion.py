@@ -106,13 +106,14 @@ class Here:
         return value, k.mu + (k.G * x + k.c) * z + k.d * x, slope, bound, terms
 
     def turning(self, sense, reach=math.inf):
-        """(offset of the first turning point on the side `sense`, slope of the kinetic energy there), or (`reach`, least kinetic
-        energy seen on the way) where none comes before it, and the energy's terms; None where doubles may lose digits."""
+        """(offset of the first turning point on the side `sense`, slope of the kinetic energy there), or (`reach`, least
+        kinetic energy seen on the way) where none comes before it, and the energy's terms; None where doubles may lose
+        digits."""
         y, longest, least = 0.0, math.inf if self.k.e < 0 else REACH, math.inf
         for _ in range(STEPS):
             value, force, slope, bound, terms = self._look(sense * y)
             force *= sense
-            if force < 0 and 2 * value * bound < KANTOROVICH * force * force:  # the zero is next, and Newton's method gets there
+            if force < 0 and 2 * value * bound < KANTOROVICH * force * force:  # the zero is next
                 return self._polished(sense, y, value, force, slope, terms)
             least = min(least, value)
             root = math.sqrt(force * force + 2 * bound * max(value, 0.0))

@@ -5,6 +5,8 @@ A torque along a principal axis (or none) leaves a particle in a potential: what
 """
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from ..errors import InputError
@@ -28,7 +30,8 @@ def reduced_motion(scene, state, nodes: int | None = None, backwards: bool = Fal
     before 0 are wanted too. Raises InputError where the scene has no reduction, on a separatrix, for spin-up other than round
     a circle, and where doubles do not hold the answer.
     """
-    state = checked_states(state).reshape(3).tolist()
+    if not (type(state) is tuple and len(state) == 3 and all(type(v) is float and math.isfinite(v) for v in state)):
+        state = checked_states(state).reshape(3).tolist()
     reduction, plain = constants(scene)
     if reduction is None:
         raise InputError("the scene has no reduction to one degree of freedom: its torque is off the principal axes, or the "

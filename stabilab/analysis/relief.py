@@ -53,7 +53,7 @@ class Arrays:
 
     @staticmethod
     def over(sine, t):
-        return sine / t if t.all() else sine / np.where(t == 0, 1.0, t) + (t == 0)
+        return sine / t if np.count_nonzero(t) == t.size else sine / np.where(t == 0, 1.0, t) + (t == 0)
 
     @staticmethod
     def rest(t):

@@ -19,6 +19,7 @@ SAMPLES = (48, 96, 192)  # over a turn of phi, for the time
 PHASES = (48, 96, 192, 384)  # for the phase
 ROTATION_SAMPLES = (64, 128, 256, 512)
 NEWTON = 20
+TINY = 1e-290  # no way at all, but not 0/0
 NOISE = 4e-16  # coefficients of phi below this are rounding
 DIP = 1e-3  # kinetic energy over a hill against the largest: below it the hill's own coordinate is needed
 CHUNK = 4096
@@ -46,7 +47,7 @@ class Rule:
         self.low = (k < part).astype(float)
         self.high = 1 - self.low
         back = np.pi - phi
-        self.way = np.where(k < part, np.sin(0.5 * phi) ** 2, -np.sin(0.5 * back) ** 2)
+        self.way = np.where(k < part, np.maximum(np.sin(0.5 * phi) ** 2, TINY), -np.maximum(np.sin(0.5 * back) ** 2, TINY))
         self.near = np.where(k < part, np.cos(0.5 * phi) ** 2, -np.cos(0.5 * back) ** 2)
 
 

@@ -58,17 +58,28 @@ class Tabulated(Motion):
         return [a + x * (b + x * (c + x * (d + x * (e + x * (f + x * (g + x * (h + x * (i + x * (j + x * (k + x * m))))))))))
                 for a, b, c, d, e, f, g, h, i, j, k, m in self._cells[n if n < self.parts else 0]]
 
+    def states(self, times):
+        return self._rows_at(np.asarray(times, float), 3).T
+
     def follow(self, times):
-        out, turns = np.empty((4, len(times))), np.floor(times / self.period)
+        out, turns = self._rows_at(times, 4), np.floor(times / self.period)
+        return out[:3].T, out[3] + self.sense * TURN * turns
+
+    def _rows_at(self, times, count):
+        """The first so many rows (count, n) of the table at times."""
+        table = np.ascontiguousarray(self.rows[:, :count])
+        out, scale, parts = np.empty((count, len(times))), self._scale, self.parts
         for first in range(0, len(times), CHUNK):
             part = slice(first, first + CHUNK)
-            place = np.mod(np.fmod(times[part], self.period) * self._scale, self.parts)
-            n = np.minimum(place.astype(int), self.parts - 1)
+            place = np.fmod(times[part], self.period)
+            place *= scale
+            place += parts * (place < 0)
+            n = np.minimum(place.astype(np.intp), parts - 1)
             x = 2 * (place - n) - 1
-            total = np.take(self.rows[-1], n, axis=1, mode="clip")
+            total = np.take(table[-1], n, axis=1, mode="clip")
             buffer = np.empty_like(total)
-            for row in self.rows[-2::-1]:
+            for row in table[-2::-1]:
                 total *= x
                 total += np.take(row, n, axis=1, mode="clip", out=buffer)
             out[:, part] = total
-        return out[:3].T, out[3] + self.sense * TURN * turns
+        return out
