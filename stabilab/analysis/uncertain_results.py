@@ -9,9 +9,9 @@ import numpy as np
 from .uncertain_proof import Proof
 from .uncertain_search import MOST, Change, confirmed
 
-PARTS, FEWER = 60_000, 4_000  # of the box: for the question asked, and for each try to prove more
+PARTS, FEWER = 60_000, 2_500  # of the box: for the question asked, and for each try to prove more
 NEARER = (0.5, 0.75, 0.9, 0.99, 0.999)  # shares of a change that is there, tried as proved stretches until one fails
-SMALLER = (0.35, 0.25, 0.15, 0.1, 0.05, 0.02, 0.01, 0.001)  # tried where even the first of these fails
+SMALLER = (0.3, 0.15, 0.05, 0.01, 0.001)  # tried where even the first of these fails
 FARTHER = (2.0, 5.0, 10.0, 30.0, MOST)
 
 
