@@ -1,24 +1,26 @@
 """The separatrix surface as a mesh."""
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
 from stabilab import fate, separatrix
 from stabilab.show.mesh import triangulate
 
-from .rows import SCENE, A, Row
+from .rows import SCENE, A, Row, numba_available
 from .timing import side_by_side
 
 
 HALF = 6.0        # of the side of the cube that the grid of margins fills
 REACH = 5.6       # with it the sheets go beyond every corner of the cube's section
 ACCURACY = 3e-3   # largest distance of our facets from the surface
-LIMIT = ("ours holds meshing too. What limits it is the number of calls: many hundred of NumPy for arrays of a thousand "
-         "numbers at most (a trial grid, the finished one, Newton steps for the loops' ends, the check of the facets); a grid "
-         "of a tenth of the triangles takes almost as long. Tried: all branches in one array, far ends from a cubic in closed "
-         "form instead of the general search for equilibria, columns that follow the bend, a grid as coarse as the accuracy "
-         "allows, triangles from a template. Not tried: a compiled kernel for the loops")
-
+ARRAYS = ("ours holds meshing too. What limits it is the number of calls: some hundred of NumPy on arrays of a thousand numbers "
+          "at most (a trial grid, the finished one, the check of the facets) and 80 ends of loops in floats. Tried: columns that "
+          "follow the bend, a grid as coarse as the accuracy allows, triangles from a template, branches kept from surface to "
+          "surface; the row with the compiled kernel shows what calls cost")
+FAST = ("ours holds meshing too, a third of its time. The kernel is loaded before (from numba's cache about half a second, "
+        "compiled once for all)")
 
 
 def rows(small=False) -> list[Row]:
@@ -31,22 +33,27 @@ def against_flying_edges(cells=512, rounds=7) -> list[Row]:
     """
     axis = np.linspace(-HALF, HALF, cells)
     grid = _field(axis)
-    alone = side_by_side(_mesh, lambda: _contour(grid), 1, 1, rounds)
-    in_all = side_by_side(_mesh, lambda: _contour(_field(axis)), 1, 1, rounds)
-    meshes, theirs = _mesh(), _contour(grid)
-    assert all(np.linalg.norm(m.points[:, :2] + [A, 0], axis=1).max() > np.hypot(HALF + A, HALF) for m in meshes)
-    our_error = _largest_distance(np.concatenate([_between(m.points, m.triangles) for m in meshes]))
+    theirs = _contour(grid)
     their_error = _largest_distance(_between(np.asarray(theirs.points, float), theirs.faces.reshape(-1, 4)[:, 1:]))
-    error = f"largest distance of the triangles from the surface: ours {our_error:.1e}, theirs {their_error:.1e}"
-    count = sum(len(m.triangles) for m in meshes)
-    name = f"separatrix mesh, {count} triangles (1/{theirs.n_cells / count:.0f} of theirs)"
-    return [Row(name, f"{timed.ours * 1e3:.2f} ms", f"{timed.theirs * 1e3:.0f} ms Flying Edges at {cells}^3, {what}, "
-                f"{theirs.n_cells} triangles", timed.ratio, (timed.low, timed.high), error, 1000.0, LIMIT)
-            for timed, what in ((alone, "contouring alone"), (in_all, "margins and contouring"))]
+    found = []
+    for fast, note in ((False, ARRAYS), (True, FAST))[:1 + numba_available()]:
+        ours = partial(_mesh, fast)
+        meshes = ours()
+        assert all(np.linalg.norm(m.points[:, :2] + [A, 0], axis=1).max() > np.hypot(HALF + A, HALF) for m in meshes)
+        our_error = _largest_distance(np.concatenate([_between(m.points, m.triangles) for m in meshes]))
+        error = f"largest distance of the triangles from the surface: ours {our_error:.1e}, theirs {their_error:.1e}"
+        count = sum(len(m.triangles) for m in meshes)
+        name = f"separatrix mesh{', fast' if fast else ''}, {count} triangles (1/{theirs.n_cells / count:.0f} of theirs)"
+        for other, what in ((lambda: _contour(grid), "contouring alone"),
+                            (lambda: _contour(_field(axis)), "margins and contouring")):
+            timed = side_by_side(ours, other, 1, 1, rounds)
+            found.append(Row(name, f"{timed.ours * 1e3:.2f} ms", f"{timed.theirs * 1e3:.0f} ms Flying Edges at {cells}^3, {what}, "
+                             f"{theirs.n_cells} triangles", timed.ratio, (timed.low, timed.high), error, 1000.0, note))
+    return found
 
 
-def _mesh():
-    return [triangulate(sheet) for sheet in separatrix(SCENE, reach=REACH, accuracy=ACCURACY).sheets]
+def _mesh(fast):
+    return [triangulate(sheet) for sheet in separatrix(SCENE, reach=REACH, accuracy=ACCURACY, fast=fast).sheets]
 
 
 def _contour(grid):

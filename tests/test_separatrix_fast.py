@@ -1,0 +1,64 @@
+"""Sheets by the kernel for circles: the same points as the arrays give."""
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import stabilab
+from stabilab.analysis import circle_loops
+from stabilab.analysis.fast_sheets import serves, sheets_by_kernel
+from stabilab.analysis.landscape import landscape
+from stabilab.analysis.saddle_branches import limit_of, saddle_branches
+from stabilab.analysis.separatrix import _by_arrays
+
+from .oracles.pairs import physical, scaled
+
+SCENES = {
+    "minor a<b": scaled(0.2, 0.4, (0, 0, 1))[0],
+    "minor, other sign": scaled(0.2, 1.4, (0, 0, -1))[0],
+    "two saddles on a circle": physical((3.0, 2.0, 1.5), (0.4, -0.7, 0), (0, 0, 0.3))[0],
+    "major": physical((3.0, 2.0, 1.5), (0, 0.8, 0.0), (0.2, 0, 0))[0],
+    "equilibria on lines": physical((3.0, 2.0, 1.5), (0, 0.8, 0.0), (0, 0, 0.2))[0],
+}
+DIGITS = 1e-12  # of the sheet's size: a unit in the last place of a saddle, times the columns' stretch next to a fold
+
+
+@pytest.mark.parametrize("name, shape, accuracy", [("minor a<b", (9, 7), None), ("minor, other sign", None, 0.1),
+                                                   ("two saddles on a circle", (7, 9), None), ("major", (8, 6), None),
+                                                   ("equilibria on lines", (6, 6), None)])
+def test_the_kernel_in_plain_python_gives_the_sheets_of_the_arrays(name, shape, accuracy):
+    """They share the search for a loop's end, not the grading nor the way along the loop."""
+    land = landscape(SCENES[name])
+    assert serves(land)
+    strips = [(branch, -1) for branch in saddle_branches(land.conic, land.potential, limit_of(land.conic, 3.0))]
+    assert strips
+    points, residual, saddle, centre, found, cut, error = sheets_by_kernel(land, strips, shape, accuracy, vars(circle_loops))
+    expected = _by_arrays(land, strips, shape, accuracy)
+    size = np.abs(expected[0]).max()
+    np.testing.assert_array_equal(found, expected[4])
+    np.testing.assert_allclose(points, expected[0], atol=DIGITS * size, rtol=0)
+    np.testing.assert_allclose(np.moveaxis(saddle, -1, 0), expected[2], atol=DIGITS * size)
+    np.testing.assert_allclose(np.moveaxis(centre, -1, 0), expected[3], atol=DIGITS * size)
+    assert cut == expected[5] and residual.max() < 1e-14
+    np.testing.assert_allclose(error, expected[6], rtol=1e-9)
+
+
+@pytest.mark.slow  # compiling takes some ten seconds where numba's cache is empty
+@pytest.mark.parametrize("name", SCENES)
+def test_compiled_sheets_are_those_of_the_arrays(name):
+    pytest.importorskip("numba")
+    for choice in (dict(accuracy=2e-2), dict(shape=(24, 33)), {}):
+        plain, fast = (stabilab.separatrix(SCENES[name], fast=f, **choice).sheets for f in (False, True))
+        for one, other in zip(plain, fast, strict=True):
+            assert one.name == other.name and one.cut == other.cut
+            np.testing.assert_allclose(other.points, one.points, atol=DIGITS * np.abs(one.points).max(), rtol=0)
+            np.testing.assert_allclose(other.invariant, one.invariant, rtol=1e-12)
+            assert other.error == pytest.approx(one.error, rel=1e-9)
+
+
+def test_scenes_without_a_kernel_are_answered_by_arrays_however_asked():
+    pytest.importorskip("numba")
+    scene = scaled(0.5, 3.5, (0, 1, 0))[0]
+    assert not serves(landscape(scene))
+    for one, other in zip(*(stabilab.separatrix(scene, shape=(8, 9), fast=f).sheets for f in (False, True)), strict=True):
+        np.testing.assert_array_equal(one.points, other.points)
