@@ -371,7 +371,7 @@ def _certified(cases, out) -> bool:
 
 def _motion(case, brief=False):
     from .analysis.motion import motion
-    return motion(case.scene, case.start, case.span, brief)
+    return motion(case.scene, case.start, case.span, brief, case.exact_state)
 
 
 def _tell(question, paths, digits, json, csv=False):
@@ -400,7 +400,7 @@ def _told(question, case, motion, digits):
     found = by_bound(question, motion) if digits is None else None
     if found is None:
         from .analysis.precision_questions import ask
-        found = ask(question, case.scene, case.start, DEFAULT if digits is None else digits, case.span, motion)
+        found = ask(question, case.scene, case.start, DEFAULT if digits is None else digits, case.span, motion, case.exact_state)
     return found
 
 

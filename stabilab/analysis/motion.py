@@ -8,26 +8,28 @@ from .reduction import reduce
 from .results import Fate, Motion
 
 
-def motion(scene, state, span=None, brief=False) -> Motion:
+def motion(scene, state, span=None, brief=False, exact=None) -> Motion:
     """All that is known of the motion from `state` (three numbers in the scene's variables) at time 0.
 
     Where gamma is part of the state: six numbers (omega, gamma), or a dict of blocks. span: (from, to), the times over
     which extremes are searched where the motion is not integrable. brief: fate and extremes will do; what else costs
-    time (period, margin_velocity, invariants) may be left out. Raises InputError as `fate` does.
+    time (period, margin_velocity, invariants) may be left out. exact: the three rates as they were given (Fractions), of
+    which `state` is the rounding: where the motion has a reduction the answer is theirs. Raises InputError as `fate` does.
     """
     if not scene.plain:
         from .other_motion import other_motion
-        found = other_motion(scene, state, span)
+        found = other_motion(scene, state, span, exact)
         if found is not None:
             return found
     state, reduction = _checked(state), reduce(scene)
     if reduction is None:
         return _irreducible(scene, state, span)
-    decided = fate_of(scene, reduction, state)
+    given = exact or state
+    decided = fate_of(scene, reduction, given)
     fields = _common(state, decided.label, decided.because, decided.axis, decided.sense)
     fields |= {"margin_energy": _finite(decided.margin), "tolerance": 1e-12,
-               "extremes": extremes_of(reduction, state, decided.label)}
-    return Motion(**fields, **({} if brief else _rest(reduction, state, decided.label)))
+               "extremes": extremes_of(reduction, given, decided.label)}
+    return Motion(**fields, **({} if brief else _rest(reduction, state, given, decided.label)))
 
 
 def _checked(state) -> tuple[float, float, float]:
@@ -52,11 +54,11 @@ def _finite(value):
     return float(value) if math.isfinite(value) else None
 
 
-def _rest(reduction, state, label) -> dict:
+def _rest(reduction, state, given, label) -> dict:
     from .distance import distance_of
     from .one_period import period_of
-    return {"margin_velocity": _finite(distance_of(reduction, state)), "period": _repeats(period_of(reduction, state, label)),
-            "invariants": invariants_of(reduction, state)}
+    return {"margin_velocity": _finite(distance_of(reduction, state)), "period": _repeats(period_of(reduction, given, label)),
+            "invariants": invariants_of(reduction, given)}
 
 
 def _repeats(time):

@@ -35,7 +35,7 @@ class OneFate(NamedTuple):
 
 
 def fate_of(scene, reduction, state) -> OneFate:
-    """The fate of one state (three floats) of a scene with this reduction."""
+    """The fate of one state (three floats or Fractions) of a scene with this reduction."""
     found = {-1: _on_circle, 1: _on_hyperbola, 0: _on_parabola}[reduction.e](reduction, state)
     unit = reduction.energy_unit
     found = found._replace(margin=found.margin * unit)
@@ -115,10 +115,10 @@ def _on_parabola(r, state) -> OneFate:
 def extremes_of(reduction, state, label: Fate) -> tuple:
     """((least, greatest),) * 3 over t >= 0 in the scene's variables; +-inf where unbounded."""
     if label == Fate.EQUILIBRIUM:
-        return tuple((v, v) for v in state)
+        return tuple((float(v), float(v)) for v in state)
     balls = extreme_balls(reduction, state, label, doubles=True)
     # rounding must not exclude the state itself
-    return tuple((min(float(low), v), max(float(high), v)) for (low, high), v in zip(balls, state))
+    return tuple((min(float(low), v), max(float(high), v)) for (low, high), v in zip(balls, map(float, state)))
 
 
 def invariants_of(reduction, state) -> dict[str, float]:

@@ -17,16 +17,16 @@ from .results import Fate, Motion
 STIFF = 1e5  # fastest decay times span beyond which a search for extremes would take minutes
 
 
-def other_motion(scene, state, span=None) -> Motion | None:
+def other_motion(scene, state, span=None, exact=None) -> Motion | None:
     """The motion from `state` (three numbers; six, omega and gamma, or a dict of blocks, where gamma is part of the state); None for
-    scenes with effects that are not known here."""
+    scenes with effects that are not known here. exact: as of `motion`."""
     parts = content(scene)
     if parts is None:
         return None
     omega, gamma = split(parts, state)
     if parts.kind == "gyrostat":
         from .motion import motion
-        found = motion(gyrostat_scene(parts), omega, span)
+        found = motion(gyrostat_scene(parts), omega, span, exact=exact)
         return replace(found, because=f"{found.because}; {parts.note}") if parts.note else found
     at = omega + (gamma or ())
     seen = {} if span is None else _over_span(scene, omega, gamma, span)

@@ -163,6 +163,7 @@ def _many_digits(case, times, asked) -> Reached | None:
     equations, start = _start(case.scene, case.state if scaled else start_of(case.scene, case.state, case.blocks))
     if times.min() < 0 < times.max():
         return None
+    start = [*(case.exact_state or start[:3]), *start[3:]]  # the decimals as they were written
     order = np.argsort(np.abs(times), kind="stable")
     found = reference(case.scene, start, times[order], equations.blocks)
     if found.status != "agrees":

@@ -21,28 +21,28 @@ SAMPLE = 16  # states of an array that are checked one by one; where all agree t
 SEARCH = 20  # evaluations of a rate's series that the search for its roots takes in a step
 
 
-def ask(question, scene, state, digits: int, span=None, known=None) -> Told:
+def ask(question, scene, state, digits: int, span=None, known=None, exact=None) -> Told:
     """The extremes, the period, or the margin of the "fate" of one state, to `digits` decimal digits (1 to 50).
 
-    state, span: as of `motion`; known: what `motion` found, where that is at hand. Digits of extremes are relative to the
+    state, span, exact: as of `motion`; known: what `motion` found, where that is at hand. Digits of extremes are relative to the
     size of their component. Told.digits may be below what was asked: see Told.required.
     """
     digits = checked_digits(digits, MOST_DECIMALS)
     if known is None:
         from .motion import motion
-        known = motion(scene, state, span)
+        known = motion(scene, state, span, exact=exact)
     twin, land = _reduced(scene)
     if question != "extremes" and _number(question, known) is None:
         return nothing(question, digits, "the motion does not repeat" if question == "period" else "there is no margin in energy to be judged")
     if land is not None:
-        return _by_formula(question, twin, land, known, digits)
+        return _by_formula(question, twin, land, known, digits, exact or known.at[:3])
     if known.fate == Fate.EQUILIBRIUM:
         return Told(question, _number(question, known), digits, math.inf, "exact", "the state is at rest")
     if question == "fate":
         return _free_margin(twin, known, digits)
     if known.period:
-        return _by_return(question, twin, known, digits)
-    return _over_span(scene, state, span, known, digits)
+        return _by_return(question, twin, known, digits, exact or known.at[:3])
+    return _over_span(scene, state, span, known, digits, exact)
 
 
 def ask_all(question, scene, states, digits: int, span=None) -> Told:
@@ -83,9 +83,8 @@ def _number(question, known):
 # -- motions with a reduction ------------------------------------------------------------------------------------------
 
 
-def _by_formula(question, scene, land, known, digits) -> Told:
+def _by_formula(question, scene, land, known, digits, state) -> Told:
     values, label = _number(question, known), known.fate
-    state = known.at[:3]
     wanted = max(digits, MOST) + 1
     balls = _balls(question, land.reduction, state, label, wanted)
     if balls is None:  # on the separatrix
@@ -164,13 +163,13 @@ def _free_margin(scene, known, digits) -> Told:
     return Told("fate", value, digits, digits_of(error), "formulas", because)
 
 
-def _by_return(question, scene, known, digits) -> Told:
+def _by_return(question, scene, known, digits, state) -> Told:
     """A closed motion: its return in doubles against the return of a Taylor series in many digits."""
     from flint import ctx
     from .balls import ball
     from .precision_reference import reference
     values = _number(question, known)
-    exact = reference(scene, known.at[:3], [0.5 * known.period], orbit=True)
+    exact = reference(scene, state, [0.5 * known.period], orbit=True)
     if exact.period is None:
         return Told(question, values, digits, 0.0, "run", "no return was found in many digits within the work allowed")
     with ctx.workprec(400):
@@ -187,7 +186,7 @@ def _by_return(question, scene, known, digits) -> Told:
                     f"the return of a Taylor series in {pair}, {own:.0e} apart", _decimals(found, digits) if digits > MOST else None)
 
 
-def _over_span(scene, state, span, known, digits) -> Told:
+def _over_span(scene, state, span, known, digits, exact) -> Told:
     from ..compiled import TAYLOR_TOLERANCE
     from ..scene import Scene
     from .rate_roots import roots_of_rates
@@ -204,7 +203,7 @@ def _over_span(scene, state, span, known, digits) -> Told:
     because = f"a run over the span; one at rtol {8 * TAYLOR_TOLERANCE:.1e} from a start moved in its last place differs by {error / CAUTION:.1e}"
     if digits <= MOST and error <= 10.0**-digits:
         return Told("extremes", values, digits, digits_of(error), "run", because)
-    return _many_digits(equations, start, length, digits) or Told("extremes", values, digits, digits_of(error), "run", other.reason or because)
+    return _many_digits(equations, [*(exact or start[:3]), *start[3:]], length, digits) or Told("extremes", values, digits, digits_of(error), "run", other.reason or because)
 
 
 def _apart(one, two) -> float:

@@ -213,7 +213,7 @@ def _triple(values):
 
 def _motion(case):
     from ..analysis.motion import motion
-    found = motion(case.scene, case.start, case.span)
+    found = motion(case.scene, case.start, case.span, exact=case.exact_state)
     names = case.scene.components
     rows = [("start", _triple(found.at)), ("fate", found.fate.word + (f" about axis {found.axis}, "
              f"{'positive' if found.sense > 0 else 'negative'} sense" if found.axis else "")), ("because", found.because)]

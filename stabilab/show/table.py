@@ -111,7 +111,7 @@ def _extremes_row(path, lam):
     from ..analysis.motion import motion
     from ..case import load
     case = load(path)
-    found = motion(case.scene, case.start, case.span)  # of one state: the same bytes on every processor
+    found = motion(case.scene, case.start, case.span, exact=case.exact_state)  # of one state: the same bytes on every processor
     low_high = [float(v) for pair in found.extremes for v in pair]
     return (case.name, lam, case.scene.a, case.scene.b, *case.state, found.fate.word, found.period, *low_high)
 
