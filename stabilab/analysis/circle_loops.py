@@ -306,6 +306,17 @@ def second_forms(r, row, a, axis):
     return across, twist, down
 
 
+def outline_bend(r, a, axis):
+    """How a row of points r (m, 3) bends at a column, in the sheet too."""
+    square = length = product = 0.0
+    for c in range(3):
+        before, here = r[a - 1, c], r[a, c]
+        after = r[a + 1, c] if a + 1 < len(r) else 2 * here - before if c == axis else before
+        bend, way = after - 2 * here + before, after - before
+        square, length, product = square + bend * bend, length + way * way, product + bend * way
+    return sqrt(max(square - product * product / max(length, TINY), 0.0))
+
+
 def stray(across, twist, down, cut):
     """Largest distance of a quad's edges' mid-points and facets' centres from the surface."""
     diagonal = across + down + 2 * cut * twist
@@ -364,6 +375,9 @@ def trial(g, conic, sense, units, strips, sides, grading, accuracy, s, columns, 
                 forms[strip, 0, row, a], forms[strip, 1, row, a], forms[strip, 2, row, a] = across, twist, down
                 density[strip, 0, a] = max(density[strip, 0, a], sqrt(abs(across)))
                 density[strip, 1, row] = max(density[strip, 1, row], sqrt(abs(down)))
+        if accuracy == 0 and found[strip, t - 1]:
+            for a in range(1, t):
+                density[strip, 0, a] = max(density[strip, 0, a], sqrt(outline_bend(points[strip, t - 1], a, units[8])))
         density[strip, 0, 0], density[strip, 1, 0] = density[strip, 0, 1], density[strip, 1, 1]
         density[strip, 1, t - 1] = max(density[strip, 1, t - 2], sqrt(8 * edge))
         lengths(density[strip, 0], floor, straight, columns[strip])

@@ -3,7 +3,7 @@
 A facet's edge with steps (du, ds) of the parameters strays from a surface r(u, s) with unit normal n by
 |L du^2 + 2 M du ds + N ds^2|/8, where L = r_uu.n, M = r_us.n, N = r_ss.n. Differences on a small trial grid give them:
 columns stand uniformly in the integral of sqrt|L|, rows in that of sqrt|N|, each for the worst of the others, and the
-numbers that an asked-for distance needs follow. The finished grid is measured in the same way.
+numbers that an asked-for distance needs follow. Where a shape is asked for, as for a picture, columns follow the outline too. The finished grid is measured in the same way.
 """
 from __future__ import annotations
 
@@ -42,7 +42,8 @@ def grid(land, strips, shape=None, accuracy=None) -> Grid:
     first, edge = _measured_loops(land, strips, trial, np.broadcast_to(even, trial.shape))
     across, twist, down = _second_forms(land, first)
     straight = STRAIGHT * np.abs(first.points).max()
-    dense_columns, columns = _density(across, 1, ((0, 0), (1, 0)), straight)
+    seen = across if accuracy else np.concatenate([across, _outline(land, first)[:, None]], axis=1)
+    dense_columns, columns = _density(seen, 1, ((0, 0), (1, 0)), straight)
     dense_rows, rows = _density(down, 2, ((0, 0), (1, 1)), straight, 8 * edge)
     if shape is None:
         c, r = dense_columns[:, None, 1:], dense_rows[:, 1:-1, None]
@@ -100,12 +101,7 @@ def _measured_loops(land, strips, s, u):
 def _second_forms(land, loops):
     """(L, M, N), each (k, n - 2, m - 1), per step of the grid, at inner rows and all columns but the first: beyond the
     far end the loop comes back as its mirror image. 0 beside rows without a loop."""
-    k, n, m = loops.w.shape
-    axis = land.reduction.axis
-    r = np.empty((3, k, n, m + 1))
-    r[..., :-1] = np.moveaxis(loops.points, -1, 0)
-    r[..., -1] = r[..., -3]
-    r[axis, ..., -1] = 2 * r[axis, ..., -2] - r[axis, ..., -3]
+    r = _past_far_end(land, loops.points)
     dot = lambda a, b: np.einsum("cknm,cknm->knm", a, b)
     here, round_ = r[:, :, 1:-1, 1:-1], r[..., 2:] - r[..., :-2]
     a, b = r[:, :, 2:, 1:-1] - r[:, :, :-2, 1:-1], round_[:, :, 1:-1]
@@ -118,6 +114,23 @@ def _second_forms(land, loops):
     return (dot(r[:, :, 1:-1, 2:] - 2 * here + r[:, :, 1:-1, :-2], normal),
             0.25 * dot(round_[:, :, 2:] - round_[:, :, :-2], normal),
             dot(r[:, :, 2:, 1:-1] - 2 * here + r[:, :, :-2, 1:-1], normal))
+
+
+def _past_far_end(land, points):
+    """(3, ..., m + 1) components of points (..., m, 3) with one column beyond the far end."""
+    r = np.empty((3, *points.shape[:-2], points.shape[-2] + 1))
+    r[..., :-1], axis = np.moveaxis(points, -1, 0), land.reduction.axis
+    r[..., -1] = r[..., -3]
+    r[axis, ..., -1] = 2 * r[axis, ..., -2] - r[axis, ..., -3]
+    return r
+
+
+def _outline(land, loops):
+    """(k, m - 1) how the last rows bend, in the sheet too: their chords are the outline of a picture."""
+    r = np.moveaxis(_past_far_end(land, loops.points[:, -1]), 0, -1)
+    bend, way = r[:, 2:] - 2 * r[:, 1:-1] + r[:, :-2], r[:, 2:] - r[:, :-2]
+    across = np.linalg.norm(np.cross(bend, way), axis=-1) / np.maximum(np.linalg.norm(way, axis=-1), np.finfo(float).tiny)
+    return np.where(loops.found[:, -1:], across, 0.0)
 
 
 def _stray(across, twist, down, cut):
