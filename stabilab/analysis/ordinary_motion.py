@@ -95,14 +95,16 @@ class Here:
         if k.e < 0:
             s, c = math.sin(y), math.cos(y)
             x, z, span = x0 * c + z0 * s, z0 * c - x0 * s, self.size
-            bound, slope = (abs(k.G) * span + k.slopes) * span, k.G * (z * z - x * x) - k.c * x + k.d * z
+            steep = abs(k.G) * span + k.slopes
+            bound, slope = steep * span, k.G * (z * z - x * x) - k.c * x + k.d * z
         else:
             s, c = math.sinh(y), math.cosh(y)
             x, z, span = x0 * c + z0 * s, z0 * c + x0 * s, self.size * (abs(s) + c)
             near = 2 * (abs(x) + abs(z))
+            steep = abs(k.G) * 0.5 * near + k.slopes  # what rounding of the place costs in energy
             bound, slope = (abs(k.G) * near + k.slopes) * near, k.G * (z * z + x * x) + k.c * x + k.d * z
         value = self.kinetic + k.mu * y + (x - x0) * (0.5 * k.G * (x + x0) + k.c) + k.e * k.d * (z - z0)
-        terms = self.kinetic + k.mu * (1 + abs(y)) + (abs(k.G) * span + k.slopes) * span
+        terms = self.kinetic + k.mu * (1 + abs(y)) + steep * span
         return value, k.mu + (k.G * x + k.c) * z + k.d * x, slope, bound, terms
 
     def turning(self, sense, reach=math.inf):
