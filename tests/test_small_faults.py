@@ -9,12 +9,14 @@ import numpy as np
 import pytest
 
 import stabilab
-from stabilab import Fate
-from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
+from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
+from stabilab.analysis import barrier_heights
+from stabilab.analysis.barrier_table import barrier_table
 from stabilab.analysis.eigenvalues import eigenvalues
 from stabilab.analysis.reasons import REASONS, Reason
 from stabilab.analysis.reduction import reduce
 from stabilab.analysis.stability import isolated_verdict, sample_parameters
+from stabilab.analysis.table_fate import label_by_table
 
 from .oracles import energy
 from .oracles.pairs import WORDS, physical, scaled
@@ -136,7 +138,10 @@ def test_the_reason_is_whether_a_barrier_stands_ahead_and_how_high(name):
 
 REDUCED = {**FAMILIES, "free, gyrostat on the major axis": physical((3, 2, 1), (0.5, 0, 0)), "free": physical((3, 2, 1)),
            "free, gyrostat on the minor axis": physical((3, 2, 1), (0, 0, -0.25)),
-           "free, scaled": scaled(0.25, 0.75, (0, 0, 0))}
+           "free, scaled": scaled(0.25, 0.75, (0, 0, 0)),
+           "wheel and torque on the symmetry axis": physical((3, 2, 2), (0.5, 0, 0), (0.25, 0, 0)),
+           "wheel and torque on the symmetry axis, other signs": physical((2, 2, 1), (0, 0, -0.5), (0, 0, -0.25)),
+           "wheel on the symmetry axis": physical((2, 3, 2), (0, 0.5, 0))}
 
 
 @pytest.mark.parametrize("name", REDUCED)
@@ -162,6 +167,20 @@ def test_the_canonical_variables_move_as_the_module_says(name):
     assert r.sense == (torque > 0) - (torque < 0)
     # weight W^2/(2 n^2) is the energy of omega_i: the unit is weight/|p q|
     assert r.energy_unit == pytest.approx(float(problem.weight[r.axis] / abs(r.p * r.q)), rel=1e-15)
+
+
+@pytest.mark.parametrize("inertia, momentum, torque", [
+    ((3, 2, 1), (0.5, 0, 0), (0.2, 0, 0)), ((3, 2, 1), (0, 0.5, 0), (0, 0.2, 0)), ((3, 2, 1), (0, 0, 0), (1, 1, 0)),
+    ((3, 2, 2), (0.5, 0.1, 0), (0.2, 0, 0)), ((2, 2, 1), (0.5, 0, 0), (0.2, 0, 0)), ((3, 2, 1), (1, 1, 1), (0, 0, 0))])
+def test_no_reduction_where_the_other_two_rates_share_no_factor(inertia, momentum, torque):
+    """D_j w_j' = (D_k - D_i) w_k (w_i - s) ...: a wheel along the torque's axis asks for D_j = D_k and nothing across it."""
+    assert reduce(physical(inertia, momentum, torque)[0]) is None
+
+
+def test_a_wheel_on_the_symmetry_axis_shifts_the_rate_about_it():
+    """D2 w2' = (D3 - D1) w3 w1 - lambda1 w3 vanishes at w1 = -lambda1/(D1 - D3), D2 = D3: s = lambda1/(D1 - D3)."""
+    r = reduce(REDUCED["wheel and torque on the symmetry axis"][0])
+    assert (r.axis, r.s, r.weight) == (0, F(1, 2), 3)
 
 
 # Two equal moments, the torque on a transverse axis: the orbit's pair of rates runs along a parabola or a straight line.
@@ -209,3 +228,32 @@ def test_spin_about_a_torque_that_no_other_rate_disturbs_grows_for_ever(axis, mo
         assert box[:2] == pytest.approx(np.hypot(*state[:2]) * np.array([[-1, 1], [-1, 1]]), rel=1e-14)
     else:
         assert box[1:].tolist() == [[0, 0], [0, 0]]
+
+
+@pytest.mark.parametrize("a, b, sign", [(0.25, 0.5, 1), (0.25, 0.5, -1), (0.0, 3.0, 1), (0.0, -3.0, 1), (0.5, 0.5, 1), (0.0, 3.0, -1)])
+@pytest.mark.parametrize("plane", [-1, 1])
+def test_motions_on_the_invariant_planes_have_the_fate_and_extremes_of_the_potential(a, b, sign, plane):
+    """x3 = -(x1 + b) decays in the torque's direction, x3 = x1 + b grows; the oracle follows the one exponential left."""
+    scene, problem = scaled(a, b, (0, sign, 0))
+    states = [(y - b, w, plane * y) for y in (-4.0, -1.25, -0.5, 0.5, 1.25, 4.0) for w in (-3.0, -0.75, 0.0, 2.5)]
+    found, boxes = stabilab.fate(scene, np.array(states)), stabilab.extremes(scene, np.array(states))
+    for n, state in enumerate(states):
+        assert found.labels[n] == WORDS[energy.label(problem, state, digits=60)], state
+        assert_extremes(boxes[n], energy.extremes(problem, state, digits=60), 1e-11)
+
+
+@pytest.mark.parametrize("name", ["minor scaled +", "major physical, other sign", "middle scaled -, |c| above the cusp"])
+def test_the_loops_for_the_compiler_run_as_plain_python_give_the_bytes_of_the_arrays(name):
+    """Two ways to write the same arithmetic; 600 states are more than one block of the loops."""
+    scene, states = FAMILIES[name][0], sample(name, 600)
+    table, answers = barrier_table(scene), []
+    for loops in (None, {-1: barrier_heights.circle_loop, 1: barrier_heights.hyperbola_loop}):
+        out = {"margins": np.zeros(600), **{key: np.zeros(600, np.int8) for key in ("labels", "axis", "sense", "reasons")}}
+        with np.errstate(all="ignore"):
+            unsure = label_by_table(table, states, out, loops)
+        certain = np.delete(np.arange(600), unsure)
+        # reasons apart: two truth values add to 2 in machine code, to True in Python (test_fate_speed compares them compiled)
+        answers.append((unsure.tobytes(), *(out[key][certain].tobytes() for key in ("margins", "labels", "axis", "sense"))))
+    assert answers[0] == answers[1] and len(certain) > 500
+    # and the general formula, which has no table, agrees
+    np.testing.assert_array_equal(out["labels"][certain], stabilab.fate(scene, states).labels[certain])

@@ -119,7 +119,7 @@ class Landscape:
         with np.errstate(all="ignore"):
             xi = np.where(big, xi, -Q / eta)
             eta = np.where(big, -Q / xi, eta)
-            exists = exists & (xi * place[0] > 0) & (eta * place[1] > 0)
+            exists = exists & (np.sign(xi) == np.sign(place[0])) & (np.sign(eta) == np.sign(place[1]))  # both 0 on a plane
             spot = np.where(exists, xi, place[0]), np.where(exists, eta, place[1])
             spot = self._polish(spot)
             offset = np.where(big, np.log(spot[0] / place[0]), -np.log(spot[1] / place[1]))

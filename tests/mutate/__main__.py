@@ -16,8 +16,9 @@ from . import faults, runs
 SUBJECTS = {
     "equilibria": (("equilibria", "isolated_equilibria", "equilibrium_conics", "equilibrium_curve",
                      "torque_free_equilibria", "pencil"),
-                   ("test_equilibria", "test_stability", "test_certificate", "test_small_faults")),
-    "stability": (("stability", "eigenvalues"), ("test_stability", "test_equilibria", "test_certificate", "test_small_faults")),
+                   ("test_equilibria", "test_stability", "test_certificate", "test_small_faults", "test_curve_words")),
+    "stability": (("stability", "eigenvalues"),
+                  ("test_stability", "test_equilibria", "test_certificate", "test_curve_words", "test_small_faults")),
     "reduction": (("reduction",), ("test_fate", "test_one_state", "test_extremes", "test_certificate", "test_small_faults")),
     "fate": (("fate", "landscape", "table_fate"), ("test_fate", "test_one_state", "test_fate_speed", "test_small_faults")),
     "extremes": (("extremes", "turning", "rootfind"), ("test_extremes", "test_one_state", "test_small_faults"))}
@@ -31,7 +32,7 @@ def main(arguments=None):
     parser.add_argument("--slowest", type=float, default=1.0,
                         help="tests that take longer (s) are left out: the score is a lower bound")
     parser.add_argument("--json", help="write every fault and what became of it")
-    parser.add_argument("--again", help="a file of --json: only the faults that survived there")
+    parser.add_argument("--again", help="a file of --json: the faults that survived there, by the subject's last file alone")
     asked = parser.parse_args(arguments)
     rows = []
     for subject in asked.subjects or SUBJECTS:
@@ -41,6 +42,7 @@ def main(arguments=None):
             with open(asked.again, encoding="utf-8") as file:
                 before = json.load(file)
             left = {(r["module"], r["operator"], r["occurrence"]) for r in before if r["outcome"] == "survived"}
+            files = files[-1:]
             chosen = [f for f in chosen if (f.module, f.operator, f.occurrence) in left]
         rows += judged(subject, chosen, files, asked.slowest)
         if asked.json:
@@ -61,6 +63,8 @@ def judged(subject, chosen, files, slowest):
         if outcome == "survived":
             print(f"  survived {fault.module}:{fault.line}\n    - {fault.was}\n    + {fault.now}", flush=True)
     killed = sum(r["outcome"] != "survived" for r in rows)
+    alone = sum(files[-1] in r["by"] for r in rows)
+    print(f"{subject}: {alone} seen by {files[-1]} alone")
     print(f"{subject}: {killed} of {len(rows)} seen ({killed / max(len(rows), 1):.1%}), {time.time() - start:.0f} s",
           flush=True)
     return rows
