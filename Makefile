@@ -43,6 +43,10 @@ mutate: $(STAMP)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e ".[strength]"
 	$(BIN)/python -m tests.mutate --sample $(MUTANTS)
 
+# The table of hard cases: naive error, our error, and what the last place of the inputs does
+hard-cases: $(STAMP)
+	$(BIN)/python -W ignore -m tests.hard_table
+
 # constraints.txt pins what was tested, so that a fresh install gives the same versions
 $(STAMP): pyproject.toml constraints.txt
 	$(PYTHON) -m venv $(VENV)
