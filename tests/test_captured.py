@@ -248,3 +248,8 @@ def test_three_equal_moments_spin_up_along_lambda():
 def test_tiny_and_huge_torques_are_answered_in_their_own_time(size):
     answer = captured_fate(ScaledGyrostat(0, -0.3 * math.sqrt(size), (size, 0, 0)), np.array([-6.0, 2, -1]) * math.sqrt(size))
     assert (answer.axis, answer.sense) == (lambda one: (one.axis, one.sense))(captured_fate(paper("-0.3"), (-6.0, 2, -1)))
+
+
+def test_rates_whose_squares_overflow_are_refused():
+    with pytest.raises(InputError, match="units"):
+        captured_fate(ScaledGyrostat(0.2, 0.4, (1, 0, 0)), (1e160, 1e160, -1e160))

@@ -127,9 +127,13 @@ def captured_fate(scene, state, t_max: float | None = None) -> CapturedFate:
         raise InputError("capture needs a torque along one principal axis and a gyrostatic component along that axis; "
                          "this scene is for the reduction or for the torque off the axes")
     axis, J, rate = law
+    try:
+        start = J(state)
+    except OverflowError:
+        raise InputError("state: the squares of rates this large are beyond the largest double: choose other units") from None
     change = standard_form(scene)
     answer = _by_certificate(change, change.to_standard(state), t_max) if change else _without_form(scene, state, axis, t_max)
-    return CapturedFate(J0=J(state), J_rate=rate, **answer)
+    return CapturedFate(J0=start, J_rate=rate, **answer)
 
 
 def _by_certificate(change, y, t_max):

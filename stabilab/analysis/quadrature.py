@@ -89,7 +89,8 @@ def _midpoint(modes, half):
             now += _inverse_speed(part, rho, np.sin(0.5 * angle) ** 2, np.cos(0.5 * angle) ** 2)
         now *= 2 * np.pi / nodes
         if before is not None:
-            done = np.abs(now - before) <= TOLERANCE * now * max(1, nodes / 32)
+            with np.errstate(invalid="ignore"):  # both infinite where a square overflowed: not settled here
+                done = np.abs(now - before) <= TOLERANCE * now * max(1, nodes / 32)
             values[live[done]] = now[done]
             live, now = live[~done], now[~done]
             if not len(live):
@@ -169,7 +170,9 @@ def _double_exponential(modes, rho):
                 continue
             total += weight * _inverse_speed(modes, rho, left, right)
         now = 2 * step * total
-        if before is not None and level > 2 and (np.abs(now - before) <= 3e-14 * np.abs(now)).all():
+        with np.errstate(invalid="ignore"):
+            settled = before is not None and level > 2 and (np.abs(now - before) <= 3e-14 * np.abs(now)).all()
+        if settled:
             return now
         before, step = now, 0.5 * step
     return before
