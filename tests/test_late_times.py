@@ -84,8 +84,7 @@ def test_energies_subtracted_lose_the_period_that_divided_differences_keep():
     grid = start + np.linspace(-6.25, 6.25, 800_001)
     free = height(grid) < energy
     left, right = turn(start, grid[:400_000][~free[:400_000]][-1]), turn(start, grid[400_000:][~free[400_000:]][0])
-    phi, weight = np.polynomial.legendre.leggauss(4000)
-    phi, weight = 0.5 * np.pi * (1 + phi), 0.5 * np.pi * weight
+    phi, weight = (np.arange(4000) + 0.5) * np.pi / 4000, np.pi / 4000  # the midpoint rule: the integrand is periodic in phi
     theta = 0.5 * (left + right) - 0.5 * (right - left) * np.cos(phi)
     with np.errstate(all="ignore"):
         naive = 2 * np.nansum(weight * 0.5 * (right - left) * np.sin(phi) / np.sqrt(2 * (energy - height(theta))))
