@@ -29,9 +29,8 @@ DIGITS = 1e-12  # of the sheet's size: a unit in the last place of a saddle, tim
 def test_the_kernel_in_plain_python_gives_the_sheets_of_the_arrays(name, shape, accuracy):
     """They share the search for a loop's end, not the grading nor the way along the loop."""
     land = landscape(SCENES[name])
-    assert serves(land)
     strips = [(branch, -1) for branch in saddle_branches(land.conic, land.potential, limit_of(land.conic, 3.0))]
-    assert strips
+    assert strips and serves(land, strips)
     points, residual, saddle, centre, found, cut, error = sheets_by_kernel(land, strips, shape, accuracy, vars(circle_loops))
     expected = _by_arrays(land, strips, shape, accuracy)
     size = np.abs(expected[0]).max()
@@ -59,6 +58,6 @@ def test_compiled_sheets_are_those_of_the_arrays(name):
 def test_scenes_without_a_kernel_are_answered_by_arrays_however_asked():
     pytest.importorskip("numba")
     scene = scaled(0.5, 3.5, (0, 1, 0))[0]
-    assert not serves(landscape(scene))
+    assert not serves(landscape(scene), ())
     for one, other in zip(*(stabilab.separatrix(scene, shape=(8, 9), fast=f).sheets for f in (False, True)), strict=True):
         np.testing.assert_array_equal(one.points, other.points)

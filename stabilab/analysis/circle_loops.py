@@ -415,8 +415,10 @@ def even_steps(length, at, out):
     out[len(out) - 1] = at[len(at) - 1]
 
 
-def finished(g, conic, sense, units, strips, sides, s, even, columns, rows, at, u, found, places, points, residual, strays, spare):
-    """The graded loops: points (k, n, 2 m - 1, 3) all round with their residual, places (k, n, 5), strays (2, k) of both cuts."""
+def finished(g, conic, sense, units, strips, sides, s, even, columns, rows, at, u, found, places, points, residual, strays,
+             spare):
+    """The graded loops: points (k, n, 2 m - 1, 3) all round with their residual, places (k, n, 5), strays (2, k) of both
+    cuts."""
     k, n, m = len(strips), len(at), len(u)
     axis = units[8]
     for strip in range(k):

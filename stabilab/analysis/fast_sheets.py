@@ -9,15 +9,16 @@ from functools import lru_cache
 import numpy as np
 
 from . import circle_loops
-from .sheet_grid import DENSE, FLOOR, MIXTURES, ROUNDS, MOST, STRAIGHT, TRIAL, UNIFORM, fewest_cells, finer
+from .sheet_grid import DENSE, FLOOR, MIXTURES, ROUNDS, MOST, STRAIGHT, TRIAL, UNIFORM, fewest_cells, finer, shrinks
 
 GRADING = (FLOOR, STRAIGHT, UNIFORM, DENSE, MIXTURES)
 EVEN = np.linspace(0, 1, TRIAL)
 
 
-def serves(land) -> bool:
-    """Whether the kernel draws a landscape's sheets: circles with a torque, where each saddle has one loop."""
-    return land.e < 0 and land.sense != 0
+def serves(land, strips) -> bool:
+    """Whether the kernel draws a landscape's sheets: circles with a torque, where each saddle has one loop, a point at the
+    fold."""
+    return land.e < 0 and land.sense != 0 and all(shrinks(land, *strip) for strip in strips)
 
 
 @lru_cache(maxsize=1)
@@ -36,8 +37,8 @@ def kernel_input(land):
     pot, conic, r = land.potential, land.conic, land.reduction
     c = r.constants
     units = tuple(float(v) for v in (c["flip"] * c["rx"], c["sj"], c["rz"], c["sk"], c["flip"] / c["n"], r.s))
-    return (tuple(float(v) for v in (pot.G, pot.c, pot.d, pot.mu)), tuple(float(v) for v in (conic.G, conic.c, conic.K, conic.shift)),
-            int(land.sense), (*units, r.j, r.k, r.axis))
+    return (tuple(float(v) for v in (pot.G, pot.c, pot.d, pot.mu)),
+            tuple(float(v) for v in (conic.G, conic.c, conic.K, conic.shift)), int(land.sense), (*units, r.j, r.k, r.axis))
 
 
 def sheets_by_kernel(land, strips, shape, accuracy, names=None):

@@ -33,8 +33,9 @@ def separatrix(scene, reach: float | None = None, shape: tuple[int, int] | None 
     allowed between the sheets and the flat facets of their meshes, in the unit of the points: the grids get as few rows
     and columns as that needs, and every sheet tells as `error` what its facets were found to reach (more than asked for
     only where the largest grids, of 1025 rows, still bend as much). fast: on circles with a torque compile the work with numba
-    (the extra `fast`); points agree to rounding, and loading numba costs more than some hundred surfaces. Points are in the scene's variables. A scene without
-    saddles gives no sheets and the reason. Raises InputError for a shape, reach or accuracy out of range, and for fast=True
+    (the extra `fast`); points agree to rounding, and loading numba costs more than some hundred surfaces. Points are in the
+    scene's variables. A scene without saddles gives no sheets and the reason. Raises InputError for a shape, reach or accuracy
+    out of range, and for fast=True
     without numba.
     """
     _check(reach, shape, accuracy)
@@ -50,16 +51,16 @@ def separatrix(scene, reach: float | None = None, shape: tuple[int, int] | None 
     strips = [(branch, side) for branch in branches for side, _ in sides(land.e, land.sense)]
     rows, columns = shape or SHAPE
     half = None if accuracy else (rows, columns // 2 + 1)
-    made = _by_kernel(land, strips, half, accuracy) if _goes_fast(land, fast) else _by_arrays(land, strips, half, accuracy)
+    made = _by_kernel(land, strips, half, accuracy) if _goes_fast(land, strips, fast) else _by_arrays(land, strips, half, accuracy)
     return Separatrix(tuple(_sheets(land, strips, *made)), _what_it_parts(land))
 
 
-def _goes_fast(land, fast) -> bool:
+def _goes_fast(land, strips, fast) -> bool:
     # never on its own: the same case must give the same bytes, whatever was loaded before
     if not fast:
         return False
     from .fast_sheets import serves
-    return wanted(1, True, False, 1, 1) and serves(land)
+    return wanted(1, True, False, 1, 1) and serves(land, strips)
 
 
 def _check(reach, shape, accuracy):

@@ -3,7 +3,8 @@
 A facet's edge with steps (du, ds) of the parameters strays from a surface r(u, s) with unit normal n by
 |L du^2 + 2 M du ds + N ds^2|/8, where L = r_uu.n, M = r_us.n, N = r_ss.n. Differences on a small trial grid give them:
 columns stand uniformly in the integral of sqrt|L|, rows in that of sqrt|N|, each for the worst of the others, and the
-numbers that an asked-for distance needs follow. Where a shape is asked for, as for a picture, columns follow the outline too. The finished grid is measured in the same way.
+numbers that an asked-for distance needs follow. Where a shape is asked for, as for a picture, columns follow the outline too.
+The finished grid is measured in the same way.
 """
 from __future__ import annotations
 
@@ -18,7 +19,8 @@ TRIAL = 17              # rows and columns of the trial grid
 FLOOR = 0.3             # of the mean density: no gap where a sheet happens to be straight
 MIXTURES = np.array([1.0, 1.5, 2.0])  # columns against rows, relative to where both alone stray equally
 STRAIGHT = 1e-6         # of a sheet's size: a lesser sag between neighbours of the trial grid does not matter
-SHORT = 0.9995          # how far rows go towards a plane Q = 0
+TAIL = 10.0 ** -np.arange(3, 6.1, 0.5)  # 1 - s of the last trial rows towards a plane Q = 0
+NEAR = 1e-6             # a first row this near to the fold where the loop there is no point
 DENSE = 129             # steps along a branch that trial rows are chosen from
 UNIFORM = 0.2           # of the fold's radius: up to there trial rows are uniform
 SAFETY, ROUNDS, MOST = 1.03, 12, 1025  # rows and columns grow by that much more than asked, so often, up to there
@@ -37,7 +39,7 @@ class Grid:
 def grid(land, strips, shape=None, accuracy=None) -> Grid:
     """The graded loops of strips (see `loops`): shape (rows, columns of a half), or, without one, as few of both as keep
     facets within `accuracy` of the sheets."""
-    trial = np.array([_trial_rows(land, branch) for branch, _ in strips])
+    trial = np.array([_trial_rows(land, *strip) for strip in strips])
     even = np.linspace(0, 1, TRIAL)
     first, edge = _measured_loops(land, strips, trial, np.broadcast_to(even, trial.shape))
     across, twist, down = _second_forms(land, first)
@@ -159,7 +161,15 @@ def _even_steps(length, at, number):
     return out
 
 
-def _trial_rows(land, branch, dense=DENSE):
+def shrinks(land, branch, side) -> bool:
+    """Whether the loop on one side of a saddle shrinks to a point at the fold: it does around the well that the saddle meets
+    there, on the side where the force's slope falls. The loop on the other side, of a figure eight, keeps its size."""
+    pot, fold = land.potential, branch.place(0.0)
+    ahead, behind = (pot.slope(pot.move(fold, side * y)) for y in (NEAR, -NEAR))
+    return not ahead - behind > NEAR * NEAR * pot.terms(fold)
+
+
+def _trial_rows(land, branch, side, dense=DENSE):
     """(TRIAL,) parameters s of rows: the saddle moves on by equal steps near the fold and by equal factors far out, where
     the sheet only grows and hardly bends."""
     s = 0.5 - 0.5 * np.cos(np.linspace(0, np.pi, dense))
@@ -170,6 +180,8 @@ def _trial_rows(land, branch, dense=DENSE):
     start = max(UNIFORM * np.sqrt(abs(q[0])), 0.03 * way[-1])
     stretched = np.log1p(way / start)
     s = np.interp(np.linspace(0, stretched[-1], TRIAL), stretched, s)
-    # on a plane Q = 0 a loop need not close: the last row stays short of it
-    s[-1] = SHORT if branch.far == PLANE else 1.0
+    s[0], s[-1] = 0.0 if shrinks(land, branch, side) else NEAR, 1.0
+    if branch.far == PLANE:  # there a loop need not close; on the way it grows like the root of log 1/(1 - s), without bound
+        inner = np.interp(np.linspace(0, 1, TRIAL - len(TAIL)), np.linspace(0, 1, TRIAL), s * (1 - 10 * TAIL[0]))
+        s = np.concatenate([inner, 1 - TAIL])
     return s
