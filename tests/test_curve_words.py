@@ -58,7 +58,10 @@ def test_the_words_about_a_curve_of_equilibria_name_its_points(D, lam, M):
 
 @pytest.mark.parametrize("D, lam, M, expected", [
     ((5, 4, 2), (2, 3, 0), (0, 0, -6), "unstable"), ((2, 5, 4), (0, 2, 3), (-6, 0, 0), "unstable"),
-    ((7, 4, 6), (3, 2, 0), (0, 0, -2), "unstable"), ((5, 4, 5), (2, 3, 0), (0, 0, -6), "stable"),
+    ((7, 4, 6), (3, 2, 0), (0, 0, -2), "unstable"),
+    ((9, 4, 6), (1, 10, 0), (0, 0, -2), "unstable"), ((9, 4, 6), (10, -1, 0), (0, 0, 2), "unstable"),
+    ((4, 9, 6), (10, 1, 0), (0, 0, 2), "unstable"), ((6, 5, 10), (1, -10, 0), (0, 0, 10), "unstable"),
+    ((5, 4, 5), (2, 3, 0), (0, 0, -6), "stable"),
     ((4, 5, 5), (3, 0, 2), (0, -6, 0), "stable"), ((5, 5, 4), (0, 2, 3), (-6, 0, 0), "stable")])
 def test_where_two_lines_cross_the_potential_has_the_power_and_the_sign_that_are_named(D, lam, M, expected):
     """dx/dalpha = J(x) e by mpmath from the oracle's rates (a quadratic's central difference is its derivative), U' = -e.x'."""

@@ -21,7 +21,7 @@ from stabilab.analysis.table_fate import label_by_table
 from .oracles import energy
 from .oracles.pairs import WORDS, physical, scaled
 from .test_extremes import assert_extremes
-from .test_fate import ELLIPTIC, FAMILIES, sample
+from .test_fate import ELLIPTIC, FAMILIES, axis_of, sample
 
 INTERVALS = [(None, None), (F(-3), None), (F(0), None), (F(2, 7), None), (F(-3), F(2)), (F(0), F(1, 3)), (F(1, 1000), F(1000)),
              (F(1, 10), F(20)), (F(1), F(50)), (F(5), F(6)), (F(1), F(100)),
@@ -230,7 +230,8 @@ def test_spin_about_a_torque_that_no_other_rate_disturbs_grows_for_ever(axis, mo
         assert box[1:].tolist() == [[0, 0], [0, 0]]
 
 
-@pytest.mark.parametrize("a, b, sign", [(0.25, 0.5, 1), (0.25, 0.5, -1), (0.0, 3.0, 1), (0.0, -3.0, 1), (0.5, 0.5, 1), (0.0, 3.0, -1)])
+@pytest.mark.parametrize("a, b, sign", [(0.25, 0.5, 1), (0.25, 0.5, -1), (0.0, 3.0, 1), (0.0, -3.0, 1), (0.5, 0.5, 1),
+                                        (0.0, 3.0, -1)])
 @pytest.mark.parametrize("plane", [-1, 1])
 def test_motions_on_the_invariant_planes_have_the_fate_and_extremes_of_the_potential(a, b, sign, plane):
     """x3 = -(x1 + b) decays in the torque's direction, x3 = x1 + b grows; the oracle follows the one exponential left."""
@@ -240,6 +241,26 @@ def test_motions_on_the_invariant_planes_have_the_fate_and_extremes_of_the_poten
     for n, state in enumerate(states):
         assert found.labels[n] == WORDS[energy.label(problem, state, digits=60)], state
         assert_extremes(boxes[n], energy.extremes(problem, state, digits=60), 1e-11)
+
+
+@pytest.mark.parametrize("name", ["minor scaled +", "minor scaled -", "minor physical", "major physical, other sign",
+                                  "middle scaled, |c| far above"])
+def test_states_within_rounding_of_a_saddle_are_labelled_by_the_side_they_are_on(name):
+    """Offsets from the barrier of some units in the last place, energies down to their squares: the potential at 100 digits."""
+    (scene, problem), rng = FAMILIES[name], np.random.default_rng(6)
+    saddles = [p.at for c in stabilab.equilibria(scene).curves for p in c.samples
+               if p.linear == "unstable" and max(map(abs, p.at)) < 50]
+    axis, states = axis_of(problem), []
+    for at in saddles[:1]:
+        for power in (-17, -16, -15.5, -15, -12, -8):
+            state = [v * (1 + 2.0**-52 * int(rng.integers(-3, 4))) for v in at]
+            state[axis] = float(rng.choice([-1, 1])) * 10.0**power * max(map(abs, at))
+            states.append(state)
+    found = stabilab.fate(scene, np.array(states))
+    for state, label in zip(states, found.labels):
+        word = energy.label(problem, tuple(state), digits=100)
+        rate = max(abs(float(v)) for v in problem.rate([F(v) for v in state]))
+        assert label == WORDS[word] or label == Fate.EQUILIBRIUM and rate < 1e-14
 
 
 @pytest.mark.parametrize("name", ["minor scaled +", "major physical, other sign", "middle scaled -, |c| above the cusp"])
@@ -257,3 +278,16 @@ def test_the_loops_for_the_compiler_run_as_plain_python_give_the_bytes_of_the_ar
     assert answers[0] == answers[1] and len(certain) > 500
     # and the general formula, which has no table, agrees
     np.testing.assert_array_equal(out["labels"][certain], stabilab.fate(scene, states).labels[certain])
+
+
+def test_free_motions_on_an_invariant_plane_tend_to_the_pure_spin_exactly_where_their_energy_reaches_its():
+    """D = (6, 5, 3), lambda = (1/2, 0, 1): p = q = 1/3, planes w3 - 1/2 = +-(w1 + 1/2). On them |H|^2 - 2 D2 T is that of the
+    pure spin about axis 2 at w1 = -1/2, w3 = 1/2, whose least energy is (6/4 + 3/4)/2 = 9/8; less energy cannot go there."""
+    scene, _ = physical((6, 5, 3), (0.5, 0, 1))
+    states = [(y - 0.5, w, 0.5 + s * y) for y in (-2, -0.5, 0.25, 0.5, 1, 3) for s in (1, -1) for w in (0, 0.5, -2)]
+    states.remove((0.0, 0, 0.0))  # at rest
+    found = stabilab.fate(scene, np.array(states))
+    over = [F(6 * x * x + 5 * y * y + 3 * z * z) / 2 - F(9, 8) for x, y, z in states]
+    assert 0 in over and min(over) < 0
+    np.testing.assert_array_equal(found.labels, [Fate.SEPARATRIX if o >= 0 else Fate.BOUNDED for o in over])
+    assert found.margins == pytest.approx([float(-o) for o in over], rel=1e-14)

@@ -240,7 +240,7 @@ def _label_hyperbola(land: Landscape, states, out) -> int:
     _mark_ties(out, tie)
     on_plane = np.nonzero((place[0] == 0) | (place[1] == 0))[0]
     for index in on_plane:
-        _label_plane(land, states[index], [v[index] for v in place], w[index], out, index)
+        _label_plane(land, states[index], [v[index] for v in place], out, index)
     return precise
 
 
@@ -278,19 +278,18 @@ def _roughness(land, place, size):
     return np.abs(pot.kappa) * s * s + (abs(pot.rho) + abs(pot.sigma)) * s + abs(pot.m)
 
 
-def _label_plane(land, state, place, w, out, index):
+def _label_plane(land, state, place, out, index):
     """One state exactly on an invariant plane (or on both: pure spin)."""
     xi, eta = place
-    pot, axis = land.potential, land.reduction.axis + 1
+    axis = land.reduction.axis + 1
     if xi == 0 and eta == 0:
         _write(out, index, Fate.SPIN_UP if land.sense else Fate.BOUNDED, Reason.PURE_SPIN, -np.inf, axis, land.sense)
         return
     if land.sense == 0:
-        quarter = -0.25 * pot.G
-        edge = 0.5 * quarter * (xi * xi + eta * eta) - pot.e1 * xi + pot.e2 * eta + 0.5 * w * w
+        edge = _over_pure_spin(land.reduction, state)
         label = Fate.BOUNDED if edge < 0 else Fate.SEPARATRIX
         reason = Reason.TORQUE_FREE if edge < 0 else Reason.ASYMPTOTIC
-        _write(out, index, label, reason, -edge * land.reduction.energy_unit)
+        _write(out, index, label, reason, float(-edge) * land.reduction.energy_unit)
         return
     if eta == 0:  # grows ahead, and the torque's tilt rises behind
         _write(out, index, Fate.BOUNDED, Reason.WALLS, np.inf)
@@ -303,6 +302,15 @@ def _label_plane(land, state, place, w, out, index):
         _write(out, index, Fate.SEPARATRIX, Reason.TIE, 0.0)
     else:
         _write(out, index, Fate.SPIN_UP, Reason.PLANE_ESCAPES, margin, axis, land.sense)
+
+
+def _over_pure_spin(r, state) -> Fraction:
+    """W^2/2 + V over the potential at the conic's centre, exactly, without a torque: a tie is a motion that comes to rest."""
+    u, v, w = (Fraction(float(state[a])) for a in (r.j, r.k, r.axis))
+    sj, sk, ap, aq, sp = r.q0 / r.q, r.p0 / r.p, abs(r.p), abs(r.q), 1 if r.p > 0 else -1
+    u, v = u + sj, v + sk
+    return (ap * aq * (w + r.s) ** 2 / 2
+            - sp * (aq * u * (r.kappa * u / 2 + r.rho - r.kappa * sj) + ap * v * (r.sigma - r.kappa * sk)))
 
 
 def _write(out, index, label, reason, margin, axis=0, sense=0):
