@@ -212,3 +212,12 @@ def test_a_second_run_compiles_and_copies_no_integrator(monkeypatch):
     monkeypatch.setattr(copy, "copy", None)
     assert (trajectory(other, (1, 2, 3), [4.0]).states == first).all()
     assert (compiled._integrator.cache_info().misses, compiled._free.cache_info().misses) == before
+
+
+@pytest.mark.parametrize("scale", [2.0**-9, 2.0**-20, 2.0**-33])
+def test_slow_rates_are_followed_to_the_same_digits(scale):
+    # rates, momentum and the root of the torque in a smaller unit of 1/s: the same motion, exactly (Euler's equations are homogeneous)
+    def followed(unit):
+        scene = Scene(Body((18, 44, 27)), Gyrostat((0.5 * unit, -64 * unit, 0)), ConstantTorque((0, 0, 0.25 * unit**2)))
+        return trajectory(scene, np.array([0.75, 0.375, -0.25]) * unit, np.array([100.0, 900.0]) / unit).states / unit
+    np.testing.assert_allclose(followed(scale), followed(1.0), rtol=0, atol=1e-11)

@@ -14,6 +14,7 @@ import numpy as np
 
 from ..compiled import TAYLOR_TOLERANCE, _equations, borrowed_taylor, form, heyoka_available, to_numpy
 from ..errors import InputError
+from .own_unit import in_unit, own_unit
 from .trajectories import STEP_LIMIT, _rtol, _times, trajectory
 
 # Motions in step: eight doubles fill the widest vectors there are, and narrower ones two or four at a time. Not asked of
@@ -58,12 +59,26 @@ def ensemble(scene, states, times, rtol: float | None = None, workers: int = 1) 
     if not heyoka_available():
         return _one_by_one(scene, starts, times, rtol)
     rtol = TAYLOR_TOLERANCE if rtol is None else max(rtol, TAYLOR_TOLERANCE)
+    units = np.array([own_unit(scene, start) for start in starts]) if equations.blocks == ("omega",) else np.ones(len(starts))
+    if (units != 1).any():
+        return _by_units(scene, starts, times, rtol, workers, units)
     run = _Rows(scene, form(equations, equations.rhs), rtol, starts, times)
     groups = _groups(to_numpy(equations), starts)
     with ThreadPoolExecutor(workers) if workers > 1 else nullcontext() as pool:
         steps = sum((pool.map if pool else map)(run, (groups[i::workers] for i in range(workers))))
     return Ensemble(times, run.out, np.isfinite(run.out).all(axis=2), dict(sorted(run.stopped.items())), "taylor", rtol,
                     {"steps": steps})
+
+
+def _by_units(scene, starts, times, rtol, workers, units):
+    """The motions of each unit of time by themselves, in that unit (`own_unit`)."""
+    out, stopped, steps = np.empty((len(starts), times.size, 3)), {}, 0
+    for unit in sorted(set(units.tolist())):
+        rows = np.flatnonzero(units == unit)
+        part = ensemble(scene if unit == 1 else in_unit(scene, unit), starts[rows] / unit, times * unit, rtol, workers)
+        out[rows], steps = part.states * unit, steps + part.counters["steps"]
+        stopped |= {int(rows[n]): why for n, why in part.stopped.items()}
+    return Ensemble(times, out, np.isfinite(out).all(axis=2), dict(sorted(stopped.items())), "taylor", rtol, {"steps": steps})
 
 
 def _starts(equations, states):

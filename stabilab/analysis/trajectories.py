@@ -6,6 +6,7 @@ steps (feathered, see `compiled`), so a law with a non-zero rate is as good a wi
 from __future__ import annotations
 
 import difflib
+from dataclasses import replace
 
 import numpy as np
 
@@ -14,6 +15,7 @@ from ..compiled import FEATHER, TAYLOR_TOLERANCE, _equations, borrowed_taylor, f
 from ..equations import derive
 from ..errors import InputError
 from .array_results import Trajectory
+from .own_unit import in_unit, own_unit
 
 SCIPY_METHODS = ("RK45", "RK23", "DOP853", "Radau", "BDF", "LSODA")
 METHODS = ("taylor", *SCIPY_METHODS)
@@ -50,6 +52,8 @@ def trajectory(scene, state, times, method: str = "taylor", rtol: float | None =
     equations, state = _start(scene, state)
     if method == REDUCED:
         return _by_quadrature(scene, equations, state, times, rtol)
+    if method == "taylor" and equations.blocks == ("omega",) and (unit := own_unit(scene, state)) != 1:
+        return _in_unit(scene, state, times, rtol, steps, laws, unit)
     reason, landing = "all times reached", False
     if method == "taylor" and not heyoka_available():
         method, rtol, landing = "DOP853", max(rtol or 0.0, FALLBACK_RTOL), True
@@ -77,6 +81,15 @@ def trajectory(scene, state, times, method: str = "taylor", rtol: float | None =
     return Trajectory(reached[order], states[order], method, rtol, drift,
                       run.counters, "stopped" if failures else "reached", "; ".join(failures) or reason,
                       {name: part for name, part in slices(equations.blocks).items()})
+
+
+def _in_unit(scene, state, times, rtol, steps, laws, unit) -> Trajectory:
+    """The same in the motion's own unit of time: exact, as the unit is a power of two."""
+    passed = None if steps is None else []
+    run = trajectory(in_unit(scene, unit), state / unit, times * unit, "taylor", rtol, passed, laws)
+    if steps is not None:
+        steps += [t / unit for t in passed]
+    return replace(run, t=times[np.isin(times * unit, run.t)], states=run.states * unit)
 
 
 def _method(name: str) -> str:
