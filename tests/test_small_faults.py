@@ -291,3 +291,4 @@ def test_free_motions_on_an_invariant_plane_tend_to_the_pure_spin_exactly_where_
     assert 0 in over and min(over) < 0
     np.testing.assert_array_equal(found.labels, [Fate.SEPARATRIX if o >= 0 else Fate.BOUNDED for o in over])
     assert found.margins == pytest.approx([float(-o) for o in over], rel=1e-14)
+    np.testing.assert_array_equal(found.reasons, [Reason.ASYMPTOTIC if o >= 0 else Reason.TORQUE_FREE for o in over])

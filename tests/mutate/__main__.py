@@ -37,13 +37,13 @@ def main(arguments=None):
     rows = []
     for subject in asked.subjects or SUBJECTS:
         modules, files = SUBJECTS[subject]
-        chosen = faults.drawn(modules, asked.sample, asked.seed)
         if asked.again:
             with open(asked.again, encoding="utf-8") as file:
                 before = json.load(file)
-            left = {(r["module"], r["operator"], r["occurrence"]) for r in before if r["outcome"] == "survived"}
-            files = files[-1:]
-            chosen = [f for f in chosen if (f.module, f.operator, f.occurrence) in left]
+            left = [r for r in before if r["subject"] == subject and r["outcome"] == "survived"]
+            files, chosen = files[-1:], faults.again(left)
+        else:
+            chosen = faults.drawn(modules, asked.sample, asked.seed)
         rows += judged(subject, chosen, files, asked.slowest)
         if asked.json:
             with open(asked.json, "w", encoding="utf-8") as file:

@@ -35,6 +35,12 @@ def drawn(modules, count: int, seed: int) -> list[Fault]:
     return sorted(found, key=lambda f: (modules.index(f.module), f.line))
 
 
+def again(rows) -> list[Fault]:
+    """The faults of a report's rows, where the text is still the same."""
+    found = [(r, _fault(r["module"], f"core/{r['operator']}", r["occurrence"])) for r in rows]
+    return [fault for r, fault in found if fault and (fault.was, fault.now) == (r["was"], r["now"])]
+
+
 def spots(module: str):
     """(operator, occurrence) of every mutation outside annotations."""
     from cosmic_ray.ast import ast_nodes, get_ast
