@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 
-.PHONY: report test test-slow figures bench fuzz hunt coverage mutate clean
+.PHONY: report test test-slow test-long figures bench fuzz hunt coverage mutate clean
 
 report: $(STAMP)
 	$(BIN)/stabilab report cases/*.toml --out report
@@ -13,7 +13,10 @@ test: $(STAMP)
 	$(BIN)/python -m pytest -n 2 -m "not slow"
 
 test-slow: $(STAMP)
-	$(BIN)/python -m pytest -n 2 -m slow
+	$(BIN)/python -m pytest -n 2 -m "slow and not long"
+
+test-long: $(STAMP)
+	$(BIN)/python -m pytest -n 2 -m long
 
 figures: $(STAMP)
 	$(BIN)/stabilab figures --out figures
