@@ -16,6 +16,7 @@ import numpy as np
 from ..errors import InputError
 from .barrier_table import barrier_table
 from .effective import effective
+from .exact_tie import over_pure_spin
 from .fast_fate import compiled_loops
 from .landscape import EPS, TURN, Landscape, landscape
 from .precise import decide
@@ -286,7 +287,7 @@ def _label_plane(land, state, place, out, index):
         _write(out, index, Fate.SPIN_UP if land.sense else Fate.BOUNDED, Reason.PURE_SPIN, -np.inf, axis, land.sense)
         return
     if land.sense == 0:
-        edge = _over_pure_spin(land.reduction, state)
+        edge = over_pure_spin(land.reduction, state)
         label = Fate.BOUNDED if edge < 0 else Fate.SEPARATRIX
         reason = Reason.TORQUE_FREE if edge < 0 else Reason.ASYMPTOTIC
         _write(out, index, label, reason, float(-edge) * land.reduction.energy_unit)
@@ -302,15 +303,6 @@ def _label_plane(land, state, place, out, index):
         _write(out, index, Fate.SEPARATRIX, Reason.TIE, 0.0)
     else:
         _write(out, index, Fate.SPIN_UP, Reason.PLANE_ESCAPES, margin, axis, land.sense)
-
-
-def _over_pure_spin(r, state) -> Fraction:
-    """W^2/2 + V over the potential at the conic's centre, exactly, without a torque: a tie is a motion that comes to rest."""
-    u, v, w = (Fraction(float(state[a])) for a in (r.j, r.k, r.axis))
-    sj, sk, ap, aq, sp = r.q0 / r.q, r.p0 / r.p, abs(r.p), abs(r.q), 1 if r.p > 0 else -1
-    u, v = u + sj, v + sk
-    return (ap * aq * (w + r.s) ** 2 / 2
-            - sp * (aq * u * (r.kappa * u / 2 + r.rho - r.kappa * sj) + ap * v * (r.sigma - r.kappa * sk)))
 
 
 def _write(out, index, label, reason, margin, axis=0, sense=0):

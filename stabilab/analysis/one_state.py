@@ -12,6 +12,7 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from .balls import DOUBLE_BITS, settled
+from .exact_tie import over_pure_spin
 from .precise import PreciseOrbit, decide
 from .precise_extremes import extreme_balls
 from .reasons import REASONS, Reason, rests
@@ -97,13 +98,9 @@ def _on_hyperbola(r, state) -> OneFate:
 
 
 def _on_free_plane(r, state) -> OneFate:
-    """On an invariant plane without torque: bounded below the height of the plane's end, else it tends to a rotation.
-    Every term is rational."""
-    (u, v), sp = _shifted(r, state), 1 if r.p > 0 else -1
-    ap, aq, speed = abs(r.p), abs(r.q), Fraction(state[r.axis]) + r.s
-    rho, sigma = r.rho - r.kappa * r.q0 / r.q, r.sigma - r.kappa * r.p0 / r.p
-    above = float(ap * aq * speed * speed / 2 - sp * aq * u * (r.kappa * u / 2 + rho) - sp * ap * sigma * v)
-    return OneFate(*((Fate.BOUNDED, Reason.TORQUE_FREE) if above < 0 else (Fate.SEPARATRIX, Reason.ASYMPTOTIC)), -above)
+    """On an invariant plane without torque: bounded below the height of the plane's end, else it tends to a rotation."""
+    above = over_pure_spin(r, state)
+    return OneFate(*((Fate.BOUNDED, Reason.TORQUE_FREE) if above < 0 else (Fate.SEPARATRIX, Reason.ASYMPTOTIC)), float(-above))
 
 
 def _on_parabola(r, state) -> OneFate:
