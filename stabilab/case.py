@@ -37,7 +37,7 @@ class Case:
     numbers, "attitude" as psi, phi, theta of the 3-1-2 sequence, rad), where the file gives them; span: (from, to) in
     the case's time or None; expect: facts the case's test asserts; text: the source. uncertain: the numbers given with an
     uncertainty, whose middles everything else holds; mu: the dimensionless torque where the file gives it for a body.
-    exact_state: the decimals of the state as they were written, before the one rounding to doubles.
+    decimals: those of the state as they were written, before the one rounding to doubles (`exact_state`).
     """
 
     path: str
@@ -55,7 +55,14 @@ class Case:
     variant: str = ""
     uncertain: tuple[Uncertain, ...] = ()
     mu: tuple | None = None
-    exact_state: tuple[Fraction, Fraction, Fraction] | None = None
+    decimals: tuple[Fraction, Fraction, Fraction] | None = None
+
+    @property
+    def exact_state(self) -> tuple[Fraction, Fraction, Fraction] | None:
+        """The state exactly: its decimals as they were written, or, where it was replaced since, the new numbers themselves."""
+        if self.state is None:
+            return None
+        return self.decimals if self.decimals and floats(self.decimals) == self.state else tuple(map(Fraction, self.state))
 
     @property
     def start(self) -> tuple[float, ...] | None:
