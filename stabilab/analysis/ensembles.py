@@ -59,11 +59,15 @@ def ensemble(scene, states, times, rtol: float | None = None, workers: int = 1) 
     if not heyoka_available():
         return _one_by_one(scene, starts, times, rtol)
     rtol = TAYLOR_TOLERANCE if rtol is None else max(rtol, TAYLOR_TOLERANCE)
-    units = np.array([own_unit(scene, start) for start in starts]) if equations.blocks == ("omega",) else np.ones(len(starts))
-    if (units != 1).any():
-        return _by_units(scene, starts, times, rtol, workers, units)
+    system = to_numpy(equations)
+    if equations.blocks == ("omega",):
+        with np.errstate(all="ignore"):
+            rates = system(starts)
+        units = np.array([own_unit(scene, *one) for one in zip(starts.tolist(), rates.tolist())])
+        if (units != 1).any():
+            return _by_units(scene, starts, times, rtol, workers, units)
     run = _Rows(scene, form(equations, equations.rhs), rtol, starts, times)
-    groups = _groups(to_numpy(equations), starts)
+    groups = _groups(system, starts)
     with ThreadPoolExecutor(workers) if workers > 1 else nullcontext() as pool:
         steps = sum((pool.map if pool else map)(run, (groups[i::workers] for i in range(workers))))
     return Ensemble(times, run.out, np.isfinite(run.out).all(axis=2), dict(sorted(run.stopped.items())), "taylor", rtol,

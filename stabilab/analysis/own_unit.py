@@ -10,8 +10,6 @@ from __future__ import annotations
 import math
 from fractions import Fraction
 
-import numpy as np
-
 from ..effects.constant_torque import ConstantTorque
 from ..effects.gyrostat import Gyrostat
 from ..scene import Scene, ScaledGyrostat
@@ -19,16 +17,14 @@ from ..scene import Scene, ScaledGyrostat
 SLOW, FAST = 2.0**-4, 2.0**20  # between these the unit stays: the control is at most 16 times coarser than asked
 
 
-def own_unit(scene, state) -> float:
+def own_unit(scene, state, rates) -> float:
     """The power of two near the size of a motion's rates, 1 where they are ordinary or the scene has other effects.
 
-    The size is that of the state (three rates) or of what the torque makes of it, the root of omega'.
+    The size is that of the state (three numbers) or of what its rates make of it, the root of omega'.
     """
-    if not scene.plain:
+    if not getattr(scene, "plain", False):  # equations without their scene, too
         return 1.0
-    with np.errstate(all="ignore"):
-        rates = scene.quadratic().rate([float(v) for v in state[:3]])
-        size = max(*(abs(float(v)) for v in state[:3]), math.sqrt(max(map(abs, rates))))
+    size = max(*map(abs, state), math.sqrt(max(map(abs, rates))))
     return 1.0 if not 0 < size < math.inf or SLOW <= size <= FAST else 2.0 ** math.frexp(size)[1]
 
 

@@ -52,13 +52,16 @@ def trajectory(scene, state, times, method: str = "taylor", rtol: float | None =
     equations, state = _start(scene, state)
     if method == REDUCED:
         return _by_quadrature(scene, equations, state, times, rtol)
-    if method == "taylor" and equations.blocks == ("omega",) and (unit := own_unit(scene, state)) != 1:
-        return _in_unit(scene, state, times, rtol, steps, laws, unit)
     reason, landing = "all times reached", False
     if method == "taylor" and not heyoka_available():
         method, rtol, landing = "DOP853", max(rtol or 0.0, FALLBACK_RTOL), True
         reason = "all times reached; heyoka is not installed, SciPy's DOP853 took its place"
     system = to_numpy(equations)
+    if method == "taylor" and equations.blocks == ("omega",):
+        with np.errstate(all="ignore"):
+            unit = own_unit(scene, state.tolist(), [float(v) for v in system.rate(state.tolist())])
+        if unit != 1:
+            return _in_unit(scene, state, times, rtol, steps, laws, unit)
     if method == "taylor":
         rtol = TAYLOR_TOLERANCE if rtol is None else max(rtol, TAYLOR_TOLERANCE)
         run = _Taylor(system, rtol, laws)
