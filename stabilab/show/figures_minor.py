@@ -128,7 +128,7 @@ def surfaces(plt):
 def contour_map(plt):
     """Fig. 6."""
     figure, ax = plt.subplots(figsize=(7.2, 6.6), layout="constrained")
-    scene, found = paper.scene("minor", 100), sheets(shape=(90, 181))
+    scene, found = paper.scene("minor", 100), sheets(shape=(240, 241))
     a, b = scene.a, scene.b
     levels = np.linspace(0, 7.5, 16)
     mesh = None
