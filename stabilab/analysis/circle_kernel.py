@@ -305,7 +305,7 @@ def sinc_minus_cos(t):
 
 def sort_out(m, mu, wanted, lane, ends, kind, left_open):
     """Which lanes are bounded, which spin up, and what stays open because the separatrix is too near."""
-    closest, scale, unclear, blurred = lane[CLOSEST], lane[SCALE], lane[UNCLEAR], lane[T]
+    closest, scale, unclear = lane[CLOSEST], lane[SCALE], lane[UNCLEAR]
     right, left = ends[R_BARRIER, OFFSET], ends[L_BARRIER, OFFSET]
     for a in range(m):
         bounded = right[a] < INFINITY

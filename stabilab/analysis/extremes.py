@@ -316,7 +316,6 @@ def _spinning_on_plane(land, place, w):
     """On the decaying plane xi = 0: eta shrinks to 0 after at most one excursion back to the turning point."""
     n = len(w)
     xi, eta = place
-    pot = land.potential
     low_w, far = np.array(w), np.array(eta)
     spots = spots_along(land, place, w)
     with np.errstate(all="ignore"):

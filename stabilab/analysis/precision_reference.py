@@ -118,7 +118,6 @@ def _compared(times, before, now, parts, work) -> Reference:
     n = min(len(low), len(high))
     states, rest = _pairs(high[:n])
     lower, lower_rest = _pairs(low[:n])
-    size = states.shape
     error = relative_errors(lower, states, rest - lower_rest, parts) if n else np.empty(0)
     error = np.maximum(error, 10.0**-low_digits)
     good = error <= AGREEMENT

@@ -68,7 +68,6 @@ def spots_along(land: Landscape, place, w) -> Spots:
 def interval(land: Landscape, place, w) -> Interval:
     """The allowed interval of each bounded state; places, w: (n,) arrays in canonical variables."""
     spots = spots_along(land, place, w)
-    n = len(w)
     ends = {}
     for side in (1, -1):
         ends[side] = turning_point(land, spots, place, w, side)

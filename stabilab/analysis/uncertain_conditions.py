@@ -15,7 +15,7 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from ..quadratic import CYCLE
-from .affine import Affine, lifted, squared
+from .affine import Affine, squared
 from .uncertain_orbit import reduction_over
 
 
@@ -128,8 +128,3 @@ def _line(r):
         return found + [Condition(r.p, "all three moments are equal")]
     level = r.rho * r.q0 + r.sigma * r.p0
     return found + ([Condition(level, "the whole line changes its stability")] if _there(level) else [])
-
-
-def middle_of(condition: Condition):
-    """The middle of a condition's value over each part."""
-    return lifted(condition.value).c

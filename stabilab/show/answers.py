@@ -102,12 +102,6 @@ def _pairs(extremes):
     return ((None, None),) * 3 if extremes is None else extremes
 
 
-def extremes_text(case, motion) -> str:
-    """Case, then one line per component."""
-    lines = [f"{case.name}: {motion.fate.word}, extremes over {motion.extremes_over}"]
-    return "\n".join(lines + _extreme_lines(case, motion.extremes))
-
-
 def _extreme_lines(case, pairs) -> list[str]:
     unit = UNITS[case.variables][0]
     return [f"  {name:<8}{_number(low):>24}{_number(high):>24}  {unit}".rstrip()

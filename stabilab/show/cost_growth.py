@@ -5,7 +5,7 @@ from dataclasses import astuple, fields
 from pathlib import Path
 
 from ..analysis.cost_growth import NODE_DIGITS, Growth, with_closeness, with_digits, with_states
-from . import style
+from . import html, style
 from .precision_words import caption, duration
 
 LOOKS = {("fate", "NumPy"): {"color": style.BLUE, "marker": "o"}, ("fate", "numba"): {"color": style.BLUE, "marker": "s", "linestyle": "--"},
@@ -29,7 +29,6 @@ AXES = {"states": "states", "digits": "digits reached", "separatrix": "relative 
 def page(case, folder, tell=None, full: bool = False) -> Path:
     """Measure how cost grows about a case (torque on an axis, bounded, no wheel momentum along the torque) and write growth.html,
     growth.csv and three pictures (in growth/) into the folder; returns the page's path. full: every decade of states."""
-    from jinja2 import Environment, FileSystemLoader, StrictUndefined
     folder, tell = Path(folder), tell or (lambda words: None)
     rows = [*with_states(case, full, tell), *with_digits(case, "full" if full else "brief", tell), *with_closeness(case, tell)]
     with style.whole_file(folder / "growth.csv") as waiting:
@@ -39,11 +38,7 @@ def page(case, folder, tell=None, full: bool = False) -> Path:
         with style.drawing() as plt:
             style.save(picture(plt, [r for r in rows if r.about == about], about), folder / "growth" / f"{about}.png")
         pictures.append({"file": f"growth/{about}.png", "title": TITLES[about], "words": words(rows, about)})
-    environment = Environment(loader=FileSystemLoader(Path(__file__).parent / "templates"), autoescape=True, undefined=StrictUndefined)
-    html = environment.get_template("growth.html").render(pictures=pictures, machine=caption(), case=case.name, full=full)
-    with style.whole_file(folder / "growth.html") as waiting:
-        waiting.write_text(html, encoding="utf-8")
-    return folder / "growth.html"
+    return html.write(folder / "growth.html", "growth.html", pictures=pictures, machine=caption(), case=case.name, full=full)
 
 
 def csv(rows) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from ..analysis.effect_cost import EXAMPLES, MANY, NOTHING, alone, counted, imported, ladder, timed, zero_is_absent
-from . import style
+from . import html, style
 from .precision_words import caption, duration
 
 PICTURE = "effects.png"
@@ -15,7 +15,6 @@ def page(folder, tell=None) -> Path:
 
     tell: called with a line of words before each part of the work (some twenty seconds in all).
     """
-    from jinja2 import Environment, FileSystemLoader, StrictUndefined
     folder, tell = Path(folder), tell or (lambda words: None)
     tell("what each effect costs, one added to the other")
     steps = [(counted(added, scene), timed(scene)) for added, scene in ladder()]
@@ -25,16 +24,12 @@ def page(folder, tell=None) -> Path:
     zero = {name: zero_is_absent(name) for name in EXAMPLES}
     with style.drawing() as plt:
         style.save(picture(plt, steps), folder / PICTURE)
-    environment = Environment(loader=FileSystemLoader(Path(__file__).parent / "templates"), autoescape=True, undefined=StrictUndefined)
-    html = environment.get_template("effects.html").render(
-        picture=PICTURE, many=MANY, machine=caption(), words=words(steps, singles, zero),
+    return html.write(
+        folder / "effects.html", "effects.html", picture=PICTURE, many=MANY, machine=caption(), words=words(steps, singles, zero),
         ladder=[_row(cost, seconds) for cost, seconds in steps],
         alone=[_row(cost, seconds) | {"modules": ", ".join(modules)} for cost, seconds, modules in singles],
         questions=list(next(iter(zero.values()))),
         zero=[{"name": spoken(name), "same": list(same.values())} for name, same in zero.items()])
-    with style.whole_file(folder / "effects.html") as waiting:
-        waiting.write_text(html, encoding="utf-8")
-    return folder / "effects.html"
 
 
 def spoken(name: str) -> str:

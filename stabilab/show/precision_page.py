@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ..files import whole_file
+from . import html
 from .precision import write
 from .precision_words import caption, duration, setting, words
 
@@ -14,8 +14,6 @@ def page(cases, folder, tell=None) -> Path:
     """Measure every case that has a motion and a span and write precision.html with its pictures and points (in precision/)
     into the folder; returns its path. The first case of every kind (the same equations, the same axis of the torque) is measured with
     every method and drawn; the others, with the methods that are likely to be best, are told in words."""
-    from jinja2 import Environment, FileSystemLoader, StrictUndefined
-
     folder, tell, sections, passed, seen = Path(folder), tell or (lambda words: None), [], [], set()
     for case in cases:
         if case.state is None or case.span is None:
@@ -29,11 +27,7 @@ def page(cases, folder, tell=None) -> Path:
             continue
         seen.add(kind)
         sections.append(section)
-    environment = Environment(loader=FileSystemLoader(Path(__file__).parent / "templates"), autoescape=True, undefined=StrictUndefined)
-    html = environment.get_template("precision.html").render(cases=sections, passed=passed, machine=caption(), priced=PRICED)
-    with whole_file(folder / "precision.html") as waiting:
-        waiting.write_text(html, encoding="utf-8")
-    return folder / "precision.html"
+    return html.write(folder / "precision.html", "precision.html", cases=sections, passed=passed, machine=caption(), priced=PRICED)
 
 
 def _kind(case):

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..errors import StabilabError
 from ..interrupt import undoing
-from . import chapters, figures, manifest, paper, surface, table
+from . import chapters, figures, html, manifest, paper, surface, table
 
 PACKAGES = ("numpy", "scipy", "sympy", "heyoka", "matplotlib", "vtk", "pyvista", "python-flint")
 TOLERANCES = {"verdicts, fates, periods": "exact structure of the equations, to rounding", "extremes": "roots, to rounding",
@@ -62,9 +62,6 @@ def _progress(given):
 
 def _make(cases, folder, tell, named, others):
     """Fill the temporary folder. named: the cases stood in the command; others(tell): the chapters."""
-    from jinja2 import Environment, FileSystemLoader, StrictUndefined
-    environment = Environment(loader=FileSystemLoader(Path(__file__).parent / "templates"), autoescape=True,
-                              undefined=StrictUndefined)
     tell("tables")
     tables = _tables(folder)
     drawn = figures.write(None, folder / "figures", tell, figures.FIRST)
@@ -74,8 +71,8 @@ def _make(cases, folder, tell, named, others):
     tell("printed formulas")
     from ..audit import check
     told, pages = others(tell), _pages(cases, folder, tell)  # the chapters' process is done, so that times are disturbed least
-    page = environment.get_template("index.html").render(
-        title="Bounded motion and spin-up of a gyrostat under constant torque", paper=paper.PAPER, rendering_note=note,
+    page = html.render(
+        "index.html", title="Bounded motion and spin-up of a gyrostat under constant torque", paper=paper.PAPER, rendering_note=note,
         cases=sections, chapters=told, pages=pages, tables=tables, surfaces=surfaces, audit=check(), versions=_versions(),
         figures=[{**vars(row), "file": f"figures/{path.name}", "command": row.command, "size": chapters.size(path)}
                  for row, path in zip(figures.FIGURES, drawn)],
