@@ -20,8 +20,16 @@ SUBJECTS = {
     "stability": (("stability", "eigenvalues"),
                   ("test_stability", "test_equilibria", "test_certificate", "test_curve_words", "test_small_faults")),
     "reduction": (("reduction",), ("test_fate", "test_one_state", "test_extremes", "test_certificate", "test_small_faults")),
-    "fate": (("fate", "landscape", "table_fate"), ("test_fate", "test_one_state", "test_fate_speed", "test_small_faults")),
-    "extremes": (("extremes", "turning", "rootfind"), ("test_extremes", "test_one_state", "test_small_faults"))}
+    "fate": (("fate", "landscape", "table_fate"), ("test_fate", "test_one_state", "test_fate_speed", "test_error_bounds",
+                                                   "test_fate_faults", "test_small_faults")),
+    "extremes": (("extremes", "turning", "rootfind"), ("test_extremes", "test_one_state", "test_small_faults")),
+    "quadrature": (("quadrature", "repeating_motion", "spin_up_motion"), ("test_extremes", "test_late_times", "test_one_state")),
+    "barriers": (("barrier_heights", "barrier_table"), ("test_fate_speed", "test_fate_faults", "test_small_faults")),
+    "separatrix": (("separatrix", "loop", "loops", "saddle_branches"),
+                   ("test_separatrix", "test_separatrix_accuracy", "test_separatrix_fast")),
+    "captured": (("captured", "captured_form"), ("test_captured",)),
+    "precise": (("precise", "precise_extremes", "precise_period", "exact_tie", "one_state"),
+                ("test_fate", "test_extremes", "test_hunted", "test_one_state", "test_exact_tie", "test_small_faults"))}
 
 
 def main(arguments=None):
@@ -32,7 +40,7 @@ def main(arguments=None):
     parser.add_argument("--slowest", type=float, default=1.0,
                         help="tests that take longer (s) are left out: the score is a lower bound")
     parser.add_argument("--json", help="write every fault and what became of it")
-    parser.add_argument("--again", help="a file of --json: the faults that survived there, by the subject's last file alone")
+    parser.add_argument("--again", help="a file of --json: the faults that survived there once more")
     asked = parser.parse_args(arguments)
     rows = []
     for subject in asked.subjects or SUBJECTS:
@@ -41,7 +49,7 @@ def main(arguments=None):
             with open(asked.again, encoding="utf-8") as file:
                 before = json.load(file)
             left = [r for r in before if r["subject"] == subject and r["outcome"] == "survived"]
-            files, chosen = files[-1:], faults.again(left)
+            chosen = faults.again(left)
         else:
             chosen = faults.drawn(modules, asked.sample, asked.seed)
         rows += judged(subject, chosen, files, asked.slowest)
