@@ -5,6 +5,7 @@ import math
 from fractions import Fraction
 
 EPS = 2.0**-52
+TINY = 1e-290  # so small a sum of products may have lost some to underflow
 
 
 def bracketed_newton(fun, lo, hi, start, args=(), rising=True, iterations=200, enough=2 * EPS):
@@ -39,7 +40,8 @@ def bracketed_newton(fun, lo, hi, start, args=(), rising=True, iterations=200, e
         move = np.abs(new - x)
         last = np.where(inside, np.abs(step), np.abs(hi - lo))
         new = np.where(value == 0, x, new)
-        done = (value == 0) | (move <= np.where(inside, enough, 2 * EPS) * np.abs(new)) | (hi - lo <= 2 * EPS * np.maximum(np.abs(lo), np.abs(hi)))
+        done = (value == 0) | (move <= np.where(inside, enough, 2 * EPS) * np.abs(new))
+        done |= hi - lo <= 2 * EPS * np.maximum(np.abs(lo), np.abs(hi))
         out[live] = new
         if done.all():
             break
@@ -96,7 +98,8 @@ def _log2(value) -> int:
 
 def _bisect_newton(value, left, right, fl, coefficients):
     """The root in (left, right), to the nearest double or its neighbour: floats guide, exact signs decide."""
-    slopes = [float(a) for a in coefficients]
+    unit = Fraction(2) ** -max(_log2(a) for a in coefficients if a)  # coefficients of any size would overflow
+    slopes = [float(a * unit) for a in coefficients]
     lo, hi, sign = float(left), float(right), fl > 0
     x = between(lo, hi)
     for _ in range(4000):
@@ -105,15 +108,17 @@ def _bisect_newton(value, left, right, fl, coefficients):
             df = df * x + f
             f = f * x + a
             size = size * abs(x) + abs(a)
-        if not math.isfinite(size) or abs(f) < 1e-10 * size:
-            f = float(value(Fraction(x)))  # the sign must be exact
-        if f == 0:
-            return x
-        if (f > 0) == sign:
+        positive = f > 0
+        if not TINY < size < math.inf or abs(f) < 1e-10 * size:  # the sign must be exact
+            exact = value(Fraction(x)) * unit
+            if exact == 0:
+                return x
+            positive, f = exact > 0, float(exact) if _log2(exact) < 1000 else math.inf
+        if positive == sign:
             lo = x
         else:
             hi = x
-        new = x - f / df if df and math.isfinite(df) else between(lo, hi)
+        new = x - f / df if f and df and math.isfinite(df) else between(lo, hi)
         if not lo < new < hi or abs(new - x) > 0.9 * (hi - lo):
             new = between(lo, hi)
         if not lo < new < hi or abs(new - x) <= 1e-17 * abs(x):
