@@ -73,7 +73,7 @@ def test_no_label_next_to_a_separatrix_is_wrong(name, places):
 
 
 @pytest.mark.slow
-@pytest.mark.long  # one state in six needs many digits: half an hour
+@pytest.mark.long  # one state in five needs many digits: five minutes alone on a processor
 def test_no_label_of_a_million_states_is_wrong():
     assert sum(judged(name, MANY_PLACES, seed) for seed, name in enumerate(SCENES, 2)) > 1_000_000
 

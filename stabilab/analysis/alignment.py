@@ -4,13 +4,32 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-import numpy as np
+from typing import NamedTuple
 
 from ..exact import sqrt_fraction
 
 
-def aligned(scene):
-    """(twin scene with the torque along one axis, rotation (3, 3) with omega_twin = rotation @ omega), or None.
+class Turn(NamedTuple):
+    """twin: the scene with its torque along one axis. rotation: rows of Fractions, omega_twin = rotation @ omega, good to 240
+    bits. exact: no row was rounded."""
+
+    twin: object
+    rotation: list
+    exact: bool
+
+    def __call__(self, state) -> tuple[Fraction, ...]:
+        """The twin's state for a state of the scene, numbers exact."""
+        return tuple(sum(r * Fraction(v) for r, v in zip(row, state)) for row in self.rotation)
+
+    @property
+    def matrix(self):
+        """(3, 3) array of the rotation's doubles."""
+        import numpy as np
+        return np.array([[float(v) for v in row] for row in self.rotation])
+
+
+def aligned(scene) -> Turn | None:
+    """The scene turned so that its torque lies along one axis, where its equal moments allow it.
 
     The twin has the same moments; its torque lies exactly along an axis, and its gyrostatic component along the torque
     is exactly zero where the scene's is.
@@ -21,7 +40,7 @@ def aligned(scene):
     acting = [i for i in range(3) if M[i]]
     if len(acting) < 2 or len({D[i] for i in acting}) > 1:
         return None
-    i, rest = acting[0], [n for n in range(3) if n != acting[0]]
+    i = acting[0]
     length = sqrt_fraction(sum(m * m for m in M))
     unit = [m / length for m in M]
     # the second direction lies in the equal plane, across the torque
@@ -38,7 +57,8 @@ def aligned(scene):
     if sum(m * v for m, v in zip(M, lam)) == 0:
         turned[i] = Fraction(0)
     torque = [length if n == i else Fraction(0) for n in range(3)]
-    return _scene(scene.body, turned, torque), np.array([[float(v) for v in row] for row in rotation])
+    exact = length**2 == sum(m * m for m in M) and size**2 == unit[i] ** 2 + unit[j] ** 2
+    return Turn(_scene(scene.body, turned, torque), rotation, exact)
 
 
 def _scene(body, momentum, torque):

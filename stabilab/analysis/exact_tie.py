@@ -35,13 +35,14 @@ def over_pure_spin(r, state) -> Fraction:
             - sp * (aq * u * (r.kappa * u / 2 + r.rho - r.kappa * sj) + ap * v * (r.sigma - r.kappa * sk)))
 
 
-def _poly(*coefficients):
+def polynomial(*coefficients):
+    """flint's polynomial with these rational coefficients, lowest power first."""
     from flint import fmpq_poly
     return fmpq_poly([rational(Fraction(c)) for c in coefficients])
 
 
-def _shared(first, second, root) -> bool:
-    """Whether the root (a ball that isolates it among those of `first`) is one of `second` as well."""
+def shares_root(first, second, root) -> bool:
+    """Whether the root (a ball that isolates it among those of `first`) is one of `second` as well; flint's polynomials."""
     common = first.gcd(second)
     return common.degree() > 0 and any(z.imag.is_zero() and z.real.overlaps(root) for z, _ in common.complex_roots())
 
@@ -49,9 +50,9 @@ def _shared(first, second, root) -> bool:
 def _on_parabola(orbit, spot) -> bool:
     """F and V - E share the root: both are polynomials in the offset."""
     f = orbit.taylor
-    height = _poly(0, *(-Fraction(c) / (n + 1) for n, c in enumerate(f)))
+    height = polynomial(0, *(-Fraction(c) / (n + 1) for n, c in enumerate(f)))
     speed = Fraction(orbit.state[orbit.r.axis]) + orbit.r.s
-    return _shared(_poly(*f), height - _poly(speed * speed / 2), spot.y)
+    return shares_root(polynomial(*f), height - polynomial(speed * speed / 2), spot.y)
 
 
 def _on_conic(orbit, spot) -> bool:
@@ -72,16 +73,16 @@ def _on_conic(orbit, spot) -> bool:
         rise = q(-sp * aq * r.kappa / 2) * (u * u - q(u0 * u0) * one * one) - q(sp * aq * rho) * (u * one - q(u0) * one * one)
         return rise - q(Fraction(r.e) * sp * ap * sigma) * (v * one - q(v0) * one * one) - q(ap * aq * speed * speed / 2) * one * one
 
-    x, one = _poly(0, 1), _poly(1)
+    x, one = polynomial(0, 1), polynomial(1)
     if r.kappa and r.kappa * m == rho * sigma:
         line_v, line_u = -sigma / r.kappa, -rho / r.kappa
-        if V.contains(rational(line_v)) and _shared(_poly(line_v**2 / aq - orbit.Q, 0, Fraction(-r.e) / ap), excess(x, _poly(line_v), one), U):
+        if V.contains(rational(line_v)) and shares_root(polynomial(line_v**2 / aq - orbit.Q, 0, Fraction(-r.e) / ap), excess(x, polynomial(line_v), one), U):
             return True
-        return U.contains(rational(line_u)) and _shared(
-            _poly(-orbit.Q - r.e * line_u**2 / ap, 0, 1 / aq), excess(_poly(line_u), x, one), V)
+        return U.contains(rational(line_u)) and shares_root(
+            polynomial(-orbit.Q - r.e * line_u**2 / ap, 0, 1 / aq), excess(polynomial(line_u), x, one), V)
     if r.kappa or sigma:
-        top, bottom = _poly(m, rho), _poly(sigma, r.kappa)
-        equation = _poly(-orbit.Q, 0, 1 / aq) * bottom * bottom - rational(Fraction(r.e) / ap) * top * top
-        return _shared(equation, excess(-top, x * bottom, bottom), V)
+        top, bottom = polynomial(m, rho), polynomial(sigma, r.kappa)
+        equation = polynomial(-orbit.Q, 0, 1 / aq) * bottom * bottom - rational(Fraction(r.e) / ap) * top * top
+        return shares_root(equation, excess(-top, x * bottom, bottom), V)
     line_v = -m / rho
-    return _shared(_poly(line_v**2 / aq - orbit.Q, 0, Fraction(-r.e) / ap), excess(x, _poly(line_v), one), U)
+    return shares_root(polynomial(line_v**2 / aq - orbit.Q, 0, Fraction(-r.e) / ap), excess(x, polynomial(line_v), one), U)

@@ -324,13 +324,20 @@ def _label_parabola(land: Landscape, states, out) -> int:
     return precise
 
 
-def flat_mask(land, states, place):
-    """(n,) True where the force does not change along the parabola at all (exactly): nothing holds the spin back."""
-    first, second, third = land.potential.derivatives(place)
-    small = np.zeros(len(states), bool)
+def nearly_flat(land, states, place=None):
+    """(n,) True where the force along a parabola may not change at all; False on other reductions."""
+    if land.e or not land.sense:
+        return np.zeros(len(states), bool)
+    place = land.start(states)[0] if place is None else place
+    first, _, third = land.potential.derivatives(place)
     size = 1e-6 * (abs(land.potential.kappa) + abs(land.potential.rho) + abs(land.potential.sigma))
     reach = 1 + np.abs(place[0]) + np.abs(place[1])
-    small |= (np.abs(first) <= size * reach**2 * 10) & (np.abs(third) <= size * reach**2 * 10)
+    return (np.abs(first) <= size * reach**2 * 10) & (np.abs(third) <= size * reach**2 * 10)
+
+
+def flat_mask(land, states, place):
+    """(n,) True where the force does not change along the parabola at all (exactly): nothing holds the spin back."""
+    small = nearly_flat(land, states, place)
     for index in np.nonzero(small)[0]:
         small[index] = _is_flat(land.reduction, states[index])
     return small

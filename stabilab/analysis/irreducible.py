@@ -6,13 +6,22 @@ equal moments (turned onto an axis); and a torque off the axes, where nothing is
 """
 from __future__ import annotations
 
-from fractions import Fraction
+import math
 
 import numpy as np
 
 from ..errors import InputError
-from .fate import Reason, _write, at_rest, fate
+from .alignment import aligned
+from .fate import _write, at_rest, fate, nearly_flat
+from .free_gyrostat import free_margin
+from .landscape import EPS, landscape
+from .one_state import OneFate, fate_of
+from .reasons import Reason, rests
+from .reduction import reduce
 from .results import Fate
+
+TURN_ROUNDINGS = 16  # units of rounding that turning a state costs: nine products and sums
+TURN_SHARE = 1e-36  # of the energies: half the digits of a turn by irrational numbers
 
 
 def kind_of(scene) -> str:
@@ -23,33 +32,69 @@ def kind_of(scene) -> str:
         return "free"
     if len(acting) == 1:
         return "law"
-    from .alignment import aligned
     return "turned" if aligned(scene) is not None else "off-axis"
 
 
 def labeller(scene):
-    """The chunk labeller of `fate` for such a scene."""
+    """The chunk labeller of `fate` for such a scene; it returns how many states it decided in many digits."""
     kind = kind_of(scene)
     if kind == "turned":
-        from .alignment import aligned
-        twin, rotation = aligned(scene)
-
-        def turned(states, out):
-            result = fate(twin, states @ rotation.T)
-            for name in ("labels", "margins", "reasons", "sense"):
-                out[name][:] = getattr(result, name)
-            out["axis"][:] = 0  # the spin-up is about the torque's direction, not about a body axis
-            at_rest(scene, states, out)
-            return result.precise
-        return turned
-    one = {"free": _free, "law": _law, "off-axis": _off_axis}[kind]
+        return lambda states, out: _label_turned(scene, states, out)
 
     def label(states, out):
         for index, state in enumerate(states):
-            one(scene, state, out, index)
+            if kind == "law":
+                _law(scene, state, out, index)
+            else:
+                _write(out, index, *one_fate(scene, state, kind))
         at_rest(scene, states, out)
-        return 0
+        return len(states) if kind == "free" else 0
     return label
+
+
+def one_fate(scene, state, kind) -> OneFate:
+    """The fate of one state (floats or Fractions, taken exactly) of a scene of kind "free", "turned" or "off-axis"."""
+    if kind == "off-axis":
+        found = OneFate(Fate.UNDECIDED, Reason.OFF_AXIS, math.inf)
+    elif kind == "turned":
+        found = _turned_fate(aligned(scene), state)
+    else:
+        margin = free_margin(scene, state)
+        found = OneFate(*((Fate.SEPARATRIX, Reason.TIE) if margin.tie else (Fate.BOUNDED, Reason.TORQUE_FREE)), float(margin))
+    return found._replace(label=Fate.EQUILIBRIUM, reason=Reason.AT_REST, axis=0, sense=0) if rests(scene.quadratic(), state) else found
+
+
+def _turned_fate(turn, state) -> OneFate:
+    """Of the twin's motion, whose numbers are exact or good to 240 bits."""
+    found = fate_of(turn.twin, reduce(turn.twin), turn(state))
+    speed = sum(float(v) ** 2 for v in state)
+    scale = max(map(float, turn.twin.body.exact)) * speed + max(abs(float(m)) for m in turn.twin.vector("constant_torque"))
+    if not turn.exact and abs(found.margin) <= TURN_SHARE * scale:
+        return OneFate(Fate.UNDECIDED, Reason.TURN_ROUNDS, found.margin)
+    return found._replace(axis=0)  # the spin-up is about the torque's direction, not about a body axis
+
+
+def _label_turned(scene, states, out) -> int:
+    """By the twin's formulas in doubles; in many digits where a change of the state in its last places, as the turn makes,
+    could matter."""
+    turn = aligned(scene)
+    turned = states @ turn.matrix.T
+    result = fate(turn.twin, turned)
+    for name in ("labels", "margins", "reasons", "sense"):
+        out[name][:] = getattr(result, name)
+    out["axis"][:] = 0
+    step = TURN_ROUNDINGS * EPS * np.linalg.norm(states, axis=1)
+    change = np.zeros(len(states))
+    with np.errstate(invalid="ignore"):
+        for i in range(3):
+            moved = turned.copy()
+            moved[:, i] += step
+            change += np.abs(np.nan_to_num(fate(turn.twin, moved).margins - result.margins, nan=0.0, posinf=np.inf, neginf=np.inf))
+    doubtful = (np.abs(result.margins) <= 2 * change) | nearly_flat(landscape(turn.twin), turned)
+    for index in np.nonzero(doubtful)[0]:
+        _write(out, index, *_turned_fate(turn, states[index].tolist()))
+    at_rest(scene, states, out)
+    return int(doubtful.sum())
 
 
 def _law(scene, state, out, index):
@@ -59,81 +104,12 @@ def _law(scene, state, out, index):
     out["axis"][index], out["sense"][index] = found.axis, found.sense
 
 
-def _off_axis(scene, state, out, index):
-    _write(out, index, Fate.UNDECIDED, Reason.OFF_AXIS, np.inf)
-
-
-def _free(scene, state, out, index):
-    margin, tie = free_margin(scene, state)
-    label = Fate.SEPARATRIX if tie else Fate.BOUNDED
-    _write(out, index, label, Reason.TIE if tie else Reason.TORQUE_FREE, margin)
-
-
-def free_margin(scene, state, digits=60):
-    """(margin, tie) without torque: energy of the saddle nearest in energy on the same momentum sphere, minus energy.
-
-    Saddles are the permanent rotations H = s omega on |H| = h at which D^-1 - 1/s is indefinite across H: the roots
-    s of sum s^2 lambda_i^2/(D_i - s)^2 = h^2, a sextic, in many digits. Physical scenes; inf where there is no saddle.
-    """
-    if scene.variables != "physical":
-        return float("inf"), False
-    import mpmath
-    mp = mpmath.mp.clone()
-    mp.dps = digits
-    number = lambda v: mp.mpf(Fraction(v).numerator) / Fraction(v).denominator
-    D, lam = [number(d) for d in scene.body.exact], [number(v) for v in scene.vector("gyrostat")]
-    w = [number(float(v)) for v in state]
-    h2 = sum((d * v + l) ** 2 for d, v, l in zip(D, w, lam))
-    energy = sum(d * v * v for d, v in zip(D, w)) / 2
-    heights = [height for height in _saddle_energies(mp, D, lam, h2)]
-    if not heights:
-        return float("inf"), False
-    margin = min((height - energy for height in heights), key=abs)
-    tie = abs(margin) <= mp.mpf(10) ** (8 - digits) * (energy + h2 / min(D))
-    return (0.0 if tie else float(margin)), bool(tie)
-
-
-def _saddle_energies(mp, D, lam, h2):
-    squares = [_times(mp, [1, -d], [1, -d]) for d in D]
-    everything = [mp.mpf(1)]
-    for square in squares:
-        everything = _times(mp, everything, square)
-    poly = [-h2 * a for a in everything]
-    for i in range(3):
-        j, k = (i + 1) % 3, (i + 2) % 3
-        term = _times(mp, _times(mp, squares[j], squares[k]), [lam[i] ** 2, 0, 0])
-        poly = [a + b for a, b in zip(poly, [mp.mpf(0)] * (len(poly) - len(term)) + term)]
-    while poly and poly[0] == 0:
-        poly.pop(0)
-    for root in mp.polyroots(poly, maxsteps=500, extraprec=600) if len(poly) > 1 else []:
-        s = mp.re(root)
-        if abs(mp.im(root)) > mp.mpf(10) ** (-mp.dps // 4) * (1 + abs(root)) or s == 0 or any(s == d for d in D):
-            continue
-        omega = [-l / (d - s) for d, l in zip(D, lam)]
-        H = [d * v + l for d, v, l in zip(D, omega, lam)]
-        if _indefinite_across(H, [1 / d - 1 / s for d in D]):
-            yield sum(d * v * v for d, v in zip(D, omega)) / 2
-
-
-def _times(mp, a, b):
-    out = [mp.mpf(0)] * (len(a) + len(b) - 1)
-    for i, u in enumerate(a):
-        for j, v in enumerate(b):
-            out[i + j] += u * v
-    return out
-
-
-def _indefinite_across(H, diagonal) -> bool:
-    """Whether diag(diagonal) restricted to the plane normal to H is indefinite: the bordered determinant's sign."""
-    a, b, c = diagonal
-    return H[0] ** 2 * b * c + H[1] ** 2 * a * c + H[2] ** 2 * a * b < 0
-
-
 def extremes_one_by_one(scene, states, span):
     """(n, 3, 2) extremes for scenes without a reduction; see `extremes.extremes`."""
     kind = kind_of(scene)
     if kind == "turned":
-        return np.array([_turned_extremes(scene, state, span) for state in states]).reshape(-1, 3, 2)
+        labels, times = fate(scene, states).labels, periods_one_by_one(scene, states)
+        return np.array([turned_extremes(scene, *one, span) for one in zip(states, labels, times)]).reshape(-1, 3, 2)
     from .offaxis import evidence, extremes_over_period
     if kind == "free":
         return np.array([extremes_over_period(scene, s).extremes for s in states]).reshape(-1, 3, 2)
@@ -145,27 +121,33 @@ def extremes_one_by_one(scene, states, span):
                      for s, at_rest_ in zip(states, rest)]).reshape(-1, 3, 2)
 
 
-def _turned_extremes(scene, state, span):
-    """Extremes in a plane of equal moments: roots of the body components' own rates over one period, or over the span."""
+def turned_extremes(scene, state, label, time, span):
+    """(3, 2) extremes in a plane of equal moments of a motion with this label and period: roots of the body components' own rates
+    over one period, or over the span."""
     from .offaxis import evidence
-    label, time = fate(scene, state).labels, float(periods_one_by_one(scene, state[None])[0])
     if label == Fate.EQUILIBRIUM:
         return np.stack([state, state], axis=1)
     if label == Fate.BOUNDED and np.isfinite(time):
         return evidence(scene, state, 1.02 * time).extremes
     if span is None:
-        raise InputError("this motion spins up about a direction between the axes: give span=T for its extremes")
+        raise InputError("this motion does not repeat, and its torque acts between the axes: give span=T for its extremes")
     return evidence(scene, state, span).extremes
+
+
+def turned_period(scene, state, label) -> float:
+    """The period of one state (floats or Fractions); inf where the motion does not repeat."""
+    from .one_period import period_of
+    turn = aligned(scene)
+    return period_of(reduce(turn.twin), turn(state), label) if label == Fate.BOUNDED else 0.0 if label == Fate.EQUILIBRIUM else math.inf
 
 
 def periods_one_by_one(scene, states):
     """(n,) periods for scenes without a reduction: from one return of a free motion; inf for unbounded ones."""
     kind = kind_of(scene)
     if kind == "turned":
-        from .alignment import aligned
         from .quadrature import periods
-        twin, rotation = aligned(scene)
-        return periods(twin, states @ rotation.T)
+        turn = aligned(scene)
+        return periods(turn.twin, states @ turn.matrix.T)
     if kind == "free":
         from .offaxis import extremes_over_period
         return np.array([extremes_over_period(scene, s).period for s in states])

@@ -23,7 +23,7 @@ def motion(scene, state, span=None, brief=False, exact=None) -> Motion:
             return found
     state, reduction = _checked(state), reduce(scene)
     if reduction is None:
-        return _irreducible(scene, state, span)
+        return _irreducible(scene, state, span, exact)
     given = exact or state
     decided = fate_of(scene, reduction, given)
     fields = _common(state, decided.label, decided.because, decided.axis, decided.sense)
@@ -70,39 +70,34 @@ def _pairs(array):
     return tuple((float(low), float(high)) for low, high in array)
 
 
-def _irreducible(scene, state, span) -> Motion:
-    import numpy as np
-
-    from .fate import fate
-    from .irreducible import kind_of
-    state = np.array(state)
-    decided = fate(scene, state)
-    label = Fate(int(decided.labels))
-    fields = _common(tuple(state.tolist()), label, decided.because, int(decided.axis), int(decided.sense))
-    return Motion(**{**fields, **_other(scene, kind_of(scene), state, span, label, decided)})
+def _irreducible(scene, state, span, exact) -> Motion:
+    from .irreducible import kind_of, one_fate
+    kind = kind_of(scene)
+    if kind == "law":
+        return Motion(**_under_law(scene, state, span))
+    decided = one_fate(scene, exact or state, kind)
+    fields = _common(state, decided.label, decided.because, decided.axis, decided.sense)
+    return Motion(**{**fields, **_other(scene, kind, state, exact or state, span, decided)})
 
 
-def _other(scene, kind, state, span, label, decided) -> dict:
+def _other(scene, kind, state, given, span, decided) -> dict:
     """Fields for scenes without a reduction."""
     if kind == "turned":
-        from .extremes import extremes, period
-        found = {"margin_energy": _finite(float(decided.margins)), "period": _repeats(float(period(scene, state)))}
-        if label == Fate.BOUNDED or span is not None:
-            found["extremes"] = _pairs(extremes(scene, state, _length(span)))
+        from .irreducible import turned_extremes, turned_period
+        time = turned_period(scene, given, decided.label)
+        found = {"margin_energy": _finite(decided.margin), "period": _repeats(time)}
+        if span is not None or decided.label == Fate.EQUILIBRIUM or _repeats(time) is not None:
+            found["extremes"] = _pairs(turned_extremes(scene, state, decided.label, time, _length(span)))
         return found
     if kind == "free":
         from .offaxis import extremes_over_period
         closed = extremes_over_period(scene, state)
-        return {"margin_energy": _finite(float(decided.margins)), "extremes": _pairs(closed.extremes), "extremes_over": closed.over,
+        return {"margin_energy": _finite(decided.margin), "extremes": _pairs(closed.extremes), "extremes_over": closed.over,
                 "period": _repeats(closed.period)}
-    if label == Fate.EQUILIBRIUM:
-        return {"extremes": tuple((float(v), float(v)) for v in state)}
+    if decided.label == Fate.EQUILIBRIUM:
+        return {"extremes": tuple((v, v) for v in state)}
     found = _evidence(scene, state, span) if span is not None else {}
-    if kind == "law":
-        law = _law(scene, state)
-        law["evidence"] = {**found.get("evidence", {}), **law["evidence"]}
-        found.update(law)
-    elif span is not None:
+    if span is not None:
         found["because"] = decided.because + "; over the span its size went " + _size_words(found["evidence"])
     return found
 
@@ -126,11 +121,12 @@ def _size_words(evidence) -> str:
             f"and its energy {evidence['energy_trend']}")
 
 
-def _law(scene, state) -> dict:
+def _under_law(scene, state, span) -> dict:
+    """All fields of a motion that an exact law keeps from being bounded."""
     from .captured import captured_fate
     found = captured_fate(scene, state)
-    return {"because": found.because, "fate": found.fate, "axis": found.axis, "sense": found.sense,
-            "invariants": {"J": found.J0, "J_rate": found.J_rate},
-            "evidence": {"certificate": found.certificate, "t_certificate": found.t_certificate,
-                         "release_time": found.release_time, "release_estimate": found.release_estimate,
-                         "steps": found.steps}}
+    seen = _evidence(scene, state, span) if span is not None else {}
+    known = {"certificate": found.certificate, "t_certificate": found.t_certificate, "release_time": found.release_time,
+             "release_estimate": found.release_estimate, "steps": found.steps}
+    return {**_common(state, found.fate, found.because, found.axis, found.sense), **seen, "because": found.because,
+            "invariants": {"J": found.J0, "J_rate": found.J_rate}, "evidence": {**seen.get("evidence", {}), **known}}

@@ -39,7 +39,7 @@ def ask(question, scene, state, digits: int, span=None, known=None, exact=None) 
     if known.fate == Fate.EQUILIBRIUM:
         return Told(question, _number(question, known), digits, math.inf, "exact", "the state is at rest")
     if question == "fate":
-        return _free_margin(twin, known, digits)
+        return _margin_without_reduction(twin, known, digits, exact or known.at[:3])
     if known.period:
         return _by_return(question, twin, known, digits, exact or known.at[:3])
     return _over_span(scene, state, span, known, digits, exact)
@@ -85,11 +85,19 @@ def _number(question, known):
 
 def _by_formula(question, scene, land, known, digits, state) -> Told:
     values, label = _number(question, known), known.fate
-    wanted = max(digits, MOST) + 1
-    balls = _balls(question, land.reduction, state, label, wanted)
+    balls = _balls(question, land.reduction, state, label, max(digits, MOST) + 1)
     if balls is None:  # on the separatrix
-        return Told(question, 0.0, digits, math.inf, "balls", "the energy equals the barrier's in thousands of bits")
-    error = _gap(values, balls)
+        return _tie(question, digits)
+    return _judged(question, values, balls, digits)
+
+
+def _tie(question, digits) -> Told:
+    return Told(question, 0.0, digits, math.inf, "balls", "the energy equals the barrier's, by algebra")
+
+
+def _judged(question, values, balls, digits) -> Told:
+    """The formulas' values where the balls (to max(digits, MOST) + 1 digits) confirm so many digits, else the balls'."""
+    wanted, error = max(digits, MOST) + 1, _gap(values, balls)
     if digits <= FORMULA_DIGITS and error <= 10.0**-digits:
         return Told(question, values, digits, digits_of(error), "formulas", f"formulas in doubles, {error:.1e} from ball arithmetic")
     width = max(_width(balls), 10.0**-wanted)  # the balls of a period are narrower than its two rules agree
@@ -150,17 +158,20 @@ def _decimals(balls, digits):
 # -- motions without one -----------------------------------------------------------------------------------------------
 
 
-def _free_margin(scene, known, digits) -> Told:
-    from .irreducible import free_margin, kind_of
+def _margin_without_reduction(scene, known, digits, state) -> Told:
+    from .irreducible import kind_of
+    wanted = max(digits, MOST) + 1
     if kind_of(scene) == "free":
-        (value, tie), (finer, _) = free_margin(scene, known.at[:3]), free_margin(scene, known.at[:3], 90)
-        error = 0.0 if tie else abs(value - finer) / abs(finer)
-        return Told("fate", finer, digits, digits_of(error), "sextic", "the saddles' sextic in 60 and in 90 digits")
-    from .fate import fate
-    value, moved = (float(fate(scene, s).margins) for s in (np.array(known.at), moved_row(np.array(known.at))))
-    error = CAUTION * abs(value - moved) / abs(value) if value else 1.0
-    because = f"formulas about the turned axis; a start moved in its last place differs by {error / CAUTION:.1e}"
-    return Told("fate", value, digits, digits_of(error), "formulas", because)
+        from .free_gyrostat import free_margin
+        margin = free_margin(scene, state, wanted)
+        balls = None if margin.tie else margin.ball
+    else:
+        from .alignment import aligned
+        from .precise import precise_margin
+        from .reduction import reduce
+        turn = aligned(scene)
+        balls = precise_margin(reduce(turn.twin), turn(state), wanted)
+    return _tie("fate", digits) if balls is None else _judged("fate", known.margin_energy, balls, digits)
 
 
 def _by_return(question, scene, known, digits, state) -> Told:

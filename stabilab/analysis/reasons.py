@@ -22,6 +22,7 @@ class Reason(IntEnum):
     ASYMPTOTIC = 10
     UNBOUNDED_LAW = 11
     OFF_AXIS = 12
+    TURN_ROUNDS = 13
 
 
 REASONS = {
@@ -38,6 +39,8 @@ REASONS = {
     Reason.ASYMPTOTIC: "no torque, on an invariant plane: the motion tends to a permanent rotation",
     Reason.UNBOUNDED_LAW: "|H|^2/2 - D_i T grows steadily at the rate lambda_i M_i: no motion is bounded",
     Reason.OFF_AXIS: "the torque is off the principal axes: no integral of motion bounds or releases it, and none is known",
+    Reason.TURN_ROUNDS: "the energy is within 1e-36 of a barrier's, and the turn that puts the torque on an axis has irrational numbers, "
+                        "carried to 240 bits",
 }
 
 

@@ -1,0 +1,163 @@
+"""Fates without a reduction: free gyrostats on their momentum sphere, and torques turned onto an axis of a symmetric body."""
+from fractions import Fraction
+
+import mpmath as mp
+import numpy as np
+import pytest
+
+import stabilab
+from stabilab import Body, ConstantTorque, Fate, Gyrostat, Scene
+from stabilab.analysis.free_gyrostat import free_margin
+from stabilab.analysis.irreducible import kind_of
+
+def rotations(D, lam, h2, digits=50):
+    """[(energy, whether a saddle)] of the permanent rotations with |H|^2 = h2: Newton's method on (H, 1/s) from many starts, polished
+    in many digits, and the signs of the energy's second derivative in the tangent plane; shares nothing with the sextic."""
+    D, lam, found, rng = np.array(D, float), [mp.mpf(v) for v in lam], [], np.random.default_rng(1)
+    plain = np.array(lam, float)
+    rough = []
+    for _ in range(120):
+        n = rng.normal(size=3)
+        H = n / np.linalg.norm(n) * float(h2) ** 0.5
+        k = float(H @ ((H - plain) / D)) / float(h2)
+        x = np.array([*H, k])
+        for _ in range(40):
+            F = np.array([*((x[:3] - plain) / D - x[3] * x[:3]), x[:3] @ x[:3] - float(h2)])
+            J = np.block([[np.diag(1 / D - x[3]), -x[:3, None]], [2 * x[None, :3], np.zeros((1, 1))]])
+            step = np.linalg.lstsq(J, F, rcond=None)[0]
+            x = x - step
+        if np.linalg.norm(step) < 1e-9 * np.linalg.norm(x) and not any(np.linalg.norm(x - y) < 1e-6 * np.linalg.norm(x) for y in rough):
+            rough.append(x)
+    with mp.workdps(digits):
+        for x in rough:
+            exact = mp.findroot(lambda a, b, c, k: [*((v - l) / mp.mpf(d) - k * v for v, d, l in zip((a, b, c), D.tolist(), lam)),
+                                                    a * a + b * b + c * c - h2], [mp.mpf(v) for v in x.tolist()])
+            H, k = [exact[i] for i in range(3)], exact[3]
+            across = np.linalg.svd(x[None, :3])[2][1:]
+            found.append((sum((v - l) ** 2 / mp.mpf(d) for v, d, l in zip(H, D.tolist(), lam)) / 2,
+                          np.linalg.det(across @ np.diag(1 / D - float(k)) @ across.T) < 0))
+    return found
+
+
+@pytest.mark.parametrize("D, lam", [((4, 3, 2), (1, 2, -1)), ((4, 3, 2), (1e-3, 1e-2, -1e-3)), ((3, 3, 2), (1, 2, 3)), ((2, 2, 2), (1, 2, 3)),
+                                    ((4, 3, 2), (30, 1, 2))])
+@pytest.mark.parametrize("state", [(1.0, 0.5, -0.25), (0.125, 2.0, 0.25)])
+def test_the_margin_is_that_of_the_nearest_saddle_found_by_newtons_method(D, lam, state):
+    scene = Scene(Body(D), Gyrostat(lam))
+    assert kind_of(scene) == "free"
+    with mp.workdps(50):
+        h2 = sum((d * mp.mpf(v) + mp.mpf(l)) ** 2 for d, v, l in zip(D, state, lam))
+        energy = sum(d * mp.mpf(v) ** 2 for d, v in zip(D, state)) / 2
+        points = rotations(D, [mp.mpf(v) for v in lam], h2)
+        saddles = [e - energy for e, saddle in points if saddle]
+        assert len(points) - 2 * len(saddles) == 2  # Euler's number of the sphere: none was missed in a way that would show
+        margin = free_margin(scene, state)
+        if not saddles:
+            assert margin.ball is None and stabilab.fate(scene, np.array(state)).margins == np.inf
+        else:
+            nearest = min(saddles, key=abs)
+            assert abs(float(margin) - nearest) < 1e-14 * abs(nearest)
+    assert stabilab.fate(scene, np.array(state)).labels == Fate.BOUNDED
+
+
+def saddle_and_another():
+    """(D, lambda, a saddle, another state of its energy and momentum), all rational. H + t v has the saddle's momentum for
+    t = -2 v.H/|v|^2, and its energy as well where sum v_i^2/D_i = |v|^2/s (H = s omega at the saddle)."""
+    D, v = [Fraction(d) for d in (4, 3, 2)], [Fraction(a) for a in (1, 2, 1)]
+    s = sum(a * a for a in v) / sum(a * a / d for a, d in zip(v, D))
+    omega = [Fraction(1), Fraction(1, 10), Fraction(1, 5)]
+    H, lam = [s * w for w in omega], [(s - d) * w for d, w in zip(D, omega)]
+    t = -2 * sum(a * h for a, h in zip(v, H)) / sum(a * a for a in v)
+    return D, lam, omega, [(h + t * a - l) / d for h, a, l, d in zip(H, v, lam, D)]
+
+
+def test_a_rational_state_on_the_separatrix_of_a_free_gyrostat_is_recognised_and_its_neighbours_are_not():
+    D, lam, saddle, state = saddle_and_another()
+    scene = Scene(Body(D), Gyrostat(lam))
+    assert kind_of(scene) == "free"
+    energy = lambda w: sum(d * v * v for d, v in zip(D, w)) / 2  # noqa: E731
+    momentum = lambda w: sum((d * v + l) ** 2 for d, v, l in zip(D, w, lam))  # noqa: E731
+    assert energy(state) == energy(saddle) and momentum(state) == momentum(saddle)
+    found = free_margin(scene, state)
+    assert found.tie and float(found) == 0
+    for nudge in (Fraction(1, 10**70), -Fraction(1, 10**70)):  # sixty digits would call this a tie
+        near = free_margin(scene, [state[0] + nudge, *state[1:]])
+        assert not near.tie and 0 < abs(float(near)) < 1e-68
+    motion = stabilab.motion(scene, tuple(map(float, state)), exact=tuple(state))
+    assert motion.fate is Fate.SEPARATRIX and motion.margin_energy == 0
+
+
+def test_the_digits_of_a_free_margin_are_those_asked_for():
+    from stabilab.analysis.precision_questions import ask
+    lam, D = (0.125, 0.25, -0.125), (4, 3, 2)
+    told = ask("fate", Scene(Body(D), Gyrostat(lam)), (1.0, 0.5, -0.25), 40)
+    assert told.digits >= 40
+    with mp.workdps(60):
+        state = (mp.mpf(1), mp.mpf("0.5"), mp.mpf("-0.25"))
+        h2 = sum((d * v + l) ** 2 for d, v, l in zip(D, state, lam))
+        energy = sum(d * v ** 2 for d, v in zip(D, state)) / 2
+        nearest = min((e - energy for e, saddle in rotations(D, lam, h2, 60) if saddle), key=abs)
+        assert abs(mp.mpf(told.decimals) - nearest) < mp.mpf(10) ** -40 * abs(nearest)
+
+
+# D = (4, 4, 2), lambda = (0, 1, 0), torque (-50, 0, 0), and a state exactly on its separatrix (test_hard_cases, TIES)
+TIED = (1.0, -7.5, -3.5)
+
+
+def turned_by(cosine, sine):
+    """The tied scene and state turned about axis 3 by an angle with these rational cosine and sine."""
+    turn = lambda x, y: (cosine * x - sine * y, sine * x + cosine * y)  # noqa: E731
+    momentum, torque = (*turn(0, 1), 0), (*turn(-50, 0), 0)
+    state = (*turn(Fraction(1), Fraction(-15, 2)), Fraction(-7, 2))
+    return Scene(Body((4, 4, 2)), Gyrostat(momentum), ConstantTorque(torque)), state
+
+
+@pytest.mark.parametrize("cosine, sine", [(Fraction(3, 5), Fraction(4, 5)), (Fraction(-5, 13), Fraction(12, 13)), (Fraction(7, 25), Fraction(-24, 25))])
+def test_a_state_on_the_separatrix_stays_there_when_the_scene_is_turned(cosine, sine):
+    scene, state = turned_by(cosine, sine)
+    assert kind_of(scene) == "turned"
+    given = tuple(map(float, state))
+    assert stabilab.motion(scene, given, exact=state, brief=True).fate is Fate.SEPARATRIX
+    near = (state[0], state[1] * (1 + Fraction(1, 10**25)), state[2])
+    found = stabilab.motion(scene, given, exact=near, brief=True)
+    assert found.fate is Fate.BOUNDED and 1e-30 < abs(found.margin_energy) < 1e-20
+
+
+def test_a_state_too_near_a_separatrix_for_an_irrational_turn_is_undecided_and_says_why():
+    third = Fraction(1, 3)  # the torque (-50, -50/3, 0) has an irrational length; the saddle's energy is met by a speed of many digits
+    root = mp.mp.clone()
+    root.dps = 90
+    scale = root.sqrt(1 + root.mpf(1) / 9)
+    cosine, sine = 1 / scale, 1 / (3 * scale)
+    as_fraction = lambda v: Fraction(int(root.floor(v * root.mpf(10) ** 80)), 10**80)  # noqa: E731
+    momentum = tuple(as_fraction(v) for v in (-sine, cosine))  # across the torque to 80 digits, made so exactly below
+    momentum = (-momentum[1] * third, momentum[1], Fraction(0))
+    length = as_fraction(50 * cosine)
+    scene = Scene(Body((4, 4, 2)), Gyrostat(momentum), ConstantTorque((-length, -length * third, 0)))
+    x, y = root.mpf(1), root.mpf("-7.5")
+    state = (as_fraction(cosine * x - sine * y), as_fraction(sine * x + cosine * y), Fraction(-7, 2))
+    found = stabilab.motion(scene, tuple(map(float, state)), exact=state, brief=True)
+    assert found.fate is Fate.UNDECIDED and "irrational" in found.because and abs(found.margin_energy) < 1e-60
+    off = (state[0], state[1] * (1 + Fraction(1, 10**20)), state[2])
+    assert stabilab.motion(scene, tuple(map(float, state)), exact=off, brief=True).fate is Fate.BOUNDED
+
+
+@pytest.mark.parametrize("torque, along", [((1, 2, 0), (0.1, 0.2, 0.0)), ((3, -1, 0), (-0.3, 0.1, 0.0)), ((0.1, 0.7, 0), (0.1, 0.7, 0.0))])
+def test_spin_along_a_torque_between_equal_axes_is_pure_spin_for_arrays_and_single_states(torque, along):
+    """Nothing but the torque acts on a spin along it; turned in doubles, a component of 1e-17 across it would seem to bound it."""
+    scene = Scene(Body((4, 4, 2)), Gyrostat((0, 0, 0)), ConstantTorque(torque))
+    assert kind_of(scene) == "turned"
+    many = stabilab.fate(scene, np.array([along, np.multiply(along, 2)]))
+    np.testing.assert_array_equal(many.labels, Fate.SPIN_UP)
+    assert many.precise == 2 and stabilab.motion(scene, along, brief=True).fate is Fate.SPIN_UP
+
+
+def test_arrays_beside_a_turned_separatrix_get_the_labels_of_exact_arithmetic():
+    scene, state = turned_by(Fraction(3, 5), Fraction(4, 5))
+    given = np.array([float(v) for v in state])
+    states = given * (1 + np.array([0, 1e-15, -1e-15, 1e-13, -1e-12, 1e-9, 1e-6, -1e-4])[:, None])
+    found = stabilab.fate(scene, states)
+    singles = [stabilab.motion(scene, tuple(s), brief=True) for s in states.tolist()]
+    np.testing.assert_array_equal(found.labels, [m.fate for m in singles])
+    np.testing.assert_allclose(found.margins, [m.margin_energy for m in singles], rtol=1e-9, atol=1e-12 * 140)  # of the energy, 140 J
+    assert 0 < found.precise < len(states)
