@@ -12,11 +12,12 @@ from .isolated_equilibria import isolated_states
 from .pencil import pencil
 from .results import Fate
 from .stability import curve_with_verdicts, cuts_of, isolated_point
-from .torque_free_equilibria import torque_free_curves
+from .torque_free_equilibria import DRIFT, plane_centre, plane_moments, plane_of_equal_moments, torque_free_curves
 
 SCHEMA = "stabilab.certificate/1"
 ROOT_BITS = 150  # roots are known to 160 bits and more (`polynomials.real_roots`, `Surd.fraction`)
 BOX_BITS = 120
+TINY = Fraction(1, 2**1074)  # the least double: the end of a decaying plane, which is only approached, is known to less than this
 DIGITS, PERIOD_DIGITS = 20, 11  # of the brackets: another's verified quadrature must have room in the period's
 
 
@@ -32,7 +33,7 @@ def certificate(scene, state=None) -> dict:
                                   "and motions")
         return out
     out["scene"] = _scene(scene)
-    out["equilibria"] = _equilibria(scene, out["uncertified"])
+    out["equilibria"] = _equilibria(scene)
     if state is not None:
         out["motion"] = _motion(scene, tuple(Fraction(v) for v in state), out["uncertified"])
     return out
@@ -57,21 +58,20 @@ def _scene(scene) -> dict:
 # -- equilibria
 
 
-def _equilibria(scene, uncertified) -> dict:
+def _equilibria(scene) -> dict:
     p = pencil(scene)
-    kind, states, curves = _exact_equilibria(p, uncertified)
+    kind, states, curves = _exact_equilibria(p)
     return {"kind": kind, "points": sorted((_point(p.form, x) for x in states), key=lambda e: Fraction(e["box"][0][0])),
-            "curves": [_curve(p.form, c) for c in curves]}
+            "curves": [_curve(p.form, c) for c in curves],
+            "planes": [_plane(p, d) for d in ([] if any(p.M) else plane_moments(p))]}
 
 
-def _exact_equilibria(p, uncertified):
-    """(kind, isolated states as surds, exact curves), by the cases of `equilibria`."""
+def _exact_equilibria(p):
+    """(kind, isolated states as surds, exact curves), by the cases of `equilibria`; planes come on their own."""
     if not any(p.M):
         if not any(p.lam) and len(set(p.D)) == 1:
             return "all", [], []
-        curves, planes = torque_free_curves(p)
-        uncertified += [f"{plane.name}: a plane of equilibria is no rational curve" for plane in planes]
-        return "curves", [], curves
+        return "curves", [], torque_free_curves(p)[0]
     if p.torque_axis_moment() is None:
         _, states, curves = isolated_states(p)
         return ("curves" if curves else "points" if states else "none"), states, curves
@@ -97,6 +97,15 @@ def _curve(form, curve) -> dict:
                          for s, ends in zip(found.segments, map(list, zip([None, *marks], [*marks, None])))],
             "folds": [{"t": mark, "linear": at[place].linear, "verdict": at[place].verdict, "because": at[place].because}
                       for (_, mark), place in zip(folds, found.folds)]}
+
+
+def _plane(p, d) -> dict:
+    i, j, k, centre = plane_of_equal_moments(p, d)
+    unit = lambda axis: [str(int(n == axis)) for n in range(3)]  # noqa: E731
+    at = list(map(_text, centre))
+    verdict, because = plane_centre(p)
+    return {"name": f"{p.names[k]} constant", "base": at, "directions": [unit(i), unit(j)], "linear": "degenerate",
+            "verdict": DRIFT[0], "because": DRIFT[1], "centre": {"at": at, "verdict": verdict, "because": because}}
 
 
 # -- the motion
@@ -139,6 +148,8 @@ def _ends(value, digits: int = DIGITS):
         return None
     middle, reach = _exact(value.mid()), _exact(value.rad())
     room = 2 * reach + abs(middle) / 10**digits
+    if abs(middle) + room < TINY:
+        return _bracket(Fraction(0), TINY)
     return _bracket(middle, room)
 
 

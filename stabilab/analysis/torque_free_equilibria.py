@@ -41,7 +41,7 @@ DRIFT = ("unstable", "m = n = 0: with any small change of the rate along the sym
 def torque_free_curves(p: Pencil) -> tuple[list[RationalCurve], list[EquilibriumCurve]]:
     """(exact curves, planes of equilibria) for M = 0, for anything but lambda = 0 on a sphere."""
     axes = [_axis_line(p, i) for i in range(3) if not p.lam[i] and p.D.count(p.D[i]) == 1]
-    planes = [_plane(p, d) for d in sorted(set(p.D)) if p.D.count(d) == 2 and not _projection(p, d)]
+    planes = [_plane(p, d) for d in plane_moments(p)]
     if not any(p.lam):
         return axes, planes
     return [_main_curve(p), *axes], planes
@@ -113,15 +113,30 @@ def _along_lambda(p: Pencil, support) -> RationalCurve:
                          straight_line(start, direction), CASIMIR, crossings=crossings, scale=scale)
 
 
+def plane_moments(p: Pencil) -> list[Fraction]:
+    """The moments that two axes share and that carry no gyrostatic moment: a plane of equilibria each."""
+    return [d for d in sorted(set(p.D)) if p.D.count(d) == 2 and not _projection(p, d)]
+
+
+def plane_of_equal_moments(p: Pencil, d: Fraction):
+    """(i, j, k, centre): axes i and j span the plane of equilibria, k is the axis of symmetry, through the exact centre."""
+    i, j = (n for n in range(3) if p.D[n] == d)
+    k = 3 - i - j
+    return i, j, k, tuple(p.lam[k] / (d - p.D[k]) if n == k else ZERO for n in range(3))
+
+
+def plane_centre(p: Pencil) -> Verdict:
+    """The verdict on the centre of such a plane."""
+    return SYMMETRY_AXIS if any(p.lam) else REST
+
+
 def _plane(p: Pencil, d: Fraction) -> EquilibriumCurve:
     """The plane of equilibria across the symmetry axis k of a body with two moments d. The curve's point(t) runs along one
     straight line through its centre; by the symmetry every other line through the centre is alike (samples lie on three)."""
-    i, j = (n for n in range(3) if p.D[n] == d)
-    k = 3 - i - j
-    height = p.lam[k] / (d - p.D[k])
-    centre_verdict = SYMMETRY_AXIS if any(p.lam) else REST
+    i, j, k, start = plane_of_equal_moments(p, d)
+    height = start[k]
+    centre_verdict = plane_centre(p)
     rays = [unit(i), unit(j), tuple(Fraction(3, 5) * a + Fraction(4, 5) * b for a, b in zip(unit(i), unit(j)))]
-    start = tuple(height if n == k else ZERO for n in range(3))
     curve = RationalCurve("", "", "", straight_line(start, rays[0]), CASIMIR)
     zero = (0j, 0j, 0j)
     at = lambda ray, t: tuple(float(s + t * r) for s, r in zip(start, ray))  # noqa: E731

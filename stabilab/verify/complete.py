@@ -85,7 +85,7 @@ def _product(lines):
     return None
 
 
-def whole_torque_free(rates, kind, points, curves):
+def whole_torque_free(rates, kind, points, curves, planes):
     """(status, reason): equilibria without a torque, where momentum and rotation are parallel."""
     if points:
         return "refuted", "without a torque no equilibrium is isolated"
@@ -106,7 +106,10 @@ def whole_torque_free(rates, kind, points, curves):
         if any(lam[i] for i in axes):
             continue
         if len(axes) > 1:
-            return "not checked", "two equal moments: a plane of equilibria is no rational curve"
+            across = 3 - sum(axes)
+            if not any(plane.lies(across, lam[across] / (d - D[across])) for plane in planes):
+                return "refuted", f"two equal moments: the plane of equilibria across axis {across + 1} is missing"
+            continue
         base = [Fraction(0) if i in axes else lam[i] / (d - D[i]) for i in range(3)]
         direction = [Fraction(int(i in axes)) for i in range(3)]
         if not any(_is_the_line(c, base, direction) for c in curves):

@@ -3,8 +3,12 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from .numbers import Malformed, bracket, entries, exact_sign, field, hull, numbers, q
-from .rates import characteristic
+from .degenerate import drift, leaves_fold, on_common_level, on_own_orbit, reducing_direction
+from .numbers import Malformed, bracket, entries, exact_sign, field, fraction, numbers, q
+from .rates import AHEAD, characteristic
+from .roots import real_zeros
+
+PAIRS = ((0, 1), (0, 2), (1, 2))
 
 
 class Curve:
@@ -32,9 +36,7 @@ class Curve:
 
     def at(self, t):
         """The exact point at a rational parameter that is no pole."""
-        from flint import fmpq
-        value = lambda p: Fraction(int(fmpq(p(q(t))).p), int(fmpq(p(q(t))).q))  # noqa: E731
-        return [value(top) / value(self.bottom) for top in self.tops]
+        return [fraction(top(q(t)) / self.bottom(q(t))) for top in self.tops]
 
 
 def curve_of(table, where) -> Curve:
@@ -52,7 +54,6 @@ def _piece(table, where):
 
 def identically_zero(rates, curve) -> bool:
     """Whether the rates, times the square of the denominator, vanish as polynomials."""
-    from .rates import AHEAD
     x, d = curve.tops, curve.bottom
     return all(q(rates.kappa[i]) * x[j] * x[k] + q(rates.rho[i]) * x[k] * d + q(rates.sigma[i]) * x[j] * d
                + q(rates.m[i]) * d * d == 0 for i, (j, k) in enumerate(AHEAD))
@@ -60,7 +61,6 @@ def identically_zero(rates, curve) -> bool:
 
 def _homogeneous_jacobian(rates, curve):
     """The Jacobian along the curve, times the denominator."""
-    from .rates import AHEAD
     x, d = curve.tops, curve.bottom
     zero, rows = d - d, []
     for i, (j, k) in enumerate(AHEAD):
@@ -71,104 +71,113 @@ def _homogeneous_jacobian(rates, curve):
     return rows
 
 
-def check_curve(rates, curve, note, isolated_conic: bool, torque: bool):
+def check_curve(rates, curve, note):
     """Findings on the verdicts along a curve on which the rates vanish."""
     note(curve.claim, "proved", "the rates vanish identically along it")
     J = _homogeneous_jacobian(rates, curve)
     m, n = characteristic(J)
-    if n != 0:
-        note(curve.claim, "refuted", "the Jacobian's determinant does not vanish along it")
+    if n != 0 or m == 0:
+        note(f"{curve.claim}: verdicts", "refuted" if n != 0 else "not checked",
+             "the Jacobian's determinant does not vanish along it" if n != 0 else "three zero eigenvalues all along")
         return
-    if m == 0:
-        _all_degenerate(curve, note)
-        return
-    zeros, poles = _real_zeros(m), _real_zeros(curve.bottom)
-    inner = [(z, k) for z, k in zeros if not any(z.overlaps(p) for p, _ in poles)]
-    marks = sorted([z for z, _ in inner] + [p for p, _ in poles], key=lambda z: float(z.mid()))
+    pole = lambda z: curve.bottom % z.factor == 0  # noqa: E731
+    marks = real_zeros(m * curve.bottom)
+    inner = [z for z in marks if not pole(z)]
     if len(curve.segments) != len(marks) + 1 or len(curve.folds) != len(inner):
-        note(curve.claim, "refuted", f"m has {len(inner)} zeros and the curve {len(poles)} poles: {len(marks) + 1} pieces and "
-                                     f"{len(inner)} folds, not {len(curve.segments)} and {len(curve.folds)}")
+        note(curve.claim, "refuted", f"m has {len(inner)} zeros and the curve {len(marks) - len(inner)} poles: {len(marks) + 1} pieces "
+                                     f"and {len(inner)} folds, not {len(curve.segments)} and {len(curve.folds)}")
         return
-    signs = [_sign_between(m, low, high) for low, high in zip([None, *marks], [*marks, None])]
-    settled = isolated_conic or not torque
-    for number, ((ends, linear, verdict), sign) in enumerate(zip(curve.segments, signs)):
-        claim = f"{curve.claim}: piece {number + 1} {linear}, {verdict}"
-        if not all(_agrees(end, mark) for end, mark in zip(ends, ([None, *marks][number], [*marks, None][number]))):
-            note(claim, "refuted", "its ends are not the zeros of m and the poles beside it")
-        elif linear != ("stable" if sign > 0 else "unstable") or (sign < 0 and verdict != "unstable"):
-            note(claim, "refuted", f"m is {'positive' if sign > 0 else 'negative'} on it")
-        elif sign > 0 and settled and verdict != "stable":
-            note(claim, "refuted", "m > 0: a strict extremum")
-        else:
-            note(claim, "proved" if sign < 0 or settled else "not checked", "sign of m")
-    for (z, _), (ends, linear, verdict) in zip(sorted(inner, key=lambda one: float(one[0].mid())), curve.folds):
-        _check_fold(rates, curve, note, (z, marks, signs), (ends, linear, verdict), settled)
+    along = _Along(rates, curve, J, m)
+    bounds = [None, *marks, None]
+    signs = [_sign_between(m, low, high) for low, high in zip(bounds, bounds[1:])]
+    for number, (piece, sign) in enumerate(zip(curve.segments, signs)):
+        _check_piece(along, note, f"{curve.claim}: piece {number + 1}", piece, bounds[number:number + 2], sign)
+    for zero, fold in zip(inner, curve.folds):
+        number = marks.index(zero)
+        _check_fold(along, note, zero, fold, signs[number:number + 2])
 
 
-def _check_fold(rates, curve, note, place, said, settled):
-    (z, marks, signs), (ends, linear, verdict) = place, said
-    claim = f"{curve.claim}: fold near t = {float(z.mid()):.9g} {linear}, {verdict}"
-    number = next(i for i, mark in enumerate(marks) if mark is z)
-    both = signs[number] > 0 and signs[number + 1] > 0
-    if not _agrees(ends, z) or linear != "degenerate":
-        note(claim, "refuted", "m vanishes elsewhere, or does vanish here")
-    elif not rates.torque and ends[0] == ends[1] and rates.parallel and not any(curve.at(ends[0])):
-        note(claim, "proved" if verdict == "stable" else "refuted", "at rest without a torque: the energy is definite and constant")
-    elif not settled or _crosses(rates, curve, ends):
-        note(claim, "not checked", "curves of equilibria cross here, or the torque is oblique")
+def _check_piece(along, note, where, piece, bounds, sign):
+    ends, linear, verdict = piece
+    claim = f"{where} {linear}, {verdict}"
+    if not all(_agrees(end, mark) for end, mark in zip(ends, bounds)):
+        note(claim, "refuted", "its ends are not the zeros of m and the poles beside it")
+    elif linear != ("stable" if sign > 0 else "unstable"):
+        note(claim, "refuted", f"m is {'positive' if sign > 0 else 'negative'} on it")
     else:
-        true = "stable" if both else "unstable"
-        note(claim, "proved" if verdict == true else "refuted", f"m is {'positive on both sides' if both else 'not positive on both sides'}")
+        note(claim, *judged(verdict, along.centre(bounds) if sign > 0 else ("unstable", "m < 0"), "a centre on a line of equilibria"))
 
 
-def _all_degenerate(curve, note):
-    right = all(linear == "degenerate" for _, linear, _ in curve.segments)
-    note(f"{curve.claim}: degenerate throughout", "proved" if right else "refuted", "m and n vanish identically along it")
-    note(f"{curve.claim}: verdicts", "not checked", "no general rule for three zero eigenvalues all along")
+def _check_fold(along, note, zero, fold, signs):
+    ends, linear, verdict = fold
+    claim = f"{along.curve.claim}: fold near t = {float((zero.low + zero.high) / 2):.9g} {linear}, {verdict}"
+    if not _agrees(ends, zero) or linear != "degenerate":
+        note(claim, "refuted", "m vanishes elsewhere, or does vanish here")
+    else:
+        note(claim, *judged(verdict, along.fold(zero, signs), "three zero eigenvalues"))
 
 
-def _crosses(rates, curve, ends) -> bool:
-    """Whether the Jacobian has rank 1 or less at an exact parameter: two curves of equilibria meet."""
-    if ends[0] != ends[1]:
-        return False
-    J = rates.jacobian(curve.at(ends[0]))
-    pairs = ((0, 1), (0, 2), (1, 2))
-    return all(J[a][c] * J[b][d] == J[a][d] * J[b][c] for a, b in pairs for c, d in pairs)
+def judged(verdict, proof, otherwise):
+    """(status, reason) of a claimed verdict, given (verdict, reason) or None."""
+    if proof is None:
+        return "not checked", f"{otherwise}: no proof is known here"
+    if verdict == "undecided":
+        return "not checked", f"the certificate leaves open what is proved: {proof[0]}: {proof[1]}"
+    return ("proved" if verdict == proof[0] else "refuted"), proof[1]
 
 
-def _real_zeros(p):
-    """(ball, multiplicity) of the real zeros of a rational polynomial."""
-    if p.degree() < 1:
-        return []
-    from flint import arb
-    return [(arb(z.real), k) for z, k in p.complex_roots() if z.imag.is_zero()]
+class _Along:
+    """What decides stability along one curve: the integrals without a torque, a reduction, or the drift along the line."""
+
+    def __init__(self, rates, curve, J, m):
+        self.rates, self.curve, self.J, self.m = rates, curve, J, m
+        self.direction = reducing_direction(rates, curve) if rates.torque else None
+        self.settled = not rates.torque or self.direction is not None
+
+    def centre(self, bounds):
+        """The verdict between two marks where m > 0."""
+        if self.settled:
+            return "stable", "m > 0: a strict extremum"
+        low, high = bounds
+        k = drift(self.rates, self.J, self.m) if self._line() else 0
+        inside = lambda z: (low is None or low.high < z.low) and (high is None or z.high < high.low)  # noqa: E731
+        if k == 0 or any(inside(z) for z in real_zeros(k)):
+            return None
+        return "unstable", "a slow drift along the line of equilibria, of one sense all along the piece"
+
+    def fold(self, zero, signs):
+        """The verdict at a zero of m between pieces with these signs of m."""
+        minors = [self.J[a][c] * self.J[b][d] - self.J[a][d] * self.J[b][c] for a, b in PAIRS for c, d in PAIRS]
+        if all(v % zero.factor == 0 for v in minors):
+            return self._crossing(zero)
+        if self.settled:
+            both = signs == [1, 1]
+            return "stable" if both else "unstable", f"m is {'positive on both sides' if both else 'not positive on both sides'}"
+        return leaves_fold(self.J, zero) if self._line() else None
+
+    def _crossing(self, zero):
+        if zero.low != zero.high:
+            return None
+        x = self.curve.at(zero.low)
+        if not self.rates.torque:
+            return on_common_level(self.rates, x)
+        return on_own_orbit(self.rates, x, self.direction) if self.direction else None
+
+    def _line(self) -> bool:
+        return self.curve.degree == 1 and self.curve.bottom.degree() == 0
 
 
 def _agrees(end, mark) -> bool:
     """Whether a claimed end (None: infinity) holds the zero that was found."""
     if end is None or mark is None:
         return end is None and mark is None
-    return hull(*end).overlaps(mark)
+    return mark.within(*end)
 
 
 def _sign_between(m, low, high) -> int:
     """Sign of m between two neighbouring marks (None: infinity)."""
-    from flint import fmpq
-    exact = lambda z: Fraction(*map(int, _man(z)))  # noqa: E731
-    if low is None and high is None:
-        t = Fraction(0)
-    elif low is None:
-        t = exact(high) - 1 - abs(exact(high))
-    elif high is None:
-        t = exact(low) + 1 + abs(exact(low))
+    if low is None or high is None:
+        t = Fraction(0) if low is high else high.low - 1 if low is None else low.high + 1
     else:
-        t = (exact(low) + exact(high)) / 2
-    value = fmpq(m(q(t)))
-    return exact_sign(Fraction(int(value.p), int(value.q)))
-
-
-def _man(z):
-    """(numerator, denominator) of the middle of a ball."""
-    mantissa, exponent = z.mid().man_exp()
-    mantissa, exponent = int(mantissa), int(exponent)
-    return (mantissa << exponent, 1) if exponent >= 0 else (mantissa, 1 << -exponent)
+        t = (low.high + high.low) / 2
+    return exact_sign(m(q(t)))

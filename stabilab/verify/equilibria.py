@@ -5,8 +5,10 @@ from fractions import Fraction
 from itertools import combinations
 
 from .complete import whole_conic, whole_torque_free
-from .curves import check_curve, curve_of, identically_zero
+from .curves import check_curve, curve_of, identically_zero, judged
+from .degenerate import leaves_double_root
 from .numbers import Malformed, bracket, entries, exact_sign, field, hull, sign
+from .planes import check_plane, plane_of
 from .rates import characteristic
 from .zeros import above, below
 
@@ -18,14 +20,17 @@ def check_equilibria(rates, claims, note):
     kind = field(claims, "kind", "equilibria", str)
     points = [_Point(p, f"equilibria.points[{i}]") for i, p in enumerate(entries(claims, "points", "equilibria"))]
     curves = [curve_of(c, f"equilibria.curves[{i}]") for i, c in enumerate(entries(claims, "curves", "equilibria"))]
+    planes = [plane_of(c, f"equilibria.planes[{i}]") for i, c in enumerate(entries(claims, "planes", "equilibria"))]
     for point in points:
         _check_point(rates, point, note)
     for curve in curves:
         if not identically_zero(rates, curve):
             note(curve.claim, "refuted", "the rates do not vanish along the curve")
         else:
-            check_curve(rates, curve, note, isolated_conic=_on_a_plane(rates), torque=rates.torque)
-    _check_complete(rates, kind, points, curves, note)
+            check_curve(rates, curve, note)
+    for plane in planes:
+        check_plane(rates, plane, note)
+    _check_complete(rates, kind, points, curves, planes, note)
 
 
 class _Point:
@@ -48,27 +53,25 @@ def _check_point(rates, point, note):
             note(point.claim, "refuted", "the rates do not vanish at this exact point")
             return
         note(point.claim, "proved", "the rates vanish there exactly")
-        m, n = (exact_sign(v) for v in characteristic(rates.jacobian(x)))
-    else:
-        found = _only_zero(rates, point.box)
-        if found is None:
-            note(point.claim, "not checked", "Krawczyk's test did not close on this box")
-            return
-        note(point.claim, "proved", "Krawczyk's test: one and only one equilibrium in the box")
-        m, n = found
-    _judge(point, m, n, note)
+        m, n = characteristic(rates.jacobian(x))
+        root = leaves_double_root(rates, x, m) if n == 0 <= m else None
+        _judge(point, exact_sign(m), exact_sign(n), root, note)
+        return
+    found = _only_zero(rates, point.box)
+    if found is None:
+        note(point.claim, "not checked", "Krawczyk's test did not close on this box")
+        return
+    note(point.claim, "proved", "Krawczyk's test: one and only one equilibrium in the box")
+    _judge(point, *found, None, note)
 
 
-def _judge(point, m, n, note):
-    """Verdicts from the signs of m and n; an isolated equilibrium."""
-    linear = "unstable" if n or (m is not None and m < 0) else {1: "stable", 0: "degenerate", None: None}[m]
-    verdict = "unstable" if linear == "unstable" or m == 1 else None
-    for what, claimed, true in (("linear", point.linear, linear), ("verdict", point.verdict, verdict)):
-        claim = f"{point.claim}: {what} {claimed}"
-        if true is None:
-            note(claim, "proved" if claimed == "undecided" else "not checked", "triple zero eigenvalue: nothing is proved here")
-        else:
-            note(claim, "proved" if claimed == true else "refuted", f"signs of m and n give {true}")
+def _judge(point, m, n, root, note):
+    """Verdicts from the signs of m and n; an isolated equilibrium. root: the proof for a double root with n = 0 <= m."""
+    linear = "unstable" if n or m == -1 else "stable" if m else "degenerate"
+    where = f"signs of m and n give {linear}"
+    note(f"{point.claim}: linear {point.linear}", "proved" if point.linear == linear else "refuted", where)
+    proof = ("unstable", where) if linear == "unstable" else root
+    note(f"{point.claim}: verdict {point.verdict}", *judged(point.verdict, proof, "the leading term vanishes too"))
 
 
 def _only_zero(rates, box):
@@ -134,19 +137,16 @@ def _rank(rows):
     return rank
 
 
-def _on_a_plane(rates) -> bool:
-    return rates.torque and _rank([n for n, _ in rates.conditions]) == 1
-
-
-def _check_complete(rates, kind, points, curves, note):
+def _check_complete(rates, kind, points, curves, planes, note):
     claim = f"the equilibria are complete: {kind}, {len(points)} isolated, {len(curves)} curves"
+    claim += f", {len(planes)} planes" if planes else ""
     boxes_apart = all(any(a[1] < b[0] or b[1] < a[0] for a, b in zip(p.box, q.box)) for p, q in combinations(points, 2))
     if not boxes_apart:
         note(claim, "refuted", "two boxes overlap")
         return
     normals = [n for n, _ in rates.conditions]
     if not rates.torque:
-        status, reason = whole_torque_free(rates, kind, points, curves)
+        status, reason = whole_torque_free(rates, kind, points, curves, planes)
     elif _rank([[*n, c] for n, c in rates.conditions]) > _rank(normals):
         none = kind == "none" and not points and not curves
         status, reason = ("proved" if none else "refuted"), "the two linear conditions contradict each other: there are none"

@@ -7,6 +7,7 @@ from .numbers import ball, exact_sign, hull, sign
 from .zeros import SPLIT, Open, above, below, narrowed, zeros
 
 WINDOWS = 24  # doublings of the reach of alpha in search of a wall: 2^24 e-foldings
+FAR = 2**WINDOWS - 1  # where they end
 
 
 class Facts:
@@ -46,7 +47,7 @@ class Facts:
         self.extremes = self._extremes(sense)
 
     def _extremes(self, sense):
-        """[(low, high)] * 3 as balls, None where unbounded; None where they are not worked out here."""
+        """[(low, high)] * 3 as balls, None where unbounded."""
         o = self.orbit
         if o.forceless():
             here = ball(o.y0 - o.s)
@@ -59,12 +60,11 @@ class Facts:
             slow, fast = ((-2 * e).sqrt() for e in _heights_round(o))
             low, high = (slow, fast) if o.y0 > 0 else (-fast, -slow)
             ranges = {o.axis: (low - ball(o.s), high - ball(o.s))} | dict(zip((o.j, o.k), _whole_circle(o)))
-        elif o.kind < 0 and sense:
-            slowest = _slowest_ahead(o, sense)
-            low, high = (slowest - ball(o.s), None) if sense > 0 else (None, -slowest - ball(o.s))
-            ranges = {o.axis: (low, high)} | dict(zip((o.j, o.k), _whole_circle(o)))
         else:
-            return None
+            steady = o.constant(0) and o.constant(1)
+            slowest = ball(sense * o.y0) if steady else _slowest_ahead(o, sense)
+            low, high = (slowest - ball(o.s), None) if sense > 0 else (None, -slowest - ball(o.s))
+            ranges = {o.axis: (low, high)} | dict(zip((o.j, o.k), _whole_circle(o) if o.kind < 0 else _to_the_end(o, sense)))
         return [ranges[i] for i in range(3)]
 
 
@@ -215,20 +215,36 @@ def _whole_circle(orbit):
 
 
 def _slowest_ahead(orbit, sense):
-    """The least sense * y over the future of a motion that spins up round a circle."""
-    going = exact_sign(orbit.y0) * sense
-    if going < 0:
-        behind = _turning(orbit, -sense)
-        if behind is None:
-            raise Open
-        back = ball(-sense) * orbit.turn  # wells further back than one turn are higher
-        behind = behind.max(back) if sense > 0 else behind.min(back)
+    """The least sense * y over the future of a motion that spins up."""
+    if exact_sign(orbit.y0) * sense < 0:
+        behind = _behind(orbit, sense)
+        if orbit.kind < 0:  # wells further back than one turn are higher
+            back = ball(-sense) * orbit.turn
+            behind = behind.max(back) if sense > 0 else behind.min(back)
         low, high = (behind, ball(0)) if sense > 0 else (ball(0), behind)
         return -(-2 * _lowest(orbit, low, high)).sqrt()
     slowest = ball(orbit.E)
-    for spot in _spots(orbit, Fraction(0), sense * above(orbit.turn)):
+    ahead = above(orbit.turn) if orbit.kind < 0 else Fraction(FAR)  # on a decaying plane the force has its last sign from there on
+    for spot in _spots(orbit, Fraction(0), sense * ahead):
         slowest = slowest.min(-orbit.excess(spot))
     return (2 * slowest).sqrt()
+
+
+def _behind(orbit, sense):
+    """Where a motion that runs against the torque first turns back."""
+    behind = _turning(orbit, -sense)
+    if behind is None:
+        raise Open
+    return behind
+
+
+def _to_the_end(orbit, sense):
+    """Ranges of u and v on a decaying plane of a hyperbola, from where the motion turns back to the plane's end; or constant."""
+    if orbit.constant(0) and orbit.constant(1):
+        return [(ball(v), ball(v)) for v in (orbit.u0, orbit.v0)]
+    back = exact_sign(orbit.y0) * sense < 0
+    starts = orbit.place(_behind(orbit, sense)) if back else (ball(orbit.u0), ball(orbit.v0))
+    return [(start.min(ball(end)), start.max(ball(end))) for start, end in zip(starts, (orbit.cu, orbit.cv))]
 
 
 def _released(orbit, ends):
@@ -238,6 +254,6 @@ def _released(orbit, ends):
     side = -1 if ends[0] is None else 1
     if orbit.kind > 0 and orbit.decays() == side == exact_sign(orbit.tilt):
         # the windows reached no wall; from their end on, the place stays so near its centre that the force is the tilt
-        if sign(orbit.force_beyond(2**WINDOWS - 1)) == side:
+        if sign(orbit.force_beyond(FAR)) == side:
             return "spin-up", "a plane that decays in the direction of the torque; no barrier on it reaches the energy"
     raise Open

@@ -59,6 +59,11 @@ def q(value: Fraction):
     return fmpq(value.numerator, value.denominator)
 
 
+def fraction(value) -> Fraction:
+    """The same number as Python's fraction."""
+    return Fraction(int(value.p), int(value.q))
+
+
 def ball(value):
     """The ball of an exact number at the working precision."""
     from flint import arb

@@ -12,7 +12,8 @@ AHEAD = ((1, 2), (2, 0), (0, 1))
 @dataclass(frozen=True)
 class Rates:
     """Coefficients (each a list of three fractions), and two affine conditions (normal, constant) that every
-    equilibrium meets: normal . x + constant = 0. torque: whether any component of it acts."""
+    equilibrium meets: normal . x + constant = 0. torque: whether any component of it acts. integrals: two functions
+    sum (a_i x_i^2/2 + b_i x_i), each as (a, b), whose rates along the motion are these conditions."""
 
     kappa: list
     rho: list
@@ -20,6 +21,7 @@ class Rates:
     m: list
     conditions: tuple
     torque: bool
+    integrals: tuple
     parallel: tuple | None = None  # (D, lambda) of a body: without torque D x + lambda is parallel to x
 
     @classmethod
@@ -44,14 +46,16 @@ class Rates:
         sigma = [-lam[k] / D[i] for i, (j, k) in enumerate(AHEAD)]
         m = [M[i] / D[i] for i in range(3)]
         conditions = ((list(M), Fraction(0)), ([d * t for d, t in zip(D, M)], sum(l * t for l, t in zip(lam, M))))
-        return cls(kappa, rho, sigma, m, conditions, any(M), (D, lam))
+        integrals = (D, [Fraction(0)] * 3), ([d * d for d in D], [d * l for d, l in zip(D, lam)])
+        return cls(kappa, rho, sigma, m, conditions, any(M), integrals, (D, lam))
 
     @classmethod
     def of_scaled(cls, a, b, mu) -> "Rates":
         """x1' = x2 x3 + mu1, x2' = -x3 (x1 + a) + mu2, x3' = x2 (x1 + b) + mu3."""
         o, one = Fraction(0), Fraction(1)
         conditions = (([mu[0], mu[1], o], mu[0] * a), ([mu[0], o, -mu[2]], mu[0] * b))
-        return cls([one, -one, one], [o, o, b], [o, -a, o], list(mu), conditions, any(mu))
+        integrals = ([one, one, o], [a, o, o]), ([one, o, -one], [b, o, o])
+        return cls([one, -one, one], [o, o, b], [o, -a, o], list(mu), conditions, any(mu), integrals)
 
     def at(self, x):
         """The rates at x: fractions, balls or polynomials alike."""

@@ -1,0 +1,53 @@
+"""Real zeros of polynomials with rational coefficients: by irreducible factors, so that a rational zero is exact."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from .numbers import Malformed, fraction
+from .zeros import above, below
+
+START_BITS, MOST_BITS = 64, 1 << 15
+
+
+@dataclass(frozen=True)
+class Zero:
+    """A real zero of an irreducible factor: order in the polynomial, low <= zero <= high (equal where it is rational)."""
+
+    factor: object
+    order: int
+    low: Fraction
+    high: Fraction
+
+    def within(self, low: Fraction, high: Fraction) -> bool:
+        """Whether the zero lies in [low, high]; irrational zeros are enclosed more closely until it is plain."""
+        bits = START_BITS
+        zero = self
+        while not (low <= zero.low and zero.high <= high):
+            if zero.high < low or high < zero.low:
+                return False
+            bits *= 2
+            zero = next(z for z in _zeros_of(self.factor, self.order, bits) if z.low <= self.high and self.low <= z.high)
+        return True
+
+
+def real_zeros(polynomial) -> list[Zero]:
+    """The distinct real zeros, rising, their brackets apart."""
+    factors = polynomial.factor()[1] if polynomial.degree() > 0 else []
+    bits = START_BITS
+    while bits <= MOST_BITS:
+        found = sorted((z for f, order in factors for z in _zeros_of(f, order, bits)), key=lambda z: z.low)
+        if all(a.high < b.low for a, b in zip(found, found[1:])):
+            return found
+        bits *= 2
+    raise Malformed(f"curve: zeros of m that {MOST_BITS} bits do not tell apart")
+
+
+def _zeros_of(factor, order, bits) -> list[Zero]:
+    from flint import arb, ctx
+    if factor.degree() == 1:
+        exact = -fraction(factor[0] / factor[1])
+        return [Zero(factor, order, exact, exact)]
+    with ctx.workprec(bits):
+        balls = [arb(z.real) for z, _ in factor.complex_roots() if z.imag.is_zero()]
+    return [Zero(factor, order, below(b), above(b)) for b in balls]
