@@ -253,3 +253,65 @@ def test_tiny_and_huge_torques_are_answered_in_their_own_time(size):
 def test_rates_whose_squares_overflow_are_refused():
     with pytest.raises(InputError, match="units"):
         captured_fate(ScaledGyrostat(0.2, 0.4, (1, 0, 0)), (1e160, 1e160, -1e160))
+
+
+# -- beside the boundary between spin-up and capture
+
+
+def boundary(c, seed):
+    """(scene, states on a line by their distance from the boundary between spin-up and capture), located by halving as far as
+    the answers are decided."""
+    scene, rng = ScaledGyrostat(-c / 2, c / 2, (1, 0, 0)), np.random.default_rng(seed)
+    ends = {}
+    while len(ends) < 2:
+        state = rng.normal(size=3) * 2
+        found = captured_fate(scene, state)
+        if found.t_certificate:
+            ends[found.certificate] = state
+    up, well = ends["spin-up"], ends["well"]
+    low, high = 0.0, 1.0
+    while (name := captured_fate(scene, up + (low + high) / 2 * (well - up)).certificate) != "none":
+        low, high = ((low + high) / 2, high) if name == "spin-up" else (low, (low + high) / 2)
+    return scene, lambda share: up + ((low + high) / 2 + share) * (well - up)
+
+
+def by_many_digits(c, state):
+    """Which certificate fires first on a Taylor series of 30 digits; the certificates' inequalities as in theory.md, section 1."""
+    import mpmath as mp
+
+    from .oracles import taylor
+    from .oracles.model import scaled
+    model, y = scaled(-c / 2, c / 2, (1, 0, 0)), [mp.mpf(float(v)) for v in state]
+    with mp.workdps(40):
+        for _ in range(400):
+            u, y2, y3 = y
+            phi = mp.atan2(y3, y2)
+            P, J, p = u + mp.mpf(c) / 2 * mp.cos(2 * phi), y2**2 + y3**2 - 2 * c * u, phi % mp.pi
+            bump = mp.mpf(c) ** 2 / 8
+            # J < 0 is left to a later time: the printed inequality needs J >= 0 there
+            if P > 0 and J > 0 and P**2 / 2 - J / 2 * mp.sin(phi) ** 2 - bump * mp.cos(2 * phi) ** 2 > mp.mpf(c) ** 2 / 2:
+                return "spin-up"
+            if P**2 / 2 + bump * mp.sin(2 * phi) ** 2 + mp.pi - p < J / 2 * mp.sin(phi) ** 2:
+                return "well"
+            y = taylor.integrate(model, y, [mp.mpf(1) / 4], digits=30)[0]
+    raise AssertionError("neither fired")
+
+
+@pytest.mark.parametrize("c, seed, decades", [(-0.5, 1, (3, 9, 16)), *(pytest.param(c, n, range(3, 17), marks=pytest.mark.slow) for n, c in
+                                                                       enumerate((-0.5, -3.0, -1.0, -0.2), 1))])
+def test_no_state_beside_the_boundary_between_spin_up_and_capture_gets_the_wrong_axis(c, seed, decades):
+    """Fails in code that trusts the end of one run: rounding carries a motion over the boundary."""
+    scene, at = boundary(c, seed)
+    words, told = set(), []
+    for decade in decades:
+        for side in (-1, 1):
+            state = at(side * 10.0**-decade)
+            found = captured_fate(scene, state)
+            if found.fate is Fate.UNDECIDED:
+                assert "rounding" in found.because
+                words.add("undecided")
+            else:
+                assert found.certificate == by_many_digits(c, state), (decade, side)
+                words.add(found.certificate)
+                told.append(decade)
+    assert words == {"undecided", "spin-up", "well"} and max(told) >= 9  # nine digits of a state are enough to be told

@@ -27,7 +27,9 @@ V is higher by 2 phi_b - pi. So p stays inside for ever, y3 keeps its sign, J ->
 e = (P^2/2 + (J/2) cos^2 phi - phi + (c^2/8) sin^2 2phi)/J: e' <= |c| (2 pi - P^2)/J^2, so P^2/J^2 is integrable although J ~ tau:
 the oscillation about phi = pi/2 dies out in angle, y3 ~ +-sqrt(2|c| tau). (phi_b = pi is the weaker certificate with pi - p.)
 
-Both certificates are monotone: once one holds it holds for ever, so it may be looked for at any later time.
+Both certificates are monotone: once one holds it holds for ever, so it may be looked for at any later time. For c < 0 the end of the
+run that led there decides, and its rounding could carry a motion over the boundary between the two; so six neighbours, as
+far away as that rounding could at most have moved it, must end alike, else the answer is "undecided".
 """
 from __future__ import annotations
 
@@ -41,6 +43,8 @@ from .results import Fate
 
 # A certificate counts when its inequality holds by this share of the terms in it: 100 times their rounding.
 CLEARANCE = 2e-14
+# Units of rounding by which a step of the run (a Taylor polynomial of 20 terms) may move the motion: generous, for the boundary is met seldom.
+STEP_ROUNDINGS = 64
 # Steps of the search: several seconds where the fate hangs on it, one or two where only the time of release does.
 STEP_BUDGET, RELEASE_BUDGET = 5_000_000, 2_000_000
 # Steps after which the finite end of a spin-up is given over the span run, unproved beyond it.
@@ -145,7 +149,12 @@ def _by_certificate(change, y, t_max):
                            release_estimate=None, certificate="axis", t_certificate=0.0, steps=0)
     vanishing = _release_estimate(c, _angle(c, y)[2]) * unit if c > 0 else None
     t_max = PATIENCE * unit if t_max is None else t_max
+    start = y
     name, t, y, last, steps = _search(c, y, t_max / unit)
+    if c < 0 and steps and name != "none" and (reach := _nearest_other(c, start, t_max / unit, name, steps)):
+        return dict(fate=Fate.UNDECIDED, axis=0, sense=0, release_time=None, release_estimate=None, certificate="none", t_certificate=None,
+                    steps=steps, because=f"unbounded, but between spin-up about axis {i + 1} and capture about axis {q + 1}: a change of the "
+                                         f"state by {reach:.0e} of its size, as rounding of the run may make, turns the one into the other")
     estimate = None if name == "spin-up" and not last else vanishing
     when = None if t is None else t * unit
     known = dict(release_estimate=estimate, certificate=name, t_certificate=when, steps=steps)
@@ -201,6 +210,17 @@ def _search(c, y, t_max):
         if found := certificate(c, y):
             return found, t, y, last, steps
     return "none", None, y, last, steps
+
+
+def _nearest_other(c, y, t_max, name, steps):
+    """The relative change of the state within the run's rounding that leads to another end; None where there is none."""
+    reach = STEP_ROUNDINGS * 2.0**-52 * (steps + 1)
+    length = reach * (max(map(abs, y)) + abs(c))
+    for i in range(3):
+        for move in (-length, length):
+            if _search(c, (*y[:i], y[i] + move, *y[i + 1:]), t_max)[0] != name:
+                return reach
+    return None
 
 
 def _runner(c, y):
