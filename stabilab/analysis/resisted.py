@@ -95,8 +95,6 @@ def _without_common(P: Poly, q: Poly) -> Poly:
 
 def sign_at(R: Poly, P: Poly, t: Fraction, bits: int = BITS) -> int:
     """Exact sign of R at the root of P that t approximates to 2**-bits relative."""
-    if not R:
-        return 0
     radius = abs(t) / 2**(bits - 2)
     value = R(t)
     slack = radius * sum(n * abs(v) * (abs(t) + radius)**(n - 1) for n, v in enumerate(R.c) if n)
