@@ -203,7 +203,7 @@ class Doubles:
     def ball(value) -> Ball:
         """The ball of a rational number."""
         m = float(value)
-        return Ball(m, 0.0 if isinstance(value, (int, float)) or _is_double(value, m) else EPS * abs(m))
+        return Ball(m, 0.0 if isinstance(value, float) or _is_double(value, m) else EPS * abs(m))
 
     @staticmethod
     def pi() -> Ball:
