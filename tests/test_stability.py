@@ -290,10 +290,23 @@ def test_the_zero_hopf_fold_is_unstable_though_its_linear_motion_is_a_centre():
     assert max(excursion(scene, at + s * 0.02 * axis, at, 2000, limit=0.3) for s in (1, -1)) > 0.29
 
 
-def test_the_triple_zero_fold_is_reported_as_degenerate():
-    """Fold with m = 0: c^2 = -4 mu2 mu3/mu1 and m = 4 (mu2^2 - mu3^2)/c^2 - c^2/4 = 0 by hand: c = 2, mu2^2 - mu3^2 = 1."""
-    (p,) = equilibria(ScaledGyrostat(0, 2, (F(-15, 16), F(5, 4), F(3, 4)))).points
-    assert (p.linear, p.verdict, p.eigenvalues) == ("degenerate", "undecided", (0j, 0j, 0j))
+TRIPLE_ZERO = [  # fold with m = 0: c^2 = -4 mu2 mu3/mu1 and m = 4 (mu2^2 - mu3^2)/c^2 - c^2/4 = 0 by hand: c = 2, mu2^2 - mu3^2 = 1
+    (ScaledGyrostat(0, 2, (F(-15, 16), F(5, 4), F(3, 4))), (-1.0, -0.75, -1.25)),
+    # a line of equilibria along omega1 on no axis: m = P Q, P = (1 + 2 omega1)/3 and Q = (1 + omega1)/2 by hand
+    (physical((4, 3, 2), (1, 5, 14), (0, 7, -5)), (-1.0, 5.0, 7.0)), (physical((4, 3, 2), (1, 5, 14), (0, 7, -5)), (-0.5, 5.0, 7.0))]
+
+
+@pytest.mark.parametrize("scene, at", TRIPLE_ZERO)
+def test_a_triple_zero_eigenvalue_off_the_axes_is_unstable(scene, at):
+    """SciPy: from ever nearer starts (t ~ r^(-1/3) or r^(-1/2) by the leading terms) the motion goes out to the same distance."""
+    found = equilibria(scene)
+    (p,) = {(s.linear, s.verdict, s.eigenvalues) for s in everything(found) if s.at == at}
+    assert p == ("degenerate", "unstable", (0j, 0j, 0j))
+    rng = np.random.default_rng(5)
+    for size in (1e-3, 1e-5):
+        starts = rng.normal(size=(3, 3))
+        reached = [excursion(scene, np.array(at) + size * k / np.linalg.norm(k), np.array(at), 60 / size**0.5, limit=0.1) for k in starts]
+        assert max(reached) > 0.099, (size, reached)
 
 
 def test_free_rotation_is_stable_about_the_major_and_minor_axes_only():

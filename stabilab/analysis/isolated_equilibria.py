@@ -22,11 +22,14 @@ from .surd import Surd
 # Line of equilibria along axis 1 (x1 = X, the others at y2, y3): deltas obey d2' = -P(X) d3, d3' = Q(X) d2, X' = e d2 d3
 # + f d2 + g d3 with P, Q linear in X and m = P Q. Removing the terms linear in d from X' by X -> X - (f/Q) d3 + (g/P) d2
 # leaves a mean drift X' = const f g (Q'P - P'Q) r^2; the bracket is lambda1 (D3 - D2)/(D2 D3), f g ~ (D2-D1)(D1-D3) y2 y3.
+# At a zero of P or Q (not of both: the bracket is not zero) one Jordan block is left, and m = -b z + ... along the line, b != 0:
+# `stability.isolated_verdict` has the argument.
 DRIFTING = Grounds(
     positive=("unstable", "line of equilibria with eigenvalues 0, +-i sqrt(m): at second order in the amplitude r the mean "
                           "motion is X' = k r^2 along the line with k != 0 (three different moments), r' = O(r^3), so "
                           "neighbours travel a finite way along it"),
-    odd=("undecided", "triple zero eigenvalue on a line of equilibria, where m changes sign: no proof is given"),
+    odd=("unstable", "triple zero eigenvalue on a line of equilibria, where m changes sign: z''' = b z z' + ... with b != 0, and "
+                     "blown up with weights 2, 3, 4 it has a motion z ~ 12/(b t^2) that comes out of the point"),
     minimum=("undecided", "triple zero eigenvalue on a line of equilibria: no proof is given"),
     maximum=("undecided", "triple zero eigenvalue on a line of equilibria: no proof is given"))
 # Two equal moments D1 = D2: with alpha' = d3, p(alpha) = d3^2 obeys p'' = -((D1-D3)/D1)^2 p - 2 m(X0 + c alpha), linear,

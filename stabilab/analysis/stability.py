@@ -43,6 +43,11 @@ def isolated_verdict(m_sign: int, n_sign: int) -> Verdict:
     2). Averaging over the rotation by +-i sqrt(m) gives z' = a z^2 + b r^2 + O(3), r' = -a z r + O(3); the factor -a
     follows from zero divergence, which averaging keeps. With z turned so that a > 0 and V = z^2 - k^2 r^2, k^2 > |b|/a:
     V' = 2 z (a z^2 + (b + k^2 a) r^2) + O(4) > 0 in the cone z > k r near the point, where V > 0, and V = 0 on its side.
+    Fold with m = 0, unstable by blowing up: one Jordan block (the gradients of the two conditions are rows of J, so its rank is
+    2) and a double root give z' = y, y' = w, w' = a z^2 with a != 0 up to terms of higher weight, (z, y, w) having weights
+    (3, 4, 5). The motion z = -60/(a t^3), t < 0, of the leading terms is a ray along which the blown-up motion (divided by the
+    radius) grows, an equilibrium on the sphere with a positive radial eigenvalue; its unstable manifold in the full motion is
+    not inside the sphere, so motions come out of the point itself.
     """
     if n_sign:
         where = "a negative real root, so the other two have" if n_sign > 0 else "a real root with"
@@ -53,8 +58,8 @@ def isolated_verdict(m_sign: int, n_sign: int) -> Verdict:
     if m_sign > 0:
         return "unstable", ("fold of two isolated equilibria, eigenvalues 0, +-i sqrt(m): the averaged motion is z' = a z^2 "
                             "+ b r^2, r' = -a z r with a != 0, and V = z^2 - k^2 r^2 is a Chetaev function")
-    return "undecided", ("fold of two isolated equilibria with a triple zero eigenvalue: the linear motion is degenerate; the "
-                         "leading terms z''' = a z^2 have a motion that leaves, but the full motion is not decided here")
+    return "unstable", ("fold of two isolated equilibria with a triple zero eigenvalue: z''' = a z^2 + ... with a != 0, and blown up "
+                        "with weights 3, 4, 5 it has a motion z ~ -60/(a t^3) that comes out of the point")
 
 
 def isolated_point(form, x: tuple[Surd, Surd, Surd]) -> EquilibriumPoint:

@@ -98,7 +98,9 @@ def _turning(orbit, side):
 
 
 def _spots(orbit, start: Fraction, end: Fraction):
-    """The zeros of the force from start to end, in that order; without one at alpha = 0 itself."""
+    """The zeros of the force from start to end where it changes sign, in that order; without one at alpha = 0 itself."""
+    if orbit.touches():
+        return []
     low, high = sorted((start, end))
     at_zero = orbit.F0 == 0
     found = zeros(orbit.force, orbit.force_slope, low, high, at_zero and low == 0, at_zero and high == 0)

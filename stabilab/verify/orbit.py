@@ -93,6 +93,14 @@ class Orbit:
             return 0
         return -exact_sign(a * du) or -exact_sign(b * dv)
 
+    def touches(self) -> bool:
+        """On a plane of a hyperbola: whether the force, a quadratic in the exponential, has a double zero: no change of sign."""
+        if not self.decays():
+            return False
+        cu, cv, du, dv = self.cu, self.cv, self.u0 - self.cu, self.v0 - self.cv
+        bend, slope = self.kappa * du * dv, self.kappa * (cu * dv + cv * du) + self.rho * dv + self.sigma * du
+        return slope * slope == 4 * bend * (self.kappa * cu * cv + self.rho * cv + self.sigma * cu + self.m)
+
     def _on_plane(self, e):
         g = self.balls
         return g.cu + g.du * e, g.cv + g.dv * e
