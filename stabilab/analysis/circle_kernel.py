@@ -28,8 +28,8 @@ LANES = 256
 
 # rows of a block: the orbit
 X, Z, W, Q, RADIUS, ENERGY, SCALE, UNCLEAR, CLOSEST, LOWEST, T, FASTEST, LEFT, RIGHT = range(14)
-# rows of a spot: an equilibrium with its offset from the state, E - V there, dF/dtheta there
-OFFSET, OVER, SPOT_X, SPOT_Z, BEND = range(5)
+# rows of a spot: an equilibrium with its offset from the state, E - V there, dF/dtheta there; and the first two a turn earlier
+OFFSET, OVER, SPOT_X, SPOT_Z, BEND, BACK_OFFSET, BACK_OVER = range(7)
 # rows of a turning point
 AT, AT_X, AT_Z, BLUR, HAZE, ANCHOR_X, ANCHOR_Z, LEVEL, GAP, TOWARDS, START = range(11)
 # rows of a motion's ends: the spots that decide it
@@ -143,11 +143,12 @@ def meet(m, piece, K, lane, spot):
 
 
 def look_ahead(m, numbers, lane, spot):
-    """Polish the equilibria of one piece along the orbits; their offsets in (0, 2 pi] and E - V there."""
+    """Polish the equilibria of one piece along the orbits; their offsets in (0, 2 pi] and E - V there, and a turn behind."""
     G, c, d, mu = numbers[0], numbers[1], numbers[2], numbers[3]
     x, z, q, energy, unclear = lane[X], lane[Z], lane[Q], lane[ENERGY], lane[UNCLEAR]
     closest, lowest = lane[CLOSEST], lane[LOWEST]
     offset, over, spot_x, spot_z, bend = spot[OFFSET], spot[OVER], spot[SPOT_X], spot[SPOT_Z], spot[BEND]
+    back_offset, back_over, fall = spot[BACK_OFFSET], spot[BACK_OVER], TURN * mu
     for a in range(m):
         there = offset[a] == 0.0
         sx, sz = spot_x[a], spot_z[a]
@@ -164,39 +165,41 @@ def look_ahead(m, numbers, lane, spot):
         unclear[a] = 1.0 if there and not sure else unclear[a]
         sine, cosine = (sx * z[a] - sz * x[a]), (sx * x[a] + sz * z[a])
         angle = angle_of(sine, cosine)
-        angle = angle if angle > 0 else angle + TURN
         norm = 1 / q[a]
         s, k = -sine * norm, cosine * norm  # back from the spot to the state
         b = -s * s / (1 + k) if k > 0 else k - 1
         dx = sz * s + sx * b
         height = (mu * y_minus_sin(angle, -s) - b * (G * sx * sx + c * sx - d * sz) - 0.5 * G * dx * dx)
-        offset[a] = angle if there else INFINITY
-        e = energy[a] + height if there else INFINITY
-        over[a], spot_x[a], spot_z[a] = e, sx, sz
+        # from the nearer copy: a turn more would cost the energy over a well just behind its digits
+        ahead, e = angle > 0, energy[a] + height
+        offset[a] = (angle if ahead else angle + TURN) if there else INFINITY
+        back_offset[a] = (angle - TURN if ahead else angle) if there else INFINITY
+        back_e = (e - fall if ahead else e) if there else INFINITY
+        e = (e if ahead else e + fall) if there else INFINITY
+        over[a], back_over[a], spot_x[a], spot_z[a] = e, back_e, sx, sz
         bend[a] = curved if there else 0.0
         barrier = curved > 0
-        near = min(abs(e), abs(e - TURN * mu))
+        near = min(abs(e), abs(back_e))
         closest[a] = near if barrier and near < closest[a] else closest[a]
         lowest[a] = e if e < lowest[a] else lowest[a]
 
 
-def keep(m, better, spot, kept, turns, mu):
-    """Copy a spot, so many turns behind, where it is the better one."""
-    offset, over, sx, sz, bend = spot[OFFSET], spot[OVER], spot[SPOT_X], spot[SPOT_Z], spot[BEND]
+def keep(m, better, spot, kept, offset, over):
+    """Copy a spot with one of its offsets where it is the better one."""
+    sx, sz, bend = spot[SPOT_X], spot[SPOT_Z], spot[BEND]
     k_offset, k_over, k_x, k_z, k_bend = kept[OFFSET], kept[OVER], kept[SPOT_X], kept[SPOT_Z], kept[BEND]
-    back, fall = turns * TURN, turns * TURN * mu
     for a in range(m):
         take = better[a] > 0
-        k_offset[a] = offset[a] - back if take else k_offset[a]
-        k_over[a] = over[a] - fall if take else k_over[a]
+        k_offset[a] = offset[a] if take else k_offset[a]
+        k_over[a] = over[a] if take else k_over[a]
         k_x[a] = sx[a] if take else k_x[a]
         k_z[a] = sz[a] if take else k_z[a]
         k_bend[a] = bend[a] if take else k_bend[a]
 
 
-def enclose(m, mu, count, spots, lane, ends):
+def enclose(m, count, spots, lane, ends):
     """The barriers that stop a motion on either side, and the wells next to them inside; FASTEST over the wells."""
-    t, fastest, fall = lane[T], lane[FASTEST], TURN * mu
+    t, fastest = lane[T], lane[FASTEST]
     r_barrier, l_barrier, r_well, l_well = (ends[R_BARRIER, OFFSET], ends[L_BARRIER, OFFSET], ends[R_WELL, OFFSET],
                                             ends[L_WELL, OFFSET])
     for a in range(m):
@@ -204,24 +207,23 @@ def enclose(m, mu, count, spots, lane, ends):
         fastest[a] = lane[ENERGY, a]
     for p in range(count):
         offset, over, bend = spots[p, OFFSET], spots[p, OVER], spots[p, BEND]
+        back_offset, back_over = spots[p, BACK_OFFSET], spots[p, BACK_OVER]
         for a in range(m):
             t[a] = 1.0 if (bend[a] > 0) & (over[a] <= 0) & (offset[a] < r_barrier[a]) else 0.0
-        keep(m, t, spots[p], ends[R_BARRIER], 0.0, mu)
+        keep(m, t, spots[p], ends[R_BARRIER], offset, over)
         for a in range(m):
-            t[a] = 1.0 if (bend[a] > 0) & (over[a] <= fall) & (offset[a] - TURN > l_barrier[a]) else 0.0
-        keep(m, t, spots[p], ends[L_BARRIER], 1.0, mu)
+            t[a] = 1.0 if (bend[a] > 0) & (back_over[a] <= 0) & (back_offset[a] > l_barrier[a]) else 0.0
+        keep(m, t, spots[p], ends[L_BARRIER], back_offset, back_over)
     for p in range(count):
-        offset, over, bend = spots[p, OFFSET], spots[p, OVER], spots[p, BEND]
-        for turns in range(2):
-            back = turns * TURN
+        bend = spots[p, BEND]
+        for way in range(2):
+            offset, over = spots[p, BACK_OFFSET if way else OFFSET], spots[p, BACK_OVER if way else OVER]
             for a in range(m):
-                here = offset[a] - back
-                t[a] = 1.0 if (bend[a] < 0) & (here < r_barrier[a]) & (here > r_well[a]) else 0.0
-            keep(m, t, spots[p], ends[R_WELL], turns, mu)
+                t[a] = 1.0 if (bend[a] < 0) & (offset[a] < r_barrier[a]) & (offset[a] > r_well[a]) else 0.0
+            keep(m, t, spots[p], ends[R_WELL], offset, over)
             for a in range(m):
-                here = offset[a] - back
-                t[a] = 1.0 if (bend[a] < 0) & (here > l_barrier[a]) & (here < l_well[a]) else 0.0
-            keep(m, t, spots[p], ends[L_WELL], turns, mu)
+                t[a] = 1.0 if (bend[a] < 0) & (offset[a] > l_barrier[a]) & (offset[a] < l_well[a]) else 0.0
+            keep(m, t, spots[p], ends[L_WELL], offset, over)
 
 
 def turn(m, side, numbers, barrier, well, lane, end):
@@ -320,15 +322,15 @@ def sort_out(m, mu, wanted, lane, ends, kind, left_open):
         left_open[a] = near & wanted
 
 
-def fastest_between(m, mu, count, spots, lane, low, high):
+def fastest_between(m, count, spots, lane, low, high):
     """Raise FASTEST to the largest W^2/2 at the wells between two offsets."""
     fastest = lane[FASTEST]
     for p in range(count):
-        offset, over, bend = spots[p, OFFSET], spots[p, OVER], spots[p, BEND]
-        for turns in range(2):
-            back, fall = turns * TURN, turns * TURN * mu
+        bend = spots[p, BEND]
+        for way in range(2):
+            offset, over = spots[p, BACK_OFFSET if way else OFFSET], spots[p, BACK_OVER if way else OVER]
             for a in range(m):
-                here, e = offset[a] - back, over[a] - fall
+                here, e = offset[a], over[a]
                 passed = (bend[a] < 0) & (here >= low[a]) & (here <= high[a]) & (e > fastest[a])
                 fastest[a] = e if passed else fastest[a]
 
@@ -493,7 +495,7 @@ def librations(count, nodes, narrow, table, periods, left_open):
 def orbits(states, numbers, jki, pieces, folds, wanted, nodes, boxes, periods, left_open):
     """Fill boxes (n, 3, 2) and periods (n,) as far as wanted; left_open (n,): the bits that stay open."""
     mu, count = numbers[3], len(pieces)
-    lane, spots, ends = np.empty((14, LANES)), np.empty((count, 5, LANES)), np.zeros((4, 5, LANES))
+    lane, spots, ends = np.empty((14, LANES)), np.empty((count, 7, LANES)), np.zeros((4, 5, LANES))
     turns, out, table, kind = np.empty((2, 11, LANES)), np.empty((7, LANES)), np.empty((13, LANES)), np.empty(LANES)
     for begin in range(0, len(states), LANES):
         end = min(begin + LANES, len(states))
@@ -506,7 +508,7 @@ def orbits(states, numbers, jki, pieces, folds, wanted, nodes, boxes, periods, l
             look_ahead(m, numbers, lane, spots[p])
         for a in range(m):
             lane[UNCLEAR, a] = 1.0 if lane[CLOSEST, a] <= kind[a] else lane[UNCLEAR, a]
-        enclose(m, mu, count, spots, lane, ends)
+        enclose(m, count, spots, lane, ends)
         sort_out(m, mu, wanted, lane, ends, kind, open_)
         turn(m, 1.0, numbers, ends[R_BARRIER], ends[R_WELL], lane, turns[1])
         turn(m, -1.0, numbers, ends[L_BARRIER], ends[L_WELL], lane, turns[0])
@@ -518,7 +520,7 @@ def orbits(states, numbers, jki, pieces, folds, wanted, nodes, boxes, periods, l
             else:
                 lane[LEFT, a], lane[RIGHT, a] = ends[L_BARRIER, OFFSET, a], 0.0
         if wanted & BOX:
-            fastest_between(m, mu, count, spots, lane, lane[LEFT], lane[RIGHT])
+            fastest_between(m, count, spots, lane, lane[LEFT], lane[RIGHT])
             bounded_box(m, numbers, lane, turns[0], turns[1], out)
             spinning_box(m, lane, kind, out)
             write_boxes(m, part, numbers, jki, out, boxes[begin:end])

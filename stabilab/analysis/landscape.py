@@ -14,6 +14,11 @@ TURN = 2 * np.pi
 LOST = 1e-3  # of the terms: a sum that is smaller than this share has lost more than three digits
 
 
+def angle_between(place, spot):
+    """theta from one place on a circle to another, the short way round: in [-pi, pi]."""
+    return np.arctan2(spot[0] * place[1] - spot[1] * place[0], spot[0] * place[0] + spot[1] * place[1])
+
+
 @lru_cache(maxsize=64)
 def landscape(scene) -> "Landscape | None":
     """The landscape of a scene's reduction (cached), or None where the scene has none."""
@@ -109,8 +114,7 @@ class Landscape:
             scale = np.sqrt(Q / (x * x + z * z))
             spot = np.where(exists, x * scale, place[0]), np.where(exists, z * scale, place[1])
             spot = self._polish(spot)
-            sine, cosine = spot[0] * place[1] - spot[1] * place[0], spot[0] * place[0] + spot[1] * place[1]
-        offset = np.arctan2(sine, cosine)
+            offset = angle_between(place, spot)
         return np.where(offset > 0, offset, offset + TURN), spot, exists
 
     def _locate_hyperbola(self, place, Q, x, z, exists):

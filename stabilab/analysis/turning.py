@@ -6,7 +6,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from .circle_kernel import way_of_cosine
-from .landscape import EPS, TURN, Landscape
+from .landscape import EPS, TURN, Landscape, angle_between
 from .rootfind import bracketed_newton
 
 
@@ -51,11 +51,14 @@ def spots_along(land: Landscape, place, w) -> Spots:
     energy = np.full(offset.shape, np.nan)
     kinetic = 0.5 * w * w
     with np.errstate(all="ignore"):
+        if land.e < 0:  # a turn more would cost the energy over a well just behind its digits
+            offset = np.where(offset > np.pi, angle_between((place[0][:, None], place[1][:, None]), spot), offset)
         for column in range(offset.shape[1]):
             energy[:, column] = kinetic + land.potential.rise(-offset[:, column], spot[:, :, column])
         if land.e < 0:  # one turn earlier the tilt has lifted the potential by 2 pi mu
-            offset = np.concatenate([offset - TURN, offset], axis=1)
-            energy = np.concatenate([energy - TURN * land.potential.mu, energy], axis=1)
+            behind, fall = offset <= 0, TURN * land.potential.mu
+            offset = np.concatenate([offset - TURN * ~behind, offset + TURN * behind], axis=1)
+            energy = np.concatenate([energy - fall * ~behind, energy + fall * behind], axis=1)
             spot, barrier = np.concatenate([spot, spot], axis=2), np.concatenate([barrier, barrier], axis=1)
     order = np.argsort(np.where(np.isnan(offset), np.inf, offset), axis=1, kind="stable")
     take = lambda a: np.take_along_axis(a, order, axis=1)
