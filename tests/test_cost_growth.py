@@ -1,19 +1,24 @@
 """How cost grows: counts that do not depend on the machine, and pictures that hold what was measured."""
 import math
+from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
+import flint
 import numpy as np
 import pytest
 
-from stabilab import load
+from stabilab import Body, ConstantTorque, Gyrostat, Scene, load
 from stabilab.analysis import cost_growth
-from stabilab.analysis.cost_growth import Growth, bits_needed, engines, near, nodes_needed, with_closeness, with_states
+from stabilab.analysis.cost_growth import Growth, bits_needed, engines, near, nodes_needed, with_closeness, with_digits, with_states
 from stabilab.analysis.fate import fate
+from stabilab.analysis.precision_reference import reference
 from stabilab.analysis.results import Fate
+from stabilab.equations import derive
 from stabilab.show import cost_growth as shown
 
 from .oracles import energy
-from .oracles.model import scaled
+from .oracles.model import physical, scaled
 
 MINOR = load(Path(__file__).parent.parent / "cases" / "minor-axis-100.toml")
 
@@ -39,6 +44,45 @@ def test_bits_for_the_fate_grow_by_three_and_a_third_a_decade():
 def test_nodes_for_the_period_grow_towards_the_separatrix():
     far, close = (nodes_needed(MINOR.scene, near(MINOR, n)[0]) for n in (1, 5))
     assert 8 <= far <= 64 < close
+
+
+def test_in_moments_and_metres_the_distance_is_that_of_the_kinetic_energy():
+    # a body of moments (2000, 1500, 1000) with a wheel: 1/2 D3 omega3^2 is what parts the state from rest about axis 3
+    scene = Scene(Body((2000, 1500, 1000)), Gyrostat((70, 0, 0)), ConstantTorque((0, 0, 100)))
+    state, distance = near(SimpleNamespace(scene=scene, state=(1.3, 0.9, 0.1)), 3)
+    exact, at_rest = (float(energy.margin(physical((2000, 1500, 1000), (70, 0, 0), (0, 0, 100)), tuple(s), digits=60))
+                      for s in (state, (*state[:2], 0.0)))
+    assert at_rest - exact == pytest.approx(500 * state[2] ** 2, rel=1e-12) and exact / at_rest == pytest.approx(distance, rel=1e-9)
+    assert distance == pytest.approx(1e-3, rel=1e-9)
+
+
+def test_on_the_separatrix_no_bits_are_enough_and_beside_it_no_nodes():
+    # Euler's polhode through the middle axis: D1 (D1 - D2) w1^2 = D3 (D2 - D3) w3^2
+    assert bits_needed(Scene(Body((4, 3, "1.5"))), (3.0, 1.0, 4.0)) is None
+    # 1e-15 below the barrier the rate dips over a part of 1e-7 of the turn, so 32768 equal parts leave digits out
+    assert nodes_needed(MINOR.scene, near(MINOR, 15)[0]) is None
+
+
+def test_the_reached_digits_of_a_series_are_those_of_the_reference_at_least_up_to_what_was_asked():
+    times = np.array([0.0, 1.0, 2.0])
+    exact = reference(MINOR.scene, MINOR.state, times)
+    task = SimpleNamespace(scene=MINOR.scene, start=MINOR.state, times=times, equations=derive(MINOR.scene))
+    rows = {digits: {(r.question, r.method): r for r in cost_growth._many(task, exact, digits)} for digits in (12, 18)}
+    balls = {("extremes", "balls"), ("period", "balls"), ("margin", "balls")}
+    assert set(rows[12]) == balls and set(rows[18]) == balls | {("states over the span", "Taylor in many digits")}
+    series = rows[18]["states over the span", "Taylor in many digits"]
+    assert 17 < series.x <= 18 and series.count > 0  # the reference holds 30 digits
+    off = [[flint.arb(v) for v in row] for row in exact.states * (1 + 1e-9)]
+    assert cost_growth._reached(off, exact) == pytest.approx(9, abs=0.5)
+
+
+def test_digits_are_measured_by_every_method_of_a_motion_that_repeats(monkeypatch):
+    monkeypatch.setattr(cost_growth, "MANY", (12,))
+    rows = with_digits(replace(MINOR, span=(0.0, 2.0)), "glance")
+    found = {(r.question, r.method) for r in rows}
+    assert found >= {("states over the span", "taylor"), ("states over the span", "DOP853"), ("extremes", "formulas"), ("period", "formulas"),
+                     ("extremes", "balls"), ("period", "balls"), ("margin", "balls")}
+    assert all(0 < r.x < 16 for r in rows if r.method in ("taylor", "DOP853", "reduced"))
 
 
 def test_every_question_is_measured_at_every_distance(monkeypatch):
