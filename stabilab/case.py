@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import math
 import os
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from fractions import Fraction
 from pathlib import Path
@@ -10,6 +11,7 @@ from typing import NamedTuple
 
 from .body import Body
 from .case_expect import expected
+from .case_lines import key_lines
 from .case_source import parsed, source_text
 from .case_sweep import combinations, swept
 from .case_table import Faults, Table, Uncertain, did_you_mean
@@ -74,6 +76,21 @@ class Case:
     def name(self) -> str:
         """The file's stem, and which combination of its [sweep] this is ("-2-1": second value of the first key)."""
         return printable(Path(self.path).stem) + self.variant
+
+
+@contextmanager
+def blamed_on(case: Case):
+    """What the analysis cannot use becomes an error of the case's file, with the line of the key it speaks of."""
+    try:
+        yield
+    except CaseError:
+        raise
+    except InputError as error:
+        word, colon, rest = str(error).partition(": ")
+        keys = {"state": STATES, "span": SPANS}.get(word, ()) if colon else ()
+        table = key_lines(case.text).line if keys else {}
+        key, line = next(((k, table[("motion", k)]) for k in keys if ("motion", k) in table), (None, None))
+        raise InputError(f"{printable(case.path)}:{line}: motion.{key}: {rest}" if line else f"{printable(case.path)}: {error}") from None
 
 
 def load(path) -> Case:

@@ -153,7 +153,9 @@ def simulate(case: CaseFile,
     times = _times(loaded, at)
     if out:
         trajectory_files.checked(out)
-    run, reached = _followed(loaded, times, model, method, rtol, order, digits)
+    from .case import blamed_on
+    with blamed_on(loaded):
+        run, reached = _followed(loaded, times, model, method, rtol, order, digits)
     if out:
         trajectory_files.write(loaded, run, out)
         _say(f"written: {out}")
@@ -355,23 +357,29 @@ def _over_boxes(cases, *questions):
 
 def _equilibria(case):
     from .analysis.equilibria import equilibria
-    return equilibria(case.scene)
+    from .case import blamed_on
+    with blamed_on(case):
+        return equilibria(case.scene)
 
 
 def _certified(cases, out) -> bool:
     """Write the certificate of one case; whether all of it could be certified."""
     from .analysis.certificate import certificate
+    from .case import blamed_on
     from .show import certification
     if len(cases) != 1:
         raise InputError(f"--certify: expected one case, got {len(cases)}; certify them one by one")
-    made = certificate(cases[0].scene, cases[0].exact_state)
+    with blamed_on(cases[0]):
+        made = certificate(cases[0].scene, cases[0].exact_state)
     _say(f"written: {certification.write(made, out)}\n{certification.summary(made)}")
     return not made["uncertified"]
 
 
 def _motion(case, brief=False):
     from .analysis.motion import motion
-    return motion(case.scene, case.start, case.span, brief, case.exact_state)
+    from .case import blamed_on
+    with blamed_on(case):
+        return motion(case.scene, case.start, case.span, brief, case.exact_state)
 
 
 def _tell(question, paths, digits, json, csv=False):
@@ -400,7 +408,9 @@ def _told(question, case, motion, digits):
     found = by_bound(question, motion) if digits is None else None
     if found is None:
         from .analysis.precision_questions import ask
-        found = ask(question, case.scene, case.start, DEFAULT if digits is None else digits, case.span, motion, case.exact_state)
+        from .case import blamed_on
+        with blamed_on(case):
+            found = ask(question, case.scene, case.start, DEFAULT if digits is None else digits, case.span, motion, case.exact_state)
     return found
 
 

@@ -241,3 +241,13 @@ def test_a_hostile_title_is_text_in_every_output_of_a_case(stabilab, tmp_path, m
         code, out, err = stabilab(*arguments)
         assert code == OK, err
     assert "<script>" not in Path("my.csv").read_text()
+
+
+@pytest.mark.parametrize("command", ["classify", "extremes", "fate", "period"])
+def test_what_the_analysis_refuses_is_an_error_of_the_file_and_its_line(stabilab, tmp_path, monkeypatch, command):
+    monkeypatch.chdir(tmp_path)
+    Path("fast.toml").write_text("[body]\ninertia = [2000, 1500, 1000]\n[effects.gyrostat]\nmomentum = [100, 0, 0]\n"
+                                 "[effects.constant_torque]\ntorque = [-1, 0, 0]\n[motion]\nangular_velocity = [1e160, 2e160, 1]\n", encoding="utf-8")
+    code, out, err = stabilab(command, "fast.toml")
+    assert code == BAD_INPUT and not out
+    assert err.startswith("fast.toml:8: motion.angular_velocity: ") and "largest double" in err

@@ -57,7 +57,8 @@ def _finite(value):
 def _rest(reduction, state, given, label) -> dict:
     from .distance import distance_of
     from .one_period import period_of
-    return {"margin_velocity": _finite(distance_of(reduction, state)), "period": _repeats(period_of(reduction, given, label)),
+    apart = 0.0 if label == Fate.SEPARATRIX else _finite(distance_of(reduction, state))
+    return {"margin_velocity": apart, "period": _repeats(period_of(reduction, given, label)),
             "invariants": invariants_of(reduction, given)}
 
 

@@ -144,7 +144,9 @@ def _width(balls) -> float:
 
 
 def _floats(balls):
-    return tuple(tuple(map(float, pair)) for pair in balls) if isinstance(balls, list) else float(balls)
+    if isinstance(balls, list):
+        return tuple(tuple(map(_floats, pair)) for pair in balls)
+    return float(balls) if isinstance(balls, float) or 0 not in balls else 0.0
 
 
 def _decimals(balls, digits):
@@ -152,7 +154,9 @@ def _decimals(balls, digits):
     if isinstance(balls, list):
         return [[_decimals(v, digits) for v in pair] for pair in balls]
     from flint import arb
-    return str(balls) if isinstance(balls, float) else arb(balls).mid().str(digits + 1, radius=False)
+    if isinstance(balls, float):
+        return str(balls)
+    return "0" if 0 in arb(balls) else arb(balls).mid().str(digits + 1, radius=False)
 
 
 # -- motions without one -----------------------------------------------------------------------------------------------

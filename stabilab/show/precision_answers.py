@@ -56,7 +56,9 @@ def _number(value, digits) -> str:
 
 
 def _said(told) -> str:
-    return f"  {told.because}" if told.digits is None else f"  {min(told.digits, 99.0):.1f} digits: {told.because}"
+    if told.digits is None:
+        return f"  {told.because}"
+    return f"  exact: {told.because}" if math.isinf(told.digits) else f"  {min(told.digits, 99.0):.1f} digits: {told.because}"
 
 
 def fate(case, motion, told) -> dict:
