@@ -1,7 +1,5 @@
-"""Facts about extremes that small faults break: turning points, bounds of their rounding, and what goes to ball arithmetic."""
+"""Facts about extremes that small faults break: turning points, small librations, free motions, motions of every size."""
 from __future__ import annotations
-
-import importlib
 
 import mpmath as mp
 import numpy as np
@@ -10,18 +8,17 @@ import pytest
 import stabilab
 from stabilab import Fate
 from stabilab.analysis import turning
-from stabilab.analysis.landscape import EPS, landscape
+from stabilab.analysis.landscape import landscape
 from stabilab.analysis.numba_door import installed
 from stabilab.analysis.reduction import reduce
 
 from .oracles import energy
-from .oracles.energy import Reduced, _inner
+from .oracles.energy import Reduced, _inner, _levels
 from .oracles.pairs import physical, scaled
 from .test_extremes import assert_extremes
-from .test_fate import ELLIPTIC, FAMILIES, axis_of, sample
+from .test_fate import FAMILIES, axis_of
 from .test_small_faults import PARABOLIC
 
-extremes = importlib.import_module("stabilab.analysis.extremes")
 ALL = FAMILIES | PARABOLIC
 
 
@@ -63,3 +60,80 @@ def test_the_energy_above_a_well_behind_drowns_in_that_of_a_turn():
         assert abs(naive / exact - 1) > 1e-10
     span = turning.interval(land, place, w)
     assert span.fastest[0] == pytest.approx(float(exact), rel=1e-12)
+
+
+def ends_of(problem, state, unit):
+    """(left, right, largest W^2/2) of a bounded motion as offsets of theta = unit alpha, by the potential at 50 digits."""
+    motion = Reduced(problem, state, 50)
+    ends = sorted(motion.end(side)[1] for side in (1, -1))
+    left, right = sorted(float(a * unit) for a in ends)
+    return left, right, float(max(motion.g(a) for a in _inner(motion, *ends)) / 2 * unit ** 2)
+
+
+@pytest.mark.parametrize("name", ["minor scaled +", "minor on axis 1", "major without gyrostat", "middle scaled +",
+                                  "middle physical, other sign", "first axis, other sign", "oblate"])
+def test_turning_points_and_the_greatest_speed_err_by_their_stated_rounding(name):
+    """From librations of a hundred-millionth to motions as large as the state: ends within ten times their bound."""
+    scene, problem = ALL[name]
+    states = np.concatenate([librations(name, 1, low, low) for low in (-8, -5, -3, -2, -1)] + [
+        np.array([s for s in np.random.default_rng(5).normal(size=(40, 3)) * 2.5 if stabilab.fate(scene, s).labels == 0][:2])])
+    land, r = landscape(scene), reduce(scene)
+    place, w, _ = land.start(states)
+    span = turning.interval(land, place, w)
+    assert span.ok.all()
+    for n, state in enumerate(states.tolist()):
+        with mp.workdps(50):
+            unit = r.exact_constants["flip"] * Reduced(problem, state, 50).k0 if r.e else 1
+            left, right, fastest = ends_of(problem, state, unit)
+        assert abs(span.left[n] - left) <= 10 * span.blur[0, n] and abs(span.right[n] - right) <= 10 * span.blur[1, n]
+        assert abs(span.fastest[n] - fastest) <= 10 * span.haze[n]
+        half = 0.5 * (right - left)
+        assert span.half[n] == pytest.approx(half, abs=10 * span.blur[:, n].max())
+        for at, off in ((span.left_place, left), (span.right_place, right), (span.middle, 0.5 * (left + right))):
+            moved = land.potential.move([v[n] for v in place], off)
+            np.testing.assert_allclose(at[:, n], moved, rtol=1e-9, atol=1e-9)
+
+
+FREE = {"free": physical((3, 2, 1)), "wheel on the major axis": physical((3, 2, 1), (0.5, 0, 0)),
+        "wheel on the minor axis": physical((3, 2, 1), (0, 0, -0.25)), "free, scaled": scaled(0.25, 0.75, (0, 0, 0))}
+
+
+def free_extremes(problem, state):
+    """Those of the oracle, or, over all barriers, of the whole circle with the speeds at its equilibria."""
+    with mp.workdps(40):
+        motion = Reduced(problem, state, 40)
+        if motion.end(1)[0] != "open":
+            return energy.extremes(problem, state, digits=40)
+        out, shift = [None] * 3, mp.mpf(motion.h.numerator) / motion.h.denominator
+        speeds = [mp.sign(motion.w0) * mp.sqrt(motion.g(a)) - shift for a, _ in motion.stationary()]
+        out[motion.i] = [min(speeds), max(speeds)]
+        for which, axis in enumerate((motion.j, motion.k)):
+            values = [motion.pair(a)[which] for a in _levels(motion, which, 0, motion.turn)]
+            out[axis] = [min(values), max(values)]
+    return out
+
+
+@pytest.mark.parametrize("name", FREE)
+def test_free_motions_over_and_between_their_barriers_have_the_extremes_of_the_potential(name, monkeypatch):
+    """Both kinds, in both senses, without ball arithmetic."""
+    from stabilab.analysis import precise_extremes
+    monkeypatch.setattr(precise_extremes, "precise_extremes", lambda *a: pytest.fail("a generic state went to ball arithmetic"))
+    scene, problem = FREE[name]
+    states = np.random.default_rng(2).normal(size=(8, 3))
+    margins = stabilab.fate(scene, states).margins
+    assert (margins > 0).any() and (margins < 0).any()
+    for state, box in zip(states.tolist(), stabilab.extremes(scene, states, fast=False)):
+        assert_extremes(box, free_extremes(problem, state), 1e-11)
+
+
+@pytest.mark.parametrize("name", ["minor scaled +", "minor physical, other sign", "major physical", "middle scaled +",
+                                  "middle scaled -, |c| above the cusp", "first axis", "second axis",
+                                  "wheel on the symmetry axis"])
+def test_motions_of_every_size_and_sense_have_the_extremes_of_the_potential(name):
+    """A hundredth to thirty times the unit; against the torque through many wells, too."""
+    scene, problem = ALL[name]
+    states = np.random.default_rng(13).normal(size=(7, 3)) * 10.0 ** np.linspace(-2, 1.5, 7)[:, None]
+    axis = axis_of(problem)
+    states[3:, axis] = -np.abs(states[3:, axis]) * (1 if problem.m[axis] > 0 else -1)
+    for state, box in zip(states.tolist(), stabilab.extremes(scene, states, fast=False)):
+        assert_extremes(box, energy.extremes(problem, state, digits=40), 1e-11)
