@@ -6,7 +6,7 @@ from fractions import Fraction
 from functools import lru_cache
 from types import SimpleNamespace
 
-from .numbers import ball, exact_sign
+from .numbers import ball, exact_sign, q
 from .rates import AHEAD
 
 
@@ -22,7 +22,7 @@ class Orbit:
         if shift is None:
             raise ValueError("no reduction about this axis")
         j, k = AHEAD[axis]
-        self.axis, self.j, self.k, self.s = axis, j, k, shift
+        self.axis, self.j, self.k, self.s, self._touches = axis, j, k, shift, None
         self.p, self.p0, self.q, self.q0 = rates.kappa[j], rates.rho[j], rates.kappa[k], rates.sigma[k]
         self.kappa, self.rho, self.sigma, self.m = (c[axis] for c in (rates.kappa, rates.rho, rates.sigma, rates.m))
         self.u0, self.v0, self.y0 = state[j], state[k], state[axis] + shift
@@ -87,19 +87,34 @@ class Orbit:
 
     def decays(self) -> int:
         """On a plane of a hyperbola: 1 where the place decays with growing alpha, -1 where it grows, else 0."""
+        if self.kind < 1:
+            return 0
         a, b = self.p * self.v0 + self.p0, self.q * self.u0 + self.q0
         du, dv = self.u0 - self.cu, self.v0 - self.cv
-        if self.kind < 1 or not (du or dv) or a * a != self.p * self.q * du * du or b * b != self.p * self.q * dv * dv:
+        if not (du or dv) or a * a != self.p * self.q * du * du or b * b != self.p * self.q * dv * dv:
             return 0
         return -exact_sign(a * du) or -exact_sign(b * dv)
 
     def touches(self) -> bool:
-        """On a plane of a hyperbola: whether the force, a quadratic in the exponential, has a double zero: no change of sign."""
-        if not self.decays():
+        """Whether the force has only zeros of even order on its conic, or on a plane of a hyperbola: it never changes sign."""
+        if not self.kind:
             return False
+        if self._touches is None:
+            self._touches = self._even_zeros()
+        return self._touches
+
+    def _even_zeros(self) -> bool:
         cu, cv, du, dv = self.cu, self.cv, self.u0 - self.cu, self.v0 - self.cv
-        bend, slope = self.kappa * du * dv, self.kappa * (cu * dv + cv * du) + self.rho * dv + self.sigma * du
-        return slope * slope == 4 * bend * (self.kappa * cu * cv + self.rho * cv + self.sigma * cu + self.m)
+        if self.decays():  # a quadratic in the exponential
+            bend, slope = self.kappa * du * dv, self.kappa * (cu * dv + cv * du) + self.rho * dv + self.sigma * du
+            return slope * slope == 4 * bend * (self.kappa * cu * cv + self.rho * cv + self.sigma * cu + self.m)
+        from flint import fmpq_poly
+        t = fmpq_poly([0, 1])
+        w = q(self.q) - q(self.p) * t * t  # the line of slope t through the state meets the conic again at (u, v)/w
+        step = -2 * (q(self.q * du) - q(self.p * dv) * t)
+        u, v = q(self.u0) * w + step, q(self.v0) * w + t * step
+        force = q(self.kappa) * u * v + (q(self.rho) * v + q(self.sigma) * u) * w + q(self.m) * w * w
+        return force != 0 and all(order % 2 == 0 for _, order in force.factor()[1])
 
     def _on_plane(self, e):
         g = self.balls

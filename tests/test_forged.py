@@ -1,0 +1,182 @@
+"""Forged certificates: each claim of a proved one changed in turn is refuted, or left unproved, or refused; never proved."""
+import copy
+import json
+from fractions import Fraction as F
+
+import pytest
+
+from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
+from stabilab.analysis.certificate import certificate
+from stabilab.verify import verify
+from stabilab.verify.numbers import Malformed
+
+
+def physical(D, lam=(0, 0, 0), M=(0, 0, 0)):
+    return Scene(Body(D), Gyrostat(lam), ConstantTorque(M))
+
+
+SCENES = {
+    "two points": ScaledGyrostat(0, 0, (1, 2, 1)), "a double root": ScaledGyrostat(0, 2, (-3, 3, 1)),
+    "a triple zero eigenvalue": ScaledGyrostat(0, 2, (F(-15, 16), F(5, 4), F(3, 4))),
+    "a hyperbola": ScaledGyrostat("0.2", "0.4", (0, 0, 1)), "crossing lines, a minimum": physical((5, 4, 5), (2, 3, 0), (0, 0, 6)),
+    "crossing lines, no minimum": physical((3, 4, 5), (2, 3, 0), (0, 0, 3)), "a single line": physical((1, 2, 2), (0, 1, 1), (1, 0, 0)),
+    "a torque oblique among equal moments": physical((2, 2, 1), (1, -1, 1), (1, 1, 0)),
+    "an oblique line that is left slowly": physical((4, 3, 2), (1, 5, 14), (0, 7, -5)),
+    "an oblique line of a symmetric body": physical((2, 2, 1), (1, 0, 1), (0, 1, 1)),
+    "a free gyrostat": physical((5, 4, 2), (0, 2, 3)), "a free gyrostat, one wheel": physical((5, 4, 2), (0, 2, 0)),
+    "free, three axes": physical((5, 4, 2)), "a plane": physical((2, 2, 1), (0, 0, 1)), "a plane through rest": physical((1, 2, 2)),
+    "free, scaled": ScaledGyrostat(1, 2, (0, 0, 0)), "free, scaled, no wheel": ScaledGyrostat(1, 1, (0, 0, 0)),
+    "none, contradictory": physical((3, 2, 1), (1, 0, 0), (1, 0, 0)), "none, a constant": physical((3, 2, 2), (0, 0, 0), (1, 0, 0)),
+    "none, no real root": ScaledGyrostat(0, 0, (-1, 1, 1)), "all": physical((2, 2, 2))}
+OTHER = {"stable": "unstable", "unstable": "stable", "degenerate": "stable"}
+
+
+def proved(scene, state=None):
+    """The certificate of a scene as read from its file; proved."""
+    claims = json.loads(json.dumps(certificate(scene, state)))
+    found = verify(claims)
+    assert found.status == "proved", found.findings
+    return claims
+
+
+def status_of(claims):
+    try:
+        return verify(claims).status
+    except Malformed:
+        return "refused"
+
+
+def moved(ends, share=F(1, 7)):
+    """A bracket beside the right one."""
+    low, high = map(F, ends)
+    step = 3 * (high - low) + share * (abs(low) + 1)
+    return [str(low + step), str(high + step)]
+
+
+def forgeries(claims):
+    """(what was forged, the certificate) for every claim on the equilibria."""
+    def changed(*path, to):
+        forged = copy.deepcopy(claims)
+        place = forged["equilibria"]
+        for key in path[:-1]:
+            place = place[key]
+        if to is None:
+            del place[path[-1]]
+        else:
+            place[path[-1]] = to
+        return path, forged
+    found = claims["equilibria"]
+    yield changed("kind", to="points" if found["kind"] != "points" else "curves")
+    for part in ("points", "curves", "planes"):
+        for n, entry in enumerate(found[part]):
+            yield changed(part, n, to=None)
+            for word in ("linear", "verdict"):
+                if word in entry:
+                    yield changed(part, n, word, to=OTHER[entry[word]])
+    for n, point in enumerate(found["points"]):
+        yield changed("points", to=[*found["points"], point])
+        yield from (changed("points", n, "box", i, to=moved(point["box"][i])) for i in range(3))
+    for n, curve in enumerate(found["curves"]):
+        line = len(curve["denominator"]) == 1 and all(len(row) < 3 for row in curve["numerators"])
+        for i, row in enumerate(curve["numerators"]):
+            if not (line and len(row) == 2):  # along a line itself a change is another parametrisation
+                yield from (changed("curves", n, "numerators", i, k, to=str(F(c) + 1)) for k, c in enumerate(row))
+        for part in ("segments", "folds"):
+            for k, piece in enumerate(curve[part]):
+                yield changed("curves", n, part, k, to=None)
+                yield from (changed("curves", n, part, k, word, to=OTHER[piece[word]]) for word in ("linear", "verdict"))
+        for k, fold in enumerate(curve["folds"]):
+            yield changed("curves", n, "folds", k, "t", to=moved(fold["t"]))
+        for k, piece in enumerate(curve["segments"]):
+            for side in (0, 1):
+                yield changed("curves", n, "segments", k, "t", side, to=["0", "0"] if piece["t"][side] is None else moved(piece["t"][side]))
+    for n, plane in enumerate(found["planes"]):
+        yield from (changed("planes", n, "base", i, to=str(F(v) + 1)) for i, v in enumerate(plane["base"]) if F(plane["directions"][0][i]) == 0 == F(plane["directions"][1][i]))
+        yield changed("planes", n, "directions", 1, to=["1", "1", "1"])
+        yield from (changed("planes", n, "centre", "at", i, to=str(F(v) + 1)) for i, v in enumerate(plane["centre"]["at"]))
+        yield changed("planes", n, "centre", "verdict", to="unstable")
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_a_forged_claim_on_the_equilibria_is_never_proved(name):
+    claims = proved(SCENES[name])
+    for path, forged in forgeries(claims):
+        status = status_of(forged)
+        box = "box" in path  # a box off the equilibrium is no zero, or not known to hold one
+        assert status == "refuted" or (box and status == "partly"), (path, status, verify(forged).findings)
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_equilibria_that_are_not_there_are_refuted(name):
+    claims = proved(SCENES[name])
+    others = {"points": {"box": [["3", "3"], ["5", "5"], ["7", "7"]], "linear": "unstable", "verdict": "unstable"},
+              "curves": {"numerators": [["3", "1"], ["5"], ["7"]], "denominator": ["1"], "segments": [], "folds": []},
+              "planes": {"base": ["3", "5", "7"], "directions": [["1", "0", "0"], ["0", "1", "1"]], "linear": "degenerate", "verdict": "unstable",
+                         "centre": {"at": ["3", "5", "7"], "verdict": "stable"}}}
+    for part, entry in others.items():
+        forged = copy.deepcopy(claims)
+        forged["equilibria"][part].append(entry)
+        assert status_of(forged) == "refuted" or claims["equilibria"]["kind"] == "all", part
+
+
+def malformed(claims, where=()):
+    """Every string of the mathematics replaced by what is no number, and every list and object by a string."""
+    place = claims
+    for key in where:
+        place = place[key]
+    for key in list(place) if isinstance(place, dict) else range(len(place)):
+        if key in ("program", "uncertified", "because", "name"):
+            continue
+        here, kept = (*where, key), place[key]
+        wrong = [5, "x"] if isinstance(kept, (str, list, dict)) else []
+        for bad in wrong:
+            if isinstance(kept, str) and bad == "x" and key in ("linear", "verdict", "fate", "kind"):
+                continue
+            place[key] = bad
+            yield here, bad
+        place[key] = kept
+        if isinstance(kept, (list, dict)):
+            yield from malformed(claims, here)
+
+
+@pytest.mark.parametrize("name", ["two points", "a hyperbola", "a plane"])
+def test_what_is_no_number_or_no_list_is_refused(name):
+    claims = proved(SCENES[name])
+    for where, bad in malformed(claims):
+        with pytest.raises(Malformed):
+            verify(claims)
+            pytest.fail(f"{where}: {bad!r} was taken")
+
+
+MOTIONS = {
+    "bounded in a well": (ScaledGyrostat("0.2", "0.4", (0, 0, 1)), (3, F(-3, 2), F(3, 10))),
+    "spin-up": (ScaledGyrostat("0.2", "0.4", (0, 0, 1)), (1, 1, 1)), "spin-up after turning": (ScaledGyrostat(0, 0, (0, 0, 1)), (1, 1, -3)),
+    "free, round": (physical((3, 2, 1), (0, 1, 0)), (1, 1, 3)), "free, in a well": (physical((3, 2, 1), (1, 0, 0)), (3, 1, 1)),
+    "free, steady rate": (physical((3, 3, 1)), (1, 1, 1)), "on a hyperbola": (ScaledGyrostat("0.5", 1, (0, 1, 0)), (1, -1, 2)),
+    "on a decaying plane": (ScaledGyrostat("0.5", 1, (0, 1, 0)), (F(1, 2), -1, F(-3, 2))),
+    "pure spin": (physical((3, 2, 1), (0, 0, 0), (0, 1, 0)), (0, 1, 0)), "on a parabola": (physical((2, 2, 1), (0, 1, 1), (1, 0, 0)), (1, 1, 2)),
+    "at rest": (ScaledGyrostat(0, 0, (0, 0, 1)), (-3, F(1, 3), 0))}
+
+
+@pytest.mark.parametrize("name", MOTIONS)
+def test_a_forged_claim_on_the_motion_is_refuted(name):
+    claims = proved(*MOTIONS[name])
+    claims["equilibria"] = None
+    true = claims["motion"]
+    changes = [{"fate": word} for word in ("bounded", "spin-up", "equilibrium") if word != true["fate"]] + [{"state": ["3", "5", "7"]}]
+    if true["fate"] == "spin-up":
+        changes += [{"axis": true["axis"] % 3 + 1}, {"sense": -true["sense"]}, {"period": ["1", "2"]}]
+    elif true["period"]:
+        changes += [{"period": moved(true["period"])}, {"axis": 1}]
+    for i, pair in enumerate(true["extremes"] or []):
+        for side, ends in enumerate(pair):
+            forged = copy.deepcopy(true["extremes"])
+            forged[i][side] = ["0", "1"] if ends is None else moved(ends, F(1, 10**6))
+            changes.append({"extremes": forged, "period": None})
+            forged = copy.deepcopy(true["extremes"])
+            if ends is not None:
+                forged[i][side] = None
+                changes.append({"extremes": forged, "period": None})
+    for change in changes:
+        status = status_of(claims | {"motion": true | change})
+        assert status == "refuted", (change, verify(claims | {"motion": true | change}).findings)

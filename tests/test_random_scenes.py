@@ -1,0 +1,169 @@
+"""Random scenes, half of them degenerate: no equilibrium missed or invented, no wrong verdict, and what cannot be proved is counted."""
+import collections
+import json
+import os
+import time
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, equilibria
+from stabilab.analysis.certificate import certificate
+from stabilab.verify import verify
+
+from .oracles import elimination as by_hand
+
+
+def small(rng):
+    """A small rational: degenerate scenes (equal moments, aligned vectors, folds) come up often."""
+    return Fraction(int(rng.integers(-3, 4)), int(rng.choice([1, 2, 4])))
+
+
+def generic(rng):
+    """A double of no special form."""
+    return Fraction(float(rng.normal()))
+
+
+def random_scene(rng, degenerate):
+    """(the scene, the oracle's arguments): small rationals, or doubles over six decades; zero components in both."""
+    pick = small if degenerate else generic
+    size = Fraction(1) if degenerate else Fraction(float(10 ** rng.uniform(-3, 3)))
+    if rng.random() < 0.3:
+        a, b, mu = pick(rng), pick(rng), [pick(rng) * size if rng.random() < 0.8 else Fraction(0) for _ in range(3)]
+        if degenerate and a != b and rng.random() < 0.1:  # the two isolated equilibria in one (c^2 + 4 mu2 mu3/mu1 = 0, by hand)
+            mu[0] = -4 * mu[1] * mu[2] / (b - a) ** 2
+        return ScaledGyrostat(a, b, mu), (by_hand.of_scaled, (a, b, mu))
+    D = [Fraction(int(v)) for v in rng.integers(2, 5, 3)] if degenerate else [Fraction(float(v)) for v in rng.uniform(1, 2, 3)]
+    lam, M = ([pick(rng) if rng.random() < 0.6 else Fraction(0) for _ in range(3)] for _ in range(2))
+    lam = [v * size for v in lam]
+    if degenerate and rng.random() < 0.05:
+        lam = whole_line(rng, D, M) or lam
+    return Scene(Body(D), Gyrostat(lam), ConstantTorque(M)), (by_hand.of_body, (D, lam, M))
+
+
+def whole_line(rng, D, M):
+    """The gyrostatic moment with which an oblique torque has a whole line of equilibria: lambda = (D_v - D) y0 + l v along an axis v,
+    M = l y0 x v (by hand: then D y + lambda = D_v y + l v for y = y0 + t v)."""
+    v = int(rng.integers(3))
+    j, k = (v + 1) % 3, (v + 2) % 3
+    M[v] = Fraction(0)
+    if not (M[j] or M[k]):
+        return None
+    l = small(rng) or Fraction(1)
+    y0 = [Fraction(0)] * 3
+    y0[k], y0[j] = M[j] / l, -M[k] / l  # M_j = l y0_k, M_k = -l y0_j
+    lam = [(D[v] - D[i]) * y0[i] for i in range(3)]
+    lam[v] = l
+    return lam
+
+
+def numbers(row):
+    return [Fraction(v) for v in row]
+
+
+def disagreements(claims, model, answer) -> list[str]:
+    """What a certificate says of the equilibria against the elimination: kind, counts, places, and the words by the signs of m and n."""
+    points, curves, planes = claims["points"], claims["curves"], claims["planes"]
+    said, true = (claims["kind"], len(points), len(curves), len(planes)), (answer.kind, len(answer.roots), answer.curves, answer.planes)
+    if said != true:
+        return [f"kind and counts: {said} for {true}"]
+    wrong = []
+    for root, start, v in answer.roots:
+        m, n = (root.sign_of(p) for p in by_hand.m_and_n_on_line(model, start, v))
+        here = [p for p in points if all(within(root, c, d, numbers(ends)) for c, d, ends in zip(start, v, p["box"]))]
+        word = "unstable" if n or m < 0 else "stable" if m else "degenerate"
+        if len(here) != 1 or here[0]["linear"] != word or here[0]["verdict"] != "unstable":
+            wrong.append(f"point: {here} for {word}")
+    rows = [([numbers(p) for p in c["numerators"]], numbers(c["denominator"])) for c in curves]
+    for x in answer.samples:
+        if any(model.rate(x)) or not (any(by_hand.on_curve(x, *row) for row in rows) or any(in_plane(p, x) for p in planes)):
+            wrong.append(f"missed: {x}")
+    for c, row in zip(curves, rows):
+        wrong += [w for s in c["segments"] for w in piece_disagrees(s, model, *row)]
+    return wrong
+
+
+def within(root, c, d, ends) -> bool:
+    """Whether c + d t lies in a bracket at the root t."""
+    if not d:
+        return ends[0] <= c <= ends[1]
+    first, last = (root.versus((e - c) / d) for e in (ends if d > 0 else ends[::-1]))
+    return first >= 0 >= last
+
+
+def in_plane(plane, x) -> bool:
+    (a, b, c), (d, e, f) = (numbers(v) for v in plane["directions"])
+    normal = (b * f - c * e, c * d - a * f, a * e - b * d)
+    return sum(n * (v - o) for n, v, o in zip(normal, x, numbers(plane["base"]))) == 0
+
+
+def piece_disagrees(piece, model, tops, bottom):
+    """At three places of a piece: at rest, n = 0, and m < 0 unstable, m > 0 a centre."""
+    low, high = (None if end is None else numbers(end) for end in piece["t"])
+    places = ([low[1] + (high[0] - low[1]) * f for f in (Fraction(1, 7), Fraction(1, 2), Fraction(6, 7))] if low and high else
+              [low[1] + Fraction(2)**k for k in (-8, 0, 8)] if low else [high[0] - Fraction(2)**k for k in (-8, 0, 8)] if high else [Fraction(k) for k in (-5, 0, 5)])
+    for t in places:
+        below = by_hand.value(bottom, t)
+        x = [by_hand.value(top, t) / below for top in tops]
+        m, n = by_hand.m_and_n(model, x)
+        if any(model.rate(x)) or n or piece["linear"] != ("unstable" if m < 0 else "stable") or (m < 0 and piece["verdict"] != "unstable"):
+            yield f"piece at t = {float(t)}: rates {model.rate(x)}, m = {m}, n = {n}, said {piece['linear']}, {piece['verdict']}"
+
+
+def examined(count, seed, degenerate, answers=True):
+    """Counts over random scenes; asserts that nothing is refuted and that elimination agrees."""
+    rng = np.random.default_rng(seed)
+    tally = collections.Counter()
+    for _ in range(count):
+        scene, (oracle, arguments) = random_scene(rng, degenerate)
+        begin = time.process_time()
+        claims = certificate(scene)
+        made = time.process_time()
+        found = verify(json.loads(json.dumps(claims)))
+        tally["making s"] += made - begin
+        tally["checking s"] += time.process_time() - made
+        assert found.status != "refuted", (scene, [f for f in found.findings if f.status == "refuted"])
+        model, answer = oracle(*arguments)
+        wrong = disagreements(claims["equilibria"], model, answer)
+        assert not wrong, (scene, wrong)
+        if answers:
+            same_answer(equilibria(scene), claims["equilibria"])
+        tally["scenes"] += 1
+        tally["entries"] += sum(len(claims["equilibria"][part]) for part in ("points", "curves", "planes"))
+        tally["kind " + answer.kind + " planes" * bool(answer.planes)] += 1
+        open_ones = {f.reason for f in found.findings if f.status != "proved"}
+        tally["undecided"] += bool(open_ones)
+        for reason in open_ones:
+            tally["undecided: " + reason] += 1
+    return tally
+
+
+def same_answer(found, claims):
+    """The answer in doubles has the certificate's counts, places and words."""
+    assert found.kind == claims["kind"]
+    assert len(found.points) == len(claims["points"]) and len(found.curves) == len(claims["curves"]) + len(claims["planes"])
+    for p in found.points:
+        assert any(all(lo <= Fraction(v) * (1 + e) and Fraction(v) * (1 - e) <= hi if v >= 0 else
+                       lo <= Fraction(v) * (1 - e) and Fraction(v) * (1 + e) <= hi for v, (lo, hi) in zip(p.at, map(numbers, c["box"])))
+                   and (p.linear, p.verdict) == (c["linear"], c["verdict"]) for e in [Fraction(1, 2**52)] for c in claims["points"]), p
+
+
+@pytest.mark.parametrize("degenerate", [False, True], ids=["generic", "degenerate"])
+@pytest.mark.parametrize("count, seed", [(150, 1), pytest.param(3000, 2, marks=pytest.mark.slow)])
+def test_no_verdict_is_wrong_and_no_equilibrium_missed_or_invented(degenerate, count, seed):
+    # exact rational elimination in Fractions (tests/oracles/elimination.py) and the separate checker; nothing is left undecided
+    tally = examined(count, [seed, degenerate], degenerate)
+    assert tally["scenes"] == count and tally["undecided"] == 0, tally
+
+
+@pytest.mark.slow
+@pytest.mark.long
+@pytest.mark.parametrize("degenerate", [False, True], ids=["generic", "degenerate"])
+@pytest.mark.parametrize("piece", range(20))
+def test_a_hundred_thousand_scenes(piece, degenerate, capsys):
+    count = int(os.environ.get("STABILAB_SCENES", 2500))
+    tally = examined(count, [100 + piece, degenerate], degenerate, answers=False)
+    with capsys.disabled():
+        print(f"\n{'degenerate' if degenerate else 'generic'} {piece}: {dict(tally)}")
+    assert tally["undecided"] <= (0.01 if degenerate else 0.001) * count, tally
