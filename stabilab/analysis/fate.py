@@ -19,6 +19,7 @@ from .effective import effective
 from .exact_tie import over_pure_spin
 from .fast_fate import compiled_loops
 from .landscape import EPS, TURN, Landscape, landscape
+from .potential import derivatives_on_parabola
 from .precise import decide
 from .reasons import REASONS, Reason, rests
 from .results import Fate
@@ -219,7 +220,8 @@ def circle_margins(land: Landscape, place, w, size):
             offset = np.where(barrier[:, column], offsets[:, column], np.nan)
             spot = spots[:, :, column]
             margin = -pot.rise(-offset, spot) - energy
-            scale = (pot.mu * (offset + rounding / radius) + energy
+            # rounding of the angle adds less: where a barrier stands mu is below the other terms of the force
+            scale = (pot.mu * offset + energy
                      + (pull + np.abs(pot.G * spot[0] + pot.c)) * (rounding + np.abs(spot[0]) + np.abs(spot[1])))
             there = ~np.isnan(offset)
             # at a barrier rounding decides whether it stands ahead or behind, and then the next one counts
@@ -284,7 +286,7 @@ def _label_plane(land, state, place, out, index):
     xi, eta = place
     axis = land.reduction.axis + 1
     if xi == 0 and eta == 0:
-        _write(out, index, Fate.SPIN_UP if land.sense else Fate.BOUNDED, Reason.PURE_SPIN, -np.inf, axis, land.sense)
+        _write(out, index, Fate.SPIN_UP, Reason.PURE_SPIN, -np.inf, axis, land.sense)  # without a torque it is at rest
         return
     if land.sense == 0:
         edge = over_pure_spin(land.reduction, state)
@@ -344,8 +346,4 @@ def flat_mask(land, states, place):
 
 
 def _is_flat(r, state) -> bool:
-    u, v = Fraction(float(state[r.j])), Fraction(float(state[r.k]))
-    a, b = r.p * v + r.p0, r.q * u + r.q0
-    first = r.kappa * (a * v + u * b) + r.rho * b + r.sigma * a
-    second = r.kappa * (2 * a * b + r.p * b * v + u * r.q * a) + r.rho * r.q * a + r.sigma * r.p * b
-    return first == 0 and second == 0 and r.kappa * (r.q * a * a + r.p * b * b) == 0
+    return not any(derivatives_on_parabola(r, *(Fraction(float(state[a])) for a in (r.j, r.k))))

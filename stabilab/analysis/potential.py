@@ -150,12 +150,7 @@ class Parabolic:
 
     def derivatives(self, place):
         """F', F'', F''' along the orbit."""
-        u, v = place
-        a, b = self.p * v + self.p0, self.q * u + self.q0
-        first = self.kappa * (a * v + u * b) + self.rho * b + self.sigma * a
-        second = (self.kappa * (2 * a * b + self.p * b * v + u * self.q * a) + self.rho * self.q * a
-                  + self.sigma * self.p * b)
-        return first, second, 3 * self.kappa * (self.q * a * a + self.p * b * b)
+        return derivatives_on_parabola(self, *place)
 
     def slope(self, place):
         return self.derivatives(place)[0]
@@ -168,6 +163,15 @@ class Parabolic:
     def rise(self, y, place, force=0.0):
         first, second, third = self.derivatives(place)
         return -y * (force + y * (first / 2 + y * (second / 6 + y * third / 24)))
+
+
+def derivatives_on_parabola(r, u, v):
+    """F', F'', F''' along a parabola at (omega_j, omega_k) = (u, v), where p q = 0 and F is a cubic. r: its reduction or
+    its `Parabolic`; floats, arrays, fractions or intervals."""
+    a, b = r.p * v + r.p0, r.q * u + r.q0
+    first = r.kappa * (a * v + u * b) + r.rho * b + r.sigma * a
+    second = r.kappa * (2 * a * b + r.p * b * v + u * r.q * a) + r.rho * r.q * a + r.sigma * r.p * b
+    return first, second, 3 * r.kappa * (r.q * a * a + r.p * b * b)
 
 
 def potential(reduction):

@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 from .balls import DOUBLE_BITS, START_BITS, Unclear, ball, numbers, settled, sign
 from .polynomials import Poly
+from .potential import derivatives_on_parabola
 
 DOUBLE_SHARE = 1e-12  # of a margin: with less certainty balls of doubles do not settle it
 TIE_BITS = 4096  # with so many the extremes of a motion on the separatrix are worked out
@@ -47,9 +48,8 @@ class PreciseOrbit:
     def _set_up_parabola(self):
         r, u, v = self.r, self.u, self.v
         a, b = r.p * v + r.p0, r.q * u + r.q0
-        first = r.kappa * (a * v + u * b) + r.rho * b + r.sigma * a
-        second = r.kappa * (2 * a * b + r.p * b * v + u * r.q * a) + r.rho * r.q * a + r.sigma * r.p * b
-        self.taylor = self.force_here, first, second / 2, r.kappa * (r.q * a * a + r.p * b * b) / 2
+        first, second, third = derivatives_on_parabola(r, u, v)
+        self.taylor = self.force_here, first, second / 2, third / 6
         self.coefficients = [ball(c) for c in self.taylor]
         self.speeds = [ball(c) for c in (u, a, r.p * b / 2, v, b, r.q * a / 2)]
 

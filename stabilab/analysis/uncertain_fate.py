@@ -10,6 +10,7 @@ from .affine import Affine, lifted, sign_over
 from .fate import fate
 from .irreducible import kind_of
 from .one_state import fate_of
+from .potential import derivatives_on_parabola
 from .reasons import REASONS, Reason
 from .reduction import reduce
 from .results import Fate
@@ -186,11 +187,7 @@ def _spins(r, state) -> bool:
 
 def _flat(r, state) -> bool:
     """Whether the force is the same all along the parabola for every number of the box."""
-    u, v = state[r.j], state[r.k]
-    a, b = r.p * v + r.p0, r.q * u + r.q0
-    first = r.kappa * (a * v + u * b) + r.rho * b + r.sigma * a
-    second = r.kappa * (2 * a * b + r.p * b * v + u * r.q * a) + r.rho * r.q * a + r.sigma * r.p * b
-    return not any(map(_there, (first, second, r.kappa * (r.q * a * a + r.p * b * b))))
+    return not any(map(_there, derivatives_on_parabola(r, state[r.j], state[r.k])))
 
 
 def _certain_plane(r, state) -> bool:
