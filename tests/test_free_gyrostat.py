@@ -161,3 +161,15 @@ def test_arrays_beside_a_turned_separatrix_get_the_labels_of_exact_arithmetic():
     np.testing.assert_array_equal(found.labels, [m.fate for m in singles])
     np.testing.assert_allclose(found.margins, [m.margin_energy for m in singles], rtol=1e-9, atol=1e-12 * 140)  # of the energy, 140 J
     assert 0 < found.precise < len(states)
+
+
+def test_a_gyrostatic_component_along_a_torque_between_equal_axes_leaves_no_motion_bounded():
+    """Found by the search: decimals of a moment across the torque leave a hair along it, and the turned scene has no reduction.
+    Law: |H|^2/2 - D T grows at the rate lambda.M, D the equal moments (from D omega.M = (D omega).M)."""
+    scene = Scene(Body((4, 4, 2)), Gyrostat((-4.1, 3.0750000000000006, 0)), ConstantTorque((3, 4, 0)))
+    assert kind_of(scene) == "turned" and -4.1 * 3 + 3.0750000000000006 * 4 != 0
+    states = np.array([(1.0, 0.5, -0.25), (0.1, -2.0, 0.5)])
+    many = stabilab.fate(scene, states)
+    assert set(many.labels.tolist()) <= {Fate.SPIN_UP, Fate.UNDECIDED} and (many.margins == -np.inf).all() and not many.axis.any()
+    one = stabilab.motion(scene, tuple(states[0]), brief=True)
+    assert one.fate == many.labels[0] and "no motion is bounded" in one.because

@@ -66,7 +66,11 @@ def one_fate(scene, state, kind) -> OneFate:
 
 def _turned_fate(turn, state) -> OneFate:
     """Of the twin's motion, whose numbers are exact or good to 240 bits."""
-    found = fate_of(turn.twin, reduce(turn.twin), turn(state))
+    reduction = reduce(turn.twin)
+    if reduction is None:  # a gyrostatic component stands along the torque
+        from .captured import captured_fate
+        return OneFate(captured_fate(turn.twin, tuple(map(float, turn(state)))).fate, Reason.UNBOUNDED_LAW, -math.inf)
+    found = fate_of(turn.twin, reduction, turn(state))
     speed = sum(float(v) ** 2 for v in state)
     scale = max(map(float, turn.twin.body.exact)) * speed + max(abs(float(m)) for m in turn.twin.vector("constant_torque"))
     if not turn.exact and abs(found.margin) <= TURN_SHARE * scale:
@@ -78,11 +82,14 @@ def _label_turned(scene, states, out) -> int:
     """By the twin's formulas in doubles; in many digits where a change of the state in its last places, as the turn makes,
     could matter."""
     turn = aligned(scene)
-    turned = states @ turn.matrix.T
+    turned, land = states @ turn.matrix.T, landscape(turn.twin)
     result = fate(turn.twin, turned)
     for name in ("labels", "margins", "reasons", "sense"):
         out[name][:] = getattr(result, name)
     out["axis"][:] = 0
+    if land is None:  # an exact law alone decides: there is no barrier to be near to
+        out["sense"][:] = 0
+        return 0
     step = TURN_ROUNDINGS * EPS * np.linalg.norm(states, axis=1)
     change = np.zeros(len(states))
     with np.errstate(invalid="ignore"):
@@ -90,7 +97,7 @@ def _label_turned(scene, states, out) -> int:
             moved = turned.copy()
             moved[:, i] += step
             change += np.abs(np.nan_to_num(fate(turn.twin, moved).margins - result.margins, nan=0.0, posinf=np.inf, neginf=np.inf))
-    doubtful = (np.abs(result.margins) <= 2 * change) | nearly_flat(landscape(turn.twin), turned)
+    doubtful = (np.abs(result.margins) <= 2 * change) | nearly_flat(land, turned)
     for index in np.nonzero(doubtful)[0]:
         _write(out, index, *_turned_fate(turn, states[index].tolist()))
     at_rest(scene, states, out)

@@ -45,7 +45,7 @@ def _checked(state) -> tuple[float, float, float]:
 
 
 def _common(state, label, because, axis, sense) -> dict:
-    if label == Fate.SPIN_UP:
+    if label == Fate.SPIN_UP and (axis or sense):
         because += f"; it spins up about axis {axis}" if axis else "; it spins up about the torque"
     return {"at": state, "fate": label, "because": because, "axis": axis, "sense": sense}
 

@@ -16,8 +16,11 @@ from stabilab.errors import InputError
 
 from .disagreements import DISAGREEMENTS, WRONG
 from .problems import KNOBS, problem_of
+from .unreduced import problem_of as unreduced_problem
+from .unreduced import unreduced
 
 KEPT = 8  # of each disagreement, the worst
+SEARCHES = {name: (function, problem_of) for name, function in DISAGREEMENTS.items()} | {"unreduced": (unreduced, unreduced_problem)}
 CEILING = 30.0  # of the logarithm: what an optimiser sees of a wrong label
 
 
@@ -97,11 +100,12 @@ def aim(hunt, seed):
 def main(seconds=600, folder=".hunt", seed=1, *names):
     folder, seed = Path(folder), int(seed)
     folder.mkdir(parents=True, exist_ok=True)
-    names = names or tuple(DISAGREEMENTS)
+    names = names or tuple(SEARCHES)
     share = float(seconds) / len(names) / 2
     found = 0
     for name in names:
-        hunt = Hunt(name, DISAGREEMENTS[name], folder)
+        function, make = SEARCHES[name]
+        hunt = Hunt(name, function, folder, make)
         hunt.go(evolve, share, seed)
         hunt.go(aim, share, seed)
         found += len(hunt.kept)
