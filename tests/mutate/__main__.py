@@ -30,7 +30,7 @@ SUBJECTS = {
     "barriers": (("barrier_heights", "barrier_table"), ("test_fate_speed", "test_fate_faults", "test_small_faults")),
     "separatrix": (("separatrix", "loop", "loops", "saddle_branches"),
                    ("test_separatrix", "test_separatrix_accuracy", "test_separatrix_fast")),
-    "captured": (("captured", "captured_form"), ("test_captured",)),
+    "captured": (("captured", "captured_form"), ("test_captured", "test_captured_faults")),
     "precise": (("precise", "precise_extremes", "precise_period", "exact_tie", "one_state"),
                 ("test_fate", "test_extremes", "test_hunted", "test_one_state", "test_exact_tie", "test_small_faults"))}
 
