@@ -32,7 +32,8 @@ SUBJECTS = {
                    ("test_separatrix", "test_separatrix_accuracy", "test_separatrix_fast")),
     "captured": (("captured", "captured_form"), ("test_captured", "test_captured_faults")),
     "precise": (("precise", "precise_extremes", "precise_period", "exact_tie", "one_state"),
-                ("test_fate", "test_extremes", "test_hunted", "test_one_state", "test_exact_tie", "test_small_faults"))}
+                ("test_fate", "test_extremes", "test_hunted", "test_one_state", "test_exact_tie", "test_precise_faults",
+                 "test_small_faults"))}
 
 
 def main(arguments=None):
