@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import stabilab
-from stabilab.analysis.landscape import EPS, LOST, landscape
+from stabilab.analysis.landscape import EPS, landscape
 from stabilab.analysis.reduction import Reduction, reduce
 
 from .oracles.energy import Reduced
@@ -22,6 +22,7 @@ from .test_fate import ELLIPTIC, FAMILIES, axis_of
 from .test_small_faults import PARABOLIC
 
 fate = importlib.import_module("stabilab.analysis.fate")
+LOST = 1e-3  # of the shifted rates: a place that small has lost three digits
 AWAY = 10.0 ** np.arange(-7, -17, -0.125)  # relative distances from the separatrix in the axis's rate
 
 

@@ -332,9 +332,9 @@ def nearly_flat(land, states, place=None):
         return np.zeros(len(states), bool)
     place = land.start(states)[0] if place is None else place
     first, _, third = land.potential.derivatives(place)
-    size = 1e-6 * (abs(land.potential.kappa) + abs(land.potential.rho) + abs(land.potential.sigma))
-    reach = 1 + np.abs(place[0]) + np.abs(place[1])
-    return (np.abs(first) <= size * reach**2 * 10) & (np.abs(third) <= size * reach**2 * 10)
+    size = abs(land.potential.kappa) + abs(land.potential.rho) + abs(land.potential.sigma)
+    small = 1e-5 * size * (1 + np.abs(place[0]) + np.abs(place[1])) ** 2  # far above rounding: exact arithmetic tells the rest
+    return (np.abs(first) <= small) & (np.abs(third) <= small)
 
 
 def flat_mask(land, states, place):
