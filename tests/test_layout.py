@@ -1,5 +1,6 @@
 """The rooms of the package: imports point one way, and light commands stay light."""
 import ast
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -84,7 +85,8 @@ def loaded_by(*arguments) -> set[str]:
     code = ("import sys, atexit\nsys.argv = ['stabilab'] + sys.argv[1:]\n"
             "atexit.register(lambda: print('LOADED', *sorted({m.split('.')[0] for m in sys.modules}), file=sys.stderr))\n"
             "from stabilab.__main__ import main\nmain()\n")
-    run = subprocess.run([sys.executable, "-c", code, *map(str, arguments)], capture_output=True, text=True, cwd=ROOT)
+    plain = {name: value for name, value in os.environ.items() if not name.startswith("COVERAGE")}  # which loads modules of its own
+    run = subprocess.run([sys.executable, "-c", code, *map(str, arguments)], capture_output=True, text=True, cwd=ROOT, env=plain)
     assert run.returncode == 0, run.stderr
     return set(next(line for line in run.stderr.splitlines() if line.startswith("LOADED")).split()[1:])
 
