@@ -11,7 +11,7 @@ from stabilab.analysis import turning
 from stabilab.analysis.landscape import EPS, landscape
 from stabilab.analysis.reduction import reduce
 
-from .oracles.pairs import scaled
+from .oracles.pairs import brink, scaled
 from .test_fate import FAMILIES
 from .test_small_faults import PARABOLIC
 
@@ -129,3 +129,22 @@ def test_states_at_the_place_of_a_barrier_go_to_balls_and_those_at_a_well_do_not
                     1e-13, rel=0.2)
             else:
                 assert not found.any()
+
+
+@pytest.mark.parametrize("inside, share, module", [(True, 1e-7, "precise_extremes"), (False, 1e-4, "precise_extremes"),
+                                                   (True, 1e-5, "precise_period")])
+def test_extremes_and_periods_leave_to_balls_what_is_within_their_share_of_the_separatrix(inside, share, module, monkeypatch):
+    """Asked is whoever is nearer than the share of the terms: the torque's, the force's along the orbit, the kinetic energy."""
+    scene, problem = FAMILIES["minor scaled +"]
+    module, asked = importlib.import_module(f"stabilab.analysis.{module}"), []
+    name = module.__name__.split(".")[-1]
+    real = getattr(module, name)
+    monkeypatch.setattr(module, name, lambda r, state, label: asked.append(tuple(state)) or real(r, state, label))
+    off = 10.0 ** np.arange(-9, -1.5, 0.5)
+    edge = np.array(brink(problem, (-3.0, 1.0), 0.0))
+    states = np.array([[*edge[:2], edge[2] * (1 + (-d if inside else d))] for d in off])
+    (stabilab.extremes if name == "precise_extremes" else stabilab.period)(scene, states, fast=False)
+    x, z = -3.0 + 0.2, 1.0
+    scale = edge[2] ** 2 / 2 + 1 + (x * x + z * z) + 0.2 * np.hypot(x, z)
+    near = edge[2] ** 2 * off <= share * scale
+    np.testing.assert_array_equal([tuple(s) in asked for s in states.tolist()], near)

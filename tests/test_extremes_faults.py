@@ -9,6 +9,7 @@ import stabilab
 from stabilab import Fate
 from stabilab.analysis import turning
 from stabilab.analysis.landscape import landscape
+from stabilab.analysis.motion import motion
 from stabilab.analysis.numba_door import installed
 from stabilab.analysis.reduction import reduce
 
@@ -137,3 +138,25 @@ def test_motions_of_every_size_and_sense_have_the_extremes_of_the_potential(name
     states[3:, axis] = -np.abs(states[3:, axis]) * (1 if problem.m[axis] > 0 else -1)
     for state, box in zip(states.tolist(), stabilab.extremes(scene, states, fast=False)):
         assert_extremes(box, energy.extremes(problem, state, digits=40), 1e-11)
+
+
+@pytest.mark.parametrize("off", [-1e-6, 1e-8, 1e-13])
+def test_next_to_a_barrier_that_is_not_the_highest_extremes_and_period_keep_their_digits(off):
+    """D = (6, 5, 3), lambda = (0, 3, 3), no torque: (-2, -3, -1) has the energy of the lower of two saddles, (0, -3, 3)."""
+    scene, problem = physical((6, 5, 3), (0, 3, 3))
+    state = (-2.0, -3.0, -1.0 + off)
+    assert_extremes(stabilab.extremes(scene, np.array(state), fast=False), energy.extremes(problem, state, digits=90), 1e-11)
+    exact = float(energy.period(problem, state, digits=90))
+    assert stabilab.period(scene, np.array(state), fast=False) == pytest.approx(exact, rel=1e-11)
+
+
+def test_a_free_motion_may_tend_to_a_saddle_that_is_not_the_highest():
+    """The same state exactly: label, no period, and extremes whose ends are the saddle and the state's own rates."""
+    scene, _ = physical((6, 5, 3), (0, 3, 3))
+    state = np.array([-2.0, -3.0, -1.0])
+    assert stabilab.fate(scene, state).labels == motion(scene, state).fate == Fate.SEPARATRIX
+    box = stabilab.extremes(scene, state)
+    assert box[0].tolist() == [-2.0, 0.0] and box[1, 1] == -3.0 and box[2].tolist() == [-1.0, 3.0]
+    assert stabilab.period(scene, state) == np.inf
+    for beside in (np.nextafter(-1.0, 0), np.nextafter(-1.0, -2)):
+        assert stabilab.fate(scene, np.array([-2.0, -3.0, beside])).labels == Fate.BOUNDED

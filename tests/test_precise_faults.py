@@ -3,12 +3,13 @@ from __future__ import annotations
 
 import importlib
 import math
+from fractions import Fraction as F
 
 import numpy as np
 import pytest
 
 import stabilab
-from stabilab import Fate
+from stabilab import Body, Fate, Gyrostat, Scene
 from stabilab.analysis.balls import DOUBLE_BITS, START_BITS
 from stabilab.analysis.landscape import landscape
 from stabilab.analysis.motion import motion
@@ -138,3 +139,22 @@ def test_a_free_motion_on_the_separatrix_tends_to_the_middle_spin_with_extremes_
     assert stabilab.fate(scene, np.array(state)).labels == motion(scene, state).fate == Fate.SEPARATRIX
     for box in (stabilab.extremes(scene, np.array(state)), precise_extremes(reduce(scene), state, Fate.SEPARATRIX)):
         np.testing.assert_allclose(box, exact, rtol=1e-15, atol=1e-15)
+
+
+@pytest.mark.parametrize("l2, l3", [(1, 1), (2, -1), (3, 2), (-1, F(1, 2))])
+def test_rational_states_on_the_separatrix_of_a_free_gyrostat_are_ties_and_their_neighbours_none(l2, l3):
+    """D = (6, 5, 3), D w + lambda = 4 w at p = (0, -l2, l3). Through it, w = p + t v has the energy and |H| of p where
+    sum D (D - 4) v^2 = 12 v1^2 + 5 v2^2 - 3 v3^2 = 0 and t = -2 sum D p v/sum D v^2: rational, as v is."""
+    scene = Scene(Body((6, 5, 3)), Gyrostat((0, str(l2), str(l3))))
+    r, D, p = reduce(scene), (6, 5, 3), (0, -F(l2), F(l3))
+    for a, b, c in ((0, 1, 0), (1, 1, 0), (2, -1, 1), (1, 3, -2)):  # chords of the cone from its point (1, 0, 2)
+        s = F(-2 * (12 * a - 6 * c)) / (12 * a * a + 5 * b * b - 3 * c * c)
+        v = (1 + s * a, s * b, 2 + s * c)
+        assert 12 * v[0] ** 2 + 5 * v[1] ** 2 == 3 * v[2] ** 2
+        t = -2 * sum(d * x * y for d, x, y in zip(D, p, v)) / sum(d * y * y for d, y in zip(D, v))
+        state = [x + t * y for x, y in zip(p, v)]
+        assert sum(d * x * x for d, x in zip(D, state)) == sum(d * x * x for d, x in zip(D, p))
+        if state != list(p):
+            assert decide(r, state).sign == 0
+            beside = [state[0] + F(1, 10**60), *state[1:]]
+            assert decide(r, beside).sign != 0

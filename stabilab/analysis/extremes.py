@@ -134,17 +134,25 @@ def on_top(land: Landscape, place):
     return (np.abs(pot.force(place)) <= ON_TOP * pot.terms(place)) & (pot.slope(place) > 0)
 
 
-def near_separatrix(land: Landscape, place, w, decided, share):
+def near_separatrix(land, place, w, decided, share):
     """(n,) True where the margin is below `share` of the energy's terms: turning points and periods magnify the
     margin's rounding there, so ball arithmetic takes over."""
-    unit = land.reduction.energy_unit
+    return np.abs(decided.margins) <= share * land.reduction.energy_unit * energy_terms(land, place, w)
+
+
+def clear_of_barriers(land, place, w, span, share):
+    """(n,) False where the energy of a motion between turning points is so near a barrier's, the highest or not."""
+    return span.closest > share * energy_terms(land, place, w)
+
+
+def energy_terms(land, place, w):
+    """(n,) size of the energy's terms, canonical."""
     if land.e == 0:
-        return np.abs(decided.margins) <= share * unit * 0.5 * w * w
+        return 0.5 * w * w
     size = np.hypot(*place)
     pot = land.potential
     slopes = abs(pot.c) + abs(pot.d) if land.e < 0 else abs(pot.e1) + abs(pot.e2)
-    scale = 0.5 * w * w + abs(pot.mu) + np.abs(pot.G) * size**2 + slopes * size
-    return np.abs(decided.margins) <= share * unit * scale
+    return 0.5 * w * w + abs(pot.mu) + np.abs(pot.G) * size**2 + slopes * size
 
 
 def _pick(place, w, mask):
@@ -170,7 +178,7 @@ def _trapped(land, place, w, span=None):
     top = np.sqrt(2 * span.fastest)
     low, high = _place_range(land, place, span.left, span.right, span.left_place, span.right_place)
     values = _components(land, low, high, -top, top)
-    return values, span.ok & _sharp(land, span, values)
+    return values, span.ok & clear_of_barriers(land, place, w, span, EXTREMES_SHARE) & _sharp(land, span, values)
 
 
 def _sharp(land, span, values):

@@ -284,11 +284,16 @@ def _margin(orbit):
 
 
 def _ties(orbit, margin, bits) -> bool:
-    """Whether a margin that cannot be told from zero is zero; where algebra denies it, the most bits settle the matter."""
-    if bits < EXACT_BITS or 0 not in margin:
+    """Whether a margin that cannot be told from zero is zero; where algebra denies it, the most bits settle the matter.
+
+    Without a torque a motion tends to whichever barrier its energy equals, be another one higher or not.
+    """
+    if not any(0 in m for m in ([margin] if orbit.r.e >= 0 or orbit.r.sense else orbit.margins())):
         return False
+    if bits < EXACT_BITS:
+        raise Unclear
     from .exact_tie import exact_tie
-    return exact_tie(orbit) or bits >= MOST_BITS
+    return exact_tie(orbit) or (0 in margin and bits >= MOST_BITS)
 
 
 def precise_margin(reduction, state, digits: int):

@@ -11,7 +11,7 @@ import numpy as np
 
 from .circle_kernel import ENOUGH, NARROW, NODES, divided_pair
 from .effective import effective
-from .extremes import _pick, extremes_and_periods, near_separatrix, needs_digits, trapped_rows
+from .extremes import _pick, clear_of_barriers, extremes_and_periods, near_separatrix, needs_digits, trapped_rows
 from .fate import checked_states
 from .landscape import EPS, TURN, Landscape, landscape
 from .results import Fate
@@ -63,7 +63,8 @@ def libration_period(land: Landscape, place, w, span=None):
     half = np.maximum(span.half, 1e-300)
     modes = Modes(land, span.middle)
     values = _circle_periods(modes, half) if land.e < 0 else _midpoint(modes, half)
-    return values, span.ok & np.isfinite(values) & _sharp(modes, half)
+    clear = span.ok & clear_of_barriers(land, place, w, span, PERIOD_SHARE)
+    return values, clear & np.isfinite(values) & _sharp(modes, half)
 
 
 def _sharp(modes, rho):

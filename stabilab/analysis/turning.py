@@ -15,7 +15,7 @@ class Interval:
     """The allowed interval of theta, as offsets from the state: left <= 0 <= right (n,), with places (2, n) there;
     fastest (n,): the largest W^2/2 inside; middle: place (2, n) half-way; half: half the length; ok: (n,) False where no
     interval was found (rounding at a fold, say). blur: (2, n) rounding error of both ends' offsets, left first;
-    haze: (n,) that of `fastest`."""
+    haze: (n,) that of `fastest`; closest: (n,) least difference between the energy and a barrier's height."""
 
     left: np.ndarray
     right: np.ndarray
@@ -27,6 +27,7 @@ class Interval:
     ok: np.ndarray
     blur: np.ndarray
     haze: np.ndarray
+    closest: np.ndarray
 
     def take(self, rows) -> "Interval":
         """Those of some of the states."""
@@ -80,10 +81,11 @@ def interval(land: Landscape, place, w) -> Interval:
     inside = spots.there & ~spots.barrier & (spots.offset >= left[:, None]) & (spots.offset <= right[:, None])
     wells = np.where(inside, spots.energy, -np.inf)
     fastest = np.maximum(wells.max(axis=1, initial=-np.inf), 0.5 * w * w)
+    closest = np.where(spots.barrier, np.abs(spots.energy), np.inf).min(axis=1, initial=np.inf)
     half = 0.5 * (right - left)
     middle = np.array(land.potential.move(place, 0.5 * (right + left)))
     return Interval(left, right, left_place, right_place, fastest, middle, half, ok_r & ok_l & np.isfinite(half),
-                    np.array([blur_l, blur_r]), np.maximum(haze_l, haze_r) + EPS * fastest)
+                    np.array([blur_l, blur_r]), np.maximum(haze_l, haze_r) + EPS * fastest, closest)
 
 
 def turning_point(land, spots, place, w, side):
