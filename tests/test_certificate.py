@@ -100,3 +100,26 @@ def test_certify_writes_what_verify_proves(name, code, words, tmp_path, capsys, 
         assert run("verify", path)[0] == 5
     path.write_text("[]", encoding="utf-8")
     assert run("verify", path)[0] == 2
+
+
+def test_the_end_of_a_decaying_plane_is_only_approached_and_its_bracket_holds_it():
+    # on x1 + b = -x3 both decay to 0 exactly (cases/middle-axis-spin-up.toml): exp(-8192) instead of 0 stood there
+    found = certificate(ScaledGyrostat("0.5", 1, (0, 1, 0)), (Fraction(1, 2), -1, Fraction(-3, 2)))["motion"]["extremes"]
+    low, high = map(Fraction, found[2][1])
+    assert low <= 0 <= high < Fraction(1, 10**300)
+
+
+@pytest.mark.parametrize("scene, state", [
+    (ScaledGyrostat(0, 0, (0, 0, 1)), (1, 1, -3)),  # x1^2 + x2^2 = 2: the force is 1 + sin 2 theta (theory.md, section 1: fold at A^2 = 2)
+    (ScaledGyrostat(-2, 0, (0, -1, 0)), (Fraction(1, 2), Fraction(1, 4), Fraction(1, 2))),  # |c| = 2: on the plane it is -(x3 - 1)^2
+    (ScaledGyrostat("-0.25", "1.75", (0, -1, 0)), (Fraction(1, 2), 0, Fraction(9, 4)))])
+def test_a_force_that_touches_zero_without_changing_sign_leaves_the_spin_up_proved(scene, state):
+    assert certificate(scene, state)["motion"]["fate"] == "spin-up"
+    assert checked(scene, state).status == "proved"
+
+
+def test_planes_of_equilibria_are_claimed_with_their_centre():
+    # by hand: D = (2, 2, 1), lambda along axis 3: at omega3 = lambda3/(2 - 1) momentum is 2 omega, whatever omega1 and omega2 are
+    (plane,) = certificate(Scene(Body((2, 2, 1)), Gyrostat((0, 0, 3)), ConstantTorque((0, 0, 0))))["equilibria"]["planes"]
+    assert plane["base"] == plane["centre"]["at"] == ["0", "0", "3"] and plane["directions"] == [["1", "0", "0"], ["0", "1", "0"]]
+    assert plane["verdict"] == "unstable" and plane["centre"]["verdict"] == "stable"

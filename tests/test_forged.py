@@ -18,8 +18,8 @@ def physical(D, lam=(0, 0, 0), M=(0, 0, 0)):
 SCENES = {
     "two points": ScaledGyrostat(0, 0, (1, 2, 1)), "a double root": ScaledGyrostat(0, 2, (-3, 3, 1)),
     "a triple zero eigenvalue": ScaledGyrostat(0, 2, (F(-15, 16), F(5, 4), F(3, 4))),
-    "a hyperbola": ScaledGyrostat("0.2", "0.4", (0, 0, 1)), "crossing lines, a minimum": physical((5, 4, 5), (2, 3, 0), (0, 0, 6)),
-    "crossing lines, no minimum": physical((3, 4, 5), (2, 3, 0), (0, 0, 3)), "a single line": physical((1, 2, 2), (0, 1, 1), (1, 0, 0)),
+    "a hyperbola": ScaledGyrostat("0.2", "0.4", (0, 0, 1)), "crossing lines, a minimum": physical((5, 4, 5), (2, 3, 0), (0, 0, -6)),
+    "crossing lines, no minimum": physical((3, 4, 5), (2, 3, 0), (0, 0, 6)), "a single line": physical((1, 2, 2), (0, 1, 1), (1, 0, 0)),
     "a torque oblique among equal moments": physical((2, 2, 1), (1, -1, 1), (1, 1, 0)),
     "an oblique line that is left slowly": physical((4, 3, 2), (1, 5, 14), (0, 7, -5)),
     "an oblique line of a symmetric body": physical((2, 2, 1), (1, 0, 1), (0, 1, 1)),
@@ -155,6 +155,8 @@ MOTIONS = {
     "free, steady rate": (physical((3, 3, 1)), (1, 1, 1)), "on a hyperbola": (ScaledGyrostat("0.5", 1, (0, 1, 0)), (1, -1, 2)),
     "on a decaying plane": (ScaledGyrostat("0.5", 1, (0, 1, 0)), (F(1, 2), -1, F(-3, 2))),
     "pure spin": (physical((3, 2, 1), (0, 0, 0), (0, 1, 0)), (0, 1, 0)), "on a parabola": (physical((2, 2, 1), (0, 1, 1), (1, 0, 0)), (1, 1, 2)),
+    "released at rest": (ScaledGyrostat("0.2", "0.4", (0, 0, 1)), (3, F(-3, 2), 0)), "released, free": (physical((3, 2, 1), (1, 0, 0)), (0, 1, 3)),
+    "released to spin": (ScaledGyrostat(0, 0, (0, 0, 1)), (F(1, 2), F(1, 2), 0)), "released on a plane": (ScaledGyrostat("0.5", 1, (0, 1, 0)), (F(1, 2), 0, F(-3, 2))),
     "at rest": (ScaledGyrostat(0, 0, (0, 0, 1)), (-3, F(1, 3), 0))}
 
 

@@ -128,25 +128,9 @@ def _crossing(orbit, inner, outer):
     df = lambda x: -orbit.force(x)  # noqa: E731
     # U - E is monotone between neighbouring zeros of the force, so a change of sign is a single zero
     lo_sign, hi_sign = sign(orbit.excess(ball(low))), sign(orbit.excess(ball(high)))
-    if None in (lo_sign, hi_sign):
+    if None in (lo_sign, hi_sign) or lo_sign * hi_sign >= 0:  # from rest a well comes first, so neither is zero
         raise Open
-    if 0 in (lo_sign, hi_sign) or lo_sign == hi_sign:
-        return _from_rest(orbit, df, low, high)
     return _single(orbit.excess, df, low, high)
-
-
-def _from_rest(orbit, df, low, high):
-    """The same where the start is at rest (U = E at alpha = 0, an end of the interval, where the potential falls away)."""
-    if orbit.y0 != 0:
-        raise Open
-    step = high - low
-    for _ in range(400):
-        step /= 2
-        a, b = (low + step, high) if low == 0 else (low, high - step)
-        signs = sign(orbit.excess(ball(a))), sign(orbit.excess(ball(b)))
-        if None not in signs and 0 not in signs and signs[0] != signs[1]:
-            return _single(orbit.excess, df, a, b)
-    raise Open
 
 
 def _single(f, df, a, b):
