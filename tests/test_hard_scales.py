@@ -1,4 +1,4 @@
-"""Accuracy against condition over units and strengths: what half a unit in the last place of every input does is the yardstick."""
+"""Accuracy over units and strengths, measured by what half a unit in the last place of every input does (the condition)."""
 from __future__ import annotations
 
 import math
@@ -13,7 +13,7 @@ from .hard.row import UNIT, distance, half_units
 from .oracles import energy, model
 from .oracles.pairs import WORDS, physical, random_body
 
-ALLOWED = 8  # times the condition, and times half a unit in the last place of the distance to the centre of the circle or hyperbola
+ALLOWED = 8  # times the condition, and times half a unit in the last place of the distance to the centre of the conic
 DIGITS = 60
 
 
@@ -53,12 +53,14 @@ class Problem:
 
     def answer(self, question, **options):
         value = getattr(stabilab, {"margin": "fate"}.get(question, question))(self.scene, np.array(self.state), **options)
-        return float(value.margins) if question == "margin" else float(value) if question == "period" else finite(value.tolist())
+        if question == "extremes":
+            return finite(value.tolist())
+        return float(value.margins if question == "margin" else value)
 
     @property
     def reach(self):
-        """How far out the centre of the circle or hyperbola lies, in units of the state. Doubles lose this factor, so that beyond 1e4
-        ball arithmetic takes over (`extremes.SHIFT_LIMIT`)."""
+        """How far out the centre of the circle or hyperbola lies, in units of the state. Doubles lose this factor, so that
+        beyond 1e4 ball arithmetic takes over (`extremes.SHIFT_LIMIT`)."""
         D, i = self.inputs, self.axis
         centre = max(abs(D[3] / (D[self.j] - D[i])), abs(D[4] / (D[self.k] - D[i])))
         return min(centre / max(map(abs, self.state)), 1e4)
@@ -70,7 +72,8 @@ class Problem:
         if exact is None or exact == []:
             return None
         size = distance(exact, [0] * len(exact) if isinstance(exact, list) else 0)
-        return float(distance(self.answer(question, **options), exact) / size), float(half_units(ask, self.inputs, exact) / size) + UNIT
+        error = distance(self.answer(question, **options), exact)
+        return float(error / size), float(half_units(ask, self.inputs, exact) / size) + UNIT
 
 
 def finite(box):

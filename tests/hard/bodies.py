@@ -1,4 +1,4 @@
-"""Bodies under a torque along an axis: torques tiny and huge, nearly and exactly equal moments, degenerate conics (groups 4, 6, 7)."""
+"""Bodies under a torque along an axis: torques tiny and huge, nearly and exactly equal moments, two lines (groups 4, 6, 7)."""
 from __future__ import annotations
 
 import math
@@ -104,7 +104,8 @@ def a_near_b(gap):
         with mp.workdps(60):
             half, product = energy.num((b - a) / 2), energy.num(m2 * m3 / m1)
             return energy.num(m2) / (mp.sqrt(half ** 2 + product) - half)
-    return numbers(f"b - a = {gap:g}", "an equilibrium's x3", "x1 + a from x1, the root of a quadratic", naive, ours, ask, (a, b, *mu))
+    return numbers(f"b - a = {gap:g}", "an equilibrium's x3", "x1 + a from x1, the root of a quadratic", naive, ours, ask,
+                   (a, b, *mu))
 
 
 def far_along_the_hyperbola(h):

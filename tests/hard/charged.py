@@ -1,4 +1,4 @@
-"""The charged, nearly axisymmetric body at its small divisors: zero frequency, zero spin, resonance, instability, late times."""
+"""The charged, nearly axisymmetric body at small divisors: zero frequency, zero spin, resonance, instability, late times."""
 from __future__ import annotations
 
 import math
@@ -19,11 +19,13 @@ def by_partial_fractions(v):
     b = ((v["D3"] - v["D1"]) * v["r0"] + v["lambda3"] - v["k"]) / v["D2"]
     w, r0, t = np.sqrt(complex(a * b)), v["r0"], v["t"]
     p0, q0, m1, m2, start = v["p0"], v["q0"], v["M1"] / v["D1"], v["M2"] / v["D2"], complex(v["psi0"], v["phi0"])
-    # p, q = (s p0 - a q0 + m1 - a m2/s)/(s^2 + w^2), (s q0 + b p0 + m2 + b m1/s)/(s^2 + w^2); Gamma = (p + iq + start)/(s + i r0)
+    # p, q = (s p0 - a q0 + m1 - a m2/s)/(s^2 + w^2), (s q0 + b p0 + m2 + b m1/s)/(s^2 + w^2)
+    # and Gamma = (p + iq + start)/(s + i r0)
     top = lambda s: s * (s * (p0 + 1j * q0) - a * q0 + 1j * b * p0 + m1 + 1j * m2) - a * m2 + 1j * b * m1  # noqa: E731
     poles = np.array([0, -1j * r0, 1j * w, -1j * w])
+    others = lambda m: np.prod([poles[m] - z for n, z in enumerate(poles) if n != m])  # noqa: E731
     with np.errstate(all="ignore"):
-        tilt = sum(top(s) * np.exp(s * t) / np.prod([s - z for n, z in enumerate(poles) if n != m]) for m, s in enumerate(poles))
+        tilt = sum(top(s) * np.exp(s * t) / others(m) for m, s in enumerate(poles))
         tilt += start * np.exp(-1j * r0 * t)
     return [tilt.real, tilt.imag]
 
@@ -34,7 +36,8 @@ def by_matrix_exponential(v):
     a = ((v["D3"] - v["D2"]) * v["r0"] + v["lambda3"] - v["k"]) / v["D1"]
     b = ((v["D3"] - v["D1"]) * v["r0"] + v["lambda3"] - v["k"]) / v["D2"]
     r0 = v["r0"]
-    A = np.array([[0, -a, 0, 0, v["M1"] / v["D1"]], [b, 0, 0, 0, v["M2"] / v["D2"]], [1, 0, 0, r0, 0], [0, 1, -r0, 0, 0], [0.0] * 5])
+    A = np.array([[0, -a, 0, 0, v["M1"] / v["D1"]], [b, 0, 0, 0, v["M2"] / v["D2"]], [1, 0, 0, r0, 0], [0, 1, -r0, 0, 0],
+                  [0.0] * 5])
     return (expm(A * v["t"]) @ [v["p0"], v["q0"], v["psi0"], v["phi0"], 1.0])[2:4].tolist()
 
 
@@ -81,11 +84,12 @@ def resonance_minus(distance):
 def unstable_band(distance):
     """a b < 0: the square root of a negative product; next to the band's edge its poles meet as well."""
     v = USUAL | dict(r0=R0, lambda3=RESONANT["b = 0"] - distance * K, t=7.0)
-    v = v if (v["lambda3"] - RESONANT["b = 0"]) * (RESONANT["a = 0"] - RESONANT["b = 0"]) > 0 else v | dict(lambda3=RESONANT["b = 0"] + distance * K)
-    return tilt_row(f"charged body, {distance:g} inside the band ab < 0", "partial fractions: poles that meet", v, by_partial_fractions)
+    assert RESONANT["a = 0"] < v["lambda3"] < RESONANT["b = 0"]
+    return tilt_row(f"charged body, {distance:g} inside the band ab < 0", "partial fractions: poles that meet", v,
+                    by_partial_fractions)
 
 
 def late(t):
     """t up to 1e9 s."""
-    return tilt_row(f"charged body at t = {t:g} s", "matrix exponential: squared 30 times over", USUAL | dict(r0=R0, lambda3=1.25, t=t),
-                    by_matrix_exponential)
+    return tilt_row(f"charged body at t = {t:g} s", "matrix exponential: squared 30 times over",
+                    USUAL | dict(r0=R0, lambda3=1.25, t=t), by_matrix_exponential)

@@ -66,8 +66,8 @@ def period_by_a_separatrix(distance):
     state = brink(scaled(a, b, (0, 0, 1))[1], (2.75, 1.125), -distance)
     ask = lambda a, b, *x: energy.period(model.scaled(a, b, (0, 0, 1)), x, digits=50)  # noqa: E731
     ours = float(stabilab.period(scaled(a, b, (0, 0, 1))[0], np.array(state)))
-    return numbers(f"{distance:g} inside the separatrix", "period", "two energies are subtracted", textbook_period(a, b, state), ours,
-                   ask, (a, b, *state))
+    return numbers(f"{distance:g} inside the separatrix", "period", "two energies are subtracted",
+                   textbook_period(a, b, state), ours, ask, (a, b, *state))
 
 
 def textbook_period(a, b, state):
@@ -101,8 +101,8 @@ def on_a_large_circle(radius):
     pair = scaled(0.25, 0.75, (0, 0, 1))
     angles = np.random.default_rng(2).uniform(0, 2 * math.pi, 22).tolist()
     states = [brink(pair[1], (radius * math.sin(t) - 0.25, radius * math.cos(t)), 0.0) for t in angles]
-    return labels(f"circle of radius A = {radius:g}", "U of order A^2 hides a tilt of order 1", pair, [s for s in states if s][:16],
-                  lambda s: word(barrier_minus_energy(0.25, 0.75, s)))
+    return labels(f"circle of radius A = {radius:g}", "U of order A^2 hides a tilt of order 1", pair,
+                  [s for s in states if s][:16], lambda s: word(barrier_minus_energy(0.25, 0.75, s)))
 
 
 def margin_on_a_large_circle(radius):
@@ -116,7 +116,8 @@ def well_before_its_fold(share):
     """3. a = b = 0: the centre h = 1 - share on a circle just larger than the fold's; its well is share^3 deep."""
     h = 1 - share
     state = (-1 / h, h, share ** 1.5)
-    return margin_row(f"well {share:g} before its fold", "a quartic with a nearly double root; two energies subtracted", 0.0, 0.0, state)
+    return margin_row(f"well {share:g} before its fold", "a quartic with a nearly double root; two energies subtracted",
+                      0.0, 0.0, state)
 
 
 def huge_gyrostat(size):
@@ -153,5 +154,5 @@ def minute_orbit(amplitude):
     height = lambda X, z: -math.atan2(X, z) - X * X / 2  # noqa: E731
     deep = amplitude ** 2 / 2 + height(state[0], state[1]) - height(-2.0, 0.5)
     naive = math.sqrt(2 * deep) if deep >= 0 else math.nan
-    return numbers(f"orbit of amplitude {amplitude:g} about a centre", "largest x3", "E - U(centre) is below the rounding of either",
-                   naive, ours, ask, state)
+    return numbers(f"orbit of amplitude {amplitude:g} about a centre", "largest x3",
+                   "E - U(centre) is below the rounding of either", naive, ours, ask, state)

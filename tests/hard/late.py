@@ -38,7 +38,8 @@ def swing(turns, case, goes_wrong, naive):
 
 def swings(turns):
     """9. The state folded by a period that a run measured."""
-    return swing(turns, f"swing after {turns:g} periods", "an error of the period times the number of turns", after_measured_periods)
+    return swing(turns, f"swing after {turns:g} periods", "an error of the period times the number of turns",
+                 after_measured_periods)
 
 
 def stepped(turns):

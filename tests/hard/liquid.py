@@ -20,7 +20,7 @@ SHAPE, STATE = (9.5, 9.25, 9.0), (0.5, -0.25, 1.0)
 
 
 def block(D, kappa, spin, axis=2):
-    """The two rows of the Jacobian across a rotation about an axis, exact: rates of degree 4 have their derivative in five points."""
+    """The two rows of the Jacobian across a rotation, exact: five points give the derivative of rates of degree 4."""
     rates, step = euler.liquid(D, Fraction(0), kappa, Fraction(0), [Fraction(0)] * 3), Fraction(1, 8)
 
     def along(n):
@@ -74,14 +74,16 @@ def slow_damping(kappa):
 
 def nearly_degenerate(gap):
     """Two nearly equal moments: one root of z^2 + c2 z + c1 is far smaller than the other."""
-    return damping_row(f"liquid, D2 = (1 - {gap:g}) D1", "the smaller of two roots that lie far apart", (9.5, 9.5 * (1 - gap), 6.0), 4.0, 0)
+    return damping_row(f"liquid, D2 = (1 - {gap:g}) D1", "the smaller of two roots that lie far apart",
+                       (9.5, 9.5 * (1 - gap), 6.0), 4.0, 0)
 
 
 def slow_growth(kappa):
     """A rotation about the least moment gains on the liquid: unstable, at a rate below rounding."""
     point, _, rows = rotation(SHAPE, kappa, 2)
     return Verdict(f"liquid, kappa = {kappa:g}", "stability of the least axis", "`max Re < 1e-9` of computed eigenvalues",
-                   "stable" if computed(rows) < 1e-9 else "unstable", point.verdict, "unstable" if largest_rate(rows) > 0 else "stable")
+                   "stable" if computed(rows) < 1e-9 else "unstable", point.verdict,
+                   "unstable" if largest_rate(rows) > 0 else "stable")
 
 
 def motion_row(case, wrong, kappa, gamma3, time, steps, naive):
@@ -100,7 +102,8 @@ def printed_torque(time):
     """The liquid's torque as printed holds for a body without rotor: with one its terms have the wrong sign and size."""
     scene = Scene(Body(SHAPE), Gyrostat((0, 0, 1.5)), LiquidCavity(1, 1, 1.0, "printed"))
     naive = lambda: stabilab.trajectory(scene, STATE, [time]).states[0].tolist()  # noqa: E731
-    return motion_row(f"liquid and rotor at t = {time:g} s", "the printed torque leaves terms of its own order out", 1.0, 1.5, time, 12, naive)
+    return motion_row(f"liquid and rotor at t = {time:g} s", "the printed torque leaves terms of its own order out",
+                      1.0, 1.5, time, 12, naive)
 
 
 def stiff(kappa):
@@ -116,7 +119,8 @@ def stiff(kappa):
                 k3 = f(x + h / 2 * k2)
                 x = x + h / 6 * (k1 + 2 * k2 + 2 * k3 + f(x + h * k3))
         return x.tolist()
-    return motion_row(f"liquid, kappa = {kappa:g}: stiff", "explicit steps of the size of the slow motion", kappa, 1.5, 0.5, 40, naive)
+    return motion_row(f"liquid, kappa = {kappa:g}: stiff", "explicit steps of the size of the slow motion",
+                      kappa, 1.5, 0.5, 40, naive)
 
 
 def amplitude_zero(eps):
@@ -131,5 +135,5 @@ def amplitude_zero(eps):
         naive = -(M1 * math.sin(phi) + M2 * math.cos(phi)) / (9.0 * A)
     except ZeroDivisionError:
         naive = math.inf
-    return Row(f"averaged liquid, amplitude 0, small parameter {eps:g}", "state", "polar coordinates: division by the amplitude", naive,
+    return Row(f"averaged liquid, amplitude 0, small parameter {eps:g}", "state", "polar coordinates: division by 0", naive,
                float(np.abs(found - exact).max() / np.abs(exact).max()), eps ** 1.5)

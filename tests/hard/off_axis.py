@@ -21,8 +21,8 @@ def determinant(J):
 
 
 def verdict(off):
-    """10. Torque (off, 1, 0) by the middle axis, c = 1/4: x1 = -b, x2 = off c, x3 = -1/c, exactly. det J = -n is not zero, so one root of
-    z^3 + m z + n, whose roots sum to zero, has a positive real part, about n/(2 m)."""
+    """10. Torque (off, 1, 0) by the middle axis, c = 1/4: x1 = -b, x2 = off c, x3 = -1/c, exactly. det J = -n is not zero,
+    so one root of z^3 + m z + n, whose roots sum to zero, has a positive real part, about n/(2 m)."""
     a, b = 0.0, 0.25
     x = (-Fraction(b), Fraction(off) / 4, Fraction(-4))
     problem = model.scaled(a, b, (off, 1, 0))
@@ -30,8 +30,8 @@ def verdict(off):
     exact = "unstable" if problem.rate(x) == [0, 0, 0] and determinant(J) != 0 else "none"
     found = np.linalg.eigvals(np.array(J, float)).real.max()
     point, = stabilab.equilibria(stabilab.ScaledGyrostat(a, b, (off, 1, 0))).points
-    return Verdict(f"torque {off:g} rad off the middle axis", "stability of its equilibrium", "`max Re < 1e-9` of computed eigenvalues",
-                   "stable" if found < 1e-9 else "unstable", point.verdict, exact)
+    return Verdict(f"torque {off:g} rad off the middle axis", "stability of its equilibrium",
+                   "`max Re < 1e-9` of computed eigenvalues", "stable" if found < 1e-9 else "unstable", point.verdict, exact)
 
 
 def growth_rate(off):
@@ -49,13 +49,13 @@ def growth_rate(off):
     naive = float(np.linalg.eigvals(J).real.max())
     point, = stabilab.equilibria(stabilab.ScaledGyrostat(a, b, (off, 1, 0))).points
     ours = max(z.real for z in point.eigenvalues)
-    return numbers(f"torque {off:g} rad off the middle axis", "growth rate of its equilibrium", "eigenvalues of a matrix with entries of order 1",
-                   naive, ours, ask, (off,))
+    return numbers(f"torque {off:g} rad off the middle axis", "growth rate of its equilibrium",
+                   "eigenvalues of a matrix with entries of order 1", naive, ours, ask, (off,))
 
 
 def far_away(off):
-    """10. Torque (off^2, off, 1) by the minor axis, b - a = 1: x1 = -a - 1/2 +- sqrt(1/4 + 1/off); searched for by Newton's method from
-    a box of starts, as one does who knows no closed form."""
+    """10. Torque (off^3, off, 1) by the minor axis, b - a = 1: (x1 + a)(x1 + b) = 1/off^2, so x1 is about +-1/off; searched for
+    by Newton's method from a box of starts, as one does who knows no closed form."""
     a, b, mu = 0.0, 1.0, (off * off * off, off, 1.0)
     distance = float(1 / Fraction(off))  # (x1 + a)(x1 + b) = off/off^3
 
@@ -74,8 +74,8 @@ def far_away(off):
     points = stabilab.equilibria(stabilab.ScaledGyrostat(a, b, mu)).points
     near = [p for p in points if abs(abs(p.at[0]) / distance - 1) < 1e-6]
     problem = model.scaled(a, b, mu)
-    size = [sum(abs(v) for v in (p.at[1] * p.at[2], mu[0])) for p in near]
-    small = all(abs(float(problem.rate(p.at)[0])) <= 4e-16 * s and abs(float(problem.rate(p.at)[2])) < 4e-16 * 2 for p, s in zip(near, size))
+    rest = [[abs(float(v)) for v in problem.rate(p.at)] for p in near]  # against terms of size off^3, off and 1
+    small = all(f <= 4e-16 * term for row in rest for f, term in zip(row, mu))
     exact = 2 if Fraction(b - a) ** 2 / 4 + Fraction(mu[1]) * Fraction(mu[2]) / Fraction(mu[0]) > 0 else 0
     return Verdict(f"torque {off:g} rad off the minor axis", "number of equilibria", "Newton's method from a box of starts",
                    str(len(found)), str(len(near) if small else "wrong places"), str(exact))

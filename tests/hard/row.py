@@ -17,7 +17,7 @@ UNIT = 2.0 ** -53  # half a unit in the last place of the answer itself
 
 @dataclass(frozen=True)
 class Row:
-    """Numbers: errors of the naive formula (inf: no answer) and of the program, and the condition, all relative to the exact value."""
+    """Numbers: errors of the naive formula (inf: no answer) and of the program, the condition; relative to the exact value."""
 
     case: str
     asked: str
@@ -42,7 +42,8 @@ class Verdict:
 def half_units(ask, inputs, base=None):
     """Sum over the inputs of the change of ask(inputs) by half a unit in the last place of each, numbers exact."""
     base = ask(*map(Fraction, inputs)) if base is None else base
-    nudged = ([Fraction(v) + (Fraction(math.ulp(v)) / 2 if i == n else 0) for n, v in enumerate(inputs)] for i in range(len(inputs)))
+    halves = [Fraction(math.ulp(v)) / 2 for v in inputs]
+    nudged = ([Fraction(v) + (halves[n] if i == n else 0) for n, v in enumerate(inputs)] for i in range(len(inputs)))
     return sum(distance(ask(*row), base) for row in nudged)
 
 

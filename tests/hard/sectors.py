@@ -23,8 +23,8 @@ def off_the_plane(C):
 
 
 def runs(rates, axis, state, until):
-    """What a run by Runge-Kutta of order 8 at the tolerance 1e-10 shows: "equilibrium" if it stays, "bounded" if it comes to spin
-    against the torque after it spun with it, else "spin-up"."""
+    """What a run by Runge-Kutta of order 8 at the tolerance 1e-10 shows: "equilibrium" if it stays, "bounded" if it comes to
+    spin against the torque after it spun with it, else "spin-up"."""
     from scipy.integrate import solve_ivp
     run = solve_ivp(rates, (0, until), state, "DOP853", rtol=1e-10, atol=1e-12, max_step=0.5).y
     if np.abs(run.T - state).max() < 1e-3:
@@ -47,8 +47,8 @@ def fate_word(scene, state):
 
 
 def exact_saddle(wk):
-    """8. An exact equilibrium, unstable, whose rates in doubles are not zero: a run leaves it as exp(t). On the second line of a
-    conic of two lines: w1 = -1/4, any w2; the torque -l2/4 balances exactly."""
+    """8. An exact equilibrium, unstable, whose rates in doubles are not zero: a run leaves it as exp(t). On the second line of
+    a conic of two lines: w1 = -1/4, any w2; the torque -l2/4 balances exactly."""
     D, l2 = np.array(PAPER_BODY), 62.3
     momentum, torque, state = np.array([125.0, l2, 0.0]), np.array([0.0, 0.0, -l2 / 4]), (-0.25, wk, 0.0)
     scene, problem = physical(PAPER_BODY, momentum, torque)
@@ -69,18 +69,18 @@ def above_the_cusp(c):
     found = height(t)
     tops = found[1:-1][(found[1:-1] > found[:-2]) & (found[1:-1] > found[2:])]
     naive = float(tops.max() - height(0.0) - state[1] ** 2 / 2) if tops.size else math.nan
-    return numbers(f"c = {c:g}, above the cusp 1.75477", "margin", "a scan of the potential misses the barrier", naive, ours, ask,
-                   (c, *state))
+    return numbers(f"c = {c:g}, above the cusp 1.75477", "margin", "a scan of the potential misses the barrier", naive,
+                   ours, ask, (c, *state))
 
 
 def separatrix_above_the_cusp(c):
-    """11. Is there a separatrix at all? c > 4 3^(-3/4), the proof of theory, against a scan of the invariant in steps of 1e-3, each
-    level judged by the real roots of its quartic."""
+    """11. Is there a separatrix at all? c > 4 3^(-3/4), the proof of theory, against a scan of the invariant in steps of 1e-3,
+    each level judged by the real roots of its quartic."""
     def has_saddle(invariant):  # x3 = g, Y = c + 1/g: Y^2 - g^2 = invariant; saddles have g^4 + c g + 1 < 0
         g = np.roots([1, 0, invariant - c * c, -2 * c, -1])
         g = g[abs(g.imag) < 1e-9].real
         return (g ** 4 + c * g + 1 < 0).any()
     naive = "yes" if any(has_saddle(v) for v in np.arange(-3000, 3001) / 1000) else "no"
     ours = "yes" if len(stabilab.separatrix(scaled(0.0, c, (0, 1, 0))[0]).sheets) else "no"
-    return Verdict(f"c = {c:g}, above the cusp 1.75477", "is there a separatrix?", "a scan of the invariant in steps of 1e-3", naive, ours,
-                   "yes" if c > 4 * 3 ** -0.75 else "no")
+    return Verdict(f"c = {c:g}, above the cusp 1.75477", "is there a separatrix?",
+                   "a scan of the invariant in steps of 1e-3", naive, ours, "yes" if c > 4 * 3 ** -0.75 else "no")

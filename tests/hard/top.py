@@ -37,7 +37,7 @@ def resonance_nearby(distance):
 
 
 def exact_resonance(lz):
-    """C* = A + B in decimals that are no binary fractions: doubles divide by what is left of rounding. Exact: rational arithmetic."""
+    """C* = A + B in decimals that are no binary fractions: doubles divide by what rounding leaves. Exact: rationals."""
     from fractions import Fraction
     A, B, C, r0 = "1.2", "1.1", "0.7", "150"
     alpha, beta = ((float(C) + float(lz) / 150 - float(B)) / float(A), (float(A) - float(C) - float(lz) / 150) / float(B))
