@@ -153,8 +153,9 @@ def periods_one_by_one(scene, states):
     kind = kind_of(scene)
     if kind == "turned":
         from .quadrature import periods
-        turn = aligned(scene)
-        return periods(turn.twin, states @ turn.matrix.T)
+        turn, labels = aligned(scene), fate(scene, states).labels
+        found = periods(turn.twin, states @ turn.matrix.T)  # turned in doubles: what is at rest hardly moves there
+        return np.where(labels == Fate.EQUILIBRIUM, 0.0, np.where(labels == Fate.BOUNDED, found, np.inf))
     if kind == "free":
         from .offaxis import extremes_over_period
         return np.array([extremes_over_period(scene, s).period for s in states])

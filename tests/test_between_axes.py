@@ -1,0 +1,112 @@
+"""Motions without a reduction of their own: torques in the plane of two equal moments, off the axes, and none at all.
+
+The torque (3, 4, 0) turns by an exact rotation onto axis 1 of the same body; runs are SciPy's, of Euler's equations by hand.
+"""
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import stabilab
+from stabilab import Body, ConstantTorque, Fate, Gyrostat, Scene
+from stabilab.analysis.extremes import extremes, extremes_and_periods, period
+from stabilab.analysis.motion import motion
+from stabilab.analysis.offaxis import extremes_over_period
+from stabilab.errors import InputError
+
+TURN = np.array([[0.6, 0.8, 0.0], [-0.8, 0.6, 0.0], [0.0, 0.0, 1.0]])
+D = (2.0, 2.0, 1.0)
+# a wheel along axis 3 makes circles with barriers; its moment lies across the torque in both scenes
+BETWEEN = Scene(Body(D), Gyrostat((0, 0, 2)), ConstantTorque((0.3, 0.4, 0)))
+ALONG = Scene(Body(D), Gyrostat((0, 0, 2)), ConstantTorque((0.5, 0, 0)))
+STATES = np.array([[0.5, -0.25, 0.75], [1.0, 2.0, -1.5], [-0.125, 0.5, 0.25]])
+OFF = Scene(Body((3, 2, 1)), ConstantTorque((-1, 2, -1)))  # (D omega) x omega = (1, -2, 1) at omega = (1, 1, 1)
+
+
+def run_extremes(moments, wheel, torque, state, end):
+    """(3, 2) extremes over [0, end] of a dense run."""
+    moments, wheel, torque = map(np.array, (moments, wheel, torque))
+    kappa = (np.roll(moments, -1) - np.roll(moments, 1)) / moments
+
+    def rates(t, w):
+        (x, y, z), (a, b, c) = w, wheel  # numpy.cross is slow for three numbers
+        return kappa * (y * z, z * x, x * y) + (np.array((b * z - c * y, c * x - a * z, a * y - b * x)) + torque) / moments
+    run = solve_ivp(rates, (0, end), state, method="DOP853", rtol=1e-10, atol=1e-11, t_eval=np.linspace(0, end, 4001))
+    return np.stack([run.y.min(axis=1), run.y.max(axis=1)], axis=1)
+
+
+def test_a_torque_between_two_equal_axes_moves_the_body_as_one_along_an_axis():
+    between, along = stabilab.fate(BETWEEN, STATES), stabilab.fate(ALONG, STATES @ TURN.T)
+    assert between.labels.tolist() == along.labels.tolist() and not between.axis.any()
+    np.testing.assert_allclose(between.margins, along.margins, rtol=1e-12)
+    times = period(BETWEEN, STATES)
+    np.testing.assert_allclose(times, period(ALONG, STATES @ TURN.T), rtol=1e-11)
+    assert np.isfinite(times).all() and (between.labels == Fate.BOUNDED).all()
+    found, turned = extremes(BETWEEN, STATES), extremes(ALONG, STATES @ TURN.T)
+    np.testing.assert_allclose(found[:, 2], turned[:, 2], rtol=1e-10, atol=1e-12)  # axis 3 is the same in both
+    for state, time, one in zip(STATES, times, found):
+        np.testing.assert_allclose(one, run_extremes(D, (0, 0, 2), (0.3, 0.4, 0), state, 1.01 * time), atol=3e-5)  # sampled to 1/4000
+        single = motion(BETWEEN, state)
+        assert single.period == pytest.approx(time, rel=1e-11) and single.fate == Fate.BOUNDED
+        np.testing.assert_allclose(single.extremes, one, rtol=1e-9, atol=1e-12)
+
+
+def test_rest_between_the_axes_is_exact():
+    # (D2 - D3) omega_2 omega_3 = -|M| on the turned axes: (0, 5, -1) there is (-4, 3, -1) here
+    scene, state = Scene(Body((2, 2, 1)), ConstantTorque((3, 4, 0))), np.array([-4.0, 3.0, -1.0])
+    assert stabilab.fate(scene, state).labels == Fate.EQUILIBRIUM and period(scene, state) == 0
+    np.testing.assert_array_equal(extremes(scene, state), np.stack([state, state], axis=1))
+    found = motion(scene, state)
+    assert found.fate == Fate.EQUILIBRIUM and found.period is None and found.extremes == ((-4, -4), (3, 3), (-1, -1))
+
+
+def test_a_spin_along_a_torque_between_the_axes_needs_a_span_for_its_extremes():
+    """omega = (omega0 + M t/D): the exact solution while omega_3 = 0 and no rate lies across the torque."""
+    scene, state = Scene(Body((2, 2, 1)), ConstantTorque((3, 4, 0))), np.array([3.0, 4.0, 0.0])
+    assert motion(scene, state).fate == Fate.SPIN_UP and motion(scene, state).extremes is None and period(scene, state) == np.inf
+    with pytest.raises(InputError, match="span"):
+        extremes(scene, state)
+    wanted = [[3, 3 + 1.5 * 4], [4, 4 + 2 * 4], [0, 0]]
+    np.testing.assert_allclose(extremes(scene, state, span=4.0), wanted, rtol=1e-12, atol=1e-12)
+    np.testing.assert_allclose(motion(scene, state, (0, 4)).extremes, wanted, rtol=1e-12, atol=1e-12)
+
+
+def test_off_the_axes_rest_is_exact_and_the_rest_is_searched_over_a_span():
+    rest, state = np.array([1.0, 1.0, 1.0]), np.array([1.0, 0.5, -0.25])
+    both = np.stack([rest, state])
+    assert period(OFF, both).tolist() == [0.0, np.inf] and stabilab.fate(OFF, both).labels.tolist() == [Fate.EQUILIBRIUM, Fate.UNDECIDED]
+    with pytest.raises(InputError, match="span"):
+        extremes(OFF, both)
+    np.testing.assert_array_equal(extremes(OFF, rest[None]), [[[1, 1]] * 3])
+    found = extremes(OFF, both, span=3.0)
+    np.testing.assert_array_equal(found[0], [[1, 1]] * 3)
+    np.testing.assert_allclose(found[1], run_extremes((3, 2, 1), (0, 0, 0), (-1, 2, -1), state, 3.0), atol=3e-6)
+    assert motion(OFF, rest).extremes == ((1, 1),) * 3
+    single = motion(OFF, state, (0, 3))
+    assert single.fate == Fate.UNDECIDED and "over the span its size went" in single.because
+    np.testing.assert_allclose(single.extremes, found[1], rtol=1e-12)
+    assert motion(OFF, state).extremes is None
+
+
+def test_a_free_motion_with_a_wheel_off_the_axes_repeats():
+    scene, state = Scene(Body((3, 2, 1)), Gyrostat((0.5, 0.25, -0.75))), np.array([0.75, 0.5, 1.0])
+    one, time = extremes(scene, state), float(period(scene, state))
+    np.testing.assert_allclose(one, run_extremes((3, 2, 1), (0.5, 0.25, -0.75), (0, 0, 0), state, 1.01 * time), atol=1e-5)
+    half = motion(scene, state)
+    assert half.period == pytest.approx(time) and np.allclose(half.extremes, one, rtol=1e-12)
+    with pytest.raises(InputError, match="without torque"):
+        extremes_over_period(ALONG, state)
+    rest = extremes_over_period(scene, np.zeros(3))  # lambda x 0 = 0
+    assert rest.period == 0.0 and not rest.extremes.any()
+
+
+def test_boxes_and_periods_together_are_for_scenes_with_a_reduction():
+    with pytest.raises(InputError, match="no reduction"):
+        extremes_and_periods(OFF, STATES)
+
+
+def test_a_state_in_a_row_of_its_own_is_that_state():
+    row, flat = (motion(ALONG, state) for state in (np.array([[0.5, 0.25, 1.0]]), (0.5, 0.25, 1.0)))
+    assert row == flat
+    for bad in ((0.5, 0.25), (0.5, "fast", 1.0), (0.5, np.nan, 1.0), None):
+        with pytest.raises(InputError):
+            motion(ALONG, bad)

@@ -1,0 +1,70 @@
+"""Bounds of motions with a medium, a liquid or a field, in the corners of what is proved; and numbers that are refused."""
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from stabilab import Body, ConstantTorque, Fate, Gyrostat, Scene
+from stabilab.analysis.averaging import Smallness
+from stabilab.analysis.equilibria import equilibria
+from stabilab.analysis.motion import motion
+from stabilab.effects.charge import Charge
+from stabilab.effects.liquid_cavity import LiquidCavity
+from stabilab.effects.resistance import Resistance
+from stabilab.errors import InputError
+
+LIQUID = LiquidCavity(1250, 1000, "0.1")  # kappa = 1/8
+SWINGING = Charge("0.3", 2, 1, "attitude")  # its angle follows the attitude: gamma is part of the state
+BODY = Body((9, 8, 5))
+ROW = (0.5, 0.25, 1.0)
+
+
+@pytest.mark.parametrize("state", [(1.0, 2.0), (1.0, 2.0, 3.0, 4.0), (1.0, 2.0, 3.0, 0.0, 0.0, 1.0, 2.0)])
+def test_a_state_of_another_length_is_refused(state):
+    for effects in ((Resistance("0.1"),), (SWINGING,)):
+        with pytest.raises(InputError, match="state"):
+            motion(Scene(BODY, *effects), state)
+
+
+def test_a_liquid_under_a_torque_in_a_medium_is_bounded_as_its_run_is():
+    scene = Scene(BODY, Resistance("0.5"), LIQUID, ConstantTorque((1, "0.5", -1)))
+    found = motion(scene, ROW)
+    assert found.fate == Fate.BOUNDED and "where it tends is undecided" in found.because
+    # the bound without the liquid, which only takes energy: |omega| <= max(sqrt(2 T0), sqrt(M . D^-1 M)/c)/sqrt(D3)
+    assert found.invariants["rate_bound"] >= max(np.linalg.norm(ROW), (1 / 9 + 0.25 / 8 + 1 / 5) ** 0.5 / 0.5 / 5**0.5)
+
+
+def test_liquid_in_a_body_with_two_equal_largest_moments_carries_it_to_some_axis_of_their_plane():
+    found = motion(Scene(Body((9, 9, 5)), LIQUID), ROW)
+    size = np.linalg.norm(np.array((9, 9, 5)) * ROW)
+    assert found.fate == Fate.BOUNDED and "permanent rotations" in found.because
+    assert found.invariants["momentum"] == pytest.approx(size) and found.invariants["rate_bound"] == pytest.approx(size / 5)
+
+
+def test_liquid_in_a_field_is_left_undecided():
+    found = motion(Scene(BODY, LIQUID, SWINGING), (*ROW, 0.0, 0.0, 1.0))
+    assert found.fate == Fate.UNDECIDED and "liquid" in found.because
+
+
+def test_a_decay_too_fast_for_the_span_is_said_so():
+    found = motion(Scene(BODY, Resistance(1000)), ROW, (0, 1e6))  # exp(-1e9)
+    assert found.fate == Fate.BOUNDED and "too fast" in found.extremes_over
+    near = motion(Scene(BODY, Resistance("0.5")), ROW, (0, 2))
+    run = solve_ivp(lambda t, w: np.cross(np.array((9, 8, 5)) * w, w) / (9, 8, 5) - 0.5 * w, (0, 2), ROW, rtol=1e-11, atol=1e-12, max_step=1e-3)
+    np.testing.assert_allclose(near.extremes, np.stack([run.y.min(axis=1), run.y.max(axis=1)], axis=1), atol=1e-6)
+
+
+@pytest.mark.parametrize("wheel", [(0, 0, 0), (1, 2, 3)])
+def test_without_a_torque_rest_is_the_one_equilibrium_that_is_proved_with_a_liquid_in_a_medium(wheel):
+    effects = (LIQUID, Resistance("0.5")) + ((Gyrostat(wheel),) if any(wheel) else ())
+    found = equilibria(Scene(BODY, *effects))
+    (rest,) = found.points
+    assert rest.at == (0.0, 0.0, 0.0) and rest.verdict == "asymptotically stable"
+
+
+@pytest.mark.parametrize("eps", [0, -1.0, float("inf"), float("nan"), "small"])
+def test_a_small_parameter_that_is_no_positive_number_is_refused(eps):
+    numbers = dict.fromkeys(("J", "d", "h", "g", "kappa", "zeta", "M1", "M2", "M3"), 1.0)
+    from stabilab.analysis import averaging
+    numbers = {name: 1.0 for name in averaging.NAMES} | numbers
+    with pytest.raises(InputError, match="eps"):
+        Smallness.of(numbers, np.array(ROW), eps)
