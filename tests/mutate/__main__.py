@@ -26,7 +26,7 @@ SUBJECTS = {
                                                          "test_extremes_speed", "test_extremes_bounds",
                                                          "test_extremes_faults", "test_small_faults")),
     "quadrature": (("quadrature", "repeating_motion", "spin_up_motion"),
-                   ("test_extremes", "test_late_times", "test_one_state")),
+                   ("test_extremes", "test_late_times", "test_one_state", "test_quadrature_faults")),
     "barriers": (("barrier_heights", "barrier_table"), ("test_fate_speed", "test_fate_faults", "test_small_faults")),
     "separatrix": (("separatrix", "loop", "loops", "saddle_branches"),
                    ("test_separatrix", "test_separatrix_accuracy", "test_separatrix_fast")),
