@@ -61,3 +61,12 @@ def test_scenes_without_a_kernel_are_answered_by_arrays_however_asked():
     assert not serves(landscape(scene), ())
     for one, other in zip(*(stabilab.separatrix(scene, shape=(8, 9), fast=f).sheets for f in (False, True)), strict=True):
         np.testing.assert_array_equal(one.points, other.points)
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_sheets_are_numbered_from_one_and_lie_on_their_surface_to_rounding(name):
+    found = stabilab.separatrix(SCENES[name], shape=(6, 9))
+    names = [sheet.name for sheet in found.sheets]
+    numbers = [int("".join(c for c in word if c.isdigit())) for word in names]
+    assert numbers[0] == 1 and len(set(names)) == len(names) and sorted(set(numbers)) == list(range(1, max(numbers) + 1))
+    assert max(sheet.residual.max() for sheet in found.sheets) < 1e-14

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .circle_loops import NONE, SHARED, SHARPEST
-from .landscape import TURN
+from .landscape import TURN, angle_between
 from .loop import loop_end
 
 
@@ -108,7 +108,7 @@ def residual(land, loops):
     pot = land.potential
     with np.errstate(all="ignore"):
         if land.e < 0:
-            angle = np.arctan2(place[0] * spot[1] - place[1] * spot[0], place[0] * spot[0] + place[1] * spot[1])
+            angle = angle_between(spot, place)
             seen, slopes = angle + TURN * np.round((loops.offset - angle) / TURN), abs(pot.c) + abs(pot.d)
         else:
             big = np.abs(spot[0]) >= np.abs(spot[1])
