@@ -192,3 +192,15 @@ def test_pure_spin_about_the_middle_axis_grows_with_the_torque_and_rests_without
 
 def test_a_result_is_told_by_its_answers_and_not_by_its_states():
     assert "states" not in repr(stabilab.fate(FAMILIES["minor scaled +"][0], np.zeros((2, 3))))
+
+
+@pytest.mark.parametrize("name", ["minor scaled +", "middle scaled -, |c| above the cusp", "middle scaled, |c| far above"])
+def test_a_table_has_as_few_cells_as_leave_few_gaps(name, monkeypatch):
+    module = importlib.import_module("stabilab.analysis.barrier_table")
+    table, sizes = barrier_table(FAMILIES[name][0]), list(module.CELLS)
+    count = table.cells.shape[1]
+    assert count == sizes[name == "middle scaled, |c| far above"]  # one that needs the second try
+    assert table.gaps <= module.GAPS and count in sizes
+    for fewer in sizes[:sizes.index(count)]:
+        monkeypatch.setattr(module, "CELLS", (fewer,))
+        assert module.barrier_table.__wrapped__(FAMILIES[name][0]).gaps > module.GAPS
