@@ -89,9 +89,11 @@ def forgeries(claims):
             yield changed("curves", n, "folds", k, "t", to=moved(fold["t"]))
         for k, piece in enumerate(curve["segments"]):
             for side in (0, 1):
-                yield changed("curves", n, "segments", k, "t", side, to=["0", "0"] if piece["t"][side] is None else moved(piece["t"][side]))
+                end = piece["t"][side]
+                yield changed("curves", n, "segments", k, "t", side, to=["0", "0"] if end is None else moved(end))
     for n, plane in enumerate(found["planes"]):
-        yield from (changed("planes", n, "base", i, to=str(F(v) + 1)) for i, v in enumerate(plane["base"]) if F(plane["directions"][0][i]) == 0 == F(plane["directions"][1][i]))
+        across = next(i for i in range(3) if not any(F(row[i]) for row in plane["directions"]))
+        yield changed("planes", n, "base", across, to=str(F(plane["base"][across]) + 1))
         yield changed("planes", n, "directions", 1, to=["1", "1", "1"])
         yield from (changed("planes", n, "centre", "at", i, to=str(F(v) + 1)) for i, v in enumerate(plane["centre"]["at"]))
         yield changed("planes", n, "centre", "verdict", to="unstable")
@@ -154,9 +156,12 @@ MOTIONS = {
     "free, round": (physical((3, 2, 1), (0, 1, 0)), (1, 1, 3)), "free, in a well": (physical((3, 2, 1), (1, 0, 0)), (3, 1, 1)),
     "free, steady rate": (physical((3, 3, 1)), (1, 1, 1)), "on a hyperbola": (ScaledGyrostat("0.5", 1, (0, 1, 0)), (1, -1, 2)),
     "on a decaying plane": (ScaledGyrostat("0.5", 1, (0, 1, 0)), (F(1, 2), -1, F(-3, 2))),
-    "pure spin": (physical((3, 2, 1), (0, 0, 0), (0, 1, 0)), (0, 1, 0)), "on a parabola": (physical((2, 2, 1), (0, 1, 1), (1, 0, 0)), (1, 1, 2)),
-    "released at rest": (ScaledGyrostat("0.2", "0.4", (0, 0, 1)), (3, F(-3, 2), 0)), "released, free": (physical((3, 2, 1), (1, 0, 0)), (0, 1, 3)),
-    "released to spin": (ScaledGyrostat(0, 0, (0, 0, 1)), (F(1, 2), F(1, 2), 0)), "released on a plane": (ScaledGyrostat("0.5", 1, (0, 1, 0)), (F(1, 2), 0, F(-3, 2))),
+    "pure spin": (physical((3, 2, 1), (0, 0, 0), (0, 1, 0)), (0, 1, 0)),
+    "on a parabola": (physical((2, 2, 1), (0, 1, 1), (1, 0, 0)), (1, 1, 2)),
+    "released at rest": (ScaledGyrostat("0.2", "0.4", (0, 0, 1)), (3, F(-3, 2), 0)),
+    "released, free": (physical((3, 2, 1), (1, 0, 0)), (0, 1, 3)),
+    "released to spin": (ScaledGyrostat(0, 0, (0, 0, 1)), (F(1, 2), F(1, 2), 0)),
+    "released on a plane": (ScaledGyrostat("0.5", 1, (0, 1, 0)), (F(1, 2), 0, F(-3, 2))),
     "at rest": (ScaledGyrostat(0, 0, (0, 0, 1)), (-3, F(1, 3), 0))}
 
 

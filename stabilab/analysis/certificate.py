@@ -17,7 +17,7 @@ from .torque_free_equilibria import DRIFT, plane_centre, plane_moments, plane_of
 SCHEMA = "stabilab.certificate/1"
 ROOT_BITS = 150  # roots are known to 160 bits and more (`polynomials.real_roots`, `Surd.fraction`)
 BOX_BITS = 120
-TINY = Fraction(1, 2**1074)  # the least double: the end of a decaying plane, which is only approached, is known to less than this
+TINY = Fraction(1, 2**1074)  # the least double: a decaying plane's end is only approached, to less than this
 DIGITS, PERIOD_DIGITS = 20, 11  # of the brackets: another's verified quadrature must have room in the period's
 
 

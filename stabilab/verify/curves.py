@@ -105,7 +105,8 @@ def _check_piece(along, note, where, piece, bounds, sign):
     elif linear != ("stable" if sign > 0 else "unstable"):
         note(claim, "refuted", f"m is {'positive' if sign > 0 else 'negative'} on it")
     else:
-        note(claim, *judged(verdict, along.centre(bounds) if sign > 0 else ("unstable", "m < 0"), "a centre on a line of equilibria"))
+        proof = along.centre(bounds) if sign > 0 else ("unstable", "m < 0")
+        note(claim, *judged(verdict, proof, "a centre on a line of equilibria"))
 
 
 def _check_fold(along, note, zero, fold, signs):
@@ -152,7 +153,7 @@ class _Along:
             return self._crossing(zero)
         if self.settled:
             both = signs == [1, 1]
-            return "stable" if both else "unstable", f"m is {'positive on both sides' if both else 'not positive on both sides'}"
+            return "stable" if both else "unstable", f"m is {'' if both else 'not '}positive on both sides"
         return leaves_fold(self.J, zero) if self._line() else None
 
     def _crossing(self, zero):

@@ -70,7 +70,7 @@ def _meets_surface(A, g, B):
 
 
 def reducing_direction(rates, curve):
-    """e with x' = eta J(P x) e across e and eta' = F(P x) along it, P the projection to a plane that holds the curve; or None."""
+    """e with x' = eta J(P x) e across e and eta' = F(P x) along it, P x in a plane that holds the curve; or None."""
     unit = lambda i: [Fraction(int(n == i)) for n in range(3)]  # noqa: E731
     places = [(rates.m, n, c) for n, c in rates.conditions if any(n)]
     last = curve.bottom.degree()

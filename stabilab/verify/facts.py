@@ -210,7 +210,7 @@ def _slowest_ahead(orbit, sense):
         low, high = (behind, ball(0)) if sense > 0 else (ball(0), behind)
         return -(-2 * _lowest(orbit, low, high)).sqrt()
     slowest = ball(orbit.E)
-    ahead = above(orbit.turn) if orbit.kind < 0 else Fraction(FAR)  # on a decaying plane the force has its last sign from there on
+    ahead = above(orbit.turn) if orbit.kind < 0 else Fraction(FAR)  # the force has its last sign from there on
     for spot in _spots(orbit, Fraction(0), sense * ahead):
         slowest = slowest.min(-orbit.excess(spot))
     return (2 * slowest).sqrt()
@@ -225,7 +225,7 @@ def _behind(orbit, sense):
 
 
 def _to_the_end(orbit, sense):
-    """Ranges of u and v on a decaying plane of a hyperbola, from where the motion turns back to the plane's end; or constant."""
+    """Ranges of u and v on a decaying plane, from where the motion turns back to the plane's end; or constant."""
     if orbit.constant(0) and orbit.constant(1):
         return [(ball(v), ball(v)) for v in (orbit.u0, orbit.v0)]
     back = exact_sign(orbit.y0) * sense < 0

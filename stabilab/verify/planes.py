@@ -53,7 +53,7 @@ def check_plane(rates, plane, note):
         note(f"{plane.claim}: centre", "refuted", "the turning does not vanish there")
         return
     for where, verdict, true in (("but its centre", plane.verdict, "unstable"), ("its centre", plane.centre_verdict, "stable")):
-        why = proof and (true, f"beside the plane, at a distance d along e, x' = d J(x) e turns about the centre (e: axis {proof.index(1) + 1})")
+        why = proof and (true, f"beside the plane x' = d J(x) e turns about the centre, d the distance along e, axis {proof.index(1) + 1}")
         note(f"{plane.claim}: {where} {verdict}", *judged(verdict, why, "no axis of symmetry was found"))
 
 

@@ -17,7 +17,7 @@ S_VALUES = [Fraction(-7, 3), Fraction(11, 5), Fraction(9, 1)]
 
 @dataclass
 class Answer:
-    """kind: none, points, curves, all. roots: isolated ones; samples: exact points of the curves and planes that must be found."""
+    """kind: none, points, curves, all. roots: isolated ones; samples: exact points that the curves and planes must hold."""
 
     kind: str
     roots: list = field(default_factory=list)
@@ -169,7 +169,7 @@ def m_and_n(model: Model, x, mul=lambda a, b: a * b, add=lambda *a: sum(a), one=
     for i, (j, k) in enumerate(CYCLE):
         J[i][j] = add(mul(model.kappa[i] * one, x[k]), model.sigma[i] * one)
         J[i][k] = add(mul(model.kappa[i] * one, x[j]), model.rho[i] * one)
-    minus = lambda v: mul(-one, v)  # noqa: E731
+    minus = lambda v: mul(-1 * one, v)  # noqa: E731
     m = minus(add(mul(J[0][1], J[1][0]), mul(J[0][2], J[2][0]), mul(J[1][2], J[2][1])))
     n = minus(add(mul(J[0][1], mul(J[1][2], J[2][0])), mul(J[0][2], mul(J[2][1], J[1][0]))))
     return m, n
@@ -180,9 +180,6 @@ class _P(list):
 
     def __rmul__(self, c):
         return _P(c * a for a in self)
-
-    def __neg__(self):
-        return _P(-a for a in self)
 
 
 def m_and_n_on_line(model, point, v):
@@ -221,7 +218,8 @@ def _free(D, lam):
             point, ways = space
             found.curves += len(ways) == 1
             found.planes += len(ways) == 2
-            found.samples += [[p + sum(c * v[i] for c, v in zip((t, 2 - t), ways)) for i, p in enumerate(point)] for t in S_VALUES]
+            for t in S_VALUES:
+                found.samples.append([p + sum(c * v[i] for c, v in zip((t, 2 - t), ways)) for i, p in enumerate(point)])
     return found
 
 
@@ -290,7 +288,7 @@ def on_curve(x, tops, bottom) -> bool:
         return True
     shared = gcd(g, bottom)
     while len(shared) > 1:  # divide the poles out
-        g, shared = _divided(g, shared), None
+        g = _divided(g, shared)
         shared = gcd(g, bottom)
     return len(g) > 1 and sturm_count(g) > 0
 
