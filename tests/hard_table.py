@@ -30,6 +30,7 @@ CASES = [
     ("parameters", bodies.a_near_b, [1e-6, 1e-9], []),
     ("invariant planes", sectors.off_the_plane, [1e-30], [1e-100, 1e-300]),
     ("symmetric", bodies.nearly_symmetric, [], [1e-12, 1e-9, 2.0 ** -52]),
+    ("symmetric", bodies.rod, [], [1e-6, 1e-9]),
     ("symmetric", bodies.symmetric, ["D1 = D2", "sphere"], []),
     ("conic", bodies.far_along_the_hyperbola, [2.0 ** -40], []),
     ("conic", bodies.two_lines, [0, 1, 2], []),

@@ -47,17 +47,26 @@ class Textbook:
         return math.sqrt(y1 + (y0 - y2) ** 2 / (8 * (2 * y1 - y0 - y2)))
 
 
-def nearly_symmetric(lift):
-    """6. Fastest spin of a swinging body with D1 = (1 + lift) D2, torque along axis 1: circles of radius 1/lift."""
-    state = (0.05, -0.2, 0.3)
-    inertia = (1000.0 * (1 + lift), 1000.0, 700.0)
+def fastest_row(case, wrong, inertia, momentum, torque, state):
+    """Fastest rate about axis 1 of a swinging body, torque along axis 1, gyrostatic moment (0, *momentum)."""
     ask = lambda D1, D2, D3, l2, l3, M, *x: energy.extremes(  # noqa: E731
         model.physical((D1, D2, D3), (0, l2, l3), (M, 0, 0)), x, digits=100)[0][1]
-    scene, _ = physical(inertia, (0.0, 200.0, 300.0), (50.0, 0.0, 0.0))
-    ours = float(stabilab.extremes(scene, np.array(state))[0, 1])
-    naive = Textbook(inertia, (0.0, 200.0, 300.0), (50.0, 0.0, 0.0), state).fastest(3.0)
-    return numbers(f"D1 = (1 + {lift:g}) D2", "largest rate", "circles about a centre at lambda/(D1 - D2)", naive, ours, ask,
-                   (*inertia, 200.0, 300.0, 50.0, *state))
+    moments = (0.0, *momentum), (torque, 0.0, 0.0)
+    ours = float(stabilab.extremes(physical(inertia, *moments)[0], np.array(state))[0, 1])
+    naive = Textbook(inertia, *moments, state).fastest(3.0)
+    return numbers(case, "largest rate", wrong, naive, ours, ask, (*inertia, *momentum, torque, *state))
+
+
+def nearly_symmetric(lift):
+    """6. D1 = (1 + lift) D2: circles of radius 1/lift."""
+    return fastest_row(f"D1 = (1 + {lift:g}) D2", "circles about a centre at lambda/(D1 - D2)",
+                       (1000.0 * (1 + lift), 1000.0, 700.0), (200.0, 300.0), 50.0, (0.05, -0.2, 0.3))
+
+
+def rod(thin):
+    """6. A rod whose two large moments differ by half of the small one."""
+    return fastest_row(f"rod, D3 = {thin:g} D1", "circles about a centre at lambda/(D1 - D2)",
+                       (1.0, 1.0 - thin / 2, thin), (0.2, 0.3), 0.05, (0.05, -0.2, 0.3))
 
 
 def symmetric(body):
