@@ -12,6 +12,7 @@ from stabilab.analysis.small_parameter_angles import euler_angles, mean_precessi
 from stabilab.analysis.small_parameter_printed import paper_numbers, printed
 from stabilab.compiled import heyoka_available
 from stabilab.effects.gravity import Gravity
+from stabilab.errors import InputError
 from stabilab.effects.newtonian_field import NewtonianField
 from stabilab.errors import InputError
 
@@ -276,6 +277,14 @@ def test_regular_precession_of_the_symmetric_top_is_met_order_by_order():
     assert off[0] < 1e-2 and off[1] < 1e-6 and off[2] < 1e-13
     angles = periodic_angles(lindstedt(scene, START, [0.0, 1.0, 1e6], 16))
     assert angles.psi == pytest.approx([0, slow, 1e6 * slow], rel=1e-11) and np.ptp(angles.theta) < 1e-12
+
+
+def test_an_axis_that_never_leaves_the_vertical_has_no_precession():
+    # psi and phi turn about the same line: by phi's samples the precession came out as the spin
+    scene = Scene(Body((16.0, 16.0, 11.0)), Gravity(WEIGHT, (0, 0, 0.5)), Gyrostat((0, 0, 30.0)))
+    upright = {**START, "gamma": (1e-9, 0.0, math.sqrt(1 - 1e-18))}
+    with pytest.raises(InputError, match="vertical"):
+        mean_precession(lindstedt(scene, upright, [0.0], 4))
 
 
 @needs_heyoka

@@ -178,6 +178,9 @@ def periodic_angles(motion, times=None, psi0: float = 0.0) -> EulerAngles:
 
 def mean_precession(motion) -> float:
     """Mean of psi' over a period of a `LindstedtMotion`, rad/s. Where theta passes through 0 or pi it is the mean of
-    (psi +- phi)' less that of phi' counted at the samples."""
+    (psi +- phi)' less that of phi' counted at the samples. Raises InputError where the axis stays within 1e-8 of the vertical."""
     turn = _revolution(motion)
+    gamma = _unit(motion.at(turn.s / motion.frequency)[1])
+    if (np.hypot(gamma[:, 0], gamma[:, 1]) < SINGULAR).mean() > 0.5:
+        raise InputError("the axis stays within 1e-8 rad of the vertical: psi has no rate of its own there; start further off")
     return motion.frequency * (turn.mean - turn.sign * turn.winding / (2 * np.pi))
