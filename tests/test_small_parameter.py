@@ -12,7 +12,6 @@ from stabilab.analysis.small_parameter_angles import euler_angles, mean_precessi
 from stabilab.analysis.small_parameter_printed import paper_numbers, printed
 from stabilab.compiled import heyoka_available
 from stabilab.effects.gravity import Gravity
-from stabilab.errors import InputError
 from stabilab.effects.newtonian_field import NewtonianField
 from stabilab.errors import InputError
 
