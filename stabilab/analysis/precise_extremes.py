@@ -138,8 +138,10 @@ def _asymptotic(orbit):
         return _round_the_circle(orbit)
     end, last = behind
     low, high = sorted((turn, end), key=lambda y: float(y.mid()))
-    top = (2 * _fastest(orbit, low, high).max(last)).sqrt()
-    return [low, high, *_tops_between(orbit, low, high), orbit.energy * 0], (-top, top)
+    there = (2 * _fastest(orbit, *sorted((orbit.energy * 0, turn), key=lambda y: float(y.mid())))).sqrt()
+    back = (2 * _fastest(orbit, low, high).max(last)).sqrt()
+    rates = (-back, there) if towards > 0 else (-there, back)  # on the way to the turning point only what lies before it counts
+    return [low, high, *_tops_between(orbit, low, high), orbit.energy * 0], rates
 
 
 FAR = 1 << 13  # exp(-FAR) is nothing against any double: an offset that stands for the end of an invariant plane
