@@ -22,7 +22,8 @@ def summary(certificate: dict) -> str:
     parts = []
     if certificate["equilibria"]:
         found = certificate["equilibria"]
-        count = f"{len(found['points'])} isolated, {len(found['curves'])} curves" if found["kind"] in ("points", "curves") else found["kind"]
+        planes = f", {len(found['planes'])} planes" if found.get("planes") else ""
+        count = f"{len(found['points'])} isolated, {len(found['curves'])} curves{planes}" if found["kind"] in ("points", "curves") else found["kind"]
         parts.append(f"equilibria ({count})")
     if certificate["motion"]:
         motion = certificate["motion"]
