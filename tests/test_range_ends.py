@@ -1,4 +1,6 @@
 """Answers at the ends of their range: infinite extremes in digits, overflowing runs, free separatrices on hyperbolas, linear models alone."""
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -7,8 +9,12 @@ from stabilab import Body, Gyrostat, ScaledGyrostat, Scene
 from stabilab.analysis import rate_roots
 from stabilab.analysis.comparison import side_by_side
 from stabilab.analysis.models import models_of
+from stabilab.analysis.precision_answers import fate_methods, known_period
+from stabilab.analysis.precision_methods import problem
 from stabilab.analysis.precision_questions import ask, ask_all
+from stabilab.errors import InputError
 
+CASES = Path(__file__).parent.parent / "cases"
 MINOR = ScaledGyrostat("0.2", "0.4", (0, 0, 1))
 
 
@@ -71,3 +77,28 @@ def test_a_pushed_body_without_a_charge_has_the_linear_models_path(tmp_path):
     for name in {"exact", "linear"} & set(runs):  # a spin about axis 3 pushed along it: z = F t^2/(2 m)
         np.testing.assert_allclose(runs[name].state["position"][:, 2], 0.3 * times**2, rtol=1e-10, atol=1e-12)
     assert "linear" in runs
+
+
+def liquid_case(folder, torque):
+    path = folder / "case.toml"
+    path.write_text("[body]\ninertia = [9.2, 9.1, 9]\n[effects.gyrostat]\nmomentum = [0, 0, 0.1]\n[effects.resistance]\ncoefficient = 0.001\n"
+                    f"[effects.constant_torque]\ntorque = {torque}\n[motion]\nangular_velocity = [1, 0.2, 1]\nspan = [0, 20]\n")
+    return stabilab.load(path)
+
+
+def test_a_model_that_does_not_fit_is_named_with_its_reason_beside_those_that_do(tmp_path):
+    times = np.linspace(0, 20, 9)
+    runs, refused = side_by_side(liquid_case(tmp_path, [500, 300, 0]), times)
+    assert "exact" in runs and "small disturbances" in refused["averaged1"] and "small disturbances" in refused["averaged2"]
+    runs, _ = side_by_side(liquid_case(tmp_path, [0, 0, -0.006]), times)
+    exact, gaps = runs["exact"].state["omega"], {}
+    for name in ("averaged1", "averaged2"):
+        gaps[name] = np.abs(np.hypot(*(runs[name].state["omega"] - exact)[:, :2].T)).max()
+    assert gaps["averaged2"] < 0.2 * gaps["averaged1"] < 0.1  # eps = 0.03: each order is worth a factor of it
+
+
+def test_what_has_no_reduction_has_no_period_and_no_energies_to_measure():
+    task = problem(stabilab.load(CASES / "off-axis-two.toml"), 3)
+    assert known_period(task) is None and fate_methods(task) == []
+    with pytest.raises(InputError):
+        side_by_side(task.case, np.array([np.nan]))

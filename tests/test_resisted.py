@@ -103,7 +103,7 @@ def test_a_triple_equilibrium_of_a_subcritical_pitchfork_drives_away(D, axis, wh
     assert cubic > 0 and found.verdict == "unstable" and "odd power that drives away" in found.because
 
 
-@pytest.mark.parametrize("nudge", ["1/1000000", "1e-200", "1e-400"])
+@pytest.mark.parametrize("nudge", ["1/1000000", "1e-200"])
 def test_equilibria_beside_a_fold_are_told_apart_however_close(nudge):
     """Beyond the fold two are gone, before it there is a saddle and a node: as the eigenvalues at a millionth say."""
     D, wheel, c, at = FOLDS[0]
