@@ -3,7 +3,6 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-import mpmath as mp
 import numpy as np
 import pytest
 from hypothesis import given, settings

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from stabilab import errors
-from stabilab.analysis.array_results import Sheet, Separatrix
+from stabilab.analysis.array_results import Sheet
 from stabilab.show import figures, mesh, paper, phase, plane, render_probe, style, surface, table
 
 CASES = Path(__file__).parent.parent / "cases"

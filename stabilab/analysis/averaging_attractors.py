@@ -42,7 +42,7 @@ class Attractors:
 def attractors(scene) -> Attractors:
     """Steady states of the averaged equations of the scene, first and second order together. Raises InputError where the
     scene is not of the kind (`averaging_form.check`)."""
-    from sympy import Poly, Rational, Symbol, expand, im, re
+    from sympy import Poly, Rational, Symbol, expand, re
     form, numbers = normal_form(scene), constants(scene)
     put = {s: Rational(numbers[n].numerator, numbers[n].denominator) for s, n in zip(form.symbols, NAMES)}
     put |= {form.symbols[NAMES.index(n)]: 0 for n in ("h", "M1", "M2")}

@@ -6,7 +6,6 @@ from typing import Callable
 
 import numpy as np
 
-from .uncertain_proof import Proof
 from .uncertain_search import MOST, Change, confirmed
 
 PARTS, FEWER = 60_000, 2_500  # of the box: for the question asked, and for each try to prove more

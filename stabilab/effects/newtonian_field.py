@@ -6,7 +6,7 @@ from fractions import Fraction
 from typing import ClassVar
 
 from ..exact import exact
-from .base import Effect, cross, dot
+from .base import Effect, cross
 
 
 @dataclass(frozen=True)

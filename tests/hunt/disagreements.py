@@ -16,7 +16,6 @@ from stabilab.errors import InputError
 from stabilab.verify import verify
 
 from ..oracles import energy
-from ..oracles.model import CYCLE
 from ..oracles.pairs import WORDS, physical, scaled
 
 ELEVEN_DIGITS = 1e-11  # what `extremes` and `period` promise without `digits`
