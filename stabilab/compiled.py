@@ -15,6 +15,7 @@ from threading import RLock
 import numpy as np
 
 from .equations import Equations, derive
+from .errors import InputError
 
 # Default tolerance of the Taylor series: half an ulp of 1. In a spin-up the phase grows as t^2, so a relative 1e-12
 # per step would cost 2e-5 at t = 1000; a tighter step costs a few per cent.
@@ -106,7 +107,11 @@ def _numbered(number, symbols, numbers):
 
 
 def _rounded(exact) -> float:
-    return float(Fraction(int(exact.p), int(exact.q))) if exact.is_Rational else float(exact.evalf(30))
+    try:
+        return float(Fraction(int(exact.p), int(exact.q))) if exact.is_Rational else float(exact.evalf(30))
+    except OverflowError:
+        raise InputError("a number of the equations or of their laws (the square of a moment, say) is beyond the largest double: "
+                         "choose other units") from None
 
 
 @dataclass(frozen=True)

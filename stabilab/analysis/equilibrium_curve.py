@@ -53,8 +53,16 @@ class RationalCurve:
 
 
 def decimal(value) -> str:
-    """A number for the user's eye: the shortest decimal that reads back as the same double."""
-    return repr(float(value) + 0.0).removesuffix(".0")
+    """A number for the user's eye: the shortest decimal that reads back as the same double; six digits beyond the doubles."""
+    try:
+        number = float(value)
+    except OverflowError:
+        number = 0.0
+    if value and not number:
+        from decimal import Context
+        digits, value = Context(prec=6, Emin=-10**6, Emax=10**6), Fraction(value)
+        return f"{digits.divide(digits.create_decimal(value.numerator), digits.create_decimal(value.denominator)):e}"
+    return repr(number + 0.0).removesuffix(".0")
 
 
 def shifted(name: str, centre: Fraction) -> str:

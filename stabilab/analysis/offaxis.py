@@ -22,7 +22,8 @@ STEP_BUDGET = 1_000_000
 # Two points of a closed orbit are the same where they agree to this share of the orbit's size.
 SAME_POINT = 1e-9
 # An axis is called the spin-up's when in this many doublings of the run in a row it keeps its sense and its least rate
-# grows by this factor, and no other axis does (a spin like the square root of time gives 1.41, a steady spin-up 2).
+# grows by this factor, and no other axis does (a spin like the square root of time gives 1.41, a steady spin-up 2); in the last
+# it exceeds the whole spin of the beginning, which a temporary capture, however slowly its swing dies out, never does.
 DOUBLINGS, GROWTH = 3, 1.2
 # Or when it keeps its sense through the last doubling, ends ten times faster than the whole spin began, and holds this
 # share of the squared spin throughout.
@@ -123,7 +124,7 @@ def growth(scene, state, t_max: float) -> Growth:
         squares = run.states**2
         share = (squares / squares.sum(axis=1, keepdims=True)).min(axis=0)
         stages.append((np.sign(run.states).sum(axis=0) / len(run.states), np.abs(run.states).min(axis=0)))
-        i = _holder(stages[-DOUBLINGS - 1:]) if len(stages) > DOUBLINGS else None
+        i = _holder(stages[-DOUBLINGS - 1:], begin) if len(stages) > DOUBLINGS else None
         if i is None and share.max() > SHARE and np.abs(here).max() > FASTER * begin:
             i = int(share.argmax())
         if i is not None and abs(stages[-1][0][i]) == 1:
@@ -133,10 +134,10 @@ def growth(scene, state, t_max: float) -> Growth:
     return Growth(0, 0, t, "no axis holds the spin", steps)
 
 
-def _holder(stages):
-    """The one axis that keeps its sense through the stages while its least rate grows; None where it is not one."""
+def _holder(stages, begin):
+    """The one axis that keeps its sense through the stages while its least rate grows, past `begin`; None where it is not one."""
     senses, least = (np.array(column) for column in zip(*stages))
-    held = (np.abs(senses.sum(axis=0)) == len(stages)) & (least[1:] > GROWTH * least[:-1]).all(axis=0)
+    held = (np.abs(senses.sum(axis=0)) == len(stages)) & (least[1:] > GROWTH * least[:-1]).all(axis=0) & (least[-1] > begin)
     return int(held.argmax()) if held.sum() == 1 else None
 
 

@@ -3,18 +3,21 @@
 The step control of Taylor series is relative to the state above size 1 but absolute below: rates of 1e-5 rad/s would lose
 five digits, and coefficients of a series in t underflow for slower ones still. Euler's equations with a gyrostatic moment
 and a constant torque are homogeneous: with omega = u y and t = s/u, y obeys them with moment/u and torque/u^2. For u a power
-of two the change is exact.
+of two the change is exact. So is a unit of mass, which leaves the motion as it is, but not the squares in its laws.
 """
 from __future__ import annotations
 
 import math
 from fractions import Fraction
 
+from ..body import Body
 from ..effects.constant_torque import ConstantTorque
 from ..effects.gyrostat import Gyrostat
 from ..scene import Scene, ScaledGyrostat
 
 SLOW, FAST = 2.0**-4, 2.0**20  # between these the unit stays: the control is at most 16 times coarser than asked
+
+LIGHT, HEAVY = 2.0**-200, 2.0**200  # moments whose squares underflow beside `compiled.FEATHER`, or overflow
 
 
 def own_unit(scene, state, rates) -> float:
@@ -28,11 +31,19 @@ def own_unit(scene, state, rates) -> float:
     return 1.0 if not 0 < size < math.inf or SLOW <= size <= FAST else 2.0 ** math.frexp(size)[1]
 
 
-def in_unit(scene, unit: float):
-    """The scene whose rates are those of `scene` over `unit`, in a time that runs `unit` times as fast."""
-    u = Fraction(unit)
+def mass_unit(scene) -> float:
+    """The power of two near the largest moment of a body, 1 where it is ordinary or the scene has other effects or no body."""
+    if not getattr(scene, "plain", False) or scene.variables == "scaled":
+        return 1.0
+    size = max(scene.body.inertia)
+    return 1.0 if LIGHT <= size <= HEAVY else 2.0 ** math.frexp(size)[1]
+
+
+def in_unit(scene, unit: float, mass: float = 1.0):
+    """The scene whose rates are those of `scene` over `unit`, in a time that runs `unit` times as fast; its moments over `mass`."""
+    u, m = Fraction(unit), Fraction(mass)
     if scene.variables == "scaled":
         a, b = scene.exact_ab
-        return ScaledGyrostat(a / u, b / u, tuple(m / (u * u) for m in scene.exact_mu))
-    return Scene(scene.body, Gyrostat(tuple(v / u for v in scene.vector("gyrostat"))),
-                 ConstantTorque(tuple(v / (u * u) for v in scene.vector("constant_torque"))))
+        return ScaledGyrostat(a / u, b / u, tuple(v / (u * u) for v in scene.exact_mu))
+    return Scene(Body(tuple(d / m for d in scene.body.exact)), Gyrostat(tuple(v / (m * u) for v in scene.vector("gyrostat"))),
+                 ConstantTorque(tuple(v / (m * u * u) for v in scene.vector("constant_torque"))))

@@ -15,7 +15,7 @@ from ..compiled import FEATHER, TAYLOR_TOLERANCE, _equations, borrowed_taylor, f
 from ..equations import derive
 from ..errors import InputError
 from .array_results import Trajectory
-from .own_unit import in_unit, own_unit
+from .own_unit import in_unit, mass_unit, own_unit
 
 SCIPY_METHODS = ("RK45", "RK23", "DOP853", "Radau", "BDF", "LSODA")
 METHODS = ("taylor", *SCIPY_METHODS)
@@ -60,8 +60,9 @@ def trajectory(scene, state, times, method: str = "taylor", rtol: float | None =
     if method == "taylor" and equations.blocks == ("omega",):
         with np.errstate(all="ignore"):
             unit = own_unit(scene, state.tolist(), [float(v) for v in system.rate(state.tolist())])
-        if unit != 1:
-            return _in_unit(scene, state, times, rtol, steps, laws, unit)
+        mass = mass_unit(scene)
+        if unit != 1 or mass != 1:
+            return _in_unit(scene, state, times, rtol, steps, laws, unit, mass)
     if method == "taylor":
         rtol = TAYLOR_TOLERANCE if rtol is None else max(rtol, TAYLOR_TOLERANCE)
         run = _Taylor(system, rtol, laws)
@@ -86,10 +87,10 @@ def trajectory(scene, state, times, method: str = "taylor", rtol: float | None =
                       {name: part for name, part in slices(equations.blocks).items()})
 
 
-def _in_unit(scene, state, times, rtol, steps, laws, unit) -> Trajectory:
-    """The same in the motion's own unit of time: exact, as the unit is a power of two."""
+def _in_unit(scene, state, times, rtol, steps, laws, unit, mass) -> Trajectory:
+    """The same in the motion's own units of time and mass: exact, as they are powers of two."""
     passed = None if steps is None else []
-    run = trajectory(in_unit(scene, unit), state / unit, times * unit, "taylor", rtol, passed, laws)
+    run = trajectory(in_unit(scene, unit, mass), state / unit, times * unit, "taylor", rtol, passed, laws)
     if steps is not None:
         steps += [t / unit for t in passed]
     return replace(run, t=times[np.isin(times * unit, run.t)], states=run.states * unit)
