@@ -126,15 +126,15 @@ def captured_fate(scene, state, t_max: float | None = None) -> CapturedFate:
     """
     from .trajectories import _state
     state = tuple(_state(state).tolist())
-    law = growth_law(scene)
+    try:
+        law = growth_law(scene)
+        start = None if law is None else law[1](state)
+    except OverflowError:
+        raise InputError("state: the squares of rates this large, or of moments, are beyond the largest double: choose other units") from None
     if law is None:
         raise InputError("capture needs a torque along one principal axis and a gyrostatic component along that axis; "
                          "this scene is for the reduction or for the torque off the axes")
-    axis, J, rate = law
-    try:
-        start = J(state)
-    except OverflowError:
-        raise InputError("state: the squares of rates this large are beyond the largest double: choose other units") from None
+    axis, _, rate = law
     change = standard_form(scene)
     answer = _by_certificate(change, change.to_standard(state), t_max) if change else _without_form(scene, state, axis, t_max)
     return CapturedFate(J0=start, J_rate=rate, **answer)
