@@ -97,6 +97,50 @@ def test_at_the_place_of_an_equilibrium_extremes_margin_and_period_are_right(nam
     assert float(stabilab.period(scene, np.array(state))) == pytest.approx(float(energy.period(problem, state, digits=120)), rel=1e-11)
 
 
+# Rates of 1e15 and more against moments that differ by 1e-15: the way along the conic to where a barrier was sought ended at a well.
+NO_BARRIER = {
+    "about the middle of three moments, two of which differ by 5e-15": (
+        physical((23.592552633638025, 23.59255263363803, 4.698113000567854), (0.0, -9.80483935426795, 0.3689159632990716),
+                 (-0.0029802932360996986, 0.0, 0.0)), exactly("0x1.4c918121a473dp-20", "0x1.39c13e7623aabp+51", "0x1.952a9fb9540f6p-1")),
+    "the same with 1e-15 and a rate of 6e17": (
+        physical((2.913092316670205, 5.93354584031141, 5.933545840311411), (21.143511773351896, 0.0, -544.3313170330276),
+                 (0.0, 6467.951306373737, 0.0)), exactly("-0x1.cef5878802d75p+10", "0x1.860e269a85762p+6", "0x1.102a6898b6b5bp+59")),
+}
+
+
+@pytest.mark.parametrize("name", NO_BARRIER)
+def test_an_equilibrium_that_turns_out_a_well_is_no_barrier(name):
+    (scene, problem), state = NO_BARRIER[name]
+    assert energy.margin(problem, state, digits=200) is None
+    assert stabilab.fate(scene, np.array(state)).margins == np.inf and stabilab.motion(scene, state, brief=True).margin_energy is None
+
+
+def test_the_bottom_of_a_well_found_from_afar_keeps_its_digits():
+    """The conic led to a place 0.08 from the well, and three Newton steps left 2e-11 of the way, and of the largest x2."""
+    scene, problem = scaled(0.8307042242682406, -30.792072333727067, (0, 1e-12, 0))
+    state = exactly("0x1.ecac540a16c96p+4", "0x1.c35891383cc51p-23", "0x1.5a98a2197fe7fp-47")
+    found, exact = stabilab.extremes(scene, np.array(state))[1:], energy.extremes(problem, state, digits=150)[1:]
+    np.testing.assert_allclose(found, [[float(v) for v in pair] for pair in exact], rtol=1e-12)
+
+
+# Large circles: a state next to its turning point lies beyond it by rounding, and was then told from the other end of the libration.
+AT_THE_TURN = {
+    "scaled, A = 5e5": (scaled(2.67894360502477, -3.1359257959706746, (0.0, 0.0, 0.0005447722269963265)),
+                        exactly("-0x1.138fab90267b8p+18", "-0x1.9dec3a4355bedp+18", "0x1.c9f18f2312009p-13")),
+    "physical": (physical((2.1119923659985465, 0.7483138778422094, 1.4269240413647868), (-61.189403922546475, -0.15012964884116087, 0.0),
+                          (0.0, 0.0, -0.4039882799028167)), exactly("-0x1.6dd06db6e893fp+23", "0x1.07530fe5effdep+22", "0x1.120f1b6153672p-14")),
+    "scaled, A = 1e7": (scaled(8.945321721015654, 9.383261012998357, (0, 0, 1.0)),
+                        exactly("0x1.18d3b2e8758a0p+21", "0x1.30d9d1ea2337ep+23", "-0x1.3859bade30e6dp-11")),
+}
+
+
+@pytest.mark.parametrize("name", AT_THE_TURN)
+def test_a_libration_on_a_large_circle_may_start_at_its_turning_point(name):
+    (scene, problem), state = AT_THE_TURN[name]
+    size, words = DISAGREEMENTS["methods"](scene, problem, state)  # quadrature against Taylor series, in units of rounding
+    assert 0 < size <= 1, words
+
+
 # -- the search --------------------------------------------------------------------------------------------------------
 
 @pytest.mark.parametrize("how", [evolve, aim], ids=["differential evolution", "hypothesis"])

@@ -27,6 +27,7 @@ from .table_fate import label_by_table
 
 CHUNK = 16384
 TABLE_FROM = 5000  # a table costs some ten milliseconds to build, as much as the general formula needs for these
+DOUBLE_ROOT = 1e-10  # share of a cubic's discriminant: eigenvalues tell two roots 1e-7 apart, whose discriminant is 1e-14 and more
 ROUNDINGS = 64  # units of rounding allowed for in the error bound of a margin: some thirty operations, each counted twice
 
 
@@ -266,11 +267,27 @@ def _valley_margins(land, states, place, w, size):
             force, slope = np.abs(pot.force(place)), np.abs(pot.slope(place))
             scale = energy + np.abs(rise) + force * np.abs(offset) + slope * offset**2 + _roughness(land, place, size)
             doubtful |= nearer & (np.abs(margin) <= ROUNDINGS * EPS * scale)
+            doubtful |= barrier[:, column] & ~(pot.slope(spot) > 0)  # rounding has led to another equilibrium than was sought
+        doubtful |= _beside_fold(land, place)
     signs = np.sign(margins)
     for index in np.nonzero(doubtful)[0]:
         tie = decide(land.reduction, states[index])
         signs[index], margins[index] = (tie.sign, tie.margin) if np.isfinite(tie.margin) else (1, np.inf)
     return margins, signs, int(doubtful.sum())
+
+
+def _beside_fold(land, place):
+    """(n,) True where rounding of the place may make or unmake a pair of equilibria of its orbit."""
+    if land.e > 0:
+        Q, beside = land.invariant(place), np.zeros(np.shape(place[0]), bool)
+        for edge in land.conic.fold_invariants:
+            beside |= np.abs(Q - edge) <= ROUNDINGS * EPS * (np.abs(Q) + abs(edge))
+        return beside
+    first, second, third = land.potential.derivatives(place)
+    a, b, c, d = third / 6, second / 2, first, land.potential.force(place)
+    terms = [18 * a * b * c * d, -4 * b**3 * d, b**2 * c**2, -4 * a * c**3, -27 * a**2 * d**2]
+    size = sum(map(np.abs, terms))
+    return (np.abs(sum(terms)) <= DOUBLE_ROOT * size) & (size > 0)
 
 
 def _roughness(land, place, size):

@@ -9,6 +9,7 @@ from .conic import Conic
 from .potential import Hyperbolic, potential
 from .reduction import reduce
 
+ONE_STEP, MOST_STEPS = 3e-9, 8  # a Newton step as small leaves its square; from half a radian five are enough, but at a fold
 EPS = float(np.finfo(float).eps)
 TURN = 2 * np.pi
 LOST = 1e-3  # of the terms: a sum that is smaller than this share has lost more than three digits
@@ -133,12 +134,15 @@ class Landscape:
         """Newton steps along the orbit: whatever the conic lost, the force regains. Most need one tiny step."""
         first, second = spot
         step = self._newton_step(spot)
-        first, second = self.potential.nudge(spot, np.where(np.abs(step) < 1e-5, step, 0.0))
-        far = np.abs(step) >= 1e-5
+        first, second = self.potential.nudge(spot, np.where(np.abs(step) < ONE_STEP, step, 0.0))
+        far = np.abs(step) >= ONE_STEP
         if far.any():
             one = tuple(v[far] for v in spot)
-            for _ in range(3):
-                one = self.potential.move(one, self._newton_step(one))
+            for _ in range(MOST_STEPS):
+                step = self._newton_step(one)
+                one = self.potential.move(one, step)
+                if (np.abs(step) < ONE_STEP).all():
+                    break
             first[far], second[far] = one
         return first, second
 

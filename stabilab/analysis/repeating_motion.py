@@ -43,7 +43,7 @@ class Between:
 
     def phase(self, w):
         """phi of the state."""
-        left = self.a + self.left.at <= 0 and -self.left.at - self.a <= self.half
+        left = -self.left.at - self.a <= self.half  # by rounding a state at a turning point may lie beyond it
         spot, a, sense = (self.left, self.a, 1) if left else (self.right, self.b, -1)
         way = max(sense * (-spot.at - a), 0.0)
         small = 2 * math.atan2(abs(w) / math.sqrt(2 * sense * spot.share(a, sense * way, Plain)),
