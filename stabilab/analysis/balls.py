@@ -55,7 +55,8 @@ class Digits:
         poly = fmpq_poly([rational(Fraction(c)) for c in coefficients])
         if poly.degree() < 1:
             return []
-        return [(arb(root.real), many) for root, many in poly.complex_roots() if root.imag.is_zero()]
+        found = [(arb(root.real), many) for root, many in poly.complex_roots() if root.imag.is_zero()]
+        return sorted(found, key=lambda one: one[0].mid())  # flint lists them multiplicity by multiplicity
 
 
 _numbers = Digits

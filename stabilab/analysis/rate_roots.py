@@ -5,11 +5,12 @@ looks for sign changes on the step's own interpolant, which can miss a pair of r
 """
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ..compiled import TAYLOR_TOLERANCE, form, heyoka_available, to_numpy, taylor_events
+from .own_unit import in_unit, mass_unit, own_unit
 from .trajectories import ATOL_SHARE, FALLBACK_RTOL, STEP_LIMIT, _start
 
 SUBSAMPLES = 16
@@ -52,11 +53,21 @@ def roots_of_rates(scene, state, t_end: float, tolerance: float = TAYLOR_TOLERAN
     """
     equations, state = _start(scene, state)
     with np.errstate(all="ignore"):
-        finite = np.isfinite(to_numpy(equations)(state)).all()
-    if not finite:
+        rates = to_numpy(equations)(state)
+    if not np.isfinite(rates).all():
         return _sorted([], state, state, 0.0, "none", 0, "stopped: the rates overflow at the start")
+    if equations.blocks == ("omega",):
+        unit, mass = own_unit(scene, state.tolist(), rates.tolist()), mass_unit(scene)
+        if unit != 1 or mass != 1:
+            return _in_unit(scene, state, float(t_end), tolerance, unit, mass)
     search = _taylor_roots if heyoka_available() else _scipy_roots
     return search(equations, state, float(t_end), tolerance)
+
+
+def _in_unit(scene, state, t_end, tolerance, unit, mass) -> RateRoots:
+    """The same in the motion's own units: exact, as they are powers of two."""
+    found = roots_of_rates(in_unit(scene, unit, mass), state / unit, t_end * unit, tolerance)
+    return replace(found, t=found.t / unit, states=found.states * unit, start=state, end=found.end * unit, t_reached=found.t_reached / unit)
 
 
 def _taylor_roots(equations, state, t_end, tolerance):
