@@ -10,6 +10,7 @@ from stabilab.analysis.balls import Digits
 from stabilab.analysis.captured import captured_fate
 from stabilab.analysis.free_gyrostat import free_margin
 from stabilab.analysis.equilibrium_curve import decimal
+from stabilab.effects.resistance import Resistance
 from stabilab.errors import InputError
 
 
@@ -77,3 +78,12 @@ def test_a_temporary_capture_whose_swing_dies_out_is_no_spin_up():
     scene = Scene(Body((2, 1, 1.5)), Gyrostat((F(4862117930819083, 2**58), 1e-14, 0)), ConstantTorque((F(6340252040850999, 2**50), 0, 0)))
     found = captured_fate(scene, (-0.029033100610280364, 52.89864997290313, -0.0026971012632171962), t_max=7000)
     assert found.axis in (0, 1) and found.fate in (Fate.UNDECIDED, Fate.SPIN_UP)
+
+
+@pytest.mark.parametrize("unit", [2.0**-40, 2.0**-130, 2.0**40])
+def test_a_resisted_body_of_any_pace_keeps_its_digits(unit):
+    """Law: with moment, rates and resistance times u the motion is the same in a time 1/u as long; u a power of two rounds nothing."""
+    def asked(u):
+        scene = Scene(Body((3, 2, 1.5)), Gyrostat((0, 0.1 * u, 0)), Resistance(0.3 * u))
+        return np.array(stabilab.motion(scene, (0.3 * u, 2 * u, -u), (0, 5 / u)).extremes) / u
+    assert np.abs(asked(unit) - asked(1.0)).max() < 1e-14

@@ -1,9 +1,9 @@
 """A motion in its own unit of time, in which its rates are of order one.
 
 The step control of Taylor series is relative to the state above size 1 but absolute below: rates of 1e-5 rad/s would lose
-five digits, and coefficients of a series in t underflow for slower ones still. Euler's equations with a gyrostatic moment
-and a constant torque are homogeneous: with omega = u y and t = s/u, y obeys them with moment/u and torque/u^2. For u a power
-of two the change is exact. So is a unit of mass, which leaves the motion as it is, but not the squares in its laws.
+five digits, and coefficients of a series in t underflow for slower ones still. Euler's equations with a gyrostatic moment, a
+constant torque and a resisting medium are homogeneous: with omega = u y and t = s/u, y obeys them with moment/u, torque/u^2 and
+resistance/u. For u a power of two the change is exact. So is a unit of mass, which leaves the motion as it is, but not the squares in its laws.
 """
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from fractions import Fraction
 from ..body import Body
 from ..effects.constant_torque import ConstantTorque
 from ..effects.gyrostat import Gyrostat
+from ..effects.resistance import Resistance
 from ..scene import Scene, ScaledGyrostat
 
 SLOW, FAST = 2.0**-4, 2.0**20  # between these the unit stays: the control is at most 16 times coarser than asked
@@ -25,7 +26,7 @@ def own_unit(scene, state, rates) -> float:
 
     The size is that of the state (three numbers) or of what its rates make of it, the root of omega'.
     """
-    if not getattr(scene, "plain", False):  # equations without their scene, too
+    if not _homogeneous(scene):
         return 1.0
     size = max(*map(abs, state), math.sqrt(max(map(abs, rates))))
     return 1.0 if not 0 < size < math.inf or SLOW <= size <= FAST else 2.0 ** math.frexp(size)[1]
@@ -33,10 +34,17 @@ def own_unit(scene, state, rates) -> float:
 
 def mass_unit(scene) -> float:
     """The power of two near the largest moment of a body, 1 where it is ordinary or the scene has other effects or no body."""
-    if not getattr(scene, "plain", False) or scene.variables == "scaled":
+    if not _homogeneous(scene) or scene.variables == "scaled":
         return 1.0
     size = max(scene.body.inertia)
     return 1.0 if LIGHT <= size <= HEAVY else 2.0 ** math.frexp(size)[1]
+
+
+def _homogeneous(scene) -> bool:
+    """Whether a change of units is known here; not for equations without their scene, either."""
+    if getattr(scene, "plain", False):
+        return True
+    return hasattr(scene, "effects") and all(e.name in ("gyrostat", "constant_torque", "resistance") for e in scene.effects)
 
 
 def in_unit(scene, unit: float, mass: float = 1.0):
@@ -45,5 +53,7 @@ def in_unit(scene, unit: float, mass: float = 1.0):
     if scene.variables == "scaled":
         a, b = scene.exact_ab
         return ScaledGyrostat(a / u, b / u, tuple(v / (u * u) for v in scene.exact_mu))
+    medium = scene.effect("resistance")
+    resisted = () if medium is None else (Resistance(medium.exact / u),)
     return Scene(Body(tuple(d / m for d in scene.body.exact)), Gyrostat(tuple(v / (m * u) for v in scene.vector("gyrostat"))),
-                 ConstantTorque(tuple(v / (m * u * u) for v in scene.vector("constant_torque"))))
+                 ConstantTorque(tuple(v / (m * u * u) for v in scene.vector("constant_torque"))), *resisted)
