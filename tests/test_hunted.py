@@ -141,6 +141,47 @@ def test_a_libration_on_a_large_circle_may_start_at_its_turning_point(name):
     assert 0 < size <= 1, words
 
 
+# Moments that are equal to 1e-15, torque about the other: the conic of equilibria is a line but for its far end, and its fold at 0.018
+# was told from a double of 1e13, whose rounding put it at 0.022. States between had no barrier in the table, and spun up.
+ALMOST_A_LINE = physical((31.487138417043845, 31.488743806858277, 31.487138417043873), (-0.0030301415612889317, 0.0, 0.047942404050166504),
+                         (0.0, 6.0953162715989465e-06, 0.0))
+
+
+def test_the_fold_of_a_conic_that_is_almost_a_line_is_where_exact_arithmetic_has_it():
+    scene, problem = ALMOST_A_LINE
+    state = (-1.887612743896219, -1.6198272930050313e-09, 29.8634883216673)
+    assert energy.label(problem, state, digits=200) == "bounded"
+    many = stabilab.fate(scene, np.array([state] * 5000))  # by table
+    np.testing.assert_array_equal(many.labels, WORDS["bounded"])
+    np.testing.assert_allclose(many.margins, float(energy.margin(problem, state, digits=200)), rtol=1e-12)
+
+
+TILTED = {
+    "a hundredth of a radian from the barrier on a circle of 2e4": (
+        physical((2.057349576751503, 1.827253363649677, 2.3096300639157525), (-35703.674731311636, 27137851.32346151, 0.0),
+                 (0.0, 0.0, 149957990428.5789)), exactly("-0x1.ff8e033c9a2d3p+16", "0x1.ad381ca287486p+25", "-0x1.be411efda017bp+1")),
+    "about the least of three moments": (
+        physical((17.4092234435648, 0.1815498253832324, 17.475510069004883), (63099.27699450941, 0.0, 829.2341808719742),
+                 (0.0, 46591698.82196914, 0.0)), exactly("-0x1.c9e4b088ad399p+11", "-0x1.06c8168573298p-35", "0x1.57ccf0194eb5ep+9")),
+}
+
+
+@pytest.mark.parametrize("name", TILTED)
+def test_rounding_of_the_force_at_a_barrier_costs_the_margin_nothing(name):
+    (scene, problem), state = TILTED[name]
+    exact = float(energy.margin(problem, state, digits=200))
+    assert abs(float(stabilab.fate(scene, np.array(state)).margins) - exact) <= 1e-13 * exact
+
+
+def test_panels_that_do_not_add_up_to_the_period_are_refused():
+    """Flights of 2e6 between walls like exp(theta): each panel's series settled, their sum missed the period by 5e-7."""
+    scene, problem = scaled(-0.11664492020020725, 0.06352349753161168, (0.0, 5809731895.024427, 0.0))
+    state = exactly("-0x1.1d12a8d1d583ap+5", "0x1.a9d236fe690c0p+20", "0x1.d10dc4ead4843p+6")
+    assert float(stabilab.period(scene, np.array(state))) == pytest.approx(float(energy.period(problem, state)), rel=1e-11)
+    with pytest.raises(stabilab.errors.InputError, match="take method taylor"):
+        stabilab.trajectory(scene, state, [1e-5], "reduced")
+
+
 # -- the search --------------------------------------------------------------------------------------------------------
 
 @pytest.mark.parametrize("how", [evolve, aim], ids=["differential evolution", "hypothesis"])

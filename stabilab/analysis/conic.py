@@ -60,7 +60,8 @@ class Conic:
         quartic = [Fraction(1), -d / G, Fraction(0), -self.e * c * K / G**2, self.e * K * K / G**2]
         self.folds = tuple(real_polynomial_roots([_shorten(a) for a in quartic]))
         self.pieces = tuple(self._pieces())
-        exact_places = [((K / Fraction(h) - c) / G, Fraction(h) - d / G) for h in self.folds]
+        # of two almost equal moments a fold's h lies far out, and one rounding of it would move its orbit
+        exact_places = [((K / h - c) / G, h - d / G) for h in (_sharpened(quartic, h) for h in self.folds)]
         self.fold_invariants = tuple(float(z * z - self.e * x * x) for x, z in exact_places)
 
     def at(self, h):
@@ -218,6 +219,20 @@ def _inside(inner, outer):
     if math.isinf(outer):
         return inner * 1.5, inner * 3
     return inner + (outer - inner) / 3, inner + (outer - inner) / 1.5
+
+
+def _sharpened(coefficients, root: float) -> Fraction:
+    """A root of a polynomial (highest power first) to some 200 bits, from the nearest double; that double at a double root."""
+    x = Fraction(root)
+    for _ in range(3):
+        value = slope = Fraction(0)
+        for a in coefficients:
+            slope = slope * x + value
+            value = value * x + a
+        if not slope or abs(value) > abs(slope * x) / 2**20:
+            return Fraction(root)
+        x = _shorten(x - value / slope)
+    return x
 
 
 def _shorten(value: Fraction, bits: int = 300) -> Fraction:

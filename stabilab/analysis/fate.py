@@ -27,6 +27,7 @@ from .table_fate import label_by_table
 
 CHUNK = 16384
 TABLE_FROM = 5000  # a table costs some ten milliseconds to build, as much as the general formula needs for these
+MARGIN_SHARE = 5e-13  # of the kinetic energy and the barrier's height: half of the rounding that `fate` admits
 DOUBLE_ROOT = 1e-10  # share of a cubic's discriminant: eigenvalues tell two roots 1e-7 apart, whose discriminant is 1e-14 and more
 ROUNDINGS = 64  # units of rounding allowed for in the error bound of a margin: some thirty operations, each counted twice
 
@@ -226,7 +227,8 @@ def circle_margins(land: Landscape, place, w, size):
                      + (pull + np.abs(pot.G * spot[0] + pot.c)) * (rounding + np.abs(spot[0]) + np.abs(spot[1])))
             there = ~np.isnan(offset)
             # at a barrier rounding decides whether it stands ahead or behind, and then the next one counts
-            doubtful |= there & ((np.abs(margin) <= ROUNDINGS * EPS * scale) | (np.minimum(offset, TURN - offset) <= angle_error))
+            doubtful |= there & ((np.abs(margin) <= ROUNDINGS * EPS * scale) | (np.minimum(offset, TURN - offset) <= angle_error)
+                                 | _tilted(pot, spot, offset, margin, energy))
             best = np.where(there & (margin > best), margin, best)
         for edge in land.conic.fold_invariants:
             doubtful |= np.abs(radius**2 - edge) <= ROUNDINGS * EPS * (rounding**2 + edge)
@@ -267,13 +269,19 @@ def _valley_margins(land, states, place, w, size):
             force, slope = np.abs(pot.force(place)), np.abs(pot.slope(place))
             scale = energy + np.abs(rise) + force * np.abs(offset) + slope * offset**2 + _roughness(land, place, size)
             doubtful |= nearer & (np.abs(margin) <= ROUNDINGS * EPS * scale)
-            doubtful |= barrier[:, column] & ~(pot.slope(spot) > 0)  # rounding has led to another equilibrium than was sought
+            # rounding has led to another equilibrium than was sought, or tilts the way to it
+            doubtful |= barrier[:, column] & (~(pot.slope(spot) > 0) | _tilted(pot, spot, offset, -rise - energy, energy))
         doubtful |= _beside_fold(land, place)
     signs = np.sign(margins)
     for index in np.nonzero(doubtful)[0]:
         tie = decide(land.reduction, states[index])
         signs[index], margins[index] = (tie.sign, tie.margin) if np.isfinite(tie.margin) else (1, np.inf)
     return margins, signs, int(doubtful.sum())
+
+
+def _tilted(pot, spot, offset, margin, energy):
+    """(n,) True where the force that rounding leaves at an equilibrium costs a margin its twelve digits over the way to it."""
+    return 2 * EPS * pot.terms(tuple(spot)) * np.abs(offset) > MARGIN_SHARE * (np.abs(margin + energy) + energy)
 
 
 def _beside_fold(land, place):

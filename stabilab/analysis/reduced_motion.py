@@ -16,9 +16,11 @@ from .passages import POINTS, Panels, Passing, Turn, Turning, turning_offset
 from .relief import Relief, relief
 from .repeating_motion import (DIP, ROTATION_SAMPLES, SAMPLES, Around, Between, ByPanels, BySeries, Resting, Rotation,
                                by_samples)
+from .results import Fate
 from .spin_up_motion import SpinUp
 from .tabulated_motion import tabulated
 
+PERIODS_AGREE = 1e-10  # ten times what either is off by
 MANY = 2000  # times that are worth a table
 DIGITS = 1e-11  # rounding of the potential about an equilibrium beyond which doubles are not enough
 
@@ -39,8 +41,18 @@ def reduced_motion(scene, state, nodes: int | None = None, backwards: bool = Fal
     motion = ordinary(plain, state, nodes, backwards) if plain else None
     if motion is None:
         motion = _motion(relief(reduction, state), state, nodes, backwards)
+        if nodes is None and isinstance(motion, ByPanels) and not motion.sense:
+            _refuse_another_period(motion, reduction, state)
     motion.axis, motion.spin = reduction.axis, plain.spin if plain else (1.0, float(reduction.s))
     return motion
+
+
+def _refuse_another_period(motion, reduction, state):
+    """InputError where the panels of a libration do not add up to its period, which is known by other means."""
+    from .one_period import period_of
+    expected = period_of(reduction, tuple(state), Fate.BOUNDED)
+    if not abs(motion.period - expected) <= PERIODS_AGREE * expected:
+        raise InputError("the reduced form of this motion takes more digits than doubles have; take method taylor")
 
 
 def _motion(ground: Relief, state, nodes, backwards):
