@@ -169,10 +169,28 @@ def methods(scene, problem, state):
     rates = np.array([[abs(float(r)) for r in problem.rate(x)] for x in here.tolist()])
     effect = sum(np.abs(there - here).max(axis=1) for there in beside) + EPS * np.abs(here).max(axis=1)
     effect += EPS * rates.max(axis=1) * (np.maximum(times, period) if math.isfinite(period) else times)
+    if math.isfinite(period):
+        effect = np.maximum(effect, _on_the_way(scene, state, times, here, period))
     off = np.abs(run.states - here).max(axis=1)
     sizes = off / (UNITS_A_STEP * (10 + run.counters["steps"]) * effect)
     at = int(sizes.argmax())
     return float(sizes[at]), f"t = {times[at]!r}: {here[at].tolist()} and {run.states[at].tolist()}"
+
+
+def _on_the_way(scene, state, times, here, period):
+    """What one unit in the last place does that is lost within the last period: between walls a state may hold the way to the next
+    one in its last places only, which the start did not."""
+    most = np.zeros(len(times))
+    for n, time in enumerate(times):
+        for part in (0.13, 0.37, 0.61, 0.87):
+            if time > part * period:
+                try:
+                    middle = stabilab.trajectory(scene, state, [time - part * period], "reduced", laws=False).states[0].tolist()
+                    ends = [stabilab.trajectory(scene, s, [part * period], "reduced", laws=False).states[0] for s in _one_unit_away(middle)]
+                except InputError:
+                    return np.full(len(times), np.inf)
+                most[n] = max(most[n], sum(np.abs(end - here[n]).max() for end in ends[1:]))
+    return most
 
 
 def _speed(problem, state):
