@@ -182,6 +182,25 @@ def test_panels_that_do_not_add_up_to_the_period_are_refused():
         stabilab.trajectory(scene, state, [1e-5], "reduced")
 
 
+def test_a_barrier_just_behind_whose_side_doubles_do_not_know_is_not_passed_over():
+    """It stands 2.7e-17 of the way behind; its ball held zero, so it lay neither ahead nor behind, and the motion of a single state
+    seemed to reach the other well."""
+    scene, problem = physical((3.1587850648825193, 2.0027089905544266, 4.4476881491823415), (0.0, -0.06552824882726202, -0.002365970470787019),
+                              (3.0775336506516674e-06, 0.0, 0.0))
+    state = exactly("-0x1.2509dc30552e1p-65", "-0x1.c1fd405e70610p-5", "0x1.e3a39aa446327p-10")
+    exact = energy.extremes(problem, state, digits=200)
+    assert_extremes(np.array(stabilab.motion(scene, state, brief=True).extremes), exact, 1e-11)
+    assert_extremes(stabilab.extremes(scene, np.array(state)), exact, 1e-11)
+
+
+def test_a_libration_of_which_doubles_lose_the_turning_point_is_told_otherwise_or_refused():
+    scene, problem = physical((3.0541906867772606, 2.781647235252075, 0.47338365602266785), (0.0, -178.98735879325278, 0.35249398302471097),
+                              (53232.467476916085, 0.0, 0.0))
+    state = exactly("-0x1.29b952f4ec612p-19", "0x1.b12f3aa1229d7p+15", "-0x1.0de749c175e0ep-2")
+    size, words = DISAGREEMENTS["methods"](scene, problem, state)
+    assert size <= 1, words
+
+
 # -- the search --------------------------------------------------------------------------------------------------------
 
 @pytest.mark.parametrize("how", [evolve, aim], ids=["differential evolution", "hypothesis"])

@@ -154,6 +154,8 @@ class PreciseOrbit:
                 found = [(y * 0 if 0 in y else y, m) for y, m in found]
         else:
             found = [(y, m) for u, v, m in self._equilibria() if (y := self._offset(u, v)) is not None]
+        if any(0 in y and not y.is_zero() for y, _ in found):
+            raise Unclear  # on which side of the state it stands is not known, and no side may pass it over
         found.sort(key=lambda one: float(one[0].mid()))
         for (a, _), (b, _) in zip(found, found[1:]):
             if not a < b:

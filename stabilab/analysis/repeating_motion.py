@@ -13,6 +13,7 @@ from functools import cached_property
 
 import numpy as np
 
+from ..errors import InputError
 from .phase_series import NOISE, EvenPhase, Phase, Rule
 from .relief import TURN, Arrays, Plain
 
@@ -46,7 +47,10 @@ class Between:
         left = -self.left.at - self.a <= self.half  # by rounding a state at a turning point may lie beyond it
         spot, a, sense = (self.left, self.a, 1) if left else (self.right, self.b, -1)
         way = max(sense * (-spot.at - a), 0.0)
-        small = 2 * math.atan2(abs(w) / math.sqrt(2 * sense * spot.share(a, sense * way, Plain)),
+        steep = 2 * sense * spot.share(a, sense * way, Plain)
+        if not steep > 0:
+            raise InputError("the reduced form of this motion takes more digits than doubles have; take method taylor")
+        small = 2 * math.atan2(abs(w) / math.sqrt(steep),
                                math.sqrt(max(2 * self.half - way, 0.0)))
         return math.copysign(small if left else math.pi - small, w)
 
