@@ -173,3 +173,12 @@ def test_a_gyrostatic_component_along_a_torque_between_equal_axes_leaves_no_moti
     assert set(many.labels.tolist()) <= {Fate.SPIN_UP, Fate.UNDECIDED} and (many.margins == -np.inf).all() and not many.axis.any()
     one = stabilab.motion(scene, tuple(states[0]), brief=True)
     assert one.fate == many.labels[0] and "no motion is bounded" in one.because
+
+
+def test_a_free_gyrostat_at_rest_has_no_period():
+    """Momentum and rotation parallel in the decimals of the case, not in its doubles, which swing by rounding."""
+    scene, tenths = Scene(Body((3, 3, 3)), Gyrostat((1, 2, 3))), [Fraction(n, 10) for n in (1, 2, 3)]
+    found = stabilab.motion(scene, tuple(map(float, tenths)), exact=tenths)
+    assert found.fate is Fate.EQUILIBRIUM and found.period is None and found.extremes == ((0.1, 0.1), (0.2, 0.2), (0.3, 0.3))
+    np.testing.assert_array_equal(stabilab.extremes(scene, np.array([0.1, 0.2, 0.3])), [[0.1, 0.1], [0.2, 0.2], [0.3, 0.3]])
+    assert stabilab.period(scene, np.array([0.1, 0.2, 0.3])) == 0

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..errors import InputError
 from .alignment import aligned
-from .fate import _write, at_rest, fate, nearly_flat
+from .fate import _write, at_rest, equilibrium_mask, fate, nearly_flat
 from .free_gyrostat import free_margin
 from .landscape import EPS, landscape
 from .one_state import OneFate, fate_of
@@ -118,14 +118,12 @@ def extremes_one_by_one(scene, states, span):
         labels, times = fate(scene, states).labels, periods_one_by_one(scene, states)
         return np.array([turned_extremes(scene, *one, span) for one in zip(states, labels, times)]).reshape(-1, 3, 2)
     from .offaxis import evidence, extremes_over_period
-    if kind == "free":
-        return np.array([extremes_over_period(scene, s).extremes for s in states]).reshape(-1, 3, 2)
-    rest = fate(scene, states).labels == Fate.EQUILIBRIUM if kind == "off-axis" else np.zeros(len(states), bool)
-    if span is None and not rest.all():
+    rest = equilibrium_mask(scene, states)
+    if span is None and kind != "free" and not rest.all():
         raise InputError("this scene has no reduction, so its extremes are searched over a time span: give span=T "
                          f"({scene.time_unit}), or a span in the case's [motion]")
-    return np.array([np.stack([s, s], axis=1) if at_rest_ else evidence(scene, s, span).extremes
-                     for s, at_rest_ in zip(states, rest)]).reshape(-1, 3, 2)
+    moving = (lambda s: extremes_over_period(scene, s)) if kind == "free" else lambda s: evidence(scene, s, span)
+    return np.array([np.stack([s, s], axis=1) if still else moving(s).extremes for s, still in zip(states, rest)]).reshape(-1, 3, 2)
 
 
 def turned_extremes(scene, state, label, time, span):
@@ -156,7 +154,8 @@ def periods_one_by_one(scene, states):
         turn, labels = aligned(scene), fate(scene, states).labels
         found = periods(turn.twin, states @ turn.matrix.T)  # turned in doubles: what is at rest hardly moves there
         return np.where(labels == Fate.EQUILIBRIUM, 0.0, np.where(labels == Fate.BOUNDED, found, np.inf))
+    rest = equilibrium_mask(scene, states)
     if kind == "free":
         from .offaxis import extremes_over_period
-        return np.array([extremes_over_period(scene, s).period for s in states])
-    return np.where(fate(scene, states).labels == Fate.EQUILIBRIUM, 0.0, np.inf)
+        return np.array([0.0 if still else extremes_over_period(scene, s).period for s, still in zip(states, rest)])
+    return np.where(rest, 0.0, np.inf)

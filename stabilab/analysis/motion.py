@@ -90,13 +90,13 @@ def _other(scene, kind, state, given, span, decided) -> dict:
         if span is not None or decided.label == Fate.EQUILIBRIUM or _repeats(time) is not None:
             found["extremes"] = _pairs(turned_extremes(scene, state, decided.label, time, _length(span)))
         return found
+    if decided.label == Fate.EQUILIBRIUM:
+        return {"margin_energy": _finite(decided.margin), "extremes": tuple((v, v) for v in state)}
     if kind == "free":
         from .offaxis import extremes_over_period
         closed = extremes_over_period(scene, state)
         return {"margin_energy": _finite(decided.margin), "extremes": _pairs(closed.extremes), "extremes_over": closed.over,
                 "period": _repeats(closed.period)}
-    if decided.label == Fate.EQUILIBRIUM:
-        return {"extremes": tuple((v, v) for v in state)}
     found = _evidence(scene, state, span) if span is not None else {}
     if span is not None:
         found["because"] = decided.because + "; over the span its size went " + _size_words(found["evidence"])
