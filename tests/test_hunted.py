@@ -201,6 +201,15 @@ def test_a_libration_of_which_doubles_lose_the_turning_point_is_told_otherwise_o
     assert size <= 1, words
 
 
+def test_the_walls_of_a_parabola_may_stand_half_a_million_away():
+    """The search for a wall took steps of 64, as fit for e-foldings, and gave up after 70,000."""
+    scene, problem = physical((31.654399378285444, 31.654399378285444, 0.063245553203366), (0.0, 0.0, -0.03137990182886759),
+                              (0.0, -16.89042945601369, 0.0))
+    state = exactly("-0x1.03fc06f53988ep-15", "0x1.966c96486af75p+6", "0x1.1580201083a5fp-14")
+    assert_extremes(stabilab.extremes(scene, np.array(state)), energy.extremes(problem, state, digits=200), 1e-11)
+    assert float(stabilab.period(scene, np.array(state))) == pytest.approx(float(energy.period(problem, state, digits=120)), rel=1e-11)
+
+
 # -- the search --------------------------------------------------------------------------------------------------------
 
 @pytest.mark.parametrize("how", [evolve, aim], ids=["differential evolution", "hypothesis"])

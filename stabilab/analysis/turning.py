@@ -164,5 +164,6 @@ def _reach(land, spot, level, gap, towards):
             short = open_ & np.where(level < 0, rise > level, rise < level)
             if not short.any():
                 break
-            reach = np.where(short, np.minimum(2 * reach, reach + 64), reach)
+            # on a hyperbola in steps of 64 e-foldings, for exp would overflow; a parabola's walls may stand at any distance
+            reach = np.where(short, 2 * reach if land.e == 0 else np.minimum(2 * reach, reach + 64), reach)
     return reach
