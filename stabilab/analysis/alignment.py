@@ -3,7 +3,6 @@ moments is principal."""
 from __future__ import annotations
 
 from fractions import Fraction
-
 from typing import NamedTuple
 
 from ..exact import sqrt_fraction

@@ -149,9 +149,8 @@ def _by_certificate(change, y, t_max):
                            release_estimate=None, certificate="axis", t_certificate=0.0, steps=0)
     vanishing = _release_estimate(c, _angle(c, y)[2]) * unit if c > 0 else None
     t_max = PATIENCE * unit if t_max is None else t_max
-    start = y
-    name, t, y, last, steps = _search(c, y, t_max / unit)
-    if c < 0 and steps and name != "none" and (reach := _nearest_other(c, start, t_max / unit, name, steps)):
+    name, t, end, last, steps = _search(c, y, t_max / unit)
+    if c < 0 and steps and name != "none" and (reach := _nearest_other(c, y, t_max / unit, name, steps)):
         return dict(fate=Fate.UNDECIDED, axis=0, sense=0, release_time=None, release_estimate=None, certificate="none", t_certificate=None,
                     steps=steps, because=f"unbounded, but between spin-up about axis {i + 1} and capture about axis {q + 1}: a change of the "
                                          f"state by {reach:.0e} of its size, as rounding of the run may make, turns the one into the other")
@@ -159,7 +158,7 @@ def _by_certificate(change, y, t_max):
     when = None if t is None else t * unit
     known = dict(release_estimate=estimate, certificate=name, t_certificate=when, steps=steps)
     if name == "well":
-        sense = (1 if change.rates[2] > 0 else -1) * (1 if y[2] > 0 else -1)
+        sense = (1 if change.rates[2] > 0 else -1) * (1 if end[2] > 0 else -1)
         return known | dict(fate=Fate.SPIN_UP, axis=q + 1, sense=sense, release_time=None, because=(
             f"captured about axis {q + 1} for ever: the barrier ahead grows faster than the energy, and the spin about axis "
             f"{q + 1} grows like the square root of time"))

@@ -18,6 +18,7 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from .balls import START_BITS, Unclear, ball, numbers, settled, sign
+from .exact_tie import polynomial, shares_root
 from .polynomials import Poly
 
 
@@ -49,7 +50,7 @@ def free_margin(scene, state, digits: int = 17) -> FreeMargin:
         excesses = [_height(s, D, lam) - ball(energy) for s in saddles]
         for excess, s in zip(excesses, saddles):
             if 0 in excess:
-                if _shared(sphere, level, s):
+                if shares_root(polynomial(*sphere.c), polynomial(*level.c), s):
                     return FreeMargin(excess * 0, True)
                 raise Unclear
         if not excesses:
@@ -93,8 +94,3 @@ def _saddles(sphere, D) -> list:
 def _height(s, D, lam):
     """Kinetic energy of the permanent rotation of speed s."""
     return sum(ball(d * l * l) / (s - ball(d)) ** 2 for d, l in zip(D, lam)) / 2
-
-
-def _shared(first, second, root) -> bool:
-    from .exact_tie import polynomial, shares_root
-    return shares_root(polynomial(*first.c), polynomial(*second.c), root)

@@ -115,7 +115,8 @@ def extremes_one_by_one(scene, states, span):
     """(n, 3, 2) extremes for scenes without a reduction; see `extremes.extremes`."""
     kind = kind_of(scene)
     if kind == "turned":
-        labels, times = fate(scene, states).labels, periods_one_by_one(scene, states)
+        labels = fate(scene, states).labels
+        times = _turned_periods(scene, states, labels)
         return np.array([turned_extremes(scene, *one, span) for one in zip(states, labels, times)]).reshape(-1, 3, 2)
     from .offaxis import evidence, extremes_over_period
     rest = equilibrium_mask(scene, states)
@@ -146,14 +147,19 @@ def turned_period(scene, state, label) -> float:
     return period_of(reduce(turn.twin), turn(state), label) if label == Fate.BOUNDED else 0.0 if label == Fate.EQUILIBRIUM else math.inf
 
 
+def _turned_periods(scene, states, labels):
+    """(n,) the same of states with these labels."""
+    from .quadrature import periods
+    turn = aligned(scene)
+    found = periods(turn.twin, states @ turn.matrix.T)  # turned in doubles: what is at rest hardly moves there
+    return np.where(labels == Fate.EQUILIBRIUM, 0.0, np.where(labels == Fate.BOUNDED, found, np.inf))
+
+
 def periods_one_by_one(scene, states):
     """(n,) periods for scenes without a reduction: from one return of a free motion; inf for unbounded ones."""
     kind = kind_of(scene)
     if kind == "turned":
-        from .quadrature import periods
-        turn, labels = aligned(scene), fate(scene, states).labels
-        found = periods(turn.twin, states @ turn.matrix.T)  # turned in doubles: what is at rest hardly moves there
-        return np.where(labels == Fate.EQUILIBRIUM, 0.0, np.where(labels == Fate.BOUNDED, found, np.inf))
+        return _turned_periods(scene, states, fate(scene, states).labels)
     rest = equilibrium_mask(scene, states)
     if kind == "free":
         from .offaxis import extremes_over_period
