@@ -14,7 +14,7 @@ from stabilab.analysis.certificate import certificate
 from stabilab.verify import verify
 
 from .hunt.__main__ import Hunt, aim, evolve
-from .hunt.disagreements import DISAGREEMENTS
+from .hunt.disagreements import DISAGREEMENTS, many_digits
 from .hunt.problems import KNOBS, problem_of
 from .oracles import energy
 from .oracles.pairs import WORDS, physical, scaled
@@ -208,6 +208,46 @@ def test_the_walls_of_a_parabola_may_stand_half_a_million_away():
     state = exactly("-0x1.03fc06f53988ep-15", "0x1.966c96486af75p+6", "0x1.1580201083a5fp-14")
     assert_extremes(stabilab.extremes(scene, np.array(state)), energy.extremes(problem, state, digits=200), 1e-11)
     assert float(stabilab.period(scene, np.array(state))) == pytest.approx(float(energy.period(problem, state, digits=120)), rel=1e-11)
+
+
+@pytest.mark.parametrize("fast", [False, True])
+def test_a_spin_up_that_just_passes_a_barrier_far_from_its_frame_keeps_its_slowest_rate(fast):
+    """The shift to canonical variables cost the place three digits, and the least rate, the root of a difference, four more."""
+    pytest.importorskip("numba")
+    scene, problem = physical((25.062883526084562, 25.092819511166038, 0.10986270773540596), (1.2106455579057087, 0, 0.017087026406052554),
+                              (0, -0.1219558847478546, 0))
+    state = exactly("0x1.433801c3b82afp+5", "-0x1.61275ce4683f0p+1", "0x1.68877e4141140p-6")
+    found, exact = stabilab.extremes(scene, np.array([state]), fast=fast)[0], energy.extremes(problem, state, digits=200)
+    assert abs(found[1, 1] / float(exact[1][1]) - 1) < 1e-12
+    assert_extremes(found, exact, 1e-11)
+
+
+def test_a_spin_up_right_after_its_start_keeps_its_digits():
+    """Times of 1e-5 were rounded as the first panel's, of 0.02: state and turning point alike."""
+    scene, problem = scaled(9.479769349702506e-07, 0.10987514343463459, (0, 0, -1578.4457526491535))
+    state, time = exactly("-0x1.8a6be3ad360dbp-10", "-0x1.e20214f3add70p-9", "0x1.3c3a0fd9e7febp-8"), 9.170863574031019e-06
+    for times in ([time], [1e-9, time, 1.0]):
+        found = stabilab.trajectory(scene, state, times, "reduced", laws=False).states[times.index(time)]
+        np.testing.assert_allclose(found, many_digits(problem, state, time), rtol=2e-15)
+
+
+@pytest.mark.parametrize("gap", [0.0, 1e-15, 1e-14, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4])
+def test_tables_hold_however_nearly_equal_two_moments_are(gap):
+    """The curve of equilibria led from a point 1e15 away to the well instead of the barrier: spin-up for bounded."""
+    scene, problem = physical((21.500084290532417, 24.358784335374747, 21.500084290532417 * (1 + gap)),
+                              (-1.3709072194035352, 0.0, 0.09621494789491448), (0.0, -0.10920909535513186, 0.0))
+    rng = np.random.default_rng(4)
+    states = rng.normal(size=(5000, 3)) * (1, 0.5, 0.3)
+    states[0] = -0.6078189955764939, 1.3931012988621379e-12, 0.14338820960207116
+    many, few = stabilab.fate(scene, states), stabilab.fate(scene, states[:2500])
+    np.testing.assert_array_equal(many.labels[:2500], few.labels)
+    for n in range(20):
+        state = states[n].tolist()
+        assert WORDS[energy.label(problem, state, digits=150)] == many.labels[n]
+        exact = energy.margin(problem, state, digits=150)
+        if exact is not None:
+            size = abs(float(exact)) + float(problem.weight[1]) * state[1] ** 2
+            assert abs(many.margins[n] - float(exact)) <= 2e-12 * size
 
 
 # -- the search --------------------------------------------------------------------------------------------------------

@@ -142,6 +142,9 @@ class _Circle:
     def values(self, size):
         pot, flat = self.land.potential, size.ravel()
         x, z, exists = self.land.conic._meet_piece(self.piece, flat * flat)
+        thin = self.land.conic._nearly_straight(flat * flat)
+        if thin.any():
+            x[thin], z[thin], exists[thin] = self._on_line(flat[thin] ** 2)
         start = np.zeros(flat.shape), flat
         offset, (x, z), exists = self.land._locate_circle(start, flat * flat, x, z, exists)
         offset[~exists] = np.nan
@@ -151,6 +154,13 @@ class _Circle:
         height = -pot.mu * offset + self._bounded(x, z, flat)
         scale = TURN * pot.mu + flat * (abs(pot.G) * flat + abs(pot.c) + abs(pot.d))
         return tuple(v.reshape(size.shape) for v in (height, offset / TURN, scale))
+
+    def _on_line(self, Q):
+        """(X, Z, exists) where the conic is nearly a line, as `Conic.critical_places` finds it: the barrier of its two points."""
+        both = list(self.land.conic._meet_line(self.land.conic.limit, Q))
+        (x, z, exists), (other_x, other_z, _) = both
+        first = self.land.potential.slope((x, z)) > 0
+        return np.where(first, x, other_x), np.where(first, z, other_z), exists
 
     def _bounded(self, x, z, size):
         """-G X^2/2 - c X + d Z (G < 0: plus G A^2/2) less growth A, which leaves a bounded function."""

@@ -80,16 +80,24 @@ def angle_of(s, k):
     return -angle if s < 0 else angle
 
 
+def shifted(value, shift, low):
+    """value + (shift + low) to a rounding of the sum, however much of it cancels (Knuth's two-sum); numbers or arrays."""
+    whole = value + shift
+    part = whole - value
+    return whole + ((value - (whole - part)) + (shift - part) + low)
+
+
 def orbit_rows(m, states, numbers, jki, folds, lane):
     """Canonical place and rate, invariant, scales; what is unclear already."""
-    G, c, d, mu, K, shift, per_x, shift_j, per_z, shift_k, n, s, flip, thin = numbers
+    G, c, d, mu, K, shift, per_x, shift_j, per_z, shift_k, n, s, flip, thin, low_j, low_k = numbers
     j, k, i = jki
     x, z, w, q, radius, energy = lane[X], lane[Z], lane[W], lane[Q], lane[RADIUS], lane[ENERGY]
     scale, unclear, closest, lowest = lane[SCALE], lane[UNCLEAR], lane[CLOSEST], lane[LOWEST]
     extra, far = abs(shift_j / per_x) + abs(shift_k / per_z), max(abs(shift_j), abs(shift_k))
     for a in range(m):
         u, v, r = states[a, j], states[a, k], states[a, i]
-        x[a], z[a], w[a] = flip * ((u + shift_j) / per_x), (v + shift_k) / per_z, flip * (n * (r + s))
+        x[a], z[a] = flip * (shifted(u, shift_j, low_j) / per_x), shifted(v, shift_k, low_k) / per_z
+        w[a] = flip * (n * (r + s))
         unclear[a] = 1.0 if far > SHIFT_LIMIT * max(abs(u), abs(v), abs(r)) else 0.0
     for a in range(m):
         q[a] = x[a] * x[a] + z[a] * z[a]

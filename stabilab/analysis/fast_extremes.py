@@ -17,7 +17,7 @@ from .numba_door import wanted
 
 # Loading numba and its cached code costs 1 to 2 s, compiling it once per machine some ten; NumPy takes some 5 us an orbit.
 COLD, WARM = 1_000_000, 20_000
-INLINED = {"sinc_cos", "sinc_minus_cos", "y_minus_sin", "angle_of", "contains", "divided_pair",
+INLINED = {"shifted", "sinc_cos", "sinc_minus_cos", "y_minus_sin", "angle_of", "contains", "divided_pair",
            "way_of_cosine"}  # else no loop vectorises
 FOLD_GUARD = 1e-4  # this close to a fold, relative, Newton's plain steps are not trusted
 
@@ -48,7 +48,7 @@ def kernel_input(land: Landscape):
     if conic.pieces and conic.limit is not None:  # as Conic does where the conic is nearly a line
         thin = 1e-6 * float(np.hypot(conic.c, conic.d)) / abs(conic.G)
     numbers = tuple(float(v) for v in (conic.G, conic.c, conic.d, conic.mu, conic.K, conic.shift, g["rx"], g["sj"], g["rz"],
-                                       g["sk"], g["n"], r.s, g["flip"], thin))
+                                       g["sk"], g["n"], r.s, g["flip"], thin, *r.shift_remainders))
     return numbers, (r.j, r.k, r.axis), tuple(pieces), tuple(map(float, conic.fold_invariants))
 
 

@@ -21,6 +21,7 @@ SETTLED = 4e-15  # last coefficients against the first: some ten times what roun
 DEEPEST = 80  # halvings of a passage; 1e-12 from a separatrix takes 20
 CROWD = 200  # panels of one size that are still cut: then it is rounding that keeps them from settling
 NEWTON = 12
+EARLY = -0.9  # of -1 to 1: nearer to the beginning of the first panel its series loses more than a digit of the way from there
 
 
 class Passing:
@@ -228,16 +229,29 @@ class Panels:
         """Time at coordinate x of passage `number`."""
         mine = [n for n, owner in enumerate(self.owner) if owner == number]
         n = mine[max(bisect_right(self.low[mine].tolist(), x) - 1, 0)]
-        xi = min(max((x - self.low[n]) / self.half[n] - 1, -1.0), 1.0)
-        return float(self.starts[n] + self.half[n] * clenshaw(self.integrals[n].tolist(), xi))
+        x = min(max(x, self.low[n]), self.low[n] + 2 * self.half[n])
+        return float(self.starts[n] + self._integral(self.chain[number], self.low[n], np.array([x]))[0])
+
+    def _integral(self, passage, low, x):
+        """Times from coordinate low to x (n,), right to their last digits however short."""
+        nodes, weights, *_ = rule(self.points)
+        half = 0.5 * (x - low)
+        return half * (passage.rate((low + half[:, None] * (1 + nodes)).ravel()).reshape(len(x), -1) @ weights)
+
+    def _sharpened(self, x, time):
+        """Coordinates x (n,) of the first panel, rounded with the panel's own size, as times (n,) since its beginning demand."""
+        passage, low = self.chain[0], self.low[0]
+        return np.maximum(x + (time - self._integral(passage, low, x)) / passage.rate(x), low)
 
     def at(self, t):
         """(spot, offset, W) at one time in [0, total]."""
         n = max(bisect_right(self._starts, t) - 1, 0)
         half, low = float(self.half[n]), float(self.low[n])
         xi = inverted(self.integrals[n].tolist(), self.rates[n].tolist(), half, t - self._starts[n], Plain)
-        passage = self.chain[self.owner[n]]
-        return (passage.spot, *passage.at(low + half * (1 + xi), Plain))
+        passage, x = self.chain[self.owner[n]], low + half * (1 + xi)
+        if n == 0 and xi < EARLY:
+            x = float(self._sharpened(np.array([x]), t)[0])
+        return (passage.spot, *passage.at(x, Plain))
 
     def follow(self, times, signs):
         """(states (n, 3) at times in [0, total], W times the signs; offsets of their places (n,))."""
@@ -245,6 +259,9 @@ class Panels:
         half, out, offsets = self.half[n], np.empty((len(times), 3)), np.empty(len(times))
         xi = inverted(self.integrals[n].T, self.rates[n].T, half, times - self.starts[n], Arrays)
         x, owner = self.low[n] + half * (1 + xi), np.array(self.owner)[n]
+        early = np.nonzero((n == 0) & (xi < EARLY))[0]
+        if len(early):
+            x[early] = self._sharpened(x[early], times[early])
         for number, passage in enumerate(self.chain):
             mine = owner == number
             if mine.any():

@@ -106,11 +106,17 @@ class Reduction:
 
     def canonical(self, states):
         """(X, Z, W) of states (..., 3), each an array (...,); elliptic and hyperbolic."""
-        g = self.constants
-        x = g["flip"] * ((states[..., self.j] + g["sj"]) / g["rx"])
-        z = (states[..., self.k] + g["sk"]) / g["rz"]
+        from .circle_kernel import shifted  # one state is answered without arrays
+        g, low = self.constants, self.shift_remainders
+        x = g["flip"] * (shifted(states[..., self.j], g["sj"], low[0]) / g["rx"])
+        z = shifted(states[..., self.k], g["sk"], low[1]) / g["rz"]
         w = g["flip"] * (g["n"] * (states[..., self.axis] + float(self.s)))
         return x, z, w
+
+    @cached_property
+    def shift_remainders(self) -> tuple[float, float]:
+        """What the doubles of sj and sk leave of them."""
+        return tuple(float(self.exact_constants[name] - Fraction(self.constants[name])) for name in ("sj", "sk"))
 
     def canonical_exact(self, state) -> tuple[Fraction, Fraction, Fraction]:
         """(X, Z, W) of one state of floats, with the 240-bit constants: no cancellation in the shifts."""

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import json
 import math
+from fractions import Fraction
 
 import numpy as np
 
@@ -16,12 +17,15 @@ from stabilab.errors import InputError
 from stabilab.verify import verify
 
 from ..oracles import energy
+from ..oracles.model import CYCLE
 from ..oracles.pairs import WORDS, physical, scaled
 
 ELEVEN_DIGITS = 1e-11  # what `extremes` and `period` promise without `digits`
 MARGIN = 1e-12  # what `fate` promises of a margin, relative to the kinetic energy and the barrier's height
 MANY = 6000  # more than fate's TABLE_FROM
 MOST_TURNS = 1000  # that a method is asked to follow
+BITS = 200  # of the series that settles which of two ways is right
+MOST_STEPS = 500  # of a series that are looked at one by one: ten to twenty seconds
 UNITS_A_STEP = 8  # roundings of three components, their rates and the sum of the series
 EPS = float(np.finfo(float).eps)
 WRONG = math.inf
@@ -150,14 +154,15 @@ def _between(values, others, name, promise=ELEVEN_DIGITS):
 
 def methods(scene, problem, state):
     """The state by quadrature against Taylor series, relative to what one unit in the last place of the state and of the
-    period does: the series rounds a few times a step and the quadrature a few times.
+    period does: the series rounds a few times a step and the quadrature a few times. Where that is not enough, the way may hold
+    what it leads to in its last places only, which the start did not: then both are asked one by one.
     """
     try:
         speed = _speed(problem, state)
         if not 0 < speed < 1e200 or _braked_turns(problem, state) > MOST_TURNS:
             return NO_QUESTION
         times = np.array([3.0, 20.0]) / speed
-        here, *beside = (stabilab.trajectory(scene, s, times, "reduced", laws=False).states for s in _one_unit_away(state))
+        here, effect = _and_one_unit_away(scene, problem, state, times)
     except InputError:
         return NO_QUESTION  # no such form; or a tie or a flat well one unit away: no measure of the condition
     if not max(_speed(problem, x) for x in here.tolist()) * times[-1] < MOST_TURNS:
@@ -165,32 +170,75 @@ def methods(scene, problem, state):
     run = stabilab.trajectory(scene, state, times, laws=False)
     if run.status != "reached":
         return NO_QUESTION
+    size, at = _parted(run, here, effect)
+    words = f"t = {times[at]!r}: {here[at].tolist()} and {run.states[at].tolist()}"
+    return (size, words) if size <= 1 else worst(_against_many_digits(problem, state, times[at], here[at], effect[at]),
+                                                 _step_by_step(scene, problem, state, times[at]))
+
+
+def _and_one_unit_away(scene, problem, state, times):
+    """(states by quadrature (n, 3), what one unit in the last place of the start and of the period does there (n,))."""
+    here, *beside = (stabilab.trajectory(scene, s, times, "reduced", laws=False).states for s in _one_unit_away(state))
     period = float(stabilab.period(scene, np.array(state)))
     rates = np.array([[abs(float(r)) for r in problem.rate(x)] for x in here.tolist()])
     effect = sum(np.abs(there - here).max(axis=1) for there in beside) + EPS * np.abs(here).max(axis=1)
-    effect += EPS * rates.max(axis=1) * (np.maximum(times, period) if math.isfinite(period) else times)
-    if math.isfinite(period):
-        effect = np.maximum(effect, _on_the_way(scene, state, times, here, period))
-    off = np.abs(run.states - here).max(axis=1)
-    sizes = off / (UNITS_A_STEP * (10 + run.counters["steps"]) * effect)
-    at = int(sizes.argmax())
-    return float(sizes[at]), f"t = {times[at]!r}: {here[at].tolist()} and {run.states[at].tolist()}"
+    return here, effect + EPS * rates.max(axis=1) * (np.maximum(times, period) if math.isfinite(period) else times)
 
 
-def _on_the_way(scene, state, times, here, period):
-    """What one unit in the last place does that is lost within the last period: between walls a state may hold the way to the next
-    one in its last places only, which the start did not."""
-    most = np.zeros(len(times))
-    for n, time in enumerate(times):
-        for part in (0.13, 0.37, 0.61, 0.87):
-            if time > part * period:
-                try:
-                    middle = stabilab.trajectory(scene, state, [time - part * period], "reduced", laws=False).states[0].tolist()
-                    ends = [stabilab.trajectory(scene, s, [part * period], "reduced", laws=False).states[0] for s in _one_unit_away(middle)]
-                except InputError:
-                    return np.full(len(times), np.inf)
-                most[n] = max(most[n], sum(np.abs(end - here[n]).max() for end in ends[1:]))
-    return most
+def _parted(run, states, effect):
+    """(how far a run and the quadrature part, where)."""
+    sizes = np.abs(run.states - states).max(axis=1) / (UNITS_A_STEP * (10 + run.counters["steps"]) * effect)
+    return float(sizes.max()), int(sizes.argmax())
+
+
+def _against_many_digits(problem, state, time, found, effect):
+    """The quadrature against a Taylor series of `BITS`."""
+    exact = many_digits(problem, state, time)
+    return float(np.abs(exact - found).max() / (UNITS_A_STEP * 10 * effect)), f"t = {time!r}: {found.tolist()}, in {BITS} bits {exact.tolist()}"
+
+
+def many_digits(problem, state, time):
+    """The state at a time by a Taylor series of `BITS`, rounded."""
+    return _flow(_series(problem), state, time)
+
+
+def _series(problem):
+    import heyoka as hy
+    x = hy.make_vars("x", "y", "z")
+    rates = [_number(problem.kappa[i]) * x[j] * x[k] + _number(problem.rho[i]) * x[k] + _number(problem.sigma[i]) * x[j]
+             + _number(problem.m[i]) for i, (j, k) in enumerate(CYCLE)]
+    return hy.taylor_adaptive(list(zip(x, rates)), [_number(0)] * 3, fp_type=hy.real, prec=BITS, tol=hy.real(2.0 ** (20 - BITS), BITS))
+
+
+def _number(value):
+    import heyoka as hy
+    value = Fraction(value)
+    return hy.real(str(value.numerator), BITS) / hy.real(str(value.denominator), BITS)
+
+
+def _flow(series, state, time):
+    series.time, series.state[:] = _number(0), [_number(v) for v in state]
+    series.propagate_until(_number(time))
+    return np.array([float(v) for v in series.state])
+
+
+def _step_by_step(scene, problem, state, time):
+    """The doubles' series against that of `BITS` over ways of a step's length, relative to what a unit of rounding at the beginning of
+    each does: what the steps round, and not where that leads."""
+    steps = stabilab.trajectory(scene, state, [time], laws=False).counters["steps"]
+    count = min(steps, MOST_STEPS)
+    times = np.linspace(0, time / steps * count, count + 1)
+    ends = stabilab.trajectory(scene, state, times[1:], laws=False).states
+    series, found = _series(problem), [NO_QUESTION]
+    for start, end, length in zip([state, *ends.tolist()], ends, np.diff(times)):
+        start = np.array(start)
+        exact, *beside = (_flow(series, start + off, length) for off in (0, *np.eye(3) * EPS * np.abs(start).max()))
+        effect = sum(np.abs(other - exact).max() for other in beside) + EPS * np.abs(exact).max()
+        size = float(np.abs(end - exact).max() / (UNITS_A_STEP * effect))
+        if size > 1:  # a way that takes several steps
+            size /= stabilab.trajectory(scene, start, [length], laws=False).counters["steps"] + 1
+        found.append((size, f"from {[v.hex() for v in start.tolist()]} for {length!r}: {end.tolist()}, in {BITS} bits {exact.tolist()}"))
+    return worst(*found)
 
 
 def _speed(problem, state):

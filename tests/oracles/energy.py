@@ -37,7 +37,7 @@ def bracketed_root(f, slope, lo, hi):
     if flo == 0:
         return lo
     t = (lo + hi) / 2
-    for _ in range(4000):
+    for n in range(4000):
         ft = f(t)
         if ft == 0:
             return t
@@ -47,13 +47,13 @@ def bracketed_root(f, slope, lo, hi):
             hi = t
         d = slope(t)
         new = t - ft / d if d else lo
-        if not min(lo, hi) < new < max(lo, hi):
+        if n > 300 or not min(lo, hi) < new < max(lo, hi):  # by then Newton's steps are the function's rounding
             new = (lo + hi) / 2
         small = mp.mpf(10) ** (4 - mp.mp.dps)
         if abs(new - t) <= small * abs(t) or abs(hi - lo) <= small * max(abs(lo), abs(hi)):
             return new
         # Newton creeping along one side: halve every time the bracket did not shrink by much
-        t = new if abs(ft) < abs(flo) or _ % 3 else (lo + hi) / 2
+        t = new if abs(ft) < abs(flo) or n % 3 or n > 300 else (lo + hi) / 2
     raise ArithmeticError("root not found")
 
 
