@@ -38,7 +38,7 @@ hunt: $(STAMP)
 # Which lines and branches of the analysis the default suite runs; fails below 95 %
 coverage: $(STAMP)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e ".[strength]"
-	$(BIN)/python -m pytest -m "not slow" --cov --cov-report=term:skip-covered tests
+	$(BIN)/python -m pytest -n 2 -m "not slow" --cov --cov-report=term:skip-covered tests
 
 # How many small faults in the analysis the tests see (docs/strength.md); 0 faults a subject means all
 MUTANTS ?= 60
