@@ -57,6 +57,15 @@ def test_the_compiled_kernel_serves_circles_without_a_fold():
     assert_extremes(stabilab.extremes(scene, np.array(state), fast=True), energy.extremes(problem, state), 1e-11)
 
 
+def test_a_torque_along_an_axis_of_symmetry_needs_no_kernel():
+    """No equilibria, an empty tuple of pieces: numba refused it with a traceback."""
+    pytest.importorskip("numba")
+    scene, _ = physical((5.526899912556323, 10.679241384490718, 5.526899912556323), (0, 0, 0), (0, -358.8648632605358, 0))
+    found = stabilab.extremes(scene, np.array([[3.0, 2.0, 4.0]] * 3), fast=True)
+    np.testing.assert_allclose(found, [[[-5, 5], [-np.inf, 2], [-5, 5]]] * 3, rtol=1e-14)  # the circle of radius 5; omega2 falls steadily
+    assert np.isinf(stabilab.period(scene, np.array([[3.0, 2.0, 4.0]]), fast=True)).all()
+
+
 # Places within rounding of an equilibrium: whether a barrier stands just ahead or just behind, and how far away the bottom of
 # the well is, was taken from an offset of which no digit is known.
 ON_TOP = {

@@ -43,6 +43,8 @@ def kernel_input(land: Landscape):
     pieces = [_open_piece(conic, piece) for piece in conic.pieces]
     if None in pieces:
         return None
+    if not (pieces or conic.lines):  # no equilibria, nothing to compile
+        return None
     pieces += [(LINE, side, line.x0, line.z0, line.dx, line.dz, 0.0, 0.0) for line in conic.lines for side in (-1.0, 1.0)]
     thin = 0.0
     if conic.pieces and conic.limit is not None:  # as Conic does where the conic is nearly a line
