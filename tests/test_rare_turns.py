@@ -101,7 +101,8 @@ def test_rates_beyond_doubles_get_no_certificate_of_a_capture():
 # -- verdicts of polynomials: the words against the roots themselves
 
 
-@pytest.mark.parametrize("e2, e3, e4", [(5, 0, 4), (5, 0, 6.25), (2, 0, 3), (1, 0, -1), (-5, 0, 4), (-2, 0, 1), (3, 0, 0), (5, 1, 4), (5, -1, 4), (0, 0, 0)])
+@pytest.mark.parametrize("e2, e3, e4", [(5, 0, 4), (5, 0, 6.25), (2, 0, 3), (1, 0, -1), (-5, 0, 4), (-2, 0, 1), (3, 0, 0), (5, 1, 4),
+                                        (5, -1, 4), (0, 0, 0)])
 def test_steady_states_of_a_torque_are_told_by_their_quartic(e2, e3, e4):
     from flint import arb
     from stabilab.analysis.turned_torque import _verdict
@@ -111,8 +112,8 @@ def test_steady_states_of_a_torque_are_told_by_their_quartic(e2, e3, e4):
     assert _verdict(arb(e2), arb(e3), arb(e4))[0] == word
 
 
-@pytest.mark.parametrize("rates, kind", [((-1, -2), "attracting"), ((1, 2), "repelling"), ((-1, 2), "saddle"), ((0, -1), "neutral"), ((0, 1), "repelling"),
-                                         ((1j, -1j), "neutral")])
+@pytest.mark.parametrize("rates, kind", [((-1, -2), "attracting"), ((1, 2), "repelling"), ((-1, 2), "saddle"), ((0, -1), "neutral"),
+                                         ((0, 1), "repelling"), ((1j, -1j), "neutral")])
 def test_averaged_steady_states_are_named_by_their_rates(rates, kind):
     from stabilab.analysis.averaging_attractors import _kind
     assert _kind(tuple(map(complex, rates))) == kind
