@@ -180,7 +180,9 @@ def _physical(top: Table) -> tuple[Scene | None, tuple | None]:
             effects.fault(str(error), name)
     if body is None or None in made:
         return None, None
-    torque = effects.data.get("constant_torque", {})
+    torque = effects.data.get("constant_torque")
+    if not isinstance(torque, dict):  # absent, or no table, which is noted above
+        return Scene(body, *made), None
     mu = Table(("effects", "constant_torque"), torque, Faults(top.faults.lines)).vector("mu")
     return Scene(body, *made), mu
 

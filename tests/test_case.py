@@ -96,6 +96,8 @@ FAULTS = [
     (BODY + "[effects.gyrostat]\nmomentun = [1, 0, 0]\n", 4, "effects.gyrostat.momentun", "did you mean momentum?"),
     (BODY + "[effects.gyrostat]\n", 3, "effects.gyrostat", "momentum is missing"),
     (BODY + "[effects.constant_torque]\n", 3, "effects.constant_torque", "expected torque"),
+    (BODY + "[effects]\nconstant_torque = 1\n", 4, "effects.constant_torque", "expected a table [effects.constant_torque], got the number 1"),
+    (BODY + "[effects]\nconstant_torque = [0, 0, 1]\n", 4, "effects.constant_torque", "got a list of 3"),
     ("[effects]\ngyrostat.momentum = [1, 0, 0]\n", None, "", "expected a table [body]"),
     ("[boby]\ninertia = [1, 1, 1]\n" + BODY, 1, "boby", "did you mean body?"),
     ("body = 3\n", 1, "body", "expected a table [body], got the number 3"),

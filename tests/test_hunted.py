@@ -11,6 +11,7 @@ import stabilab
 import stabilab.errors
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.analysis.certificate import certificate
+from stabilab.analysis.reduction import reduce
 from stabilab.verify import verify
 
 from .hunt.__main__ import Hunt, aim, evolve
@@ -258,6 +259,45 @@ def test_tables_hold_however_nearly_equal_two_moments_are(gap):
         if exact is not None:
             size = abs(float(exact)) + float(problem.weight[1]) * state[1] ** 2
             assert abs(many.margins[n] - float(exact)) <= 2e-12 * size
+
+
+# Free bodies with two moments equal to 1e-11 and better: the equilibria were looked for from where two far lines cross, or a piece of
+# their curve was told a well from a sum that cancels; arrays saw no barrier (margin -inf or inf) where one state did.
+FREE_AND_NEARLY_EQUAL = {
+    "1e-14, on circles": (physical((25.273702030355615, 32.29741709646918, 32.297417096469324), (0, 0, -2.3532746107177696), (0, 0, 0)),
+                          exactly("-0x1.fa4c571ef478cp-12", "-0x1.762fd8d4bd2d1p-9", "0x1.3ded3f3fbfa69p+2")),
+    "1e-16, on hyperbolas": (physical((16.48872499724158, 24.322645214207345, 24.322645214207352), (0.014074513397013778, 0, -9.173254340866082),
+                                      (0, 0, 0)), exactly("-0x1.6cbf173b94456p+12", "-0x1.017d357c6e739p+13", "-0x1.af54eb630e024p+0")),
+    "3e-12, the other line": (physical((12.308781068493856, 13.716141968863074, 12.30878106910472), (0, 0, 0.4429275768211725), (0, 0, 0)),
+                              exactly("0x1.4f29093db6615p-4", "-0x1.f8a88aff523f9p-4", "-0x1.13f46b0c2e45ep+1")),
+}
+
+
+@pytest.mark.parametrize("name", FREE_AND_NEARLY_EQUAL)
+def test_the_saddle_of_a_free_body_is_found_however_nearly_equal_two_moments_are(name):
+    (scene, problem), state = FREE_AND_NEARLY_EQUAL[name]
+    axis = reduce(scene).axis
+    exact = float(energy.margin(problem, state, digits=200, axis=axis))
+    for found in (stabilab.fate(scene, np.array([state])).margins[0], stabilab.motion(scene, state, brief=True).margin_energy):
+        assert found == pytest.approx(exact, rel=1e-11)
+    box = stabilab.extremes(scene, np.array([state]))[0]
+    assert_extremes(box, energy.extremes(problem, state, digits=200, axis=axis), 1e-11)
+
+
+def test_the_turn_of_a_weak_torque_is_found_however_far_the_closed_form_misses_it():
+    """Kinetic energies that differ by 566 times a turn's work: the closed form put the state 34 turns off, and six steps were allowed,
+    so that every time gave the same state."""
+    pytest.importorskip("heyoka")
+    scene, problem = physical((31.610784781597445, 0.12234569421294594, 31.669797485260553),
+                              (-0.0008274331001740387, 0, -0.05664983777634915), (0, 4.689574128199178e-10, 0))
+    state = exactly("0x1.673b47b8eb863p-16", "-0x1.d16a694d0739bp-10", "0x1.da60250140c47p-10")
+    times = [1.0, 1000.0, 2313.454285820329, 40000.0, 114717.5, 150000.0, 300000.0]
+    many = stabilab.trajectory(scene, state, times, "reduced", laws=False).states
+    for n, time in enumerate(times):
+        one = stabilab.trajectory(scene, state, [time], "reduced", laws=False).states[0]
+        exact = many_digits(problem, state, time)
+        # rounding of the start counts as many times as there are turns of 2 pi, some fifty, on the way back to rest
+        np.testing.assert_allclose([one, many[n]], [exact, exact], rtol=0, atol=1e-12 * np.abs(exact).max())
 
 
 # -- the search --------------------------------------------------------------------------------------------------------

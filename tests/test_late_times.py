@@ -181,6 +181,18 @@ def test_spin_up_agrees_with_the_series_back_and_forth(state):
     assert max(run.invariant_drift.values()) < 2e-15
 
 
+@pytest.mark.parametrize("weak", [1e-2, 1e-3, 1e-4])
+def test_weak_torques_turn_the_motion_back_at_the_same_times_one_by_one_and_together(weak):
+    """Hills hundreds and thousands of times as high as a turn's work, so that the closed form guesses the turn badly."""
+    scene, state = Scene(Body((3, 2, 1.5)), Gyrostat((1, 0.5, 0)), ConstantTorque((0, 0, weak))), (0.2, 0.1, -20.0)
+    motion, late = reduced_motion(scene, state), np.linspace(0.01, 100, 30) / weak  # rest comes at some 30/weak
+    assert isinstance(motion, SpinUp) and motion.sense < 0
+    together = motion.follow(late)[0]
+    for time, found in zip(late, together):
+        # a time of 100/weak is known to 1e-14/weak, and the state turns at 60 rad/s
+        np.testing.assert_allclose(motion.at(time), found, rtol=0, atol=1e-12 / weak)
+
+
 def test_late_energy_and_circle_of_a_spin_up_hold_to_rounding():
     for time in (1e3, 1e6, 1e9):
         assert max(trajectory(MINOR, SPINNING, [time], "reduced").invariant_drift.values()) < 1e-15

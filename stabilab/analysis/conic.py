@@ -55,11 +55,12 @@ class Conic:
         K = Fraction(0) if _conic_degenerates(reduction) else c * d / G - mu
         self.K, self.shift = float(K), float(d / G)
         if K == 0:
-            self.lines = (Line(float(-c / G), float(-d / G), 0.0, 1.0), Line(float(-c / G), float(-d / G), 1.0, 0.0))
+            # from the feet: of two almost equal moments the crossing lies so far out that the way back would cost all digits
+            self.lines = (Line(float(-c / G), 0.0, 0.0, 1.0), Line(0.0, float(-d / G), 1.0, 0.0))
             return
         quartic = [Fraction(1), -d / G, Fraction(0), -self.e * c * K / G**2, self.e * K * K / G**2]
         self.folds = tuple(real_polynomial_roots([_shorten(a) for a in quartic]))
-        self.pieces = tuple(self._pieces())
+        self.pieces = tuple(self._pieces(G, c, d, K))
         # of two almost equal moments a fold's h lies far out, and one rounding of it would move its orbit
         exact_places = [((K / h - c) / G, h - d / G) for h in (_sharpened(quartic, h) for h in self.folds)]
         self.fold_invariants = tuple(float(z * z - self.e * x * x) for x, z in exact_places)
@@ -72,15 +73,20 @@ class Conic:
         x, z = self.at(h)
         return (z - x) * (z + x) if self.e > 0 else z * z + x * x
 
-    def _pieces(self):
+    def _pieces(self, G, c, d, K):
+        """The pieces by exact signs: of two almost equal moments the terms of the slope cancel to the last digit."""
+        e = self.e
+
+        def at(h):
+            h = Fraction(h)
+            return (K / h - c) / G, h - d / G
         for sign in (-1, 1):
             cuts = sorted(abs(f) for f in self.folds if f * sign > 0)
             for inner, outer in zip([0.0, *cuts], [*cuts, float("inf")]):
-                a, b = _inside(inner, outer)
-                x, z = self.at(sign * a)
-                slope = self.G * (z * z + self.e * x * x) + self.e * self.c * x + self.d * z
-                rising = self.invariant(sign * b) > self.invariant(sign * a)
-                yield Piece(sign, inner, outer, bool(rising), bool(slope > 0))
+                (x, z), (far_x, far_z) = (at(sign * h) for h in _inside(inner, outer))
+                slope = G * (z * z + e * x * x) + e * c * x + d * z
+                rising = far_z * far_z - e * far_x * far_x > z * z - e * x * x
+                yield Piece(sign, inner, outer, rising, slope > 0)
 
     def critical_places(self, Q, wanted=None):
         """Every equilibrium on the orbits Q (n,): a list of (X, Z, exists, barrier) with arrays (n,), barrier None

@@ -28,7 +28,6 @@ TERMS = 9
 FROM_REST = 64  # turns behind a state that moves ahead, up to which its motion is told from its rest
 MOST_TURNS = 2.0**50
 CHUNK = 256
-NEARBY = 6  # steps to the right turn from where the closed form puts it
 FLAT, FEW = 4.0, 20  # kinetic energies of a turn that differ by less than 2 FLAT turns' work: FEW points are right to 1e-17
 BEFORE = "this motion is told from its state on: ask reduced_motion for it with backwards=True"
 
@@ -146,19 +145,19 @@ class SpinUp(Motion):
         root = ((left - self.table[-1]) / self.unit + self.passed) / (2 * TURN)
         return max(math.floor(root * root + 0.5 - self.level), self.steep)
 
+    def _since(self, turns, left):
+        """(time since so many turns were done, dt/dx at the nodes of the turn after, times at its panels' ends)."""
+        rates = self._rates(turns)
+        ends = np.cumsum(rates.ravel() * self.weights)[self.late.points - 1::self.late.points].tolist()
+        return left - self._turns_take(turns) if turns else left, rates, ends
+
     def _late(self, left):
         """(spot, offset, W) at a time after the run-up."""
-        turns, moved = self._turns(left), 0
-        while True:
-            within = left - self._turns_take(turns) if turns else left
-            rates = self._rates(turns)
-            ends = np.cumsum(rates.ravel() * self.weights)[self.late.points - 1::self.late.points].tolist()
-            if within < 0 and turns and moved <= 0:
-                turns, moved = turns - 1, -1
-            elif within >= ends[-1] and moved >= 0:
-                turns, moved = turns + 1, 1
-            else:
-                break
+        turns = self._turns(left)
+        within, rates, ends = self._since(turns, left)
+        if within < 0 or within >= ends[-1]:
+            turns = float(self._settled(np.array([left]), np.array([float(turns)]))[0])
+            within, rates, ends = self._since(turns, left)
         within = min(max(within, 0.0), ends[-1])
         n = min(bisect_right(ends, within), len(ends) - 1)
         _, _, forward, integral = rule(self.late.points)
@@ -215,21 +214,26 @@ class SpinUp(Motion):
 
     def _whole_turns(self, left):
         """(turns done at each time, dt/dx at the nodes of the turn after, times at its panels' ends, time within it)."""
-        turns = np.array([self._turns(t) for t in left.tolist()], float)
-        rows, moved = np.arange(len(left)), np.zeros(len(left))
-        for _ in range(NEARBY):  # turns too short for the rounding of the time are not told apart
-            now = turns[rows]
-            step = np.where((left[rows] < self._many_turns_take(now)) & (now > 0), -1.0, 0.0)
-            step = np.where((step == 0) & (left[rows] >= self._many_turns_take(now + 1)), 1.0, step)
-            step[step * moved[rows] < 0] = 0.0  # to and fro between two turns is rounding
-            turns[rows] += step
-            moved[rows] = step
-            rows = rows[step != 0]
-            if not len(rows):
-                break
+        turns = self._settled(left, np.array([self._turns(t) for t in left.tolist()], float))
         rates = self.unit / np.sqrt(self.a + turns[:, None])
         ends = np.cumsum((rates * self.weights).reshape(len(left), -1, self.late.points).sum(axis=2), axis=1)
         return turns, rates, ends, np.clip(left - self._many_turns_take(turns), 0.0, ends[:, -1])
+
+    def _settled(self, left, turns):
+        """The turns done at times (n,), from about so many: by steps that double, then by halves. Where a turn's work is small
+        against the hills the guess may be far off."""
+        low, high, step, rows = turns, turns + 1, 1.0, np.arange(len(left))
+        while len(rows := rows[(left[rows] < self._many_turns_take(low[rows])) & (low[rows] > 0)]):
+            high[rows], low[rows], step = low[rows], np.maximum(low[rows] - step, 0.0), 2 * step
+        step, rows = 1.0, np.arange(len(left))
+        while len(rows := rows[left[rows] >= self._many_turns_take(high[rows])]):
+            low[rows], high[rows], step = high[rows], high[rows] + step, 2 * step
+        middle = np.floor(0.5 * (low + high))
+        while len(rows := np.nonzero((low < middle) & (middle < high))[0]):  # beyond 2^53 turns neighbours are not told apart
+            past = left[rows] >= self._many_turns_take(middle[rows])
+            low[rows], high[rows] = np.where(past, middle[rows], low[rows]), np.where(past, high[rows], middle[rows])
+            middle = np.floor(0.5 * (low + high))
+        return low
 
     def _many_turns_take(self, turns):
         """Times of whole turns (n,)."""

@@ -356,10 +356,10 @@ def label(model, state, digits=DIGITS, axis=None):
 
 
 @_at(DIGITS)
-def margin(model, state, digits=DIGITS):
+def margin(model, state, digits=DIGITS, axis=None):
     """Barrier minus energy, in the energy unit of the model; None without any saddle on the state's conic. Elliptic:
     the highest barrier within one turn in the torque's direction; else the saddle (unique wherever it is asked for)."""
-    motion = Reduced(model, state, digits)
+    motion = Reduced(model, state, digits, axis)
     if motion.at_centre:
         return None
     if motion.kind == "elliptic" and motion.tilt != 0:
@@ -370,9 +370,9 @@ def margin(model, state, digits=DIGITS):
 
 
 @_at(DIGITS)
-def extremes(model, state, digits=DIGITS):
+def extremes(model, state, digits=DIGITS, axis=None):
     """3 x 2 list of [min, max] over t >= 0, mpf; infinite where the component grows without bound."""
-    motion = Reduced(model, state, digits)
+    motion = Reduced(model, state, digits, axis)
     out = [None] * 3
     if motion.still:
         for n, value in zip((motion.i, motion.j, motion.k), (motion.w0 - num(motion.h), motion.u0, motion.v0)):
