@@ -157,8 +157,7 @@ class _Circle:
 
     def _on_line(self, Q):
         """(X, Z, exists) where the conic is nearly a line, as `Conic.critical_places` finds it: the barrier of its two points."""
-        both = list(self.land.conic._meet_line(self.land.conic.limit, Q))
-        (x, z, exists), (other_x, other_z, _) = both
+        (x, z, exists), (other_x, other_z, _) = self.land.conic._meet_line(self.land.conic.limit, Q)
         first = self.land.potential.slope((x, z)) > 0
         return np.where(first, x, other_x), np.where(first, z, other_z), exists
 

@@ -60,9 +60,12 @@ class Conic:
             return
         quartic = [Fraction(1), -d / G, Fraction(0), -self.e * c * K / G**2, self.e * K * K / G**2]
         self.folds = tuple(real_polynomial_roots([_shorten(a) for a in quartic]))
-        self.pieces = tuple(self._pieces(G, c, d, K))
+
+        def exact_at(h):
+            return (K / h - c) / G, h - d / G
+        self.pieces = tuple(self._pieces(exact_at, G, c, d))
         # of two almost equal moments a fold's h lies far out, and one rounding of it would move its orbit
-        exact_places = [((K / h - c) / G, h - d / G) for h in (_sharpened(quartic, h) for h in self.folds)]
+        exact_places = [exact_at(_sharpened(quartic, h)) for h in self.folds]
         self.fold_invariants = tuple(float(z * z - self.e * x * x) for x, z in exact_places)
 
     def at(self, h):
@@ -73,17 +76,13 @@ class Conic:
         x, z = self.at(h)
         return (z - x) * (z + x) if self.e > 0 else z * z + x * x
 
-    def _pieces(self, G, c, d, K):
+    def _pieces(self, exact_at, G, c, d):
         """The pieces by exact signs: of two almost equal moments the terms of the slope cancel to the last digit."""
         e = self.e
-
-        def at(h):
-            h = Fraction(h)
-            return (K / h - c) / G, h - d / G
         for sign in (-1, 1):
             cuts = sorted(abs(f) for f in self.folds if f * sign > 0)
             for inner, outer in zip([0.0, *cuts], [*cuts, float("inf")]):
-                (x, z), (far_x, far_z) = (at(sign * h) for h in _inside(inner, outer))
+                (x, z), (far_x, far_z) = (exact_at(Fraction(sign * h)) for h in _inside(inner, outer))
                 slope = G * (z * z + e * x * x) + e * c * x + d * z
                 rising = far_z * far_z - e * far_x * far_x > z * z - e * x * x
                 yield Piece(sign, inner, outer, rising, slope > 0)

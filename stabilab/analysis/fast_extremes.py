@@ -41,9 +41,7 @@ def kernel_input(land: Landscape):
         return None
     conic, r, g = land.conic, land.reduction, land.reduction.constants
     pieces = [_open_piece(conic, piece) for piece in conic.pieces]
-    if None in pieces:
-        return None
-    if not (pieces or conic.lines):  # no equilibria, nothing to compile
+    if None in pieces or not (pieces or conic.lines):  # without equilibria there is nothing to compile
         return None
     pieces += [(LINE, side, line.x0, line.z0, line.dx, line.dz, 0.0, 0.0) for line in conic.lines for side in (-1.0, 1.0)]
     thin = 0.0
