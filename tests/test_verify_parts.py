@@ -165,7 +165,7 @@ def test_too_few_bits_leave_fate_and_period_not_checked(monkeypatch):
     only = {k: v for k, v in BASE.items() if k != "equilibria"}
     monkeypatch.setattr(motion, "BITS", 2)
     monkeypatch.setattr(motion, "MOST_BITS", 2)
-    assert [f.status for f in verify(only).findings] == ["not checked"]
+    assert {f.status for f in verify(only).findings} == {"not checked"} and len(verify(only).findings) == 8  # fate, six extremes, period
     monkeypatch.undo()
 
     def open_(*_):
@@ -179,12 +179,17 @@ def test_a_period_needs_two_ends_apart_and_a_force_at_each():
     unknown = SimpleNamespace(force=lambda alpha: hull(F(-1), ONE))  # the force's sign at the ends is open
     for ends in ((ball(ONE), ball(ONE)), (ball(F(-4)), ball(F(4)))):
         with pytest.raises(Open):
-            period.period_of(unknown, ends)
+            period.period_of(unknown, ends, 48)
 
 
-def test_equilibrium_boxes_too_wide_for_krawczyk_are_not_checked():
+def test_a_box_too_wide_for_krawczyk_is_judged_by_the_exact_zeros_in_it():
+    # by hand: x = (t, -1, 1) + ..., two zeros a sign apart; test_random_scenes compares them with elimination in fractions
     made = certificate(ScaledGyrostat(0, 0, (1, 2, 1)))
-    for box in ([["-9", "9"]] * 3, [["0", "0"]] * 2 + [["0", "1"]]):
+    for box, words in ((["-9", "9"], "holds 2 zeros"), (["0", "1/1000"], "holds 0 zeros")):
         forged = copy.deepcopy(made)
-        forged["equilibria"]["points"] = [made["equilibria"]["points"][0] | {"box": box}]
-        assert verify(forged).status == "refuted" and any(f.status == "not checked" for f in verify(forged).findings)
+        forged["equilibria"]["points"] = [made["equilibria"]["points"][0] | {"box": [box] * 3}]
+        assert verify(forged).status == "refuted" and any(words in f.reason for f in verify(forged).findings)
+    half = copy.deepcopy(made)
+    for n, point in enumerate(half["equilibria"]["points"]):  # half of space each: wide, and true
+        point["box"] = [["-900", "900"]] * 2 + [["-900", "0"] if F(point["box"][2][0]) < 0 else ["0", "900"]]
+    assert verify(half).status == "proved" and any("one of the exact zeros" in f.reason for f in verify(half).findings)

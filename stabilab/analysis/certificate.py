@@ -82,7 +82,7 @@ def _point(form, x) -> dict:
     point, middle = isolated_point(form, x), [v.fraction() for v in x]
     exact = not any(v.d for v in x)
     reach = Fraction(0) if exact else (max(map(abs, middle)) or Fraction(1)) / 2**BOX_BITS
-    return {"box": [_bracket(v, reach) for v in middle], "linear": point.linear, "verdict": point.verdict, "because": point.because}
+    return {"box": [_bracket(v, reach) for v in middle], "linear": point.linear, "verdict": point.verdict}
 
 
 def _curve(form, curve) -> dict:
@@ -91,11 +91,11 @@ def _curve(form, curve) -> dict:
     marks = [_bracket(t, Fraction(0) if t in exact else abs(t) / 2**ROOT_BITS) for t in cuts]
     folds = [(t, mark) for t, mark in zip(cuts, marks) if t not in curve.poles]
     at = {point.at: point for point in found.samples}
-    return {"name": curve.name, "numerators": [list(map(_text, p.c)) for p in curve.numerators],
+    return {"numerators": [list(map(_text, p.c)) for p in curve.numerators],
             "denominator": list(map(_text, curve.denominator.c)),
-            "segments": [{"t": ends, "linear": s.linear, "verdict": s.verdict, "because": s.because}
+            "segments": [{"t": ends, "linear": s.linear, "verdict": s.verdict}
                          for s, ends in zip(found.segments, map(list, zip([None, *marks], [*marks, None])))],
-            "folds": [{"t": mark, "linear": at[place].linear, "verdict": at[place].verdict, "because": at[place].because}
+            "folds": [{"t": mark, "linear": at[place].linear, "verdict": at[place].verdict}
                       for (_, mark), place in zip(folds, found.folds)]}
 
 
@@ -103,9 +103,8 @@ def _plane(p, d) -> dict:
     i, j, k, centre = plane_of_equal_moments(p, d)
     unit = lambda axis: [str(int(n == axis)) for n in range(3)]  # noqa: E731
     at = list(map(_text, centre))
-    verdict, because = plane_centre(p)
-    return {"name": f"{p.names[k]} constant", "base": at, "directions": [unit(i), unit(j)], "linear": "degenerate",
-            "verdict": DRIFT[0], "because": DRIFT[1], "centre": {"at": at, "verdict": verdict, "because": because}}
+    return {"base": at, "directions": [unit(i), unit(j)], "linear": "degenerate", "verdict": DRIFT[0],
+            "centre": {"at": at, "verdict": plane_centre(p)[0]}}
 
 
 # -- the motion

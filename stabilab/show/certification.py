@@ -36,7 +36,8 @@ def summary(certificate: dict) -> str:
 def text(found) -> str:
     """One line a claim, then the verdict on the whole."""
     lines = [f"{f.status:<12} {f.claim}{f': {f.reason}' if f.reason else ''}" for f in found.findings]
-    return "\n".join([*lines, f"{found.status}: {_count(found)}"])
+    silent = f"; nothing is claimed of: {', '.join(found.silent)}" if found.silent else ""
+    return "\n".join([*lines, f"{found.status}: {_count(found)}{silent}"])
 
 
 def _count(found) -> str:
@@ -46,5 +47,5 @@ def _count(found) -> str:
 
 def as_dict(found) -> dict:
     """The object of `stabilab verify --json`."""
-    return {"schema": SCHEMA, "status": found.status,
+    return {"schema": SCHEMA, "status": found.status, "silent": list(found.silent),
             "findings": [{"claim": f.claim, "status": f.status, "reason": f.reason} for f in found.findings]}

@@ -5,15 +5,14 @@ the numbers of the scene (docs/certificate.md has the mathematics), and every cl
 """
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 
-from .equilibria import check_equilibria
-from .motion import check_motion
-from .numbers import Malformed
+from .equilibria import check_equilibria, equilibria_of
+from .form import SCHEMA, check_frame, read, strangers
+from .motion import check_motion, motion_of
 from .rates import Rates
 
-SCHEMA = "stabilab.certificate/1"
+__all__ = ["SCHEMA", "Finding", "Verification", "verify", "verify_file"]
 
 
 @dataclass(frozen=True)
@@ -27,9 +26,11 @@ class Finding:
 
 @dataclass(frozen=True)
 class Verification:
-    """All findings on a certificate. status: "refuted" if any claim is, "proved" if all are, else "partly"."""
+    """All findings on a certificate. status: "refuted" if any claim is, "proved" if all are, else "partly". silent: the
+    parts of which it claims nothing."""
 
     findings: tuple[Finding, ...]
+    silent: tuple[str, ...] = ()
 
     @property
     def status(self) -> str:
@@ -38,28 +39,26 @@ class Verification:
 
 
 def verify(certificate: dict) -> Verification:
-    """Check a certificate as read from its file. Raises `Malformed` (a ValueError) where it is no such thing."""
-    if not isinstance(certificate, dict) or certificate.get("schema") != SCHEMA:
-        got = certificate.get("schema") if isinstance(certificate, dict) else type(certificate).__name__
-        raise Malformed(f"schema: expected {SCHEMA!r}, got {got!r}")
-    parts = [name for name in ("equilibria", "motion") if certificate.get(name) is not None]
-    if not parts and certificate.get("scene") is None:
-        return Verification(())  # a certificate of nothing: its `uncertified` says why
-    rates = Rates.of_scene(certificate.get("scene"))
-    findings = []
+    """Check a certificate as read from its file. Raises `Malformed` (a ValueError) where it is no such thing.
+
+    All of it is read before anything is worked out, so a certificate that is malformed anywhere is malformed at once.
+    """
+    check_frame(certificate)
+    silent = tuple(part for part in ("equilibria", "motion") if certificate.get(part) is None)
+    findings = [Finding(f"key {where}", "not checked", "this key has no meaning here") for where in strangers(certificate)]
     note = lambda claim, status, reason="": findings.append(Finding(claim, status, reason))  # noqa: E731
-    if "equilibria" in parts:
-        check_equilibria(rates, certificate["equilibria"], note)
-    if "motion" in parts:
-        check_motion(rates, certificate["motion"], note)
-    return Verification(tuple(findings))
+    if len(silent) == 2 and certificate.get("scene") is None:
+        return Verification(tuple(findings), silent)  # a certificate of nothing: its `uncertified` says why
+    rates = Rates.of_scene(certificate.get("scene"))
+    equilibria = None if "equilibria" in silent else equilibria_of(certificate["equilibria"])
+    motion = None if "motion" in silent else motion_of(certificate["motion"])
+    if equilibria:
+        check_equilibria(rates, equilibria, note)
+    if motion:
+        check_motion(rates, motion, note)
+    return Verification(tuple(findings), silent)
 
 
 def verify_file(path) -> Verification:
     """`verify` of a JSON file. OSError where it cannot be read, `Malformed` where it is no certificate."""
-    with open(path, encoding="utf-8") as file:
-        try:
-            certificate = json.load(file)
-        except (ValueError, RecursionError) as error:
-            raise Malformed(f"not JSON: {error}") from None
-    return verify(certificate)
+    return verify(read(path))

@@ -3,8 +3,11 @@ D x + lambda = s x must be passed."""
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import partial
 
+from .curves import Curve
 from .numbers import q
+from .planes import Plane
 
 
 def whole_conic(rates, kind, points, curves):
@@ -27,7 +30,8 @@ def whole_conic(rates, kind, points, curves):
     if any(line is None for line in lines):
         return "refuted", "the conic falls apart into lines; a curve is none"
     product = _product(lines)
-    right = product is not None and _proportional(product, conic)
+    twice = len(lines) == 2 and _proportional(*lines)
+    right = product is not None and not twice and _proportional(product, conic)
     if not right and len(lines) == 1:
         right = _proportional(_product(lines * 2), conic)
     return ("proved" if right else "refuted"), "the conic falls apart into lines, whose product is the condition"
@@ -67,7 +71,7 @@ def _proportional(a, b) -> bool:
 
 def _line_in_plane(rates, curve):
     """(l, m, n) of the line l p + m r + n = 0 that the curve runs along; None where it is no straight line."""
-    if curve.degree != 1 or curve.bottom.degree() != 0:
+    if not curve.straight:
         return None
     _, (i, j), *_ = _free(rates)
     a, b = curve.at(Fraction(0)), curve.at(Fraction(1))
@@ -92,48 +96,73 @@ def whole_torque_free(rates, kind, points, curves, planes):
     free = rates.parallel is not None and not any(rates.parallel[1]) and len(set(rates.parallel[0])) == 1
     if kind != ("all" if free else "curves"):
         return "refuted", "without a torque they are curves, or every rate of rotation for a sphere that carries no gyrostatic moment"
-    if rates.parallel is None:
-        wanted = _scaled_lines(rates)
-        missing = [w for w in wanted if not any(_is_the_line(c, *w) for c in curves)]
-        return ("refuted" if missing else "proved"), "x2 x3 = x3 (x1 + a) = x2 (x1 + b) = 0 are three lines"
-    D, lam = rates.parallel
     if free:
-        return "proved", "every rate of rotation is constant"
-    if any(lam) and not any(_passes_every_s(D, lam, c) for c in curves):
-        return "refuted", "no curve passes every s of D x + lambda = s x"
-    for d in set(D):
+        alone = not curves and not planes
+        return ("proved" if alone else "refuted"), "every rate of rotation is constant: there are no curves or planes to list"
+    missing, spare = _matched(_parts(rates), curves, planes)
+    if missing:
+        return "refuted", f"{missing[0]} is missing"
+    if spare:
+        return "refuted", f"{spare[0]} is listed twice, or is no part of its own"
+    if rates.parallel is None:
+        return "proved", "x2 x3 = x3 (x1 + a) = x2 (x1 + b) = 0 are three lines"
+    return "proved", "every s of D x + lambda = s x is passed, and each axis that carries no gyrostatic moment is there"
+
+
+def _matched(parts, curves, planes):
+    """(names of parts that nothing claimed is, claims that are no part or one that is taken already)."""
+    spare, missing = [*curves, *planes], []
+    for name, is_it in parts:
+        found = next((claimed for claimed in spare if is_it(claimed)), None)
+        if found is None:
+            missing.append(name)
+        else:
+            spare.remove(found)
+    return missing, [claimed.claim for claimed in spare]
+
+
+def _parts(rates):
+    """(name, test of a claimed curve or plane) of each part of the equilibria without a torque."""
+    if rates.parallel is None:
+        return [(f"the line along x{i + 1}", partial(_is_the_line, *line)) for i, line in enumerate(_scaled_lines(rates))]
+    D, lam = rates.parallel
+    parts = [("the curve that passes every s of D x + lambda = s x", partial(_passes_every_s, D, lam))] if any(lam) else []
+    for d in sorted(set(D)):
         axes = [i for i in range(3) if D[i] == d]
         if any(lam[i] for i in axes):
             continue
         if len(axes) > 1:
             across = 3 - sum(axes)
-            if not any(plane.lies(across, lam[across] / (d - D[across])) for plane in planes):
-                return "refuted", f"two equal moments: the plane of equilibria across axis {across + 1} is missing"
+            parts.append((f"the plane across axis {across + 1}", partial(_is_the_plane, across, lam[across] / (d - D[across]))))
             continue
         base = [Fraction(0) if i in axes else lam[i] / (d - D[i]) for i in range(3)]
-        direction = [Fraction(int(i in axes)) for i in range(3)]
-        if not any(_is_the_line(c, base, direction) for c in curves):
-            return "refuted", f"the line along axis {axes[0] + 1} is missing"
-    return "proved", "every s of D x + lambda = s x is passed, and each axis that carries no gyrostatic moment is there"
+        parts.append((f"the line along axis {axes[0] + 1}", partial(_is_the_line, base, [Fraction(int(i in axes)) for i in range(3)])))
+    return parts
 
 
 def _scaled_lines(rates):
     """(base, direction) of the three lines of the scaled system without torque."""
     a, b = -rates.sigma[1], rates.rho[2]
     o, one = Fraction(0), Fraction(1)
-    return [([o, o, o], [one, o, o]), ([-a, o, o], [o, o, one]), ([-b, o, o], [o, one, o])]
+    return [([o, o, o], [one, o, o]), ([-b, o, o], [o, one, o]), ([-a, o, o], [o, o, one])]
 
 
-def _is_the_line(curve, base, direction) -> bool:
-    if curve.degree != 1 or curve.bottom.degree() != 0:
+def _is_the_plane(axis, height, claimed) -> bool:
+    return isinstance(claimed, Plane) and claimed.lies(axis, height)
+
+
+def _is_the_line(base, direction, claimed) -> bool:
+    if not isinstance(claimed, Curve) or not claimed.straight:
         return False
-    points = [curve.at(Fraction(t)) for t in (0, 1)]
+    points = [claimed.at(Fraction(t)) for t in (0, 1)]
     return all(u[i] * direction[j] == u[j] * direction[i]
                for p in points for u in [[a - b for a, b in zip(p, base)]] for i in range(3) for j in range(3))
 
 
 def _passes_every_s(D, lam, curve) -> bool:
     """Whether s = (D_l x_l + lambda_l)/x_l is of degree 1 in t, and infinite t is where the curve itself is infinite."""
+    if not isinstance(curve, Curve):
+        return False
     l = next(i for i in range(3) if lam[i])
     top, bottom = q(D[l]) * curve.tops[l] + q(lam[l]) * curve.bottom, curve.tops[l]
     if bottom == 0:

@@ -4,7 +4,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 from .degenerate import drift, leaves_fold, on_common_level, on_own_orbit, reducing_direction
-from .numbers import Malformed, bracket, entries, exact_sign, field, fraction, numbers, q
+from .numbers import LINEAR, VERDICT, Malformed, bracket, brief, entries, exact_sign, field, fraction, numbers, q, word
 from .rates import AHEAD, characteristic
 from .roots import real_zeros
 
@@ -29,10 +29,15 @@ class Curve:
             common = common.gcd(top)
         self.tops, self.bottom = [top // common for top in self.tops], self.bottom // common
         self.degree = max(p.degree() for p in (*self.tops, self.bottom))
-        self.claim = f"curve {table.get('name', '')!s:.60} ({where})"
+        self.claim = f"{'straight line' if self.straight else f'curve of degree {self.degree}'} ({where})"
         self.segments = [_piece(s, f"{where}.segments[{i}]") for i, s in enumerate(entries(table, "segments", where))]
-        self.folds = [(bracket(field(f, "t", w), f"{w}.t"), field(f, "linear", w, str), field(f, "verdict", w, str))
+        self.folds = [(bracket(field(f, "t", w), f"{w}.t"), *_words(f, w))
                       for i, f in enumerate(entries(table, "folds", where)) for w in [f"{where}.folds[{i}]"]]
+
+    @property
+    def straight(self) -> bool:
+        """Whether it runs once along a whole straight line; a pole would leave out one point."""
+        return self.degree == 1 and self.bottom.degree() == 0
 
     def at(self, t):
         """The exact point at a rational parameter that is no pole."""
@@ -49,7 +54,11 @@ def _piece(table, where):
     if len(ends) != 2:
         raise Malformed(f"{where}.t: expected two ends")
     ends = [None if e is None else bracket(e, f"{where}.t[{i}]") for i, e in enumerate(ends)]
-    return ends, field(table, "linear", where, str), field(table, "verdict", where, str)
+    return ends, *_words(table, where)
+
+
+def _words(table, where):
+    return word(table, "linear", where, LINEAR), word(table, "verdict", where, VERDICT)
 
 
 def identically_zero(rates, curve) -> bool:
@@ -111,7 +120,7 @@ def _check_piece(along, note, where, piece, bounds, sign):
 
 def _check_fold(along, note, zero, fold, signs):
     ends, linear, verdict = fold
-    claim = f"{along.curve.claim}: fold near t = {float((zero.low + zero.high) / 2):.9g} {linear}, {verdict}"
+    claim = f"{along.curve.claim}: fold near t = {brief((zero.low + zero.high) / 2)} {linear}, {verdict}"
     if not _agrees(ends, zero) or linear != "degenerate":
         note(claim, "refuted", "m vanishes elsewhere, or does vanish here")
     else:
@@ -140,9 +149,9 @@ class _Along:
         if self.settled:
             return "stable", "m > 0: a strict extremum"
         low, high = bounds
-        k = drift(self.rates, self.J, self.m) if self._line() else 0
-        inside = lambda z: (low is None or low.high < z.low) and (high is None or z.high < high.low)  # noqa: E731
-        if k == 0 or any(inside(z) for z in real_zeros(k)):
+        k = drift(self.rates, self.J, self.m) if self.curve.straight else 0
+        others = [z for z in real_zeros(k) if self.m % z.factor != 0] if k != 0 else []  # those of m bound the piece
+        if k == 0 or any((low is None or low.before(z)) and (high is None or z.before(high)) for z in others):
             return None
         return "unstable", "a slow drift along the line of equilibria, of one sense all along the piece"
 
@@ -154,7 +163,7 @@ class _Along:
         if self.settled:
             both = signs == [1, 1]
             return "stable" if both else "unstable", f"m is {'' if both else 'not '}positive on both sides"
-        return leaves_fold(self.J, zero) if self._line() else None
+        return leaves_fold(self.J, zero) if self.curve.straight else None
 
     def _crossing(self, zero):
         if zero.low != zero.high:
@@ -163,10 +172,6 @@ class _Along:
         if not self.rates.torque:
             return on_common_level(self.rates, x)
         return on_own_orbit(self.rates, x, self.direction) if self.direction else None
-
-    def _line(self) -> bool:
-        return self.curve.degree == 1 and self.curve.bottom.degree() == 0
-
 
 def _agrees(end, mark) -> bool:
     """Whether a claimed end (None: infinity) holds the zero that was found."""

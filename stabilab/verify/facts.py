@@ -11,10 +11,11 @@ FAR = 2**WINDOWS - 1  # where they end
 
 
 class Facts:
-    """What is proved of one orbit at the working precision: fate, reason, ends (balls or None), extremes."""
+    """What is proved of one orbit at the working precision of so many bits: fate, reason, ends (balls or None), extremes."""
 
     def __init__(self, orbit):
-        self.orbit = orbit
+        from flint import ctx
+        self.orbit, self.bits = orbit, ctx.prec
         circle, sense = orbit.kind < 0, exact_sign(orbit.tilt)
         self.ends, self.round = None, False
         if orbit.forceless():

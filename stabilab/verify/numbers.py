@@ -1,32 +1,46 @@
 """Exact numbers, brackets and balls as a certificate writes them."""
 from __future__ import annotations
 
+import re
+import reprlib
 from fractions import Fraction
 
-DIGITS = 20_000  # a longer number is an attack on the reader's memory, not a certificate
+DIGITS = 4300  # of a whole number, and of an exponent's value: Python's own limit; longer is an attack, not a certificate
+MOST = 64  # entries of a list: no scene has nearly as many equilibria, curves, pieces or coefficients
+NUMBER = re.compile(r"[-+]?([0-9]+(/[0-9]+)?|([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]{1,5})?)")
+LINEAR, VERDICT = ("stable", "unstable", "degenerate"), ("stable", "unstable", "undecided")
 
 
 class Malformed(ValueError):
     """The certificate is not of the form that docs/certificate.md describes."""
 
 
-def number(text, where: str) -> Fraction:
-    """The exact value of "p/q", an integer or a decimal."""
-    if not isinstance(text, str) or not 0 < len(text) <= DIGITS:
-        raise Malformed(f"{where}: expected a number as a string, got {text!r:.80}")
-    _, _, exponent = text.lower().partition("e")
+def shown(value) -> str:
+    """A value for a message: short, without control characters, however long or deep it is."""
     try:
-        if exponent and abs(int(exponent)) > DIGITS:
-            raise ValueError
+        return f"{reprlib.repr(value):.80}"
+    except ValueError:  # a whole number of more digits than Python prints
+        return type(value).__name__
+
+
+def number(text, where: str) -> Fraction:
+    """The exact value of "p/q", an integer or a decimal, in plain digits."""
+    if not isinstance(text, str):
+        raise Malformed(f"{where}: expected a number as a string, got {shown(text)}")
+    _, _, exponent = text.lower().partition("e")
+    plain = len(text) <= 2 * DIGITS + 2 and NUMBER.fullmatch(text)
+    if not plain or max(map(len, re.findall("[0-9]+", text))) > DIGITS or (exponent and abs(int(exponent)) > DIGITS):
+        raise Malformed(f"{where}: expected an integer, a decimal or p/q of at most {DIGITS} digits, got {shown(text)}")
+    try:
         return Fraction(text)
     except (ValueError, ZeroDivisionError):
-        raise Malformed(f"{where}: expected an integer, a decimal or p/q, got {text!r:.80}") from None
+        raise Malformed(f"{where}: expected an integer, a decimal or p/q, got {shown(text)}") from None
 
 
 def numbers(values, where: str, count: int | None = None) -> list[Fraction]:
     """A list of exact numbers."""
-    if not isinstance(values, list) or (count is not None and len(values) != count):
-        raise Malformed(f"{where}: expected a list of {count or 'some'} numbers, got {values!r:.80}")
+    if not isinstance(values, list) or len(values) > MOST or (count is not None and len(values) != count):
+        raise Malformed(f"{where}: expected a list of {count or f'at most {MOST}'} numbers, got {shown(values)}")
     return [number(v, f"{where}[{i}]") for i, v in enumerate(values)]
 
 
@@ -43,13 +57,33 @@ def field(table, key: str, where: str, kind=None):
     if not isinstance(table, dict) or key not in table:
         raise Malformed(f"{where}: {key} is missing")
     if kind is not None and not isinstance(table[key], kind):
-        raise Malformed(f"{where}.{key}: expected {getattr(kind, '__name__', kind)}, got {table[key]!r:.80}")
+        raise Malformed(f"{where}.{key}: expected {getattr(kind, '__name__', kind)}, got {shown(table[key])}")
     return table[key]
+
+
+def word(table, key: str, where: str, known: tuple) -> str:
+    """table[key], one of the words that are known."""
+    value = field(table, key, where)
+    if not isinstance(value, str) or value not in known:
+        raise Malformed(f"{where}.{key}: expected one of {', '.join(known)}, got {shown(value)}")
+    return value
 
 
 def entries(table, key: str, where: str) -> list:
     """table[key], a list; [] where it is missing or null."""
-    return field(table, key, where, list) if table.get(key) is not None else []
+    if isinstance(table, dict) and table.get(key) is None:
+        return []
+    if len(field(table, key, where, list)) > MOST:
+        raise Malformed(f"{where}.{key}: expected at most {MOST} entries, got {len(table[key])}")
+    return table[key]
+
+
+def brief(value: Fraction) -> str:
+    """A number of any size in nine digits."""
+    try:
+        return f"{float(value):.9g}"
+    except OverflowError:
+        return ball(value).str(9, radius=False)
 
 
 def q(value: Fraction):

@@ -1,32 +1,27 @@
 """The period of a motion between two turning points: verified quadrature, with the root at each end bounded by hand."""
 from __future__ import annotations
 
-from fractions import Fraction
-
 from .numbers import ball, hull, sign
 from .zeros import Open, above, below
 
-SHARE = Fraction(1, 2**32)  # part of the way at each end that is bounded by the force's range instead
-
-
-def period_of(orbit, ends):
-    """T = 2 int_l^r dalpha / sqrt(2 (E - U)) as a ball. Raises Open where the precision does not do."""
+def period_of(orbit, ends, goal):
+    """T = 2 int_l^r dalpha / sqrt(2 (E - U)) as a ball, to about `goal` bits. Raises Open where the precision does not do."""
     left, right = ends
     length = below(right) - above(left)
     if not length > 0:
         raise Open
-    step = length * SHARE
+    step = length / 2**(2 * goal // 3)  # this part of the way at each end is bounded by the force's range instead
     inner_left, inner_right = above(left) + step, below(right) - step
     total = _end(orbit, left, inner_left) + _end(orbit, right, inner_right)
-    return 2 * (total + _integral(orbit, ball(inner_left), ball(inner_right)))
+    return 2 * (total + _integral(orbit, ball(inner_left), ball(inner_right), goal))
 
 
-def round_once(orbit):
+def round_once(orbit, goal):
     """Time of one turn of a circle without torque, over every barrier."""
-    return _integral(orbit, ball(0), orbit.turn)
+    return _integral(orbit, ball(0), orbit.turn, goal)
 
 
-def _integral(orbit, low, high):
+def _integral(orbit, low, high, goal):
     """int dalpha / sqrt(2 (E - U)) where E - U is positive."""
     from flint import acb
 
@@ -34,7 +29,7 @@ def _integral(orbit, low, high):
         # mean-value form: U's terms cancel, and over a wide ball their sum alone would be far too wide
         centre = z.mid()
         return _rsqrt(2 * (orbit.force(z) * (z - centre) - orbit.excess(centre)), analytic)
-    value = acb.integral(integrand, acb(low), acb(high), rel_tol=2.0**-48, eval_limit=200_000)
+    value = acb.integral(integrand, acb(low), acb(high), rel_tol=2.0**-goal, eval_limit=200_000)
     if not value.is_finite():
         raise Open
     return value.real

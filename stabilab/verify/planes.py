@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from .curves import judged
 from .degenerate import cross, turned
-from .numbers import Malformed, field, numbers
+from .numbers import LINEAR, VERDICT, Malformed, brief, field, numbers, word
 from .rates import AHEAD, characteristic
 
 
@@ -19,11 +19,11 @@ class Plane:
         self.normal = cross(self.u, self.v)
         if not any(self.normal):
             raise Malformed(f"{where}.directions: expected two directions that are not parallel")
-        self.linear, self.verdict = (field(table, key, where, str) for key in ("linear", "verdict"))
+        self.linear, self.verdict = word(table, "linear", where, LINEAR), word(table, "verdict", where, VERDICT)
         centre = field(table, "centre", where, dict)
         self.centre = numbers(field(centre, "at", f"{where}.centre"), f"{where}.centre.at", 3)
-        self.centre_verdict = field(centre, "verdict", f"{where}.centre", str)
-        self.claim = f"plane {table.get('name', '')!s:.60} ({where})"
+        self.centre_verdict = word(centre, "verdict", f"{where}.centre", VERDICT)
+        self.claim = f"plane through ({', '.join(map(brief, self.base))})"
 
     def grid(self, size):
         """size x size of its points."""

@@ -21,14 +21,26 @@ class Zero:
 
     def within(self, low: Fraction, high: Fraction) -> bool:
         """Whether the zero lies in [low, high]; irrational zeros are enclosed more closely until it is plain."""
-        bits = START_BITS
-        zero = self
-        while not (low <= zero.low and zero.high <= high):
+        for zero in self._closer():
             if zero.high < low or high < zero.low:
                 return False
+            if low <= zero.low and zero.high <= high:
+                return True
+
+    def before(self, other: "Zero") -> bool:
+        """Whether it is less than a zero of another irreducible factor."""
+        for one, two in zip(self._closer(), other._closer()):
+            if one.high < two.low or two.high < one.low:
+                return one.high < two.low
+
+    def _closer(self):
+        """The same zero, enclosed more and more closely."""
+        bits, zero = START_BITS, self
+        while bits <= MOST_BITS:
+            yield zero
             bits *= 2
-            zero = next(z for z in _zeros_of(self.factor, self.order, bits) if z.low <= self.high and self.low <= z.high)
-        return True
+            zero = next(z for z in _zeros_of(self.factor, self.order, bits) if z.low <= zero.high and zero.low <= z.high)
+        raise Malformed(f"curve: a zero of m that {MOST_BITS} bits do not tell from another number of the certificate")
 
 
 def real_zeros(polynomial) -> list[Zero]:

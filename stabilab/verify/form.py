@@ -1,0 +1,78 @@
+"""The form of a certificate's file: JSON of bounded size whose keys stand once, and the keys that have a meaning."""
+from __future__ import annotations
+
+import json
+
+from .numbers import Malformed, field, shown
+
+SCHEMA = "stabilab.certificate/1"
+MOST_BYTES = 1 << 22  # the longest certificates of the program have some ten thousand
+
+PIECE = dict.fromkeys(("t", "linear", "verdict"))
+KEYS = {
+    "schema": None, "program": None, "uncertified": None, "scene": None,
+    "equilibria": {
+        "kind": None, "points": [dict.fromkeys(("box", "linear", "verdict"))],
+        "curves": [{"numerators": None, "denominator": None, "segments": [PIECE], "folds": [PIECE]}],
+        "planes": [{**dict.fromkeys(("base", "directions", "linear", "verdict")), "centre": dict.fromkeys(("at", "verdict"))}]},
+    "motion": dict.fromkeys(("state", "fate", "axis", "sense", "extremes", "period"))}
+SCENES = {"physical": ("variables", "inertia", "momentum", "torque"), "scaled": ("variables", "a", "b", "mu")}
+
+
+def read(path) -> dict:
+    """The object in a file. OSError where it cannot be read, `Malformed` where it is no JSON of this form."""
+    with open(path, "rb") as file:
+        text = file.read(MOST_BYTES + 1)
+    if len(text) > MOST_BYTES:
+        raise Malformed(f"expected at most {MOST_BYTES} bytes")
+    try:
+        return json.loads(text.decode("utf-8"), object_pairs_hook=_once, parse_constant=_no_number)
+    except Malformed:
+        raise
+    except (ValueError, RecursionError) as error:
+        raise Malformed(f"not JSON: {error}") from None
+
+
+def _once(pairs) -> dict:
+    table = dict(pairs)
+    if len(table) != len(pairs):
+        names = [name for name, _ in pairs]
+        raise Malformed(f"the key {shown(next(n for n in names if names.count(n) > 1))} stands twice in one object")
+    return table
+
+
+def _no_number(word):
+    raise Malformed(f"{word} is no number of JSON")
+
+
+def check_frame(certificate) -> None:
+    """Schema, and what is no claim: who wrote it, and what it leaves out. Raises `Malformed`."""
+    got = certificate.get("schema") if isinstance(certificate, dict) else certificate
+    if got != SCHEMA or not isinstance(certificate, dict):
+        raise Malformed(f"schema: expected {SCHEMA!r}, got {shown(got)}")
+    if not isinstance(certificate.get("program", ""), str):
+        raise Malformed(f"program: expected a name, got {shown(certificate['program'])}")
+    left = certificate.get("uncertified", [])
+    if not isinstance(left, list) or not all(isinstance(why, str) for why in left):
+        raise Malformed(f"uncertified: expected a list of sentences, got {shown(left)}")
+    if left and all(certificate.get(part) is not None for part in ("equilibria", "motion")):
+        raise Malformed(f"uncertified: everything is claimed, yet {shown(left[0])} is left out")
+
+
+def strangers(certificate) -> list[str]:
+    """Where keys stand that have no meaning: nothing is known of what they say."""
+    scene = certificate.get("scene")
+    known = SCENES.get(field(scene, "variables", "scene", str), ()) if scene is not None else ()
+    return list(_strangers(certificate, KEYS | {"scene": dict.fromkeys(known)}, ""))
+
+
+def _strangers(value, known, where):
+    if isinstance(known, list) and isinstance(value, list):
+        for i, entry in enumerate(value):
+            yield from _strangers(entry, known[0], f"{where}[{i}]")
+    elif isinstance(known, dict) and isinstance(value, dict):
+        for key, entry in value.items():
+            if key not in known:
+                yield f"{where and where + '.'}{shown(key)}"
+            else:
+                yield from _strangers(entry, known[key], f"{where and where + '.'}{key}")
