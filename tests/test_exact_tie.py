@@ -6,6 +6,7 @@ from math import isqrt
 import pytest
 
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
+from stabilab.analysis.balls import working
 from stabilab.analysis.exact_tie import exact_tie
 from stabilab.analysis.precise import PreciseOrbit
 from stabilab.analysis.reduction import reduce
@@ -15,9 +16,8 @@ BODY = Body((4, 3, "1.5"))
 
 
 def tied(scene, state, bits=256):
-    from flint import ctx
-    with ctx.workprec(bits):
-        return exact_tie(PreciseOrbit(reduce(scene), state))
+    with working(bits) as numbers:
+        return exact_tie(PreciseOrbit(reduce(scene), state, numbers))
 
 
 @pytest.mark.parametrize("state", [(3.0, 0.0, 4.0), (3.0, 1.0, 4.0), (3.0, -2.0, 4.0), (-3.0, 0.5, 4.0)])

@@ -113,8 +113,8 @@ def test_a_place_near_an_equilibrium_moves_onto_it_and_no_other(off):
 def test_a_question_that_stays_unclear_is_unclear_in_the_end():
     asked = []
 
-    def never(bits):
-        asked.append(bits)
+    def never(numbers):
+        asked.append(numbers.bits)
         raise Unclear
     with pytest.raises(Unclear):
         settled(never, 128, 512)

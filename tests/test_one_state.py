@@ -82,11 +82,11 @@ def test_roots_are_enclosed_and_double_ones_left_to_many_digits():
 def test_an_unclear_question_is_asked_again_in_many_digits():
     asked = []
 
-    def question(bits):
-        asked.append(bits)
-        if bits < 200:
+    def question(numbers):
+        asked.append(numbers.bits)
+        if numbers.bits < 200:
             raise Unclear
-        return bits
+        return numbers.bits
     assert settled(question, DOUBLE_BITS) == 2 * START_BITS and asked == [DOUBLE_BITS, START_BITS, 2 * START_BITS]
 
 

@@ -1,20 +1,40 @@
 """Balls: numbers that surely hold the true value, in doubles first and in as many digits as a question needs.
 
-A question that the balls leave open raises `Unclear`, and `settled` asks it again with twice the bits. A question asked
-from DOUBLE_BITS on is tried with balls of doubles first (`double_balls`), which need no library.
+The kind of ball is a value: a question takes it as its argument and hands it on to whatever computes. One that the balls
+leave open raises `Unclear`, and `settled` asks it again with twice the bits. A question asked from DOUBLE_BITS on is tried
+with balls of doubles first (`double_balls`), which need no library.
 """
 from __future__ import annotations
 
+from contextlib import contextmanager
+from dataclasses import dataclass
 from fractions import Fraction
+from threading import RLock
 
 from .double_balls import Doubles, Unclear
 
-DOUBLE_BITS = 53
+DOUBLE_BITS = Doubles.bits
 START_BITS = 128
 
 
+@contextmanager
+def working(bits: int):
+    """Context in which python-flint works with so many bits, for this thread alone; gives the kind of number, `Digits`.
+
+    flint's precision belongs to the process: whoever forms balls from inexact ones holds the one lock that goes with it. It
+    stands on the library itself, where the checker of certificates, which imports nothing from here, finds it too.
+    """
+    import flint
+    with vars(flint).setdefault("stabilab_lock", RLock()), flint.ctx.workprec(bits):
+        yield Digits(bits)
+
+
+@dataclass(frozen=True)
 class Digits:
-    """Where python-flint's balls come from, at its working precision; `double_balls.Doubles` has the same interface."""
+    """Where python-flint's balls come from, to be used while it is `working` with so many bits; `double_balls.Doubles` has
+    the same interface."""
+
+    bits: int
 
     @staticmethod
     def ball(value):
@@ -59,44 +79,30 @@ class Digits:
         return sorted(found, key=lambda one: one[0].mid())  # flint lists them multiplicity by multiplicity
 
 
-_numbers = Digits
-
-
-def numbers():
-    """The kind of balls in use: `Digits`, or `Doubles` while `settled` tries with these."""
-    return _numbers
+DOUBLES = Doubles()
 
 
 def settled(question, bits: int = START_BITS, most: int = 1 << 17):
-    """question(bits), with more bits as long as it is `Unclear`; the last Unclear when `most` are not enough.
+    """question(numbers), with more bits as long as it is `Unclear`; the last Unclear when `most` are not enough.
 
-    bits: at first. DOUBLE_BITS: with balls of doubles, then from START_BITS on, unless DOUBLE_BITS is also the `most`.
+    numbers: the kind, a `Doubles` or a `Digits`, with its `bits`. bits: at first. DOUBLE_BITS: with balls of doubles, then
+    from START_BITS on, unless DOUBLE_BITS is also the `most`.
     """
-    global _numbers
     if bits == DOUBLE_BITS:
-        _numbers = Doubles
         try:
-            return question(bits)
+            return question(DOUBLES)
         except (Unclear, ArithmeticError):
             if most == DOUBLE_BITS:
                 raise Unclear from None
             bits = START_BITS
-        finally:
-            _numbers = Digits
-    from flint import ctx
     while True:
         try:
-            with ctx.workprec(bits):
-                return question(bits)
+            with working(bits) as numbers:
+                return question(numbers)
         except Unclear:
             if bits >= most:
                 raise
             bits *= 2
-
-
-def ball(value):
-    """The ball of a rational number."""
-    return _numbers.ball(value)
 
 
 def rational(value):

@@ -187,15 +187,13 @@ def with_closeness(case, tell=lambda words: None) -> list[Growth]:
 
 def bits_needed(scene, state) -> int | None:
     """The least working precision at which the balls of every barrier part from the energy's."""
-    from flint import ctx
-
     from .landscape import landscape
-    from .balls import Unclear, sign
+    from .balls import Unclear, sign, working
     from .precise import PreciseOrbit
     for bits in BITS:
         try:
-            with ctx.workprec(bits):
-                for margin in PreciseOrbit(landscape(scene).reduction, state).margins():
+            with working(bits) as numbers:
+                for margin in PreciseOrbit(landscape(scene).reduction, state, numbers).margins():
                     sign(margin)
             return bits
         except Unclear:

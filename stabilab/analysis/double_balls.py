@@ -197,7 +197,9 @@ def _hull(a, b, choose):
 
 
 class Doubles:
-    """Where numbers of this kind come from; `precise.Digits` is the same for python-flint's balls."""
+    """Where numbers of this kind come from; `balls.Digits` is the same for python-flint's balls."""
+
+    bits = 53
 
     @staticmethod
     def ball(value) -> Ball:

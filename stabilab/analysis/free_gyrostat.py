@@ -17,7 +17,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import NamedTuple
 
-from .balls import START_BITS, Unclear, ball, numbers, settled, sign
+from .balls import START_BITS, Unclear, settled, sign
 from .exact_tie import polynomial, shares_root
 from .polynomials import Poly
 
@@ -45,9 +45,9 @@ def free_margin(scene, state, digits: int = 17) -> FreeMargin:
     sphere = _numerator(D, [l * l for l in lam], Poly((0, 0, 1)), squared)
     level = _numerator(D, [d * l * l for d, l in zip(D, lam)], Poly((1,)), 2 * energy)
 
-    def question(bits):
-        saddles = _saddles(sphere, D)
-        excesses = [_height(s, D, lam) - ball(energy) for s in saddles]
+    def question(numbers):
+        saddles = _saddles(sphere, D, numbers)
+        excesses = [_height(s, D, lam, numbers.ball) - numbers.ball(energy) for s in saddles]
         for excess, s in zip(excesses, saddles):
             if 0 in excess:
                 if shares_root(polynomial(*sphere.c), polynomial(*level.c), s):
@@ -73,9 +73,9 @@ def _numerator(D, weights, top, value) -> Poly:
     return whole
 
 
-def _saddles(sphere, D) -> list:
+def _saddles(sphere, D, numbers) -> list:
     """The speeds s of the saddles on the momentum sphere, as balls."""
-    roots = numbers().real_roots(sphere.c)
+    roots, ball = numbers.real_roots(sphere.c), numbers.ball
     gaps = [b - a for (a, _), (b, _) in zip(roots, roots[1:])]
     found, beyond = [], sign(ball(sphere.c[-1]))
     for index in range(len(roots) - 1, -1, -1):
@@ -91,6 +91,6 @@ def _saddles(sphere, D) -> list:
     return found
 
 
-def _height(s, D, lam):
+def _height(s, D, lam, ball):
     """Kinetic energy of the permanent rotation of speed s."""
     return sum(ball(d * l * l) / (s - ball(d)) ** 2 for d, l in zip(D, lam)) / 2

@@ -18,7 +18,6 @@ from types import SimpleNamespace
 from ..effects.base import cross, dot
 from .gyroscopic import Content
 from .other_motion import liquid_torque
-from .balls import ball as ball_of
 from .balls import rational
 from .results import Equilibria, EquilibriumPoint
 
@@ -117,10 +116,10 @@ def _point(parts: Content, polynomials, x) -> EquilibriumPoint:
     """Spectrum and verdict at a proved zero, sharpened to some fifty digits and enclosed in balls."""
     import numpy as np
     from .rotation_balance import many_digits
-    with many_digits():
-        ball = _enclosed(polynomials, x)
+    with many_digits() as numbers:
+        ball = _enclosed(polynomials, x, numbers)
         derivatives = [[_derivative(p, k) for k in range(3)] for p in polynomials]
-        J = [[_value(q, ball) / ball_of(d) for q in row] for row, d in zip(derivatives, parts.D)]
+        J = [[_value(q, ball, numbers) / numbers.ball(d) for q in row] for row, d in zip(derivatives, parts.D)]
         middle = np.array([[float(v.mid()) for v in row] for row in J])
         p2 = -(J[0][0] + J[1][1] + J[2][2])
         p1 = sum(J[i][i] * J[j][j] - J[i][j] * J[j][i] for i, j in ((0, 1), (0, 2), (1, 2)))
@@ -140,11 +139,10 @@ def _derivative(polynomial, k):
     return {tuple(p - (i == k) for i, p in enumerate(powers)): v * powers[k] for powers, v in polynomial.items() if powers[k]}
 
 
-def _value(polynomial, x):
-    from flint import arb
-    total = arb(0)
+def _value(polynomial, x, numbers):
+    total = numbers.ball(0)
     for powers, value in polynomial.items():
-        term = ball_of(value)
+        term = numbers.ball(value)
         for base, n in zip(x, powers):
             for _ in range(n):
                 term = term * base
@@ -152,22 +150,22 @@ def _value(polynomial, x):
     return total
 
 
-def _enclosed(polynomials, x):
+def _enclosed(polynomials, x, numbers):
     """A ball around the zero next to x in which Krawczyk's test holds."""
     import numpy as np
     from flint import arb
     derivatives = [[_derivative(p, k) for k in range(3)] for p in polynomials]
     x = [arb(v) for v in x]
-    J = np.array([[float(_value(q, x).mid()) for q in row] for row in derivatives])
+    J = np.array([[float(_value(q, x, numbers).mid()) for q in row] for row in derivatives])
     Y = [[arb(v) for v in row] for row in np.linalg.inv(J)]
     for _ in range(12):  # the inverse in doubles gains some thirteen digits a step
-        f = [_value(p, x) for p in polynomials]
+        f = [_value(p, x, numbers) for p in polynomials]
         x = [(v - sum(y * r for y, r in zip(row, f))).mid() for v, row in zip(x, Y)]
     size = max(float(abs(v).upper()) for v in x) or 1.0
     radius = arb(0, size * RADIUS)
     X = [v + radius for v in x]
-    f = [_value(p, x) for p in polynomials]
-    slope = [[_value(q, X) for q in row] for row in derivatives]
+    f = [_value(p, x, numbers) for p in polynomials]
+    slope = [[_value(q, X, numbers) for q in row] for row in derivatives]
     for i in range(3):
         step = -sum(Y[i][j] * f[j] for j in range(3))
         for k in range(3):

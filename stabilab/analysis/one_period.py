@@ -28,8 +28,8 @@ def period_of(reduction, state, label: Fate) -> float:
     if label != Fate.BOUNDED:
         return math.inf
 
-    def question(bits):
-        orbit = PreciseOrbit(reduction, state)
+    def question(numbers):
+        orbit = PreciseOrbit(reduction, state, numbers)
         ends = turning_points(orbit)
         return _rotation(orbit) if ends is None else _libration(orbit, *ends)
     try:

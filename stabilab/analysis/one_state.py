@@ -104,7 +104,7 @@ def _on_free_plane(r, state) -> OneFate:
 
 
 def _on_parabola(r, state) -> OneFate:
-    if r.sense and not any(settled(lambda bits: PreciseOrbit(r, state).taylor[1:], DOUBLE_BITS)):
+    if r.sense and not any(settled(lambda numbers: PreciseOrbit(r, state, numbers).taylor[1:], DOUBLE_BITS)):
         return _spin_up(r, Reason.PURE_SPIN, -INF)  # the force is the same all along the orbit
     return _valley(r, state)
 
@@ -125,8 +125,8 @@ def invariants_of(reduction, state) -> dict[str, float]:
     if r.e == 0:
         return {}
 
-    def question(bits):
-        o = PreciseOrbit(r, state)
+    def question(numbers):
+        o = PreciseOrbit(r, state, numbers)
         found = {"Q": float(o.Q)}
         angle = _angle(o)
         if angle is not None:
@@ -138,7 +138,6 @@ def invariants_of(reduction, state) -> dict[str, float]:
 
 def _angle(orbit):
     """The turn angle from the direction X = 0; None where there is none, on an invariant plane."""
-    from .balls import numbers
     if orbit.r.e < 0:
-        return orbit.energy * 0 if orbit.Q == 0 else numbers().angle(orbit.x, orbit.z)
+        return orbit.energy * 0 if orbit.Q == 0 else orbit.numbers.angle(orbit.x, orbit.z)
     return None if orbit.on_plane else (abs(orbit.xi) / abs(orbit.eta)).log() / 2

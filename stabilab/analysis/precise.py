@@ -9,7 +9,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import NamedTuple
 
-from .balls import DOUBLE_BITS, START_BITS, Unclear, ball, numbers, settled, sign
+from .balls import DOUBLE_BITS, START_BITS, Unclear, settled, sign
 from .polynomials import Poly
 from .potential import derivatives_on_parabola
 
@@ -28,11 +28,12 @@ class Spot(NamedTuple):
 class PreciseOrbit:
     """The orbit of one state: V along it as a function of the offset y = theta - theta_0, and its equilibria.
 
-    To be made and used at one working precision, inside `settled`.
+    numbers: the kind of ball that it computes in; to be used where that came from, inside `settled`.
     """
 
-    def __init__(self, reduction, state):
-        r = self.r = reduction
+    def __init__(self, reduction, state, numbers):
+        self.r, self.numbers = reduction, numbers
+        r, ball = reduction, numbers.ball
         self.state = tuple(v if isinstance(v, Fraction) else float(v) for v in state)  # exact either way
         self.u, self.v = (Fraction(self.state[a]) for a in (r.j, r.k))
         speed = Fraction(self.state[r.axis]) + r.s
@@ -46,7 +47,7 @@ class PreciseOrbit:
         self.energy = self.w * self.w / 2  # E - V(theta_0)
 
     def _set_up_parabola(self):
-        r, u, v = self.r, self.u, self.v
+        r, u, v, ball = self.r, self.u, self.v, self.numbers.ball
         a, b = r.p * v + r.p0, r.q * u + r.q0
         first, second, third = derivatives_on_parabola(r, u, v)
         self.taylor = self.force_here, first, second / 2, third / 6
@@ -54,7 +55,7 @@ class PreciseOrbit:
         self.speeds = [ball(c) for c in (u, a, r.p * b / 2, v, b, r.q * a / 2)]
 
     def _set_up_conic(self, speed):
-        r = self.r
+        r, ball = self.r, self.numbers.ball
         ap, aq, sp = abs(r.p), abs(r.q), 1 if r.p > 0 else -1
         rp, rq = ball(ap).sqrt(), ball(aq).sqrt()
         self.sj, self.sk = r.q0 / r.q, r.p0 / r.p
@@ -108,7 +109,7 @@ class PreciseOrbit:
 
     def component_i(self, w):
         """omega_i where theta' = w."""
-        return w * self.flip / self.n - ball(self.r.s)
+        return w * self.flip / self.n - self.numbers.ball(self.r.s)
 
     def height(self, y):
         """V(theta_0 + y) - V(theta_0)."""
@@ -125,7 +126,7 @@ class PreciseOrbit:
         half = (y / 2).sin() if self.r.e < 0 else (y / 2).sinh()
         s, b = (y.sin(), -2 * half * half) if self.r.e < 0 else (y.sinh(), 2 * half * half)
         dx = self.z * s + self.x * b
-        force = self.flip * self.n * ball(self.force_here)
+        force = self.flip * self.n * self.numbers.ball(self.force_here)
         return (-self.mu * (y - s) - force * s - b * (self.G * self.x * self.x + self.c * self.x + self.r.e * self.d * self.z)
                 - self.G * dx * dx / 2)
 
@@ -149,7 +150,7 @@ class PreciseOrbit:
     def spots(self) -> list[Spot]:
         """All equilibria on the orbit, ascending; on a circle those with offsets in (0, 2 pi]."""
         if self.r.e == 0:
-            found = [(y, m) for y, m in numbers().real_roots(self.taylor)]
+            found = [(y, m) for y, m in self.numbers.real_roots(self.taylor)]
             if self.force_here == 0:
                 found = [(y * 0 if 0 in y else y, m) for y, m in found]
         else:
@@ -164,7 +165,7 @@ class PreciseOrbit:
 
     def _equilibria(self):
         """(omega_j + s_j, omega_k + s_k, multiplicity) as balls, of F = 0 on the conic of invariant Q."""
-        r = self.r
+        r, ball = self.r, self.numbers.ball
         ap, aq = abs(r.p), abs(r.q)
         # in U = omega_j + s_j, V = omega_k + s_k:  F = kappa U V + rho_ V + sigma_ U + m_
         rho, sigma = r.rho - r.kappa * self.sj, r.sigma - r.kappa * self.sk
@@ -174,7 +175,7 @@ class PreciseOrbit:
             yield from self._on_line_u(-rho / r.kappa)
         elif r.kappa or sigma:  # U = -(rho V + m)/(kappa V + sigma) in V^2/aq - e U^2/ap = Q
             top, bottom, square = Poly((m, rho)), Poly((sigma, r.kappa)), Poly((-self.Q, 0, 1 / aq))
-            for v, many in numbers().real_roots((square * bottom * bottom - top * top * (Fraction(r.e) / ap)).c):
+            for v, many in self.numbers.real_roots((square * bottom * bottom - top * top * (Fraction(r.e) / ap)).c):
                 yield -(ball(rho) * v + ball(m)) / (ball(r.kappa) * v + ball(sigma)), v, many
         elif rho:
             yield from self._on_line_v(-m / rho)
@@ -182,17 +183,17 @@ class PreciseOrbit:
     def _on_line_v(self, v):
         """The equilibria with omega_k + s_k = v."""
         r = self.r
-        for u, many in numbers().real_roots([v * v / abs(r.q) - self.Q, 0, Fraction(-r.e) / abs(r.p)]):
-            yield u, ball(v), many
+        for u, many in self.numbers.real_roots([v * v / abs(r.q) - self.Q, 0, Fraction(-r.e) / abs(r.p)]):
+            yield u, self.numbers.ball(v), many
 
     def _on_line_u(self, u):
         r = self.r
-        for v, many in numbers().real_roots([-self.Q - r.e * u * u / abs(r.p), 0, 1 / abs(r.q)]):
-            yield ball(u), v, many
+        for v, many in self.numbers.real_roots([-self.Q - r.e * u * u / abs(r.p), 0, 1 / abs(r.q)]):
+            yield self.numbers.ball(u), v, many
 
     def _offset(self, u, v):
         """Offset at which the orbit passes the equilibrium, or None where it is on another branch."""
-        x, z = self._canonical(u, v)
+        (x, z), ball = self._canonical(u, v), self.numbers.ball
         here = self.force_here == 0 and u.overlaps(ball(self.u + self.sj)) and v.overlaps(ball(self.v + self.sk))
         if self.r.e < 0:
             return self._angle(x, z, here)
@@ -206,7 +207,7 @@ class PreciseOrbit:
 
     def _angle(self, x, z, here):
         """Angle in (0, 2 pi] from the state to (x, z) on the circle."""
-        pi = numbers().pi()
+        pi = self.numbers.pi()
         sine, cosine = x * self.z - z * self.x, x * self.x + z * self.z
         if here:
             return 2 * pi
@@ -229,11 +230,11 @@ class PreciseOrbit:
         """The equilibria, on a circle also those of the turn behind, ascending."""
         if self.r.e >= 0:
             return self.spots
-        behind = [Spot(y * 0 if self._is_turn(y) else y - 2 * numbers().pi(), k) for y, k in ((s.y, s.kind) for s in self.spots)]
+        behind = [Spot(y * 0 if self._is_turn(y) else y - 2 * self.numbers.pi(), k) for y, k in ((s.y, s.kind) for s in self.spots)]
         return behind + self.spots
 
     def _is_turn(self, y):
-        return self.force_here == 0 and y.overlaps(2 * numbers().pi())
+        return self.force_here == 0 and y.overlaps(2 * self.numbers.pi())
 
     def barriers(self) -> list[Spot]:
         """The barriers that the fate depends on: on a circle those ahead within one turn, on an invariant plane those ahead,
@@ -261,12 +262,12 @@ def decide(reduction, state, bits: int = START_BITS) -> Tie:
 
     Margin: the highest barrier minus the energy on a circle, else that of the barrier nearest in height.
     """
-    def question(bits):
-        orbit = PreciseOrbit(reduction, state)
+    def question(numbers):
+        orbit, bits = PreciseOrbit(reduction, state, numbers), numbers.bits
         margin = _margin(orbit)
         if margin is None:
             return Tie(-1, float("-inf"), bits)
-        if _ties(orbit, margin, bits):
+        if _ties(orbit, margin):
             return Tie(0, 0.0, bits)
         if bits == DOUBLE_BITS and not DOUBLE_SHARE * abs(margin) > margin.rad():
             raise Unclear
@@ -285,28 +286,28 @@ def _margin(orbit):
     return margin
 
 
-def _ties(orbit, margin, bits) -> bool:
+def _ties(orbit, margin) -> bool:
     """Whether a margin that cannot be told from zero is zero; where algebra denies it, the most bits settle the matter.
 
     Without a torque a motion tends to whichever barrier its energy equals, be another one higher or not.
     """
     if not any(0 in m for m in ([margin] if orbit.r.e >= 0 or orbit.r.sense else orbit.margins())):
         return False
-    if bits < EXACT_BITS:
+    if orbit.numbers.bits < EXACT_BITS:
         raise Unclear
     from .exact_tie import exact_tie
-    return exact_tie(orbit) or (0 in margin and bits >= MOST_BITS)
+    return exact_tie(orbit) or (0 in margin and orbit.numbers.bits >= MOST_BITS)
 
 
 def precise_margin(reduction, state, digits: int):
     """The margin of one state to `digits` decimal digits, as a ball in the scene's energy; None where there is no barrier,
     and on the separatrix, where no digit of it is known but that all vanish."""
-    def question(bits):
-        orbit = PreciseOrbit(reduction, state)
+    def question(numbers):
+        orbit = PreciseOrbit(reduction, state, numbers)
         margin = _margin(orbit)
-        if margin is None or _ties(orbit, margin, bits):
+        if margin is None or _ties(orbit, margin):
             return None
         if not 10 ** digits * margin.rad() < abs(margin):
             raise Unclear
-        return margin * ball(reduction.weight / (abs(reduction.p * reduction.q) if reduction.e else 1))
+        return margin * numbers.ball(reduction.weight / (abs(reduction.p * reduction.q) if reduction.e else 1))
     return settled(question, most=MOST_BITS)

@@ -2,7 +2,7 @@
 wherever else doubles would lose digits. Every digit returned is certain."""
 from __future__ import annotations
 
-from .balls import DOUBLE_BITS, START_BITS, Unclear, ball, numbers, settled, sign
+from .balls import DOUBLE_BITS, START_BITS, Unclear, settled, sign, working
 from .precise import TIE_BITS, PreciseOrbit
 from .results import Fate
 
@@ -23,12 +23,13 @@ def extreme_balls(reduction, state, label: int, certain: int = CERTAIN_BITS, dou
     """[(least, greatest)] of the three components as balls, 2^-certain of the component's size wide at most; floats
     (infinite) where unbounded. doubles: balls of doubles will do where they are certain to DOUBLE_CERTAIN bits."""
     if label == Fate.EQUILIBRIUM:
-        return [(ball(v), ball(v)) for v in map(float, state)]
+        with working(START_BITS) as numbers:
+            return [(numbers.ball(v), numbers.ball(v)) for v in map(float, state)]
     how = {Fate.SPIN_UP: _unbounded, Fate.SEPARATRIX: _asymptotic, Fate.BOUNDED: _bounded}[Fate(label)]
 
-    def question(bits):
-        orbit = PreciseOrbit(reduction, state)
-        return _ranges(orbit, *how(orbit), DOUBLE_CERTAIN if bits == DOUBLE_BITS else certain, bits)
+    def question(numbers):
+        orbit = PreciseOrbit(reduction, state, numbers)
+        return _ranges(orbit, *how(orbit), DOUBLE_CERTAIN if numbers.bits == DOUBLE_BITS else certain)
     start = TIE_BITS if label == Fate.SEPARATRIX else DOUBLE_BITS if doubles else max(START_BITS, 2 * certain)
     return settled(question, start)
 
@@ -75,7 +76,7 @@ def solve(orbit, inner, outer):
 
     Newton's method held in a bracket on the middles of the balls; the ball that is returned has a change of sign.
     """
-    balls = numbers()
+    balls = orbit.numbers
     lo, hi = inner.mid(), outer.mid()
     side = 1 if hi > lo else -1
     y, last = (lo + hi).mid() / 2, None
@@ -183,7 +184,7 @@ def _tops(orbit):
         x, z = orbit.x, orbit.z
         if x.is_zero() and z.is_zero():
             return []
-        angle, quarter = numbers().angle(x, z), numbers().pi() / 2
+        angle, quarter = orbit.numbers.angle(x, z), orbit.numbers.pi() / 2
         return [k * quarter - angle for k in range(-8, 9)]
     if e > 0:
         xi, eta = orbit.xi, orbit.eta
@@ -222,9 +223,9 @@ def _unbounded(orbit):
     return [zero, *([left] if back else []), zero + FAR], (least, None)
 
 
-def _ranges(orbit, offsets, rates, certain, bits):
+def _ranges(orbit, offsets, rates, certain):
     """[(least, greatest)] per component; Unclear unless the balls are narrow against the component's size."""
-    r = orbit.r
+    r, bits = orbit.r, orbit.numbers.bits
     out = [None] * 3
     pairs = [orbit.components(y) for y in offsets]
     for row, axis in enumerate((r.j, r.k)):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import lru_cache
 
-from .balls import Unclear, settled, sign
+from .balls import Unclear, settled, sign, working
 from .precise import PreciseOrbit
 from .precise_extremes import turning_points
 from .results import Fate
@@ -23,8 +23,8 @@ def precise_period(reduction, state, label: int) -> float:
 
 def period_ball(reduction, state, digits: int = DIGITS):
     """Period of a bounded motion as a ball that is at most 10^-digits of it wide: two steps of the rule agree to `digits`."""
-    def question(bits):
-        orbit = PreciseOrbit(reduction, state)
+    def question(numbers):
+        orbit = PreciseOrbit(reduction, state, numbers)
         ends = turning_points(orbit)
         found = _rotation(orbit, digits) if ends is None else _libration(orbit, *ends, digits)
         if not 10 ** digits * found.rad() < found:
@@ -92,9 +92,9 @@ def _tanh_sinh(integrand, a, b, digits):
 @lru_cache(maxsize=64)
 def _nodes(level, side, digits):
     """Nodes as (distance from the nearer end / length, signed by the end; weight), outward from the middle."""
-    from flint import arb, ctx
+    from flint import arb
     step, nodes = arb(2) ** -level, []
-    with ctx.workprec(int(3.33 * 2 * (digits + 2 * SPARE)) + 128):
+    with working(int(3.33 * 2 * (digits + 2 * SPARE)) + 128):
         for k in range(0 if side > 0 else 1, 12 * 2**level):
             if level and k % 2 == 0:
                 continue

@@ -12,6 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from .balls import DOUBLE_BITS, Digits, working
 from .precision_digits import moved_row
 from .precision_told import CAUTION, MOST, MOST_DECIMALS, Told, checked_digits, digits_of, nothing
 from .results import Fate
@@ -97,7 +98,9 @@ def _tie(question, digits) -> Told:
 
 def _judged(question, values, balls, digits) -> Told:
     """The formulas' values where the balls (to max(digits, MOST) + 1 digits) confirm so many digits, else the balls'."""
-    wanted, error = max(digits, MOST) + 1, _gap(values, balls)
+    wanted = max(digits, MOST) + 1
+    with working(DOUBLE_BITS):
+        error = _gap(values, balls)
     if digits <= FORMULA_DIGITS and error <= 10.0**-digits:
         return Told(question, values, digits, digits_of(error), "formulas", f"formulas in doubles, {error:.1e} from ball arithmetic")
     width = max(_width(balls), 10.0**-wanted)  # the balls of a period are narrower than its two rules agree
@@ -108,14 +111,13 @@ def _judged(question, values, balls, digits) -> Told:
 
 def _balls(question, reduction, state, label, digits):
     """The answer in balls, nested as its floats are."""
-    from .balls import ball
     from .precise import precise_margin
     from .precise_extremes import extreme_balls
     from .precise_period import period_ball
     if question == "extremes":
         return extreme_balls(reduction, state, int(label), math.ceil(digits * math.log2(10)))
     if question == "period":
-        return period_ball(reduction, state, digits) if label == Fate.BOUNDED else ball(0)
+        return period_ball(reduction, state, digits) if label == Fate.BOUNDED else Digits(DOUBLE_BITS).ball(0)
     return precise_margin(reduction, state, digits)
 
 
@@ -180,15 +182,13 @@ def _margin_without_reduction(scene, known, digits, state) -> Told:
 
 def _by_return(question, scene, known, digits, state) -> Told:
     """A closed motion: its return in doubles against the return of a Taylor series in many digits."""
-    from flint import ctx
-    from .balls import ball
     from .precision_reference import reference
     values = _number(question, known)
     exact = reference(scene, state, [0.5 * known.period], orbit=True)
     if exact.period is None:
         return Told(question, values, digits, 0.0, "run", "no return was found in many digits within the work allowed")
-    with ctx.workprec(400):
-        add = lambda pair: ball(float(pair[0])) + ball(float(pair[1]))
+    with working(400) as numbers:
+        add = lambda pair: numbers.ball(float(pair[0])) + numbers.ball(float(pair[1]))
         found = add(exact.period) if question == "period" else [[add(v) for v in pair] for pair in exact.extremes]
         own = max(exact.period[2] if question == "period" else exact.extremes_error, 1e-31)  # two doubles hold 32 digits
         error = max(_gap(values, found), own)
@@ -228,15 +228,14 @@ def _apart(one, two) -> float:
 
 def _many_digits(equations, start, length, digits):
     """Extremes over the span by a Taylor series, each precision checked by the one before; None where the work allowed is not enough."""
-    from flint import ctx
     from .precision_reference import DIGITS, GUARD, WORK
     from .precision_series import Exhausted, Recursion
     recursion, before = Recursion(equations), None
     for n in DIGITS:
         budget = [WORK // 12 if before is None else WORK // 4]  # the second run costs twice the first
-        with ctx.workprec(int((n + GUARD) * 3.33)):
+        with working(int((n + GUARD) * 3.33)) as numbers:
             try:
-                now = _series_extremes(recursion, start, length, n, budget)
+                now = _series_extremes(recursion, start, length, n, budget, numbers)
             except Exhausted:
                 return None
             error = max(_balls_apart(now, before), 10.0**-n) if before else 1.0
@@ -257,10 +256,10 @@ def _balls_apart(now, before) -> float:
     return worst
 
 
-def _series_extremes(recursion, start, length, digits, budget):
-    from .precision_series import number, steps, widen
-    pairs, left = [[number(v)] * 2 for v in start[:3]], number(length)
-    for step in steps(recursion, start, digits, budget):
+def _series_extremes(recursion, start, length, digits, budget, numbers):
+    from .precision_series import steps, widen
+    pairs, left = [[numbers.ball(v)] * 2 for v in start[:3]], numbers.ball(length)
+    for step in steps(recursion, start, digits, budget, numbers):
         budget[0] -= SEARCH * len(pairs) * len(step.rows[0])
         widen(pairs, step, min(step.length, left))
         left = (left - step.length).mid()

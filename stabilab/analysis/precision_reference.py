@@ -9,7 +9,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..equations import derive
-from .precision_series import Exhausted, Loop, Recursion, number, steps
+from .balls import DOUBLE_BITS, working
+from .precision_series import Exhausted, Loop, Recursion, steps
 
 DIGITS = (30, 42, 84, 168)  # of successive runs; each is checked by the one before
 AGREEMENT = 1e-19  # two runs agree where they differ by less than this share of the state: far below a double's 1e-16
@@ -47,12 +48,11 @@ def one_run(recursion, start, times, digits, budget, orbit=False):
     times: of one sign, moving away from 0. orbit: the motion is known to repeat: its return is found, and later times
     are folded by the period, so that they cost nothing.
     """
-    from flint import ctx
     found, passed, loop = [], [], Loop() if orbit else None
-    with ctx.workprec(int((digits + GUARD) * 3.33)):
-        wanted = [number(t) for t in times]
+    with working(int((digits + GUARD) * 3.33)) as numbers:
+        wanted = [numbers.ball(t) for t in times]
         try:
-            for step in steps(recursion, start, digits, budget, -1 if len(times) and times[-1] < 0 else 1):
+            for step in steps(recursion, start, digits, budget, numbers, -1 if len(times) and times[-1] < 0 else 1):
                 while len(found) < len(wanted) and abs(wanted[len(found)] - step.start) <= abs(step.length):
                     found.append(step.at((wanted[len(found)] - step.start).mid()))
                 if loop:
@@ -134,8 +134,9 @@ def _compared(times, before, now, parts, work) -> Reference:
 
 def _pairs(rows):
     """Lists of balls as two arrays of doubles whose sum they are."""
-    high = np.array([[float(v) for v in row] for row in rows])
-    low = np.array([[float((v - float(v)).mid()) for v in row] for row in rows])
+    with working(DOUBLE_BITS):
+        high = np.array([[float(v) for v in row] for row in rows])
+        low = np.array([[float((v - float(v)).mid()) for v in row] for row in rows])
     return high, low
 
 
@@ -144,8 +145,9 @@ def _orbits(low, high):
     if low is None or high is None:
         return None, None, None
     (t0, pairs0), (t1, pairs1) = low, high
-    period = float(t1), float(t1 - float(t1)), float(abs(t1 - t0) / t1)
-    extremes = np.array([[[float(v), float(v - float(v))] for v in pair] for pair in pairs1])
+    with working(DOUBLE_BITS):
+        period = float(t1), float(t1 - float(t1)), float(abs(t1 - t0) / t1)
+        extremes = np.array([[[float(v), float(v - float(v))] for v in pair] for pair in pairs1])
+        gap = max(float(abs(a - b)) for one, two in zip(pairs0, pairs1) for a, b in zip(one, two))
     size = np.abs(extremes[..., 0]).max()
-    gap = max(float(abs(a - b)) for one, two in zip(pairs0, pairs1) for a, b in zip(one, two))
     return period, extremes, gap / size if size else gap

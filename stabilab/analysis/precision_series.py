@@ -48,10 +48,9 @@ class Recursion:
             self.products.append((first, second))
         return self._at[factors]
 
-    def numbers(self):
-        """The rates with their coefficients as balls of the working precision."""
-        from .balls import ball
-        return [[(row, ball(c).mid()) for row, c in rate] for rate in self.rates]
+    def in_balls(self, numbers):
+        """The rates with their coefficients as balls of this kind."""
+        return [[(row, numbers.ball(c).mid()) for row, c in rate] for rate in self.rates]
 
     def series(self, rates, x, order):
         """Taylor coefficients 0..order of the state, one list a component."""
@@ -90,11 +89,13 @@ def value(row, s, derivative=0):
     return total
 
 
-def steps(recursion, start, digits, budget, sense=1):
-    """Steps from the start at time 0, without end; raises Exhausted where the budget (a list of one count) is used up."""
-    from flint import arb
-    order, rates = int(1.15 * digits) + 4, recursion.numbers()
-    x, now = [number(v) for v in start], arb(0)
+def steps(recursion, start, digits, budget, numbers, sense=1):
+    """Steps from the start at time 0, without end; raises Exhausted where the budget (a list of one count) is used up.
+
+    numbers: the kind (`balls.Digits`), to be taken while it is the working one.
+    """
+    order, rates = int(1.15 * digits) + 4, recursion.in_balls(numbers)
+    x, now = [numbers.ball(v) for v in start], numbers.ball(0)
     while True:
         budget[0] -= recursion.cost(order)
         if budget[0] < 0:
@@ -104,11 +105,6 @@ def steps(recursion, start, digits, budget, sense=1):
         step = Step(now, length, rows)
         yield step
         x, now = step.at(length), (now + length).mid()
-
-
-def number(v):
-    from .balls import ball
-    return ball(Fraction(v))
 
 
 def _length(rows, order, digits):

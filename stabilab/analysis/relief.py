@@ -12,7 +12,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .precise import TIE_BITS, PreciseOrbit, Unclear, ball, settled
+from .balls import Unclear, settled
+from .precise import TIE_BITS, PreciseOrbit
 
 SURE_BITS = 60  # relative accuracy of a ball that is rounded to a double
 FLOOR_BITS = 90  # a sum of terms whose ball is smaller than its terms by so many bits counts as zero
@@ -208,17 +209,16 @@ class Relief:
 
 def relief(reduction, state) -> Relief:
     """The relief of one state's orbit. Raises InputError where energies tie (on a separatrix)."""
-    return settled(lambda bits: _relief(PreciseOrbit(reduction, state), bits))
+    return settled(lambda numbers: _relief(PreciseOrbit(reduction, state, numbers)))
 
 
-def _relief(orbit, bits) -> Relief:
-    from flint import arb
-    zero = orbit.w * 0
+def _relief(orbit) -> Relief:
+    zero, bits = orbit.w * 0, orbit.numbers.bits
     kinetic = [orbit.energy - orbit.height(s.y) for s in orbit.spots]
-    turn = 2 * arb.pi() * orbit.mu if orbit.r.e < 0 else zero
+    turn = 2 * orbit.numbers.pi() * orbit.mu if orbit.r.e < 0 else zero
     spots = [_spot(orbit, s.y, s.kind, value, bits) for s, value in zip(orbit.spots, kinetic)]
     drops = ()
-    here = _spot(orbit, zero, 0, orbit.energy, bits, force=ball(orbit.force_here) * orbit.n * orbit.flip)
+    here = _spot(orbit, zero, 0, orbit.energy, bits, force=orbit.numbers.ball(orbit.force_here) * orbit.n * orbit.flip)
     if orbit.r.e < 0:
         behind = [replace(spot, at=_offset(one.y), kinetic=_rounded(value - turn, bits))
                   for spot, value, one in zip(spots, kinetic, orbit.all_spots)]

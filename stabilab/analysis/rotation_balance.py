@@ -4,7 +4,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from .balls import rational
+from .balls import rational, working
 from .rotation_spectrum import Field
 
 BITS = 320
@@ -19,10 +19,9 @@ class Rotation:
     circle: tuple = ()
 
 
-def many_digits(bits: int = BITS):
-    """Context in which flint works with `bits` bits."""
-    from flint import ctx
-    return ctx.workprec(bits)
+def many_digits():
+    """Context in which flint works with `BITS` bits."""
+    return working(BITS)
 
 
 def groups_at(S, b):
@@ -60,9 +59,9 @@ def rotations_at(field: Field, Omega: Fraction) -> list[Rotation]:
 
 def _directions(P, S, b, acting) -> list[Rotation]:
     """gamma_i = -b_i/(S_i - mu) at every real root mu of P, rising; with more digits where b is so small that S_i - mu has none left."""
-    from flint import arb, ctx
-    for bits in (ctx.prec, 4 * ctx.prec, 16 * ctx.prec):
-        with many_digits(bits):
+    from flint import arb
+    for bits in (BITS, 4 * BITS, 16 * BITS):
+        with working(bits):
             found = []
             for root in sorted((r.real for r, _ in P.numer().complex_roots() if r.imag == 0), key=lambda r: r.mid()):
                 gamma = [arb(0)] * 3

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 from .numbers import hull, sign
+from .precision import working
 from .rates import characteristic
 from .zeros import above, below
 
@@ -10,10 +11,10 @@ BITS, MOST_BITS = 128, 1 << 14
 
 def only_zero(rates, box):
     """(sign of m, sign of n) at the one zero in the box of three brackets, or None where the test does not close."""
-    from flint import arb_mat, ctx
+    from flint import arb_mat
     bits = BITS
     while bits <= MOST_BITS:
-        with ctx.workprec(bits):
+        with working(bits):
             x = [hull(a, b) for a, b in box]
             for _ in range(60):
                 new = _krawczyk(rates, x, arb_mat)

@@ -8,6 +8,7 @@ from .facts import Facts
 from .numbers import Malformed, ball, bracket, exact_sign, field, numbers, shown, word
 from .orbit import Orbit
 from .period import period_of, round_once
+from .precision import working
 from .zeros import Open, above, below
 
 BITS, MOST_BITS = 192, 6144
@@ -132,10 +133,9 @@ def _orbit(rates, state):
 
 def at_rising_precision(question, least=None, most=None):
     """question() at more and more bits while it raises Open; None when the most are not enough."""
-    from flint import ctx
     bits = least or BITS
     while bits <= (most or MOST_BITS):
-        with ctx.workprec(bits):
+        with working(bits):
             try:
                 return question()
             except Open:

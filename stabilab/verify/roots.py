@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from .numbers import Malformed, fraction
+from .precision import working
 from .zeros import above, below
 
 START_BITS, MOST_BITS = 64, 1 << 15
@@ -56,10 +57,10 @@ def real_zeros(polynomial) -> list[Zero]:
 
 
 def _zeros_of(factor, order, bits) -> list[Zero]:
-    from flint import arb, ctx
+    from flint import arb
     if factor.degree() == 1:
         exact = -fraction(factor[0] / factor[1])
         return [Zero(factor, order, exact, exact)]
-    with ctx.workprec(bits):
+    with working(bits):
         balls = [arb(z.real) for z, _ in factor.complex_roots() if z.imag.is_zero()]
     return [Zero(factor, order, below(b), above(b)) for b in balls]
