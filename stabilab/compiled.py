@@ -192,8 +192,18 @@ def _equations(equations_or_scene) -> Equations:
 
 @lru_cache(maxsize=256)
 def _function(arguments, expressions):
+    return lambdified(arguments, list(expressions))
+
+
+def lambdified(arguments, expressions, cse=False):
+    """The expressions as one function of NumPy's arrays, made by one thread at a time: a second one would find the names that
+    SymPy collects for the first function half collected."""
     from sympy import lambdify
-    return lambdify(arguments, list(expressions), "numpy", cse=False)
+    with _NAMES:
+        return lambdify(arguments, expressions, "numpy", cse=cse)
+
+
+_NAMES = RLock()
 
 
 def _call(form: Form, x) -> list:

@@ -3,8 +3,10 @@ from __future__ import annotations
 
 import math
 import re
+from contextlib import contextmanager
 from fractions import Fraction
 from numbers import Integral, Rational, Real
+from threading import RLock
 
 from .errors import InputError
 
@@ -102,12 +104,22 @@ def sqrt_fraction(value: Fraction, bits: int = 240) -> Fraction:
     return Fraction(math.isqrt((n << (2 * shift)) // d), 1 << shift)
 
 
+@contextmanager
+def mpmath_alone():
+    """Context giving mpmath to this thread alone: its precision, and the digits of pi that it keeps, belong to the process."""
+    import mpmath
+    with _MPMATH:
+        yield mpmath
+
+
+_MPMATH = RLock()
+
+
 def precise(name: str, *arguments, bits: int = 240) -> Fraction:
     """A rational within about 2**-bits of a function of rationals ("cos", "sqrt") or of a constant ("pi")."""
-    from mpmath import mp, mpf
-    with mp.workprec(bits + 20):
-        values = [mpf(a.numerator) / a.denominator for a in arguments]
-        number = getattr(mp, name)
+    with mpmath_alone() as mpmath, mpmath.workprec(bits + 20):
+        values = [mpmath.mpf(a.numerator) / a.denominator for a in arguments]
+        number = getattr(mpmath.mp, name)
         value = number(*values) if values else +number
         man, exp = value.man_exp  # of the size alone
     return Fraction(-man if value < 0 else man) * Fraction(2) ** exp

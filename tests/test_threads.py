@@ -1,25 +1,31 @@
 """Several threads that ask different questions at once get the answers of one thread, to the bit.
 
-What only one thread may have at a time is named here: python-flint's working precision belongs to the process.
+What only one thread may have at a time is named here: the working precision of python-flint and that of mpmath belong to the
+process, and so do the names that SymPy gives to compiled functions.
 """
 import ast
 import json
 import random
 import sys
 import threading
+import time
+from fractions import Fraction
+from functools import lru_cache
 from pathlib import Path
 
 import flint
+import mpmath
 import numpy as np
 import pytest
 
 import stabilab
-from stabilab import Body, Gyrostat, Scene
+from stabilab import Body, Gyrostat, Scene, compiled
 from stabilab.analysis import balls
 from stabilab.analysis.certificate import certificate
 from stabilab.analysis.precision_digits import best_reached
 from stabilab.analysis.precision_questions import ask
 from stabilab.effects.gravity import Gravity
+from stabilab.exact import precise
 from stabilab.verify import precision, verify
 
 ROOT = Path(__file__).parent.parent
@@ -147,17 +153,58 @@ def test_analysis_and_checker_hold_one_lock_while_flint_has_their_precision():
     assert entered.is_set() and flint.ctx.prec == 53
 
 
-def test_only_the_two_gates_touch_the_precision_of_flint():
-    """Another place that sets it would do so under the eyes of a thread that computes."""
-    gates = {"analysis/balls.py", "verify/precision.py"}
-    found = {path.relative_to(ROOT / "stabilab").as_posix() for path in (ROOT / "stabilab").rglob("*.py")
-             for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
-             if isinstance(node, ast.Attribute) and node.attr in ("workprec", "extraprec", "workdps", "extradps") and "mp" not in ast.unparse(node.value)}
+def test_exact_cosines_of_two_threads_keep_their_own_bits(monkeypatch):
+    cosine = lambda bits: precise("cos", Fraction(1, 7), bits=bits)  # noqa: E731
+    alone, found, cos = {bits: cosine(bits) for bits in (900, 240)}, {}, mpmath.mp.cos
+
+    def slow(x):  # the thread of 900 bits works on while that of 240 has begun and not ended
+        time.sleep(0.05 if threading.current_thread().name == "900" else 0.1)
+        return cos(x)
+    monkeypatch.setattr(mpmath.mp, "cos", slow)
+    threads = [threading.Thread(target=lambda bits=bits: found.update({bits: cosine(bits)}), name=str(bits)) for bits in alone]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert found == alone
+
+
+def test_functions_of_symbols_are_made_by_one_thread_at_a_time(monkeypatch):
+    """SymPy collects NumPy's names for the first function; a second one made meanwhile would miss some of them."""
+    import sympy
+    x, busy, most = sympy.Symbol("x"), [], []
+    make = sympy.lambdify
+
+    def watched(*args, **options):
+        busy.append(1)
+        most.append(len(busy))
+        time.sleep(0.01)
+        busy.pop()
+        return make(*args, **options)
+    monkeypatch.setattr(sympy, "lambdify", watched)
+    threads = [threading.Thread(target=compiled.lambdified, args=((x,), [sympy.sin(k * x)])) for k in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert most == [1] * 4
+
+
+@lru_cache(maxsize=None)
+def nodes(path):
+    return list(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
+
+
+def test_only_gates_that_hold_a_lock_set_a_precision():
+    """Another place that set it would do so while some thread computes."""
+    gates = {"analysis/balls.py": "flint", "verify/precision.py": "flint", "exact.py": "mpmath", "analysis/small_parameter_series.py": "mpmath"}
+    found = {path.relative_to(ROOT / "stabilab").as_posix(): ast.unparse(node.value).split(".")[0] for path in (ROOT / "stabilab").rglob("*.py")
+             for node in nodes(path) if isinstance(node, ast.Attribute) and node.attr in ("workprec", "extraprec", "workdps", "extradps")}
     assert found == gates
 
 
 def test_no_module_rebinds_a_name_at_run_time():
     """What a module knows is the same for every thread: a kind of number, a precision, a count is passed."""
     found = [f"{path}: {', '.join(node.names)}" for path in (ROOT / "stabilab").rglob("*.py")
-             for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))) if isinstance(node, ast.Global)]
+             for node in nodes(path) if isinstance(node, ast.Global)]
     assert found == []

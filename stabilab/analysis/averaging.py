@@ -12,6 +12,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from ..compiled import lambdified
 from ..errors import InputError
 from .averaging_form import NAMES, check, constants, normal_form
 
@@ -255,11 +256,11 @@ class _Model:
 @lru_cache(maxsize=32)
 def _functions(form, order, absent):
     """(means(S, r, m, m1, K, ...), kept(Z, Zc, r, m, m1, K, ...), near(...)) up to an order; absent: names that are 0."""
-    from sympy import Symbol, expand, lambdify
+    from sympy import Symbol, expand
     Z, Zc, r, m, m1, K = form.variables
     gone = {s: 0 for s, n in zip(form.symbols, NAMES) if n in absent}
     means = [sum(part[:order]) for part in (form.turn, form.spin)]
     kept = [sum(parts) for parts in zip(*form.kept)]
     inner = [r, m, m1, K, *form.symbols]
-    return tuple(lambdify([*first, *inner], [expand(e.subs(gone)) for e in expressions], "numpy", cse=True) for first, expressions
+    return tuple(lambdified([*first, *inner], [expand(e.subs(gone)) for e in expressions], cse=True) for first, expressions
                  in (([Symbol("S", real=True)], means), ([Z, Zc], kept), ([Z, Zc], form.near)))

@@ -20,6 +20,8 @@ from fractions import Fraction
 
 import numpy as np
 
+from ..exact import mpmath_alone
+
 ROUNDED = 3  # digits lost to rounding: a forcing whose share of the largest one lies below the others is none
 # Where the weight's tilt sin(theta0) is below what the first orders add to it, the orders of nu are small differences over the
 # tilt: each order loses that ratio, so they are formed in many digits. A top that needs it for more is not fast.
@@ -54,8 +56,8 @@ class Expansion:
 def expand(top, order: int) -> Expansion:
     """The expansion of a `FastTop` to `order`."""
     if _nearly_upright(top):
-        import mpmath
-        with mpmath.workdps(digits := 30 + 20 * (order + 1)):
+        digits = 30 + 20 * (order + 1)
+        with mpmath_alone() as mpmath, mpmath.workdps(digits):
             return _Solver(top, order, lambda x: mpmath.mpf(x.numerator) / x.denominator, mpmath.mpc, digits).run()
     return _Solver(top, order, float, complex, 16).run()
 
