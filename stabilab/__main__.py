@@ -1,7 +1,8 @@
 """The program: `python -m stabilab` and the command `stabilab`."""
 import gc
+import sys
 
-from . import interrupt
+from . import interrupt, streams
 
 # Reading modules makes many objects and no rubbish: with the interpreter's 700 the collector would look through them some
 # hundred times before a small command has begun, at a tenth of its time.
@@ -11,12 +12,27 @@ OBJECTS_BETWEEN_COLLECTIONS = 50_000
 def main() -> None:
     """Run a command and end the process with its exit code. Interrupts are taken care of before anything slow is imported."""
     gc.set_threshold(OBJECTS_BETWEEN_COLLECTIONS)
+    streams.occupy()
     interrupt.arm()
     try:
-        from .cli import main as run
-        run()
+        _commands()()
     finally:
         interrupt.disarm()
+
+
+def _commands():
+    """The commands; where the package that reads the command line is missing, its name ends the program."""
+    try:
+        from .cli import main as run
+        return run
+    except ImportError as error:
+        from .packages import explained
+        words = explained(error)
+        if words is None:
+            raise
+        if sys.stderr:
+            print(words, file=sys.stderr)
+        sys.exit(words.exit_code)
 
 
 if __name__ == "__main__":

@@ -77,6 +77,16 @@ class Case:
         """The file's stem, and which combination of its [sweep] this is ("-2-1": second value of the first key)."""
         return printable(Path(self.path).stem) + self.variant
 
+    @property
+    def heading(self) -> str:
+        """Its title, or its name where it has none, with the label of a combination."""
+        return f"{self.title} ({self.name})" if self.title and self.variant else self.title or self.name
+
+    @property
+    def place(self) -> str:
+        """How messages name the case: its file, and which combination of its [sweep]."""
+        return printable(self.path) + (f" ({self.name})" if self.variant else "")
+
 
 @contextmanager
 def blamed_on(case: Case):
@@ -90,7 +100,7 @@ def blamed_on(case: Case):
         keys = {"state": STATES, "span": SPANS}.get(word, ()) if colon else ()
         table = key_lines(case.text).line if keys else {}
         key, line = next(((k, table[("motion", k)]) for k in keys if ("motion", k) in table), (None, None))
-        raise InputError(f"{printable(case.path)}:{line}: motion.{key}: {rest}" if line else f"{printable(case.path)}: {error}") from None
+        raise InputError(f"{printable(case.path)}:{line}: motion.{key}: {rest}" if line else f"{case.place}: {error}") from None
 
 
 def load(path) -> Case:

@@ -3,14 +3,14 @@ from __future__ import annotations
 
 import os
 import sys
+from functools import partial
 from pathlib import Path
 from typing import Annotated, List, Optional  # typer reads the annotations at run time
 
 import typer
 
 from .errors import BAD_INPUT, BUG, INTERRUPTED, OK, UNDECIDED, InputError, RenderingUnavailable, StabilabError, ToleranceNotMet
-
-PIPE_CLOSED = 141  # what a shell reports for a program that a closed pipe ended
+from .streams import LOST, OutputLost, guarded
 
 # Plain help: rich costs more time than the rest of `stabilab --help`.
 app = typer.Typer(name="stabilab", no_args_is_help=True, rich_markup_mode=None, pretty_exceptions_enable=False)
@@ -44,7 +44,7 @@ def show(case: CaseFile):
     Example: stabilab show cases/minor-axis-100.toml
     """
     from .show.scene_text import text
-    _print(text(_load([case])[0]))
+    _print("\n\n".join(text(one) for one in _load([case])))
 
 
 @app.command()
@@ -58,14 +58,19 @@ def classify(cases: CaseFiles, json: Json = False, strict: Annotated[bool, typer
     Example: stabilab classify cases/minor-axis-100.toml --json
     """
     from .show import answers
-    loaded = _load(cases, sweep=True)
+    from .show import certification
+    loaded = _load(cases)
+    if certify:
+        certification.checked(out)
+        if len(cases) != 1:
+            raise InputError(f"--certify: expected one case, got {len(cases)}; certify them one by one")
     answered = [(case, _equilibria(case), _motion(case) if case.state else None) for case in loaded]
     boxes, shown = _over_boxes(loaded, "equilibria", "fate")
     if json:
         _print(answers.as_json([answers.classification(*answer) | shown.as_dict(box) for answer, box in zip(answered, boxes)]))
     else:
         _print("\n\n".join(answers.classification_text(*answer) + shown.text(box) for answer, box in zip(answered, boxes)))
-    certified = _certified(loaded, out) if certify else True
+    certified = all([_certified(case, out) for case in loaded]) if certify else True
     undecided = any(answers.undecided(found, motion) for _, found, motion in answered) or any(map(shown.undecided, boxes))
     if strict and (not certified or undecided):
         raise typer.Exit(UNDECIDED)
@@ -148,26 +153,18 @@ def simulate(case: CaseFile,
 
     Example: stabilab simulate cases/major-axis-100.toml --at 0,5,10,15 --json
     """
-    from .show import answers, trajectory_files
-    loaded = _load([case], motion=True)[0]
-    times = _times(loaded, at)
+    from .show import trajectory_files
+    loaded = _load([case], motion=True)
     if out:
         trajectory_files.checked(out)
-    from .case import blamed_on
-    with blamed_on(loaded):
-        run, reached = _followed(loaded, times, model, method, rtol, order, digits)
+    runs = [(one, *_followed(one, _times(one, at), model, method, rtol, order, digits)) for one in loaded]
     if out:
-        trajectory_files.write(loaded, run, out)
-        _say(f"written: {out}")
-    if json or not out:
-        told = {"digits": reached and {"asked": reached.asked, "reached": reached.digits, "because": reached.because}}
-        last = f"\n# {reached.digits:.1f} digits: {reached.because}" if reached else ""
-        _print(answers.as_json(answers.simulation(loaded, run) | told) if json else answers.simulation_text(loaded, run) + last)
-    if run.status != "reached":
-        raise ToleranceNotMet(f"{case}: {run.reason}")
-    if reached and not reached.enough:
-        from .analysis.precision_digits import missed
-        raise ToleranceNotMet(missed(loaded, reached))
+        _write_each(out, [(one, partial(trajectory_files.write, one, run)) for one, run, _ in runs])
+    if json:
+        _print_json(loaded, [_run_as_dict(*followed) for followed in runs])
+    elif not out:
+        _print("\n\n".join(_run_as_text(*followed) for followed in runs))
+    _judge_runs(runs)
 
 
 @app.command()
@@ -182,25 +179,22 @@ def compare(case: CaseFile,
     Example: stabilab compare cases/charged-body.toml
     """
     from .show import comparison
-    from .analysis.comparison import compare as set_side_by_side
-    from .analysis.models import models_of
-    loaded = _load([case], motion=True)[0]
-    if loaded.span is None:
-        raise InputError(f"{loaded.path}: motion: no span; compare needs span = [0, T] in [motion]")
-    if models_of(loaded.scene) == ("exact",):
-        raise InputError(f"{loaded.path}: no analytic model applies to this scene; there is nothing to compare")
-    found = set_side_by_side(loaded, order=order)
+    loaded = _load([case], motion=True)
     if out:
-        comparison.write(loaded, found, out)
-        _say(f"written: {out}")
-    from .show import answers
-    _print(answers.as_json(comparison.as_dict(loaded, found)) if json else comparison.text(loaded, found))
+        comparison.checked(out)
+    compared = [(one, _compared(one, order)) for one in loaded]
+    if out:
+        _write_each(out, [(one, partial(comparison.write, one, found)) for one, found in compared])
+    if json:
+        _print_json(loaded, [comparison.as_dict(*row) for row in compared])
+    else:
+        _print("\n\n".join(comparison.text(*row) for row in compared))
 
 
 @app.command()
 def precision(case: CaseFile, json: Json = False,
               csv: Annotated[bool, typer.Option("--csv", help="CSV on stdout instead of text.")] = False,
-              out: Annotated[Optional[Path], typer.Option(metavar="FILE.png|.csv", help="Write the picture or the points.")] = None,
+              out: Annotated[Optional[Path], typer.Option(metavar="FILE.png|.svg|.pdf|.csv", help="Write the picture or the points.")] = None,
               until: Annotated[Optional[float], typer.Option(metavar="T", help="End of the span; default: the case's own.")] = None,
               quick: Annotated[bool, typer.Option("--quick", help="Few settings: seconds instead of a minute.")] = False):
     """Measure what accuracy costs: every method, error and time.
@@ -211,51 +205,65 @@ def precision(case: CaseFile, json: Json = False,
     """
     if json and csv:
         raise typer.BadParameter("choose one of --json and --csv")
-    from .show import answers
     from .show import precision as shown
     from .analysis.precision import precision as measure
     from .analysis.precision_front import keep
     if out:
         shown.checked(out)
-    found = measure(_load([case], motion=True)[0], "quick" if quick else "full", until)
-    keep(found)
+    loaded = _load([case], motion=True)
+    measured = [measure(one, "quick" if quick else "full", until) for one in loaded]
+    for found in measured:
+        keep(found)
     if out:
-        shown.write(found, out)
-        _say(f"written: {out}")
-    _print(answers.as_json(shown.as_dict(found)) if json else shown.csv(found) if csv else shown.text(found))
-    if not found.questions:
-        raise ToleranceNotMet(f"{case}: {found.reference.reason}")
+        _write_each(out, [(found.case, partial(shown.write, found)) for found in measured])
+    if json:
+        _print_json(loaded, [shown.as_dict(found) for found in measured])
+    else:
+        _print(shown.csv(*measured) if csv else "\n\n".join(map(shown.text, measured)))
+    _all_reached((found.case, found.reference.reason) for found in measured if not found.questions)
 
 
 @app.command()
 def surface(case: CaseFile, out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the files.")] = ...):
     """Write the separatrix surfaces as meshes and a picture.
 
-    Files: .vtp, .glb, .stl, .png; a summary goes to stdout (JSON).
+    Files: .vtp, .glb, .stl, .png; a summary goes to stdout (JSON). Where there is no separatrix, it says why, and no
+    file is written.
 
     Example: stabilab surface cases/minor-axis-100.toml --out surfaces
     """
-    from .show import answers
-    from .show.surface import write
+    from .show.surface import write_all
+    loaded, unavailable = _load([case]), None
     try:
-        summary = write(_load([case])[0], out, arguments=sys.argv[1:])
-    except RenderingUnavailable as unavailable:
-        if getattr(unavailable, "summary", None):
-            _print(answers.as_json(unavailable.summary))
-        raise
-    _print(answers.as_json(summary))
+        summaries = write_all(loaded, out, arguments=sys.argv[1:])
+    except RenderingUnavailable as error:
+        if not hasattr(error, "summaries"):
+            raise
+        summaries, unavailable = error.summaries, error
+    _print_json(loaded, summaries)
+    for one, summary in zip(loaded, summaries):
+        if not summary["sheets"]:
+            _say(f"{one.name}: no surface to write: {summary['reason']}")
+    if unavailable:
+        raise unavailable
 
 
 @app.command()
 def plot(case: CaseFile, out: Annotated[Optional[Path], typer.Option(
-        metavar="FILE.png", help="Picture to write; default: CASE.png in the current folder.")] = None):
+        metavar="FILE.png|.svg|.pdf", help="Picture to write; default: CASE.png in the current folder.")] = None):
     """Draw the motion of a case in its phase plane.
 
     Example: stabilab plot cases/middle-axis-double-well.toml --out double-well.png
     """
+    from .case import blamed_on
+    from .show import endings
     from .show.plane import plot as draw
-    loaded = _load([case], motion=True)[0]
-    _print(str(draw(loaded, out or Path(f"{loaded.name}.png"))))
+    loaded, drawn = _load([case], motion=True), []
+    target = endings.file(out or f"{case.stem}.png", endings.PICTURES)
+    for one in loaded:
+        with blamed_on(one):
+            drawn.append(draw(one, endings.labelled(target, one)))
+    _print_paths(drawn, out)
 
 
 @app.command()
@@ -330,17 +338,17 @@ def doctor():
     _print(text())
 
 
-def _load(paths, motion: bool = False, sweep: bool = False) -> list:
-    """All cases; the faults of all files at once. motion: each must state one; sweep: every case of a sweep file."""
-    from .case import load, load_all
+def _load(paths, motion: bool = False) -> list:
+    """All cases, of a file with [sweep] every combination; the faults of all files at once. motion: each must state one."""
+    from .case import load_all
     cases, faults = [], []
     for path in paths:
         try:
-            cases.extend(load_all(path) if sweep else [load(path)])
+            cases.extend(load_all(path))
         except InputError as error:
             faults.append(str(error))
-    faults += [f"{case.path}: motion: expected x or angular_velocity in [motion]; this command needs a state"
-               for case in cases if motion and case.state is None]
+    faults += dict.fromkeys(f"{case.path}: motion: expected x or angular_velocity in [motion]; this command needs a state"
+                            for case in cases if motion and case.state is None)
     if faults:
         raise InputError("\n".join(faults))
     return cases
@@ -362,16 +370,15 @@ def _equilibria(case):
         return equilibria(case.scene)
 
 
-def _certified(cases, out) -> bool:
+def _certified(case, out) -> bool:
     """Write the certificate of one case; whether all of it could be certified."""
     from .analysis.certificate import certificate
     from .case import blamed_on
     from .show import certification
-    if len(cases) != 1:
-        raise InputError(f"--certify: expected one case, got {len(cases)}; certify them one by one")
-    with blamed_on(cases[0]):
-        made = certificate(cases[0].scene, cases[0].exact_state)
-    _say(f"written: {certification.write(made, out)}\n{certification.summary(made)}")
+    from .show.endings import labelled
+    with blamed_on(case):
+        made = certificate(case.scene, case.exact_state)
+    _say(f"written: {certification.write(made, labelled(out, case))}\n{certification.summary(made)}")
     return not made["uncertified"]
 
 
@@ -386,7 +393,7 @@ def _tell(question, paths, digits, json, csv=False):
     """Answer a question for every case and say how many digits of it are known."""
     from .show import answers
     from .show import precision_answers as shown
-    answered = [(case, found, _told(question, case, found, digits)) for case in _load(paths, motion=True, sweep=True)
+    answered = [(case, found, _told(question, case, found, digits)) for case in _load(paths, motion=True)
                 for found in [_motion(case, brief=question == "extremes")]]
     boxes, over = _over_boxes([case for case, *_ in answered], *(["fate"] if question == "fate" else []))
     if json:
@@ -399,7 +406,7 @@ def _tell(question, paths, digits, json, csv=False):
     missing = [(case, told) for case, _, told in answered if not told.enough]
     if missing:
         from .analysis.precision_told import short
-        raise ToleranceNotMet("\n".join(f"{case.path}: {question}: {short(told)}" for case, told in missing))
+        _all_reached((case, f"{question}: {short(told)}") for case, told in missing)
 
 
 def _told(question, case, motion, digits):
@@ -416,6 +423,12 @@ def _told(question, case, motion, digits):
 
 def _followed(case, times, model, method, rtol, order, digits):
     """(the motion, what the check of its digits showed or None)."""
+    from .case import blamed_on
+    with blamed_on(case):
+        return _run_or_best(case, times, model, method, rtol, order, digits)
+
+
+def _run_or_best(case, times, model, method, rtol, order, digits):
     chosen = model != "exact" or method or rtol or order
     if digits is None and chosen:
         from .analysis.models import follow
@@ -427,6 +440,48 @@ def _followed(case, times, model, method, rtol, order, digits):
     from .analysis.precision_told import DEFAULT
     reached = best_reached(case, times, DEFAULT if digits is None else digits, measured=digits is not None)
     return reached.run, reached
+
+
+def _run_as_dict(case, run, reached) -> dict:
+    from .show import answers
+    told = reached and {"asked": reached.asked, "reached": reached.digits, "because": reached.because}
+    return answers.simulation(case, run) | {"digits": told}
+
+
+def _run_as_text(case, run, reached) -> str:
+    from .show import answers
+    first = f"# {case.name}\n" if case.variant else ""
+    last = f"\n# {reached.digits:.1f} digits: {reached.because}" if reached else ""
+    return first + answers.simulation_text(case, run) + last
+
+
+def _judge_runs(runs):
+    """Exit with 5 where a run stopped or its digits were not reached."""
+    _all_reached((case, run.reason) for case, run, _ in runs if run.status != "reached")
+    short = [(case, reached) for case, _, reached in runs if reached and not reached.enough]
+    if short:
+        from .analysis.precision_digits import missed
+        raise ToleranceNotMet("\n".join(missed(*row) for row in short))
+
+
+def _compared(case, order):
+    """The models of a case beside its exact motion."""
+    from .analysis.comparison import compare as set_side_by_side
+    from .analysis.models import models_of
+    from .case import blamed_on
+    if case.span is None:
+        raise InputError(f"{case.place}: motion: no span; compare needs span = [0, T] in [motion]")
+    if models_of(case.scene) == ("exact",):
+        raise InputError(f"{case.place}: no analytic model applies to this scene; there is nothing to compare")
+    with blamed_on(case):
+        return set_side_by_side(case, order=order)
+
+
+def _all_reached(short):
+    """Exit with 5 where (case, why) says that an answer falls short."""
+    lines = [f"{case.place}: {why}" for case, why in short]
+    if lines:
+        raise ToleranceNotMet("\n".join(lines))
 
 
 def _times(case, at: str | None) -> list[float]:
@@ -444,13 +499,22 @@ def _times(case, at: str | None) -> list[float]:
 
 
 def _print(text: str):
-    """Text to stdout; a reader that went away ends the program quietly."""
-    try:
-        sys.stdout.write(text.rstrip("\n") + "\n")
-        sys.stdout.flush()
-    except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        sys.exit(PIPE_CLOSED)
+    """Text to stdout."""
+    sys.stdout.write(text.rstrip("\n") + "\n")
+    sys.stdout.flush()
+
+
+def _print_json(cases, rows):
+    """An object for a case, a list of them for the combinations of a [sweep]."""
+    from .show import answers
+    _print(answers.as_json(rows if any(case.variant for case in cases) else rows[0]))
+
+
+def _write_each(out, writers):
+    """Let write(path) of every (case, write) make its file; each is named."""
+    from .show.endings import labelled
+    for case, write in writers:
+        _say(f"written: {write(labelled(out, case))}")
 
 
 def _print_paths(paths, otherwise):
@@ -466,27 +530,42 @@ def main() -> None:
     """Run a command and end the process with its exit code."""
     if hasattr(sys.stdout, "reconfigure"):
         sys.stdout.reconfigure(errors="backslashreplace")  # a terminal or pipe that does not take every letter
+    with guarded():
+        sys.exit(_run())
+
+
+def _run() -> int:
     try:
         app()
-        code = OK
+        return OK
     except StabilabError as error:
-        _say(str(error))
-        code = error.exit_code
+        return _reported(error)
     except KeyboardInterrupt:
-        code = INTERRUPTED
+        return INTERRUPTED
+    except ImportError as error:
+        from .packages import explained
+        words = explained(error)
+        return _reported(words) if words else _unexpected(error)
     except OSError as error:
+        if error.errno in LOST and not error.filename:  # written past the guard of stdout
+            return _reported(OutputLost(error.errno))
         _say(f"{error.filename or 'stabilab'}: {error.strerror or error}")
-        code = BAD_INPUT if error.filename else BUG
+        return BAD_INPUT if error.filename else BUG
     except Exception as error:
-        _unexpected(error)
-        code = BUG
-    sys.exit(code)
+        return _unexpected(error)
 
 
-def _unexpected(error: Exception):
+def _reported(error: StabilabError) -> int:
+    if str(error):
+        _say(str(error))
+    return error.exit_code
+
+
+def _unexpected(error: Exception) -> int:
     if os.environ.get("STABILAB_DEBUG") == "1":
         import traceback
         traceback.print_exc()
-        return
-    _say(f"stabilab failed unexpectedly: {type(error).__name__}: {error}\n"
-         "This is a fault of the program. Set STABILAB_DEBUG=1 to see where it happened.")
+    else:
+        _say(f"stabilab failed unexpectedly: {type(error).__name__}: {error}\n"
+             "This is a fault of the program. Set STABILAB_DEBUG=1 to see where it happened.")
+    return BUG

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from stabilab import cli
+from stabilab import cli, streams
 from stabilab.errors import CaseError
 
 ROOT = Path(__file__).parent.parent
@@ -250,6 +250,112 @@ def test_surface_without_a_renderer_writes_the_meshes_and_ends_with_4(stabilab, 
     assert strict_json((tmp_path / f"{MINOR.stem}.json").read_text())["sheets"]
 
 
+# -- [sweep] -----------------------------------------------------------------------------------------------------------
+
+SWEPT = """title = "swept"
+[body]
+inertia = [8.7, 8.6, 11.1]
+[effects.charge]
+charge = 0.001
+field = 100
+arm = 1
+angle = 0.37
+[effects.gyrostat]
+momentum = [0, 0, 1]
+[motion]
+angular_velocity = [0.1, 0.2, 0.3]
+span = [0, 2]
+[sweep]
+"motion.angular_velocity" = [[0.1, 0.2, 0.3], [0.3, 0.2, 0.1]]
+"effects.gyrostat.momentum" = [[0, 0, 1], [0, 0, 2], [0, 0, 3]]
+"""
+LABELS = [f"-{i}-{j}" for i in (1, 2) for j in (1, 2, 3)]  # two starts times three wheels, the last key running fastest
+
+
+@pytest.fixture
+def swept(tmp_path, monkeypatch):
+    """Two combinations of a gyrostat under a torque on its minor axis, which every command serves, and six of a charged body."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    (tmp_path / "six.toml").write_text(SWEPT)
+    plain = MINOR.read_text().split("[expect]")[0]
+    (tmp_path / "two.toml").write_text(plain + '\n[sweep]\n"motion.x" = [[2.5, 4, 0.1], [2.5, 4, 0.2]]\n')
+    return tmp_path
+
+
+@pytest.mark.parametrize("command", [["classify"], ["extremes"], ["fate"], ["period"], ["simulate", "--at", "0,1"], ["compare"]])
+def test_every_combination_of_a_sweep_has_its_row_in_json(stabilab, swept, command):
+    code, out, err = stabilab(command[0], "six.toml", *command[1:], "--json")
+    assert code == 0, err
+    assert [row["case"] for row in strict_json(out)] == [f"six{label}" for label in LABELS]
+
+
+@pytest.mark.parametrize("command", [["show"], ["classify"], ["extremes"], ["fate"], ["period"], ["simulate", "--at", "0,1"], ["compare"]])
+def test_every_combination_of_a_sweep_is_named_in_text(stabilab, swept, command):
+    code, out, err = stabilab(command[0], "six.toml", *command[1:])
+    assert code == 0 and all(f"six{label}" in out for label in LABELS), err
+
+
+def test_a_combination_of_a_sweep_is_followed_from_its_own_start(stabilab, swept):
+    rows = strict_json(stabilab("simulate", "six.toml", "--at", "0", "--json")[1])
+    assert [row["state"]["omega"][0] for row in rows] == [[0.1, 0.2, 0.3]] * 3 + [[0.3, 0.2, 0.1]] * 3
+
+
+@pytest.mark.parametrize("command, ending", [
+    (["simulate", "six.toml", "--at", "0,1"], "csv"), (["compare", "six.toml"], "csv"), (["plot", "two.toml"], "svg"),
+    (["classify", "two.toml", "--certify"], "json"),
+    pytest.param(["precision", "two.toml", "--quick", "--until", "1"], "csv", marks=pytest.mark.slow)], ids=lambda value: value[0])
+def test_files_of_a_sweep_bear_the_labels_of_its_combinations(stabilab, swept, command, ending):
+    code, _, err = stabilab(*command, "--out", f"made.{ending}")
+    labels = LABELS if "six.toml" in command else ["-1", "-2"]
+    made = sorted(swept.glob("made*"))
+    assert code == 0 and [p.name for p in made] == [f"made{label}.{ending}" for label in labels], err
+    assert len({p.read_bytes() for p in made}) == len(made)  # each is another
+
+
+def test_surfaces_of_a_sweep_share_a_folder_and_a_manifest(stabilab, swept, monkeypatch):
+    from stabilab.show import render_probe
+    monkeypatch.setattr(render_probe, "probe", lambda: render_probe.Renderer(False, "no GL here"))
+    code, out, err = stabilab("surface", "two.toml", "--out", "made")
+    assert code == 4 and [row["case"] for row in strict_json(out)] == ["two-1", "two-2"] and "two-2.vtp" in err
+    assert {p.name for p in (swept / "made").iterdir()} == {f"two-{i}.{end}" for i in (1, 2) for end in ("vtp", "glb", "stl", "json")} | {"manifest.json"}
+
+
+def test_a_report_has_every_combination_of_a_sweep(swept):
+    from stabilab.show.report import _load
+    assert [case.name for case in _load(["six.toml", "two.toml"])] == [*(f"six{label}" for label in LABELS), "two-1", "two-2"]
+
+
+def test_a_combination_that_stops_is_named(stabilab, swept):
+    code, _, err = stabilab("simulate", "two.toml", "--at", "1e300")
+    assert code == 5 and "two.toml (two-1): " in err and "two.toml (two-2): " in err
+
+
+def test_a_file_without_sweep_gives_one_object(stabilab):
+    assert strict_json(stabilab("simulate", MINOR, "--at", "0,1", "--json")[1])["case"] == MINOR.stem
+
+
+def test_a_scene_without_a_separatrix_is_an_answer_and_no_file(stabilab, tmp_path):
+    code, out, err = stabilab("surface", ROOT / "cases/middle-axis-100.toml", "--out", tmp_path / "none")
+    assert code == 0 and strict_json(out)["files"] == [] and strict_json(out)["sheets"] == []
+    assert "middle-axis-100: no surface to write: " in err and not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("arguments, known", [
+    (("plot", MINOR, "--out", "a.jpg"), ".png, .svg or .pdf"), (("plot", MINOR, "--out", "a"), ".png, .svg or .pdf"),
+    (("simulate", MINOR, "--out", "a.png"), ".nc or .csv"), (("compare", ROOT / "cases/charged-body.toml", "--out", "a.json"), ".csv"),
+    (("precision", MINOR, "--out", "a.txt"), ".png, .svg, .pdf or .csv"),
+    (("classify", MINOR, "--certify", "--out", "a.toml"), ".json"),
+    (("surface", MINOR, "--out", "a.stl"), "a folder"), (("tables", "--out", "a.csv"), "a folder"),
+    (("figures", "9", "--out", "a.svg"), "a folder"), (("report", MINOR, "--out", "a.html"), "a folder"),
+    (("rerun", ".", "--out", "a.zip"), "")], ids=lambda value: value[0] if isinstance(value, tuple) else None)
+def test_an_ending_that_says_something_else_than_what_is_written_is_refused(stabilab, tmp_path, monkeypatch, arguments, known):
+    monkeypatch.chdir(tmp_path)
+    code, out, err = stabilab(*arguments)
+    assert code == 2 and not out and known in err and "Traceback" not in err
+    assert not list(tmp_path.iterdir())
+
+
 def test_tables_writes_every_table_in_every_format_and_names_them(stabilab, tmp_path):
     code, out, _ = stabilab("tables", "--out", tmp_path)
     written = [p for p in tmp_path.iterdir() if p.name != "manifest.json"]
@@ -302,7 +408,7 @@ def test_reader_that_goes_away_ends_the_program_quietly():
     os.close(read)
     run = subprocess.run([sys.executable, "-m", "stabilab", "show", str(MINOR)], stdout=write, stderr=subprocess.PIPE, cwd=ROOT)
     os.close(write)
-    assert run.returncode == cli.PIPE_CLOSED and run.stderr == b""
+    assert run.returncode == streams.PIPE_CLOSED and run.stderr == b""
 
 
 def interrupted(arguments, delay, cwd=ROOT):

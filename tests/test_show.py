@@ -266,10 +266,32 @@ def test_without_gl_the_meshes_are_written_and_the_cure_is_named(no_gl, tmp_path
     assert json.loads((tmp_path / "surface.json").read_text())["triangles"] > 0
 
 
-def test_a_scene_without_separatrix_still_gives_valid_output(tmp_path):
-    summary = surface.write(paper.scene("middle", 100), tmp_path, picture=False)
-    assert summary["schema"] == "stabilab.surface/1" and summary["sheets"] == [] and summary["reason"]
-    assert (tmp_path / "surface.glb").exists()
+def test_a_scene_without_separatrix_is_answered_with_the_reason_and_no_file(tmp_path):
+    """For |b - a| < 1.7548 a torque on the middle axis leaves no saddle (docstring of figure 16)."""
+    summary = surface.write(paper.scene("middle", 100), tmp_path / "none")
+    assert summary["schema"] == "stabilab.surface/1" and summary["sheets"] == [] and summary["files"] == []
+    assert "no separatrix" in summary["reason"] and not list(tmp_path.iterdir())
+
+
+# what a file of each kind begins with, by the definition of the format
+BEGINS = {".png": b"\x89PNG\r\n\x1a\n", ".svg": b"<?xml", ".pdf": b"%PDF-"}
+
+
+@pytest.mark.parametrize("name", ["plane.png", "plane.svg", "plane.pdf", "PLANE.SVG"])
+def test_a_picture_is_what_its_ending_says_and_the_same_bytes_again(name, tmp_path):
+    import stabilab
+    case = stabilab.load(CASES / "minor-axis-100.toml")
+    first, second = (plane.plot(case, tmp_path / side / name) for side in ("a", "b"))
+    assert first.read_bytes().startswith(BEGINS[first.suffix.lower()])
+    assert first.read_bytes() == second.read_bytes()
+
+
+def test_what_is_not_a_picture_is_refused_before_anything_is_drawn(tmp_path):
+    import stabilab
+    for name in ("plane.jpg", "plane", "plane.png.gz", ".png"):
+        with pytest.raises(errors.InputError, match=r"expected a name that ends in \.png, \.svg or \.pdf, got"):
+            plane.plot(stabilab.load(CASES / "minor-axis-100.toml"), tmp_path / name)
+    assert not list(tmp_path.iterdir())
 
 
 def test_the_summary_counts_what_the_mesh_holds(tmp_path):

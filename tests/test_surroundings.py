@@ -83,6 +83,114 @@ def test_a_target_below_a_file_or_in_a_special_folder_ends_with_2(tmp_path, name
     assert written(tmp_path) == {"file": b"x"}
 
 
+# -- standard streams --------------------------------------------------------------------------------------------------
+
+# Every way that stdout is written to: through the program's own words, and through those of the command line's library.
+ANSWERED = {"classify": ("classify", MINOR), "json": ("classify", MINOR, "--json"), "csv": ("extremes", MINOR, "--csv"), "help": ("--help",),
+            "help of a command": ("simulate", "--help"), "version": ("--version",), "simulate": ("simulate", MINOR, "--at", "0,1")}
+SLOWER = {"show": ("show", MINOR), "fate": ("fate", MINOR), "period": ("period", MINOR), "doctor": ("doctor",), "compare": ("compare", CHARGED),
+          "precision": ("precision", MINOR, "--quick", "--until", "1"), "surface": ("surface", MINOR, "--out", "s"),
+          "plot": ("plot", MINOR), "tables": ("tables", "--out", "t"), "figures": ("figures", "9", "--out", "f")}
+EVERY = [*ANSWERED, *(pytest.param(name, marks=pytest.mark.slow) for name in SLOWER)]
+
+
+def in_shell(name, redirected, folder):
+    """(exit code, stdout, stderr) of a command under a redirection of the shell."""
+    words = " ".join(map(str, (ANSWERED | SLOWER)[name]))
+    run = subprocess.run(["sh", "-c", f"exec {sys.executable} -m stabilab {words} {redirected}"], capture_output=True, text=True,
+                         cwd=folder, env=environment(folder))
+    return run.returncode, run.stdout, run.stderr
+
+
+@pytest.mark.parametrize("name", EVERY)
+@pytest.mark.parametrize("redirected, words", [(">&-", "it is closed"), (">/dev/full", "No space left on device")], ids=["closed", "full"])
+def test_an_answer_that_cannot_be_written_ends_with_2_and_says_so(tmp_path, name, redirected, words):
+    assert in_shell(name, redirected, tmp_path) == (BAD_INPUT, "", f"stdout: cannot be written: {words}\n")
+
+
+@pytest.mark.parametrize("name", EVERY)
+def test_an_answer_without_a_reader_ends_quietly_with_141(tmp_path, name):
+    read, write = os.pipe()
+    os.close(read)
+    run = subprocess.run([sys.executable, "-m", "stabilab", *map(str, (ANSWERED | SLOWER)[name])], stdout=write, stderr=subprocess.PIPE,
+                         cwd=tmp_path, env=environment(tmp_path))
+    os.close(write)
+    assert (run.returncode, run.stderr) == (141, b"")
+
+
+@pytest.mark.parametrize("redirected", ["2>&-", "2>/dev/full", "<&- 2>&-"], ids=["closed", "full", "closed with stdin"])
+def test_messages_that_nobody_can_read_change_no_answer(tmp_path, redirected):
+    assert in_shell("csv", redirected, tmp_path) == in_shell("csv", "", tmp_path)
+    ANSWERED["nothing"] = ("classify", "nowhere.toml")
+    try:
+        assert in_shell("nothing", redirected, tmp_path) == (BAD_INPUT, "", "")  # and no message goes to stdout instead
+    finally:
+        del ANSWERED["nothing"]
+
+
+def test_what_is_printed_to_a_closed_stdout_goes_into_no_file(tmp_path):
+    """The first file to be opened would get the number of a stream that is closed."""
+    code = ("import os\nfrom stabilab import streams\nstreams.occupy()\nwith open('data.csv', 'w') as data:\n"
+            "    os.write(1, b'a library speaks')\n    os.write(2, b'and warns')\n    data.write('1,2')\n")
+    assert subprocess.run(["sh", "-c", f'exec {sys.executable} -c "$0" <&- >&- 2>&-', code], cwd=tmp_path, env=environment(tmp_path)).returncode == 0
+    assert (tmp_path / "data.csv").read_text() == "1,2"
+
+
+# -- packages that are not there ---------------------------------------------------------------------------------------
+
+# module -> package to install, exit code, a command that needs it
+LACKING = {"matplotlib": ("matplotlib", 4, ("plot", MINOR)), "PIL": ("pillow", 4, ("plot", MINOR)),
+           "matplotlib.": ("matplotlib", 4, ("figures", "9")), "matplotlib..": ("matplotlib", 4, ("precision", MINOR, "--out", "p.svg")),
+           "pyvista": ("pyvista", 4, ("surface", MINOR, "--out", "s")), "vtkmodules": ("vtk", 4, ("surface", MINOR, "--out", "s")),
+           "numpy": ("numpy", 2, ("simulate", MINOR, "--at", "0,1")), "sympy": ("sympy", 2, ("show", MINOR)),
+           "mpmath": ("mpmath", 2, ("show", MINOR)),  # SymPy says in its own words that it is missing
+           "scipy": ("scipy", 2, ("simulate", MINOR, "--at", "0,1", "--method", "RK45")), "scipy.": ("scipy", 2, ("simulate", MINOR, "--out", "r.nc")),
+           "flint": ("python-flint", 2, ("period", MINOR, "--digits", "30")), "xarray": ("xarray", 2, ("simulate", MINOR, "--out", "r.nc")),
+           "jinja2": ("jinja2", 2, ("report", MINOR)), "typer": ("typer", 2, ("--help",))}
+
+
+def without(module, folder, *arguments):
+    """The command where a module and all below it cannot be imported, in its child processes too."""
+    site = Path(folder) / "site"
+    site.mkdir(exist_ok=True)
+    (site / "sitecustomize.py").write_text(f"import sys\nsys.modules[{module!r}] = None\n")
+    around = environment(folder)
+    around["PYTHONPATH"] = os.pathsep.join([str(site), around["PYTHONPATH"]])
+    return subprocess.run([sys.executable, "-m", "stabilab", *map(str, arguments)], capture_output=True, text=True, cwd=folder, env=around)
+
+
+@pytest.mark.parametrize("module", LACKING)
+def test_a_package_that_is_missing_is_named_with_what_to_install(tmp_path, module):
+    package, code, arguments = LACKING[module]
+    run = without(module.rstrip("."), tmp_path, *arguments)
+    assert run.returncode == code and len(run.stderr.splitlines()) == 1 and "Traceback" not in run.stderr, run.stderr
+    assert f"{package} is not installed" in run.stderr and f"pip install {package}" in run.stderr
+    assert "fault of the program" not in run.stderr and not [name for name in written(tmp_path) if name.endswith((".png", ".svg", ".nc", ".html"))]
+
+
+@pytest.mark.parametrize("module, kinds", [("pyvista", {"vtp", "glb", "stl", "json"}), ("vtkmodules", {"glb", "stl", "json"})])
+def test_without_a_package_that_draws_the_meshes_are_written_all_the_same(tmp_path, module, kinds):
+    assert without(module, tmp_path, "surface", MINOR, "--out", "s").returncode == 4
+    assert {p.name for p in (tmp_path / "s").iterdir()} == {f"{MINOR.stem}.{kind}" for kind in kinds} | {manifest.NAME}
+
+
+@pytest.mark.parametrize("module", ["heyoka", "numba"])
+def test_a_package_that_only_makes_it_faster_may_be_missing(tmp_path, module):
+    run = without(module, tmp_path, "simulate", MINOR, "--at", "0,1")
+    assert run.returncode == 0 and run.stderr == ""
+
+
+def test_a_package_that_cannot_be_loaded_is_no_fault_of_the_program():
+    """Its library of the system is missing, or it is of another version; a name that stabilab itself lacks is a fault."""
+    from stabilab.packages import explained
+    for error, code, words in ((ImportError("libGL.so.1: cannot open shared object file", name="vtkmodules.vtkRenderingOpenGL2"), 4, "libGL.so.1"),
+                               (ImportError("cannot import name 'trapezoid' from 'numpy'", name="numpy"), 2, "numpy cannot be loaded"),
+                               (ImportError("numpy: broken"), 2, "a package cannot be loaded (numpy: broken)")):
+        assert explained(error).exit_code == code and words in str(explained(error))
+    assert explained(ImportError("cannot import name 'x' from 'stabilab.case'", name="stabilab.case")) is None
+    assert explained(ModuleNotFoundError("No module named 'json.nothing'", name="json.nothing")) is None
+
+
 # -- ended in the middle -----------------------------------------------------------------------------------------------
 
 # A program that writes one file, or fills a folder, and stops in the middle of it, after it said so.

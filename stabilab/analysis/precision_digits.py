@@ -55,8 +55,8 @@ def simulate_to(case, times, digits: int = DEFAULT) -> Reached:
 def missed(case, found) -> str:
     """Why digits were not reached, in words."""
     if found.run.status != "reached":
-        return f"{case.path}: {found.run.reason}"
-    return f"{case.path}: {found.asked} digits asked for, {found.digits:.1f} reached ({found.because}); ask for fewer or for a shorter span"
+        return f"{case.place}: {found.run.reason}"
+    return f"{case.place}: {found.asked} digits asked for, {found.digits:.1f} reached ({found.because}); ask for fewer or for a shorter span"
 
 
 def best_reached(case, times, digits: int = DEFAULT, measured: bool = True) -> Reached:

@@ -4,14 +4,20 @@ from __future__ import annotations
 from pathlib import Path
 
 from ..files import whole_file
+from . import endings
 
 SCHEMA = "stabilab.verification/1"
+
+
+def checked(path) -> Path:
+    """The path, if its ending is one that can be written."""
+    return endings.file(path, (".json",))
 
 
 def write(certificate: dict, path) -> Path:
     """The certificate as a JSON file, whole or not at all. Raises InputError where it cannot be written."""
     import json
-    path = Path(path)
+    path = checked(path)
     with whole_file(path) as waiting:
         waiting.write_text(json.dumps(certificate, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
     return path

@@ -6,8 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from ..blocks import PARTS
-from ..errors import InputError
-from . import style
+from . import endings, style
 
 LOOKS = {"exact": {"color": style.BLACK, "linewidth": 2.2}, "linear": {"color": style.BLUE, "linewidth": 1.4, "linestyle": "--"},
          "printed": {"color": style.ORANGE, "linewidth": 1.6, "linestyle": ":"},
@@ -42,11 +41,14 @@ def text(case, found) -> str:
     return "\n".join(lines + notes)
 
 
+def checked(path) -> Path:
+    """The path, if its ending is one that can be written."""
+    return endings.file(path, (".csv",))
+
+
 def write(case, found, path) -> Path:
     """Errors over time as CSV, whole or not at all."""
-    path = Path(path)
-    if path.suffix != ".csv":
-        raise InputError(f"{path}: expected a name that ends in .csv, got {path.suffix or 'no ending'}")
+    path = checked(path)
     with style.whole_file(path) as waiting, open(waiting, "w", encoding="utf-8") as stream:
         stream.write(",".join([case.scene.time_unit, *(f"{d.model} {d.part}" for d in found.departures)]) + "\n")
         for row in zip(found.t, *(d.error for d in found.departures)):
@@ -66,7 +68,7 @@ def picture(plt, case, runs, parts=("omega",)):
             ax.set_ylabel(f"{NAMES[part][column]}{f' ({unit})' if unit else ''}")
     for ax in axes[-1]:
         ax.set_xlabel("t (s)")
-    figure.suptitle(case.title or case.name, fontsize=10, parse_math=False, wrap=True)
+    figure.suptitle(case.heading, fontsize=10, parse_math=False, wrap=True)
     style.legend(figure, [(name, LOOKS[name]) for name in runs], columns=6)
     return figure
 

@@ -32,9 +32,9 @@ def _version(name: str) -> str:
 
 
 def _rendering() -> str:
-    from .render_probe import CURE, probe
+    from .render_probe import probe
     found = probe()
-    return f"works ({found.words})" if found.available else f"does not work: {found.words}; cure: {CURE}"
+    return f"works ({found.words})" if found.available else f"does not work: {found.words}; cure: {found.cure}"
 
 
 def _processor() -> str:

@@ -12,6 +12,7 @@ from pathlib import Path
 
 from .. import files
 from ..errors import InputError
+from . import endings
 
 SCHEMA, NAME = "stabilab.manifest/1", "manifest.json"
 TIMED = ("precision.html", "precision/", "growth.html", "growth.csv", "growth/", "effects.html",
@@ -29,7 +30,7 @@ def written(out, arguments=None, inputs=(), tolerances=None):
     arguments: of the command line, None for a call from Python, which cannot be repeated; inputs: paths of what the command
     reads, hashed now; tolerances: what -> how exact. Raises InputError where an input or `out` is of no use.
     """
-    out = Path(out)
+    out = endings.folder(out)
     run = _run(out, arguments, [_described(path) for path in inputs])
     with files.new_folder(out) as folder:
         yield folder

@@ -5,7 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
-from . import style
+from ..packages import demand
+from . import endings, style
 from .phase import PhasePlane, motion_curve, phase_plane, window
 
 
@@ -40,9 +41,11 @@ def draw(ax, plane: PhasePlane, scale=1.0, offset=0.0, rate_scale=1.0, span=None
 
 
 def plot(case, path) -> Path:
-    """The picture of a case, written to `path` (PNG): its phase plane where the motion reduces to one degree of
+    """The picture of a case, written to `path` (.png, .svg or .pdf): its phase plane where the motion reduces to one degree of
     freedom, else three projections of the trajectory. Needs case.state; raises InputError without one."""
     from ..errors import InputError
+    endings.file(path, endings.PICTURES)  # before the motion is computed
+    demand(*style.PACKAGES)
     if case.state is None:
         raise InputError(f"{case.path}: a picture needs a motion: add [motion] with angular_velocity or x")
     if not case.scene.plain:
@@ -71,7 +74,7 @@ def _plane_picture(plt, case, plane):
     unit = " (rad)" if case.variables == "physical" else ""
     ax.set_xlabel(f"turn ${letter}$ about axis {i + 1} from the start{unit}")
     ax.set_ylabel(style.axis_labels(case.scene)[i])
-    ax.set_title(case.title or case.name, wrap=True, parse_math=False)
+    ax.set_title(case.heading, wrap=True, parse_math=False)
     rows = [("this motion", style.MEANING["this motion"]), ("separatrix", style.MEANING["separatrix"]),
             ("other energies", style.MEANING["level"]), ("start", style.MARKER["start"]),
             ("centre", style.MARKER["centre"]), ("saddle", style.MARKER["saddle"])]
@@ -92,6 +95,6 @@ def _projections(plt, case):
         ax.set_xlabel(labels[i])
         ax.set_ylabel(labels[j])
     unit = case.scene.time_unit.replace("tau", "τ")
-    figure.suptitle(f"{case.title or case.name}\n{span[0]:g} to {span[1]:g} {unit}; the square marks the start", fontsize=10,
+    figure.suptitle(f"{case.heading}\n{span[0]:g} to {span[1]:g} {unit}; the square marks the start", fontsize=10,
                     parse_math=False)
     return figure

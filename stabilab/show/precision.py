@@ -6,8 +6,8 @@ from pathlib import Path
 
 from ..analysis.precision import digit_price
 from ..analysis.precision_front import machine, versions
-from ..errors import InputError
-from . import style
+from ..packages import demand
+from . import endings, style
 from .precision_picture import picture
 from .precision_words import caption, duration, methods, setting, title, words
 
@@ -62,19 +62,19 @@ def _row(found, p) -> dict:
     return dict(zip(COLUMNS, values))
 
 
-def csv(found) -> str:
-    """One line per point; empty where a count does not exist, inf where no answer came."""
+def csv(*measured) -> str:
+    """One line per point of every case; empty where a count does not exist, inf where no answer came."""
     rows = [",".join(COLUMNS)]
-    for p in found.points:
+    for found, p in ((found, p) for found in measured for p in found.points):
         cells = ["" if v is None else repr(v) if isinstance(v, float) else str(v) for v in _row(found, p).values()]
         rows.append(",".join(f'"{c}"' if "," in c else c for c in cells))
     return "\n".join(rows)
 
 
 def write(found, path) -> Path:
-    """The picture (.png) or the points (.csv), whole or not at all."""
+    """The picture (.png, .svg, .pdf) or the points (.csv), whole or not at all."""
     path = checked(path)
-    if path.suffix == ".csv":
+    if endings.ending(path) == ".csv":
         with style.whole_file(path) as waiting:
             waiting.write_text(csv(found) + "\n", encoding="utf-8")
         return path
@@ -84,7 +84,7 @@ def write(found, path) -> Path:
 
 def checked(path) -> Path:
     """The path, if its ending is one that can be written."""
-    path = Path(path)
-    if path.suffix not in (".png", ".csv"):
-        raise InputError(f"{path}: expected a name that ends in .png or .csv, got {path.suffix or 'no ending'}")
+    path = endings.file(path, (*endings.PICTURES, ".csv"))
+    if endings.ending(path) != ".csv":
+        demand(*style.PACKAGES)
     return path

@@ -7,16 +7,20 @@ import sys
 from dataclasses import dataclass
 from functools import lru_cache
 
+from ..packages import INSTALLED_AS, cure, present
+
+NEEDED = ("vtkmodules", "pyvista", "matplotlib", "PIL")  # the scene, its plotter, and the letters of the legend
 CURE = "apt install libegl1 libgl1-mesa-dri"
 SECONDS = 90  # a first start of the software renderer on a slow machine takes about 5 s
 
 
 @dataclass(frozen=True)
 class Renderer:
-    """available; name of the renderer (OpenGL string), or why there is none."""
+    """available; name of the renderer (OpenGL string), or why there is none; what to type to have one."""
 
     available: bool
     words: str
+    cure: str = CURE
 
 
 _CHILD = """
@@ -42,6 +46,9 @@ def environment() -> dict[str, str]:
 @lru_cache
 def probe() -> Renderer:
     """Draw one sphere in a child process; the verdict is kept for the life of this process."""
+    for module in NEEDED:
+        if not present(module):
+            return Renderer(False, f"{INSTALLED_AS.get(module, module)} is not installed", cure(module))
     try:
         child = subprocess.run([sys.executable, "-c", _CHILD], env=environment(), capture_output=True, text=True,
                                timeout=SECONDS, stdin=subprocess.DEVNULL)

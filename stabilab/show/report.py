@@ -11,7 +11,8 @@ import numpy as np
 
 from ..errors import StabilabError
 from ..interrupt import undoing
-from . import chapters, figures, html, manifest, paper, surface, table
+from ..packages import demand
+from . import chapters, figures, html, manifest, paper, style, surface, table
 
 PACKAGES = ("numpy", "scipy", "sympy", "heyoka", "matplotlib", "vtk", "pyvista", "python-flint")
 TOLERANCES = {"verdicts, fates, periods": "exact structure of the equations, to rounding", "extremes": "roots, to rounding",
@@ -30,6 +31,7 @@ def write(cases=None, out="report", progress=None, arguments=None) -> Path:
     the path of index.html; raises CaseError for a case file with faults, before anything is written.
     """
     out = Path(out)
+    demand("jinja2", *style.PACKAGES, "scipy", "sympy", "flint")  # what a report cannot do without, before its minutes of work
     loaded = _load(cases)
     inputs = dict.fromkeys([*(case.path for case in loaded), *table.case_files()])  # the papers' figures read the papers' cases
     with (_progress(progress) as tell, manifest.written(out, arguments, inputs, TOLERANCES) as folder,
@@ -39,9 +41,9 @@ def write(cases=None, out="report", progress=None, arguments=None) -> Path:
 
 
 def _load(cases):
-    from ..case import load
+    from ..case import load_all
     paths = list(cases or sorted(table.case_files(), key=lambda p: _natural(Path(p).stem)))
-    return [item if hasattr(item, "scene") else load(item) for item in paths]
+    return [case for item in paths for case in ([item] if hasattr(item, "scene") else load_all(item))]
 
 
 def _natural(name):
@@ -76,7 +78,7 @@ def _make(cases, folder, tell, named, others):
         cases=sections, chapters=told, pages=pages, tables=tables, surfaces=surfaces, audit=check(), versions=_versions(),
         figures=[{**vars(row), "file": f"figures/{path.name}", "command": row.command, "size": chapters.size(path)}
                  for row, path in zip(figures.FIGURES, drawn)],
-        command=" ".join(["stabilab report", *(case.path for case in cases if named)]))
+        command=" ".join(["stabilab report", *dict.fromkeys(case.path for case in cases if named)]))
     (folder / "index.html").write_text(page, encoding="utf-8")
 
 
@@ -124,7 +126,7 @@ def _tables(folder):
 
 def _surfaces(cases, folder, tell):
     """One entry for every different scene that has a separatrix; and what to say where nothing can be drawn."""
-    from .render_probe import CURE, probe
+    from .render_probe import probe
     renderer, entries, seen = probe(), [], []
     for case in cases:
         if case.scene in seen:
@@ -134,7 +136,7 @@ def _surfaces(cases, folder, tell):
         if entry:
             entries.append(entry)
     note = "" if renderer.available else (f"3-D pictures could not be drawn on this machine ({renderer.words}); the meshes "
-                                          f"are here all the same. Cure: {CURE}")
+                                          f"are here all the same. Cure: {renderer.cure}")
     return entries, note
 
 
@@ -154,7 +156,7 @@ def _surface(case, folder, renderer, tell):
     if renderer.available:
         still = surface.draw(case.scene, found, meshes, folder / f"{case.name}.png")
         scene = surface.turntable(case.scene, found, meshes, folder / f"{case.name}.html")
-    return {"title": case.title or case.name, "reason": found.reason, "triangles": summary["triangles"],
+    return {"title": case.heading, "reason": found.reason, "triangles": summary["triangles"],
             "residual": summary["largest_residual"], "files": [f"surfaces/{f.name}" for f in files],
             "still": still and f"surfaces/{still.name}", "scene": scene and f"surfaces/{scene.name}",
             "command": f"stabilab surface {case.path} --out surfaces"}
@@ -166,7 +168,7 @@ def _surface(case, folder, renderer, tell):
 def _section(case, folder, tell) -> dict:
     """Everything the template says of a case, as plain words."""
     tell(f"case {case.name}")
-    section = {"name": case.name, "title": case.title or case.name, "source": case.source, "path": case.path,
+    section = {"name": case.name, "title": case.heading, "source": case.source, "path": case.path,
                "text": case.text, "fate": "", "motion": [], "equilibria": [], "equilibria_kind": "", "equilibria_reason": "",
                "picture": None, "problem": "", **_equations(case.scene)}
     try:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from ..errors import NO_RENDERING, OK, InputError, StabilabError, ToleranceNotMet
 from ..interrupt import undoing
-from . import manifest
+from . import endings, manifest
 
 COMMANDS = (["report"], ["figures"], ["tables"], ["surface"])
 ENDED = (OK, NO_RENDERING)  # without a renderer everything but the pictures is written
@@ -97,6 +97,7 @@ def _changed_surroundings(run) -> list[str]:
 @contextmanager
 def _target(out):
     if out is not None:
+        endings.folder(out)
         if (Path(out) / manifest.NAME).exists():
             raise InputError(f"{out}: there is output in it already; name an empty folder")
         Path(out).mkdir(parents=True, exist_ok=True)

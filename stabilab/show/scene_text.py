@@ -1,8 +1,6 @@
 """The scene in words, its equations of motion, and the laws that hold for it."""
 from __future__ import annotations
 
-from ..errors import printable
-
 
 def text(case) -> str:
     """Scene, parameters, equations of motion as text and LaTeX, invariants: what `stabilab show` prints."""
@@ -15,7 +13,7 @@ def text(case) -> str:
 
 
 def _head(case) -> str:
-    rows = [case.title or case.name, f"  from {printable(case.path)}"]
+    rows = [case.title or case.name, f"  from {case.place}"]
     rows += [f"  source: {case.source}"] if case.source else []
     rows += [f"  variables: {case.variables} ({', '.join(case.scene.components)}; time in {case.scene.time_unit})"]
     if case.physical:

@@ -5,6 +5,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from ..files import whole_file
+from . import endings
 
 # Okabe-Ito: told apart by colour-blind readers, and by their lightness in a grey print.
 BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILION, PURPLE, GREY = (
@@ -35,6 +36,7 @@ MARKER = {
 SHEETS = (SKY, ORANGE, GREEN, PURPLE, YELLOW, BLUE, VERMILION)  # surfaces, in order
 SERIES = (BLUE, ORANGE, GREEN, PURPLE, VERMILION)               # one curve each for a list of parameters
 
+PACKAGES = ("matplotlib", "PIL")  # of every picture
 DPI = 110
 _RC = {
     "figure.dpi": DPI, "savefig.dpi": DPI, "figure.facecolor": "white", "axes.facecolor": "white",
@@ -61,15 +63,25 @@ def drawing():
                 plt.close(number)
 
 
-def save(figure, path) -> Path:
-    """Write a PNG whole or not at all, with no date or version inside: the same picture gives the same bytes."""
-    import io
+# what each format would note of the day and the version
+_UNDATED = {".png": {"Software": None}, ".svg": {"Date": None, "Creator": None},
+            ".pdf": {"CreationDate": None, "Creator": None, "Producer": None}}
 
-    from PIL import Image
-    path = Path(path)
+
+def save(figure, path) -> Path:
+    """Write a picture in the format of its ending (.png, .svg, .pdf), whole or not at all, with no date or version inside: the
+    same picture gives the same bytes. Raises InputError for other endings."""
+    import io
+    path = endings.file(path, endings.PICTURES)
+    kind = endings.ending(path)
     buffer = io.BytesIO()
-    figure.savefig(buffer, format="png", dpi=DPI, metadata={"Software": None})
-    write_small(Image.open(buffer), path)
+    figure.savefig(buffer, format=kind[1:], dpi=DPI, metadata=_UNDATED[kind])
+    if kind == ".png":
+        from PIL import Image
+        write_small(Image.open(buffer), path)
+    else:
+        with whole_file(path) as waiting:
+            waiting.write_bytes(buffer.getvalue())
     return path
 
 

@@ -1,13 +1,17 @@
 """The separatrix as files: meshes of every sheet, a summary, a picture and a scene to turn round."""
 from __future__ import annotations
 
+import io
 import json
+from contextlib import nullcontext
 from pathlib import Path
 
 import numpy as np
 
+from ..case import blamed_on
 from ..errors import RenderingUnavailable
-from . import manifest, style
+from ..packages import present
+from . import endings, manifest, style
 from .mesh import Mesh, glb, stl, triangulate
 
 SCHEMA = "stabilab.surface/1"
@@ -16,45 +20,69 @@ SCHEMA = "stabilab.surface/1"
 def write(case, out, reach=None, shape=None, picture=True, arguments=None) -> dict:
     """Write the separatrix of a case (or scene) into the folder `out` and return its summary.
 
-    NAME.vtp (double precision, point arrays "sheet" and "residual"), NAME.glb and NAME.stl (single precision, as those
-    formats are), NAME.json (the summary), NAME.png and manifest.json (arguments: of the command line, for it); NAME is the
-    case's file stem. Where there is no separatrix the
-    files are written all the same, empty, and the summary gives the reason. Raises RenderingUnavailable (with the
-    summary as its attribute `summary`), after the meshes are written, where this machine cannot draw.
+    The files of `write_all` for one case; raises RenderingUnavailable with the summary as its attribute `summary`.
     """
-    from .render_probe import CURE, probe
-    out = Path(out)
-    scene, name = _scene(case)
-    found = _separatrix(scene, reach, shape)
-    meshes = [triangulate(sheet) for sheet in found.sheets]
+    try:
+        return write_all([case], out, reach, shape, picture, arguments)[0]
+    except RenderingUnavailable as unavailable:
+        unavailable.summary = unavailable.summaries[0]
+        raise
+
+
+def write_all(cases, out, reach=None, shape=None, picture=True, arguments=None) -> list[dict]:
+    """Write the separatrices of cases (or scenes) into the folder `out` and return a summary of each.
+
+    NAME.vtp (double precision, point arrays "sheet" and "residual"), NAME.glb and NAME.stl (single precision, as those
+    formats are), NAME.json (the summary), NAME.png and manifest.json (arguments: of the command line, for it); NAME is that
+    of the case. A case without a separatrix has no files; its summary gives the reason. Where no case has one, nothing is
+    written. Raises RenderingUnavailable (with the summaries as its attribute `summaries`), after the meshes are written,
+    where this machine cannot draw.
+    """
+    from .render_probe import probe
+    out = endings.folder(out)
+    rows = [(case, *_found(case, reach, shape)) for case in cases]
+    summaries = [summarise(case, found, meshes) | {"files": []} for case, found, meshes in rows]
+    if not any(meshes for *_, meshes in rows):
+        return summaries
     renderer = probe() if picture else None
-    summary = summarise(case, found, meshes)
-    if picture:
-        summary["rendering"] = renderer.words if renderer.available else f"unavailable: {renderer.words}"
-    inputs = [case.path] if hasattr(case, "path") else []
-    with manifest.written(out, arguments, inputs, {"distance of a vertex from its surface": summary["largest_residual"]}) as folder:
-        files = write_meshes(meshes, folder, name)
-        if picture and renderer.available:
-            files.append(draw(scene, found, meshes, folder / f"{name}.png"))
-        summary["files"] = sorted([f"{name}.json", *(f.name for f in files)])
-        with style.whole_file(folder / f"{name}.json") as waiting:
-            waiting.write_text(json.dumps(summary, indent=1) + "\n", encoding="utf-8")
+    inputs = dict.fromkeys(case.path for case in cases if hasattr(case, "path"))
+    residual = max(summary["largest_residual"] for summary in summaries)
+    with manifest.written(out, arguments, inputs, {"distance of a vertex from its surface": residual}) as folder:
+        for (case, found, meshes), summary in zip(rows, summaries):
+            if meshes:
+                _write(case, found, meshes, folder, renderer, summary)
     if picture and not renderer.available:
-        unavailable = RenderingUnavailable(
-            f"the meshes are in {out} ({', '.join(summary['files'])}), but no picture could be drawn: {renderer.words}. "
-            f"Cure: {CURE}")
-        unavailable.summary = summary
+        written = ", ".join(name for summary in summaries for name in summary["files"])
+        unavailable = RenderingUnavailable(f"the meshes are in {out} ({written}), but no picture could be drawn: {renderer.words}. "
+                                           f"Cure: {renderer.cure}")
+        unavailable.summaries = summaries
         raise unavailable
-    return summary
+    return summaries
+
+
+def _found(case, reach, shape):
+    """(separatrix, its meshes) of a case or scene."""
+    from ..analysis.separatrix import separatrix
+    with blamed_on(case) if hasattr(case, "scene") else nullcontext():
+        found = separatrix(_scene(case)[0], reach=reach, **({"shape": shape} if shape else {}))
+    return found, [triangulate(sheet) for sheet in found.sheets]
+
+
+def _write(case, found, meshes, folder, renderer, summary):
+    """The files of one case; renderer: None where no picture is asked for. The summary is completed and written with them."""
+    scene, name = _scene(case)
+    files = write_meshes(meshes, folder, name)
+    if renderer:
+        summary["rendering"] = renderer.words if renderer.available else f"unavailable: {renderer.words}"
+    if renderer and renderer.available:
+        files.append(draw(scene, found, meshes, folder / f"{name}.png"))
+    summary["files"] = sorted([f"{name}.json", *(f.name for f in files)])
+    with style.whole_file(folder / f"{name}.json") as waiting:
+        waiting.write_text(json.dumps(summary, indent=1) + "\n", encoding="utf-8")
 
 
 def _scene(case):
     return (case.scene, case.name) if hasattr(case, "scene") else (case, "surface")
-
-
-def _separatrix(scene, reach, shape):
-    from ..analysis.separatrix import separatrix
-    return separatrix(scene, reach=reach, **({"shape": shape} if shape else {}))
 
 
 def summarise(case, found, meshes) -> dict:
@@ -75,15 +103,15 @@ def summarise(case, found, meshes) -> dict:
 
 
 def write_meshes(meshes: list[Mesh], out: Path, name: str) -> list[Path]:
-    """NAME.vtp, NAME.glb, NAME.stl; none of them needs GL. Returns their paths."""
+    """NAME.vtp (where vtk is installed), NAME.glb, NAME.stl; none of them needs GL. Returns their paths."""
     out.mkdir(parents=True, exist_ok=True)
-    files = [out / f"{name}.{kind}" for kind in ("vtp", "glb", "stl")]
-    with style.whole_file(files[0]) as waiting:
-        _write_vtp(meshes, waiting)
-    for path, data in zip(files[1:], (glb(meshes, style.SHEETS), stl(meshes))):
-        with style.whole_file(path) as waiting:
-            waiting.write_bytes(data)
-    return files
+    writers = {"glb": lambda path: path.write_bytes(glb(meshes, style.SHEETS)), "stl": lambda path: path.write_bytes(stl(meshes))}
+    if present("vtkmodules"):
+        writers = {"vtp": lambda path: _write_vtp(meshes, path), **writers}
+    for kind, write_one in writers.items():
+        with style.whole_file(out / f"{name}.{kind}") as waiting:
+            write_one(waiting)
+    return [out / f"{name}.{kind}" for kind in writers]
 
 
 def _write_vtp(meshes, path):
@@ -253,7 +281,6 @@ def _scene_archive(window) -> bytes:
     pyvista's own export_html starts a local web server, and one of its modules then fetches files from the network;
     the serialisation underneath needs neither.
     """
-    import io
     import zipfile
 
     from trame_vtk.modules.vtk.serializers import (SynchronizationContext, extract_array_hash, initialize_serializers,

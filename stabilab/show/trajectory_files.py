@@ -4,17 +4,16 @@ from __future__ import annotations
 from pathlib import Path
 
 from ..blocks import PARTS
-from ..errors import InputError
+from ..packages import demand
+from . import endings
 from .style import whole_file
 
 
 def checked(path) -> Path:
     """The path, if it can be written by its ending; InputError otherwise."""
-    path = Path(path)
-    if path.suffix not in WRITERS:
-        raise InputError(f"{path}: expected a name that ends in {' or '.join(WRITERS)}, got {path.suffix or 'no ending'}")
-    if path.is_dir():
-        raise InputError(f"{path}: expected a file, this is a folder")
+    path = endings.file(path, tuple(WRITERS))
+    if endings.ending(path) == ".nc":
+        demand("xarray", "scipy")
     return path
 
 
@@ -22,7 +21,7 @@ def write(case, run, path) -> Path:
     """Write a Trajectory of a case to `path` (.nc or .csv), under a temporary name first, then renamed."""
     path = checked(path)
     with whole_file(path) as waiting:
-        WRITERS[path.suffix](case, run, waiting)
+        WRITERS[endings.ending(path)](case, run, waiting)
     return path
 
 
@@ -36,10 +35,7 @@ def _csv(case, run, path):
 
 
 def _netcdf(case, run, path):
-    try:
-        import xarray
-    except ImportError:
-        raise InputError("files that end in .nc need xarray: pip install xarray; or write .csv") from None
+    import xarray
     import numpy as np
     from .. import __version__
     time = "t" if case.variables == "physical" else "tau"

@@ -1,0 +1,57 @@
+"""Packages that a part of the program needs: which one is not there, and what to install."""
+from __future__ import annotations
+
+import re
+import sys
+
+from .errors import InputError, RenderingUnavailable, StabilabError
+
+INSTALLED_AS = {"flint": "python-flint", "PIL": "pillow", "vtkmodules": "vtk", "trame_vtk": "trame-pyvista", "trame": "trame-pyvista"}
+DRAWING = ("matplotlib", "pillow", "vtk", "pyvista", "trame-pyvista", "contourpy", "trame-vtk")
+
+
+def present(name: str) -> bool:
+    """Whether a module can be found; it is not imported."""
+    from importlib.util import find_spec
+    try:
+        return find_spec(name) is not None
+    except (ImportError, ValueError):
+        return False
+
+
+def cure(module: str) -> str:
+    """What to type where a module is not there."""
+    return f"pip install {INSTALLED_AS.get(module, module)}"
+
+
+def demand(*modules: str):
+    """Raise what `explained` says of the first module that is not there: before work that would be lost."""
+    for module in modules:
+        if not present(module):
+            raise explained(ModuleNotFoundError(name=module))
+
+
+def explained(error: ImportError) -> StabilabError | None:
+    """The error in words for the user, without the exit code of a fault; None where the program itself is at fault."""
+    cause, module = _cause(error)
+    if module == "stabilab" or module in sys.stdlib_module_names:
+        return None
+    package = INSTALLED_AS.get(module, module) or "a package"
+    if isinstance(cause, ModuleNotFoundError):
+        words = f"{package} is not installed, and stabilab needs it for this: {cure(module)}"
+    else:
+        words = f"{package} cannot be loaded ({str(cause).strip().splitlines()[0] if str(cause).strip() else 'no reason given'}): " \
+                f"install what that names, or the package anew; stabilab doctor names the versions that are there"
+    return RenderingUnavailable(f"no picture can be drawn: {words}") if package in DRAWING else InputError(words)
+
+
+def _cause(error):
+    """(the error that names a module, its outermost package), looking behind those that packages raise in their own words."""
+    link = error
+    while isinstance(link, ImportError):
+        found = re.search(r"No module named '([\w.]+)'", str(link))
+        module = (link.name or (found[1] if found else "")).split(".")[0]
+        if module:
+            return link, module
+        link = link.__cause__ or link.__context__
+    return error, ""

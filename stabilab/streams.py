@@ -1,0 +1,90 @@
+"""The standard streams, which may be closed, full or without a reader: what is lost there, and how that is told."""
+from __future__ import annotations
+
+import errno
+import os
+import sys
+from contextlib import contextmanager
+
+from .errors import BAD_INPUT, StabilabError
+
+PIPE_CLOSED = 141  # what a shell reports for a program that a closed pipe ended
+LOST = (errno.EPIPE, errno.ENOSPC, errno.EDQUOT, errno.EBADF, errno.EIO, errno.EFBIG)
+
+
+class OutputLost(StabilabError):
+    """The answer could not be written to stdout; silent, with PIPE_CLOSED, where its reader went away."""
+
+    def __init__(self, number: int | None = None):
+        gone = number == errno.EPIPE
+        super().__init__("" if gone else f"stdout: cannot be written: {os.strerror(number) if number else 'it is closed'}")
+        self.exit_code = PIPE_CLOSED if gone else BAD_INPUT
+
+
+def occupy():
+    """Put /dev/null where the caller closed a standard stream: else the next file that is opened gets its number, and what
+    a library prints there goes into that file."""
+    for number in range(3):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.open(os.devnull, os.O_RDWR)  # gets the lowest number that is free, which is this one
+            os.set_inheritable(number, True)
+
+
+@contextmanager
+def guarded():
+    """While the block runs, a write to stdout that fails raises OutputLost, and one to stderr is passed over: nobody
+    could read of it."""
+    before = sys.stdout, sys.stderr
+    sys.stdout, sys.stderr = _Guarded(sys.stdout, _lose), _Guarded(sys.stderr, lambda number: None)
+    try:
+        yield
+    finally:
+        sys.stdout, sys.stderr = before
+
+
+def _lose(number):
+    raise OutputLost(number) from None
+
+
+class _Guarded:
+    """A text stream (None: a closed one) that hands its loss to lost(errno or None), and again whenever it is written to."""
+
+    def __init__(self, stream, lost):
+        self._stream, self._lost = stream, lost
+        self._gone, self._number = stream is None, None
+
+    def write(self, text):
+        self._tried(lambda: self._stream.write(text))
+        return len(text)
+
+    def flush(self):
+        self._tried(lambda: self._stream.flush())
+
+    def isatty(self):
+        return self._stream is not None and self._stream.isatty()
+
+    def _tried(self, action):
+        if not self._gone:
+            try:
+                return action()
+            except OSError as error:
+                self._gone, self._number = True, error.errno
+                _silence(self._stream)
+        self._lost(self._number)
+
+    def __getattr__(self, name):
+        if name.startswith("_") or name == "buffer":  # what is written underneath would pass the guard
+            raise AttributeError(name)
+        return getattr(self._stream, name)
+
+
+def _silence(stream):
+    """What is still in the buffer goes nowhere when the interpreter ends, instead of failing once more."""
+    try:
+        null = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(null, stream.fileno())
+        os.close(null)
+    except (OSError, ValueError):  # no file is behind it
+        pass
