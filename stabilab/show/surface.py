@@ -3,13 +3,14 @@ from __future__ import annotations
 
 import io
 import json
+import re
 from contextlib import nullcontext
 from pathlib import Path
 
 import numpy as np
 
 from ..case import blamed_on
-from ..errors import RenderingUnavailable
+from ..errors import RenderingUnavailable, StabilabError
 from ..packages import present
 from . import endings, manifest, style
 from .mesh import Mesh, glb, stl, triangulate
@@ -270,9 +271,28 @@ def turntable(scene, found, meshes, path) -> Path:
         data = _scene_archive(stage.render_window)
     finally:
         stage.close()
-    with style.whole_file(Path(path)) as waiting, waiting.open("w", encoding="utf-8") as page:
-        write_html(data, page)
+    page = io.StringIO()
+    write_html(data, page)
+    with style.whole_file(Path(path)) as waiting:
+        waiting.write_text(offline(page.getvalue()), encoding="utf-8")
     return Path(path)
+
+
+# A text in the viewer's program that is the address of something to fetch (its icons); names of XML vocabularies are no such.
+ADDRESS = re.compile(r"""(["'`])https?://(?!www\.w3\.org/)[\w-]+(?:\.[\w-]+)+(?::\d+)?(?:/[^"'`\s<>]*)?\1""")
+# What is not in the file itself is not fetched, whatever else the viewer may come to ask for.
+POLICY = ("default-src 'none'; script-src 'unsafe-inline' 'unsafe-eval' blob: data:; style-src 'unsafe-inline'; img-src data: blob:; "
+          "font-src data:; connect-src data: blob:; worker-src data: blob:")
+
+
+def offline(page: str) -> str:
+    """An HTML page that asks for nothing from the network: addresses in its program become an empty icon, and a policy in its
+    head forbids the browser the rest."""
+    page, number = re.subn(r"<head>", lambda m: f'<head>\n    <meta http-equiv="Content-Security-Policy" content="{POLICY}" />\n'
+                           '    <link rel="icon" href="data:," />', page, count=1)
+    if number != 1:
+        raise StabilabError("the viewer's page has no <head>: this version of trame-vtk is not known")
+    return ADDRESS.sub(lambda m: f"{m[1]}data:,{m[1]}", page)
 
 
 def _scene_archive(window) -> bytes:
