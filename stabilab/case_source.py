@@ -48,8 +48,11 @@ def _neighbour(path) -> str:
     try:
         near = get_close_matches(name, [n for n in os.listdir(folder or ".") if n.endswith(".toml")], n=1)
     except OSError:
-        return ""
-    return f"; did you mean {os.path.join(folder, near[0])}?" if near else ""
+        near = []
+    if near:
+        return f"; did you mean {os.path.join(folder, near[0])}?"
+    brought = os.path.realpath(os.path.join(os.path.dirname(__file__), "cases", name))
+    return f"; stabilab brings one: {brought}" if name.endswith(".toml") and os.path.isfile(brought) else ""
 
 
 def parsed(path, text: str) -> tuple[dict, Faults]:

@@ -302,7 +302,7 @@ def figures(numbers: Annotated[Optional[List[int]], typer.Argument(
 
 @app.command()
 def report(cases: Annotated[Optional[List[Path]], typer.Argument(
-               metavar="[CASE...]", help="Case files; none: all of the repository's.", show_default=False)] = None,
+               metavar="[CASE...]", help="Case files; none: those of the papers, which stabilab brings.", show_default=False)] = None,
            out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the report.")] = Path("report")):
     """Write tables, figures and surfaces as one web page.
 

@@ -3,6 +3,7 @@
 What was written before stays as it was, no half file bears its final name, and a run after it completes.
 """
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -189,6 +190,64 @@ def test_a_package_that_cannot_be_loaded_is_no_fault_of_the_program():
         assert explained(error).exit_code == code and words in str(explained(error))
     assert explained(ImportError("cannot import name 'x' from 'stabilab.case'", name="stabilab.case")) is None
     assert explained(ModuleNotFoundError("No module named 'json.nothing'", name="json.nothing")) is None
+
+
+# -- installed, away from the repository -------------------------------------------------------------------------------
+
+# A report with one figure and no chapters: what is left reads the papers' cases as all of it does.
+LIGHT_REPORT = ("from stabilab.show import chapters, figures, report, table\nfigures.FIGURES = (figures.figure(9),)\n"
+                "figures.NUMBERS = (9,)\nchapters.CHAPTERS = report.PAGES = ()\nreal = table.case_files\n"
+                "report.table.case_files = lambda stems=('minor-axis-100',): real(stems)\nprint(report.write(out='report'))\n")
+
+
+def installed(folder, made):
+    """Run commands of the package in `made` from an empty folder; assert that they read nothing of the repository."""
+    def run(*words):
+        around = environment(folder) | {"PYTHONPATH": str(made)}
+        done = subprocess.run([sys.executable, *map(str, words)], capture_output=True, text=True, cwd=folder, env=around)
+        assert done.returncode == 0, done.stderr
+        return done.stdout
+    assert Path(run("-c", "import stabilab; print(stabilab.__file__)").strip()).is_relative_to(made)
+    run("-m", "stabilab", "tables", "--out", "tables")
+    run("-m", "stabilab", "figures", "9", "--out", "figures")
+    run("-m", "stabilab", "figures", "--paper", "charged", "2", "--out", "figures")
+    for name in ("tables", "figures"):
+        (*_, last) = manifest.read(folder / name)
+        assert all(Path(row["path"]).is_relative_to(made) for row in last["inputs"]) and last["inputs"]
+    assert (folder / "tables/table-4.csv").read_bytes() and len(list((folder / "figures").glob("*.png"))) == 2
+    return run
+
+
+def test_the_package_brings_the_cases_of_its_tables_and_figures(tmp_path):
+    """What setuptools puts into a wheel, without making one."""
+    pytest.importorskip("setuptools", minversion="65")
+    subprocess.run([sys.executable, "-W", "ignore", "-c", "from setuptools import setup; setup()", "-q", "egg_info", "--egg-base", tmp_path,
+                    "build_py", "--build-lib", tmp_path / "made"], cwd=ROOT, check=True, capture_output=True)
+    made = tmp_path / "made/stabilab/cases"
+    assert {p.name: p.read_bytes() for p in made.iterdir()} == {p.name: p.read_bytes() for p in (ROOT / "cases").glob("*.toml")}
+
+
+@pytest.mark.slow
+def test_an_installed_wheel_makes_tables_figures_and_reports_anywhere(tmp_path):
+    pip, away = [sys.executable, "-m", "pip", "-q", "--disable-pip-version-check"], tmp_path / "away"
+    if subprocess.run([*pip, "--version"], capture_output=True).returncode:
+        pytest.skip("this environment has no pip")
+    copy = tmp_path / "source"  # setuptools leaves its own folders beside what it builds
+    shutil.copytree(ROOT, copy, symlinks=True, ignore=lambda folder, names: [n for n in names if n.startswith(".") or n in ("build", "report", "figures")])
+    subprocess.run([*pip, "wheel", "--no-deps", "-w", tmp_path / "wheel", copy], check=True)
+    (wheel,) = (tmp_path / "wheel").iterdir()
+    subprocess.run([*pip, "install", "--no-deps", "--target", tmp_path / "made", wheel], check=True)
+    shutil.rmtree(copy)
+    away.mkdir()
+    run = installed(away, tmp_path / "made")
+    assert run("-c", LIGHT_REPORT).strip() == "report/index.html" and "minor-axis-100" in (away / "report/index.html").read_text(encoding="utf-8")
+
+
+def test_a_case_that_is_not_here_but_comes_with_the_package_is_named(tmp_path, stabilab, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    code, _, err = stabilab("show", "cases/minor-axis-100.toml")
+    named = Path(err.strip().rpartition(": ")[2])
+    assert code == BAD_INPUT and "no such file; stabilab brings one: " in err and named.read_bytes() == MINOR.read_bytes()
 
 
 # -- ended in the middle -----------------------------------------------------------------------------------------------

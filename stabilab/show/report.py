@@ -23,7 +23,7 @@ SURFACE_SHAPE = (48, 97)  # rows and columns of a sheet: smooth to the eye, 3 MB
 
 
 def write(cases=None, out="report", progress=None, arguments=None) -> Path:
-    """Write the report on `cases` (paths or Case; all of the repository's where empty) into the folder `out`.
+    """Write the report on `cases` (paths or Case; those that the package brings where empty) into the folder `out`.
 
     Everything is made in a temporary folder inside `out` and renamed into place, index.html and manifest.json last. Where
     3-D pictures cannot be drawn the report is written without them and says so. progress(words) is called before every

@@ -86,15 +86,16 @@ EXTREMES = {
 
 
 def cases_folder() -> Path:
-    """The folder of the paper's case files. Raises InputError where it is not found."""
-    for folder in (Path(__file__).resolve().parents[2] / "cases", Path("cases")):
+    """The folder of the papers' case files: they come with the package. Raises InputError where they are not found."""
+    package = Path(__file__).resolve().parents[1]
+    for folder in (package / "cases", package.parent / "cases"):  # the first is a link, which some systems do not unpack
         if (folder / "minor-axis-100.toml").is_file():
-            return folder
-    raise InputError("the paper's case files (cases/minor-axis-100.toml and so on) are not here: run inside the repository")
+            return folder.resolve()
+    raise InputError(f"the papers' case files (minor-axis-100.toml and so on) are not in {package / 'cases'}: install stabilab anew")
 
 
 def case_files(stems=("*",)) -> list[str]:
-    """The repository's case files (of these stems), as paths from here where they lie below, else whole."""
+    """The papers' case files (of these stems), as paths from here where they lie below, else whole."""
     paths = [path for stem in stems for path in sorted(cases_folder().glob(f"{stem}.toml"))]
     return [os.path.relpath(p) if p.resolve().is_relative_to(Path.cwd()) else os.fspath(p) for p in paths]
 
