@@ -9,6 +9,7 @@ import stabilab
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, Scene
 from stabilab.analysis.free_gyrostat import free_margin
 from stabilab.analysis.irreducible import kind_of
+from stabilab.analysis.precision_questions import ask
 
 def rotations(D, lam, h2, digits=50):
     """[(energy, whether a saddle)] of the permanent rotations with |H|^2 = h2: Newton's method on (H, 1/s) from many starts, polished
@@ -137,7 +138,7 @@ def test_a_state_too_near_a_separatrix_for_an_irrational_turn_is_undecided_and_s
     x, y = root.mpf(1), root.mpf("-7.5")
     state = (as_fraction(cosine * x - sine * y), as_fraction(sine * x + cosine * y), Fraction(-7, 2))
     found = stabilab.motion(scene, tuple(map(float, state)), exact=state, brief=True)
-    assert found.fate is Fate.UNDECIDED and "irrational" in found.because and abs(found.margin_energy) < 1e-60
+    assert found.fate is Fate.UNDECIDED and "irrational" in found.because and found.margin_energy is None  # its sign is open
     off = (state[0], state[1] * (1 + Fraction(1, 10**20)), state[2])
     assert stabilab.motion(scene, tuple(map(float, state)), exact=off, brief=True).fate is Fate.BOUNDED
 
@@ -175,10 +176,50 @@ def test_a_gyrostatic_component_along_a_torque_between_equal_axes_leaves_no_moti
     assert one.fate == many.labels[0] and "no motion is bounded" in one.because
 
 
-def test_a_free_gyrostat_at_rest_has_no_period():
-    """Momentum and rotation parallel in the decimals of the case, not in its doubles, which swing by rounding."""
+def test_a_free_gyrostat_at_rest_has_no_period_and_its_doubles_swing_by_rounding():
+    """Momentum and rotation parallel in the decimals of the case, not in its doubles: equal moments turn these about the wheel's
+    moment at the rate |lambda|/D (omega' = lambda x omega/D)."""
     scene, tenths = Scene(Body((3, 3, 3)), Gyrostat((1, 2, 3))), [Fraction(n, 10) for n in (1, 2, 3)]
     found = stabilab.motion(scene, tuple(map(float, tenths)), exact=tenths)
     assert found.fate is Fate.EQUILIBRIUM and found.period is None and found.extremes == ((0.1, 0.1), (0.2, 0.2), (0.3, 0.3))
-    np.testing.assert_array_equal(stabilab.extremes(scene, np.array([0.1, 0.2, 0.3])), [[0.1, 0.1], [0.2, 0.2], [0.3, 0.3]])
-    assert stabilab.period(scene, np.array([0.1, 0.2, 0.3])) == 0
+    doubles = np.array([0.1, 0.2, 0.3])
+    assert stabilab.fate(scene, doubles).labels == Fate.BOUNDED
+    np.testing.assert_allclose(stabilab.extremes(scene, doubles), np.stack([doubles, doubles], axis=1), rtol=0, atol=1e-16)
+    assert stabilab.period(scene, doubles) == pytest.approx(2 * np.pi * 3 / np.sqrt(14), rel=1e-15)
+
+
+SPIN = Scene(Body((12, 9, 5)), Gyrostat(("0.8", "0.5", "0.3")))
+
+
+def permanent(s, ulps=0):
+    """The doubles of the permanent rotation (D + lambda/omega = s), its first rate some units in the last place away."""
+    w = [float(h / (s - d)) for h, d in zip((mp.mpf(4) / 5, mp.mpf(1) / 2, mp.mpf(3) / 10), (12, 9, 5))]
+    return [w[0] + ulps * np.spacing(w[0]), *w[1:]]
+
+
+@pytest.mark.parametrize("s", [20, -3, 6, 11])
+def test_a_swing_by_rounding_about_a_stable_rotation_has_the_period_of_the_linear_motion(s):
+    """2 pi over the frequency of the Jacobian, by NumPy's eigenvalues; the swing is of the size of the start's rounding."""
+    state = permanent(s, 5)
+    frequency = max(abs(np.linalg.eigvals(np.array(SPIN.quadratic().jacobian(state))).imag))
+    assert stabilab.period(SPIN, state) == pytest.approx(2 * np.pi / frequency, rel=1e-11)
+    box = stabilab.extremes(SPIN, state)
+    assert (box[:, 0] <= state).all() and (state <= box[:, 1]).all() and np.ptp(box, axis=1).max() < 1e-14
+
+
+@pytest.mark.parametrize("s, passages", [(7, 2), (10, 1)])  # outside the figure eight of a saddle, which it rounds, or in a loop of it
+def test_the_period_next_to_an_unstable_rotation_grows_by_the_logarithm_of_the_margin(s, passages):
+    """Each passage of a saddle costs ln(1/margin)/rate, so periods differ by ln of the ratio of the margins over the growth rate."""
+    near, far = permanent(s, 100), permanent(s, 10**6)
+    rate = max(np.linalg.eigvals(np.array(SPIN.quadratic().jacobian(near))).real)
+    ratio = stabilab.fate(SPIN, far).margins / stabilab.fate(SPIN, near).margins
+    assert stabilab.period(SPIN, near) - stabilab.period(SPIN, far) == pytest.approx(passages * np.log(ratio) / rate, rel=1e-8)
+
+
+def test_thirty_digits_of_a_swing_by_rounding_are_those_of_the_linear_motion():
+    """Equal moments turn the rates about the wheel's moment at the rate |lambda|/D, whatever the start."""
+    scene = Scene(Body((3, 3, 3)), Gyrostat((1, 2, 3)))
+    with mp.workdps(40):
+        wanted = mp.nstr(2 * mp.pi * 3 / mp.sqrt(14), 30)
+    told = ask("period", scene, (0.1, 0.2, 0.3), 30)
+    assert told.enough and told.decimals[:30] == wanted[:30]

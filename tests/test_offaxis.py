@@ -5,7 +5,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from stabilab import Body, ConstantTorque, Fate, Gyrostat, Scene, ScaledGyrostat, trajectory
+from stabilab import Body, ConstantTorque, Fate, Gyrostat, Scene, ScaledGyrostat, fate, trajectory
 from stabilab.analysis.offaxis import evidence, extremes_over_period
 from stabilab.analysis.rate_roots import roots_of_rates
 from stabilab.errors import InputError
@@ -124,3 +124,11 @@ def test_a_rate_that_never_changes_has_no_roots_and_disturbs_no_other(either):
     roots = roots_of_rates(scene, (1.0, 0.0, 0.0), 5.0)
     np.testing.assert_allclose(roots.t, np.pi / 3 * np.arange(1, 5), rtol=1e-9)
     assert roots.component.tolist() == [1, 0, 1, 0]
+
+
+def test_a_fate_that_is_undecided_has_no_margin():
+    """A filter `margins > 0` must not count it as safe; an equilibrium off the axes has none either, as no barrier is known."""
+    result = fate(ScaledGyrostat("0.2", "0.4", (1, 1, 1)), np.ones((2, 3)))
+    assert (result.labels == Fate.UNDECIDED).all() and np.isnan(result.margins).all() and np.isnan(result.velocity_margins).all()
+    at_rest = fate(ScaledGyrostat(1, 3, (-1, 1, 1)), (-2, -1, -1))  # x2 x3 = 1, (x1 + 1) = -1, (x1 + 3) = 1: by hand
+    assert at_rest.labels == Fate.EQUILIBRIUM and np.isnan(at_rest.margins)

@@ -21,7 +21,7 @@ from .fast_fate import compiled_loops
 from .landscape import EPS, TURN, Landscape, landscape
 from .potential import derivatives_on_parabola
 from .precise import decide
-from .reasons import REASONS, Reason, rests
+from .reasons import REASONS, Reason, margin_at_rest, rests
 from .results import Fate
 from .table_fate import label_by_table
 
@@ -38,7 +38,8 @@ class FateResult:
 
     labels: (...,) int8 of `Fate`. margins: (...,) barrier minus energy in the scene's energy (J; or x_i^2/2 + U when
     scaled): positive below the barrier; -inf where there is no barrier ahead, +inf where no separatrix bounds the
-    motion. axis: 1, 2, 3 of a spin-up, else 0; sense: its sign, else 0. reasons: (...,) `Reason` codes. precise: how
+    motion, NaN where nothing is known of any (undecided, and no law keeps the motion from being bounded); at an
+    equilibrium on the separatrix 0. axis: 1, 2, 3 of a spin-up, else 0; sense: its sign, else 0. reasons: (...,) `Reason` codes. precise: how
     many states had to be decided in many digits. Iterating gives labels, margins.
     """
 
@@ -62,9 +63,10 @@ class FateResult:
 
     @cached_property
     def velocity_margins(self) -> np.ndarray:
-        """(...,) smallest change of the state that reaches the separatrix, in the state's unit; inf without one."""
+        """(...,) smallest change of the state that reaches the separatrix, in the state's unit; inf without one, NaN where the
+        label is undecided."""
         from .distance import separatrix_distance
-        return separatrix_distance(self.scene, self.states)
+        return np.where(self.labels == Fate.UNDECIDED, np.nan, separatrix_distance(self.scene, self.states))[()]
 
 
 def checked_states(states) -> np.ndarray:
@@ -153,18 +155,16 @@ def _labeller(scene):
 
 
 def at_rest(scene, states, out):
-    """Mark states within half a unit in the last place of an equilibrium."""
+    """Mark the states where every rate vanishes exactly; `margin_at_rest` has their margins."""
     found = equilibrium_mask(scene, states)
     if found.any():
         out["labels"][found], out["reasons"][found] = Fate.EQUILIBRIUM, Reason.AT_REST
         out["axis"][found] = out["sense"][found] = 0
+        out["margins"][found] = [margin_at_rest(scene, margin) for margin in out["margins"][found]]
 
 
 def equilibrium_mask(scene, states) -> np.ndarray:
-    """(n,) True where rounding of the state's own components accounts for all of its rate.
-
-    First the rates in doubles, then, for the few that pass, exact rates against |J| ulp/2.
-    """
+    """(n,) True where every rate of the state vanishes: in doubles to their rounding, then, for the few that pass, exactly."""
     form = scene.quadratic()
     kappa, rho, sigma, m = form.coefficients
     candidate = np.ones(len(states), bool)

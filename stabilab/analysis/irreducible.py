@@ -15,7 +15,8 @@ from .alignment import aligned
 from .fate import _write, at_rest, equilibrium_mask, fate, nearly_flat
 from .free_gyrostat import free_margin
 from .landscape import EPS, landscape
-from .one_state import OneFate, fate_of
+from .near_rest import beside_rest, small_loop
+from .one_state import OneFate, at_rest as rest_of, fate_of
 from .reasons import Reason, rests
 from .reduction import reduce
 from .results import Fate
@@ -55,13 +56,13 @@ def labeller(scene):
 def one_fate(scene, state, kind) -> OneFate:
     """The fate of one state (floats or Fractions, taken exactly) of a scene of kind "free", "turned" or "off-axis"."""
     if kind == "off-axis":
-        found = OneFate(Fate.UNDECIDED, Reason.OFF_AXIS, math.inf)
+        found = OneFate(Fate.UNDECIDED, Reason.OFF_AXIS, math.nan)
     elif kind == "turned":
         found = _turned_fate(aligned(scene), state)
     else:
         margin = free_margin(scene, state)
         found = OneFate(*((Fate.SEPARATRIX, Reason.TIE) if margin.tie else (Fate.BOUNDED, Reason.TORQUE_FREE)), float(margin))
-    return found._replace(label=Fate.EQUILIBRIUM, reason=Reason.AT_REST, axis=0, sense=0) if rests(scene.quadratic(), state) else found
+    return rest_of(scene, found) if rests(scene.quadratic(), state) else found
 
 
 def _turned_fate(turn, state) -> OneFate:
@@ -69,12 +70,12 @@ def _turned_fate(turn, state) -> OneFate:
     reduction = reduce(turn.twin)
     if reduction is None:  # a gyrostatic component stands along the torque
         from .captured import captured_fate
-        return OneFate(captured_fate(turn.twin, tuple(map(float, turn(state)))).fate, Reason.UNBOUNDED_LAW, -math.inf)
+        return _unbounded(captured_fate(turn.twin, tuple(map(float, turn(state)))))._replace(axis=0, sense=0)
     found = fate_of(turn.twin, reduction, turn(state))
     speed = sum(float(v) ** 2 for v in state)
     scale = max(map(float, turn.twin.body.exact)) * speed + max(abs(float(m)) for m in turn.twin.vector("constant_torque"))
     if not turn.exact and abs(found.margin) <= TURN_SHARE * scale:
-        return OneFate(Fate.UNDECIDED, Reason.TURN_ROUNDS, found.margin)
+        return OneFate(Fate.UNDECIDED, Reason.TURN_ROUNDS, math.nan)
     return found._replace(axis=0)  # the spin-up is about the torque's direction, not about a body axis
 
 
@@ -106,9 +107,12 @@ def _label_turned(scene, states, out) -> int:
 
 def _law(scene, state, out, index):
     from .captured import captured_fate
-    found = captured_fate(scene, state)
-    out["labels"][index], out["reasons"][index], out["margins"][index] = found.fate, Reason.UNBOUNDED_LAW, -np.inf
-    out["axis"][index], out["sense"][index] = found.axis, found.sense
+    _write(out, index, *_unbounded(captured_fate(scene, state)))
+
+
+def _unbounded(found) -> OneFate:
+    """The fate that `captured` found under the law: unbounded, about an axis that may be undecided."""
+    return OneFate(found.fate, Reason.UNBOUNDED_LAW, -math.inf, found.axis, found.sense)
 
 
 def extremes_one_by_one(scene, states, span):
@@ -132,7 +136,11 @@ def turned_extremes(scene, state, label, time, span):
     over one period, or over the span."""
     from .offaxis import evidence
     if label == Fate.EQUILIBRIUM:
-        return np.stack([state, state], axis=1)
+        return np.array([[float(v)] * 2 for v in state])
+    form = scene.quadratic()
+    if label == Fate.BOUNDED and beside_rest(form, state) and (loop := small_loop(form, state)):
+        return np.array([[float(v) for v in pair] for pair in loop[1]])
+    state = [float(v) for v in state]
     if label == Fate.BOUNDED and np.isfinite(time):
         return evidence(scene, state, 1.02 * time).extremes
     if span is None:

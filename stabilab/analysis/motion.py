@@ -29,7 +29,7 @@ def motion(scene, state, span=None, brief=False, exact=None) -> Motion:
     fields = _common(state, decided.label, decided.because, decided.axis, decided.sense)
     fields |= {"margin_energy": _finite(decided.margin), "tolerance": 1e-12,
                "extremes": extremes_of(reduction, given, decided.label)}
-    return Motion(**fields, **({} if brief else _rest(reduction, state, given, decided.label)))
+    return Motion(**fields, **({} if brief else _rest(reduction, state, given, decided)))
 
 
 def _checked(state) -> tuple[float, float, float]:
@@ -54,10 +54,11 @@ def _finite(value):
     return float(value) if math.isfinite(value) else None
 
 
-def _rest(reduction, state, given, label) -> dict:
+def _rest(reduction, state, given, decided) -> dict:
     from .distance import distance_of
     from .one_period import period_of
-    apart = 0.0 if label == Fate.SEPARATRIX else _finite(distance_of(reduction, state))
+    label = decided.label
+    apart = 0.0 if label == Fate.SEPARATRIX or decided.margin == 0 else _finite(distance_of(reduction, state))
     return {"margin_velocity": apart, "period": _repeats(period_of(reduction, given, label)),
             "invariants": invariants_of(reduction, given)}
 
@@ -88,13 +89,13 @@ def _other(scene, kind, state, given, span, decided) -> dict:
         time = turned_period(scene, given, decided.label)
         found = {"margin_energy": _finite(decided.margin), "period": _repeats(time)}
         if span is not None or decided.label == Fate.EQUILIBRIUM or _repeats(time) is not None:
-            found["extremes"] = _pairs(turned_extremes(scene, state, decided.label, time, _length(span)))
+            found["extremes"] = _pairs(turned_extremes(scene, given, decided.label, time, _length(span)))
         return found
     if decided.label == Fate.EQUILIBRIUM:
         return {"margin_energy": _finite(decided.margin), "extremes": tuple((v, v) for v in state)}
     if kind == "free":
         from .offaxis import extremes_over_period
-        closed = extremes_over_period(scene, state)
+        closed = extremes_over_period(scene, given)
         return {"margin_energy": _finite(decided.margin), "extremes": _pairs(closed.extremes), "extremes_over": closed.over,
                 "period": _repeats(closed.period)}
     found = _evidence(scene, state, span) if span is not None else {}

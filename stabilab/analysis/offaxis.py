@@ -13,6 +13,7 @@ from fractions import Fraction
 import numpy as np
 
 from ..errors import InputError
+from .near_rest import beside_rest, small_loop
 from .rate_roots import roots_of_rates
 from .results import Fate
 from .trajectories import _state, trajectory
@@ -148,12 +149,16 @@ def extremes_over_period(scene, state) -> PeriodExtremes:
     period 0; a motion that does not return within the step budget (on or next to a separatrix) has period inf and its
     extremes are over the span run. Raises InputError where a torque acts.
     """
-    state, form = _state(state), scene.quadratic()
+    form, given = scene.quadratic(), list(state)
+    state = _state(state)
     if any(form.m):
         raise InputError("the period by return is for motions without torque; this scene has one")
-    rates = form.rate([Fraction(v) for v in state.tolist()])
-    if not any(rates):
+    if not any(form.rate([Fraction(v) for v in given])):
         return PeriodExtremes(np.stack([state, state], axis=1), 0.0, "all time", "equilibrium: every rate is exactly 0")
+    if beside_rest(form, given) and (loop := small_loop(form, given)):
+        period, pairs = loop
+        return PeriodExtremes(np.array([[float(v) for v in pair] for pair in pairs]), float(period), "all time",
+                              "no torque: the motion is closed and periodic; followed in many digits, as its rates are small")
     span, roots = _first_span(form, state), None
     while roots is None or (roots.steps < STEP_BUDGET and not roots.reason):
         roots = roots_of_rates(scene, state, span)

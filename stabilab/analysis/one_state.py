@@ -15,7 +15,7 @@ from .balls import DOUBLE_BITS, settled
 from .exact_tie import over_pure_spin
 from .precise import PreciseOrbit, decide
 from .precise_extremes import extreme_balls
-from .reasons import REASONS, Reason, rests
+from .reasons import REASONS, Reason, margin_at_rest, rests
 from .results import Fate
 
 INF = math.inf
@@ -40,9 +40,12 @@ def fate_of(scene, reduction, state) -> OneFate:
     found = {-1: _on_circle, 1: _on_hyperbola, 0: _on_parabola}[reduction.e](reduction, state)
     unit = reduction.energy_unit
     found = found._replace(margin=found.margin * unit)
-    if rests(scene.quadratic(), state):
-        return found._replace(label=Fate.EQUILIBRIUM, reason=Reason.AT_REST, axis=0, sense=0)
-    return found
+    return at_rest(scene, found) if rests(scene.quadratic(), state) else found
+
+
+def at_rest(scene, found: OneFate) -> OneFate:
+    """The fate of an equilibrium, given what its energy alone says."""
+    return OneFate(Fate.EQUILIBRIUM, Reason.AT_REST, margin_at_rest(scene, found.margin))
 
 
 def _spin_up(r, reason, margin) -> OneFate:

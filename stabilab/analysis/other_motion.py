@@ -12,6 +12,7 @@ from math import hypot, sqrt
 from ..effects.base import cross, dot
 from ..errors import InputError
 from .gyroscopic import Content, content, gyrostat_scene
+from .reasons import REASONS, Reason
 from .results import Fate, Motion
 
 STIFF = 1e5  # fastest decay times span beyond which a search for extremes would take minutes
@@ -30,8 +31,8 @@ def other_motion(scene, state, span=None, exact=None) -> Motion | None:
         return replace(found, because=f"{found.because}; {parts.note}") if parts.note else found
     at = omega + (gamma or ())
     seen = {} if span is None else _over_span(scene, omega, gamma, span)
-    if _at_rest(parts, omega, gamma):
-        fields = {"fate": Fate.EQUILIBRIUM, "because": "an equilibrium lies within half a unit in the last place of the state",
+    if _at_rest(parts, exact or omega, gamma):
+        fields = {"fate": Fate.EQUILIBRIUM, "because": REASONS[Reason.AT_REST],
                   "extremes": tuple((w, w) for w in omega)}
     else:
         fate, because, bounds = judged(parts, omega, gamma)
@@ -85,20 +86,8 @@ def liquid_torque(parts: Content, w):
 
 
 def _at_rest(parts: Content, omega, gamma) -> bool:
-    """Whether rounding of the state's own components accounts for all of its rates (not asked with a liquid in a field)."""
-    if parts.kappa and gamma:
-        return False
-    state = (*omega, *(gamma or ()))
-    start = [v for block in rates(parts, omega, gamma) for v in block]
-    if not any(start):
-        return True
-    slack = [Fraction(0)] * len(start)
-    for n, value in enumerate(state):  # how far half a unit in the last place moves each rate
-        half = Fraction(abs(value)) / 2**53
-        moved = [Fraction(v) + half * (i == n) for i, v in enumerate(state)]
-        there = [v for block in rates(parts, moved[:3], moved[3:] or None) for v in block]
-        slack = [a + abs(u - v) for a, u, v in zip(slack, there, start)]
-    return all(abs(v) <= a for v, a in zip(start, slack))
+    """Whether every rate vanishes exactly (not asked with a liquid in a field)."""
+    return not (parts.kappa and gamma) and not any(v for block in rates(parts, omega, gamma) for v in block)
 
 
 def judged(parts: Content, omega, gamma) -> tuple[Fate, str, dict]:

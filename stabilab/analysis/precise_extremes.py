@@ -24,7 +24,7 @@ def extreme_balls(reduction, state, label: int, certain: int = CERTAIN_BITS, dou
     (infinite) where unbounded. doubles: balls of doubles will do where they are certain to DOUBLE_CERTAIN bits."""
     if label == Fate.EQUILIBRIUM:
         with working(START_BITS) as numbers:
-            return [(numbers.ball(v), numbers.ball(v)) for v in map(float, state)]
+            return [(numbers.ball(v), numbers.ball(v)) for v in state]
     how = {Fate.SPIN_UP: _unbounded, Fate.SEPARATRIX: _asymptotic, Fate.BOUNDED: _bounded}[Fate(label)]
 
     def question(numbers):

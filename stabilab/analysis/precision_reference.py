@@ -106,7 +106,7 @@ def reference(scene, start, times, blocks=(), orbit=False, work: int = WORK) -> 
         if before is not None:
             found = _compared(times, before, now, parts, work - budget[0])
             best = found if best is None or len(found.t) >= len(best.t) else best
-        if budget[0] < 0 or (best and best.status == "agrees"):
+        if budget[0] < 0 or (best and best.status == "agrees" and (best.period is None or best.period[2] <= AGREEMENT)):
             break
         before = digits, now
     return best or Reference(np.empty(0), empty, empty, np.empty(0), DIGITS[:2], parts, status="stopped", work=work - budget[0],

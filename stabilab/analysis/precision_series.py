@@ -12,7 +12,7 @@ from operator import mul
 
 from ..errors import InputError
 
-RETURNED = 1e-12  # a passage through the starting plane within this share of the state's size is a return
+RETURNED = 1e-12  # a passage through the starting plane within this share of the orbit's size is a return
 PIECES = 6  # of a step, each searched for one root
 
 
@@ -128,11 +128,11 @@ class Loop:
     def take(self, step):
         if self.extremes is None:
             self.home, self.normal = step.at(step.length * 0), [row[1] for row in step.rows]
-            self.size = max(abs(v) for v in self.home)
             self.extremes = [[v, v] for v in self.home[:3]]
         end = step.length
         for s in self._passages(step):
-            if max(abs(a - b) for a, b in zip(step.at(s), self.home)) < self.size * RETURNED:
+            size = max(high - low for low, high in self.extremes)  # of what was passed before this step
+            if max(abs(a - b) for a, b in zip(step.at(s), self.home)) < size * RETURNED:
                 self.closed, self.period, end = True, (step.start + s).mid(), s
                 break
         widen(self.extremes, step, end)

@@ -1,7 +1,6 @@
 """Why a motion has the fate it has, in words; and whether a state is at rest, decided exactly."""
 from __future__ import annotations
 
-import math
 from enum import IntEnum
 from fractions import Fraction
 
@@ -34,7 +33,7 @@ REASONS = {
     Reason.PLANE_ESCAPES: "on the invariant plane Q = 0 that decays in the direction of the torque, above any barrier: a set of measure zero",
     Reason.PURE_SPIN: "pure spin about the torque's axis: the other two rates stay where the torque does not see them",
     Reason.TIE: "the energy equals the barrier's: the motion tends to the saddle equilibrium",
-    Reason.AT_REST: "an equilibrium lies within half a unit in the last place of the state",
+    Reason.AT_REST: "every rate vanishes at the state, exactly",
     Reason.TORQUE_FREE: "no torque: the kinetic energy is constant, and it is positive definite",
     Reason.ASYMPTOTIC: "no torque, on an invariant plane: the motion tends to a permanent rotation",
     Reason.UNBOUNDED_LAW: "|H|^2/2 - D_i T grows steadily at the rate lambda_i M_i: no motion is bounded",
@@ -45,8 +44,13 @@ REASONS = {
 
 
 def rests(form, state) -> bool:
-    """Whether rounding of the state's own components (half a unit in the last place) accounts for all of its exact rate."""
-    x = [Fraction(float(v)) for v in state]
-    half = [Fraction(math.ulp(float(v))) / 2 if v else Fraction(0) for v in state]
-    rates, jacobian = form.rate(x), form.jacobian(x)
-    return all(abs(rate) <= sum(abs(a) * h for a, h in zip(row, half)) for rate, row in zip(rates, jacobian))
+    """Whether every rate vanishes at the state (floats or Fractions, taken as exact), exactly."""
+    return not any(form.rate([Fraction(v) for v in state]))
+
+
+def margin_at_rest(scene, margin: float) -> float:
+    """The margin of an equilibrium from the barriers that `margin` knows, those beyond the state itself.
+
+    Where these are lower and a torque acts, its neighbours on one side are released and it is not: it lies on the separatrix.
+    """
+    return max(margin, 0.0) if any(scene.quadratic().m) else margin

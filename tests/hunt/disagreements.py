@@ -45,7 +45,7 @@ def certified(scene, problem, state):
         return WRONG, f"refuted: {refuted[0].claim}: {refuted[0].reason}"
     motion, states = made["motion"], np.array([state])
     label = Fate(int(stabilab.fate(scene, states).labels[0]))
-    if motion is None or label == Fate.EQUILIBRIUM:  # a state may be at rest to half a unit in its last place
+    if motion is None:
         sure = label in (Fate.BOUNDED, Fate.SPIN_UP) and motion is None and "separatrix" in str(made["uncertified"])
         return (WRONG, f"{label.word}, but a tie by the certificate") if sure else NO_QUESTION
     if motion["fate"] != label.word:
@@ -73,14 +73,14 @@ def oracle(scene, problem, state):
     """Label and margin against the reduced potential in 60 to 240 digits."""
     result = stabilab.fate(scene, np.array(state))
     label, margin = int(result.labels), float(result.margins)
-    if label == Fate.EQUILIBRIUM:
-        return NO_QUESTION
     if math.isnan(margin):
         return WRONG, "the margin is no number"
     digits = _digits(state)
     word = energy.label(problem, state, digits=digits)
     if WORDS[word] != label:
         return WRONG, f"{Fate(label).word}, oracle {word}"
+    if label == Fate.EQUILIBRIUM:
+        return NO_QUESTION
     motion = energy.Reduced(problem, state, digits)
     saddles = [kind for _, kind in motion.stationary()].count("saddle") if not motion.at_centre else 0
     if motion.kind != "elliptic" and saddles != 1 or motion.tilt == 0 or not math.isfinite(margin):
