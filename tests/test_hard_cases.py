@@ -211,3 +211,11 @@ def test_case_9_a_spin_that_must_first_be_braked_through_many_turns_has_exact_ex
     """Speed -1e6 is undone only after 8e10 turns: nobody can integrate that, the reduced potential needs two turns."""
     pair = scaled(0.2, 0.4, (0, 0, 1))
     assert set(agrees(pair, [(1.0, 2.0, speed), (-3.0, 0.5, speed)], tolerance=1e-13)) <= {"spin-up", "bounded"}
+
+
+def test_a_body_at_the_crossing_of_two_lines_of_equilibria_is_answered():
+    """D = (3, 2, 1), wheel (1/2, 0, 0): rotations about axis 1 and those with w1 = -1/2, where (D1 - D2) w1 + 1/2 = 0, cross there; a
+    push along axis 3 leaves the energy constant, so the motion bounded."""
+    scene = stabilab.Scene(stabilab.Body((3, 2, 1)), stabilab.Gyrostat(("0.5", 0, 0)))
+    found = stabilab.fate(scene, np.array([(-0.5, 0, 0), (-0.5, 0, 1e-9)]))
+    assert found.labels.tolist() == [EQUILIBRIUM, BOUNDED] and found.margins[0] == 0

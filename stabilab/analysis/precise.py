@@ -170,15 +170,24 @@ class PreciseOrbit:
         # in U = omega_j + s_j, V = omega_k + s_k:  F = kappa U V + rho_ V + sigma_ U + m_
         rho, sigma = r.rho - r.kappa * self.sj, r.sigma - r.kappa * self.sk
         m = r.m + r.kappa * self.sj * self.sk - r.rho * self.sk - r.sigma * self.sj
-        if r.kappa and r.kappa * m == rho * sigma:  # two lines
-            yield from self._on_line_v(-sigma / r.kappa)
-            yield from self._on_line_u(-rho / r.kappa)
+        if r.kappa and r.kappa * m == rho * sigma:
+            yield from self._on_two_lines(-rho / r.kappa, -sigma / r.kappa)
         elif r.kappa or sigma:  # U = -(rho V + m)/(kappa V + sigma) in V^2/aq - e U^2/ap = Q
             top, bottom, square = Poly((m, rho)), Poly((sigma, r.kappa)), Poly((-self.Q, 0, 1 / aq))
             for v, many in self.numbers.real_roots((square * bottom * bottom - top * top * (Fraction(r.e) / ap)).c):
                 yield -(ball(rho) * v + ball(m)) / (ball(r.kappa) * v + ball(sigma)), v, many
         elif rho:
             yield from self._on_line_v(-m / rho)
+
+    def _on_two_lines(self, u, v):
+        """The equilibria with omega_j + s_j = u or omega_k + s_k = v; one with both counts once, as often as on both lines."""
+        found = [*self._on_line_v(v), *self._on_line_u(u)]
+        if v * v / abs(self.r.q) - self.r.e * u * u / abs(self.r.p) == self.Q:
+            both = tuple(map(self.numbers.ball, (u, v)))
+            meets = [one[0].overlaps(both[0]) and one[1].overlaps(both[1]) for one in found]
+            yield *both, sum(many for (*_, many), meet in zip(found, meets) if meet)
+            found = [one for one, meet in zip(found, meets) if not meet]
+        yield from found
 
     def _on_line_v(self, v):
         """The equilibria with omega_k + s_k = v."""
