@@ -65,6 +65,7 @@ def asked_of(name, scene, state):
     return {
         f"motion, {name}": lambda: stabilab.motion(scene, state),
         f"margin to 30 digits, {name}": lambda: ask("fate", scene, state, 30),
+        f"extremes to 8 digits, {name}": lambda: ask("extremes", scene, state, 8),
         f"extremes to 20 digits, {name}": lambda: ask("extremes", scene, state, 20),
         f"period, {name}": lambda: ask("period", scene, state, 12),
         f"certificate, {name}": lambda: certified(scene, state),
@@ -81,6 +82,7 @@ def all_questions():
         asked[f"equilibria, {name}"] = lambda scene=scene: stabilab.equilibria(scene)
     asked["motion, free"] = lambda: stabilab.motion(FREE, STATE)
     asked["margin to 30 digits, free"] = lambda: ask("fate", FREE, STATE, 30)
+    asked["period to 20 digits, free"] = lambda: ask("period", FREE, STATE, 20)
     asked["simulation to 12 digits"] = lambda: best_reached(some, [0.0, 1.0], 12, measured=False)
     asked["trajectory"] = lambda: stabilab.trajectory(some.scene, some.state, np.linspace(0, 2, 5)).states
     return {name: lambda question=question: plain(question()) for name, question in asked.items()}
@@ -134,6 +136,13 @@ def test_threads_have_the_answers_of_one_to_the_bit(count, each, alone, restless
 @pytest.mark.parametrize("count", [2, 8])
 def test_three_thousand_questions_of_threads_have_the_answers_of_one(count, alone, restless):
     assert wrong(count, 3000 // count, alone) == []
+
+
+@pytest.mark.parametrize("bits", [10, 2000])
+def test_no_answer_depends_on_the_precision_that_flint_happens_to_have(bits, alone):
+    """What a thread finds outside the lock may be any other's."""
+    with flint.ctx.workprec(bits):
+        assert [name for name, question in QUESTIONS.items() if question() != alone[name]] == []
 
 
 def test_analysis_and_checker_hold_one_lock_while_flint_has_their_precision():
