@@ -102,7 +102,10 @@ def _shares(land, saddle, end, shared, u):
 
 def residual(land, loops):
     """(k, n, m) energy of the rounded points above their saddle's, relative to the size of the energy's terms; their
-    offsets from the saddle tell the turn that the angle of a rounded point belongs to."""
+    offsets from the saddle tell the turn that the angle of a rounded point belongs to. On a hyperbola the larger of xi, eta
+    tells the place: next to an open plane the smaller one is all rounding. How far the other lies from the saddle's
+    hyperbola, relative to the size of the point, is the residual where that is more.
+    """
     place, w, size = land.start(loops.points)
     spot = tuple(v[:, :, None] for v in loops.saddle)
     pot = land.potential
@@ -110,10 +113,15 @@ def residual(land, loops):
         if land.e < 0:
             angle = angle_between(spot, place)
             seen, slopes = angle + TURN * np.round((loops.offset - angle) / TURN), abs(pot.c) + abs(pot.d)
+            shaken = 0.0
         else:
-            big = np.abs(spot[0]) >= np.abs(spot[1])
+            big = np.abs(place[0]) >= np.abs(place[1])
             seen = np.where(big, np.log(np.abs(place[0] / spot[0])), -np.log(np.abs(place[1] / spot[1])))
             slopes = abs(pot.e1) + abs(pot.e2)
+            wide, largest = size[0] + size[1], np.maximum(np.abs(place[0]), np.abs(place[1]))
+            beside = np.abs(place[0] * place[1] - spot[0] * spot[1]) / ((np.abs(place[0]) + np.abs(place[1])) * wide)
+            shaken = pot.mu * wide / largest  # the tilt falls by mu times the logarithm of the place
         departure = np.abs(0.5 * w * w + pot.rise(seen, spot))
-        scale = 0.5 * w * w + np.abs(pot.G) * (size[0] ** 2 + size[1] ** 2) + slopes * (size[0] + size[1]) + pot.mu
-        return np.where(departure > 0, departure / scale, 0.0)
+        scale = 0.5 * w * w + np.abs(pot.G) * (size[0] ** 2 + size[1] ** 2) + slopes * (size[0] + size[1]) + pot.mu + shaken
+        along = np.where(departure > 0, departure / scale, 0.0)
+        return along if land.e < 0 else np.fmax(along, beside)
