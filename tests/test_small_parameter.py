@@ -325,6 +325,43 @@ def test_samples_too_far_apart_for_the_precession_are_called_coarse():
     assert euler_angles(motion.t, motion.omega, motion.gamma).status == "coarse"
 
 
+# --- what the words follow from
+
+@pytest.mark.parametrize("name", ["top-lx30-lz30", "top-lx90-lz30", "top-lx30-lz90"])
+@pytest.mark.parametrize("order", range(7))
+def test_no_order_calls_the_data_of_table_1_a_periodic_motion(name, order):
+    """By hand: M g L/(C r0^2) = 8.2 stands where a small number should."""
+    case = stabilab.load(CASES / f"{name}.toml")
+    found = lindstedt(case.scene, {"omega": case.state, "gamma": case.blocks["gamma"]}, [0.0], order)
+    assert found.status == "diverging" and "lies on" not in found.reason and "not fast enough" in found.reason
+
+
+@pytest.mark.parametrize("order", range(9))
+def test_a_valid_top_is_told_as_one_at_every_order_with_what_the_order_leaves_out(order):
+    """What order 12 has at the start, no less than twice the departure told, is what the lower order leaves out."""
+    case = stabilab.load(CASES / "top-fast.toml")
+    state = {"omega": case.state, "gamma": case.blocks["gamma"]}
+    found, best = (lindstedt(case.scene, state, [0.0], n) for n in (order, 12))
+    assert found.status == "asymptotic" and found.residual < 0.1 * max(found.terms[-2:])
+    left = np.hypot(*(best.omega[0, :2] - found.omega[0, :2]))
+    assert 0.5 * left < found.left_out < 2 * left
+
+
+@needs_heyoka
+@pytest.mark.parametrize("h, status", [(0.1, "asymptotic"), (0.3, "asymptotic"), (1.0, "asymptotic"), (3.0, "asymptotic"),
+                                       (9.0, "diverging"), (15.0, "diverging")])
+def test_asymptotic_series_follow_the_motion_for_a_revolution_and_diverging_ones_do_not(h, status):
+    """Against a run of the exact equations from the series' own start."""
+    for order in range(6):
+        motion = lindstedt(top(h), START, [0.0], order)
+        times = np.linspace(0, abs(motion.period), 40)
+        omega, gamma = motion.at(times)
+        run = trajectory(top(h), {"omega": omega[0], "gamma": gamma[0] / np.linalg.norm(gamma[0])}, times)
+        error = np.abs(run.block("gamma") - gamma).max()
+        assert motion.status == status, order
+        assert error < 0.4 and error < 2 * np.pi * motion.residual if status == "asymptotic" else error > 1
+
+
 # The paper's own solution
 
 def test_printed_solution_is_right_to_its_order_without_gyrostat():
@@ -347,7 +384,10 @@ def test_printed_angles_have_wrong_signs_where_y0_enters(arm, order):
         scene = top(h, 0.0, 0.0, arm)
         motion = lindstedt(scene, START, np.linspace(0, 0.04, 40), 8)
         paper, angles = printed(scene, START, motion.t), periodic_angles(motion)
-        drops.append([np.abs(paper.theta - angles.theta).max(), np.abs(paper.psi - angles.psi).max()])
+        theta0 = math.acos(START["gamma"][2])
+        meant = paper.psi * math.sin(paper.epsilon * theta0) / math.sin(theta0)  # csc(eps theta0) stands where csc theta0 is meant
+        drops.append([np.abs(paper.theta - angles.theta).max(), np.abs(meant - angles.psi).max()])
+        assert np.abs(paper.psi - angles.psi).max() > np.abs(angles.psi).max()
     assert np.log2(np.array(drops[0]) / np.array(drops[1])) == pytest.approx(order, abs=0.2)
 
 

@@ -16,7 +16,10 @@ from .small_parameter_scaling import fast_top
 from .small_parameter_series import Expansion, expand
 
 HIGHEST_ORDER = 24  # the cost grows as the fourth power of the order; double precision is used up long before
+FURTHER = 2  # orders beyond the one asked for, by which it is judged: without l_x, l_y odd ones hold p, q alone, even ones the rest
 NEAR = 0.1  # a divisor Omega - m this small makes the coefficients grow tenfold and more, order by order
+SETTLED = 1e-12  # terms below are rounding, and do not fall any more
+ROUNDING = 1e-14  # of the spin: a departure this small is none
 NEAR_SLACK = 1e-9  # so that a distance of 0.1 itself, rounded, is named
 
 
@@ -37,13 +40,14 @@ class LindstedtMotion:
     omega: (n, 3) rad/s, body frame; gamma: (n, 3), of length 1 up to the order's error. order: what was reached;
     epsilon: the paper's sqrt(M g L |gamma0''|/C)/r0; size: what the expansion is in (see `FastTop.size`); frequency:
     nu r0, rad/s (with the sign of r0); period: s; Omega2: square of the free wobble's frequency over r0; resonances:
-    those in reach, nearest first; terms: size of each order's term relative to the spin, 0 ... order; residual: largest
-    residual over one revolution of the scaled equations (see `small_parameter_series`); departure: (2,) given minus
-    periodic p, q at t = 0, rad/s.
+    those in reach, nearest first; terms: size of each order's term relative to the spin, 0 ... order; ahead: those of the
+    next two orders, where they exist; residual: largest residual over one revolution of the scaled equations (see
+    `small_parameter_series`); departure: (2,) given minus periodic p, q at t = 0, rad/s; left_out: what p, q at t = 0 change
+    by in the next two orders, rad/s (by the residual, where these do not exist).
 
-    status: "asymptotic", "near resonance", "unstable" (Omega^2 < 0), "diverging" (the terms do not fall), "resonant"
-    (a divisor is 0: the expansion ends below the order asked for; with order -1 there is no motion at all and the
-    arrays are empty); reason: in words.
+    status: "asymptotic", "near resonance", "unstable" (Omega^2 < 0), "diverging" (the terms do not fall, or the equations
+    of motion are missed by more than the last terms), "resonant" (a divisor is 0: the expansion ends below the order asked
+    for; with order -1 there is no motion at all and the arrays are empty); reason: in words.
     """
 
     t: np.ndarray
@@ -57,8 +61,10 @@ class LindstedtMotion:
     Omega2: float
     resonances: tuple[Resonance, ...]
     terms: tuple[float, ...]
+    ahead: tuple[float, ...]
     residual: float
     departure: np.ndarray
+    left_out: float
     status: str
     reason: str
     r0: float
@@ -82,18 +88,23 @@ def lindstedt(scene, state, times, order: int = 2) -> LindstedtMotion:
         raise InputError(f"order: expected a whole number from 0 to {HIGHEST_ORDER}, got {order!r}")
     times = _times(times)
     top = fast_top(scene, state)
-    expansion, r0 = expand(top, int(order)), float(top.r0)
+    expansion, further, r0 = expand(top, int(order)), expand(top, int(order) + FURTHER), float(top.r0)
     exists = expansion.order >= 0
     times = times if exists else times[:0]
     omega, gamma = _evaluate(expansion, r0, times)
     nu = expansion.sums()[0] if exists else 1.0
-    start = _evaluate(expansion, r0, np.zeros(1))[0][0, :2] if exists else np.zeros(2)
+    start, better = ((_evaluate(e, r0, np.zeros(1))[0][0, :2] if exists else np.zeros(2)) for e in (expansion, further))
     departure = np.array([float(x) for x in top.omega[:2]]) - start
     residual = _residual(top, expansion) if exists else float("inf")
-    near = _resonances(top, int(order))
-    status, reason = _verdict(top, expansion, near, int(order), departure)
+    beyond = further.order > expansion.order
+    left_out = float(np.hypot(*(better - start))) if beyond else abs(r0) * top.size * residual
+    near, ahead = _resonances(top, int(order)), further.terms[len(expansion.terms):]
+    status, reason = _verdict(top, expansion, near, int(order), ahead, residual)
+    if exists:
+        wobble = departure - (better - start) if beyond else departure
+        reason = "; ".join(filter(None, (reason, _how_far(departure, wobble, left_out, abs(r0), status))))
     return LindstedtMotion(times, omega, gamma, expansion.order, top.epsilon, top.size, nu * r0, 2 * np.pi / abs(nu * r0),
-                           float(top.Omega2), near, expansion.terms, residual, departure, status, reason, r0, expansion)
+                           float(top.Omega2), near, expansion.terms, ahead, residual, departure, left_out, status, reason, r0, expansion)
 
 
 def _times(times):
@@ -159,18 +170,19 @@ def _condition(top, m) -> str:
     return f"Omega = 1, {'C* = 0' if abs(top.spin) < abs(top.spin - top.a - top.b) else 'C* = A + B'}"
 
 
-def _verdict(top, expansion, near, order, departure):
+def _verdict(top, expansion, near, order, ahead, residual):
     r0, reasons, status = abs(float(top.r0)), [], "asymptotic"
     if near:
         status = "near resonance"
         reasons += [f"near the resonance {r.condition} (distance {r.distance:.3g}): its small divisor magnifies the terms"
                     for r in near if r.distance]
-    terms = expansion.terms
-    # Without l_x, l_y odd orders hold p, q alone and even ones the rest: a term is measured against the two before it.
-    if len(terms) > 1 and terms[-1] > 0 and terms[-1] >= max(terms[-3:-1]):
+    if words := _diverging(expansion.terms, ahead, residual):
         status = "diverging"
-        reasons.append(f"the terms do not fall ({', '.join(f'{x:.3g}' for x in terms[-3:])}): the top is not fast enough for "
-                       f"this expansion (small parameter {expansion.size:.3g})")
+        reasons.append(f"{words}: the top is not fast enough for this expansion (small parameter {expansion.size:.3g})")
+    elif expansion.order >= 0:
+        reasons.append(f"the series misses the equations of motion by {residual:.2g} of the spin, so it may be off by "
+                       f"{2 * np.pi * residual:.2g} after a revolution; its last terms are "
+                       f"{', '.join(f'{x:.2g}' for x in expansion.terms[-2:])}")
     if top.Omega2 < 0:
         status = "unstable"
         reasons.append(f"Omega^2 = {float(top.Omega2):.3g} < 0 (C* lies between A and B): the periodic motion is unstable, "
@@ -180,13 +192,29 @@ def _verdict(top, expansion, near, order, departure):
         what = _condition(top, expansion.stopped) if expansion.stopped else "C* = A or C* = B"
         end = f"the expansion ends at order {expansion.order}" if expansion.order >= 0 else "there is no periodic motion to start from"
         reasons.append(f"exact resonance ({what}) under a forcing: {end}, order {order} does not exist")
-    if expansion.order >= 0:
-        reasons.append(_how_far(departure, 0.0 if status == "diverging" else r0 * terms[-1] * expansion.size))
     return status, "; ".join(reasons)
 
 
-def _how_far(departure, last) -> str:
-    if float(np.hypot(*departure)) <= last:
-        return "the start lies on the periodic motion to within the last term"
-    return (f"the start is not on the periodic motion: p, q differ by ({departure[0]:.6g}, {departure[1]:.6g}) rad/s, "
-            f"a free wobble of that size which the expansion leaves out")
+def _diverging(terms, ahead, residual) -> str:
+    """Why the series up to these terms is no approximation, "" where it is: what is left out must be smaller than the last
+    terms kept, by the terms of the next two orders and by the residual of the equations of motion."""
+    if not terms or (kept := max(terms[-2:])) < SETTLED:
+        return ""
+    # a term is measured against the two before it: one of them may hold nothing
+    if len(terms) > 1 and terms[-1] > 0 and terms[-1] >= max(terms[-3:-1]):
+        return f"the terms do not fall ({', '.join(f'{x:.3g}' for x in terms[-3:])})"
+    if ahead and max(ahead) > 0 and max(ahead) >= kept:
+        return f"the terms do not fall ({', '.join(f'{x:.3g}' for x in terms[-2:])}, then {', '.join(f'{x:.3g}' for x in ahead)})"
+    if residual >= kept:
+        return f"the series misses the equations of motion by {residual:.3g} of the spin, no less than its last terms, {kept:.3g}"
+    return ""
+
+
+def _how_far(departure, wobble, left_out, r0, status) -> str:
+    """What the given p, q say of the start; wobble: their departure from the series two orders further."""
+    differ = f"p, q differ by ({departure[0]:.6g}, {departure[1]:.6g}) rad/s"
+    if status == "diverging":
+        return f"the start's {differ} from a series that does not converge there"
+    if float(np.hypot(*wobble)) <= left_out + ROUNDING * r0:
+        return f"the start lies on the periodic motion to within what this order leaves out there, {left_out:.2g} rad/s"
+    return (f"the start is not on the periodic motion: {differ}, a free wobble of that size which the expansion leaves out")

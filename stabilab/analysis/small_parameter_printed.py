@@ -8,7 +8,7 @@ For comparison only. What is wrong in it:
 - (41): gamma1' has second-order terms X(y0'/a + lambda2 M3 sin tau) that no equation gives: gamma1'(0) != 0 and |gamma| != 1;
 - (41): gamma1'' has y1 where P0 belongs, and a term y1 y3; with (10) it is right to second order for l_x = l_z = 0 only;
 - (10): X and Omega^2 are cut off after the first power of l_z/r0 (C* = C + l_z/r0 in place of C makes them exact);
-- (42): 1 - gamma'^2 under psi' stands for 1 - gamma''^2; (43): "csc eps theta0" stands for csc theta0;
+- (42): 1 - gamma'^2 under psi' stands for 1 - gamma''^2; (43): csc(eps theta0) stands for csc theta0, kept as printed;
 - (43): wrong signs of the y0' terms, sin r0 t in theta2 and cos r0 t in psi2 (and so in phi2); theta1 carries y1 where P0
   belongs; psi1 is not 0 (it integrates P0 cos tau); psi3 lacks factors 1/r0;
 - the text's "no singular points for any frequency": Omega = 0, Omega = 1 and C = B are poles of (41) itself.
@@ -112,7 +112,7 @@ def printed(scene, state, times) -> PrintedMotion:
     psi, theta, phi = _angles(n, times)
     scale = n.c * math.sqrt(n.gamma0)
     return PrintedMotion(times, np.stack([scale * omega[0], scale * omega[1], n.r0 * omega[2]], -1), n.gamma0 * np.stack(gamma, -1),
-                         psi, theta, phi, e, "as printed", "eqs. (41) and (43) with their misprints; see the module's text")
+                         psi, theta, phi, e, "as printed", "eqs. (10), (41) and (43) as they stand in print, misprints and all")
 
 
 def _solution(n, e, cos, sin, cos2):
@@ -132,7 +132,7 @@ def _solution(n, e, cos, sin, cos2):
 
 
 def _angles(n, t):
-    """Eq. (43), "csc eps theta0" read as csc theta0: psi (0 at t = 0), theta, phi."""
+    """Eq. (43), csc(eps theta0) and all: psi (0 at t = 0), theta, phi."""
     theta0, e = math.atan(n.M3), n.epsilon
     difference = [_terms(n, t + n.h)[i] - _terms(n, np.array([n.h]))[i] for i in range(5)]
     theta1, theta2, psi2, psi3, phi3 = difference
@@ -140,7 +140,7 @@ def _angles(n, t):
     if theta0 == 0:
         raise InputError("the printed angles divide by sin(theta0), which is 0 for this start")
     root = n.c * math.sqrt(math.cos(theta0))
-    psi = root / math.sin(theta0) * (e * psi2 + e**2 * psi3)
+    psi = root / math.sin(e * theta0) * (e * psi2 + e**2 * psi3)
     phi = (math.pi / 2 + n.r0 * n.h + n.r0 * t - root / math.tan(theta0) * e * psi2
            - e**2 * (n.M3 * phi3 + root / math.tan(theta0) * psi3))
     return psi, theta, phi

@@ -17,6 +17,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache
 
 import numpy as np
 
@@ -53,8 +54,9 @@ class Expansion:
         return float(powers @ self.nu), np.tensordot(powers, self.fields, 1)
 
 
+@lru_cache(maxsize=16)
 def expand(top, order: int) -> Expansion:
-    """The expansion of a `FastTop` to `order`."""
+    """The expansion of a `FastTop` to `order`, kept: a comparison asks for the same one again and again."""
     if _nearly_upright(top):
         digits = 30 + 20 * (order + 1)
         with mpmath_alone() as mpmath, mpmath.workdps(digits):
