@@ -10,6 +10,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 from .body import Body
+from .case_attitude import judge as judge_attitude
+from .case_attitude import vertical_of
 from .case_expect import expected
 from .case_lines import key_lines
 from .case_source import parsed, source_text
@@ -292,7 +294,10 @@ def _judge_blocks(motion: _Motion, scene):
     if abs(length - 1) > UNIT_SLACK:
         table.fault(f"expected a unit vector, got one of length {length:.17g}", "vertical")
     if motion.state is not None and scene is not None and "gamma" in scene.blocks and "gamma" not in given:
-        table.fault("vertical is missing: an effect of this scene asks where the vertical is (a unit vector, body frame)")
+        angles = given.get("attitude")
+        told = f"; the attitude given has [{', '.join(f'{v:.10g}' for v in vertical_of(*angles))}]" if angles else ""
+        table.fault(f"vertical is missing: an effect of this scene asks where the vertical is (a unit vector, body frame){told}")
+    judge_attitude(table, given, scene)
 
 
 def _variables(top: Table, motion: _Motion, physical, scaled, mu):

@@ -265,6 +265,31 @@ def test_numbers_that_are_good_one_by_one_only_are_refused_at_their_effect(fault
     assert found[:2] == (line, key) and words in found[2] and len(found[2]) < 200
 
 
+TILTED = BODY + """[effects.gravity]
+weight = 1
+centre_of_mass = [0, 0, 1]
+[motion]
+angular_velocity = [0, 0, 1]
+"""
+
+
+def test_a_vertical_that_contradicts_the_attitude_is_refused_with_both(faults, case):
+    """psi, phi, theta = 0, atan2(-0.6, 0.8), anything has (0.6, 0, 0.8) as third row of Rz(theta) Rx(psi) Ry(phi), by hand."""
+    (found,) = faults(TILTED + "attitude = [0, 0, 0]\nvertical = [0.6, 0, 0.8]\n")
+    assert found[1] == "motion.vertical" and all(w in found[2] for w in ("contradicts attitude", "[0, 0, 1]", "[0.6, 0, 0.8]"))
+    assert TILTED.count("\n") + 2 == found[0]
+    assert case(TILTED + "attitude = [0, -0.643501108793, 2.5]\nvertical = [0.6, 0, 0.8]\n").blocks["gamma"] == (0.6, 0, 0.8)
+    assert case(TILTED + "attitude = [0, -0.643501, 0]\nvertical = [0.6, 0, 0.8]\n").blocks  # agrees to the decimals given
+    assert len(faults(TILTED + "attitude = [0, -0.6434, 0]\nvertical = [0.6, 0, 0.8]\n")) == 1
+
+
+def test_an_attitude_left_out_is_asked_for_where_zero_angles_contradict_the_vertical(faults):
+    (found,) = faults(TILTED.replace("inertia", "mass = 1\ninertia") + "vertical = [0.6, 0, 0.8]\nvelocity = [0, 0, 0]\n")
+    assert found[1] == "motion.vertical" and "attitude = [0, -0.6435011088, 0]" in found[2]
+    (found,) = faults(TILTED + "attitude = [0, -0.643501108793, 0]\n")
+    assert "vertical is missing" in found[2] and "[0.6, 0, 0.8]" in found[2]
+
+
 def test_a_bad_value_of_a_sweep_is_shown_where_it_stands(tmp_path):
     path = tmp_path / "sweep.toml"
     path.write_text(BODY + "[effects.gravity]\nweight = 1\ncentre_of_mass = [0, 0, 1]\n[motion]\nangular_velocity = [0, 0, 1]\n"
