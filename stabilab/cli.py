@@ -136,7 +136,7 @@ def period(cases: CaseFiles, json: Json = False, digits: Digits = None):
 def simulate(case: CaseFile,
              at: Annotated[Optional[str], typer.Option(metavar="T1,T2,...", help="Times; the state is at 0. "
                                                        "Default: 201 times over the span of the case.")] = None,
-             model: Annotated[str, typer.Option(help="exact, or an analytic solution that applies: linear, printed, "
+             model: Annotated[str, typer.Option(help="exact, or an analytic solution that applies: linear, corrected, printed, "
                                                      "averaged1, averaged2, lindstedt.")] = "exact",
              order: Annotated[Optional[int], typer.Option(min=1, help="Order of the lindstedt expansion.")] = None,
              method: Annotated[Optional[str], typer.Option(help="taylor (default), a method of SciPy's solve_ivp by name, or "

@@ -9,8 +9,8 @@ from stabilab.analysis.axisymmetric_fractions import fractions
 from stabilab.analysis.axisymmetric_limits import horizon, largest_tilt, tilt_parts
 from stabilab.analysis.axisymmetric_means import pointing, spin_drift
 from stabilab.analysis.axisymmetric_modes import ChargedBody, modes, resonances
-from stabilab.analysis.axisymmetric_printed import MISPRINTS, printed
-from stabilab.analysis.axisymmetric_typed import Typed, literal
+from stabilab.analysis.axisymmetric_corrected import corrected
+from stabilab.analysis.axisymmetric_printed import MISPRINTS, Typed, circle, printed
 from stabilab.errors import InputError
 
 flint = pytest.importorskip("flint")
@@ -134,7 +134,7 @@ def test_the_motion_satisfies_its_differential_equations():
 def test_equal_transverse_moments_make_the_papers_model_exact():
     body = ChargedBody((8.7, 8.7, 11.1), 0.283, 1.3, 0.29, (4.0, 1.0), (0.1, 0.2), (0.1, 0.2, 0.3), (1.0, 2.0, 3.0), 10.0)
     t = np.linspace(0, 50, 501)
-    exact, paper, early = solution(body, t), printed(body, t), t < fractions(body).wide
+    exact, paper, early = solution(body, t), corrected(body, t), t < fractions(body).wide
     assert 0 < early.sum() < len(t)
     for part in ("omega", "angles", "velocity", "position"):
         one, other = getattr(paper, part), getattr(exact, part)
@@ -146,14 +146,14 @@ def test_equal_transverse_moments_make_the_papers_model_exact():
 def test_without_gyrostat_and_charge_the_papers_model_is_exact_too():
     body = ChargedBody((8.7, 8.6, 11.1), 0.283, torque=(4.0, 1.0), rates=(0.1, 0.2))
     t = np.linspace(0, 50, 51)
-    np.testing.assert_allclose(printed(body, t).angles, solution(body, t).angles, rtol=1e-13, atol=1e-13)
+    np.testing.assert_allclose(corrected(body, t).angles, solution(body, t).angles, rtol=1e-13, atol=1e-13)
 
 
 def test_the_papers_frequency_shifts_the_phase_on_its_own_data_whatever_the_amplitude():
     for torque in (4.0, 4e-6):
         body = ChargedBody(**PAPER, gyrostat=1.3, charge_moment=0.003 * 100 * 1.02**2 * math.cos(0.37), torque=(torque, 0.0))
         t = np.linspace(0, 50, 5001)
-        exact, paper = solution(body, t), printed(body, t)
+        exact, paper = solution(body, t), corrected(body, t)
         off = np.abs(paper.omega - exact.omega).max(axis=0)[:2] / np.abs(exact.omega).max(axis=0)[:2]
         assert 0.11 < off[0] < 0.12  # (W - sqrt(ab)) 50 s = 0.118 rad of phase
 
@@ -165,14 +165,38 @@ def typed(gyrostat=1.3, **changes):
 
 def test_the_typed_tilt_is_the_one_frequency_model():
     t = np.linspace(0, 50, 101)
-    np.testing.assert_allclose(literal(typed(), t)["angles"], printed(typed(), t).angles, atol=1e-12)  # (24), (25) as typed
+    for part in ("omega", "angles", "momentum"):  # (11)-(13), (20)-(26), (33) hold misprints of the frequency only
+        np.testing.assert_allclose(getattr(printed(typed(), t), part), getattr(corrected(typed(), t), part), atol=1e-12)
 
 
 def test_the_typed_translation_is_right_where_print_is():
     """D1 = D2 removes (46) and (61); f1 = f2 = 0 removes (50), (51), (64)-(66) and the sign in (58)."""
     body, t = typed(inertia=(8.7, 8.7, 11.1)), np.linspace(0, 50, 101)
     for part in ("velocity", "position"):
-        np.testing.assert_allclose(literal(body, t)[part], getattr(printed(body, t), part), atol=1e-9)
+        np.testing.assert_allclose(getattr(printed(body, t), part), getattr(corrected(body, t), part), atol=1e-9)
+
+
+def test_the_printed_translation_is_what_the_paper_prints():
+    """(43)-(46), (58)-(61) typed a second time, from rest with f1 = f2 = 0: Pi10 = Gamma0 = 0, plain complex numbers."""
+    from cmath import exp
+    D1, D2, D3, M1, f3, m, r0, t = 8.7, 8.6, 11.1, 4.0, 3.0, 10.0, PAPER["spin"], 7.0
+    Lam = 1.3 - 0.29
+    zeta1, zeta2 = (D3 - D2) / D1, (D3 - D1) / D2
+    zeta = math.sqrt(zeta1 * zeta2)
+    W = zeta * (r0 + Lam / (zeta1 * D1))
+    A, plus, minus = M1 * math.sqrt(zeta2) / D1, r0 + W, r0 - W
+    spin = 1j / r0 * (1 - exp(1j * r0 * t)) - t
+    I1 = A / W * (spin / r0 - (1j * (1 - exp(1j * t * plus)) / plus - t) / plus)
+    I2 = -A / W * (spin / r0 - (1j * (exp(1j * t * (r0 - zeta * (r0 + zeta * Lam / (zeta1 * D1)))) - 1) / minus - t) / minus)
+    both = lambda a, b: ((math.sqrt(zeta1) + math.sqrt(zeta2)) * a + (math.sqrt(zeta1) - math.sqrt(zeta2)) * b) / (2 * zeta)  # noqa: E731
+    omega = -1j * f3 * both(I1, I2) / m
+    inner = 1j / r0 * (t - 1j / r0 * (1 - exp(1j * r0 * t))) - t**2 / 2
+    J1 = A / W * (inner / r0 - (-t**2 / 2 + 1j / plus * (t + 1j * (exp(1j * t * plus) - 1) / plus)) / plus)
+    J2 = -A / W * (inner / r0 - (-t**2 / 2 + 1j / minus * (t + 1j * (1 - exp(1j * t * minus) - 1) / minus)) / minus)
+    eta = -1j * f3 * both(J1, J2) / m
+    run = printed(ChargedBody(**PAPER, gyrostat=1.3, charge_moment=0.29, torque=(M1, 0.0)), t)
+    assert run.velocity == pytest.approx([omega.real, omega.imag, f3 * t / m], rel=1e-12)
+    assert run.position == pytest.approx([eta.real, eta.imag, f3 * t**2 / (2 * m)], rel=1e-12)
 
 
 @pytest.mark.parametrize("number, integral, integrand, back", [
@@ -180,7 +204,7 @@ def test_the_typed_translation_is_right_where_print_is():
     ("(50), (51)", "I5_omega", "I2_Gamma", True), ("(60)", "I1_eta", "I1_omega", False), ("(61)", "I2_eta", "I2_omega", False)])
 def test_a_typed_integral_differs_from_what_it_integrates_exactly_if_listed_as_misprinted(number, integral, integrand, back):
     r0, W, h = 0.28, 0.19, 1e-4
-    at = lambda t: Typed(np.array(t), r0, W, W + r0, r0 - W, 0.1 + 0.2j, 0.3 - 0.1j)  # noqa: E731
+    at = lambda t: Typed(None, np.array(t), r0, W, r0 - 0.9 * W, (1.0, 1.0), 0.1 + 0.2j, 0.3 - 0.1j)  # noqa: E731
     slope = (getattr(at(2 + h), integral)() - getattr(at(2 - h), integral)()) / (2 * h)
     meant = getattr(at(2.0), integrand)() * (np.exp(-2j * r0) if back else 1)
     assert (abs(slope - meant) > 1e-3) == (number in MISPRINTS), (slope, meant)
@@ -307,9 +331,14 @@ def test_questions_without_an_answer_are_refused():
     with pytest.raises(InputError, match="shorter times"):
         solution(body_of(near_resonance("a = -b", 0.0, 1.0)), 1e9)
     with pytest.raises(InputError, match="need D3 above both"):
-        printed(typed(inertia=(8.7, 8.0, 8.3)), 1.0)
+        corrected(typed(inertia=(8.7, 8.0, 8.3)), 1.0)
     with pytest.raises(InputError, match="divide by zero"):
-        literal(typed(spin=0.0), 1.0)
+        printed(typed(spin=0.0), 1.0)
+    with pytest.raises(InputError, match="W = 0"):
+        printed(typed(spin=0.0, gyrostat=0.29), 1.0)
+    assert printed(typed(spin=0.0), 1.0, ["omega"]).angles is None  # (11) does not divide by r0
+    with pytest.raises(InputError, match="r0 = 0"):
+        circle(typed(spin=0.0), 1.0)
 
 
 # -- late times: partial fractions, formed once per body ---------------------------------------------------------------

@@ -7,7 +7,7 @@ from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
 from stabilab.analysis import rate_roots
 from stabilab.analysis.averaging_attractors import attractors
 from stabilab.analysis.axisymmetric_modes import ChargedBody
-from stabilab.analysis.axisymmetric_typed import literal
+from stabilab.analysis.axisymmetric_printed import printed
 from stabilab.analysis.ensembles import ensemble
 from stabilab.analysis.equilibria import equilibria
 from stabilab.analysis.motion import motion
@@ -117,7 +117,7 @@ def test_typed_formulas_are_refused_where_they_have_no_meaning(change, words):
     data = {"inertia": (8.7, 8.9, 11.1), "spin": 1.5, "gyrostat": 1.3, "charge_moment": 0.29, "torque": (0.4, -0.2), "rates": (0.1, 0.2),
             "attitude": (0.02, 0.01, 0.3), "force": (1.0, 2.0, 3.0), "mass": 10.0} | change
     with pytest.raises(InputError, match=words):
-        literal(ChargedBody(**data), np.linspace(0, 1, 5))
+        printed(ChargedBody(**data), np.linspace(0, 1, 5))
 
 
 def test_roots_of_rates_without_a_run_or_a_compiler_are_those_of_the_start(monkeypatch):

@@ -1,7 +1,7 @@
 """Closed-form motion of the charged, nearly axisymmetric body under constant body-fixed torque and force.
 
 The linear model of `axisymmetric_modes`, solved with both of its rates a and b (the paper's equation (8) keeps one of
-them: `axisymmetric_printed`); the formulas are in `axisymmetric_terms`, how far to believe them in `axisymmetric_limits`.
+them: `axisymmetric_corrected`); the formulas are in `axisymmetric_terms`, how far to believe them in `axisymmetric_limits`.
 """
 from __future__ import annotations
 

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from .simulation import Simulation
 
-MODELS = ("linear", "printed")
+MODELS = ("linear", "corrected", "printed")
 COVERED = {"charge", "gyrostat", "constant_torque", "body_force"}
 
 
@@ -30,19 +30,25 @@ def body_of(case):
 
 
 def follow(model, case, times, order=None) -> Simulation:
-    """The case's motion by the linear model, corrected or as printed; the parts of the state that the exact motion has."""
-    if model == "printed":
-        from .axisymmetric_printed import printed
-        run, how = printed(body_of(case), times), "Galal et al., charged body, with its single frequency (8)"
-    else:
-        from .axisymmetric import solution
-        run, how = solution(body_of(case), times), "closed forms of the linear model"
-    parts = {"omega": run.omega}
-    blocks = set(case.scene.blocks) | set(case.blocks)
-    if blocks & {"attitude", "velocity", "position"}:
-        parts |= {"angles": run.angles, "momentum": run.momentum}
-    if blocks & {"velocity", "position"} and run.velocity is not None:
-        parts |= {"velocity": run.velocity, "position": run.position}
+    """The case's motion by the linear model, by the paper's single frequency with its integrals corrected, or as printed;
+    the parts of the state that the exact motion has."""
+    blocks, body = set(case.scene.blocks) | set(case.blocks), body_of(case)
+    wanted = ["omega"] + ["angles", "momentum"] * bool(blocks & {"attitude", "velocity", "position"})
+    wanted += ["velocity", "position"] * bool(blocks & {"velocity", "position"} and body.mass is not None)
+    run, how = _motion(model, body, times, wanted)
+    parts = {part: getattr(run, part) for part in wanted}
     held = case.scene.effect("charge") is not None and case.scene.effect("charge").follows_attitude
     note = "; the charge's angle is held at its first value" if held else ""
     return Simulation(run.t, parts, model, how, None, status="reached", reason=f"{run.status}: {run.reason}{note}")
+
+
+def _motion(model, body, times, wanted):
+    """The motion by the model, and how it was found."""
+    if model == "printed":
+        from .axisymmetric_printed import printed
+        return printed(body, times, wanted), "Galal et al., charged body: formulas as printed, misprints and all"
+    if model == "corrected":
+        from .axisymmetric_corrected import corrected
+        return corrected(body, times), "Galal et al., charged body: its single frequency (8), integrals corrected"
+    from .axisymmetric import solution
+    return solution(body, times), "closed forms of the linear model, both rates"

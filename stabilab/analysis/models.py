@@ -9,7 +9,7 @@ from .simulation import Simulation, simulate
 
 # model -> the modules that may have it, each with `applies(scene)` and `follow(model, case, times, order)`
 FAMILIES = ("axisymmetric_model", "averaging_model", "small_parameter_model")
-MODELS = ("exact", "linear", "printed", "averaged1", "averaged2", "lindstedt")
+MODELS = ("exact", "linear", "corrected", "printed", "averaged1", "averaged2", "lindstedt")
 
 
 def family(scene):

@@ -6,15 +6,11 @@ import math
 import numpy as np
 
 from . import figures_cavity, figures_charged, panels
+from .figure import listed
 
 
 def _row(says, is_so, right=False):
     return {"says": says, "is": is_so, "right": right}
-
-
-def _join(values, form="{:.3g}"):
-    words = [form.format(v) for v in values]
-    return f"{', '.join(words[:-1])} and {words[-1]}"
 
 
 # -- the charged body ------------------------------------------------------------------------------------------------
@@ -24,7 +20,7 @@ def charged() -> list[dict]:
     """Claims of Galal et al., charged body."""
     from ..analysis.axisymmetric_limits import horizon
     from ..analysis.axisymmetric_model import body_of
-    family = {name: [_charged(name, i) for i in (1, 2, 3)] for name in figures_charged.FAMILIES}
+    family = {name: figures_charged.runs_of(name) for name in figures_charged.FAMILIES}
     base = body_of(panels.sweep(figures_charged.SWEEP)["-1-2-1"])
     M1, r0, D3 = base.torque[0], float(base.spin), base.inertia[2]
     held = D3 * r0 + float(base.gyrostat) - float(base.charge_moment)
@@ -37,31 +33,26 @@ def charged() -> list[dict]:
         _row("psi and phi are small", f"a tilt of 0.1 rad is reached after {float(horizon(base)):.2g} s of 50 s; the printed "
              f"tilt goes to {tilt.max():.3g} rad"),
         _row("a larger lambda3 makes p and q smaller and faster", f"so it does: the true period falls, "
-            f"{_join(first['lambda3'])} s", True),
+            f"{listed(first['lambda3'])} s", True),
         _row("a larger charge: amplitude and wavelength increase while their wavelengths decrease", f"both increase: the "
-             f"true period is {_join(first['e'])} s"),
-        _row("a larger M1: amplitude and wavelength decrease", f"the amplitude of p grows with M1, {_join(amplitude)} rad/s "
+             f"true period is {listed(first['e'])} s"),
+        _row("a larger M1: amplitude and wavelength decrease", f"the amplitude of p grows with M1, {listed(amplitude)} rad/s "
              f"in the linear model, whose period does not depend on M1"),
         _row("theta stays r0 t", f"{r0:.3g} t is {50 * r0:.3g} rad at 50 s; the true theta is "
             f"{runs['exact'].state['angles'][-1, 2]:.3g} rad"),
         _row("by (35) neither the gyrostatic moment, the charge nor M1 changes the circle of G", f"its radius is M1/r0, "
-             f"{_join([m / r0 for m in (4, 4.5, 5)])} kg m^2/s; the charge does add to the momentum, and the true G leaves "
+             f"{listed([m / r0 for m in (4, 4.5, 5)])} kg m^2/s; the charge does add to the momentum, and the true G leaves "
              f"the circle"),
         _row("the direction of the velocity tends to the circle's centre M1/(D3 r0^2)", f"{M1 / (D3 * r0**2):.3g}, an angle "
              f"of {math.degrees(math.atan(M1 / (D3 * r0**2))):.0f} degrees; with the momentum that is there, M1/(r0 (D3 r0 + "
              f"Lambda)) = {M1 / (r0 * held):.3g}"),
         _row("lambda3, e and M1 have no effect on the axial velocity and displacement", f"true eta3 at 50 s: "
-             f"{_join(places['lambda3'])} m for lambda3, {_join(places['e'])} m for e, {_join(places['M1'])} m for M1; the "
+             f"{listed(places['lambda3'])} m for lambda3, {listed(places['e'])} m for e, {listed(places['M1'])} m for M1; the "
              f"print has "
              f"{runs['printed'].state['position'][-1, 2]:.3g} m"),
         _row("zero error against earlier work", "that compares the formulas with themselves at zero charge and gyrostatic "
              "moment; against the motion see the table"),
     ]
-
-
-def _charged(family, i):
-    name = figures_charged.FAMILIES[family][3].format(i)
-    return panels.motions(figures_charged.SWEEP, name, figures_charged.SPAN, figures_charged.POINTS)
 
 
 def _period(rows):
@@ -79,56 +70,35 @@ def _period(rows):
 
 def cavity() -> list[dict]:
     """Claims of Galal et al., liquid cavity."""
-    family = {name: [_cavity(file) for file in files.values()] for name, (_, _, files) in figures_cavity.FAMILIES.items()}
+    family = {name: figures_cavity.runs_of(name) for name in figures_cavity.FAMILIES}
     liquid = panels.sweep("liquid-base")[""].scene.effect("liquid_cavity")
-    radius = (525 * liquid.P0 / (8 * math.pi)) ** (1 / 7)
-    mass = 4 / 3 * math.pi * radius**3 * liquid.density
-    base = family["zeta"][1]
-    printed = base["printed"]
-    turning = printed.t[int(np.argmax(printed.state["phase"]))]
+    radius, mass, base = figures_cavity.radius(liquid), figures_cavity.liquid_mass(liquid), family["zeta"][1]
+    turning = figures_cavity.turning(base)
     return [
         _row("P0 = 1.9 m^7, a body of 9 kg m^2", f"a sphere of {radius:.3g} m radius: {mass / 1000:.3g} t of liquid"),
-        _row("p and q are waves for all data", f"with lambda3 = 0.1 the body turns {_turn(base):.2g} rad about axis 3 in 20 "
+        _row("p and q are waves for all data", f"with lambda3 = 0.1 the body turns {figures_cavity.turn(base):.2g} rad about axis 3 in 20 "
              f"s; waves need a lambda3 that the text does not give"),
         _row("a larger lambda3 increases the frequency", f"from 0.1 to 0.2 it falls: "
-            f"{_join([_turn(r) for r in family['small']], '{:.2g}')} rad in 20 s; from 15 to 25 "
-             f"it rises: {_join([abs(_turn(r)) for r in family['large']])} rad"),
+            f"{listed([figures_cavity.turn(r) for r in family['small']], '{:.2g}')} rad in 20 s; from 15 to 25 "
+             f"it rises: {listed([abs(figures_cavity.turn(r)) for r in family['large']])} rad"),
         _row("closed curves in Fig. 4", f"the true amplitude falls below 1 % after "
-            f"{_join([_gone(r) for r in family['large']], '{:.2g}')} s: with the rotor the "
+            f"{listed([figures_cavity.gone(r) for r in family['large']], '{:.2g}')} s: with the rotor the "
              "liquid brakes much more than the printed torque, which is that of a body without one"),
         _row("phi grows and then falls", f"the printed polynomial turns back at {turning:.3g} s; the true phi grows through "
             f"all 20 s"),
         _row("a smaller M3 increases the number of oscillations", f"the turn in 20 s shrinks: "
-            f"{_join([_turn(r) for r in family['M3']], '{:.2g}')} rad for "
+            f"{listed([figures_cavity.turn(r) for r in family['M3']], '{:.2g}')} rad for "
              "M3 = -3, -6, -9"),
         _row("the charge acts slightly", f"the true amplitude after 20 s is "
-            f"{_join([_left(r) for r in family['e']], '{:.2g}')} rad/s for the three charges; the "
+            f"{listed([_left(r) for r in family['e']], '{:.2g}')} rad/s for the three charges; the "
              "printed liquid torque does not know of the charge"),
         _row("amplitudes decay, the motion is stable", "so they do, with the resistance; what attracts is the spin about "
              "axis 3 that the torque and the resistance hold", True),
     ]
 
 
-def _cavity(name):
-    return panels.motions(name, "", figures_cavity.SPAN, figures_cavity.POINTS, crowd=2)
-
-
-def _across(runs):
-    p, q, _ = np.asarray(runs["exact"].state["omega"]).T
-    return p, q
-
-
-def _turn(runs):
-    p, q = _across(runs)
-    return float(np.unwrap(np.arctan2(-q, p))[-1])
-
-
 def _left(runs):
-    return float(np.hypot(*_across(runs))[-1])
-
-
-def _gone(runs):
-    return float(runs["exact"].t[np.nonzero(np.hypot(*_across(runs)) > 0.01)[0][-1]])
+    return float(np.hypot(*np.asarray(runs["exact"].state["omega"]).T[:2])[-1])
 
 
 # -- the top ---------------------------------------------------------------------------------------------------------
@@ -160,7 +130,7 @@ def top() -> list[dict]:
         _row("no singular point for any frequency", f"Omega = 1, that is C* = A + B, is a pole of (41), and so are C = B and "
              f"Omega = 0; here Omega^2 = {numbers.Omega2:.3g} as printed, {float(scaled.Omega2):.3g} with C* in full"),
         _row("p and r hardly change with l_x", "(41) leaves out the permanent part l_x/(C* - A) of p, "
-             f"{_join([lx / (C + 30 / r[0] - A) for lx in (30, 60, 90)])} rad/s for l_x = 30, 60, 90"),
+             f"{listed([lx / (C + 30 / r[0] - A) for lx in (30, 60, 90)])} rad/s for l_x = 30, 60, 90"),
         _row("valid for the data of Table 1", f"a valid top: r0 = {fast.state[2]:.3g} rad/s, M g L/(C r0^2) = "
              f"{math.hypot(*map(float, sure.force)):.2g} (below)"),
     ]

@@ -9,6 +9,7 @@ from ..blocks import PARTS
 from . import endings, style
 
 LOOKS = {"exact": {"color": style.BLACK, "linewidth": 2.2}, "linear": {"color": style.BLUE, "linewidth": 1.4, "linestyle": "--"},
+         "corrected": {"color": style.PURPLE, "linewidth": 1.5, "linestyle": "-."},
          "printed": {"color": style.ORANGE, "linewidth": 1.6, "linestyle": ":"},
          "averaged1": {"color": style.GREEN, "linewidth": 1.4, "linestyle": "-."},
          "averaged2": {"color": style.BLUE, "linewidth": 1.4, "linestyle": "--"},

@@ -7,15 +7,24 @@ from typing import Callable
 
 @dataclass(frozen=True)
 class Figure:
-    """One figure: draw(plt) -> matplotlib figure; tolerance says how exact its curves are; paper: the short name under
-    which the command knows it, "" for the constant-torque paper."""
+    """One figure: draw(plt) -> matplotlib figure; words: the caption, exact: how exact the curves are, each a text or a
+    function that forms it from what is drawn; paper: the short name under which the command knows it, "" for the
+    constant-torque paper."""
 
     number: int
     title: str
-    caption: str
+    words: str | Callable[[], str]
     draw: Callable
-    tolerance: str
+    exact: str | Callable[[], str]
     paper: str = ""
+
+    @property
+    def caption(self) -> str:
+        return self.words() if callable(self.words) else self.words
+
+    @property
+    def tolerance(self) -> str:
+        return self.exact() if callable(self.exact) else self.exact
 
     @property
     def file(self) -> str:
@@ -24,3 +33,9 @@ class Figure:
     @property
     def command(self) -> str:
         return f"stabilab figures{f' --paper {self.paper}' if self.paper else ''} {self.number} --out figures"
+
+
+def listed(values, form="{:.3g}") -> str:
+    """Numbers in words: "1.2, 3.4 and 5.6"."""
+    words = [form.format(v) for v in values]
+    return f"{', '.join(words[:-1])} and {words[-1]}" if len(words) > 1 else "".join(words)

@@ -1,12 +1,13 @@
 """Figures 2-13 of Galal et al., liquid cavity: families in lambda3, zeta, M3 and e, each beside the exact motion."""
 from __future__ import annotations
 
+import math
 from functools import partial
 
 import numpy as np
 
 from . import panels
-from .figure import Figure
+from .figure import Figure, listed
 
 PAPER = "Galal, Amer, Elneklawy, El-Kafly 2023, charged rigid body with a viscous liquid"
 SPAN, POINTS = 20.0, 2001
@@ -43,43 +44,101 @@ def _family(plt, family, rows, title, own=False):
     return panels.draw(plt, f"{title}: {DATA[family]}, $M_1=M_2=0$", columns, rows, own=own)
 
 
-_TOL = ("exact motion: Taylor integration, relative tolerance 1.1e-16; averaged: relative tolerance 1e-12; printed: its "
-        "polynomials to rounding; 2001 points")
-_PLANE = f"{_TOL}; rates by central differences"
-_HOW = ("Exact: a = sqrt(p^2 + q^2) and the angle of (p, -q); averaged, second order: the averaged variables, which start "
-            "beside them. ")
-_SHORT = "The printed polynomials of second degree turn back: phi falls from {} s on, in truth it still grows at 20 s. "
-_SLOW = ("In 20 s the body turns {} rad, not a tenth of a turn: with lambda3 = 0.1 there are no waves. The print must have "
-         "taken a lambda3 it does not state. ")
-_LIQUID = ("The printed liquid torque is that of a body without rotor; with this one the true motion dies out within {} s (1 "
-           "%), the printed wave hardly decays. ")
-_DONE = ("Completed data: values in the title where the paper gives none; P0 = 1.9 m^7 means 25 t of liquid in a body of 9 kg "
-         "m^2. Models out of the exact motion's range are cut.")
-_CHARGE = ("1000 and 10,000 C are not charges that a body can hold. At 10,000 C the liquid's own time exceeds that of the "
-           "turn: averaging refuses, and the law of the liquid torque itself no longer holds. ")
+# -- captions, with their numbers ------------------------------------------------------------------------------------------
+
+
+def runs_of(family) -> list[dict]:
+    """model -> run of each value of a family, over the figures' span."""
+    return [panels.motions(name, "", SPAN, POINTS, crowd=2) for name in FAMILIES[family][2].values()]
+
+
+def turn(runs) -> float:
+    """Angle of (p, -q) of the exact motion at the end, rad, from 0."""
+    return float(_slow("phase")(runs["exact"])[1][-1])
+
+
+def gone(runs) -> float:
+    """Last time at which the amplitude of the exact motion is above 1 %, s."""
+    t, amplitude = _slow("amplitude")(runs["exact"])
+    return float(t[np.nonzero(amplitude > 0.01)[0][-1]])
+
+
+def turning(runs) -> float:
+    """When the printed phase turns back, s."""
+    return float(runs["printed"].t[int(np.argmax(runs["printed"].state["phase"]))])
+
+
+def liquid_mass(liquid) -> float:
+    """kg of liquid in a sphere of the cavity's P0 = 8 pi h^7/525."""
+    return 4 / 3 * math.pi * radius(liquid)**3 * liquid.density
+
+
+def radius(liquid) -> float:
+    """Radius h of a spherical cavity of that P0, m."""
+    return (525 * liquid.P0 / (8 * math.pi)) ** (1 / 7)
+
+
+def _done(words=""):
+    scene = panels.sweep("liquid-base")[""].scene
+    liquid, body = scene.effect("liquid_cavity"), scene.body.inertia[2]
+    return (f"{words}Completed data: values in the title where the paper gives none; P0 = {float(liquid.P0):g} m^7 means "
+            f"{liquid_mass(liquid) / 1000:.2g} t of liquid in a body of {float(body):g} kg m^2. Models are drawn to where they leave the exact "
+            "motion's range; where printed ones do, the first column has them alone.")
+
+
+def _real(family):
+    """Fig. 2: where the printed q loses its real value."""
+    ends = {value: runs["printed"].t[-1] for value, runs in zip(FAMILIES[family][2], runs_of(family))
+            if runs["printed"].status != "reached"}
+    return _done("Exact: a = sqrt(p^2 + q^2) and the angle of (p, -q); averaged, second order: the averaged variables, which start beside "
+                 f"them. At lambda3 = {listed(ends, '{:g}')} the printed q loses its real value at {listed(ends.values())} s, where "
+                 "d2 r = Gamma/eps; the true motion is regular there. ")
+
+
+def _liquid(family, more=""):
+    return _done(f"{more}The printed liquid torque is that of a body without rotor; with this one the true motion dies out within "
+                 f"{listed([gone(r) for r in runs_of(family)], '{:.2g}')} s (1 %), the printed wave hardly decays. ")
+
+
+def _short(family):
+    return _done("The printed polynomials of second degree turn back: phi falls from "
+                 f"{listed([turning(r) for r in runs_of(family)])} s on, in truth it still grows at {SPAN:g} s. ")
+
+
+def _arcs(family):
+    return _done("The text has spirals; over 20 s with these data the curves are arcs. ")
+
+
+def _few(family):
+    return _done(f"In {SPAN:g} s the body turns {listed([turn(r) for r in runs_of(family)], '{:.2g}')} rad, not a tenth of a turn: with "
+                 "lambda3 = 0.1 there are no waves. The print must have taken a lambda3 it does not state. ")
+
+
+def _charge(family, more=""):
+    return _done("1000 and 10,000 C are not charges that a body can hold. At 10,000 C the liquid's own time exceeds that of the turn: "
+                 f"averaging refuses, and the law of the liquid torque itself no longer holds. {more}")
+
+
+def _exactness(family, more=""):
+    return (f"{panels.exactness(runs_of(family))}; averaged: relative tolerance 1e-12; printed: its polynomials; {POINTS} points{more}")
 
 
 def _figures():
     slow, rates, planes = partial(_family, rows=SLOW), partial(_family, rows=RATES), partial(_family, rows=PLANES)
-    for n, family, draw, title, words, tolerance in (
-            (2, "small", slow, "Amplitude, spin and phase", _HOW + "At lambda3 = 0.15 and 0.2 the printed q loses its real "
-                "value at 15.5 and 7.7 s, where d2 r = Gamma/eps; "
-             "the true motion is regular there. ", _TOL),
-            (3, "large", rates, "Angular velocities", _LIQUID.format("4.3, 2.7 and 1.9"), _TOL),
-            (4, "large", planes, "Phase planes", "The text has closed curves; the true motion spirals in within one turn. "
-                + _LIQUID.format("4.3, 2.7 and 1.9"), _PLANE),
-            (5, "zeta", slow, "Amplitude, spin and phase", _SHORT.format("18.8, 16.6 and 14.9"), _TOL),
-            (6, "zeta", rates, "Angular velocities", _SLOW.format("0.47, 0.46 and 0.44"), _TOL),
-            (7, "zeta", planes, "Phase planes", "The text has spirals; over 20 s with these data the curves are arcs. ",
-             _PLANE),
-            (8, "M3", slow, "Amplitude, spin and phase", _SHORT.format("18.0, 16.6 and 15.5"), _TOL),
-            (9, "M3", rates, "Angular velocities", _SLOW.format("0.48, 0.46 and 0.43"), _TOL),
-            (10, "M3", planes, "Phase planes", "The text has spirals; over 20 s with these data the curves are arcs. ", _PLANE),
-            (11, "e", partial(slow, own=True), "Amplitude, spin and phase", _CHARGE, _TOL),
-            (12, "e", rates, "Angular velocities", _CHARGE + "The text says that the charge acts slightly: the printed "
-                "liquid torque does not know of it. ", _TOL),
-            (13, "e", partial(planes, own=True), "Phase planes", _CHARGE, _PLANE)):
-        yield Figure(n, f"{title}: {NAMES[family]}", words + _DONE, partial(draw, family=family, title=title), tolerance, "cavity")
+    three = "Amplitude, spin and phase"
+    for n, family, draw, title, words in (
+            (2, "small", slow, three, _real), (3, "large", rates, "Angular velocities", _liquid),
+            (4, "large", planes, "Phase planes", partial(_liquid, more="The text has closed curves; the true motion spirals in within one "
+                                                         "turn. ")),
+            (5, "zeta", slow, three, _short), (6, "zeta", rates, "Angular velocities", _few), (7, "zeta", planes, "Phase planes", _arcs),
+            (8, "M3", slow, three, _short), (9, "M3", rates, "Angular velocities", _few), (10, "M3", planes, "Phase planes", _arcs),
+            (11, "e", partial(slow, own=True), three, _charge),
+            (12, "e", rates, "Angular velocities", partial(_charge, more="The text says that the charge acts slightly: the printed liquid "
+                                                           "torque does not know of it. ")),
+            (13, "e", partial(planes, own=True), "Phase planes", _charge)):
+        more = "; rates by central differences" if title == "Phase planes" else ""
+        yield Figure(n, f"{title}: {NAMES[family]}", partial(words, family), partial(draw, family=family, title=title),
+                     partial(_exactness, family, more), "cavity")
 
 
 NAMES = {"small": "lambda3 = 0.1 to 0.2", "large": "lambda3 = 15 to 25", "zeta": "family of zeta", "M3": "family of M3", "e": "family of e"}

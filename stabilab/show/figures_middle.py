@@ -8,6 +8,13 @@ from .phase import motion_curve, phase_plane
 
 LAMBDA_BEYOND = 1250  # c = b - a = 2.5, beyond the cusp 1.7548: there a figure-eight separatrix does exist
 CUSP = 4 * 3**-0.75
+EIGHT = {"lambda1": LAMBDA_BEYOND, "reach": None, "shape": (60, 121), "axis": "middle"}  # the sheets of Fig. 16
+
+
+def exactness() -> str:
+    """How far the vertices of Fig. 16 are from their surface."""
+    from .figures_minor import exactness as of_sheets
+    return of_sheets(**EIGHT)
 
 
 def _equilibria(a, b, points=4000):
@@ -64,7 +71,7 @@ def _nested(ax, scene):
 
 def _figure_eight(ax):
     from .figures_minor import sheets
-    found = sheets(LAMBDA_BEYOND, reach=None, shape=(60, 121), axis="middle")
+    found = sheets(**EIGHT)
     for number, sheet in enumerate(found.sheets):
         ax.plot_surface(*_upright(sheet.points), color=style.SHEETS[number % len(style.SHEETS)], alpha=0.55, rstride=4,
                         cstride=6, linewidth=0.3, edgecolor="#333333")

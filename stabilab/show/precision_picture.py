@@ -16,6 +16,7 @@ LOOKS = {  # method -> how its line is drawn; the same in every picture
     "BDF": {"color": style.PURPLE, "marker": "<", "linestyle": "--"}, "LSODA": {"color": style.GREY, "marker": ">"},
     "reduced": {"color": style.GREEN, "marker": "P"}, "balls": {"color": style.BLACK, "marker": "X", "linestyle": "none"},
     "linear": {"color": style.BLACK, "marker": "1", "linestyle": "none"},
+    "corrected": {"color": style.PURPLE, "marker": "x", "linestyle": "none"},
     "printed": {"color": style.ORANGE, "marker": "*", "linestyle": "none"},
     "averaged1": {"color": style.GREEN, "marker": "2", "linestyle": "none"},
     "averaged2": {"color": style.BLUE, "marker": "3", "linestyle": "none"},

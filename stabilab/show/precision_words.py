@@ -4,7 +4,7 @@ from __future__ import annotations
 from ..analysis.precision import EPS, digit_price
 from ..analysis.precision_front import machine, versions
 
-FORMULAS = ("linear", "printed", "averaged1", "averaged2", "lindstedt")
+FORMULAS = ("linear", "corrected", "printed", "averaged1", "averaged2", "lindstedt")
 WANTED = (3, 6, 9, 12, 15)  # digits whose price the words tell
 BLAMED = 20  # an error this many times the effect of the start's last place has other causes
 
