@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 
-.PHONY: report test test-slow test-long figures bench fuzz hunt coverage mutate clean
+.PHONY: report test test-slow test-long floors figures bench fuzz hunt coverage mutate clean
 
 report: $(STAMP)
 	$(BIN)/stabilab report cases/*.toml --out report
@@ -14,6 +14,17 @@ test: $(STAMP)
 
 test-slow: $(STAMP)
 	$(BIN)/python -m pytest -n 2 -m "slow and not long"
+
+# The tests that touch other packages, on the lowest versions that pyproject.toml admits, in an environment of their own
+FLOORS := .floors
+FLOOR_TESTS := $(addprefix tests/test_,$(addsuffix .py,case certificate cli digits equations extremes_speed fate_speed layout models \
+  separatrix_fast show simulation stability surroundings trajectories verify))
+floors:
+	rm -rf $(FLOORS)
+	$(PYTHON) -m venv $(FLOORS)
+	$(PYTHON) -m tests.floors > $(FLOORS)/constraints.txt
+	$(FLOORS)/bin/python -m pip install --quiet --disable-pip-version-check -c $(FLOORS)/constraints.txt -e ".[test,fast]"
+	$(FLOORS)/bin/python -m pytest -n 2 -m "not slow" -p no:cacheprovider $(FLOOR_TESTS)
 
 test-long: $(STAMP)
 	$(BIN)/python -m pytest -n 2 -m long
@@ -58,4 +69,4 @@ $(STAMP): pyproject.toml constraints.txt
 	touch $@
 
 clean:
-	rm -rf $(VENV) report
+	rm -rf $(VENV) $(FLOORS) report

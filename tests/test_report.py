@@ -147,6 +147,8 @@ def test_the_report_opens_in_a_browser_and_its_scene_draws(tmp_path, monkeypatch
     assert _troubles(_visit(index, tmp_path / "index.png")) == []
     scene = index.parent / "surfaces" / "minor-axis-100.html"
     assert _troubles(_visit(scene, tmp_path / "scene.png")) == []
+    text = scene.read_text(encoding="utf-8")
+    assert "Content-Security-Policy" in text and not re.search(r"""["'`]https?://(?!www\.w3\.org/)[\w-]+\.""", text)
     pixels = np.asarray(Image.open(tmp_path / "scene.png").convert("RGB")).reshape(-1, 3)
     coloured = np.ptp(pixels.astype(int), axis=1) > 40  # the sheets are coloured, the ground is white
     assert 0.02 < coloured.mean() < 0.9

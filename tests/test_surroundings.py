@@ -192,6 +192,28 @@ def test_a_package_that_cannot_be_loaded_is_no_fault_of_the_program():
     assert explained(ModuleNotFoundError("No module named 'json.nothing'", name="json.nothing")) is None
 
 
+# -- versions ----------------------------------------------------------------------------------------------------------
+
+
+def test_every_package_states_a_lowest_version_and_the_pinned_one_is_not_below_it():
+    """`make floors` runs tests on the lowest ones, `make test` on the pinned ones."""
+    from .floors import floors
+    number = lambda text: [int(part) for part in text.split(".")]
+    plain = lambda name: name.lower().replace("_", "-")
+    pinned = dict(line.split("==") for line in (ROOT / "constraints.txt").read_text().splitlines())
+    pinned = {plain(name): version for name, version in pinned.items()}
+    lowest = floors()
+    assert {"numpy", "python-flint", "typer", "pyvista", "trame-pyvista", "pytest"} <= set(lowest)
+    for name, version in lowest.items():
+        assert number(pinned[plain(name)]) >= number(version), name
+
+
+def test_ci_runs_the_lowest_versions():
+    make = subprocess.run(["make", "-n", "floors"], cwd=ROOT, capture_output=True, text=True)
+    assert "make floors" in (ROOT / ".ci/run").read_text() and "-m tests.floors" in make.stdout
+    assert all((ROOT / path).is_file() for path in make.stdout.split() if path.startswith("tests/test_"))
+
+
 # -- installed, away from the repository -------------------------------------------------------------------------------
 
 # A report with one figure and no chapters: what is left reads the papers' cases as all of it does.
