@@ -9,7 +9,8 @@ from typing import Annotated, List, Optional  # typer reads the annotations at r
 
 import typer
 
-from .errors import BAD_INPUT, BUG, INTERRUPTED, OK, UNDECIDED, InputError, RenderingUnavailable, StabilabError, ToleranceNotMet
+from .errors import (BAD_INPUT, BUG, INTERRUPTED, OK, UNDECIDED, InputError, RenderingUnavailable, StabilabError, ToleranceNotMet,
+                     printable)
 from .streams import LOST, OutputLost, guarded
 
 # Plain help: rich costs more time than the rest of `stabilab --help`.
@@ -259,7 +260,7 @@ def plot(case: CaseFile, out: Annotated[Optional[Path], typer.Option(
     from .show import endings
     from .show.plane import plot as draw
     loaded, drawn = _load([case], motion=True), []
-    target = endings.file(out or f"{case.stem}.png", endings.PICTURES)
+    target = endings.file(out or f"{printable(case.stem)}.png", endings.PICTURES)
     for one in loaded:
         with blamed_on(one):
             drawn.append(draw(one, endings.labelled(target, one)))

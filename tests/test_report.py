@@ -2,6 +2,7 @@
 import re
 import shutil
 import subprocess
+import sys
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -112,6 +113,16 @@ def test_a_fault_in_a_case_writes_nothing(tmp_path):
     with pytest.raises(stabilab.errors.CaseError):
         report.write([bad], tmp_path / "report")
     assert {p.name for p in tmp_path.iterdir()} == {"bad.toml"}
+
+
+def test_without_the_viewers_package_the_report_has_its_pictures_and_names_it(tmp_path, monkeypatch):
+    from stabilab.show import surface
+    monkeypatch.setitem(sys.modules, "trame_vtk", None)
+    monkeypatch.setattr(render_probe, "probe", lambda: render_probe.Renderer(True, "a renderer"))
+    monkeypatch.setattr(surface, "draw", lambda scene, found, meshes, path: path)
+    monkeypatch.setattr(report, "SURFACE_SHAPE", (10, 21))
+    (entry,), note = report._surfaces([stabilab.load(CASES / "minor-axis-100.toml")], tmp_path, lambda words: None)
+    assert entry["still"] and entry["scene"] is None and "pip install trame-pyvista" in note
 
 
 def _visit(page: Path, shot: Path):

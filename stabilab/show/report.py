@@ -11,7 +11,7 @@ import numpy as np
 
 from ..errors import StabilabError
 from ..interrupt import undoing
-from ..packages import demand
+from ..packages import cure, demand, present
 from . import chapters, figures, html, manifest, paper, style, surface, table
 
 PACKAGES = ("numpy", "scipy", "sympy", "heyoka", "matplotlib", "vtk", "pyvista", "python-flint")
@@ -19,6 +19,7 @@ TOLERANCES = {"verdicts, fates, periods": "exact structure of the equations, to 
               "trajectories": 1.1e-16}  # relative, of the Taylor series
 SHOW_CURSOR = b"\x1b[?25h"  # the progress line hides it
 GROWING = "minor-axis-100"  # the case about which the growth of cost is measured
+VIEWER = "trame_vtk"  # the package that brings the pages of scenes
 SURFACE_SHAPE = (48, 97)  # rows and columns of a sheet: smooth to the eye, 3 MB a scene
 
 
@@ -137,6 +138,8 @@ def _surfaces(cases, folder, tell):
             entries.append(entry)
     note = "" if renderer.available else (f"3-D pictures could not be drawn on this machine ({renderer.words}); the meshes "
                                           f"are here all the same. Cure: {renderer.cure}")
+    if renderer.available and not present(VIEWER):
+        note = f"There are no scenes to turn round: these need trame-pyvista, which is not installed. Cure: {cure(VIEWER)}"
     return entries, note
 
 
@@ -155,7 +158,7 @@ def _surface(case, folder, renderer, tell):
     still = scene = None
     if renderer.available:
         still = surface.draw(case.scene, found, meshes, folder / f"{case.name}.png")
-        scene = surface.turntable(case.scene, found, meshes, folder / f"{case.name}.html")
+        scene = surface.turntable(case.scene, found, meshes, folder / f"{case.name}.html") if present(VIEWER) else None
     return {"title": case.heading, "reason": found.reason, "triangles": summary["triangles"],
             "residual": summary["largest_residual"], "files": [f"surfaces/{f.name}" for f in files],
             "still": still and f"surfaces/{still.name}", "scene": scene and f"surfaces/{scene.name}",
