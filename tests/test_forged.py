@@ -1,6 +1,8 @@
 """Forged certificates: each claim of a proved one changed in turn is refuted, or left unproved, or refused; never proved."""
 import copy
+import itertools
 import json
+import random
 import subprocess
 import sys
 from fractions import Fraction as F
@@ -11,8 +13,15 @@ import pytest
 
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, load
 from stabilab.analysis.certificate import certificate
-from stabilab.verify import verify
+from stabilab.errors import InputError
+from stabilab.show import certification
+from stabilab.verify import orbit, verify, verify_file
 from stabilab.verify.numbers import Malformed
+from stabilab.verify.zeros import Purse
+
+from . import forge
+from .oracles import elimination as by_hand
+from .test_random_scenes import disagreements
 
 
 def physical(D, lam=(0, 0, 0), M=(0, 0, 0)):
@@ -262,3 +271,166 @@ def test_a_forged_claim_on_the_motion_is_refuted(name):
     for change in changes:
         status = status_of(claims | {"motion": true | change})
         assert status == "refuted", (change, verify(claims | {"motion": true | change}).findings)
+
+
+# -- by machine: tests/forge.py says what is known of each change without the checker
+
+ALLOWED = {"false": {"refuted", "refused"}, "true": {"proved"}, "same": {"proved"}, "junk": {"refused"}, "extra": {"partly", "refuted", "refused"},
+           "weaker": {"partly", "refuted"}, "narrow": {"partly", "refuted"}, "open": {"proved", "partly", "refuted", "refused"}}
+KINDS = {name: (scene, None) for name, scene in SCENES.items()} | MOTIONS
+FILES = ("middle-axis-double-well", "middle-axis-spin-up", "off-axis-fold", "off-axis-none", "off-axis-one", "off-axis-two", "sphere-wheel", "symmetric-body",
+         "symmetric-spin-up", "thruster-negative-minor-axis", "torque-free-body", "torque-free-gyrostat", "wheel-and-thruster")
+
+
+def part_of(claims, path):
+    """The certificate without the other part, which has nothing to do with a claim: it need not be proved again."""
+    other = {"equilibria": "motion", "motion": "equilibria"}.get(path[0])
+    return {key: value for key, value in claims.items() if key != other} if len(path) > 1 and claims.get(path[0]) else claims
+
+
+def says_what_is_true(claims):
+    """Whether a certificate of a scene of its own agrees with elimination in fractions, and its motion with the analysis."""
+    numbers = claims["scene"]
+    if numbers["variables"] == "scaled":
+        arguments = F(numbers["a"]), F(numbers["b"]), tuple(map(F, numbers["mu"]))
+        model, answer = by_hand.of_scaled(*arguments)
+        scene = ScaledGyrostat(*arguments)
+    else:
+        arguments = tuple(tuple(map(F, numbers[key])) for key in ("inertia", "momentum", "torque"))
+        model, answer = by_hand.of_body(*arguments)
+        scene = None
+    found = claims.get("equilibria")
+    if found and disagreements({part: found.get(part) or [] for part in ("points", "curves", "planes")} | {"kind": found["kind"]}, model, answer):
+        return False
+    motion = claims.get("motion")
+    if not motion:
+        return True
+    try:
+        true = certificate(scene or physical(*arguments), tuple(map(F, motion["state"])))["motion"]
+    except InputError:  # no rigid body, or beyond doubles: the analysis does not speak of it
+        return True
+    return true is None or meets(motion, true)
+
+
+def meets(motion, true):
+    """Whether claims on a motion agree with another's: the same words, brackets that have a number in common."""
+    if any(motion.get(key) not in (None, true[key]) for key in ("fate", "axis", "sense")):
+        return False
+    pairs = list(zip(sum(motion["extremes"], []), sum(true["extremes"], []))) if motion.get("extremes") and true["extremes"] else []
+    pairs += [(motion["period"], true["period"])] if motion.get("period") and true["period"] else []
+    return all((one is None) == (two is None) and (one is None or max(F(one[0]), F(two[0])) <= min(F(one[1]), F(two[1]))) for one, two in pairs)
+
+
+def forge_all(claims, seed, count, paths=None):
+    """Forge a certificate by machine; the number of changes, and what was found of those that went wrong."""
+    rng, made, wrong = random.Random(seed), 0, []
+    everything = list(forge.claims_of(claims))
+    for path in everything if paths is None else rng.sample(everything, min(paths, len(everything))):
+        whole = part_of(claims, path)
+        for known, to in forge.changes(whole, path, rng, count):
+            changed = forge.forged(whole, path, to)
+            status = status_of(changed)
+            made += 1
+            if known == "true" and not any(changed.get(part) for part in ("equilibria", "motion")):
+                known = "open"  # nothing is claimed any more
+            fine = status in ALLOWED[known]
+            if fine and known == "open" and status == "proved" and path[0] not in ("program", "uncertified", "schema"):
+                fine = says_what_is_true(changed)
+            if not fine:
+                wrong.append((known, status, path, ascii(to)[:200]))
+    return made, wrong
+
+
+@pytest.mark.parametrize("name", [*KINDS, *FILES])
+def test_what_a_machine_forges_is_never_proved(name):
+    claims = case_proved(name) if name in FILES else proved(*KINDS[name])
+    made, wrong = forge_all(claims, name, 2, paths=4)
+    assert made > 300 and not wrong, wrong[:3]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", [*KINDS, *FILES])
+def test_three_hundred_forgeries_of_every_claim_are_never_proved(name):
+    claims = case_proved(name) if name in FILES else proved(*KINDS[name])
+    made, wrong = forge_all(claims, name, 200)
+    assert made > 300 * 10 and not wrong, wrong[:3]
+
+
+@pytest.mark.parametrize("count", [40, pytest.param(468, marks=pytest.mark.slow)])
+def test_parts_of_two_certificates_exchanged_are_never_proved(count):
+    made = {name: case_proved(name) for name in FILES}
+    swaps = [(one, two, part) for one, two in itertools.permutations(made, 2) for part in ("scene", "equilibria", "motion")]
+    for one, two, part in random.Random(1).sample(swaps, count):
+        if made[one][part] and made[two][part] and made[one][part] != made[two][part]:
+            mixed = part_of(made[one] | {part: made[two][part]}, (part, ""))
+            status = status_of(mixed)
+            assert status in ("refuted", "partly") or (status == "proved" and says_what_is_true(mixed)), (one, two, part)
+
+
+@pytest.mark.parametrize("spoil, words", [
+    (lambda text: text.replace('"kind"', '"kind": "none", "kind"'), "stands twice"), (lambda text: text.replace('"motion"', '"motion": null, "motion"'), "stands twice"),
+    (lambda text: text.replace('"program"', '"x": ' + "[" * 5000 + "]" * 5000 + ', "program"'), "JSON"), (lambda text: text.replace('"axis": 0', '"axis": NaN'), "NaN"),
+    (lambda text: text.replace('"axis": 0', '"axis": ' + "1" * 5000), "JSON|axis"), (lambda text: text + " " * 5_000_000, "bytes"), (lambda text: text[:-3], "JSON"),
+    (lambda text: text.replace('"fate": "', '"fate": "\ud800'), "JSON"), (lambda text: "\ufeff" + text, "JSON"), (lambda text: text.replace('"axis": 0', '"axis": 1e400'), "axis"),
+    (lambda text: text.replace('"period": [', '"period": [' + "[" * 600 + "]" * 600 + ","), "period")])
+def test_a_file_that_is_spoilt_as_text_is_refused(spoil, words, tmp_path):
+    path = tmp_path / "certificate.json"
+    path.write_bytes(spoil(json.dumps(case_proved("minor-axis-100"))).encode("utf-8", "surrogatepass"))
+    with pytest.raises(Malformed, match=words):
+        verify_file(path)
+
+
+def test_a_key_without_a_meaning_is_not_checked_and_shown_without_control_characters():
+    claims = case_proved("minor-axis-100")
+    claims["equilibria"]["curves"][0]["\x1b[2Jname\nproved"] = "all"
+    found = verify(claims)
+    assert found.status == "partly" and all(f.claim.isprintable() for f in found.findings)
+
+
+def test_a_dropped_part_is_named_as_not_claimed():
+    claims = case_proved("minor-axis-100")
+    del claims["motion"]
+    found = verify(claims)
+    assert found.silent == ("motion",) and not any("fate" in f.claim for f in found.findings)
+    assert "nothing is claimed of: motion" in certification.text(found)
+
+
+def test_work_on_one_orbit_is_bounded():
+    # 10^100 zeros of the force on the way: the count of cells ends the search, not the clock
+    claims = {"schema": "stabilab.certificate/1", "scene": {"variables": "scaled", "a": "-720124e193", "b": "0", "mu": ["0", "0", "1"]},
+              "motion": {"state": ["1", "1", "-3"], "fate": "spin-up", "axis": 3, "sense": 1}}
+    purses = []
+
+    class Counted(Purse):
+        def __init__(self, cells):
+            super().__init__(cells // 10)
+            purses.append(self)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(orbit, "Purse", Counted)
+        assert status_of(claims) == "partly"
+    assert 0 in [purse.cells for purse in purses]
+
+
+def test_forgeries_are_refuted_without_asserts_too(tmp_path):
+    # python -O leaves asserts out
+    rng, lines, expected = random.Random(8), [], []
+    for name in ("two points", "a triple zero eigenvalue", "a plane", "a free gyrostat", "at rest", "spin-up"):
+        claims = proved(*KINDS[name])
+        for path in rng.sample(list(forge.claims_of(claims)), 8):
+            for known, to in rng.sample(forge.changes(claims, path, rng, 3), 4):
+                text = json.dumps(forge.forged(claims, path, to))
+                lines.append(text)
+                expected.append(status_of(json.loads(text)))
+    (tmp_path / "forged").write_text("\n".join(lines), encoding="utf-8")
+    program = """
+import json, sys
+from stabilab.verify import verify
+from stabilab.verify.numbers import Malformed
+for line in open(sys.argv[1], encoding="utf-8"):
+    try:
+        print(verify(json.loads(line)).status)
+    except Malformed:
+        print("refused")
+"""
+    child = subprocess.run([sys.executable, "-O", "-c", program, str(tmp_path / "forged")], capture_output=True, text=True, check=True)
+    assert child.stdout.split() == expected and {"refuted", "refused"} <= set(expected)

@@ -104,7 +104,7 @@ def _spots(orbit, start: Fraction, end: Fraction):
         return []
     low, high = sorted((start, end))
     at_zero = orbit.F0 == 0
-    found = zeros(orbit.force, orbit.force_slope, low, high, at_zero and low == 0, at_zero and high == 0)
+    found = zeros(orbit.force, orbit.force_slope, low, high, at_zero and low == 0, at_zero and high == 0, orbit.purse)
     return found if end > start else found[::-1]
 
 
@@ -179,7 +179,7 @@ def _ranges(orbit, left, right):
         df = lambda x, w=which: ball(orbit.p if w == 0 else orbit.q) * orbit.slopes(x)[1 - w]  # noqa: E731
         values = [orbit.place(left)[which], orbit.place(right)[which]]
         if not orbit.constant(which):
-            for z in zeros(f, df, low, high):
+            for z in zeros(f, df, low, high, purse=orbit.purse):
                 value = orbit.place(z)[which]
                 for end, there in ((left, values[0]), (right, values[1])):
                     if z.overlaps(end):  # beside the end by less than its own width: inside or not makes no difference

@@ -9,7 +9,7 @@ from .numbers import Malformed, ball, bracket, exact_sign, field, numbers, shown
 from .orbit import Orbit
 from .period import period_of, round_once
 from .precision import working
-from .zeros import Open, above, below
+from .zeros import Open, Spent, above, below
 
 BITS, MOST_BITS = 192, 6144
 CLOSER = 4  # times the bits that settled the fate: a bracket that these do not tell from the true value is left open
@@ -132,12 +132,14 @@ def _orbit(rates, state):
 
 
 def at_rising_precision(question, least=None, most=None):
-    """question() at more and more bits while it raises Open; None when the most are not enough."""
+    """question() at more and more bits while it raises Open; None when the most are not enough, or the work is too much."""
     bits = least or BITS
     while bits <= (most or MOST_BITS):
         with working(bits):
             try:
                 return question()
+            except Spent:
+                return None
             except Open:
                 bits *= 2
     return None

@@ -8,6 +8,7 @@ from types import SimpleNamespace
 
 from .numbers import ball, exact_sign, q
 from .rates import AHEAD
+from .zeros import CELLS, Purse
 
 
 class Orbit:
@@ -22,7 +23,7 @@ class Orbit:
         if shift is None:
             raise ValueError("no reduction about this axis")
         j, k = AHEAD[axis]
-        self.axis, self.j, self.k, self.s, self._touches = axis, j, k, shift, None
+        self.axis, self.j, self.k, self.s, self._touches, self.purse = axis, j, k, shift, None, Purse(CELLS)
         self.p, self.p0, self.q, self.q0 = rates.kappa[j], rates.rho[j], rates.kappa[k], rates.sigma[k]
         self.kappa, self.rho, self.sigma, self.m = (c[axis] for c in (rates.kappa, rates.rho, rates.sigma, rates.m))
         self.u0, self.v0, self.y0 = state[j], state[k], state[axis] + shift

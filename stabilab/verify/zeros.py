@@ -5,7 +5,7 @@ from fractions import Fraction
 
 from .numbers import ball, hull, sign
 
-CELLS = 20_000
+CELLS = 20_000  # for one orbit: some ten seconds; scenes of the tests take up to a few thousand
 SPLIT = Fraction(489, 1000)  # off the middle: a zero is less often where a cell is cut
 
 
@@ -13,18 +13,36 @@ class Open(Exception):
     """Not decided at this precision."""
 
 
-def zeros(f, df, low: Fraction, high: Fraction, at_low=False, at_high=False):
+class Spent(Exception):
+    """Not decided with as much work as one question may take: more bits would not help."""
+
+
+class Purse:
+    """How many cells may still be looked at for one question, over all intervals and precisions."""
+
+    def __init__(self, cells):
+        self.cells = cells
+
+    def spend(self):
+        """One cell. Raises `Spent` when there are none left."""
+        if not self.cells:
+            raise Spent
+        self.cells -= 1
+
+
+def zeros(f, df, low: Fraction, high: Fraction, at_low=False, at_high=False, purse=None):
     """Balls that hold one zero of f each, rising, and no zero on (low, high) is elsewhere.
 
-    at_low, at_high: f is known to vanish exactly at that end; such a zero is not listed.
+    at_low, at_high: f is known to vanish exactly at that end; such a zero is not listed. purse: pays for the cells.
     """
+    purse = purse or Purse(CELLS)
     from flint import ctx
-    found, stack, cells = [], [(low, high)], 0
+    found, stack = [], [(low, high)]
     smallest = (high - low) / 2**ctx.prec
     while stack:
         a, b = stack.pop()
-        cells += 1
-        if cells > CELLS or b - a < smallest:
+        purse.spend()
+        if b - a < smallest:
             raise Open
         cell = hull(a, b)
         if sign(f(cell)):
