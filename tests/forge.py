@@ -33,8 +33,9 @@ def place_of(table, path):
 
 def forged(claims, path, to):
     """A copy with the value at a path replaced, or left out."""
-    out = copy.deepcopy(claims)
-    place = place_of(out, path)
+    out = place = copy.copy(claims)
+    for key in path[:-1]:  # only what lies on the way is copied
+        place[key] = place = copy.copy(place[key])
     if to is GONE:
         del place[path[-1]]
     else:
@@ -96,7 +97,7 @@ def _fixed(claims, path, old):
 
 def _without(claims, path, old):
     """What is known when a claim is left out."""
-    if path[-1] in OPTIONAL:
+    if path[-1] in OPTIONAL or path[:-1] == ("uncertified",):
         return "true"
     if isinstance(path[-1], int):
         return "false" if path[-2] in ("points", "curves", "planes", "segments", "folds") else "open"
@@ -123,7 +124,7 @@ def _junk(path, old, bad):
     if bad == old and type(bad) is type(old):
         return None
     key = path[-1]
-    if key == "program":
+    if key == "program" or path[:-1] == ("uncertified",):
         return "open" if isinstance(bad, str) else "junk"
     if key == "uncertified":
         return "open" if isinstance(bad, list) and all(isinstance(v, str) for v in bad) else "junk"
@@ -142,6 +143,8 @@ def _drawn(claims, path, old, rng):
     """(what is known, new value) drawn by chance; (None, None) where the claim has no values to draw."""
     if old is None or (is_bracket(old) and _bracketed(path)):
         return _bracket(claims, path, old, rng)
+    if path[:-1] == ("uncertified",):
+        return "open", old[:rng.randrange(60)] + chr(rng.randrange(32, 1000))
     if isinstance(old, str) and path[-1] not in WORDS and path[-1] not in ("program", "schema"):
         return "open", str(_other(F(old), rng))
     if path[-1] in ("axis", "sense"):
