@@ -16,6 +16,9 @@ _HOME = {
     "extremes": "analysis.extremes", "period": "analysis.extremes",
     "separatrix": "analysis.separatrix",
     "trajectory": "analysis.trajectories", "ensemble": "analysis.ensembles",
+    "simulate": "analysis.simulation", "compare": "analysis.comparison", "theory": "analysis.theory",
+    "Charge": "effects.charge", "Resistance": "effects.resistance", "LiquidCavity": "effects.liquid_cavity",
+    "NewtonianField": "effects.newtonian_field", "Gravity": "effects.gravity", "BodyForce": "effects.body_force",
     "derive": "equations",
 }
 __all__ = [*_HOME, "__version__"]

@@ -146,11 +146,12 @@ def simulate(case: CaseFile,
              digits: Annotated[Optional[int], typer.Option(metavar="N", help="Reach N digits (1 to 15) the cheapest way, check "
                                                            "them, or exit with 5. Default: 10, unless --model, --method "
                                                            "or --rtol is given.")] = None,
+             angles: Annotated[bool, typer.Option("--angles", help="Euler angles psi, theta, phi of the vertical, too.")] = False,
              out: Annotated[Optional[Path], typer.Option(metavar="FILE.nc|.csv", help="Write the states to a file.")] = None,
              json: Json = False):
     """Follow a motion in time.
 
-    Says how far the run departs from the laws of motion.
+    Says how far the run departs from the laws of motion; with --model also what the theory says of the motion.
 
     Example: stabilab simulate cases/major-axis-100.toml --at 0,5,10,15 --json
     """
@@ -159,6 +160,8 @@ def simulate(case: CaseFile,
     if out:
         trajectory_files.checked(out)
     runs = [(one, *_followed(one, _times(one, at), model, method, rtol, order, digits)) for one in loaded]
+    if angles:
+        runs = [(one, _with_angles(one, run, model, order), reached) for one, run, reached in runs]
     if out:
         _write_each(out, [(one, partial(trajectory_files.write, one, run)) for one, run, _ in runs])
     if json:
@@ -446,14 +449,29 @@ def _run_or_best(case, times, model, method, rtol, order, digits):
 def _run_as_dict(case, run, reached) -> dict:
     from .show import answers
     told = reached and {"asked": reached.asked, "reached": reached.digits, "because": reached.because}
-    return answers.simulation(case, run) | {"digits": told}
+    return answers.simulation(case, run) | {"digits": told} | {"theory": _theory(case, run)}
 
 
 def _run_as_text(case, run, reached) -> str:
     from .show import answers
     first = f"# {case.name}\n" if case.variant else ""
     last = f"\n# {reached.digits:.1f} digits: {reached.because}" if reached else ""
-    return first + answers.simulation_text(case, run) + last
+    return first + answers.simulation_text(case, run) + last + "".join(f"\n# {line}" for line in _theory(case, run, words=True))
+
+
+def _theory(case, run, words=False):
+    """What the theory of an analytic model says, as rows or lines; nothing of an exact run."""
+    if run.model == "exact":
+        return []
+    from .analysis.theory import lines, theory
+    return lines(theory(case)) if words else theory(case)
+
+
+def _with_angles(case, run, model, order):
+    from .analysis.top_angles import with_euler_angles
+    from .case import blamed_on
+    with blamed_on(case):
+        return with_euler_angles(case, run, model, order)
 
 
 def _judge_runs(runs):

@@ -1,5 +1,6 @@
 """Analytic models as models of a case: which apply, what `compare` says of them, and sweeps."""
 import json
+import re
 from pathlib import Path
 
 import numpy as np
@@ -103,6 +104,84 @@ def test_compare_prints_strict_json_with_a_schema(stabilab):
 def test_compare_without_an_analytic_model_says_so(stabilab):
     code, _, err = stabilab("compare", CASES / "minor-axis-100.toml")
     assert code == 2 and "no analytic model" in err
+
+
+PLAIN = """[body]
+inertia = [8.7, {}, 11.1]
+[motion]
+angular_velocity = [0.02, -0.01, 0.3]
+attitude = [0.01, 0.0, 0.0]
+span = [0, 20]
+"""
+
+
+def test_a_body_without_charge_torque_and_force_is_the_first_case_of_the_linear_theory():
+    """D1 = D2: Euler's equations have r constant, so the rates are exact; D1 near D2: off by the neglected p q."""
+    case = _written(PLAIN.format("8.7"))
+    assert models_of(case.scene) == ("exact", "linear", "corrected", "printed")
+    t = np.linspace(0, 20, 41)
+    exact, linear = (follow(case, t, model) for model in ("exact", "linear"))
+    np.testing.assert_allclose(linear.state["omega"], exact.state["omega"], atol=1e-15)
+    assert "r is constant" in linear.reason and "small angles" in linear.reason
+    near = _written(PLAIN.format("8.6"))
+    exact, linear = (follow(near, t, model) for model in ("exact", "linear"))
+    told = float(re.search(r"changes by ([\d.e-]+) rad/s at most", linear.reason)[1])
+    assert 0 < np.abs(exact.state["omega"][:, 2] - 0.3).max() < told < 1e-4
+    assert models_of(_written(PLAIN.format("7.0")).scene) == ("exact",)
+
+
+@pytest.mark.parametrize("moment, words", [(-0.4, "unstable band"), (1.3, "none")])
+def test_compare_and_simulate_name_resonances_and_the_unstable_band(stabilab, tmp_path, moment, words):
+    """By hand: a = (2.5 r0 + lambda3 - k)/8.7 and b = (2.4 r0 + lambda3 - k)/8.6 have different signs for lambda3 = -0.4."""
+    path = tmp_path / "case.toml"
+    path.write_text(SMALL.read_text().replace("momentum = [0, 0, 1.3]", f"momentum = [0, 0, {moment}]"))
+    a, b = ((s * 0.28274333882308139 + moment - 0.003 * 100 * 1.02**2 * np.cos(0.37)) for s in (2.5, 2.4))
+    assert (a * b < 0) == (words == "unstable band")
+    for command in (("compare", path), ("simulate", path, "--model", "linear", "--at", "0,1")):
+        code, out, _ = stabilab(*command)
+        assert code == 0 and re.search(f"resonance: {words}", out)
+        found = json.loads(stabilab(*command, "--json")[1])["theory"]
+        assert any(row["about"] == "resonance" and row["words"].startswith(words) for row in found)
+    if a * b < 0:
+        (row,) = (row for row in found if row["about"] == "instability")
+        assert row["values"]["growth_rate"] == pytest.approx(np.sqrt(-a * b / 8.7 / 8.6), rel=1e-10)
+
+
+def test_compare_names_the_attracting_spin_of_a_body_with_a_liquid():
+    """By hand: M3 = zeta D3 r holds the spin: r = -0.06/(0.02*9) = -1/3 rad/s, reached at the rate zeta."""
+    from stabilab.analysis.theory import theory
+    rows = theory(load(CASES / "liquid-base.toml"))
+    (found,) = (row["values"] for row in rows if "attracting" in row["about"])
+    assert found["spin"] == pytest.approx(-1 / 3, rel=1e-9) and found["amplitude"] == 0
+    assert any(rate == pytest.approx([-0.02, 0]) for rate in found["rates"])
+
+
+def test_the_mean_precession_told_is_that_of_the_exact_motion():
+    from stabilab.analysis.theory import theory
+    from stabilab.analysis.top_angles import with_euler_angles
+    case = load(CASES / "top-fast.toml")
+    rows = {row["about"]: row["values"] for row in theory(case, 8)}
+    turns = rows["periodic motion"]["period"] * np.array([0.0, 24.0])
+    psi = with_euler_angles(case, follow(case, turns)).state["euler"][:, 0]
+    assert (psi[1] - psi[0]) / turns[1] == pytest.approx(rows["mean precession"]["rate"], rel=1e-4)
+
+
+def test_simulate_gives_classical_euler_angles_when_asked_for(stabilab):
+    """gamma = (sin theta sin phi, sin theta cos phi, cos theta), and phi counts whole turns between far times."""
+    code, out, _ = stabilab("simulate", CASES / "top-fast.toml", "--at", "0,0.5,1", "--angles", "--json")
+    state = json.loads(out)["state"]
+    _, theta, phi = np.transpose(state["euler"])
+    np.testing.assert_allclose(np.transpose(state["gamma"]), [np.sin(theta) * np.sin(phi), np.sin(theta) * np.cos(phi), np.cos(theta)], atol=1e-9)
+    assert code == 0 and 149 < phi[2] - phi[0] < 151 and "Euler angles: theta stays away" in json.loads(out)["reason"]
+    code, _, err = stabilab("simulate", CASES / "minor-axis-100.toml", "--at", "1", "--angles")
+    assert code == 2 and "need gamma in the state" in err
+
+
+def test_every_effect_and_the_runs_of_models_have_public_names():
+    import stabilab as package
+    from stabilab.effects import REGISTRY, effect_class
+    assert {effect_class(name).__name__ for name in REGISTRY} <= set(package.__all__)
+    assert all(getattr(package, name) is not None for name in package.__all__) and {"simulate", "compare", "theory"} <= set(package.__all__)
 
 
 def test_simulate_gives_every_block_of_the_state_by_name(stabilab):

@@ -42,6 +42,16 @@ def largest_tilt(body: ChargedBody):
     return np.where(parts.undriven, at_start, np.where(parts.regular, bound, np.inf))
 
 
+def spin_words(body: ChargedBody, omega, t) -> str:
+    """How far the spin r, held at r0, is from constant: D3 r' = (D1 - D2) p q, so |r - r0| <= |D1 - D2| max(p^2 + q^2) |t|/(2 D3)
+    along the rates omega (n, 3) at the times t (n,)."""
+    D1, D2, D3 = body.inertia
+    if D1 == D2:
+        return "D1 = D2: r is constant and p, q are those of Euler's equations"
+    change = abs(D1 - D2) / (2 * D3) * float((omega[..., 0]**2 + omega[..., 1]**2).max(initial=0.0)) * float(np.abs(t).max(initial=0.0))
+    return f"r is held at r0; with D1 - D2 = {D1 - D2:.6g} kg m^2 it changes by {change:.2g} rad/s at most over these times, by this motion's p and q"
+
+
 @dataclass(frozen=True, eq=False)
 class TiltParts:
     """The complex amplitudes of the tilt (rad) and of p + iq = rate + plus e^(iwt) + minus e^(-iwt) (rad/s), over the batch.

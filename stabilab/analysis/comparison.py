@@ -7,6 +7,7 @@ import numpy as np
 
 from ..errors import InputError
 from .models import follow, models_of
+from .theory import theory
 
 GRID = 801  # times over the span on which the error is looked at
 ZOOM = 65  # times between two of them, and again between two of those, to place a first error
@@ -34,12 +35,13 @@ class Departure:
 @dataclass(frozen=True)
 class Comparison:
     """t: (n,) times; runs: model -> Simulation, the exact one first; departures: one per model and part of the state;
-    refused: model -> why it has no answer for this motion."""
+    refused: model -> why it has no answer for this motion; theory: what else the theory says (`theory.theory`)."""
 
     t: np.ndarray
     runs: dict
     departures: tuple[Departure, ...]
     refused: dict
+    theory: tuple = ()
 
 
 def compare(case, times=None, order: int | None = None) -> Comparison:
@@ -56,7 +58,7 @@ def compare(case, times=None, order: int | None = None) -> Comparison:
     for name, run in list(runs.items())[1:]:
         for part in (p for p in SHARED if p in run.state and p in exact.state):
             found.append(_departure(case, name, part, run, exact, order))
-    return Comparison(times, runs, tuple(found), refused)
+    return Comparison(times, runs, tuple(found), refused, tuple(theory(case, order)))
 
 
 def side_by_side(case, times, order: int | None = None) -> tuple[dict, dict]:

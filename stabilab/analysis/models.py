@@ -14,7 +14,7 @@ MODELS = ("exact", "linear", "corrected", "printed", "averaged1", "averaged2", "
 
 def family(scene):
     """The module of analytic solutions that applies to a scene, or None."""
-    if scene.plain:
+    if scene.variables == "scaled":
         return None
     for name in FAMILIES:
         module = import_module(f".{name}", __package__)

@@ -14,9 +14,14 @@ def applies(scene) -> bool:
     return names <= COVERED and bool(names & {"gravity", "newtonian_field"}) and "attitude" not in scene.blocks
 
 
+def state_of(case) -> dict:
+    """The start as the expansion takes it."""
+    return {"omega": case.state, "gamma": case.blocks.get("gamma", (0.0, 0.0, 1.0))}
+
+
 def follow(model, case, times, order=None) -> Simulation:
     """The case's motion by the expansion (order 4 unless asked for otherwise), or as printed."""
-    state = {"omega": case.state, "gamma": case.blocks.get("gamma", (0.0, 0.0, 1.0))}
+    state = state_of(case)
     if model == "printed":
         from .small_parameter_printed import printed
         run = printed(case.scene, state, times)

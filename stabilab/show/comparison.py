@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ..analysis.theory import lines as told
 from ..blocks import PARTS
 from . import endings, style
 
@@ -26,7 +27,8 @@ def as_dict(case, found) -> dict:
             "models": {name: {"status": run.status, "reason": run.reason} for name, run in found.runs.items()}
             | {name: {"status": "refused", "reason": why} for name, why in found.refused.items()},
             "departures": [{"model": d.model, "part": d.part, "error": d.error, "scale": d.scale, "largest": d.largest,
-                            "first": {f"{level:g}": time for level, time in d.first.items()}} for d in found.departures]}
+                            "first": {f"{level:g}": time for level, time in d.first.items()}} for d in found.departures],
+            "theory": list(found.theory)}
 
 
 def text(case, found) -> str:
@@ -39,7 +41,7 @@ def text(case, found) -> str:
         lines.append(f"  {d.model:<12}{d.part:<12}{d.largest:>16.4g}{d.scale:>14.4g}{first[0]:>14}{first[1]:>14}")
     notes = [f"  {name}: {run.reason}" for name, run in found.runs.items() if run.reason and run.reason != "all times reached"]
     notes += [f"  {name}: no answer: {why}" for name, why in found.refused.items()]
-    return "\n".join(lines + notes)
+    return "\n".join(lines + notes + [f"  {line}" for line in told(found.theory)])
 
 
 def checked(path) -> Path:
