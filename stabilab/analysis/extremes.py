@@ -9,8 +9,10 @@ import numpy as np
 
 from ..errors import InputError
 from .effective import effective
+from .far_states import far_numbers, far_rows
 from .fate import CHUNK, checked_states, fate
 from .landscape import EPS, TURN, Landscape, landscape
+from .reduction import reduce
 from .results import Fate
 from .rootfind import bracketed_newton
 from .turning import interval, spots_along, turning_point
@@ -35,7 +37,7 @@ def extremes(scene, states, span=None, digits: int | None = None, fast: bool | N
         from .precision_questions import ask_all
         return ask_all("extremes", scene, states, digits, span).required().values
     scene, array = effective(scene), checked_states(states)
-    if landscape(scene) is None:
+    if reduce(scene) is None:
         from .irreducible import extremes_one_by_one
         return extremes_one_by_one(scene, array.reshape(-1, 3), span).reshape(array.shape + (2,))
     return extremes_and_periods(scene, array, fast, period=False)[0]
@@ -45,13 +47,15 @@ def extremes_and_periods(scene, states, fast: bool | None = None, *, box=True, p
     """(extremes (..., 3, 2), periods (...,)) in one go, each as the function of its name gives it; None for one that
     is not asked for. For scenes with a reduction only (InputError for others, and as `extremes` raises it)."""
     scene, array = effective(scene), checked_states(states)
-    land = landscape(scene)
-    if land is None:
+    if reduce(scene) is None:
         raise InputError("extremes_and_periods: this scene has no reduction to one coordinate; ask for `extremes` with a"
                          " span, or for `period`")
     flat = np.ascontiguousarray(array.reshape(-1, 3))
     boxes, periods = np.empty((len(flat) if box else 0, 3, 2)), np.empty(len(flat) if period else 0)
-    left_open = None
+    if (far := far_rows(scene, flat)).any():
+        _fill_far(scene, flat, boxes, periods, far)
+        return boxes.reshape(array.shape + (2,)) if box else None, periods.reshape(array.shape[:-1]) if period else None
+    land, left_open = landscape(scene), None
     if fast is not False:
         from .fast_extremes import by_kernel
         left_open = by_kernel(land, flat, boxes, periods, fast)
@@ -62,6 +66,15 @@ def extremes_and_periods(scene, states, fast: bool | None = None, *, box=True, p
         elif left_open[rows].any():
             _fill_open(land, scene, flat[rows], boxes[rows], periods[rows], left_open[rows])
     return (boxes.reshape(array.shape + (2,)) if box else None, periods.reshape(array.shape[:-1]) if period else None)
+
+
+def _fill_far(scene, states, boxes, periods, far):
+    """All rows, those that are `far` (their squares may be no doubles) one at a time in their own unit."""
+    near = extremes_and_periods(scene, states[~far], box=len(boxes) > 0, period=len(periods) > 0) if not far.all() else (None, None)
+    for column, values, which in zip((boxes, periods), near, (0, 1)):
+        if len(column):
+            column[far] = [far_numbers(scene, state)[which] for state in states[far].tolist()]
+            column[~far] = values if values is not None else column[~far]
 
 
 def _fill(land, scene, states, boxes, periods):

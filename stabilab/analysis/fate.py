@@ -17,11 +17,13 @@ from ..errors import InputError
 from .barrier_table import barrier_table
 from .effective import effective
 from .exact_tie import over_pure_spin
+from .far_states import BEYOND, far_exponent, far_fate, far_rows
 from .fast_fate import compiled_loops
 from .landscape import EPS, TURN, Landscape, landscape
 from .potential import derivatives_on_parabola
 from .precise import decide
 from .reasons import REASONS, Reason, margin_at_rest, rests
+from .reduction import reduce
 from .results import Fate
 from .table_fate import label_by_table
 
@@ -29,6 +31,7 @@ CHUNK = 16384
 TABLE_FROM = 5000  # a table costs some ten milliseconds to build, as much as the general formula needs for these
 MARGIN_SHARE = 5e-13  # of the kinetic energy and the barrier's height: half of the rounding that `fate` admits
 DOUBLE_ROOT = 1e-10  # share of a cubic's discriminant: eigenvalues tell two roots 1e-7 apart, whose discriminant is 1e-14 and more
+UNDERFLOW = 2.0**-1060  # what four terms may lose that are no normal doubles
 ROUNDINGS = 64  # units of rounding allowed for in the error bound of a margin: some thirty operations, each counted twice
 
 
@@ -39,7 +42,7 @@ class FateResult:
     labels: (...,) int8 of `Fate`. margins: (...,) barrier minus energy in the scene's energy (J; or x_i^2/2 + U when
     scaled): positive below the barrier; -inf where there is no barrier ahead, +inf where no separatrix bounds the
     motion, NaN where nothing is known of any (undecided, and no law keeps the motion from being bounded); at an
-    equilibrium on the separatrix 0. axis: 1, 2, 3 of a spin-up, else 0; sense: its sign, else 0. reasons: (...,) `Reason` codes. precise: how
+    equilibrium on the separatrix 0, and NaN where it is no double (`because` says so). axis: 1, 2, 3 of a spin-up, else 0; sense: its sign, else 0. reasons: (...,) `Reason` codes. precise: how
     many states had to be decided in many digits. Iterating gives labels, margins.
     """
 
@@ -58,7 +61,7 @@ class FateResult:
     @property
     def because(self):
         """The reason in words: a string for one state, an object array otherwise."""
-        words = np.array([REASONS[Reason(code)] for code in np.ravel(self.reasons)], dtype=object)
+        words = np.array([_told(*one) for one in zip(*map(np.ravel, (self.reasons, self.labels, self.margins)))], dtype=object)
         return words[0] if self.reasons.ndim == 0 else words.reshape(self.reasons.shape)
 
     @cached_property
@@ -67,6 +70,11 @@ class FateResult:
         label is undecided."""
         from .distance import separatrix_distance
         return np.where(self.labels == Fate.UNDECIDED, np.nan, separatrix_distance(self.scene, self.states))[()]
+
+
+def _told(reason, label, margin) -> str:
+    known = margin == margin or reason in (Reason.OFF_AXIS, Reason.TURN_ROUNDS) or label == Fate.EQUILIBRIUM
+    return REASONS[Reason(reason)] + ("" if known else f"; the margin in energy is {BEYOND}")
 
 
 def checked_states(states) -> np.ndarray:
@@ -100,14 +108,11 @@ def fate(scene, states, fast=None, digits: int | None = None) -> FateResult:
         return replace(fate(scene, states, fast), margins=ask_all("fate", scene, states, digits).required().values)
     scene, array = effective(scene), checked_states(states)
     flat = np.ascontiguousarray(array.reshape(-1, 3))
-    n = len(flat)
-    out = _columns(n)
-    table = barrier_table(scene) if n >= TABLE_FROM else None
-    if table is None:
-        precise = _label_all(scene, flat, out)
+    out, far = _columns(len(flat)), _far(scene, flat)
+    if far.any():
+        precise = _label_far(scene, flat, out, np.nonzero(far)[0]) + _label_some(scene, flat, out, np.nonzero(~far)[0])
     else:
-        rest = label_by_table(table, flat, out, compiled_loops(n, fast))
-        precise = _label_some(scene, flat, out, rest)
+        precise = _label_ordinary(scene, flat, out, fast)
     shape = array.shape[:-1]
     return FateResult(**{name: column.reshape(shape) for name, column in out.items()}, precise=precise, scene=scene,
                       states=array)
@@ -116,6 +121,29 @@ def fate(scene, states, fast=None, digits: int | None = None) -> FateResult:
 def _columns(n):
     return {"labels": np.empty(n, np.int8), "margins": np.empty(n), "axis": np.zeros(n, np.int8),
             "sense": np.zeros(n, np.int8), "reasons": np.empty(n, np.int8)}
+
+
+def _label_ordinary(scene, flat, out, fast) -> int:
+    """Fill the columns; how many states needed many digits."""
+    table = barrier_table(scene) if len(flat) >= TABLE_FROM else None
+    if table is None:
+        return _label_all(scene, flat, out)
+    return _label_some(scene, flat, out, label_by_table(table, flat, out, compiled_loops(len(flat), fast)))
+
+
+def _far(scene, flat):
+    """(n,) True for the states of a scene with a reduction whose squares may leave the range of doubles."""
+    return far_rows(scene, flat) if reduce(scene) is not None else np.zeros(len(flat), bool)
+
+
+def _label_far(scene, flat, out, indices) -> int:
+    """Fill the columns for such states one at a time, each in its own unit; how many they are."""
+    reduction = reduce(scene)
+    for index in indices:
+        state = flat[index].tolist()
+        found = far_fate(scene, reduction, state, far_exponent(scene, state))
+        _write(out, index, found.label, found.reason, found.margin, found.axis, found.sense)
+    return len(indices)
 
 
 def _label_all(scene, flat, out) -> int:
@@ -168,12 +196,13 @@ def equilibrium_mask(scene, states) -> np.ndarray:
     form = scene.quadratic()
     kappa, rho, sigma, m = form.coefficients
     candidate = np.ones(len(states), bool)
-    for i, (j, k) in enumerate(((1, 2), (2, 0), (0, 1))):
-        u, v = states[:, j], states[:, k]
-        terms = kappa[i] * u * v, rho[i] * v, sigma[i] * u
-        rate = terms[0] + terms[1] + terms[2] + m[i]
-        size = np.abs(terms[0]) + np.abs(terms[1]) + np.abs(terms[2]) + abs(m[i])
-        candidate &= np.abs(rate) <= 16 * EPS * size
+    with np.errstate(all="ignore"):
+        for i, (j, k) in enumerate(((1, 2), (2, 0), (0, 1))):
+            u, v = states[:, j], states[:, k]
+            terms = kappa[i] * u * v, rho[i] * v, sigma[i] * u
+            rate = terms[0] + terms[1] + terms[2] + m[i]
+            size = np.abs(terms[0]) + np.abs(terms[1]) + np.abs(terms[2]) + abs(m[i])
+            candidate &= ~(np.abs(rate) > 16 * EPS * size + UNDERFLOW)  # what overflows is a candidate, too
     for index in np.nonzero(candidate)[0]:
         candidate[index] = rests(form, states[index])
     return candidate

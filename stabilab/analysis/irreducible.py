@@ -12,6 +12,7 @@ import numpy as np
 
 from ..errors import InputError
 from .alignment import aligned
+from .far_states import in_range
 from .fate import _write, at_rest, equilibrium_mask, fate, nearly_flat
 from .free_gyrostat import free_margin
 from .landscape import EPS, landscape
@@ -43,11 +44,12 @@ def labeller(scene):
         return lambda states, out: _label_turned(scene, states, out)
 
     def label(states, out):
-        for index, state in enumerate(states):
-            if kind == "law":
-                _law(scene, state, out, index)
-            else:
-                _write(out, index, *one_fate(scene, state, kind))
+        with in_range():
+            for index, state in enumerate(states):
+                if kind == "law":
+                    _law(scene, state, out, index)
+                else:
+                    _write(out, index, *one_fate(scene, state, kind))
         at_rest(scene, states, out)
         return len(states) if kind == "free" else 0
     return label
@@ -61,7 +63,10 @@ def one_fate(scene, state, kind) -> OneFate:
         found = _turned_fate(aligned(scene), state)
     else:
         margin = free_margin(scene, state)
-        found = OneFate(*((Fate.SEPARATRIX, Reason.TIE) if margin.tie else (Fate.BOUNDED, Reason.TORQUE_FREE)), float(margin))
+        height = float(margin)
+        if margin.ball is not None and not margin.tie and (height == 0 or math.isinf(height)):
+            height = math.nan  # beyond the range of doubles
+        found = OneFate(*((Fate.SEPARATRIX, Reason.TIE) if margin.tie else (Fate.BOUNDED, Reason.TORQUE_FREE)), height)
     return rest_of(scene, found) if rests(scene.quadratic(), state) else found
 
 

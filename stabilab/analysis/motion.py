@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import math
 
+from .far_states import far_exponent, in_range, in_scene_unit, own
 from .one_state import extremes_of, fate_of, invariants_of
 from .reduction import reduce
 from .results import Fate, Motion
@@ -21,14 +22,24 @@ def motion(scene, state, span=None, brief=False, exact=None) -> Motion:
         found = other_motion(scene, state, span, exact)
         if found is not None:
             return found
-    state, reduction = _checked(state), reduce(scene)
-    if reduction is None:
-        return _irreducible(scene, state, span, exact)
+    state = _checked(state)
     given = exact or state
-    decided = fate_of(scene, reduction, given)
+    reduction = reduce(scene)
+    if reduction is None:
+        with in_range():
+            return _irreducible(scene, state, span, exact)
+    far = far_exponent(scene, given)
+    if far is None:
+        return _reduced(reduction, state, given, fate_of(scene, reduction, given), brief)
+    near, small = own(reduction, given, far)
+    return in_scene_unit(_reduced(near, tuple(map(float, small)), small, fate_of(scene, reduction, given, near, small), brief, far), far, state)
+
+
+def _reduced(reduction, state, given, decided, brief, k=0) -> Motion:
+    """All that is known of a motion with a reduction and this fate; the extremes in units 2^-k of the reduction's."""
     fields = _common(state, decided.label, decided.because, decided.axis, decided.sense)
     fields |= {"margin_energy": _finite(decided.margin), "tolerance": 1e-12,
-               "extremes": extremes_of(reduction, given, decided.label)}
+               "extremes": extremes_of(reduction, given, decided.label, k)}
     return Motion(**fields, **({} if brief else _rest(reduction, state, given, decided)))
 
 
@@ -55,12 +66,20 @@ def _finite(value):
 
 
 def _rest(reduction, state, given, decided) -> dict:
-    from .distance import distance_of
     from .one_period import period_of
     label = decided.label
-    apart = 0.0 if label == Fate.SEPARATRIX or decided.margin == 0 else _finite(distance_of(reduction, state))
+    apart = 0.0 if label == Fate.SEPARATRIX or decided.margin == 0 else _apart(reduction, state)
     return {"margin_velocity": apart, "period": _repeats(period_of(reduction, given, label)),
             "invariants": invariants_of(reduction, given)}
+
+
+def _apart(reduction, state):
+    """The distance from the separatrix; None where there is none, or where torque or wheel vanish beside the rates in doubles."""
+    from .distance import distance_of
+    try:
+        return _finite(distance_of(reduction, state))
+    except ArithmeticError:
+        return None
 
 
 def _repeats(time):

@@ -11,7 +11,7 @@ import math
 from fractions import Fraction
 from typing import NamedTuple
 
-from .balls import DOUBLE_BITS, settled
+from .balls import DOUBLE_BITS, settled, working
 from .exact_tie import over_pure_spin
 from .precise import PreciseOrbit, decide
 from .precise_extremes import extreme_balls
@@ -35,11 +35,15 @@ class OneFate(NamedTuple):
         return REASONS[self.reason]
 
 
-def fate_of(scene, reduction, state) -> OneFate:
-    """The fate of one state (three floats or Fractions) of a scene with this reduction."""
-    found = {-1: _on_circle, 1: _on_hyperbola, 0: _on_parabola}[reduction.e](reduction, state)
+def fate_of(scene, reduction, state, near=None, small=None) -> OneFate:
+    """The fate of one state (three floats or Fractions) of a scene with this reduction.
+
+    near, small: reduction and state in a unit in which to compare energies; the margin is in it then.
+    """
+    found = {-1: _on_circle, 1: _on_hyperbola, 0: _on_parabola}[reduction.e](near or reduction, small or state)
     unit = reduction.energy_unit
-    found = found._replace(margin=found.margin * unit)
+    lost = found.margin == 0 and found.label != Fate.SEPARATRIX  # its sign is known, and it is too small for a double
+    found = found._replace(margin=math.nan if lost else found.margin * unit)
     return at_rest(scene, found) if rests(scene.quadratic(), state) else found
 
 
@@ -112,13 +116,32 @@ def _on_parabola(r, state) -> OneFate:
     return _valley(r, state)
 
 
-def extremes_of(reduction, state, label: Fate) -> tuple:
-    """((least, greatest),) * 3 over t >= 0 in the scene's variables; +-inf where unbounded."""
+def extremes_of(reduction, state, label: Fate, k: int = 0) -> tuple:
+    """((least, greatest),) * 3 over t >= 0 in units 2^-k of the reduction's; +-inf where unbounded, NaN where larger than any double."""
+    here = [_double(Fraction(v) * Fraction(2) ** k) for v in state]
     if label == Fate.EQUILIBRIUM:
-        return tuple((float(v), float(v)) for v in state)
+        return tuple((v, v) for v in here)
     balls = extreme_balls(reduction, state, label, doubles=True)
     # rounding must not exclude the state itself
-    return tuple((min(float(low), v), max(float(high), v)) for (low, high), v in zip(balls, map(float, state)))
+    return tuple((min(_scaled(low, k), v), max(_scaled(high, k), v)) for (low, high), v in zip(balls, here))
+
+
+def _double(value: Fraction) -> float:
+    try:
+        return float(value)
+    except OverflowError:
+        return math.nan
+
+
+def _scaled(value, k: int) -> float:
+    """The double nearest to 2^k times a ball or float; its own double may have underflowed in the other unit."""
+    if not k or isinstance(value, float):
+        return float(value)
+    middle = float(value)
+    if abs(middle) > 2.0**-900:
+        return _double(Fraction(middle) * Fraction(2) ** k)
+    with working(DOUBLE_BITS) as numbers:
+        return float(value * numbers.ball(Fraction(2) ** k))
 
 
 def invariants_of(reduction, state) -> dict[str, float]:

@@ -14,6 +14,7 @@ from ..body import Body
 from ..effects.constant_torque import ConstantTorque
 from ..effects.gyrostat import Gyrostat
 from ..effects.resistance import Resistance
+from ..errors import InputError
 from ..scene import Scene, ScaledGyrostat
 
 SLOW, FAST = 2.0**-4, 2.0**20  # between these the unit stays: the control is at most 16 times coarser than asked
@@ -48,7 +49,18 @@ def _homogeneous(scene) -> bool:
 
 
 def in_unit(scene, unit: float, mass: float = 1.0):
-    """The scene whose rates are those of `scene` over `unit`, in a time that runs `unit` times as fast; its moments over `mass`."""
+    """The scene whose rates are those of `scene` over `unit`, in a time that runs `unit` times as fast; its moments over `mass`.
+
+    Raises InputError where torque or wheel are no doubles beside rates of this size.
+    """
+    try:
+        return _changed(scene, unit, mass)
+    except InputError as error:
+        raise InputError(f"state: in the unit of rates of this size, {unit:.1e}, a number of the scene leaves the range of doubles, and a run in "
+                         f"doubles does not follow the motion ({error})") from None
+
+
+def _changed(scene, unit, mass):
     u, m = Fraction(unit), Fraction(mass)
     if scene.variables == "scaled":
         a, b = scene.exact_ab

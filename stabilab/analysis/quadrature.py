@@ -13,7 +13,8 @@ from .circle_kernel import ENOUGH, NARROW, NODES, divided_pair
 from .effective import effective
 from .extremes import _pick, clear_of_barriers, extremes_and_periods, near_separatrix, needs_digits, trapped_rows
 from .fate import checked_states
-from .landscape import EPS, TURN, Landscape, landscape
+from .landscape import EPS, TURN, Landscape
+from .reduction import reduce
 from .results import Fate
 from .turning import interval
 
@@ -27,7 +28,7 @@ MIDPOINT_NODES = (16, 32, 64, 128, 256)
 def periods(scene, states, fast=None):
     """See `extremes.period`."""
     scene, array = effective(scene), checked_states(states)
-    if landscape(scene) is None:
+    if reduce(scene) is None:
         from .irreducible import periods_one_by_one
         return periods_one_by_one(scene, array.reshape(-1, 3)).reshape(array.shape[:-1])
     return extremes_and_periods(scene, array, fast, box=False)[1]

@@ -43,6 +43,7 @@ def draw(ax, plane: PhasePlane, scale=1.0, offset=0.0, rate_scale=1.0, span=None
 def plot(case, path) -> Path:
     """The picture of a case, written to `path` (.png, .svg or .pdf): its phase plane where the motion reduces to one degree of
     freedom, else three projections of the trajectory. Needs case.state; raises InputError without one."""
+    from ..analysis.far_states import far_exponent
     from ..errors import InputError
     endings.file(path, endings.PICTURES)  # before the motion is computed
     demand(*style.PACKAGES)
@@ -50,6 +51,9 @@ def plot(case, path) -> Path:
         raise InputError(f"{case.path}: a picture needs a motion: add [motion] with angular_velocity or x")
     if not case.scene.plain:
         return _histories(case, path)
+    if far_exponent(case.scene, case.state) is not None:
+        raise InputError("no picture: rates, torque or wheel are so large or so small that their squares leave the range of "
+                         "doubles: choose other units")
     plane = phase_plane(case.scene, case.state)
     with style.drawing() as plt:
         figure = _plane_picture(plt, case, plane) if plane else _projections(plt, case)
