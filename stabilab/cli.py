@@ -464,7 +464,8 @@ def _theory(case, run, words=False):
     if run.model == "exact":
         return []
     from .analysis.theory import lines, theory
-    return lines(theory(case)) if words else theory(case)
+    found = theory(case, model=run.model)
+    return lines(found) if words else found
 
 
 def _with_angles(case, run, model, order):

@@ -147,6 +147,12 @@ def test_compare_and_simulate_name_resonances_and_the_unstable_band(stabilab, tm
         assert row["values"]["growth_rate"] == pytest.approx(np.sqrt(-a * b / 8.7 / 8.6), rel=1e-10)
 
 
+def test_the_model_printed_says_what_is_misprinted(stabilab):
+    code, out, _ = stabilab("simulate", CHARGED, "--model", "printed", "--at", "0,1")
+    assert code == 0 and "misprint, (46): I2 omega: sign of both exponential terms; a second zeta" in out
+    assert "misprint" not in stabilab("simulate", CHARGED, "--model", "linear", "--at", "0,1")[1]
+
+
 def test_compare_names_the_attracting_spin_of_a_body_with_a_liquid():
     """By hand: M3 = zeta D3 r holds the spin: r = -0.06/(0.02*9) = -1/3 rad/s, reached at the rate zeta."""
     from stabilab.analysis.theory import theory

@@ -9,15 +9,16 @@ from .models import family
 REVOLUTION = np.linspace(0.0, 1.0, 721)  # shares of a period at which the nutation is looked at
 
 
-def theory(case, order: int | None = None) -> list[dict]:
+def theory(case, order: int | None = None, model: str | None = None) -> list[dict]:
     """A list of {"about", "words", "values"}: values by name, with the unit in the words; none where no theory applies or the
-    case gives no motion. order: of the top's expansion."""
+    case gives no motion. order: of the top's expansion; model: "printed" adds the misprints of the charged body's paper."""
     module = family(case.scene)
     if module is None or case.state is None:
         return []
     told = {"axisymmetric_model": _axisymmetric, "averaging_model": _averaged, "small_parameter_model": _top}
     try:
-        return told[module.__name__.rpartition(".")[2]](case, order)
+        rows = told[module.__name__.rpartition(".")[2]](case, order)
+        return rows + (_misprints() if model == "printed" and module.MODELS[0] == "linear" else [])
     except InputError as error:
         return [_row("theory", f"no answer: {error}")]
 
@@ -29,6 +30,11 @@ def lines(rows) -> list[str]:
 
 def _row(about, words, **values):
     return {"about": about, "words": words, "values": values}
+
+
+def _misprints():
+    from .axisymmetric_printed import MISPRINTS
+    return [_row(f"misprint, {where}", f"{what}: {wrong}; right: {right}") for where, (what, wrong, right) in MISPRINTS.items() if wrong]
 
 
 def _pair(z):
@@ -94,7 +100,7 @@ def _top(case, order):
             for r in motion.resonances]
     if motion.order < 0 or motion.status == "diverging":
         return rows + [_row("periodic motion", f"{motion.status}: {motion.reason}")]
-    rows.append(_row("periodic motion", f"period {motion.period:.12g} s; the free wobble turns at Omega^2 = {motion.Omega2:.6g} of the squared spin",
+    rows.append(_row("periodic motion", f"by the expansion of order {motion.order}: period {motion.period:.12g} s; the free wobble turns at Omega^2 = {motion.Omega2:.6g} of the squared spin",
                      period=motion.period, Omega2=motion.Omega2))
     theta = periodic_angles(motion, motion.period * REVOLUTION).theta
     rows.append(_row("nutation", f"theta between {theta.min():.10g} and {theta.max():.10g} rad", least=float(theta.min()), greatest=float(theta.max())))
