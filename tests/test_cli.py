@@ -42,7 +42,7 @@ def test_classify_answers_once_per_case_with_the_documented_keys(classified):
         assert answer["schema"] == "stabilab.classify/1" and answer["variables"] in ("scaled", "physical")
         assert {"kind", "reason", "points", "curves"} <= answer["equilibria"].keys()
         assert {"at", "fate", "axis", "because", "margin", "period", "extremes", "invariants"} <= answer["motion"].keys()
-        assert answer["motion"]["margin"].keys() == {"energy", "angular_velocity"}
+        assert answer["motion"]["margin"].keys() == {"energy", "angular_velocity", "bounds", "witness", "because"}
         for point in answer["equilibria"]["points"]:
             assert point.keys() == {"at", "eigenvalues", "linear", "verdict", "because"}
             assert np.shape(point["eigenvalues"]) == (len(point["at"]), 2)

@@ -1,11 +1,16 @@
 """Separatrix sheets: vertices on the surface to rounding, rows from the fold outward, and what lies on either side."""
 from __future__ import annotations
 
+import math
+
 import mpmath as mp
 import numpy as np
 import pytest
 
 import stabilab
+from stabilab.analysis.distance import distance_of
+from stabilab.analysis.motion import motion
+from stabilab.analysis.reduction import reduce
 from stabilab import Fate
 
 from .oracles import energy
@@ -347,7 +352,8 @@ def test_distance_next_to_a_fold_is_that_of_a_dense_cloud_of_vertices(spread):
 @pytest.mark.parametrize("name", ["minor a<b", "both components", "middle, c = 3"])
 def test_no_vertex_is_nearer_than_the_distance_says(name):
     """States off the saddles and on the plane of symmetry, W = 0, where the distance may be stationary without being least:
-    a search that starts there on a ridge stays. Vertices are an upper bound that owes nothing to the search."""
+    a search that starts there on a ridge stays. Vertices are an upper bound that owes nothing to the search; those where the
+    margin in energy is not zero part a well from a wider one that a higher barrier closes, and there no fate changes."""
     scene, problem = SCENES[name]
     sheets = stabilab.separatrix(scene, shape=(300, 401)).sheets
     cloud = np.concatenate([sheet.points.reshape(-1, 3) for sheet in sheets])
@@ -357,8 +363,10 @@ def test_no_vertex_is_nearer_than_the_distance_says(name):
     states = np.array(states)
     states[:, axis_of(problem)] = sheets[0].saddle[0, axis_of(problem)]
     margins = stabilab.fate(scene, states).velocity_margins
-    nearest = np.array([np.linalg.norm(cloud - state, axis=1).min() for state in states])
-    assert np.all(margins <= nearest * (1 + 1e-9))
+    for state, margin in zip(states, margins):
+        nearer = cloud[np.linalg.norm(cloud - state, axis=1) < margin * (1 - 1e-9)]
+        assert name == "both components" or not len(nearer)
+        assert np.all(stabilab.fate(scene, nearer[::97]).margins > 1e-9)
 
 
 def test_distance_reaches_a_loop_that_a_second_barrier_is_about_to_open():
@@ -369,3 +377,108 @@ def test_distance_reaches_a_loop_that_a_second_barrier_is_about_to_open():
     cloud = np.concatenate([sheet.points.reshape(-1, 3) for sheet in stabilab.separatrix(scene, reach=5.6, shape=(700, 801)).sheets])
     nearest = np.linalg.norm(cloud - state, axis=1).min()
     assert nearest * (1 - 1e-3) < stabilab.fate(scene, state).velocity_margins <= nearest
+
+
+# --- the distance's proved lower bound and its witness
+def distance(inertia, wheel, torque, state):
+    return distance_of(reduce(physical(inertia, wheel, torque)[0]), state)
+
+
+def test_a_sheet_that_nears_an_invariant_plane_is_found_however_near_it_is():
+    """omega1 = -4 + 1e-62 and -4 + 1e-63 have margins of either sign, so a sheet passes within 1e-62 of the plane
+    2 (omega1 + 4)^2 = omega2^2, whose distance is that of a line from a point in its plane: 0.1 sqrt(2/3)."""
+    found = distance((4, 2, 3), (4, 0, 0), (0, 0, -1.5), (-3.9, 0.0, 20.0))
+    assert found.settled and found.upper == pytest.approx(0.1 * math.sqrt(2 / 3), rel=1e-9)
+
+
+def random_scene(rng):
+    """A body of one of the geometries with wheel and torque along it, and a state near or far."""
+    moments = rng.uniform(1, 2, 3)
+    if rng.random() < 0.25:
+        moments[1] = moments[0]
+    wheel, torque, axis = rng.normal(size=3), np.zeros(3), rng.integers(3)
+    wheel[axis] = 0
+    wheel *= rng.random(3) < 0.7
+    torque[axis] = rng.normal() * (rng.random() < 0.8)
+    return moments, wheel, torque, rng.normal(size=3) * 10.0 ** rng.uniform(-2, 1.5)
+
+
+def inside(found, state, scene, rng, rays=12, steps=60):
+    """Least distance within the lower bound at which the margin in energy passes through zero along random rays, or None."""
+    ways = rng.normal(size=(rays, 3)) + 2 * (np.array(found.witness) - state) / found.upper
+    ways /= np.linalg.norm(ways, axis=1, keepdims=True)
+    at = np.linspace(0, found.lower * (1 - 1e-9), steps)
+    margins = stabilab.fate(scene, state + ways[:, None] * at[:, None]).margins
+    scale = np.abs(margins[np.isfinite(margins)]).max(initial=0.0)
+    for ray, row in zip(ways, margins):
+        for low, high, a, b in zip(at, at[1:], row, row[1:]):
+            if np.isfinite(a + b) and a * b < 0:
+                for _ in range(50):
+                    middle = 0.5 * (low + high)
+                    value = float(stabilab.fate(scene, state + ray * middle).margins)
+                    low, high = (middle, high) if value * a > 0 else (low, middle)
+                if abs(value) < 1e-7 * scale:
+                    return middle
+    return None
+
+
+def check_distances(number, seed):
+    """How many of the brackets are settled; each is a bracket, and no margin changes its sign nearer than its lower bound."""
+    rng, settled, known = np.random.default_rng(seed), 0, 0
+    while known < number:
+        moments, wheel, torque, state = random_scene(rng)
+        scene = physical(moments, wheel, torque)[0]
+        if (reduction := reduce(scene)) is None:
+            continue
+        found = distance_of(reduction, state.tolist())
+        assert 0 <= found.lower <= found.upper
+        if found.witness is None:
+            continue
+        known += 1
+        settled += found.settled
+        assert np.linalg.norm(np.array(found.witness) - state) == pytest.approx(found.upper, rel=1e-9)
+        if torque.any():  # without torque the margin is the highest barrier's alone
+            assert inside(found, state, scene, rng) is None, (moments, wheel, torque, state)
+    return settled
+
+
+def test_no_margin_changes_its_sign_nearer_than_the_lower_bound():
+    assert check_distances(12, 5) >= 11
+
+
+@pytest.mark.slow
+def test_no_margin_of_many_random_scenes_changes_its_sign_nearer_than_the_lower_bound():
+    assert check_distances(2000, 6) >= 1900
+
+
+@pytest.mark.parametrize("inertia, wheel, torque, state", [
+    ((3, 2, 1.5), (0.4, -0.7, 0), (0, 0, 0.3), (-0.3, 1.2, 0.4)), ((3, 2, 2.5), (3, -2, 0), (0, 0, 0.2), (1.0, 2.0, -3.0)),
+    ((3, 3, 1), (0.3, 0.2, 0), (0, 0, 0.1), (1.0, 2.0, 3.0))])
+def test_relabelled_and_mirrored_scenes_are_as_far_from_their_separatrix(inertia, wheel, torque, state):
+    """Cyclic names of the axes, and half a turn about axis 3, are rotations of the same body."""
+    first = distance(inertia, wheel, torque, state)
+    turn = lambda v, n: tuple(np.roll(v, n).tolist())
+    half = lambda v: (-v[0], -v[1], v[2])
+    others = [distance(*(turn(v, n) for v in (inertia, wheel, torque, state))) for n in (1, 2)]
+    others.append(distance(inertia, half(wheel), torque, half(state)))
+    others.append(distance(inertia, wheel, torque, (*state[:2], -state[2])))  # the separatrix is symmetric in the rate of its axis
+    assert first.settled and all(o.settled and o.upper == pytest.approx(first.upper, rel=1.1e-9) for o in others)
+
+
+def test_two_equal_moments_have_a_separatrix_where_the_quartic_valley_has_a_barrier():
+    """On a parabola the margin is that of a quartic: the witness, moved along its line, is on either side of it."""
+    scene, state = physical((3, 3, 1), (0.3, 0.2, 0), (0, 0, 0.1))[0], np.array([1.0, 2.0, 3.0])
+    found = distance_of(reduce(scene), state.tolist())
+    way = np.array(found.witness) - state
+    before, after = stabilab.fate(scene, np.array([state + way * (1 - 1e-6), state + way * (1 + 1e-6)])).margins
+    assert found.settled and before * after < 0 and abs(before) < 1e-4
+
+
+@pytest.mark.parametrize("inertia, wheel, torque, state", [
+    ((1.0, 1.0000649330345721, 0.009103227291082629), (0, -42951531.77014759, 0), (0, 0, -1.0000649330345721), (0.0, 0.0, 0.0)),
+    ((1.0, 0.4988300420368622, 1.000000010254544), (0, -0.500000005127272, -0.18134422971955058), (-1.5000000153818163, 0, 0),
+     (0.0, -0.10657666490228779, -3.0))])
+def test_moments_almost_equal_give_a_bracket_where_the_search_cannot_close(inertia, wheel, torque, state):
+    found = motion(physical(inertia, wheel, torque)[0], state)
+    low, high = found.velocity_bounds
+    assert 0 <= low <= high and (high - low <= 1e-9 * high or found.velocity_because and found.margin_velocity == low)

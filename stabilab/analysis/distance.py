@@ -1,188 +1,317 @@
-"""How far a state is from the separatrix: the smallest change of the three rates that reaches it.
+"""How far a state is from the separatrix: the smallest change of the three rates that reaches it, with a proof and a witness.
 
-Each sheet of the separatrix is a surface in two parameters: along its branch of saddles (from the fold outward) and round the
-loop of each saddle. A coarse grid over all sheets finds the neighbourhoods of the nearest points, Newton's method on the
-squared distance refines them. In plain floats: the question concerns one state at a time and needs no arrays.
+The separatrix is the set of states whose fate is to tend to a saddle of the reduced potential: the loops of all saddles, on a
+circle under a torque of those that no higher barrier stands beside (`shade`), swept along the branches of saddles. Branch and
+bound over these sheets (`nearest`) brings a proved lower bound and a point of the separatrix together; where the doubles or the
+number of boxes do not reach that far, both are told as a bracket. A sheet that nears an invariant plane is followed in coordinates of
+its own (`plane_chart`).
+
+Without a torque the states of an invariant plane whose energy exceeds that of the resting centre tend to a rotation about the
+axis and are on the separatrix too: a flat piece, bounded by the loops' limit n^2 W^2/2 = u(xi, eta). Its distance is that of
+the plane where the foot of the perpendicular has the energy; else the nearest point is on that limit, where the sheets end.
+With a torque no point of the planes is a limit of sheets but the curve of each saddle on them: a sheet beside a plane keeps
+eta = eta* exp(-(n^2 W^2/2 + ...)/mu) > 0 at every rate W.
 """
 from __future__ import annotations
 
 import math
-from .conic import Conic
-from .loop import loop_end, settled_on
-from .potential import potential
-from .reduction import reduce
-from .saddle_branches import FOLD, PLANE, foot, on_line, saddle_branches, sides
+from fractions import Fraction
+from typing import NamedTuple
 
-ROWS, COLUMNS, STARTS, NEWTON = 28, 11, 3, 40
-GRADING = 3  # s = t^3: rows uniform in t crowd at the fold, where a sheet narrows to a point
-TO_PLANE = 24.0  # and near an invariant plane 1 - s falls to exp(-TO_PLANE), as loops grow there with the root of 1/(1 - s)
-OFF = 0.25 / (COLUMNS - 1)  # starts keep off the saddle and the far end, where symmetry may hold a search on a ridge
-STEP = 1e-4  # of the differences that give the surface's tangents and curvature
+from .balls import DOUBLE_BITS, Unclear
+from .conic import Conic
+from .nearest import nearest
+from .parabola_chart import ParabolaChart, parabola_seen, rectangle
+from .plane_chart import PlaneChart, plane_roots
+from .precise import decide
+from .sheet_chart import Chart, Hyperbola, Seen, Straight
+from .shade import Shade
+
+AGREE = 1e-9  # relative: nearer than that, lower bound and witness are one number
+INF = math.inf
+
+
+class Apart(NamedTuple):
+    """The distance of a state from the separatrix lies in [lower, upper]; witness: a point of it (three rates) at `upper`.
+
+    inf, inf, None where the scene has no separatrix. because: why the two are apart by more than AGREE, else empty.
+    """
+
+    lower: float
+    upper: float
+    witness: tuple[float, float, float] | None
+    because: str = ""
+    boxes: int = 0
+
+    @property
+    def value(self) -> float:
+        """The distance where it is known to AGREE, else what it certainly is not below."""
+        return self.upper if self.settled else self.lower
+
+    @property
+    def settled(self) -> bool:
+        return self.upper == self.lower or self.upper - self.lower <= AGREE * self.upper
+
+
+NO_SEPARATRIX = Apart(INF, INF, None)
+UNKNOWN = Apart(0.0, INF, None, "the numbers of this scene are beyond what the search for the nearest point of the separatrix holds")
+ENDED = "the search ended before its proved lower bound met the nearest point found"
 
 
 def separatrix_distance(scene, states):
     """Euclidean distance (...,) of states (..., 3) from the nearest point of the scene's separatrix, in the unit of the
-    states; inf where the scene has none."""
+    states: to 1e-9, or a proved lower bound; inf where the scene has none."""
     import numpy as np
+    from .reduction import reduce
     array = np.asarray(states, float)
     reduction = reduce(scene)
-    flat = [distance_of(reduction, state) for state in array.reshape(-1, 3).tolist()]
+    flat = [distance_of(reduction, state).value for state in array.reshape(-1, 3).tolist()]
     return np.array(flat, float).reshape(array.shape[:-1])
 
 
-def distance_of(reduction, state) -> float:
-    """The distance of one state (three floats) of a scene with this reduction (None: it has none, so inf)."""
-    if reduction is None or reduction.e == 0:
-        return math.inf
-    geometry = _Geometry(reduction, state)
-    grids = sorted((_Grid(sheet) for sheet in geometry.sheets()), key=lambda grid: grid.least)
-    best = min((grid.least for grid in grids), default=math.inf)
-    for grid in grids:
-        best = _refined(grid, best)
+def distance_of(reduction, state) -> Apart:
+    """The distance of one state (three floats or Fractions) of a scene with this reduction (None: it has none)."""
+    if reduction is None:
+        return NO_SEPARATRIX
+    state = tuple(v if isinstance(v, Fraction) else float(v) for v in state)
+    try:
+        found = (_on_conic if reduction.e else _on_parabolas)(reduction, state)
+    except (Unclear, ArithmeticError):
+        return UNKNOWN
+    return found if found.settled else found._replace(because=ENDED)
+
+
+# --- circles and hyperbolas
+def _on_conic(reduction, state) -> Apart:
+    seen, conic = Seen.of(reduction, state), Conic(reduction)
+    arcs = list(_arcs(conic, seen))
+    if not arcs and not (seen.e > 0 and reduction.sense == 0):
+        return NO_SEPARATRIX
+    shade = _shade(reduction, state, arcs)
+    flat = _flat_pieces(seen, reduction.sense)
+    start = min([_first(seen, arc, shade) for arc in arcs] + flat, key=lambda one: one[0], default=None)
+    if start is None:
+        return NO_SEPARATRIX
+    charts = [chart for arc in arcs for chart in arc.charts(seen, reduction.sense, start[0])]
+    if seen.e > 0:
+        charts += _plane_charts(seen, conic, start[0])
+    found = nearest(charts, seen.plain["w"], start[0] * (1 + 1e-14) + 1e-300, genuine=shade)
+    place = start[1] if found.chart is None else _place(found)
+    return Apart(found.lower, found.upper, _rates(reduction, seen, place, state), "", found.boxes)
+
+
+class _Arc(NamedTuple):
+    """A branch of saddles: t from low to high (inf: open) along a curve."""
+
+    curve: object
+    low: float
+    high: float
+
+    def window(self, seen, upper):
+        """The part of [low, high] whose saddles' orbits come within `upper` of the state."""
+        g = seen.plain
+        reach = math.hypot(g["X"], g["Z"]) + upper * (1 + 1e-9) / math.sqrt(min(g["a"], g["b"]))
+        if seen.e > 0:
+            return self.low, self.high  # the saddles of a hyperbola lie within a circle
+        low, high = self.curve.window(reach)
+        return max(self.low, low), min(self.high, high)
+
+    def charts(self, seen, sense, upper):
+        t = self.window(seen, upper)
+        if not t[0] <= t[1]:
+            return
+        if seen.e < 0:
+            y = (-2 * math.pi, 0.0) if sense else (-math.pi, math.pi)
+        else:
+            y = _ways(seen, self, upper)
+        yield Chart(seen, self.curve, t, y)
+
+
+def _arcs(conic, seen):
+    """The branches of saddles."""
+    for piece in conic.pieces:
+        if piece.barrier:
+            low = math.log(piece.inner) if piece.inner else -INF
+            high = math.log(piece.outer) if piece.outer < INF else INF
+            curve = Hyperbola(seen, piece.sign)
+            yield _Arc(curve, low, high)
+    for line in conic.lines:
+        curve = Straight(line)
+        knots = sorted({-INF, *_knots(conic, line), INF})
+        for low, high in zip(knots, knots[1:]):
+            if _slope(seen, *curve.at(_between(low, high))[:2]) > 0:
+                yield _Arc(curve, low, high)
+
+
+def _knots(conic, line):
+    from .saddle_branches import foot
+    yield foot(conic, line)
+    if conic.G:  # where the two lines cross
+        yield -conic.d / conic.G - line.z0 if line.dz else -conic.c / conic.G - line.x0
+
+
+def _between(low, high):
+    if low == -INF:
+        return high - 1 - abs(high) if high < INF else 0.0
+    return low + 1 + abs(low) if high == INF else 0.5 * (low + high)
+
+
+def _slope(seen, x, z):
+    g, e = seen.plain, seen.e
+    return g["G"] * (z * z + e * x * x) + e * g["c"] * x + g["d"] * z
+
+
+def _shade(reduction, state, arcs):
+    """What may shade a sheet: only a state that a barrier holds sees the difference, and only where there are two barriers."""
+    if reduction.e > 0 or not reduction.sense or len(arcs) < 2:
+        return None
+    if decide(reduction, state, DOUBLE_BITS).sign < 0:
+        return None
+    g = reduction.constants
+    return Shade((g["G"], g["c"], g["d"], g["mu"]))
+
+
+def _first(seen, arc, shade):
+    """(distance, (X, Z, W)) of the nearest of some saddles of a branch that count."""
+    g = seen.plain
+    size = math.hypot(g["X"], g["Z"])
+    places = []
+    ends = [t for t in (arc.low, arc.high) if math.isfinite(t)]
+    near = arc.curve.window(2 * size + 1e-300)
+    for low, high in ((arc.low, arc.high), near, (ends[0] - 1, ends[-1] + 1) if ends else near):
+        low, high = max(low, arc.low), min(high, arc.high)
+        if math.isfinite(low) and math.isfinite(high) and low <= high:
+            places += [low + (high - low) * n / 8 for n in range(9)]
+    best = INF, None
+    for t in places:
+        x, z = arc.curve.at(t)[:2]
+        distance = math.sqrt(g["a"] * (x - g["X"]) ** 2 + g["b"] * (z - g["Z"]) ** 2 + g["w"] ** 2)
+        if distance < best[0] and (shade is None or shade(Chart(seen, arc.curve, (t, t), (0.0, 0.0)), t, 0.0)):
+            best = distance, (x, z, 0.0)
     return best
 
 
-class _Geometry:
-    """A reduction seen from one state: places in canonical variables, distances in the scene's own unit.
-
-    The separatrix is symmetric in W, and so is the distance up to the sign of the state's: its nearest point has that sign.
-    """
-
-    def __init__(self, reduction, state):
-        self.e, self.sense = reduction.e, reduction.sense
-        self.pot, self.conic = potential(reduction), Conic(reduction)
-        g = reduction.constants
-        self.rx, self.rz, self.n = g["rx"], g["rz"], g["n"]
-        self.x, self.z, self.w = map(float, reduction.canonical_exact(state))
-        self.w = abs(self.w)
-
-    def away(self, saddle, y, turned):
-        """Vector from the state to the loop's point at offset y from a saddle, W of the sign of `turned`."""
-        w = math.copysign(math.sqrt(2 * max(-self.pot.rise(y, saddle), 0.0)), turned)
-        first, second = self.pot.move(saddle, y)
-        x, z = (first, second) if self.e < 0 else (0.5 * (first + second), 0.5 * (first - second))
-        return self.rx * (x - self.x), self.rz * (z - self.z), (w - self.w) / self.n
-
-    def sheets(self):
-        """The sheets that may hold the nearest point: it lies no further out than the state plus its distance to a fold (or,
-        where the saddles are on lines, to the innermost of them)."""
-        conic = self.conic
-        ends = [conic.at(h) for h in conic.folds] + [on_line(line, foot(conic, line)) for line in conic.lines] or [(0.0, 0.0)]
-        far = min(math.hypot(self.rx * (x - self.x), self.rz * (z - self.z), self.w / self.n) for x, z in ends)
-        radius = math.hypot(self.x, self.z) + far / min(abs(self.rx), abs(self.rz))
-        limit = max(4 * max(x * x + z * z for x, z in ends), 1.1 * radius * radius)
-        for branch in saddle_branches(conic, self.pot, limit):
-            for side, _ in sides(self.e, self.sense):
-                yield _Sheet(self, branch, side)
+def _ways(seen, arc, upper):
+    """(y_low, y_high) of the loops of a branch on a hyperbola, up to where the charts beside the planes take over."""
+    g = seen.plain
+    ends = []
+    for flip in (-1.0, 1.0):  # against the orbit eta grows, along it xi
+        far = _window_of(g, flip, upper)
+        most = max(map(abs, far))
+        gap = min(_on_plane_share(g, arc, flip), default=0.0)
+        ends.append(max(math.log(most / gap), 0.0) + 0.01 if gap and most else 0.01)
+    return -ends[0], ends[1]
 
 
-class _Sheet:
-    """Points over (t, phi): saddles from the fold (t = 0) outward, round each loop from its far end (phi = 0) to the saddle
-    (phi = 1); phi < 0 is the other half of the loop."""
-
-    def __init__(self, geometry, branch, side):
-        self.geometry, self.branch, self.side = geometry, branch, side
-
-    def loop(self, t):
-        """(saddle, signed length of its loop), None where no loop closes."""
-        g, s = self.geometry, t ** GRADING
-        if self.branch.far == PLANE:
-            s = 1 - (1 - s) * math.exp(-TO_PLANE * t ** 4)
-        elif self.branch.far == FOLD:  # rows crowd there alike
-            s = t * t * (3 - 2 * t)
-        saddle = self.branch.place(s)
-        if s == 0:
-            return saddle, 0.0
-        saddle = settled_on(g.pot, saddle)
-        end = loop_end(g.pot, g.e, g.sense, saddle, self.side)
-        return None if end is None else (saddle, self.side * end[0])
-
-    def away(self, loop, phi):
-        saddle, end = loop
-        return self.geometry.away(saddle, end * math.cos(0.5 * math.pi * phi) ** 2, phi)
+def _window_of(g, flip, upper):
+    """Least and greatest xi = X + flip Z within `upper` of the state."""
+    xi = g["X"] + flip * g["Z"]
+    wide = upper * (1 / math.sqrt(g["a"]) + 1 / math.sqrt(g["b"])) * (1 + 1e-9)
+    return xi - wide, xi + wide
 
 
-class _Grid:
-    """A sheet on a coarse grid: vectors from the state and their lengths, None where there is no loop."""
-
-    def __init__(self, sheet):
-        self.sheet = sheet
-        self.t = [row / (ROWS - 1) for row in range(ROWS)]
-        self.phi = [column / (COLUMNS - 1) for column in range(COLUMNS)]
-        self.away = []
-        for t in self.t:
-            loop = sheet.loop(t)
-            self.away.append(loop and [sheet.away(loop, phi) for phi in self.phi])
-        self.distance = {(r, c): math.hypot(*v) for r, row in enumerate(self.away) if row for c, v in enumerate(row)}
-        self.least = min(self.distance.values(), default=math.inf)
-
-    def cell(self, row, column) -> float:
-        """Size of the grid's cells about a vertex: no point of them is nearer than the vertex by more than that."""
-        here = self.away[row][column]
-        return 2 * max((math.dist(here, self.away[r][c]) for r in range(row - 1, row + 2) for c in range(column - 1, column + 2)
-                        if (r, c) in self.distance), default=0.0)
+def _on_plane_share(g, arc, flip):
+    """Sizes of xi = X + flip Z below which the saddles of a branch are those beside the plane, or none."""
+    curve, values = arc.curve, []
+    spots = [arc.low, arc.high]
+    if isinstance(curve, Hyperbola):
+        K, c, G, shift = curve.plain
+        turn = flip * K / G  # xi = K/(h G) + flip h - ... is stationary at h^2 = flip K/G
+        if turn > 0:
+            spots.insert(1, min(max(0.5 * math.log(turn), arc.low), arc.high))
+    for t in spots:
+        x, z = curve.at(t)[:2]
+        values.append(x + flip * z)
+    values = [0.0 if abs(v) <= 1e-13 * (abs(g["c"]) + abs(g["d"])) / abs(g["G"]) else v for v in values]
+    if min(values) > 0 or max(values) < 0:
+        return [min(map(abs, values))]
+    return [_regular_up_to(g, flip)] + [0.5 * abs(v) for v in (values[0], values[-1]) if v]
 
 
-def _refined(grid, best) -> float:
-    """The least of `best` and the distances refined from the lowest separate basins of a coarse grid."""
-    left = dict(grid.distance)
-    for _ in range(STARTS):
-        if not left:
-            break
-        row, column = min(left, key=left.get)
-        if left[row, column] - grid.cell(row, column) < best:
-            phi = min(max(grid.phi[column], OFF), 1 - OFF)
-            best = min(best, _descent(grid.sheet, grid.t[row], phi, left[row, column]))
-        left = {at: d for at, d in left.items() if abs(at[0] - row) > 4 or abs(at[1] - column) > 2}
-    return best
+def _regular_up_to(g, flip):
+    """|xi| up to which the saddles beside the plane xi = 0 are smooth functions of xi."""
+    e1, e2 = 0.5 * (g["c"] + flip * g["d"]), 0.5 * (flip * g["d"] - g["c"])
+    rate2, G = e2 * e2 + g["G"] * flip * g["mu"], abs(g["G"])
+    if rate2 <= 0:
+        return 0.0
+    return min(0.125 * rate2 / (G * abs(e1)) if e1 else INF, 0.7 * math.sqrt(rate2) / G)
 
 
-def _descent(sheet, t, phi, least) -> float:
-    """The minimum of the distance near one vertex, by Newton's method with the surface's tangents and curvature from
-    differences; damped where the squared distance is not convex. Vectors, not distances, are differenced: the gradient is
-    then as accurate against the distance itself, however near the surface is."""
-    damping = 0.0
-    for _ in range(NEWTON):
-        t = min(max(t, 2 * STEP), 1 - 2 * STEP)
-        loops = [sheet.loop(t + k * STEP) for k in (-1, 0, 1)]
-        if None in loops:
-            return least
-        v = [[sheet.away(loop, phi + k * STEP) for k in (-1, 0, 1)] for loop in loops]
-        here = v[1][1]
-        along, round_ = _slope(v[0][1], v[2][1]), _slope(v[1][0], v[1][2])
-        bend = _bend(v[0][1], here, v[2][1]), _bend(v[1][0], here, v[1][2])
-        twist = tuple((a - b - c + d) / (4 * STEP * STEP) for a, b, c, d in zip(v[2][2], v[2][0], v[0][2], v[0][0]))
-        now = math.hypot(*here)
-        least = min(least, now)
-        gradient = _dot(along, here), _dot(round_, here)
-        squares = _dot(along, along), _dot(round_, round_)
-        aa, bb, ab = squares[0] + _dot(bend[0], here), squares[1] + _dot(bend[1], here), _dot(along, round_) + _dot(twist, here)
-        while True:
-            da, db = aa + damping * squares[0] + 1e-300, bb + damping * squares[1] + 1e-300
-            det = da * db - ab * ab
-            if da > 0 and db > 0 and det > 1e-6 * da * db:
-                move_t, move_phi = (ab * gradient[1] - db * gradient[0]) / det, (ab * gradient[0] - da * gradient[1]) / det
-                move_t, move_phi = max(-0.2, min(0.2, move_t)), max(-0.2, min(0.2, move_phi))
-                trial = sheet.loop(min(max(t + move_t, 2 * STEP), 1 - 2 * STEP))
-                if trial and math.hypot(*sheet.away(trial, phi + move_phi)) <= now * (1 + 1e-12):
-                    break
-            damping = max(4 * damping, 0.01)
-            if damping > 1e9:
-                return least
-        t, phi = t + move_t, phi + move_phi
-        damping = damping / 8 if damping > 0.02 else 0.0
-        if abs(move_t) + abs(move_phi) < 1e-9 or -_dot(gradient, (move_t, move_phi)) < 1e-15 * now * now:
-            return min(least, math.hypot(*sheet.away(trial, phi)))
-    return least
+def _plane_charts(seen, conic, upper):
+    g = seen.plain
+    for flip in (1.0, -1.0):
+        roots = plane_roots(g, flip < 0)
+        arcs = list(_arcs(conic, seen))
+        low, high = _window_of(g, flip, upper)
+        e1 = 0.5 * (g["c"] + flip * g["d"])
+        choices = [(root, low, high) for root in roots]
+        if not g["mu"] and e1 and conic.pieces:  # saddles begin at the centre, on one side of the plane
+            choices.append((0.0, max(low, 0.0) if e1 > 0 else low, min(high, 0.0) if e1 < 0 else high))
+        share = min((s for arc in arcs for s in _on_plane_share(g, arc, flip)), default=0.0)
+        for root, low, high in choices:
+            most = max(abs(low), abs(high))
+            if not low < high or not share:
+                continue
+            begin = max(math.log(most / share), 0.0) if most else 0.0
+            end = _farthest(g, flip, root, most, upper)
+            if begin < end:
+                xi0 = g["X"] + flip * g["Z"]
+                yield PlaneChart(seen, root, (low - xi0, high - xi0), (begin, end), flip < 0)
 
 
-def _slope(before, after):
-    return tuple((b - a) / (2 * STEP) for a, b in zip(before, after))
+def _farthest(g, flip, root, most, upper):
+    """The way y beyond which W is too great (or none is left); 720 where it makes no difference any more."""
+    mu, G = flip * g["mu"], abs(g["G"])
+    e1 = e2 = 0.5 * (abs(g["c"]) + abs(g["d"]))
+    if not mu:
+        return 720.0
+    other = 2 * (most * (0.125 * G * most + e1) + 2 * abs(root) * (G * abs(root) + e2)) + e1 * most
+    swing = 0.5 * g["n2"] * (g["w"] + upper) ** 2 if mu > 0 else 0.0
+    return (swing + other) / abs(mu) * (1 + 1e-9) + 1
 
 
-def _bend(before, here, after):
-    return tuple((a - 2 * h + b) / (STEP * STEP) for a, h, b in zip(before, here, after))
+def _flat_pieces(seen, sense):
+    """[(distance, foot)] of the planes of a hyperbola without torque, where the foot of the perpendicular is on the separatrix."""
+    if seen.e < 0 or sense:
+        return []
+    g, found = seen.plain, []
+    for flip in (1.0, -1.0):  # Z = flip X
+        x = (g["a"] * g["X"] + flip * g["b"] * g["Z"]) / (g["a"] + g["b"])
+        energy = 0.5 * g["n2"] * g["w"] ** 2 - x * (0.5 * g["G"] * x + g["c"] + flip * g["d"])
+        if energy >= 0:
+            apart = abs(g["X"] - flip * g["Z"]) * math.sqrt(g["a"] * g["b"] / (g["a"] + g["b"]))
+            found.append((apart, (x, flip * x, g["w"])))
+    return found
 
 
-def _dot(a, b) -> float:
-    return sum(u * v for u, v in zip(a, b))
+def _place(found):
+    return found.chart.place(found.t, found.y)
+
+
+def _rates(reduction, seen, place, state):
+    """The three rates at (X, Z, |W|/n), with W of the sign of the state's."""
+    x, z, w = place
+    r = reduction
+    out = [0.0] * 3
+    out[r.j], out[r.k] = r.component_j(x), r.component_k(z)
+    sign = 1.0 if Fraction(state[r.axis]) + r.s >= 0 else -1.0
+    out[r.axis] = sign * w - float(r.s)
+    return tuple(out)
+
+
+# --- parabolas
+def _on_parabolas(reduction, state) -> Apart:
+    constants = parabola_seen(reduction, state)
+    if constants is None:
+        return NO_SEPARATRIX
+    seen = Seen(0, *constants)
+    g = seen.plain
+    fold = (g["K"] ** 2 / abs(g["a"])) ** (1 / 3) or abs(g["v"]) or abs(g["a"])
+    upper = INF
+    for n in range(-8, 60):
+        N = math.copysign(fold * 2 ** (n / 4 if n > 0 else n if not g["K"] else 0), g["a"])
+        upper = min(upper, math.sqrt(((g["K"] / N - g["u"]) ** 2 + (N - g["v"]) ** 2) / g["kappa"] ** 2 + g["w"] ** 2))
+    t, y = rectangle(g, upper)
+    found = nearest([ParabolaChart(seen, t, y)], g["w"], upper * (1 + 1e-12))
+    witness = None if found.chart is None else found.chart.rates(reduction, state, found.t, found.y)
+    return Apart(found.lower, found.upper, witness, "", found.boxes)

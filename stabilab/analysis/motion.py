@@ -67,19 +67,20 @@ def _finite(value):
 
 def _rest(reduction, state, given, decided) -> dict:
     from .one_period import period_of
-    label = decided.label
-    apart = 0.0 if label == Fate.SEPARATRIX or decided.margin == 0 else _apart(reduction, state)
-    return {"margin_velocity": apart, "period": _repeats(period_of(reduction, given, label)),
+    return {**_apart(reduction, state, given, decided), "period": _repeats(period_of(reduction, given, decided.label)),
             "invariants": invariants_of(reduction, given)}
 
 
-def _apart(reduction, state):
-    """The distance from the separatrix; None where there is none, or where torque or wheel vanish beside the rates in doubles."""
+def _apart(reduction, state, given, decided) -> dict:
+    """The fields that tell the distance from the separatrix."""
     from .distance import distance_of
-    try:
-        return _finite(distance_of(reduction, state))
-    except ArithmeticError:
-        return None
+    if decided.label == Fate.SEPARATRIX or decided.margin == 0:
+        return {"margin_velocity": 0.0, "velocity_bounds": (0.0, 0.0), "velocity_witness": state}
+    found = distance_of(reduction, given)
+    if not math.isfinite(found.upper):
+        return {"velocity_because": found.because}
+    return {"margin_velocity": found.value, "velocity_bounds": (found.lower, found.upper), "velocity_witness": found.witness,
+            "velocity_because": found.because}
 
 
 def _repeats(time):

@@ -82,7 +82,10 @@ class Motion:
     axis: 1, 2, 3 of the spin-up, 0 otherwise; sense: +1 or -1 of the spin-up, 0 otherwise.
     margin_energy: height of the barrier ahead minus energy (negative above it; None where no barrier stands ahead at
     this value of the invariant). margin_velocity: smallest change of the state that reaches the separatrix, at
-    whatever value of the invariant (None where the scene has none). period: None where the motion does not repeat. extremes: ((min, max),) * 3 over t >= 0, entries +-inf where
+    whatever value of the invariant, to 1e-9, or where that is not reached a number that it is proved not to be below
+    (None where the scene has none, or nothing is known: then velocity_because says why). velocity_bounds: (proved lower bound,
+    distance of velocity_witness), velocity_witness: a state on the separatrix as near as that; velocity_because: why the two
+    bounds are apart. period: None where the motion does not repeat. extremes: ((min, max),) * 3 over t >= 0, entries +-inf where
     unbounded, None where unknown; extremes_over: "all time" or the span they were searched over.
     """
 
@@ -93,6 +96,9 @@ class Motion:
     sense: int = 0
     margin_energy: float | None = None
     margin_velocity: float | None = None
+    velocity_bounds: tuple[float, float] | None = None
+    velocity_witness: tuple[float, float, float] | None = None
+    velocity_because: str = ""
     period: float | None = None
     extremes: tuple | None = None
     extremes_over: str = "all time"

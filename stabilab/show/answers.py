@@ -50,7 +50,8 @@ def _curve(c) -> dict:
 
 def _motion(m) -> dict:
     return {"at": m.at, "fate": m.fate.word, "axis": m.axis or None, "because": m.because,
-            "margin": {"energy": m.margin_energy, "angular_velocity": m.margin_velocity},
+            "margin": {"energy": m.margin_energy, "angular_velocity": m.margin_velocity, "bounds": m.velocity_bounds,
+                       "witness": m.velocity_witness, "because": m.velocity_because or None},
             "period": m.period, "extremes": m.extremes, "invariants": m.invariants,
             "sense": m.sense or None, "extremes_over": m.extremes_over, "evidence": m.evidence}
 
@@ -132,13 +133,28 @@ def _curve_lines(c) -> list[str]:
 def _motion_lines(case, m) -> list[str]:
     rate, time, energy = UNITS[case.variables]
     spin = f" about axis {m.axis}, sense {m.sense:+d}" if m.axis else ""
-    rows = [("margin, energy", m.margin_energy, energy), ("margin, rate", m.margin_velocity, rate), ("period", m.period, time)]
+    rows = [("margin, energy", _known(m.margin_energy), energy), ("margin, rate", _distance(m), rate),
+            ("period", _known(m.period), time)]
     lines = [f"motion from {_triple(m.at)}: {m.fate.word}{spin}", f"  {m.because}"]
-    lines += [f"  {name:<24}{_number(value)} {unit}".rstrip() for name, value, unit in rows if value is not None]
+    lines += [f"  {name:<24}{words} {unit}".rstrip() for name, words, unit in rows if words]
+    if m.velocity_because:
+        lines.append(f"  {'' if m.velocity_bounds else 'margin, rate unknown: '}{m.velocity_because}")
     lines += [f"  {_spaced(name):<24}{_number(value)}" for name, value in m.invariants.items()]
     lines += [f"  {_spaced(name):<24}{_number(value) if isinstance(value, float) else value}"
               for name, value in m.evidence.items() if value is not None]
     return lines + ([f"  least and greatest over {m.extremes_over}:"] + _extreme_lines(case, m.extremes) if m.extremes is not None else [])
+
+
+def _known(value) -> str:
+    return "" if value is None else _number(value)
+
+
+def _distance(m) -> str:
+    """The distance from the separatrix: a number where it is one to 1e-9, else its bounds."""
+    if m.velocity_because and m.velocity_bounds:
+        low, high = m.velocity_bounds
+        return f"between {_number(low)} and {_number(high)}"
+    return _known(m.margin_velocity)
 
 
 def simulation_text(case, run) -> str:

@@ -222,7 +222,9 @@ def _motion(case):
     if found.margin_energy is not None:
         rows.append(("energy below the separatrix", f"{found.margin_energy:.15g}"))
     if found.margin_velocity is not None:
-        rows.append(("smallest change of state to it", f"{found.margin_velocity:.15g}"))
+        low, high = found.velocity_bounds
+        rows.append(("smallest change of state to it", f"{low:.10g} to {high:.10g}: {found.velocity_because}"
+                     if found.velocity_because else f"{found.margin_velocity:.12g}"))
     if found.period is not None:
         rows.append(("period", f"{found.period:.15g} {case.scene.time_unit}"))
     if found.extremes is not None:
