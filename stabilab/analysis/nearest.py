@@ -82,19 +82,24 @@ class _Search:
         p = chart.point(t, y)
         if p.phi < -p.off[1]:
             return False
-        distance = math.sqrt(p.apart + p.off[0] + (abs(p.gap) + p.off[2]) ** 2)
+        distance = math.sqrt(p.apart + p.off[0] + p.gap * p.gap + self._off_gap(p))
         if not distance < self.upper or (self.genuine and not self.genuine(chart, t, y)):
             return False
         self.upper, self.at = distance, (chart, t, y)
         self.goal = (distance * (1 - CLOSE)) ** 2
         return True
 
+    def _off_gap(self, p):
+        """Error of the square of p.gap: next to W = 0 it is that of phi - 2 w0 sqrt(phi), where the root's own is large."""
+        off = p.off[2]
+        return min(2 * abs(p.gap) * off + off * off, p.off[1] + 2 * self.w * off)
+
     def bound(self, chart, t, dt, y, dy):
         """(lower bound of D over a box, inf where it holds no point; 0 or 1: the side that is better halved)."""
         if chart.misses(t, dt, y, dy, self.upper):
             return INF, 0
         p = chart.point(t, y)
-        off_r, off_phi, off_gap = p.off
+        off_r, off_phi, _ = p.off
         if p.phi > 0 and p.apart + p.gap * p.gap < self.goal:
             self.better(chart, t, y)
         r, f = (bends := chart.bends(t, dt, y, dy))[:3], bends[3:]
@@ -121,12 +126,12 @@ class _Search:
     def _forms(self, p, r, f, swing, w_low, w_high, t, dt, y, dy):
         """Smooth functions below D over the box."""
         w0, root = self.w, math.sqrt(max(p.phi, 0.0))
-        off_r, off_phi, off_gap = p.off
+        off_r, off_phi, _ = p.off
         for k in self._multipliers(p, root, dt, dy):
             s = min(max(w0 / (1 - k), w_low), w_high) if k < 1 else w_high
             touch = p.phi > 0 and abs(s - root) <= 1e-15 * s
             value = p.apart + (p.gap * p.gap if touch else (s - w0) ** 2 + k * (p.phi - s * s))
-            off = off_r + abs(k) * off_phi + (2 * abs(p.gap) * off_gap + off_gap**2 if touch else
+            off = off_r + abs(k) * off_phi + (self._off_gap(p) if touch else
                                               8e-16 * ((s + w0) * abs(s - w0) + abs(k) * (s * s + abs(p.phi))))
             bends = [(a[0] + k * b[0], a[1] + abs(k) * b[1]) for a, b in zip(r, f)]
             if touch and w0 > 0 and abs(s * (1 - k) - w0) <= 1e-14 * w0:  # the root is concave: its curvature over the box bends D upward
