@@ -76,7 +76,9 @@ def distance_of(reduction, state) -> Apart:
     state = tuple(v if isinstance(v, Fraction) else float(v) for v in state)
     try:
         found = (_on_conic if reduction.e else _on_parabolas)(reduction, state)
-    except (Unclear, ArithmeticError):
+    except (Unclear, ArithmeticError, ValueError):  # a logarithm of what has vanished in doubles is a ValueError
+        return UNKNOWN
+    if found.upper != found.upper or found.lower != found.lower:
         return UNKNOWN
     return found if found.settled else found._replace(because=ENDED)
 
