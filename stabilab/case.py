@@ -111,6 +111,8 @@ def load(path) -> Case:
     The case is scaled where the file has [scaled], gives the motion as x, or gives no motion and the torque as mu
     (and the scaling is defined); else physical. Decimals are read exactly, the motion is rounded once.
     """
+    if not isinstance(path, (str, os.PathLike)):
+        raise InputError(f"load: expected the path of a case file, got {path!r:.80}")
     path, text, data, faults = _read(path)
     return _built(path, text, data, faults)
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import lru_cache, reduce
 
+from .asked import checked_scene
 from .blocks import BLOCKS, ordered
 from .effects.base import cross, dot
 from .errors import InputError
@@ -63,7 +64,7 @@ def derive(scene, also=()) -> Equations:
 
     The state has the blocks that the scene's effects need, and those named in `also` (physical scenes only).
     """
-    return _scaled(scene) if scene.variables == "scaled" else _physical(scene, ordered((*scene.blocks, *also)))
+    return _scaled(scene) if checked_scene(scene).variables == "scaled" else _physical(scene, ordered((*scene.blocks, *also)))
 
 
 def values(equations) -> dict:

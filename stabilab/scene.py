@@ -27,6 +27,11 @@ class Scene:
 
     def __init__(self, body: Body, *effects: Effect):
         flat = tuple(effects[0]) if len(effects) == 1 and isinstance(effects[0], (tuple, list)) else tuple(effects)
+        if not isinstance(body, Body):
+            raise InputError(f"scene: expected a Body first, got {body!r:.80}")
+        for effect in flat:
+            if not isinstance(effect, Effect):
+                raise InputError(f"scene: expected effects after the body, such as Gyrostat or ConstantTorque, got {effect!r:.80}")
         names = [e.name for e in flat]
         for name in names:
             if names.count(name) > 1:

@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..compiled import TAYLOR_TOLERANCE, _equations, borrowed_taylor, form, heyoka_available, to_numpy
+from ..asked import real
 from ..errors import InputError
 from .own_unit import in_unit, own_unit
 from .trajectories import STEP_LIMIT, _rtol, _times, trajectory
@@ -88,7 +89,7 @@ def _by_units(scene, starts, times, rtol, workers, units):
 def _starts(equations, states):
     wanted = len(equations.state)
     try:
-        array = np.asarray(states, float)
+        array = np.asarray(real(np.asarray(states), "states"), float)
     except (TypeError, ValueError):
         raise InputError(f"states: expected rows of {wanted} numbers, got {states!r}") from None
     if array.ndim != 2 or array.shape[1] != wanted or not len(array):

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..asked import checked_span
 from ..errors import InputError
 from .effective import effective
 from .far_states import far_numbers, far_rows
@@ -33,6 +34,7 @@ def extremes(scene, states, span=None, digits: int | None = None, fast: bool | N
     may compile the work; None where it is installed and pays. Raises InputError as `fate` does, and where fast=True
     finds no numba.
     """
+    span = _length(span)
     if digits is not None:
         from .precision_questions import ask_all
         return ask_all("extremes", scene, states, digits, span).required().values
@@ -41,6 +43,12 @@ def extremes(scene, states, span=None, digits: int | None = None, fast: bool | N
         from .irreducible import extremes_one_by_one
         return extremes_one_by_one(scene, array.reshape(-1, 3), span).reshape(array.shape + (2,))
     return extremes_and_periods(scene, array, fast, period=False)[0]
+
+
+def _length(span):
+    """The length of a span; None where none is given."""
+    ends = checked_span(span)
+    return None if ends is None else ends[1] - ends[0]
 
 
 def extremes_and_periods(scene, states, fast: bool | None = None, *, box=True, period=True):

@@ -13,6 +13,7 @@ from functools import cached_property
 
 import numpy as np
 
+from ..asked import real
 from ..errors import InputError
 from .barrier_table import barrier_table
 from .effective import effective
@@ -80,7 +81,7 @@ def _told(reason, label, margin) -> str:
 def checked_states(states) -> np.ndarray:
     """States as a float array (..., 3); InputError otherwise."""
     try:
-        array = np.asarray(states, dtype=float)
+        array = np.asarray(real(np.asarray(states), "states"), dtype=float)
     except (TypeError, ValueError):
         raise InputError("states: expected numbers in an array of shape (..., 3)") from None
     if array.ndim < 1 or array.shape[-1] != 3:

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import math
 
+from ..asked import checked_scene, checked_span, real
 from .far_states import far_exponent, in_range, in_scene_unit, own
 from .one_state import extremes_of, fate_of, invariants_of
 from .reduction import reduce
@@ -17,7 +18,8 @@ def motion(scene, state, span=None, brief=False, exact=None) -> Motion:
     time (period, margin_velocity, invariants) may be left out. exact: the three rates as they were given (Fractions), of
     which `state` is the rounding: where the motion has a reduction the answer is theirs. Raises InputError as `fate` does.
     """
-    if not scene.plain:
+    span = checked_span(span)
+    if not checked_scene(scene).plain:
         from .other_motion import other_motion
         found = other_motion(scene, state, span, exact)
         if found is not None:
@@ -46,7 +48,7 @@ def _reduced(reduction, state, given, decided, brief, k=0) -> Motion:
 def _checked(state) -> tuple[float, float, float]:
     """Three finite floats; InputError otherwise."""
     try:
-        values = tuple(map(float, state))
+        values = tuple(map(float, real(state, "states")))
         if len(values) == 3 and all(map(math.isfinite, values)):
             return values
     except (TypeError, ValueError):

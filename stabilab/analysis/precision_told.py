@@ -44,7 +44,7 @@ def short(told) -> str:
 
 def checked_digits(digits, most: int) -> int:
     """The number of digits, if it can be asked for."""
-    if not (isinstance(digits, int) and 1 <= digits <= most):
+    if not (isinstance(digits, int) and not isinstance(digits, bool) and 1 <= digits <= most):
         raise InputError(f"digits: expected a whole number from 1 to {most}, got {digits!r}")
     return digits
 

@@ -13,6 +13,7 @@ import numpy as np
 from ..blocks import BLOCKS, ORDER, slices
 from ..compiled import FEATHER, TAYLOR_TOLERANCE, _equations, borrowed_taylor, form, heyoka_available, to_numpy
 from ..equations import derive
+from ..asked import real
 from ..errors import InputError
 from .array_results import Trajectory
 from .own_unit import in_unit, mass_unit, own_unit
@@ -124,7 +125,7 @@ def _by_quadrature(scene, equations, state, times, rtol):
 
 def _numbers(values, name):
     try:
-        array = np.atleast_1d(np.asarray(values, float))
+        array = np.atleast_1d(np.asarray(real(np.asarray(values), name), float))
     except (TypeError, ValueError):
         raise InputError(f"{name}: expected numbers, got {values!r}") from None
     if array.ndim != 1 or not array.size or not np.isfinite(array).all():

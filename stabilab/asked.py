@@ -1,0 +1,33 @@
+"""What the public functions are asked with: a scene, real numbers, a span. InputError for anything else."""
+from __future__ import annotations
+
+import math
+
+from .errors import InputError
+
+
+def checked_scene(scene):
+    """The scene itself, if it is one."""
+    if not (hasattr(scene, "plain") and hasattr(scene, "variables")):
+        raise InputError(f"scene: expected a Scene or a ScaledGyrostat, as of load(...).scene, got {scene!r:.80}")
+    return scene
+
+
+def checked_span(span) -> tuple[float, float] | None:
+    """(from, to) of a span given by its two ends, or by its length; None stays."""
+    if span is None:
+        return None
+    try:
+        ends = tuple(map(float, span)) if hasattr(span, "__len__") else (0.0, float(span))
+        if len(ends) == 2 and all(map(math.isfinite, ends)):
+            return ends
+    except (TypeError, ValueError):
+        pass
+    raise InputError(f"span: expected two finite times (from, to), or one length, got {span!r:.80}")
+
+
+def real(values, name: str):
+    """The values, if they are no complex numbers: NumPy would drop their imaginary parts."""
+    if getattr(getattr(values, "dtype", None), "kind", "") == "c":
+        raise InputError(f"{name}: expected real numbers, got complex ones")
+    return values
