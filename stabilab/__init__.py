@@ -19,7 +19,7 @@ _HOME = {
     "simulate": "analysis.simulation", "compare": "analysis.comparison", "theory": "analysis.theory",
     "Charge": "effects.charge", "Resistance": "effects.resistance", "LiquidCavity": "effects.liquid_cavity",
     "NewtonianField": "effects.newtonian_field", "Gravity": "effects.gravity", "BodyForce": "effects.body_force",
-    "derive": "equations",
+    "derive": "equations", "validity": "law_limits",
 }
 __all__ = [*_HOME, "__version__"]
 

@@ -21,6 +21,8 @@ CaseFiles = Annotated[List[Path], typer.Argument(metavar="CASE...", help="Case f
 Json = Annotated[bool, typer.Option("--json", help="JSON on stdout instead of text.")]
 Digits = Annotated[Optional[int], typer.Option(metavar="N", help="Reach N digits (1 to 50; default 10) the cheapest way and "
                                                                  "check them; exit 5 where they are not reached.")]
+Strict = Annotated[bool, typer.Option("--strict", help="Exit with 3 where a fate is undecided or an approximate law does not hold "
+                                                       "along the motion.")]
 
 
 def _version(wanted: bool):
@@ -50,7 +52,7 @@ def show(case: CaseFile):
 
 @app.command()
 def classify(cases: CaseFiles, json: Json = False, strict: Annotated[bool, typer.Option(
-        "--strict", help="Exit with 3 where a verdict or a fate is undecided.")] = False,
+        "--strict", help="Exit with 3 where a verdict or a fate is undecided or an approximate law does not hold.")] = False,
              certify: Annotated[bool, typer.Option("--certify", help="Prove the answer in exact numbers and balls, and write it as a "
                                                                      "certificate that `stabilab verify` checks.")] = False,
              out: Annotated[Path, typer.Option(metavar="FILE.json", help="Where the certificate goes.")] = Path("certificate.json")):
@@ -58,7 +60,7 @@ def classify(cases: CaseFiles, json: Json = False, strict: Annotated[bool, typer
 
     Example: stabilab classify cases/minor-axis-100.toml --json
     """
-    from .show import answers
+    from .show import answers, law
     from .show import certification
     loaded = _load(cases)
     if certify:
@@ -67,13 +69,16 @@ def classify(cases: CaseFiles, json: Json = False, strict: Annotated[bool, typer
             raise InputError(f"--certify: expected one case, got {len(cases)}; certify them one by one")
     answered = [(case, _equilibria(case), _motion(case) if case.state else None) for case in loaded]
     boxes, shown = _over_boxes(loaded, "equilibria", "fate")
+    laws = [law.worst(found.validity, motion and motion.validity) for _, found, motion in answered]
     if json:
-        _print(answers.as_json([answers.classification(*answer) | shown.as_dict(box) for answer, box in zip(answered, boxes)]))
+        _print(answers.as_json([answers.classification(*answer) | law.key(held) | shown.as_dict(box)
+                                for answer, held, box in zip(answered, laws, boxes)]))
     else:
-        _print("\n\n".join(answers.classification_text(*answer) + shown.text(box) for answer, box in zip(answered, boxes)))
+        _print("\n\n".join(law.first(held, answers.classification_text(*answer)) + shown.text(box)
+                           for answer, held, box in zip(answered, laws, boxes)))
     certified = all([_certified(case, out) for case in loaded]) if certify else True
     undecided = any(answers.undecided(found, motion) for _, found, motion in answered) or any(map(shown.undecided, boxes))
-    if strict and (not certified or undecided):
+    if strict and (not certified or undecided or law.beyond(*laws)):
         raise typer.Exit(UNDECIDED)
 
 
@@ -103,34 +108,35 @@ def verify(certificate: Annotated[Path, typer.Argument(metavar="CERTIFICATE", he
 
 @app.command()
 def extremes(cases: CaseFiles, json: Json = False,
-             csv: Annotated[bool, typer.Option("--csv", help="CSV on stdout instead of text.")] = False, digits: Digits = None):
+             csv: Annotated[bool, typer.Option("--csv", help="CSV on stdout instead of text.")] = False, digits: Digits = None,
+             strict: Strict = False):
     """Find the least and greatest rates of each motion.
 
     Example: stabilab extremes cases/minor-axis-*.toml --csv
     """
     if json and csv:
         raise typer.BadParameter("choose one of --json and --csv")
-    _tell("extremes", cases, digits, json, csv)
+    _tell("extremes", cases, digits, json, strict, csv)
 
 
 @app.command()
-def fate(cases: CaseFiles, json: Json = False, digits: Digits = None):
+def fate(cases: CaseFiles, json: Json = False, digits: Digits = None, strict: Strict = False):
     """Say what becomes of each motion, and by how much.
 
     Digits are those of the margin in energy; the label itself is certain.
 
     Example: stabilab fate cases/minor-axis-100.toml --digits 30
     """
-    _tell("fate", cases, digits, json)
+    _tell("fate", cases, digits, json, strict)
 
 
 @app.command()
-def period(cases: CaseFiles, json: Json = False, digits: Digits = None):
+def period(cases: CaseFiles, json: Json = False, digits: Digits = None, strict: Strict = False):
     """Find the period of each motion that repeats.
 
     Example: stabilab period cases/minor-axis-100.toml --digits 30
     """
-    _tell("period", cases, digits, json)
+    _tell("period", cases, digits, json, strict)
 
 
 @app.command()
@@ -148,7 +154,7 @@ def simulate(case: CaseFile,
                                                            "or --rtol is given.")] = None,
              angles: Annotated[bool, typer.Option("--angles", help="Euler angles psi, theta, phi of the vertical, too.")] = False,
              out: Annotated[Optional[Path], typer.Option(metavar="FILE.nc|.csv", help="Write the states to a file.")] = None,
-             json: Json = False):
+             json: Json = False, strict: Strict = False):
     """Follow a motion in time.
 
     Says how far the run departs from the laws of motion; with --model also what the theory says of the motion.
@@ -168,21 +174,24 @@ def simulate(case: CaseFile,
         _print_json(loaded, [_run_as_dict(*followed) for followed in runs])
     elif not out:
         _print("\n\n".join(_run_as_text(*followed) for followed in runs))
+    else:
+        _say_laws(run.validity for _, run, _ in runs)
     _judge_runs(runs)
+    _strictly(strict, (run.validity for _, run, _ in runs))
 
 
 @app.command()
 def compare(case: CaseFile,
             order: Annotated[Optional[int], typer.Option(min=1, help="Order of the lindstedt expansion.")] = None,
             out: Annotated[Optional[Path], typer.Option(metavar="FILE.csv", help="Write the errors over time.")] = None,
-            json: Json = False):
+            json: Json = False, strict: Strict = False):
     """Set the analytic models of a case beside its exact motion.
 
     Error over time, and when it first reaches 1 % and 10 %.
 
     Example: stabilab compare cases/charged-body.toml
     """
-    from .show import comparison
+    from .show import comparison, law
     loaded = _load([case], motion=True)
     if out:
         comparison.checked(out)
@@ -190,9 +199,10 @@ def compare(case: CaseFile,
     if out:
         _write_each(out, [(one, partial(comparison.write, one, found)) for one, found in compared])
     if json:
-        _print_json(loaded, [comparison.as_dict(*row) for row in compared])
+        _print_json(loaded, [comparison.as_dict(one, found) | law.key(found.validity) for one, found in compared])
     else:
-        _print("\n\n".join(comparison.text(*row) for row in compared))
+        _print("\n\n".join(law.first(found.validity, comparison.text(one, found)) for one, found in compared))
+    _strictly(strict, (found.validity for _, found in compared))
 
 
 @app.command()
@@ -200,7 +210,8 @@ def precision(case: CaseFile, json: Json = False,
               csv: Annotated[bool, typer.Option("--csv", help="CSV on stdout instead of text.")] = False,
               out: Annotated[Optional[Path], typer.Option(metavar="FILE.png|.svg|.pdf|.csv", help="Write the picture or the points.")] = None,
               until: Annotated[Optional[float], typer.Option(metavar="T", help="End of the span; default: the case's own.")] = None,
-              quick: Annotated[bool, typer.Option("--quick", help="Few settings: seconds instead of a minute.")] = False):
+              quick: Annotated[bool, typer.Option("--quick", help="Few settings: seconds instead of a minute.")] = False,
+              strict: Strict = False):
     """Measure what accuracy costs: every method, error and time.
 
     Judged by a Taylor series in many digits that knows its own error.
@@ -209,6 +220,7 @@ def precision(case: CaseFile, json: Json = False,
     """
     if json and csv:
         raise typer.BadParameter("choose one of --json and --csv")
+    from .show import law
     from .show import precision as shown
     from .analysis.precision import precision as measure
     from .analysis.precision_front import keep
@@ -221,14 +233,19 @@ def precision(case: CaseFile, json: Json = False,
     if out:
         _write_each(out, [(found.case, partial(shown.write, found)) for found in measured])
     if json:
-        _print_json(loaded, [shown.as_dict(found) for found in measured])
+        _print_json(loaded, [shown.as_dict(found) | law.key(found.validity) for found in measured])
+    elif csv:
+        _say_laws(found.validity for found in measured)
+        _print(shown.csv(*measured))
     else:
-        _print(shown.csv(*measured) if csv else "\n\n".join(map(shown.text, measured)))
+        _print("\n\n".join(law.first(found.validity, shown.text(found)) for found in measured))
     _all_reached((found.case, found.reference.reason) for found in measured if not found.questions)
+    _strictly(strict, (found.validity for found in measured))
 
 
 @app.command()
-def surface(case: CaseFile, out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the files.")] = ...):
+def surface(case: CaseFile, out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the files.")] = ...,
+            strict: Strict = False):
     """Write the separatrix surfaces as meshes and a picture.
 
     Files: .vtp, .glb, .stl, .png; a summary goes to stdout (JSON). Where there is no separatrix, it says why, and no
@@ -236,38 +253,44 @@ def surface(case: CaseFile, out: Annotated[Path, typer.Option(metavar="DIR", hel
 
     Example: stabilab surface cases/minor-axis-100.toml --out surfaces
     """
+    from .show import law
     from .show.surface import write_all
     loaded, unavailable = _load([case]), None
+    laws = [law.of_case(one) for one in loaded]
     try:
         summaries = write_all(loaded, out, arguments=sys.argv[1:])
     except RenderingUnavailable as error:
         if not hasattr(error, "summaries"):
             raise
         summaries, unavailable = error.summaries, error
-    _print_json(loaded, summaries)
+    _print_json(loaded, [summary | law.key(held) for summary, held in zip(summaries, laws)])
     for one, summary in zip(loaded, summaries):
         if not summary["sheets"]:
             _say(f"{one.name}: no surface to write: {summary['reason']}")
     if unavailable:
         raise unavailable
+    _strictly(strict, laws)
 
 
 @app.command()
 def plot(case: CaseFile, out: Annotated[Optional[Path], typer.Option(
-        metavar="FILE.png|.svg|.pdf", help="Picture to write; default: CASE.png in the current folder.")] = None):
+        metavar="FILE.png|.svg|.pdf", help="Picture to write; default: CASE.png in the current folder.")] = None,
+         strict: Strict = False):
     """Draw the motion of a case in its phase plane.
 
     Example: stabilab plot cases/middle-axis-double-well.toml --out double-well.png
     """
     from .case import blamed_on
-    from .show import endings
+    from .show import endings, law
     from .show.plane import plot as draw
     loaded, drawn = _load([case], motion=True), []
     target = endings.file(out or f"{printable(case.stem)}.png", endings.PICTURES)
     for one in loaded:
         with blamed_on(one):
             drawn.append(draw(one, endings.labelled(target, one)))
-    _print_paths(drawn, out)
+    laws = [law.of_case(one) for one in loaded]
+    _print("\n".join(law.first(held, str(path)) for held, path in zip(laws, drawn)))
+    _strictly(strict, laws)
 
 
 @app.command()
@@ -307,15 +330,22 @@ def figures(numbers: Annotated[Optional[List[int]], typer.Argument(
 @app.command()
 def report(cases: Annotated[Optional[List[Path]], typer.Argument(
                metavar="[CASE...]", help="Case files; none: those of the papers, which stabilab brings.", show_default=False)] = None,
-           out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the report.")] = Path("report")):
+           out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the report.")] = Path("report"),
+           strict: Strict = False):
     """Write tables, figures and surfaces as one web page.
 
     The folder needs no network: open its index.html.
 
     Example: stabilab report --out report
     """
-    from .show.report import write
-    _print_paths(write(_load(cases or []), out, arguments=sys.argv[1:]), Path(out) / "index.html")
+    from .show import law
+    from .show.report import of_all, write
+    loaded = _load(cases or [])
+    made = write(loaded, out, arguments=sys.argv[1:])
+    beyond = law.of_cases(of_all(loaded))
+    _print("\n".join(filter(None, (beyond, str(made)))))
+    if strict and beyond:
+        raise typer.Exit(UNDECIDED)
 
 
 @app.command()
@@ -393,24 +423,43 @@ def _motion(case, brief=False):
         return motion(case.scene, case.start, case.span, brief, case.exact_state)
 
 
-def _tell(question, paths, digits, json, csv=False):
+def _strictly(strict, validities):
+    """Exit with 3 where strict and an approximate law does not hold."""
+    from .show import law
+    if strict and law.beyond(*validities):
+        raise typer.Exit(UNDECIDED)
+
+
+def _say_laws(validities):
+    """How far approximate laws hold, beside a table that has no place for it."""
+    for validity in validities:
+        if validity is not None:
+            _say(validity.words)
+
+
+def _tell(question, paths, digits, json, strict, csv=False):
     """Answer a question for every case and say how many digits of it are known."""
-    from .show import answers
+    from .show import answers, law
     from .show import precision_answers as shown
     answered = [(case, found, _told(question, case, found, digits)) for case in _load(paths, motion=True)
                 for found in [_motion(case, brief=question == "extremes")]]
     boxes, over = _over_boxes([case for case, *_ in answered], *(["fate"] if question == "fate" else []))
     if json:
-        _print(answers.as_json([getattr(shown, question)(*answer) | over.as_dict(box) for answer, box in zip(answered, boxes)]))
+        _print(answers.as_json([getattr(shown, question)(*answer) | law.key(answer[1].validity) | over.as_dict(box)
+                                for answer, box in zip(answered, boxes)]))
     elif csv:
+        _say_laws(motion.validity for _, motion, _ in answered)
         _print(shown.extremes_csv(answered))
     else:
-        _print("\n".join(getattr(shown, f"{question}_text")(*answer, digits is not None) + over.text(box)
+        _print("\n".join(law.first(answer[1].validity, getattr(shown, f"{question}_text")(*answer, digits is not None)) + over.text(box)
                          for answer, box in zip(answered, boxes)))
     missing = [(case, told) for case, _, told in answered if not told.enough]
     if missing:
         from .analysis.precision_told import short
         _all_reached((case, f"{question}: {short(told)}") for case, told in missing)
+    if strict and any(motion.fate.word == "undecided" for _, motion, _ in answered):
+        raise typer.Exit(UNDECIDED)
+    _strictly(strict, (motion.validity for _, motion, _ in answered))
 
 
 def _told(question, case, motion, digits):
@@ -447,16 +496,17 @@ def _run_or_best(case, times, model, method, rtol, order, digits):
 
 
 def _run_as_dict(case, run, reached) -> dict:
-    from .show import answers
+    from .show import answers, law
     told = reached and {"asked": reached.asked, "reached": reached.digits, "because": reached.because}
-    return answers.simulation(case, run) | {"digits": told} | {"theory": _theory(case, run)}
+    return answers.simulation(case, run) | {"digits": told} | {"theory": _theory(case, run)} | law.key(run.validity)
 
 
 def _run_as_text(case, run, reached) -> str:
-    from .show import answers
+    from .show import answers, law
     first = f"# {case.name}\n" if case.variant else ""
     last = f"\n# {reached.digits:.1f} digits: {reached.because}" if reached else ""
-    return first + answers.simulation_text(case, run) + last + "".join(f"\n# {line}" for line in _theory(case, run, words=True))
+    told = "".join(f"\n# {line}" for line in _theory(case, run, words=True))
+    return law.first(run.validity, first + answers.simulation_text(case, run) + last + told)
 
 
 def _theory(case, run, words=False):

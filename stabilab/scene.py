@@ -45,6 +45,11 @@ class Scene:
         return ordered(name for effect in self.effects for name in effect.needs)
 
     @property
+    def approximate(self) -> tuple[Effect, ...]:
+        """Its effects whose laws are approximations: see `stabilab.law_limits`."""
+        return tuple(effect for effect in self.effects if effect.approximate)
+
+    @property
     def plain(self) -> bool:
         """Whether it has no effect beyond a gyrostat and a constant torque."""
         return not self._beyond()
@@ -84,7 +89,7 @@ class ScaledGyrostat:
     variables = "scaled"
     components = ("x1", "x2", "x3")
     time_unit = "tau"
-    effects = ()
+    effects = approximate = ()
     blocks = ("omega",)
     plain = True
 

@@ -40,7 +40,8 @@ class Trajectory:
     """States at the asked-for times.
 
     t: (n,) times; states: (n, N), blocks: where each block of the state stands in the N columns; invariant_drift: law name -> largest relative departure from it over the run;
-    counters: integrator's own counts (steps, rate evaluations); status: "reached", "stopped" (reason says why).
+    counters: integrator's own counts (steps, rate evaluations); status: "reached", "stopped" (reason says why). validity: of an
+    approximate law (`stabilab.law_limits`), its largest value at any step of the run; None where all laws are exact.
     """
 
     t: object
@@ -52,6 +53,7 @@ class Trajectory:
     status: str
     reason: str
     blocks: dict = field(default_factory=lambda: {"omega": slice(0, 3)})
+    validity: object = None
 
     def block(self, name: str):
         """(n, m) states of one block."""

@@ -43,6 +43,11 @@ class Comparison:
     refused: dict
     theory: tuple = ()
 
+    @property
+    def validity(self):
+        """Of the scene's laws along the exact motion; None where all are exact."""
+        return self.runs["exact"].validity
+
 
 def compare(case, times=None, order: int | None = None) -> Comparison:
     """All models of a case over its span (or at `times`, increasing from 0) against the exact motion.

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ..blocks import slices
 from ..compiled import TAYLOR_TOLERANCE, _equations, borrowed_taylor, form, heyoka_available, to_numpy
 from ..asked import real
 from ..errors import InputError
@@ -40,6 +41,15 @@ class Ensemble:
     method: str
     rtol: float
     counters: dict[str, int] = field(default_factory=dict)
+    scene: object = field(default=None, repr=False, compare=False)
+
+    @property
+    def validity(self):
+        """Of an approximate law (`stabilab.law_limits`) at the times told, value and holds (n,); None where all laws are exact."""
+        if not self.scene.approximate:
+            return None
+        from ..law_limits import along
+        return along(self.scene, {name: self.states[..., part] for name, part in slices(self.scene.blocks).items()}, "at the times told")
 
     @property
     def status(self) -> str:
@@ -72,7 +82,7 @@ def ensemble(scene, states, times, rtol: float | None = None, workers: int = 1) 
     with ThreadPoolExecutor(workers) if workers > 1 else nullcontext() as pool:
         steps = sum((pool.map if pool else map)(run, (groups[i::workers] for i in range(workers))))
     return Ensemble(times, run.out, np.isfinite(run.out).all(axis=2), dict(sorted(run.stopped.items())), "taylor", rtol,
-                    {"steps": steps})
+                    {"steps": steps}, scene)
 
 
 def _by_units(scene, starts, times, rtol, workers, units):
@@ -83,7 +93,7 @@ def _by_units(scene, starts, times, rtol, workers, units):
         part = ensemble(scene if unit == 1 else in_unit(scene, unit), starts[rows] / unit, times * unit, rtol, workers)
         out[rows], steps = part.states * unit, steps + part.counters["steps"]
         stopped |= {int(rows[n]): why for n, why in part.stopped.items()}
-    return Ensemble(times, out, np.isfinite(out).all(axis=2), dict(sorted(stopped.items())), "taylor", rtol, {"steps": steps})
+    return Ensemble(times, out, np.isfinite(out).all(axis=2), dict(sorted(stopped.items())), "taylor", rtol, {"steps": steps}, scene)
 
 
 def _starts(equations, states):
@@ -174,4 +184,4 @@ def _one_by_one(scene, starts, times, rtol):
         why, run = _single(scene, start, times, "taylor", rtol, out[number])
         stopped |= {number: why} if why else {}
         steps += run.counters["steps"]
-    return Ensemble(times, out, np.isfinite(out).all(axis=2), stopped, run.method, run.rtol, {"steps": steps})
+    return Ensemble(times, out, np.isfinite(out).all(axis=2), stopped, run.method, run.rtol, {"steps": steps}, scene)

@@ -7,6 +7,8 @@ Source: derived here; Amer et al. 2024 treats lambda along axis 1 and torques on
 """
 from __future__ import annotations
 
+from dataclasses import replace
+
 from ..asked import checked_scene
 from .equilibrium_conics import balance_fails, conic_curves
 from .isolated_equilibria import off_axis_equilibria
@@ -26,7 +28,15 @@ def equilibria(scene) -> Equilibria:
     force go to `other_effects`; there a point may be (omega, gamma), and kind "undecided" says that not all equilibria
     are known. Raises InputError for effects this analysis does not cover.
     """
-    if not checked_scene(scene).plain:
+    found = _found(checked_scene(scene))
+    if not scene.approximate:
+        return found
+    from ..law_limits import at_equilibria
+    return replace(found, validity=at_equilibria(scene, found))
+
+
+def _found(scene) -> Equilibria:
+    if not scene.plain:
         from .other_effects import other_equilibria
         found = other_equilibria(scene)
         if found is not None:

@@ -55,6 +55,7 @@ class FateResult:
     precise: int = 0
     scene: object = field(default=None, repr=False, compare=False)
     states: np.ndarray = field(default=None, repr=False, compare=False)
+    given: object = field(default=None, repr=False, compare=False)  # the scene asked for, of which `scene` is the twin
 
     def __iter__(self):
         return iter((self.labels, self.margins))
@@ -71,6 +72,16 @@ class FateResult:
         label is undecided."""
         from .distance import separatrix_distance
         return np.where(self.labels == Fate.UNDECIDED, np.nan, separatrix_distance(self.scene, self.states))[()]
+
+    @cached_property
+    def validity(self):
+        """Of an approximate law (`stabilab.law_limits`), value and holds (...,): without bound in a spin-up, else at the start; None where
+        all laws are exact."""
+        if not self.given.approximate:
+            return None
+        from ..law_limits import validity
+        rows = np.where((self.labels == Fate.SPIN_UP)[..., None], np.inf, self.states)
+        return validity(self.given, rows, "along a spin-up, or at the start")
 
 
 def _told(reason, label, margin) -> str:
@@ -107,7 +118,7 @@ def fate(scene, states, fast=None, digits: int | None = None) -> FateResult:
     if digits is not None:
         from .precision_questions import ask_all
         return replace(fate(scene, states, fast), margins=ask_all("fate", scene, states, digits).required().values)
-    scene, array = effective(scene), checked_states(states)
+    given, scene, array = scene, effective(scene), checked_states(states)
     flat = np.ascontiguousarray(array.reshape(-1, 3))
     out, far = _columns(len(flat)), _far(scene, flat)
     if far.any():
@@ -116,7 +127,7 @@ def fate(scene, states, fast=None, digits: int | None = None) -> FateResult:
         precise = _label_ordinary(scene, flat, out, fast)
     shape = array.shape[:-1]
     return FateResult(**{name: column.reshape(shape) for name, column in out.items()}, precise=precise, scene=scene,
-                      states=array)
+                      states=array, given=given)
 
 
 def _columns(n):

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import difflib
+from dataclasses import replace
 from importlib import import_module
 
 from ..errors import InputError
@@ -48,4 +49,8 @@ def follow(case, times, model: str = "exact", method: str | None = None, rtol: f
         raise InputError(f"model: {model!r} does not apply to this scene; it has {', '.join(models_of(case.scene))}")
     if method is not None or rtol is not None:
         raise InputError(f"method, rtol: the model {model!r} is a formula; they belong to the model \"exact\"")
-    return family(case.scene).follow(model, case, times, order)
+    run = family(case.scene).follow(model, case, times, order)
+    if not case.scene.approximate or "omega" not in run.state:
+        return run
+    from ..law_limits import along
+    return replace(run, validity=along(case.scene, run.state, "at the times told"))

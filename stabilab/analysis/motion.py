@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 from ..asked import checked_scene, checked_span, real
 from .far_states import far_exponent, in_range, in_scene_unit, own
@@ -18,8 +19,15 @@ def motion(scene, state, span=None, brief=False, exact=None) -> Motion:
     time (period, margin_velocity, invariants) may be left out. exact: the three rates as they were given (Fractions), of
     which `state` is the rounding: where the motion has a reduction the answer is theirs. Raises InputError as `fate` does.
     """
-    span = checked_span(span)
-    if not checked_scene(scene).plain:
+    found = _found(checked_scene(scene), state, checked_span(span), brief, exact)
+    if not scene.approximate or found.validity is not None:
+        return found
+    from ..law_limits import of_motion
+    return replace(found, validity=of_motion(scene, found))
+
+
+def _found(scene, state, span, brief, exact) -> Motion:
+    if not scene.plain:
         from .other_motion import other_motion
         found = other_motion(scene, state, span, exact)
         if found is not None:

@@ -206,8 +206,19 @@ def _over_span(scene, omega, gamma, span) -> dict:
     if not np.isfinite(J).all() or abs(np.linalg.eigvals(J).real).max() * length > STIFF:
         return {"extremes_over": "none: the decay is too fast for a search over the span"}
     found = roots_of_rates(turning, start, length)
+    over = f"s in [{float(span[0]):g}, {float(span[0]) + found.t_reached:g}]"
     ends = system.invariants(np.vstack([found.start, found.end]))["energy"]
     return {"extremes": tuple((float(a), float(b)) for a, b in found.extremes()),
-            "extremes_over": f"s in [{float(span[0]):g}, {float(span[0]) + found.t_reached:g}]",
+            "extremes_over": over,
+            **_validity(turning, found, over),
             "evidence": {"span": found.t_reached, "energy_change": float(ends[1] - ends[0]),
                          "rate_end": [float(v) for v in found.end[:3]], "steps": found.steps}}
+
+
+def _validity(scene, found, over) -> dict:
+    """Of approximate laws, at every state that the search met: where a rate vanishes, and at both ends."""
+    if not scene.approximate:
+        return {}
+    import numpy as np
+    from ..law_limits import along
+    return {"validity": along(scene, np.vstack([found.start, found.states, found.end]), f"over {over}")}

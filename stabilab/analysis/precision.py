@@ -105,6 +105,14 @@ class Precision:
     def quick(self) -> bool:
         return self.effort != "full"
 
+    @property
+    def validity(self):
+        """Of the scene's approximate laws at the times compared; None where all are exact."""
+        if not self.case.scene.approximate or not len(self.reference.t):
+            return None
+        from ..law_limits import along
+        return along(self.case.scene, {name: self.reference.states[:, part] for name, part in self.task.slices.items()}, "at the times compared")
+
     def of(self, question, method=None) -> list[Point]:
         """The points of a question (and a method), coarse to fine."""
         return [p for p in self.points if p.question == question and method in (None, p.method)]

@@ -170,6 +170,7 @@ def _many_digits(case, times, asked) -> Reached | None:
         return None
     states = np.empty_like(found.states)
     states[order] = found.states
+    validity = _validity(case.scene, {name: states[:, part] for name, part in found.slices.items()})
     parts = {_first(case) if name == "omega" else name: states[:, part] for name, part in found.slices.items()}
     error = float(found.error.max()) + 2.0**-53
     if "attitude" in parts:
@@ -178,8 +179,16 @@ def _many_digits(case, times, asked) -> Reached | None:
             return None
         error += 2.0**-51 / np.abs(np.cos(parts["angles"][:, 0])).min()  # phi and theta magnify the rounding of the quaternion
     because = f"Taylor series in {found.digits[0]} and {found.digits[1]} digits differ by {found.error.max():.0e}; rounded once"
-    run = Simulation(times, parts, "exact", MANY, None, counters={"multiplications": found.work}, reason=because)
+    run = Simulation(times, parts, "exact", MANY, None, counters={"multiplications": found.work}, reason=because, validity=validity)
     return Reached(run, asked, digits_of(error), because)
+
+
+def _validity(scene, blocks):
+    """Of the laws at the times asked for; None where all are exact."""
+    if not scene.approximate:
+        return None
+    from ..law_limits import along
+    return along(scene, blocks, "at the times told")
 
 
 def _with_angles(case, times, parts):

@@ -3,7 +3,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import IntEnum
-from typing import Callable
+from typing import TYPE_CHECKING, Callable
+
+if TYPE_CHECKING:  # a scene of exact laws does not load it
+    from ..law_limits import Validity
 
 
 class Fate(IntEnum):
@@ -67,12 +70,14 @@ class EquilibriumCurve:
 @dataclass(frozen=True)
 class Equilibria:
     """All equilibria of a scene. kind: "none", "points", "curves" (curves, possibly with points) or "all" (every
-    state is one); reason: why these and no others."""
+    state is one); reason: why these and no others. validity: of an approximate law (`stabilab.law_limits`), at the points; None where
+    all laws are exact."""
 
     kind: str
     reason: str
     points: tuple[EquilibriumPoint, ...] = ()
     curves: tuple[EquilibriumCurve, ...] = ()
+    validity: Validity | None = None
 
 
 @dataclass(frozen=True)
@@ -86,7 +91,8 @@ class Motion:
     (None where the scene has none, or nothing is known: then velocity_because says why). velocity_bounds: (proved lower bound,
     distance of velocity_witness), velocity_witness: a state on the separatrix as near as that; velocity_because: why the two
     bounds are apart. period: None where the motion does not repeat. extremes: ((min, max),) * 3 over t >= 0, entries +-inf where
-    unbounded, None where unknown; extremes_over: "all time" or the span they were searched over.
+    unbounded, None where unknown; extremes_over: "all time" or the span they were searched over. validity: of an approximate
+    law (`stabilab.law_limits`), with its largest value along the motion; None where all laws are exact.
     """
 
     at: tuple[float, float, float]
@@ -105,3 +111,4 @@ class Motion:
     invariants: dict[str, float] = field(default_factory=dict)
     evidence: dict = field(default_factory=dict)
     tolerance: float | None = None
+    validity: Validity | None = None

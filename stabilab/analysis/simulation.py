@@ -24,6 +24,7 @@ class Simulation:
     t: (n,), s (tau when scaled); state: name -> (n, m): omega (x when scaled), gamma, angles (psi, phi, theta,
     continuous from the start, rad), momentum (inertial, kg m^2/s), velocity, position (inertial), and for averaged
     models amplitude, spin, phase (n,). model: "exact", "linear", ...; the rest as of Trajectory.
+    validity: of the scene's laws; what a formula assumes beyond them stands in `reason`.
     """
 
     t: np.ndarray
@@ -35,6 +36,7 @@ class Simulation:
     counters: dict = field(default_factory=dict)
     status: str = "reached"
     reason: str = ""
+    validity: object = None
 
 
 def start_of(scene, omega, blocks) -> dict:
@@ -70,7 +72,8 @@ def simulate(scene, omega, times, blocks=None, method: str | None = None, rtol: 
 
 
 def _simulation(run, state, why=""):
-    return Simulation(run.t, state, "exact", run.method, run.rtol, run.invariant_drift, run.counters, run.status, _reason(run, why))
+    return Simulation(run.t, state, "exact", run.method, run.rtol, run.invariant_drift, run.counters, run.status, _reason(run, why),
+                      run.validity)
 
 
 def _reason(run, *why):
@@ -120,7 +123,7 @@ def _with_attitude(scene, start, first, times, method, rtol, why):
     state = {"omega": state.pop("omega"), **({"gamma": state.pop("gamma")} if "gamma" in state else {}),
              "angles": path[at], "momentum": to_space(q[at], body_momentum(scene, run.block("omega")[at])), **state}
     return Simulation(run.t[at], state, "exact", run.method, run.rtol, run.invariant_drift, run.counters, run.status,
-                      _reason(run, why, doubtful))
+                      _reason(run, why, doubtful), run.validity)
 
 
 def _grid(scene, start, times, method, rtol):

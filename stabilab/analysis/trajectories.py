@@ -70,22 +70,35 @@ def trajectory(scene, state, times, method: str = "taylor", rtol: float | None =
     else:
         rtol = SCIPY_RTOL if rtol is None else rtol
         run = _SciPy(system, method, rtol, landing)
+    watch = _watch(scene, equations, state)
     still = (times == 0).sum()
     reached, states, drift, failures = [np.zeros(still)], [np.repeat(state[None], still, axis=0)], {}, []
     for chosen, sense in ((times < 0, -1), (times > 0, 1)):
         grid = np.sort(times[chosen] * sense) * sense
         if grid.size:
-            points, failure = run.run(state, grid, steps)
+            points, failure = run.run(state, grid, steps, watch)
             reached.append(grid[:len(points)])
             states.append(points[:, :state.size])
             failures += [failure] if failure else []
+            for row in points if watch else ():
+                watch.note(row[:state.size])
             for name, departure in _departures(system, state, points).items() if laws else ():
                 drift[name] = max(drift.get(name, 0.0), departure)
     reached, states = np.concatenate(reached), np.concatenate(states)
     order = np.argsort(reached)[::1 if times.size < 2 or times[1] > times[0] else -1]
     return Trajectory(reached[order], states[order], method, rtol, drift,
                       run.counters, "stopped" if failures else "reached", "; ".join(failures) or reason,
-                      {name: part for name, part in slices(equations.blocks).items()})
+                      {name: part for name, part in slices(equations.blocks).items()}, watch and watch.result())
+
+
+def _watch(scene, equations, state):
+    """What looks at each step of a run under an approximate law; None where all laws are exact."""
+    if not getattr(scene, "approximate", ()):
+        return None
+    from ..law_limits import Watch
+    watch = Watch(scene, equations.blocks)
+    watch.note(state)
+    return watch
 
 
 def _in_unit(scene, state, times, rtol, steps, laws, unit, mass) -> Trajectory:
@@ -119,8 +132,12 @@ def _by_quadrature(scene, equations, state, times, rtol):
     unit = np.vstack([np.zeros(3), np.eye(3)[axis]])
     integrals = [row[0] * times + (row[1] - row[0]) * turned for row in system.law_rates(unit).values()]  # affine in that rate
     drift = _departures(system, state, np.column_stack([states, *integrals]))
+    watch = _watch(scene, equations, state)
+    for row in states if watch else ():
+        watch.note(row)
     return Trajectory(times, states, REDUCED, None, drift, {"evaluations": motion.evaluations}, "reached",
-                      "all times reached, without steps: time as an integral over the reduced coordinate, inverted")
+                      "all times reached, without steps: time as an integral over the reduced coordinate, inverted",
+                      validity=watch and watch.result())
 
 
 def _numbers(values, name):
@@ -199,10 +216,18 @@ class _Taylor:
         self.forms, self.rtol = form(system.equations, (*system.equations.rhs, *rates)), rtol
         self.counters = {"steps": 0}
 
-    def run(self, state, grid, passed=None):
+    def run(self, state, grid, passed=None, watch=None):
         """(states and law integrals at the times of `grid`, failure or None); grid moves away from 0 without it.
-        passed: a list that takes the ends of the steps."""
-        note = {} if passed is None else {"callback": lambda ta: passed.append(ta.time) is None}
+        passed: a list that takes the ends of the steps; watch: is told the state there."""
+        note = {}
+        if passed is not None or watch is not None:
+            def seen(ta):
+                if passed is not None:
+                    passed.append(ta.time)
+                if watch is not None:
+                    watch.note(ta.state[:state.size].copy())
+                return True
+            note = {"callback": seen}
         with borrowed_taylor(self.forms, self.rtol) as ta:
             self.counters["order"] = ta.order
             ta.time = 0.0
@@ -240,13 +265,13 @@ class _SciPy:
         self.system, self.method, self.rtol, self.landing = system, method, rtol, landing
         self.counters = {"steps": 0, "rate evaluations": 0, "jacobian evaluations": 0}
 
-    def run(self, state, grid, passed=None):
+    def run(self, state, grid, passed=None, watch=None):
         """As of _Taylor."""
         y, t, points, h = np.concatenate([state, np.zeros(len(self.system.equations.balances))]), 0.0, [], None
         failure = None
         with np.errstate(all="ignore"):
             for piece in (grid[i:i + 1] for i in range(len(grid))) if self.landing else (grid,):
-                y, h, failure = self._piece(t, y, piece, h, points, passed)
+                y, h, failure = self._piece(t, y, piece, h, points, passed, watch)
                 if failure:
                     break
                 t = piece[-1]
@@ -254,7 +279,7 @@ class _SciPy:
         out[:, state.size:] /= FEATHER
         return out, failure and _stopped(out, grid, failure)
 
-    def _piece(self, t, y, grid, h, points, passed):
+    def _piece(self, t, y, grid, h, points, passed, watch):
         """Steps from t to grid[-1], appending to `points`; (last state, last step, failure or None)."""
         n = len(self.system.equations.state)
         try:
@@ -270,6 +295,8 @@ class _SciPy:
             self.counters["steps"] += 1
             if passed is not None:
                 passed.append(solver.t)
+            if watch is not None:
+                watch.note(solver.y[:n].copy())
             if solver.status == "failed" or not np.isfinite(solver.y[:n]).all():
                 return y, h, message or "the numbers overflowed"
             if self.counters["steps"] >= STEP_LIMIT:

@@ -7,9 +7,24 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import ClassVar
+from typing import Callable, ClassVar
 
 Triple = tuple
+
+
+@dataclass(frozen=True)
+class Limit:
+    """Up to where an approximate law may be used: a dimensionless number that must not exceed `limit`.
+
+    number: its name and formula; value: {block of the state: its components} -> the number, for components of any shape alike, None
+    where the state has no block that it asks for; follows: what follows beyond the limit, in words; source: of law and limit.
+    """
+
+    number: str
+    limit: float
+    value: Callable[[dict], object]
+    follows: str
+    source: str
 
 
 @dataclass(frozen=True)
@@ -22,6 +37,7 @@ class Effect:
     small: ClassVar[bool] = False  # True: left out of the undisturbed motion along which a liquid is carried
     keeps_volume: ClassVar[bool] = True  # False: the flow may shrink volumes
     needs: ClassVar[tuple[str, ...]] = ()  # the state blocks it cannot do without, of `stabilab.blocks.ORDER`
+    approximate: ClassVar[bool] = False  # True: its law holds up to its `limits`; an exact law is never asked for any
 
     @classmethod
     def from_case(cls, table, context) -> Effect | None:
@@ -41,6 +57,10 @@ class Effect:
     def acts(self) -> bool:
         """Whether its strength differs from zero: every formula of an effect is linear in its parameters."""
         return any(self.parameters().values())
+
+    def limits(self, scene) -> tuple[Limit, ...]:
+        """Up to where its law may be used in this scene."""
+        return ()
 
     def momentum(self, p: dict) -> Triple | None:
         """Angular momentum carried inside the body, body frame, kg m^2/s, from the parameter symbols `p`."""

@@ -7,7 +7,9 @@ from typing import ClassVar
 
 from ..errors import InputError
 from ..exact import exact, precise
-from .base import Effect, cross
+from .base import Effect, Limit, cross
+
+SHARE = 0.1  # of the torque, by which a constant angle may be wrong
 
 
 @dataclass(frozen=True)
@@ -57,6 +59,26 @@ class Charge(Effect):
     def follows_attitude(self) -> bool:
         """Whether cos sigma comes from the motion."""
         return self.angle == "attitude"
+
+    @property
+    def approximate(self) -> bool:
+        """A constant angle is an assumption about the motion."""
+        return not self.follows_attitude
+
+    def limits(self, scene):
+        """How far cos sigma of the motion, e3 . (axis 3 of space, the field's), is from the constant one; told where the attitude is known."""
+        if self.follows_attitude:
+            return ()
+        constant = float(precise("cos", exact(self.angle)))
+
+        def departure(state):
+            if "attitude" not in state:
+                return None
+            a, b, c, d = state["attitude"]
+            return abs((a * a - b * b - c * c + d * d) / constant - 1)
+        return (Limit("change of cos sigma, held constant, with the attitude", SHARE, departure,
+                      "axis 3 turns away from the field, and the charge's torque with it: angle = \"attitude\" follows that",
+                      "Galal et al., charged body: eq. (3) ff."),)
 
     @property
     def needs(self):

@@ -3,13 +3,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from fractions import Fraction
+from math import pi
 from typing import ClassVar
 
 from ..errors import InputError
 from ..exact import exact, precise
-from .base import Effect, cross
+from .base import Effect, Limit, cross
+from .pace import pace
 
 TORQUES = ("consistent", "printed")
+NEXT_TERM = 2 / 45  # of the Reynolds number: the next term of the series over the one that is kept, for a sphere
+SOURCE = "Chernousko's expansion for small Reynolds numbers; Galal et al., liquid cavity: sections 1 and 2"
 
 
 @dataclass(frozen=True)
@@ -26,6 +30,7 @@ class LiquidCavity(Effect):
     keys: ClassVar[tuple[str, ...]] = ("density", "viscosity", "P0", "radius", "torque")
     small: ClassVar[bool] = True
     keeps_volume: ClassVar[bool] = False
+    approximate: ClassVar[bool] = True
 
     density: float
     viscosity: float
@@ -69,3 +74,32 @@ class LiquidCavity(Effect):
     def torque_along(self, motion, p):
         first, second = motion.undisturbed(free=self.law == "printed")
         return tuple(p["kappa"] * (a + b) for a, b in zip(second, cross(motion.omega, first)))
+
+    @property
+    def radius(self) -> float:
+        """Of the cavity, or of the sphere that has its P0, m."""
+        return (525 * self.P0 / (8 * pi)) ** (1 / 7)
+
+    @property
+    def moment(self) -> float:
+        """Moment of inertia of the liquid as if frozen, kg m^2: part of the body's."""
+        return 8 * pi / 15 * self.density * self.radius**5
+
+    def limits(self, scene):
+        """Three numbers, with n the pace of the motion (`pace`), h the radius, D the least moment.
+
+        Seen from space the liquid's angular momentum is a series in h^2 d/dt/nu: with z^2 = h^2 s/nu, a sphere that turns as exp(s t)
+        gives its liquid the share 5 i2(z)/(z i1(z)) = 1 - z^2/35 + 2 z^4/1575 - ... of rigid rotation (i1, i2 modified spherical
+        Bessel functions). The second term is the law, kappa = moment h^2/(35 nu); the third over it 2/45 of h^2 s/nu.
+        The rates in it are those of the body without liquid, so its torque must be small beside the body's own; and the liquid,
+        frozen, is part of the body.
+        """
+        least, square, kappa = min(scene.body.inertia), self.radius**2 / self.viscosity, float(self.exact)
+        return (
+            Limit("Reynolds number n h^2/nu of the liquid", 1.0, lambda state: square * pace(scene, state, self),
+                  f"the liquid's torque is the first term of a series in this number (the next is {NEXT_TERM:.2g} of it times as large), so a "
+                  "liquid this thin does not move as computed", SOURCE),
+            Limit("torque of the liquid over the body's own, kappa n/D", 1.0, lambda state: kappa / least * pace(scene, state, self),
+                  "the liquid's torque is taken along the body's motion without liquid, which it would outweigh", SOURCE),
+            Limit("moment of the liquid over the least of the body", 1.0, lambda state: self.moment / least,
+                  "no body has these moments and holds this liquid", SOURCE))

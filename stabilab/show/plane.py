@@ -67,7 +67,10 @@ def _histories(case, path):
     runs, _ = side_by_side(case, np.linspace(*(case.span or (0.0, 15.0)), 801))
     parts = [name for name in comparison.NAMES if name in runs["exact"].state]
     with style.drawing() as plt:
-        return style.save(comparison.picture(plt, case, runs, parts), path)
+        figure, law = comparison.picture(plt, case, runs, parts), runs["exact"].validity
+        if law is not None and not law.held:
+            figure.suptitle(f"{case.title or case.name}\n{law.short}", fontsize=10, parse_math=False, wrap=True)
+        return style.save(figure, path)
 
 
 def _plane_picture(plt, case, plane):

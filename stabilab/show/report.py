@@ -33,7 +33,7 @@ def write(cases=None, out="report", progress=None, arguments=None) -> Path:
     """
     out = Path(out)
     demand("jinja2", *style.PACKAGES, "scipy", "sympy", "flint")  # what a report cannot do without, before its minutes of work
-    loaded = _load(cases)
+    loaded = of_all(cases)
     inputs = dict.fromkeys([*(case.path for case in loaded), *table.case_files()])  # the papers' figures read the papers' cases
     with (_progress(progress) as tell, manifest.written(out, arguments, inputs, TOLERANCES) as folder,
           chapters.beside(folder) as others):
@@ -41,7 +41,8 @@ def write(cases=None, out="report", progress=None, arguments=None) -> Path:
     return out / "index.html"
 
 
-def _load(cases):
+def of_all(cases):
+    """The cases that a report is on: those given, or all of the papers."""
     from ..case import load_all
     paths = list(cases or sorted(table.case_files(), key=lambda p: _natural(Path(p).stem)))
     return [case for item in paths for case in ([item] if hasattr(item, "scene") else load_all(item))]
@@ -217,7 +218,8 @@ def _motion(case):
     from ..analysis.motion import motion
     found = motion(case.scene, case.start, case.span, exact=case.exact_state)
     names = case.scene.components
-    rows = [("start", _triple(found.at)), ("fate", found.fate.word + (f" about axis {found.axis}, "
+    rows = [] if found.validity is None else [("law", found.validity.words)]
+    rows += [("start", _triple(found.at)), ("fate", found.fate.word + (f" about axis {found.axis}, "
              f"{'positive' if found.sense > 0 else 'negative'} sense" if found.axis else "")), ("because", found.because)]
     if found.margin_energy is not None:
         rows.append(("energy below the separatrix", f"{found.margin_energy:.15g}"))

@@ -1,0 +1,203 @@
+"""How far an approximate law holds along a motion: its dimensionless number, the largest value met, and the limit.
+
+An effect declares `approximate` and gives its `limits` (`effects.base`). A scene of exact laws has none, and what stands here is
+then neither called nor imported.
+"""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+from .blocks import slices
+
+BEYOND, WITHIN = "BEYOND THE LAW", "within the law"
+ROWS = 4096  # of a run that are looked at together
+
+
+@dataclass(frozen=True)
+class Validity:
+    """One number of one effect, the most exceeded of the scene (the first declared where none is); `also`: its other numbers, the same way.
+
+    value: its largest value over the motion, a float; for several motions an array, one each. limit: what it must not exceed.
+    holds: whether no number of the scene exceeds its limit (an array likewise). over: where the value was looked for. follows: what a
+    number beyond the limit means; source: of the law.
+    """
+
+    effect: str
+    number: str
+    value: object
+    limit: float
+    holds: object
+    over: str
+    follows: str
+    source: str
+    also: tuple[Validity, ...] = ()
+
+    @property
+    def held(self) -> bool:
+        """Whether it holds for every motion."""
+        return bool(self.holds) if isinstance(self.holds, bool) else bool(self.holds.all())
+
+    @property
+    def status(self) -> str:
+        """"within the law" or "beyond the law", for all motions together."""
+        return WITHIN if self.held else BEYOND.lower()
+
+    @property
+    def words(self) -> str:
+        """One line: status, effect, number, value, limit, and what follows."""
+        told = "; also ".join(v._told() for v in (self, *(v for v in self.also if not v.held)))
+        return f"{WITHIN if self.held else BEYOND}: {self.effect.replace('_', ' ')}: {told}"
+
+    @property
+    def short(self) -> str:
+        """Status, number, value and limit, without what follows."""
+        return f"{WITHIN if self.held else BEYOND}: {self._measured()}"
+
+    def _measured(self) -> str:
+        size = "unbounded" if math.isinf(_largest(self.value)) else f"{_largest(self.value):.3g}"
+        return f"{self.number}, {size} {self.over}, limit {self.limit:g}"
+
+    def _told(self) -> str:
+        return self._measured() if _excess(self) <= 1 else f"{self._measured()}: {self.follows}"
+
+
+def _largest(value) -> float:
+    return value if isinstance(value, float) else float(value.max())
+
+
+def validity(scene, states, over: str = "at the start") -> Validity | None:
+    """How far the approximate laws of a scene hold at states (..., N): the blocks of the scene in order, omega alone, or a dict of blocks.
+
+    None where all its laws are exact. For arrays `value` and `holds` are arrays (...,). over: where the states are, in words.
+    """
+    return _judged(scene, _blocks(scene, states), over, None)
+
+
+def along(scene, states, over: str) -> Validity | None:
+    """The same over one motion, states (n, N) or a dict of them; over several motions, (k, n, N)."""
+    return _judged(scene, _blocks(scene, states), over, -1)
+
+
+def of_motion(scene, motion) -> Validity | None:
+    """Of a motion that is known by its extremes alone: the corner of its box, which is at least what it reaches."""
+    if motion.extremes is None:
+        return validity(scene, motion.at)
+    corner = (max(map(abs, pair)) for pair in motion.extremes)
+    return validity(scene, (*corner, *motion.at[3:]), f"over {motion.extremes_over} at most")
+
+
+def at_equilibria(scene, found) -> Validity | None:
+    """Of equilibria: at the isolated ones; where there are curves alone, which run to any rate, at rest."""
+    if found.points:
+        return worst(*(validity(scene, point.at, "at an equilibrium") for point in found.points))
+    return validity(scene, (0.0,) * 3, "at rest (it grows with the rate along a curve)" if found.curves else "at rest")
+
+
+def worst(*found) -> Validity | None:
+    """Of several the one that is furthest beyond its limit; None of none."""
+    known = [v for v in found if v is not None]
+    return max(known, key=_excess, default=None)
+
+
+def as_dict(validity) -> dict | None:
+    """What JSON says of it."""
+    if validity is None:
+        return None
+    named = {name: getattr(validity, name) for name in ("status", "effect", "number", "value", "limit", "holds", "over", "follows", "source")}
+    return named | {"also": [as_dict(v) for v in validity.also]}
+
+
+class Watch:
+    """The validity of a run that is told its states one by one (`note`), without keeping them."""
+
+    def __init__(self, scene, blocks):
+        self.scene, self.blocks, self.rows, self.found = scene, blocks, [], None
+
+    def note(self, row):
+        """A state of the run, N numbers."""
+        self.rows.append(row)
+        if len(self.rows) >= ROWS:
+            self._look()
+
+    def _look(self):
+        import numpy as np
+        rows, self.rows = np.array(self.rows), []
+        seen = {name: rows[:, part] for name, part in slices(self.blocks).items()}
+        self.found = _larger(self.found, along(self.scene, seen, "along the run"))
+
+    def result(self) -> Validity | None:
+        """The largest values of all that was noted."""
+        if self.rows:
+            self._look()
+        return self.found
+
+
+def _larger(one, two):
+    """Number by number the larger of two validities of one scene."""
+    if one is None or two is None:
+        return one or two
+    pairs = {(v.effect, v.number): v for v in (replace(two, also=()), *two.also)}
+    best = [max(v, pairs[v.effect, v.number], key=lambda v: v.value) for v in (replace(one, also=()), *one.also)]
+    return _together(best)
+
+
+def _blocks(scene, states) -> dict:
+    """Block of the state -> its components, each of the shape of the states without their last axis."""
+    if isinstance(states, dict):
+        return {name: _components(values) for name, values in states.items()}
+    row = _components(states)
+    return {name: row[part] for name, part in slices(scene.blocks).items() if part.stop <= len(row)}
+
+
+def _components(values) -> tuple:
+    """Floats of one state; arrays of several."""
+    try:
+        return tuple(map(float, values))
+    except TypeError:
+        import numpy as np
+        array = np.asarray(values, float)
+        return tuple(array[..., i] for i in range(array.shape[-1]))
+
+
+def _judged(scene, blocks, over, axis):
+    found = []
+    for effect in scene.approximate:
+        for limit in effect.limits(scene):
+            value = _value(limit, blocks, axis)
+            if value is not None:
+                holds = value <= limit.limit
+                found.append(Validity(effect.name, limit.number, value, limit.limit, holds, over, limit.follows, limit.source))
+    return _together(found)
+
+
+def _value(limit, blocks, axis):
+    """A float, or an array without its axis of times."""
+    shape = next(iter(blocks.values()))[0]
+    if isinstance(shape, float):
+        found = limit.value(blocks)
+        return None if found is None else math.inf if math.isnan(found) else float(found)
+    import numpy as np
+    with np.errstate(all="ignore"):  # what overflows is beyond any limit
+        found = limit.value(blocks)
+        if found is None:
+            return None
+        values = np.broadcast_to(np.where(np.isnan(found), np.inf, found), shape.shape)
+        values = values.max(axis=axis) if axis is not None else values
+    return float(values) if values.ndim == 0 else np.array(values)
+
+
+def _together(found):
+    """The most exceeded number first, or, where none is, the first declared; the others beside it."""
+    if not found:
+        return None
+    first = max(found, key=lambda v: max(_excess(v), 1.0))
+    others = tuple(v for v in found if v is not first)
+    holds = first.holds
+    for other in others:
+        holds = holds & other.holds
+    return replace(first, holds=holds, also=others)
+
+
+def _excess(validity) -> float:
+    return _largest(validity.value) / validity.limit
