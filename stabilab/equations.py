@@ -32,7 +32,7 @@ class Equations:
     """Equations of motion as SymPy values.
 
     blocks: the parts of the state (see `blocks`); state: symbols of the state; parameters: symbol name -> exact value,
-    in order of declaration; symbols: name -> symbol, same order; rhs: rates of the state, 1/s of it (1/tau when scaled); jacobian: immutable matrix
+    in order of declaration, but for those that are zero, which are nowhere in the equations; symbols: name -> symbol, same order; rhs: rates of the state, 1/s of it (1/tau when scaled); jacobian: immutable matrix
     d rhs_i / d state_j; torques: name -> triple, the parts of inertia * rhs (body frame, N m); inertia: the factors
     of the rates on the left; energy: kinetic energy; balances: the laws.
     """
@@ -84,6 +84,22 @@ def _symbols(names, **assumptions):
     return {name: Symbol(name, real=True, **assumptions) for name in names}
 
 
+def _present(parameters) -> dict:
+    """Those that are not zero."""
+    return {name: value for name, value in parameters.items() if value}
+
+
+def _with_zeros(names, symbols) -> dict:
+    """Name -> symbol, 0 for a parameter that is zero."""
+    from sympy import Integer
+    return {name: symbols.get(name, Integer(0)) for name in names}
+
+
+def _strengths(scene, symbols) -> dict:
+    """What the formulas of the scene's effects are called with: a symbol for every parameter that is not zero."""
+    return symbols | _with_zeros([name for effect in scene.effects for name in effect.parameters()], symbols)
+
+
 def _add(u, v):
     return tuple(p + q for p, q in zip(u, v))
 
@@ -100,18 +116,18 @@ def _physical(scene, names) -> Equations:
     parameters = dict(zip(("D1", "D2", "D3"), scene.body.exact))
     symbols = _symbols(parameters, positive=True)
     for effect in scene.effects:
-        parameters |= effect.parameters()
-        symbols |= _symbols(effect.parameters())
-    D = tuple(symbols[name] for name in ("D1", "D2", "D3"))
-    motion = MotionView(scene, blocks, D, symbols)
+        parameters |= _present(effect.parameters())
+        symbols |= _symbols(_present(effect.parameters()))
+    D, p = tuple(symbols[name] for name in ("D1", "D2", "D3")), _strengths(scene, symbols)
+    motion = MotionView(scene, blocks, D, p)
     zero = (Integer(0),) * 3
 
     torques, carried, outer, working, potential = {"inertia": motion.inertial}, zero, zero, zero, Integer(0)
     for effect in scene.effects:
-        momentum, torque = effect.momentum(symbols) or zero, effect.torque_along(motion, symbols) or zero
+        momentum, torque = effect.momentum(p) or zero, effect.torque_along(motion, p) or zero
         torques[effect.name] = _add(cross(momentum, motion.omega), torque)
         carried, outer = _add(carried, momentum), _add(outer, torque)
-        stored = effect.potential(motion, symbols)
+        stored = effect.potential(motion, p)
         potential += stored or 0
         working = _add(working, torque) if effect.works and stored is None else working
 
@@ -121,7 +137,7 @@ def _physical(scene, names) -> Equations:
         parameters["mass"] = exact(scene.body.mass)
         symbols |= _symbols(("mass",), positive=True)
     rates = {"omega": tuple(total / d for total, d in zip(reduce(_add, torques.values()), D))}
-    rates |= {name: rate(scene, motion, symbols) for name, rate in KINEMATICS.items() if name in blocks}
+    rates |= {name: rate(scene, motion, symbols | p) for name, rate in KINEMATICS.items() if name in blocks}
     state, rhs = (tuple(v for name in names for v in part[name]) for part in (blocks, rates))
     inertia = D + (Integer(1),) * (len(state) - 3)
     energy, H = dot(motion.spin, motion.omega) / 2, _add(motion.spin, carried)
@@ -131,7 +147,7 @@ def _physical(scene, names) -> Equations:
                 dot(motion.omega, working)),
         Balance("momentum", "angular momentum: (|H|^2/2)' = H . (outer torques)", dot(H, H) / 2, dot(H, outer))]
     if "gamma" in blocks:
-        balances += _gamma_laws(scene, motion, symbols, H)
+        balances += _gamma_laws(scene, motion, p, H)
     if "attitude" in blocks:
         q = blocks["attitude"]
         balances.append(Balance("quaternion", "the quaternion keeps its length", sum(a**2 for a in q), Integer(0)))
@@ -212,13 +228,16 @@ KINEMATICS = {
 }
 
 
+SCALED = ("a", "b", "mu1", "mu2", "mu3")
+
+
 @lru_cache(maxsize=32)
 def _scaled(scene) -> Equations:
     from sympy import Integer
     x1, x2, x3 = x = tuple(_symbols(scene.components).values())
-    parameters = dict(zip(("a", "b", "mu1", "mu2", "mu3"), scene.exact_ab + scene.exact_mu))
+    parameters = _present(dict(zip(SCALED, scene.exact_ab + scene.exact_mu)))
     symbols = _symbols(parameters)
-    a, b, *mu = symbols.values()
+    a, b, *mu = _with_zeros(SCALED, symbols).values()
     torques = {"inertia": (x2 * x3, -x1 * x3, x1 * x2), "gyrostat": (Integer(0), -a * x3, b * x2),
                "constant_torque": tuple(mu)}
     rhs = reduce(_add, torques.values())
@@ -265,7 +284,7 @@ def _conserved(equations):
 def _outer(scene, equations):
     """(carried momentum, outer torque) of a physical scene as exact numbers, or None where they vary with the state."""
     from sympy import Integer, expand
-    zero, p = (Integer(0),) * 3, equations.symbols
+    zero, p = (Integer(0),) * 3, _strengths(scene, equations.symbols)
     momenta = [e.momentum(p) or zero for e in scene.effects]
     parts = [equations.torques[e.name] for e in scene.effects]
     torques = [tuple(a - b for a, b in zip(part, cross(h, equations.state[:3]))) for part, h in zip(parts, momenta)]
@@ -302,7 +321,7 @@ def _physical_laws(scene, equations):
 
 def _scaled_laws(equations):
     x1, x2, x3 = equations.state
-    a, b, mu1, mu2, mu3 = (equations.numeric(s) for s in equations.symbols.values())
+    a, b, mu1, mu2, mu3 = (equations.numeric(s) for s in _with_zeros(SCALED, equations.symbols).values())
     alpha = turn_angles()
     if mu1 != 0 or mu2 != 0:
         yield Balance("circle with turn angles", "((x1+a)^2 + x2^2)/2 - mu1 alpha1 - mu2 alpha2 changes by mu1 a per unit "

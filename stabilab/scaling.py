@@ -12,7 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from .effects.constant_torque import ConstantTorque
+from .effects import effect_class
 from .errors import InputError
 from .exact import exact_vector, sqrt_fraction
 from .scene import Scene, ScaledGyrostat
@@ -91,7 +91,6 @@ def to_scaled(scene: Scene, mu=None) -> tuple[ScaledGyrostat, Scaling]:
 
 def to_physical(scaled: ScaledGyrostat, body, u=Fraction(1)) -> tuple[Scene, Scaling]:
     """The physical twin on `body` of a scaled system: needs b/a = (D1-D3)/(D1-D2) to hold to rounding."""
-    from .effects.gyrostat import Gyrostat
     k1, _, _ = shape_factors(body)
     d1, d2, d3 = body.exact
     a, b = scaled.exact_ab
@@ -100,5 +99,5 @@ def to_physical(scaled: ScaledGyrostat, body, u=Fraction(1)) -> tuple[Scene, Sca
     if abs(la - lb) > Fraction(1, 10**14) * max(abs(la), abs(lb)):
         raise InputError(f"no gyrostatic moment of this body gives a = {scaled.a:.17g} and b = {scaled.b:.17g}: "
                          f"b/a must be (D1-D3)/(D1-D2) = {float((d1 - d3) / (d1 - d2)):.17g}")
-    torque = ConstantTorque(torque_from_mu(body, scaled.exact_mu, Fraction(u)))
-    return Scene(body, Gyrostat((la, 0, 0)), torque), scaling(body, Fraction(u))
+    vectors = {"gyrostat": (la, 0, 0), "constant_torque": torque_from_mu(body, scaled.exact_mu, Fraction(u))}
+    return Scene(body, *(effect_class(name)(v) for name, v in vectors.items() if any(v))), scaling(body, Fraction(u))

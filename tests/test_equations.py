@@ -9,6 +9,11 @@ import sympy as sp
 
 from stabilab import Body, ConstantTorque, Gyrostat, Scene, ScaledGyrostat
 from stabilab.compiled import form, heyoka_available, to_numpy, to_taylor
+from stabilab.effects.body_force import BodyForce
+from stabilab.effects.charge import Charge
+from stabilab.effects.gravity import Gravity
+from stabilab.effects.liquid_cavity import LiquidCavity
+from stabilab.effects.resistance import Resistance
 from stabilab.equations import derive, invariants, latex, lines
 
 BODY = Body((2000, "1500.5", 1000))
@@ -39,7 +44,7 @@ def test_closed_forms_are_the_derived_equations_exactly(scene):
 
 def test_parameters_keep_the_order_of_declaration():
     assert list(derive(Scene(BODY, THRUST, WHEEL)).parameters) == [
-        "D1", "D2", "D3", "M1", "M2", "M3", "lambda1", "lambda2", "lambda3"]
+        "D1", "D2", "D3", "M1", "M2", "M3", "lambda1", "lambda2"]
     assert derive(SCENES[5]).parameters["mu3"] == Fraction(1, 3)
 
 
@@ -51,9 +56,30 @@ def test_unnamed_effects_leave_no_symbol_state_or_torque(effects, absent):
     assert len(equations.state) == 3 and list(equations.torques) == ["inertia", *(e.name for e in effects)]
 
 
-def test_zero_components_of_a_named_gyrostat_stay_symbols():
-    equations = derive(Scene(BODY, Gyrostat((0, 0, 1))))
-    assert {"lambda1", "lambda2", "lambda3"} <= {str(s) for r in equations.rhs for s in r.free_symbols}
+LIQUID = (LiquidCavity(1000, 1, "0.001"), Resistance("0.01"), Charge("0.1", 1, 1, "0.3"))
+ZEROS = [  # effects with components that are zero, the same with none, the symbols that must not be there
+    ((Gyrostat((0, 0, 1)),), (Gyrostat((1, 1, 1)),), {"lambda1", "lambda2"}),
+    ((ConstantTorque((0, 2, 0)), WHEEL), (ConstantTorque((1, 2, 1)), Gyrostat((100, "2/3", 1))), {"M1", "M3", "lambda3"}),
+    ((Gravity(3, (0, 0, 1)), Gyrostat((1, 0, 0))), (Gravity(3, (1, 1, 1)), Gyrostat((1, 1, 1))), {"Mgx", "Mgy", "lambda2", "lambda3"}),
+    ((BodyForce((0, 0, 3)),), (BodyForce((1, 1, 3)),), {"f1", "f2"}),
+    ((Gyrostat((0, 0, 1)), ConstantTorque((0, 0, -1)), *LIQUID), (Gyrostat((1, 1, 1)), ConstantTorque((1, 1, -1)), *LIQUID),
+     {"lambda1", "lambda2", "M1", "M2"})]
+
+
+@pytest.mark.parametrize("effects, full, absent", ZEROS)
+def test_zero_components_leave_no_symbol_and_the_same_equations(effects, full, absent):
+    few, many = (derive(Scene(Body(BODY.inertia, 10), *chosen)) for chosen in (effects, full))
+    rows = (*few.rhs, *few.jacobian, *(v for law in few.balances for v in (law.quantity, law.rate)))
+    assert not ({str(s) for r in rows for s in sp.sympify(r).free_symbols} | set(few.parameters) | set(few.symbols)) & absent
+    swap = {many.symbols[name]: 0 for name in absent}  # the equations with every symbol, those put to zero
+    assert all(sp.expand(one - two.subs(swap)) == 0 for one, two in zip(few.rhs, many.rhs))
+    assert sum(map(sp.count_ops, few.rhs)) < sum(map(sp.count_ops, many.rhs))
+
+
+def test_zero_numbers_of_a_scaled_system_leave_no_symbol():
+    equations = derive(ScaledGyrostat(0, "1/2", (0, 0, 1)))
+    assert list(equations.parameters) == ["b", "mu3"]
+    assert {str(s) for r in equations.rhs for s in r.free_symbols} == {"x1", "x2", "x3", "b", "mu3"}
 
 
 def run_python(code):
@@ -123,7 +149,7 @@ def test_one_compilation_serves_all_scenes_of_a_structure():
 
 def test_equations_read_as_text_and_latex():
     equations = derive(Scene(BODY, WHEEL, THRUST))
-    assert lines(equations)[0] == "D1 omega1' = M1 + lambda2*omega3 - lambda3*omega2 + omega2*omega3*(D2 - D3)"
+    assert lines(equations)[0] == "D1 omega1' = M1 + lambda2*omega3 + omega2*omega3*(D2 - D3)"
     assert r"D_{1} \dot{\omega_{1}} &=" in latex(equations)
 
 

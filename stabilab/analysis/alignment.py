@@ -57,11 +57,9 @@ def aligned(scene) -> Turn | None:
         turned[i] = Fraction(0)
     torque = [length if n == i else Fraction(0) for n in range(3)]
     exact = length**2 == sum(m * m for m in M) and size**2 == unit[i] ** 2 + unit[j] ** 2
-    return Turn(_scene(scene.body, turned, torque), rotation, exact)
+    return Turn(_turned(scene, {"gyrostat": turned, "constant_torque": torque}), rotation, exact)
 
 
-def _scene(body, momentum, torque):
-    from ..effects.constant_torque import ConstantTorque
-    from ..effects.gyrostat import Gyrostat
-    from ..scene import Scene
-    return Scene(body, Gyrostat(tuple(momentum)), ConstantTorque(tuple(torque)))
+def _turned(scene, vectors):
+    """The scene with these vectors in place of those of its wheel and torque."""
+    return type(scene)(scene.body, *(type(effect)(tuple(vectors[effect.name])) for effect in scene.effects))

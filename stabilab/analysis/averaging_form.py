@@ -111,7 +111,6 @@ def _orders(rhs, given, names):
     swap = {given["D1"]: [J, d, h], given["D2"]: [J, d, -h], given["D3"]: [J]}
     if "lambda3" in given:  # Gamma = lambda3 - k: k must drop out
         swap[given["lambda3"]] = [given.get("k", Integer(0)), g]
-        swap |= {given[n]: [] for n in ("lambda1", "lambda2")}
     elif "k" in given:
         swap[given["k"]] = [Integer(0), -g]
     swap |= {given[n]: [0, names[n]] for n in ("kappa",) if n in given}

@@ -11,9 +11,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import ClassVar
 
+from ..body import Body
+from ..effects import effect_class
+from ..effects.base import Effect
 from ..quadratic import Exact3
-from ..scene import ZERO3
+from ..scene import ZERO3, Scene
 
 KNOWN = {"gyrostat", "constant_torque", "charge", "resistance", "liquid_cavity", "newtonian_field", "gravity", "body_force"}
 ZERO = Fraction(0)
@@ -89,11 +93,23 @@ def shortened(value: Fraction) -> Fraction:
     return Fraction(round(value * 2**shift), 2**shift)
 
 
+@dataclass(frozen=True)
+class Together(Effect):
+    """What turns the body as a wheel of moment Lambda would: wheel and charge of constant angle in one."""
+
+    name: ClassVar[str] = "gyrostat"
+    works: ClassVar[bool] = False
+
+    exact: Exact3
+
+    def parameters(self):
+        return dict(zip(("lambda1", "lambda2", "lambda3"), self.exact))
+
+    def momentum(self, p):
+        return (p["lambda1"], p["lambda2"], p["lambda3"])
+
+
 def gyrostat_scene(parts: Content):
     """The scene of a gyrostat and a constant torque that has the same rates (kind "gyrostat")."""
-    from ..body import Body
-    from ..effects.constant_torque import ConstantTorque
-    from ..effects.gyrostat import Gyrostat
-    from ..scene import Scene
-    effects = [Gyrostat(parts.Lambda)] * any(parts.Lambda) + [ConstantTorque(parts.M)] * any(parts.M)
-    return Scene(Body(parts.D), effects)
+    torque = [effect_class("constant_torque")(parts.M)] if any(parts.M) else []  # a scene loads no effect that it does not have
+    return Scene(Body(parts.D), Together(parts.Lambda), *torque)

@@ -11,15 +11,14 @@ import math
 from fractions import Fraction
 
 from ..body import Body
-from ..effects.constant_torque import ConstantTorque
-from ..effects.gyrostat import Gyrostat
-from ..effects.resistance import Resistance
 from ..errors import InputError
 from ..scene import Scene, ScaledGyrostat
 
 SLOW, FAST = 2.0**-4, 2.0**20  # between these the unit stays: the control is at most 16 times coarser than asked
 
 LIGHT, HEAVY = 2.0**-200, 2.0**200  # moments whose squares underflow beside `compiled.FEATHER`, or overflow
+
+POWERS = {"gyrostat": (1, 1), "constant_torque": (2, 1), "resistance": (1, 0)}  # of the units of rate and of mass in an effect's strength
 
 
 def own_unit(scene, state, rates) -> float:
@@ -45,7 +44,7 @@ def _homogeneous(scene) -> bool:
     """Whether a change of units is known here; not for equations without their scene, either."""
     if getattr(scene, "plain", False):
         return True
-    return hasattr(scene, "effects") and all(e.name in ("gyrostat", "constant_torque", "resistance") for e in scene.effects)
+    return hasattr(scene, "effects") and all(e.name in POWERS for e in scene.effects)
 
 
 def in_unit(scene, unit: float, mass: float = 1.0):
@@ -65,7 +64,11 @@ def _changed(scene, unit, mass):
     if scene.variables == "scaled":
         a, b = scene.exact_ab
         return ScaledGyrostat(a / u, b / u, tuple(v / (u * u) for v in scene.exact_mu))
-    medium = scene.effect("resistance")
-    resisted = () if medium is None else (Resistance(medium.exact / u),)
-    return Scene(Body(tuple(d / m for d in scene.body.exact)), Gyrostat(tuple(v / (m * u) for v in scene.vector("gyrostat"))),
-                 ConstantTorque(tuple(v / (m * u * u) for v in scene.vector("constant_torque"))), *resisted)
+    return Scene(Body(tuple(d / m for d in scene.body.exact)), *(_divided(effect, u, m) for effect in scene.effects))
+
+
+def _divided(effect, u, m):
+    """The effect with its strength in the units."""
+    rate, mass = POWERS[effect.name]
+    unit = u**rate * m**mass
+    return type(effect)(tuple(v / unit for v in effect.exact) if isinstance(effect.exact, tuple) else effect.exact / unit)
