@@ -19,8 +19,8 @@ app = typer.Typer(name="stabilab", no_args_is_help=True, rich_markup_mode=None, 
 CaseFile = Annotated[Path, typer.Argument(metavar="CASE", help="A case file (TOML).", show_default=False)]
 CaseFiles = Annotated[List[Path], typer.Argument(metavar="CASE...", help="Case files (TOML).", show_default=False)]
 Json = Annotated[bool, typer.Option("--json", help="JSON on stdout instead of text.")]
-Digits = Annotated[Optional[int], typer.Option(metavar="N", help="Reach N digits (1 to 50; default 10) the cheapest way and "
-                                                                 "check them; exit 5 where they are not reached.")]
+Digits = Annotated[Optional[int], typer.Option(metavar="N", help="Reach N digits (1 to 50) the cheapest way and check them; "
+                                                                 "exit 5 where they are not reached. Without it 10 are the aim.")]
 Strict = Annotated[bool, typer.Option("--strict", help="Exit with 3 where a fate is undecided or an approximate law does not hold "
                                                        "along the motion.")]
 
@@ -150,8 +150,8 @@ def simulate(case: CaseFile,
                                                                 "reduced (any time at one cost); for the exact model.")] = None,
              rtol: Annotated[Optional[float], typer.Option(help="Relative tolerance; default: the method's own.")] = None,
              digits: Annotated[Optional[int], typer.Option(metavar="N", help="Reach N digits (1 to 15) the cheapest way, check "
-                                                           "them, or exit with 5. Default: 10, unless --model, --method "
-                                                           "or --rtol is given.")] = None,
+                                                           "them, or exit with 5. Without it 10 are the aim, unless "
+                                                           "--model, --method or --rtol is given.")] = None,
              angles: Annotated[bool, typer.Option("--angles", help="Euler angles psi, theta, phi of the vertical, too.")] = False,
              out: Annotated[Optional[Path], typer.Option(metavar="FILE.nc|.csv", help="Write the states to a file.")] = None,
              json: Json = False, strict: Strict = False):
@@ -173,10 +173,11 @@ def simulate(case: CaseFile,
     if json:
         _print_json(loaded, [_run_as_dict(*followed) for followed in runs])
     elif not out:
-        _print("\n\n".join(_run_as_text(*followed) for followed in runs))
+        _print("\n\n".join(_run_as_text(*followed, digits) for followed in runs))
     else:
         _say_laws(run.validity for _, run, _ in runs)
-    _judge_runs(runs)
+        _say_digits(runs)
+    _judge_runs(runs, digits)
     _strictly(strict, (run.validity for _, run, _ in runs))
 
 
@@ -430,6 +431,13 @@ def _strictly(strict, validities):
         raise typer.Exit(UNDECIDED)
 
 
+def _say_digits(runs):
+    """What the check of a run showed, where that is less than the aim and the states go to a file."""
+    for case, _, reached in runs:
+        if reached and not reached.enough:
+            _say(f"{case.place}: checked to {reached.digits:.1f} digits: {reached.because}")
+
+
 def _say_laws(validities):
     """How far approximate laws hold, beside a table that has no place for it."""
     for validity in validities:
@@ -451,9 +459,9 @@ def _tell(question, paths, digits, json, strict, csv=False):
         _say_laws(motion.validity for _, motion, _ in answered)
         _print(shown.extremes_csv(answered))
     else:
-        _print("\n".join(law.first(answer[1].validity, getattr(shown, f"{question}_text")(*answer, digits is not None)) + over.text(box)
+        _print("\n".join(law.first(answer[1].validity, getattr(shown, f"{question}_text")(*answer, digits is not None or not answer[2].enough)) + over.text(box)
                          for answer, box in zip(answered, boxes)))
-    missing = [(case, told) for case, _, told in answered if not told.enough]
+    missing = [(case, told) for case, _, told in answered if not told.enough and digits is not None]
     if missing:
         from .analysis.precision_told import short
         _all_reached((case, f"{question}: {short(told)}") for case, told in missing)
@@ -470,7 +478,8 @@ def _told(question, case, motion, digits):
         from .analysis.precision_questions import ask
         from .case import blamed_on
         with blamed_on(case):
-            found = ask(question, case.scene, case.start, DEFAULT if digits is None else digits, case.span, motion, case.exact_state)
+            found = ask(question, case.scene, case.start, DEFAULT if digits is None else digits, case.span, motion, case.exact_state,
+                        **({"aim": True} if digits is None else {}))
     return found
 
 
@@ -491,7 +500,7 @@ def _run_or_best(case, times, model, method, rtol, order, digits):
                          "--rtol and --order")
     from .analysis.precision_digits import best_reached
     from .analysis.precision_told import DEFAULT
-    reached = best_reached(case, times, DEFAULT if digits is None else digits, measured=digits is not None)
+    reached = best_reached(case, times, DEFAULT if digits is None else digits, measured=digits is not None, aim=digits is None)
     return reached.run, reached
 
 
@@ -501,10 +510,11 @@ def _run_as_dict(case, run, reached) -> dict:
     return answers.simulation(case, run) | {"digits": told} | {"theory": _theory(case, run)} | law.key(run.validity)
 
 
-def _run_as_text(case, run, reached) -> str:
+def _run_as_text(case, run, reached, digits) -> str:
     from .show import answers, law
     first = f"# {case.name}\n" if case.variant else ""
-    last = f"\n# {reached.digits:.1f} digits: {reached.because}" if reached else ""
+    checked = "checked to " if digits is None else ""
+    last = f"\n# {checked}{reached.digits:.1f} digits: {reached.because}" if reached else ""
     told = "".join(f"\n# {line}" for line in _theory(case, run, words=True))
     return law.first(run.validity, first + answers.simulation_text(case, run) + last + told)
 
@@ -525,10 +535,10 @@ def _with_angles(case, run, model, order):
         return with_euler_angles(case, run, model, order)
 
 
-def _judge_runs(runs):
-    """Exit with 5 where a run stopped or its digits were not reached."""
+def _judge_runs(runs, digits):
+    """Exit with 5 where a run stopped or the digits asked for were not reached."""
     _all_reached((case, run.reason) for case, run, _ in runs if run.status != "reached")
-    short = [(case, reached) for case, _, reached in runs if reached and not reached.enough]
+    short = [(case, reached) for case, _, reached in runs if digits is not None and reached and not reached.enough]
     if short:
         from .analysis.precision_digits import missed
         raise ToleranceNotMet("\n".join(missed(*row) for row in short))

@@ -1,13 +1,14 @@
 """Digits asked for: extremes, period, fate and states have them, say how many were shown, and cost more where more are wanted."""
 import json
 from dataclasses import replace
+from fractions import Fraction
 from pathlib import Path
 
 import mpmath as mp
 import numpy as np
 import pytest
 
-from stabilab import extremes, fate, load, period
+from stabilab import extremes, fate, load, period, trajectory
 from stabilab.analysis import precision as measuring
 from stabilab.analysis import precision_digits, precision_questions
 from stabilab.analysis.precision_digits import best_reached, simulate_to
@@ -203,3 +204,70 @@ def test_a_front_that_was_measured_decides_the_method_and_a_stopped_run_is_hande
     exact = reference(one.scene, one.state, [1.0, 3.0])
     found = best_reached(one, [1.0, 3.0], 6)
     assert relative_errors(found.run.state["x"], exact.states, exact.rest, exact.slices).max() <= 1e-6
+
+
+# -- far times, and digits that nobody asked for -------------------------------------------------------------------------
+
+
+def home(one, t):
+    """The state at t by its period in balls of 40 digits: the times folded exactly, the rest followed."""
+    told = ask("period", one.scene, one.start, 40, exact=tuple(map(Fraction, one.state)))
+    P = Fraction(told.decimals)
+    return trajectory(one.scene, one.state, [float(Fraction(t) - P * (Fraction(t) // P))]).states[0]
+
+
+@pytest.mark.parametrize("name, t, digits", [("minor-axis-100", 1e6, 8), ("minor-axis-100", 1e8, 6), ("middle-axis-double-well", 1e8, 5),
+                                             ("torque-free-body", 1e9, 6)])
+def test_far_times_are_reached_by_the_reduced_form_and_its_digits_are_true(name, t, digits):
+    one = case(name)
+    found = best_reached(one, [t], digits)
+    assert found.enough and found.run.method == "reduced form"
+    exact = home(one, t)
+    error = np.abs(next(iter(found.run.state.values()))[0] - exact).max() / np.abs(exact).max()
+    assert error <= 10.0 ** -min(found.digits, 14)  # by the period in 40 digits
+
+
+def test_a_check_of_the_reduced_form_sees_what_a_rounded_period_costs():
+    # at t = 1e9 a period rounded to doubles, 1e-16 of it, is off by some 1e-7 of the time: no more than nine digits can be true
+    one = case("torque-free-body")
+    assert best_reached(one, [1e9], 6).digits < 9.5 < best_reached(one, [1e5], 6).digits
+
+
+def test_asking_too_much_of_far_times_ends_at_once(monkeypatch):
+    monkeypatch.setattr(precision_digits, "_many_digits", lambda *_: pytest.fail("many digits"))
+    found = best_reached(case("minor-axis-100"), [1e9], 14)
+    assert not found.enough and found.run.status == "reached" and found.run.method == "reduced form"
+
+
+def test_steps_that_stop_leave_the_reduced_form(monkeypatch):
+    monkeypatch.setattr(precision_digits, "FAR", 1e300)  # the run is tried first
+    monkeypatch.setattr("stabilab.analysis.trajectories.REPORT", 1000)
+    monkeypatch.setattr("stabilab.analysis.trajectories.STEP_LIMIT", 1000)
+    found = best_reached(case("minor-axis-100"), [1e6], 6)
+    assert found.enough and found.run.method == "reduced form"
+
+
+def test_digits_that_nobody_asked_for_are_an_aim_told_with_exit_0(stabilab, monkeypatch):
+    real = precision_digits._checked
+
+    def short(*arguments):
+        found = real(*arguments)
+        return found and replace(found, digits=9.4)
+    monkeypatch.setattr(precision_digits, "_checked", short)
+    monkeypatch.setattr(precision_digits, "_many_digits", lambda *_: pytest.fail("many digits"))
+    path = CASES / "off-axis-two.toml"
+    code, out, err = stabilab("simulate", path, "--at", "1")
+    assert code == 0 and "checked to 9.4 digits" in out and not err
+    monkeypatch.setattr(precision_digits, "_many_digits", lambda *_: None)
+    code, out, err = stabilab("simulate", path, "--at", "1", "--digits", "10")
+    assert code == 5 and "10 digits asked for, 9.4 reached" in err
+
+
+def test_extremes_nearly_as_sharp_as_the_aim_are_told_with_exit_0(stabilab, monkeypatch):
+    monkeypatch.setattr(precision_questions, "_apart", lambda *_: 10**-9.4 / 4)
+    monkeypatch.setattr(precision_questions, "_many_digits", lambda *_: None)
+    path = CASES / "off-axis-two.toml"
+    code, out, err = stabilab("extremes", path)
+    assert code == 0 and "9.4 digits" in out and not err
+    assert json.loads(stabilab("extremes", path, "--json")[1])[0]["digits"]["reached"] == pytest.approx(9.4)
+    assert stabilab("extremes", path, "--digits", "10")[0] == 5

@@ -15,14 +15,18 @@ from ..attitude import angles, beyond, to_space
 from ..compiled import TAYLOR_TOLERANCE
 from ..errors import InputError, ToleranceNotMet
 from .precision_front import SAFETY, front
-from .precision_told import CAUTION, DEFAULT, MOST, checked_digits, digits_of
+from .precision_told import CAUTION, DEFAULT, MOST, NEAR, checked_digits, digits_of
 from .simulation import STIFF_METHOD, Simulation, body_momentum, simulate, start_of
 from .trajectories import FALLBACK_RTOL, SCIPY_METHODS, _start
 
-MANY = "many digits"
+MANY, REDUCED_FORM = "many digits", "reduced form"
 OWN = ("as simulate chooses", 0.0)  # the finest Taylor series, which costs little more than a coarse one; Radau where the scene is stiff
 STIFF_FINE = (STIFF_METHOD, 1e-12)
 LAST_PLACE = 2.0**-52
+FAR = 1e4  # radians or so from which the reduced form, whose cost does not grow, is cheaper than a run
+FARTHEST = 1e5  # radians beyond which a run in many digits takes more than the work allowed (`precision_reference.WORK`)
+NODES = (-4, -1)  # which of the reduced form's resolutions are tried: one that mostly does, and the finest
+SHIFT, STRAIGHT = 2.0**12, 0.01  # last places by which a start is moved to see what one does; the answer's share up to which it grows in proportion
 COUNTED = 1.0  # rad: angles this near to those of a run in doubles have the same number of turns
 
 
@@ -59,28 +63,71 @@ def missed(case, found) -> str:
     return f"{case.place}: {found.asked} digits asked for, {found.digits:.1f} reached ({found.because}); ask for fewer or for a shorter span"
 
 
-def best_reached(case, times, digits: int = DEFAULT, measured: bool = True) -> Reached:
-    """As `simulate_to`, but where no setting reaches the digits the motion that comes nearest. A run that stops early ends
-    the search. measured: choose by the times that were measured on this machine; without them the answer is always the same."""
+def best_reached(case, times, digits: int = DEFAULT, measured: bool = True, aim: bool = False) -> Reached:
+    """As `simulate_to`, but where no setting reaches the digits the motion that comes nearest. Where stepping stops early, so would finer
+    steps: then only the reduced form is left. measured: choose by the times that were measured on this machine; without them the answer is
+    always the same. aim: nobody asked for the digits: the last `NEAR` of them may be missing, and many digits go no farther than FAR."""
     checked_digits(digits, MOST)
     times, best = np.atleast_1d(np.asarray(times, float)), None
-    for method, value in candidates(case, times, digits) if measured else (OWN, (MANY, 0.0)):
+    far = _turned(case, times) > (FAR if aim else FARTHEST)
+    tried = candidates(case, times, digits) if measured else _unmeasured(case, times)
+    for method, value in tried:
+        if best is not None and _hopeless(method, best, far):
+            continue
         found = _checked(case, times, method, value, digits)
         if found is None:
             continue
-        if found.enough or found.run.status != "reached":
+        if found.run.status == "reached" and found.digits >= digits - NEAR * aim:
             return found
-        best = found if best is None or found.digits > best.digits else best
+        best = found if best is None or (found.run.status == "reached", found.digits) > (best.run.status == "reached", best.digits) else best
     return best
+
+
+def _hopeless(method, best, far) -> bool:
+    """Whether a way is not worth trying after what was found: steps where steps stopped or where the reduced form, which makes none, has
+    answered first; many digits where the way is far."""
+    if method == "reduced":
+        return False
+    return best.run.status != "reached" or (far if method == MANY else best.run.method == REDUCED_FORM)
 
 
 def candidates(case, times, digits) -> list[tuple[str, float]]:
     """(method, setting) to try, in order: what was measured to reach the digits with one to spare, cheapest first; then,
-    whatever was measured, what `simulate` chooses itself; then many digits."""
+    whatever was measured, what `simulate` chooses itself, and many digits, with the reduced form before the one that costs more."""
     end = max(case.span, key=abs) if case.span else 0.0
     inside = np.all((times * np.sign(end) >= 0) & (np.abs(times) <= abs(end)))
     measured = [(p.method, p.rtol) for p in front(case) if inside and p.digits >= digits + SAFETY and p.method in RUNS]
-    return list(dict.fromkeys([*measured, OWN, (MANY, 0.0)]))
+    return list(dict.fromkeys([*measured, *_unmeasured(case, times)]))
+
+
+def _unmeasured(case, times):
+    ladder = [("reduced", nodes) for nodes in _resolutions(case, times)]
+    return [*ladder, OWN, (MANY, 0.0)] if _turned(case, times) > FAR else [OWN, *ladder, (MANY, 0.0)]
+
+
+def _turned(case, times) -> float:
+    """Radians or so that a motion goes through: its rates, or the roots of their rates where these are larger, times the longest time."""
+    from ..compiled import to_numpy
+    from ..equations import derive
+    scene = case.scene
+    row = np.array([*case.state, *(v for name in scene.blocks[1:] for v in case.blocks.get(name, (0.0,) * 3))])
+    if scene.blocks != ("omega",):
+        return float(np.linalg.norm(row[:3]) * np.abs(times).max())
+    with np.errstate(all="ignore"):
+        rates = np.abs(to_numpy(derive(scene))(row)).max()
+    return float(max(np.linalg.norm(row), math.sqrt(rates)) * np.abs(times).max())
+
+
+def _resolutions(case, times):
+    """Of the reduced form; none where it does not serve."""
+    if case.blocks or case.scene.blocks != ("omega",) or (times < 0).any():
+        return ()
+    from .precision_reduced import ladder
+    try:
+        found = ladder(case.scene, case.state)
+    except InputError:
+        return ()
+    return tuple(found[n] for n in NODES)
 
 
 def _checked(case, times, method, value, asked) -> Reached | None:
@@ -97,34 +144,47 @@ def _checked(case, times, method, value, asked) -> Reached | None:
         method, value = run.method, run.rtol
         if method == STIFF_METHOD and value > STIFF_FINE[1] and asked > -math.log10(value) - SAFETY:
             return _checked(case, times, *STIFF_FINE, asked)
+    if method == "reduced":
+        return _checked_reduced(case, times, run, value, asked)
     other_value = _other(method, value)
     other = RUNS[method](_moved(case), times, method, other_value) if run.status == "reached" else run
     if other.status != "reached":
         return Reached(run, asked, 0.0, f"the check of {method} stopped early")
     gap = _distance(run, other)
-    return Reached(run, asked, digits_of(CAUTION * gap), f"{method} with {'nodes' if method == 'reduced' else 'rtol'} {other_value:.2g} "
+    return Reached(run, asked, digits_of(CAUTION * gap), f"{method} with rtol {other_value:.2g} "
                    f"from a start moved in its last place differs by {gap:.1e}")
+
+
+def _checked_reduced(case, times, run, nodes, asked) -> Reached | None:
+    """By twice the nodes, and from a start moved by so many last places that the period, rounded, moves with it: what a period is off by grows
+    with the number of periods, and two runs that round it alike would not show that."""
+    try:
+        finer, moved = (_reduced(one, times, "reduced", 2 * nodes) for one in (case, _moved(case, SHIFT)))
+    except InputError:
+        return None
+    own, far = _distance(run, finer), _distance(finer, moved)
+    gap = max(own, far / SHIFT) if far < STRAIGHT else 1.0
+    return Reached(run, asked, digits_of(CAUTION * gap), f"reduced with {2 * nodes:g} nodes differs by {own:.1e}, and a start moved in its last "
+                   f"place by {far / SHIFT:.1e}" if far < STRAIGHT else "the motion goes too far for its start in doubles")
 
 
 def _other(method, value):
     """A setting fine enough to judge by, or, where there is none, a coarser one: the difference is then too large."""
-    if method == "reduced":
-        return 2 * value
     finest = TAYLOR_TOLERANCE if method == "taylor" else FALLBACK_RTOL
     return max(value / 1000, finest) if value > 4 * finest and method != STIFF_METHOD else value * 8
 
 
-def moved_row(row) -> np.ndarray:
-    """Numbers each moved by about a unit in its last place; a zero by half a unit of the largest."""
+def moved_row(row, places: float = 1.0) -> np.ndarray:
+    """Numbers each moved by about so many units in its last place; a zero by half as many of the largest."""
     row = np.asarray(row, float)
     signs = np.random.default_rng(1).choice([-1.0, 1.0], row.size)
-    return row + signs * LAST_PLACE * np.where(row == 0, 0.5 * np.abs(row).max(), np.abs(row))
+    return row + places * signs * LAST_PLACE * np.where(row == 0, 0.5 * np.abs(row).max(), np.abs(row))
 
 
-def _moved(case):
+def _moved(case, places: float = 1.0):
     """The case with its start moved; what is zero throughout (rest at the origin) stays."""
-    return replace(case, state=tuple(map(float, moved_row(case.state))),
-                   blocks={name: tuple(map(float, moved_row(row))) for name, row in case.blocks.items()})
+    return replace(case, state=tuple(map(float, moved_row(case.state, places))),
+                   blocks={name: tuple(map(float, moved_row(row, places))) for name, row in case.blocks.items()})
 
 
 def _distance(one, two) -> float:
@@ -145,7 +205,7 @@ def _reduced(case, times, method, nodes):
     if case.blocks or case.scene.blocks != ("omega",) or (times < 0).any():
         raise InputError("the reduced form gives the rate alone, from time 0 on")
     orbit = reduced(case.scene, case.state, int(nodes))
-    return Simulation(times, {_first(case): orbit.at(times)}, "exact", "reduced form", None, counters={"evaluations": int(orbit.counts)},
+    return Simulation(times, {_first(case): orbit.at(times)}, "exact", REDUCED_FORM, None, counters={"evaluations": int(orbit.counts)},
                       reason=f"time as an integral over the reduced coordinate, {int(nodes)} nodes")
 
 

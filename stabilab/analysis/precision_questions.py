@@ -14,7 +14,7 @@ import numpy as np
 
 from .balls import DOUBLE_BITS, Digits, working
 from .precision_digits import moved_row
-from .precision_told import CAUTION, MOST, MOST_DECIMALS, Told, checked_digits, digits_of, nothing
+from .precision_told import CAUTION, MOST, MOST_DECIMALS, NEAR, Told, checked_digits, digits_of, nothing
 from .results import Fate
 
 FORMULA_DIGITS = 11  # the formulas hand over to balls where they hold less
@@ -22,11 +22,11 @@ SAMPLE = 16  # states of an array that are checked one by one; where all agree t
 SEARCH = 20  # evaluations of a rate's series that the search for its roots takes in a step
 
 
-def ask(question, scene, state, digits: int, span=None, known=None, exact=None) -> Told:
+def ask(question, scene, state, digits: int, span=None, known=None, exact=None, aim: bool = False) -> Told:
     """The extremes, the period, or the margin of the "fate" of one state, to `digits` decimal digits (1 to 50).
 
     state, span, exact: as of `motion`; known: what `motion` found, where that is at hand. Digits of extremes are relative to the
-    size of their component. Told.digits may be below what was asked: see Told.required.
+    size of their component. aim: nobody asked for the digits, so a run that misses them by `NEAR` is not done again. Told.digits may be below what was asked: see Told.required.
     """
     digits = checked_digits(digits, MOST_DECIMALS)
     if known is None:
@@ -43,7 +43,7 @@ def ask(question, scene, state, digits: int, span=None, known=None, exact=None) 
         return _margin_without_reduction(twin, known, digits, exact or known.at[:3])
     if known.period:
         return _by_return(question, twin, known, digits, exact or known.at[:3])
-    return _over_span(scene, state, span, known, digits, exact)
+    return _over_span(scene, state, span, known, digits, exact, NEAR * aim)
 
 
 def ask_all(question, scene, states, digits: int, span=None) -> Told:
@@ -221,7 +221,7 @@ def _by_small_loop(question, form, values, digits, state) -> Told:
                     f"two runs of its series from the start, {error:.0e} apart", _decimals(found[1], digits) if digits > MOST else None)
 
 
-def _over_span(scene, state, span, known, digits, exact) -> Told:
+def _over_span(scene, state, span, known, digits, exact, slack) -> Told:
     from ..compiled import TAYLOR_TOLERANCE
     from ..scene import Scene
     from .rate_roots import roots_of_rates
@@ -236,7 +236,7 @@ def _over_span(scene, state, span, known, digits, exact) -> Told:
     other = roots_of_rates(scene, moved_row(start), length, 8 * TAYLOR_TOLERANCE)
     error = CAUTION * _apart(values, other.extremes()) if not other.reason else math.inf
     because = f"a run over the span; one at rtol {8 * TAYLOR_TOLERANCE:.1e} from a start moved in its last place differs by {error / CAUTION:.1e}"
-    if digits <= MOST and error <= 10.0**-digits:
+    if digits <= MOST and error <= 10.0 ** (slack - digits):
         return Told("extremes", values, digits, digits_of(error), "run", because)
     return _many_digits(equations, [*(exact or start[:3]), *start[3:]], length, digits) or Told("extremes", values, digits, digits_of(error), "run", other.reason or because)
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from ..errors import InputError, ToleranceNotMet
 
 DEFAULT = 10  # digits, where nothing else is asked for
+NEAR = 1.0  # a digit by which an aim that nobody asked for may be missed, rather than pay for many digits
 MOST = 15  # decimal digits that every double holds
 MOST_DECIMALS = 50  # digits that are given as decimals
 CAUTION = 4  # differences between runs are samples of the error, not bounds: several times their size counts

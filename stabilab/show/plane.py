@@ -69,7 +69,7 @@ def _histories(case, path):
     with style.drawing() as plt:
         figure, law = comparison.picture(plt, case, runs, parts), runs["exact"].validity
         if law is not None and not law.held:
-            figure.suptitle(f"{case.title or case.name}\n{law.short}", fontsize=10, parse_math=False, wrap=True)
+            figure.suptitle(f"{case.heading}\n{law.short}", fontsize=10, parse_math=False, wrap=True)
         return style.save(figure, path)
 
 
