@@ -18,7 +18,7 @@ from typing import NamedTuple
 CLOSE = 4e-10  # of the distance: lower bound and witness are brought so near
 INF = math.inf
 TINY = 2.0**-50  # of a parameter: boxes are not halved further
-MOST = 3000  # boxes; what is not closed by then is told as a bracket
+MOST = 6000  # boxes; what is not closed by then is told as a bracket
 
 
 class Nearest(NamedTuple):

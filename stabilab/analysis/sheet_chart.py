@@ -181,16 +181,21 @@ class Chart:
         x, rx, z, rz, x1, rx1, z1, rz1, x2, rx2, z2, rz2 = self.curve.over(t, dt)
         if e < 0:
             s, q = math.sin(y), math.cos(y)
-            rs, rq = dy * min(1.0, abs(q) + dy), dy * min(1.0, abs(s) + dy)
+            rs, rq, half = dy * min(1.0, abs(q) + dy), dy * min(1.0, abs(s) + dy), math.sin(0.5 * y)
         else:
-            s, q, grow = math.sinh(y), math.cosh(y), math.cosh(abs(y) + dy)
-            rs = rq = dy * grow
+            s, q, half = math.sinh(y), math.cosh(y), math.sinh(0.5 * y)
+            rs, rq = dy * math.cosh(abs(y) + dy), dy * math.sinh(abs(y) + dy)
+        less = 2 * e * half * half
         ms, mq = abs(s) + rs, abs(q) + rq
 
         def turned(p, rp, o, ro):
             """p C + o S and o C + e p S with radii."""
             return (p * q + o * s, rp * mq + abs(p) * rq + ro * ms + abs(o) * rs,
                     o * q + e * p * s, ro * mq + abs(o) * rq + rp * ms + abs(p) * rs)
+
+        def on(p, rp, o, ro):
+            """What the way y itself adds: p (C - 1) + o S; a short way adds little, so it is no difference of two."""
+            return p * less + o * s, rp * abs(less) + ro * abs(s) + ROUNDING * (abs(p * less) + abs(o * s))
         X, rX, Z, rZ = turned(x, rx, z, rz)
         X1, rX1, Z1, rZ1 = turned(x1, rx1, z1, rz1)
         X2, rX2, Z2, rZ2 = turned(x2, rx2, z2, rz2)
@@ -204,18 +209,21 @@ class Chart:
         rty = 2 * (a * (rX1 * mZ + abs(X1) * rZ + rX * mZ1 + abs(u) * rZ1) + b2 * (rZ1 * mX + abs(Z1) * rX + rZ * mX1 + abs(v) * rX1))
         yy = 2 * (a * (Z * Z + e * u * X) + b2 * (X * X + e * v * Z))
         ryy = 2 * (a * (rZ * (mZ + abs(Z)) + rX * mX + abs(u) * rX) + b2 * (rX * (mX + abs(X)) + rZ * mZ + abs(v) * rZ))
-        pull, rpull, still, rstill = G * X + c, abs(G) * rX, G * x + c, abs(G) * rx
-        k = 2 / n2
-        ptt = k * (G * (X1 * X1 - x1 * x1) + pull * X2 - still * x2 + e * d * (Z2 - z2))
-        rptt = k * (abs(G) * (rX1 * (mX1 + abs(X1)) + rx1 * (2 * abs(x1) + rx1)) + rpull * mX2 + abs(pull) * rX2
-                    + rstill * (abs(x2) + rx2) + abs(still) * rx2 + abs(d) * (rZ2 + rz2))
+        pull, rpull, k = G * X + c, abs(G) * rX, 2 / n2
+        (dX1, rdX1), (dX2, rdX2) = on(x1, rx1, z1, rz1), on(x2, rx2, z2, rz2)
+        sum1, rsum1, tilt = X1 + x1, rX1 + rx1, G * z + d
+        ptt = k * (G * dX1 * sum1 + pull * dX2 + s * x2 * tilt + less * (G * x * x2 + e * d * z2))
+        rptt = k * (abs(G) * (rdX1 * (abs(sum1) + rsum1) + abs(dX1) * rsum1) + rpull * (abs(dX2) + rdX2) + abs(pull) * rdX2
+                    + abs(s) * (rx2 * (abs(tilt) + abs(G) * rz) + abs(x2 * G) * rz)
+                    + abs(less) * (abs(G) * (rx * (abs(x2) + rx2) + abs(x) * rx2) + abs(d) * rz2)
+                    + ROUNDING * (abs(s * x2) * (abs(G * z) + abs(d)) + abs(less) * (abs(G * x * x2) + abs(d * z2))))
+        # along the orbit phi_tt changes at the rate 2 F_tt, whose terms nearly cancel where moments are nearly equal
+        rptt += k * dy * (2 * abs(G) * mX1 * mZ1 + (abs(G * Z + d) + abs(G) * rZ) * mX2 + (abs(pull) + rpull) * mZ2)
         pty = k * ((G * Z + d) * X1 + pull * Z1)
         rpty = k * (abs(G) * rZ * mX1 + abs(G * Z + d) * rX1 + rpull * mZ1 + abs(pull) * rZ1)
         pyy = k * (G * (Z * Z + e * X * X) + e * c * X + d * Z)
         rpyy = k * (abs(G) * (rZ * (mZ + abs(Z)) + rX * (mX + abs(X))) + abs(c) * rX + abs(d) * rZ)
-        more, less = MORE, 1e-9
-        return ((tt, rtt * more + less * abs(tt)), (ty, rty * more + less * abs(ty)), (yy, ryy * more + less * abs(yy)),
-                (ptt, rptt * more + less * abs(ptt)), (pty, rpty * more + less * abs(pty)), (pyy, rpyy * more + less * abs(pyy)))
+        return tuple((m, r * MORE + 1e-9 * abs(m)) for m, r in ((tt, rtt), (ty, rty), (yy, ryy), (ptt, rptt), (pty, rpty), (pyy, rpyy)))
 
 
 def _apart(middle, radius, low, high, place, wide):
