@@ -270,7 +270,7 @@ WRONG = [*((name, {"scene": bad}) for name in ASKED for bad in NO_SCENES), *((na
          *((name, {"times": bad}) for name in ("trajectory", "ensemble") for bad in (None, "x", [np.nan], [[1]], [2, 1, 3], [1j]))]
 
 
-@pytest.mark.parametrize("name, wrong", WRONG, ids=str)
+@pytest.mark.parametrize("name, wrong", WRONG, ids=[f"{n}-{name}" for n, (name, _) in enumerate(WRONG)])  # the same in every process
 def test_every_public_function_tells_a_wrong_argument_in_words(name, wrong):
     with pytest.raises(InputError):
         ASKED[name](**wrong)
