@@ -28,6 +28,7 @@ from .sheet_chart import Chart, Hyperbola, Seen, Straight
 from .shade import Shade
 
 AGREE = 1e-9  # relative: nearer than that, lower bound and witness are one number
+LEAST_SHARE = 1e-90  # of a place beside a plane: nearer, and the chart of the loops themselves goes on alone
 INF = math.inf
 
 
@@ -94,9 +95,9 @@ def _on_conic(reduction, state) -> Apart:
     start = min([_first(seen, arc, shade) for arc in arcs] + flat, key=lambda one: one[0], default=None)
     if start is None:
         return NO_SEPARATRIX
-    charts = [chart for arc in arcs for chart in arc.charts(seen, reduction.sense, start[0])]
+    charts = [chart for arc in arcs for chart in arc.charts(seen, reduction.sense, arcs, start[0])]
     if seen.e > 0:
-        charts += _plane_charts(seen, conic, start[0])
+        charts += _plane_charts(seen, conic, arcs, start[0])
     found = nearest(charts, seen.plain["w"], start[0] * (1 + 1e-14) + 1e-300, genuine=shade)
     place = start[1] if found.chart is None else _place(found)
     return Apart(found.lower, found.upper, _rates(reduction, seen, place, state), "", found.boxes)
@@ -118,14 +119,14 @@ class _Arc(NamedTuple):
         low, high = self.curve.window(reach)
         return max(self.low, low), min(self.high, high)
 
-    def charts(self, seen, sense, upper):
+    def charts(self, seen, sense, arcs, upper):
         t = self.window(seen, upper)
         if not t[0] <= t[1]:
             return
         if seen.e < 0:
             y = (-2 * math.pi, 0.0) if sense else (-math.pi, math.pi)
         else:
-            y = _ways(seen, self, upper)
+            y = _ways(seen, self, arcs, upper)
         yield Chart(seen, self.curve, t, y)
 
 
@@ -193,16 +194,21 @@ def _first(seen, arc, shade):
     return best
 
 
-def _ways(seen, arc, upper):
+def _ways(seen, arc, arcs, upper):
     """(y_low, y_high) of the loops of a branch on a hyperbola, up to where the charts beside the planes take over."""
     g = seen.plain
     ends = []
     for flip in (-1.0, 1.0):  # against the orbit eta grows, along it xi
-        far = _window_of(g, flip, upper)
-        most = max(map(abs, far))
-        gap = min(_on_plane_share(g, arc, flip), default=0.0)
-        ends.append(max(math.log(most / gap), 0.0) + 0.01 if gap and most else 0.01)
+        most = max(map(abs, _window_of(g, flip, upper)))
+        gap, meets = _beside(g, arc, flip)
+        gap = _taken_over(g, arcs, flip) if meets else gap
+        ends.append(max(math.log(most / gap), 0.0) + 0.01 if most else 0.01)
     return -ends[0], ends[1]
+
+
+def _taken_over(g, arcs, flip):
+    """Size of X + flip Z below which the saddles of the branches that meet this plane are left to the chart beside it."""
+    return max(min((share for share, meets in (_beside(g, arc, flip) for arc in arcs) if meets), default=0.0), LEAST_SHARE)
 
 
 def _window_of(g, flip, upper):
@@ -212,8 +218,9 @@ def _window_of(g, flip, upper):
     return xi - wide, xi + wide
 
 
-def _on_plane_share(g, arc, flip):
-    """Sizes of xi = X + flip Z below which the saddles of a branch are those beside the plane, or none."""
+def _beside(g, arc, flip):
+    """(size, meets): a branch either meets the plane xi = X + flip Z = 0, with saddles that are smooth functions of xi up to the
+    size, or it does not, and keeps that far from it."""
     curve, values = arc.curve, []
     spots = [arc.low, arc.high]
     if isinstance(curve, Hyperbola):
@@ -226,8 +233,8 @@ def _on_plane_share(g, arc, flip):
         values.append(x + flip * z)
     values = [0.0 if abs(v) <= 1e-13 * (abs(g["c"]) + abs(g["d"])) / abs(g["G"]) else v for v in values]
     if min(values) > 0 or max(values) < 0:
-        return [min(map(abs, values))]
-    return [_regular_up_to(g, flip)] + [0.5 * abs(v) for v in (values[0], values[-1]) if v]
+        return min(map(abs, values)), False
+    return min([_regular_up_to(g, flip)] + [0.5 * abs(v) for v in (values[0], values[-1]) if v]), True
 
 
 def _regular_up_to(g, flip):
@@ -239,20 +246,19 @@ def _regular_up_to(g, flip):
     return min(0.125 * rate2 / (G * abs(e1)) if e1 else INF, 0.7 * math.sqrt(rate2) / G)
 
 
-def _plane_charts(seen, conic, upper):
+def _plane_charts(seen, conic, arcs, upper):
     g = seen.plain
     for flip in (1.0, -1.0):
         roots = plane_roots(g, flip < 0)
-        arcs = list(_arcs(conic, seen))
         low, high = _window_of(g, flip, upper)
         e1 = 0.5 * (g["c"] + flip * g["d"])
         choices = [(root, low, high) for root in roots]
         if not g["mu"] and e1 and conic.pieces:  # saddles begin at the centre, on one side of the plane
             choices.append((0.0, max(low, 0.0) if e1 > 0 else low, min(high, 0.0) if e1 < 0 else high))
-        share = min((s for arc in arcs for s in _on_plane_share(g, arc, flip)), default=0.0)
+        share = _taken_over(g, arcs, flip)
         for root, low, high in choices:
             most = max(abs(low), abs(high))
-            if not low < high or not share:
+            if not low < high or share == LEAST_SHARE:
                 continue
             begin = max(math.log(most / share), 0.0) if most else 0.0
             end = _farthest(g, flip, root, most, upper)
