@@ -7,9 +7,13 @@ import pytest
 
 import stabilab
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, Scene
-from stabilab.analysis.free_gyrostat import free_margin
+from stabilab.analysis.balls import DOUBLES, Unclear
+from stabilab.analysis.free_gyrostat import _nearest, free_margin
 from stabilab.analysis.irreducible import kind_of
 from stabilab.analysis.precision_questions import ask
+
+from .oracles import sphere
+
 
 def rotations(D, lam, h2, digits=50):
     """[(energy, whether a saddle)] of the permanent rotations with |H|^2 = h2: Newton's method on (H, 1/s) from many starts, polished
@@ -59,6 +63,64 @@ def test_the_margin_is_that_of_the_nearest_saddle_found_by_newtons_method(D, lam
             nearest = min(saddles, key=abs)
             assert abs(float(margin) - nearest) < 1e-14 * abs(nearest)
     assert stabilab.fate(scene, np.array(state)).labels == Fate.BOUNDED
+
+
+def free_scenes(seed, count, decades=0.0):
+    """Bodies without a torque, moments distinct, nearly equal or equal, wheels along no, one, two or three axes, and states: floats."""
+    rng = np.random.default_rng(seed)
+    while count:
+        D = rng.uniform(1, 2, 3) if count % 4 else np.array([1.5, 1.5 * (1 + rng.choice([0, 1e-15, 1e-8])), rng.uniform(1, 2.5)])
+        lam = rng.normal(size=3) * 10.0 ** rng.uniform(-decades, decades) * (np.arange(3) < count % 5)
+        state = rng.normal(size=3) * 10.0 ** rng.uniform(-decades, decades) * (rng.random(3) < 0.9)
+        order = rng.permutation(3)
+        if state.any():
+            count -= 1
+            yield D[order].tolist(), lam[order].tolist(), state.tolist()
+
+
+def energies(D, lam, state, margin):
+    """Kinetic energies of the motion and of the saddle: what a margin is judged by."""
+    own = float(sum(d * v * v for d, v in zip(D, state))) / 2
+    return own + abs(own + margin)
+
+
+@pytest.mark.parametrize("decades", [0.0, 3.0])
+def test_margins_of_free_bodies_and_gyrostats_are_those_of_the_nearest_saddle_in_many_digits(decades):
+    # oracle: mpmath's roots of |H|^2 = h^2 and the second derivative as a matrix (tests/oracles/sphere.py)
+    for D, lam, state in free_scenes(5, 25, decades):
+        scene, exact = Scene(Body(D), Gyrostat(lam)), sphere.margin(D, lam, state)
+        found = stabilab.fate(scene, np.array([state])).margins[0], stabilab.motion(scene, state, brief=True).margin_energy
+        if exact is None:
+            assert found == (np.inf, None), (scene, state)
+        else:
+            assert max(abs(v - float(exact)) for v in found) <= 1e-12 * energies(D, lam, state, float(exact)), (scene, state)
+
+
+def test_a_body_turning_about_its_major_axis_has_a_positive_margin_and_about_its_minor_one_a_negative():
+    """By hand: the middle axis has h^2/(2 D2) at the momentum h of the motion, 2 T = sum D w^2."""
+    scene = Scene(Body((2, 4, 3)))
+    for state, margin in (((0, 1, 0), 16 / 6 - 4 / 2), ((1, 0, 0), 4 / 6 - 2 / 2), ((0, 0, 1), 0), ((1, 2, 0.5), (4 + 64 + 2.25) / 6 - (2 + 16 + 0.75) / 2)):
+        assert stabilab.fate(scene, np.array(state)).margins == pytest.approx(margin, rel=1e-14)
+        assert stabilab.motion(scene, state, brief=True).margin_energy == pytest.approx(margin, rel=1e-14)
+
+
+def test_large_arrays_of_free_motions_keep_their_digits_and_rarely_need_many():
+    rng = np.random.default_rng(8)
+    for D, lam, _ in free_scenes(9, 10, 2.0):
+        scene, states = Scene(Body(D), Gyrostat(lam)), rng.normal(size=(6000, 3))
+        many = stabilab.fate(scene, states)
+        assert many.precise <= 12, scene
+        for state, margin in zip(states[::2000].tolist(), many.margins[::2000]):
+            exact = float(free_margin(scene, state))
+            assert margin == exact or abs(margin - exact) <= 1e-12 * energies(D, lam, state, exact), (scene, state)
+
+
+def test_two_saddles_as_far_above_as_below_give_the_margin_of_the_one_above():
+    """The energy halfway between two saddles of one momentum, where no choice of the axes may decide."""
+    high, low = DOUBLES.ball(Fraction(1, 3)), DOUBLES.ball(Fraction(-1, 3))
+    assert _nearest([low, high], 1024) is high and _nearest([high, low], 1024) is high
+    with pytest.raises(Unclear):
+        _nearest([low, high], 128)
 
 
 def saddle_and_another():

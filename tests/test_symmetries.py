@@ -1,7 +1,7 @@
 """Symmetries of D w' = (D w + lambda) x w + M: what must not depend on names, senses and units."""
 from __future__ import annotations
 
-from itertools import permutations
+from itertools import permutations, product
 
 import numpy as np
 import pytest
@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 import stabilab
 from stabilab import Fate
+from stabilab.analysis.precision_questions import ask
 
 from .oracles.pairs import physical, scaled
 
@@ -53,6 +54,93 @@ def test_relabelling_the_axes_changes_nothing_but_names(name, order):
     scene, _ = physical(BODY, momentum, torque)
     other, _ = physical(np.array(BODY)[order], sign * momentum[order], sign * torque[order])
     compare(scene, STATES, other, sign * STATES[:, order], box=lambda b: signed(b[:, order], [sign] * 3))
+
+
+def signed_permutations():
+    """All 48 as (order, signs, determinant): component n of an image is signs[n] times component order[n]."""
+    for order in permutations(range(3)):
+        for signs in product((1, -1), repeat=3):
+            yield list(order), np.array(signs), float(np.linalg.det(np.eye(3)[list(order)]).round() * np.prod(signs))
+
+
+def some_scenes(seed, count):
+    """(moments, wheel, torque, states): a torque about one axis or none, a wheel across it along none, one or two axes (without a
+    torque along three as well), moments sometimes equal, rates and torques over eight decades; floats."""
+    rng = np.random.default_rng(seed)
+    for n in range(count):
+        D, axis, pace = rng.uniform(1, 2, 3), int(rng.integers(3)), 10.0 ** rng.uniform(-4, 4)
+        if n % 6 == 5:
+            D[0] = D[1] * (1 + rng.choice([0, 1e-12]))
+        momentum, torque = rng.normal(size=3) * pace * (rng.random(3) < 0.6), np.zeros(3)
+        if n % 3:
+            torque[axis], momentum[axis] = rng.normal() * pace * pace, 0.0
+        states = rng.normal(size=(4, 3)) * pace * 10.0 ** rng.uniform(-2, 2, (4, 1))
+        states[3, rng.integers(3)] = 0.0
+        yield D, momentum, torque, states
+
+
+def same_motion(one, two, order, signs, energy, scene):
+    """Whether two answers for one state (`motion`) tell the same of a motion and of its image."""
+    assert (one.fate, one.because.replace(f"axis {one.axis}", "axis"), one.axis) == (
+        two.fate, two.because.replace(f"axis {two.axis}", "axis"), two.axis and order[two.axis - 1] + 1), scene
+    assert not one.axis or two.sense == signs[two.axis - 1] * one.sense, scene
+    assert (one.margin_energy is None) == (two.margin_energy is None), scene
+    assert one.margin_energy is None or abs(two.margin_energy - one.margin_energy) <= 1e-11 * (energy + abs(one.margin_energy + energy)), scene
+    if one.extremes is not None and two.extremes is not None:
+        box, image = signed(np.array(one.extremes)[order], signs), np.array(two.extremes)
+        np.testing.assert_allclose(image, box, rtol=0, atol=1e-9 * np.abs(box[np.isfinite(box)]).max(), err_msg=repr(scene))
+
+
+@pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.slow), pytest.param(3, marks=pytest.mark.slow)])
+def test_nothing_depends_on_how_the_axes_are_numbered_or_pointed(seed):
+    """P a signed permutation: (P a) x (P b) = det P P (a x b), so w, lambda, M become det P times their images. All 48 for fates of arrays,
+    four of them in turn for periods and for one state."""
+    images = list(signed_permutations())
+    for n, (D, momentum, torque, states) in enumerate(some_scenes(seed, 12 if seed == 1 else 200)):
+        scene, _ = physical(D, momentum, torque)
+        answer, times = stabilab.fate(scene, states), stabilab.period(scene, states)
+        energies = 0.5 * (D * states**2).sum(axis=1)
+        single = stabilab.motion(scene, states[n % 4], brief=True)
+        for m, (order, signs, sign) in enumerate(images):
+            turn = lambda v: sign * signs * np.asarray(v)[..., order]  # noqa: E731, B023
+            other, _ = physical(D[order], turn(momentum), turn(torque))
+            image = stabilab.fate(other, turn(states))
+            np.testing.assert_array_equal(image.labels, answer.labels, err_msg=repr((scene, order)))
+            np.testing.assert_array_equal(image.reasons, answer.reasons, err_msg=repr((scene, order)))
+            np.testing.assert_array_equal(np.isfinite(image.margins), np.isfinite(answer.margins), err_msg=repr((scene, order)))
+            here = np.isfinite(answer.margins)
+            off = np.abs(image.margins[here] - answer.margins[here])
+            assert (off <= 2e-12 * (energies + np.abs(answer.margins + energies))[here]).all(), (scene, order, off)
+            if m % 12 == n % 12:
+                np.testing.assert_allclose(stabilab.period(other, turn(states)), times, rtol=1e-9, err_msg=repr((scene, order)))
+                same_motion(single, stabilab.motion(other, turn(states[n % 4]), brief=True), order, sign * signs, energies[n % 4], other)
+
+
+@pytest.mark.parametrize("seed", [4])
+def test_reversed_and_mirrored_free_motions_have_the_same_margins(seed):
+    """Without a torque t -> -t with w, lambda -> -w, -lambda, and with them any mirror, keeps momentum and energy."""
+    for D, momentum, torque, states in some_scenes(seed, 20):
+        if torque.any():
+            continue
+        scene, _ = physical(D, momentum, torque)
+        answer = stabilab.fate(scene, states)
+        for order, signs, _ in signed_permutations():
+            other, _ = physical(D[order], signs * momentum[order], torque)
+            image = stabilab.fate(other, signs * states[:, order])
+            np.testing.assert_array_equal(image.labels, answer.labels)
+            np.testing.assert_allclose(image.margins, answer.margins, rtol=0, atol=1e-12 * (D * states**2).sum())
+
+
+def test_the_digits_of_a_free_margin_do_not_depend_on_the_numbering_either():
+    D, momentum, state = np.array([2.097342044612408, 1.6171673443598118, 1.7957359267338395]), np.array([0.03125, 0.0, -0.0625]), np.array([-2.0, 1.0, 0.0])
+    asked = {}
+    for order, signs, sign in signed_permutations():
+        for wheel in (0.0, 1.0):
+            scene, _ = physical(D[order], sign * wheel * (signs * momentum[order]), np.zeros(3))
+            told = ask("fate", scene, tuple(sign * signs * state[order]), 30)
+            assert told.digits >= 30
+            asked.setdefault(wheel, set()).add(told.decimals)
+    assert [len(texts) for texts in asked.values()] == [1, 1], asked
 
 
 @cases

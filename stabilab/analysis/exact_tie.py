@@ -25,16 +25,6 @@ def exact_tie(orbit) -> bool:
     return all(tied(orbit, spot) for spot in close)
 
 
-def over_pure_spin(r, state) -> Fraction:
-    """W^2/2 + V above the potential at the conic's centre, exactly, for a reduction without a torque (canonical units): on an
-    invariant plane of a hyperbola a motion for which it is zero comes to rest there."""
-    u, v, speed = (Fraction(state[a]) for a in (r.j, r.k, r.axis))
-    sj, sk, ap, aq, sp = r.q0 / r.q, r.p0 / r.p, abs(r.p), abs(r.q), 1 if r.p > 0 else -1
-    u, v = u + sj, v + sk
-    return (ap * aq * (speed + r.s) ** 2 / 2
-            - sp * (aq * u * (r.kappa * u / 2 + r.rho - r.kappa * sj) + ap * v * (r.sigma - r.kappa * sk)))
-
-
 def polynomial(*coefficients):
     """flint's polynomial with these rational coefficients, lowest power first."""
     from flint import fmpq_poly

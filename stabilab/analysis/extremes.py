@@ -11,7 +11,7 @@ from ..asked import checked_span
 from ..errors import InputError
 from .effective import effective
 from .far_states import far_numbers, far_rows
-from .fate import CHUNK, checked_states, fate
+from .fate import CHUNK, checked_states, fate_on_orbit
 from .landscape import EPS, TURN, Landscape, landscape
 from .reduction import reduce
 from .results import Fate
@@ -87,7 +87,7 @@ def _fill_far(scene, states, boxes, periods, far):
 
 def _fill(land, scene, states, boxes, periods):
     """One chunk: boxes (n, 3, 2) and periods (n,), each unless it is empty."""
-    decided = fate(scene, states)
+    decided = fate_on_orbit(scene, land, states)
     start = land.start(states)
     trapped = trapped_rows(land, decided)
     span = interval(land, *_pick(start[0], start[1], trapped)) if len(boxes) and len(periods) and trapped.any() else None

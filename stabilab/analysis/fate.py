@@ -17,9 +17,10 @@ from ..asked import real
 from ..errors import InputError
 from .barrier_table import barrier_table
 from .effective import effective
-from .exact_tie import over_pure_spin
 from .far_states import BEYOND, far_exponent, far_fate, far_rows
 from .fast_fate import compiled_loops
+from .free_fate import label_free
+from .free_gyrostat import is_free
 from .landscape import EPS, TURN, Landscape, landscape
 from .potential import derivatives_on_parabola
 from .precise import decide
@@ -43,7 +44,11 @@ class FateResult:
     labels: (...,) int8 of `Fate`. margins: (...,) barrier minus energy in the scene's energy (J; or x_i^2/2 + U when
     scaled): positive below the barrier; -inf where there is no barrier ahead, +inf where no separatrix bounds the
     motion, NaN where nothing is known of any (undecided, and no law keeps the motion from being bounded); at an
-    equilibrium on the separatrix 0, and NaN where it is no double (`because` says so). axis: 1, 2, 3 of a spin-up, else 0; sense: its sign, else 0. reasons: (...,) `Reason` codes. precise: how
+    equilibrium on the separatrix 0, and NaN where it is no double (`because` says so). Without a torque all motions are bounded, and the barrier is the kinetic energy of a permanent
+    rotation of the same momentum that is a saddle, of two the nearer in energy: 0 on a separatrix, > 0 with less energy than that (a
+    body turning about its major axis), < 0 with more, whatever the axes are called (`free_gyrostat`; in scaled variables, which know
+    no momentum, the reduction about axis 3 has the barrier). axis: 1, 2, 3 of a spin-up, else 0; sense: its sign, else 0.
+    reasons: (...,) `Reason` codes. precise: how
     many states had to be decided in many digits. Iterating gives labels, margins.
     """
 
@@ -113,7 +118,7 @@ def fate(scene, states, fast=None, digits: int | None = None) -> FateResult:
 
     Arrays of `TABLE_FROM` states or more look the barrier up in a table of the scene; smaller ones, and any state that
     is near a tie, a fold or an equilibrium, solve for it. Labels are the same either way; margins may differ by 1e-12 of
-    their terms, the kinetic energy and the barrier's height over the state.
+    their terms, the kinetic energy and the barrier's height over the state (without a torque: both kinetic energies).
     """
     if digits is not None:
         from .precision_questions import ask_all
@@ -181,17 +186,23 @@ def _label_some(scene, flat, out, indices) -> int:
 
 def _labeller(scene):
     """The function that labels a chunk (n, 3) into the columns of `out` and returns how many needed many digits."""
+    if is_free(scene):
+        return _at_rest_too(scene, lambda states, out: label_free(scene, states, out))
     land = landscape(scene)
     if land is not None:
         by_geometry = {-1: _label_circle, 1: _label_hyperbola, 0: _label_parabola}[land.e]
-
-        def label(states, out):
-            precise = by_geometry(land, states, out)
-            at_rest(scene, states, out)
-            return precise
-        return label
+        return _at_rest_too(scene, lambda states, out: by_geometry(land, states, out))
     from .irreducible import labeller
     return labeller(scene)
+
+
+def _at_rest_too(scene, label):
+    """A labeller that marks states at rest as well."""
+    def whole(states, out):
+        precise = label(states, out)
+        at_rest(scene, states, out)
+        return precise
+    return whole
 
 
 def at_rest(scene, states, out):
@@ -220,17 +231,38 @@ def equilibrium_mask(scene, states) -> np.ndarray:
     return candidate
 
 
-def _label_circle(land: Landscape, states, out) -> int:
+def fate_on_orbit(scene, land, states) -> FateResult:
+    """`fate` with the margin against the barriers of the reduction's own orbit: without a torque that is another one, for there the
+    reduction keeps another invariant than the momentum. 0 on an invariant plane, where no barrier stands."""
+    found = fate(scene, states)
+    if land.sense or not len(states):
+        return found
     place, w, size = land.start(states)
+    if land.e < 0:
+        margins = _settled_circle(land, states, place, w, size)[0]
+    else:
+        margins = _valley_margins(land, states, place, w, size)[0]
+        margins[((place[0] == 0) | (place[1] == 0)) & (land.e > 0)] = 0.0
+    return replace(found, margins=margins * land.reduction.energy_unit)
+
+
+def _settled_circle(land, states, place, w, size):
+    """(margins (n,), signs (n,), how many were decided in many digits), in canonical units."""
     margins, doubtful = circle_margins(land, place, w, size)
-    axis, sense = land.reduction.axis + 1, land.sense
     doubtful = np.nonzero(doubtful)[0]
     signs = np.sign(margins)
     for index in doubtful:
         tie = decide(land.reduction, states[index])
         margins[index], signs[index] = tie.margin, tie.sign
+    return margins, signs, len(doubtful)
+
+
+def _label_circle(land: Landscape, states, out) -> int:
+    place, w, size = land.start(states)
+    margins, signs, precise = _settled_circle(land, states, place, w, size)
+    axis, sense = land.reduction.axis + 1, land.sense
     out["margins"][:] = margins * land.reduction.energy_unit
-    if sense == 0:  # no torque: bounded either way
+    if sense == 0:  # no torque, in scaled variables: bounded either way
         out["labels"][:], out["reasons"][:] = Fate.BOUNDED, Reason.TORQUE_FREE
     else:
         inside = signs > 0
@@ -239,7 +271,7 @@ def _label_circle(land: Landscape, states, out) -> int:
                                      np.where(np.isneginf(margins), Reason.NO_BARRIER, Reason.ABOVE_BARRIER))
         out["axis"][:], out["sense"][:] = np.where(inside, 0, axis), np.where(inside, 0, sense)
     _mark_ties(out, signs == 0)
-    return len(doubtful)
+    return precise
 
 
 def _mark_ties(out, tie):
@@ -279,8 +311,6 @@ def circle_margins(land: Landscape, place, w, size):
 def _label_hyperbola(land: Landscape, states, out) -> int:
     place, w, size = land.start(states)
     out["labels"][:], out["reasons"][:] = Fate.BOUNDED, Reason.WALLS
-    if land.sense == 0:
-        out["reasons"][:] = Reason.TORQUE_FREE
     margins, signs, precise = _valley_margins(land, states, place, w, size)
     tie = signs == 0
     out["margins"][:] = margins * land.reduction.energy_unit
@@ -352,13 +382,7 @@ def _label_plane(land, state, place, out, index):
     xi, eta = place
     axis = land.reduction.axis + 1
     if xi == 0 and eta == 0:
-        _write(out, index, Fate.SPIN_UP, Reason.PURE_SPIN, -np.inf, axis, land.sense)  # without a torque it is at rest
-        return
-    if land.sense == 0:
-        edge = over_pure_spin(land.reduction, state)
-        label = Fate.BOUNDED if edge < 0 else Fate.SEPARATRIX
-        reason = Reason.TORQUE_FREE if edge < 0 else Reason.ASYMPTOTIC
-        _write(out, index, label, reason, float(-edge) * land.reduction.energy_unit)
+        _write(out, index, Fate.SPIN_UP, Reason.PURE_SPIN, -np.inf, axis, land.sense)
         return
     if eta == 0:  # grows ahead, and the torque's tilt rises behind
         _write(out, index, Fate.BOUNDED, Reason.WALLS, np.inf)
@@ -381,14 +405,12 @@ def _write(out, index, label, reason, margin, axis=0, sense=0):
 
 def _label_parabola(land: Landscape, states, out) -> int:
     place, w, size = land.start(states)
-    out["labels"][:] = Fate.BOUNDED
-    out["reasons"][:] = Reason.TORQUE_FREE if land.sense == 0 else Reason.WALLS
+    out["labels"][:], out["reasons"][:] = Fate.BOUNDED, Reason.WALLS
     margins, signs, precise = _valley_margins(land, states, place, w, size)
     out["margins"][:] = margins * land.reduction.energy_unit
     _mark_ties(out, signs == 0)
-    if land.sense:
-        for index in np.nonzero(flat_mask(land, states, place))[0]:
-            _write(out, index, Fate.SPIN_UP, Reason.PURE_SPIN, -np.inf, land.reduction.axis + 1, land.sense)
+    for index in np.nonzero(flat_mask(land, states, place))[0]:
+        _write(out, index, Fate.SPIN_UP, Reason.PURE_SPIN, -np.inf, land.reduction.axis + 1, land.sense)
     return precise
 
 

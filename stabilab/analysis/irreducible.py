@@ -14,10 +14,9 @@ from ..errors import InputError
 from .alignment import aligned
 from .far_states import in_range
 from .fate import _write, at_rest, equilibrium_mask, fate, nearly_flat
-from .free_gyrostat import free_margin
 from .landscape import EPS, landscape
 from .near_rest import beside_rest, small_loop
-from .one_state import OneFate, at_rest as rest_of, fate_of
+from .one_state import OneFate, at_rest as rest_of, fate_of, free_fate
 from .reasons import Reason, rests
 from .reduction import reduce
 from .results import Fate
@@ -38,7 +37,7 @@ def kind_of(scene) -> str:
 
 
 def labeller(scene):
-    """The chunk labeller of `fate` for such a scene; it returns how many states it decided in many digits."""
+    """The chunk labeller of `fate` for such a scene with a torque; it returns how many states it decided in many digits."""
     kind = kind_of(scene)
     if kind == "turned":
         return lambda states, out: _label_turned(scene, states, out)
@@ -51,7 +50,7 @@ def labeller(scene):
                 else:
                     _write(out, index, *one_fate(scene, state, kind))
         at_rest(scene, states, out)
-        return len(states) if kind == "free" else 0
+        return 0
     return label
 
 
@@ -62,11 +61,7 @@ def one_fate(scene, state, kind) -> OneFate:
     elif kind == "turned":
         found = _turned_fate(aligned(scene), state)
     else:
-        margin = free_margin(scene, state)
-        height = float(margin)
-        if margin.ball is not None and not margin.tie and (height == 0 or math.isinf(height)):
-            height = math.nan  # beyond the range of doubles
-        found = OneFate(*((Fate.SEPARATRIX, Reason.TIE) if margin.tie else (Fate.BOUNDED, Reason.TORQUE_FREE)), height)
+        found = free_fate(scene, state)
     return rest_of(scene, found) if rests(scene.quadratic(), state) else found
 
 

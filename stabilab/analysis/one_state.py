@@ -12,7 +12,7 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from .balls import DOUBLE_BITS, settled, working
-from .exact_tie import over_pure_spin
+from .free_gyrostat import free_margin, is_free
 from .precise import PreciseOrbit, decide
 from .precise_extremes import extreme_balls
 from .reasons import REASONS, Reason, margin_at_rest, rests
@@ -40,16 +40,27 @@ def fate_of(scene, reduction, state, near=None, small=None) -> OneFate:
 
     near, small: reduction and state in a unit in which to compare energies; the margin is in it then.
     """
-    found = {-1: _on_circle, 1: _on_hyperbola, 0: _on_parabola}[reduction.e](near or reduction, small or state)
-    unit = reduction.energy_unit
-    lost = found.margin == 0 and found.label != Fate.SEPARATRIX  # its sign is known, and it is too small for a double
-    found = found._replace(margin=math.nan if lost else found.margin * unit)
+    if is_free(scene) and near is None:
+        found = free_fate(scene, state)
+    else:
+        found = {-1: _on_circle, 1: _on_hyperbola, 0: _on_parabola}[reduction.e](near or reduction, small or state)
+        lost = found.margin == 0 and found.label != Fate.SEPARATRIX  # its sign is known, and it is too small for a double
+        found = found._replace(margin=math.nan if lost else found.margin * reduction.energy_unit)
     return at_rest(scene, found) if rests(scene.quadratic(), state) else found
 
 
 def at_rest(scene, found: OneFate) -> OneFate:
     """The fate of an equilibrium, given what its energy alone says."""
     return OneFate(Fate.EQUILIBRIUM, Reason.AT_REST, margin_at_rest(scene, found.margin))
+
+
+def free_fate(scene, state) -> OneFate:
+    """The fate without a torque: bounded, whatever the margin, or on a separatrix of the momentum sphere."""
+    margin = free_margin(scene, state, doubles=True)
+    height = float(margin)
+    if margin.ball is not None and not margin.tie and (height == 0 or math.isinf(height)):
+        height = math.nan  # beyond the range of doubles
+    return _tie() if margin.tie else OneFate(Fate.BOUNDED, Reason.TORQUE_FREE, height)
 
 
 def _spin_up(r, reason, margin) -> OneFate:
@@ -85,7 +96,7 @@ def _valley(r, state) -> OneFate:
     tie = decide(r, state, DOUBLE_BITS)
     if tie.sign == 0:
         return _tie()
-    return OneFate(Fate.BOUNDED, Reason.WALLS if r.sense else Reason.TORQUE_FREE, INF if tie.margin == -INF else tie.margin)
+    return OneFate(Fate.BOUNDED, Reason.WALLS, INF if tie.margin == -INF else tie.margin)
 
 
 def _on_hyperbola(r, state) -> OneFate:
@@ -93,9 +104,7 @@ def _on_hyperbola(r, state) -> OneFate:
     if v * v * abs(r.p) != u * u * abs(r.q):
         return _valley(r, state)
     if u == 0:
-        return _spin_up(r, Reason.PURE_SPIN, -INF) if r.sense else OneFate(Fate.BOUNDED, Reason.PURE_SPIN, -INF)
-    if r.sense == 0:
-        return _on_free_plane(r, state)
+        return _spin_up(r, Reason.PURE_SPIN, -INF)
     if (u > 0) == (v > 0) and r.sense * r.p > 0 or (u > 0) != (v > 0) and r.sense * r.p < 0:
         return OneFate(Fate.BOUNDED, Reason.WALLS, INF)  # eta = 0: it grows ahead, and the torque's tilt rises behind
     tie = decide(r, state, DOUBLE_BITS)
@@ -104,14 +113,8 @@ def _on_hyperbola(r, state) -> OneFate:
     return _tie() if tie.sign == 0 else _spin_up(r, Reason.PLANE_ESCAPES, tie.margin)
 
 
-def _on_free_plane(r, state) -> OneFate:
-    """On an invariant plane without torque: bounded below the height of the plane's end, else it tends to a rotation."""
-    above = over_pure_spin(r, state)
-    return OneFate(*((Fate.BOUNDED, Reason.TORQUE_FREE) if above < 0 else (Fate.SEPARATRIX, Reason.ASYMPTOTIC)), float(-above))
-
-
 def _on_parabola(r, state) -> OneFate:
-    if r.sense and not any(settled(lambda numbers: PreciseOrbit(r, state, numbers).taylor[1:], DOUBLE_BITS)):
+    if not any(settled(lambda numbers: PreciseOrbit(r, state, numbers).taylor[1:], DOUBLE_BITS)):
         return _spin_up(r, Reason.PURE_SPIN, -INF)  # the force is the same all along the orbit
     return _valley(r, state)
 

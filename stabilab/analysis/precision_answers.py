@@ -116,6 +116,7 @@ def fate_methods(task: Problem) -> list:
     """(name, call) of the ways to the fate: by energy in doubles, and by energy in balls; call() -> its word."""
     from ..errors import InputError
     from .fate import fate
+    from .free_gyrostat import free_margin, is_free
     from .landscape import landscape
     from .precise import decide
     from .results import Fate
@@ -127,6 +128,6 @@ def fate_methods(task: Problem) -> list:
     reduction = landscape(task.scene).reduction
 
     def in_balls():
-        tie = decide(reduction, task.start)
-        return {1: "below the barrier", -1: "above the barrier, or none stands ahead", 0: "at the barrier"}[tie.sign]
+        margin = float(free_margin(task.scene, task.start)) if is_free(task.scene) else decide(reduction, task.start).sign
+        return "at the barrier" if not margin else "below the barrier" if margin > 0 else "above the barrier, or none stands ahead"
     return [("energy", lambda: Fate(int(fate(task.scene, task.start).labels)).word), ("balls", in_balls)]

@@ -13,6 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from .balls import DOUBLE_BITS, Digits, working
+from .free_gyrostat import free_margin, is_free
 from .precision_digits import moved_row
 from .precision_told import CAUTION, MOST, MOST_DECIMALS, NEAR, Told, checked_digits, digits_of, nothing
 from .results import Fate
@@ -35,6 +36,8 @@ def ask(question, scene, state, digits: int, span=None, known=None, exact=None, 
     twin, land = _reduced(scene)
     if question != "extremes" and _number(question, known) is None:
         return nothing(question, digits, "the motion does not repeat" if question == "period" else "there is no margin in energy to be judged")
+    if question == "fate" and is_free(twin):
+        return _margin_without_reduction(twin, known, digits, exact or known.at[:3])
     if land is not None:
         return _by_formula(question, twin, land, known, digits, exact or known.at[:3])
     if known.fate == Fate.EQUILIBRIUM:
@@ -165,10 +168,8 @@ def _decimals(balls, digits):
 
 
 def _margin_without_reduction(scene, known, digits, state) -> Told:
-    from .irreducible import kind_of
     wanted = max(digits, MOST) + 1
-    if kind_of(scene) == "free":
-        from .free_gyrostat import free_margin
+    if is_free(scene):
         margin = free_margin(scene, state, wanted)
         balls = None if margin.tie else margin.ball
     else:

@@ -18,10 +18,9 @@ class Reason(IntEnum):
     TIE = 7
     AT_REST = 8
     TORQUE_FREE = 9
-    ASYMPTOTIC = 10
-    UNBOUNDED_LAW = 11
-    OFF_AXIS = 12
-    TURN_ROUNDS = 13
+    UNBOUNDED_LAW = 10
+    OFF_AXIS = 11
+    TURN_ROUNDS = 12
 
 
 REASONS = {
@@ -35,7 +34,6 @@ REASONS = {
     Reason.TIE: "the energy equals the barrier's: the motion tends to the saddle equilibrium",
     Reason.AT_REST: "every rate vanishes at the state, exactly",
     Reason.TORQUE_FREE: "no torque: the kinetic energy is constant, and it is positive definite",
-    Reason.ASYMPTOTIC: "no torque, on an invariant plane: the motion tends to a permanent rotation",
     Reason.UNBOUNDED_LAW: "|H|^2/2 - D_i T grows steadily at the rate lambda_i M_i: no motion is bounded",
     Reason.OFF_AXIS: "the torque is off the principal axes: no integral of motion bounds or releases it, and none is known",
     Reason.TURN_ROUNDS: "the energy is within 1e-36 of a barrier's, and the turn that puts the torque on an axis has irrational numbers, "
