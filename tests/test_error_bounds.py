@@ -5,6 +5,7 @@ The size of a margin's terms comes from the potential at 60 digits, which shares
 from __future__ import annotations
 
 import importlib
+from importlib.util import find_spec
 from itertools import islice
 from types import SimpleNamespace
 
@@ -16,8 +17,9 @@ import stabilab
 from stabilab.analysis.landscape import EPS, landscape
 from stabilab.analysis.reduction import Reduction, reduce
 
+from .oracles import energy
 from .oracles.energy import Reduced
-from .oracles.pairs import brink, scaled
+from .oracles.pairs import brink, physical, scaled
 from .test_fate import ELLIPTIC, FAMILIES, axis_of
 from .test_small_faults import PARABOLIC
 
@@ -176,3 +178,80 @@ def test_the_equilibria_of_an_orbit_are_those_of_the_potential_at_sixty_digits(n
                 whole += pot.terms(here) + sum(abs(f * true ** k) for k, f in enumerate(pot.derivatives(here), 1))
             assert abs(pot.force(spot)) <= 8 * EPS * whole
             assert abs(offset - true) <= 64 * EPS * (1 + abs(true) + (size[0][n] + size[1][n]) / speed + whole / bend)
+
+
+FAR_OUT = [  # (moments, wheel, torque, state): places near the poles of circles whose G A^2 is 1e6 to 1e16 times the barrier's height
+    ((576, 336, 240), (0, 0, 0), (-864, 0, 0), (-0.5693643838474999, 10782.986363786067, -7.468869861932772)),
+    ((576, 336, 240), (0, 0, 0), (-864, 0, 0), (0, 786932.7492182573, -7.534465385839052)),
+    ((576, 240, 336), (0, 0, 0), (0, -0.2661765439473299, 0), (0.0738245254673233, 0, 61121.23439463297)),
+    ((1.7609145380865416, 1.5865762328564204, 1.1709032742739005), (0, 0, 0.017696549891233867), (0.40745335466701516, 0, 0),
+     (-239.40168693445182, 61568996.298604585, 10.432313174243788)),
+    ((1.3649594581805409, 1.6294562586289711, 1.9609530797171684), (0, -8.400630973150462e-06, -0.0004267201739766325),
+     (0.008083379915661895, 0, 0), (119.20413016066038, -15584542.061516885, 0.5152704292854497)),
+    ((336, 240, 576), (-7.899966026035833e-05, 0, 0), (0, 0, -6.501930082487902e-07), (269012.9069050331, 0.021142863970777276, 0.6095533845460953))]
+
+
+@pytest.mark.parametrize("case", range(len(FAR_OUT)))
+def test_margins_of_circles_far_larger_than_their_barriers_are_high_keep_twelve_digits(case):
+    """Against the potential at 80 digits, by the general formula, by the table and by the table compiled."""
+    D, momentum, torque, state = FAR_OUT[case]
+    scene, problem = physical(D, momentum, torque)
+    exact, axis = float(energy.margin(problem, state, digits=80)), axis_of(problem)
+    kinetic = 0.5 * D[axis] * state[axis] ** 2
+    many = np.random.default_rng(1).normal(size=(6000, 3)) * np.abs(state).max()
+    many[0] = state
+    for states, fast in zip((many[:1], many, many), (False, False, None if find_spec("numba") is None else True)):
+        found = stabilab.fate(scene, states, fast=fast)
+        assert abs(found.margins[0] - exact) <= 1e-12 * (kinetic + abs(exact + kinetic))
+        assert found.precise <= 10
+
+
+def test_margins_near_the_poles_of_circles_of_any_size_keep_twelve_digits_and_seldom_need_many():
+    rng, asked, count = np.random.default_rng(11), 0, 0
+    for name in ELLIPTIC:
+        scene, problem = FAMILIES[name]
+        i = axis_of(problem)
+        angle = rng.integers(0, 4, 6) * np.pi / 2 + rng.choice([-1, 1], 6) * 10.0 ** rng.uniform(-8, -0.5, 6)
+        states = np.zeros((6, 3))
+        states[:, [i - 2, i - 1]] = 10.0 ** rng.uniform(0, 8, (6, 1)) * np.stack([np.sin(angle), np.cos(angle)], axis=1)
+        states[::2, i] = rng.normal(size=3) * 10.0 ** rng.uniform(-2, 2, 3)
+        found = stabilab.fate(scene, states)
+        asked, count = asked + found.precise, count + len(states)
+        for state, margin in zip(states.tolist(), found.margins):
+            exact = energy.margin(problem, state)
+            kinetic = 0.5 * float(problem.weight[i]) * state[i] ** 2
+            assert np.isneginf(margin) if exact is None else abs(margin - float(exact)) <= 1e-12 * (kinetic + abs(float(exact) + kinetic)), (
+                name, [v.hex() for v in state])
+    assert asked <= 0.1 * count
+
+
+@pytest.mark.parametrize("name", ["middle scaled -, |c| above the cusp", "middle scaled, |c| far above", *PARABOLIC])
+def test_margins_of_slow_motions_nearly_as_high_as_a_barrier_keep_twelve_digits_of_their_terms(name):
+    """At rest in the torque's coordinate the terms of a margin are the height itself, however large those it is made of."""
+    scene, problem = BARRIERS[name] if name in BARRIERS else (FAMILIES | PARABOLIC)[name]
+    i = axis_of(problem)
+    for state in brinks(name, problem):
+        slow = np.array(state)
+        slow[i] = 0.0
+        for low, high in zip(*_ray(scene, slow, i)):
+            for share in 10.0 ** -np.arange(2, 12, 2.0):
+                here = low + (high - low) * share
+                exact, margin = energy.margin(problem, here.tolist(), digits=80), stabilab.fate(scene, here).margins
+                if exact is not None and np.isfinite(margin):
+                    assert abs(margin - float(exact)) <= 1e-12 * abs(float(exact)), [v.hex() for v in here.tolist()]
+
+
+def _ray(scene, state, i):
+    """States at rest on either side of the barrier's level, along a line through `state`: (level, away), lists."""
+    ends = [state * (1 + np.eye(3)[(i + k) % 3] * s) for k in (1, 2) for s in (0.5, -0.5, 3.0)]
+    found = [], []
+    for end in ends:
+        margins = stabilab.fate(scene, np.stack([state, end])).margins
+        if np.isfinite(margins).all() and margins[0] * margins[1] < 0:
+            low, high = state, end
+            for _ in range(60):
+                middle = 0.5 * (low + high)
+                low, high = (middle, high) if stabilab.fate(scene, middle).margins * margins[0] > 0 else (low, middle)
+            found[0].append(low)
+            found[1].append(end)
+    return found

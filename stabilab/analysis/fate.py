@@ -284,7 +284,7 @@ def circle_margins(land: Landscape, place, w, size):
     pot = land.potential
     offsets, spots, barrier = land.critical(place, barriers_only=True)
     energy = 0.5 * w * w
-    best, doubtful = np.full(w.shape, -np.inf), np.zeros(w.shape, bool)
+    best, doubtful, blurred = np.full(w.shape, -np.inf), np.zeros(w.shape, bool), np.full(w.shape, -np.inf)
     x, z = place
     radius = np.hypot(x, z)
     rounding = size[0] + size[1]
@@ -294,17 +294,20 @@ def circle_margins(land: Landscape, place, w, size):
         for column in range(offsets.shape[1]):
             offset = np.where(barrier[:, column], offsets[:, column], np.nan)
             spot = spots[:, :, column]
-            margin = -pot.rise(-offset, spot) - energy
+            height, unsure = pot.height_over(place, spot, offset)
+            margin = height - energy
             # rounding of the angle adds less: where a barrier stands mu is below the other terms of the force
             scale = (pot.mu * offset + energy
                      + (pull + np.abs(pot.G * spot[0] + pot.c)) * (rounding + np.abs(spot[0]) + np.abs(spot[1])))
             there = ~np.isnan(offset)
             # at a barrier rounding decides whether it stands ahead or behind, and then the next one counts
-            doubtful |= there & ((np.abs(margin) <= ROUNDINGS * EPS * scale) | (np.minimum(offset, TURN - offset) <= angle_error)
-                                 | _tilted(pot, spot, offset, margin, energy))
+            doubtful |= there & ((np.abs(margin) <= ROUNDINGS * EPS * scale) | (np.minimum(offset, TURN - offset) <= angle_error))
             best = np.where(there & (margin > best), margin, best)
+            vague = there & ~(unsure <= MARGIN_SHARE * (np.abs(height) + energy))
+            blurred = np.where(vague & ~(margin + unsure <= blurred), margin + unsure, blurred)
         for edge in land.conic.fold_invariants:
             doubtful |= np.abs(radius**2 - edge) <= ROUNDINGS * EPS * (rounding**2 + edge)
+    doubtful |= ~(blurred < best) & ~np.isneginf(blurred)  # a barrier of less digits than promised may be the highest
     return best, doubtful & (radius > 0)
 
 
@@ -335,11 +338,12 @@ def _valley_margins(land, states, place, w, size):
             offset, spot = offsets[:, column], spots[:, :, column]
             rise = pot.rise(-offset, spot)
             margin = np.where(barrier[:, column], -rise - energy, np.inf)
+            vague = ~(pot.rounding(-offset, spot, place, size) <= MARGIN_SHARE * (np.abs(rise) + energy))
             nearer = np.abs(margin) < np.abs(margins)
             margins = np.where(nearer, margin, margins)
             force, slope = np.abs(pot.force(place)), np.abs(pot.slope(place))
             scale = energy + np.abs(rise) + force * np.abs(offset) + slope * offset**2 + _roughness(land, place, size)
-            doubtful |= nearer & (np.abs(margin) <= ROUNDINGS * EPS * scale)
+            doubtful |= nearer & (vague | (np.abs(margin) <= ROUNDINGS * EPS * scale))
             # rounding has led to another equilibrium than was sought, or tilts the way to it
             doubtful |= barrier[:, column] & (~(pot.slope(spot) > 0) | _tilted(pot, spot, offset, -rise - energy, energy))
         doubtful |= _beside_fold(land, place)

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import math
 
+EPS = 2.0**-52
+
 
 def sin(y):
     """sin of a float or an array."""
@@ -98,6 +100,26 @@ class Elliptic:
         return (-self.mu * y_minus_sin(y) - force * s - b * (self.G * x * x + self.c * x - self.d * z)
                 - 0.5 * self.G * dx * dx)
 
+    def height_over(self, place, spot, offset):
+        """(V at an equilibrium `spot`, `offset` ahead of a place of its circle, above V at the place; its rounding), arrays.
+
+        Sine and cosine come from the places, not from the offset, and squares of coordinates are differences formed as
+        products: where the place is half a turn or a whole one from the spot, G A^2 is far above any height and drops out.
+        """
+        import numpy as np
+        (x0, z0), (x, z) = place, spot
+        Q = x0 * x0 + z0 * z0
+        s, cosine = (x * z0 - z * x0) / Q, (x * x0 + z * z0) / Q
+        u = np.where(cosine > 0, s * s / (1 + cosine), 1 - cosine)
+        cross, bent = self.G * x * z, 0.5 * self.G * (z - x) * (z + x)
+        tilt, pull = self.mu * y_minus_sin(offset), u * (np.abs(self.d * z) + np.abs(self.c * x))
+        height = bent * s * s + cross * s * u + u * (self.d * z - self.c * x) - tilt
+        # a rounding of each term; of the angle and the radius of the place; and of the equilibrium, where the force should vanish
+        angle = (np.abs(x * z0) + np.abs(z * x0) + np.abs(x0 * z0)) / Q
+        unsure = (np.abs(bent * s * s) + np.abs(cross * s * u) + pull + np.abs(tilt) + np.abs(self.force(place)) * angle
+                  + (self.mu + np.abs(cross) + self.terms(spot)) * np.abs(s))
+        return height, 4 * EPS * unsure
+
 
 class Hyperbolic:
     """Hyperbola: place = (xi, eta) = (X + Z, X - Z), growing and decaying like exp(+-theta)."""
@@ -131,6 +153,14 @@ class Hyperbolic:
         return (quarter * (xi * xi * two(2 * y) + eta * eta * two(-2 * y)) - self.e1 * xi * two(y)
                 + self.e2 * eta * two(-y) - force * y)
 
+    def rounding(self, y, spot, place, size):
+        """Rounding of `rise` from an equilibrium `spot` to a place y away, that of the place (by its `size`) included; arrays."""
+        xi, eta = abs(spot[0]), abs(spot[1])
+        two, eighth = exp_minus_two_terms, 0.125 * abs(self.G)
+        terms = (eighth * (xi * xi * two(2 * y) + eta * eta * two(-2 * y)) + abs(self.e1) * xi * two(y) + abs(self.e2) * eta * two(-y))
+        blur = 3 + (size[0] + size[1]) * (1 / abs(place[0]) + 1 / abs(place[1]))
+        return EPS * (4 * terms + abs(self.force(place)) * blur)
+
 
 class Parabolic:
     """Parabola (two equal moments): place = (omega_j, omega_k); the potential is a polynomial of degree 4 or less."""
@@ -163,6 +193,14 @@ class Parabolic:
     def rise(self, y, place, force=0.0):
         first, second, third = self.derivatives(place)
         return -y * (force + y * (first / 2 + y * (second / 6 + y * third / 24)))
+
+    def rounding(self, y, spot, place, size):
+        """As of `Hyperbolic`; the way from the place is a root of a cubic."""
+        first, second, third = (abs(v) for v in self.derivatives(spot))
+        at, bend, curl = (abs(v) for v in self.derivatives(place))
+        way = abs(y)
+        cubic = self.terms(place) + way * (at + way * (bend / 2 + way * curl / 6))
+        return EPS * (4 * way * way * (first / 2 + way * (second / 6 + way * third / 24)) + abs(self.force(place)) * (2 * way + 4 * cubic / first))
 
 
 def derivatives_on_parabola(r, u, v):
