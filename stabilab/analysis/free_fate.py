@@ -23,6 +23,7 @@ from .results import Fate
 from .rootfind import bracketed_newton
 
 SURE = 16  # times the estimate of rounding: so far from zero a margin's sign is certain
+OWN = 1e9  # times that estimate a margin exceeds it, or many digits are asked: so it keeps nine of its own, near a saddle too
 MARGIN_SHARE = 5e-13 / 4  # of both kinetic energies: the estimate counts single roundings, of which a margin may have four times as many
 LEAST = 1e-290  # smaller terms may have lost digits to underflow
 
@@ -135,7 +136,7 @@ def free_margins(scene, states):
             doubtful |= there & (np.abs(np.abs(margin) - np.abs(best)) <= SURE * (error + rounding)) & (margin * best < 0)
             nearer = there & (np.abs(margin) < np.abs(best))
             best, rounding = np.where(nearer, margin, best), np.where(nearer, error, rounding)
-        known = np.isinf(best) | (np.abs(best) > SURE * rounding) & (rounding <= MARGIN_SHARE * (energy + np.abs(best + energy)))
+        known = np.isinf(best) | (np.abs(best) > OWN * rounding) & (rounding <= MARGIN_SHARE * (energy + np.abs(best + energy)))
         return best * saddles.unit**2, doubtful | ~known
 
 
