@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import stabilab
-from stabilab import Fate
+from stabilab import Body, Fate, Gyrostat, Scene
 from stabilab.analysis import turning
 from stabilab.analysis.landscape import landscape
 from stabilab.analysis.motion import motion
@@ -15,7 +15,7 @@ from stabilab.analysis.reduction import reduce
 
 from .oracles import energy
 from .oracles.energy import Reduced, _inner, _levels
-from .oracles.pairs import physical, scaled
+from .oracles.pairs import WORDS, physical, scaled
 from .test_extremes import assert_extremes
 from .test_fate import FAMILIES, axis_of
 from .test_small_faults import PARABOLIC
@@ -160,3 +160,37 @@ def test_a_free_motion_may_tend_to_a_saddle_that_is_not_the_highest():
     assert stabilab.period(scene, state) == np.inf
     for beside in (np.nextafter(-1.0, 0), np.nextafter(-1.0, -2)):
         assert stabilab.fate(scene, np.array([-2.0, -3.0, beside])).labels == Fate.BOUNDED
+
+
+def test_a_wheel_on_the_axis_of_symmetry_leaves_a_slow_spin_about_it_its_digits():
+    """D1 = D3 and lambda along axis 2: D2 omega2' = 0, so its least and greatest value are the state's; the reduced rate is 6e10 times it."""
+    scene = Scene(Body((1.1117401918899112, 0.0026960631481820845, 1.1117401918899112)), Gyrostat((0.0, -94100.55177549199, 0.0)))
+    for spin in (1.4193800928353106e-06, -3e-12, 0.0):
+        state = np.array([5.65e-07, spin, 4.49e-06])
+        box = stabilab.extremes(scene, state)
+        assert box[1].tolist() == [spin, spin] and np.abs(box[[0, 2]]).max() == pytest.approx(np.hypot(state[0], state[2]), rel=1e-12)
+
+
+def test_a_well_that_the_search_along_a_nearly_straight_conic_misses_is_left_to_many_digits():
+    """Two moments equal to 1e-15: the place found was no equilibrium, and the motion seemed to turn nine times further out."""
+    scene, problem = physical((1.1047813401006856, 1.1822330003010755, 1.1822330003010744), (0.020933431533374423, -0.5486642092301773, 0.0),
+                              (0.0, 0.0, 82.56845985200516))
+    state = [float.fromhex(v) for v in ("0x1.14c3976eedb21p-2", "0x1.c177397069eefp+48", "0x1.57e119d91b60ap-4")]
+    assert_extremes(stabilab.extremes(scene, np.array(state)), energy.extremes(problem, state, digits=120), 1e-11)
+
+
+@pytest.mark.parametrize("fast", [False, True])
+def test_a_circle_that_may_or_may_not_touch_a_line_of_equilibria_is_judged_exactly(fast):
+    """D1 = D3: the equilibria lie on a line, which the circle of the state touches to rounding: is there a barrier? The potential at
+    120 digits tells; doubles of the two ways said spin-up with an infinite rate, and no motion at all."""
+    if fast:
+        pytest.importorskip("numba")
+    scene, problem = physical((1.4276494619780422, 8.965831416126159e-07, 1.4276494619780422), (0.0, 0.0, 0.0006058653767121162),
+                              (0.0, -4.924418876831019e-07, 0.0))
+    state = [float.fromhex(v) for v in ("0x1.aa22f3f7fbf09p-11", "0x0.0p+0", "-0x1.bcfe9db0b6d69p-12")]
+    for steps in range(-3, 4):
+        here = [state[0] * (1 + steps * 2.0**-52), *state[1:]]
+        found, exact = stabilab.fate(scene, np.array(here)), energy.margin(problem, here, digits=120)
+        assert WORDS[energy.label(problem, here, digits=120)] == found.labels
+        assert np.isneginf(found.margins) if exact is None else found.margins == pytest.approx(max(float(exact), 0.0), rel=1e-11)
+        assert_extremes(stabilab.extremes(scene, np.array([here]), fast=fast)[0], energy.extremes(problem, here, digits=120), 1e-11)

@@ -44,11 +44,14 @@ class Conic:
         self.lines: tuple[Line, ...] = ()
         self.folds: tuple[float, ...] = ()
         self.fold_invariants: tuple[float, ...] = ()
+        self.tangents: tuple[float, ...] = ()  # invariants of the orbits that a line of equilibria touches
         G, c, d, mu = g["G"], g["c"], g["d"], g["mu"]
         size = c * c + d * d
         self.limit = Line(float(-mu * d / size), float(-mu * c / size), float(-c), float(d)) if size else None
         if G == 0:
             self.lines = (self.limit,) if size else ()
+            beside = c * c - self.e * d * d
+            self.tangents = (float(mu * mu / beside),) if beside else ()
             self.K = self.shift = 0.0
             return
         # K through roots of rationals would miss an exact zero by 2^-240: recognise it in rational arithmetic
@@ -57,6 +60,7 @@ class Conic:
         if K == 0:
             # from the feet: of two almost equal moments the crossing lies so far out that the way back would cost all digits
             self.lines = (Line(float(-c / G), 0.0, 0.0, 1.0), Line(0.0, float(-d / G), 1.0, 0.0))
+            self.tangents = float(-self.e * (c / G) ** 2), float((d / G) ** 2)
             return
         quartic = [Fraction(1), -d / G, Fraction(0), -self.e * c * K / G**2, self.e * K * K / G**2]
         self.folds = tuple(real_polynomial_roots([_shorten(a) for a in quartic]))

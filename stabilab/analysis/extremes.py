@@ -142,11 +142,14 @@ def _chunk(land: Landscape, states, decided, start, span=None):
 
 
 def needs_digits(land: Landscape, states):
-    """(n,) True where the canonical shift is so large that doubles would lose digits (nearly equal moments)."""
-    shift = land.reduction.parabolic_shift_size
-    if shift == 0:
-        return np.zeros(len(states), bool)
-    return shift > SHIFT_LIMIT * np.maximum(np.abs(states).max(axis=1), 1e-300)
+    """(n,) True where the canonical shift is so large that doubles would lose digits (nearly equal moments, or a wheel on the
+    axis of symmetry of a body that hardly turns about it)."""
+    r = land.reduction
+    shift, along = r.parabolic_shift_size, abs(float(r.s))
+    lost = np.zeros(len(states), bool)
+    if shift:
+        lost |= shift > SHIFT_LIMIT * np.maximum(np.abs(states).max(axis=1), 1e-300)
+    return lost | (along > SHIFT_LIMIT * np.abs(states[:, r.axis])) if along else lost
 
 
 def on_top(land: Landscape, place):

@@ -49,7 +49,7 @@ def kernel_input(land: Landscape):
         thin = 1e-6 * float(np.hypot(conic.c, conic.d)) / abs(conic.G)
     numbers = tuple(float(v) for v in (conic.G, conic.c, conic.d, conic.mu, conic.K, conic.shift, g["rx"], g["sj"], g["rz"],
                                        g["sk"], g["n"], r.s, g["flip"], thin, *r.shift_remainders))
-    return numbers, (r.j, r.k, r.axis), tuple(pieces), tuple(map(float, conic.fold_invariants))
+    return numbers, (r.j, r.k, r.axis), tuple(pieces), tuple(map(float, conic.fold_invariants + conic.tangents))
 
 
 def _open_piece(conic, piece):

@@ -305,7 +305,7 @@ def circle_margins(land: Landscape, place, w, size):
             best = np.where(there & (margin > best), margin, best)
             vague = there & ~(unsure <= MARGIN_SHARE * (np.abs(height) + energy))
             blurred = np.where(vague & ~(margin + unsure <= blurred), margin + unsure, blurred)
-        for edge in land.conic.fold_invariants:
+        for edge in land.conic.fold_invariants + land.conic.tangents:
             doubtful |= np.abs(radius**2 - edge) <= ROUNDINGS * EPS * (rounding**2 + edge)
     doubtful |= ~(blurred < best) & ~np.isneginf(blurred)  # a barrier of less digits than promised may be the highest
     return best, doubtful & (radius > 0)
@@ -363,7 +363,7 @@ def _beside_fold(land, place):
     """(n,) True where rounding of the place may make or unmake a pair of equilibria of its orbit."""
     if land.e > 0:
         Q, beside = land.invariant(place), np.zeros(np.shape(place[0]), bool)
-        for edge in land.conic.fold_invariants:
+        for edge in land.conic.fold_invariants + land.conic.tangents:
             beside |= np.abs(Q - edge) <= ROUNDINGS * EPS * (np.abs(Q) + abs(edge))
         return beside
     first, second, third = land.potential.derivatives(place)

@@ -117,7 +117,7 @@ class Elliptic:
         # a rounding of each term; of the angle and the radius of the place; and of the equilibrium, where the force should vanish
         angle = (np.abs(x * z0) + np.abs(z * x0) + np.abs(x0 * z0)) / Q
         unsure = (np.abs(bent * s * s) + np.abs(cross * s * u) + pull + np.abs(tilt) + np.abs(self.force(place)) * angle
-                  + (self.mu + np.abs(cross) + self.terms(spot)) * np.abs(s))
+                  + (self.mu + np.abs(cross) + self.terms(spot) + np.abs(self.force(spot)) / EPS) * np.abs(s))
         return height, 4 * EPS * unsure
 
 
@@ -159,7 +159,7 @@ class Hyperbolic:
         two, eighth = exp_minus_two_terms, 0.125 * abs(self.G)
         terms = (eighth * (xi * xi * two(2 * y) + eta * eta * two(-2 * y)) + abs(self.e1) * xi * two(y) + abs(self.e2) * eta * two(-y))
         blur = 3 + (size[0] + size[1]) * (1 / abs(place[0]) + 1 / abs(place[1]))
-        return EPS * (4 * terms + abs(self.force(place)) * blur)
+        return EPS * (4 * terms + abs(self.force(place)) * blur) + abs(self.force(spot) * y)
 
 
 class Parabolic:
@@ -200,7 +200,8 @@ class Parabolic:
         at, bend, curl = (abs(v) for v in self.derivatives(place))
         way = abs(y)
         cubic = self.terms(place) + way * (at + way * (bend / 2 + way * curl / 6))
-        return EPS * (4 * way * way * (first / 2 + way * (second / 6 + way * third / 24)) + abs(self.force(place)) * (2 * way + 4 * cubic / first))
+        terms = 4 * way * way * (first / 2 + way * (second / 6 + way * third / 24)) + abs(self.force(place)) * (2 * way + 4 * cubic / first)
+        return EPS * terms + abs(self.force(spot) * y)
 
 
 def derivatives_on_parabola(r, u, v):

@@ -110,7 +110,7 @@ class Reduction:
         g, low = self.constants, self.shift_remainders
         x = g["flip"] * (shifted(states[..., self.j], g["sj"], low[0]) / g["rx"])
         z = shifted(states[..., self.k], g["sk"], low[1]) / g["rz"]
-        w = g["flip"] * (g["n"] * (states[..., self.axis] + float(self.s)))
+        w = g["flip"] * (g["n"] * shifted(states[..., self.axis], float(self.s), float(self.s - Fraction(float(self.s)))))
         return x, z, w
 
     @cached_property
