@@ -1,9 +1,11 @@
-"""Random scenes, half of them degenerate: no equilibrium missed or invented, no wrong verdict, what is not proved is counted."""
+"""Random scenes, half of them degenerate: no equilibrium missed or invented, no wrong verdict, what is not proved is counted; and wild
+ones, whose fates, extremes and periods are the same by every way to them."""
 import collections
 import json
 import os
 import time
 from fractions import Fraction
+from importlib.util import find_spec
 
 import numpy as np
 import pytest
@@ -12,6 +14,8 @@ from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, equi
 from stabilab.analysis.certificate import certificate
 from stabilab.verify import verify
 
+from .hunt.wild import disagreements as wild_disagreements
+from .hunt.wild import wild_scene, wild_state
 from .oracles import elimination as by_hand
 
 
@@ -197,3 +201,33 @@ def test_a_hundred_thousand_scenes(piece, degenerate, capsys):
     with capsys.disabled():
         print(f"\n{'degenerate' if degenerate else 'generic'} {piece}: {dict(tally)}")
     assert tally["undecided"] <= (0.01 if degenerate else 0.001) * count, tally
+
+
+def one_wild_scene(seed, number, states, tabled, digits):
+    """What is said otherwise by two ways in a scene that (seed, number) repeats: [] where all agree."""
+    rng = np.random.default_rng([seed, number])
+    scene = wild_scene(rng)
+    rows = [wild_state(rng, scene) for _ in range(states)]
+    try:
+        found = list(wild_disagreements(scene, rows, WAYS, tabled, digits))
+    except Exception as error:  # noqa: BLE001  any end but an answer is a finding
+        found = [([[v.hex() for v in row] for row in rows], repr(error))]
+    return [(seed, number, scene, *one) for one in found]
+
+
+WAYS = (False,) if find_spec("numba") is None else (False, True)  # NumPy, and compiled
+
+
+def test_wild_scenes_have_one_answer_by_every_way_to_it():
+    """One state, small arrays (NumPy and compiled), large ones (tables) and thirty digits, each within what it promises."""
+    found = [wrong for n in range(100) for wrong in one_wild_scene(1, n, 1, n == 3, n % 50 == 4)]
+    assert not found, f"{len(found)}, the first: {found[0]}"
+
+
+@pytest.mark.slow
+@pytest.mark.long
+@pytest.mark.parametrize("piece", range(20))
+def test_ten_thousand_wild_scenes_have_one_answer_by_every_way_to_it(piece):
+    count = int(os.environ.get("STABILAB_SCENES", 500))
+    found = [wrong for n in range(count) for wrong in one_wild_scene(100 + piece, n, 3, n % 10 == 0, n // 10 + 1 if n % 10 == 1 else 0)]
+    assert not found, f"{len(found)}, the first ten: {found[:10]}"
