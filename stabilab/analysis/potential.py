@@ -118,7 +118,7 @@ class Elliptic:
         angle = (np.abs(x * z0) + np.abs(z * x0) + np.abs(x0 * z0)) / Q
         unsure = (np.abs(bent * s * s) + np.abs(cross * s * u) + pull + np.abs(tilt) + np.abs(self.force(place)) * angle
                   + (self.mu + np.abs(cross) + self.terms(spot) + np.abs(self.force(spot)) / EPS) * np.abs(s))
-        return height, 4 * EPS * unsure
+        return height, EPS * unsure
 
 
 class Hyperbolic:
