@@ -11,6 +11,7 @@ from dataclasses import replace
 from fractions import Fraction
 
 from ..errors import InputError
+from .free_gyrostat import is_free
 from .one_state import fate_of
 from .results import Motion
 
@@ -78,7 +79,7 @@ def powered(value: float, k: int) -> float:
 def far_fate(scene, reduction, state, k: int):
     """The fate of one state of a scene with this reduction, as an `OneFate`."""
     found = fate_of(scene, reduction, state, *own(reduction, state, k))
-    return found._replace(margin=powered(found.margin, 2 * k))
+    return found if is_free(scene) else found._replace(margin=powered(found.margin, 2 * k))
 
 
 def in_scene_unit(found: Motion, k: int, state) -> Motion:

@@ -40,7 +40,7 @@ def fate_of(scene, reduction, state, near=None, small=None) -> OneFate:
 
     near, small: reduction and state in a unit in which to compare energies; the margin is in it then.
     """
-    if is_free(scene) and near is None:
+    if is_free(scene):  # in the scene's unit, whatever its size
         found = free_fate(scene, state)
     else:
         found = {-1: _on_circle, 1: _on_hyperbola, 0: _on_parabola}[reduction.e](near or reduction, small or state)
