@@ -110,7 +110,7 @@ class _Search:
             return INF, 0
         w0, w_low, w_high = self.w, math.sqrt(max(p.phi - swing, 0.0)), math.sqrt(high)
         beside = max(w_low - w0, w0 - w_high, 0.0)
-        form = _Form(p.apart + beside * beside, p.apart_t, p.apart_y, r, off_r)
+        form = first = _Form(p.apart + beside * beside, p.apart_t, p.apart_y, r, off_r)
         best = form.least(dt, dy)
         if best < self.goal:
             for other in self._forms(p, r, f, swing, w_low, w_high, t, dt, y, dy):
@@ -121,7 +121,12 @@ class _Search:
             else:
                 if self.genuine is not None:
                     best = self.genuine.bound(self, form, best, chart, t, dt, y, dy)
-        return best, form.way(dt, dy)
+        if form is not first:
+            return best, form.way(dt, dy)
+        # this bound loses by the range of W as well: D changes by (W - w0)/W times phi
+        share = (abs(p.gap) + w_high - w_low) / (w_high + 1e-300)
+        return best, form._replace(t=abs(p.apart_t) + share * abs(p.phi_t), y=abs(p.apart_y) + share * abs(p.phi_y), bends=[
+            (abs(a[0]) + a[1] + share * (abs(b[0]) + b[1]), 0.0) for a, b in zip(r, f)]).way(dt, dy)
 
     def _forms(self, p, r, f, swing, w_low, w_high, t, dt, y, dy):
         """Smooth functions below D over the box."""
