@@ -436,7 +436,8 @@ def check_distances(number, seed):
             continue
         known += 1
         settled += found.settled
-        assert np.linalg.norm(np.array(found.witness) - state) == pytest.approx(found.upper, rel=1e-9)
+        apart = np.linalg.norm(np.array(found.witness) - state)  # where rounding keeps the bracket open, its upper end allows for it
+        assert found.lower * (1 - 1e-9) <= apart <= found.upper * (1 + 1e-9)
         if torque.any():  # without torque the margin is the highest barrier's alone
             assert inside(found, state, scene, rng) is None, (moments, wheel, torque, state)
     return settled
