@@ -536,9 +536,9 @@ def _with_angles(case, run, model, order):
 
 
 def _judge_runs(runs, digits):
-    """Exit with 5 where a run stopped or the digits asked for were not reached."""
+    """Exit with 5 where a run stopped, the digits asked for were not reached, or no digit was where nobody asked for any."""
     _all_reached((case, run.reason) for case, run, _ in runs if run.status != "reached")
-    short = [(case, reached) for case, _, reached in runs if digits is not None and reached and not reached.enough]
+    short = [(case, reached) for case, _, reached in runs if reached and not reached.enough and (digits is not None or reached.digits < 1)]
     if short:
         from .analysis.precision_digits import missed
         raise ToleranceNotMet("\n".join(missed(*row) for row in short))

@@ -50,7 +50,7 @@ def follow(case, times, model: str = "exact", method: str | None = None, rtol: f
     if method is not None or rtol is not None:
         raise InputError(f"method, rtol: the model {model!r} is a formula; they belong to the model \"exact\"")
     run = family(case.scene).follow(model, case, times, order)
-    if not case.scene.approximate or "omega" not in run.state:
+    if not case.scene.approximate or "omega" not in run.state or not len(run.t):
         return run
     from ..law_limits import along
     return replace(run, validity=along(case.scene, run.state, "at the times told"))
