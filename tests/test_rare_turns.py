@@ -74,7 +74,7 @@ def test_a_motion_from_rest_in_many_digits_starts_by_the_torque():
 
 def test_a_rate_below_a_barrier_is_asked_for_again_with_more_bits():
     scene, state = ScaledGyrostat(1, 2, (0, 0, 1)), (0.3, 0.2, 0.1)
-    orbit = settled(lambda bits: PreciseOrbit(stabilab.analysis.reduction.reduce(scene), state), 128)
+    orbit = settled(lambda numbers: PreciseOrbit(stabilab.analysis.reduction.reduce(scene), state, numbers), 128)
     side = 1 if float(orbit.force_here) < 0 else -1  # uphill
     with pytest.raises(Unclear):
         _rate(orbit, orbit.energy * 0 + side)
