@@ -84,7 +84,7 @@ class PlaneChart(Chart):
         less = Span(base * math.cosh(dy), base * math.sinh(dy)) if dy < 600 else Span(0.5 * math.exp(dy - y), 0.5 * math.exp(dy - y))
         r = xi * less
         E, E1, E2 = self._saddles(r)
-        eta, u_eta = E * less, 0.0
+        eta = E * less
         less2 = less * less
         eta_t, eta_y = E1 * less2, -((E + r * E1) * less)
         eta_tt, eta_ty = E2 * less * less2, -(less2 * (r * E2 + 2 * E1))

@@ -201,8 +201,7 @@ class Chart:
         X2, rX2, Z2, rZ2 = turned(x2, rx2, z2, rz2)
         u, v = X - g["X"], Z - g["Z"]
         rX, rZ = rX + ROUNDING * (abs(X) + abs(g["X"])), rZ + ROUNDING * (abs(Z) + abs(g["Z"]))
-        mX, mZ, mX1, mZ1, mX2, mZ2, mu, mv = (abs(X) + rX, abs(Z) + rZ, abs(X1) + rX1, abs(Z1) + rZ1, abs(X2) + rX2, abs(Z2) + rZ2,
-                                              abs(u) + rX, abs(v) + rZ)
+        mX, mZ, mX1, mZ1, mX2, mZ2 = abs(X) + rX, abs(Z) + rZ, abs(X1) + rX1, abs(Z1) + rZ1, abs(X2) + rX2, abs(Z2) + rZ2
         tt = 2 * (a * (X1 * X1 + u * X2) + b2 * (Z1 * Z1 + v * Z2))
         rtt = 2 * (a * (rX1 * (mX1 + abs(X1)) + rX * mX2 + abs(u) * rX2) + b2 * (rZ1 * (mZ1 + abs(Z1)) + rZ * mZ2 + abs(v) * rZ2))
         ty = 2 * (a * (X1 * Z + u * Z1) + e * b2 * (Z1 * X + v * X1))
