@@ -3,9 +3,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from stabilab.analysis.axisymmetric import solution
-from stabilab.analysis.axisymmetric_modes import ChargedBody
-from stabilab.compiled import TAYLOR_TOLERANCE
+from stabilab.theories.charged.closed_form import solution
+from stabilab.theories.charged.modes import ChargedBody
+from stabilab.physics.to_numpy import TAYLOR_TOLERANCE
 
 from .rows import Row, each
 from .timing import side_by_side
@@ -53,7 +53,7 @@ def _note(one, times, raw) -> str:
 
 
 def _late(one) -> float:
-    from stabilab.analysis.axisymmetric_fractions import fractions
+    from stabilab.theories.charged.partial_fractions import fractions
     return fractions(one).wide
 
 

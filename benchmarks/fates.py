@@ -3,8 +3,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene, fate
-from stabilab.analysis.fate_grid import fate_grid
+from stabilab import Body, ConstantTorque, Fate, fate, Gyrostat, ScaledGyrostat, Scene
+from stabilab.answers.fate_grid import fate_grid
 
 from .contestants import BatchFate, SciPyFate
 from .rows import SCENE, Row, each, numba_available, random_states

@@ -5,9 +5,9 @@ import math
 
 import numpy as np
 
-from stabilab.analysis.precision_reference import reference, relative_errors
-from stabilab.analysis.reduced_motion import reduced_motion
-from stabilab.analysis.tabulated_motion import tabulated
+from stabilab.integrate.reference import reference, relative_errors
+from stabilab.orbit.flow.flow import reduced_motion
+from stabilab.orbit.flow.table import tabulated
 
 from .contestants import scaled_minor_system
 from .rows import SCENE, A, B, Row, each

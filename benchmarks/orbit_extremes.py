@@ -94,10 +94,10 @@ def brink(part, count):
 
 def beside_the_separatrix(count) -> Row:
     """Errors at relative distances 1e-3 ... 1e-15 against ball arithmetic, and the time there against heyoka's."""
-    from stabilab.analysis.landscape import landscape
-    from stabilab.analysis.precise_extremes import precise_extremes
-    from stabilab.analysis.precise_period import precise_period
-    from stabilab.analysis.extremes import extremes_and_periods
+    from stabilab.orbit.landscape import landscape
+    from stabilab.orbit.extremes.balls import precise_extremes
+    from stabilab.orbit.period.balls import precise_period
+    from stabilab.orbit.extremes.arrays import extremes_and_periods
     r, boxes_off, periods_off, states = landscape(SCENE).reduction, [], [], []
     for decade in (3, 6, 9, 12, 15):
         part = brink(10.0**-decade, count)

@@ -6,7 +6,7 @@ from functools import partial
 import numpy as np
 
 from stabilab import fate, separatrix
-from stabilab.show.mesh import triangulate
+from stabilab.show.surface.mesh import triangulate
 
 from .rows import SCENE, A, Row, numba_available
 from .timing import side_by_side

@@ -3,9 +3,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from stabilab import Body, ConstantTorque, Gyrostat, Scene, derive, ensemble, trajectory
-from stabilab.analysis.precision_reference import reference, relative_errors
-from stabilab.compiled import TAYLOR_TOLERANCE
+from stabilab import Body, ConstantTorque, derive, ensemble, Gyrostat, Scene, trajectory
+from stabilab.integrate.reference import reference, relative_errors
+from stabilab.physics.to_numpy import TAYLOR_TOLERANCE
 
 from .contestants import BatchRuns, ScalarRuns, off_axis_rates
 from .rows import Row, each

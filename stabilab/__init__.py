@@ -7,19 +7,19 @@ __version__ = "0.1.0"
 
 # Public name -> module; loaded on first use so that light commands stay light.
 _HOME = {
-    "load": "case", "Case": "case",
-    "Body": "body", "Scene": "scene", "ScaledGyrostat": "scene",
-    "Gyrostat": "effects.gyrostat", "ConstantTorque": "effects.constant_torque",
-    "Fate": "analysis.results",
-    "equilibria": "analysis.equilibria",
-    "fate": "analysis.fate", "motion": "analysis.motion",
-    "extremes": "analysis.extremes", "period": "analysis.extremes",
-    "separatrix": "analysis.separatrix",
-    "trajectory": "analysis.trajectories", "ensemble": "analysis.ensembles",
-    "simulate": "analysis.simulation", "compare": "analysis.comparison", "theory": "analysis.theory",
-    "Charge": "effects.charge", "Resistance": "effects.resistance", "LiquidCavity": "effects.liquid_cavity",
-    "NewtonianField": "effects.newtonian_field", "Gravity": "effects.gravity", "BodyForce": "effects.body_force",
-    "derive": "equations", "validity": "law_limits",
+    "load": "case.read", "Case": "case.read",
+    "Body": "physics.body", "Scene": "physics.scene", "ScaledGyrostat": "physics.scene",
+    "Gyrostat": "physics.effects.gyrostat", "ConstantTorque": "physics.effects.constant_torque",
+    "Fate": "orbit.result",
+    "equilibria": "equilibrium.gyrostat",
+    "fate": "orbit.fate.arrays", "motion": "answers.motion",
+    "extremes": "orbit.extremes.arrays", "period": "orbit.extremes.arrays",
+    "separatrix": "orbit.separatrix.sheets",
+    "trajectory": "integrate.trajectory", "ensemble": "integrate.ensemble",
+    "simulate": "answers.simulate", "compare": "theories.comparison", "theory": "theories.theory",
+    "Charge": "physics.effects.charge", "Resistance": "physics.effects.resistance", "LiquidCavity": "physics.effects.liquid_cavity",
+    "NewtonianField": "physics.effects.newtonian_field", "Gravity": "physics.effects.gravity", "BodyForce": "physics.effects.body_force",
+    "derive": "physics.equations", "validity": "physics.law_limits",
 }
 __all__ = [*_HOME, "__version__"]
 

@@ -9,9 +9,10 @@ from typing import Annotated, List, Optional  # typer reads the annotations at r
 
 import typer
 
-from .errors import (BAD_INPUT, BUG, INTERRUPTED, OK, UNDECIDED, InputError, RenderingUnavailable, StabilabError, ToleranceNotMet,
-                     printable)
-from .streams import LOST, OutputLost, guarded
+from .errors import (
+    BAD_INPUT, BUG, InputError, INTERRUPTED, OK, printable, RenderingUnavailable, StabilabError, ToleranceNotMet,
+    UNDECIDED)
+from .streams import guarded, LOST, OutputLost
 
 # Plain help: rich costs more time than the rest of `stabilab --help`.
 app = typer.Typer(name="stabilab", no_args_is_help=True, rich_markup_mode=None, pretty_exceptions_enable=False)
@@ -46,7 +47,7 @@ def show(case: CaseFile):
 
     Example: stabilab show cases/minor-axis-100.toml
     """
-    from .show.scene_text import text
+    from .show.text.scene_text import text
     _print("\n\n".join(text(one) for one in _load([case])))
 
 
@@ -60,8 +61,8 @@ def classify(cases: CaseFiles, json: Json = False, strict: Annotated[bool, typer
 
     Example: stabilab classify cases/minor-axis-100.toml --json
     """
-    from .show import answers, law
-    from .show import certification
+    from .show.text import answers, law
+    from .show.text import certification
     loaded = _load(cases)
     if certify:
         certification.checked(out)
@@ -92,7 +93,7 @@ def verify(certificate: Annotated[Path, typer.Argument(metavar="CERTIFICATE", he
 
     Example: stabilab verify certificate.json
     """
-    from .show import answers, certification
+    from .show.text import answers, certification
     from .verify import verify_file
     from .verify.numbers import Malformed
     try:
@@ -161,7 +162,7 @@ def simulate(case: CaseFile,
 
     Example: stabilab simulate cases/major-axis-100.toml --at 0,5,10,15 --json
     """
-    from .show import trajectory_files
+    from .show.files import trajectory_files
     loaded = _load([case], motion=True)
     if out:
         trajectory_files.checked(out)
@@ -192,7 +193,7 @@ def compare(case: CaseFile,
 
     Example: stabilab compare cases/charged-body.toml
     """
-    from .show import comparison, law
+    from .show.text import comparison, law
     loaded = _load([case], motion=True)
     if out:
         comparison.checked(out)
@@ -221,10 +222,10 @@ def precision(case: CaseFile, json: Json = False,
     """
     if json and csv:
         raise typer.BadParameter("choose one of --json and --csv")
-    from .show import law
-    from .show import precision as shown
-    from .analysis.precision import precision as measure
-    from .analysis.precision_front import keep
+    from .show.text import law
+    from .show.text import precision as shown
+    from .cost.accuracy import precision as measure
+    from .answers.digits.front import keep
     if out:
         shown.checked(out)
     loaded = _load([case], motion=True)
@@ -254,8 +255,8 @@ def surface(case: CaseFile, out: Annotated[Path, typer.Option(metavar="DIR", hel
 
     Example: stabilab surface cases/minor-axis-100.toml --out surfaces
     """
-    from .show import law
-    from .show.surface import write_all
+    from .show.text import law
+    from .show.surface.write import write_all
     loaded, unavailable = _load([case]), None
     laws = [law.of_case(one) for one in loaded]
     try:
@@ -281,8 +282,9 @@ def plot(case: CaseFile, out: Annotated[Optional[Path], typer.Option(
 
     Example: stabilab plot cases/middle-axis-double-well.toml --out double-well.png
     """
-    from .case import blamed_on
-    from .show import endings, law
+    from .case.read import blamed_on
+    from .show.files import endings
+    from .show.text import law
     from .show.plane import plot as draw
     loaded, drawn = _load([case], motion=True), []
     target = endings.file(out or f"{printable(case.stem)}.png", endings.PICTURES)
@@ -302,7 +304,8 @@ def tables(out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the
 
     Example: stabilab tables --out tables
     """
-    from .show import manifest, table
+    from .show.files import manifest
+    from .show.text import table
     with manifest.written(out, sys.argv[1:], table.case_files(table.STEMS), table.TOLERANCES) as folder:
         made = table.write_tables(folder)
     _print_paths([out / path.relative_to(folder) for path in made], out)
@@ -320,8 +323,9 @@ def figures(numbers: Annotated[Optional[List[int]], typer.Argument(
 
     Example: stabilab figures --paper charged 2 8 --out figures
     """
-    from .show import figures as drawn
-    from .show import manifest, table
+    from .show.figures import catalogue as drawn
+    from .show.files import manifest
+    from .show.text import table
     rows = drawn.chosen(numbers, paper)
     with manifest.written(out, sys.argv[1:], table.case_files(), {row.file: row.tolerance for row in rows}) as folder:
         made = drawn.write(numbers, folder, paper_name=paper)
@@ -339,8 +343,8 @@ def report(cases: Annotated[Optional[List[Path]], typer.Argument(
 
     Example: stabilab report --out report
     """
-    from .show import law
-    from .show.report import of_all, write
+    from .show.text import law
+    from .show.report.report import of_all, write
     loaded = _load(cases or [])
     made = write(loaded, out, arguments=sys.argv[1:])
     beyond = law.of_cases(of_all(loaded))
@@ -359,7 +363,7 @@ def rerun(manifest: Annotated[Path, typer.Argument(metavar="MANIFEST", help="A m
 
     Example: stabilab rerun report/manifest.json
     """
-    from .show.rerun import rerun as repeat
+    from .show.files.rerun import rerun as repeat
     _print("\n".join(repeat(manifest, out)))
 
 
@@ -369,13 +373,13 @@ def doctor():
 
     Example: stabilab doctor
     """
-    from .show.doctor import text
+    from .show.text.doctor import text
     _print(text())
 
 
 def _load(paths, motion: bool = False) -> list:
     """All cases, of a file with [sweep] every combination; the faults of all files at once. motion: each must state one."""
-    from .case import load_all
+    from .case.read import load_all
     cases, faults = [], []
     for path in paths:
         try:
@@ -391,26 +395,26 @@ def _load(paths, motion: bool = False) -> list:
 
 def _over_boxes(cases, *questions):
     """(what uncertain numbers do to the verdicts of each case, None where it has none; the module that shows it)."""
-    from .show import uncertain as shown
+    from .show.text import uncertain as shown
     if not questions or not any(case.uncertain for case in cases):
         return [None] * len(cases), shown
-    from .analysis.uncertain import uncertain
+    from .answers.uncertain.verdicts import uncertain
     return [uncertain(case, questions) for case in cases], shown
 
 
 def _equilibria(case):
-    from .analysis.equilibria import equilibria
-    from .case import blamed_on
+    from .equilibrium.gyrostat import equilibria
+    from .case.read import blamed_on
     with blamed_on(case):
         return equilibria(case.scene)
 
 
 def _certified(case, out) -> bool:
     """Write the certificate of one case; whether all of it could be certified."""
-    from .analysis.certificate import certificate
-    from .case import blamed_on
-    from .show import certification
-    from .show.endings import labelled
+    from .answers.certificate import certificate
+    from .case.read import blamed_on
+    from .show.text import certification
+    from .show.files.endings import labelled
     with blamed_on(case):
         made = certificate(case.scene, case.exact_state)
     _say(f"written: {certification.write(made, labelled(out, case))}\n{certification.summary(made)}")
@@ -418,15 +422,15 @@ def _certified(case, out) -> bool:
 
 
 def _motion(case, brief=False):
-    from .analysis.motion import motion
-    from .case import blamed_on
+    from .answers.motion import motion
+    from .case.read import blamed_on
     with blamed_on(case):
         return motion(case.scene, case.start, case.span, brief, case.exact_state)
 
 
 def _strictly(strict, validities):
     """Exit with 3 where strict and an approximate law does not hold."""
-    from .show import law
+    from .show.text import law
     if strict and law.beyond(*validities):
         raise typer.Exit(UNDECIDED)
 
@@ -447,8 +451,8 @@ def _say_laws(validities):
 
 def _tell(question, paths, digits, json, strict, csv=False):
     """Answer a question for every case and say how many digits of it are known."""
-    from .show import answers, law
-    from .show import precision_answers as shown
+    from .show.text import answers, law
+    from .show.text import digits as shown
     answered = [(case, found, _told(question, case, found, digits)) for case in _load(paths, motion=True)
                 for found in [_motion(case, brief=question == "extremes")]]
     boxes, over = _over_boxes([case for case, *_ in answered], *(["fate"] if question == "fate" else []))
@@ -463,7 +467,7 @@ def _tell(question, paths, digits, json, strict, csv=False):
                          for answer, box in zip(answered, boxes)))
     missing = [(case, told) for case, _, told in answered if not told.enough and digits is not None]
     if missing:
-        from .analysis.precision_told import short
+        from .answers.digits.checked import short
         _all_reached((case, f"{question}: {short(told)}") for case, told in missing)
     if strict and any(motion.fate.word == "undecided" for _, motion, _ in answered):
         raise typer.Exit(UNDECIDED)
@@ -472,11 +476,11 @@ def _tell(question, paths, digits, json, strict, csv=False):
 
 def _told(question, case, motion, digits):
     """The answer with its digits; where none were asked for and a formula bounds its own error, that is the check."""
-    from .analysis.precision_told import DEFAULT, by_bound
+    from .answers.digits.checked import by_bound, DEFAULT
     found = by_bound(question, motion) if digits is None else None
     if found is None:
-        from .analysis.precision_questions import ask
-        from .case import blamed_on
+        from .answers.digits.ask import ask
+        from .case.read import blamed_on
         with blamed_on(case):
             found = ask(question, case.scene, case.start, DEFAULT if digits is None else digits, case.span, motion, case.exact_state,
                         **({"aim": True} if digits is None else {}))
@@ -485,7 +489,7 @@ def _told(question, case, motion, digits):
 
 def _followed(case, times, model, method, rtol, order, digits):
     """(the motion, what the check of its digits showed or None)."""
-    from .case import blamed_on
+    from .case.read import blamed_on
     with blamed_on(case):
         return _run_or_best(case, times, model, method, rtol, order, digits)
 
@@ -493,25 +497,25 @@ def _followed(case, times, model, method, rtol, order, digits):
 def _run_or_best(case, times, model, method, rtol, order, digits):
     chosen = model != "exact" or method or rtol or order
     if digits is None and chosen:
-        from .analysis.models import follow
+        from .theories.follow import follow
         return follow(case, times, model, method, rtol, order), None
     if chosen:
         raise InputError("--digits chooses method and tolerance of the exact motion itself: give it without --model, --method, "
                          "--rtol and --order")
-    from .analysis.precision_digits import best_reached
-    from .analysis.precision_told import DEFAULT
+    from .answers.digits.run import best_reached
+    from .answers.digits.checked import DEFAULT
     reached = best_reached(case, times, DEFAULT if digits is None else digits, measured=digits is not None, aim=digits is None)
     return reached.run, reached
 
 
 def _run_as_dict(case, run, reached) -> dict:
-    from .show import answers, law
+    from .show.text import answers, law
     told = reached and {"asked": reached.asked, "reached": reached.digits, "because": reached.because}
     return answers.simulation(case, run) | {"digits": told} | {"theory": _theory(case, run)} | law.key(run.validity)
 
 
 def _run_as_text(case, run, reached, digits) -> str:
-    from .show import answers, law
+    from .show.text import answers, law
     first = f"# {case.name}\n" if case.variant else ""
     checked = "checked to " if digits is None else ""
     last = f"\n# {checked}{reached.digits:.1f} digits: {reached.because}" if reached else ""
@@ -523,14 +527,14 @@ def _theory(case, run, words=False):
     """What the theory of an analytic model says, as rows or lines; nothing of an exact run."""
     if run.model == "exact":
         return []
-    from .analysis.theory import lines, theory
+    from .theories.theory import lines, theory
     found = theory(case, model=run.model)
     return lines(found) if words else found
 
 
 def _with_angles(case, run, model, order):
-    from .analysis.top_angles import with_euler_angles
-    from .case import blamed_on
+    from .theories.top.run_angles import with_euler_angles
+    from .case.read import blamed_on
     with blamed_on(case):
         return with_euler_angles(case, run, model, order)
 
@@ -540,15 +544,15 @@ def _judge_runs(runs, digits):
     _all_reached((case, run.reason) for case, run, _ in runs if run.status != "reached")
     short = [(case, reached) for case, _, reached in runs if reached and not reached.enough and (digits is not None or reached.digits < 1)]
     if short:
-        from .analysis.precision_digits import missed
+        from .answers.digits.run import missed
         raise ToleranceNotMet("\n".join(missed(*row) for row in short))
 
 
 def _compared(case, order):
     """The models of a case beside its exact motion."""
-    from .analysis.comparison import compare as set_side_by_side
-    from .analysis.models import models_of
-    from .case import blamed_on
+    from .theories.comparison import compare as set_side_by_side
+    from .theories.follow import models_of
+    from .case.read import blamed_on
     if case.span is None:
         raise InputError(f"{case.place}: motion: no span; compare needs span = [0, T] in [motion]")
     if models_of(case.scene) == ("exact",):
@@ -571,7 +575,7 @@ def _times(case, at: str | None) -> list[float]:
             raise InputError(f"{case.path}: motion: no span; give --at T1,T2,... or span (or tau) in [motion]")
         start, end = case.span
         return [start + (end - start) * i / 200 for i in range(200)] + [end]
-    from .exact import exact
+    from .numbers.exact import exact
     try:
         return sorted({float(exact(word.strip())) for word in at.split(",")})
     except InputError as error:
@@ -586,13 +590,13 @@ def _print(text: str):
 
 def _print_json(cases, rows):
     """An object for a case, a list of them for the combinations of a [sweep]."""
-    from .show import answers
+    from .show.text import answers
     _print(answers.as_json(rows if any(case.variant for case in cases) else rows[0]))
 
 
 def _write_each(out, writers):
     """Let write(path) of every (case, write) make its file; each is named."""
-    from .show.endings import labelled
+    from .show.files.endings import labelled
     for case, write in writers:
         _say(f"written: {write(labelled(out, case))}")
 

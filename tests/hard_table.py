@@ -10,8 +10,8 @@ import math
 from functools import lru_cache
 from pathlib import Path
 
-from .hard import bodies, charged, circles, late, liquid, off_axis, sectors, top
-from .hard.row import Row, Verdict
+from tests.hard import bodies, charged, circles, late, liquid, off_axis, sectors, top
+from tests.hard.row import Row, Verdict
 
 PAGE = Path(__file__).parent.parent / "docs" / "hard-cases.md"
 ALLOWED = 32  # times the condition: some thirty operations, each as good as rounding its operands

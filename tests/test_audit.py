@@ -4,8 +4,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from stabilab import audit
-from stabilab.audit.published import FALSE_ABOVE, VERDICTS, examine, generic, parse, symbols
+from stabilab.theories import audit
+from stabilab.theories.audit.published import examine, FALSE_ABOVE, generic, parse, symbols, VERDICTS
 
 ROWS = [row for paper in audit.PAPERS for row in audit.rows(paper)]
 

@@ -8,16 +8,16 @@ import pytest
 import sympy as sp
 from scipy.integrate import solve_ivp
 
-from stabilab import Body, ConstantTorque, Gyrostat, Scene, ScaledGyrostat, load, trajectory
-from stabilab.analysis import averaging
-from stabilab.analysis.averaging import averaged
-from stabilab.analysis.averaging_attractors import attractors
-from stabilab.analysis.averaging_form import NAMES, constants, normal_form
-from stabilab.analysis.averaging_printed import printed
-from stabilab.effects.charge import Charge
-from stabilab.effects.gravity import Gravity
-from stabilab.effects.liquid_cavity import LiquidCavity
-from stabilab.effects.resistance import Resistance
+from stabilab import Body, ConstantTorque, Gyrostat, load, ScaledGyrostat, Scene, trajectory
+from stabilab.theories.cavity import averaged as averaging
+from stabilab.theories.cavity.averaged import averaged
+from stabilab.theories.cavity.attractors import attractors
+from stabilab.theories.cavity.normal_form import constants, NAMES, normal_form
+from stabilab.theories.cavity.printed import printed
+from stabilab.physics.effects.charge import Charge
+from stabilab.physics.effects.gravity import Gravity
+from stabilab.physics.effects.liquid_cavity import LiquidCavity
+from stabilab.physics.effects.resistance import Resistance
 from stabilab.errors import InputError
 
 CASES = Path(__file__).parent.parent / "cases"

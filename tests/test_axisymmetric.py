@@ -4,17 +4,17 @@ import math
 import numpy as np
 import pytest
 
-from stabilab.analysis.axisymmetric import BEYOND, WITHIN, solution
-from stabilab.analysis.axisymmetric_fractions import fractions
-from stabilab.analysis.axisymmetric_limits import horizon, largest_tilt, tilt_parts
-from stabilab.analysis.axisymmetric_means import pointing, spin_drift
-from stabilab.analysis.axisymmetric_modes import ChargedBody, modes, resonances
-from stabilab.analysis.axisymmetric_corrected import corrected
-from stabilab.analysis.axisymmetric_printed import MISPRINTS, Typed, circle, printed
+from stabilab.theories.charged.closed_form import BEYOND, solution, WITHIN
+from stabilab.theories.charged.partial_fractions import fractions
+from stabilab.theories.charged.validity import horizon, largest_tilt, tilt_parts
+from stabilab.theories.charged.mean_pointing import pointing, spin_drift
+from stabilab.theories.charged.modes import ChargedBody, modes, resonances
+from stabilab.theories.charged.corrected import corrected
+from stabilab.theories.charged.printed import circle, MISPRINTS, printed, Typed
 from stabilab.errors import InputError
 
 flint = pytest.importorskip("flint")
-from .oracles.axisymmetric import BITS, OUTPUTS, conditioned  # noqa: E402
+from tests.oracles.axisymmetric import BITS, conditioned, OUTPUTS  # noqa: E402
 
 ALLOWED = 20  # times the effect of half a unit in the last place of the inputs
 TIMES = (1e-12, 1e-6, 1e-3, 0.3, 7.0, 50.0, 1e3, 1e6, 1e9)

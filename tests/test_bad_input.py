@@ -13,12 +13,12 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 
 import stabilab as stabilab_package
-from stabilab import case_sweep
-from stabilab.case import load
-from stabilab.errors import BAD_INPUT, OK, CaseError, InputError, printable
+from stabilab.case import sweep as case_sweep
+from stabilab.case.read import load
+from stabilab.errors import BAD_INPUT, CaseError, InputError, OK, printable
 
-from .fuzz.grammar import CASES, mutated_cases, written_cases
-from .fuzz.judge import judged
+from tests.fuzz.grammar import CASES, mutated_cases, written_cases
+from tests.fuzz.judge import judged
 
 QUICK = settings(max_examples=400, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
 
@@ -100,8 +100,8 @@ RUNNING = {"eval", "exec", "compile", "__import__", "execfile", "breakpoint"}  #
 UNPACKING = {"pickle", "cPickle", "_pickle", "dill", "cloudpickle", "joblib", "marshal", "shelve", "jsonpickle", "yaml"}
 EXPRESSIONS = {"sympify", "parse_expr", "parse_latex", "parse_mathematica", "S", "lambdify", "literal_eval", "from_string"}
 # The formulas of the papers are texts of the package itself; lambdify gets expressions that the program built.
-ALLOWED = {("audit/published.py", "sympify"), ("audit/published.py", "lambdify"), ("compiled.py", "lambdify"),
-           ("analysis/averaging.py", "lambdify")}
+ALLOWED = {("theories/audit/published.py", "sympify"), ("theories/audit/published.py", "lambdify"), ("physics/to_numpy.py", "lambdify"),
+           ("theories/cavity/averaged.py", "lambdify")}
 
 
 def called(tree):
@@ -220,7 +220,7 @@ HOSTILE = "<script>alert(1)</script> & \\\\input{/etc/passwd} $x_1$ %d {{ 7*7 }}
 
 
 def test_latex_of_a_hostile_title_is_text():
-    from stabilab.show.table import Table, comma_separated, html_page, latex, markdown
+    from stabilab.show.text.table import comma_separated, html_page, latex, markdown, Table
     words = HOSTILE.replace("\\\\", "\\").replace('\\"', '"')
     one = Table(9, words, words, (words, "b"), ((words, 1.0), ("=1+1", None)))
     tex = latex(one)

@@ -12,8 +12,8 @@ import pytest
 import stabilab
 from stabilab import Fate
 
-from .oracles import saddles
-from .oracles.pairs import physical, scaled
+from tests.oracles import saddles
+from tests.oracles.pairs import physical, scaled
 
 SPEEDS = 104  # a place: 13 decades, two sides, both senses, twice
 MANY_PLACES, SOME_PLACES, FEW_PLACES = 802, 17, 1  # of each scene: a million states in all, 20,000, or 1,200 (one state in six takes many digits)

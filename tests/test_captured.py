@@ -5,10 +5,10 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from stabilab import Body, ConstantTorque, Fate, Gyrostat, Scene, ScaledGyrostat
-from stabilab.analysis.captured import captured_extremes, captured_fate, certificate, spin_up_margin, well_margin
-from stabilab.analysis.captured_form import growth_law, standard_form
-from stabilab.analysis.trajectories import trajectory
+from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
+from stabilab.unreduced.growth import captured_extremes, captured_fate, certificate, spin_up_margin, well_margin
+from stabilab.unreduced.growth_form import growth_law, standard_form
+from stabilab.integrate.trajectory import trajectory
 from stabilab.errors import InputError
 
 heyoka = pytest.importorskip("heyoka")
@@ -279,8 +279,8 @@ def by_many_digits(c, state):
     """Which certificate fires first on a Taylor series of 30 digits; the certificates' inequalities as in theory.md, section 1."""
     import mpmath as mp
 
-    from .oracles import taylor
-    from .oracles.model import scaled
+    from tests.oracles import taylor
+    from tests.oracles.model import scaled
     model, y = scaled(-c / 2, c / 2, (1, 0, 0)), [mp.mpf(float(v)) for v in state]
     with mp.workdps(40):
         for _ in range(400):

@@ -8,11 +8,11 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from stabilab import Body, ConstantTorque, Fate, Gyrostat, Scene, ScaledGyrostat
-from stabilab.analysis.captured import captured_extremes, captured_fate, spin_up_margin, well_margin
-from stabilab.analysis.trajectories import trajectory
+from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
+from stabilab.unreduced.growth import captured_extremes, captured_fate, spin_up_margin, well_margin
+from stabilab.integrate.trajectory import trajectory
 
-captured = importlib.import_module("stabilab.analysis.captured")
+captured = importlib.import_module("stabilab.unreduced.growth")
 STATES = [(c, y) for c in (-0.05, -0.7, -3.0, -20.0) for y in (
     (0.3, -1.0, 5.0), (-6.5, 2.0, -1.0), (2.0, 0.5, 0.25), (0.1, 30.0, -40.0), (8.0, -3.0, 0.5), (-0.5, 0.0, 2.0))]
 
@@ -81,7 +81,7 @@ def test_a_captured_motion_names_its_axis_and_goes_where_it_says(sign, turned):
 def test_the_last_reversal_of_the_turn_is_the_same_by_both_steppers(state, turns, monkeypatch):
     """A series with events, and a Runge-Kutta method with roots of its interpolant."""
     pytest.importorskip("heyoka")
-    compiled, found = importlib.import_module("stabilab.compiled"), []
+    compiled, found = importlib.import_module("stabilab.physics.to_numpy"), []
     for available in (True, False):
         monkeypatch.setattr(compiled, "heyoka_available", lambda: available)
         run, last = captured._runner(0.3, state), None

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from stabilab.case import load, load_all
-from stabilab.case_lines import key_lines
+from stabilab.case.read import load, load_all
+from stabilab.case.lines import key_lines
 from stabilab.errors import CaseError
 
 CASES = sorted((Path(__file__).parent.parent / "cases").glob("*.toml"))

@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, load
-from stabilab.analysis.certificate import certificate
+from stabilab import Body, ConstantTorque, Gyrostat, load, ScaledGyrostat, Scene
+from stabilab.answers.certificate import certificate
 from stabilab.verify import verify
 
 CASES = sorted((Path(__file__).parent.parent / "cases").glob("*.toml"))

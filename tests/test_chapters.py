@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 
 from stabilab.errors import InputError
-from stabilab.show import chapters, claims, figures, figures_cavity, figures_charged, figures_top, panels, report
+from stabilab.show.report import chapters, claims, report
+from stabilab.show.figures import (
+    catalogue as figures, cavity as figures_cavity, charged as figures_charged, panels, top as figures_top)
 
 FOLDER = Path(__file__).parent.parent / "figures"
 OTHERS = [row for name in ("charged", "cavity", "top") for row in figures.of_paper(name)]
@@ -91,8 +93,8 @@ def test_where_a_printed_curve_leaves_its_panel_it_is_also_shown_whole():
 
 
 def test_printed_curves_of_the_velocity_are_the_printed_formulas():
-    from stabilab.analysis.axisymmetric_model import body_of
-    from stabilab.analysis.axisymmetric_printed import printed
+    from stabilab.theories.charged.model import body_of
+    from stabilab.theories.charged.printed import printed
     column = next(iter(figures_charged._columns("lambda3")))
     t, drawn = figures_charged.VELOCITY[0].pick(column.runs["printed"])
     np.testing.assert_array_equal(drawn, printed(body_of(panels.sweep("charged-sweep")["-1-2-1"]), t).velocity[:, 0])
@@ -142,7 +144,7 @@ def test_a_chapter_stands_in_the_report_with_claims_errors_and_variant(tmp_path,
     monkeypatch.setattr(figures_top, "FIGURES", (row,))
     section = chapters._section(chapters.CHAPTERS[2], tmp_path, lambda words: None)
     assert section["problem"] == "" and (tmp_path / section["sensible"]["file"]).is_file()
-    environment = Environment(loader=FileSystemLoader(Path(report.__file__).parent / "templates"), autoescape=True,
+    environment = Environment(loader=FileSystemLoader(Path(report.__file__).parents[1] / "templates"), autoescape=True,
                               undefined=StrictUndefined)
     page = environment.get_template("chapters.html").render(chapters=[section])
     for words in ("A fast top in a Newtonian field", "10 % from", "top-sensible.png", "figures/top-06.png", "not so"):

@@ -36,7 +36,7 @@ def classified():
 
 
 def test_classify_answers_once_per_case_with_the_documented_keys(classified):
-    from stabilab.case import load_all
+    from stabilab.case.read import load_all
     assert list(classified) == [case.name for path in CASES for case in load_all(path)]
     for answer in classified.values():
         assert answer["schema"] == "stabilab.classify/1" and answer["variables"] in ("scaled", "physical")
@@ -53,7 +53,7 @@ def test_classify_answers_once_per_case_with_the_documented_keys(classified):
 @pytest.mark.parametrize("path", CASES, ids=lambda p: p.stem)
 def test_case_meets_what_it_expects(classified, path):
     # The expected facts are written in the case files with their proofs; they come from no run of this program.
-    from stabilab.case import load, load_all
+    from stabilab.case.read import load, load_all
     expect, answer = load(path).expect, classified[load_all(path)[0].name]
     equilibria, motion = answer["equilibria"], answer["motion"]
     assert equilibria["kind"] == expect.get("kind", equilibria["kind"])
@@ -73,7 +73,7 @@ def test_case_meets_what_it_expects(classified, path):
 @pytest.mark.parametrize("path", CASES, ids=lambda p: p.stem)
 def test_listed_equilibria_are_at_rest(classified, path):
     # Euler's equations written out here, from the numbers of the case alone.
-    from stabilab.case import load_all
+    from stabilab.case.read import load_all
     for case in load_all(path):
         found = classified[case.name]["equilibria"]
         points = [p["at"] for p in found["points"]] + [s["at"] for c in found["curves"] for s in c["samples"]]
@@ -124,7 +124,7 @@ def test_numbers_in_json_are_doubles_to_the_last_digit(stabilab):
 
 
 def test_infinite_and_missing_values_become_null():
-    from stabilab.show.answers import as_json
+    from stabilab.show.text.answers import as_json
     value = {"a": [math.inf, -math.inf, math.nan, None, np.float64(0.1), np.int64(3), 1 + 2j], "b": np.array([[1.0, np.inf]])}
     assert strict_json(as_json(value)) == {"a": [None, None, None, None, 0.1, 3, [1.0, 2.0]], "b": [[1.0, None]]}
 
@@ -242,7 +242,7 @@ def test_plot_writes_a_picture_and_says_where(stabilab, tmp_path):
 
 
 def test_surface_without_a_renderer_writes_the_meshes_and_ends_with_4(stabilab, tmp_path, monkeypatch):
-    from stabilab.show import render_probe
+    from stabilab.show.surface import render_probe
     monkeypatch.setattr(render_probe, "probe", lambda: render_probe.Renderer(False, "no GL here"))
     code, _, err = stabilab("surface", MINOR, "--out", tmp_path)
     assert code == 4 and "no GL here" in err and render_probe.CURE in err
@@ -314,7 +314,7 @@ def test_files_of_a_sweep_bear_the_labels_of_its_combinations(stabilab, swept, c
 
 
 def test_surfaces_of_a_sweep_share_a_folder_and_a_manifest(stabilab, swept, monkeypatch):
-    from stabilab.show import render_probe
+    from stabilab.show.surface import render_probe
     monkeypatch.setattr(render_probe, "probe", lambda: render_probe.Renderer(False, "no GL here"))
     code, out, err = stabilab("surface", "two.toml", "--out", "made")
     assert code == 4 and [row["case"] for row in strict_json(out)] == ["two-1", "two-2"] and "two-2.vtp" in err
@@ -322,7 +322,7 @@ def test_surfaces_of_a_sweep_share_a_folder_and_a_manifest(stabilab, swept, monk
 
 
 def test_a_report_has_every_combination_of_a_sweep(swept):
-    from stabilab.show.report import of_all
+    from stabilab.show.report.report import of_all
     assert [case.name for case in of_all(["six.toml", "two.toml"])] == [*(f"six{label}" for label in LABELS), "two-1", "two-2"]
 
 

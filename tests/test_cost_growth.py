@@ -8,17 +8,18 @@ import flint
 import numpy as np
 import pytest
 
-from stabilab import Body, ConstantTorque, Gyrostat, Scene, load
-from stabilab.analysis import cost_growth
-from stabilab.analysis.cost_growth import Growth, bits_needed, engines, near, nodes_needed, with_closeness, with_digits, with_states
-from stabilab.analysis.fate import fate
-from stabilab.analysis.precision_reference import reference
-from stabilab.analysis.results import Fate
-from stabilab.equations import derive
-from stabilab.show import cost_growth as shown
+from stabilab import Body, ConstantTorque, Gyrostat, load, Scene
+from stabilab.cost import growth as cost_growth
+from stabilab.cost.growth import (
+    bits_needed, engines, Growth, near, nodes_needed, with_closeness, with_digits, with_states)
+from stabilab.orbit.fate.arrays import fate
+from stabilab.integrate.reference import reference
+from stabilab.orbit.result import Fate
+from stabilab.physics.equations import derive
+from stabilab.show.report import cost_growth as shown
 
-from .oracles import energy
-from .oracles.model import physical, scaled
+from tests.oracles import energy
+from tests.oracles.model import physical, scaled
 
 MINOR = load(Path(__file__).parent.parent / "cases" / "minor-axis-100.toml")
 

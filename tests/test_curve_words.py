@@ -8,13 +8,13 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from stabilab import Body, ScaledGyrostat, Scene, equilibria
-from stabilab.analysis.equilibrium_conics import WELL
-from stabilab.analysis.equilibrium_curve import RationalCurve, straight_line
-from stabilab.analysis.stability import curve_with_verdicts
+from stabilab import Body, equilibria, ScaledGyrostat, Scene
+from stabilab.equilibrium.conics import WELL
+from stabilab.equilibrium.curve import RationalCurve, straight_line
+from stabilab.equilibrium.stability import curve_with_verdicts
 
-from .oracles.pairs import physical
-from .test_equilibria import CURVED
+from tests.oracles.pairs import physical
+from tests.test_equilibria import CURVED
 
 LINES = [((4, 3, 2), (1, 5, 14), (0, 7, -5)), ((2, 2, 1), (2, 1, 3), (1, -2, 0)), ((2, 2, 1), (2, 1, 3), (-1, 2, 0)),
          ((5, 4, 2), (2, 3, 0), (0, 0, -6)), ((5, 4, 2), (2, 3, 0), (0, 0, 7)), ((5, 4, 2), (2, 3, 0), (0, 0, -7)),

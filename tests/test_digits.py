@@ -9,17 +9,17 @@ import numpy as np
 import pytest
 
 from stabilab import extremes, fate, load, period, trajectory
-from stabilab.analysis import precision as measuring
-from stabilab.analysis import precision_digits, precision_questions
-from stabilab.analysis.precision_digits import best_reached, simulate_to
-from stabilab.analysis.precision_front import FrontPoint
-from stabilab.analysis.precision_questions import ask, ask_all
-from stabilab.analysis.precision_reference import reference, relative_errors
-from stabilab.analysis.precision_told import Told
+from stabilab.cost import accuracy as measuring
+from stabilab.answers.digits import ask as precision_questions, run as precision_digits
+from stabilab.answers.digits.run import best_reached, simulate_to
+from stabilab.answers.digits.front import FrontPoint
+from stabilab.answers.digits.ask import ask, ask_all
+from stabilab.integrate.reference import reference, relative_errors
+from stabilab.answers.digits.checked import Told
 from stabilab.errors import InputError, ToleranceNotMet
 
-from .oracles import energy
-from .oracles.model import physical, scaled
+from tests.oracles import energy
+from tests.oracles.model import physical, scaled
 
 CASES = Path(__file__).parent.parent / "cases"
 PAPER = [f"{family}-{lam}" for family in ("minor-axis", "middle-axis", "middle-axis-equal", "middle-axis-plane") for lam in (100, 300, 500)]
@@ -65,7 +65,7 @@ def test_formulas_that_fall_short_leave_the_answer_to_balls(monkeypatch):
     # what motion found is spoilt in the ninth digit: six digits are still told of it, ten come from elsewhere
     one = case("minor-axis-100")
     good = ask("period", one.scene, one.start, 10)
-    from stabilab.analysis.motion import motion
+    from stabilab.answers.motion import motion
     spoilt = replace(motion(one.scene, one.start), period=good.values * (1 + 3e-9))
     coarse, fine = ask("period", one.scene, one.start, 6, None, spoilt), ask("period", one.scene, one.start, 10, None, spoilt)
     assert coarse.method == "formulas" and 8.4 < coarse.digits < 8.6
@@ -83,11 +83,11 @@ def test_extremes_without_a_reduction_agree_with_many_digits_over_the_span():
 
 def test_a_closed_motion_without_a_reduction_is_checked_by_its_return_in_many_digits():
     # a wheel along all three axes; the return of tests/oracles/taylor.py is its own recursion in mpmath
-    from stabilab.body import Body
-    from stabilab.effects.gyrostat import Gyrostat
-    from stabilab.scene import Scene
+    from stabilab.physics.body import Body
+    from stabilab.physics.effects.gyrostat import Gyrostat
+    from stabilab.physics.scene import Scene
 
-    from .oracles.taylor import integrate_checked
+    from tests.oracles.taylor import integrate_checked
     scene, start = Scene(Body((2, 3, 4)), Gyrostat((0.5, 0.25, 1.0))), (1.0, 0.5, 0.25)
     told = ask("period", scene, start, 20)
     with mp.workdps(40):
@@ -167,7 +167,7 @@ def test_every_ladder_of_digits_is_reached_on_the_papers_cases_and_costs_as_the_
     # taken, and along Taylor series and formulas of Runge and Kutta more digits take more evaluations.
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     one = replace(case(name), span=(0.0, 6.0))
-    from stabilab.analysis.precision_front import front, keep
+    from stabilab.answers.digits.front import front, keep
     found = measuring.precision(one, "quick")
     assert keep(found) and found.reference.status == "agrees"
     times, costs = found.times, []
@@ -241,8 +241,8 @@ def test_asking_too_much_of_far_times_ends_at_once(monkeypatch):
 
 def test_steps_that_stop_leave_the_reduced_form(monkeypatch):
     monkeypatch.setattr(precision_digits, "FAR", 1e300)  # the run is tried first
-    monkeypatch.setattr("stabilab.analysis.trajectories.REPORT", 1000)
-    monkeypatch.setattr("stabilab.analysis.trajectories.STEP_LIMIT", 1000)
+    monkeypatch.setattr("stabilab.integrate.trajectory.REPORT", 1000)
+    monkeypatch.setattr("stabilab.integrate.trajectory.STEP_LIMIT", 1000)
     found = best_reached(case("minor-axis-100"), [1e6], 6)
     assert found.enough and found.run.method == "reduced form"
 

@@ -13,21 +13,21 @@ import sympy as sp
 
 import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
-from stabilab.analysis.boxes import zeros
-from stabilab.analysis.equilibria import equilibria
-from stabilab.analysis.gyroscopic import content
-from stabilab.analysis.liquid_balance import trap
-from stabilab.analysis.motion import motion
-from stabilab.analysis.other_motion import rates
-from stabilab.analysis.results import Fate
-from stabilab.analysis.trajectories import trajectory
-from stabilab.compiled import to_numpy
-from stabilab.effects.body_force import BodyForce
-from stabilab.effects.charge import Charge
-from stabilab.effects.liquid_cavity import LiquidCavity
-from stabilab.effects.resistance import Resistance
-from stabilab.equations import derive
-from stabilab.show import answers
+from stabilab.numbers.krawczyk import zeros
+from stabilab.equilibrium.gyrostat import equilibria
+from stabilab.physics.coefficients import content
+from stabilab.equilibrium.damped.liquid_and_torque import trap
+from stabilab.answers.motion import motion
+from stabilab.unreduced.bounds import rates
+from stabilab.orbit.result import Fate
+from stabilab.integrate.trajectory import trajectory
+from stabilab.physics.to_numpy import to_numpy
+from stabilab.physics.effects.body_force import BodyForce
+from stabilab.physics.effects.charge import Charge
+from stabilab.physics.effects.liquid_cavity import LiquidCavity
+from stabilab.physics.effects.resistance import Resistance
+from stabilab.physics.equations import derive
+from stabilab.show.text import answers
 
 ROOT = Path(__file__).parent.parent
 BODY = Body((9, 8, 5))

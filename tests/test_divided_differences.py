@@ -4,8 +4,8 @@ import math
 import numpy as np
 import pytest
 
-from stabilab.analysis.divided_differences import divided_difference, divided_differences
-from stabilab.analysis.twofold import Twofold, twofold
+from stabilab.numbers.divided_differences import divided_difference, divided_differences
+from stabilab.numbers.double_double import Twofold, twofold
 from stabilab.errors import InputError
 
 flint = pytest.importorskip("flint")

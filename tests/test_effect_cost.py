@@ -5,11 +5,12 @@ import json
 import pytest
 from typer.testing import CliRunner
 
-from stabilab import Scene, derive, load
-from stabilab.analysis.effect_cost import BODY, EXAMPLES, alone, answers, counted, example, imported, ladder, operations, without, zero_is_absent
+from stabilab import derive, load, Scene
+from stabilab.cost.effects import (
+    alone, answers, BODY, counted, example, EXAMPLES, imported, ladder, operations, without, zero_is_absent)
 from stabilab.cli import app
-from stabilab.compiled import Form, _function, form
-from stabilab.effects import REGISTRY, effect_class
+from stabilab.physics.to_numpy import _function, Form, form
+from stabilab.physics.effects import effect_class, REGISTRY
 from stabilab.errors import CaseError
 
 # By hand. States: omega 3, gamma 3, attitude 4, velocity 3, position 3. Symbols: the moments of inertia and the effect's
@@ -128,8 +129,8 @@ def test_a_force_of_zero_asks_for_no_mass_once_it_is_built():
 
 
 def test_the_page_shows_every_effect(tmp_path, monkeypatch):
-    from stabilab.analysis import effect_cost as analysis
-    from stabilab.show import effect_cost as show
+    from stabilab.cost import effects as analysis
+    from stabilab.show.report import effect_cost as show
     monkeypatch.setattr(analysis, "REPEATS", 1)
     few = ("constant_torque", "gravity")
     monkeypatch.setattr(show, "EXAMPLES", {name: EXAMPLES[name] for name in few})

@@ -4,14 +4,14 @@ import sys
 import numpy as np
 import pytest
 
-from stabilab import Body, ConstantTorque, Gyrostat, Scene, ScaledGyrostat, trajectory
-from stabilab.analysis import ensembles
-from stabilab.analysis.ensembles import LANES, ensemble
-from stabilab.compiled import heyoka_available
-from stabilab.effects import effect_class
+from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, trajectory
+from stabilab.integrate import ensemble as ensembles
+from stabilab.integrate.ensemble import ensemble, LANES
+from stabilab.physics.to_numpy import heyoka_available
+from stabilab.physics.effects import effect_class
 from stabilab.errors import InputError
 
-from .oracles import model, taylor
+from tests.oracles import model, taylor
 
 SCENE = Scene(Body((3, 2, "1.5")), Gyrostat(("0.3", "-0.2", "0.5")), ConstantTorque(("0.1", "0.2", "0.1")))
 STATES = np.random.default_rng(4).normal(size=(2 * LANES + 3, 3))
@@ -91,7 +91,7 @@ def test_bad_input_is_named(arguments, words):
 @needs_heyoka
 def test_rows_hold_motions_of_like_pace():
     """The slowest motion of a row keeps the others waiting: the paces of two rows must not interleave."""
-    from stabilab.compiled import to_numpy
+    from stabilab.physics.to_numpy import to_numpy
     system = to_numpy(SCENE)
     rows = ensembles._groups(system, STATES)
     assert rows.shape == (3, LANES) and set(rows.ravel()) == set(range(len(STATES)))

@@ -7,14 +7,14 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from stabilab import Body, ConstantTorque, Gyrostat, Scene, ScaledGyrostat
-from stabilab.compiled import form, heyoka_available, to_numpy, to_taylor
-from stabilab.effects.body_force import BodyForce
-from stabilab.effects.charge import Charge
-from stabilab.effects.gravity import Gravity
-from stabilab.effects.liquid_cavity import LiquidCavity
-from stabilab.effects.resistance import Resistance
-from stabilab.equations import derive, invariants, latex, lines
+from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
+from stabilab.physics.to_numpy import form, heyoka_available, to_numpy, to_taylor
+from stabilab.physics.effects.body_force import BodyForce
+from stabilab.physics.effects.charge import Charge
+from stabilab.physics.effects.gravity import Gravity
+from stabilab.physics.effects.liquid_cavity import LiquidCavity
+from stabilab.physics.effects.resistance import Resistance
+from stabilab.physics.equations import derive, invariants, latex, lines
 
 BODY = Body((2000, "1500.5", 1000))
 WHEEL, THRUST = Gyrostat((100, "2/3", 0)), ConstantTorque((1, -2, "204.1"))
@@ -87,13 +87,13 @@ def run_python(code):
 
 
 def test_unnamed_effects_are_not_imported():
-    code = ("import sys; from stabilab import Body, Scene; from stabilab.equations import derive; derive(Scene(Body((3, 2, 2))));"
-            "print(*[m for m in sys.modules if m.startswith('stabilab.effects.')])")
-    assert run_python(code).split() == ["stabilab.effects.base"]
+    code = ("import sys; from stabilab import Body, Scene; from stabilab.physics.equations import derive; derive(Scene(Body((3, 2, 2))));"
+            "print(*[m for m in sys.modules if m.startswith('stabilab.physics.effects.')])")
+    assert run_python(code).split() == ["stabilab.physics.effects.base"]
 
 
 def test_deriving_waits_to_import_sympy_and_compiling_heyoka():
-    code = ("import sys, stabilab.equations, stabilab.compiled, stabilab.analysis.trajectories, stabilab.analysis.captured;"
+    code = ("import sys, stabilab.physics.equations, stabilab.physics.to_numpy, stabilab.integrate.trajectory, stabilab.unreduced.growth;"
             "print(*[m for m in ('sympy', 'heyoka', 'scipy') if m in sys.modules])")
     assert run_python(code).split() == []
 

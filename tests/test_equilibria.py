@@ -11,10 +11,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, equilibria
-from stabilab.analysis.equilibrium_conics import balance_fails, conic_curves
-from stabilab.analysis.pencil import pencil
-from stabilab.analysis.torque_free_equilibria import torque_free_curves
+from stabilab import Body, ConstantTorque, equilibria, Gyrostat, ScaledGyrostat, Scene
+from stabilab.equilibrium.conics import balance_fails, conic_curves
+from stabilab.equilibrium.balance import pencil
+from stabilab.equilibrium.torque_free import torque_free_curves
 from stabilab.errors import InputError
 
 D_PAPER = (2000, 1500, 1000)

@@ -14,16 +14,16 @@ import numpy as np
 import pytest
 
 import stabilab
-from stabilab.analysis.landscape import EPS, landscape
-from stabilab.analysis.reduction import Reduction, reduce
+from stabilab.orbit.landscape import EPS, landscape
+from stabilab.orbit.reduction import reduce, Reduction
 
-from .oracles import energy
-from .oracles.energy import Reduced
-from .oracles.pairs import brink, physical, scaled
-from .test_fate import ELLIPTIC, FAMILIES, axis_of
-from .test_small_faults import PARABOLIC
+from tests.oracles import energy
+from tests.oracles.energy import Reduced
+from tests.oracles.pairs import brink, physical, scaled
+from tests.test_fate import axis_of, ELLIPTIC, FAMILIES
+from tests.test_small_faults import PARABOLIC
 
-fate = importlib.import_module("stabilab.analysis.fate")
+fate = importlib.import_module("stabilab.orbit.fate.arrays")
 LOST = 1e-3  # of the shifted rates: a place that small has lost three digits
 AWAY = 10.0 ** np.arange(-7, -17, -0.125)  # relative distances from the separatrix in the axis's rate
 

@@ -6,10 +6,10 @@ from math import isqrt
 import pytest
 
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
-from stabilab.analysis.balls import working
-from stabilab.analysis.exact_tie import exact_tie
-from stabilab.analysis.precise import PreciseOrbit
-from stabilab.analysis.reduction import reduce
+from stabilab.numbers.balls import working
+from stabilab.orbit.fate.tie import exact_tie
+from stabilab.orbit.ball_orbit import PreciseOrbit
+from stabilab.orbit.reduction import reduce
 
 # |H|^2 = 2 D2 T (the middle axis' polhode, Euler): D1 (D1 - D2) w1^2 = D3 (D2 - D3) w3^2, here 4 w1^2 = 2.25 w3^2
 BODY = Body((4, 3, "1.5"))

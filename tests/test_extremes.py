@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 
 import stabilab
 
-from .oracles import brute, energy
-from .oracles.pairs import PAPER_BODY, as_floats, brink, paper, physical, scaled
-from .test_fate import FAMILIES, axis_of, sample
+from tests.oracles import brute, energy
+from tests.oracles.pairs import as_floats, brink, paper, PAPER_BODY, physical, scaled
+from tests.test_fate import axis_of, FAMILIES, sample
 
 families = pytest.mark.parametrize("name", FAMILIES)
 

@@ -7,15 +7,15 @@ import numpy as np
 import pytest
 
 import stabilab
-from stabilab.analysis import turning
-from stabilab.analysis.landscape import EPS, landscape
-from stabilab.analysis.reduction import reduce
+from stabilab.orbit.extremes import turning_points as turning
+from stabilab.orbit.landscape import EPS, landscape
+from stabilab.orbit.reduction import reduce
 
-from .oracles.pairs import brink, scaled
-from .test_fate import FAMILIES
-from .test_small_faults import PARABOLIC
+from tests.oracles.pairs import brink, scaled
+from tests.test_fate import FAMILIES
+from tests.test_small_faults import PARABOLIC
 
-extremes = importlib.import_module("stabilab.analysis.extremes")
+extremes = importlib.import_module("stabilab.orbit.extremes.arrays")
 ALL = FAMILIES | PARABOLIC
 
 
@@ -131,13 +131,13 @@ def test_states_at_the_place_of_a_barrier_go_to_balls_and_those_at_a_well_do_not
                 assert not found.any()
 
 
-@pytest.mark.parametrize("inside, share, module", [(True, 1e-7, "precise_extremes"), (False, 1e-4, "precise_extremes"),
-                                                   (True, 1e-5, "precise_period")])
+@pytest.mark.parametrize("inside, share, module", [(True, 1e-7, "extremes.balls"), (False, 1e-4, "extremes.balls"),
+                                                   (True, 1e-5, "period.balls")])
 def test_extremes_and_periods_leave_to_balls_what_is_within_their_share_of_the_separatrix(inside, share, module, monkeypatch):
     """Asked is whoever is nearer than the share of the terms: the torque's, the force's along the orbit, the kinetic energy."""
     scene, problem = FAMILIES["minor scaled +"]
-    module, asked = importlib.import_module(f"stabilab.analysis.{module}"), []
-    name = module.__name__.split(".")[-1]
+    module, asked = importlib.import_module(f"stabilab.orbit.{module}"), []
+    name = {"extremes": "precise_extremes", "period": "precise_period"}[module.__name__.split(".")[-2]]
     real = getattr(module, name)
     monkeypatch.setattr(module, name, lambda r, state, label: asked.append(tuple(state)) or real(r, state, label))
     off = 10.0 ** np.arange(-9, -1.5, 0.5)

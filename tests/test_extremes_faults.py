@@ -7,18 +7,18 @@ import pytest
 
 import stabilab
 from stabilab import Body, Fate, Gyrostat, Scene
-from stabilab.analysis import turning
-from stabilab.analysis.landscape import landscape
-from stabilab.analysis.motion import motion
-from stabilab.analysis.numba_door import installed
-from stabilab.analysis.reduction import reduce
+from stabilab.orbit.extremes import turning_points as turning
+from stabilab.orbit.landscape import landscape
+from stabilab.answers.motion import motion
+from stabilab.numbers.numba_door import installed
+from stabilab.orbit.reduction import reduce
 
-from .oracles import energy
-from .oracles.energy import Reduced, _inner, _levels
-from .oracles.pairs import WORDS, physical, scaled
-from .test_extremes import assert_extremes
-from .test_fate import FAMILIES, axis_of
-from .test_small_faults import PARABOLIC
+from tests.oracles import energy
+from tests.oracles.energy import _inner, _levels, Reduced
+from tests.oracles.pairs import physical, scaled, WORDS
+from tests.test_extremes import assert_extremes
+from tests.test_fate import axis_of, FAMILIES
+from tests.test_small_faults import PARABOLIC
 
 ALL = FAMILIES | PARABOLIC
 
@@ -117,7 +117,7 @@ def free_extremes(problem, state):
 @pytest.mark.parametrize("name", FREE)
 def test_free_motions_over_and_between_their_barriers_have_the_extremes_of_the_potential(name, monkeypatch):
     """Both kinds, in both senses, without ball arithmetic."""
-    from stabilab.analysis import precise_extremes
+    from stabilab.orbit.extremes import balls as precise_extremes
     monkeypatch.setattr(precise_extremes, "precise_extremes", lambda *a: pytest.fail("a generic state went to ball arithmetic"))
     scene, problem = FREE[name]
     states = np.random.default_rng(2).normal(size=(8, 3))

@@ -7,15 +7,16 @@ import pytest
 
 import stabilab
 from stabilab import Fate
-from stabilab.analysis import circle_kernel, fast_extremes, numba_door
-from stabilab.analysis.extremes import extremes_and_periods
-from stabilab.analysis.landscape import landscape
-from stabilab.analysis.precise_extremes import precise_extremes
-from stabilab.analysis.precise_period import precise_period
+from stabilab.orbit.extremes import circle_kernel, circle_numba as fast_extremes
+from stabilab.numbers import numba_door
+from stabilab.orbit.extremes.arrays import extremes_and_periods
+from stabilab.orbit.landscape import landscape
+from stabilab.orbit.extremes.balls import precise_extremes
+from stabilab.orbit.period.balls import precise_period
 from stabilab.errors import InputError
 
-from .oracles.pairs import brink, physical, scaled
-from .test_fate import FAMILIES, sample
+from tests.oracles.pairs import brink, physical, scaled
+from tests.test_fate import FAMILIES, sample
 
 BODY = (2000, 1500, 1000)
 pytestmark = pytest.mark.filterwarnings("ignore:invalid value")  # inf - inf of spin-ups, masked where it occurs
@@ -133,7 +134,7 @@ def test_next_to_the_separatrix_the_kernel_keeps_its_digits_or_lets_go(name, dec
 def test_a_root_of_the_energy_difference_in_theta_loses_half_of_the_digits_next_to_the_separatrix():
     """The turning point merges with the saddle, where V is flat: bisection on E - V(theta), subtracted, against balls.
     The arrays' path solves from the saddle instead, in the distance from it."""
-    from stabilab.analysis.fate import circle_margins
+    from stabilab.orbit.fate.arrays import circle_margins
     scene, problem = FAMILIES["minor scaled +"]
     land, rng, worst = landscape(scene), np.random.default_rng(3), 0.0
     for _ in range(6):
@@ -192,7 +193,7 @@ def test_extremes_and_periods_in_one_go_equal_each_alone():
 
 def test_turning_points_take_few_rounds(monkeypatch):
     """Counted: a first guess from a cosine between well and barrier, and roots that stay found."""
-    from stabilab.analysis import turning
+    from stabilab.orbit.extremes import turning_points as turning
     rounds, solve = [], turning.bracketed_newton
 
     def counting(fun, *args, **kwargs):

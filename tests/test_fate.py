@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 
 import stabilab
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
-from stabilab.analysis.motion import motion
+from stabilab.answers.motion import motion
 
-from .oracles import brute, energy
-from .oracles.pairs import PAPER_BODY, WORDS, brink, paper, physical, random_problem, scaled
+from tests.oracles import brute, energy
+from tests.oracles.pairs import brink, paper, PAPER_BODY, physical, random_problem, scaled, WORDS
 
 BOUNDED, SPIN_UP, SEPARATRIX, EQUILIBRIUM, UNDECIDED = (int(f) for f in Fate)
 

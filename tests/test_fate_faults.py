@@ -11,18 +11,18 @@ import pytest
 
 import stabilab
 from stabilab import Fate
-from stabilab.analysis import barrier_heights
-from stabilab.analysis.barrier_table import barrier_table
-from stabilab.analysis.landscape import landscape
-from stabilab.analysis.reasons import Reason
-from stabilab.analysis.table_fate import label_by_table
+from stabilab.orbit.fate import table_kernel as barrier_heights
+from stabilab.orbit.fate.table import barrier_table
+from stabilab.orbit.landscape import landscape
+from stabilab.orbit.fate.reasons import Reason
+from stabilab.orbit.fate.by_table import label_by_table
 
-from .oracles import energy
-from .oracles.pairs import WORDS, brink, physical, scaled
-from .test_fate import FAMILIES, axis_of, sample
-from .test_small_faults import PARABOLIC
+from tests.oracles import energy
+from tests.oracles.pairs import brink, physical, scaled, WORDS
+from tests.test_fate import axis_of, FAMILIES, sample
+from tests.test_small_faults import PARABOLIC
 
-fate = importlib.import_module("stabilab.analysis.fate")
+fate = importlib.import_module("stabilab.orbit.fate.arrays")
 COLUMNS = ("labels", "margins", "axis", "sense", "reasons")
 
 
@@ -196,7 +196,7 @@ def test_a_result_is_told_by_its_answers_and_not_by_its_states():
 
 @pytest.mark.parametrize("name", ["minor scaled +", "middle scaled -, |c| above the cusp", "middle scaled, |c| far above"])
 def test_a_table_has_as_few_cells_as_leave_few_gaps(name, monkeypatch):
-    module = importlib.import_module("stabilab.analysis.barrier_table")
+    module = importlib.import_module("stabilab.orbit.fate.table")
     table, sizes = barrier_table(FAMILIES[name][0]), list(module.CELLS)
     count = table.cells.shape[1]
     assert count == sizes[name == "middle scaled, |c| far above"]  # one that needs the second try

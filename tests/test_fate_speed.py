@@ -14,17 +14,18 @@ import numpy as np
 import pytest
 
 import stabilab
-from stabilab.analysis import barrier_heights, fast_fate, numba_door
-from stabilab.analysis.barrier_table import barrier_table
-from stabilab.analysis.fate_grid import fate_grid
-from stabilab.analysis.table_fate import canonical, circle_heights, label_by_table
+from stabilab.orbit.fate import table_kernel as barrier_heights, table_numba as fast_fate
+from stabilab.numbers import numba_door
+from stabilab.orbit.fate.table import barrier_table
+from stabilab.answers.fate_grid import fate_grid
+from stabilab.orbit.fate.by_table import canonical, circle_heights, label_by_table
 from stabilab.errors import InputError
 
-from .oracles import energy
-from .oracles.pairs import WORDS, brink, physical, random_body, random_problem, scaled
-from .test_fate import ELLIPTIC, FAMILIES, axis_of, sample
+from tests.oracles import energy
+from tests.oracles.pairs import brink, physical, random_body, random_problem, scaled, WORDS
+from tests.test_fate import axis_of, ELLIPTIC, FAMILIES, sample
 
-module = importlib.import_module("stabilab.analysis.fate")
+module = importlib.import_module("stabilab.orbit.fate.arrays")
 TABLED = [name for name in FAMILIES if barrier_table(FAMILIES[name][0]) is not None]
 EASY = ["minor scaled +", "minor physical, other sign", "middle scaled -, |c| above the cusp", "major physical, other sign"]
 ways = pytest.mark.parametrize("fast", [False, True], ids=["numpy", "numba"])

@@ -11,17 +11,17 @@ from pathlib import Path
 
 import pytest
 
-from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, load
-from stabilab.analysis.certificate import certificate
+from stabilab import Body, ConstantTorque, Gyrostat, load, ScaledGyrostat, Scene
+from stabilab.answers.certificate import certificate
 from stabilab.errors import InputError
-from stabilab.show import certification
+from stabilab.show.text import certification
 from stabilab.verify import orbit, verify, verify_file
 from stabilab.verify.numbers import Malformed
 from stabilab.verify.zeros import Purse
 
-from . import forge
-from .oracles import elimination as by_hand
-from .test_random_scenes import disagreements
+from tests import forge
+from tests.oracles import elimination as by_hand
+from tests.test_random_scenes import disagreements
 
 
 def physical(D, lam=(0, 0, 0), M=(0, 0, 0)):

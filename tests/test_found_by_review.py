@@ -6,11 +6,11 @@ import pytest
 
 import stabilab
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, Scene
-from stabilab.analysis.balls import Digits
-from stabilab.analysis.captured import captured_fate
-from stabilab.analysis.free_gyrostat import free_margin
-from stabilab.analysis.equilibrium_curve import decimal
-from stabilab.effects.resistance import Resistance
+from stabilab.numbers.balls import Digits
+from stabilab.unreduced.growth import captured_fate
+from stabilab.orbit.fate.free_margin import free_margin
+from stabilab.equilibrium.curve import decimal
+from stabilab.physics.effects.resistance import Resistance
 from stabilab.errors import InputError
 
 

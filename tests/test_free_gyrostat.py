@@ -7,12 +7,12 @@ import pytest
 
 import stabilab
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, Scene
-from stabilab.analysis.balls import DOUBLES, Unclear
-from stabilab.analysis.free_gyrostat import _nearest, free_margin
-from stabilab.analysis.irreducible import kind_of
-from stabilab.analysis.precision_questions import ask
+from stabilab.numbers.balls import DOUBLES, Unclear
+from stabilab.orbit.fate.free_margin import _nearest, free_margin
+from stabilab.unreduced.aligned import kind_of
+from stabilab.answers.digits.ask import ask
 
-from .oracles import sphere
+from tests.oracles import sphere
 
 
 def rotations(D, lam, h2, digits=50):
@@ -151,7 +151,7 @@ def test_a_rational_state_on_the_separatrix_of_a_free_gyrostat_is_recognised_and
 
 
 def test_the_digits_of_a_free_margin_are_those_asked_for():
-    from stabilab.analysis.precision_questions import ask
+    from stabilab.answers.digits.ask import ask
     lam, D = (0.125, 0.25, -0.125), (4, 3, 2)
     told = ask("fate", Scene(Body(D), Gyrostat(lam)), (1.0, 0.5, -0.25), 40)
     assert told.digits >= 40

@@ -12,15 +12,15 @@ import pytest
 
 import stabilab
 from stabilab import Body, ConstantTorque, Fate, ScaledGyrostat, Scene
-from stabilab.analysis.motion import motion
-from stabilab.analysis.precise import decide, precise_margin
-from stabilab.analysis.precise_extremes import precise_extremes
-from stabilab.analysis.precise_period import precise_period
-from stabilab.analysis.reduction import reduce
+from stabilab.answers.motion import motion
+from stabilab.orbit.ball_orbit import decide, precise_margin
+from stabilab.orbit.extremes.balls import precise_extremes
+from stabilab.orbit.period.balls import precise_period
+from stabilab.orbit.reduction import reduce
 
-from .oracles import energy
-from .oracles.model import scaled
-from .test_extremes import assert_extremes
+from tests.oracles import energy
+from tests.oracles.model import scaled
+from tests.test_extremes import assert_extremes
 
 MOMENTS = (4.0, 3.0, 1.5)  # 4 w1^2 = 2.25 w3^2
 ORDERS = list(permutations(range(3)))

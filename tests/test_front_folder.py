@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 import stabilab
-from stabilab.analysis import precision_front
-from stabilab.analysis.precision_front import FrontPoint, cache_folder, front
+from stabilab.answers.digits import front as precision_front
+from stabilab.answers.digits.front import cache_folder, front, FrontPoint
 
 CASE = stabilab.load(Path(__file__).parent.parent / "cases" / "torque-free-body.toml")
 

@@ -13,9 +13,9 @@ import pytest
 import stabilab
 from stabilab import Fate
 
-from .hard.agrees import agrees
-from .oracles import energy
-from .oracles.pairs import PAPER_BODY, brink, physical, scaled
+from tests.hard.agrees import agrees
+from tests.oracles import energy
+from tests.oracles.pairs import brink, PAPER_BODY, physical, scaled
 
 BOUNDED, SPIN_UP, SEPARATRIX, EQUILIBRIUM, UNDECIDED = (int(f) for f in Fate)
 

@@ -9,9 +9,9 @@ import pytest
 
 import stabilab
 
-from .hard.row import UNIT, distance, half_units
-from .oracles import energy, model
-from .oracles.pairs import WORDS, physical, random_body
+from tests.hard.row import distance, half_units, UNIT
+from tests.oracles import energy, model
+from tests.oracles.pairs import physical, random_body, WORDS
 
 ALLOWED = 8  # times the condition, and times half a unit in the last place of the distance to the centre of the conic
 DIGITS = 60

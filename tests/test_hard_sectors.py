@@ -12,9 +12,9 @@ import pytest
 import stabilab
 from stabilab import Fate
 
-from .hard.agrees import agrees
-from .oracles import energy
-from .oracles.pairs import scaled
+from tests.hard.agrees import agrees
+from tests.oracles import energy
+from tests.oracles.pairs import scaled
 
 SPIN_UP, UNDECIDED = int(Fate.SPIN_UP), int(Fate.UNDECIDED)
 

@@ -7,8 +7,8 @@ import pytest
 pytest.importorskip("flint")
 pytest.importorskip("heyoka")
 
-from .hard.row import Verdict  # noqa: E402
-from .hard_table import ALLOWED, PAGE, ROWS, page, row_of, rows  # noqa: E402
+from tests.hard.row import Verdict  # noqa: E402
+from tests.hard_table import ALLOWED, PAGE, page, row_of, ROWS, rows  # noqa: E402
 
 NAMES = [f"{about}: {case.__name__.replace('_', ' ')} {number}" for about, case, number, _ in ROWS]
 each = pytest.mark.parametrize("n", [pytest.param(n, marks=[pytest.mark.slow] * slow, id=name)

@@ -10,16 +10,16 @@ import pytest
 import stabilab
 import stabilab.errors
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
-from stabilab.analysis.certificate import certificate
-from stabilab.analysis.reduction import reduce
+from stabilab.answers.certificate import certificate
+from stabilab.orbit.reduction import reduce
 from stabilab.verify import verify
 
-from .hunt.__main__ import Hunt, aim, evolve
-from .hunt.disagreements import DISAGREEMENTS, many_digits
-from .hunt.problems import KNOBS, problem_of
-from .oracles import energy, sphere
-from .oracles.pairs import WORDS, physical, scaled
-from .test_extremes import assert_extremes
+from tests.hunt.__main__ import aim, evolve, Hunt
+from tests.hunt.disagreements import DISAGREEMENTS, many_digits
+from tests.hunt.problems import KNOBS, problem_of
+from tests.oracles import energy, sphere
+from tests.oracles.pairs import physical, scaled, WORDS
+from tests.test_extremes import assert_extremes
 
 
 def exactly(*digits):

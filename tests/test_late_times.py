@@ -4,18 +4,18 @@ import math
 import numpy as np
 import pytest
 
-from stabilab import Body, ConstantTorque, Gyrostat, Scene, ScaledGyrostat, fate, trajectory
-from stabilab.analysis.ordinary_motion import Here, constants, ordinary
-from stabilab.analysis.precision_reference import reference, relative_errors
-from stabilab.analysis.reduced_motion import _motion, reduced_motion
-from stabilab.analysis.relief import Arrays, relief
-from stabilab.analysis.repeating_motion import ByPanels, BySeries
-from stabilab.analysis.spin_up_motion import SpinUp
-from stabilab.analysis.tabulated_motion import Tabulated, tabulated
-from stabilab.compiled import heyoka_available
+from stabilab import Body, ConstantTorque, fate, Gyrostat, ScaledGyrostat, Scene, trajectory
+from stabilab.orbit.flow.in_doubles import constants, Here, ordinary
+from stabilab.integrate.reference import reference, relative_errors
+from stabilab.orbit.flow.flow import _motion, reduced_motion
+from stabilab.orbit.flow.profile import Arrays, relief
+from stabilab.orbit.flow.periodic import ByPanels, BySeries
+from stabilab.orbit.flow.spin_up import SpinUp
+from stabilab.orbit.flow.table import Tabulated, tabulated
+from stabilab.physics.to_numpy import heyoka_available
 from stabilab.errors import InputError
 
-from .hard.circles import textbook_period
+from tests.hard.circles import textbook_period
 
 MINOR = ScaledGyrostat("0.2", "0.4", (0, 0, 1))
 MIDDLE = ScaledGyrostat("0.2", "4.4", (0, 1, 0))  # |c| = 4.2: a double well

@@ -10,22 +10,22 @@ import numpy as np
 import pytest
 
 import stabilab
-from stabilab.analysis.gyroscopic import content
-from stabilab.analysis.models import follow
-from stabilab.analysis.other_motion import liquid_torque
-from stabilab.analysis.precision_digits import best_reached
-from stabilab.analysis.simulation import simulate
-from stabilab.body import Body
-from stabilab.effects.body_force import BodyForce
-from stabilab.effects.charge import Charge
-from stabilab.effects.constant_torque import ConstantTorque
-from stabilab.effects.gravity import Gravity
-from stabilab.effects.gyrostat import Gyrostat
-from stabilab.effects.liquid_cavity import NEXT_TERM, LiquidCavity
-from stabilab.effects.newtonian_field import NewtonianField
-from stabilab.effects.pace import pace
-from stabilab.effects.resistance import Resistance
-from stabilab.scene import Scene
+from stabilab.physics.coefficients import content
+from stabilab.theories.follow import follow
+from stabilab.unreduced.bounds import liquid_torque
+from stabilab.answers.digits.run import best_reached
+from stabilab.answers.simulate import simulate
+from stabilab.physics.body import Body
+from stabilab.physics.effects.body_force import BodyForce
+from stabilab.physics.effects.charge import Charge
+from stabilab.physics.effects.constant_torque import ConstantTorque
+from stabilab.physics.effects.gravity import Gravity
+from stabilab.physics.effects.gyrostat import Gyrostat
+from stabilab.physics.effects.liquid_cavity import LiquidCavity, NEXT_TERM
+from stabilab.physics.effects.newtonian_field import NewtonianField
+from stabilab.physics.effects.pace import pace
+from stabilab.physics.effects.resistance import Resistance
+from stabilab.physics.scene import Scene
 
 CASES = Path(__file__).parent.parent / "cases"
 WATER = """
@@ -222,14 +222,14 @@ def test_strict_of_fate_is_three_for_an_undecided_motion(stabilab):
 
 
 def test_surface_carries_it_in_its_summary(stabilab, tmp_path, monkeypatch):
-    from stabilab.show import render_probe
+    from stabilab.show.surface import render_probe
     monkeypatch.setattr(render_probe, "probe", lambda: render_probe.Renderer(False, "none here"))
     _, out, _ = stabilab("surface", CASES / "charged-body.toml", "--out", tmp_path / "s")
     assert json.loads(out)["validity"]["effect"] == "charge"
 
 
 def test_section_of_a_report_says_it_first(tmp_path):
-    from stabilab.show.report import _section
-    from stabilab.case import load
+    from stabilab.show.report.report import _section
+    from stabilab.case.read import load
     section = _section(load(water(tmp_path, "1e-6")), tmp_path, lambda words: None)
     assert section["motion"][0][0] == "law" and section["motion"][0][1].startswith("BEYOND THE LAW")

@@ -5,10 +5,10 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from stabilab import Body, Scene, ScaledGyrostat
-from stabilab.compiled import to_numpy
-from stabilab.effects import REGISTRY, effect_class
-from stabilab.equations import derive, invariants
+from stabilab import Body, ScaledGyrostat, Scene
+from stabilab.physics.to_numpy import to_numpy
+from stabilab.physics.effects import effect_class, REGISTRY
+from stabilab.physics.equations import derive, invariants
 
 
 ARGUMENTS = {  # what each effect is made from; an effect of one vector needs no line

@@ -132,8 +132,8 @@ def test_loading_a_case_needs_no_numpy():
 
 def test_an_effect_that_no_case_names_is_not_imported():
     code = ("import sys, stabilab; stabilab.load(sys.argv[1]);"
-            "print(sorted(m for m in sys.modules if m.startswith('stabilab.effects.')))")
+            "print(sorted(m for m in sys.modules if m.startswith('stabilab.physics.effects.')))")
     run = subprocess.run([sys.executable, "-c", code, "cases/off-axis-two.toml"], cwd=ROOT, capture_output=True, text=True)
-    assert "stabilab.effects.constant_torque" in run.stdout
+    assert "stabilab.physics.effects.constant_torque" in run.stdout
     # scaling needs the torque's class alone; the gyrostat is not named by this case
-    assert "stabilab.effects.gyrostat" not in run.stdout
+    assert "stabilab.physics.effects.gyrostat" not in run.stdout

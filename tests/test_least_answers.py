@@ -10,29 +10,31 @@ import pytest
 
 import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
-from stabilab.analysis import effect_cost, precision_digits, trajectories
-from stabilab.analysis.balls import DOUBLE_BITS, Digits, settled
-from stabilab.analysis.circle_loops import force, moved, real_cubic
-from stabilab.analysis.circle_loops import settled as settled_on_circle
-from stabilab.analysis.double_balls import Unclear
-from stabilab.analysis.equilibria import equilibria
-from stabilab.analysis.gyroscopic import content
-from stabilab.analysis.landscape import landscape
-from stabilab.analysis.loop import settled_on
-from stabilab.analysis.models import models_of
-from stabilab.analysis.motion import motion
-from stabilab.analysis.other_effects import other_equilibria
-from stabilab.analysis.other_motion import other_motion
-from stabilab.analysis.own_unit import in_unit
-from stabilab.analysis.polynomials import Poly, real_roots
-from stabilab.analysis.precision_methods import problem
-from stabilab.analysis.precision_questions import ask, ask_all
-from stabilab.analysis.precision_told import digits_of
-from stabilab.analysis.small_parameter_angles import euler_angles
-from stabilab.analysis.tabulated_motion import tabulated
-from stabilab.analysis.trajectories import trajectory
-from stabilab.effects.base import Effect
-from stabilab.effects.resistance import Resistance
+from stabilab.cost import effects as effect_cost
+from stabilab.answers.digits import run as precision_digits
+from stabilab.integrate import trajectory as trajectories
+from stabilab.numbers.balls import Digits, DOUBLE_BITS, settled
+from stabilab.orbit.separatrix.circle_kernel import force, moved, real_cubic
+from stabilab.orbit.separatrix.circle_kernel import settled as settled_on_circle
+from stabilab.numbers.double_ball import Unclear
+from stabilab.equilibrium.gyrostat import equilibria
+from stabilab.physics.coefficients import content
+from stabilab.orbit.landscape import landscape
+from stabilab.orbit.separatrix.homoclinic import settled_on
+from stabilab.theories.follow import models_of
+from stabilab.answers.motion import motion
+from stabilab.answers.equilibria import other_equilibria
+from stabilab.unreduced.bounds import other_motion
+from stabilab.physics.motion_units import in_unit
+from stabilab.numbers.polynomial import Poly, real_roots
+from stabilab.cost.methods import problem
+from stabilab.answers.digits.ask import ask, ask_all
+from stabilab.answers.digits.checked import digits_of
+from stabilab.theories.top.euler_angles import euler_angles
+from stabilab.orbit.flow.table import tabulated
+from stabilab.integrate.trajectory import trajectory
+from stabilab.physics.effects.base import Effect
+from stabilab.physics.effects.resistance import Resistance
 from stabilab.errors import InputError
 
 MINOR = ScaledGyrostat("0.2", "0.4", (0, 0, 1))

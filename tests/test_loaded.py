@@ -5,7 +5,7 @@ import sys
 
 import pytest
 
-from stabilab.effects import REGISTRY
+from stabilab.physics.effects import REGISTRY
 
 BODY = "[body]\ninertia = {inertia}\nmass = 5\n"
 MOTION = "[motion]\nangular_velocity = [0.1, 0.05, 0.02]\nspan = [0, 1]\n"
@@ -61,10 +61,10 @@ def check(folder, commands, scenes):
     assert run.returncode == 0, run.stderr
     for (names, command, path), (code, modules, said) in zip(tried, json.loads(run.stdout)):
         assert code in (0, 2, 3, 4, 5), (command, path.name, said)
-        loaded = {name for name, (module, _) in REGISTRY.items() if f"stabilab.effects.{module}" in modules}
+        loaded = {name for name, (module, _) in REGISTRY.items() if f"stabilab.physics.effects.{module}" in modules}
         assert loaded <= set(names), (command, path.name, loaded)
         if "liquid_cavity" not in names and "charge" not in names:
-            assert "stabilab.law_limits" not in modules, (command, path.name)
+            assert "stabilab.physics.law_limits" not in modules, (command, path.name)
 
 
 def test_commands_load_only_the_effects_that_the_scene_names(tmp_path):

@@ -2,11 +2,11 @@
 import numpy as np
 import pytest
 
-from stabilab.compiled import heyoka_available
-from stabilab.show.long_runs import Drift, drifts, growth, integrals, starts
+from stabilab.physics.to_numpy import heyoka_available
+from stabilab.show.report.long_runs import Drift, drifts, growth, integrals, starts
 
-from .oracles import taylor
-from .oracles.model import scaled
+from tests.oracles import taylor
+from tests.oracles.model import scaled
 
 pytestmark = pytest.mark.skipif(not heyoka_available(), reason="heyoka is not installed")
 

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from stabilab import load
-from stabilab.analysis.comparison import compare
-from stabilab.analysis.models import follow, models_of
-from stabilab.case import load_all
+from stabilab.theories.comparison import compare
+from stabilab.theories.follow import follow, models_of
+from stabilab.case.read import load_all
 from stabilab.errors import CaseError, InputError
 
 CASES = Path(__file__).parent.parent / "cases"
@@ -26,7 +26,7 @@ def test_the_models_of_a_case_are_those_whose_assumptions_its_scene_meets(name, 
 
 def test_a_charge_that_follows_the_attitude_is_modelled_with_its_first_angle():
     """gamma3 = 1 at the start: k = e H l^2 = 0.003 * 100 * 1.02^2, by hand."""
-    from stabilab.analysis.axisymmetric_model import body_of
+    from stabilab.theories.charged.model import body_of
     assert float(np.max(body_of(load(CASES / "charged-body-attitude.toml")).charge_moment)) == pytest.approx(0.312120, rel=1e-12)
 
 
@@ -49,8 +49,8 @@ def test_models_have_the_parts_of_the_state_that_the_exact_motion_has():
 def test_the_model_printed_follows_the_print_and_the_model_corrected_the_integrals_it_means():
     """(44) of the paper: I_omega is the integral of I_Gamma, so the rate of omega is -i f3 e^(i r0 t) Gamma/m; (46) as typed
     misses that, and (61) does not vanish at t = 0."""
-    from stabilab.analysis.axisymmetric_model import body_of
-    from stabilab.analysis.axisymmetric_printed import printed
+    from stabilab.theories.charged.model import body_of
+    from stabilab.theories.charged.printed import printed
     case, t, h = load(CHARGED), 20.0, 1e-4
     runs = {model: follow(case, [0.0, t - h, t, t + h], model).state for model in ("corrected", "printed")}
     for model, right in (("corrected", True), ("printed", False)):
@@ -155,7 +155,7 @@ def test_the_model_printed_says_what_is_misprinted(stabilab):
 
 def test_compare_names_the_attracting_spin_of_a_body_with_a_liquid():
     """By hand: M3 = zeta D3 r holds the spin: r = -0.06/(0.02*9) = -1/3 rad/s, reached at the rate zeta."""
-    from stabilab.analysis.theory import theory
+    from stabilab.theories.theory import theory
     rows = theory(load(CASES / "liquid-base.toml"))
     (found,) = (row["values"] for row in rows if "attracting" in row["about"])
     assert found["spin"] == pytest.approx(-1 / 3, rel=1e-9) and found["amplitude"] == 0
@@ -163,8 +163,8 @@ def test_compare_names_the_attracting_spin_of_a_body_with_a_liquid():
 
 
 def test_the_mean_precession_told_is_that_of_the_exact_motion():
-    from stabilab.analysis.theory import theory
-    from stabilab.analysis.top_angles import with_euler_angles
+    from stabilab.theories.theory import theory
+    from stabilab.theories.top.run_angles import with_euler_angles
     case = load(CASES / "top-fast.toml")
     rows = {row["about"]: row["values"] for row in theory(case, 8)}
     turns = rows["periodic motion"]["period"] * np.array([0.0, 24.0])
@@ -185,7 +185,7 @@ def test_simulate_gives_classical_euler_angles_when_asked_for(stabilab):
 
 def test_every_effect_and_the_runs_of_models_have_public_names():
     import stabilab as package
-    from stabilab.effects import REGISTRY, effect_class
+    from stabilab.physics.effects import effect_class, REGISTRY
     assert {effect_class(name).__name__ for name in REGISTRY} <= set(package.__all__)
     assert all(getattr(package, name) is not None for name in package.__all__) and {"simulate", "compare", "theory"} <= set(package.__all__)
 
@@ -235,7 +235,7 @@ def test_a_fault_in_one_of_the_values_is_a_fault_of_the_file(tmp_path):
 def test_a_charge_of_constant_angle_is_judged_as_the_gyrostat_that_turns_alike():
     """k omega x e3 is the rate of a gyrostatic moment -k e3: same fates, extremes, periods for lambda3 - k (by hand)."""
     import stabilab
-    from stabilab.effects import effect_class
+    from stabilab.physics.effects import effect_class
     body, torque = stabilab.Body((12, 9, 5)), stabilab.ConstantTorque((0.02, 0, 0))
     charged = stabilab.Scene(body, torque, stabilab.Gyrostat((0, 0.25, 1)), effect_class("charge")(0.5, 2, 1, 0))
     twin = stabilab.Scene(body, torque, stabilab.Gyrostat((0, 0.25, 0)))
@@ -248,7 +248,7 @@ def test_a_charge_of_constant_angle_is_judged_as_the_gyrostat_that_turns_alike()
 
 def test_fate_refuses_a_scene_that_no_theorem_covers_by_name():
     import stabilab
-    from stabilab.effects import effect_class
+    from stabilab.physics.effects import effect_class
     scene = stabilab.Scene(stabilab.Body((3, 2, 2)), effect_class("resistance")(0.1))
     with pytest.raises(InputError, match="resistance"):
         stabilab.fate(scene, [1.0, 0, 0])

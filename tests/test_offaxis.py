@@ -5,9 +5,9 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from stabilab import Body, ConstantTorque, Fate, Gyrostat, Scene, ScaledGyrostat, fate, trajectory
-from stabilab.analysis.offaxis import evidence, extremes_over_period
-from stabilab.analysis.rate_roots import roots_of_rates
+from stabilab import Body, ConstantTorque, Fate, fate, Gyrostat, ScaledGyrostat, Scene, trajectory
+from stabilab.unreduced.off_axis import evidence, extremes_over_period
+from stabilab.integrate.extrema import roots_of_rates
 from stabilab.errors import InputError
 
 BODY = Body((2000, 1500, 1000))

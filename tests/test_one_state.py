@@ -9,13 +9,13 @@ import pytest
 
 import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
-from stabilab.analysis.double_balls import Ball, Doubles, Unclear
-from stabilab.analysis.distance import distance_of
-from stabilab.analysis.motion import motion
-from stabilab.analysis.balls import DOUBLE_BITS, START_BITS, settled
-from stabilab.analysis.precise import decide
-from stabilab.analysis.reduction import reduce
-from stabilab.analysis.results import Fate
+from stabilab.numbers.double_ball import Ball, Doubles, Unclear
+from stabilab.orbit.separatrix.distance import distance_of
+from stabilab.answers.motion import motion
+from stabilab.numbers.balls import DOUBLE_BITS, settled, START_BITS
+from stabilab.orbit.ball_orbit import decide
+from stabilab.orbit.reduction import reduce
+from stabilab.orbit.result import Fate
 
 SCENES = {
     "circle": ScaledGyrostat("0.2", "0.4", (0, 0, 1)),

@@ -5,7 +5,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from .oracles import brute, energy, model, taylor
+from tests.oracles import brute, energy, model, taylor
 
 pytest.importorskip("heyoka", reason="the brute-force oracle integrates with heyoka")
 

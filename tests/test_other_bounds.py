@@ -4,12 +4,12 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, Scene
-from stabilab.analysis.averaging import Smallness
-from stabilab.analysis.equilibria import equilibria
-from stabilab.analysis.motion import motion
-from stabilab.effects.charge import Charge
-from stabilab.effects.liquid_cavity import LiquidCavity
-from stabilab.effects.resistance import Resistance
+from stabilab.theories.cavity.averaged import Smallness
+from stabilab.equilibrium.gyrostat import equilibria
+from stabilab.answers.motion import motion
+from stabilab.physics.effects.charge import Charge
+from stabilab.physics.effects.liquid_cavity import LiquidCavity
+from stabilab.physics.effects.resistance import Resistance
 from stabilab.errors import InputError
 
 LIQUID = LiquidCavity(1250, 1000, "0.1")  # kappa = 1/8
@@ -64,7 +64,7 @@ def test_without_a_torque_rest_is_the_one_equilibrium_that_is_proved_with_a_liqu
 @pytest.mark.parametrize("eps", [0, -1.0, float("inf"), float("nan"), "small"])
 def test_a_small_parameter_that_is_no_positive_number_is_refused(eps):
     numbers = dict.fromkeys(("J", "d", "h", "g", "kappa", "zeta", "M1", "M2", "M3"), 1.0)
-    from stabilab.analysis import averaging
+    from stabilab.theories.cavity import averaged as averaging
     numbers = {name: 1.0 for name in averaging.NAMES} | numbers
     with pytest.raises(InputError, match="eps"):
         Smallness.of(numbers, np.array(ROW), eps)

@@ -8,11 +8,11 @@ import pytest
 
 import stabilab
 from stabilab import Body, Fate, Gyrostat, Scene
-from stabilab.analysis.motion import motion
+from stabilab.answers.motion import motion
 
-from .oracles import energy
-from .oracles.pairs import scaled
-from .test_extremes import assert_extremes
+from tests.oracles import energy
+from tests.oracles.pairs import scaled
+from tests.test_extremes import assert_extremes
 
 # l = 2, A = 5, (u, v) = (3, 4): omega3^2 = 4 l (u + A) = 64. The motion falls to u = -5; on the way through u = 5 omega3^2 = 80.
 TIED = [((1.0, 4.0, 8.0), [(-7, 3), (-5, 4), (0, 80**0.5)]), ((1.0, 4.0, -8.0), [(-7, 1), (0, 5), (-8, 0)]),

@@ -12,22 +12,22 @@ import sympy as sp
 
 import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
-from stabilab.analysis.equilibria import equilibria
-from stabilab.analysis.gyroscopic import content
-from stabilab.analysis.motion import motion
-from stabilab.analysis.other_motion import rates
-from stabilab.analysis.rotation_balance import many_digits, rotations_at
-from stabilab.analysis.results import Fate
-from stabilab.analysis.rotation_spectrum import Field
-from stabilab.analysis.trajectories import trajectory
-from stabilab.compiled import to_numpy
-from stabilab.effects.charge import Charge
-from stabilab.effects.gravity import Gravity
-from stabilab.effects.liquid_cavity import LiquidCavity
-from stabilab.effects.newtonian_field import NewtonianField
-from stabilab.effects.resistance import Resistance
-from stabilab.equations import derive
-from stabilab.show import answers
+from stabilab.equilibrium.gyrostat import equilibria
+from stabilab.physics.coefficients import content
+from stabilab.answers.motion import motion
+from stabilab.unreduced.bounds import rates
+from stabilab.equilibrium.field.balance import many_digits, rotations_at
+from stabilab.orbit.result import Fate
+from stabilab.equilibrium.field.spectrum import Field
+from stabilab.integrate.trajectory import trajectory
+from stabilab.physics.to_numpy import to_numpy
+from stabilab.physics.effects.charge import Charge
+from stabilab.physics.effects.gravity import Gravity
+from stabilab.physics.effects.liquid_cavity import LiquidCavity
+from stabilab.physics.effects.newtonian_field import NewtonianField
+from stabilab.physics.effects.resistance import Resistance
+from stabilab.physics.equations import derive
+from stabilab.show.text import answers
 
 ROOT = Path(__file__).parent.parent
 WHEEL, WEIGHT, CENTRE = Gyrostat((1, 0, 2)), Gravity(20, ("0.7", "0.3", "0.1")), NewtonianField("0.5")

@@ -4,18 +4,18 @@ import pytest
 
 import stabilab
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
-from stabilab.analysis import rate_roots
-from stabilab.analysis.averaging_attractors import attractors
-from stabilab.analysis.axisymmetric_modes import ChargedBody
-from stabilab.analysis.axisymmetric_printed import printed
-from stabilab.analysis.ensembles import ensemble
-from stabilab.analysis.equilibria import equilibria
-from stabilab.analysis.motion import motion
-from stabilab.analysis.offaxis import extremes_over_period
-from stabilab.analysis.trajectories import trajectory
-from stabilab.effects.charge import Charge
-from stabilab.effects.liquid_cavity import LiquidCavity
-from stabilab.effects.resistance import Resistance
+from stabilab.integrate import extrema as rate_roots
+from stabilab.theories.cavity.attractors import attractors
+from stabilab.theories.charged.modes import ChargedBody
+from stabilab.theories.charged.printed import printed
+from stabilab.integrate.ensemble import ensemble
+from stabilab.equilibrium.gyrostat import equilibria
+from stabilab.answers.motion import motion
+from stabilab.unreduced.off_axis import extremes_over_period
+from stabilab.integrate.trajectory import trajectory
+from stabilab.physics.effects.charge import Charge
+from stabilab.physics.effects.liquid_cavity import LiquidCavity
+from stabilab.physics.effects.resistance import Resistance
 from stabilab.errors import InputError
 
 # D = (9, 5, 4), lambda = (4, 0, 1), no torque: the planes omega1 + 1 = k s/3, omega3 - 1 = s, k = +-1, keep k: s' = k omega2 s/3.
@@ -149,7 +149,7 @@ def test_a_free_motion_needs_three_numbers(state):
 
 
 def test_a_point_beyond_the_end_of_a_branch_is_refused():
-    from stabilab.effects.gravity import Gravity
+    from stabilab.physics.effects.gravity import Gravity
     curves = equilibria(Scene(Body((4, 3, 2), 1), Gravity(9.81, (0, 0, "0.5")))).curves
     ended = [c for c in curves if np.isfinite([c.segments[0].t[0], c.segments[-1].t[1]]).any()]
     assert ended

@@ -10,20 +10,20 @@ import pytest
 
 import stabilab
 from stabilab import Body, Fate, Gyrostat, Scene
-from stabilab.analysis.balls import DOUBLE_BITS, START_BITS
-from stabilab.analysis.landscape import landscape
-from stabilab.analysis.motion import motion
-from stabilab.analysis.one_state import fate_of, invariants_of
-from stabilab.analysis.precise import decide
-from stabilab.analysis.precise_extremes import precise_extremes
-from stabilab.analysis.precise_period import precise_period
-from stabilab.analysis.reduction import reduce
+from stabilab.numbers.balls import DOUBLE_BITS, START_BITS
+from stabilab.orbit.landscape import landscape
+from stabilab.answers.motion import motion
+from stabilab.orbit.fate.one_state import fate_of, invariants_of
+from stabilab.orbit.ball_orbit import decide
+from stabilab.orbit.extremes.balls import precise_extremes
+from stabilab.orbit.period.balls import precise_period
+from stabilab.orbit.reduction import reduce
 
-from .oracles import energy
-from .oracles.pairs import PAPER_BODY, WORDS, brink, physical, scaled
-from .test_extremes import assert_extremes
-from .test_fate import FAMILIES
-from .test_small_faults import PARABOLIC
+from tests.oracles import energy
+from tests.oracles.pairs import brink, PAPER_BODY, physical, scaled, WORDS
+from tests.test_extremes import assert_extremes
+from tests.test_fate import FAMILIES
+from tests.test_small_faults import PARABOLIC
 
 # M_i = -lambda_j lambda_k/(D_j - D_k): the conic of equilibria is two lines
 LINES = {f"two lines, axis {axis + 1}": physical(PAPER_BODY, momentum, torque) for axis, momentum, torque in (
@@ -66,7 +66,7 @@ def test_the_extremes_and_period_of_balls_are_those_of_the_potential_to_the_last
 @pytest.mark.parametrize("name", ["minor scaled +", "major physical", "middle scaled -, |c| above the cusp"])
 def test_near_a_separatrix_some_hundred_bits_decide_and_algebra_is_not_asked(name, monkeypatch):
     scene, problem = FAMILIES[name]
-    exact_tie = importlib.import_module("stabilab.analysis.exact_tie")
+    exact_tie = importlib.import_module("stabilab.orbit.fate.tie")
     monkeypatch.setattr(exact_tie, "exact_tie", lambda orbit: pytest.fail("algebra was asked about a state off the separatrix"))
     for off in (1e-14, -1e-15, 0.0):
         state = brink(problem, {"mi": (-1.25, -1.25), "ma": (19.5, 14.0)}[name[:2]] if "+" not in name else (3.0, 1.0), off)

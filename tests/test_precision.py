@@ -12,25 +12,25 @@ import numpy as np
 import pytest
 
 from stabilab import load
-from stabilab.analysis import precision as measuring
-from stabilab.analysis import precision_digits, precision_front
-from stabilab.analysis.precision import Point, digit_price, pareto, precision
-from stabilab.analysis.precision_digits import candidates, simulate_to
-from stabilab.analysis.precision_front import FrontPoint
-from stabilab.analysis.precision_methods import methods, problem
-from stabilab.analysis.precision_reduced import ladder, reduced
-from stabilab.analysis.precision_reference import reference, relative_errors
-from stabilab.analysis.precision_series import Recursion
-from stabilab.body import Body
-from stabilab.effects.gyrostat import Gyrostat
-from stabilab.equations import derive
+from stabilab.cost import accuracy as measuring
+from stabilab.answers.digits import front as precision_front, run as precision_digits
+from stabilab.cost.accuracy import digit_price, pareto, Point, precision
+from stabilab.answers.digits.run import candidates, simulate_to
+from stabilab.answers.digits.front import FrontPoint
+from stabilab.cost.methods import methods, problem
+from stabilab.answers.digits.reduced import ladder, reduced
+from stabilab.integrate.reference import reference, relative_errors
+from stabilab.integrate.taylor_digits import Recursion
+from stabilab.physics.body import Body
+from stabilab.physics.effects.gyrostat import Gyrostat
+from stabilab.physics.equations import derive
 from stabilab.errors import InputError, ToleranceNotMet
-from stabilab.scene import Scene
-from stabilab.show import precision as shown
-from stabilab.show import precision_page
+from stabilab.physics.scene import Scene
+from stabilab.show.text import precision as shown
+from stabilab.show.report import precision_page
 
-from .oracles.model import physical
-from .oracles.taylor import integrate_checked
+from tests.oracles.model import physical
+from tests.oracles.taylor import integrate_checked
 
 CASES = Path(__file__).parent.parent / "cases"
 FREE = load(CASES / "torque-free-body.toml")

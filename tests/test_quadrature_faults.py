@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 import stabilab
-from stabilab.analysis import quadrature
-from stabilab.analysis.landscape import landscape
-from stabilab.analysis.turning import interval
+from stabilab.orbit.period import arrays as quadrature
+from stabilab.orbit.landscape import landscape
+from stabilab.orbit.extremes.turning_points import interval
 
-from .test_fate import FAMILIES
-from .test_small_faults import PARABOLIC
+from tests.test_fate import FAMILIES
+from tests.test_small_faults import PARABOLIC
 
 ALL = FAMILIES | PARABOLIC
 SHARES = [1e-12, 1e-3, 0.25, 0.4999, 0.5, 0.50001, 0.75, 0.999, 1 - 1e-9]

@@ -10,13 +10,13 @@ from importlib.util import find_spec
 import numpy as np
 import pytest
 
-from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, equilibria
-from stabilab.analysis.certificate import certificate
+from stabilab import Body, ConstantTorque, equilibria, Gyrostat, ScaledGyrostat, Scene
+from stabilab.answers.certificate import certificate
 from stabilab.verify import verify
 
-from .hunt.wild import disagreements as wild_disagreements
-from .hunt.wild import wild_scene, wild_state
-from .oracles import elimination as by_hand
+from tests.hunt.wild import disagreements as wild_disagreements
+from tests.hunt.wild import wild_scene, wild_state
+from tests.oracles import elimination as by_hand
 
 
 def small(rng):

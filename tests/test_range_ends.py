@@ -7,13 +7,13 @@ import pytest
 
 import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
-from stabilab.analysis import rate_roots
-from stabilab.analysis.comparison import side_by_side
-from stabilab.analysis.models import models_of
-from stabilab.analysis.motion import motion
-from stabilab.analysis.precision_answers import fate_methods, known_period
-from stabilab.analysis.precision_methods import problem
-from stabilab.analysis.precision_questions import ask, ask_all
+from stabilab.integrate import extrema as rate_roots
+from stabilab.theories.comparison import side_by_side
+from stabilab.theories.follow import models_of
+from stabilab.answers.motion import motion
+from stabilab.cost.event_methods import fate_methods, known_period
+from stabilab.cost.methods import problem
+from stabilab.answers.digits.ask import ask, ask_all
 from stabilab.errors import InputError
 
 CASES = Path(__file__).parent.parent / "cases"

@@ -7,23 +7,23 @@ import pytest
 
 import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
-from stabilab.analysis import precision_digits
-from stabilab.analysis.captured import _search
-from stabilab.analysis.equilibria import equilibria
-from stabilab.analysis.precise import PreciseOrbit, Unclear, settled
-from stabilab.analysis.precise_period import _rate
-from stabilab.analysis.precision_digits import OWN, best_reached
-from stabilab.analysis.precision_front import FrontPoint
-from stabilab.analysis.precision_reference import reference
-from stabilab.analysis.reduced_motion import reduced_motion
-from stabilab.effects.gravity import Gravity
-from stabilab.effects.resistance import Resistance
+from stabilab.answers.digits import run as precision_digits
+from stabilab.unreduced.growth import _search
+from stabilab.equilibrium.gyrostat import equilibria
+from stabilab.orbit.ball_orbit import PreciseOrbit, settled, Unclear
+from stabilab.orbit.period.balls import _rate
+from stabilab.answers.digits.run import best_reached, OWN
+from stabilab.answers.digits.front import FrontPoint
+from stabilab.integrate.reference import reference
+from stabilab.orbit.flow.flow import reduced_motion
+from stabilab.physics.effects.gravity import Gravity
+from stabilab.physics.effects.resistance import Resistance
 from stabilab.errors import InputError
 
-from .hunt.disagreements import many_digits
-from .oracles import energy
-from .oracles.pairs import physical
-from .test_extremes import assert_extremes
+from tests.hunt.disagreements import many_digits
+from tests.oracles import energy
+from tests.oracles.pairs import physical
+from tests.test_extremes import assert_extremes
 
 CASES = Path(__file__).parent.parent / "cases"
 
@@ -74,7 +74,7 @@ def test_a_motion_from_rest_in_many_digits_starts_by_the_torque():
 
 def test_a_rate_below_a_barrier_is_asked_for_again_with_more_bits():
     scene, state = ScaledGyrostat(1, 2, (0, 0, 1)), (0.3, 0.2, 0.1)
-    orbit = settled(lambda numbers: PreciseOrbit(stabilab.analysis.reduction.reduce(scene), state, numbers), 128)
+    orbit = settled(lambda numbers: PreciseOrbit(stabilab.orbit.reduction.reduce(scene), state, numbers), 128)
     side = 1 if float(orbit.force_here) < 0 else -1  # uphill
     with pytest.raises(Unclear):
         _rate(orbit, orbit.energy * 0 + side)
@@ -105,7 +105,7 @@ def test_rates_beyond_doubles_get_no_certificate_of_a_capture():
                                         (5, -1, 4), (0, 0, 0)])
 def test_steady_states_of_a_torque_are_told_by_their_quartic(e2, e3, e4):
     from flint import arb
-    from stabilab.analysis.turned_torque import _verdict
+    from stabilab.equilibrium.field.steady_states import _verdict
     roots = np.roots([1, 0, e2, -e3, e4])
     simple = min(abs(a - b) for n, a in enumerate(roots) for b in roots[:n]) > 1e-3
     word = "unstable" if roots.real.max() > 1e-3 else "stable" if simple else "degenerate"
@@ -115,7 +115,7 @@ def test_steady_states_of_a_torque_are_told_by_their_quartic(e2, e3, e4):
 @pytest.mark.parametrize("rates, kind", [((-1, -2), "attracting"), ((1, 2), "repelling"), ((-1, 2), "saddle"), ((0, -1), "neutral"),
                                          ((0, 1), "repelling"), ((1j, -1j), "neutral")])
 def test_averaged_steady_states_are_named_by_their_rates(rates, kind):
-    from stabilab.analysis.averaging_attractors import _kind
+    from stabilab.theories.cavity.attractors import _kind
     assert _kind(tuple(map(complex, rates))) == kind
 
 
@@ -123,7 +123,7 @@ def test_equal_stiffness_is_found_at_every_rate_or_none():
     """By substitution in (Omega^2 - N)(D_i - D_j) = Omega E, axis 3 carrying E."""
     from fractions import Fraction
     from types import SimpleNamespace
-    from stabilab.analysis.rotation_circles import _same_stiffness
+    from stabilab.equilibrium.field.circles import _same_stiffness
     parts = SimpleNamespace(D=(Fraction(2), Fraction(2), Fraction(3)), N=Fraction(1), E=Fraction(3))
     assert _same_stiffness(parts, 0, 1) == [0]  # equal moments: the same at every rate
     for Omega in _same_stiffness(parts, 0, 2):
@@ -137,7 +137,7 @@ def test_equal_stiffness_is_found_at_every_rate_or_none():
 
 
 def test_cross_torques_average_out_of_the_steady_states_and_the_reason_says_so():
-    from stabilab.analysis.averaging_attractors import attractors
+    from stabilab.theories.cavity.attractors import attractors
     body, drag = Body(("9.5", "9.5", "9")), Resistance("0.1")
     alone, crossed = (attractors(Scene(body, drag, ConstantTorque((m, 0, 1)))) for m in (0, "0.01"))
     assert [p.spin for p in alone.points] == [p.spin for p in crossed.points]
@@ -145,7 +145,7 @@ def test_cross_torques_average_out_of_the_steady_states_and_the_reason_says_so()
 
 
 def test_a_departure_at_the_first_time_is_that_time():
-    from stabilab.analysis.averaging_printed import _first
+    from stabilab.theories.cavity.printed import _first
     t = np.array([1.0, 2.0, 4.0])
     assert _first(t, np.array([2.0, 3.0, 4.0]), np.ones(3), 1.0) == 1.0
     assert _first(t, np.array([0.0, 0.5, 1.5]), np.ones(3), 1.0) == 3.0  # half-way by the straight line
@@ -154,7 +154,7 @@ def test_a_departure_at_the_first_time_is_that_time():
 
 @pytest.mark.parametrize("times", [[np.nan], [[0.0, 1.0]], ["a"]])
 def test_times_of_an_expansion_are_finite_numbers_in_a_row(times):
-    from stabilab.analysis.small_parameter import _times
+    from stabilab.theories.top.lindstedt import _times
     with pytest.raises(InputError, match="times: expected"):
         _times(times)
 
@@ -163,8 +163,8 @@ def test_times_of_an_expansion_are_finite_numbers_in_a_row(times):
 
 
 def test_equilibria_between_two_folds_have_no_kernel_and_the_same_extremes():
-    from stabilab.analysis.fast_extremes import kernel_input
-    from stabilab.analysis.landscape import landscape
+    from stabilab.orbit.extremes.circle_numba import kernel_input
+    from stabilab.orbit.landscape import landscape
     scene, problem = physical((1.28, 2.85, 1.98), (5.59, 0, -1.92), (0, 14.32, 0))
     assert len(landscape(scene).conic.folds) == 4 and kernel_input(landscape(scene)) is None
     states = np.random.default_rng(1).normal(size=(12, 3)) * 3

@@ -17,7 +17,7 @@ from pathlib import Path
 import pytest
 
 from stabilab import errors
-from stabilab.show.render_probe import CURE, probe
+from stabilab.show.surface.render_probe import CURE, probe
 
 ROOT = Path(__file__).parent.parent
 README = ROOT / "README.md"
@@ -181,7 +181,7 @@ def test_readme_has_a_picture():
 
 def test_fates_and_exit_codes_in_readme_are_those_of_the_program():
     from stabilab import Fate
-    from stabilab.effects import REGISTRY
+    from stabilab.physics.effects import REGISTRY
     rows = [line.split("|")[1].strip() for line in README.read_text().splitlines() if line.startswith("|")]
     fates, effects = rows[rows.index("fate"):], rows[rows.index("effect"):rows.index("fate")]
     assert {row.strip("`") for row in fates if row.startswith("`")} == {fate.word for fate in Fate}

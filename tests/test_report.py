@@ -10,7 +10,9 @@ import numpy as np
 import pytest
 
 import stabilab
-from stabilab.show import chapters, figures, render_probe, report
+from stabilab.show.report import chapters, report
+from stabilab.show.figures import catalogue as figures
+from stabilab.show.surface import render_probe
 
 CASES = Path(__file__).parent.parent / "cases"
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
@@ -116,7 +118,7 @@ def test_a_fault_in_a_case_writes_nothing(tmp_path):
 
 
 def test_without_the_viewers_package_the_report_has_its_pictures_and_names_it(tmp_path, monkeypatch):
-    from stabilab.show import surface
+    from stabilab.show.surface import write as surface
     monkeypatch.setitem(sys.modules, "trame_vtk", None)
     monkeypatch.setattr(render_probe, "probe", lambda: render_probe.Renderer(True, "a renderer"))
     monkeypatch.setattr(surface, "draw", lambda scene, found, meshes, path: path)
@@ -167,7 +169,7 @@ def test_the_report_opens_in_a_browser_and_its_scene_draws(tmp_path, monkeypatch
 
 def test_a_top_has_its_fate_and_no_problem_in_the_report(tmp_path):
     """Its state has the vertical too: bounded by the energy (|gamma| = 1 bounds the potential)."""
-    from stabilab.case import load
-    from stabilab.show.report import _section
+    from stabilab.case.read import load
+    from stabilab.show.report.report import _section
     section = _section(load(CASES / "top-fast.toml"), tmp_path, lambda words: None)
     assert section["fate"] == "bounded" and not section["problem"] and (tmp_path / section["picture"]["file"]).exists()

@@ -11,11 +11,11 @@ import sympy as sp
 from scipy.integrate import solve_ivp
 
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
-from stabilab.analysis.equilibria import equilibria
-from stabilab.effects.resistance import Resistance
-from stabilab.equations import derive
+from stabilab.equilibrium.gyrostat import equilibria
+from stabilab.physics.effects.resistance import Resistance
+from stabilab.physics.equations import derive
 
-from .test_dissipative import real_solutions
+from tests.test_dissipative import real_solutions
 
 OMEGA = sp.symbols("x1:4")
 

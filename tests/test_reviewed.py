@@ -8,9 +8,9 @@ from fractions import Fraction
 
 import pytest
 
-from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene, load, motion
-from stabilab.analysis.certificate import certificate
-from stabilab.analysis.precision_digits import best_reached
+from stabilab import Body, ConstantTorque, Fate, Gyrostat, load, motion, ScaledGyrostat, Scene
+from stabilab.answers.certificate import certificate
+from stabilab.answers.digits.run import best_reached
 from stabilab.verify import verify
 from stabilab.verify.numbers import Malformed
 

@@ -14,7 +14,8 @@ import numpy as np
 import pytest
 
 from stabilab.errors import BAD_INPUT, NO_RENDERING, OK, TOLERANCE_NOT_MET
-from stabilab.show import manifest, render_probe, rerun
+from stabilab.show.files import manifest, rerun
+from stabilab.show.surface import render_probe
 
 ROOT = Path(__file__).parent.parent
 CASES = {p.stem: str(p) for p in sorted((ROOT / "cases").glob("*.toml"))}
@@ -79,8 +80,8 @@ def test_answers_are_the_same_bytes_whatever_surrounds_them(answers, tmp_path, a
 
 def test_what_was_measured_on_a_machine_changes_no_answer_that_did_not_ask_for_it(tmp_path, monkeypatch, stabilab):
     """A front that names another method is followed by --digits alone."""
-    from stabilab.analysis import precision_digits
-    from stabilab.analysis.precision_front import FrontPoint
+    from stabilab.answers.digits import run as precision_digits
+    from stabilab.answers.digits.front import FrontPoint
     without = stabilab("simulate", FEW[0], "--at", "0,1,2")
     monkeypatch.setattr(precision_digits, "front", lambda case: (FrontPoint("DOP853", 1e-13, 12.5, 1e-6),))
     assert stabilab("simulate", FEW[0], "--at", "0,1,2") == without and without[0] == OK
@@ -117,7 +118,7 @@ MODELS_APART = 1e-15  # of the largest value: one unit in the last place of sine
 @pytest.mark.slow
 @pytest.mark.parametrize("name", PROCESSORS)
 def test_surfaces_and_formulas_differ_in_their_last_places_only(tmp_path, name):
-    from stabilab.show.render_probe import use
+    from stabilab.show.surface.render_probe import use
     use()
     import pyvista
     wanted = [["surface", CASES["minor-axis-100"], "--out", "s"], ["surface", CASES["middle-axis-double-well"], "--out", "s"],

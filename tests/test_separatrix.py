@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 import stabilab
-from stabilab.analysis.distance import distance_of
-from stabilab.analysis.motion import motion
-from stabilab.analysis.reduction import reduce
+from stabilab.orbit.separatrix.distance import distance_of
+from stabilab.answers.motion import motion
+from stabilab.orbit.reduction import reduce
 from stabilab import Fate
 
-from .oracles import energy
-from .oracles.pairs import PAPER_BODY, WORDS, physical, scaled
+from tests.oracles import energy
+from tests.oracles.pairs import PAPER_BODY, physical, scaled, WORDS
 
 EPS = 2.0 ** -52
 CUSP = 4 * 3 ** -0.75  # |c| below which the middle axis has no saddle: g^4 + c g + 1 > 0 for all g
@@ -203,9 +203,9 @@ def test_loops_next_to_an_open_plane_close_to_rounding_as_reported():
 def test_the_reported_residual_sees_a_vertex_that_is_off_its_surface():
     from dataclasses import replace
 
-    from stabilab.analysis.landscape import landscape
-    from stabilab.analysis.loops import loops, residual
-    from stabilab.analysis.saddle_branches import limit_of, saddle_branches
+    from stabilab.orbit.landscape import landscape
+    from stabilab.orbit.separatrix.homoclinic_arrays import loops, residual
+    from stabilab.orbit.separatrix.saddles import limit_of, saddle_branches
     land = landscape(scaled(0.0, 2.5, (0, 1, 0))[0])
     branch = saddle_branches(land.conic, land.potential, limit_of(land.conic, 4.0))[0]
     found = loops(land, [(branch, 1)], np.array([[0.5]]), np.linspace(0, 1, 9)[None])

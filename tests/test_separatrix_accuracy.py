@@ -5,14 +5,14 @@ import numpy as np
 import pytest
 
 import stabilab
-from stabilab.analysis.landscape import landscape
-from stabilab.analysis.loops import loop_ends, polished
-from stabilab.analysis.saddle_branches import limit_of, saddle_branches
-from stabilab.analysis.turning import spots_along
+from stabilab.orbit.landscape import landscape
+from stabilab.orbit.separatrix.homoclinic_arrays import loop_ends, polished
+from stabilab.orbit.separatrix.saddles import limit_of, saddle_branches
+from stabilab.orbit.extremes.turning_points import spots_along
 from stabilab.errors import InputError
-from stabilab.show.mesh import triangulate
+from stabilab.show.surface.mesh import triangulate
 
-from .oracles.pairs import PAPER_BODY, physical, scaled
+from tests.oracles.pairs import PAPER_BODY, physical, scaled
 
 SCENES = {
     "minor a<b": scaled(0.2, 0.4, (0, 0, 1))[0],
@@ -103,7 +103,7 @@ def test_both_cuts_of_a_grid_give_a_mesh_of_the_same_outline_and_the_mirror_imag
 
 
 def test_a_grid_without_repeated_points_gives_the_mesh_that_merging_gives():
-    from stabilab.show.mesh import _merged
+    from stabilab.show.surface.mesh import _merged
     sheet = stabilab.separatrix(SCENES["minor a<b"], shape=(12, 17)).sheets[0]
     plain, merged = triangulate(sheet), _merged(sheet, sheet.points + 0.0, np.abs(sheet.residual))
     corners = lambda mesh: sorted(map(sorted, mesh.points[mesh.triangles].tolist()))

@@ -5,13 +5,13 @@ import numpy as np
 import pytest
 
 import stabilab
-from stabilab.analysis import circle_loops
-from stabilab.analysis.fast_sheets import serves, sheets_by_kernel
-from stabilab.analysis.landscape import landscape
-from stabilab.analysis.saddle_branches import limit_of, saddle_branches
-from stabilab.analysis.separatrix import _by_arrays
+from stabilab.orbit.separatrix import circle_kernel as circle_loops
+from stabilab.orbit.separatrix.circle_numba import serves, sheets_by_kernel
+from stabilab.orbit.landscape import landscape
+from stabilab.orbit.separatrix.saddles import limit_of, saddle_branches
+from stabilab.orbit.separatrix.sheets import _by_arrays
 
-from .oracles.pairs import physical, scaled
+from tests.oracles.pairs import physical, scaled
 
 SCENES = {
     "minor a<b": scaled(0.2, 0.4, (0, 0, 1))[0],

@@ -11,8 +11,12 @@ import numpy as np
 import pytest
 
 from stabilab import errors
-from stabilab.analysis.array_results import Sheet
-from stabilab.show import figures, mesh, paper, phase, plane, render_probe, style, surface, table
+from stabilab.orbit.separatrix.result import Sheet
+from stabilab.show.figures import catalogue as figures, paper
+from stabilab.show.surface import mesh, render_probe, write as surface
+from stabilab.orbit import phase_plane as phase
+from stabilab.show import plane, style
+from stabilab.show.text import table
 
 CASES = Path(__file__).parent.parent / "cases"
 
@@ -327,7 +331,7 @@ def test_the_summary_counts_what_the_mesh_holds(tmp_path):
 
 def test_surface_points_lie_on_the_level_of_their_saddle(tmp_path):
     """Oracle: the energy of the minor axis derived by hand, x3^2/2 - theta - X^2/2 - c X, continuous along each loop."""
-    from stabilab.analysis.separatrix import separatrix
+    from stabilab.orbit.separatrix.sheets import separatrix
     scene = paper.scene("minor", 100)
     for sheet in separatrix(scene, shape=(12, 41)).sheets:
         p = np.asarray(sheet.points)

@@ -10,18 +10,18 @@ import pytest
 
 import stabilab
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
-from stabilab.analysis import barrier_heights
-from stabilab.analysis.barrier_table import barrier_table
-from stabilab.analysis.eigenvalues import eigenvalues
-from stabilab.analysis.reasons import REASONS, Reason
-from stabilab.analysis.reduction import reduce
-from stabilab.analysis.stability import isolated_verdict, sample_parameters
-from stabilab.analysis.table_fate import label_by_table
+from stabilab.orbit.fate import table_kernel as barrier_heights
+from stabilab.orbit.fate.table import barrier_table
+from stabilab.equilibrium.spectrum import eigenvalues
+from stabilab.orbit.fate.reasons import Reason, REASONS
+from stabilab.orbit.reduction import reduce
+from stabilab.equilibrium.stability import isolated_verdict, sample_parameters
+from stabilab.orbit.fate.by_table import label_by_table
 
-from .oracles import energy
-from .oracles.pairs import WORDS, physical, scaled
-from .test_extremes import assert_extremes
-from .test_fate import ELLIPTIC, FAMILIES, axis_of, sample
+from tests.oracles import energy
+from tests.oracles.pairs import physical, scaled, WORDS
+from tests.test_extremes import assert_extremes
+from tests.test_fate import axis_of, ELLIPTIC, FAMILIES, sample
 
 INTERVALS = [(None, None), (F(-3), None), (F(0), None), (F(2, 7), None), (F(-3), F(2)), (F(0), F(1, 3)), (F(1, 1000), F(1000)),
              (F(1, 10), F(20)), (F(1), F(50)), (F(5), F(6)), (F(1), F(100)),
@@ -113,7 +113,7 @@ families = pytest.mark.parametrize("name", FAMILIES)
 @families
 def test_generic_states_need_no_many_digits(name, monkeypatch):
     """Error bounds that are too wide change no answer, only the cost: the counters tell."""
-    from stabilab.analysis import precise_extremes
+    from stabilab.orbit.extremes import balls as precise_extremes
     monkeypatch.setattr(precise_extremes, "precise_extremes", lambda *a: pytest.fail("a generic state went to ball arithmetic"))
     scene, states = FAMILIES[name][0], sample(name, 300)
     assert stabilab.fate(scene, states).precise == 0

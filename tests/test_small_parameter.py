@@ -7,12 +7,12 @@ import pytest
 
 import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, Scene, trajectory
-from stabilab.analysis.small_parameter import lindstedt
-from stabilab.analysis.small_parameter_angles import euler_angles, mean_precession, periodic_angles
-from stabilab.analysis.small_parameter_printed import paper_numbers, printed
-from stabilab.compiled import heyoka_available
-from stabilab.effects.gravity import Gravity
-from stabilab.effects.newtonian_field import NewtonianField
+from stabilab.theories.top.lindstedt import lindstedt
+from stabilab.theories.top.euler_angles import euler_angles, mean_precession, periodic_angles
+from stabilab.theories.top.printed import paper_numbers, printed
+from stabilab.physics.to_numpy import heyoka_available
+from stabilab.physics.effects.gravity import Gravity
+from stabilab.physics.effects.newtonian_field import NewtonianField
 from stabilab.errors import InputError
 
 CASES = Path(__file__).parent.parent / "cases"

@@ -11,10 +11,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
-from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, equilibria
-from stabilab.analysis.eigenvalues import eigenvalues
-from stabilab.analysis.polynomials import Poly, real_roots
-from stabilab.analysis.surd import Surd
+from stabilab import Body, ConstantTorque, equilibria, Gyrostat, ScaledGyrostat, Scene
+from stabilab.equilibrium.spectrum import eigenvalues
+from stabilab.numbers.polynomial import Poly, real_roots
+from stabilab.numbers.surd import Surd
 
 
 def physical(D, lam, M) -> Scene:

@@ -13,8 +13,8 @@ from pathlib import Path
 import pytest
 
 from stabilab import files
-from stabilab.errors import BAD_INPUT, INTERRUPTED, InputError
-from stabilab.show import manifest
+from stabilab.errors import BAD_INPUT, InputError, INTERRUPTED
+from stabilab.show.files import manifest
 
 ROOT = Path(__file__).parent.parent
 MINOR, CHARGED, CAPTURED = (ROOT / "cases" / f"{name}.toml" for name in ("minor-axis-100", "charged-body", "major-axis-captured"))
@@ -188,7 +188,7 @@ def test_a_package_that_cannot_be_loaded_is_no_fault_of_the_program():
                                (ImportError("cannot import name 'trapezoid' from 'numpy'", name="numpy"), 2, "numpy cannot be loaded"),
                                (ImportError("numpy: broken"), 2, "a package cannot be loaded (numpy: broken)")):
         assert explained(error).exit_code == code and words in str(explained(error))
-    assert explained(ImportError("cannot import name 'x' from 'stabilab.case'", name="stabilab.case")) is None
+    assert explained(ImportError("cannot import name 'x' from 'stabilab.case.read'", name="stabilab.case.read")) is None
     assert explained(ModuleNotFoundError("No module named 'json.nothing'", name="json.nothing")) is None
 
 
@@ -197,7 +197,7 @@ def test_a_package_that_cannot_be_loaded_is_no_fault_of_the_program():
 
 def test_every_package_states_a_lowest_version_and_the_pinned_one_is_not_below_it():
     """`make floors` runs tests on the lowest ones, `make test` on the pinned ones."""
-    from .floors import floors
+    from tests.floors import floors
     number = lambda text: [int(part) for part in text.split(".")]
     plain = lambda name: name.lower().replace("_", "-")
     pinned = dict(line.split("==") for line in (ROOT / "constraints.txt").read_text().splitlines())

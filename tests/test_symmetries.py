@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 
 import stabilab
 from stabilab import Fate
-from stabilab.analysis.precision_questions import ask
+from stabilab.answers.digits.ask import ask
 
-from .oracles.pairs import physical, scaled
+from tests.oracles.pairs import physical, scaled
 
 BODY, SPAN = (3.0, 2.0, 1.5), 2.0
 # (gyrostatic moment, torque): on the minor, middle and major axis, both perpendicular components of the moment present
@@ -223,7 +223,7 @@ def test_binary_units_give_the_very_same_labels(name, power):
     momentum, torque = map(np.array, CASES[name])
     scene, _ = physical(BODY, momentum, torque)
     other, _ = physical(BODY, momentum * factor, torque * factor ** 2)
-    from .oracles.pairs import brink
+    from tests.oracles.pairs import brink
     _, problem = physical(BODY, momentum, torque)
     pairs = np.random.default_rng(4).normal(size=(30, 2)) * SPAN
     if name == "middle":

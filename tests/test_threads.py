@@ -19,13 +19,14 @@ import numpy as np
 import pytest
 
 import stabilab
-from stabilab import Body, Gyrostat, Scene, compiled
-from stabilab.analysis import balls
-from stabilab.analysis.certificate import certificate
-from stabilab.analysis.precision_digits import best_reached
-from stabilab.analysis.precision_questions import ask
-from stabilab.effects.gravity import Gravity
-from stabilab.exact import precise
+from stabilab import Body, Gyrostat, Scene
+from stabilab.physics import to_numpy as compiled
+from stabilab.numbers import balls
+from stabilab.answers.certificate import certificate
+from stabilab.answers.digits.run import best_reached
+from stabilab.answers.digits.ask import ask
+from stabilab.physics.effects.gravity import Gravity
+from stabilab.numbers.exact import precise
 from stabilab.verify import precision, verify
 
 ROOT = Path(__file__).parent.parent
@@ -206,7 +207,7 @@ def nodes(path):
 
 def test_only_gates_that_hold_a_lock_set_a_precision():
     """Another place that set it would do so while some thread computes."""
-    gates = {"analysis/balls.py": "flint", "verify/precision.py": "flint", "exact.py": "mpmath", "analysis/small_parameter_series.py": "mpmath"}
+    gates = {"numbers/balls.py": "flint", "verify/precision.py": "flint", "exact.py": "mpmath", "theories/top/series.py": "mpmath"}
     found = {path.relative_to(ROOT / "stabilab").as_posix(): ast.unparse(node.value).split(".")[0] for path in (ROOT / "stabilab").rglob("*.py")
              for node in nodes(path) if isinstance(node, ast.Attribute) and node.attr in ("workprec", "extraprec", "workdps", "extradps")}
     assert found == gates

@@ -6,8 +6,8 @@ from fractions import Fraction as F
 
 import pytest
 
-from stabilab import ScaledGyrostat, equilibria
-from stabilab.analysis.torque_table import torque_table
+from stabilab import equilibria, ScaledGyrostat
+from stabilab.equilibrium.torque_table import torque_table
 
 GYROSTATS = {"a != b": (F(1, 3), F(5, 2)), "a = b": (F(1, 3), F(1, 3)), "a = b = 0": (F(0), F(0))}
 PAIRS = [(name, row) for name, (a, b) in GYROSTATS.items() for row in torque_table(a, b)]

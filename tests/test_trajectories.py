@@ -5,13 +5,13 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from stabilab import Body, ConstantTorque, Gyrostat, Scene, ScaledGyrostat, trajectory
-from stabilab import compiled
-from stabilab.analysis.trajectories import METHODS, SCIPY_METHODS
-from stabilab.compiled import heyoka_available
+from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, trajectory
+from stabilab.physics import to_numpy as compiled
+from stabilab.integrate.trajectory import METHODS, SCIPY_METHODS
+from stabilab.physics.to_numpy import heyoka_available
 from stabilab.errors import InputError
 
-from .oracles import model, taylor
+from tests.oracles import model, taylor
 
 BODY = Body((2000, 1500, 1000))
 TORQUED = Scene(BODY, Gyrostat((100, 0, 0)), ConstantTorque((0, 0, "204.1")))
@@ -169,7 +169,7 @@ def test_bad_input_is_named(arguments, words):
 
 
 def test_a_run_cut_into_stretches_is_the_run_in_one(monkeypatch):
-    from stabilab.analysis import trajectories
+    from stabilab.integrate import trajectory as trajectories
     scene, times = Scene(Body((12, 9, 5)), Gyrostat(("0.8", 0, 0)), ConstantTorque((0, 0, "0.02"))), [0.0, 1.0, 50.0, 300.0]
     whole = trajectory(scene, (0.1, 0.05, 0.02), times)
     monkeypatch.setattr(trajectories, "REPORT", 7)
@@ -181,8 +181,8 @@ def test_a_run_cut_into_stretches_is_the_run_in_one(monkeypatch):
 
 def test_a_run_that_would_crawl_for_ever_stops_and_says_what_is_left(monkeypatch):
     """Backwards in time the resistance spins the body up by e^20 a second, and the liquid's time shrinks as its square."""
-    from stabilab.analysis import trajectories
-    from stabilab.effects import effect_class
+    from stabilab.integrate import trajectory as trajectories
+    from stabilab.physics.effects import effect_class
     scene = Scene(Body(("9.51", "9.3", 9)), effect_class("resistance")(20), effect_class("liquid_cavity")(1250, 1000, "1.9"))
     monkeypatch.setattr(trajectories, "REPORT", 5_000)
     monkeypatch.setattr(trajectories, "STEP_LIMIT", 100_000)

@@ -7,14 +7,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from stabilab.analysis.affine import Affine, root
-from stabilab.analysis.uncertain import uncertain
-from stabilab.analysis.uncertain_box import box_of
-from stabilab.analysis.uncertain_equilibria import signature_at
-from stabilab.analysis.uncertain_fate import verdict_at
-from stabilab.case import load
+from stabilab.numbers.affine import Affine, root
+from stabilab.answers.uncertain.verdicts import uncertain
+from stabilab.answers.uncertain.box import box_of
+from stabilab.answers.uncertain.equilibria import signature_at
+from stabilab.answers.uncertain.fate import verdict_at
+from stabilab.case.read import load
 from stabilab.errors import CaseError
-from stabilab.show import uncertain as shown
+from stabilab.show.text import uncertain as shown
 
 CASES = Path(__file__).parents[1] / "cases"
 BODY = """
@@ -143,7 +143,7 @@ def test_a_box_across_the_separatrix_has_a_witness_on_each_side_that_the_ordinar
 def test_the_nearest_change_is_the_square_root_law_of_a_single_uncertain_rate(tmp_path):
     # With omega_3 alone uncertain the flip is at the barrier's own speed: margin in energy = D3 (w^2 - w0^2)/2.
     case = case_of(tmp_path, momentum="3, 2, 0", torque="0, 0, 0.1", state='0.2, 0.15, "1.7 +- 0.001"')
-    from stabilab.analysis.motion import motion
+    from stabilab.answers.motion import motion
     margin = motion(case.scene, case.state).margin_energy
     speed = np.sqrt(1.7**2 + 2 * margin / 10)
     over = uncertain(case, ("fate",)).fate

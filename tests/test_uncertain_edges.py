@@ -5,15 +5,15 @@ The truths are exact solutions and proofs named on the lines; single points are 
 import numpy as np
 import pytest
 
-from stabilab.analysis.uncertain import uncertain
-from stabilab.analysis.uncertain_box import box_of
-from stabilab.analysis.uncertain_equilibria import signature_at
-from stabilab.analysis.uncertain_fate import fate_over, verdict_at
-from stabilab.analysis.uncertain_proof import Proof
-from stabilab.analysis.uncertain_results import bracketed
-from stabilab.case import load
+from stabilab.answers.uncertain.verdicts import uncertain
+from stabilab.answers.uncertain.box import box_of
+from stabilab.answers.uncertain.equilibria import signature_at
+from stabilab.answers.uncertain.fate import fate_over, verdict_at
+from stabilab.answers.uncertain.branch_and_bound import Proof
+from stabilab.answers.uncertain.result import bracketed
+from stabilab.case.read import load
 
-from .test_uncertain import BODY, case_of, sampled
+from tests.test_uncertain import BODY, case_of, sampled
 
 SPIN_2 = "spin-up about axis 2, positive sense"
 

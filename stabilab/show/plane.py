@@ -6,8 +6,9 @@ from pathlib import Path
 import numpy as np
 
 from ..packages import demand
-from . import endings, style
-from .phase import PhasePlane, motion_curve, phase_plane, window
+from .files import endings
+from . import style
+from ..orbit.phase_plane import motion_curve, phase_plane, PhasePlane, window
 
 
 def draw(ax, plane: PhasePlane, scale=1.0, offset=0.0, rate_scale=1.0, span=None, levels=22, motion=True):
@@ -43,7 +44,7 @@ def draw(ax, plane: PhasePlane, scale=1.0, offset=0.0, rate_scale=1.0, span=None
 def plot(case, path) -> Path:
     """The picture of a case, written to `path` (.png, .svg or .pdf): its phase plane where the motion reduces to one degree of
     freedom, else three projections of the trajectory. Needs case.state; raises InputError without one."""
-    from ..analysis.far_states import far_exponent
+    from ..orbit.far_states import far_exponent
     from ..errors import InputError
     endings.file(path, endings.PICTURES)  # before the motion is computed
     demand(*style.PACKAGES)
@@ -62,8 +63,8 @@ def plot(case, path) -> Path:
 
 def _histories(case, path):
     """Every part of the state over time, the analytic models beside the exact motion."""
-    from ..analysis.comparison import side_by_side
-    from . import comparison
+    from ..theories.comparison import side_by_side
+    from .text import comparison
     runs, _ = side_by_side(case, np.linspace(*(case.span or (0.0, 15.0)), 801))
     parts = [name for name in comparison.NAMES if name in runs["exact"].state]
     with style.drawing() as plt:
@@ -91,7 +92,7 @@ def _plane_picture(plt, case, plane):
 
 
 def _projections(plt, case):
-    from ..analysis.trajectories import trajectory
+    from ..integrate.trajectory import trajectory
     span = case.span or (0.0, 15.0)
     run = trajectory(case.scene, case.state, np.linspace(*span, 4001))
     states, labels = np.asarray(run.states), style.axis_labels(case.scene)

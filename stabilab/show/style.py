@@ -5,7 +5,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from ..files import whole_file
-from . import endings
+from .files import endings
 
 # Okabe-Ito: told apart by colour-blind readers, and by their lightness in a grey print.
 BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILION, PURPLE, GREY = (

@@ -4,7 +4,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 from .degenerate import drift, leaves_fold, on_common_level, on_own_orbit, reducing_direction
-from .numbers import LINEAR, VERDICT, Malformed, bracket, brief, entries, exact_sign, field, fraction, numbers, q, word
+from .numbers import bracket, brief, entries, exact_sign, field, fraction, LINEAR, Malformed, numbers, q, VERDICT, word
 from .rates import AHEAD, characteristic
 from .roots import real_zeros
 

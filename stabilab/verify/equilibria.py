@@ -8,7 +8,7 @@ from .curves import check_curve, curve_of, identically_zero, judged
 from .degenerate import leaves_double_root
 from .krawczyk import excluded, only_zero
 from .line import contradictory, line_of, whole_line
-from .numbers import LINEAR, VERDICT, Malformed, bracket, brief, entries, exact_sign, field, word
+from .numbers import bracket, brief, entries, exact_sign, field, LINEAR, Malformed, VERDICT, word
 from .planes import check_plane, plane_of
 from .rates import characteristic
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 from .numbers import ball, exact_sign, hull, sign
-from .zeros import SPLIT, Open, above, below, narrowed, zeros
+from .zeros import above, below, narrowed, Open, SPLIT, zeros
 
 WINDOWS = 24  # doublings of the reach of alpha in search of a wall: 2^24 e-foldings
 FAR = 2**WINDOWS - 1  # where they end

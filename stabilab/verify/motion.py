@@ -5,11 +5,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from .facts import Facts
-from .numbers import Malformed, ball, bracket, exact_sign, field, numbers, shown, word
+from .numbers import ball, bracket, exact_sign, field, Malformed, numbers, shown, word
 from .orbit import Orbit
 from .period import period_of, round_once
 from .precision import working
-from .zeros import Open, Spent, above, below
+from .zeros import above, below, Open, Spent
 
 BITS, MOST_BITS = 192, 6144
 CLOSER = 4  # times the bits that settled the fate: a bracket that these do not tell from the true value is left open

@@ -4,7 +4,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from .numbers import Malformed, field, number, numbers
+from .numbers import field, Malformed, number, numbers
 
 AHEAD = ((1, 2), (2, 0), (0, 1))
 

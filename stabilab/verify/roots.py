@@ -4,7 +4,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from .numbers import Malformed, fraction
+from .numbers import fraction, Malformed
 from .precision import working
 from .zeros import above, below
 

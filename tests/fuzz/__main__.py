@@ -24,7 +24,7 @@ def main(seconds=600, folder=".fuzz"):
 
 
 def _write_seeds(folder):
-    from .grammar import CASES, TOKENS
+    from tests.fuzz.grammar import CASES, TOKENS
     for path in CASES:
         (folder / "corpus" / path.name).write_bytes(path.read_bytes())
     escaped = ("".join(f"\\x{byte:02x}" for byte in token.encode()) for token in TOKENS if len(token) < 60)
@@ -37,7 +37,7 @@ def one(target, folder, seconds):
     with atheris.instrument_imports(include=["stabilab", "tomllib"]):
         import tomllib._parser  # noqa: F401  where the standard reader works
 
-        import stabilab.case  # noqa: F401
+        import stabilab.case.read  # noqa: F401
     options = [f"-max_total_time={seconds}", f"-timeout={SLOWEST}", f"-rss_limit_mb={MEMORY}", f"-artifact_prefix={folder}/",
                "-print_final_stats=1", "-verbosity=0", "-seed=1"]
     if target == "bytes":
@@ -48,15 +48,15 @@ def one(target, folder, seconds):
 
 
 def _bytes(path):
-    from .judge import judged
+    from tests.fuzz.judge import judged
     return lambda data: judged(data, path) and None
 
 
 def _grammar(path):
     from hypothesis import given, settings
 
-    from .grammar import mutated_cases, written_cases
-    from .judge import judged
+    from tests.fuzz.grammar import mutated_cases, written_cases
+    from tests.fuzz.judge import judged
 
     @settings(database=None, deadline=None)
     @given(written_cases() | mutated_cases())
@@ -69,7 +69,7 @@ TARGETS = {"bytes": _bytes, "grammar": _grammar}
 
 
 def replay(*files):
-    from .judge import judged
+    from tests.fuzz.judge import judged
     with tempfile.TemporaryDirectory() as scratch:
         for file in files:
             print(f"{file}: {judged(Path(file).read_bytes(), Path(scratch) / 'f.toml')!r}"[:2000])

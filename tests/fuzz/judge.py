@@ -1,7 +1,7 @@
 """The judge of every fuzzed case file: a good case, or a CaseError that a terminal can show."""
 import math
 
-from stabilab.case import Case, load, load_all
+from stabilab.case.read import Case, load, load_all
 from stabilab.errors import CaseError
 
 LONGEST = 200_000  # characters of all messages about one file: 10,000 faults would help nobody, nor would a screenful of one

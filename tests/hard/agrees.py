@@ -6,9 +6,9 @@ import pytest
 
 import stabilab
 
-from ..oracles import energy
-from ..oracles.pairs import WORDS
-from ..test_extremes import assert_extremes
+from tests.oracles import energy
+from tests.oracles.pairs import WORDS
+from tests.test_extremes import assert_extremes
 
 
 def agrees(pair, states, digits=120, extremes=True, tolerance=1e-11, period=True):

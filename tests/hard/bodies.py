@@ -7,9 +7,9 @@ import numpy as np
 
 import stabilab
 
-from ..oracles import energy, model
-from ..oracles.pairs import PAPER_BODY, physical
-from .row import Verdict, labels, numbers
+from tests.oracles import energy, model
+from tests.oracles.pairs import PAPER_BODY, physical
+from tests.hard.row import labels, numbers, Verdict
 
 CYCLE = ((1, 2), (2, 0), (0, 1))
 

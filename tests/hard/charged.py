@@ -5,10 +5,10 @@ import math
 
 import numpy as np
 
-from stabilab.analysis.axisymmetric import solution
+from stabilab.theories.charged.closed_form import solution
 
-from ..test_axisymmetric import RESONANT, START, D1, D2, D3, K, R0, body_of
-from .row import Row, UNIT
+from tests.test_axisymmetric import body_of, D1, D2, D3, K, R0, RESONANT, START
+from tests.hard.row import Row, UNIT
 
 USUAL = START | dict(D1=D1, D2=D2, D3=D3, k=K)
 
@@ -45,7 +45,7 @@ def tilt_row(case, wrong, v, naive):
     """psi, phi; exact and condition from the exponential of the full system's matrix in balls."""
     from flint import arb, ctx
 
-    from ..oracles.axisymmetric import BITS, conditioned
+    from tests.oracles.axisymmetric import BITS, conditioned
     exact, effect = conditioned(v)
     with ctx.workprec(BITS):
         size = max(abs(float(e.mid())) for e in exact[2:4])

@@ -7,9 +7,9 @@ import numpy as np
 
 import stabilab
 
-from ..oracles import energy, model
-from ..oracles.pairs import brink, scaled
-from .row import Verdict, labels, numbers
+from tests.oracles import energy, model
+from tests.oracles.pairs import brink, scaled
+from tests.hard.row import labels, numbers, Verdict
 
 
 def saddles(radius2, c):

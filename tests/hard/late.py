@@ -8,12 +8,12 @@ import mpmath as mp
 import numpy as np
 
 import stabilab
-from stabilab.analysis.captured import captured_fate
+from stabilab.unreduced.growth import captured_fate
 
-from ..oracles import energy, taylor
-from ..oracles.pairs import scaled
-from ..test_late_times import MINOR, SPINNING, summed_time
-from .row import Verdict, numbers
+from tests.oracles import energy, taylor
+from tests.oracles.pairs import scaled
+from tests.test_late_times import MINOR, SPINNING, summed_time
+from tests.hard.row import numbers, Verdict
 
 A, B, MU = 0.25, 0.75, (0, 0, 1)
 SWING = (2.75, 1.125, 1.0)

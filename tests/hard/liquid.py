@@ -9,12 +9,12 @@ import numpy as np
 
 import stabilab
 from stabilab import Body, Gyrostat, Scene
-from stabilab.analysis.averaging import averaged
-from stabilab.effects.liquid_cavity import LiquidCavity
+from stabilab.theories.cavity.averaged import averaged
+from stabilab.physics.effects.liquid_cavity import LiquidCavity
 
-from ..oracles import energy, euler
-from ..test_averaging import body as small_body, by_hand
-from .row import Row, Verdict, numbers
+from tests.oracles import energy, euler
+from tests.test_averaging import body as small_body, by_hand
+from tests.hard.row import numbers, Row, Verdict
 
 SHAPE, STATE = (9.5, 9.25, 9.0), (0.5, -0.25, 1.0)
 

@@ -8,8 +8,8 @@ import numpy as np
 
 import stabilab
 
-from ..oracles import energy, model
-from .row import Verdict, numbers
+from tests.oracles import energy, model
+from tests.hard.row import numbers, Verdict
 
 
 def jacobian(a, b, x):

@@ -9,8 +9,8 @@ import numpy as np
 
 import stabilab
 
-from ..oracles import energy
-from ..oracles.pairs import WORDS
+from tests.oracles import energy
+from tests.oracles.pairs import WORDS
 
 UNIT = 2.0 ** -53  # half a unit in the last place of the answer itself
 

@@ -7,9 +7,9 @@ import numpy as np
 
 import stabilab
 
-from ..oracles import energy, model
-from ..oracles.pairs import PAPER_BODY, physical, scaled
-from .row import Verdict, numbers
+from tests.oracles import energy, model
+from tests.oracles.pairs import PAPER_BODY, physical, scaled
+from tests.hard.row import numbers, Verdict
 
 
 def off_the_plane(C):

@@ -7,15 +7,15 @@ import mpmath as mp
 import numpy as np
 
 from stabilab import Body, Gyrostat, Scene
-from stabilab.analysis.small_parameter import lindstedt
-from stabilab.analysis.small_parameter_angles import mean_precession
-from stabilab.analysis.small_parameter_printed import printed
-from stabilab.effects.gravity import Gravity
+from stabilab.theories.top.lindstedt import lindstedt
+from stabilab.theories.top.euler_angles import mean_precession
+from stabilab.theories.top.printed import printed
+from stabilab.physics.effects.gravity import Gravity
 from stabilab.errors import InputError
 
-from ..oracles import energy, euler
-from ..test_small_parameter import ARM, FIELD, MOMENTS, R0, START, WEIGHT, near, top
-from .row import Verdict, numbers
+from tests.oracles import energy, euler
+from tests.test_small_parameter import ARM, FIELD, MOMENTS, near, R0, START, top, WEIGHT
+from tests.hard.row import numbers, Verdict
 
 
 def resonance_nearby(distance):

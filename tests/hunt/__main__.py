@@ -14,10 +14,10 @@ import numpy as np
 
 from stabilab.errors import InputError
 
-from .disagreements import DISAGREEMENTS, WRONG
-from .problems import KNOBS, problem_of
-from .unreduced import problem_of as unreduced_problem
-from .unreduced import unreduced
+from tests.hunt.disagreements import DISAGREEMENTS, WRONG
+from tests.hunt.problems import KNOBS, problem_of
+from tests.hunt.unreduced import problem_of as unreduced_problem
+from tests.hunt.unreduced import unreduced
 
 KEPT = 8  # of each disagreement, the worst
 SEARCHES = {name: (function, problem_of) for name, function in DISAGREEMENTS.items()} | {"unreduced": (unreduced, unreduced_problem)}

@@ -12,13 +12,13 @@ import numpy as np
 
 import stabilab
 from stabilab import Fate
-from stabilab.analysis.certificate import certificate
+from stabilab.answers.certificate import certificate
 from stabilab.errors import InputError
 from stabilab.verify import verify
 
-from ..oracles import energy
-from ..oracles.model import CYCLE
-from ..oracles.pairs import WORDS, physical, scaled
+from tests.oracles import energy
+from tests.oracles.model import CYCLE
+from tests.oracles.pairs import physical, scaled, WORDS
 
 ELEVEN_DIGITS = 1e-11  # what `extremes` and `period` promise without `digits`
 MARGIN = 1e-12  # what `fate` promises of a margin, relative to the kinetic energy and the barrier's height

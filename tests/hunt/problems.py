@@ -12,8 +12,8 @@ import numpy as np
 
 import stabilab
 
-from ..oracles.model import CYCLE
-from ..oracles.pairs import physical, scaled
+from tests.oracles.model import CYCLE
+from tests.oracles.pairs import physical, scaled
 
 KNOBS = 14
 

@@ -7,13 +7,13 @@ import math
 import numpy as np
 
 import stabilab
-import stabilab.analysis.landscape
+import stabilab.orbit.landscape
 from stabilab import Fate
 from stabilab.errors import InputError
 
-from ..oracles.pairs import physical
-from .disagreements import MARGIN, NO_QUESTION, WRONG, _twins_of, worst
-from .problems import wide
+from tests.oracles.pairs import physical
+from tests.hunt.disagreements import _twins_of, MARGIN, NO_QUESTION, worst, WRONG
+from tests.hunt.problems import wide
 
 FASTEST = 30.0  # in the motion's own unit: beyond it a search for a certificate takes seconds and more
 
@@ -42,7 +42,7 @@ def problem_of(knobs):
 
 def unreduced(scene, problem, state):
     """Renamed, mirrored and rescaled twins: the same fate; where both margins are finite, the same margin."""
-    if stabilab.analysis.landscape.landscape(scene) is not None:
+    if stabilab.orbit.landscape.landscape(scene) is not None:
         return NO_QUESTION
     torque = max((abs(float(v)) for v in problem.m), default=0.0)
     if max(map(abs, state)) > FASTEST * math.sqrt(torque) > 0:

@@ -10,7 +10,7 @@ import json
 import sys
 import time
 
-from . import faults, runs
+from tests.mutate import faults, runs
 
 # subject -> (modules, test files that belong to it)
 SUBJECTS = {

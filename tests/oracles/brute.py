@@ -13,8 +13,8 @@ from functools import lru_cache
 
 import numpy as np
 
-from .energy import Reduced
-from .model import CYCLE, Model
+from tests.oracles.energy import Reduced
+from tests.oracles.model import CYCLE, Model
 
 
 class Undecided(RuntimeError):

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from math import isqrt
 
-from .model import CYCLE, Model, physical, scaled
+from tests.oracles.model import CYCLE, Model, physical, scaled
 
 S_VALUES = [Fraction(-7, 3), Fraction(11, 5), Fraction(9, 1)]
 

@@ -12,7 +12,7 @@ from fractions import Fraction
 
 import mpmath as mp
 
-from .model import CYCLE, Model
+from tests.oracles.model import CYCLE, Model
 
 DIGITS = 100
 

@@ -6,8 +6,8 @@ import numpy as np
 
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
 
-from . import model
-from .energy import Reduced
+from tests.oracles import model
+from tests.oracles.energy import Reduced
 
 WORDS = {"bounded": 0, "spin-up": 1, "separatrix": 2, "equilibrium": 3, "undecided": 4}
 PAPER_BODY = (2000.0, 1500.0, 1000.0)  # Amer et al. 2024, section "Numerical results"

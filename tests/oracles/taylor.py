@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import mpmath as mp
 
-from .model import CYCLE, Model
+from tests.oracles.model import CYCLE, Model
 
 
 def _coefficients(table, x, order):

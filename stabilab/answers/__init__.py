@@ -1,0 +1,1 @@
+"""The questions a user asks of any scene, and which way answers which scene."""

@@ -1,0 +1,157 @@
+"""A certificate: what was found of a case, as exact numbers and brackets that separate code can check.
+
+Equilibria come from exact algebra (rationals and surds), fate, extremes and period from ball arithmetic; nothing here is
+a rounded guess. What cannot be certified is left out and named in `uncertified`. docs/certificate.md has the form.
+"""
+from __future__ import annotations
+
+from fractions import Fraction
+
+from ..equilibrium.conics import balance_fails, conic_curves
+from ..equilibrium.isolated import isolated_states
+from ..equilibrium.balance import pencil
+from ..orbit.result import Fate
+from ..equilibrium.stability import curve_with_verdicts, cuts_of, isolated_point
+from ..equilibrium.torque_free import DRIFT, plane_centre, plane_moments, plane_of_equal_moments, torque_free_curves
+
+SCHEMA = "stabilab.certificate/1"
+ROOT_BITS = 150  # roots are known to 160 bits and more (`polynomials.real_roots`, `Surd.fraction`)
+BOX_BITS = 120
+TINY = Fraction(1, 2**1074)  # the least double: a decaying plane's end is only approached, to less than this
+DIGITS, PERIOD_DIGITS = 20, 11  # of the brackets: another's verified quadrature must have room in the period's
+
+
+def certificate(scene, state=None) -> dict:
+    """The certificate of a scene and, if given, of the motion from a state (three numbers, taken exactly).
+
+    Returns the object of `stabilab.certificate/1`. Raises InputError as `equilibria` does for effects it does not know.
+    """
+    from .. import __version__
+    out = {"schema": SCHEMA, "program": f"stabilab {__version__}", "scene": None, "equilibria": None, "motion": None, "uncertified": []}
+    if not scene.plain:
+        out["uncertified"].append("effects beyond the gyrostat and a constant torque: there is no certificate for their equilibria "
+                                  "and motions")
+        return out
+    out["scene"] = _scene(scene)
+    out["equilibria"] = _equilibria(scene)
+    if state is not None:
+        out["motion"] = _motion(scene, tuple(Fraction(v) for v in state), out["uncertified"])
+    return out
+
+
+def _text(value) -> str:
+    return str(Fraction(value))
+
+
+def _bracket(value: Fraction, reach: Fraction) -> list[str]:
+    return [_text(value - reach), _text(value + reach)]
+
+
+def _scene(scene) -> dict:
+    if scene.variables == "scaled":
+        a, b = scene.exact_ab
+        return {"variables": "scaled", "a": _text(a), "b": _text(b), "mu": list(map(_text, scene.exact_mu))}
+    return {"variables": "physical", "inertia": list(map(_text, scene.body.exact)),
+            "momentum": list(map(_text, scene.vector("gyrostat"))), "torque": list(map(_text, scene.vector("constant_torque")))}
+
+
+# -- equilibria
+
+
+def _equilibria(scene) -> dict:
+    p = pencil(scene)
+    kind, states, curves = _exact_equilibria(p)
+    return {"kind": kind, "points": sorted((_point(p.form, x) for x in states), key=lambda e: Fraction(e["box"][0][0])),
+            "curves": [_curve(p.form, c) for c in curves],
+            "planes": [_plane(p, d) for d in ([] if any(p.M) else plane_moments(p))]}
+
+
+def _exact_equilibria(p):
+    """(kind, isolated states as surds, exact curves), by the cases of `equilibria`; planes come on their own."""
+    if not any(p.M):
+        if not any(p.lam) and len(set(p.D)) == 1:
+            return "all", [], []
+        return "curves", [], torque_free_curves(p)[0]
+    if p.torque_axis_moment() is None:
+        _, states, curves = isolated_states(p)
+        return ("curves" if curves else "points" if states else "none"), states, curves
+    return ("none", [], []) if balance_fails(p) else ("curves", [], conic_curves(p))
+
+
+def _point(form, x) -> dict:
+    point, middle = isolated_point(form, x), [v.fraction() for v in x]
+    exact = not any(v.d for v in x)
+    reach = Fraction(0) if exact else (max(map(abs, middle)) or Fraction(1)) / 2**BOX_BITS
+    return {"box": [_bracket(v, reach) for v in middle], "linear": point.linear, "verdict": point.verdict}
+
+
+def _curve(form, curve) -> dict:
+    found, cuts = curve_with_verdicts(form, curve), cuts_of(form, curve)
+    exact = {*curve.poles, *curve.crossings}
+    marks = [_bracket(t, Fraction(0) if t in exact else abs(t) / 2**ROOT_BITS) for t in cuts]
+    folds = [(t, mark) for t, mark in zip(cuts, marks) if t not in curve.poles]
+    at = {point.at: point for point in found.samples}
+    return {"numerators": [list(map(_text, p.c)) for p in curve.numerators],
+            "denominator": list(map(_text, curve.denominator.c)),
+            "segments": [{"t": ends, "linear": s.linear, "verdict": s.verdict}
+                         for s, ends in zip(found.segments, map(list, zip([None, *marks], [*marks, None])))],
+            "folds": [{"t": mark, "linear": at[place].linear, "verdict": at[place].verdict}
+                      for (_, mark), place in zip(folds, found.folds)]}
+
+
+def _plane(p, d) -> dict:
+    i, j, k, centre = plane_of_equal_moments(p, d)
+    unit = lambda axis: [str(int(n == axis)) for n in range(3)]  # noqa: E731
+    at = list(map(_text, centre))
+    return {"base": at, "directions": [unit(i), unit(j)], "linear": "degenerate", "verdict": DRIFT[0],
+            "centre": {"at": at, "verdict": plane_centre(p)[0]}}
+
+
+# -- the motion
+
+
+def _motion(scene, state, uncertified):
+    from ..orbit.fate.one_state import fate_of
+    from ..orbit.reduction import reduce
+    rates = scene.quadratic().rate(state)
+    claims = {"state": list(map(_text, state)), "axis": 0, "sense": 0, "extremes": None, "period": None}
+    if not any(rates):
+        return claims | {"fate": Fate.EQUILIBRIUM.word}
+    reduction = reduce(scene)
+    if reduction is None:
+        uncertified.append("motion: the scene has no reduction to one degree of freedom")
+        return None
+    found = fate_of(scene, reduction, state)
+    label = Fate(found.label)
+    if label not in (Fate.BOUNDED, Fate.SPIN_UP):
+        uncertified.append(f"motion: {label.word}: {found.because}")
+        return None
+    return claims | {"fate": label.word, "axis": found.axis, "sense": found.sense,
+                     "extremes": _extremes(reduction, state, label), "period": _period(reduction, state, label)}
+
+
+def _extremes(reduction, state, label):
+    from ..orbit.extremes.balls import extreme_balls
+    balls = extreme_balls(reduction, state, label, certain=int(DIGITS * 3.33))
+    return [[_ends(v) for v in pair] for pair in balls]
+
+
+def _period(reduction, state, label):
+    from ..orbit.period.balls import period_ball
+    return _ends(period_ball(reduction, state), PERIOD_DIGITS) if label == Fate.BOUNDED else None
+
+
+def _ends(value, digits: int = DIGITS):
+    """A bracket round a ball, twice as wide so that another's ball has room in it; None for what is not finite."""
+    if isinstance(value, float) or not value.is_finite():
+        return None
+    middle, reach = _exact(value.mid()), _exact(value.rad())
+    room = 2 * reach + abs(middle) / 10**digits
+    if abs(middle) + room < TINY:
+        return _bracket(Fraction(0), TINY)
+    return _bracket(middle, room)
+
+
+def _exact(value) -> Fraction:
+    mantissa, exponent = (int(v) for v in value.man_exp())
+    return Fraction(mantissa) * Fraction(2) ** exponent

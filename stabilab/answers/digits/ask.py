@@ -1,0 +1,288 @@
+"""Fate, extremes and period to as many digits as are asked for: the cheapest way that reaches them, checked afterwards.
+
+A motion with a reduction: formulas in doubles, checked in ball arithmetic, whose answer takes over where they fall short or
+where more digits are asked for. A motion that repeats without one: its return in a run, checked by a Taylor series in many
+digits run at two precisions. Any other: a run over the span, checked by a run at another tolerance from a start moved in its
+last place, and done again in many digits where that is not enough.
+"""
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from ...numbers.balls import Digits, DOUBLE_BITS, working
+from ...orbit.fate.free_margin import free_margin, is_free
+from .run import moved_row
+from .checked import CAUTION, checked_digits, digits_of, MOST, MOST_DECIMALS, NEAR, nothing, Told
+from ...orbit.result import Fate
+
+FORMULA_DIGITS = 11  # the formulas hand over to balls where they hold less
+SAMPLE = 16  # states of an array that are checked one by one; where all agree the formulas serve for the rest
+SEARCH = 20  # evaluations of a rate's series that the search for its roots takes in a step
+
+
+def ask(question, scene, state, digits: int, span=None, known=None, exact=None, aim: bool = False) -> Told:
+    """The extremes, the period, or the margin of the "fate" of one state, to `digits` decimal digits (1 to 50).
+
+    state, span, exact: as of `motion`; known: what `motion` found, where that is at hand. Digits of extremes are relative to the
+    size of their component. aim: nobody asked for the digits, so a run that misses them by `NEAR` is not done again. Told.digits may be below what was asked: see Told.required.
+    """
+    digits = checked_digits(digits, MOST_DECIMALS)
+    if known is None:
+        from ..motion import motion
+        known = motion(scene, state, span, exact=exact)
+    twin, land = _reduced(scene)
+    if question != "extremes" and _number(question, known) is None:
+        return nothing(question, digits, "the motion does not repeat" if question == "period" else "there is no margin in energy to be judged")
+    if question == "fate" and is_free(twin):
+        return _margin_without_reduction(twin, known, digits, exact or known.at[:3])
+    if land is not None:
+        return _by_formula(question, twin, land, known, digits, exact or known.at[:3])
+    if known.fate == Fate.EQUILIBRIUM:
+        return Told(question, _number(question, known), digits, math.inf, "exact", "the state is at rest")
+    if question == "fate":
+        return _margin_without_reduction(twin, known, digits, exact or known.at[:3])
+    if known.period:
+        return _by_return(question, twin, known, digits, exact or known.at[:3])
+    return _over_span(scene, state, span, known, digits, exact, NEAR * aim)
+
+
+def ask_all(question, scene, states, digits: int, span=None) -> Told:
+    """The same for an array of states (..., 3), values (..., 3, 2) or (...,); span: a time. Of many states a sample is checked."""
+    from ...orbit.extremes.arrays import extremes, period
+    from ...orbit.fate.arrays import checked_states, fate
+    array = checked_states(states)
+    rows = array.reshape(-1, 3)
+    picked = np.unique(np.linspace(0, len(rows) - 1, min(SAMPLE, len(rows))).astype(int))
+    whole = None if span is None else (0.0, float(span))
+    told = [ask(question, scene, rows[i], digits, whole) for i in picked]
+    plain = {"extremes": lambda: extremes(scene, rows, span), "period": lambda: period(scene, rows), "fate": lambda: fate(scene, rows).margins}[question]
+    if len(picked) < len(rows) and not all(t.method in ("formulas", "none") for t in told):
+        told = [ask(question, scene, row, digits, whole) for row in rows]
+    values = plain()
+    if len(told) == len(rows):
+        values = np.array([old if t.values is None else t.values for old, t in zip(values, told)]).reshape(values.shape)
+    judged = [t for t in told if t.digits is not None]
+    worst = min(judged, key=lambda t: t.digits) if judged else told[0]
+    sampled = f"; {len(told)} of {len(rows)} states checked" if len(told) < len(rows) else ""
+    shape = array.shape[:-1]
+    texts = None if worst.decimals is None else np.array([t.decimals for t in told], dtype=object).reshape((*shape, *np.shape(worst.decimals)))
+    return replace(worst, values=values.reshape((*shape, *values.shape[1:])), because=worst.because + sampled, decimals=texts)
+
+
+def _reduced(scene):
+    """(the scene that turns alike and has nothing but a wheel and a torque, its landscape or None)."""
+    from ...physics.effective import effective
+    from ...orbit.landscape import landscape
+    twin = effective(scene)
+    return twin, landscape(twin) if twin.plain else None
+
+
+def _number(question, known):
+    return {"extremes": known.extremes, "period": known.period, "fate": known.margin_energy}[question]
+
+
+# -- motions with a reduction ------------------------------------------------------------------------------------------
+
+
+def _by_formula(question, scene, land, known, digits, state) -> Told:
+    values, label = _number(question, known), known.fate
+    balls = _balls(question, land.reduction, state, label, max(digits, MOST) + 1)
+    if balls is None:  # on the separatrix
+        return _tie(question, digits)
+    return _judged(question, values, balls, digits)
+
+
+def _tie(question, digits) -> Told:
+    return Told(question, 0.0, digits, math.inf, "balls", "the energy equals the barrier's, by algebra")
+
+
+def _judged(question, values, balls, digits) -> Told:
+    """The formulas' values where the balls (to max(digits, MOST) + 1 digits) confirm so many digits, else the balls'."""
+    wanted = max(digits, MOST) + 1
+    with working(DOUBLE_BITS):
+        error = _gap(values, balls)
+    if digits <= FORMULA_DIGITS and error <= 10.0**-digits:
+        return Told(question, values, digits, digits_of(error), "formulas", f"formulas in doubles, {error:.1e} from ball arithmetic")
+    width = max(_width(balls), 10.0**-wanted)  # the balls of a period are narrower than its two rules agree
+    held = digits_of(width, wanted)
+    return Told(question, _floats(balls), digits, held if digits > MOST else min(held, MOST + 0.95), "balls",
+                f"ball arithmetic: the number is within {width:.0e}", _decimals(balls, digits) if digits > MOST else None)
+
+
+def _balls(question, reduction, state, label, digits):
+    """The answer in balls, nested as its floats are."""
+    from ...orbit.ball_orbit import precise_margin
+    from ...orbit.extremes.balls import extreme_balls
+    from ...orbit.period.balls import period_ball
+    if question == "extremes":
+        return extreme_balls(reduction, state, int(label), math.ceil(digits * math.log2(10)))
+    if question == "period":
+        return period_ball(reduction, state, digits) if label == Fate.BOUNDED else Digits(DOUBLE_BITS).ball(0)
+    return precise_margin(reduction, state, digits)
+
+
+def _each(values):
+    """(value, size of its component) of a number or of pairs."""
+    if not isinstance(values, (list, tuple, np.ndarray)):
+        return [(values, values)]
+    return [(v, max((u for u in pair if math.isfinite(float(u))), key=lambda u: abs(float(u)), default=1)) for pair in values for v in pair]
+
+
+def _gap(values, balls) -> float:
+    """Largest distance of floats from balls, relative to the component's size."""
+    from flint import arb
+    worst = 0.0
+    for (value, _), (exact, size) in zip(_each(values), _each(balls)):
+        if math.isinf(float(value)) or math.isinf(float(exact)):
+            worst = worst if float(value) == float(exact) else math.inf
+        elif (far := float(abs(arb(float(value)) - exact).mid())) > 0:
+            worst = max(worst, far / abs(float(size)) if float(size) else math.inf)
+    return worst
+
+
+def _width(balls) -> float:
+    from flint import arb
+    return max(float(arb(v).rad()) / abs(float(size)) if float(size) else float(arb(v).rad()) for v, size in _each(balls) if math.isfinite(float(v)))
+
+
+def _floats(balls):
+    if isinstance(balls, list):
+        return tuple(tuple(map(_floats, pair)) for pair in balls)
+    return float(balls) if isinstance(balls, float) or 0 not in balls else 0.0
+
+
+def _decimals(balls, digits):
+    """Written out with one digit more, so that writing costs none of them."""
+    if isinstance(balls, list):
+        return [[_decimals(v, digits) for v in pair] for pair in balls]
+    from flint import arb
+    if isinstance(balls, float):
+        return str(balls)
+    return "0" if 0 in arb(balls) else arb(balls).mid().str(digits + 1, radius=False)
+
+
+# -- motions without one -----------------------------------------------------------------------------------------------
+
+
+def _margin_without_reduction(scene, known, digits, state) -> Told:
+    wanted = max(digits, MOST) + 1
+    if is_free(scene):
+        margin = free_margin(scene, state, wanted)
+        balls = None if margin.tie else margin.ball
+    else:
+        from ...physics.alignment import aligned
+        from ...orbit.ball_orbit import precise_margin
+        from ...orbit.reduction import reduce
+        turn = aligned(scene)
+        balls = precise_margin(reduce(turn.twin), turn(state), wanted)
+    return _tie("fate", digits) if balls is None else _judged("fate", known.margin_energy, balls, digits)
+
+
+def _by_return(question, scene, known, digits, state) -> Told:
+    """A closed motion: its return in doubles against the return of a Taylor series in many digits."""
+    from ...unreduced.near_rest import beside_rest
+    from ...integrate.reference import reference
+    values = _number(question, known)
+    if beside_rest(scene.quadratic(), state):
+        return _by_small_loop(question, scene.quadratic(), values, digits, state)
+    exact = reference(scene, state, [0.5 * known.period], orbit=True)
+    if exact.period is None:
+        return Told(question, values, digits, 0.0, "run", "no return was found in many digits within the work allowed")
+    with working(400) as numbers:
+        add = lambda pair: numbers.ball(float(pair[0])) + numbers.ball(float(pair[1]))
+        found = add(exact.period) if question == "period" else [[add(v) for v in pair] for pair in exact.extremes]
+        own = max(exact.period[2] if question == "period" else exact.extremes_error, 1e-31)  # two doubles hold 32 digits
+        error = max(_gap(values, found), own)
+        pair = f"{exact.digits[0]} and {exact.digits[1]} digits"
+        if digits <= MOST and error <= 10.0**-digits:
+            because = f"the return of a run in doubles, {error:.1e} from that of a Taylor series in {pair}"
+            return Told(question, values, digits, digits_of(error), "run", because)
+        best = digits_of(own, 31.0)
+        return Told(question, _floats(found), digits, best if digits > MOST else min(best, MOST + 0.95), "many digits",
+                    f"the return of a Taylor series in {pair}, {own:.0e} apart", _decimals(found, digits) if digits > MOST else None)
+
+
+def _by_small_loop(question, form, values, digits, state) -> Told:
+    """A closed motion that starts next to an equilibrium: two runs of its series from the start, the second with more digits."""
+    from ...unreduced.near_rest import small_loop
+    more = max(digits, MOST) + 8
+    with working(2 * int(3.33 * more) + 400):
+        found = [loop and loop[question != "period"] for loop in (small_loop(form, state, n) for n in (more, more + 8))]
+        if None in found:
+            return Told(question, values, digits, 0.0, "run", "no return was found in many digits within the work allowed")
+        pairs = zip(_each(found[0]), _each(found[1]))
+        error = max(max(float(abs(a - b) / abs(size)) if size != 0 else 0.0 for (a, _), (b, size) in pairs), 10.0**-more)
+        if digits <= MOST and (gap := max(_gap(values, found[1]), error)) <= 10.0**-digits:
+            return Told(question, values, digits, digits_of(gap), "run", f"its series from the start in many digits, {gap:.1e} apart")
+        held = digits_of(error, more)
+        return Told(question, _floats(found[1]), digits, held if digits > MOST else min(held, MOST + 0.95), "many digits",
+                    f"two runs of its series from the start, {error:.0e} apart", _decimals(found[1], digits) if digits > MOST else None)
+
+
+def _over_span(scene, state, span, known, digits, exact, slack) -> Told:
+    from ...physics.to_numpy import TAYLOR_TOLERANCE
+    from ...physics.scene import Scene
+    from ...integrate.extrema import roots_of_rates
+    from ...integrate.trajectory import _start
+    if known.extremes is None:
+        return nothing("extremes", digits, known.extremes_over)
+    if scene.variables != "scaled":  # a force at the centre of mass does not turn the body
+        scene = Scene(scene.body, *(e for e in scene.effects if e.name != "body_force"))
+    length = float(span[1]) - (0.0 if scene.plain else float(span[0])) if span is not None else 0.0
+    equations, start = _start(scene, known.at)
+    values = np.array(known.extremes)
+    other = roots_of_rates(scene, moved_row(start), length, 8 * TAYLOR_TOLERANCE)
+    error = CAUTION * _apart(values, other.extremes()) if not other.reason else math.inf
+    because = f"a run over the span; one at rtol {8 * TAYLOR_TOLERANCE:.1e} from a start moved in its last place differs by {error / CAUTION:.1e}"
+    if digits <= MOST and error <= 10.0 ** (slack - digits):
+        return Told("extremes", values, digits, digits_of(error), "run", because)
+    return _many_digits(equations, [*(exact or start[:3]), *start[3:]], length, digits) or Told("extremes", values, digits, digits_of(error), "run", other.reason or because)
+
+
+def _apart(one, two) -> float:
+    size = np.abs(one).max(axis=-1, keepdims=True)
+    return float((np.abs(one - two) / np.where(size > 0, size, 1.0)).max())
+
+
+def _many_digits(equations, start, length, digits):
+    """Extremes over the span by a Taylor series, each precision checked by the one before; None where the work allowed is not enough."""
+    from ...integrate.reference import DIGITS, GUARD, WORK
+    from ...integrate.taylor_digits import Exhausted, Recursion
+    recursion, before = Recursion(equations), None
+    for n in DIGITS:
+        budget = [WORK // 12 if before is None else WORK // 4]  # the second run costs twice the first
+        with working(int((n + GUARD) * 3.33)) as numbers:
+            try:
+                now = _series_extremes(recursion, start, length, n, budget, numbers)
+            except Exhausted:
+                return None
+            error = max(_balls_apart(now, before), 10.0**-n) if before else 1.0
+            if before and error <= 10.0**-digits:
+                held = digits_of(error, n)
+                return Told("extremes", _floats(now), digits, held if digits > MOST else min(held, MOST + 0.95), "many digits",
+                            f"Taylor series over the span in two precisions, {error:.0e} apart", _decimals(now, digits) if digits > MOST else None)
+            before = now
+    return None
+
+
+def _balls_apart(now, before) -> float:
+    """Largest distance of pairs, relative to the size of their component."""
+    worst = 0.0
+    for one, two in zip(now, before):
+        size = max(map(abs, one))
+        worst = max([worst, *(float(abs(a - b) / (size or 1)) for a, b in zip(one, two))])
+    return worst
+
+
+def _series_extremes(recursion, start, length, digits, budget, numbers):
+    from ...integrate.taylor_digits import steps, widen
+    pairs, left = [[numbers.ball(v)] * 2 for v in start[:3]], numbers.ball(length)
+    for step in steps(recursion, start, digits, budget, numbers):
+        budget[0] -= SEARCH * len(pairs) * len(step.rows[0])
+        widen(pairs, step, min(step.length, left))
+        left = (left - step.length).mid()
+        if left <= 0:
+            return pairs

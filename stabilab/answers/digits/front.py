@@ -1,0 +1,104 @@
+"""The measured fronts, kept from run to run: per machine and version, in the user's cache folder."""
+from __future__ import annotations
+
+import json
+import os
+import platform
+import sys
+from dataclasses import asdict, dataclass
+from hashlib import sha256
+from pathlib import Path
+
+CACHE_SCHEMA = "stabilab.front/1"
+SAFETY = 1.0  # digits that a setting must have had to spare when it was measured
+
+
+@dataclass(frozen=True)
+class FrontPoint:
+    """A setting that no other beats: digits of the states over the span, cost in seconds. rtol: the setting's value
+    (nodes for "reduced", order for an expansion)."""
+
+    method: str
+    rtol: float
+    digits: float
+    cost: float
+
+
+def front(case) -> tuple[FrontPoint, ...]:
+    """The measured front of a case on this machine with this version, cheapest first; empty where none was measured
+    (`stabilab precision CASE` measures it)."""
+    try:
+        data = json.loads(_file(case).read_text(encoding="utf-8"))
+        if data["schema"] != CACHE_SCHEMA or data["machine"] != machine() | versions():
+            return ()
+        return tuple(FrontPoint(str(p["method"]), float(p["rtol"]), float(p["digits"]), float(p["cost"])) for p in data["front"])
+    except (OSError, ValueError, KeyError, TypeError):
+        return ()
+
+
+def keep(measured) -> Path | None:
+    """Keep the front of a measurement over the whole span, a quick one only where there is none yet; the file, or None
+    where a part of the span was not judged or the folder cannot be written."""
+    if measured.reference.status != "agrees":
+        return None
+    path = _file(measured.case)
+    if measured.quick and front(measured.case):
+        return path
+    points = [asdict(FrontPoint(p.method, p.value, round(p.digits, 3), p.seconds)) for p in measured.front("span")]
+    text = json.dumps({"schema": CACHE_SCHEMA, "case": measured.case.name, "machine": machine() | versions(), "front": points},
+                      indent=1, allow_nan=False)
+    waiting = path.with_name(f".{path.name}.{os.getpid()}")
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        waiting.write_text(text, encoding="utf-8")
+        waiting.replace(path)
+    except OSError:
+        return None
+    return path
+
+
+def cache_folder() -> Path:
+    """The user's cache folder of this program: XDG_CACHE_HOME where it is set, else the platform's place."""
+    given = os.environ.get("XDG_CACHE_HOME")
+    if given and Path(given).is_absolute():  # the XDG rule: relative paths are to be ignored
+        return Path(given) / "stabilab"
+    if sys.platform == "darwin":
+        return Path.home() / "Library" / "Caches" / "stabilab"
+    if sys.platform == "win32":
+        return Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData" / "Local") / "stabilab" / "Cache"
+    return Path.home() / ".cache" / "stabilab"
+
+
+def _file(case) -> Path:
+    """One file per motion: the scene's numbers, the start and the span, whatever the case file is called."""
+    key = repr((case.scene, case.state, case.span, sorted(case.blocks.items())))
+    return cache_folder() / "precision" / f"{sha256(key.encode()).hexdigest()[:24]}.json"
+
+
+def machine() -> dict[str, str]:
+    """What the times depend on besides the program."""
+    return {"processor": _processor(), "cores": str(os.cpu_count()), "system": f"{platform.system()} {platform.machine()}"}
+
+
+def _processor() -> str:
+    try:
+        for line in Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines():
+            if line.startswith("model name"):
+                return line.partition(":")[2].strip()
+    except OSError:
+        pass
+    return platform.processor() or platform.machine()
+
+
+def versions() -> dict[str, str]:
+    """The program's version and those of the libraries that do the work."""
+    from importlib.metadata import PackageNotFoundError, version
+
+    from ... import __version__
+    found = {"stabilab": __version__, "Python": platform.python_version()}
+    for name in ("numpy", "scipy", "heyoka", "python-flint"):
+        try:
+            found[name] = version(name)
+        except PackageNotFoundError:
+            found[name] = "not installed"
+    return found

@@ -1,0 +1,265 @@
+"""A motion to as many digits as are asked for: the cheapest setting that was measured to reach them, checked afterwards.
+
+The check needs no reference: the same motion at another tolerance, its start moved by a unit in its last place, shows the
+error of the first run and what doubles can hold, for the price of one run more. What falls short is done again with the next
+setting, at last in many digits, rounded once.
+"""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ...physics.attitude import angles, beyond, to_space
+from ...physics.to_numpy import TAYLOR_TOLERANCE
+from ...errors import InputError, ToleranceNotMet
+from .front import front, SAFETY
+from .checked import CAUTION, checked_digits, DEFAULT, digits_of, MOST, NEAR
+from ..simulate import body_momentum, simulate, Simulation, start_of, STIFF_METHOD
+from ...integrate.trajectory import _start, FALLBACK_RTOL, SCIPY_METHODS
+
+MANY, REDUCED_FORM = "many digits", "reduced form"
+OWN = ("as simulate chooses", 0.0)  # the finest Taylor series, which costs little more than a coarse one; Radau where the scene is stiff
+STIFF_FINE = (STIFF_METHOD, 1e-12)
+LAST_PLACE = 2.0**-52
+FAR = 1e4  # radians or so from which the reduced form, whose cost does not grow, is cheaper than a run
+FARTHEST = 1e5  # radians beyond which a run in many digits takes more than the work allowed (`precision_reference.WORK`)
+NODES = (-4, -1)  # which of the reduced form's resolutions are tried: one that mostly does, and the finest
+SHIFT, STRAIGHT = 2.0**12, 0.01  # last places by which a start is moved to see what one does; the answer's share up to which it grows in proportion
+COUNTED = 1.0  # rad: angles this near to those of a run in doubles have the same number of turns
+
+
+@dataclass(frozen=True)
+class Reached:
+    """A motion and the digits that the check showed. because: how they were checked."""
+
+    run: Simulation
+    asked: int
+    digits: float
+    because: str
+
+    @property
+    def enough(self) -> bool:
+        return self.run.status == "reached" and self.digits >= self.asked
+
+
+def simulate_to(case, times, digits: int = DEFAULT) -> Reached:
+    """The exact motion of a case at the times (as of `simulate`) to `digits` decimal digits: relative to the largest size of
+    each part of the state over the times.
+
+    Raises InputError for digits outside 1 to 15, and ToleranceNotMet where no setting reaches them.
+    """
+    found = best_reached(case, times, digits)
+    if not found.enough:
+        raise ToleranceNotMet(missed(case, found))
+    return found
+
+
+def missed(case, found) -> str:
+    """Why digits were not reached, in words."""
+    if found.run.status != "reached":
+        return f"{case.place}: {found.run.reason}"
+    return f"{case.place}: {found.asked} digits asked for, {found.digits:.1f} reached ({found.because}); ask for fewer or for a shorter span"
+
+
+def best_reached(case, times, digits: int = DEFAULT, measured: bool = True, aim: bool = False) -> Reached:
+    """As `simulate_to`, but where no setting reaches the digits the motion that comes nearest. Where stepping stops early, so would finer
+    steps: then only the reduced form is left. measured: choose by the times that were measured on this machine; without them the answer is
+    always the same. aim: nobody asked for the digits: the last `NEAR` of them may be missing, and many digits go no farther than FAR."""
+    checked_digits(digits, MOST)
+    times, best = np.atleast_1d(np.asarray(times, float)), None
+    far = _turned(case, times) > (FAR if aim else FARTHEST)
+    tried = candidates(case, times, digits) if measured else _unmeasured(case, times)
+    for method, value in tried:
+        if best is not None and _hopeless(method, best, far):
+            continue
+        found = _checked(case, times, method, value, digits)
+        if found is None:
+            continue
+        if found.run.status == "reached" and found.digits >= digits - NEAR * aim:
+            return found
+        best = found if best is None or (found.run.status == "reached", found.digits) > (best.run.status == "reached", best.digits) else best
+    return best
+
+
+def _hopeless(method, best, far) -> bool:
+    """Whether a way is not worth trying after what was found: steps where steps stopped or where the reduced form, which makes none, has
+    answered first; many digits where the way is far."""
+    if method == "reduced":
+        return False
+    return best.run.status != "reached" or (far if method == MANY else best.run.method == REDUCED_FORM)
+
+
+def candidates(case, times, digits) -> list[tuple[str, float]]:
+    """(method, setting) to try, in order: what was measured to reach the digits with one to spare, cheapest first; then,
+    whatever was measured, what `simulate` chooses itself, and many digits, with the reduced form before the one that costs more."""
+    end = max(case.span, key=abs) if case.span else 0.0
+    inside = np.all((times * np.sign(end) >= 0) & (np.abs(times) <= abs(end)))
+    measured = [(p.method, p.rtol) for p in front(case) if inside and p.digits >= digits + SAFETY and p.method in RUNS]
+    return list(dict.fromkeys([*measured, *_unmeasured(case, times)]))
+
+
+def _unmeasured(case, times):
+    ladder = [("reduced", nodes) for nodes in _resolutions(case, times)]
+    return [*ladder, OWN, (MANY, 0.0)] if _turned(case, times) > FAR else [OWN, *ladder, (MANY, 0.0)]
+
+
+def _turned(case, times) -> float:
+    """Radians or so that a motion goes through: its rates, or the roots of their rates where these are larger, times the longest time."""
+    from ...physics.to_numpy import to_numpy
+    from ...physics.equations import derive
+    scene = case.scene
+    row = np.array([*case.state, *(v for name in scene.blocks[1:] for v in case.blocks.get(name, (0.0,) * 3))])
+    if scene.blocks != ("omega",):
+        return float(np.linalg.norm(row[:3]) * np.abs(times).max())
+    with np.errstate(all="ignore"):
+        rates = np.abs(to_numpy(derive(scene))(row)).max()
+    return float(max(np.linalg.norm(row), math.sqrt(rates)) * np.abs(times).max())
+
+
+def _resolutions(case, times):
+    """Of the reduced form; none where it does not serve."""
+    if case.blocks or case.scene.blocks != ("omega",) or (times < 0).any():
+        return ()
+    from .reduced import ladder
+    try:
+        found = ladder(case.scene, case.state)
+    except InputError:
+        return ()
+    return tuple(found[n] for n in NODES)
+
+
+def _checked(case, times, method, value, asked) -> Reached | None:
+    """The motion by one setting with the digits that the check shows; None where that way has no answer."""
+    if method == MANY:
+        return _many_digits(case, times, asked)
+    try:
+        run = RUNS[method](case, times, method, value)
+    except InputError:
+        if (method, value) == OWN:
+            raise
+        return None
+    if (method, value) == OWN:
+        method, value = run.method, run.rtol
+        if method == STIFF_METHOD and value > STIFF_FINE[1] and asked > -math.log10(value) - SAFETY:
+            return _checked(case, times, *STIFF_FINE, asked)
+    if method == "reduced":
+        return _checked_reduced(case, times, run, value, asked)
+    other_value = _other(method, value)
+    other = RUNS[method](_moved(case), times, method, other_value) if run.status == "reached" else run
+    if other.status != "reached":
+        return Reached(run, asked, 0.0, f"the check of {method} stopped early")
+    gap = _distance(run, other)
+    return Reached(run, asked, digits_of(CAUTION * gap), f"{method} with rtol {other_value:.2g} "
+                   f"from a start moved in its last place differs by {gap:.1e}")
+
+
+def _checked_reduced(case, times, run, nodes, asked) -> Reached | None:
+    """By twice the nodes, and from a start moved by so many last places that the period, rounded, moves with it: what a period is off by grows
+    with the number of periods, and two runs that round it alike would not show that."""
+    try:
+        finer, moved = (_reduced(one, times, "reduced", 2 * nodes) for one in (case, _moved(case, SHIFT)))
+    except InputError:
+        return None
+    own, far = _distance(run, finer), _distance(finer, moved)
+    gap = max(own, far / SHIFT) if far < STRAIGHT else 1.0
+    return Reached(run, asked, digits_of(CAUTION * gap), f"reduced with {2 * nodes:g} nodes differs by {own:.1e}, and a start moved in its last "
+                   f"place by {far / SHIFT:.1e}" if far < STRAIGHT else "the motion goes too far for its start in doubles")
+
+
+def _other(method, value):
+    """A setting fine enough to judge by, or, where there is none, a coarser one: the difference is then too large."""
+    finest = TAYLOR_TOLERANCE if method == "taylor" else FALLBACK_RTOL
+    return max(value / 1000, finest) if value > 4 * finest and method != STIFF_METHOD else value * 8
+
+
+def moved_row(row, places: float = 1.0) -> np.ndarray:
+    """Numbers each moved by about so many units in its last place; a zero by half as many of the largest."""
+    row = np.asarray(row, float)
+    signs = np.random.default_rng(1).choice([-1.0, 1.0], row.size)
+    return row + places * signs * LAST_PLACE * np.where(row == 0, 0.5 * np.abs(row).max(), np.abs(row))
+
+
+def _moved(case, places: float = 1.0):
+    """The case with its start moved; what is zero throughout (rest at the origin) stays."""
+    return replace(case, state=tuple(map(float, moved_row(case.state, places))),
+                   blocks={name: tuple(map(float, moved_row(row, places))) for name, row in case.blocks.items()})
+
+
+def _distance(one, two) -> float:
+    worst = 0.0
+    for name, values in one.state.items():
+        size = np.abs(values).max() or 1.0
+        worst = max(worst, float(np.abs(values - two.state[name]).max() / size))
+    return worst if math.isfinite(worst) else math.inf
+
+
+def _integrated(case, times, method, rtol):
+    own = (method, rtol) == OWN
+    return simulate(case.scene, case.state, times, case.blocks, None if own else method, None if own else rtol)
+
+
+def _reduced(case, times, method, nodes):
+    from .reduced import reduced
+    if case.blocks or case.scene.blocks != ("omega",) or (times < 0).any():
+        raise InputError("the reduced form gives the rate alone, from time 0 on")
+    orbit = reduced(case.scene, case.state, int(nodes))
+    return Simulation(times, {_first(case): orbit.at(times)}, "exact", REDUCED_FORM, None, counters={"evaluations": int(orbit.counts)},
+                      reason=f"time as an integral over the reduced coordinate, {int(nodes)} nodes")
+
+
+RUNS = {"taylor": _integrated, OWN[0]: _integrated, **dict.fromkeys(SCIPY_METHODS, _integrated), "reduced": _reduced}
+
+
+def _first(case):
+    return "x" if case.scene.variables == "scaled" else "omega"
+
+
+def _many_digits(case, times, asked) -> Reached | None:
+    """The reference itself, rounded once; at times of one sign."""
+    from ...integrate.reference import reference
+    scaled = case.scene.variables == "scaled"
+    equations, start = _start(case.scene, case.state if scaled else start_of(case.scene, case.state, case.blocks))
+    if times.min() < 0 < times.max():
+        return None
+    start = [*(case.exact_state or start[:3]), *start[3:]]  # the decimals as they were written
+    order = np.argsort(np.abs(times), kind="stable")
+    found = reference(case.scene, start, times[order], equations.blocks)
+    if found.status != "agrees":
+        return None
+    states = np.empty_like(found.states)
+    states[order] = found.states
+    validity = _validity(case.scene, {name: states[:, part] for name, part in found.slices.items()})
+    parts = {_first(case) if name == "omega" else name: states[:, part] for name, part in found.slices.items()}
+    error = float(found.error.max()) + 2.0**-53
+    if "attitude" in parts:
+        parts = _with_angles(case, times, parts)
+        if parts is None:
+            return None
+        error += 2.0**-51 / np.abs(np.cos(parts["angles"][:, 0])).min()  # phi and theta magnify the rounding of the quaternion
+    because = f"Taylor series in {found.digits[0]} and {found.digits[1]} digits differ by {found.error.max():.0e}; rounded once"
+    run = Simulation(times, parts, "exact", MANY, None, counters={"multiplications": found.work}, reason=because, validity=validity)
+    return Reached(run, asked, digits_of(error), because)
+
+
+def _validity(scene, blocks):
+    """Of the laws at the times asked for; None where all are exact."""
+    if not scene.approximate:
+        return None
+    from ...physics.law_limits import along
+    return along(scene, blocks, "at the times told")
+
+
+def _with_angles(case, times, parts):
+    """Angles and momentum in place of the quaternion: turns counted by a run in doubles; None where it is too far off to count."""
+    near, q = _integrated(case, times, *OWN), parts.pop("attitude")
+    if near.status != "reached":
+        return None
+    ways = [found + 2 * np.pi * np.round((near.state["angles"] - found) / (2 * np.pi)) for found in (angles(q), beyond(angles(q)))]
+    gaps = [np.abs(way - near.state["angles"]).max(axis=1, keepdims=True) for way in ways]
+    if np.minimum(*gaps).max() > COUNTED:
+        return None
+    found = np.where(gaps[0] <= gaps[1], *ways)
+    first = {name: parts.pop(name) for name in ("omega", "gamma") if name in parts}
+    return first | {"angles": found, "momentum": to_space(q, body_momentum(case.scene, first["omega"]))} | parts

@@ -1,0 +1,147 @@
+"""The exact motion of a case, block by block: rates, direction of the vertical, attitude angles, momentum, place."""
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ..physics.attitude import angles, beyond, quaternion, to_space, unwrapped
+from ..physics.blocks import ordered
+from ..integrate.trajectory import trajectory
+
+STIFF = 1e6  # fastest decay times duration beyond which an explicit method would only shorten its steps
+TURNING = 700  # decays per radian of turn below which an attitude or gamma, which turn on, cost Radau more (measured)
+STIFF_METHOD, STIFF_RTOL = "Radau", 1e-10
+SHORT_WAY = 1.5  # rad: a step of phi or theta below half a turn by this margin cannot hide a whole one
+ROUNDS, POINTS = 12, 400_000  # of refining the times between the asked-for ones for unwrapping
+INSIDE = 5  # points a step: a Taylor step to the last digit turns the body by up to three radians
+
+
+@dataclass(frozen=True)
+class Simulation:
+    """States of one model at the asked-for times.
+
+    t: (n,), s (tau when scaled); state: name -> (n, m): omega (x when scaled), gamma, angles (psi, phi, theta,
+    continuous from the start, rad), momentum (inertial, kg m^2/s), velocity, position (inertial), and for averaged
+    models amplitude, spin, phase (n,). model: "exact", "linear", ...; the rest as of Trajectory.
+    validity: of the scene's laws; what a formula assumes beyond them stands in `reason`.
+    """
+
+    t: np.ndarray
+    state: dict
+    model: str
+    method: str
+    rtol: float | None
+    invariant_drift: dict = field(default_factory=dict)
+    counters: dict = field(default_factory=dict)
+    status: str = "reached"
+    reason: str = ""
+    validity: object = None
+
+
+def start_of(scene, omega, blocks) -> dict:
+    """The blocks of the state at time 0 as `trajectory` takes them; attitude from its 3-1-2 angles."""
+    start = {"omega": omega, **blocks}
+    for name in ordered((*scene.blocks, *blocks)):
+        if name == "attitude":
+            start[name] = tuple(quaternion(*blocks.get("attitude", (0.0, 0.0, 0.0))))
+    return start
+
+
+def simulate(scene, omega, times, blocks=None, method: str | None = None, rtol: float | None = None) -> Simulation:
+    """The exact motion of a scene from angular velocity `omega` at the given times.
+
+    blocks: the rest of the state at time 0 ("gamma", "velocity", "position": three numbers, "attitude": psi, phi,
+    theta, rad); those that the scene needs and blocks leaves out start at gamma = e3, zero angles, rest. method: None
+    is "taylor", or Radau where the decay is so fast that an explicit method would crawl (the reason says so). Raises
+    InputError as `trajectory` does.
+    """
+    times = np.atleast_1d(np.asarray(times, float))
+    if scene.variables == "scaled":
+        run = trajectory(scene, omega, times, method or "taylor", rtol)
+        return _simulation(run, {"x": run.states})
+    start = start_of(scene, omega, blocks or {})
+    method, rtol, why = _chosen(scene, start, times, method, rtol)
+    if len(start) == 1 and scene.blocks == ("omega",):
+        run = trajectory(scene, omega, times, method, rtol)
+        return _simulation(run, {"omega": run.states}, why)
+    if "attitude" not in start:
+        run = trajectory(scene, start, times, method, rtol)
+        return _simulation(run, {name: run.block(name) for name in run.blocks}, why)
+    return _with_attitude(scene, start, (blocks or {}).get("attitude", (0.0, 0.0, 0.0)), times, method, rtol, why)
+
+
+def _simulation(run, state, why=""):
+    return Simulation(run.t, state, "exact", run.method, run.rtol, run.invariant_drift, run.counters, run.status, _reason(run, why),
+                      run.validity)
+
+
+def _reason(run, *why):
+    """Why it stopped, if it did, and what is to be said of the method; else that all times were reached."""
+    told = "; ".join(filter(None, (run.reason if run.status != "reached" else "", *why)))
+    return told or run.reason
+
+
+def _chosen(scene, start, times, method, rtol):
+    """(method, rtol, why) with the stiff method where nothing was asked for and the decay is too fast."""
+    if method is not None or not any(not e.keeps_volume for e in scene.effects):
+        return method or "taylor", rtol, ""
+    from ..physics.to_numpy import to_numpy
+    from ..integrate.trajectory import _start
+    equations, state = _start(scene, start)
+    fastest = float(np.max(-np.linalg.eigvals(to_numpy(equations).jacobian(state)).real, initial=0.0))
+    stiffness = fastest * float(np.abs(times).max(initial=0.0))
+    turn = float(np.linalg.norm(start["omega"])) if len(equations.blocks) > 1 else 0.0
+    if stiffness <= STIFF or fastest < TURNING * turn:
+        return "taylor", rtol, ""
+    return STIFF_METHOD, rtol or STIFF_RTOL, (f"stiff: the fastest decay, {fastest:.3g}/s, runs down {stiffness:.2g} times "
+                                              f"over the span, so the implicit method {STIFF_METHOD} was taken")
+
+
+def _with_attitude(scene, start, first, times, method, rtol, why):
+    """The run with angles unwrapped over a grid fine enough that no turn is missed."""
+    inner, first, doubtful = _grid(scene, start, times, method, rtol), np.asarray(first, float), ""
+    for _ in range(ROUNDS):
+        run = trajectory(scene, start, inner, method, rtol)
+        q = run.block("attitude")
+        wrapped = angles(q) if np.cos(first[0]) >= 0 else beyond(angles(q))
+        middle = int(np.argmin(np.abs(run.t)))
+        path = np.empty_like(wrapped)
+        path[middle:] = unwrapped(wrapped[middle:], first)
+        path[:middle + 1] = unwrapped(wrapped[middle::-1], first)[::-1]
+        wide = np.nonzero(np.abs(np.diff(path[:, 1:], axis=0)).max(axis=1, initial=0.0) > np.pi - SHORT_WAY)[0]
+        if not len(wide) or len(inner) + len(wide) > POINTS or run.status != "reached":
+            break
+        inner = np.unique(np.concatenate([inner, *(0.5 * (run.t[wide] + run.t[wide + 1]),)]))
+    if len(wide) and run.status == "reached":
+        doubtful = (f"near t = {run.t[wide[0]]:.6g} the attitude passes the singular angle cos psi = 0; "
+                    "phi and theta take the short way there")
+    ordered_times = np.sort(times)
+    at = np.searchsorted(run.t, ordered_times if run.status == "reached" else ordered_times[np.isin(ordered_times, run.t)])
+    at = at if len(times) < 2 or times[0] < times[-1] else at[::-1]
+    state = {name: run.block(name)[at] for name in run.blocks if name != "attitude"}
+    state = {"omega": state.pop("omega"), **({"gamma": state.pop("gamma")} if "gamma" in state else {}),
+             "angles": path[at], "momentum": to_space(q[at], body_momentum(scene, run.block("omega")[at])), **state}
+    return Simulation(run.t[at], state, "exact", run.method, run.rtol, run.invariant_drift, run.counters, run.status,
+                      _reason(run, why, doubtful), run.validity)
+
+
+def _grid(scene, start, times, method, rtol):
+    """The asked-for times, zero, and the method's own steps with points inside each: between the points of a step the
+    body turns by less than a radian or so, however it hurries between the asked-for times."""
+    base, steps = np.unique(np.concatenate([[0.0], times])), []
+    trajectory(scene, start, base, method, rtol, steps)
+    ends = np.unique(np.concatenate([base, steps]))
+    inside = max(1, min(INSIDE, POINTS // len(ends)))
+    share = np.arange(inside) / inside
+    return np.unique(np.concatenate([base, (ends[:-1, None] + np.diff(ends)[:, None] * share).ravel()]))
+
+
+def body_momentum(scene, omega):
+    """D omega + momenta carried inside, body frame: (..., 3)."""
+    total = np.asarray(scene.body.inertia) * omega
+    for effect in scene.effects:
+        values = {name: float(v) for name, v in effect.parameters().items()}
+        carried = effect.momentum(values)
+        total = total if carried is None else total + np.array(carried)
+    return total

@@ -1,0 +1,1 @@
+"""The same questions over a box of uncertain numbers."""

@@ -1,0 +1,190 @@
+"""A body whose inertia, gyrostatic moment, torque or state are known only within bounds: the box of all it may be.
+
+A point of the box is a tuple of numbers in [-1, 1], one for each uncertain number (times a reach that stretches the whole
+box). `Box.at` gives the exact scene and state there, `Box.numbers` the same numbers over many sub-boxes at once, and `rates`
+the equations of motion from either.
+"""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+
+import numpy as np
+
+from ...physics.body import Body
+from ...physics.effects import effect_class
+from ...errors import InputError
+from ...physics.quadratic import euler_form, QuadraticForm, scaled_form
+from ...physics.scaling import to_scaled, torque_from_mu
+from ...physics.scene import ScaledGyrostat, Scene
+from ...numbers.affine import Affine, EPS, LEAST, root, sign_over, squared
+
+
+
+@dataclass(frozen=True)
+class Box:
+    """middle: name -> exact numbers, of "inertia", "momentum", "torque" or "mu" (a body), or "a", "b", "mu" (a scaled
+    system), and "state" (three, or absent); half: name -> their half-widths, zero where certain. variables: those of scene
+    and state, "physical" or "scaled" (a body may be asked in scaled variables)."""
+
+    middle: dict
+    half: dict
+    variables: str
+
+    @cached_property
+    def places(self) -> tuple[tuple[str, int], ...]:
+        """(name, index) of every uncertain number."""
+        return tuple((name, i) for name, widths in self.half.items() for i, h in enumerate(widths) if h)
+
+    @property
+    def bodily(self) -> bool:
+        """Whether it starts from a body rather than from a, b and mu."""
+        return "inertia" in self.middle
+
+    # -- one point, exactly
+    def values(self, point, reach=1) -> dict:
+        """The numbers at a point (one number in [-1, 1] for each place), exact: rounded toward the middle to what a case file
+        can state, decimals of a double's digits (a state to the double itself)."""
+        out = {name: list(numbers) for name, numbers in self.middle.items()}
+        for (name, i), e in zip(self.places, point):
+            middle = out[name][i]
+            value = middle + Fraction(reach) * Fraction(e) * self.half[name][i]
+            out[name][i] = middle if value == middle else _toward(value, middle, Fraction if name == "state" else _decimal)
+        return {name: tuple(numbers) for name, numbers in out.items()}
+
+    def at(self, point, reach=1):
+        """(scene, state or None) at a point, exact. Raises InputError where there is no such body."""
+        return self.scene_of(self.values(point, reach))
+
+    def scene_of(self, values):
+        """(scene, state or None) of exact numbers. Raises InputError where there is no such body or no such scaling."""
+        state = tuple(map(float, values["state"])) if "state" in values else None
+        if not self.bodily:
+            return ScaledGyrostat(values["a"][0], values["b"][0], values["mu"]), state
+        body, mu = Body(values["inertia"]), values.get("mu")
+        torque = values["torque"] if mu is None else torque_from_mu(body, mu)
+        scene = Scene(body, effect_class("gyrostat")(values["momentum"]), effect_class("constant_torque")(torque))
+        return (to_scaled(scene, mu)[0] if self.variables == "scaled" else scene), state
+
+    # -- many boxes at once
+    def numbers(self, centres, widths, reach=1.0, cells=None) -> dict:
+        """Every number over n sub-boxes: `Affine`, or the exact number where it is certain.
+
+        centres, widths: (n, places), within [-1, 1], times reach. cells: one more column of g, left free for another variable.
+        """
+        n, extra = len(centres), 0 if cells is None else 1
+        out = {name: list(numbers) for name, numbers in self.middle.items()}
+        for k, (name, i) in enumerate(self.places):
+            middle, half = float(self.middle[name][i]), float(self.half[name][i]) * reach
+            c, g = middle + half * centres[:, k], np.zeros((n, len(self.places) + extra))
+            g[:, k] = half * widths[:, k]
+            out[name][i] = Affine(c, g, 8 * EPS * (abs(middle) + np.abs(half * centres[:, k]) + g[:, k]) + LEAST)
+        return {name: tuple(numbers) for name, numbers in out.items()}
+
+    def impossible(self, numbers) -> np.ndarray:
+        """True for each sub-box that surely holds no body: a moment of inertia not positive, or the triangle inequality broken
+        (for a body in scaled variables: moments not in falling order)."""
+        if not self.bodily:
+            return np.bool_(False)
+        D = numbers["inertia"]
+        wrong = np.bool_(False)
+        for i in range(3):
+            wrong = wrong | (sign_over(D[i]) < 0) | (sign_over(D[(i + 1) % 3] + D[(i + 2) % 3] - D[i]) < 0)
+        if self.variables == "scaled" or "mu" in self.middle:
+            wrong = wrong | (sign_over(D[0] - D[1]) < 0) | (sign_over(D[1] - D[2]) < 0)
+        return wrong
+
+    def rates(self, numbers) -> QuadraticForm:
+        """The equations of motion (coefficients of the kind of the numbers)."""
+        if not self.bodily:
+            return scaled_form(numbers["a"][0], numbers["b"][0], numbers["mu"])
+        D, lam = numbers["inertia"], numbers["momentum"]
+        if self.variables == "physical":
+            return euler_form(D, lam, numbers["torque"] if "torque" in numbers else _torque(D, numbers["mu"]))
+        return scaled_form(*_scaled(D, lam[0], numbers))
+
+
+def box_of(case) -> Box:
+    """The box of a Case. Raises InputError for scenes beyond a gyrostat under a constant torque."""
+    if not case.scene.plain:
+        raise InputError("what uncertain numbers do to the verdicts is known for a gyrostat under a constant torque alone; "
+                         "this scene has other effects")
+    middle = {}
+    if case.physical is not None:
+        middle["inertia"] = case.physical.body.exact
+        middle["momentum"] = case.physical.vector("gyrostat")
+        middle.update({"torque": case.physical.vector("constant_torque")} if case.mu is None else {"mu": case.mu})
+    else:
+        a, b = case.scene.exact_ab
+        middle.update({"a": (a,), "b": (b,), "mu": case.scene.exact_mu})
+    if case.state is not None:
+        middle["state"] = tuple(map(Fraction, case.state))
+    half = {name: [Fraction(0)] * len(numbers) for name, numbers in middle.items()}
+    for found in case.uncertain:
+        half[_name(found.path)][found.path[-1] if isinstance(found.path[-1], int) else 0] = found.half
+    box = Box(middle, {name: tuple(widths) for name, widths in half.items()}, case.variables)
+    _scalable(box)
+    return box
+
+
+def _scalable(box: Box):
+    """Scaled variables, and mu, need three moments in falling order and the gyrostatic moment along axis 1."""
+    if not box.bodily or (box.variables == "physical" and "mu" not in box.middle):
+        return
+    D, h = box.middle["inertia"], box.half["inertia"]
+    if not all(D[i] - h[i] > D[i + 1] + h[i + 1] for i in (0, 1)):
+        raise InputError("within the uncertainties the moments are not surely in falling order, as the scaled variables and mu "
+                         "need: give the torque in N m and the motion as angular_velocity")
+    if box.variables == "scaled" and any(box.half["momentum"][1:]):
+        raise InputError("the scaled variables need the gyrostatic moment along axis 1, without uncertainty across it: use "
+                         "physical variables")
+
+
+def _name(path) -> str:
+    key = path[-2] if isinstance(path[-1], int) else path[-1]
+    return "state" if key in ("angular_velocity", "x") else key
+
+
+def _toward(value: Fraction, middle: Fraction, read) -> Fraction:
+    """The number next to a value, on the middle's side, among those that `read` makes of doubles."""
+    rounded = float(value)
+    while (read(rounded) - value) * (value - middle) > 0:
+        rounded = math.nextafter(rounded, -math.inf if value > middle else math.inf)
+    found = read(rounded)
+    return found if (found - middle) * (value - middle) >= 0 else middle
+
+
+def _decimal(number: float) -> Fraction:
+    """What the double's shortest decimal denotes."""
+    return Fraction(repr(number))
+
+
+def _shape_factors(D):
+    return (D[1] - D[2]) / D[0], (D[0] - D[2]) / D[1], (D[0] - D[1]) / D[2]
+
+
+def _torque(D, mu):
+    """M from the dimensionless torque with u = 1 (Amer et al. 2024, eq. (4))."""
+    ks = _shape_factors(D)
+    k = ks[0] * ks[1] * ks[2]
+    return tuple(d * root(k * kj) * m if _there(m) else m for d, kj, m in zip(D, ks, mu))
+
+
+def _scaled(D, lam1, numbers):
+    """(a, b, mu) of a body (`scaling.to_scaled`)."""
+    ks = _shape_factors(D)
+    k = ks[0] * ks[1] * ks[2]
+    if "mu" in numbers:
+        mu, strength = numbers["mu"], root(ks[0])
+    else:
+        rates = [m / d for m, d in zip(numbers["torque"], D)]
+        u = root(sum(squared(rates[i]) * ks[(i + 1) % 3] * ks[(i + 2) % 3] for i in range(3))) / k
+        mu = tuple(r / (u * root(k * kj)) if _there(r) else r for r, kj in zip(rates, ks))
+        strength = root(u * ks[0])
+    return lam1 / ((D[0] - D[2]) * strength), lam1 / ((D[0] - D[1]) * strength), mu
+
+
+def _there(value) -> bool:
+    return isinstance(value, Affine) or value != 0

@@ -1,0 +1,178 @@
+"""Proofs that every motion of a box of bodies is bounded, or that every one spins up: branch and bound.
+
+A part of the box is settled where one angle ahead stands above the energy all over it (bounded), or where no angle of one
+turn does (spin-up; cells of angles, each settled on its own). What is not settled is halved across the number that matters
+most to first order, until a middle contradicts the claim or the parts run out. Bounds are those of `affine`, so a part's
+surplus is quadratic in its width.
+"""
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ...numbers.affine import Affine, EPS, lifted, sign_over
+from .orbit import excess, force, highest_ahead, Orbit, orbit_of, reduction_over, stiffness, TURN
+
+BATCH = 2048
+CELLS = 32
+LEAN = 0.3  # how far, at most, the angle of a barrier leans over a part of the box
+NARROW = 2.0**-40  # parts of the box as thin as this are rounding, not mechanics
+
+
+class Proof(NamedTuple):
+    """holds: True (proved), False (`point` contradicts it) or None (not settled within the parts allowed). parts: how many
+    were looked at. point: in the box's coordinates."""
+
+    holds: bool | None
+    parts: int
+    point: tuple | None = None
+
+
+class Parts(NamedTuple):
+    """Sub-boxes (n, places) by middle and half-width, and for each a cell of angles (n,)."""
+
+    centres: np.ndarray
+    widths: np.ndarray
+    angle: np.ndarray
+    reach: np.ndarray
+
+    def some(self, chosen):
+        return Parts(*(v[chosen] for v in self))
+
+    def joined(self, other):
+        return Parts(*(np.concatenate(pair) for pair in zip(self, other)))
+
+
+class Family:
+    """The reduced motions of a box: `orbit(parts)` over sub-boxes, `points` for single ones."""
+
+    def __init__(self, box, axis, signs):
+        self.box, self.axis, self.signs = box, axis, signs
+
+    def orbit(self, centres, widths, stretch=1.0, cells=None):
+        """(the orbit over each part, True for each part that holds no body)."""
+        with np.errstate(all="ignore"):
+            numbers = self.box.numbers(centres, widths, stretch, cells)
+            reduction = reduction_over(self.box.rates(numbers), self.axis)
+            return (orbit_of(reduction, numbers["state"], self.signs),
+                    np.broadcast_to(self.box.impossible(numbers), len(centres)))
+
+    def margins(self, points, stretch=1.0):
+        """(margin, sense, possible) of each point (n, places), in floats: highest excess ahead; the torque's sign."""
+        orbit, none = self.orbit(points, np.zeros_like(points), stretch)
+        flat = Orbit(*(np.broadcast_to(v, (len(points), 1)) for v in orbit.middle()))
+        sense = np.where(flat.mu[:, 0] < 0, -1, 1)
+        towards = sense[:, None]
+        ahead = Orbit(flat.x * towards, flat.z, flat.w * towards, flat.G, flat.c * towards, flat.d, flat.mu * towards)
+        with np.errstate(all="ignore"):
+            margin = highest_ahead(ahead)[1]
+        return margin, sense, ~none & np.isfinite(margin)
+
+
+def prove(family: Family, claim: str, senses, stretch=1.0, most=20_000) -> Proof:
+    """Whether "bounded" or "spin-up" holds all over the box stretched by `stretch`, for torques of these senses."""
+    looked = 0
+    for sense in senses:
+        found = (_bounded if claim == "bounded" else _spin_up)(family, sense, stretch, most - looked)
+        looked += found.parts
+        if not found.holds:
+            return found._replace(parts=looked)
+    return Proof(True, looked)
+
+
+def whole(box, cells=1):
+    """The whole box, and one turn ahead in so many cells."""
+    n = len(box.places)
+    half = (TURN * (1 + 1e-9)) / (2 * cells)
+    return Parts(np.zeros((cells, n)), np.ones((cells, n)), half * (2 * np.arange(cells) + 1), np.full(cells, half))
+
+
+def branch_and_bound(start: Parts, judge, most) -> Proof:
+    """Branch and bound: judge(parts) -> (settled, contradicted, across): how much each number, and last the angle, matters."""
+    waiting, looked = start, 0
+    while len(waiting.angle):
+        batch, waiting = waiting.some(slice(-BATCH, None)), waiting.some(slice(None, -BATCH))
+        looked += len(batch.angle)
+        with np.errstate(all="ignore"):
+            settled, against, weights = judge(batch)
+        if against.any():
+            return Proof(False, looked, tuple(batch.centres[np.flatnonzero(against)[0]].tolist()))
+        left = batch.some(~settled)
+        if looked > most or (len(left.angle) and float(left.widths.max()) < NARROW):
+            return Proof(None, looked)
+        waiting = waiting.joined(_halved(left, weights[~settled]))
+    return Proof(True, looked)
+
+
+def _halved(parts: Parts, weights) -> Parts:
+    n = parts.centres.shape[1]
+    side = np.nan_to_num(weights, nan=0.0, posinf=1e299).argmax(1)
+    rows = np.arange(len(side))
+    step, turn = np.zeros_like(parts.widths), np.where(side == n, parts.reach / 2, 0.0)
+    numbers = rows[side < n]
+    step[numbers, side[numbers]] = parts.widths[numbers, side[numbers]] / 2
+    halves = [Parts(parts.centres + s * step, parts.widths - step, parts.angle + s * turn, parts.reach - turn) for s in (-1, 1)]
+    return halves[0].joined(halves[1])
+
+
+def importance(slopes, rest, widths):
+    """How much each number matters (n, places): its first-order share, and a like share of what is of higher order; where
+    the bound is undefined, the width alone."""
+    share = np.abs(slopes) + widths * (rest / widths.shape[1])[:, None]
+    return np.where(np.isfinite(share).all(1, keepdims=True), share, widths)
+
+
+def _slack(m: Orbit, angle):
+    """What rounding may do to an excess of floats (n, 1)."""
+    radius = np.abs(m.x) + np.abs(m.z)
+    waves = (np.abs(m.G) * radius + np.abs(m.c) + np.abs(m.d)) * radius
+    return (1e3 * EPS * (np.abs(m.mu) * angle[:, None] + waves + m.w * m.w))[:, 0]
+
+
+def _bounded(family, sense, stretch, most) -> Proof:
+    """A place ahead above the energy; it leans with the parameters as the top of the barrier does."""
+    def judge(parts):
+        orbit, none = family.orbit(parts.centres, parts.widths, stretch)
+        orbit = orbit.turned(sense)
+        m = Orbit(*(np.broadcast_to(v, (len(none), 1)) for v in orbit.middle()))
+        angle, top = highest_ahead(m)
+        flat = Affine(angle, np.zeros((1, 1)), np.zeros(1))
+        push, stiff = lifted(force(orbit, flat)), stiffness(m, angle[:, None])
+        lean = np.where(stiff > 0, -push.g / stiff, 0.0)
+        room = np.minimum(LEAN, angle / 4)[:, None] / np.maximum(np.abs(lean).sum(1, keepdims=True), 1e-300)
+        place = Affine(angle, np.nan_to_num(lean * np.minimum(1.0, room)), np.zeros(1))
+        best = lifted(excess(orbit, place))
+        level = lifted(excess(orbit, flat))  # a lean of first order may cost more than it gives where the top is flat
+        better = level.low > best.low
+        settled = (np.maximum(best.low, level.low) > 0) | none
+        against = ~none & (top < -_slack(m, angle)) & (m.mu[:, 0] > 0)
+        slopes, rest = np.where(better[:, None], level.g, best.g), np.where(better, level.e, best.e)
+        return settled, against, np.hstack([importance(slopes, rest, parts.widths), np.full((len(angle), 1), -1.0)])
+    return branch_and_bound(whole(family.box, 1), judge, most)
+
+
+def _spin_up(family, sense, stretch, most) -> Proof:
+    """No place of one turn ahead reaches the energy; next to the state a force ahead says so."""
+    def judge(parts):
+        orbit, none = family.orbit(parts.centres, parts.widths, stretch, cells=True)
+        orbit = orbit.turned(sense)
+        g = np.zeros((len(none), len(family.box.places) + 1))
+        g[:, -1] = parts.reach
+        angle = Affine(parts.angle, g, 8 * EPS * parts.angle)
+        height, torque = lifted(excess(orbit, angle)), sign_over(orbit.mu)
+        first = (parts.angle - parts.reach <= 1e-12 * parts.reach) & (lifted(force(orbit, angle)).low > 0)
+        settled = none | ((torque > 0) & ((height.high < 0) | first))
+        m = Orbit(*(np.broadcast_to(v, (len(none), 1)) for v in orbit.middle()))
+        against = ~none & (excess(m, parts.angle[:, None])[:, 0] > _slack(m, parts.angle))
+        against |= ~none & (m.mu[:, 0] < 0)
+        weights = np.hstack([importance(height.g[:, :-1], height.e, parts.widths), np.abs(height.g[:, -1:])])
+        radius2 = m.x * m.x + m.z * m.z
+        bend = np.abs(m.G) * radius2 + (np.abs(m.c) + np.abs(m.d)) * np.sqrt(radius2)
+        by_angle = weights[:, -1] + (0.5 * parts.reach**2) * bend[:, 0]
+        weights[:, -1] = np.where(by_angle >= np.abs(height.g[:, :-1]).sum(1), 1e300, -1.0)
+        unsure = (torque == 0) & (height.high < 0)  # only the torque's sign is open
+        if unsure.any():
+            weights[unsure] = np.hstack([np.abs(lifted(orbit.mu).g)[unsure][:, :-1], np.full((int(unsure.sum()), 1), -1.0)])
+        return settled, against, weights
+    return branch_and_bound(whole(family.box, CELLS), judge, most)

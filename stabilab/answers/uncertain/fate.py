@@ -1,0 +1,212 @@
+"""The fate of a motion whose body, torque or start is known only within bounds: proved, or with a witness on each side."""
+from __future__ import annotations
+
+from functools import partial
+
+import numpy as np
+
+from ...errors import InputError
+from ...numbers.affine import Affine, lifted, sign_over
+from ...orbit.fate.arrays import fate
+from ...unreduced.aligned import kind_of
+from ...orbit.fate.one_state import fate_of
+from ...orbit.potential import derivatives_on_parabola
+from ...orbit.fate.reasons import Reason, REASONS
+from ...orbit.reduction import reduce
+from ...orbit.result import Fate
+from .box import Box
+from .orbit import orbit_of, reduction_over
+from .branch_and_bound import Family, Proof, prove
+from .result import bracketed, by_trial, Over, Witness
+from .search import confirmed, nearest_change, UNKNOWN
+
+
+UNBOUNDED = "unbounded"
+TIE_STRETCHES = (1e-6, 1e-3, 1.0)
+
+
+def fate_over(box: Box) -> Over | None:
+    """What becomes of the motion over the box; None where the box has no state. See `uncertain.uncertain`."""
+    if "state" not in box.middle:
+        return None
+    answer = partial(verdict_at, box)
+    here = answer(np.zeros(len(box.places)))
+    numbers = _root(box)
+    form = box.rates(numbers)
+    acting = [i for i in range(3) if _there(form.m[i])]
+    if not acting:
+        return Over("holds", here, REASONS[Reason.TORQUE_FREE], proved=np.inf)
+    if len(acting) > 1:
+        axes = " and ".join(str(i + 1) for i in acting)
+        return Over("undecided", here, f"the torque may act about axes {axes} together: off the principal axes there is no "
+                    "reduction to one degree of freedom, and no law is known that bounds the motion or lets it go")
+    reduction = reduction_over(form, acting[0])
+    if reduction is None:
+        return _under_law(box, here, answer, numbers, form, acting[0])
+    signs = _signs(reduction)
+    if signs is None:
+        return by_trial(box, here, answer, "two of the moments of inertia may be equal within the box, where the geometry of "
+                                           "the motion changes from circles to hyperbolas: no proof is at hand")
+    if signs[0] * signs[1] >= 0:
+        return _between_walls(box, here, answer, reduction, numbers, signs)
+    return _on_circles(box, here, answer, Family(box, acting[0], signs))
+
+
+def verdict_at(box: Box, point) -> str | None:
+    """The fate at a point of the box, by the ordinary exact code; None where there is no such body."""
+    try:
+        scene, state = box.at(point)
+    except InputError:
+        return None
+    reduction = reduce(scene)
+    if reduction is None and kind_of(scene) == "law":
+        return UNBOUNDED  # about which axis is a question for a run, not for the law
+    if reduction is None:
+        found = fate(scene, np.array(state))
+        return words(Fate(int(found.labels)), int(found.axis), int(found.sense))
+    found = fate_of(scene, reduction, state)
+    return words(found.label, found.axis, found.sense)
+
+
+def words(label: Fate, axis: int, sense: int) -> str:
+    """A fate in words; a state at rest is bounded."""
+    if label == Fate.EQUILIBRIUM:
+        return Fate.BOUNDED.word
+    if label == Fate.SPIN_UP and axis:
+        return f"spin-up about axis {axis}, {'positive' if sense > 0 else 'negative'} sense"
+    return label.word
+
+
+def _there(value) -> bool:
+    return isinstance(value, Affine) or value != 0
+
+
+def _root(box, stretch=1.0):
+    n = len(box.places)
+    with np.errstate(all="ignore"):
+        return box.numbers(np.zeros((1, n)), np.ones((1, n)), stretch)
+
+
+def _signs(r):
+    """(sign of p, sign of q) over the whole box, or None."""
+    signs = [int(np.ravel(sign_over(v))[0]) for v in (r.p, r.q)]
+    return None if any(s == 0 and _there(v) for s, v in zip(signs, (r.p, r.q))) else tuple(signs)
+
+
+# -- circles
+
+
+def _on_circles(box, here, answer, family: Family) -> Over:
+    """Elliptic reduction: bounded iff a barrier stands ahead."""
+    claim = "bounded" if here == Fate.BOUNDED.word else "spin-up"
+
+    def codes(points):
+        margin, sense, possible = family.margins(points)
+        return np.where(possible, np.where(margin > 0, 0, sense), UNKNOWN)
+
+    def attempt(stretch, most):
+        senses = _senses(box, family, stretch)
+        if senses is None or (claim == "spin-up" and len(senses) > 1):
+            return Proof(None, 0)
+        return prove(family, claim, senses, stretch, most)
+
+    middle = int(codes(np.zeros((1, len(box.places))))[0])
+    if here == Fate.SEPARATRIX.word or (middle == 0) != (claim == "bounded"):
+        return _tie(box, here, answer, _against_gradient(family))
+    change = nearest_change(codes, middle, len(box.places), _against_gradient(family))
+    change = change and confirmed(change, lambda p: answer(p) or here, here)
+    return bracketed(box, here, answer, change, attempt,
+                     REASONS[Reason.BELOW_BARRIER if claim == "bounded" else Reason.ABOVE_BARRIER])
+
+
+def _tie(box, here, answer, corners) -> Over:
+    """The middle lies on the separatrix (or at rest on a saddle): what lies on either side."""
+    because, n, sides = "the middle lies on the separatrix itself", len(box.places), {}
+    for stretch in TIE_STRETCHES:
+        for direction in (*corners, *np.eye(n), *-np.eye(n)):
+            word = answer(direction * stretch)
+            if word not in (None, Fate.SEPARATRIX.word):
+                sides.setdefault(word, Witness(word, box.values(direction * stretch)))
+        if len(sides) > 1:
+            return Over("depends", here, because, changes_at=0.0, witnesses=tuple(sides.values()))
+    return Over("undecided", here, f"{because}, and only one side of it was found")
+
+
+def _senses(box, family, stretch):
+    """Signs the torque may have over the box, (1,), (-1,) or (1, -1); None where the geometry itself may change."""
+    with np.errstate(all="ignore"):
+        numbers = _root(box, stretch)
+        r = reduction_over(box.rates(numbers), family.axis)
+        if _signs(r) != family.signs:
+            return None
+        sign = int(np.ravel(sign_over(r.m))[0])
+    return (sign,) if sign else (1, -1)
+
+
+def _against_gradient(family: Family):
+    """The corners towards which the margin falls and rises fastest."""
+    n, step = len(family.box.places), 1e-4
+    ahead, behind = (family.margins(s * step * np.eye(n))[0] for s in (1, -1))
+    slope = np.nan_to_num(ahead - behind)
+    corner = np.where(slope > 0, 1.0, -1.0)
+    return corner, -corner
+
+
+# -- hyperbolas and parabolas
+
+
+def _between_walls(box, here, answer, r, numbers, signs) -> Over:
+    """The potential grows on both sides: bounded, but for a set of measure zero."""
+    state = numbers["state"]
+    if here != Fate.BOUNDED.word:
+        flat = not signs[0] * signs[1] and _flat(r, state) or _spins(r, state)
+        if flat and here.startswith("spin-up") and int(np.ravel(sign_over(r.m))[0]):
+            return Over("holds", here, REASONS[Reason.PURE_SPIN], proved=1.0)
+        return by_trial(box, here, answer, "the middle lies on a set of measure zero, and no proof covers what is around it")
+    if not signs[0] * signs[1]:
+        return Over("holds", here, REASONS[Reason.WALLS], proved=1.0,
+                    but="where the force is the same all along the parabola, nothing holds the spin back")
+    if _certain_plane(r, state):
+        return Over("undecided", here, "every motion of the box lies on an invariant plane Q = 0, where a barrier decides, and "
+                    "the plane's motions are not followed over a box")
+    with np.errstate(all="ignore"):
+        orbit = orbit_of(r, state, signs)
+        clear = all(int(np.ravel(sign_over(lifted(side)))[0]) for side in (orbit.x + orbit.z, orbit.x - orbit.z))
+    but = "" if clear else "the box meets an invariant plane Q = 0, where a motion may spin up or tend to a saddle"
+    return Over("holds", here, REASONS[Reason.WALLS], proved=1.0, but=but)
+
+
+def _shifted(r, state):
+    return state[r.j] + r.q0 / r.q, state[r.k] + r.p0 / r.p
+
+
+def _spins(r, state) -> bool:
+    """Pure spin about the axis for every number of the box."""
+    return bool(_there(r.p) and _there(r.q)) and not any(map(_there, _shifted(r, state)))
+
+
+def _flat(r, state) -> bool:
+    """Whether the force is the same all along the parabola for every number of the box."""
+    return not any(map(_there, derivatives_on_parabola(r, state[r.j], state[r.k])))
+
+
+def _certain_plane(r, state) -> bool:
+    u, v = _shifted(r, state)
+    if any(isinstance(n, Affine) for n in (u, v, r.p, r.q)):
+        return False
+    return v * v * abs(r.p) == u * u * abs(r.q)
+
+
+# -- no reduction
+
+
+def _under_law(box, here, answer, numbers, form, axis) -> Over:
+    """A gyrostatic moment along the torque: |H|^2/2 - D_i T grows at the rate lambda_i M_i."""
+    along = numbers["momentum"][axis] if box.variables == "physical" else -form.sigma[1] - form.rho[2]
+    if int(np.ravel(sign_over(along * form.m[axis]))[0]):
+        return Over("holds", UNBOUNDED, f"{REASONS[Reason.UNBOUNDED_LAW]}; the axis it ends about is not followed over the box",
+                    proved=1.0)
+    whether = lambda point: (found := answer(point)) and (UNBOUNDED if found.startswith("spin-up") else found)  # noqa: E731
+    return by_trial(box, whether(np.zeros(len(box.places))), whether,
+                    f"the gyrostatic moment along the torque's axis {axis + 1} may vanish or not: where it does not, there is "
+                    "no reduction to one degree of freedom, and no motion is bounded")

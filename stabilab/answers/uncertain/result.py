@@ -1,0 +1,108 @@
+"""What an uncertain box does to a verdict: holds, depends or undecided, and how far from a change."""
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Callable
+
+import numpy as np
+
+from .search import Change, confirmed, MOST
+
+PARTS, FEWER = 60_000, 2_500  # of the box: for the question asked, and for each try to prove more
+NEARER = (0.5, 0.75, 0.9, 0.99, 0.999)  # shares of a change that is there, tried as proved stretches until one fails
+SMALLER = (0.3, 0.15, 0.05, 0.01, 0.001)  # tried where even the first of these fails
+FARTHER = (2.0, 5.0, 10.0, 30.0, MOST)
+
+
+@dataclass(frozen=True)
+class Witness:
+    """A point of the box: its verdict by the ordinary exact code, and all numbers there (name -> exact numbers)."""
+
+    verdict: str
+    values: dict = field(repr=False)
+
+
+@dataclass(frozen=True)
+class Over:
+    """A verdict over a box.
+
+    answer: "holds" (proved for the whole box), "depends" (with a witness on each side) or "undecided". verdict: the middle's.
+    but: the set of measure zero that "holds" leaves out, if it does. Every change of the numbers by less than `proved` times
+    the stated uncertainties is proved to leave the verdict; `changes_at` times these flips it (an upper bound of the least
+    such factor: found by search and checked; None where none was found up to 100 times). parts: of the box, looked at.
+    """
+
+    answer: str
+    verdict: str | None
+    because: str
+    but: str = ""
+    proved: float = 0.0
+    changes_at: float | None = None
+    witnesses: tuple[Witness, ...] = ()
+    parts: int = 0
+
+
+def bracketed(box, here: str, answer: Callable, change: Change | None, attempt: Callable, because: str) -> Over:
+    """The answer from a change that was found (or None) and attempt(stretch, most) -> Proof, with [proved, changes_at]."""
+    parts, proved = 0, 0.0
+    if change is None or change.stretch > 1:
+        proof = attempt(1.0, PARTS)
+        parts += proof.parts
+        if proof.holds is False:
+            change = _of_point(proof.point, answer, here) or change
+        proved = 1.0 if proof.holds else 0.0
+    more, looked = _farthest(change, attempt, proved)
+    proved, parts = max(proved, more), parts + looked
+    sides = () if change is None else tuple(
+        Witness(answer(p), box.values(p)) for p in (np.zeros(len(box.places)), change.direction * change.stretch))
+    found = {"proved": proved, "changes_at": change and change.stretch, "witnesses": sides, "parts": parts}
+    if proved >= 1:
+        return Over("holds", here, because, **found)
+    if change is not None and change.stretch <= 1:
+        return Over("depends", here, f"{sides[0].verdict} at the middle, {sides[1].verdict} elsewhere in the box", **found)
+    return Over("undecided", here, f"neither a proof in {parts} parts of the box nor a contrary case was found", **found)
+
+
+def _farthest(change, attempt, proved):
+    """(largest stretch proved, parts looked at): rising until a proof fails, and falling where the first one does."""
+    looked, safe = 0, proved
+    share = 1.0 if change is None else change.stretch
+    rising = FARTHER if change is None else NEARER
+    for stretch in (r * share for r in rising if r * share > proved):
+        proof = attempt(stretch, FEWER)
+        looked += proof.parts
+        if not proof.holds:
+            break
+        safe = stretch
+    for stretch in (s * share for s in SMALLER):
+        if safe >= stretch:
+            break
+        proof = attempt(stretch, FEWER)
+        looked += proof.parts
+        safe = stretch if proof.holds else safe
+    return safe, looked
+
+
+def _of_point(point, answer, here) -> Change | None:
+    """The change at a point that contradicts a claim, where the ordinary code confirms it."""
+    size = float(np.abs(point).max())
+    if not size or answer(np.array(point)) in (None, here):
+        return None
+    return Change(np.array(point) / size, size, 0.0)
+
+
+def by_trial(box, here: str, answer: Callable, because: str) -> Over:
+    """Where no proof is at hand: what single points of the box say, by the ordinary code."""
+    n = len(box.places)
+    trial = np.concatenate([np.eye(n), -np.eye(n), np.ones((1, n)), -np.ones((1, n))])
+    stretches = (1e-6, 1e-3, 1.0)
+    for stretch in stretches:
+        for direction in trial:
+            there = answer(direction * stretch)
+            if there not in (None, here, "undecided"):
+                found = confirmed(Change(direction, stretch, 0.0), lambda p: answer(p) or here, here)
+                point = direction * (found.stretch if found else stretch)
+                sides = tuple(Witness(answer(p), box.values(p)) for p in (np.zeros(n), point))
+                return Over("depends", here, because, changes_at=float(np.abs(point).max()), witnesses=sides)
+    tried = len(trial) * len(stretches)
+    return Over("undecided", here, f"{because}; {tried} other points of the box, tried one by one, do as the middle does")

@@ -1,0 +1,1 @@
+"""Case files: TOML to scenes and states, every fault with its file, line and key."""

@@ -1,0 +1,356 @@
+"""A case file: a body, its effects and one motion, read from TOML; every fault with file, line and key."""
+from __future__ import annotations
+
+import math
+import os
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from fractions import Fraction
+from pathlib import Path
+from typing import NamedTuple
+
+from ..physics.body import Body
+from .attitude import judge as judge_attitude
+from .attitude import vertical_of
+from .expect import expected
+from .lines import key_lines
+from .source import parsed, source_text
+from .sweep import combinations, swept
+from .table import did_you_mean, Faults, Table, Uncertain
+from ..physics.effects import effect_class, REGISTRY
+from ..errors import CaseError, InputError, printable
+from ..numbers.exact import floats
+from ..physics.scaling import Scaling, to_scaled, torque_from_mu
+from ..physics.scene import ScaledGyrostat, Scene
+
+TABLES = ("title", "source", "body", "effects", "scaled", "motion", "expect", "sweep")
+STATES, SPANS = ("angular_velocity", "x"), ("span", "tau")
+BLOCKS = {"attitude": "attitude", "vertical": "gamma", "velocity": "velocity", "position": "position"}  # key: block
+UNIT_SLACK = 1e-6  # a direction given to six decimals counts as a unit vector; the laws show |gamma| as it is
+STAND_IN = Body((3, 2, 1))  # lets the faults of the effects show where the body itself is at fault
+
+
+@dataclass(frozen=True)
+class Case:
+    """One case file.
+
+    scene: the Scene (rad/s, s) or ScaledGyrostat (x, tau) in the variables of the case, which `variables` names
+    ("physical" or "scaled"); physical: the Scene in kg m^2, N m, or None where the file gives [scaled]; scaling: the
+    change between the two, None where it is undefined. state: three components at time 0 in the case's variables,
+    body frame, or None; blocks: the other blocks of the state by name ("gamma", "velocity", "position" as three
+    numbers, "attitude" as psi, phi, theta of the 3-1-2 sequence, rad), where the file gives them; span: (from, to) in
+    the case's time or None; expect: facts the case's test asserts; text: the source. uncertain: the numbers given with an
+    uncertainty, whose middles everything else holds; mu: the dimensionless torque where the file gives it for a body.
+    decimals: those of the state as they were written, before the one rounding to doubles (`exact_state`).
+    """
+
+    path: str
+    title: str
+    source: str
+    scene: Scene | ScaledGyrostat
+    variables: str
+    physical: Scene | None = None
+    scaling: Scaling | None = None
+    state: tuple[float, float, float] | None = None
+    span: tuple[float, float] | None = None
+    expect: dict = field(default_factory=dict)
+    blocks: dict = field(default_factory=dict)
+    text: str = field(default="", repr=False)
+    variant: str = ""
+    uncertain: tuple[Uncertain, ...] = ()
+    mu: tuple | None = None
+    decimals: tuple[Fraction, Fraction, Fraction] | None = None
+
+    @property
+    def exact_state(self) -> tuple[Fraction, Fraction, Fraction] | None:
+        """The state exactly: its decimals as they were written, or, where it was replaced since, the new numbers themselves."""
+        if self.state is None:
+            return None
+        return self.decimals if self.decimals and floats(self.decimals) == self.state else tuple(map(Fraction, self.state))
+
+    @property
+    def start(self) -> tuple[float, ...] | None:
+        """The state at time 0, followed by the vertical (gamma) where an effect of the scene needs it."""
+        vertical = self.blocks["gamma"] if self.state and "gamma" in self.scene.blocks else ()
+        return None if self.state is None else (*self.state, *vertical)
+
+    @property
+    def name(self) -> str:
+        """The file's stem, and which combination of its [sweep] this is ("-2-1": second value of the first key)."""
+        return printable(Path(self.path).stem) + self.variant
+
+    @property
+    def heading(self) -> str:
+        """Its title, or its name where it has none, with the label of a combination."""
+        return f"{self.title} ({self.name})" if self.title and self.variant else self.title or self.name
+
+    @property
+    def place(self) -> str:
+        """How messages name the case: its file, and which combination of its [sweep]."""
+        return printable(self.path) + (f" ({self.name})" if self.variant else "")
+
+
+@contextmanager
+def blamed_on(case: Case):
+    """What the analysis cannot use becomes an error of the case's file, with the line of the key it speaks of."""
+    try:
+        yield
+    except CaseError:
+        raise
+    except InputError as error:
+        word, colon, rest = str(error).partition(": ")
+        keys = {"state": STATES, "span": SPANS}.get(word, ()) if colon else ()
+        table = key_lines(case.text).line if keys else {}
+        key, line = next(((k, table[("motion", k)]) for k in keys if ("motion", k) in table), (None, None))
+        raise InputError(f"{printable(case.path)}:{line}: motion.{key}: {rest}" if line else f"{case.place}: {error}") from None
+
+
+def load(path) -> Case:
+    """The case in the TOML file `path`. Raises CaseError with all faults of the file at once.
+
+    The case is scaled where the file has [scaled], gives the motion as x, or gives no motion and the torque as mu
+    (and the scaling is defined); else physical. Decimals are read exactly, the motion is rounded once.
+    """
+    if not isinstance(path, (str, os.PathLike)):
+        raise InputError(f"load: expected the path of a case file, got {path!r:.80}")
+    path, text, data, faults = _read(path)
+    return _built(path, text, data, faults)
+
+
+def load_all(path) -> list[Case]:
+    """The case in the file, or, where it has [sweep], one case for every combination of the values there.
+
+    [sweep] has keys such as "effects.gyrostat.momentum" = [[0, 0, 1], [0, 0, 2]]; each must stand in the file with some
+    value of its own, which the sweep replaces. [expect] speaks of the file's own values and is left out. Raises CaseError as `load` does.
+    """
+    path, text, data, faults = _read(path)
+    base = _built(path, text, data, faults)
+    found = combinations(Table((), data, faults))
+    if not found:
+        return [base]
+    moved = {tuple(key.split(".")): ("sweep", key) for key in data["sweep"]}
+    return [_built(path, text, values, Faults(faults.lines, moved), suffix) for suffix, values in found]
+
+
+def _read(path):
+    path = os.fspath(path)
+    text = source_text(path)
+    return path, text, *parsed(path, text)
+
+
+def _built(path, text, data, faults, variant="") -> Case:
+    top = Table((), data, faults)
+    top.known(TABLES, "table or key")
+    swept(top)  # notes the faults of [sweep]
+    title, source = top.text("title"), top.text("source")
+    physical, mu = _physical(top)
+    scaled = _scaled(top)
+    motion = _motion(top)
+    expect = expected(top.table("expect"))
+    scene, variables, scaling = _variables(top, motion, physical, scaled, mu)
+    _judge_blocks(motion, scene)
+    span = _span(motion, variables, scaling)
+    if faults.problems:
+        raise CaseError(path, sorted(faults.problems, key=lambda p: p.line or 0))
+    return Case(path, title, source, scene, variables, physical, scaling, motion.state, span, expect, motion.blocks, text,
+                variant, tuple(faults.uncertain.values()), mu, motion.exact)
+
+
+class _Context(NamedTuple):
+    """What an effect may need of the rest of the case."""
+
+    body: Body
+    stand_in: bool = False  # the body itself is at fault: judge nothing by it
+
+    def torque_from_mu(self, mu):
+        return torque_from_mu(self.body, mu)
+
+
+def _physical(top: Table) -> tuple[Scene | None, tuple | None]:
+    """The scene of [body] and [effects], and the dimensionless torque where the file gives it."""
+    if "scaled" in top:
+        for key in ("body", "effects"):
+            if key in top:
+                top.fault("[scaled] stands for [body] and [effects]: keep one or the other", key)
+        return None, None
+    body, effects = _body(top), top.table("effects")
+    if effects is None:
+        return (Scene(body) if body else None), None
+    made = []
+    for name, value in effects.data.items():
+        if name not in REGISTRY:
+            hint = did_you_mean(name, REGISTRY)
+            known = f" Known effects: {', '.join(REGISTRY)}" if "did you mean" in hint else ""
+            effects.fault(f"unknown effect{hint}{known}", name)
+            continue
+        table = effects.table(name)
+        if table is None:
+            continue
+        cls = effect_class(name)
+        table.known(cls.keys)
+        try:
+            made.append(cls.from_case(table, _Context(body or STAND_IN, body is None)))
+        except InputError as error:  # numbers that are good one by one, but not together
+            effects.fault(str(error), name)
+    if body is None or None in made:
+        return None, None
+    torque = effects.data.get("constant_torque")
+    if not isinstance(torque, dict):  # absent, or no table, which is noted above
+        return Scene(body, *made), None
+    mu = Table(("effects", "constant_torque"), torque, Faults(top.faults.lines)).vector("mu")
+    return Scene(body, *made), mu
+
+
+def _body(top: Table) -> Body | None:
+    table = top.table("body")
+    if table is None:
+        if "body" not in top:
+            top.fault("expected a table [body] with inertia (kg m^2), or [scaled] with a, b and mu")
+        return None
+    table.known(("inertia", "mass"))
+    mass = table.positive("mass")
+    moments = table.vector("inertia") if table.required("inertia") else None
+    negative = [index for index, moment in enumerate(moments or ()) if moment <= 0]
+    for index in negative:
+        table.fault(f"number {index + 1} is {float(moments[index])!r}; principal moments are positive", "inertia", index)
+    if moments and not negative and not _possible(table, moments):
+        return None
+    try:
+        return None if moments is None or negative or (mass is None and "mass" in table) else Body(moments, mass)
+    except InputError as error:
+        table.fault(str(error).removeprefix("inertia: "), "inertia")
+        return None
+
+
+def _possible(table: Table, moments) -> bool:
+    """Whether every body within the uncertainties exists; a fault where not."""
+    given = [table.faults.uncertain.get(table.path + ("inertia", i)) for i in range(3)]
+    low, high = ([m + sign * u.half if u else m for m, u in zip(moments, given)] for sign in (-1, 1))
+    if not any(given) or 2 * max(moments) > sum(moments):
+        return True  # `Body` says what is wrong with the middle
+    for index in range(3):
+        others = sum(low) - low[index]
+        if low[index] <= 0 or high[index] > others:
+            wrong = (f"moments down to {float(low[index])!r}" if low[index] <= 0 else
+                     f"{float(high[index])!r} beside others of {float(others)!r} together, against the triangle inequality")
+            table.fault(f"number {index + 1}: the uncertainty reaches {wrong}; no rigid body has these: make it smaller",
+                        "inertia", index)
+            return False
+    return True
+
+
+def _scaled(top: Table) -> ScaledGyrostat | None:
+    """The system of [scaled]: the paper's a, b, mu, any real numbers."""
+    table = top.table("scaled")
+    if table is None:
+        return None
+    table.known(("a", "b", "mu"))
+    table.required("a", "b", "mu")
+    a, b, mu = table.number("a"), table.number("b"), table.vector("mu")
+    return None if a is None or b is None or mu is None else ScaledGyrostat(a, b, mu)
+
+
+@dataclass(frozen=True)
+class _Motion:
+    """[motion] as it is written: which keys, and their numbers."""
+
+    table: Table
+    state_key: str | None = None
+    state: tuple[float, ...] | None = None
+    span_key: str | None = None
+    span: tuple | None = None
+    blocks: dict = field(default_factory=dict)
+    exact: tuple | None = None
+
+
+def _motion(top: Table) -> _Motion:
+    table = top.table("motion")
+    if table is None:
+        return _Motion(Table(("motion",), {}, top.faults))
+    table.known(STATES + SPANS + tuple(BLOCKS))
+    state_key, span_key = table.one_of(*STATES), table.one_of(*SPANS)
+    states, spans = {k: table.vector(k) for k in STATES}, {k: table.numbers(k, 2) for k in SPANS}
+    state, span = states.get(state_key), spans.get(span_key)
+    if span and not float(span[0]) < float(span[1]):
+        table.fault(f"expected two increasing numbers, got {float(span[0])!r} and {float(span[1])!r}", span_key)
+        span = None
+    if "scaled" in top:
+        for key, other in (("angular_velocity", "x"), ("span", "tau")):
+            if key in table:
+                table.fault(f"a [scaled] system has no body to convert {key} with: give {other}", key)
+    blocks = {block: floats(vector) for key, block in BLOCKS.items() if (vector := table.vector(key)) is not None}
+    return _Motion(table, state_key, floats(state) if state else None, span_key, span, blocks, state)
+
+
+def _judge_blocks(motion: _Motion, scene):
+    """Starting values beyond the angular velocity: possible for this scene, and complete."""
+    table, given = motion.table, motion.blocks
+    for key, block in BLOCKS.items():
+        if block in given and getattr(scene, "variables", "") == "scaled":
+            table.fault("a scaled system has no attitude and no place: give a body and its effects", key)
+            return
+    for key in ("velocity", "position"):
+        if key in given and scene is not None and scene.body.mass is None:
+            table.fault("motion through space needs the mass of the body: give body.mass in kg", key)
+    length = math.hypot(*given["gamma"]) if "gamma" in given else 1.0
+    if abs(length - 1) > UNIT_SLACK:
+        table.fault(f"expected a unit vector, got one of length {length:.17g}", "vertical")
+    if motion.state is not None and scene is not None and "gamma" in scene.blocks and "gamma" not in given:
+        angles = given.get("attitude")
+        told = f"; the attitude given has [{', '.join(f'{v:.10g}' for v in vertical_of(*angles))}]" if angles else ""
+        table.fault(f"vertical is missing: an effect of this scene asks where the vertical is (a unit vector, body frame){told}")
+    judge_attitude(table, given, scene)
+
+
+def _variables(top: Table, motion: _Motion, physical, scaled, mu):
+    """(scene, "physical" or "scaled", change of variables or None), by the rule in `load`."""
+    if physical is None:
+        return _in_range(top, scaled), "scaled", None
+    try:
+        physical.quadratic()  # refuses effects that the scaled system does not have
+        twin, scaling = to_scaled(physical, mu)
+    except InputError as error:
+        for key in ("x", "tau"):
+            if key in motion.table:
+                motion.table.fault(f"{error}", key)
+        return _in_range(top, physical), "physical", None
+    if motion.state_key == "x" or (mu is not None and motion.state_key is None):
+        return _in_range(top, twin), "scaled", scaling
+    return _in_range(top, physical), "physical", scaling
+
+
+def _in_range(top: Table, scene):
+    """The scene, if its rates can be formed in doubles."""
+    try:
+        scene is None or scene.quadratic().coefficients
+    except OverflowError:
+        top.fault("the coefficients of the equations of motion exceed the largest double (about 1.8e308): "
+                  "choose other units", "scaled" if "scaled" in top else "body")
+    except InputError:  # other effects: their parameters, and these as rates
+        for effect in scene.effects:
+            if _too_large(effect, scene.body):
+                top.fault("its numbers, or these over the moments of inertia, exceed the largest double (about 1.8e308): "
+                          "choose other units", "effects", effect.name)
+    return scene
+
+
+def _too_large(effect, body) -> bool:
+    try:
+        return not all(math.isfinite(float(v)) and math.isfinite(float(v / min(body.exact))) for v in effect.parameters().values())
+    except OverflowError:
+        return True
+
+
+def _span(motion: _Motion, variables: str, scaling: Scaling | None) -> tuple[float, float] | None:
+    """The span in the case's time: s, or tau = t/scaling.time."""
+    given, wanted = motion.span_key, "tau" if variables == "scaled" else "span"
+    if motion.span is None or given == wanted:
+        return floats(motion.span) if motion.span else None
+    if scaling is None:
+        return None  # the fault is noted already
+    factor = scaling.time if given == "tau" else 1 / scaling.time
+    try:
+        return floats(t * factor for t in motion.span)
+    except OverflowError:
+        motion.table.fault("exceeds the largest double (about 1.8e308) in the other time unit", given)
+        return None

@@ -1,0 +1,83 @@
+"""The text of a case file and its TOML data; whatever is no such file is refused with the line where it goes wrong."""
+from __future__ import annotations
+
+import os
+import re
+import stat
+import tomllib
+
+from .lines import key_lines, KeyLines
+from .table import dotted, Faults, Written
+from ..errors import CaseError, Problem
+
+LARGEST = 128 * 1024  # bytes; a case has one or two thousand, and a wrong file is refused before it is parsed
+
+
+def source_text(path) -> str:
+    """The file's text; a directory, a pipe, a device, a long file or other bytes than UTF-8 are refused."""
+    try:
+        str(path).encode()
+    except UnicodeEncodeError:  # it could not be named in any answer
+        raise CaseError(path, [Problem("", "the name of this file is not UTF-8: rename it")]) from None
+    try:
+        mode = os.stat(path).st_mode
+        raw = None
+        if stat.S_ISREG(mode):  # a pipe without a writer would wait for ever
+            with open(path, "rb") as stream:
+                raw = stream.read(LARGEST + 1)
+    except FileNotFoundError:
+        raise CaseError(path, [Problem("", f"no such file{_neighbour(path)}")]) from None
+    except (OSError, ValueError) as error:
+        raise CaseError(path, [Problem("", f"cannot be read: {getattr(error, 'strerror', None) or error}")]) from None
+    if raw is None:
+        kind = "a directory" if stat.S_ISDIR(mode) else "a pipe or a device"
+        raise CaseError(path, [Problem("", f"expected a TOML file, this is {kind}")])
+    if len(raw) > LARGEST:
+        raise CaseError(path, [Problem("", f"longer than {LARGEST // 1024} KiB: this is no case file")])
+    try:
+        return raw.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = raw.count(b"\n", 0, error.start) + 1
+        raise CaseError(path, [Problem("", f"byte 0x{raw[error.start]:02x} is not UTF-8; save the file as UTF-8",
+                                       line)]) from None
+
+
+def _neighbour(path) -> str:
+    from difflib import get_close_matches
+    folder, name = os.path.split(path)
+    try:
+        near = get_close_matches(name, [n for n in os.listdir(folder or ".") if n.endswith(".toml")], n=1)
+    except OSError:
+        near = []
+    if near:
+        return f"; did you mean {os.path.join(folder, near[0])}?"
+    brought = os.path.realpath(os.path.join(os.path.dirname(os.path.dirname(__file__)), "cases", name))
+    return f"; stabilab brings one: {brought}" if name.endswith(".toml") and os.path.isfile(brought) else ""
+
+
+def parsed(path, text: str) -> tuple[dict, Faults]:
+    """The TOML data and an empty list of faults that knows the lines. Raises CaseError where the text is not TOML."""
+    lines = key_lines(text)
+    try:
+        if lines.too_deep:
+            raise RecursionError
+        return tomllib.loads(text, parse_float=Written), Faults(lines)
+    except RecursionError:
+        raise CaseError(path, [Problem("", "nested too deeply to be read", lines.too_deep)]) from None
+    except ValueError as error:
+        raise CaseError(path, _syntax_problems(str(error), text, lines)) from None
+
+
+def _syntax_problems(message: str, text: str, lines: KeyLines) -> list[Problem]:
+    """What the TOML reader said, with its line; a key written twice is named with both lines."""
+    if message.startswith("Exceeds the limit"):
+        found = re.search(r"\d(_?\d){4000}", text)
+        line = text.count("\n", 0, found.start()) + 1 if found else None
+        return [Problem("", "an integer of more than 4000 digits is no number for a case", line)]
+    place = re.search(r" \(at (?:line (\d+), column \d+|end of document)\)$", message)
+    line = int(place[1]) if place and place[1] else text.count("\n") + 1 if place else None
+    message = message[:place.start() if place else None]
+    if message.startswith(("Cannot", "Duplicate")) and lines.again:
+        return [Problem(dotted(key), f"written a second time; the first is in line {lines.line[key]}", again)
+                for key, again in lines.again.items()]
+    return [Problem("", f"not TOML: {message[:200]}", line)]

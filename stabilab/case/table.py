@@ -1,0 +1,203 @@
+"""One table of a case file: reads values by key and notes every fault with its line.
+
+Written by hand rather than with pydantic, whose import alone takes longer than the whole of `stabilab classify`.
+"""
+from __future__ import annotations
+
+from datetime import date, time
+from fractions import Fraction
+from typing import NamedTuple
+from unicodedata import category
+
+from .lines import KeyLines
+from ..errors import InputError, printable, Problem
+from ..numbers.exact import exact, plus_minus, states_uncertainty
+
+
+UNSEEN = ("Cc", "Cf", "Cs")  # Unicode's categories of control, format (such as right-to-left override) and surrogate characters
+
+
+class Written(str):
+    """A number with a point or an exponent as it stands in the file, so that 0.1 means one tenth exactly."""
+
+
+UNCERTAIN = {("body", "inertia"), ("effects", "gyrostat", "momentum"), ("effects", "constant_torque", "torque"),
+             ("effects", "constant_torque", "mu"), ("motion", "angular_velocity"), ("motion", "x"),
+             ("scaled", "a"), ("scaled", "b"), ("scaled", "mu")}  # the keys whose numbers may be uncertain
+
+
+class Uncertain(NamedTuple):
+    """A number known within bounds: its path in the file (with the list index), the middle and the half-width, exact."""
+
+    path: tuple
+    middle: Fraction
+    half: Fraction
+
+
+class Faults:
+    """The faults found so far, each at the line of its key; moved: path -> path of the key that stands for it. uncertain:
+    path -> the number with an uncertainty that was read there."""
+
+    def __init__(self, lines: KeyLines, moved: dict | None = None):
+        self.lines, self.moved = lines, moved or {}
+        self.problems: list[Problem] = []
+        self.uncertain: dict[tuple, Uncertain] = {}
+
+    def add(self, path: tuple, message: str):
+        source = next((there for here, there in self.moved.items() if path[:len(here)] == here), path)
+        note = message if source is path else f"{message} (a value of [sweep])"
+        self.problems.append(Problem(dotted(path), note, self.lines.of(source)))
+
+
+class Table:
+    """A view on the table at `path`; every reader returns None where the key is absent or wrong (and notes why)."""
+
+    def __init__(self, path: tuple, data: dict, faults: Faults):
+        self.path, self.data, self.faults = path, data, faults
+
+    def __contains__(self, key: str) -> bool:
+        return key in self.data
+
+    def fault(self, message: str, *keys):
+        """Note a fault of this table, or of the key (and list index) below it."""
+        self.faults.add(self.path + keys, message)
+
+    def known(self, allowed, what: str = "key"):
+        """Note every key that is not in `allowed`."""
+        for key in self.data:
+            if key not in allowed:
+                self.fault(f"unknown {what}{did_you_mean(key, allowed)}", key)
+
+    def one_of(self, *keys: str) -> str | None:
+        """The one key of `keys` that is present; a fault where two are."""
+        present = [key for key in self.data if key in keys]
+        if len(present) > 1:
+            self.fault(f"{' and '.join(present)} say the same thing in two ways: keep one of them", present[1])
+            return None
+        return present[0] if present else None
+
+    def table(self, key: str) -> Table | None:
+        value = self.data.get(key)
+        if value is None:
+            return None
+        if not isinstance(value, dict):
+            self.fault(f"expected a table [{dotted(self.path + (key,))}], got {described(value)}", key)
+            return None
+        return Table(self.path + (key,), value, self.faults)
+
+    def text(self, key: str, default: str = "") -> str:
+        value = self.data.get(key, default)
+        if not isinstance(value, str) or isinstance(value, Written):
+            self.fault(f'expected a text in quotes, got {described(value)}', key)
+            return default
+        strange = next((c for c in value if c not in "\n\t" and category(c) in UNSEEN), None)
+        if strange:  # these texts go to terminals and pages
+            self.fault(f"character U+{ord(strange):04X} cannot be shown: remove it", key)
+        return value
+
+    def number(self, key: str) -> Fraction | None:
+        """One exact number."""
+        return self._exact(self.data[key], key) if key in self.data else None
+
+    def positive(self, key: str, zero: bool = False) -> Fraction | None:
+        """One exact number above zero (or zero, where that is allowed)."""
+        value = self.number(key)
+        if value is None or value > 0 or (zero and value == 0):
+            return value
+        wanted = "a number that is not negative" if zero else "a positive number"
+        self.fault(f"expected {wanted}, got {float(value)!r}", key)
+        return None
+
+    def numbers(self, key: str, count: int) -> tuple[Fraction, ...] | None:
+        """`count` exact numbers, all of their faults noted."""
+        value = self.data.get(key)
+        if value is None:
+            return None
+        words = {2: "two", 3: "three"}[count]
+        if not isinstance(value, list):
+            self.fault(f"expected {words} numbers in square brackets, got {described(value)}", key)
+            return None
+        if len(value) != count:
+            self.fault(f"expected {words} numbers, got {len(value)}", key)
+            return None
+        read = [self._exact(item, key, index) for index, item in enumerate(value)]
+        return None if None in read else tuple(read)
+
+    def vector(self, key: str) -> tuple[Fraction, Fraction, Fraction] | None:
+        """Three exact numbers."""
+        return self.numbers(key, 3)
+
+    def required(self, *keys: str) -> bool:
+        """Note every key that is missing; True where none is."""
+        missing = [key for key in keys if key not in self.data]
+        for key in missing:
+            self.fault(f"{key} is missing")
+        return not missing
+
+    def _exact(self, value, *keys) -> Fraction | None:
+        try:
+            if isinstance(value, str) and not isinstance(value, Written) and states_uncertainty(value):
+                return self._middle(value, keys)
+            return _number(value)
+        except InputError as error:
+            place = f"number {keys[1] + 1}: " if len(keys) > 1 else ""
+            self.fault(place + str(error), *keys)
+            return None
+
+    def _middle(self, text: str, keys) -> Fraction:
+        """The middle of an uncertain number, which is noted."""
+        if self.path + keys[:1] not in UNCERTAIN:
+            raise InputError(f"takes no uncertainty, got {described(text)}; one may stand in inertia, momentum, torque, mu, "
+                             "a, b, angular_velocity and x")
+        found = Uncertain(self.path + keys, *plus_minus(text))
+        if found.half:
+            self.faults.uncertain[found.path] = found
+        return found.middle
+
+
+def _number(value) -> Fraction:
+    if isinstance(value, Written):
+        bare = value.lstrip("+-")
+        if bare in ("inf", "nan"):
+            raise InputError(f"expected a finite number, got {value}")
+        return exact(str(value))
+    if isinstance(value, bool) or not isinstance(value, (int, str)):
+        raise InputError(f"expected a number, got {described(value)}")
+    if isinstance(value, int) and value.bit_length() > 1100:
+        raise InputError("the number is larger than the largest double (about 1.8e308)")
+    return exact(value)
+
+
+def dotted(path: tuple) -> str:
+    """The path as one would write it; keys that need quotes get them, list items are left to the message."""
+    plain = [key for key in path if isinstance(key, str)]
+    return ".".join(key if key.replace("-", "").replace("_", "").isalnum() and key.isascii() else _quoted(key)
+                    for key in plain)
+
+
+def _quoted(key: str) -> str:
+    return '"' + printable(key[:60]).replace('"', '\\"') + '"'
+
+
+def described(value) -> str:
+    """What came, in words."""
+    if isinstance(value, bool):
+        return f"the truth value {str(value).lower()}"
+    if isinstance(value, Written):
+        return f"the number {value[:40]}"
+    if isinstance(value, int):
+        return f"the number {value}" if value.bit_length() < 100 else "a very long number"
+    if isinstance(value, str):
+        return f"the text {_quoted(value)}"
+    if isinstance(value, list):
+        return f"a list of {len(value)}"
+    if isinstance(value, (date, time)):
+        return "a date or time"
+    return "a table"
+
+
+def did_you_mean(word: str, allowed) -> str:
+    """"; did you mean ...?" where a known word is near, else the list of what may stand here."""
+    from difflib import get_close_matches
+    near = get_close_matches(word.lower()[:60], list(allowed), n=1, cutoff=0.6)
+    return f"; did you mean {near[0]}?" if near else f"; here may stand {', '.join(allowed)}"

@@ -1,0 +1,277 @@
+"""What accuracy costs: every way to follow one motion, over a ladder of settings, against a reference that knows its error.
+
+Error: the largest relative error over the asked-for times (each block of the state against its largest size), or of the
+derived answer. Cost: steps, evaluations and wall time; the fastest of several runs, warmed up; what is done once for all
+runs (compiling) apart.
+"""
+from __future__ import annotations
+
+import math
+import time
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from .event_methods import answer_methods, fate_methods, known_period
+from .methods import Method, methods, Problem, problem
+from ..integrate.reference import Reference, reference, relative_errors, WORK
+from ..integrate.trajectory import SCIPY_METHODS
+
+TIMES = 16  # states over the span
+QUESTIONS = {"span": "states over the span", "end": "state at the end", "extremes": "extremes", "period": "period"}
+PRICED = 2.0  # digits: over less, a price of one says nothing
+EPS = 2.0**-53
+
+
+@dataclass(frozen=True)
+class Effort:
+    """How much is measured. work: of the reference, multiplications; evaluations: a rung that would need more, by the growth
+    from rung to rung, is left out; every: rungs of a ladder; repeats: runs of a rung, and seconds after which fewer do; ends:
+    whether the state at the end is asked for besides those over the span; without: methods that are left out."""
+
+    work: int
+    evaluations: int
+    every: int
+    repeats: tuple[int, float]
+    ends: bool = True
+    without: tuple[str, ...] = ()
+
+
+EFFORTS = {"full": Effort(WORK, 60_000, 1, (7, 0.2)), "quick": Effort(WORK // 4, 12_000, 3, (3, 0.05)),
+           "brief": Effort(WORK // 12, 4_000, 3, (2, 0.01), False),
+           "glance": Effort(WORK // 24, 2_000, 3, (2, 0.005), False, ("taylor-batch", "RK45", "RK23", "Radau", "BDF"))}
+
+
+@dataclass(frozen=True)
+class Point:
+    """One setting of one method on one question.
+
+    error: relative; seconds: fastest run (for one of `lanes` motions followed at once), slowest: the slowest of
+    `repeats`; compile: seconds of what is done once. setting: what `value` is (rtol, nodes, order; formula: nothing).
+    parts: the blocks of the state that the method knows; "" for all.
+    """
+
+    question: str
+    method: str
+    setting: str
+    value: float
+    error: float
+    steps: int | None
+    evaluations: int | None
+    seconds: float
+    slowest: float
+    repeats: int
+    compile: float
+    lanes: int = 1
+    parts: str = ""
+
+    @property
+    def digits(self) -> float:
+        """Correct digits; 0 where nothing is right or no answer came."""
+        return max(0.0, -math.log10(self.error)) if 0 < self.error < 1 else 0.0 if self.error else math.inf
+
+
+@dataclass(frozen=True)
+class FateAnswer:
+    """One way to the fate: its word and the seconds it takes."""
+
+    method: str
+    word: str
+    seconds: float
+    slowest: float
+    repeats: int
+
+
+@dataclass(frozen=True)
+class Precision:
+    """All that was measured of a case.
+
+    times (n,): where states are compared, as far as the reference agrees with itself; reference: without its states in
+    outputs; sensitivity: relative change of the state over the span per relative change of the start, as one random
+    (seeded) change in the last place shows it, None where not known. left_out: (method, value, why).
+    """
+
+    case: object
+    task: Problem = field(repr=False)
+    times: np.ndarray
+    reference: Reference = field(repr=False)
+    points: tuple[Point, ...]
+    fates: tuple[FateAnswer, ...]
+    sensitivity: float | None
+    left_out: tuple[tuple, ...]
+    effort: str
+
+    @property
+    def quick(self) -> bool:
+        return self.effort != "full"
+
+    @property
+    def validity(self):
+        """Of the scene's approximate laws at the times compared; None where all are exact."""
+        if not self.case.scene.approximate or not len(self.reference.t):
+            return None
+        from ..physics.law_limits import along
+        return along(self.case.scene, {name: self.reference.states[:, part] for name, part in self.task.slices.items()}, "at the times compared")
+
+    def of(self, question, method=None) -> list[Point]:
+        """The points of a question (and a method), coarse to fine."""
+        return [p for p in self.points if p.question == question and method in (None, p.method)]
+
+    @property
+    def questions(self) -> list[str]:
+        return [q for q in QUESTIONS if self.of(q)]
+
+    def front(self, question="end") -> list[Point]:
+        """The points that no other beats in both error and time, cheapest first. The batch stands apart: it needs
+        several motions at once."""
+        return pareto(p for p in self.of(question) if p.lanes == 1 and not p.parts)
+
+
+def pareto(points) -> list[Point]:
+    """Points that no other beats in both error and seconds, cheapest first."""
+    best, found = math.inf, []
+    for p in sorted(points, key=lambda p: (p.seconds, p.error)):
+        if p.error < best and p.error < 1:
+            found.append(p)
+            best = p.error
+    return found
+
+
+def digit_price(points) -> float | None:
+    """Factor in time for one more digit, by least squares of log time on digits over points where digits still grow."""
+    rows, top = [], 0.0
+    for p in points:
+        if p.digits > top + 0.2:
+            rows.append((p.digits, math.log(p.seconds)))
+            top = p.digits
+    if len(rows) < 2 or rows[-1][0] - rows[0][0] < PRICED:
+        return None
+    digits, logs = np.array(rows).T
+    return float(math.exp(np.polyfit(digits, logs, 1)[0]))
+
+
+def precision(case, effort: str = "full", until: float | None = None, progress=None) -> Precision:
+    """Measure a case. effort: "full" (a minute), "quick" (few settings, small limits), "brief" (seconds) or "glance" (a second,
+    the methods that are likely to be best). until: end of the span in place of the case's own. progress(words) is called before each method.
+
+    Raises InputError for a case without a motion and a span, and for rates that are no polynomials.
+    """
+    tell = progress or (lambda words: None)
+    case = case if until is None else replace(case, span=(0.0, float(until)))
+    task, most = problem(case, TIMES), EFFORTS[effort]
+    tell("reference")
+    period = known_period(task)
+    exact = reference(case.scene, task.start, task.times, task.equations.blocks, period is not None, most.work)
+    points, left_out = [], []
+    for method in (m for m in methods(task, most.every) if m.name not in most.without) if len(exact.t) else ():
+        tell(method.name)
+        _states(task, method, exact, most, points, left_out)
+    for method in answer_methods(task, period, most.every) if exact.period else ():
+        tell(f"{method.name}, period and extremes")
+        _answers(task, method, exact, most, points, left_out)
+    fates = tuple(FateAnswer(name, word, *timing) for name, call in fate_methods(task) for word, *timing in [_timed(call, most)])
+    return Precision(case, task, exact.t, exact, tuple(points), fates, _sensitivity(task, exact), tuple(left_out), effort)
+
+
+def _timed(call, effort):
+    """(answer of the first run, fastest, slowest, repeats) of the runs after it."""
+    answer, seconds, (most, enough) = call(), [], effort.repeats
+    while len(seconds) < most and (not seconds or sum(seconds) < enough):
+        start = time.perf_counter()
+        call()
+        seconds.append(time.perf_counter() - start)
+    return answer, min(seconds), max(seconds), len(seconds)
+
+
+def _rungs(task, method: Method, effort, left_out):
+    """(setting, run, seconds of preparation) up the ladder; the evaluations of the last run are to be sent back."""
+    last, growth = 0, 1.0
+    for value in method.ladder:
+        expected = last * growth
+        if method.name in SCIPY_METHODS and expected > effort.evaluations:
+            left_out.append((method.name, value, f"more than the {effort.evaluations} evaluations allowed, by the growth so far"))
+            continue
+        start = time.perf_counter()
+        run = method.prepare(task, value)
+        used = yield value, run, time.perf_counter() - start
+        growth = max(1.0, used / last) if used and last else 1.0
+        last = used or 0
+
+
+def _climbed(task, method, effort, left_out):
+    """(setting, run, seconds of preparation, take) up the ladder; take(used) is to be called with the evaluations used."""
+    ladder, used = _rungs(task, method, effort, left_out), [None]
+    while True:
+        try:
+            rung = next(ladder) if used[0] is None else ladder.send(used[0])
+        except StopIteration:
+            return
+        yield *rung, lambda n: used.__setitem__(0, n or 0)
+
+
+def _states(task, method, exact, effort, points, left_out):
+    asked = [("span", exact.t), ("end", exact.t[-1:])][:2 if effort.ends else 1]
+    for value, run, compiled, take in _climbed(task, method, effort, left_out):
+        for question, times in asked:
+            answer, fast, slow, repeats = _timed(lambda: run(times), effort)
+            error = _state_error(task, answer, exact, len(times))
+            if math.isinf(error):
+                left_out.append((method.name, value, "no answer over the whole span"))
+                break
+            known = "" if set(answer.parts) == set(task.slices) else ", ".join(answer.parts)
+            points.append(Point(question, method.name, method.setting, value, error, answer.steps, answer.evaluations,
+                                fast / method.lanes, slow / method.lanes, repeats, compiled, method.lanes, known))
+        take(answer.evaluations)
+
+
+def _state_error(task, answer, exact, count) -> float:
+    """Largest relative error over the last `count` times, inf where an answer is missing; never below the reference's own."""
+    worst = float(exact.error[-count:].max())
+    for name, values in answer.parts.items():
+        part = task.slices[name]
+        if name == "attitude":  # q and -q are one attitude; angles do not say which
+            values = values * np.where((values * exact.states[-count:, part]).sum(axis=1) < 0, -1.0, 1.0)[:, None]
+        size = np.abs(exact.states[:, part]).max(initial=0.0) or 1.0
+        gap = np.abs((values - exact.states[-count:, part]) - exact.rest[-count:, part]).max() / size
+        worst = max(worst, float(gap)) if np.isfinite(gap) else math.inf
+    return worst
+
+
+def _answers(task, method, exact, effort, points, left_out):
+    for value, run, compiled, take in _climbed(task, method, effort, left_out):
+        answer, fast, slow, repeats = _timed(lambda: run(None), effort)
+        for question, error in (("period", _period_error(answer, exact)), ("extremes", _extremes_error(answer, exact))):
+            points.append(Point(question, method.name, method.setting, value, error, answer.steps, answer.evaluations, fast,
+                                slow, repeats, compiled))
+        take(answer.evaluations)
+
+
+def _period_error(answer, exact) -> float:
+    high, low, own = exact.period
+    error = abs((answer.parts["period"][0] - high) - low) / high
+    return max(float(error), own) if np.isfinite(error) else math.inf
+
+
+def _extremes_error(answer, exact) -> float:
+    high, low = exact.extremes[..., 0], exact.extremes[..., 1]
+    error = np.abs((answer.parts["extremes"] - high) - low).max() / (np.abs(high).max() or 1.0)
+    return max(float(error), exact.extremes_error) if np.isfinite(error) else math.inf
+
+
+def _sensitivity(task, exact) -> float | None:
+    """Largest relative change of the state over the span per relative change of the start, for one change of every
+    component by about a unit in its last place."""
+    from ..integrate.reference import _pairs, one_run
+    from ..integrate.taylor_digits import Recursion
+    if not len(exact.t):
+        return None
+    signs = np.random.default_rng(1).choice([-1.0, 1.0], task.start.size)
+    nudged = np.where(task.start == 0, EPS * signs * np.abs(task.start).max(), task.start * (1 + 2 * EPS * signs))
+    moved = np.abs(nudged - task.start).max() / (np.abs(task.start).max() or 1.0)
+    if not moved:
+        return None
+    found, _ = one_run(Recursion(task.equations), nudged, exact.t, 30, [WORK], exact.period is not None)
+    n = len(found)
+    states, rest = _pairs(found)
+    shift = relative_errors(states, exact.states[:n], exact.rest[:n] - rest, task.slices)
+    return float(shift.max() / moved)

@@ -1,0 +1,204 @@
+"""The ways to follow a motion that are set against each other: each a name, a ladder of settings, and how to make a run.
+
+`prepare(problem, setting)` returns a callable run(times) -> Answer; what is done once for all runs of a scene
+(compiling, series) happens in it. The counters of an Answer are exact.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Callable
+
+import numpy as np
+
+from ..physics.attitude import quaternion
+from ..physics.blocks import slices
+from ..physics.to_numpy import heyoka_available, TAYLOR_TOLERANCE, to_numpy, to_taylor
+from ..errors import InputError
+from ..theories.follow import follow, models_of
+from ..answers.simulate import start_of
+from ..integrate.trajectory import _start, ATOL_SHARE, SCIPY_METHODS
+
+LANES = 4  # of the batch: doubles in one AVX register
+NUDGE = 2.0**-20  # relative difference between neighbouring lanes, so that they do not share one motion
+TAYLOR_LADDER = (1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13, 1e-15, TAYLOR_TOLERANCE)
+SCIPY_LADDER = tuple(10.0**-n for n in range(3, 14))
+STOP = 400_000  # rate evaluations after which a SciPy run is given up
+IMPLICIT = ("Radau", "BDF", "LSODA")
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A case's motion as numbers: start (N,) at time 0 (taken as exact), times (n,) away from 0."""
+
+    case: object
+    equations: object
+    start: np.ndarray
+    times: np.ndarray
+
+    @cached_property
+    def system(self):
+        return to_numpy(self.equations)
+
+    @cached_property
+    def slices(self) -> dict:
+        return slices(self.equations.blocks)
+
+    @property
+    def scene(self):
+        return self.case.scene
+
+
+def problem(case, count: int) -> Problem:
+    """The motion of a case at `count` times from 0 (left out) to the end of its span. InputError without a motion."""
+    if case.state is None or case.span is None:
+        raise InputError(f"{case.path}: motion: expected a state and a span (or tau) in [motion]; precision needs both")
+    scaled = case.scene.variables == "scaled"
+    equations, start = _start(case.scene, case.state if scaled else start_of(case.scene, case.state, case.blocks))
+    end = max(case.span, key=abs)
+    return Problem(case, equations, start, end * np.arange(1, count + 1) / count)
+
+
+@dataclass(frozen=True)
+class Answer:
+    """parts: block -> (n, m) states at the times of the run; steps, evaluations: of the rates (Taylor: coefficients of
+    the state's series; reduced form: of dt/dtheta; models: None)."""
+
+    parts: dict
+    steps: int | None = None
+    evaluations: int | None = None
+
+
+@dataclass(frozen=True)
+class Method:
+    """name; setting: what its ladder is in ("rtol", "nodes", "order", "formula"); ladder: coarse to fine; prepare: see the
+    module; lanes: motions followed at once."""
+
+    name: str
+    setting: str
+    ladder: tuple
+    prepare: Callable = field(repr=False)
+    lanes: int = 1
+
+
+def methods(task: Problem, every: int = 1) -> list[Method]:
+    """Every method that applies to a motion. every: rungs of each ladder to take, the last always."""
+    found = []
+    if heyoka_available():
+        found += [Method("taylor", "rtol", TAYLOR_LADDER, _taylor), Method("taylor-batch", "rtol", TAYLOR_LADDER[1::2], _batch, LANES)]
+    found += [Method(name, "rtol", SCIPY_LADDER, _scipy(name)) for name in SCIPY_METHODS]
+    found += _reduced(task) + _models(task)
+    return [thinned(m, every) for m in found]
+
+
+def thinned(method: Method, every: int) -> Method:
+    """The method with every so-manieth rung of its ladder, and the last."""
+    ladder = method.ladder
+    return replace(method, ladder=tuple(dict.fromkeys((*ladder[:-1:every], ladder[-1])))) if len(ladder) > 2 else method
+
+
+def _split(task, states) -> dict:
+    return {name: states[:, part] for name, part in task.slices.items()}
+
+
+def _taylor(task, tolerance):
+    integrator = to_taylor(task.equations, (), tolerance)
+
+    def run(times):
+        integrator.time = 0.0
+        integrator.state[:] = task.start
+        _, _, _, steps, *_, out = integrator.propagate_grid(np.concatenate([[0.0], times]))
+        return Answer(_split(task, np.asarray(out).reshape(-1, task.start.size)[1:]), steps, steps * integrator.order)
+    return run
+
+
+def _batch(task, tolerance):
+    """One lane is the motion, the others start next to it; cost is counted for one lane."""
+    import heyoka
+
+    from ..physics.to_numpy import _heyoka_form, form
+    rates = form(task.equations, task.equations.rhs)
+    variables, expressions = _heyoka_form(rates.state, rates.symbols, rates.expressions)
+    spread = task.start[:, None] * (1 + NUDGE * np.arange(LANES))
+    integrator = heyoka.taylor_adaptive_batch(list(zip(variables, expressions)), spread.copy(), tol=tolerance,
+                                              pars=np.repeat(np.array(rates.numbers)[:, None], LANES, axis=1))
+
+    def run(times):
+        integrator.set_time(0.0)
+        integrator.state[:] = spread
+        _, out = integrator.propagate_grid(np.repeat(np.concatenate([[0.0], times])[:, None], LANES, axis=1))
+        steps = int(np.max([row[3] for row in integrator.propagate_res]))
+        return Answer(_split(task, np.ascontiguousarray(out[1:, :, 0])), steps, steps * integrator.order)
+    return run
+
+
+def _scipy(name):
+    def prepare(task, rtol):
+        from scipy import integrate
+        rate, floor = task.system.rate, rtol * ATOL_SHARE * (np.abs(task.start).max() or 1.0)
+        options = {"jac": lambda _, y: task.system.jacobian(y)} if name in IMPLICIT else {}
+
+        def run(times):
+            solver = getattr(integrate, name)(lambda _, y: rate(y.tolist()), 0.0, task.start, times[-1], rtol=rtol,
+                                              atol=floor, **options)
+            out, done, steps = np.full((len(times), task.start.size), np.nan), 0, 0
+            while solver.status == "running" and solver.nfev < STOP:
+                solver.step()
+                steps += 1
+                stop = int(np.searchsorted(np.abs(times), abs(solver.t), side="right"))
+                if stop > done and solver.status != "failed":
+                    dense = solver.dense_output() if times[done] != solver.t else None
+                    for i in range(done, stop):
+                        out[i] = solver.y if times[i] == solver.t else dense(times[i])
+                    done = stop
+            return Answer(_split(task, out), steps, int(solver.nfev))
+        return run
+    return prepare
+
+
+def _reduced(task) -> list[Method]:
+    from ..answers.digits.reduced import ladder, reduced
+    if task.times[-1] < 0 or task.equations.blocks != ("omega",):
+        return []
+    try:
+        rungs = ladder(task.scene, task.start)
+    except InputError:
+        return []
+
+    def prepare(task, nodes):
+        def run(times):
+            orbit = reduced(task.scene, task.start, nodes)  # its series too belong to the cost of an answer
+            return Answer({"omega": orbit.at(times)}, None, orbit.counts)
+        return run
+    return [Method("reduced", "nodes", rungs, prepare)]
+
+
+def _models(task) -> list[Method]:
+    """The analytic models of the case that have an answer for this motion."""
+    found = []
+    for name in models_of(task.scene)[1:]:
+        ladder, setting = ((1, 2, 3, 4, 6, 8), "order") if name == "lindstedt" else ((1,), "formula")
+        try:
+            follow(task.case, task.times[:1], name, order=ladder[0] if name == "lindstedt" else None)
+        except InputError:
+            continue
+        found.append(Method(name, setting, ladder, _model(name)))
+    return found
+
+
+def _model(name):
+    def prepare(task, setting):
+        def run(times):
+            answer = follow(task.case, times, name, order=setting if name == "lindstedt" else None)
+            known = {part: _filled(answer.state[part], len(times)) for part in task.slices if part in answer.state}
+            if "attitude" in task.slices and "angles" in answer.state:
+                known["attitude"] = _filled(quaternion(*np.asarray(answer.state["angles"], float).T).T, len(times))
+            return Answer(known)
+        return run
+    return prepare
+
+
+def _filled(values, count):
+    """(count, m) states; a model that stopped before the end has none after it (nan)."""
+    values = np.asarray(values, float)
+    return np.vstack([values, np.full((count - len(values), values.shape[1]), np.nan)])

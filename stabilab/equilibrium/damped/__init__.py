@@ -1,0 +1,1 @@
+"""Equilibria of bodies with a cavity of liquid or in a resisting medium."""

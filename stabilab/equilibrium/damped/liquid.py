@@ -1,0 +1,183 @@
+"""Permanent rotations of a body with a liquid in a cavity, without torque and resistance, and which of them attract.
+
+With a = D^-1 (D omega + Lambda) x omega and A = da/domega the rates are (D + kappa L) a, L = A + [omega x]. So a = 0, the
+permanent rotations without liquid, are equilibria; any other needs det(D + kappa L) = 0, where the liquid's torque is
+no longer small against the body's (its derivation fails); for Lambda = 0 the energy
+
+    T' = -kappa/(D1 D2 D3) sum (Di - Dj)^2 (Di + Dj - Dk) omega_i^2 omega_j^2
+
+excludes even these. At a = 0 the Jacobian is J = (1 + kappa D^-1 L) A, whose determinant is 0 as that of A is:
+z (z^2 + c2 z + c1). c1, c2 > 0: the curve of equilibria attracts its neighbourhood (it is its own centre manifold), so each point
+of it is stable and neighbouring motions tend to neighbouring points. c1 < 0 or c2 < 0: a root with positive real part.
+"""
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+
+from ...numbers.exact import sqrt_fraction
+from ..curve import RationalCurve
+from ...physics.coefficients import Content, gyrostat_scene
+from ..balance import pencil
+from ...numbers.polynomial import Poly, real_roots
+from ...orbit.result import CurveSegment, Equilibria, EquilibriumCurve, EquilibriumPoint
+from ..stability import _inside, sample_parameters
+from ..torque_free import torque_free_curves
+
+ATTRACTING = ("stable", "c1, c2 > 0 in z (z^2 + c2 z + c1): the curve of permanent rotations attracts, so this rotation is stable and "
+                        "every motion from nearby tends to a permanent rotation of the curve")
+REPELLED = ("unstable", "c1 < 0 or c2 < 0 in z (z^2 + c2 z + c1): a root with positive real part")
+LARGEST = ("stable", "asymptotically stable at its angular momentum |H|: the liquid keeps |H|, and on the sphere of constant |H| the energy is least "
+                     "here and falls everywhere else (LaSalle): motions from nearby tend to rotation about this axis")
+NOT_LARGEST = ("unstable", "the energy on the sphere of constant |H| is not least here and the liquid makes it fall wherever the motion is no "
+                           "permanent rotation: states of less energy next to this one leave and do not come back")
+REST = ("stable", "the kinetic energy is positive definite and never grows")
+EDGE = ("undecided", "the linear motion is degenerate (c1 c2 = 0): a term of higher order decides")
+
+
+def liquid_equilibria(parts: Content) -> Equilibria:
+    """Every permanent rotation of a body with a liquid (no torque, no resistance), with its stability."""
+    if parts.printed and any(parts.Lambda):
+        return Equilibria("undecided", "the printed torque of the liquid leaves out terms of its own order where a wheel or a charge "
+                                       "acts, so it vanishes on no permanent rotation: undecided; choose torque = \"consistent\"")
+    p = pencil(gyrostat_scene(parts))
+    exact, planes = torque_free_curves(p)
+    curves = (*(_judged(parts, curve) for curve in exact), *(_plane(parts, plane) for plane in planes))
+    return Equilibria("curves", _reason(parts), curves=curves)
+
+
+def _reason(parts: Content) -> str:
+    if not any(parts.Lambda):
+        return ("the liquid takes energy at every rotation that is not about a principal axis, so the equilibria are the permanent "
+                "rotations of the free body and no others")
+    limit = validity(parts)
+    where = f"wherever |omega| < {float(limit):.6g} rad/s" if limit > 0 else "only in the limit of small kappa"
+    return ("momentum along rotation: the rates are (D + kappa L) a with a the rates without liquid, and D + kappa L is invertible "
+            f"{where}, so there are no others; beyond that the torque of the liquid is as large as the body's own and its derivation does not hold")
+
+
+def validity(parts: Content) -> Fraction:
+    """|omega| below which |kappa D^-1 L| < 1 for sure: |L a| <= ((2 d + 1) |omega| + |Lambda|/Dmin) |a|, d = Dmax/Dmin."""
+    least, most = min(parts.D), max(parts.D)
+    moment = sqrt_fraction(sum(v * v for v in parts.Lambda))
+    return (least / parts.kappa - moment / least) / (2 * most / least + 1)
+
+
+def linear_rates(D, omega, H):
+    """Rows of the derivative by omega of D^-1 (D omega + Lambda) x omega, where H = D omega + Lambda (any scalar type)."""
+    rows = []
+    for i, (j, k) in enumerate(((1, 2), (2, 0), (0, 1))):  # D_i a_i = H_j omega_k - H_k omega_j
+        row = [omega[0] * 0] * 3
+        row[j] = (omega[k] * D[j] - H[k]) * (1 / D[i])
+        row[k] = (H[j] - omega[j] * D[k]) * (1 / D[i])
+        rows.append(row)
+    return rows
+
+
+def jacobian(parts: Content, omega, w=1):
+    """Rows of w^2 J at the permanent rotation omega / w."""
+    A = linear_rates(parts.D, omega, [x * d + w * l for d, x, l in zip(parts.D, omega, parts.Lambda)])
+    x, y, z = omega
+    zero = x * 0
+    turn = [[zero, -z, y], [z, zero, -x], [-y, x, zero]]
+    factor = [[(A[i][j] + turn[i][j]) * (parts.kappa / parts.D[i]) + (w if i == j else 0) for j in range(3)] for i in range(3)]
+    return [[sum((factor[i][n] * A[n][j] for n in range(3)), zero) for j in range(3)] for i in range(3)]
+
+
+def coefficients(J):
+    """(c2, c1) of the characteristic polynomial z (z^2 + c2 z + c1) of rows with determinant 0."""
+    c2 = -(J[0][0] + J[1][1] + J[2][2])
+    c1 = sum((J[i][i] * J[j][j] - J[i][j] * J[j][i] for i, j in ((0, 1), (0, 2), (1, 2))), J[0][0] * 0)
+    return c2, c1
+
+
+def roots(c2: Fraction, c1: Fraction) -> tuple[complex, complex, complex]:
+    """0 and the roots of z^2 + c2 z + c1, each part rounded once."""
+    half, square = -c2 / 2, c2 * c2 / 4 - c1
+    gap = sqrt_fraction(abs(square))
+    if square < 0:
+        return 0j, complex(float(half), float(gap)), complex(float(half), -float(gap))
+    far = half + gap if half > 0 else half - gap
+    return 0j, complex(float(far), 0.0), complex(float(c1 / far) if far else 0.0, 0.0)
+
+
+def _word(c2, c1) -> str:
+    if c2 > 0 and c1 > 0:
+        return "stable"
+    return "unstable" if c2 < 0 or c1 < 0 else "degenerate"
+
+
+def _verdict(parts, word):
+    if any(parts.Lambda):
+        return {"stable": ATTRACTING, "unstable": REPELLED, "degenerate": EDGE}[word]
+    return {"stable": LARGEST, "unstable": NOT_LARGEST, "degenerate": EDGE}[word]
+
+
+def point(parts: Content, omega, verdict=None) -> EquilibriumPoint:
+    """A permanent rotation (exact) with spectrum and verdict."""
+    c2, c1 = coefficients(jacobian(parts, omega))
+    word = _word(c2, c1)
+    return EquilibriumPoint(tuple(float(v) for v in omega), roots(c2, c1), word, *(verdict or _verdict(parts, word)))
+
+
+def _judged(parts: Content, curve: RationalCurve) -> EquilibriumCurve:
+    """Segments, folds and samples of one curve: cut at its poles, at crossings, and where a vanishing c1 or c2 leaves the
+    linear verdict open (any other change of sign does not change it)."""
+    both = [p if isinstance(p, Poly) else Poly((p,)) for p in coefficients(jacobian(parts, curve.numerators, curve.denominator))]
+    for t in (*curve.poles, *curve.crossings):
+        both = [p.without_root(t) for p in both]
+    inner = sorted({t for p in both if p.degree > 0 for t in real_roots(p)} - {*curve.poles, *curve.crossings})
+    fixed = {t: _cut(parts, curve, t) for t in (*curve.crossings, *inner) if t not in curve.poles}
+    cuts = sorted({*curve.poles, *curve.crossings, *(t for t in inner if fixed[t].linear == "degenerate")})
+    ends, segments, samples, folds = [None, *cuts, None], [], [], []
+    for lo, hi in zip(ends, ends[1:]):
+        word = _word(*coefficients(jacobian(parts, curve.exact_point(_inside(lo, hi, curve.scale)))))
+        where = (float("-inf") if lo is None else float(lo), float("inf") if hi is None else float(hi))
+        segments.append(CurveSegment(where, word, *_verdict(parts, word)))
+        chosen = sample_parameters(lo, hi, curve.scale) or [_inside(lo, hi, curve.scale)]
+        samples += [point(parts, curve.exact_point(t)) for t in chosen]
+        if hi in fixed:
+            samples.append(fixed[hi])
+            folds.append(fixed[hi].at)
+    return EquilibriumCurve(curve.name, curve.equation, curve.parametrisation, curve.float_point(), tuple(segments),
+                            tuple(folds), tuple(samples))
+
+
+def _cut(parts, curve, t) -> EquilibriumPoint:
+    """The equilibrium between two segments; a root of c1 or c2 is known to 2**-160, so its vanishing coefficient is set to 0."""
+    omega = curve.exact_point(t)
+    at_rest = not any(omega)
+    c2, c1 = coefficients(jacobian(parts, omega))
+    if t in curve.crossings or at_rest:
+        return point(parts, omega, REST if at_rest and not any(parts.Lambda) else None)
+    near = [Fraction(0) if abs(v) < Fraction(1, 2**120) * scale else v
+            for v, scale in zip((c2, c1), _sizes(parts, omega))]
+    word = _word(*near)
+    return EquilibriumPoint(tuple(float(v) for v in omega), roots(*near), word, *_verdict(parts, word))
+
+
+def _sizes(parts, omega):
+    """Sizes of the terms of c2 and c1, against which a rounded root's residue is small."""
+    J = jacobian(parts, omega)
+    largest = max(abs(v) for row in J for v in row) or Fraction(1)
+    return largest, largest * largest
+
+
+def _plane(parts: Content, plane: EquilibriumCurve) -> EquilibriumCurve:
+    """A plane of equilibria (two equal moments): eigenvalues 0, 0 along it and one across it, q t^2 at distance t from its centre."""
+    across = ("stable", "the plane of permanent rotations attracts (the third eigenvalue is negative), so each of its points is stable and "
+                        "motions from nearby tend to a point of the plane")
+    away = ("unstable", "the eigenvalue across the plane of permanent rotations is positive")
+    centre = REST if not any(parts.Lambda) else EDGE
+
+    def judged(at):
+        omega = tuple(Fraction(v) for v in at)
+        if at == plane.folds[0]:
+            return EquilibriumPoint(at, (0j, 0j, 0j), "degenerate", *centre)
+        trace = -coefficients(jacobian(parts, omega))[0]
+        return EquilibriumPoint(at, (0j, 0j, complex(float(trace), 0.0)), "unstable" if trace > 0 else "stable",
+                                *(away if trace > 0 else across))
+    samples = tuple(judged(s.at) for s in plane.samples)
+    side = next(s for s in samples if s.linear != "degenerate")
+    segments = tuple(CurveSegment(s.t, side.linear, side.verdict, side.because) for s in plane.segments)
+    return replace(plane, segments=segments, samples=samples)

@@ -1,0 +1,1 @@
+"""Permanent rotations in gravity, a Newtonian field, a turning charge."""

@@ -1,0 +1,66 @@
+"""All equilibria of a body with a gyrostatic moment under a constant torque, in closed form.
+
+At an equilibrium (D omega + lambda) x omega + M = 0; dotting with omega and with D omega + lambda gives M.omega = 0 and
+M.(D omega + lambda) = 0, two linear conditions, and what is left is at most one quadratic. Existence (parallel vectors,
+signs of discriminants, conics that fall apart into lines) is decided with exact rationals; coordinates are rounded once.
+Source: derived here; Amer et al. 2024 treats lambda along axis 1 and torques on one axis.
+"""
+from __future__ import annotations
+
+from dataclasses import replace
+
+from ..asked import checked_scene
+from .conics import balance_fails, conic_curves
+from .isolated import off_axis_equilibria
+from .balance import Pencil, pencil
+from ..orbit.result import Equilibria
+from .stability import curve_with_verdicts
+from .torque_free import torque_free_curves
+
+
+def equilibria(scene) -> Equilibria:
+    """Every equilibrium of a Scene (body, gyrostat, constant torque) or ScaledGyrostat, each with its stability.
+
+    States are in the scene's variables: rad/s in the principal axes, or the dimensionless x. kind is "none" (the reason
+    says why), "points" (isolated), "curves" or "all". A plane of equilibria (equal moments) is one entry of `curves`
+    named "plane ...": its point(t) runs along one line through the centre, its samples lie on several. Folds are also
+    among the samples, with their verdicts. Scenes with charge, liquid, resistance, gravity, Newtonian field or body
+    force go to `other_effects`; there a point may be (omega, gamma), and kind "undecided" says that not all equilibria
+    are known. Raises InputError for effects this analysis does not cover.
+    """
+    found = _found(checked_scene(scene))
+    if not scene.approximate:
+        return found
+    from ..physics.law_limits import at_equilibria
+    return replace(found, validity=at_equilibria(scene, found))
+
+
+def _found(scene) -> Equilibria:
+    if not scene.plain:
+        from ..answers.equilibria import other_equilibria
+        found = other_equilibria(scene)
+        if found is not None:
+            return found
+    p = pencil(scene)
+    if not any(p.M):
+        return _torque_free(p)
+    if p.torque_axis_moment() is None:
+        reason, points, curves = off_axis_equilibria(p)
+        exact = tuple(curve_with_verdicts(p.form, c) for c in curves)
+        return Equilibria("curves" if exact else "points" if points else "none", reason, tuple(points), exact)
+    missing = balance_fails(p)
+    if missing:
+        return Equilibria("none", missing)
+    curves = tuple(curve_with_verdicts(p.form, c) for c in conic_curves(p))
+    return Equilibria("curves", "the torque is along an eigenvector of D with no gyrostatic moment along it: the two balance "
+                                "conditions are one plane, and in it one conic remains", curves=curves)
+
+
+def _torque_free(p: Pencil) -> Equilibria:
+    if not any(p.lam) and len(set(p.D)) == 1:
+        return Equilibria("all", "no torque, no gyrostatic moment and three equal moments: every rate of rotation is constant, "
+                                 "so every state is an equilibrium, stable in the sense that it stays where it is put")
+    exact, planes = torque_free_curves(p)
+    curves = (*(curve_with_verdicts(p.form, c) for c in exact), *planes)
+    return Equilibria("curves", "without a torque a state is an equilibrium exactly where momentum and rotation are parallel",
+                      curves=curves)

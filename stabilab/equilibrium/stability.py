@@ -1,0 +1,175 @@
+"""Stability of an equilibrium from the exact structure of its characteristic polynomial z^3 + m z + n.
+
+The trace of the Jacobian is 0, so the three eigenvalues sum to zero.
+  n != 0: the eigenvalues are not all on the imaginary axis (then they would be 0, +-i w and n = 0), and their real
+          parts sum to zero: one real part is positive. Unstable, always.
+  n = 0, m < 0: the eigenvalue sqrt(-m) > 0. Unstable.
+  n = 0, m > 0: a linear centre 0, +-i sqrt(m); the nonlinear verdict comes from the curve the point lies on.
+  n = 0, m = 0: degenerate; a higher term decides, where one can be proved to.
+Signs of m and n are those of rationals or of p + q sqrt(d), never of rounded numbers.
+
+A zero of m on a regular curve of equilibria that is the critical set of a one-degree-of-freedom potential V(v; c) (c is
+the invariant): the curve is V_v = 0, and where V_vv = 0 its slope dc/dv vanishes too, so V_v(v; c0) = -V_vc c(v) + ...
+and m = V_vv = -V_vc c'(v) + ... along it. A zero of m of order k makes c ~ v^(k+1) and V ~ v^(k+2) at fixed c0: k odd
+is an inflection (motions released on its downhill side run off a fixed distance: unstable), k even a strict minimum
+(m > 0 on both sides: stable, since the walls V(+-r; c0) > V(0; c0) stand for nearby c as well) or maximum (unstable).
+"""
+from __future__ import annotations
+
+from fractions import Fraction
+
+from ..errors import InputError
+from .spectrum import eigenvalues, invariants
+from .curve import RationalCurve, Verdict
+from ..numbers.polynomial import real_roots
+from ..orbit.result import CurveSegment, EquilibriumCurve, EquilibriumPoint
+from ..numbers.surd import Surd
+
+POSITIVE_EIGENVALUE = ("unstable", "n = 0 and m < 0 in z^3 + m z + n: the eigenvalue sqrt(-m) is positive")
+
+
+def linear_word(m_sign: int, n_sign: int) -> str:
+    """The linear verdict from exact signs: "stable" (centre with a simple zero), "unstable" or "degenerate"."""
+    if n_sign or m_sign < 0:
+        return "unstable"
+    return "stable" if m_sign else "degenerate"
+
+
+def isolated_verdict(m_sign: int, n_sign: int) -> Verdict:
+    """The nonlinear verdict on an isolated equilibrium of a torque off the eigenvectors of D; n = 0 is a fold.
+
+    Fold with m > 0, unstable by Chetaev's theorem: at a double root the reduced equation z' = a z^2 + ... has a != 0
+    (the ideal of the three rates is locally that of the two linear conditions and the quadratic, so its multiplicity is
+    2). Averaging over the rotation by +-i sqrt(m) gives z' = a z^2 + b r^2 + O(3), r' = -a z r + O(3); the factor -a
+    follows from zero divergence, which averaging keeps. With z turned so that a > 0 and V = z^2 - k^2 r^2, k^2 > |b|/a:
+    V' = 2 z (a z^2 + (b + k^2 a) r^2) + O(4) > 0 in the cone z > k r near the point, where V > 0, and V = 0 on its side.
+    Fold with m = 0, unstable by blowing up: one Jordan block (the gradients of the two conditions are rows of J, so its rank is
+    2) and a double root give z' = y, y' = w, w' = a z^2 with a != 0 up to terms of higher weight, (z, y, w) having weights
+    (3, 4, 5). The motion z = -60/(a t^3), t < 0, of the leading terms is a ray along which the blown-up motion (divided by the
+    radius) grows, an equilibrium on the sphere with a positive radial eigenvalue; its unstable manifold in the full motion is
+    not inside the sphere, so motions come out of the point itself.
+    """
+    if n_sign:
+        where = "a negative real root, so the other two have" if n_sign > 0 else "a real root with"
+        return "unstable", (f"n {'>' if n_sign > 0 else '<'} 0 in z^3 + m z + n, whose roots sum to zero: {where} a positive "
+                            "real part, whatever m is")
+    if m_sign < 0:
+        return POSITIVE_EIGENVALUE
+    if m_sign > 0:
+        return "unstable", ("fold of two isolated equilibria, eigenvalues 0, +-i sqrt(m): the averaged motion is z' = a z^2 "
+                            "+ b r^2, r' = -a z r with a != 0, and V = z^2 - k^2 r^2 is a Chetaev function")
+    return "unstable", ("fold of two isolated equilibria with a triple zero eigenvalue: z''' = a z^2 + ... with a != 0, and blown up "
+                        "with weights 3, 4, 5 it has a motion z ~ -60/(a t^3) that comes out of the point")
+
+
+def isolated_point(form, x: tuple[Surd, Surd, Surd]) -> EquilibriumPoint:
+    """An isolated equilibrium (exact surds) with spectrum and verdicts."""
+    m, n = invariants(form, x)
+    verdict, because = isolated_verdict(m.sign, n.sign)
+    try:
+        at = tuple(float(v.fraction()) for v in x)
+        spectrum = eigenvalues(m.fraction(), n.fraction())
+    except OverflowError:
+        raise InputError("an equilibrium or its eigenvalues lie beyond the largest double: choose other units") from None
+    return EquilibriumPoint(at, spectrum, linear_word(m.sign, n.sign), verdict, because)
+
+
+def curve_with_verdicts(form, curve: RationalCurve) -> EquilibriumCurve:
+    """Folds, segments and samples of a curve of equilibria (n = 0 along it)."""
+    cuts = cuts_of(form, curve)
+    ends = [None, *cuts, None]
+    pieces = [_segment(form, curve, lo, hi) for lo, hi in zip(ends, ends[1:])]
+    samples, folds = list(pieces[0][1]), []
+    for t, (before, _), (after, points) in zip(cuts, pieces, pieces[1:]):
+        if t not in curve.poles:
+            fold = _fold(curve, t, before, after)
+            folds.append(fold.at)
+            samples.append(fold)
+        samples += points
+    return EquilibriumCurve(curve.name, curve.equation, curve.parametrisation, curve.float_point(),
+                            tuple(s for s, _ in pieces), tuple(folds), tuple(samples))
+
+
+def cuts_of(form, curve: RationalCurve) -> list[Fraction]:
+    """The parameters, rising, where stability may change: poles and crossings exactly, zeros of m to 160 bits."""
+    m, _ = invariants(form, curve.numerators, curve.denominator)
+    for t in (*curve.poles, *curve.crossings):
+        m = m.without_root(t)
+    return sorted({*curve.poles, *curve.crossings, *(real_roots(m) if m.degree > 0 else ())})
+
+
+def _segment(form, curve: RationalCurve, lo, hi):
+    """The segment between two neighbouring cuts (None: infinite) and its samples."""
+    middle = _inside(lo, hi, curve.scale)
+    m_sign = _sign(_m_at(form, curve, middle))
+    word, (verdict, because) = linear_word(m_sign, 0), _regular_verdict(curve, m_sign)
+    samples = []
+    for t in sample_parameters(lo, hi, curve.scale) or [middle]:
+        try:
+            at = tuple(float(v) for v in curve.exact_point(t))
+            samples.append(EquilibriumPoint(at, eigenvalues(_m_at(form, curve, t), Fraction(0)), word, verdict, because))
+        except OverflowError:  # a far sample beyond the largest double is left out
+            continue
+    ends = (float("-inf") if lo is None else float(lo), float("inf") if hi is None else float(hi))
+    return CurveSegment(ends, word, verdict, because), samples
+
+
+def _regular_verdict(curve: RationalCurve, m_sign: int) -> Verdict:
+    if m_sign < 0:
+        return POSITIVE_EIGENVALUE
+    if m_sign > 0:
+        return curve.grounds.positive
+    return "undecided", "m and n vanish all along this curve: the linear motion is degenerate and no proof is known here"
+
+
+def _fold(curve: RationalCurve, t: Fraction, before: CurveSegment, after: CurveSegment) -> EquilibriumPoint:
+    """The equilibrium at a zero of m: three exact zero eigenvalues."""
+    signs = {before.linear, after.linear}
+    if t in curve.crossings:
+        verdict, because = curve.crossings[t]
+    elif len(signs) == 2:
+        verdict, because = curve.grounds.odd
+    else:
+        verdict, because = curve.grounds.minimum if signs == {"stable"} else curve.grounds.maximum
+    at = tuple(float(v) for v in curve.exact_point(t))
+    return EquilibriumPoint(at, (0j, 0j, 0j), "degenerate", verdict, because)
+
+
+def _m_at(form, curve: RationalCurve, t: Fraction) -> Fraction:
+    return invariants(form, curve.exact_point(t))[0]
+
+
+def _sign(value) -> int:
+    return (value > 0) - (value < 0)
+
+
+def _inside(lo, hi, scale) -> Fraction:
+    if lo is None and hi is None:
+        return Fraction(0)
+    if lo is None:
+        return hi - (abs(hi) or scale)
+    return lo + (abs(lo) or scale) if hi is None else (lo + hi) / 2
+
+
+def sample_parameters(lo, hi, scale) -> list[Fraction]:
+    """Doubles (as fractions) inside the open interval, spread over it and log-spaced towards its infinite ends."""
+    if lo is None and hi is None:
+        raw = [f * scale for f in (-100, -1, 0, 1, 100)]
+    elif hi is None:
+        raw = [lo + (abs(lo) or scale) * f for f in (Fraction(1, 100), 1, 100, 10000)]
+    elif lo is None:
+        return [-t for t in reversed(sample_parameters(-hi, None, scale))]
+    elif lo == 0 or 0 < lo and hi > 100 * lo:
+        ratio = float(hi / lo) if lo else 1e4
+        raw = [hi / Fraction(ratio ** f) for f in (0.95, 0.7, 0.4, 0.1, 0.01)]
+    elif hi == 0 or hi < 0 and lo < 100 * hi:
+        return [-t for t in reversed(sample_parameters(-hi, -lo, scale))]
+    else:
+        raw = [lo + (hi - lo) * f for f in (Fraction(1, 1000), Fraction(1, 10), Fraction(1, 2), Fraction(9, 10), Fraction(999, 1000))]
+    rounded = []
+    for t in raw:
+        try:
+            rounded.append(Fraction(float(t)))
+        except OverflowError:
+            continue
+    return [t for t in dict.fromkeys(rounded) if (lo is None or t > lo) and (hi is None or t < hi)]

@@ -1,0 +1,187 @@
+"""Ensembles: many motions of one scene to the same times, a few of them in step with one another.
+
+Each step of the Taylor series serves a row of motions, one to a lane of the processor's vectors. A lane's numbers do not
+depend on its neighbours, nor on how many workers share the rows out: the same bytes come whatever the company.
+"""
+from __future__ import annotations
+
+import os
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import nullcontext
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ..physics.blocks import slices
+from ..physics.to_numpy import _equations, borrowed_taylor, form, heyoka_available, TAYLOR_TOLERANCE, to_numpy
+from ..asked import real
+from ..errors import InputError
+from ..physics.motion_units import in_unit, own_unit
+from .trajectory import _rtol, _times, STEP_LIMIT, trajectory
+
+# Motions in step: eight doubles fill the widest vectors there are, and narrower ones two or four at a time. Not asked of
+# the machine, so that every machine groups alike.
+LANES = 8
+
+
+@dataclass(frozen=True)
+class Ensemble:
+    """Motions of one scene at common times.
+
+    t: (m,), s (tau when scaled); states: (n, m, N), one motion per row of the starts; reached: (n, m), False where a
+    motion could not go on so far (its states hold inf there); stopped: number of the motion -> why. method: "taylor"
+    or, without heyoka, "DOP853"; rtol: its tolerance; counters: steps of all motions together. status: "reached" when
+    all are, else "stopped".
+    """
+
+    t: np.ndarray
+    states: np.ndarray
+    reached: np.ndarray
+    stopped: dict[int, str]
+    method: str
+    rtol: float
+    counters: dict[str, int] = field(default_factory=dict)
+    scene: object = field(default=None, repr=False, compare=False)
+
+    @property
+    def validity(self):
+        """Of an approximate law (`stabilab.physics.law_limits`) at the times told, value and holds (n,); None where all laws are exact."""
+        if not self.scene.approximate:
+            return None
+        from ..physics.law_limits import along
+        return along(self.scene, {name: self.states[..., part] for name, part in slices(self.scene.blocks).items()}, "at the times told")
+
+    @property
+    def status(self) -> str:
+        return "stopped" if self.stopped else "reached"
+
+
+def ensemble(scene, states, times, rtol: float | None = None, workers: int = 1) -> Ensemble:
+    """The motions of a scene from many starts at t = 0, at the given times; the laws are not checked (`trajectory` does).
+
+    states: (n, N), a row for each motion as `trajectory` takes it. times: (m,) as for `trajectory`. rtol: relative
+    tolerance, None for half an ulp. workers: threads that share the rows out, 0 for all cores; the answer has the same
+    bytes for any number. Where heyoka is not installed every motion is run by itself with SciPy's DOP853, and workers
+    gain nothing. Raises InputError for states, times, rtol and workers that are none.
+    """
+    equations, times, rtol = _equations(scene), _times(times), _rtol(rtol)
+    starts = _starts(equations, states)
+    workers = _workers(workers)
+    if not heyoka_available():
+        return _one_by_one(scene, starts, times, rtol)
+    rtol = TAYLOR_TOLERANCE if rtol is None else max(rtol, TAYLOR_TOLERANCE)
+    system = to_numpy(equations)
+    if equations.blocks == ("omega",):
+        with np.errstate(all="ignore"):
+            rates = system(starts)
+        units = np.array([own_unit(scene, *one) for one in zip(starts.tolist(), rates.tolist())])
+        if (units != 1).any():
+            return _by_units(scene, starts, times, rtol, workers, units)
+    run = _Rows(scene, form(equations, equations.rhs), rtol, starts, times)
+    groups = _groups(system, starts)
+    with ThreadPoolExecutor(workers) if workers > 1 else nullcontext() as pool:
+        steps = sum((pool.map if pool else map)(run, (groups[i::workers] for i in range(workers))))
+    return Ensemble(times, run.out, np.isfinite(run.out).all(axis=2), dict(sorted(run.stopped.items())), "taylor", rtol,
+                    {"steps": steps}, scene)
+
+
+def _by_units(scene, starts, times, rtol, workers, units):
+    """The motions of each unit of time by themselves, in that unit (`own_unit`)."""
+    out, stopped, steps = np.empty((len(starts), times.size, 3)), {}, 0
+    for unit in sorted(set(units.tolist())):
+        rows = np.flatnonzero(units == unit)
+        part = ensemble(scene if unit == 1 else in_unit(scene, unit), starts[rows] / unit, times * unit, rtol, workers)
+        out[rows], steps = part.states * unit, steps + part.counters["steps"]
+        stopped |= {int(rows[n]): why for n, why in part.stopped.items()}
+    return Ensemble(times, out, np.isfinite(out).all(axis=2), dict(sorted(stopped.items())), "taylor", rtol, {"steps": steps}, scene)
+
+
+def _starts(equations, states):
+    wanted = len(equations.state)
+    try:
+        array = np.asarray(real(np.asarray(states), "states"), float)
+    except (TypeError, ValueError):
+        raise InputError(f"states: expected rows of {wanted} numbers, got {states!r}") from None
+    if array.ndim != 2 or array.shape[1] != wanted or not len(array):
+        raise InputError(f"states: expected rows of {wanted} numbers ({', '.join(map(str, equations.state))}), got the shape {array.shape}")
+    if not np.isfinite(array).all():
+        raise InputError(f"states: row {int(np.argmin(np.isfinite(array).all(axis=1)))} is not finite")
+    return array
+
+
+def _workers(workers):
+    if isinstance(workers, bool) or not isinstance(workers, (int, np.integer)) or workers < 0:
+        raise InputError(f"workers: expected a whole number, 0 for all cores, got {workers!r}")
+    return int(workers) or os.cpu_count() or 1
+
+
+def _groups(system, starts):
+    """Rows of LANES motions of similar pace: the slowest of a row keeps the others waiting. The last row is filled up."""
+    with np.errstate(all="ignore"):
+        pace = np.linalg.norm(starts[:, :3], axis=1) + np.linalg.norm(system(starts), axis=1)
+    order = np.argsort(pace, kind="stable")
+    order = np.append(order, np.repeat(order[-1:], -len(order) % LANES))
+    return order.reshape(-1, LANES)
+
+
+class _Rows:
+    """Called with rows of LANES numbers of motions, it puts their states into `out` and answers the steps they took."""
+
+    def __init__(self, scene, forms, rtol, starts, times):
+        self.scene, self.forms, self.rtol, self.starts, self.times = scene, forms, rtol, starts, times
+        self.out = np.empty((len(starts), times.size, starts.shape[1]))
+        self.out[:, times == 0] = starts[:, None]
+        self.stopped = {}
+        self.grids = []  # (which of the times, the way there lane by lane)
+        for chosen, sense in ((times < 0, -1), (times > 0, 1)):
+            way = np.flatnonzero(chosen)[np.argsort(times[chosen] * sense)]
+            if way.size:
+                self.grids.append((way, np.repeat(np.concatenate([[0.0], times[way]])[:, None], LANES, axis=1)))
+
+    def __call__(self, groups) -> int:
+        with borrowed_taylor(self.forms, self.rtol, LANES) as ta:
+            return sum(self._row(ta, group, way, grid) for group in groups for way, grid in self.grids)
+
+    def _row(self, ta, lanes, way, grid) -> int:
+        """A row of motions one way; those that cannot go on give up their lane, and the others start again."""
+        points, steps = self._propagated(ta, lanes, grid)
+        while not self._arrived(ta, grid, points):
+            for number in {int(n) for n, result in zip(lanes, ta.propagate_res) if result[0].name != "time_limit"}:
+                self._alone(number)
+            good = [number for number in lanes if int(number) not in self.stopped]
+            if not good:
+                return 0
+            lanes = np.resize(good, LANES)
+            points, steps = self._propagated(ta, lanes, grid)
+        self.out[lanes[:, None], way] = points[1:].transpose(2, 0, 1)
+        return sum(dict(zip(lanes.tolist(), steps)).values())  # a filler counts once
+
+    def _arrived(self, ta, grid, points):
+        return (ta.time == grid[-1]).all() and np.isfinite(points[-1]).all()
+
+    def _propagated(self, ta, lanes, grid):
+        ta.set_time(0.0)
+        ta.state[:] = self.starts[lanes].T
+        points = ta.propagate_grid(grid, max_steps=STEP_LIMIT)[1]
+        return points, [result[3] for result in ta.propagate_res]
+
+    def _alone(self, number):
+        """A motion that its lane could not finish: as far as `trajectory` takes it, and why no farther."""
+        self.stopped[number] = _single(self.scene, self.starts[number], self.times, "taylor", self.rtol, self.out[number])[0]
+
+
+def _single(scene, start, times, method, rtol, out):
+    """(why it stopped or "", run) of one motion, its states put into `out` (m, N), inf where it did not get."""
+    run = trajectory(scene, start, times, method, rtol, laws=False)
+    out[:] = np.inf
+    out[np.isin(times, run.t)] = run.states
+    return ("" if run.status == "reached" else run.reason), run
+
+
+def _one_by_one(scene, starts, times, rtol):
+    out, stopped, steps = np.empty((len(starts), times.size, starts.shape[1])), {}, 0
+    for number, start in enumerate(starts):
+        why, run = _single(scene, start, times, "taylor", rtol, out[number])
+        stopped |= {number: why} if why else {}
+        steps += run.counters["steps"]
+    return Ensemble(times, out, np.isfinite(out).all(axis=2), stopped, run.method, run.rtol, {"steps": steps}, scene)

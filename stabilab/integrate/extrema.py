@@ -1,0 +1,140 @@
+"""Local extremes of a motion's components: every root of every rate over a span, none lost between samples.
+
+With heyoka the Taylor polynomial of each rate over each step is searched for all its real roots. SciPy's stand-in
+looks for sign changes on the step's own interpolant, which can miss a pair of roots closer than a sixteenth of a step.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..physics.to_numpy import form, heyoka_available, taylor_events, TAYLOR_TOLERANCE, to_numpy
+from ..physics.motion_units import in_unit, mass_unit, own_unit
+from .trajectory import _start, ATOL_SHARE, FALLBACK_RTOL, STEP_LIMIT
+
+SUBSAMPLES = 16
+
+
+@dataclass(frozen=True)
+class RateRoots:
+    """Roots of the rates, in the order of the motion.
+
+    t: (n,) times; component: (n,) index of the rate that vanishes; states: (n, N) there; start, end: (N,)
+    states at t = 0 and at t_reached (the end of the span, or earlier where the run had to stop: `reason` says why);
+    method: "taylor" or "DOP853".
+    """
+
+    t: np.ndarray
+    component: np.ndarray
+    states: np.ndarray
+    start: np.ndarray
+    end: np.ndarray
+    t_reached: float
+    method: str
+    steps: int
+    reason: str
+
+    def extremes(self):
+        """(3, 2) smallest and largest value of the first three components over the span, its two ends included."""
+        result = np.sort(np.stack([self.start[:3], self.end[:3]], axis=1), axis=1)
+        for i in range(3):
+            values = self.states[self.component == i, i]
+            if values.size:
+                result[i] = min(result[i, 0], values.min()), max(result[i, 1], values.max())
+        return result
+
+
+def roots_of_rates(scene, state, t_end: float, tolerance: float = TAYLOR_TOLERANCE) -> RateRoots:
+    """Every root of x_i' for 0 < |t| < |t_end|, for the motion that is at `state` (as `trajectory` takes it) at t = 0.
+
+    t_end: s (tau when scaled), of either sign. Raises InputError for a state that is none. Rates
+    that vanish identically have no roots.
+    """
+    equations, state = _start(scene, state)
+    with np.errstate(all="ignore"):
+        rates = to_numpy(equations)(state)
+    if not np.isfinite(rates).all():
+        return _sorted([], state, state, 0.0, "none", 0, "stopped: the rates overflow at the start")
+    if equations.blocks == ("omega",):
+        unit, mass = own_unit(scene, state.tolist(), rates.tolist()), mass_unit(scene)
+        if unit != 1 or mass != 1:
+            return _in_unit(scene, state, float(t_end), tolerance, unit, mass)
+    search = _taylor_roots if heyoka_available() else _scipy_roots
+    return search(equations, state, float(t_end), tolerance)
+
+
+def _in_unit(scene, state, t_end, tolerance, unit, mass) -> RateRoots:
+    """The same in the motion's own units: exact, as they are powers of two."""
+    found = roots_of_rates(in_unit(scene, unit, mass), state / unit, t_end * unit, tolerance)
+    return replace(found, t=found.t / unit, states=found.states * unit, start=state, end=found.end * unit, t_reached=found.t_reached / unit)
+
+
+def _taylor_roots(equations, state, t_end, tolerance):
+    forms = form(equations, (*equations.rhs, *equations.rhs))
+    with taylor_events(forms, tolerance) as (integrator, found), np.errstate(all="ignore"):
+        integrator.time = 0.0
+        integrator.state[:] = state
+        outcome, _, _, steps, *_ = integrator.propagate_until(t_end, max_steps=STEP_LIMIT)
+        end, t_reached, hits = integrator.state.copy(), integrator.time, list(found)
+    hits = [h for h in hits if h[0] != 0.0 and np.isfinite(h[2]).all()]
+    if not np.isfinite(end).all():
+        t_reached, _, end = hits[-1] if hits else (0.0, 0, state)
+    reason = "" if outcome.name == "time_limit" else f"stopped: {outcome.name}"
+    return _sorted(hits, state, end, t_reached, "taylor", steps, reason)
+
+
+def _sorted(hits, start, end, t_reached, method, steps, reason):
+    hits = sorted(hits, key=lambda h: abs(h[0]))
+    return RateRoots(np.array([h[0] for h in hits]), np.array([h[1] for h in hits], int),
+                     np.array([h[2] for h in hits]).reshape(-1, len(start)), np.array(start), np.array(end), float(t_reached),
+                     method, int(steps), reason)
+
+
+def _scipy_roots(equations, state, t_end, tolerance):
+    from scipy.integrate import DOP853
+    system = to_numpy(equations)
+    rtol = max(tolerance, FALLBACK_RTOL)
+    floor = rtol * ATOL_SHARE * (np.abs(state).max() or 1.0)
+
+    def run(t, y, end):
+        return DOP853(lambda _, x: np.array(system.rate(x.tolist())), t, y, end, rtol=rtol, atol=floor)
+
+    if t_end == 0:
+        return _sorted([], state, state, 0.0, "DOP853", 0, "")
+    solver, hits, steps = run(0.0, state, t_end), [], 0
+    with np.errstate(all="ignore"):
+        while solver.status == "running" and steps < STEP_LIMIT:
+            before = solver.y.copy()
+            solver.step()
+            if solver.status == "failed" or not np.isfinite(solver.y).all():
+                return _sorted(hits, state, before, solver.t_old or 0.0, "DOP853", steps, "stopped: the numbers overflowed")
+            steps += 1
+            hits += _step_roots(system, solver, before, run)
+    reason = "" if solver.status == "finished" else f"stopped: {STEP_LIMIT} steps were not enough"
+    return _sorted(hits, state, solver.y, solver.t, "DOP853", steps, reason)
+
+
+def _step_roots(system, solver, before, run):
+    """Sign changes of the rates within one step, each polished on the motion itself."""
+    from scipy.optimize import brentq
+    dense, hits = solver.dense_output(), []
+    times = np.linspace(solver.t_old, solver.t, SUBSAMPLES + 1)
+    rates = system(dense(times).T)
+    for i in range(3):
+        for left in np.nonzero(np.sign(rates[:-1, i]) * np.sign(rates[1:, i]) < 0)[0]:
+            t = brentq(lambda s: system.rate(dense(s).tolist())[i], times[left], times[left + 1], xtol=1e-300, rtol=1e-15)
+            hits.append((t, i, _land(run, solver.t_old, before, t)))
+        hits += [(times[n], i, dense(times[n])) for n in np.nonzero(rates[1:, i] == 0)[0] + 1
+                 if np.abs(rates[:, i]).max() > 0]
+    return hits
+
+
+def _land(run, t, y, t_end):
+    """The state at t_end by steps of the method that end there (free of the interpolant's error)."""
+    if t == t_end:
+        return y
+    solver = run(t, y, t_end)
+    while solver.status == "running":
+        solver.step()
+    return solver.y

@@ -1,0 +1,337 @@
+"""Trajectories: the state at asked-for times, and how far the run departs from the laws of the motion.
+
+The laws are checked against the integrals of their rates, which ride along in the same run without steering its
+steps (feathered, see `compiled`), so a law with a non-zero rate is as good a witness as a constant.
+"""
+from __future__ import annotations
+
+import difflib
+from dataclasses import replace
+
+import numpy as np
+
+from ..physics.blocks import BLOCKS, ORDER, slices
+from ..physics.to_numpy import _equations, borrowed_taylor, FEATHER, form, heyoka_available, TAYLOR_TOLERANCE, to_numpy
+from ..physics.equations import derive
+from ..asked import real
+from ..errors import InputError
+from ..orbit.separatrix.result import Trajectory
+from ..physics.motion_units import in_unit, mass_unit, own_unit
+
+SCIPY_METHODS = ("RK45", "RK23", "DOP853", "Radau", "BDF", "LSODA")
+METHODS = ("taylor", *SCIPY_METHODS)
+REDUCED = "reduced"  # follows nothing: see `reduced_motion`
+# SciPy's own default is 1e-3, too coarse to judge a motion by; 1e-10 is within reach of every method in the list.
+SCIPY_RTOL = 1e-10
+# What DOP853 can still hold in double precision; it stands in for the Taylor series.
+FALLBACK_RTOL = 1e-13
+# Absolute tolerance of the SciPy runs relative to the size of the state: keeps rtol meaningful at zero crossings.
+ATOL_SHARE = 1e-3
+STEP_LIMIT = 20_000_000
+REPORT, PATIENCE = 1_000_000, 5  # steps after which the rest is forecast; forecast over STEP_LIMIT that ends the run
+OUTCOMES = {"err_nf_state": "the numbers overflowed"}
+
+
+def trajectory(scene, state, times, method: str = "taylor", rtol: float | None = None, steps: list | None = None,
+               laws: bool = True) -> Trajectory:
+    """States of a scene at the given times, the motion being at `state` at t = 0.
+
+    state: three numbers, the angular velocity (x when scaled); for scenes with more blocks of state all their
+    components in order, or a dict of blocks {"omega": ..., "gamma": ..., "attitude": ...} as in `blocks` (a block
+    beyond those that the scene needs is integrated too; a missing one starts at gamma = e3, the unit quaternion, rest).
+
+    times: (n,) strictly increasing or decreasing, of any sign, in s (tau when scaled). method: "taylor" (heyoka; where
+    it is not installed SciPy's DOP853 at rtol 1e-13, and `method` and `reason` say so) or a method of
+    scipy.integrate.solve_ivp by name, in any case; "reduced" (the quadrature of a scene with one degree of freedom, at a cost
+    that does not grow with the times; InputError where the motion has none). rtol: relative tolerance; None is half an ulp for "taylor", 1e-10
+    for the others. steps: a list that takes the times at which the method ended its own steps. laws: check the balance
+    laws (costs the Taylor series a fifth or so); without, `invariant_drift` is empty. Where the run cannot go on (overflow, a failing step) `status` is "stopped", `reason` says why, and
+    t, states hold the times that were reached. Raises InputError for states and times that are no such numbers and
+    for an unknown method.
+    """
+    method, times, rtol = _method(method), _times(times), _rtol(rtol)
+    equations, state = _start(scene, state)
+    if method == REDUCED:
+        return _by_quadrature(scene, equations, state, times, rtol)
+    reason, landing = "all times reached", False
+    if method == "taylor" and not heyoka_available():
+        method, rtol, landing = "DOP853", max(rtol or 0.0, FALLBACK_RTOL), True
+        reason = "all times reached; heyoka is not installed, SciPy's DOP853 took its place"
+    system = to_numpy(equations)
+    if method == "taylor" and equations.blocks == ("omega",):
+        with np.errstate(all="ignore"):
+            unit = own_unit(scene, state.tolist(), [float(v) for v in system.rate(state.tolist())])
+        mass = mass_unit(scene)
+        if unit != 1 or mass != 1:
+            return _in_unit(scene, state, times, rtol, steps, laws, unit, mass)
+    if method == "taylor":
+        rtol = TAYLOR_TOLERANCE if rtol is None else max(rtol, TAYLOR_TOLERANCE)
+        run = _Taylor(system, rtol, laws)
+    else:
+        rtol = SCIPY_RTOL if rtol is None else rtol
+        run = _SciPy(system, method, rtol, landing)
+    watch = _watch(scene, equations, state)
+    still = (times == 0).sum()
+    reached, states, drift, failures = [np.zeros(still)], [np.repeat(state[None], still, axis=0)], {}, []
+    for chosen, sense in ((times < 0, -1), (times > 0, 1)):
+        grid = np.sort(times[chosen] * sense) * sense
+        if grid.size:
+            points, failure = run.run(state, grid, steps, watch)
+            reached.append(grid[:len(points)])
+            states.append(points[:, :state.size])
+            failures += [failure] if failure else []
+            for row in points if watch else ():
+                watch.note(row[:state.size])
+            for name, departure in _departures(system, state, points).items() if laws else ():
+                drift[name] = max(drift.get(name, 0.0), departure)
+    reached, states = np.concatenate(reached), np.concatenate(states)
+    order = np.argsort(reached)[::1 if times.size < 2 or times[1] > times[0] else -1]
+    return Trajectory(reached[order], states[order], method, rtol, drift,
+                      run.counters, "stopped" if failures else "reached", "; ".join(failures) or reason,
+                      {name: part for name, part in slices(equations.blocks).items()}, watch and watch.result())
+
+
+def _watch(scene, equations, state):
+    """What looks at each step of a run under an approximate law; None where all laws are exact."""
+    if not getattr(scene, "approximate", ()):
+        return None
+    from ..physics.law_limits import Watch
+    watch = Watch(scene, equations.blocks)
+    watch.note(state)
+    return watch
+
+
+def _in_unit(scene, state, times, rtol, steps, laws, unit, mass) -> Trajectory:
+    """The same in the motion's own units of time and mass: exact, as they are powers of two."""
+    passed = None if steps is None else []
+    run = trajectory(in_unit(scene, unit, mass), state / unit, times * unit, "taylor", rtol, passed, laws)
+    if steps is not None:
+        steps += [t / unit for t in passed]
+    return replace(run, t=times[np.isin(times * unit, run.t)], states=run.states * unit)
+
+
+def _method(name: str) -> str:
+    known = {m.lower(): m for m in (*METHODS, REDUCED)}
+    if isinstance(name, str) and name.lower() in known:
+        return known[name.lower()]
+    close = difflib.get_close_matches(str(name).lower(), known, 1)
+    hint = f'; did you mean "{known[close[0]]}"?' if close else ""
+    raise InputError(f"method: there is no {name!r}; choose one of {', '.join(known.values())}{hint}")
+
+
+def _by_quadrature(scene, equations, state, times, rtol):
+    from ..orbit.flow.flow import axis_way, reduced_motion
+    if equations.blocks != ("omega",):
+        raise InputError(f"method reduced: it gives the rates alone, and the state has the blocks {', '.join(equations.blocks)}; take "
+                         "method taylor")
+    if rtol is not None:
+        raise InputError("method reduced: it takes as many nodes as doubles need and has no tolerance; leave rtol out")
+    motion = reduced_motion(scene, state, backwards=bool((times < 0).any()))
+    states, turned, axis = axis_way(motion, times)
+    system = to_numpy(equations)
+    unit = np.vstack([np.zeros(3), np.eye(3)[axis]])
+    integrals = [row[0] * times + (row[1] - row[0]) * turned for row in system.law_rates(unit).values()]  # affine in that rate
+    drift = _departures(system, state, np.column_stack([states, *integrals]))
+    watch = _watch(scene, equations, state)
+    for row in states if watch else ():
+        watch.note(row)
+    return Trajectory(times, states, REDUCED, None, drift, {"evaluations": motion.evaluations}, "reached",
+                      "all times reached, without steps: time as an integral over the reduced coordinate, inverted",
+                      validity=watch and watch.result())
+
+
+def _numbers(values, name):
+    try:
+        array = np.atleast_1d(np.asarray(real(np.asarray(values), name), float))
+    except (TypeError, ValueError):
+        raise InputError(f"{name}: expected numbers, got {values!r}") from None
+    if array.ndim != 1 or not array.size or not np.isfinite(array).all():
+        raise InputError(f"{name}: expected finite numbers in one row, got {values!r}")
+    return array
+
+
+def _state(state):
+    array = _numbers(state, "state")
+    if array.size != 3:
+        raise InputError(f"state: expected three numbers, got {array.size} of them")
+    return array
+
+
+REST = {"gamma": (0.0, 0.0, 1.0), "attitude": (1.0, 0.0, 0.0, 0.0), "velocity": (0.0,) * 3, "position": (0.0,) * 3}
+
+
+def _start(scene, state):
+    """(equations, state as one row) of a start given as numbers or block by block."""
+    if not isinstance(state, dict):
+        equations, array = _equations(scene), _numbers(state, "state")
+        wanted = len(equations.state)
+        if array.size != wanted:
+            words = "three numbers" if wanted == 3 else f"{wanted} numbers ({', '.join(map(str, equations.state))})"
+            raise InputError(f"state: expected {words}, got {array.size} of them")
+        return equations, array
+    unknown = [name for name in state if name not in BLOCKS]
+    if unknown or "omega" not in state:
+        raise InputError(f"state: expected the block omega and any of {', '.join(ORDER[1:])}; got {', '.join(state) or 'none'}")
+    equations = derive(scene, state)
+    rows = []
+    for name in equations.blocks:
+        row = _numbers(state.get(name, REST.get(name)), f"state: {name}")
+        if row.size != len(BLOCKS[name].components):
+            raise InputError(f"state: {name} has {len(BLOCKS[name].components)} components, got {row.size}")
+        rows.append(row)
+    return equations, np.concatenate(rows)
+
+
+def _times(times):
+    array = _numbers(times, "times")
+    steps = np.diff(array)
+    if not ((steps > 0).all() or (steps < 0).all()):
+        raise InputError("times: expected strictly increasing or strictly decreasing times")
+    return array
+
+
+def _rtol(rtol):
+    if rtol is not None and not (isinstance(rtol, (int, float)) and 0 < rtol < 1):
+        raise InputError(f"rtol: expected a number between 0 and 1, got {rtol!r}")
+    return rtol
+
+
+def _departures(system, state, points) -> dict[str, float]:
+    """Law name -> largest |Q(t) - Q(0) - integral of its rate| over the largest size of its terms in the run."""
+    if not len(points):
+        return {}
+    n, result = state.size, {}
+    for i, (name, (quantity, sizes)) in enumerate(system.law_values(np.vstack([state, points[:, :n]])).items()):
+        size = max(sizes.max(), np.abs(points[:, n + i]).max())
+        departure = np.abs(quantity[1:] - quantity[0] - points[:, n + i]).max()
+        result[name] = float(departure / size) if size > 0 else 0.0
+    return result
+
+
+class _Taylor:
+    """Runs of the Taylor series; counters add up over the runs."""
+
+    def __init__(self, system, rtol, laws=True):
+        rates = [law.rate for law in system.equations.balances] if laws else []
+        self.forms, self.rtol = form(system.equations, (*system.equations.rhs, *rates)), rtol
+        self.counters = {"steps": 0}
+
+    def run(self, state, grid, passed=None, watch=None):
+        """(states and law integrals at the times of `grid`, failure or None); grid moves away from 0 without it.
+        passed: a list that takes the ends of the steps; watch: is told the state there."""
+        note = {}
+        if passed is not None or watch is not None:
+            def seen(ta):
+                if passed is not None:
+                    passed.append(ta.time)
+                if watch is not None:
+                    watch.note(ta.state[:state.size].copy())
+                return True
+            note = {"callback": seen}
+        with borrowed_taylor(self.forms, self.rtol) as ta:
+            self.counters["order"] = ta.order
+            ta.time = 0.0
+            ta.state[:] = 0.0
+            ta.state[:state.size] = state
+            out, failure = self._passed(ta, grid, note)
+        out[:, state.size:] /= FEATHER
+        good = np.isfinite(out).all(axis=1)
+        out = out if good.all() else out[:np.argmin(good)]
+        return out, None if len(out) == len(grid) else _stopped(out, grid, failure)
+
+    def _passed(self, ta, grid, note):
+        """(states at the times of `grid` that were reached, why not all or None)."""
+        rows, begun = [], self.counters["steps"]
+        while True:
+            done = sum(map(len, rows))
+            last = ta.time
+            with np.errstate(all="ignore"):
+                outcome, _, _, steps, *_, out = ta.propagate_grid(np.concatenate([[last], grid[done:]]), max_steps=REPORT, **note)
+            self.counters["steps"] += steps
+            rows.append(np.reshape(out, (-1, ta.state.size))[1:])
+            left = abs(grid[-1] - ta.time) / (abs(ta.time - last) or 1e-300) * REPORT
+            if outcome.name != "step_limit":
+                return np.concatenate(rows), OUTCOMES.get(outcome.name, outcome.name)
+            if self.counters["steps"] - begun >= STEP_LIMIT or left > PATIENCE * STEP_LIMIT:
+                return np.concatenate(rows), (f"the last {REPORT} steps went from t = {last:.9g} to {ta.time:.9g}, the rest would "
+                                              f"take some {left:.1g} steps")
+
+
+class _SciPy:
+    """Runs of a SciPy method; counters add up over the runs. landing: end a step on each asked-for time (costs a
+    step, saves the interpolant's error)."""
+
+    def __init__(self, system, method, rtol, landing=False):
+        self.system, self.method, self.rtol, self.landing = system, method, rtol, landing
+        self.counters = {"steps": 0, "rate evaluations": 0, "jacobian evaluations": 0}
+
+    def run(self, state, grid, passed=None, watch=None):
+        """As of _Taylor."""
+        y, t, points, h = np.concatenate([state, np.zeros(len(self.system.equations.balances))]), 0.0, [], None
+        failure = None
+        with np.errstate(all="ignore"):
+            for piece in (grid[i:i + 1] for i in range(len(grid))) if self.landing else (grid,):
+                y, h, failure = self._piece(t, y, piece, h, points, passed, watch)
+                if failure:
+                    break
+                t = piece[-1]
+        out = np.array(points).reshape(-1, y.size)
+        out[:, state.size:] /= FEATHER
+        return out, failure and _stopped(out, grid, failure)
+
+    def _piece(self, t, y, grid, h, points, passed, watch):
+        """Steps from t to grid[-1], appending to `points`; (last state, last step, failure or None)."""
+        n = len(self.system.equations.state)
+        try:
+            solver = self._solver(t, y, grid[-1], h)
+        except (ValueError, OverflowError) as error:
+            return y, h, str(error)
+        done = 0
+        while solver.status == "running":
+            try:
+                message = solver.step()
+            except (ValueError, OverflowError) as error:  # SciPy's linear algebra refuses infinite entries
+                return y, h, str(error)
+            self.counters["steps"] += 1
+            if passed is not None:
+                passed.append(solver.t)
+            if watch is not None:
+                watch.note(solver.y[:n].copy())
+            if solver.status == "failed" or not np.isfinite(solver.y[:n]).all():
+                return y, h, message or "the numbers overflowed"
+            if self.counters["steps"] >= STEP_LIMIT:
+                return y, h, f"{STEP_LIMIT} steps were not enough"
+            h = abs(solver.t - solver.t_old) if solver.status == "running" or h is None else h
+            if abs(grid[done]) <= abs(solver.t):
+                inside = grid[done:][np.abs(grid[done:]) <= abs(solver.t)]
+                dense = solver.dense_output()
+                points += [solver.y.copy() if time == solver.t else dense(time) for time in inside]
+                done += len(inside)
+        self.counters["rate evaluations"] += int(solver.nfev)
+        self.counters["jacobian evaluations"] += int(solver.njev)
+        return solver.y, h, None
+
+    def _solver(self, t, y, end, h):
+        from scipy import integrate
+        n = len(self.system.equations.state)
+        weight = np.where(np.arange(y.size) < n, 1.0, FEATHER)
+
+        def rates(_, y):
+            return weight * self.system.rate_and_laws(y[:n].tolist())
+
+        floor = self.rtol * ATOL_SHARE * (np.abs(y[:n]).max() or 1.0)
+        options = {"jac": self._padded_jacobian(n, y.size)} if self.method in ("Radau", "BDF", "LSODA") else {}
+        options |= {} if h is None else {"first_step": min(h, abs(end - t))}
+        return getattr(integrate, self.method)(rates, t, y, end, rtol=self.rtol, atol=floor, **options)
+
+    def _padded_jacobian(self, n, size):
+        def jacobian(_, y):
+            full = np.zeros((size, size))
+            full[:n, :n] = self.system.jacobian(y[:n])
+            return full
+        return jacobian
+
+
+def _stopped(points, grid, why):
+    last = f"t = {grid[len(points) - 1]:.17g}" if len(points) else "the start"
+    return f"the run stopped after {last}: {why}"

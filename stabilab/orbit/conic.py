@@ -1,0 +1,260 @@
+"""The curve of equilibria in the plane of the reduction, cut where the invariant Q = Z^2 - e X^2 is stationary.
+
+G X Z + c Z + d X + mu = 0 is a hyperbola, two lines or one line. Between its folds (points where it touches an orbit)
+Q is monotone along it, so each piece meets an orbit at most once: that makes the search for all barriers and wells of
+every orbit complete and vectorised.
+"""
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+from typing import NamedTuple
+
+from ..numbers.roots import bracketed_newton, real_polynomial_roots
+
+
+class Piece(NamedTuple):
+    """Part of the hyperbola X = (K/h - c)/G, Z = h - d/G with h between `inner` and `outer` in size (0 and inf at the
+    open ends), of one sign; `rising`: Q grows with |h|. barrier: it holds saddles (maxima of the potential)."""
+
+    sign: int
+    inner: float
+    outer: float
+    rising: bool
+    barrier: bool
+
+
+class Line(NamedTuple):
+    """Equilibria (x0 + t dx, z0 + t dz): a degenerate conic."""
+
+    x0: float
+    z0: float
+    dx: float
+    dz: float
+
+
+class Conic:
+    """The equilibria of a reduction with e = -1 or +1 and their pieces. exact constants decide degeneracy."""
+
+    def __init__(self, reduction):
+        self.e = reduction.e
+        g = reduction.exact_constants
+        self.G, self.c, self.d, self.mu = (reduction.constants[n] for n in ("G", "c", "d", "mu"))
+        self.pieces: tuple[Piece, ...] = ()
+        self.lines: tuple[Line, ...] = ()
+        self.folds: tuple[float, ...] = ()
+        self.fold_invariants: tuple[float, ...] = ()
+        self.tangents: tuple[float, ...] = ()  # invariants of the orbits that a line of equilibria touches
+        G, c, d, mu = g["G"], g["c"], g["d"], g["mu"]
+        size = c * c + d * d
+        self.limit = Line(float(-mu * d / size), float(-mu * c / size), float(-c), float(d)) if size else None
+        if G == 0:
+            self.lines = (self.limit,) if size else ()
+            beside = c * c - self.e * d * d
+            self.tangents = (float(mu * mu / beside),) if beside else ()
+            self.K = self.shift = 0.0
+            return
+        # K through roots of rationals would miss an exact zero by 2^-240: recognise it in rational arithmetic
+        K = Fraction(0) if _conic_degenerates(reduction) else c * d / G - mu
+        self.K, self.shift = float(K), float(d / G)
+        if K == 0:
+            # from the feet: of two almost equal moments the crossing lies so far out that the way back would cost all digits
+            self.lines = (Line(float(-c / G), 0.0, 0.0, 1.0), Line(0.0, float(-d / G), 1.0, 0.0))
+            self.tangents = float(-self.e * (c / G) ** 2), float((d / G) ** 2)
+            return
+        quartic = [Fraction(1), -d / G, Fraction(0), -self.e * c * K / G**2, self.e * K * K / G**2]
+        self.folds = tuple(real_polynomial_roots([_shorten(a) for a in quartic]))
+
+        def exact_at(h):
+            return (K / h - c) / G, h - d / G
+        self.pieces = tuple(self._pieces(exact_at, G, c, d))
+        # of two almost equal moments a fold's h lies far out, and one rounding of it would move its orbit
+        exact_places = [exact_at(_sharpened(quartic, h)) for h in self.folds]
+        self.fold_invariants = tuple(float(z * z - self.e * x * x) for x, z in exact_places)
+
+    def at(self, h):
+        """(X, Z) on the hyperbola."""
+        return (self.K / h - self.c) / self.G, h - self.shift
+
+    def invariant(self, h):
+        x, z = self.at(h)
+        return (z - x) * (z + x) if self.e > 0 else z * z + x * x
+
+    def _pieces(self, exact_at, G, c, d):
+        """The pieces by exact signs: of two almost equal moments the terms of the slope cancel to the last digit."""
+        e = self.e
+        for sign in (-1, 1):
+            cuts = sorted(abs(f) for f in self.folds if f * sign > 0)
+            for inner, outer in zip([0.0, *cuts], [*cuts, float("inf")]):
+                (x, z), (far_x, far_z) = (exact_at(Fraction(sign * h)) for h in _inside(inner, outer))
+                slope = G * (z * z + e * x * x) + e * c * x + d * z
+                rising = far_z * far_z - e * far_x * far_x > z * z - e * x * x
+                yield Piece(sign, inner, outer, rising, slope > 0)
+
+    def critical_places(self, Q, wanted=None):
+        """Every equilibrium on the orbits Q (n,): a list of (X, Z, exists, barrier) with arrays (n,), barrier None
+        where it is to be decided from the slope. wanted: True for barriers only."""
+        found, thin = [], self._nearly_straight(Q)
+        for piece in self.pieces:
+            if wanted is None or piece.barrier == wanted:
+                x, z, exists = self._meet_piece(piece, Q)
+                found.append((x, z, exists & ~thin, piece.barrier))
+        if thin.any():
+            found.extend((x, z, exists & thin, None) for x, z, exists in self._meet_line(self.limit, Q))
+        for line in self.lines:
+            found.extend((*hit, None) for hit in self._meet_line(line, Q))
+        return found
+
+    def _nearly_straight(self, Q):
+        """(n,) True where, inside the circle, the conic differs so little from a line that the line is the better guess
+        (two moments equal to many digits): X = (K/h - c)/G would lose all digits. The caller polishes along the orbit."""
+        import numpy as np
+        if self.e > 0 or not self.pieces or self.limit is None:
+            return np.zeros(Q.shape, bool)
+        return abs(self.G) * np.sqrt(Q) < 1e-6 * np.hypot(self.c, self.d)
+
+    def _meet_piece(self, piece, Q):
+        """The point of a piece where the invariant is Q."""
+        import numpy as np
+        inner, outer, sign = piece.inner, piece.outer, piece.sign
+        value = lambda size: self.invariant(sign * size)
+        with np.errstate(all="ignore"):
+            ends = [value(inner) if inner else self._end(inner), value(outer) if np.isfinite(outer) else np.inf]
+        low, high = (ends[0], ends[1]) if piece.rising else (ends[1], ends[0])
+        exists = (Q > low) & (Q < high)
+        x, z = np.zeros(Q.shape), np.zeros(Q.shape)
+        if exists.any():
+            size = self._solve(piece, Q[exists])
+            x[exists], z[exists] = self.at(sign * size)
+        return x, z, exists
+
+    def _end(self, inner):
+        """Limit of the invariant as |h| -> 0."""
+        import numpy as np
+        return -self.e * np.inf if self.K else self.invariant(inner)
+
+    def _solve(self, piece, Q):
+        """|h| with invariant Q on a piece: plain Newton, longer next to a fold; the safe search for the rest."""
+        import numpy as np
+        size, rest = np.empty(Q.shape), np.arange(Q.size)
+        for steps in (6, 14):
+            size[rest], done = self._solve_fast(piece, Q[rest], steps)
+            rest = rest[~done]
+            if not rest.size:
+                return size
+        size[rest] = self._solve_safely(piece, Q[rest])
+        return size
+
+    def _solve_fast(self, piece, Q, steps):
+        """(|h|, converged) by Newton's method from the asymptote of an open-ended piece of a circle's conic."""
+        import numpy as np
+        if self.e > 0 or (piece.inner > 0) == np.isfinite(piece.outer):
+            return np.empty(Q.shape), np.zeros(Q.shape, bool)
+        K, c, G, s = self.K, self.c, self.G, self.shift
+        root = np.sqrt(Q)
+        with np.errstate(all="ignore"):
+            if piece.inner > 0:  # in Z = h - s: (h - s)^2 + (K/h - c)^2/G^2 = Q from h = s +- sqrt Q
+                h = s + piece.sign * root
+                scale = 1 / (G * G)
+                for _ in range(steps):
+                    ratio = K / h
+                    x, z = ratio - c, h - s
+                    step = (z * z + x * x * scale - Q) / (2 * (z - x * ratio / h * scale))
+                    h = h - step
+                last, size = np.abs(step / h), h * piece.sign
+            else:  # in y = K/h: (K/y - s)^2 + (y - c)^2/G^2 = Q from y = c +- |G| sqrt Q
+                side = piece.sign * (1 if K > 0 else -1)
+                y = c + side * abs(G) * root
+                scale = 1 / (G * G)
+                for _ in range(steps):
+                    ratio = K / y
+                    z, x = ratio - s, y - c
+                    step = (z * z + x * x * scale - Q) / (2 * (x * scale - z * ratio / y))
+                    y = y - step
+                last, size = np.abs(step / y), piece.sign * K / y
+            # a last step of 1e-9 leaves 1e-18 where convergence is quadratic, as it is away from the fold
+            return size, (last < 1e-9) & (size > piece.inner * (1 + 1e-4)) & (size < piece.outer * (1 - 1e-4))
+
+    def _solve_safely(self, piece, Q):
+        """|h| by bracketed Newton in log|h|, in which both ends of an open-ended piece are powers."""
+        import numpy as np
+        sign, K, c, G, s = piece.sign, self.K, self.c, self.G, self.shift
+        root = np.sqrt(np.abs(Q))
+        # bounds that no solution exceeds: |Z| and |X| are bounded by Q and by the other one's asymptote
+        reach = root + abs(c / G) + abs(s) + np.sqrt(abs(K / G)) + 1e-300
+        hi = np.minimum(piece.outer, 4 * reach)
+        lo = np.maximum(piece.inner, abs(K) / (4 * reach * abs(G)))
+        lo, hi = np.minimum(lo, hi), np.maximum(lo, hi)
+        if np.isinf(piece.outer):
+            start = np.clip(root + abs(s), lo, hi)
+        elif piece.inner == 0:
+            start = np.clip(abs(K) / (abs(G) * root + abs(c) + 1e-300), lo, hi)
+        else:
+            start = 0.5 * (lo + hi)
+
+        def fun(t, Q):
+            h = sign * np.exp(t)
+            x, z = (K / h - c) / G, h - s
+            value = ((z - x) * (z + x) if self.e > 0 else z * z + x * x) - Q
+            return value, 2 * (z * h + self.e * x * K / (h * G))
+        t = bracketed_newton(fun, np.log(lo), np.log(hi), np.log(start), (Q,), rising=piece.rising)
+        return np.exp(t)
+
+    def _meet_line(self, line, Q):
+        """Both points of a line where the invariant is Q: a quadratic in t."""
+        import numpy as np
+        e = self.e
+        a = line.dz**2 - e * line.dx**2
+        b = line.z0 * line.dz - e * line.x0 * line.dx
+        k = line.z0**2 - e * line.x0**2 - Q
+        if a == 0:
+            t = -k / (2 * b) if b else np.zeros(Q.shape)
+            yield line.x0 + t * line.dx, line.z0 + t * line.dz, np.full(Q.shape, bool(b))
+            return
+        disc = b * b - a * k
+        exists = disc > 0
+        root = np.sqrt(np.where(exists, disc, 0))
+        for side in (-1, 1):
+            t = (-b + side * root) / a
+            yield line.x0 + t * line.dx, line.z0 + t * line.dz, exists
+
+
+def _inside(inner, outer):
+    """Two points inside (inner, outer), the first nearer to `inner`."""
+    if inner == 0 and math.isinf(outer):
+        return 0.5, 2.0
+    if inner == 0:
+        return outer / 3, outer / 1.5
+    if math.isinf(outer):
+        return inner * 1.5, inner * 3
+    return inner + (outer - inner) / 3, inner + (outer - inner) / 1.5
+
+
+def _sharpened(coefficients, root: float) -> Fraction:
+    """A root of a polynomial (highest power first) to some 200 bits, from the nearest double; that double at a double root."""
+    x = Fraction(root)
+    for _ in range(3):
+        value = slope = Fraction(0)
+        for a in coefficients:
+            slope = slope * x + value
+            value = value * x + a
+        if not slope or abs(value) > abs(slope * x) / 2**20:
+            return Fraction(root)
+        x = _shorten(x - value / slope)
+    return x
+
+
+def _shorten(value: Fraction, bits: int = 300) -> Fraction:
+    """The value to 300 bits: exact zeros stay, huge denominators go."""
+    if value.denominator.bit_length() <= bits:
+        return value
+    shift = bits + value.denominator.bit_length() - abs(value.numerator).bit_length()
+    return Fraction(round(value * 2**shift), 2**shift) if shift > 0 else value
+
+
+def _conic_degenerates(reduction) -> bool:
+    """True iff c d = G mu exactly: with cj = rho - kappa sj, ck = sigma - kappa sk, torque T this is cj ck = kappa T."""
+    r = reduction
+    sj, sk = r.q0 / r.q, r.p0 / r.p
+    torque = r.m + r.kappa * sj * sk - r.rho * sk - r.sigma * sj
+    return (r.rho - r.kappa * sj) * (r.sigma - r.kappa * sk) == r.kappa * torque

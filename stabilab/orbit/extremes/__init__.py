@@ -1,0 +1,1 @@
+"""Turning points, and the ranges of the rates between them."""

@@ -1,0 +1,396 @@
+"""Extremes of each component and the period, by roots on the reduced potential: no sampling, no running.
+
+omega_i is extreme where the potential is lowest inside the allowed interval; omega_j and omega_k at the turning points
+and where their own derivative along the orbit vanishes inside it.
+"""
+from __future__ import annotations
+
+import numpy as np
+
+from ...asked import checked_span
+from ...errors import InputError
+from ...physics.effective import effective
+from ..far_states import far_numbers, far_rows
+from ..fate.arrays import checked_states, CHUNK, fate_on_orbit
+from ..landscape import EPS, Landscape, landscape, TURN
+from ..reduction import reduce
+from ..result import Fate
+from ...numbers.roots import bracketed_newton
+from .turning_points import interval, spots_along, turning_point
+
+EXTREMES_SHARE = 1e-7  # closer to the separatrix than this share of the energy terms, rounding costs extremes 1e-12
+SPIN_UP_SHARE = 1e-4  # the same for the least rate of a motion that just passes a barrier: the root of a difference
+DIGITS = 1e-12  # rounding that leaves less than this goes to ball arithmetic
+ON_TOP = 1e-13  # of the terms of the force, some hundreds of roundings
+SHIFT_LIMIT = 1e4  # canonical variables lose this factor of accuracy to the shift before the precise path takes over
+
+
+def extremes(scene, states, span=None, digits: int | None = None, fast: bool | None = None):
+    """Smallest and largest value of each component over all t >= 0: array (..., 3, 2) in the scene's variables.
+
+    +-inf where a component grows without bound; at an equilibrium both are the state. Scenes without a reduction need
+    `span`, a time: their extremes hold over [0, span] (InputError without it). digits (1 to 50): reach so many and check
+    them (ToleranceNotMet otherwise); without it eleven, by the formulas' own bound. fast: whether numba (the extra `fast`)
+    may compile the work; None where it is installed and pays. Raises InputError as `fate` does, and where fast=True
+    finds no numba.
+    """
+    span = _length(span)
+    if digits is not None:
+        from ...answers.digits.ask import ask_all
+        return ask_all("extremes", scene, states, digits, span).required().values
+    scene, array = effective(scene), checked_states(states)
+    if reduce(scene) is None:
+        from ...unreduced.aligned import extremes_one_by_one
+        return extremes_one_by_one(scene, array.reshape(-1, 3), span).reshape(array.shape + (2,))
+    return extremes_and_periods(scene, array, fast, period=False)[0]
+
+
+def _length(span):
+    """The length of a span; None where none is given."""
+    ends = checked_span(span)
+    return None if ends is None else ends[1] - ends[0]
+
+
+def extremes_and_periods(scene, states, fast: bool | None = None, *, box=True, period=True):
+    """(extremes (..., 3, 2), periods (...,)) in one go, each as the function of its name gives it; None for one that
+    is not asked for. For scenes with a reduction only (InputError for others, and as `extremes` raises it)."""
+    scene, array = effective(scene), checked_states(states)
+    if reduce(scene) is None:
+        raise InputError("extremes_and_periods: this scene has no reduction to one coordinate; ask for `extremes` with a"
+                         " span, or for `period`")
+    flat = np.ascontiguousarray(array.reshape(-1, 3))
+    boxes, periods = np.empty((len(flat) if box else 0, 3, 2)), np.empty(len(flat) if period else 0)
+    if (far := far_rows(scene, flat)).any():
+        _fill_far(scene, flat, boxes, periods, far)
+        return boxes.reshape(array.shape + (2,)) if box else None, periods.reshape(array.shape[:-1]) if period else None
+    land, left_open = landscape(scene), None
+    if fast is not False:
+        from .circle_numba import by_kernel
+        left_open = by_kernel(land, flat, boxes, periods, fast)
+    for start in range(0, len(flat), CHUNK):
+        rows = slice(start, start + CHUNK)
+        if left_open is None:
+            _fill(land, scene, flat[rows], boxes[rows], periods[rows])
+        elif left_open[rows].any():
+            _fill_open(land, scene, flat[rows], boxes[rows], periods[rows], left_open[rows])
+    return (boxes.reshape(array.shape + (2,)) if box else None, periods.reshape(array.shape[:-1]) if period else None)
+
+
+def _fill_far(scene, states, boxes, periods, far):
+    """All rows, those that are `far` (their squares may be no doubles) one at a time in their own unit."""
+    near = extremes_and_periods(scene, states[~far], box=len(boxes) > 0, period=len(periods) > 0) if not far.all() else (None, None)
+    for column, values, which in zip((boxes, periods), near, (0, 1)):
+        if len(column):
+            column[far] = [far_numbers(scene, state)[which] for state in states[far].tolist()]
+            column[~far] = values if values is not None else column[~far]
+
+
+def _fill(land, scene, states, boxes, periods):
+    """One chunk: boxes (n, 3, 2) and periods (n,), each unless it is empty."""
+    decided = fate_on_orbit(scene, land, states)
+    start = land.start(states)
+    trapped = trapped_rows(land, decided)
+    span = interval(land, *_pick(start[0], start[1], trapped)) if len(boxes) and len(periods) and trapped.any() else None
+    if len(boxes):
+        boxes[:] = _chunk(land, states, decided, start, span)
+    if len(periods):
+        from ..period.arrays import period_chunk
+        periods[:] = period_chunk(land, states, decided, start, span)
+
+
+def _fill_open(land, scene, states, boxes, periods, bits):
+    """The same for those states of a chunk that the compiled kernel left open."""
+    for column, bit in ((boxes, 1), (periods, 2)):
+        rows = np.nonzero(bits & bit)[0]
+        if len(column) and len(rows):
+            some, none = np.empty((len(rows),) + column.shape[1:]), np.empty(0)
+            _fill(land, scene, states[rows], *((some, none) if bit == 1 else (none, some)))
+            column[rows] = some
+
+
+def trapped_rows(land, decided):
+    """(n,) True for motions between two turning points."""
+    trapped = decided.labels == Fate.BOUNDED
+    return trapped & (decided.margins >= 0) if land.e < 0 and land.sense == 0 else trapped
+
+
+def _chunk(land: Landscape, states, decided, start, span=None):
+    """span: the intervals of all `trapped_rows`, where they are known already."""
+    out = np.repeat(states[:, :, None], 2, axis=2)
+    place, w, size = start
+    share = np.where(decided.labels == Fate.SPIN_UP, SPIN_UP_SHARE, EXTREMES_SHARE)
+    precise = needs_digits(land, states) | near_separatrix(land, place, w, decided, share)
+    precise |= (decided.labels == Fate.SEPARATRIX) | on_top(land, place)
+    precise &= decided.labels != Fate.EQUILIBRIUM
+    labels = np.where(precise, -1, decided.labels)
+    rows = trapped_rows(land, decided)
+    trapped, rotating = rows & (labels == Fate.BOUNDED), ~rows & (labels == Fate.BOUNDED)
+    _into(out, rotating, _rotating(land, *_pick(place, w, rotating)))
+    span = None if span is None else span.take(trapped[rows])
+    values, found = _trapped(land, *_pick(place, w, trapped), span)
+    _into(out, trapped, values)
+    precise[np.nonzero(trapped)[0][~found]] = True
+    spinning = labels == Fate.SPIN_UP
+    _into(out, spinning, _spinning(land, *_pick(place, w, spinning)))
+    if precise.any():
+        from .balls import precise_extremes
+        for index in np.nonzero(precise)[0]:
+            out[index] = precise_extremes(land.reduction, states[index], int(decided.labels[index]))
+    out[:, :, 0] = np.minimum(out[:, :, 0], states)  # rounding must not exclude the state itself
+    out[:, :, 1] = np.maximum(out[:, :, 1], states)
+    return out
+
+
+def needs_digits(land: Landscape, states):
+    """(n,) True where the canonical shift is so large that doubles would lose digits (nearly equal moments, or a wheel on the
+    axis of symmetry of a body that hardly turns about it)."""
+    r = land.reduction
+    shift, along = r.parabolic_shift_size, abs(float(r.s))
+    lost = np.zeros(len(states), bool)
+    if shift:
+        lost |= shift > SHIFT_LIMIT * np.maximum(np.abs(states).max(axis=1), 1e-300)
+    return lost | (along > SHIFT_LIMIT * np.abs(states[:, r.axis])) if along else lost
+
+
+def on_top(land: Landscape, place):
+    """(n,) True where the state is at the place of a barrier to rounding: before it or behind, doubles do not tell."""
+    pot = land.potential
+    return (np.abs(pot.force(place)) <= ON_TOP * pot.terms(place)) & (pot.slope(place) > 0)
+
+
+def near_separatrix(land, place, w, decided, share):
+    """(n,) True where the margin is below `share` of the energy's terms: turning points and periods magnify the
+    margin's rounding there, so ball arithmetic takes over."""
+    return np.abs(decided.margins) <= share * land.reduction.energy_unit * energy_terms(land, place, w)
+
+
+def clear_of_barriers(land, place, w, span, share):
+    """(n,) False where the energy of a motion between turning points is so near a barrier's, the highest or not."""
+    return span.closest > share * energy_terms(land, place, w)
+
+
+def energy_terms(land, place, w):
+    """(n,) size of the energy's terms, canonical."""
+    if land.e == 0:
+        return 0.5 * w * w
+    size = np.hypot(*place)
+    pot = land.potential
+    slopes = abs(pot.c) + abs(pot.d) if land.e < 0 else abs(pot.e1) + abs(pot.e2)
+    return 0.5 * w * w + abs(pot.mu) + np.abs(pot.G) * size**2 + slopes * size
+
+
+def _pick(place, w, mask):
+    return tuple(v[mask] for v in place), w[mask]
+
+
+def _into(out, mask, values):
+    if mask.any():
+        out[mask] = values
+
+
+def _components(land, low, high, w_low, w_high):
+    """(n, 3, 2) from canonical ranges, whatever signs the change of variables has."""
+    a, b = land.components(low, w_low), land.components(high, w_high)
+    return np.stack([np.minimum(a, b), np.maximum(a, b)], axis=2)
+
+
+def _trapped(land, place, w, span=None):
+    """Extremes of motions between two turning points, and where both were found."""
+    if not len(w):
+        return np.empty((0, 3, 2)), np.empty(0, bool)
+    span = interval(land, place, w) if span is None else span
+    top = np.sqrt(2 * span.fastest)
+    low, high = _place_range(land, place, span.left, span.right, span.left_place, span.right_place)
+    values = _components(land, low, high, -top, top)
+    return values, span.ok & clear_of_barriers(land, place, w, span, EXTREMES_SHARE) & _sharp(land, span, values)
+
+
+def _sharp(land, span, values):
+    """(n,) True where rounding leaves the extremes `DIGITS` against each component's size."""
+    r, blur = land.reduction, span.blur
+    ends = span.left_place, span.right_place
+    with np.errstate(all="ignore"):
+        size = np.abs(values).max(axis=2)
+        good = span.haze <= DIGITS * 2 * span.fastest
+        if land.e == 0:
+            return good & (_parabola_error(land, ends, blur) <= DIGITS * size[:, (r.j, r.k)].T).all(axis=0)
+        g = r.constants
+        for axis, scale, shift, other in ((r.j, g["rx"], g["sj"], 1), (r.k, g["rz"], g["sk"], 0)):
+            error = 0.0
+            for end, off in zip(ends, blur):
+                a, b = np.abs(end[0]), np.abs(end[1])
+                both, rate = a + b, (np.abs(end[other]) if land.e < 0 else 0.5 * (a + b))
+                error = np.maximum(error, EPS * both + rate * off)
+            good &= abs(scale) * error + EPS * abs(shift) <= DIGITS * size[:, axis]
+    return good
+
+
+def _parabola_error(land, ends, blur):
+    """(2, n) rounding error of omega_j and omega_k at the ends."""
+    pot, error = land.potential, 0.0
+    for (u, v), off in zip(ends, blur):
+        speed = np.abs(np.array([pot.p * v + pot.p0, pot.q * u + pot.q0]))
+        error = np.maximum(error, speed * off + 8 * EPS * (np.abs([u, v]) + speed))
+    return error
+
+
+def _place_range(land, place, left, right, left_place, right_place):
+    """Canonical (X, Z) or (omega_j, omega_k) ranges over [left, right]: ends, and interior stationary points."""
+    if land.e > 0:
+        as_xz = lambda p: np.array([0.5 * (p[0] + p[1]), 0.5 * (p[0] - p[1])])
+    else:
+        as_xz = np.array
+    ends = as_xz(left_place), as_xz(right_place)
+    low, high = np.minimum(*ends), np.maximum(*ends)
+    interior = {-1: _circle_tops, 1: _hyperbola_tops, 0: _parabola_tops}[land.e]
+    for row, value, inside in interior(land, place, left, right):
+        low[row] = np.where(inside, np.minimum(low[row], value), low[row])
+        high[row] = np.where(inside, np.maximum(high[row], value), high[row])
+    if land.e > 0:  # back to light-cone places
+        low, high = (low[0] + low[1], low[0] - low[1]), (high[0] + high[1], high[0] - high[1])
+    return low, high
+
+
+def _circle_tops(land, place, left, right):
+    """+-A of X and Z where the interval contains the angle."""
+    radius, angle = np.hypot(*place), np.arctan2(*place)
+    for row, value, at in ((0, 1, np.pi / 2), (0, -1, -np.pi / 2), (1, 1, 0.0), (1, -1, np.pi)):
+        first = np.ceil((angle + left - at) / TURN) * TURN + at  # the first such angle not before the left end
+        yield row, value * radius, first <= angle + right
+
+
+def _hyperbola_tops(land, place, left, right):
+    """X is stationary where Z = 0 (xi = eta), Z where X = 0 (xi = -eta)."""
+    xi, eta = place
+    with np.errstate(all="ignore"):
+        product = xi * eta
+        at = 0.5 * np.log(np.abs(eta / xi))
+        inside = np.isfinite(at) & (at >= left) & (at <= right)
+        size = np.sqrt(np.abs(xi)) * np.sqrt(np.abs(eta))
+    yield 0, np.sign(xi) * size, inside & (product > 0)
+    yield 1, np.sign(xi) * size, inside & (product < 0)
+
+
+def _parabola_tops(land, place, left, right):
+    """The vertex of whichever component is quadratic."""
+    pot = land.potential
+    u, v = place
+    a, b = pot.p * v + pot.p0, pot.q * u + pot.q0
+    for row, speed, bend in ((0, a, pot.p * b), (1, b, pot.q * a)):
+        with np.errstate(all="ignore"):
+            at = -speed / bend
+        inside = np.isfinite(at) & (at >= left) & (at <= right)
+        yield row, (u, v)[row] + 0.5 * speed * np.where(inside, at, 0.0), inside
+
+
+def _rotating(land, place, w):
+    """Torque-free motions over all barriers of the circle: the whole circle, one sign of W."""
+    if not len(w):
+        return np.empty((0, 3, 2))
+    spots = spots_along(land, place, w)
+    energy = np.where(spots.there, spots.energy, np.nan)
+    with np.errstate(all="ignore"):
+        slow = np.sqrt(2 * np.nanmin(np.concatenate([energy, 0.5 * w[:, None] ** 2], axis=1), axis=1))
+        fast = np.sqrt(2 * np.nanmax(np.concatenate([energy, 0.5 * w[:, None] ** 2], axis=1), axis=1))
+    radius = np.hypot(*place)
+    sign = np.sign(w)
+    return _components(land, (-radius, -radius), (radius, radius), sign * slow, sign * fast)
+
+
+def _spinning(land, place, w):
+    """Extremes over the future of motions that spin up: W -> +inf in canonical variables."""
+    n = len(w)
+    if not n:
+        return np.empty((0, 3, 2))
+    if land.e < 0:
+        slowest = _slowest_ahead(land, place, w)
+        radius = np.hypot(*place)
+        return _components(land, (-radius, -radius), (radius, radius), slowest, np.full(n, np.inf))
+    if land.e > 0:
+        return _spinning_on_plane(land, place, w)
+    sense = land.sense
+    start = land.components(place, w)
+    return np.stack([np.where(np.arange(3) == land.reduction.axis, np.where(sense > 0, start, -np.inf), start),
+                     np.where(np.arange(3) == land.reduction.axis, np.where(sense > 0, np.inf, start), start)], axis=2)
+
+
+def _slowest_ahead(land, place, w):
+    """The least W over the future: over the barriers ahead, or on the way to the turning point behind if W < 0."""
+    spots = spots_along(land, place, w)
+    ahead = np.where(spots.there & (spots.offset > 0), spots.energy, np.inf)
+    with np.errstate(all="ignore"):
+        slowest = np.minimum(w, np.sqrt(2 * np.maximum(ahead.min(axis=1, initial=np.inf), 0)))
+    back = w < 0
+    if back.any():
+        place, w = _pick(place, w, back)
+        # the wells between the turning point on the left and the state
+        behind_energy = _fastest_behind(land, place, w)
+        slowest[back] = -np.sqrt(2 * behind_energy)
+    return slowest
+
+
+def _fastest_behind(land, place, w):
+    """Largest W^2/2 between the turning point behind and the state, for W < 0 on a tilted circle.
+
+    Wells further back than one turn are higher by 2 pi mu, so the first turn behind decides.
+    """
+    best, blocked = 0.5 * w * w, np.zeros(len(w), bool)
+    spots = spots_along(land, place, w)
+    for column in range(spots.offset.shape[1] - 1, -1, -1):
+        here = spots.there[:, column] & (spots.offset[:, column] < 0)
+        blocked |= here & spots.barrier[:, column] & (spots.energy[:, column] < 0)
+        well = here & ~blocked & ~spots.barrier[:, column]
+        best = np.where(well, np.maximum(best, spots.energy[:, column]), best)
+    return best
+
+
+def _spinning_on_plane(land, place, w):
+    """On the decaying plane xi = 0: eta shrinks to 0 after at most one excursion back to the turning point."""
+    n = len(w)
+    xi, eta = place
+    low_w, far = np.array(w), np.array(eta)
+    spots = spots_along(land, place, w)
+    with np.errstate(all="ignore"):
+        ahead = np.where(spots.there & (spots.offset > 0), spots.energy, np.inf).min(axis=1, initial=np.inf)
+        low_w = np.where(w >= 0, np.minimum(w, np.sqrt(2 * np.maximum(ahead, 0))), w)
+    back = (w < 0) & (eta != 0)
+    if back.any():
+        one, speed = _pick(place, w, back)
+        offset, fastest = _turn_back(land, one, speed)
+        low_w[back], far[back] = -np.sqrt(2 * fastest), eta[back] * np.exp(-offset)
+    zero = np.zeros(n)
+    return _components(land, (zero, np.minimum(far, 0)), (zero, np.maximum(far, 0)), low_w, np.full(n, np.inf))
+
+
+def _turn_back(land, place, w):
+    """(offset of the turning point behind, largest W^2/2 on the way) for W < 0 on the decaying plane."""
+    spots = spots_along(land, place, w)
+    offset, _, found, *_ = turning_point(land, spots, place, w, -1)
+    bare = ~found  # no equilibrium on the plane: the potential falls all the way, so it is monotone behind the state
+    if bare.any():
+        level, force = 0.5 * w[bare] ** 2, land.potential.force(place)[bare]
+        one = tuple(v[bare] for v in place)
+        reach = np.ones(level.shape)
+        while (short := land.potential.rise(-reach, one, force) < level).any():
+            reach[short] *= 2
+
+        def fun(t, level, force, *one):
+            return (land.potential.rise(-t, one, force) - level,
+                    land.potential.force(land.potential.move(one, -t)))
+        offset[bare] = -bracketed_newton(fun, np.zeros(level.shape), reach, 0.5 * reach, (level, force, *one))
+    passed = spots.there & (spots.offset < 0) & (spots.offset > offset[:, None])
+    fastest = np.where(passed, spots.energy, -np.inf).max(axis=1, initial=-np.inf)
+    return offset, np.maximum(fastest, 0.5 * w * w)
+
+
+def period(scene, states, digits: int | None = None, fast: bool | None = None):
+    """Period of each motion, (...,) in the scene's time: inf where the motion does not repeat, 0 at an equilibrium.
+
+    digits, fast: as of `extremes`. Raises InputError as `fate` does, and for scenes without a known period (torque off
+    the axes).
+    """
+    if digits is not None:
+        from ...answers.digits.ask import ask_all
+        return ask_all("period", scene, states, digits).required().values
+    from ..period.arrays import periods
+    return periods(scene, states, fast)

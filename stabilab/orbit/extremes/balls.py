@@ -1,0 +1,249 @@
+"""Extremes of one state in ball arithmetic: next to a separatrix, for minute orbits, for nearly equal moments, and
+wherever else doubles would lose digits. Every digit returned is certain."""
+from __future__ import annotations
+
+from ...numbers.balls import DOUBLE_BITS, settled, sign, START_BITS, Unclear, working
+from ..ball_orbit import PreciseOrbit, TIE_BITS
+from ..result import Fate
+
+CERTAIN_BITS = 56  # the balls of the extremes are this much narrower than the component is large
+DOUBLE_CERTAIN = 40  # the same for balls of doubles: 1e-12, as the extremes of arrays promise
+# A root's ball in units of the height's over the slope: y is exact, so its height may be much narrower than its neighbours'.
+WIDER = 4, 64, 4096
+MOST_BITS = 1 << 13  # a component that is still not settled is zero to this precision
+
+
+def precise_extremes(reduction, state, label: int):
+    """(3, 2) array of one state with the given `Fate` label, in the scene's variables."""
+    import numpy as np
+    return np.array([[float(v if isinstance(v, float) else v.mid()) for v in pair] for pair in extreme_balls(reduction, state, label)])
+
+
+def extreme_balls(reduction, state, label: int, certain: int = CERTAIN_BITS, doubles: bool = False):
+    """[(least, greatest)] of the three components as balls, 2^-certain of the component's size wide at most; floats
+    (infinite) where unbounded. doubles: balls of doubles will do where they are certain to DOUBLE_CERTAIN bits."""
+    if label == Fate.EQUILIBRIUM:
+        with working(START_BITS) as numbers:
+            return [(numbers.ball(v), numbers.ball(v)) for v in state]
+    how = {Fate.SPIN_UP: _unbounded, Fate.SEPARATRIX: _asymptotic, Fate.BOUNDED: _bounded}[Fate(label)]
+
+    def question(numbers):
+        orbit = PreciseOrbit(reduction, state, numbers)
+        return _ranges(orbit, *how(orbit), DOUBLE_CERTAIN if numbers.bits == DOUBLE_BITS else certain)
+    start = TIE_BITS if label == Fate.SEPARATRIX else DOUBLE_BITS if doubles else max(START_BITS, 2 * certain)
+    return settled(question, start)
+
+
+def turning_points(orbit):
+    """Offsets of both turning points as balls; None for a torque-free rotation over all barriers."""
+    ends = [turning_point(orbit, side) for side in (-1, 1)]
+    return None if None in ends else ends
+
+
+def turning_point(orbit, side, tie=False):
+    """Offset of the turning point on one side (-1, +1); None where every barrier of a circle is lower.
+
+    tie: the motion is on the separatrix, so that a barrier that cannot be told from the energy is where it ends.
+    """
+    zero = orbit.energy * 0
+    if orbit.energy.is_zero() and (orbit.force_here > 0) - (orbit.force_here < 0) == -side * orbit.flip:
+        return zero  # at rest in this coordinate, pushed away from this side
+    inner = zero
+    for spot in _spots_towards(orbit, side):
+        over = orbit.height(spot.y) - orbit.energy
+        if tie and 0 in over:
+            return spot.y
+        if sign(over) >= 0:
+            return solve(orbit, inner, spot.y)
+        inner = spot.y
+    if orbit.r.e < 0:
+        return None
+    step, outer = 1, inner + side
+    while not sign(orbit.height(outer) - orbit.energy) > 0:
+        step *= 2
+        outer = inner + side * step
+    return solve(orbit, inner, outer)
+
+
+def _spots_towards(orbit, side):
+    """The equilibria on one side, nearest first."""
+    ahead = [s for s in orbit.all_spots if (s.y > 0 if side > 0 else s.y < 0)]
+    return ahead if side > 0 else ahead[::-1]
+
+
+def solve(orbit, inner, outer):
+    """The offset between inner (potential below the energy) and outer (above) where they are equal, as a ball.
+
+    Newton's method held in a bracket on the middles of the balls; the ball that is returned has a change of sign.
+    """
+    balls = orbit.numbers
+    lo, hi = inner.mid(), outer.mid()
+    side = 1 if hi > lo else -1
+    y, last = (lo + hi).mid() / 2, None
+    for _ in range(4000):
+        value = orbit.height(y) - orbit.energy
+        if 0 in value:
+            break
+        if value < 0:
+            lo = y
+        else:
+            hi = y
+        slope = -orbit.force(y)
+        new = (y - value / slope).mid() if 0 not in slope else None
+        if new is None or not (lo < new < hi or hi < new < lo) or (last is not None and 2 * abs(new - y) > last):
+            new = ((lo + hi) / 2).mid()
+        last = abs(new - y).mid()
+        if new == y:
+            break
+        y = new.mid()
+    slope = orbit.force(y)
+    if 0 in slope:
+        raise Unclear
+    reach = balls.upper(orbit.height(y) - orbit.energy) / balls.lower(slope)
+    for times in WIDER:
+        width = balls.upper(times * reach)
+        below, above = orbit.height(y - side * width) - orbit.energy, orbit.height(y + side * width) - orbit.energy
+        if below < 0 and above > 0:
+            return balls.around(y, width)
+    raise Unclear
+
+
+def _bounded(orbit):
+    ends = turning_points(orbit)
+    return _round_the_circle(orbit) if ends is None else _between(orbit, *ends)
+
+
+def _between(orbit, left, right):
+    """Offsets and rates that bound a motion between two turning points."""
+    top = (2 * _fastest(orbit, left, right)).sqrt()
+    return [left, right, *_tops_between(orbit, left, right), orbit.energy * 0], (-top, top)
+
+
+def _asymptotic(orbit):
+    """A motion on the separatrix: it tends to an equilibrium (or, without torque, along an invariant plane to a
+    permanent rotation) straight away, or after one turn."""
+    towards = sign(orbit.w) or (1 if orbit.force_here * orbit.flip > 0 else -1)
+    ahead = _asymptote(orbit, towards)
+    if ahead is not None:
+        end, last = ahead
+        low, high = sorted((orbit.energy * 0, end), key=lambda y: float(y.mid()))
+        slow, fast = orbit.energy.min(last), _fastest(orbit, low, high).max(last)
+        for spot in orbit.all_spots:
+            if low < spot.y and spot.y < high:
+                slow = slow.min(orbit.energy - orbit.height(spot.y))
+        rates = sorted((towards * (2 * slow).sqrt(), towards * (2 * fast).sqrt()), key=lambda w: float(w.mid()))
+        return [low, high, *_tops_between(orbit, low, high)], tuple(rates)
+    turn = turning_point(orbit, towards, True)
+    behind = _asymptote(orbit, -towards)
+    if turn is None or behind is None:
+        return _round_the_circle(orbit)
+    end, last = behind
+    low, high = sorted((turn, end), key=lambda y: float(y.mid()))
+    there = (2 * _fastest(orbit, *sorted((orbit.energy * 0, turn), key=lambda y: float(y.mid())))).sqrt()
+    back = (2 * _fastest(orbit, low, high).max(last)).sqrt()
+    rates = (-back, there) if towards > 0 else (-there, back)  # on the way to the turning point only what lies before it counts
+    return [low, high, *_tops_between(orbit, low, high), orbit.energy * 0], rates
+
+
+FAR = 1 << 13  # exp(-FAR) is nothing against any double: an offset that stands for the end of an invariant plane
+
+
+def _asymptote(orbit, side):
+    """(offset, W^2/2 there) of the equilibrium or plane's end that the motion would tend to on that side, or None."""
+    zero = orbit.energy * 0
+    for spot in _spots_towards(orbit, side):
+        over = orbit.height(spot.y) - orbit.energy
+        if 0 in over:
+            return spot.y, zero
+        if over > 0:
+            return None
+    decays = orbit.r.e > 0 and orbit.on_plane and orbit.mu.is_zero() and sign(orbit.xi if side < 0 else orbit.eta)
+    if not decays:
+        return None
+    limit = orbit.x * (orbit.G * orbit.x / 2 + orbit.c) + orbit.d * orbit.z
+    return None if limit > orbit.energy else (zero + side * FAR, (orbit.energy - limit).max(zero))
+
+
+def _fastest(orbit, low, high):
+    """Largest W^2/2 between two offsets, the state's own included."""
+    fastest = orbit.energy
+    for spot in orbit.all_spots:
+        if not (spot.y < low or spot.y > high):
+            fastest = fastest.max(orbit.energy - orbit.height(spot.y))
+    return fastest
+
+
+def _tops_between(orbit, low, high):
+    return [y for y in _tops(orbit) if not (y < low or y > high)]
+
+
+def _tops(orbit):
+    """Offsets where X or Z (or the components of a parabola) are stationary."""
+    e = orbit.r.e
+    if e < 0:
+        x, z = orbit.x, orbit.z
+        if x.is_zero() and z.is_zero():
+            return []
+        angle, quarter = orbit.numbers.angle(x, z), orbit.numbers.pi() / 2
+        return [k * quarter - angle for k in range(-8, 9)]
+    if e > 0:
+        xi, eta = orbit.xi, orbit.eta
+        return [(abs(eta) / abs(xi)).log() / 2] if sign(xi) and sign(eta) else []
+    _, a, pb, _, b, qa = orbit.speeds
+    return [-speed / (2 * bend) for speed, bend in ((a, pb), (b, qa)) if sign(bend)]
+
+
+def _round_the_circle(orbit):
+    """Torque-free rotation: the whole circle, one sign of W."""
+    slow = fast = orbit.energy
+    for spot in orbit.spots:
+        value = orbit.energy - orbit.height(spot.y)
+        slow, fast = slow.min(value), fast.max(value)
+    turn = sign(orbit.w)
+    return [orbit.energy * 0, *_tops(orbit)], (turn * (2 * slow).sqrt(), turn * (2 * fast).sqrt())
+
+
+def _unbounded(orbit):
+    """Spin-up: all of the orbit's conic that it passes, and W from its least value to infinity."""
+    zero = orbit.energy * 0
+    if orbit.r.e == 0 or (orbit.r.e > 0 and sign(orbit.xi) == sign(orbit.eta) == 0):
+        return [zero], (orbit.w, None)
+    least, back = orbit.w, sign(orbit.w) < 0
+    if back:
+        left = turning_point(orbit, -1)
+        # wells more than a turn behind are higher by the torque's tilt
+        least = -(2 * _fastest(orbit, zero - 7 if left is None else left, zero)).sqrt()
+    else:
+        for spot in orbit.spots:
+            if spot.y > 0:
+                least = least.min((2 * (orbit.energy - orbit.height(spot.y))).sqrt())
+    if orbit.r.e < 0:
+        return [zero, *_tops(orbit)], (least, None)
+    # on the decaying plane: from where it is, or where it turns back, to the plane's end
+    return [zero, *([left] if back else []), zero + FAR], (least, None)
+
+
+def _ranges(orbit, offsets, rates, certain):
+    """[(least, greatest)] per component; Unclear unless the balls are narrow against the component's size."""
+    r, bits = orbit.r, orbit.numbers.bits
+    out = [None] * 3
+    pairs = [orbit.components(y) for y in offsets]
+    for row, axis in enumerate((r.j, r.k)):
+        out[axis] = _range([pair[row] for pair in pairs], certain, bits)
+    low, high = _range([orbit.component_i(w) for w in rates if w is not None], certain, bits)
+    if rates[1] is None:
+        low, high = (low, float("inf")) if r.sense > 0 else (float("-inf"), high)
+    out[r.axis] = low, high
+    return out
+
+
+def _range(values, certain, bits):
+    """(least, largest) of balls."""
+    low = high = values[0]
+    for value in values[1:]:
+        low, high = low.min(value), high.max(value)
+    size = max(float(abs(low).mid()), float(abs(high).mid()))
+    width = max(float(low.rad()), float(high.rad()))
+    if width > size * 2.0**-certain and bits < MOST_BITS:
+        raise Unclear
+    return low, high

@@ -1,0 +1,119 @@
+"""Motions whose squares leave the range of doubles: answered in their own unit of rate, where their numbers are of order one.
+
+Rates and time change by a power of two (`own_unit`), which is exact; energies go with its square. What is no double in the
+scene's own units in the end is NaN in arrays, and told in words of one motion.
+"""
+from __future__ import annotations
+
+import math
+from contextlib import contextmanager
+from dataclasses import replace
+from fractions import Fraction
+
+from ..errors import InputError
+from .fate.free_margin import is_free
+from .fate.one_state import fate_of
+from .result import Motion
+
+ORDINARY = 100  # rates of 2^-100 to 2^100: fourth powers of them, beside ratios of moments, are doubles
+BEYOND = "beyond the range of doubles"
+
+
+@contextmanager
+def in_range():
+    """Context of an answer that has no unit of its own: InputError where its numbers leave the range of doubles."""
+    try:
+        yield
+    except OverflowError:
+        raise InputError(f"state: the squares of rates this large, or of moments, are {BEYOND}: choose other units") from None
+
+
+def scene_exponent(scene) -> int | None:
+    """log2 of the size of the rates that wheel and torque bring about, to a unit or two; None without either."""
+    form = scene.quadratic()
+    found = [_exponent(v) for v in (*form.rho, *form.sigma) if v] + [_exponent(v) // 2 for v in form.m if v]
+    return max(found, default=None)
+
+
+def far_exponent(scene, state) -> int | None:
+    """The exponent k of the own unit 2^k of a motion from `state` (floats or Fractions); None where its size is ordinary."""
+    found = [_exponent(Fraction(v)) for v in state if v]
+    if (own := scene_exponent(scene)) is not None:
+        found.append(own)
+    size = max(found, default=0)
+    return None if -ORDINARY <= size <= ORDINARY else size
+
+
+def far_rows(scene, states):
+    """(n,) True for the states (n, 3) that `far_exponent` has a unit for."""
+    import numpy as np
+    own = scene_exponent(scene)
+    sizes = np.abs(states).max(axis=1, initial=0.0)
+    moving = sizes > 0
+    exponents = np.where(moving, np.frexp(sizes)[1], ORDINARY if own is None else own)
+    size = exponents if own is None else np.maximum(exponents, own)
+    return (np.abs(size) > ORDINARY) & (moving if own is None else True)
+
+
+def _exponent(value: Fraction) -> int:
+    return value.numerator.bit_length() - value.denominator.bit_length()
+
+
+def own(reduction, state, k: int):
+    """(reduction, state as Fractions) in the unit 2^k."""
+    u = Fraction(2) ** k
+    near = replace(reduction, s=reduction.s / u, p0=reduction.p0 / u, q0=reduction.q0 / u, rho=reduction.rho / u,
+                   sigma=reduction.sigma / u, m=reduction.m / (u * u))
+    return near, tuple(Fraction(v) / u for v in state)
+
+
+def powered(value: float, k: int) -> float:
+    """value * 2^k; NaN where that is no double, or 0 where value is not."""
+    try:
+        found = math.ldexp(value, k)
+    except OverflowError:
+        return math.nan
+    return found if found or not value else math.nan
+
+
+def far_fate(scene, reduction, state, k: int):
+    """The fate of one state of a scene with this reduction, as an `OneFate`."""
+    found = fate_of(scene, reduction, state, *own(reduction, state, k))
+    return found if is_free(scene) else found._replace(margin=powered(found.margin, 2 * k))
+
+
+def in_scene_unit(found: Motion, k: int, state) -> Motion:
+    """A motion found in the unit 2^k, but for its extremes, in the scene's own; state: the doubles of its start."""
+    lost = []
+
+    def told(name, value, power):
+        if value is None or not math.isnan(number := powered(value, power * k)):
+            return None if value is None else number
+        lost.append(name)
+    fields = {"margin_energy": told("the margin in energy", found.margin_energy, 2),
+              "margin_velocity": told("the margin in angular velocity", found.margin_velocity, 1),
+              "period": told("the period", found.period, -1)}
+    invariants = {name: powered(value, 2 * k) for name, value in found.invariants.items()}
+    pairs = found.extremes and _finite(found.extremes)
+    if found.extremes and pairs is None:
+        lost.append("an extreme")
+    because = found.because + (f"; {BEYOND}: {', '.join(lost)}" if lost else "")
+    return replace(found, at=state, because=because, extremes=pairs, invariants={n: v for n, v in invariants.items() if not math.isnan(v)},
+                   extremes_over=found.extremes_over if pairs or not found.extremes else f"none: {BEYOND}", **fields)
+
+
+def _finite(pairs):
+    """The pairs, or None where one is larger than any double."""
+    return None if any(map(math.isnan, sum(pairs, ()))) else pairs
+
+
+def far_numbers(scene, state):
+    """((3, 2) extremes, period) of one state of a scene with a reduction, as rows of `extremes` and `period` have them; NaN where
+    they are no doubles."""
+    from .period.one_state import period_of
+    from .fate.one_state import extremes_of
+    from .reduction import reduce
+    reduction, k = reduce(scene), far_exponent(scene, state)
+    near, small = own(reduction, state, k)
+    label = fate_of(scene, reduction, state, near, small).label
+    return extremes_of(near, small, label, k), powered(period_of(near, small, label), -k)

@@ -1,0 +1,441 @@
+"""The fate of a state: bounded, spin-up, on the separatrix, at rest, or undecided; and its margin in energy.
+
+Decided by energy, never by running. On a circle (elliptic reduction) a motion is bounded iff a barrier at least as
+high as its energy stands ahead, in the direction of the torque, within one turn: one turn later the tilted potential
+has fallen. On a hyperbola or parabola the potential grows on both sides, so all motions are bounded but those on one
+of the invariant planes Q = 0. Inputs are taken as exact; what doubles cannot decide is decided in many digits.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from functools import cached_property
+
+import numpy as np
+
+from ...asked import real
+from ...errors import InputError
+from .table import barrier_table
+from ...physics.effective import effective
+from ..far_states import BEYOND, far_exponent, far_fate, far_rows
+from .table_numba import compiled_loops
+from .free_arrays import label_free
+from .free_margin import is_free
+from ..landscape import EPS, Landscape, landscape, TURN
+from ..potential import derivatives_on_parabola
+from ..ball_orbit import decide
+from .reasons import margin_at_rest, Reason, REASONS, rests
+from ..reduction import reduce
+from ..result import Fate
+from .by_table import label_by_table
+
+CHUNK = 16384
+TABLE_FROM = 5000  # a table costs some ten milliseconds to build, as much as the general formula needs for these
+MARGIN_SHARE = 5e-13  # of the kinetic energy and the barrier's height: half of the rounding that `fate` admits
+DOUBLE_ROOT = 1e-10  # share of a cubic's discriminant: eigenvalues tell two roots 1e-7 apart, whose discriminant is 1e-14 and more
+UNDERFLOW = 2.0**-1060  # what four terms may lose that are no normal doubles
+ROUNDINGS = 64  # units of rounding allowed for in the error bound of a margin: some thirty operations, each counted twice
+
+
+@dataclass(frozen=True)
+class FateResult:
+    """Labels and margins of states (..., 3).
+
+    labels: (...,) int8 of `Fate`. margins: (...,) barrier minus energy in the scene's energy (J; or x_i^2/2 + U when
+    scaled): positive below the barrier; -inf where there is no barrier ahead, +inf where no separatrix bounds the
+    motion, NaN where nothing is known of any (undecided, and no law keeps the motion from being bounded); at an
+    equilibrium on the separatrix 0, and NaN where it is no double (`because` says so). Without a torque all motions are bounded, and the barrier is the kinetic energy of a permanent
+    rotation of the same momentum that is a saddle, of two the nearer in energy: 0 on a separatrix, > 0 with less energy than that (a
+    body turning about its major axis), < 0 with more, whatever the axes are called (`free_gyrostat`; in scaled variables, which know
+    no momentum, the reduction about axis 3 has the barrier). axis: 1, 2, 3 of a spin-up, else 0; sense: its sign, else 0.
+    reasons: (...,) `Reason` codes. precise: how
+    many states had to be decided in many digits. Iterating gives labels, margins.
+    """
+
+    labels: np.ndarray
+    margins: np.ndarray
+    axis: np.ndarray
+    sense: np.ndarray
+    reasons: np.ndarray
+    precise: int = 0
+    scene: object = field(default=None, repr=False, compare=False)
+    states: np.ndarray = field(default=None, repr=False, compare=False)
+    given: object = field(default=None, repr=False, compare=False)  # the scene asked for, of which `scene` is the twin
+
+    def __iter__(self):
+        return iter((self.labels, self.margins))
+
+    @property
+    def because(self):
+        """The reason in words: a string for one state, an object array otherwise."""
+        words = np.array([_told(*one) for one in zip(*map(np.ravel, (self.reasons, self.labels, self.margins)))], dtype=object)
+        return words[0] if self.reasons.ndim == 0 else words.reshape(self.reasons.shape)
+
+    @cached_property
+    def velocity_margins(self) -> np.ndarray:
+        """(...,) smallest change of the state that reaches the separatrix, in the state's unit; inf without one, NaN where the
+        label is undecided."""
+        from ..separatrix.distance import separatrix_distance
+        return np.where(self.labels == Fate.UNDECIDED, np.nan, separatrix_distance(self.scene, self.states))[()]
+
+    @cached_property
+    def validity(self):
+        """Of an approximate law (`stabilab.physics.law_limits`), value and holds (...,): without bound in a spin-up, else at the start; None where
+        all laws are exact."""
+        if not self.given.approximate:
+            return None
+        from ...physics.law_limits import validity
+        rows = np.where((self.labels == Fate.SPIN_UP)[..., None], np.inf, self.states)
+        return validity(self.given, rows, "along a spin-up, or at the start")
+
+
+def _told(reason, label, margin) -> str:
+    known = margin == margin or reason in (Reason.OFF_AXIS, Reason.TURN_ROUNDS) or label == Fate.EQUILIBRIUM
+    return REASONS[Reason(reason)] + ("" if known else f"; the margin in energy is {BEYOND}")
+
+
+def checked_states(states) -> np.ndarray:
+    """States as a float array (..., 3); InputError otherwise."""
+    try:
+        array = np.asarray(real(np.asarray(states), "states"), dtype=float)
+    except (TypeError, ValueError):
+        raise InputError("states: expected numbers in an array of shape (..., 3)") from None
+    if array.ndim < 1 or array.shape[-1] != 3:
+        raise InputError(f"states: expected an array of shape (..., 3), got shape {array.shape}")
+    if not np.isfinite(array).all():
+        raise InputError("states: every component must be finite; at least one is NaN or infinite")
+    return array
+
+
+def fate(scene, states, fast=None, digits: int | None = None) -> FateResult:
+    """The fate of every state of an array (..., 3) in the scene's variables (rad/s, or x when scaled).
+
+    scene: Scene or ScaledGyrostat. fast: True for numba's compiled loops (the extra `fast`), False for NumPy alone, None
+    for numba where it is installed and the array is large; the two give the same bytes. Returns a FateResult. Raises
+    InputError for arrays of another shape, for non-finite numbers, for scenes with effects that this analysis does not
+    cover, and for fast=True without numba. digits (1 to 50): give the margins so many, checked, as of `extremes` (the
+    labels have no digits to lose); ToleranceNotMet otherwise.
+
+    Arrays of `TABLE_FROM` states or more look the barrier up in a table of the scene; smaller ones, and any state that
+    is near a tie, a fold or an equilibrium, solve for it. Labels are the same either way; margins may differ by 1e-12 of
+    their terms, the kinetic energy and the barrier's height over the state (without a torque: both kinetic energies).
+    """
+    if digits is not None:
+        from ...answers.digits.ask import ask_all
+        return replace(fate(scene, states, fast), margins=ask_all("fate", scene, states, digits).required().values)
+    given, scene, array = scene, effective(scene), checked_states(states)
+    flat = np.ascontiguousarray(array.reshape(-1, 3))
+    out, far = _columns(len(flat)), _far(scene, flat)
+    if far.any():
+        precise = _label_far(scene, flat, out, np.nonzero(far)[0]) + _label_some(scene, flat, out, np.nonzero(~far)[0])
+    else:
+        precise = _label_ordinary(scene, flat, out, fast)
+    shape = array.shape[:-1]
+    return FateResult(**{name: column.reshape(shape) for name, column in out.items()}, precise=precise, scene=scene,
+                      states=array, given=given)
+
+
+def _columns(n):
+    return {"labels": np.empty(n, np.int8), "margins": np.empty(n), "axis": np.zeros(n, np.int8),
+            "sense": np.zeros(n, np.int8), "reasons": np.empty(n, np.int8)}
+
+
+def _label_ordinary(scene, flat, out, fast) -> int:
+    """Fill the columns; how many states needed many digits."""
+    table = barrier_table(scene) if len(flat) >= TABLE_FROM else None
+    if table is None:
+        return _label_all(scene, flat, out)
+    return _label_some(scene, flat, out, label_by_table(table, flat, out, compiled_loops(len(flat), fast)))
+
+
+def _far(scene, flat):
+    """(n,) True for the states of a scene with a reduction whose squares may leave the range of doubles."""
+    return far_rows(scene, flat) if reduce(scene) is not None else np.zeros(len(flat), bool)
+
+
+def _label_far(scene, flat, out, indices) -> int:
+    """Fill the columns for such states one at a time, each in its own unit; how many they are."""
+    reduction = reduce(scene)
+    for index in indices:
+        state = flat[index].tolist()
+        found = far_fate(scene, reduction, state, far_exponent(scene, state))
+        _write(out, index, found.label, found.reason, found.margin, found.axis, found.sense)
+    return len(indices)
+
+
+def _label_all(scene, flat, out) -> int:
+    """Fill the columns by the general formula; how many states needed many digits."""
+    label_chunk, precise = _labeller(scene), 0
+    for start in range(0, len(flat), CHUNK):
+        part = slice(start, min(start + CHUNK, len(flat)))
+        precise += label_chunk(flat[part], {name: column[part] for name, column in out.items()})
+    return precise
+
+
+def _label_some(scene, flat, out, indices) -> int:
+    """`_label_all` for the states at `indices`, in chunks of them."""
+    precise = 0
+    for start in range(0, len(indices), CHUNK):
+        part = indices[start:start + CHUNK]
+        columns = _columns(len(part))
+        precise += _label_all(scene, flat[part], columns)
+        for name, column in columns.items():
+            out[name][part] = column
+    return precise
+
+
+def _labeller(scene):
+    """The function that labels a chunk (n, 3) into the columns of `out` and returns how many needed many digits."""
+    if is_free(scene):
+        return _at_rest_too(scene, lambda states, out: label_free(scene, states, out))
+    land = landscape(scene)
+    if land is not None:
+        by_geometry = {-1: _label_circle, 1: _label_hyperbola, 0: _label_parabola}[land.e]
+        return _at_rest_too(scene, lambda states, out: by_geometry(land, states, out))
+    from ...unreduced.aligned import labeller
+    return labeller(scene)
+
+
+def _at_rest_too(scene, label):
+    """A labeller that marks states at rest as well."""
+    def whole(states, out):
+        precise = label(states, out)
+        at_rest(scene, states, out)
+        return precise
+    return whole
+
+
+def at_rest(scene, states, out):
+    """Mark the states where every rate vanishes exactly; `margin_at_rest` has their margins."""
+    found = equilibrium_mask(scene, states)
+    if found.any():
+        out["labels"][found], out["reasons"][found] = Fate.EQUILIBRIUM, Reason.AT_REST
+        out["axis"][found] = out["sense"][found] = 0
+        out["margins"][found] = [margin_at_rest(scene, margin) for margin in out["margins"][found]]
+
+
+def equilibrium_mask(scene, states) -> np.ndarray:
+    """(n,) True where every rate of the state vanishes: in doubles to their rounding, then, for the few that pass, exactly."""
+    form = scene.quadratic()
+    kappa, rho, sigma, m = form.coefficients
+    candidate = np.ones(len(states), bool)
+    with np.errstate(all="ignore"):
+        for i, (j, k) in enumerate(((1, 2), (2, 0), (0, 1))):
+            u, v = states[:, j], states[:, k]
+            terms = kappa[i] * u * v, rho[i] * v, sigma[i] * u
+            rate = terms[0] + terms[1] + terms[2] + m[i]
+            size = np.abs(terms[0]) + np.abs(terms[1]) + np.abs(terms[2]) + abs(m[i])
+            candidate &= ~(np.abs(rate) > 16 * EPS * size + UNDERFLOW)  # what overflows is a candidate, too
+    for index in np.nonzero(candidate)[0]:
+        candidate[index] = rests(form, states[index])
+    return candidate
+
+
+def fate_on_orbit(scene, land, states) -> FateResult:
+    """`fate` with the margin against the barriers of the reduction's own orbit: without a torque that is another one, for there the
+    reduction keeps another invariant than the momentum. 0 on an invariant plane, where no barrier stands."""
+    found = fate(scene, states)
+    if land.sense or not len(states):
+        return found
+    place, w, size = land.start(states)
+    if land.e < 0:
+        margins = _settled_circle(land, states, place, w, size)[0]
+    else:
+        margins = _valley_margins(land, states, place, w, size)[0]
+        margins[((place[0] == 0) | (place[1] == 0)) & (land.e > 0)] = 0.0
+    return replace(found, margins=margins * land.reduction.energy_unit)
+
+
+def _settled_circle(land, states, place, w, size):
+    """(margins (n,), signs (n,), how many were decided in many digits), in canonical units."""
+    margins, doubtful = circle_margins(land, place, w, size)
+    doubtful = np.nonzero(doubtful)[0]
+    signs = np.sign(margins)
+    for index in doubtful:
+        tie = decide(land.reduction, states[index])
+        margins[index], signs[index] = tie.margin, tie.sign
+    return margins, signs, len(doubtful)
+
+
+def _label_circle(land: Landscape, states, out) -> int:
+    place, w, size = land.start(states)
+    margins, signs, precise = _settled_circle(land, states, place, w, size)
+    axis, sense = land.reduction.axis + 1, land.sense
+    out["margins"][:] = margins * land.reduction.energy_unit
+    if sense == 0:  # no torque, in scaled variables: bounded either way
+        out["labels"][:], out["reasons"][:] = Fate.BOUNDED, Reason.TORQUE_FREE
+    else:
+        inside = signs > 0
+        out["labels"][:] = np.where(inside, Fate.BOUNDED, Fate.SPIN_UP)
+        out["reasons"][:] = np.where(inside, Reason.BELOW_BARRIER,
+                                     np.where(np.isneginf(margins), Reason.NO_BARRIER, Reason.ABOVE_BARRIER))
+        out["axis"][:], out["sense"][:] = np.where(inside, 0, axis), np.where(inside, 0, sense)
+    _mark_ties(out, signs == 0)
+    return precise
+
+
+def _mark_ties(out, tie):
+    out["labels"][tie], out["reasons"][tie] = Fate.SEPARATRIX, Reason.TIE
+    out["axis"][tie] = out["sense"][tie] = 0
+
+
+def circle_margins(land: Landscape, place, w, size):
+    """(margins (n,), doubtful (n,)): highest barrier within one turn ahead minus the energy, in canonical units."""
+    pot = land.potential
+    offsets, spots, barrier = land.critical(place, barriers_only=True)
+    energy = 0.5 * w * w
+    best, doubtful, blurred = np.full(w.shape, -np.inf), np.zeros(w.shape, bool), np.full(w.shape, -np.inf)
+    x, z = place
+    radius = np.hypot(x, z)
+    rounding = size[0] + size[1]
+    with np.errstate(all="ignore"):
+        angle_error = 32 * EPS * (1 + rounding / radius)
+        pull = np.abs(pot.G * x + pot.c) + abs(pot.d)
+        for column in range(offsets.shape[1]):
+            offset = np.where(barrier[:, column], offsets[:, column], np.nan)
+            spot = spots[:, :, column]
+            height, unsure = pot.height_over(place, spot, offset)
+            margin = height - energy
+            # rounding of the angle adds less: where a barrier stands mu is below the other terms of the force
+            scale = (pot.mu * offset + energy
+                     + (pull + np.abs(pot.G * spot[0] + pot.c)) * (rounding + np.abs(spot[0]) + np.abs(spot[1])))
+            there = ~np.isnan(offset)
+            # at a barrier rounding decides whether it stands ahead or behind, and then the next one counts
+            doubtful |= there & ((np.abs(margin) <= ROUNDINGS * EPS * scale) | (np.minimum(offset, TURN - offset) <= angle_error))
+            best = np.where(there & (margin > best), margin, best)
+            vague = there & ~(unsure <= MARGIN_SHARE * (np.abs(height) + energy))
+            blurred = np.where(vague & ~(margin + unsure <= blurred), margin + unsure, blurred)
+        for edge in land.conic.fold_invariants + land.conic.tangents:
+            doubtful |= np.abs(radius**2 - edge) <= ROUNDINGS * EPS * (rounding**2 + edge)
+    doubtful |= ~(blurred < best) & ~np.isneginf(blurred)  # a barrier of less digits than promised may be the highest
+    return best, doubtful & (radius > 0)
+
+
+def _label_hyperbola(land: Landscape, states, out) -> int:
+    place, w, size = land.start(states)
+    out["labels"][:], out["reasons"][:] = Fate.BOUNDED, Reason.WALLS
+    margins, signs, precise = _valley_margins(land, states, place, w, size)
+    tie = signs == 0
+    out["margins"][:] = margins * land.reduction.energy_unit
+    _mark_ties(out, tie)
+    on_plane = np.nonzero((place[0] == 0) | (place[1] == 0))[0]
+    for index in on_plane:
+        _label_plane(land, states[index], [v[index] for v in place], out, index)
+    return precise
+
+
+def _valley_margins(land, states, place, w, size):
+    """Margins to the barrier nearest in height; +inf where the orbit has none. Both sides of it are bounded."""
+    n = len(w)
+    margins, signs = np.full(n, np.inf), np.ones(n)
+    if land.e > 0 and not any(p.barrier for p in land.conic.pieces) and not land.conic.lines:
+        return margins, signs, 0
+    pot, energy = land.potential, 0.5 * w * w
+    offsets, spots, barrier = land.critical(place, barriers_only=True)
+    doubtful = np.zeros(n, bool)
+    with np.errstate(all="ignore"):
+        for column in range(offsets.shape[1]):
+            offset, spot = offsets[:, column], spots[:, :, column]
+            rise = pot.rise(-offset, spot)
+            margin = np.where(barrier[:, column], -rise - energy, np.inf)
+            vague = ~(pot.rounding(-offset, spot, place, size) <= MARGIN_SHARE * (np.abs(rise) + energy))
+            nearer = np.abs(margin) < np.abs(margins)
+            margins = np.where(nearer, margin, margins)
+            force, slope = np.abs(pot.force(place)), np.abs(pot.slope(place))
+            scale = energy + np.abs(rise) + force * np.abs(offset) + slope * offset**2 + _roughness(land, place, size)
+            doubtful |= nearer & (vague | (np.abs(margin) <= ROUNDINGS * EPS * scale))
+            # rounding has led to another equilibrium than was sought, or tilts the way to it
+            doubtful |= barrier[:, column] & (~(pot.slope(spot) > 0) | _tilted(pot, spot, offset, -rise - energy, energy))
+        doubtful |= _beside_fold(land, place)
+    signs = np.sign(margins)
+    for index in np.nonzero(doubtful)[0]:
+        tie = decide(land.reduction, states[index])
+        signs[index], margins[index] = (tie.sign, tie.margin) if np.isfinite(tie.margin) else (1, np.inf)
+    return margins, signs, int(doubtful.sum())
+
+
+def _tilted(pot, spot, offset, margin, energy):
+    """(n,) True where the force that rounding leaves at an equilibrium costs a margin its twelve digits over the way to it."""
+    return 2 * EPS * pot.terms(tuple(spot)) * np.abs(offset) > MARGIN_SHARE * (np.abs(margin + energy) + energy)
+
+
+def _beside_fold(land, place):
+    """(n,) True where rounding of the place may make or unmake a pair of equilibria of its orbit."""
+    if land.e > 0:
+        Q, beside = land.invariant(place), np.zeros(np.shape(place[0]), bool)
+        for edge in land.conic.fold_invariants + land.conic.tangents:
+            beside |= np.abs(Q - edge) <= ROUNDINGS * EPS * (np.abs(Q) + abs(edge))
+        return beside
+    first, second, third = land.potential.derivatives(place)
+    a, b, c, d = third / 6, second / 2, first, land.potential.force(place)
+    terms = [18 * a * b * c * d, -4 * b**3 * d, b**2 * c**2, -4 * a * c**3, -27 * a**2 * d**2]
+    size = sum(map(np.abs, terms))
+    return (np.abs(sum(terms)) <= DOUBLE_ROOT * size) & (size > 0)
+
+
+def _roughness(land, place, size):
+    """Magnitude of the potential's terms, whose rounding limits a height."""
+    pot, s = land.potential, size[0] + size[1]
+    if land.e > 0:
+        return np.abs(pot.G) * s * s + (abs(pot.e1) + abs(pot.e2)) * s + pot.mu
+    return np.abs(pot.kappa) * s * s + (abs(pot.rho) + abs(pot.sigma)) * s + abs(pot.m)
+
+
+def _label_plane(land, state, place, out, index):
+    """One state exactly on an invariant plane (or on both: pure spin)."""
+    xi, eta = place
+    axis = land.reduction.axis + 1
+    if xi == 0 and eta == 0:
+        _write(out, index, Fate.SPIN_UP, Reason.PURE_SPIN, -np.inf, axis, land.sense)
+        return
+    if eta == 0:  # grows ahead, and the torque's tilt rises behind
+        _write(out, index, Fate.BOUNDED, Reason.WALLS, np.inf)
+        return
+    tie = decide(land.reduction, state)
+    margin = tie.margin * land.reduction.energy_unit
+    if tie.sign > 0:
+        _write(out, index, Fate.BOUNDED, Reason.PLANE_CAPTURED, margin)
+    elif tie.sign == 0:
+        _write(out, index, Fate.SEPARATRIX, Reason.TIE, 0.0)
+    else:
+        _write(out, index, Fate.SPIN_UP, Reason.PLANE_ESCAPES, margin, axis, land.sense)
+
+
+def _write(out, index, label, reason, margin, axis=0, sense=0):
+    spin = label == Fate.SPIN_UP
+    out["labels"][index], out["reasons"][index], out["margins"][index] = label, reason, margin
+    out["axis"][index], out["sense"][index] = axis * spin, sense * spin
+
+
+def _label_parabola(land: Landscape, states, out) -> int:
+    place, w, size = land.start(states)
+    out["labels"][:], out["reasons"][:] = Fate.BOUNDED, Reason.WALLS
+    margins, signs, precise = _valley_margins(land, states, place, w, size)
+    out["margins"][:] = margins * land.reduction.energy_unit
+    _mark_ties(out, signs == 0)
+    for index in np.nonzero(flat_mask(land, states, place))[0]:
+        _write(out, index, Fate.SPIN_UP, Reason.PURE_SPIN, -np.inf, land.reduction.axis + 1, land.sense)
+    return precise
+
+
+def nearly_flat(land, states, place=None):
+    """(n,) True where the force along a parabola may not change at all; False on other reductions."""
+    if land.e or not land.sense:
+        return np.zeros(len(states), bool)
+    place = land.start(states)[0] if place is None else place
+    first, _, third = land.potential.derivatives(place)
+    size = abs(land.potential.kappa) + abs(land.potential.rho) + abs(land.potential.sigma)
+    small = 1e-5 * size * (1 + np.abs(place[0]) + np.abs(place[1])) ** 2  # far above rounding: exact arithmetic tells the rest
+    return (np.abs(first) <= small) & (np.abs(third) <= small)
+
+
+def flat_mask(land, states, place):
+    """(n,) True where the force does not change along the parabola at all (exactly): nothing holds the spin back."""
+    small = nearly_flat(land, states, place)
+    for index in np.nonzero(small)[0]:
+        small[index] = _is_flat(land.reduction, states[index])
+    return small
+
+
+def _is_flat(r, state) -> bool:
+    return not any(derivatives_on_parabola(r, *(Fraction(float(state[a])) for a in (r.j, r.k))))

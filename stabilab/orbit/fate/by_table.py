@@ -1,0 +1,123 @@
+"""Fates of many states from the table of barriers: NumPy in chunks, or the compiled loops of the extra `fast`."""
+from __future__ import annotations
+
+import numpy as np
+
+from . import table_kernel as arithmetic
+from .table_kernel import ANGLE, BEND, BULK, GROWTH, HIGH, LEAD, LOW, ORIGIN, SIDE, SIGN, STEEP, WIDTH
+from .table import BarrierTable
+from ..landscape import TURN
+
+CHUNK = 8192  # a dozen temporary arrays of this length fit a core's own cache
+KEPT = 1 << 22  # bytes, more than all temporary arrays of a chunk; fresh pages for them would double the time
+WALLS = 3  # code of `fate.Reason`
+
+
+def label_by_table(table: BarrierTable, states, out, compiled=None) -> np.ndarray:
+    """Fill the columns of `out` for states (n, 3) and return the indices of those that the general formula has to answer.
+
+    compiled: the loops of `fast_fate`, or None for NumPy; both give the same bytes.
+    """
+    np.empty(KEPT, np.int8)  # freed at once: glibc then keeps that much free memory instead of returning it after every chunk
+    unsure = [np.zeros(0, np.intp)]
+    for start in range(0, len(states), CHUNK):
+        part = slice(start, min(start + CHUNK, len(states)))
+        columns = {name: column[part] for name, column in out.items()}
+        columns["reasons"][:] = WALLS
+        columns["labels"][:] = 0
+        found = (_compiled(table, states[part], columns, compiled) if compiled
+                 else (_circles if table.e < 0 else _hyperbolas)(table, states[part], columns))
+        columns["axis"][:] = columns["labels"] * np.int8(table.axis)
+        columns["sense"][:] = columns["labels"] * np.int8(table.sense)
+        unsure.append(np.nonzero(found)[0] + start)
+    return np.concatenate(unsure)
+
+
+def _compiled(table, states, out, compiled):
+    unsure = np.empty(len(states), bool)
+    compiled[table.e](states, table.axes, table.frame, table.form, table.ranges, table.cells, table.unit, out["margins"],
+                      out["labels"], out["reasons"], unsure)
+    return unsure
+
+
+def canonical(table, states):
+    """(X, Z, W) of states (n, 3)."""
+    i, j, k = table.axes
+    sj, fj, sk, fk, s, fi, _ = table.frame
+    return (states[:, j] + sj) * fj, (states[:, k] + sk) * fk, (states[:, i] + s) * fi
+
+
+def _circles(table, states, out):
+    x, z, w = canonical(table, states)
+    energy = 0.5 * w * w
+    with np.errstate(all="ignore"):
+        height, scale, clear = circle_heights(table, x, z)
+        margin = height - energy
+        np.multiply(margin, table.unit, out=out["margins"])
+        np.less(margin, 0, out=out["labels"].view(bool))
+        np.add(out["labels"], np.isneginf(height), out=out["reasons"])
+        return ~(clear & arithmetic.trusted(margin, height, energy, scale, arithmetic.MARGIN_BOUND))
+
+
+def circle_heights(table, x, z):
+    """(height, scale, clear), arrays (n,), of places on circles: the barrier ahead over the place in canonical units, -inf
+    without one; the size of the terms it is made of; and whether it is certain which barrier that is."""
+    form, mu = table.form, table.form[3]
+    size, rounding = np.sqrt(x * x + z * z), np.abs(x) + np.abs(z) + table.frame[6]
+    phase = arithmetic.angle(x, z)
+    turns = phase * arithmetic.TURNS
+    best, clear = np.full(x.shape, -np.inf), rounding < arithmetic.FAR * size
+    for r, columns in zip(table.ranges, table.columns):
+        clear &= arithmetic.fold_is_clear(size, r[ORIGIN], rounding)
+        inside = (r[LOW] < size) & (size <= r[HIGH])
+        c, t = _looked_up(columns, r, size)
+        whole, known = arithmetic.ahead(arithmetic.angle_polynomial(*c[ANGLE:], t), turns)
+        height = arithmetic.height_polynomial(*c[:ANGLE], t) + r[GROWTH] * size
+        height = height + mu * TURN * whole
+        clear &= (known & (height == height)) | ~inside
+        best = np.where(inside & (height > best), height, best)
+    scale = mu * (TURN + rounding / size) + arithmetic.terms(rounding, form)
+    clear &= np.abs(arithmetic.force(x, z, form)) > arithmetic.FORCE_BOUND * scale
+    return best + arithmetic.circle_height(x, z, phase, form), scale, clear
+
+
+def _looked_up(columns, r, size):
+    """(coefficients of each state's cell, its place in the cell from -1 to 1)."""
+    count = columns.shape[1]
+    position = arithmetic.cell_position(size, r[SIDE], r[ORIGIN], r[BEND], r[WIDTH], count)
+    cell = np.minimum(position.astype(np.intp), count - 1)
+    return [np.take(c, cell, mode="clip") for c in columns], 2 * (position - cell) - 1
+
+
+def _hyperbolas(table, states, out):
+    x, z, w = canonical(table, states)
+    energy = 0.5 * w * w
+    with np.errstate(all="ignore"):
+        height, scale, clear = hyperbola_heights(table, x, z)
+        margin = height - energy
+        np.multiply(margin, table.unit, out=out["margins"])
+        return ~(clear & (np.isposinf(height)
+                          | arithmetic.trusted(margin, height, energy, scale, arithmetic.CONE_MARGIN_BOUND)))
+
+
+def hyperbola_heights(table, x, z):
+    """As `circle_heights` for places on hyperbolas, +inf without a barrier: an orbit has one at most, for two would take
+    three wells between and beside them, and five equilibria."""
+    form, mu = table.form, table.form[3]
+    G, c, d, _ = form
+    xi, eta, rounding = x + z, x - z, np.abs(x) + np.abs(z) + table.frame[6]
+    size, scale = -xi * eta, arithmetic.terms(rounding, form)
+    clear = np.minimum(np.abs(xi), np.abs(eta)) > arithmetic.PLANE_BOUND * rounding
+    clear &= np.abs(arithmetic.force(x, z, form)) > arithmetic.FORCE_BOUND * (scale + mu)
+    height = np.full(x.shape, np.inf)
+    for r, columns in zip(table.ranges, table.columns):
+        clear &= arithmetic.fold_is_clear(size, r[ORIGIN], rounding * rounding)
+        place = xi if r[LEAD] > 0 else eta
+        inside = np.nonzero((r[LOW] < size) & (size <= r[HIGH]) & (place * r[SIGN] > 0))[0]
+        coefficients, t = _looked_up(columns, r, size[inside])
+        place, u, v = place[inside], x[inside], z[inside]
+        tilt = mu * r[LEAD] * arithmetic.logarithm(*np.frexp(np.abs(place)))
+        here = arithmetic.height_polynomial(*coefficients[:ANGLE], t) + tilt
+        height[inside] = here + ((0.5 * G * u + c) * u + d * v)
+        scale[inside] = arithmetic.hyperbola_scale(scale[inside], tilt, rounding[inside], place, mu, r[STEEP], r[BULK])
+    return height, scale, clear

@@ -1,0 +1,172 @@
+"""Fate, extremes, period and invariants of one state of a scene with a reduction, without arrays.
+
+The mechanics is that of `precise` (the orbit, its equilibria, its turning points); it is asked in balls of doubles first
+and in many digits where these leave a question open. So a single state needs neither NumPy nor, as a rule, python-flint,
+every answer is certain to at least twelve digits, and near a separatrix there is no second formula to disagree with.
+Answers are those of `fate`, `extremes` and `period` for arrays: the same labels and reasons, numbers to rounding.
+"""
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+from typing import NamedTuple
+
+from ...numbers.balls import DOUBLE_BITS, settled, working
+from .free_margin import free_margin, is_free
+from ..ball_orbit import decide, PreciseOrbit
+from ..extremes.balls import extreme_balls
+from .reasons import margin_at_rest, Reason, REASONS, rests
+from ..result import Fate
+
+INF = math.inf
+
+
+class OneFate(NamedTuple):
+    """Fate of one state: as in `fate.FateResult`, the margin in the scene's energy."""
+
+    label: Fate
+    reason: Reason
+    margin: float
+    axis: int = 0
+    sense: int = 0
+
+    @property
+    def because(self) -> str:
+        return REASONS[self.reason]
+
+
+def fate_of(scene, reduction, state, near=None, small=None) -> OneFate:
+    """The fate of one state (three floats or Fractions) of a scene with this reduction.
+
+    near, small: reduction and state in a unit in which to compare energies; the margin is in it then.
+    """
+    if is_free(scene):  # in the scene's unit, whatever its size
+        found = free_fate(scene, state)
+    else:
+        found = {-1: _on_circle, 1: _on_hyperbola, 0: _on_parabola}[reduction.e](near or reduction, small or state)
+        lost = found.margin == 0 and found.label != Fate.SEPARATRIX  # its sign is known, and it is too small for a double
+        found = found._replace(margin=math.nan if lost else found.margin * reduction.energy_unit)
+    return at_rest(scene, found) if rests(scene.quadratic(), state) else found
+
+
+def at_rest(scene, found: OneFate) -> OneFate:
+    """The fate of an equilibrium, given what its energy alone says."""
+    return OneFate(Fate.EQUILIBRIUM, Reason.AT_REST, margin_at_rest(scene, found.margin))
+
+
+def free_fate(scene, state) -> OneFate:
+    """The fate without a torque: bounded, whatever the margin, or on a separatrix of the momentum sphere."""
+    margin = free_margin(scene, state, doubles=True)
+    height = float(margin)
+    if margin.ball is not None and not margin.tie and (height == 0 or math.isinf(height)):
+        height = math.nan  # beyond the range of doubles
+    return _tie() if margin.tie else OneFate(Fate.BOUNDED, Reason.TORQUE_FREE, height)
+
+
+def _spin_up(r, reason, margin) -> OneFate:
+    return OneFate(Fate.SPIN_UP, reason, margin, r.axis + 1, r.sense)
+
+
+def _tie() -> OneFate:
+    return OneFate(Fate.SEPARATRIX, Reason.TIE, 0.0)
+
+
+def _on_circle(r, state) -> OneFate:
+    if _shifted(r, state) == (0, 0):  # the circle is a point: pure spin, and nothing stands in its way
+        found = None
+    else:
+        found = decide(r, state, DOUBLE_BITS)
+        if found.sign == 0:
+            return _tie()
+    margin = -INF if found is None else found.margin
+    if r.sense == 0:
+        return OneFate(Fate.BOUNDED, Reason.TORQUE_FREE, margin)
+    if found is not None and found.sign > 0:
+        return OneFate(Fate.BOUNDED, Reason.BELOW_BARRIER, margin)
+    return _spin_up(r, Reason.NO_BARRIER if margin == -INF else Reason.ABOVE_BARRIER, margin)
+
+
+def _shifted(r, state) -> tuple[Fraction, Fraction]:
+    """(omega_j + s_j, omega_k + s_k), exactly."""
+    return Fraction(state[r.j]) + r.q0 / r.q, Fraction(state[r.k]) + r.p0 / r.p
+
+
+def _valley(r, state) -> OneFate:
+    """Between walls: bounded on either side of a barrier, if there is one."""
+    tie = decide(r, state, DOUBLE_BITS)
+    if tie.sign == 0:
+        return _tie()
+    return OneFate(Fate.BOUNDED, Reason.WALLS, INF if tie.margin == -INF else tie.margin)
+
+
+def _on_hyperbola(r, state) -> OneFate:
+    u, v = _shifted(r, state)
+    if v * v * abs(r.p) != u * u * abs(r.q):
+        return _valley(r, state)
+    if u == 0:
+        return _spin_up(r, Reason.PURE_SPIN, -INF)
+    if (u > 0) == (v > 0) and r.sense * r.p > 0 or (u > 0) != (v > 0) and r.sense * r.p < 0:
+        return OneFate(Fate.BOUNDED, Reason.WALLS, INF)  # eta = 0: it grows ahead, and the torque's tilt rises behind
+    tie = decide(r, state, DOUBLE_BITS)
+    if tie.sign > 0:
+        return OneFate(Fate.BOUNDED, Reason.PLANE_CAPTURED, tie.margin)
+    return _tie() if tie.sign == 0 else _spin_up(r, Reason.PLANE_ESCAPES, tie.margin)
+
+
+def _on_parabola(r, state) -> OneFate:
+    if not any(settled(lambda numbers: PreciseOrbit(r, state, numbers).taylor[1:], DOUBLE_BITS)):
+        return _spin_up(r, Reason.PURE_SPIN, -INF)  # the force is the same all along the orbit
+    return _valley(r, state)
+
+
+def extremes_of(reduction, state, label: Fate, k: int = 0) -> tuple:
+    """((least, greatest),) * 3 over t >= 0 in units 2^-k of the reduction's; +-inf where unbounded, NaN where larger than any double."""
+    here = [_double(Fraction(v) * Fraction(2) ** k) for v in state]
+    if label == Fate.EQUILIBRIUM:
+        return tuple((v, v) for v in here)
+    balls = extreme_balls(reduction, state, label, doubles=True)
+    # rounding must not exclude the state itself
+    return tuple((min(_scaled(low, k), v), max(_scaled(high, k), v)) for (low, high), v in zip(balls, here))
+
+
+def _double(value: Fraction) -> float:
+    try:
+        return float(value)
+    except OverflowError:
+        return math.nan
+
+
+def _scaled(value, k: int) -> float:
+    """The double nearest to 2^k times a ball or float; its own double may have underflowed in the other unit."""
+    if not k or isinstance(value, float):
+        return float(value)
+    middle = float(value)
+    if abs(middle) > 2.0**-900:
+        return _double(Fraction(middle) * Fraction(2) ** k)
+    with working(DOUBLE_BITS) as numbers:
+        return float(value * numbers.ball(Fraction(2) ** k))
+
+
+def invariants_of(reduction, state) -> dict[str, float]:
+    """Q (the squared radius of the circle, or Z^2 - X^2 on a hyperbola) in canonical units, and the energy W^2/2 + V in
+    the scene's, with the turn angle counted from the direction X = 0; nothing on a parabola."""
+    r = reduction
+    if r.e == 0:
+        return {}
+
+    def question(numbers):
+        o = PreciseOrbit(r, state, numbers)
+        found = {"Q": float(o.Q)}
+        angle = _angle(o)
+        if angle is not None:
+            energy = o.energy - o.mu * angle - o.x * (o.G * o.x / 2 + o.c) - r.e * o.d * o.z
+            found["energy"] = float(energy.mid()) * r.energy_unit
+        return found
+    return settled(question, DOUBLE_BITS)
+
+
+def _angle(orbit):
+    """The turn angle from the direction X = 0; None where there is none, on an invariant plane."""
+    if orbit.r.e < 0:
+        return orbit.energy * 0 if orbit.Q == 0 else orbit.numbers.angle(orbit.x, orbit.z)
+    return None if orbit.on_plane else (abs(orbit.xi) / abs(orbit.eta)).log() / 2

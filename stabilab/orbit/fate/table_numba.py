@@ -1,0 +1,43 @@
+"""The loops of `barrier_heights` compiled by numba (the extra `fast`): one thread, kept on disk."""
+from __future__ import annotations
+
+from functools import lru_cache
+
+from . import table_kernel as arithmetic
+from ...numbers.numba_door import wanted
+
+HELPERS = ("angle", "logarithm", "cell_position", "height_polynomial", "angle_polynomial", "circle_height",
+           "force", "terms", "ahead", "trusted", "fold_is_clear", "hyperbola_scale", "places", "polar", "positions",
+           "looked_up", "raise_best", "keep_off_fold", "circle_margins", "circle_labels",
+           "cone", "keep_off_cone_fold", "on_range", "lower_nearest")
+LARGE = 1_000_000  # loading numba costs half a second, what NumPy needs for some millions of states
+LOADED = 20_000  # once it is loaded
+
+
+def compiled_loops(n: int, fast: bool | None):
+    """{-1: loop for circles, +1: for hyperbolas}, or None where NumPy is to answer for n states.
+
+    fast: True always, False never, None for large arrays where numba is installed. InputError: fast=True without numba.
+    """
+    return _loops() if wanted(n, fast, bool(_loops.cache_info().currsize), LARGE, LOADED) else None
+
+
+@lru_cache(maxsize=1)
+def _loops():
+    from numba.extending import overload, register_jitable
+
+    @overload(arithmetic.pick)
+    def _(condition, yes, no):
+        return lambda condition, yes, no: yes if condition else no
+    for name in HELPERS:
+        register_jitable(getattr(arithmetic, name))
+    return {-1: _compiled(arithmetic.circle_loop), 1: _compiled(arithmetic.hyperbola_loop)}
+
+
+def _compiled(function):
+    """numba's function, cached on disk where some folder can be written."""
+    from numba import njit
+    try:
+        return njit(cache=True, error_model="numpy")(function)
+    except RuntimeError:  # no place to keep the machine code: compile anew in each process
+        return njit(error_model="numpy")(function)

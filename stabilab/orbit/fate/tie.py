@@ -1,0 +1,78 @@
+"""Is a state exactly on the separatrix? Algebra says so where precision never could.
+
+With a torque and a circle or hyperbola the answer is no: energy minus barrier is an algebraic number minus a non-zero
+rational multiple of theta/n, where n is algebraic and exp(theta) or exp(i theta) is algebraic at the barrier, so by
+Lindemann's theorem theta is transcendental there (or 0: the equilibrium itself). Without a torque, and on a parabola,
+everything is a rational function of one root of a rational polynomial, and a greatest common divisor decides.
+"""
+from __future__ import annotations
+
+from fractions import Fraction
+
+from ...numbers.balls import rational
+
+
+def exact_tie(orbit) -> bool:
+    """Whether each barrier that the balls of `orbit` (a PreciseOrbit) cannot tell from the energy equals it exactly.
+
+    To be asked at the working precision at which the orbit was made; inputs are exact. False where a torque acts on a
+    circle or a hyperbola. A barrier whose ball is clear of the energy plays no part.
+    """
+    close = [s for s in orbit.barriers() if 0 in orbit.height(s.y) - orbit.energy]
+    if not close or (orbit.r.e and orbit.r.sense):
+        return False
+    tied = _on_parabola if orbit.r.e == 0 else _on_conic
+    return all(tied(orbit, spot) for spot in close)
+
+
+def polynomial(*coefficients):
+    """flint's polynomial with these rational coefficients, lowest power first."""
+    from flint import fmpq_poly
+    return fmpq_poly([rational(Fraction(c)) for c in coefficients])
+
+
+def shares_root(first, second, root) -> bool:
+    """Whether the root (a ball that isolates it among those of `first`) is one of `second` as well; flint's polynomials."""
+    common = first.gcd(second)
+    return common.degree() > 0 and any(z.imag.is_zero() and z.real.overlaps(root) for z, _ in common.complex_roots())
+
+
+def _on_parabola(orbit, spot) -> bool:
+    """F and V - E share the root: both are polynomials in the offset."""
+    f = orbit.taylor
+    height = polynomial(0, *(-Fraction(c) / (n + 1) for n, c in enumerate(f)))
+    speed = Fraction(orbit.state[orbit.r.axis]) + orbit.r.s
+    return shares_root(polynomial(*f), height - polynomial(speed * speed / 2), spot.y)
+
+
+def _on_conic(orbit, spot) -> bool:
+    """Without torque V is a polynomial in U = omega_j + s_j and V = omega_k + s_k, and U a rational function of V (or the
+    equilibria lie on two lines)."""
+    r = orbit.r
+    ap, aq, sp = abs(r.p), abs(r.q), 1 if r.p > 0 else -1
+    sj, sk = orbit.sj, orbit.sk
+    rho, sigma = r.rho - r.kappa * sj, r.sigma - r.kappa * sk
+    m = r.m + r.kappa * sj * sk - r.rho * sk - r.sigma * sj
+    u0, v0, speed = orbit.u + sj, orbit.v + sk, Fraction(orbit.state[r.axis]) + r.s
+    at_u, at_v = orbit.components(spot.y)
+    U, V = at_u + orbit.shift_j, at_v + orbit.shift_k
+
+    def excess(u, v, one):
+        """Height minus energy, with u, v polynomials over the polynomial `one`, times its square; in units of w^2/(ap aq)."""
+        q = rational
+        rise = q(-sp * aq * r.kappa / 2) * (u * u - q(u0 * u0) * one * one) - q(sp * aq * rho) * (u * one - q(u0) * one * one)
+        return rise - q(Fraction(r.e) * sp * ap * sigma) * (v * one - q(v0) * one * one) - q(ap * aq * speed * speed / 2) * one * one
+
+    x, one = polynomial(0, 1), polynomial(1)
+    if r.kappa and r.kappa * m == rho * sigma:
+        line_v, line_u = -sigma / r.kappa, -rho / r.kappa
+        if V.contains(rational(line_v)) and shares_root(polynomial(line_v**2 / aq - orbit.Q, 0, Fraction(-r.e) / ap), excess(x, polynomial(line_v), one), U):
+            return True
+        return U.contains(rational(line_u)) and shares_root(
+            polynomial(-orbit.Q - r.e * line_u**2 / ap, 0, 1 / aq), excess(polynomial(line_u), x, one), V)
+    if r.kappa or sigma:
+        top, bottom = polynomial(m, rho), polynomial(sigma, r.kappa)
+        equation = polynomial(-orbit.Q, 0, 1 / aq) * bottom * bottom - rational(Fraction(r.e) / ap) * top * top
+        return shares_root(equation, excess(-top, x * bottom, bottom), V)
+    line_v = -m / rho
+    return shares_root(polynomial(line_v**2 / aq - orbit.Q, 0, Fraction(-r.e) / ap), excess(x, polynomial(line_v), one), U)

@@ -1,0 +1,1 @@
+"""The state at any time, by quadrature along the orbit."""

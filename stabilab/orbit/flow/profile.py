@@ -1,0 +1,305 @@
+"""The relief that one orbit runs over: its hills and wells, each with the kinetic energy above it, from exact inputs.
+
+About an equilibrium the potential is V(0) - V(y) = R(y), and only divided differences (R(a + d) - R(a))/d are ever
+formed, from closed expressions that keep their digits however small a and d are: the kinetic energy is K + y R[0, y]
+where the motion passes the equilibrium with K, and d R[a, a + d] where it turns at a. Energies are never subtracted.
+Offsets and heights come from ball arithmetic and are rounded once, so a state next to a separatrix costs no digits.
+"""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ...numbers.balls import settled, Unclear
+from ..ball_orbit import PreciseOrbit, TIE_BITS
+
+SURE_BITS = 60  # relative accuracy of a ball that is rounded to a double
+FLOOR_BITS = 90  # a sum of terms whose ball is smaller than its terms by so many bits counts as zero
+EPS = float(np.finfo(float).eps)
+TURN = 2 * math.pi
+
+
+class Plain:
+    """Functions of one float."""
+
+    sin, cos, sinh, cosh, sqrt, expm1 = math.sin, math.cos, math.sinh, math.cosh, math.sqrt, math.expm1
+
+    @staticmethod
+    def over(sine, t):
+        """sin(t)/t."""
+        return sine / t if t else 1.0
+
+    @staticmethod
+    def rest(t):
+        """1 - sin(t)/t."""
+        return _sinc_series(t * t) if -0.7 < t < 0.7 else 1 - math.sin(t) / t
+
+    @staticmethod
+    def growth(t):
+        """(exp(t) - 1)/t."""
+        return math.expm1(t) / t if t else 1.0
+
+    @staticmethod
+    def growth_rest(t):
+        """(exp(t) - 1)/t - 1."""
+        return _growth_series(t) if -0.7 < t < 0.7 else math.expm1(t) / t - 1
+
+
+class Arrays:
+    """The same functions of arrays."""
+
+    sin, cos, sinh, cosh, sqrt, expm1 = np.sin, np.cos, np.sinh, np.cosh, np.sqrt, np.expm1
+
+    @staticmethod
+    def over(sine, t):
+        return sine / t if np.count_nonzero(t) == t.size else sine / np.where(t == 0, 1.0, t) + (t == 0)
+
+    @staticmethod
+    def rest(t):
+        direct = 1 - Arrays.over(np.sin(t), t)
+        small = np.abs(t) < 0.7
+        return np.where(small, _sinc_series(np.where(small, t * t, 0.0)), direct) if small.any() else direct
+
+    @staticmethod
+    def growth(t):
+        return np.expm1(t) / np.where(t == 0, 1.0, t) + (t == 0)
+
+    @staticmethod
+    def growth_rest(t):
+        small = np.abs(t) < 0.7
+        return np.where(small, _growth_series(np.where(small, t, 0.0)), Arrays.growth(t) - 1)
+
+
+def _sinc_series(t2):
+    return t2 / 6 * (1 - t2 / 20 * (1 - t2 / 42 * (1 - t2 / 72 * (1 - t2 / 110 * (1 - t2 / 156)))))
+
+
+def _growth_series(t):
+    total = 0.0
+    for n in range(17, 1, -1):
+        total = (1 + total) * t / n
+    return total
+
+
+@dataclass(frozen=True)
+class Spot:
+    """An equilibrium (or, on a circle without any, the state itself) and what surrounds it along the orbit.
+
+    at: its offset from the state; kinetic: W^2/2 of the motion there (negative: the motion does not get there); kind: +1 hill,
+    -1 well, 0 neither; force: of the potential there, 0 at an equilibrium; base: omega_j, omega_k there; shape and
+    curve: coefficients of R and of the components, by geometry; spin: omega_i = spin W - shift.
+    """
+
+    at: float
+    kinetic: float
+    kind: int
+    force: float
+    base: tuple
+    shape: tuple
+    curve: tuple
+    axes: tuple
+    spin: tuple
+
+    def energy(self, y, f):
+        """W^2/2 at offset y of a motion that passes here."""
+        return self.kinetic + y * self.share(0.0, y, f)
+
+    def state(self, y, w, f):
+        """(omega_1, omega_2, omega_3) at offset y with rate W."""
+        out, (i, j, k) = [None] * 3, self.axes
+        out[j], out[k] = self.components(y, f)
+        out[i] = self.spin[0] * w - self.spin[1]
+        return out
+
+    @property
+    def blur(self) -> float:
+        """Relative rounding error of R near the equilibrium, where its terms cancel."""
+        return 0.0 if self.force else EPS * self.terms / max(abs(self.bend), 1e-300)
+
+
+class OnCircle(Spot):
+    """R = force sin y + mu (y - sin y) + B u - P u^2 + Q u sin y with u = 1 - cos y; shape (mu, B, P, Q), B = R''."""
+
+    @property
+    def bend(self):
+        return self.shape[1]
+
+    @property
+    def terms(self):
+        return abs(self.shape[1])
+
+    def share(self, a, d, f):
+        mu, bend, p, q = self.shape
+        b, middle = a + d, a + 0.5 * d
+        half, low, left, right = f.sin(0.5 * d), f.sin(0.5 * middle), f.sin(0.5 * a), f.sin(0.5 * b)
+        sinc = f.over(half, 0.5 * d)
+        u_a, u_b, u_middle = 2 * left * left, 2 * right * right, 2 * low * low
+        bent = f.sin(middle) * sinc * (bend - p * (u_a + u_b) + q * f.sin(b)) + q * u_a * (1 - u_middle) * sinc
+        if mu:
+            bent = bent + mu * (f.rest(0.5 * d) + u_middle * sinc)
+        return bent + self.force * (1 - u_middle) * sinc if self.force else bent
+
+    def components(self, y, f):
+        jx, jz, kx, kz = self.curve
+        half = f.sin(0.5 * y)
+        s, b = f.sin(y), 2 * half * half
+        return self.base[0] + (jz * s - jx * b), self.base[1] - (kx * s + kz * b)
+
+
+class OnHyperbola(Spot):
+    """V = -mu y + sum of u_s exp(s y), s = 1, -1, 2, -2; shape u_s."""
+
+    @property
+    def bend(self):
+        return -sum(s * s * u for s, u in zip((1, -1, 2, -2), self.shape))
+
+    @property
+    def terms(self):
+        return sum(s * s * abs(u) for s, u in zip((1, -1, 2, -2), self.shape))
+
+    def share(self, a, d, f):
+        total = self.force
+        for s, u in zip((1, -1, 2, -2), self.shape):
+            if u:
+                total = total - s * u * (f.expm1(s * a) * f.growth(s * d) + f.growth_rest(s * d))
+        return total
+
+    def components(self, y, f):
+        jx, je, kx, ke = self.curve  # times xi/2 and eta/2
+        up, down = f.expm1(y), f.expm1(-y)
+        return self.base[0] + (jx * up + je * down), self.base[1] + (kx * up - ke * down)
+
+
+class OnParabola(Spot):
+    """R = f_1 y^2/2 + f_2 y^3/3 + f_3 y^4/4; shape f_n."""
+
+    @property
+    def bend(self):
+        return self.shape[0]
+
+    @property
+    def terms(self):
+        return abs(self.shape[0])
+
+    def share(self, a, d, f):
+        f1, f2, f3 = self.shape
+        b = a + d
+        return self.force + f1 / 2 * (a + b) + f2 / 3 * (a * a + a * b + b * b) + f3 / 4 * (a + b) * (a * a + b * b)
+
+    def components(self, y, f):
+        ju, jb, kv, ka = self.curve
+        return self.base[0] + y * (ju + jb * y), self.base[1] + y * (kv + ka * y)
+
+
+@dataclass(frozen=True)
+class Relief:
+    """spots in ascending order, on a circle those of one turn behind and of one ahead; w: rate of the state; e: geometry;
+    turn: what the potential falls by over a turn of a circle, behind: by how many whole turns each spot of the turn ahead lies
+    above the place where the motion came from rest."""
+
+    spots: tuple
+    w: float
+    e: int
+    turn: float
+    here: Spot
+    drops: tuple
+
+
+def relief(reduction, state) -> Relief:
+    """The relief of one state's orbit. Raises InputError where energies tie (on a separatrix)."""
+    return settled(lambda numbers: _relief(PreciseOrbit(reduction, state, numbers)))
+
+
+def _relief(orbit) -> Relief:
+    zero, bits = orbit.w * 0, orbit.numbers.bits
+    kinetic = [orbit.energy - orbit.height(s.y) for s in orbit.spots]
+    turn = 2 * orbit.numbers.pi() * orbit.mu if orbit.r.e < 0 else zero
+    spots = [_spot(orbit, s.y, s.kind, value, bits) for s, value in zip(orbit.spots, kinetic)]
+    drops = ()
+    here = _spot(orbit, zero, 0, orbit.energy, bits, force=orbit.numbers.ball(orbit.force_here) * orbit.n * orbit.flip)
+    if orbit.r.e < 0:
+        behind = [replace(spot, at=_offset(one.y), kinetic=_rounded(value - turn, bits))
+                  for spot, value, one in zip(spots, kinetic, orbit.all_spots)]
+        if orbit.mu != 0:
+            rows = [(s, v) for s, v in zip(spots, kinetic) if s.kind > 0] or [(here, orbit.energy)]
+            drops = tuple(_drop(spot, value, turn, bits) for spot, value in rows)
+        spots = behind + spots
+    return Relief(tuple(spots), _rounded(orbit.w, bits), orbit.r.e, float(turn.mid()), here, drops)
+
+
+def _drop(spot, kinetic, turn, bits):
+    """(spot, m, kinetic energy m turns behind it): over an equilibrium the first m with a negative one, else the last with
+    none."""
+    share = kinetic / turn
+    whole = share.floor().unique_fmpz()
+    if whole is None:
+        raise Unclear
+    m = int(whole) + (1 if spot.force == 0 else 0)
+    return spot, m, _rounded(kinetic - m * turn, bits)
+
+
+def _offset(y):
+    if y.is_zero():
+        return 0.0
+    if y.rel_accuracy_bits() < SURE_BITS:
+        raise Unclear
+    return float(y.mid())
+
+
+def _rounded(value, bits):
+    """A ball as a double; zero only where it is exactly that, or where no number of bits tells."""
+    if value.is_zero():
+        return 0.0
+    if value.rel_accuracy_bits() < SURE_BITS:
+        if bits >= TIE_BITS and 0 in value:
+            return 0.0
+        raise Unclear
+    return float(value.mid())
+
+
+def _sum(terms):
+    """A sum of balls as a double; what cancels beyond `FLOOR_BITS` is zero."""
+    total = sum(terms[1:], terms[0])
+    size = max(float(abs(t).mid()) for t in terms)
+    if total.rel_accuracy_bits() >= SURE_BITS:
+        return float(total.mid())
+    if float(total.rad()) + abs(float(total.mid())) <= size * 2.0**-FLOOR_BITS:
+        return 0.0
+    raise Unclear
+
+
+def _spot(orbit, y, kind, kinetic, bits, force=None) -> Spot:
+    r = orbit.r
+    value = 0.0 if force is None else _rounded(force, bits)
+    spin = float((orbit.flip / orbit.n).mid()) if r.e else 1.0, float(r.s)
+    base = tuple(float(part.mid()) for part in orbit.components(y))
+    shape, curve = {-1: _circle, 1: _hyperbola, 0: _parabola}[r.e](orbit, y)
+    kind_of = {-1: OnCircle, 1: OnHyperbola, 0: OnParabola}[r.e]
+    return kind_of(_offset(y), _rounded(kinetic, bits), kind, value, base, shape, curve, (r.axis, r.j, r.k), spin)
+
+
+def _circle(orbit, y):
+    x, z = orbit.place(y)
+    G, c, d = orbit.G, orbit.c, orbit.d
+    shape = (float(orbit.mu.mid()), _sum([G * z * z, -G * x * x, -c * x, d * z]),
+             _sum([G * z * z / 2, -G * x * x / 2]), _sum([-G * x * z]))
+    return shape, tuple(float(v.mid()) for v in (orbit.rx * x, orbit.rx * z, orbit.rz * x, orbit.rz * z))
+
+
+def _hyperbola(orbit, y):
+    grow = y.exp()
+    xi, eta = orbit.xi * grow, orbit.eta / grow
+    up, down = (orbit.c + orbit.d) / 2, (orbit.d - orbit.c) / 2
+    quarter = -orbit.G / 8
+    shape = (_sum([-up * xi]), _sum([down * eta]), _sum([quarter * xi * xi]), _sum([quarter * eta * eta]))
+    half_x, half_e = xi / 2, eta / 2
+    return shape, tuple(float(v.mid()) for v in (orbit.rx * half_x, orbit.rx * half_e, orbit.rz * half_x, orbit.rz * half_e))
+
+
+def _parabola(orbit, y):
+    f0, f1, f2, f3 = orbit.coefficients
+    u, a, pb, v, b, qa = orbit.speeds
+    shape = (_sum([f1, 2 * f2 * y, 3 * f3 * y * y]), _sum([f2, 3 * f3 * y]), _sum([f3]))
+    return shape, tuple(float(w.mid()) for w in (a + 2 * pb * y, pb, b + 2 * qa * y, qa))

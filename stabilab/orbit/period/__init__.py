@@ -1,0 +1,1 @@
+"""The time of one turn or libration: the integral of dtheta/W."""

@@ -1,0 +1,112 @@
+"""The period of one state in ball arithmetic: the integral of dtheta/W by the double-exponential rule, cut at every
+equilibrium that the motion passes, where the rate is least or largest."""
+from __future__ import annotations
+
+from functools import lru_cache
+
+from ...numbers.balls import settled, sign, Unclear, working
+from ..ball_orbit import PreciseOrbit
+from ..extremes.balls import turning_points
+from ..result import Fate
+
+DIGITS = 14  # two steps agree to so many; the rule doubles its digits with every halving, so the second is exact to a double
+SPARE = 8  # digits beyond those: terms that are smaller are left out
+FINEST = 9  # halvings of the step; the seventh serves a double
+
+
+def precise_period(reduction, state, label: int) -> float:
+    """Period of one state with the given `Fate` label: inf where the motion does not repeat, 0 at an equilibrium."""
+    if label == Fate.EQUILIBRIUM:
+        return 0.0
+    return float("inf") if label != Fate.BOUNDED else float(period_ball(reduction, state).mid())
+
+
+def period_ball(reduction, state, digits: int = DIGITS):
+    """Period of a bounded motion as a ball that is at most 10^-digits of it wide: two steps of the rule agree to `digits`."""
+    def question(numbers):
+        orbit = PreciseOrbit(reduction, state, numbers)
+        ends = turning_points(orbit)
+        found = _rotation(orbit, digits) if ends is None else _libration(orbit, *ends, digits)
+        if not 10 ** digits * found.rad() < found:
+            raise Unclear
+        return found
+    # nodes come within 10^-2(digits + SPARE) of the turning points, where E - V must keep its digits
+    return settled(question, int(3.33 * (3 * digits + 2 * SPARE + 20)))
+
+
+def _libration(orbit, left, right, digits):
+    """Twice the time between the turning points; y = middle - half cos(phi) removes the roots at both ends."""
+    from flint import arb
+    half, middle = (right - left) / 2, (right + left) / 2
+    inside = [s.y for s in orbit.all_spots if s.y > left and s.y < right]
+    knots = [arb(0), *(((middle - y) / half).acos() for y in inside), arb.pi()]
+
+    def integrand(near, a, b):
+        """At phi = a + near (near > 0) or b + near (near < 0), accurate next to both ends of [0, pi]."""
+        phi = ((a if near > 0 else b) + near).mid()
+        y = middle - half * phi.cos()
+        return half * phi.sin() / _rate(orbit, y)
+    return 2 * _sum_over(integrand, knots, digits)
+
+
+def _rotation(orbit, digits):
+    """Once round the circle without torque."""
+    from flint import arb
+    spots = [s.y for s in orbit.spots]
+    knots = [*spots, spots[0] + 2 * arb.pi()] if spots else [arb(0), 2 * arb.pi()]
+    return _sum_over(lambda near, a, b: 1 / _rate(orbit, (a if near > 0 else b) + near), knots, digits)
+
+
+def _rate(orbit, y):
+    kinetic = orbit.energy - orbit.height(y)
+    if sign(kinetic) <= 0:
+        raise Unclear
+    return (2 * kinetic).sqrt()
+
+
+def _sum_over(integrand, knots, digits):
+    return sum(_tanh_sinh(integrand, a.mid(), b.mid(), digits) for a, b in zip(knots, knots[1:]))
+
+
+def _tanh_sinh(integrand, a, b, digits):
+    """Integral over (a, b); the step is halved until two results agree, each row goes on until its terms vanish."""
+    from flint import arb
+    length, rows, before = (b - a).mid(), arb(0), None
+    least, agree = arb(10) ** -(digits + SPARE), arb(10) ** -digits
+    for level in range(FINEST + 1):
+        for row in _rows(level, digits):
+            for near, weight in row:
+                term = weight * integrand((near * length).mid(), a, b)
+                rows += term
+                if term < least * rows:
+                    break
+            else:
+                raise Unclear
+        now = rows * arb(2) ** -level
+        if before is not None and level > 2 and abs(now - before) <= agree * now:
+            return now * length
+        before = now
+    raise Unclear
+
+
+@lru_cache(maxsize=64)
+def _nodes(level, side, digits):
+    """Nodes as (distance from the nearer end / length, signed by the end; weight), outward from the middle."""
+    from flint import arb
+    step, nodes = arb(2) ** -level, []
+    with working(int(3.33 * 2 * (digits + 2 * SPARE)) + 128):
+        for k in range(0 if side > 0 else 1, 12 * 2**level):
+            if level and k % 2 == 0:
+                continue
+            t = k * step
+            e = (arb.pi() * t.sinh()).exp()  # x = 1/(1 + exp(-pi sinh t)): 1 - x = 1/(1 + e)
+            far = 1 / (1 + e)
+            weight = arb.pi() * t.cosh() * far * (1 - far)
+            nodes.append((-side * far.mid(), weight))
+            if far < arb(10) ** -300:
+                break
+    return tuple(nodes)
+
+
+def _rows(level, digits):
+    return _nodes(level, 1, digits), _nodes(level, -1, digits)

@@ -1,0 +1,192 @@
+"""The geometry of the phase plane of a reduced motion: heights, saddles, centres, separatrices, the motion's own curve."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from .reduction import reduce, Reduction
+
+
+@dataclass(frozen=True)
+class PhasePlane:
+    """The orbit of one state, unrolled: y is the canonical angle from the state on, W = dy/ds, V(0) = 0.
+
+    reduction, place (where the state lies on its circle, hyperbola or parabola), W0: rate of the state.
+    """
+
+    reduction: Reduction
+    place: tuple
+    W0: float
+    Q: float
+
+    @cached_property
+    def potential(self):
+        from .potential import potential
+        return potential(self.reduction)
+
+    @cached_property
+    def unit(self) -> float:
+        """Turn angle about the axis (rad for a body) per canonical angle; its sign is that of the reflection."""
+        if self.reduction.e == 0:
+            return 1.0
+        g = self.reduction.constants
+        return g["flip"] / g["n"]
+
+    def height(self, y, origin=0.0):
+        """V(y) - V(origin), free of cancellation near an equilibrium at `origin`."""
+        y = np.asarray(y, float)
+        place = tuple(np.asarray(v) for v in self.potential.move(self.place, np.float64(origin)))
+        force = 0.0 if origin in self.saddles or origin in self.centres else self.potential.force(place)
+        return self.potential.rise(y - origin, place, force)
+
+    def rate(self, W):
+        """omega_i (or x_i) of canonical W."""
+        if self.reduction.e == 0:
+            return np.asarray(W) - float(self.reduction.s)
+        return self.reduction.component_i(np.asarray(W))
+
+    def components(self, y):
+        """omega_j, omega_k along the orbit."""
+        moved = self.potential.move(self.place, np.asarray(y, float))
+        if self.reduction.e == 0:
+            return moved
+        x, z = moved if self.reduction.e < 0 else ((moved[0] + moved[1]) / 2, (moved[0] - moved[1]) / 2)
+        return self.reduction.component_j(x), self.reduction.component_k(z)
+
+    def states(self, y, W):
+        """States (..., 3) at canonical (y, W)."""
+        out = np.empty((*np.shape(y), 3))
+        out[..., self.reduction.j], out[..., self.reduction.k] = self.components(y)
+        out[..., self.reduction.axis] = self.rate(W)
+        return out
+
+    @cached_property
+    def _critical(self):
+        """[(y, is a saddle)] on the orbit; for a circle within one turn of the state."""
+        found = []
+        if self.reduction.e == 0:
+            first, second, third = self.potential.derivatives(self.place)
+            force = self.potential.force(self.place)
+            for root in np.roots(np.trim_zeros([third / 6, second / 2, first, force], "f")):
+                if abs(root.imag) < 1e-9 * (1 + abs(root)):
+                    found.append(float(root.real))
+        else:
+            from .conic import Conic
+            for x, z, exists, _ in Conic(self.reduction).critical_places(np.array([self.Q])):
+                if exists[0]:
+                    found += self._angle_to(float(x[0]), float(z[0]))
+        return [(y, bool(self.potential.slope(self.potential.move(self.place, np.float64(y))) > 0)) for y in sorted(found)]
+
+    def _angle_to(self, x, z):
+        if self.reduction.e < 0:
+            here = np.arctan2(*self.place)
+            return [float((np.arctan2(x, z) - here + np.pi) % (2 * np.pi) - np.pi)]
+        ratio = (x + z) / self.place[0] if self.place[0] else np.inf
+        other = self.place[1] / (x - z) if x != z else np.inf
+        for value in (ratio, other):
+            if 0 < value < np.inf and np.sign(x - z) in (0, np.sign(self.place[1])):
+                return [float(np.log(value))]
+        return []
+
+    @property
+    def saddles(self) -> list[float]:
+        return [y for y, saddle in self._critical if saddle]
+
+    @property
+    def centres(self) -> list[float]:
+        return [y for y, saddle in self._critical if not saddle]
+
+    def repeated(self, ys, low, high) -> list[float]:
+        """The places in [low, high]: a circle repeats them every turn."""
+        if self.reduction.e >= 0:
+            return [y for y in ys if low <= y <= high]
+        turn = 2 * np.pi
+        return sorted(y + turn * n for y in ys for n in range(int(np.floor((low - y) / turn)), int(np.ceil((high - y) / turn)) + 1)
+                      if low <= y + turn * n <= high)
+
+    def separatrix(self, saddle, low, high, points=2001):
+        """(y, W >= 0) of the curve that runs through the saddle, as far as it hangs together; dense at its ends."""
+        y = np.unique(np.concatenate([np.linspace(low, high, points), saddle + np.geomspace(1e-6, 1, 60) * (high - saddle),
+                                      saddle - np.geomspace(1e-6, 1, 60) * (saddle - low), [saddle]]))
+        drop = -self.height(y, saddle)
+        drop[y == saddle] = 0.0
+        edges = [self._edge(saddle, y[i], y[i + 1]) for i in range(len(y) - 1) if drop[i] * drop[i + 1] < 0]
+        y = np.concatenate([y, edges])
+        drop = np.concatenate([drop, np.zeros(len(edges))])
+        order = np.argsort(y)
+        y, drop = y[order], drop[order]
+        walls = np.nonzero(drop < 0)[0]
+        at = int(np.searchsorted(y, saddle))
+        first = int(walls[walls < at].max(initial=-1)) + 1
+        last = int(walls[walls > at].min(initial=len(y)))
+        return y[first:last], np.sqrt(2 * np.maximum(drop[first:last], 0))
+
+    def _edge(self, saddle, left, right):
+        from scipy.optimize import brentq
+        return brentq(lambda y: float(self.height(y, saddle)), left, right, xtol=1e-13)
+
+    def loop(self, saddle, low, high):
+        """(end, end) of the homoclinic loop through the saddle, None where it does not close in the window."""
+        y, W = self.separatrix(saddle, low, high)
+        for end, at_wall in ((y[0], W[0] == 0), (y[-1], W[-1] == 0)):
+            if at_wall and abs(end - saddle) > 1e-4:
+                return tuple(sorted((float(end), saddle)))
+        return None
+
+
+def phase_plane(scene, state) -> PhasePlane | None:
+    """The phase plane of the motion from `state`; None where the scene does not reduce."""
+    reduction = reduce(scene)
+    if reduction is None:
+        return None
+    state = np.asarray(state, float)
+    if reduction.e == 0:
+        place = (state[reduction.j], state[reduction.k])
+        return PhasePlane(reduction, place, float(state[reduction.axis] + float(reduction.s)), 0.0)
+    x, z, w = (float(v) for v in reduction.canonical(state))
+    if reduction.e < 0:
+        return PhasePlane(reduction, (x, z), w, z * z + x * x)
+    return PhasePlane(reduction, (x + z, x - z), w, (z - x) * (z + x))
+
+
+def window(plane: PhasePlane) -> tuple[float, float]:
+    """The range of y worth drawing: a turn and a half of a circle; between high walls of a hyperbola or parabola."""
+    if plane.reduction.e < 0:
+        marks = plane.saddles + plane.centres
+        middle = float(np.mean(marks)) if marks else 0.0
+        return middle - 1.35 * np.pi, middle + 1.35 * np.pi
+    energy = plane.W0**2 / 2
+    marks = [0.0, *plane.saddles, *plane.centres]
+    heights = [float(plane.height(m)) for m in marks]
+    lift = max(energy - min(heights), max(heights) - min(heights), 0.2)
+    return tuple(_side(plane, edge, sense, min(heights) + 2.5 * lift, min(heights) - 6 * lift)
+                 for edge, sense in ((min(marks), -1), (max(marks), 1)))
+
+
+def _side(plane, edge, sense, ceiling, cellar):
+    """Where the potential, from `edge` on, leaves the range worth drawing; at most 12 away."""
+    step = 1e-6
+    while step < 12 and cellar < plane.height(edge + sense * step) < ceiling:
+        step *= 1.1
+    return edge + sense * step
+
+
+def motion_curve(plane: PhasePlane, low, high, points=4001):
+    """(y, W >= 0) of the motion through the state: its connected piece of the level curve inside [low, high]."""
+    from scipy.optimize import brentq
+    free = lambda v: plane.W0**2 / 2 - float(plane.height(v))
+    ends = []
+    for limit in (low, high):
+        grid = np.linspace(0.0, limit, points)
+        left = plane.W0**2 / 2 - plane.height(grid)
+        outside = np.nonzero(left[1:] < 0)[0]
+        if len(outside):
+            i = int(outside[0])
+            inside = free(grid[i])
+            limit = brentq(free, grid[i], grid[i + 1], xtol=1e-14) if inside > 0 else grid[i]
+        ends.append(float(limit))
+    phase = np.linspace(-np.pi / 2, np.pi / 2, 801)
+    y = (ends[0] + ends[1]) / 2 + (ends[1] - ends[0]) / 2 * np.sin(phase)
+    return y, np.sqrt(2 * np.maximum(plane.W0**2 / 2 - plane.height(y), 0.0))

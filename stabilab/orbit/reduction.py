@@ -1,0 +1,197 @@
+"""Reduction to one degree of freedom: a torque along principal axis i with no gyrostatic component along it.
+
+With alpha' = omega_i + s the two other components obey linear equations in alpha,
+
+    d omega_j/d alpha = p (omega_k + s_k),   d omega_k/d alpha = q (omega_j + s_j),
+
+so they move on a circle (p q < 0), a hyperbola (p q > 0) or a parabola (p q = 0), and alpha is the coordinate of a
+particle in a potential. In the canonical variables
+
+    X = (omega_j + s_j)/sqrt|p|,  Z = sgn(p) (omega_k + s_k)/sqrt|q|,  theta = n alpha,  W = theta',  n = sqrt|p q|,
+    dX/dtheta = Z,  dZ/dtheta = e X  (e = sgn(p q)),   Q = Z^2 - e X^2 = const,
+    theta'' = F = mu + G X Z + c Z + d X,   V = -mu theta - G X^2/2 - c X - e d Z,   E = W^2/2 + V = const.
+
+(Amer et al. 2024 have the special cases lambda along axis 1 with a torque on axis 3 or 2: eqs (13)-(25), (44)-(66).)
+A reflection of theta makes mu >= 0. Coefficients are formed exactly from the rationals of the scene and rounded once.
+"""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+
+from ..numbers.exact import sqrt_fraction
+from ..physics.quadratic import CYCLE, QuadraticForm
+
+
+def _sign(value) -> int:
+    return (value > 0) - (value < 0)
+
+
+@dataclass(frozen=True)
+class Reduction:
+    """A scene seen as a particle in a potential (see the module text).
+
+    axis i (0-based); j, k the cyclic others; shift s of omega_i; p, p0, q, q0 of the linear pair
+    (d omega_j/d alpha = p omega_k + p0, d omega_k/d alpha = q omega_j + q0); kappa, rho, sigma, m of the rate of
+    omega_i = kappa omega_j omega_k + rho omega_k + sigma omega_j + m. All exact. weight: twice the kinetic energy of
+    omega_i per omega_i^2 (D_i, or 1 for scaled variables).
+    """
+
+    axis: int
+    s: Fraction
+    p: Fraction
+    p0: Fraction
+    q: Fraction
+    q0: Fraction
+    kappa: Fraction
+    rho: Fraction
+    sigma: Fraction
+    m: Fraction
+    weight: Fraction
+
+    @property
+    def j(self) -> int:
+        return CYCLE[self.axis][0]
+
+    @property
+    def k(self) -> int:
+        return CYCLE[self.axis][1]
+
+    @cached_property
+    def e(self) -> int:
+        """-1 elliptic, +1 hyperbolic, 0 parabolic."""
+        return _sign(self.p * self.q)
+
+    @property
+    def kind(self) -> str:
+        return {-1: "elliptic", 1: "hyperbolic", 0: "parabolic"}[self.e]
+
+    @cached_property
+    def exact_constants(self) -> dict[str, Fraction]:
+        """G, c, d, mu, n, sj, sk, rx = sqrt|p|, rz = sgn(p) sqrt|q|, flip; after the reflection that makes mu >= 0.
+
+        Elliptic and hyperbolic only. Roots are kept to 240 bits, so these are "exact" for every later rounding.
+        """
+        sj, sk = self.q0 / self.q, self.p0 / self.p
+        ap, aq = abs(self.p), abs(self.q)
+        rp, rq, n = sqrt_fraction(ap), sqrt_fraction(aq), sqrt_fraction(ap * aq)
+        sp = _sign(self.p)
+        # the torque in shifted coordinates: m + kappa sj sk - rho sk - sigma sj (the last three cancel for a body)
+        torque = self.m + self.kappa * sj * sk - self.rho * sk - self.sigma * sj
+        flip = -1 if torque < 0 else 1
+        return {
+            "G": self.kappa * sp * ap * aq,
+            "c": flip * sp * (self.rho - self.kappa * sj) * aq * rp,
+            "d": (self.sigma - self.kappa * sk) * ap * rq,
+            "mu": flip * n * torque, "n": n, "sj": sj, "sk": sk, "rx": rp, "rz": sp * rq, "flip": Fraction(flip)}
+
+    @cached_property
+    def constants(self) -> dict[str, float]:
+        """The exact constants, each rounded once."""
+        return {name: float(value) for name, value in self.exact_constants.items()}
+
+    @cached_property
+    def sense(self) -> int:
+        """Sign of the constant torque about the axis (0 without one): the direction of any spin-up."""
+        if self.e == 0:
+            return _sign(self.m)
+        return 0 if self.exact_constants["mu"] == 0 else int(self.exact_constants["flip"])
+
+    @cached_property
+    def energy_unit(self) -> float:
+        """Energy of the scene (J, or the scaled x_i^2/2 + U) per unit of W^2/2 + V."""
+        return float(self.weight / abs(self.p * self.q)) if self.e else float(self.weight)
+
+    def canonical(self, states):
+        """(X, Z, W) of states (..., 3), each an array (...,); elliptic and hyperbolic."""
+        from .extremes.circle_kernel import shifted  # one state is answered without arrays
+        g, low = self.constants, self.shift_remainders
+        x = g["flip"] * (shifted(states[..., self.j], g["sj"], low[0]) / g["rx"])
+        z = shifted(states[..., self.k], g["sk"], low[1]) / g["rz"]
+        w = g["flip"] * (g["n"] * shifted(states[..., self.axis], float(self.s), float(self.s - Fraction(float(self.s)))))
+        return x, z, w
+
+    @cached_property
+    def shift_remainders(self) -> tuple[float, float]:
+        """What the doubles of sj and sk leave of them."""
+        return tuple(float(self.exact_constants[name] - Fraction(self.constants[name])) for name in ("sj", "sk"))
+
+    def canonical_exact(self, state) -> tuple[Fraction, Fraction, Fraction]:
+        """(X, Z, W) of one state of floats, with the 240-bit constants: no cancellation in the shifts."""
+        g = self.exact_constants
+        u, v, w = (Fraction(float(state[a])) for a in (self.j, self.k, self.axis))
+        return (g["flip"] * (u + g["sj"]) / g["rx"], (v + g["sk"]) / g["rz"], g["flip"] * g["n"] * (w + self.s))
+
+    def component_j(self, x):
+        """omega_j of canonical X (floats, arrays)."""
+        g = self.constants
+        return g["flip"] * g["rx"] * x - g["sj"]
+
+    def component_k(self, z):
+        """omega_k of canonical Z."""
+        g = self.constants
+        return g["rz"] * z - g["sk"]
+
+    def component_i(self, w):
+        """omega_i of canonical W."""
+        g = self.constants
+        return g["flip"] * w / g["n"] - float(self.s)
+
+    def exact_invariant_sign(self, state) -> int:
+        """Sign of Q = Z^2 - e X^2 at a state of floats, exactly (rational arithmetic)."""
+        u, v = Fraction(float(state[self.j])), Fraction(float(state[self.k]))
+        x2 = (u + self.q0 / self.q) ** 2 / abs(self.p)
+        z2 = (v + self.p0 / self.p) ** 2 / abs(self.q)
+        return _sign(z2 - self.e * x2)
+
+    @property
+    def parabolic_shift_size(self) -> float:
+        """How far the centre of the conic is from the origin, in units of the components: large for nearly equal
+        moments, where the canonical variables cancel and the precise path takes over."""
+        if self.e == 0:
+            return 0.0
+        return max(abs(self.constants["sj"]), abs(self.constants["sk"]))
+
+
+def reduction_about(form: QuadraticForm, axis: int, weight=Fraction(1)) -> Reduction | None:
+    """The reduction about principal axis `axis`, or None where the scene has none.
+
+    It exists iff the torque has no component along the other axes and both their rates share a factor (omega_i + s).
+    """
+    j, k = CYCLE[axis]
+    if form.m[j] or form.m[k]:
+        return None
+    # omega_j' = (kappa_j omega_k + rho_j) omega_i + sigma_j omega_k; omega_k' = (kappa_k omega_j + sigma_k) omega_i + rho_k omega_j
+    s = _common_shift(form, j, k)
+    if s is None:
+        return None
+    return Reduction(axis=axis, s=s, p=form.kappa[j], p0=form.rho[j], q=form.kappa[k], q0=form.sigma[k],
+                     kappa=form.kappa[axis], rho=form.rho[axis], sigma=form.sigma[axis], m=form.m[axis], weight=weight)
+
+
+def _common_shift(form: QuadraticForm, j: int, k: int) -> Fraction | None:
+    """s with sigma_j = s kappa_j, s rho_j = 0, rho_k = s kappa_k, s sigma_k = 0; None if there is no such s."""
+    s = Fraction(0)
+    if form.sigma[j] or form.rho[k]:
+        if not form.kappa[j] or not form.kappa[k]:
+            return None
+        s = form.sigma[j] / form.kappa[j]
+        if form.rho[k] != s * form.kappa[k] or form.rho[j] or form.sigma[k]:
+            return None
+    return s
+
+
+def reduce(scene) -> Reduction | None:
+    """The reduction that serves `scene`: about the torque's axis, or, without torque, about any axis that allows one
+    (elliptic preferred: its circle is compact). None where there is none."""
+    form = scene.quadratic()
+    weights = scene.body.exact if scene.variables == "physical" else (Fraction(1),) * 3
+    axes = [i for i in range(3) if form.m[i]]
+    if len(axes) > 1:
+        return None
+    found = [r for i in (axes or range(3)) if (r := reduction_about(form, i, weights[i]))]
+    if not found:
+        return None
+    return min(found, key=lambda r: (r.e if r.e else 2, math.hypot(float(r.s), r.parabolic_shift_size)))

@@ -1,0 +1,115 @@
+"""What the analyses answer: frozen results that say how well they are known."""
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import IntEnum
+from typing import TYPE_CHECKING, Callable
+
+if TYPE_CHECKING:  # a scene of exact laws does not load it
+    from ..physics.law_limits import Validity
+
+
+class Fate(IntEnum):
+    """What becomes of a state as time goes on."""
+
+    BOUNDED = 0
+    SPIN_UP = 1
+    SEPARATRIX = 2
+    EQUILIBRIUM = 3
+    UNDECIDED = 4
+
+    @property
+    def word(self) -> str:
+        """The word used in reports and JSON."""
+        return ("bounded", "spin-up", "separatrix", "equilibrium", "undecided")[self]
+
+
+@dataclass(frozen=True)
+class EquilibriumPoint:
+    """One equilibrium with its verdicts.
+
+    at: three components in the scene's variables. eigenvalues: of the Jacobian there (1/s, or 1/tau when scaled).
+    linear: "stable" (centre), "unstable", "degenerate". verdict: "stable", "unstable", "undecided" (Lyapunov sense,
+    for the full nonlinear motion), because: its proof in words.
+    """
+
+    at: tuple[float, float, float]
+    eigenvalues: tuple[complex, complex, complex]
+    linear: str
+    verdict: str
+    because: str
+
+
+@dataclass(frozen=True)
+class CurveSegment:
+    """A piece of an equilibrium curve with one verdict; `t` is the open parameter interval (ends may be infinite)."""
+
+    t: tuple[float, float]
+    linear: str
+    verdict: str
+    because: str
+
+
+@dataclass(frozen=True)
+class EquilibriumCurve:
+    """A curve of equilibria: point(t) -> (x1, x2, x3) for t inside the segments' intervals.
+
+    equation and parametrisation in symbols; folds are the points between segments where the linear verdict is
+    degenerate; samples are equilibria spread over every segment.
+    """
+
+    name: str
+    equation: str
+    parametrisation: str
+    point: Callable[[float], tuple[float, float, float]] = field(repr=False, compare=False)
+    segments: tuple[CurveSegment, ...] = ()
+    folds: tuple[tuple[float, float, float], ...] = ()
+    samples: tuple[EquilibriumPoint, ...] = ()
+
+
+@dataclass(frozen=True)
+class Equilibria:
+    """All equilibria of a scene. kind: "none", "points", "curves" (curves, possibly with points) or "all" (every
+    state is one); reason: why these and no others. validity: of an approximate law (`stabilab.physics.law_limits`), at the points; None where
+    all laws are exact."""
+
+    kind: str
+    reason: str
+    points: tuple[EquilibriumPoint, ...] = ()
+    curves: tuple[EquilibriumCurve, ...] = ()
+    validity: Validity | None = None
+
+
+@dataclass(frozen=True)
+class Motion:
+    """Everything known about the motion from one state.
+
+    axis: 1, 2, 3 of the spin-up, 0 otherwise; sense: +1 or -1 of the spin-up, 0 otherwise.
+    margin_energy: height of the barrier ahead minus energy (negative above it; None where no barrier stands ahead at
+    this value of the invariant); without a torque the kinetic energy of the nearest saddle of the same momentum minus the
+    motion's. margin_velocity: smallest change of the state that reaches the separatrix, at
+    whatever value of the invariant, to 1e-9, or where that is not reached a number that it is proved not to be below
+    (None where the scene has none, or nothing is known: then velocity_because says why). velocity_bounds: (proved lower bound,
+    distance of velocity_witness), velocity_witness: a state on the separatrix as near as that; velocity_because: why the two
+    bounds are apart. period: None where the motion does not repeat. extremes: ((min, max),) * 3 over t >= 0, entries +-inf where
+    unbounded, None where unknown; extremes_over: "all time" or the span they were searched over. validity: of an approximate
+    law (`stabilab.physics.law_limits`), with its largest value along the motion; None where all laws are exact.
+    """
+
+    at: tuple[float, float, float]
+    fate: Fate
+    because: str
+    axis: int = 0
+    sense: int = 0
+    margin_energy: float | None = None
+    margin_velocity: float | None = None
+    velocity_bounds: tuple[float, float] | None = None
+    velocity_witness: tuple[float, float, float] | None = None
+    velocity_because: str = ""
+    period: float | None = None
+    extremes: tuple | None = None
+    extremes_over: str = "all time"
+    invariants: dict[str, float] = field(default_factory=dict)
+    evidence: dict = field(default_factory=dict)
+    tolerance: float | None = None
+    validity: Validity | None = None

@@ -1,0 +1,1 @@
+"""Homoclinic loops, the sheets they sweep, and the distance of a state from them."""

@@ -1,0 +1,74 @@
+"""Sheets of the separatrix on circles by a compiled kernel: the door of numba (the extra `fast`) to `circle_loops`.
+
+The grading is that of `sheet_grid`, number by number; points agree with those of the arrays to rounding.
+"""
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+
+from . import circle_kernel as circle_loops
+from .grid import DENSE, fewest_cells, finer, FLOOR, MIXTURES, MOST, ROUNDS, shrinks, STRAIGHT, TRIAL, UNIFORM
+
+GRADING = (FLOOR, STRAIGHT, UNIFORM, DENSE, MIXTURES)
+EVEN = np.linspace(0, 1, TRIAL)
+
+
+def serves(land, strips) -> bool:
+    """Whether the kernel draws a landscape's sheets: circles with a torque, where each saddle has one loop, a point at the
+    fold."""
+    return land.e < 0 and land.sense != 0 and all(shrinks(land, *strip) for strip in strips)
+
+
+@lru_cache(maxsize=1)
+def kernel():
+    """The compiled names of `circle_loops`; kept on disk where there is a place for it."""
+    from ..extremes.circle_numba import compiled
+    try:
+        return compiled(circle_loops, {"force", "slope", "moved", "y_minus_sin", "rise", "stray"}, cache=True)
+    except RuntimeError:  # numba found no folder that it may write to
+        return compiled(circle_loops, (), cache=False)
+
+
+@lru_cache(maxsize=64)
+def kernel_input(land):
+    """(g, conic, sense, units) of a landscape for the kernel."""
+    pot, conic, r = land.potential, land.conic, land.reduction
+    c = r.constants
+    units = tuple(float(v) for v in (c["flip"] * c["rx"], c["sj"], c["rz"], c["sk"], c["flip"] / c["n"], r.s))
+    return (tuple(float(v) for v in (pot.G, pot.c, pot.d, pot.mu)),
+            tuple(float(v) for v in (conic.G, conic.c, conic.K, conic.shift)), int(land.sense), (*units, r.j, r.k, r.axis))
+
+
+def sheets_by_kernel(land, strips, shape, accuracy, names=None):
+    """(points (k, n, m, 3) all round, residual (k, n, m), saddle and centre places (k, n, 2) each, found (k, n), cut, error (k,))
+    of strips, pairs (branch, side), in the shape (rows, columns of a half) or, where it is None, within `accuracy`.
+
+    names: of the functions, compiled or plain."""
+    names = names or kernel()
+    scene = kernel_input(land)
+    k = len(strips)
+    lines = [(branch.start, branch.end, *((1.0, *branch.line) if branch.line else (0.0,) * 5)) for branch, _ in strips]
+    where, sides = np.array(lines), np.array([float(side) for _, side in strips])
+    s, columns, rows, numbers = (np.empty(size) for size in ((k, TRIAL), (k, TRIAL), (k, TRIAL), (len(MIXTURES), 2, 2)))
+    names["trial"](*scene, where, sides, GRADING, accuracy or 0.0, s, columns, rows, numbers, _room(k))
+    shape = shape or fewest_cells(numbers[..., 0], numbers[..., 1])
+    for _ in range(ROUNDS):
+        n, m = shape
+        found, places, points = np.empty((k, n), np.bool_), np.empty((k, n, 5)), np.empty((k, n, 2 * m - 1, 3))
+        residual, strays = np.empty((k, n, 2 * m - 1)), np.empty((2, k))
+        names["finished"](*scene, where, sides, s, EVEN, columns, rows, np.empty(n), np.empty(m), found, places, points, residual,
+                          strays, np.empty((m + 1, 5)))
+        each = strays.max(axis=1)
+        best = int(np.argmin(each))
+        if accuracy is None or each[best] <= accuracy or min(shape) == MOST:
+            break
+        shape = finer(shape, each[best], accuracy)
+    return points, residual, places[..., :2], places[..., 2:4], found, (1, -1)[best], strays[best]
+
+
+def _room(k):
+    """Arrays for `circle_loops.trial`: columns, dense way, found, places, points, no residual, a row to spare, forms, densities."""
+    return (EVEN, np.empty(DENSE), np.empty((k, TRIAL), np.bool_), np.empty((TRIAL, 5)), np.empty((k, TRIAL, TRIAL, 3)),
+            np.empty((TRIAL, 0)), np.empty((TRIAL + 1, 5)), np.empty((k, 3, TRIAL, TRIAL)), np.empty((k, 2, TRIAL)))

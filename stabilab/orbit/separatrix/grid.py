@@ -1,0 +1,187 @@
+"""Rows and columns of a sheet, graded so that its flat facets stray from the surface about equally everywhere.
+
+A facet's edge with steps (du, ds) of the parameters strays from a surface r(u, s) with unit normal n by
+|L du^2 + 2 M du ds + N ds^2|/8, where L = r_uu.n, M = r_us.n, N = r_ss.n. Differences on a small trial grid give them:
+columns stand uniformly in the integral of sqrt|L|, rows in that of sqrt|N|, each for the worst of the others, and the
+numbers that an asked-for distance needs follow. Where a shape is asked for, as for a picture, columns follow the outline too.
+The finished grid is measured in the same way.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .homoclinic_arrays import Loops, loops
+from .saddles import PLANE
+
+TRIAL = 17              # rows and columns of the trial grid
+FLOOR = 0.3             # of the mean density: no gap where a sheet happens to be straight
+MIXTURES = np.array([1.0, 1.5, 2.0])  # columns against rows, relative to where both alone stray equally
+STRAIGHT = 1e-6         # of a sheet's size: a lesser sag between neighbours of the trial grid does not matter
+TAIL = 10.0 ** -np.arange(3, 6.1, 0.5)  # 1 - s of the last trial rows towards a plane Q = 0
+NEAR = 1e-6             # a first row this near to the fold where the loop there is no point
+DENSE = 129             # steps along a branch that trial rows are chosen from
+UNIFORM = 0.2           # of the fold's radius: up to there trial rows are uniform
+SAFETY, ROUNDS, MOST = 1.03, 12, 1025  # rows and columns grow by that much more than asked, so often, up to there
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Loops of k strips; cut: +1 where quads of the first half are cut from (row, column) to (row + 1, column + 1), -1
+    the other way; error: (k,) largest distance of facets from the surface."""
+
+    loops: Loops
+    cut: int
+    error: np.ndarray
+
+
+def grid(land, strips, shape=None, accuracy=None) -> Grid:
+    """The graded loops of strips (see `loops`): shape (rows, columns of a half), or, without one, as few of both as keep
+    facets within `accuracy` of the sheets."""
+    trial = np.array([_trial_rows(land, *strip) for strip in strips])
+    even = np.linspace(0, 1, TRIAL)
+    first, edge = _measured_loops(land, strips, trial, np.broadcast_to(even, trial.shape))
+    across, twist, down = _second_forms(land, first)
+    straight = STRAIGHT * np.abs(first.points).max()
+    seen = across if accuracy else np.concatenate([across, _outline(land, first)[:, None]], axis=1)
+    dense_columns, columns = _density(seen, 1, ((0, 0), (1, 0)), straight)
+    dense_rows, rows = _density(down, 2, ((0, 0), (1, 1)), straight, 8 * edge)
+    if shape is None:
+        c, r = dense_columns[:, None, 1:], dense_rows[:, 1:-1, None]
+        shape = _numbers(across / (c * c), twist / (c * r), down / (r * r), columns[:, -1], rows[:, -1], accuracy)
+    for _ in range(ROUNDS):
+        s = _even_steps(rows, trial, shape[0])
+        made, edge = _measured_loops(land, strips, s, _even_steps(columns, np.broadcast_to(even, trial.shape), shape[1]))
+        strays = np.maximum(_stray(*_second_forms(land, made), np.array([1, -1])[:, None, None, None]), edge)
+        best = int(np.argmin(strays.max(axis=1)))
+        worst = strays[best].max()
+        if accuracy is None or worst <= accuracy or min(shape) == MOST:
+            break
+        shape = finer(shape, worst, accuracy)
+    return Grid(made, (1, -1)[best], strays[best])
+
+
+def _numbers(across, twist, down, columns, rows, accuracy):
+    """(rows, columns of a half) for facets within `accuracy`, from the forms (k, i, j) per squared density and the total
+    lengths (k,): the mixture and the cut with the fewest cells; all strips share them."""
+    mix = MIXTURES[:, None, None, None, None]
+    cut = np.array([1, -1])[:, None, None, None]
+    size = np.sqrt(_stray(across / mix**2, twist / mix, down, cut) / accuracy)  # (mixtures, cuts, k)
+    return fewest_cells((size * rows).max(axis=-1), (size * columns * MIXTURES[:, None, None]).max(axis=-1))
+
+
+def fewest_cells(rows, columns):
+    """(rows, columns of a half) of the grid with the fewest cells among steps (mixtures, cuts) of both."""
+    best = np.unravel_index(np.argmin(columns * rows), rows.shape)
+    return tuple(min(max(int(np.ceil(SAFETY * number[best])) + 1, 3), MOST) for number in (rows, columns))
+
+
+def finer(shape, worst, accuracy):
+    """The next shape to try where facets stray by `worst`."""
+    grow = max(SAFETY * np.sqrt(worst / accuracy), 1.1)
+    return tuple(min(int(np.ceil((number - 1) * grow)) + 1, MOST) for number in shape)
+
+
+def _measured_loops(land, strips, s, u):
+    """(loops at rows s, how far the chords between the last two rows stray from the sheet (k,)): towards a plane Q = 0 the
+    bend grows beyond what inner rows tell, so a row in between is measured."""
+    more = np.concatenate([s[:, :-1], 0.5 * (s[:, -2:-1] + s[:, -1:]), s[:, -1:]], axis=1)
+    all_ = loops(land, strips, more, u)
+    before, between, last = (all_.points[:, row] for row in (-3, -2, -1))
+    chord, way = (last - before)[:, 1:-1], (between - before)[:, 1:-1]
+    normal = np.cross(chord, between[:, 2:] - between[:, :-2])
+    size = np.maximum(np.linalg.norm(normal, axis=-1), np.finfo(float).tiny)
+    part = np.sum(way * chord, axis=-1) / np.maximum(np.sum(chord * chord, axis=-1), np.finfo(float).tiny)
+    part = np.clip(part, 0.1, 0.9)  # of the chord, where the row in between passes; the sag is largest at a half
+    sag = np.abs(np.sum(way * normal, axis=-1)) / size / (4 * part * (1 - part))
+    kept = np.delete(np.arange(more.shape[1]), -2)
+    there = all_.found[:, -3:].all(axis=1)
+    return all_.at_rows(kept), np.where(there, sag.max(axis=1), 0.0)
+
+
+def _second_forms(land, loops):
+    """(L, M, N), each (k, n - 2, m - 1), per step of the grid, at inner rows and all columns but the first: beyond the
+    far end the loop comes back as its mirror image. 0 beside rows without a loop."""
+    r = _past_far_end(land, loops.points)
+    dot = lambda a, b: np.einsum("cknm,cknm->knm", a, b)
+    here, round_ = r[:, :, 1:-1, 1:-1], r[..., 2:] - r[..., :-2]
+    a, b = r[:, :, 2:, 1:-1] - r[:, :, :-2, 1:-1], round_[:, :, 1:-1]
+    normal = np.stack([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
+    size = np.sqrt(dot(normal, normal))
+    whole = loops.found[:, 2:] & loops.found[:, 1:-1] & loops.found[:, :-2]
+    normal *= whole[:, :, None] / np.maximum(size, np.finfo(float).tiny)
+    if loops.shared.any():  # the far end is a saddle, a corner of the loop and no bend
+        normal[:, loops.shared[:, 1:-1], -1] = 0
+    return (dot(r[:, :, 1:-1, 2:] - 2 * here + r[:, :, 1:-1, :-2], normal),
+            0.25 * dot(round_[:, :, 2:] - round_[:, :, :-2], normal),
+            dot(r[:, :, 2:, 1:-1] - 2 * here + r[:, :, :-2, 1:-1], normal))
+
+
+def _past_far_end(land, points):
+    """(3, ..., m + 1) components of points (..., m, 3) with one column beyond the far end."""
+    r = np.empty((3, *points.shape[:-2], points.shape[-2] + 1))
+    r[..., :-1], axis = np.moveaxis(points, -1, 0), land.reduction.axis
+    r[..., -1] = r[..., -3]
+    r[axis, ..., -1] = 2 * r[axis, ..., -2] - r[axis, ..., -3]
+    return r
+
+
+def _outline(land, loops):
+    """(k, m - 1) how the last rows bend, in the sheet too: their chords are the outline of a picture."""
+    r = np.moveaxis(_past_far_end(land, loops.points[:, -1]), 0, -1)
+    bend, way = r[:, 2:] - 2 * r[:, 1:-1] + r[:, :-2], r[:, 2:] - r[:, :-2]
+    across = np.linalg.norm(np.cross(bend, way), axis=-1) / np.maximum(np.linalg.norm(way, axis=-1), np.finfo(float).tiny)
+    return np.where(loops.found[:, -1:], across, 0.0)
+
+
+def _stray(across, twist, down, cut):
+    """Largest distance (..., k) of the edges' mid-points and the centres of a quad's facets from the surface."""
+    diagonal = across + down + 2 * cut * twist
+    edges = np.maximum(np.abs(diagonal), np.maximum(np.abs(across), np.abs(down)))
+    return np.maximum(edges / 8, np.abs(across + down + diagonal) / 18).max(axis=(-1, -2))
+
+
+def _density(form, other, edges, straight, last=0.0):
+    """(densities (k, j), their integral from the first on (k, j)) of rows or columns, from the form at inner ones and
+    the worst over the other axis; at the edges as beside them, at the last one at least as the form `last` (k,) asks."""
+    inner = np.sqrt(np.abs(form).max(axis=other))
+    density = np.pad(inner, edges, mode="edge")
+    density[:, -1] = np.maximum(density[:, -1], np.sqrt(last))
+    density = density + (FLOOR * density.mean(axis=1, keepdims=True) + np.sqrt(straight))
+    length = np.zeros(density.shape)
+    np.cumsum(0.5 * (density[:, 1:] + density[:, :-1]), axis=1, out=length[:, 1:])
+    return density, length
+
+
+def _even_steps(length, at, number):
+    """(k, number) parameters between those of `at` (k, j) at even steps of `length` (k, j)."""
+    out = np.array([np.interp(np.linspace(0, way[-1], number), way, x) for way, x in zip(length, at)])
+    out[:, -1] = at[:, -1]
+    return out
+
+
+def shrinks(land, branch, side) -> bool:
+    """Whether the loop on one side of a saddle shrinks to a point at the fold: it does around the well that the saddle meets
+    there, on the side where the force's slope falls. The loop on the other side, of a figure eight, keeps its size."""
+    pot, fold = land.potential, branch.place(0.0)
+    ahead, behind = (pot.slope(pot.move(fold, side * y)) for y in (NEAR, -NEAR))
+    return not ahead - behind > NEAR * NEAR * pot.terms(fold)
+
+
+def _trial_rows(land, branch, side, dense=DENSE):
+    """(TRIAL,) parameters s of rows: the saddle moves on by equal steps near the fold and by equal factors far out, where
+    the sheet only grows and hardly bends."""
+    s = 0.5 - 0.5 * np.cos(np.linspace(0, np.pi, dense))
+    place = np.broadcast_arrays(*branch.place(s))
+    way = np.zeros(dense)
+    np.cumsum(np.hypot(np.diff(place[0]), np.diff(place[1])), out=way[1:])
+    q = land.invariant((place[0][[0, -1]], place[1][[0, -1]]))
+    start = max(UNIFORM * np.sqrt(abs(q[0])), 0.03 * way[-1])
+    stretched = np.log1p(way / start)
+    s = np.interp(np.linspace(0, stretched[-1], TRIAL), stretched, s)
+    s[0], s[-1] = 0.0 if shrinks(land, branch, side) else NEAR, 1.0
+    if branch.far == PLANE:  # there a loop need not close; on the way it grows like the root of log 1/(1 - s), without bound
+        inner = np.interp(np.linspace(0, 1, TRIAL - len(TAIL)), np.linspace(0, 1, TRIAL), s * (1 - 10 * TAIL[0]))
+        s = np.concatenate([inner, 1 - TAIL])
+    return s

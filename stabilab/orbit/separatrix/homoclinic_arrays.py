@@ -1,0 +1,127 @@
+"""Homoclinic loops: where the motion that leaves a saddle turns back, and the points of the loop in between.
+
+Along a loop W = +-sqrt(2 (V_saddle - V(theta))), the difference formed without cancellation, so points lie on the
+separatrix to rounding.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .circle_kernel import NONE, SHARED, SHARPEST
+from ..landscape import angle_between, TURN
+from .homoclinic import loop_end
+
+
+def polished(land, saddle, s):
+    """The conic's points moved along their orbits to where the force vanishes (all but the fold itself)."""
+    moved = land._polish(saddle)
+    return tuple(np.where(s > 0, m, v) for m, v in zip(moved, saddle))
+
+
+def loop_ends(land, saddle, side):
+    """(offset of the far end of the loop (n,), centre place (2, n), found (n,), shared (n,)) for saddles (2, n), one side;
+    shared: it ends at a saddle there, for which this is the loop on the other side."""
+    pot, n = land.potential, len(saddle[0])
+    ends, centres, kind = np.zeros(n), np.zeros(n), np.zeros(n, int)
+    for row, place in enumerate(zip(*(v.tolist() for v in saddle))):
+        found = loop_end(pot, land.e, land.sense, place, side)
+        if found:
+            ends[row], centres[row], kind[row] = found
+    return side * ends, np.array(land._polish(pot.move(saddle, side * centres))), kind != NONE, kind == SHARED
+
+
+@dataclass(frozen=True)
+class Loops:
+    """First halves of loops, from the saddle to the far end, in k strips of n rows and m columns.
+
+    saddle, centre: places (2, k, n); end: (k, n) offsets of the far ends; found: (k, n) whether there is a loop;
+    shared: (k, n) whether the far end is a saddle too; offset, w: (k, n, m) offsets and W; points: (k, n, m, 3).
+    """
+
+    saddle: np.ndarray
+    centre: np.ndarray
+    end: np.ndarray
+    found: np.ndarray
+    shared: np.ndarray
+    offset: np.ndarray
+    w: np.ndarray
+    points: np.ndarray
+
+    def at_rows(self, rows) -> "Loops":
+        """The loops of some rows only."""
+        return Loops(*(v[:, :, rows] if name in ("saddle", "centre") else v[:, rows] for name, v in vars(self).items()))
+
+
+def loops(land, strips, s, u) -> Loops:
+    """The loops of strips, pairs (branch, side), at parameters s (k, n) along them and u (k, m) round them.
+
+    A loop shared with the saddle at its far end is found from the left one only; at s = 0, the fold, it is a point.
+    """
+    k, n = s.shape
+    place = np.array([np.broadcast_arrays(*branch.place(row)) for (branch, _), row in zip(strips, s)], float)
+    saddle = np.array(polished(land, (place[:, 0].ravel(), place[:, 1].ravel()), s.ravel())).reshape(2, k, n)
+    sides = np.array([side for _, side in strips])
+    end, centre, found, shared = np.empty((k, n)), np.empty((2, k, n)), np.empty((k, n), bool), np.empty((k, n), bool)
+    for side in set(sides.tolist()):  # one search for all strips of a side
+        pick = sides == side
+        one = loop_ends(land, tuple(saddle[:, pick].reshape(2, -1)), side)
+        end[pick], found[pick], shared[pick] = (v.reshape(-1, n) for v in (one[0], one[2], one[3]))
+        centre[:, pick] = one[1].reshape(2, -1, n)
+    found &= ~(shared & (sides[:, None] > 0))
+    fold = s == 0
+    found |= fold
+    end = np.where(fold | ~found, 0.0, end)
+    centre = np.where(fold, saddle, centre)
+    offset = end[:, :, None] * _shares(land, saddle, end, shared, u[:, None, :])
+    spot = saddle[0][:, :, None], saddle[1][:, :, None]
+    with np.errstate(all="ignore"):
+        w = np.sqrt(2 * np.maximum(-land.potential.rise(offset, spot), 0))
+    w[:, :, 0] = w[:, :, -1] = 0.0
+    points = land.components(land.potential.move(spot, offset), sides[:, None, None] * w)
+    return Loops(saddle, centre, end, found, shared, offset, w, points)
+
+
+def _shares(land, saddle, end, shared, u):
+    """(k, n, m) shares of the way to the far end at which columns u (k, 1, m), 0 to 1, stand.
+
+    At the far end, distance t away, W^2 = 2 F t + K t^2 + ...: F the force there, K its slope. That is a hyperbola with
+    t = (F/K)(cosh q - 1), and equal steps of q turn the loop's direction evenly, however sharp the bend; columns then
+    run along the bend from row to row. Where the far end is a saddle itself, columns crowd at both ends alike.
+    """
+    if shared.any():
+        return np.broadcast_to(np.sin(0.5 * np.pi * u) ** 2, end.shape + u.shape[-1:])
+    far = land.potential.move(saddle, end)
+    with np.errstate(all="ignore"):
+        sharp = np.abs(end) * land.potential.slope(far) / np.abs(land.potential.force(far))
+        sharp = np.clip(np.nan_to_num(sharp), 1e-8, SHARPEST)
+        half = 0.5 * np.log1p(sharp + np.sqrt(sharp * (sharp + 2)))[:, :, None]  # arccosh(1 + sharp)
+    return 1 - (np.sinh(half * (1 - u)) / np.sinh(half)) ** 2
+
+
+def residual(land, loops):
+    """(k, n, m) energy of the rounded points above their saddle's, relative to the size of the energy's terms; their
+    offsets from the saddle tell the turn that the angle of a rounded point belongs to. On a hyperbola the larger of xi, eta
+    tells the place: next to an open plane the smaller one is all rounding. How far the other lies from the saddle's
+    hyperbola, relative to the size of the point, is the residual where that is more.
+    """
+    place, w, size = land.start(loops.points)
+    spot = tuple(v[:, :, None] for v in loops.saddle)
+    pot = land.potential
+    with np.errstate(all="ignore"):
+        if land.e < 0:
+            angle = angle_between(spot, place)
+            seen, slopes = angle + TURN * np.round((loops.offset - angle) / TURN), abs(pot.c) + abs(pot.d)
+            shaken = 0.0
+        else:
+            big = np.abs(place[0]) >= np.abs(place[1])
+            seen = np.where(big, np.log(np.abs(place[0] / spot[0])), -np.log(np.abs(place[1] / spot[1])))
+            slopes = abs(pot.e1) + abs(pot.e2)
+            wide, largest = size[0] + size[1], np.maximum(np.abs(place[0]), np.abs(place[1]))
+            beside = np.abs(place[0] * place[1] - spot[0] * spot[1]) / ((np.abs(place[0]) + np.abs(place[1])) * wide)
+            shaken = pot.mu * wide / largest  # the tilt falls by mu times the logarithm of the place
+        departure = np.abs(0.5 * w * w + pot.rise(seen, spot))
+        scale = 0.5 * w * w + np.abs(pot.G) * (size[0] ** 2 + size[1] ** 2) + slopes * (size[0] + size[1]) + pot.mu + shaken
+        along = np.where(departure > 0, departure / scale, 0.0)
+        return along if land.e < 0 else np.fmax(along, beside)

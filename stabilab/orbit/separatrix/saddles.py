@@ -1,0 +1,110 @@
+"""The branches of saddles, each from its fold outward: the edges along which the sheets of a separatrix hang.
+
+In plain floats; a branch gives its places for floats and arrays alike.
+"""
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+from typing import NamedTuple
+
+from ...numbers.double_ball import real_roots_of
+
+ON_PLANE = 1e-9  # of a branch's first invariant: below that its end lies on a plane Q = 0
+OPEN, FOLD, PLANE = "open", "fold", "plane"
+
+
+class Branch(NamedTuple):
+    """Saddles for s in [0, 1], s = 0 at the fold (on a line at its inner end), in h along a piece of the hyperbola or in t
+    along a line. far: what the branch ends in at s = 1, the limit (OPEN), another FOLD or an invariant PLANE Q = 0."""
+
+    conic: object
+    line: object  # None on the hyperbola
+    start: float
+    end: float
+    far: str
+
+    def at(self, s):
+        """(X, Z) of the saddle, a float or an array each."""
+        t = self.start + (self.end - self.start) * s
+        return self.conic.at(t) if self.line is None else on_line(self.line, t)
+
+    def place(self, s):
+        """The same as a place of the reduced potential."""
+        return as_place(self.conic.e, *self.at(s))
+
+
+def sides(e, sense):
+    """Which way loops leave a saddle, and the word for it: against the torque on a tilted circle, both ways otherwise."""
+    if e < 0 and sense:
+        return ((-1, ""),)
+    return ((-1, ", left loop"), (1, ", right loop"))
+
+
+def limit_of(conic, reach) -> float:
+    """The size of the invariant at `reach` times the radius sqrt|Q| of the outermost fold, or of the lines' feet."""
+    base = [abs(q) for q in conic.fold_invariants]
+    for line in conic.lines:
+        x, z = on_line(line, foot(conic, line))
+        base.append(abs(z * z - conic.e * x * x) or abs(conic.K / conic.G if conic.G and conic.K else 1.0))
+    return max(base, default=1.0) * reach * reach
+
+
+@lru_cache(maxsize=64)
+def saddle_branches(conic, pot, limit) -> tuple[Branch, ...]:
+    """Every branch of saddles of a conic of equilibria, as far out as |Q| = limit; kept for the next surface of a scene."""
+    found = [branch for piece in conic.pieces if piece.barrier for branch in _on_piece(conic, piece, limit)]
+    for line in conic.lines:
+        found += [Branch(conic, line, start, end, OPEN) for start, end in _on_line(conic, pot, line, limit)]
+    return tuple(found)
+
+
+def as_place(e, x, z):
+    """(X, Z) as the potential takes it: on a hyperbola (X + Z, X - Z)."""
+    return (x, z) if e < 0 else (x + z, x - z)
+
+
+def on_line(line, t):
+    return line.x0 + t * line.dx, line.z0 + t * line.dz
+
+
+def foot(conic, line) -> float:
+    """Where along a line the invariant is stationary."""
+    a = line.dz**2 - conic.e * line.dx**2
+    return -(line.z0 * line.dz - conic.e * line.x0 * line.dx) / a if a else 0.0
+
+
+def _on_piece(conic, piece, limit):
+    """Branches of a piece inside the limit on |Q|, starting at a fold, cut where Q = 0 (a plane)."""
+    ends = [h for q in ((limit,) if conic.e < 0 else (limit, -limit)) for h in _meet(conic, piece, q)]
+    inner = piece.inner or min(ends, default=None)
+    outer = piece.outer if math.isfinite(piece.outer) else max(ends, default=None)
+    if inner is None or outer is None or not inner < outer:
+        return
+    cuts = [inner, *(h for h in (_meet(conic, piece, 0.0) if conic.e > 0 else ()) if inner < h < outer), outer]
+    folds = {piece.inner, piece.outer}
+    for low, high in zip(cuts, cuts[1:]):
+        start, end = (high, low) if high == piece.outer else (low, high)
+        on_plane = conic.e > 0 and abs(conic.invariant(piece.sign * end)) < ON_PLANE * abs(conic.invariant(piece.sign * start))
+        yield Branch(conic, None, piece.sign * start, piece.sign * end,
+                     PLANE if on_plane else FOLD if end in folds else OPEN)
+
+
+def _meet(conic, piece, q) -> list[float]:
+    """|h| on a piece where the invariant is q: Z^2 - e X^2 = q times h^2, a quartic."""
+    e, s, G = conic.e, conic.shift, conic.G
+    c, K = conic.c / G, conic.K / G
+    roots = real_roots_of([1.0, -2 * s, s * s - e * c * c - q, 2 * e * K * c, -e * K * K])
+    return sorted(abs(h) for h in roots if h * piece.sign > 0 and piece.inner < abs(h) < piece.outer)
+
+
+def _on_line(conic, pot, line, limit):
+    """Intervals of t on a line where it holds saddles, each from its inner end outward."""
+    knots = [foot(conic, line)]
+    if conic.G:  # where the two lines cross
+        knots.append(-conic.d / conic.G - line.z0 if line.dz else -conic.c / conic.G - line.x0)
+    far = (2 * math.sqrt(limit) + abs(line.x0) + abs(line.z0)) / math.hypot(line.dx, line.dz) + max(map(abs, knots))
+    knots = sorted({-far, *knots, far})
+    for low, high in zip(knots, knots[1:]):
+        if pot.slope(as_place(conic.e, *on_line(line, 0.5 * (low + high)))) > 0:
+            yield (low, high) if abs(low) < abs(high) else (high, low)

@@ -1,0 +1,127 @@
+"""The separatrix as surfaces: for each value of the invariant the homoclinic loop of each saddle, an exact curve.
+
+A sheet sweeps one branch of saddles outward from its fold, where the loop shrinks to a point. On a circle the loop runs
+from its saddle against the torque and back; on a hyperbola (and without torque) each saddle has a loop on either side: a
+figure eight.
+
+Without torque the potential is periodic, so a saddle may see another one at its own height ahead (or itself, one turn
+on). The loop then runs from saddle to saddle and back, and the saddle at its far end sees the same closed curve on its
+other side. Such a loop is taken from one end only, its left one.
+"""
+from __future__ import annotations
+
+import numpy as np
+
+from .result import Separatrix, Sheet
+from ...physics.effective import effective
+from ..landscape import landscape
+from .homoclinic_arrays import residual
+from ...numbers.numba_door import wanted
+from .saddles import limit_of, saddle_branches, sides
+from .grid import grid
+
+SHAPE = (96, 129)  # fine enough for pictures
+
+
+def separatrix(scene, reach: float | None = None, shape: tuple[int, int] | None = None,
+               accuracy: float | None = None, fast: bool = False) -> Separatrix:
+    """Every sheet of the separatrix of a scene with an elliptic or hyperbolic reduction.
+
+    reach: how far out the sheets go, as a multiple of the radius sqrt|Q| of the outermost fold (default 4; where there
+    is no fold, of the smallest saddle's); must exceed 1. shape: (rows, columns) of each grid, at least (3, 5), an even
+    number of columns becomes the next odd one (default (96, 129)). accuracy: in place of a shape, the largest distance
+    allowed between the sheets and the flat facets of their meshes, in the unit of the points: the grids get as few rows
+    and columns as that needs, and every sheet tells as `error` what its facets were found to reach (more than asked for
+    only where the largest grids, of 1025 rows, still bend as much). fast: on circles with a torque compile the work with numba
+    (the extra `fast`); points agree to rounding, and loading numba costs more than some hundred surfaces. Points are in the
+    scene's variables. A scene without saddles gives no sheets and the reason. Raises InputError for a shape, reach or accuracy
+    out of range, and for fast=True
+    without numba.
+    """
+    _check(reach, shape, accuracy)
+    land = landscape(effective(scene))
+    if land is None:
+        return Separatrix((), "no reduction to one degree of freedom: the separatrix of this scene is not known in closed form")
+    if land.e == 0:
+        return Separatrix((), "parabolic reduction (two equal moments): all motions are bounded by walls on both sides, "
+                              "except pure spin about the torque; no sheet bounds a spin-up")
+    branches = saddle_branches(land.conic, land.potential, limit_of(land.conic, reach or 4.0))
+    if not branches:
+        return Separatrix((), _why_none(land))
+    strips = [(branch, side) for branch in branches for side, _ in sides(land.e, land.sense)]
+    rows, columns = shape or SHAPE
+    half = None if accuracy else (rows, columns // 2 + 1)
+    made = _by_kernel(land, strips, half, accuracy) if _goes_fast(land, strips, fast) else _by_arrays(land, strips, half, accuracy)
+    return Separatrix(tuple(_sheets(land, strips, *made)), _what_it_parts(land))
+
+
+def _goes_fast(land, strips, fast) -> bool:
+    # never on its own: the same case must give the same bytes, whatever was loaded before
+    if not fast:
+        return False
+    from .circle_numba import serves
+    return wanted(1, True, False, 1, 1) and serves(land, strips)
+
+
+def _check(reach, shape, accuracy):
+    from ...errors import InputError
+    if shape is not None and accuracy is not None:
+        raise InputError("separatrix: got both a shape and an accuracy; expected one of them, as an accuracy chooses the shape")
+    if shape is not None and (shape[0] < 3 or shape[1] < 5):
+        raise InputError(f"shape: expected at least (3, 5), got {tuple(shape)}")
+    if reach is not None and not reach > 1:
+        raise InputError(f"reach: expected a multiple of the fold's radius above 1, got {reach}")
+    if accuracy is not None and not 0 < accuracy < np.inf:
+        raise InputError(f"accuracy: expected a distance above 0 in the unit of the sheet's points, got {accuracy}")
+
+
+def _by_kernel(land, strips, shape, accuracy):
+    from .circle_numba import sheets_by_kernel
+    points, residual, *places, found, cut, error = sheets_by_kernel(land, strips, shape, accuracy)
+    return points, residual, *(np.moveaxis(place, -1, 0) for place in places), found, cut, error
+
+
+def _by_arrays(land, strips, shape, accuracy):
+    """(points (k, n, m, 3), residual (k, n, m), places (2, k, n) of saddles and of centres, found (k, n), cut, error (k,)): the
+    second half of a loop mirrors the first, with W of the other sign."""
+    made = grid(land, strips, shape, accuracy)
+    loops, mirror, axis = made.loops, slice(-2, None, -1), land.reduction.axis
+    points = np.concatenate([loops.points, loops.points[:, :, mirror]], axis=2)
+    back = points[:, :, loops.w.shape[2]:, axis]
+    back *= -1
+    back += 2 * land.reduction.component_i(0.0)
+    off = residual(land, loops)
+    return (points, np.concatenate([off, off[:, :, mirror]], axis=2), loops.saddle, loops.centre, loops.found, made.cut,
+            made.error)
+
+
+def _sheets(land, strips, points, off, saddles, centres, found, cut, error):
+    """A Sheet of every strip in which loops close."""
+    still = np.zeros(found.shape)
+    saddle, centre = (land.components(place, still) for place in (saddles, centres))
+    invariant = land.invariant(saddles)
+    words = [word for _, word in sides(land.e, land.sense)]
+    per = len(words)
+    for first in range(0, len(strips), per):
+        kept = [strip for strip in range(first, first + per) if np.count_nonzero(found[strip]) > 1]
+        for strip in kept:
+            rows = found[strip] if not found[strip].all() else slice(None)
+            name = f"sheet {first // per + 1}{words[strip - first] if len(kept) > 1 else ''}"
+            yield Sheet(name, points[strip, rows], off[strip, rows], saddle[strip, rows], centre[strip, rows],
+                        invariant[strip, rows], float(error[strip]), cut)
+
+
+def _what_it_parts(land) -> str:
+    if land.e > 0:
+        return "both sides of each sheet are bounded: it parts oscillations about one centre from those around two"
+    if land.sense == 0:
+        return ("both sides of each sheet are bounded: inside motions oscillate about a centre, outside about more of "
+                "them or right round the axis")
+    return "each sheet bounds the motions that oscillate about the centres inside it"
+
+
+def _why_none(land) -> str:
+    if land.conic.pieces or land.conic.lines:
+        return ("no equilibrium is a saddle of the reduced potential: each orbit has a single well, and there is no "
+                "separatrix surface")
+    return "there is no equilibrium, so there is no saddle and no separatrix surface"

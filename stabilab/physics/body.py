@@ -1,0 +1,50 @@
+"""The rigid body: three principal moments of inertia."""
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from ..errors import InputError
+from ..numbers.exact import exact, exact_vector, floats
+
+AXIS_WORDS = ("minor", "middle", "major")
+
+
+@dataclass(frozen=True)
+class Body:
+    """A rigid body seen from its principal axes 1, 2, 3.
+
+    inertia: three principal moments of inertia about the centre of mass or a fixed point, kg m^2, in any order,
+    equal ones allowed; numbers or exact strings. `exact` keeps them unrounded. mass: kg, only where the body also
+    travels. Raises InputError for a moment that is not positive and where the largest exceeds the sum of the other
+    two (no mass distribution does that).
+    """
+
+    inertia: tuple[float, float, float]
+    mass: float | None = None
+    exact: tuple[Fraction, Fraction, Fraction] = field(init=False, repr=False)
+
+    def __post_init__(self):
+        moments = exact_vector(self.inertia, "inertia")
+        for number, moment in enumerate(moments, 1):
+            if moment <= 0:
+                raise InputError(f"inertia: moment {number} is {float(moment):g}; principal moments are positive")
+        largest = max(moments)
+        if 2 * largest > sum(moments):
+            raise InputError(
+                f"inertia: the triangle inequality is broken: {float(largest):.17g} exceeds the sum of the other two, "
+                f"{float(sum(moments) - largest):.17g}; no rigid body has these moments")
+        if self.mass is not None:
+            mass = exact(self.mass)
+            if mass <= 0:
+                raise InputError(f"mass: expected a positive number of kg, got {float(mass):g}")
+            object.__setattr__(self, "mass", float(mass))
+        object.__setattr__(self, "exact", moments)
+        object.__setattr__(self, "inertia", floats(moments))
+
+    def axis_word(self, axis: int) -> str:
+        """"minor", "middle", "major" for axis 0, 1, 2 of a body with three different moments, "repeated-moment"
+        where the moment equals another one."""
+        if self.exact.count(self.exact[axis]) > 1:
+            return "repeated-moment"
+        return AXIS_WORDS[sorted(self.exact).index(self.exact[axis])]

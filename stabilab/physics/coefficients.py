@@ -1,0 +1,115 @@
+"""What acts on the body, in exact numbers: a constant charge turns it as a wheel of moment -k e3 would.
+
+    D omega' = (D omega + Lambda) x omega + M - c D omega + kappa (omega'' + omega x omega')
+               + s x gamma + N gamma x D gamma + E gamma3 omega x e3,      gamma' = gamma x omega
+
+Lambda = lambda - k e3 (gyrostat, charge of constant angle; k is no part of the angular momentum, yet the rates are the
+same), s = M g times the centre of mass, E = e H l^2 of a charge whose angle follows the attitude. A force at the centre
+of mass does not turn the body.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import ClassVar
+
+from .body import Body
+from .effects import effect_class
+from .effects.base import Effect
+from .quadratic import Exact3
+from .scene import Scene, ZERO3
+
+KNOWN = {"gyrostat", "constant_torque", "charge", "resistance", "liquid_cavity", "newtonian_field", "gravity", "body_force"}
+ZERO = Fraction(0)
+
+
+@dataclass(frozen=True)
+class Content:
+    """The coefficients of the equations above, exact. printed: the liquid's torque is the printed one."""
+
+    D: Exact3
+    Lambda: Exact3
+    M: Exact3
+    c: Fraction = ZERO
+    kappa: Fraction = ZERO
+    printed: bool = False
+    s: Exact3 = ZERO3
+    N: Fraction = ZERO
+    E: Fraction = ZERO
+    charged: bool = False
+    forced: bool = False
+
+    @property
+    def directed(self) -> bool:
+        """Whether the torque depends on where a direction of space lies in the body."""
+        return bool(any(self.s) or self.E or (self.N and len(set(self.D)) > 1))
+
+    @property
+    def dissipative(self) -> bool:
+        """Whether a liquid or a medium takes energy."""
+        return bool(self.c or (self.kappa and len(set(self.D)) + any(self.Lambda) + self.directed > 1))
+
+    @property
+    def kind(self) -> str:
+        """"gyrostat" (Lambda and M alone), "dissipative", "directed" or "directed and dissipative"."""
+        words = [word for word, there in (("directed", self.directed), ("dissipative", self.dissipative)) if there]
+        return " and ".join(words) or "gyrostat"
+
+    @property
+    def note(self) -> str:
+        """What was put aside or taken together, for the reader; empty where nothing was."""
+        parts = ["the charge turns the body as a gyrostatic moment -k e3 would: Lambda = lambda - k e3"] * self.charged
+        parts += ["the force at the centre of mass does not turn the body: the rotation is judged as if it were absent"] * self.forced
+        return "; ".join(parts)
+
+
+def content(scene) -> Content | None:
+    """The coefficients of a scene; None where it has an effect that is not in the equations above."""
+    if scene.variables == "scaled" or {e.name for e in scene.effects} - KNOWN:
+        return None
+    lam, numbers = list(scene.vector("gyrostat")), {}
+    charge, liquid, gravity = (scene.effect(name) for name in ("charge", "liquid_cavity", "gravity"))
+    if charge is not None:
+        if charge.follows_attitude:
+            numbers["E"] = charge.exact
+        else:
+            lam[2] -= shortened(charge.exact)
+            numbers["charged"] = bool(charge.exact)
+    if liquid is not None:
+        numbers |= {"kappa": liquid.exact, "printed": liquid.law == "printed"}
+    for name, key in (("resistance", "c"), ("newtonian_field", "N"), ("gravity", "s")):
+        if (effect := scene.effect(name)) is not None:
+            numbers[key] = effect.exact
+    return Content(scene.body.exact, tuple(lam), scene.vector("constant_torque"), forced=scene.effect("body_force") is not None,
+                   **numbers)
+
+
+def shortened(value: Fraction) -> Fraction:
+    """A cosine known to 240 bits, cut to 96: far within a double, and polynomials with it stay short. Short numbers stay exact."""
+    excess = value.denominator.bit_length() - 96
+    if excess <= 32:
+        return value
+    shift = 96 + value.denominator.bit_length() - value.numerator.bit_length()
+    return Fraction(round(value * 2**shift), 2**shift)
+
+
+@dataclass(frozen=True)
+class Together(Effect):
+    """What turns the body as a wheel of moment Lambda would: wheel and charge of constant angle in one."""
+
+    name: ClassVar[str] = "gyrostat"
+    works: ClassVar[bool] = False
+
+    exact: Exact3
+
+    def parameters(self):
+        return dict(zip(("lambda1", "lambda2", "lambda3"), self.exact))
+
+    def momentum(self, p):
+        return (p["lambda1"], p["lambda2"], p["lambda3"])
+
+
+def gyrostat_scene(parts: Content):
+    """The scene of a gyrostat and a constant torque that has the same rates (kind "gyrostat")."""
+    torque = [effect_class("constant_torque")(parts.M)] if any(parts.M) else []  # a scene loads no effect that it does not have
+    return Scene(Body(parts.D), Together(parts.Lambda), *torque)

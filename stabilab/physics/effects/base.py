@@ -1,0 +1,99 @@
+"""What an effect is: a part of the physics that contributes nothing unless it says so.
+
+A sixth effect is one new file with a subclass, one row in `effects/__init__.py`, one law in the law test, one case.
+The formulas use arithmetic only, so the same lines serve SymPy symbols, floats, arrays and exact fractions.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Callable, ClassVar
+
+Triple = tuple
+
+
+@dataclass(frozen=True)
+class Limit:
+    """Up to where an approximate law may be used: a dimensionless number that must not exceed `limit`.
+
+    number: its name and formula; value: {block of the state: its components} -> the number, for components of any shape alike, None
+    where the state has no block that it asks for; follows: what follows beyond the limit, in words; source: of law and limit.
+    """
+
+    number: str
+    limit: float
+    value: Callable[[dict], object]
+    follows: str
+    source: str
+
+
+@dataclass(frozen=True)
+class Effect:
+    """Base of every effect. `name` is its table in a case file; `keys` its keys there."""
+
+    name: ClassVar[str] = ""
+    keys: ClassVar[tuple[str, ...]] = ()
+    works: ClassVar[bool] = True  # False promises that the effect does no work; the law test holds it to that
+    small: ClassVar[bool] = False  # True: left out of the undisturbed motion along which a liquid is carried
+    keeps_volume: ClassVar[bool] = True  # False: the flow may shrink volumes
+    needs: ClassVar[tuple[str, ...]] = ()  # the state blocks it cannot do without, of `stabilab.physics.blocks.ORDER`
+    approximate: ClassVar[bool] = False  # True: its law holds up to its `limits`; an exact law is never asked for any
+
+    @classmethod
+    def from_case(cls, table, context) -> Effect | None:
+        """The effect that its table in a case file states; None where the table is faulty (it keeps the faults).
+
+        table: reads values by key (`vector`, `number`, `one_of`, `fault`); context: what the rest of the case knows
+        (`body`, `torque_from_mu`). As it stands: three numbers under the only key.
+        """
+        vector = table.vector(cls.keys[0]) if table.required(*cls.keys) else None
+        return None if vector is None else cls(vector)
+
+    def parameters(self) -> dict[str, Fraction]:
+        """Symbol name to exact value, in the order of declaration."""
+        return {}
+
+    @property
+    def acts(self) -> bool:
+        """Whether its strength differs from zero: every formula of an effect is linear in its parameters."""
+        return any(self.parameters().values())
+
+    def limits(self, scene) -> tuple[Limit, ...]:
+        """Up to where its law may be used in this scene."""
+        return ()
+
+    def momentum(self, p: dict) -> Triple | None:
+        """Angular momentum carried inside the body, body frame, kg m^2/s, from the parameter symbols `p`."""
+        return None
+
+    def torque(self, omega: Triple, p: dict) -> Triple | None:
+        """Torque on the body, body frame, N m."""
+        return None
+
+    def torque_along(self, motion, p: dict) -> Triple | None:
+        """The torque where it depends on more than omega; `motion` has the blocks of the state by name (`omega`,
+        `gamma`), the principal moments `D`, and `undisturbed()`, the first and second rate of omega along the motion
+        without the small effects."""
+        return self.torque(motion.omega, p)
+
+    def potential(self, motion, p: dict):
+        """Potential energy, J, whose fall is the work of the torque; None where it has none."""
+        return None
+
+    def area(self, motion, p: dict):
+        """A function of the state whose rate is torque . gamma, N m; None where there is none in closed form."""
+        return None
+
+    def force(self, motion, p: dict) -> Triple | None:
+        """Force on the body, body frame, N; only a scene with translation asks."""
+        return None
+
+
+def cross(u, v):
+    """Vector product of two triples of any scalar type."""
+    return (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
+
+
+def dot(u, v):
+    """Scalar product of two triples of any scalar type."""
+    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]

@@ -1,0 +1,101 @@
+"""A point charge on axis 3 of the body in a uniform magnetic field: a Lorentz torque k omega x e3."""
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import ClassVar
+
+from ...errors import InputError
+from ...numbers.exact import exact, precise
+from .base import cross, Effect, Limit
+
+SHARE = 0.1  # of the torque, by which a constant angle may be wrong
+
+
+@dataclass(frozen=True)
+class Charge(Effect):
+    """Torque k omega x e3 with k = e H l^2 cos sigma, N m s (Galal et al., charged body: eq. (3) ff.).
+
+    charge e, C; field H, T; arm l, m; angle sigma between axis 3 and the field, rad, or "attitude": cos sigma is then
+    gamma3, taken from the motion. It acts like a gyrostatic moment -k along axis 3 in Euler's equations, yet it is no
+    part of the angular momentum. It does no work.
+    """
+
+    name: ClassVar[str] = "charge"
+    keys: ClassVar[tuple[str, ...]] = ("charge", "field", "arm", "angle")
+    works: ClassVar[bool] = False
+
+    charge: float
+    field_strength: float
+    arm: float
+    angle: float | str
+    exact: Fraction = field(init=False, repr=False)
+    strength: float = field(init=False, repr=False)
+
+    def __post_init__(self):
+        scale = exact(self.charge) * exact(self.field_strength) * exact(self.arm) ** 2
+        if self.angle != "attitude":
+            scale *= precise("cos", exact(self.angle))
+        object.__setattr__(self, "exact", scale)
+        if abs(scale) >= 2**1024:
+            raise InputError("charge x field x arm^2 is larger than the largest double (about 1.8e308)")
+        object.__setattr__(self, "strength", float(scale))
+        for name in ("charge", "field_strength", "arm", *(() if self.angle == "attitude" else ("angle",))):
+            object.__setattr__(self, name, float(exact(getattr(self, name))))
+
+    @classmethod
+    def from_case(cls, table, context):
+        if not table.required(*cls.keys):
+            return None
+        numbers = [table.number(key) for key in cls.keys[:3]]
+        angle = table.data["angle"]
+        if isinstance(angle, str) and angle != "attitude" and angle.isalpha():
+            table.fault(f'expected a number (rad) or "attitude", got "{angle[:60]}"', "angle")
+            return None
+        angle = angle if angle == "attitude" else table.number("angle")
+        return None if None in (*numbers, angle) else cls(*numbers, angle)
+
+    @property
+    def follows_attitude(self) -> bool:
+        """Whether cos sigma comes from the motion."""
+        return self.angle == "attitude"
+
+    @property
+    def approximate(self) -> bool:
+        """A constant angle is an assumption about the motion."""
+        return not self.follows_attitude
+
+    def limits(self, scene):
+        """How far cos sigma of the motion, e3 . (axis 3 of space, the field's), is from the constant one; told where the attitude is known."""
+        if self.follows_attitude:
+            return ()
+        constant = float(precise("cos", exact(self.angle)))
+
+        def departure(state):
+            if "attitude" not in state:
+                return None
+            a, b, c, d = state["attitude"]
+            return abs((a * a - b * b - c * c + d * d) / constant - 1)
+        return (Limit("change of cos sigma, held constant, with the attitude", SHARE, departure,
+                      "axis 3 turns away from the field, and the charge's torque with it: angle = \"attitude\" follows that",
+                      "Galal et al., charged body: eq. (3) ff."),)
+
+    @property
+    def needs(self):
+        return ("gamma",) if self.follows_attitude else ()
+
+    def parameters(self):
+        return {"eHl2" if self.follows_attitude else "k": self.exact}
+
+    def _strength(self, motion, p):
+        return p["eHl2"] * motion.gamma[2] if self.follows_attitude else p["k"]
+
+    def torque_along(self, motion, p):
+        k = self._strength(motion, p)
+        return cross(motion.omega, (0, 0, k))
+
+    def area(self, motion, p):
+        """gamma3' = gamma . (omega x e3), so the torque's share is k gamma3, or e H l^2 gamma3^2/2."""
+        if self.follows_attitude:
+            return p["eHl2"] * motion.gamma[2] ** 2 / 2
+        return p["k"] * motion.gamma[2]

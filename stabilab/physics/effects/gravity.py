@@ -1,0 +1,51 @@
+"""Uniform gravity on a body that turns about a fixed point."""
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import ClassVar
+
+from ...numbers.exact import exact, exact_vector, floats
+from .base import cross, dot, Effect
+
+
+@dataclass(frozen=True)
+class Gravity(Effect):
+    """Torque M g c x gamma, N m: weight M g, N, at the centre of mass c, m, body frame; gamma is the direction of the
+    weight (Amer et al. 2023, fast top: eq. (2)). Potential energy -M g c . gamma."""
+
+    name: ClassVar[str] = "gravity"
+    keys: ClassVar[tuple[str, ...]] = ("weight", "centre_of_mass")
+    needs = ("gamma",)
+
+    weight: float
+    centre_of_mass: tuple[float, float, float]
+    exact: tuple[Fraction, Fraction, Fraction] = field(init=False, repr=False)
+
+    def __post_init__(self):
+        weight, centre = exact(self.weight), exact_vector(self.centre_of_mass, "centre_of_mass")
+        object.__setattr__(self, "exact", tuple(weight * c for c in centre))
+        object.__setattr__(self, "weight", float(weight))
+        object.__setattr__(self, "centre_of_mass", floats(centre))
+
+    @classmethod
+    def from_case(cls, table, context):
+        if not table.required(*cls.keys):
+            return None
+        weight, centre = table.number("weight"), table.vector("centre_of_mass")
+        return None if weight is None or centre is None else cls(weight, centre)
+
+    def parameters(self):
+        return dict(zip(("Mgx", "Mgy", "Mgz"), self.exact))
+
+    def _arm(self, p):
+        return p["Mgx"], p["Mgy"], p["Mgz"]
+
+    def torque_along(self, motion, p):
+        return cross(self._arm(p), motion.gamma)
+
+    def potential(self, motion, p):
+        return -dot(self._arm(p), motion.gamma)
+
+    def area(self, motion, p):
+        return 0 * motion.gamma[0]

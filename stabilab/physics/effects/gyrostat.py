@@ -1,0 +1,34 @@
+"""A momentum wheel (rotor): angular momentum of constant size and direction in the body."""
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import ClassVar
+
+from ...numbers.exact import exact_vector, floats
+from .base import Effect
+
+
+@dataclass(frozen=True)
+class Gyrostat(Effect):
+    """Gyrostatic moment lambda, body frame, kg m^2/s, any direction (paper: Amer et al. 2024, eq. (1), along axis 1).
+
+    It adds lambda to the angular momentum H = D omega + lambda; its torque lambda x omega does no work.
+    """
+
+    name: ClassVar[str] = "gyrostat"
+    keys: ClassVar[tuple[str, ...]] = ("momentum",)
+    works: ClassVar[bool] = False
+
+    moment: tuple[float, float, float]
+    exact: tuple[Fraction, Fraction, Fraction] = field(init=False, repr=False)
+
+    def __post_init__(self):
+        object.__setattr__(self, "exact", exact_vector(self.moment, "momentum"))
+        object.__setattr__(self, "moment", floats(self.exact))
+
+    def parameters(self):
+        return dict(zip(("lambda1", "lambda2", "lambda3"), self.exact))
+
+    def momentum(self, p):
+        return (p["lambda1"], p["lambda2"], p["lambda3"])

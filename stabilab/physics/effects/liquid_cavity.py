@@ -1,0 +1,105 @@
+"""A cavity filled with a very viscous liquid: the torque of the liquid carried along the undisturbed motion."""
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from fractions import Fraction
+from math import pi
+from typing import ClassVar
+
+from ...errors import InputError
+from ...numbers.exact import exact, precise
+from .base import cross, Effect, Limit
+from .pace import pace
+
+TORQUES = ("consistent", "printed")
+NEXT_TERM = 2 / 45  # of the Reynolds number: the next term of the series over the one that is kept, for a sphere
+SOURCE = "Chernousko's expansion for small Reynolds numbers; Galal et al., liquid cavity: sections 1 and 2"
+
+
+@dataclass(frozen=True)
+class LiquidCavity(Effect):
+    """Torque kappa (omega'' + omega x omega'), kappa = density P0/viscosity, N m s^3: the rates of omega taken along
+    the motion without the small effects, as Chernousko's derivation for small Reynolds numbers demands.
+
+    density, kg/m^3; viscosity, kinematic, m^2/s; P0, m^7 (8 pi h^7/525 for a sphere of radius h). torque: "consistent",
+    or "printed" (Galal et al., liquid cavity: eq. (3)), which holds for a body without rotor and charge only: its
+    undisturbed motion is the free one, whatever else acts.
+    """
+
+    name: ClassVar[str] = "liquid_cavity"
+    keys: ClassVar[tuple[str, ...]] = ("density", "viscosity", "P0", "radius", "torque")
+    small: ClassVar[bool] = True
+    keeps_volume: ClassVar[bool] = False
+    approximate: ClassVar[bool] = True
+
+    density: float
+    viscosity: float
+    P0: float
+    law: str = "consistent"
+    exact: Fraction = field(init=False, repr=False)
+
+    def __post_init__(self):
+        density, viscosity, P0 = exact(self.density), exact(self.viscosity), exact(self.P0)
+        for name, value in (("density", density), ("viscosity", viscosity), ("P0", P0)):
+            if value < 0 or (value == 0 and name == "viscosity"):
+                raise InputError(f"{name}: expected a positive number, got {float(value):g}")
+        if self.law not in TORQUES:
+            raise InputError(f'torque: expected "consistent" or "printed", got {self.law!r}')
+        object.__setattr__(self, "exact", density * P0 / viscosity)
+        for name, value in (("density", density), ("viscosity", viscosity), ("P0", P0)):
+            object.__setattr__(self, name, float(value))
+
+    @classmethod
+    def of_sphere(cls, density, viscosity, radius, law: str = "consistent"):
+        """The cavity as a sphere of this radius, m."""
+        return cls(density, viscosity, 8 * precise("pi") * exact(radius) ** 7 / 525, law)
+
+    @classmethod
+    def from_case(cls, table, context):
+        complete, shape = table.required("density", "viscosity"), table.one_of("P0", "radius")
+        if shape is None and not ("P0" in table or "radius" in table):
+            table.fault("expected P0 (m^7) or the radius of a spherical cavity (m)")
+        values = {key: table.positive(key, zero=key != "viscosity") for key in ("density", "viscosity", "P0", "radius")}
+        law = table.text("torque", "consistent")
+        if law not in TORQUES:
+            table.fault(f'expected "consistent" or "printed", got "{law}"', "torque")
+        if not complete or shape is None or law not in TORQUES or None in (values["density"], values["viscosity"], values[shape]):
+            return None
+        make = cls if shape == "P0" else cls.of_sphere
+        return make(values["density"], values["viscosity"], values[shape], law)
+
+    def parameters(self):
+        return {"kappa": self.exact}
+
+    def torque_along(self, motion, p):
+        first, second = motion.undisturbed(free=self.law == "printed")
+        return tuple(p["kappa"] * (a + b) for a, b in zip(second, cross(motion.omega, first)))
+
+    @property
+    def radius(self) -> float:
+        """Of the cavity, or of the sphere that has its P0, m."""
+        return (525 * self.P0 / (8 * pi)) ** (1 / 7)
+
+    @property
+    def moment(self) -> float:
+        """Moment of inertia of the liquid as if frozen, kg m^2: part of the body's."""
+        return 8 * pi / 15 * self.density * self.radius**5
+
+    def limits(self, scene):
+        """Three numbers, with n the pace of the motion (`pace`), h the radius, D the least moment.
+
+        Seen from space the liquid's angular momentum is a series in h^2 d/dt/nu: with z^2 = h^2 s/nu, a sphere that turns as exp(s t)
+        gives its liquid the share 5 i2(z)/(z i1(z)) = 1 - z^2/35 + 2 z^4/1575 - ... of rigid rotation (i1, i2 modified spherical
+        Bessel functions). The second term is the law, kappa = moment h^2/(35 nu); the third over it 2/45 of h^2 s/nu.
+        The rates in it are those of the body without liquid, so its torque must be small beside the body's own; and the liquid,
+        frozen, is part of the body.
+        """
+        least, square, kappa = min(scene.body.inertia), self.radius**2 / self.viscosity, float(self.exact)
+        return (
+            Limit("Reynolds number n h^2/nu of the liquid", 1.0, lambda state: square * pace(scene, state, self),
+                  f"the liquid's torque is the first term of a series in this number (the next is {NEXT_TERM:.2g} of it times as large), so a "
+                  "liquid this thin does not move as computed", SOURCE),
+            Limit("torque of the liquid over the body's own, kappa n/D", 1.0, lambda state: kappa / least * pace(scene, state, self),
+                  "the liquid's torque is taken along the body's motion without liquid, which it would outweigh", SOURCE),
+            Limit("moment of the liquid over the least of the body", 1.0, lambda state: self.moment / least,
+                  "no body has these moments and holds this liquid", SOURCE))

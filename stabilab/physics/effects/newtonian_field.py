@@ -1,0 +1,79 @@
+"""A distant centre of Newtonian attraction: its torque on the body to second order in size over distance."""
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import ClassVar
+
+from ...numbers.exact import exact
+from .base import cross, Effect, Limit
+
+SMALL = 0.1  # size over distance at which the next term of the field's torque is a tenth or so of the one that is kept
+
+
+@dataclass(frozen=True)
+class NewtonianField(Effect):
+    """Torque N gamma x D gamma, N m, with N = 3 lambda/R^3 in 1/s^2; gamma along the line to the centre (Amer et al.
+    2023, fast top: eq. (2); its eq. (1) has the opposite sign). Potential energy N gamma . D gamma/2. distance: R, m, where
+    it is known: only with it can the law say how far it holds."""
+
+    name: ClassVar[str] = "newtonian_field"
+    keys: ClassVar[tuple[str, ...]] = ("strength", "lambda", "R")
+    needs = ("gamma",)
+
+    strength: float
+    distance: float | None = None
+    exact: Fraction = field(init=False, repr=False)
+
+    def __post_init__(self):
+        object.__setattr__(self, "exact", exact(self.strength))
+        object.__setattr__(self, "strength", float(self.exact))
+        if self.distance is not None:
+            object.__setattr__(self, "distance", float(exact(self.distance)))
+
+    @classmethod
+    def from_case(cls, table, context):
+        if table.one_of("strength", "lambda") == "strength":
+            if "R" in table:
+                table.fault("R goes with lambda; strength is N = 3 lambda/R^3 already", "R")
+            value, distance = table.number("strength"), None
+        elif not table.data:
+            table.fault("expected strength (N = 3 lambda/R^3, 1/s^2), or lambda (m^3/s^2) and R (m)")
+            return None
+        elif not table.required("lambda", "R"):
+            return None
+        else:
+            attraction, distance = table.number("lambda"), table.positive("R")
+            value = None if None in (attraction, distance) else 3 * attraction / distance**3
+        return None if value is None else cls(value, distance)
+
+    @property
+    def approximate(self) -> bool:
+        """Whether its distance is known."""
+        return self.distance is not None
+
+    def limits(self, scene):
+        """Size over distance; the size is sqrt(largest moment/mass). The mass is the body's, or that which the weight tells: g = N R/3
+        where the same centre pulls. None without either."""
+        mass, gravity = scene.body.mass, scene.effect("gravity")
+        if mass is None and gravity is not None:
+            mass = gravity.weight / abs(self.strength * self.distance / 3)
+        if not mass:
+            return ()
+        share = (max(scene.body.inertia) / abs(mass)) ** 0.5 / self.distance
+        return (Limit("size of the body over the distance of the centre", SMALL, lambda state: share,
+                      "the field's torque is the first term of a series in this number, so near a centre the body does not move as computed",
+                      "Amer et al. 2023, fast top: eq. (2)"),)
+
+    def parameters(self):
+        return {"N": self.exact}
+
+    def torque_along(self, motion, p):
+        spread = tuple(d * g for d, g in zip(motion.D, motion.gamma))
+        return tuple(p["N"] * t for t in cross(motion.gamma, spread))
+
+    def potential(self, motion, p):
+        return p["N"] * sum(d * g**2 for d, g in zip(motion.D, motion.gamma)) / 2
+
+    def area(self, motion, p):
+        return 0 * motion.gamma[0]

@@ -1,0 +1,41 @@
+"""A resisting medium: a torque against the angular momentum of the body."""
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import ClassVar
+
+from ...errors import InputError
+from ...numbers.exact import exact
+from .base import Effect
+
+
+@dataclass(frozen=True)
+class Resistance(Effect):
+    """Torque -c D omega, N m, with c > 0 in 1/s (Galal et al., liquid cavity: eq. (2), where c is eps^2 zeta)."""
+
+    name: ClassVar[str] = "resistance"
+    keys: ClassVar[tuple[str, ...]] = ("coefficient",)
+    small: ClassVar[bool] = True
+    keeps_volume: ClassVar[bool] = False
+
+    coefficient: float
+    exact: Fraction = field(init=False, repr=False)
+
+    def __post_init__(self):
+        value = exact(self.coefficient)
+        if value < 0:
+            raise InputError(f"coefficient: expected a number that is not negative, got {float(value):g}")
+        object.__setattr__(self, "exact", value)
+        object.__setattr__(self, "coefficient", float(value))
+
+    @classmethod
+    def from_case(cls, table, context):
+        value = table.positive("coefficient", zero=True) if table.required("coefficient") else None
+        return None if value is None else cls(value)
+
+    def parameters(self):
+        return {"zeta": self.exact}
+
+    def torque_along(self, motion, p):
+        return tuple(-p["zeta"] * d * w for d, w in zip(motion.D, motion.omega))

@@ -1,0 +1,367 @@
+"""Equations of motion of a scene: rates, torque by torque, and the balance laws that come with them.
+
+    D omega' = (D omega + h) x omega + tau,     h, tau: momenta and torques of the effects, each once
+    T' = omega . tau  (effects that do work),   (|H|^2 / 2)' = H . tau,   H = D omega + h
+
+Everything here is a SymPy value; numbers enter at `compiled`.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache, reduce
+
+from ..asked import checked_scene
+from .blocks import BLOCKS, ordered
+from .effects.base import cross, dot
+from ..errors import InputError
+from ..numbers.exact import exact
+
+
+@dataclass(frozen=True)
+class Balance:
+    """A law grad(quantity) . rhs == rate, identically in state and parameters; `name` says which, `words` what."""
+
+    name: str
+    words: str
+    quantity: object
+    rate: object
+
+
+@dataclass(frozen=True, eq=False)  # one and the same object per scene: what is made of it is kept by identity
+class Equations:
+    """Equations of motion as SymPy values.
+
+    blocks: the parts of the state (see `blocks`); state: symbols of the state; parameters: symbol name -> exact value,
+    in order of declaration, but for those that are zero, which are nowhere in the equations; symbols: name -> symbol, same order; rhs: rates of the state, 1/s of it (1/tau when scaled); jacobian: immutable matrix
+    d rhs_i / d state_j; torques: name -> triple, the parts of inertia * rhs (body frame, N m); inertia: the factors
+    of the rates on the left; energy: kinetic energy; balances: the laws.
+    """
+
+    variables: str
+    state: tuple
+    parameters: dict
+    symbols: dict
+    inertia: tuple
+    torques: dict
+    rhs: tuple
+    jacobian: object
+    energy: object
+    balances: tuple[Balance, ...]
+    blocks: tuple[str, ...] = ("omega",)
+
+    def numeric(self, expression):
+        """The expression with the exact parameter values put in (rationals; no rounding)."""
+        return expression.subs(values(self))
+
+    def derivative(self, quantity):
+        """Rate of a quantity along the motion; turn angles alpha_i (alpha_i' = state_i) may stand in it."""
+        motion = list(zip(self.state, self.rhs)) + list(zip(turn_angles(), self.state[:3]))
+        return sum(quantity.diff(variable) * rate for variable, rate in motion)
+
+
+def derive(scene, also=()) -> Equations:
+    """Equations of motion of a Scene (omega, rad/s, body frame) or of a ScaledGyrostat (x).
+
+    The state has the blocks that the scene's effects need, and those named in `also` (physical scenes only).
+    """
+    return _scaled(scene) if checked_scene(scene).variables == "scaled" else _physical(scene, ordered((*scene.blocks, *also)))
+
+
+def values(equations) -> dict:
+    """Symbol -> SymPy rational of every parameter."""
+    from sympy import Rational
+    return {equations.symbols[name]: Rational(v.numerator, v.denominator) for name, v in equations.parameters.items()}
+
+
+def turn_angles():
+    """Symbols alpha1, alpha2, alpha3: the integrals of the state's components over time."""
+    from sympy import symbols
+    return symbols("alpha1:4", real=True)
+
+
+def _symbols(names, **assumptions):
+    from sympy import Symbol
+    return {name: Symbol(name, real=True, **assumptions) for name in names}
+
+
+def _present(parameters) -> dict:
+    """Those that are not zero."""
+    return {name: value for name, value in parameters.items() if value}
+
+
+def _with_zeros(names, symbols) -> dict:
+    """Name -> symbol, 0 for a parameter that is zero."""
+    from sympy import Integer
+    return {name: symbols.get(name, Integer(0)) for name in names}
+
+
+def _strengths(scene, symbols) -> dict:
+    """What the formulas of the scene's effects are called with: a symbol for every parameter that is not zero."""
+    return symbols | _with_zeros([name for effect in scene.effects for name in effect.parameters()], symbols)
+
+
+def _add(u, v):
+    return tuple(p + q for p, q in zip(u, v))
+
+
+def _jacobian(rhs, state):
+    from sympy import ImmutableMatrix
+    return ImmutableMatrix([[rate.diff(x) for x in state] for rate in rhs])
+
+
+@lru_cache(maxsize=32)  # one answer asks for the same equations several times, and a liquid takes a second
+def _physical(scene, names) -> Equations:
+    from sympy import Integer
+    blocks = {name: tuple(_symbols(BLOCKS[name].components).values()) for name in names}
+    parameters = dict(zip(("D1", "D2", "D3"), scene.body.exact))
+    symbols = _symbols(parameters, positive=True)
+    for effect in scene.effects:
+        parameters |= _present(effect.parameters())
+        symbols |= _symbols(_present(effect.parameters()))
+    D, p = tuple(symbols[name] for name in ("D1", "D2", "D3")), _strengths(scene, symbols)
+    motion = MotionView(scene, blocks, D, p)
+    zero = (Integer(0),) * 3
+
+    torques, carried, outer, working, potential = {"inertia": motion.inertial}, zero, zero, zero, Integer(0)
+    for effect in scene.effects:
+        momentum, torque = effect.momentum(p) or zero, effect.torque_along(motion, p) or zero
+        torques[effect.name] = _add(cross(momentum, motion.omega), torque)
+        carried, outer = _add(carried, momentum), _add(outer, torque)
+        stored = effect.potential(motion, p)
+        potential += stored or 0
+        working = _add(working, torque) if effect.works and stored is None else working
+
+    if "velocity" in blocks:
+        if scene.body.mass is None:
+            raise InputError("velocity and position need the mass of the body: give body.mass in kg")
+        parameters["mass"] = exact(scene.body.mass)
+        symbols |= _symbols(("mass",), positive=True)
+    rates = {"omega": tuple(total / d for total, d in zip(reduce(_add, torques.values()), D))}
+    rates |= {name: rate(scene, motion, symbols | p) for name, rate in KINEMATICS.items() if name in blocks}
+    state, rhs = (tuple(v for name in names for v in part[name]) for part in (blocks, rates))
+    inertia = D + (Integer(1),) * (len(state) - 3)
+    energy, H = dot(motion.spin, motion.omega) / 2, _add(motion.spin, carried)
+    balances = [
+        Balance("energy", "work and energy: T' = omega . (torques that do work)" if potential == 0 else
+                "work and energy: (T + potential)' = omega . (other torques that do work)", energy + potential,
+                dot(motion.omega, working)),
+        Balance("momentum", "angular momentum: (|H|^2/2)' = H . (outer torques)", dot(H, H) / 2, dot(H, outer))]
+    if "gamma" in blocks:
+        balances += _gamma_laws(scene, motion, p, H)
+    if "attitude" in blocks:
+        q = blocks["attitude"]
+        balances.append(Balance("quaternion", "the quaternion keeps its length", sum(a**2 for a in q), Integer(0)))
+    return Equations("physical", state, parameters, symbols, inertia, torques, rhs, _jacobian(rhs, state), energy,
+                     tuple(balances), names)
+
+
+def _gamma_laws(scene, motion, symbols, H):
+    """(H . gamma - area functions)' = gamma . (torques without one), and |gamma|."""
+    from sympy import Integer
+    zero, gamma = (Integer(0),) * 3, motion.gamma
+    quantity, rest = dot(H, gamma), zero
+    for effect in scene.effects:
+        area = effect.area(motion, symbols)
+        if area is None:
+            rest = _add(rest, effect.torque_along(motion, symbols) or zero)
+        else:
+            quantity -= area
+    yield Balance("area", "angular momentum along gamma: (H . gamma - shares of the torques)' = gamma . (other torques)",
+                  quantity, dot(rest, gamma))
+    yield Balance("gamma", "gamma is a unit vector fixed in space: |gamma|^2 is constant", dot(gamma, gamma), Integer(0))
+
+
+class MotionView:
+    """What an effect may see of the motion: the blocks of the state by name, the principal moments D, and
+    `undisturbed`."""
+
+    def __init__(self, scene, blocks, D, symbols):
+        self._scene, self._blocks, self._symbols, self.D = scene, blocks, symbols, D
+        self.__dict__ |= blocks
+        self.spin = tuple(d * w for d, w in zip(D, self.omega))
+        self.inertial = cross(self.spin, self.omega)
+
+    def undisturbed(self, free=False):
+        """(omega', omega'') along the motion without the small effects; free: of the body alone."""
+        from sympy import expand
+        total = self.inertial
+        for effect in () if free else self._scene.effects:
+            if not effect.small:
+                momentum = effect.momentum(self._symbols)
+                total = _add(total, cross(momentum, self.omega)) if momentum else total
+                total = _add(total, effect.torque_along(self, self._symbols) or (0, 0, 0))
+        first = tuple(t / d for t, d in zip(total, self.D))
+        change = list(zip(self.omega, first))
+        if "gamma" in self._blocks:
+            change += zip(self.gamma, cross(self.gamma, self.omega))
+        second = tuple(expand(sum(rate.diff(x) * v for x, v in change)) for rate in first)
+        return first, second
+
+
+def rotation(q):
+    """Rows of the matrix from body to space of a unit quaternion (q0, q1, q2, q3), any scalar type."""
+    a, b, c, d = q
+    return ((a*a + b*b - c*c - d*d, 2*(b*c - a*d), 2*(b*d + a*c)),
+            (2*(b*c + a*d), a*a - b*b + c*c - d*d, 2*(c*d - a*b)),
+            (2*(b*d - a*c), 2*(c*d + a*b), a*a - b*b - c*c + d*d))
+
+
+def _quaternion_rate(scene, motion, symbols):
+    """q' = q (0, omega)/2."""
+    a, b, c, d = motion.attitude
+    p, q, r = motion.omega
+    return ((-b*p - c*q - d*r) / 2, (a*p + c*r - d*q) / 2, (a*q + d*p - b*r) / 2, (a*r + b*q - c*p) / 2)
+
+
+def _acceleration(scene, motion, symbols):
+    """m v' = R f."""
+    zero = (motion.omega[0] * 0,) * 3
+    total = reduce(_add, (e.force(motion, symbols) or zero for e in scene.effects), zero)
+    return tuple(dot(row, total) / symbols["mass"] for row in rotation(motion.attitude))
+
+
+KINEMATICS = {
+    "gamma": lambda scene, motion, symbols: cross(motion.gamma, motion.omega),
+    "attitude": _quaternion_rate,
+    "velocity": _acceleration,
+    "position": lambda scene, motion, symbols: motion.velocity,
+}
+
+
+SCALED = ("a", "b", "mu1", "mu2", "mu3")
+
+
+@lru_cache(maxsize=32)
+def _scaled(scene) -> Equations:
+    from sympy import Integer
+    x1, x2, x3 = x = tuple(_symbols(scene.components).values())
+    parameters = _present(dict(zip(SCALED, scene.exact_ab + scene.exact_mu)))
+    symbols = _symbols(parameters)
+    a, b, *mu = _with_zeros(SCALED, symbols).values()
+    torques = {"inertia": (x2 * x3, -x1 * x3, x1 * x2), "gyrostat": (Integer(0), -a * x3, b * x2),
+               "constant_torque": tuple(mu)}
+    rhs = reduce(_add, torques.values())
+    X, Y = x1 + a, x1 + b
+    circle = Balance("circle", "((x1+a)^2 + x2^2)' = 2 mu1 (x1+a) + 2 mu2 x2", X**2 + x2**2, 2 * mu[0] * X + 2 * mu[1] * x2)
+    hyperbola = Balance("hyperbola", "((x1+b)^2 - x3^2)' = 2 mu1 (x1+b) - 2 mu3 x3", Y**2 - x3**2, 2 * mu[0] * Y - 2 * mu[2] * x3)
+    energy = ((b - a) * x1**2 + b * x2**2 + a * x3**2) / 2
+    work = Balance("energy", "work and energy, (b circle - a hyperbola)/2: T' = (b-a) mu1 x1 + b mu2 x2 + a mu3 x3",
+                   energy, (b - a) * mu[0] * x1 + b * mu[1] * x2 + a * mu[2] * x3)
+    return Equations("scaled", x, parameters, symbols, (Integer(1),) * 3, torques, rhs, _jacobian(rhs, x), energy,
+                     (circle, hyperbola, work))
+
+
+def invariants(scene) -> tuple[Balance, ...]:
+    """The laws that hold for this very scene, its numbers put in.
+
+    A Balance whose rate is 0 is a constant of the motion; a constant rate grows exactly in proportion to time; a
+    quantity may hold turn angles alpha_i; a rate that is a multiple of its quantity makes quantity = 0 an invariant
+    plane. Derived from the assembled equations, so a new effect is judged without being named here.
+    """
+    equations = derive(scene)
+    laws = [*_conserved(equations)]
+    laws += _scaled_laws(equations) if equations.variables == "scaled" else _physical_laws(scene, equations)
+    return tuple(laws)
+
+
+CONSERVED = {
+    "energy": "no torque does work: kinetic energy is constant",
+    "momentum": "no outer torque: the size of the angular momentum is constant",
+    "area": "no torque along gamma but the part accounted for: this area integral is constant",
+    "gamma": "gamma is a unit vector fixed in space",
+    "quaternion": "the quaternion of the attitude has length one"}
+
+
+def _conserved(equations):
+    for law in equations.balances:
+        if equations.numeric(law.rate) == 0 and (quantity := equations.numeric(law.quantity)) != 0:
+            words = CONSERVED.get(law.name, f"no torque acts in it: the {law.name} is constant")
+            if law.name == "energy" and law.quantity != equations.energy:
+                words = "all torques that do work have a potential: kinetic plus potential energy is constant"
+            yield Balance(law.name, words, quantity, law.rate * 0)
+
+
+def _outer(scene, equations):
+    """(carried momentum, outer torque) of a physical scene as exact numbers, or None where they vary with the state."""
+    from sympy import Integer, expand
+    zero, p = (Integer(0),) * 3, _strengths(scene, equations.symbols)
+    momenta = [e.momentum(p) or zero for e in scene.effects]
+    parts = [equations.torques[e.name] for e in scene.effects]
+    torques = [tuple(a - b for a, b in zip(part, cross(h, equations.state[:3]))) for part, h in zip(parts, momenta)]
+    pair = tuple(tuple(equations.numeric(expand(Integer(0) + v)) for v in reduce(_add, rows, zero)) for rows in (momenta, torques))
+    return None if any(v.free_symbols for row in pair for v in row) else pair
+
+
+def _physical_laws(scene, equations):
+    known = _outer(scene, equations)
+    if known is None:
+        return
+    (lam, M), omega, alpha = known, equations.state, turn_angles()
+    D = [equations.numeric(d) for d in equations.inertia]
+    T, half_H2 = (equations.numeric(law.quantity) for law in equations.balances[:2])
+    if any(M):
+        yield Balance("energy with turn angles", "constant torque: T - M . (turn angles) is constant, alpha_i' = omega_i",
+                      T - dot(M, alpha), T * 0)
+    moments = {D[i] for i in range(3) if M[i]}
+    if len(moments) == 1:
+        d, rate = moments.pop(), dot(M, lam)
+        words = ("torque along a principal axis (or in a plane of equal moments), no gyrostatic component along it: "
+                 "the quadratic invariant C is constant" if rate == 0 else "torque along a principal axis: |H|^2/2 - D_M T grows by lambda . M each second, "
+                                   "so there is no equilibrium and no bounded motion")
+        yield Balance("quadratic", words, half_H2 - d * T, rate)
+    elif moments:
+        turned = dot(tuple(d * m for d, m in zip(D, M)), alpha)
+        yield Balance("momentum with turn angles", "constant torque: |H|^2/2 - (D M) . (turn angles) changes by lambda . M "
+                      "each second", half_H2 - turned, dot(M, lam))
+    for i, (j, k) in enumerate(((1, 2), (2, 0), (0, 1))):
+        if D[j] == D[k] and lam[j] == lam[k] == 0:
+            yield Balance(f"spin {i + 1}", f"symmetric body: the spin about axis {i + 1} changes by its torque alone",
+                          omega[i], M[i] / D[i])
+
+
+def _scaled_laws(equations):
+    x1, x2, x3 = equations.state
+    a, b, mu1, mu2, mu3 = (equations.numeric(s) for s in _with_zeros(SCALED, equations.symbols).values())
+    alpha = turn_angles()
+    if mu1 != 0 or mu2 != 0:
+        yield Balance("circle with turn angles", "((x1+a)^2 + x2^2)/2 - mu1 alpha1 - mu2 alpha2 changes by mu1 a per unit "
+                      "of tau, alpha_i' = x_i", ((x1 + a)**2 + x2**2) / 2 - mu1 * alpha[0] - mu2 * alpha[1], mu1 * a)
+    if mu1 != 0 or mu3 != 0:
+        yield Balance("hyperbola with turn angles", "((x1+b)^2 - x3^2)/2 - mu1 alpha1 + mu3 alpha3 changes by mu1 b per "
+                      "unit of tau, alpha_i' = x_i", ((x1 + b)**2 - x3**2) / 2 - mu1 * alpha[0] + mu3 * alpha[2], mu1 * b)
+    if mu2 == 0 and mu3 == 0 and mu1 != 0:
+        words = ("a = b, torque on axis 1: x2^2 + x3^2 is constant" if a == b else
+                 "torque on axis 1: J = x2^2 + x3^2 - 2(b-a) x1 changes by -2(b-a) mu1 per unit of tau, "
+                 "so there is no equilibrium and no bounded motion")
+        yield Balance("J", words, x2**2 + x3**2 - 2 * (b - a) * x1, -2 * (b - a) * mu1)
+    if mu1 == mu3:
+        yield Balance("plane x1 + b = x3", "mu1 = mu3: the plane x1 + b = x3 is invariant", x1 + b - x3, -x2 * (x1 + b - x3))
+    if mu1 == -mu3:
+        yield Balance("plane x1 + b = -x3", "mu1 = -mu3: the plane x1 + b = -x3 is invariant", x1 + b + x3, x2 * (x1 + b + x3))
+
+
+def lines(equations) -> tuple[str, ...]:
+    """The equations of motion as plain text, one line each."""
+    return tuple(f"{_left(d, x)}' = {_right(equations, i)}" for i, (d, x) in enumerate(zip(equations.inertia, equations.state)))
+
+
+def _left(d, x):
+    return str(x) if d == 1 else f"{d} {x}"
+
+
+def _right(equations, i):
+    from sympy import Poly, PolynomialError, prod
+    total = sum(part[i] for part in equations.torques.values()) if i < 3 else equations.rhs[i]
+    try:
+        terms = Poly(total, *equations.state).terms()
+    except PolynomialError:
+        return total
+    return sum(factor * prod(x**n for x, n in zip(equations.state, powers)) for powers, factor in terms)
+
+
+def latex(equations) -> str:
+    """The equations of motion as a LaTeX align* environment."""
+    from sympy import latex as tex
+    rows = [rf"{'' if d == 1 else tex(d) + ' '}\dot{{{tex(x)}}} &= {tex(_right(equations, i))}"
+            for i, (d, x) in enumerate(zip(equations.inertia, equations.state))]
+    return "\\begin{align*}\n" + " \\\\\n".join(rows) + "\n\\end{align*}"

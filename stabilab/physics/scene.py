@@ -1,0 +1,105 @@
+"""The scene: a body and the effects it is under, nothing more."""
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from .blocks import ordered
+from .body import Body
+from .effects.base import Effect
+from ..errors import InputError
+from ..numbers.exact import exact, exact_vector, floats
+from .quadratic import euler_form, QuadraticForm, scaled_form
+
+ZERO3 = (Fraction(0),) * 3
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A body and its effects, each at most once. Effects not named here do not exist for any later step, and one of zero
+    strength is not kept: it equals an absent one in every answer because it is absent."""
+
+    body: Body
+    effects: tuple[Effect, ...] = ()
+    variables = "physical"
+    components = ("omega1", "omega2", "omega3")
+    time_unit = "s"
+
+    def __init__(self, body: Body, *effects: Effect):
+        flat = tuple(effects[0]) if len(effects) == 1 and isinstance(effects[0], (tuple, list)) else tuple(effects)
+        if not isinstance(body, Body):
+            raise InputError(f"scene: expected a Body first, got {body!r:.80}")
+        for effect in flat:
+            if not isinstance(effect, Effect):
+                raise InputError(f"scene: expected effects after the body, such as Gyrostat or ConstantTorque, got {effect!r:.80}")
+        names = [e.name for e in flat]
+        for name in names:
+            if names.count(name) > 1:
+                raise InputError(f"effect {name!r} is named twice; a scene holds each effect once")
+        object.__setattr__(self, "body", body)
+        object.__setattr__(self, "effects", tuple(e for e in flat if e.acts))
+
+    @property
+    def blocks(self) -> tuple[str, ...]:
+        """The blocks of the state that its effects need (see `blocks`)."""
+        return ordered(name for effect in self.effects for name in effect.needs)
+
+    @property
+    def approximate(self) -> tuple[Effect, ...]:
+        """Its effects whose laws are approximations: see `stabilab.physics.law_limits`."""
+        return tuple(effect for effect in self.effects if effect.approximate)
+
+    @property
+    def plain(self) -> bool:
+        """Whether it has no effect beyond a gyrostat and a constant torque."""
+        return not self._beyond()
+
+    def _beyond(self):
+        return [e.name for e in self.effects if e.name not in ("gyrostat", "constant_torque")]
+
+    def effect(self, name: str) -> Effect | None:
+        """The effect called `name`, or None."""
+        return next((e for e in self.effects if e.name == name), None)
+
+    def vector(self, name: str) -> tuple[Fraction, Fraction, Fraction]:
+        """Exact vector of the gyrostat or the constant torque; zero where the scene does not name it."""
+        found = self.effect(name)
+        return ZERO3 if found is None else found.exact
+
+    def quadratic(self) -> QuadraticForm:
+        """The rates with exact coefficients. Raises InputError for effects outside gyrostat and constant torque."""
+        other = self._beyond()
+        if other:
+            raise InputError(f"this analysis covers a gyrostat and a constant torque; the scene also has {', '.join(other)}")
+        return euler_form(self.body.exact, self.vector("gyrostat"), self.vector("constant_torque"))
+
+
+@dataclass(frozen=True)
+class ScaledGyrostat:
+    """The dimensionless system of Amer et al. 2024, eq. (5), for any real a, b, mu; accepted wherever a scene is.
+
+    x1' = x2 x3 + mu1,  x2' = -x3 (x1 + a) + mu2,  x3' = x2 (x1 + b) + mu3
+    """
+
+    a: float
+    b: float
+    mu: tuple[float, float, float]
+    exact_ab: tuple[Fraction, Fraction] = field(init=False, repr=False)
+    exact_mu: tuple[Fraction, Fraction, Fraction] = field(init=False, repr=False)
+    variables = "scaled"
+    components = ("x1", "x2", "x3")
+    time_unit = "tau"
+    effects = approximate = ()
+    blocks = ("omega",)
+    plain = True
+
+    def __post_init__(self):
+        object.__setattr__(self, "exact_ab", (exact(self.a), exact(self.b)))
+        object.__setattr__(self, "exact_mu", exact_vector(self.mu, "mu"))
+        object.__setattr__(self, "a", float(self.exact_ab[0]))
+        object.__setattr__(self, "b", float(self.exact_ab[1]))
+        object.__setattr__(self, "mu", floats(self.exact_mu))
+
+    def quadratic(self) -> QuadraticForm:
+        """The rates with exact coefficients."""
+        return scaled_form(*self.exact_ab, self.exact_mu)

@@ -1,0 +1,120 @@
+"""Figures 16-17 of Amer et al. 2024: torque on the middle axis, where its data have no separatrix at all."""
+from __future__ import annotations
+
+import numpy as np
+
+from . import paper
+from .. import style
+from ...orbit.phase_plane import motion_curve, phase_plane
+
+LAMBDA_BEYOND = 1250  # c = b - a = 2.5, beyond the cusp 1.7548: there a figure-eight separatrix does exist
+CUSP = 4 * 3**-0.75
+EIGHT = {"lambda1": LAMBDA_BEYOND, "reach": None, "shape": (60, 121), "axis": "middle"}  # the sheets of Fig. 16
+
+
+def exactness() -> str:
+    """How far the vertices of Fig. 16 are from their surface."""
+    from .minor_axis import exactness as of_sheets
+    return of_sheets(**EIGHT)
+
+
+def _equilibria(a, b, points=4000):
+    """(x1, x3, stable) along both branches x3 = g, x1 = -a + 1/g."""
+    for sign in (1, -1):
+        g = sign * np.geomspace(0.05, 20, points)
+        x1 = -a + 1 / g
+        yield x1, g, (x1 + a) * (x1 + b) + g * g > 0
+
+
+def _tube(scene, state):
+    """The closed curve of the motion through a state: states (n, 3)."""
+    plane = phase_plane(scene, state)
+    ys, Ws = motion_curve(plane, -8.0, 8.0)
+    return np.concatenate([plane.states(ys, Ws), plane.states(ys[::-1], -Ws[::-1])])
+
+
+def surfaces(plt):
+    """Fig. 16."""
+    figure = plt.figure(figsize=(10.6, 5.2), layout="constrained")
+    left = figure.add_subplot(1, 2, 1, projection="3d")
+    scene = paper.scene("middle", 100)
+    _nested(left, scene)
+    left.set_title(rf"$\lambda_1=100$, $c={scene.b - scene.a:g}$: nested closed motions, no separatrix", fontsize=9.5)
+    right = figure.add_subplot(1, 2, 2, projection="3d")
+    _figure_eight(right)
+    right.set_title(rf"$\lambda_1={LAMBDA_BEYOND}$, $c=2.5>{CUSP:.4f}$: figure-eight separatrix", fontsize=9.5)
+    style.legend(figure, [("centres (stable)", style.MEANING["stable"]), ("saddles (unstable)", style.MEANING["unstable"]),
+                     ("motion of Table 3", style.MEANING["this motion"]), ("periodic motions", {"color": style.SKY, "linewidth": 1.0})])
+    return figure
+
+
+UPRIGHT = (1, 3, 2)  # the torque's axis stands upright in the 3-D panels
+
+
+def _upright(points):
+    """(n, 3) or (n, m, 3) as three arrays in the order of the panels' axes."""
+    points = np.asarray(points)
+    return tuple(points[..., i - 1] for i in UPRIGHT)
+
+
+def _nested(ax, scene):
+    for x1, x3, stable in _equilibria(scene.a, scene.b):
+        shown = (np.abs(x1) < 3) & (np.abs(x3) < 3) & stable
+        ax.plot(np.where(shown, x1, np.nan), np.where(shown, x3, np.nan), 0 * x1, **style.MEANING["stable"])
+    for g in (-1.8, -1.0, -0.5, 0.5, 1.0, 1.8):
+        for height in (0.4, 0.8):
+            ax.plot(*_upright(_tube(scene, (1 / g - scene.a, height, g))), color=style.SKY, linewidth=1.0)
+    ax.plot(*_upright(_tube(scene, paper.START_MIDDLE)), **style.MEANING["this motion"])
+    ax.plot(*_upright(np.array([paper.START_MIDDLE])), **style.MARKER["start"])
+    style.name_space(ax, order=UPRIGHT)
+    ax.view_init(32, -118)
+
+
+def _figure_eight(ax):
+    from .minor_axis import sheets
+    found = sheets(**EIGHT)
+    for number, sheet in enumerate(found.sheets):
+        ax.plot_surface(*_upright(sheet.points), color=style.SHEETS[number % len(style.SHEETS)], alpha=0.55, rstride=4,
+                        cstride=6, linewidth=0.3, edgecolor="#333333")
+        ax.plot(*_upright(sheet.saddle), **style.MEANING["unstable"])
+        ax.plot(*_upright(sheet.centre), **style.MEANING["stable"])
+    style.name_space(ax, order=UPRIGHT)
+    ax.view_init(30, -125)
+
+
+def projections(plt):
+    """Fig. 17."""
+    figure, axes = plt.subplots(1, 3, figsize=(11.4, 4.6), layout="constrained")
+    for ax, lam in zip(axes, (100, 500, LAMBDA_BEYOND)):
+        scene = paper.scene("middle", lam)
+        _projection(ax, scene, draw_motion=lam != LAMBDA_BEYOND)
+        ax.set_title(rf"$\lambda_1={lam}$, $c={scene.b - scene.a:g}$")
+    style.legend(figure, [("stable equilibria", style.MEANING["stable"]), ("unstable equilibria", style.MEANING["unstable"]),
+                     (r"plane $x_1+b=x_3$ (periodic)", style.MEANING["dividing"]),
+                     (r"plane $x_1+b=-x_3$ (spin-up)", style.MEANING["spin-up"]),
+                     ("motion of Table 3", style.MEANING["this motion"]),
+                     ("folds", style.MARKER["degenerate"]), (r"printed: $x_1=x_3$", style.MEANING["printed"])])
+    return figure
+
+
+def _projection(ax, scene, draw_motion):
+    a, b, size = scene.a, scene.b, 7.5 if scene.b > 3 else 4.2
+    for x1, x3, stable in _equilibria(a, b):
+        for kind, mask in (("stable", stable), ("unstable", ~stable)):
+            ax.plot(np.where(mask, x1, np.nan), np.where(mask, x3, np.nan), **style.MEANING[kind])
+        folds = np.nonzero(np.diff(stable))[0]
+        ax.plot(x1[folds], x3[folds], zorder=5, **style.MARKER["degenerate"])
+    middle = -b / 2 if scene.b > 3 else 0.0
+    ends = np.array([middle - size, middle + size])
+    ax.plot(ends, ends + b, **style.MEANING["dividing"])
+    ax.plot(ends, -ends - b, **style.MEANING["spin-up"])
+    ax.plot(ends, ends, **style.MEANING["printed"])
+    if draw_motion:
+        states = _tube(scene, paper.START_MIDDLE)
+        ax.plot(states[:, 0], states[:, 2], **style.MEANING["this motion"])
+        ax.plot(paper.START_MIDDLE[0], paper.START_MIDDLE[2], zorder=6, **style.MARKER["start"])
+    ax.set_xlim(*ends)
+    ax.set_ylim(-size, size)
+    ax.set_aspect("equal")
+    ax.set_xlabel("$x_1$")
+    ax.set_ylabel("$x_3$")

@@ -1,0 +1,238 @@
+"""Histories and planes of several motions in one picture: a row per quantity, a column per value of a parameter.
+
+In every panel the exact motion and the models of it. Limits come from the exact motion: a model that runs out of them is
+drawn to where it leaves the panel, which says how far it goes. Where a printed curve leaves a panel, a first column shows
+the printed curves alone and whole, as the paper's figure does.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import lru_cache
+
+import numpy as np
+
+from .. import style
+from ..text.comparison import LOOKS
+
+TIME = "t (s)"
+THIN = {"linewidth": 1.0, "antialiased": False}
+WIDE = 3.0  # a model may stretch the axis to this many times the exact motion's range; beyond that it is cut
+TALL = 1.45  # a plane of one scale, against a history
+MARGIN = 0.06
+NARROW, SHRUNK = 0.95, 0.85  # width of the column of printed curves alone, against the others; of all columns then
+ALONE = tuple({"color": c, "linewidth": 1.6, "linestyle": s} for c, s in zip(style.SERIES, ("-", "--", ":")))
+BESIDE = tuple({"color": c, "linewidth": 0.6, "linestyle": "-"} for c in style.SERIES)
+CORNERS = ((1.0, 1.01, "right", "bottom"), (0.0, 1.01, "left", "bottom"), (0.5, 1.01, "center", "bottom"))  # of the words on cuts
+ORDER = ("printed", "corrected", "averaged1", "linear", "averaged2", "lindstedt")  # in the legend, after the exact motion
+WORDS = {"exact": "exact motion", "printed": "as printed", "linear": "linear model, both rates",
+         "corrected": "corrected integrals, frequency (8)",
+         "averaged1": "averaged, first order", "averaged2": "averaged, second order", "lindstedt": "corrected expansion"}
+
+
+@dataclass(frozen=True)
+class Row:
+    """One quantity: pick(run) -> (x, y) arrays, or None where a model does not have it; equal: both axes to one scale;
+    limits: ((x low, x high), (y low, y high)) where the motion itself runs off to infinity."""
+
+    xlabel: str
+    ylabel: str
+    pick: object
+    equal: bool = False
+    limits: tuple | None = None
+
+    @property
+    def over_time(self) -> bool:
+        return self.xlabel == TIME
+
+
+@dataclass(frozen=True)
+class Column:
+    """One value of the parameter: heading; runs: model -> run; mark: a time to draw a vertical line at, or None."""
+
+    heading: str
+    runs: dict = field(repr=False)
+    mark: float | None = None
+
+
+@lru_cache(maxsize=32)
+def sweep(name: str) -> dict:
+    """Variant -> case of a sweep file of the repository ("" for a file without sweep)."""
+    from ...case.read import load_all
+    from ..text.table import cases_folder
+    return {case.variant: case for case in load_all(cases_folder() / f"{name}.toml")}
+
+
+@lru_cache(maxsize=64)
+def motions(name: str, variant: str, end: float, count: int, order: int | None = None, crowd: int = 1) -> dict:
+    """model -> Simulation of a case of the repository at `count` times from 0 to `end`, crowd > 1: closer at the start;
+    models that refuse are left out."""
+    from ...theories.comparison import side_by_side
+    return side_by_side(sweep(name)[variant], end * np.linspace(0.0, 1.0, count) ** crowd, order)[0]
+
+
+def exactness(runs) -> str:
+    """How exact the exact motions among `runs` (model -> Simulation each) are: by their laws."""
+    drift = max((d for each in runs for d in each["exact"].invariant_drift.values()), default=0.0)
+    return f"exact motion: Taylor integration, relative tolerance 1.1e-16; its laws drift by {drift:.1e} at most"
+
+
+def draw(plt, title, columns, rows, **options):
+    """The figure of every row over the same columns; options as of `draw_lines`."""
+    return draw_lines(plt, title, [(row, list(columns)) for row in rows], **options)
+
+
+def draw_lines(plt, title, lines, width=3.5, height=2.05, words=None, mark_words="", own=False):
+    """The figure of lines (Row, [Column, ...]). A line shares its limits, unless each panel has its own; then no column of
+    printed curves is made, whose limits are shared."""
+    words, count = WORDS | (words or {}), len(lines[0][1])
+    heights = [height * (TALL if row.equal and len(lines) > 1 else 1) for row, _ in lines]
+    alone = not own and any(_leaves(row, columns) for row, columns in lines)
+    size = (width * (count + NARROW * alone) * (SHRUNK if alone else 1), 1 + sum(heights))
+    figure, axes = plt.subplots(len(lines), count + alone, figsize=size, layout="constrained", squeeze=False,
+                                height_ratios=heights)
+    for i, ((row, columns), line) in enumerate(zip(lines, axes)):
+        headed = not i or [c.heading for c in columns] != [c.heading for c in lines[i - 1][1]]
+        if alone:
+            _printed_alone(line[0], row, columns, headed, words["printed"])
+        shared = _window(row, columns)
+        for column, ax in zip(columns, line[int(alone):]):
+            _panel(ax, row, column, _window(row, [column]) if own else shared)
+            if headed:
+                ax.set_title(column.heading, pad=14)  # above the words on cuts
+            ax.tick_params(labelleft=own or column is columns[0])
+        for ax in line:
+            if not row.over_time or i + 1 == len(lines) or not lines[i + 1][0].over_time:
+                ax.set_xlabel(row.xlabel)
+        for ax in line[:1 + alone]:
+            ax.set_ylabel(row.ylabel)
+    figure.get_layout_engine().set(w_pad=0.09)  # numbers at the ends of neighbouring axes
+    figure.suptitle(title, fontsize=11)
+    everything = [column for _, columns in lines for column in columns]
+    entries = [(words[name], LOOKS[name]) for name in ("exact", *ORDER) if any(name in c.runs for c in everything)]
+    if mark_words and any(column.mark is not None for column in everything) and any(row.over_time for row, _ in lines):
+        entries.append((mark_words, style.MEANING["crossing"]))
+    if alone:
+        entries += [(f"alone: {c.heading}", look) for c, look in zip(lines[0][1], ALONE)]
+        entries += [("alone, thin: corrected integrals", BESIDE[0])] * ("corrected" in lines[0][1][0].runs)
+    style.legend(figure, entries)
+    return figure
+
+
+def _picked(row, columns, model) -> list:
+    """(heading, x, y) of every column's curve of a model."""
+    picked = ((c.heading, row.pick(c.runs[model])) for c in columns if model in c.runs)
+    return [(heading, *(np.asarray(v, float) for v in xy)) for heading, xy in picked if xy is not None and len(xy[0])]
+
+
+def _leaves(row, columns) -> bool:
+    """Whether a printed curve leaves the limits that the columns share."""
+    limits = _window(row, columns)
+    return any(np.nanmin(v) < low or np.nanmax(v) > high for _, *xy in _picked(row, columns, "printed") for v, (low, high) in zip(xy, limits))
+
+
+def _printed_alone(ax, row, columns, headed, words):
+    """The printed curves of all columns in one panel, whole, in limits of their own: what a reader of the paper knows."""
+    for model, looks in (("printed", ALONE), ("corrected", BESIDE)):
+        for (_, x, y), look in zip(_picked(row, columns, model), looks):
+            ax.plot(x, y, **look)
+    if row.limits is not None:
+        ax.set_xlim(*row.limits[0])
+        ax.set_ylim(*row.limits[1])
+    elif row.equal:
+        ax.set_aspect("equal", adjustable="datalim")
+    elif row.over_time:
+        ax.set_xlim(*_window(row, columns)[0])
+    if headed:
+        ax.set_title(f"{words}, alone", pad=14)
+
+
+def _panel(ax, row, column, limits):
+    far = []
+    for name in ("exact", *reversed(ORDER)):
+        picked = row.pick(column.runs[name]) if name in column.runs else None
+        if picked is None:
+            continue
+        x, y = (np.asarray(v, float) for v in picked)
+        ax.plot(*_clipped(x, y, limits), **LOOKS[name] | (THIN if name == "lindstedt" else {}))
+        low, high = (limits[1][0] - np.nanmin(y), np.nanmax(y) - limits[1][1]) if len(y) else (0, 0)
+        if max(low, high) > 0:
+            far.append((name, np.nanmax(y) if high > low else np.nanmin(y)))
+    if column.mark is not None and row.over_time:
+        ax.axvline(column.mark, **style.MEANING["crossing"])
+    ax.set_xlim(*limits[0])
+    ax.set_ylim(*limits[1])
+    if row.equal:
+        ax.set_aspect("equal", adjustable="box")
+    for (name, top), (x, y, side, edge) in zip(far, CORNERS):
+        ax.text(x, y, f"cut: reaches {plain(top)}", color=LOOKS[name]["color"], ha=side, va=edge, fontsize=7.2, transform=ax.transAxes)
+
+
+def plain(value) -> str:
+    """Three digits without a power of ten where that reads better."""
+    return f"{value:.0f}" if 1000 <= abs(value) < 1e5 else f"{value:.3g}"
+
+
+def _clipped(x, y, limits):
+    """The curve with what lies far outside of the limits brought near them: long lines off the page cost ink and bytes."""
+    reach = [(high - low) * 4 for low, high in limits]
+    return [np.clip(v, low - r, high + r) for v, (low, high), r in zip((x, y), limits, reach)]
+
+
+def _window(row, columns):
+    """Limits of both axes; for a plane of one scale a square."""
+    limits = [_limits(row, columns, axis) for axis in (0, 1)]
+    if not row.equal:
+        return limits
+    side = max(high - low for low, high in limits)
+    return [((low + high - side) / 2, (low + high + side) / 2) for low, high in limits]
+
+
+def _limits(row, columns, axis):
+    """Limits of one axis for a whole row: the exact motion's, stretched for models that stay near it."""
+    if row.limits is not None:
+        return row.limits[axis]
+    wide = WIDE * (2 if row.equal else 1)
+    values = {}
+    for column in columns:
+        for name, run in column.runs.items():
+            picked = row.pick(run)
+            if picked is not None and len(picked[axis]):
+                values.setdefault(name, []).append(np.asarray(picked[axis], float))
+    exact = np.concatenate(values["exact"])
+    low, high = float(np.nanmin(exact)), float(np.nanmax(exact))
+    middle, half = (low + high) / 2, max((high - low) / 2, 1e-6 * max(abs(low), abs(high), 1e-300))
+    edge = wide * half
+    for part in (np.concatenate(parts) for parts in values.values()):
+        part = part[np.isfinite(part)]
+        low = min(low, part.min() if part.min() >= middle - edge else middle - 1.3 * half, key=float)
+        high = max(high, part.max() if part.max() <= middle + edge else middle + 1.3 * half, key=float)
+    pad = MARGIN * (high - low)
+    return (low - pad, high + pad) if not (axis == 0 and row.over_time) else (low, high)
+
+
+def history(part, component, label, unit):
+    """A Row of one component of a part of the state over time."""
+    def pick(run):
+        return None if part not in run.state else (run.t, np.asarray(run.state[part])[:, component])
+    return Row(TIME, f"{label} ({unit})" if unit else label, pick)
+
+
+def phase(part, component, label, unit):
+    """A Row of one component against its own rate (differences over the times of the run)."""
+    def pick(run):
+        if part not in run.state or len(run.t) < 3:
+            return None
+        y = np.asarray(run.state[part])[:, component]
+        return y, np.gradient(y, run.t, edge_order=2)
+    dot = rf"$\dot{{{label.strip('$')}}}$"
+    return Row(f"{label} ({unit})" if unit else label, f"{dot} ({unit + '/s' if unit else '1/s'})".replace("rad/s/s", r"rad/s$^2$"), pick)
+
+
+def plane(part, first, second, labels, unit, equal=True):
+    """A Row of one component of a part of the state against another."""
+    def pick(run):
+        if part not in run.state:
+            return None
+        values = np.asarray(run.state[part])
+        return values[:, first], values[:, second]
+    return Row(f"{labels[0]} ({unit})", f"{labels[1]} ({unit})", pick, equal)

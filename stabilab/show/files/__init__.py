@@ -1,0 +1,1 @@
+"""What is written beside an answer: manifests, trajectories; and making it again."""

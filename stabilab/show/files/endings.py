@@ -1,0 +1,42 @@
+"""What the name of an output ends in: for a file the ending is the format, and nothing else is ever in it."""
+from __future__ import annotations
+
+from pathlib import Path
+
+from ...errors import InputError
+
+PICTURES = (".png", ".svg", ".pdf")
+OF_FILES = (*PICTURES, ".jpg", ".jpeg", ".gif", ".csv", ".json", ".nc", ".txt", ".md", ".tex", ".html", ".htm", ".toml",
+            ".vtp", ".vtk", ".vtu", ".glb", ".gltf", ".stl", ".obj", ".ply", ".zip")  # no one names a folder so
+
+
+def file(path, known) -> Path:
+    """The path of a file that is to be written, if its ending is one of `known`; InputError otherwise."""
+    path = Path(path)
+    if ending(path) not in known:
+        *most, last = known
+        names = f"{', '.join(most)} or {last}" if most else last
+        raise InputError(f"{path}: expected a name that ends in {names}, got {path.suffix or 'no ending'}")
+    if path.is_dir():
+        raise InputError(f"{path}: expected a file, this is a folder")
+    return path
+
+
+def folder(path) -> Path:
+    """The path of a folder that is to be filled; InputError where it is named as a file is."""
+    path = Path(path)
+    if ending(path) in OF_FILES and not path.is_dir():
+        raise InputError(f"{path}: expected the name of a folder, for several files are written; got one that ends in {path.suffix}")
+    return path
+
+
+def ending(path) -> str:
+    """The ending in small letters."""
+    return Path(path).suffix.lower()
+
+
+def labelled(path, case) -> Path:
+    """Where the output of one case goes: the path itself, or, for a combination of [sweep], with its label before the ending
+    ("run.csv" becomes "run-2-1.csv")."""
+    path = Path(path)
+    return path.with_name(f"{path.stem}{case.variant}{path.suffix}")

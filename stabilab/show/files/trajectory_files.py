@@ -1,0 +1,52 @@
+"""Trajectories as files: NetCDF with units and provenance, or CSV. A file appears whole or not at all."""
+from __future__ import annotations
+
+from pathlib import Path
+
+from ...physics.blocks import PARTS
+from ...packages import demand
+from . import endings
+from ..style import whole_file
+
+
+def checked(path) -> Path:
+    """The path, if it can be written by its ending; InputError otherwise."""
+    path = endings.file(path, tuple(WRITERS))
+    if endings.ending(path) == ".nc":
+        demand("xarray", "scipy")
+    return path
+
+
+def write(case, run, path) -> Path:
+    """Write a Trajectory of a case to `path` (.nc or .csv), under a temporary name first, then renamed."""
+    path = checked(path)
+    with whole_file(path) as waiting:
+        WRITERS[endings.ending(path)](case, run, waiting)
+    return path
+
+
+def _csv(case, run, path):
+    from ..text.answers import columns
+    names, rows = columns(run)
+    with open(path, "w", encoding="utf-8", newline="") as stream:
+        stream.write(",".join((case.scene.time_unit, *names)) + "\n")
+        for t, row in zip(run.t, rows):
+            stream.write(",".join(repr(float(v)) for v in (t, *row)) + "\n")
+
+
+def _netcdf(case, run, path):
+    import xarray
+    import numpy as np
+    from ... import __version__
+    time = "t" if case.variables == "physical" else "tau"
+    parts = {name: ((time, "axis")[:np.ndim(values)], values, {"units": PARTS[name].unit or "1", "long_name": PARTS[name].words})
+             for name, values in run.state.items()}
+    data = xarray.Dataset(
+        parts, {time: ((time,), run.t, {"units": "s" if case.variables == "physical" else "1"}), "axis": [1, 2, 3]},
+        {"title": case.title, "source": case.source, "case": case.text, "program": f"stabilab {__version__}",
+         "model": run.model, "method": run.method, **({"rtol": run.rtol} if run.rtol else {}), "status": run.status,
+         **{f"departure_from_{name}": value for name, value in run.invariant_drift.items()}})
+    data.to_netcdf(path, engine="scipy")  # NetCDF 3: every reader knows it, and no HDF5 library is needed
+
+
+WRITERS = {".nc": _netcdf, ".csv": _csv}

@@ -1,0 +1,184 @@
+"""A chapter of the report per paper: its data, what its text claims, what is true, and a variant that makes sense.
+
+Every number in a chapter is computed while the report is written: claims are set against the exact motion of the paper's
+own cases, and the times of the first 1 % and 10 % error come from `analysis.comparison`.
+"""
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Callable
+
+import numpy as np
+
+from ...errors import StabilabError
+from ...interrupt import end_with_parent, undoing
+from . import claims
+from ..text import comparison
+from ..figures import catalogue as figures, panels
+from .. import style
+
+
+@dataclass(frozen=True)
+class Chapter:
+    """paper: short name as of `figures`; about: what the paper does and where it stands; compared: (case file, variant) of the
+    motions whose errors are listed; end: s; claims() -> rows (the text says, it is so, True where the text is right);
+    sensible: case file of the variant; sensible_end: s; why: what makes it sensible; parts: of the state to draw, over
+    `window`, s."""
+
+    paper: str
+    title: str
+    about: str
+    compared: tuple
+    end: float
+    claims: Callable
+    sensible: str
+    sensible_end: float
+    why: str
+    parts: tuple
+    window: float
+
+
+POINTS = 401  # times at which models are set beside the exact motion
+_SWEEP = "charged-sweep"
+CHAPTERS = (
+    Chapter("charged", "A charged, nearly axisymmetric body",
+            "A spinning body with a gyrostatic moment, a charge in a magnetic field, and a torque and a thrust fixed in it: "
+            "angular velocity, 3-1-2 angles, angular momentum, velocity and displacement in closed form, for small angles "
+            "psi and phi. Euler's "
+            "equations give two different rates a and b; equation (8) keeps one. The corrected closed form keeps both.",
+            tuple((_SWEEP, v) for v in ("-1-2-1", "-3-2-1", "-1-3-1", "-1-2-3")), 50.0, claims.charged,
+            "charged-body-small-torque", 50.0, "the torque is so small that the tilt stays small for ever", ("omega", "angles", "position"), 50.0),
+    Chapter("cavity", "A body with a cavity of viscous liquid",
+            "A nearly spherical body with a gyrostatic moment, a charge, a resisting medium, a constant torque and a liquid "
+            "so viscous that it follows the body at once. The paper averages over the turn about axis 3 and takes the first "
+            "terms of a Taylor "
+            "series of the averaged equations. No figure states all of its data; what is missing is completed as the titles "
+            "of the figures "
+            "say.",
+            tuple((f"liquid-{name}", "") for name in ("base", "lambda3-0_2", "lambda3-15", "lambda3-25", "zeta-2_5", "torque-9",
+                                                      "charge-1e3", "charge-1e4")), 20.0, claims.cavity,
+            "liquid-sensible", 20000.0, "the cavity fits into the body, and the liquid is slow and viscous enough for its "
+            "law", ("omega",), 3000.0),
+    Chapter("top", "A fast top in a Newtonian field",
+            "A body about a fixed point, nearly Lagrange's top, under its weight, the gradient of a Newtonian field and a "
+            "gyrostatic moment (l_x, 0, l_z), expanded in 1/r0 for a fast spin. The corrected expansion keeps C* = C + "
+            "l_z/r0, the permanent "
+            "tilt by l_x and the frequency.",
+            tuple((f"top-lx{a}-lz{b}", "") for a, b in ((30, 30), (90, 30), (30, 90))), 1.3, claims.top,
+            "top-fast", 2.0, "it spins fast, delta1 and delta2 are of order one, and gamma0'' is not near 0", ("omega", "gamma"), 0.15),
+)
+
+
+MADE = "chapters.json"  # what the second process leaves in the folder
+
+
+@contextmanager
+def beside(folder):
+    """Make the chapters in a second process while the block runs: they share nothing with the rest of a report and take as
+    long. Gives collect(tell) -> what the template says of every chapter; pictures go to `folder`/figures."""
+    if not CHAPTERS:
+        yield lambda tell: []
+        return
+    child = subprocess.Popen([sys.executable, "-m", __name__, str(folder)], stdin=subprocess.PIPE,  # it ends with this process
+                             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+    def stop():
+        child.kill()
+        child.wait()
+        child.stdin.close()
+    with undoing(stop):
+        try:
+            yield lambda tell: _collect(child, folder, tell)
+        finally:
+            stop()
+
+
+def _collect(child, folder, tell):
+    tell("chapters")
+    made = Path(folder) / MADE
+    if child.wait() or not made.is_file():
+        return sections(folder, tell)  # here, so that whatever went wrong is reported
+    found = json.loads(made.read_text(encoding="utf-8"))
+    made.unlink()
+    return found
+
+
+def sections(folder, tell=lambda words: None) -> list[dict]:
+    """The chapters, made in this process; plain data. tell(words) is called before each step."""
+    return [_section(chapter, Path(folder), tell) for chapter in CHAPTERS]
+
+
+def main(folder):
+    """What the second process does."""
+    end_with_parent()
+    found = sections(folder)
+    (Path(folder) / MADE).write_text(json.dumps(found), encoding="utf-8")
+
+
+def _section(chapter, folder, tell) -> dict:
+    tell(f"chapter {chapter.paper}")
+    rows = figures.of_paper(chapter.paper)
+    drawn = figures.write(None, folder / "figures", tell, chapter.paper)
+    section = {"id": chapter.paper, "title": chapter.title, "paper": figures.PAPERS[chapter.paper], "about": chapter.about, "problem": "",
+               "claims": [], "compared": [], "sensible": None, "parameters": "", "end": chapter.end,
+               "figures": [{"number": row.number, "title": row.title, "caption": row.caption, "tolerance": row.tolerance,
+                            "command": row.command, "file": f"figures/{path.name}", "size": size(path)} for row, path in zip(rows, drawn)]}
+    try:
+        tell(f"chapter {chapter.paper}: comparisons")
+        section["parameters"] = _parameters(panels.sweep(chapter.compared[0][0])[chapter.compared[0][1]])
+        section["claims"] = chapter.claims()
+        section["compared"] = [row for name, variant in chapter.compared for row in _errors(panels.sweep(name)[variant], chapter.end)]
+        section["sensible"] = _sensible(chapter, folder)
+    except StabilabError as error:  # a case that is not there yet, or a motion that cannot be run: the chapter says so
+        section["problem"] = str(error)
+    return section
+
+
+def _parameters(case):
+    """Parameters and start of a case in words."""
+    from ...physics.equations import derive
+    values = ", ".join(f"{name} = {float(value):.6g}" for name, value in derive(case.scene).parameters.items())
+    starts = {"omega": case.state, **case.blocks}
+    return f"{values}; at t = 0: " + ", ".join(f"{name} = ({', '.join(f'{v:.6g}' for v in row)})" for name, row in starts.items())
+
+
+def _errors(case, end, found=None):
+    """A row per model and part of the state: first times of 1 % and 10 %, and the largest error."""
+    from ...theories.comparison import compare
+    found = found or compare(case, np.linspace(0.0, end, POINTS))
+    rows = [{"case": case.name, "model": panels.WORDS[d.model], "part": d.part, "one": _time(d.first[0.01]), "ten": _time(d.first[0.1]),
+             "largest": f"{d.largest / d.scale:.2g}" if d.scale else f"{d.largest:.2g}"} for d in found.departures]
+    return rows + [{"case": case.name, "model": panels.WORDS[name], "part": "", "one": "no answer", "ten": why, "largest": ""}
+                   for name, why in found.refused.items()]
+
+
+def _time(value):
+    return "never" if value is None else f"{value:.3g} s"
+
+
+def _sensible(chapter, folder):
+    """The variant: its errors and its picture."""
+    from ...theories.comparison import compare, side_by_side
+    case = panels.sweep(chapter.sensible)[""]
+    found = compare(case, np.linspace(0.0, chapter.sensible_end, POINTS))
+    runs, _ = side_by_side(case, np.linspace(0.0, chapter.window, 1001))
+    with style.drawing() as plt:
+        path = style.save(comparison.picture(plt, case, runs, chapter.parts), folder / "figures" / f"{chapter.paper}-sensible.png")
+    return {"case": case.name, "title": case.title, "why": chapter.why, "end": chapter.sensible_end, "rows": _errors(case, None, found),
+            "parameters": _parameters(case), "file": f"figures/{path.name}", "size": size(path), "path": f"cases/{case.name}.toml"}
+
+
+def size(path) -> list[int]:
+    """Width and height of a picture: the page does not jump while it loads."""
+    from PIL import Image
+    with Image.open(path) as image:
+        return list(image.size)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])

@@ -1,0 +1,84 @@
+"""The work-precision picture: time against error, a line a method, the front marked."""
+from __future__ import annotations
+
+import math
+import textwrap
+
+from ...cost.accuracy import digit_price, EPS
+from ...errors import InputError
+from .. import style
+from ..text.precision_words import caption, FORMULAS, methods, price, title
+
+LOOKS = {  # method -> how its line is drawn; the same in every picture
+    "taylor": {"color": style.BLUE, "marker": "o"}, "taylor-batch": {"color": style.SKY, "marker": "o", "linestyle": "--"},
+    "RK45": {"color": style.ORANGE, "marker": "s"}, "RK23": {"color": style.ORANGE, "marker": "v", "linestyle": "--"},
+    "DOP853": {"color": style.VERMILION, "marker": "D"}, "Radau": {"color": style.PURPLE, "marker": "^"},
+    "BDF": {"color": style.PURPLE, "marker": "<", "linestyle": "--"}, "LSODA": {"color": style.GREY, "marker": ">"},
+    "reduced": {"color": style.GREEN, "marker": "P"}, "balls": {"color": style.BLACK, "marker": "X", "linestyle": "none"},
+    "linear": {"color": style.BLACK, "marker": "1", "linestyle": "none"},
+    "corrected": {"color": style.PURPLE, "marker": "x", "linestyle": "none"},
+    "printed": {"color": style.ORANGE, "marker": "*", "linestyle": "none"},
+    "averaged1": {"color": style.GREEN, "marker": "2", "linestyle": "none"},
+    "averaged2": {"color": style.BLUE, "marker": "3", "linestyle": "none"},
+    "lindstedt": {"color": style.GREEN, "marker": "4", "linestyle": ":"}}
+WORST, LEAST = 10.0, 1e-17  # errors beyond are drawn at the edge
+NOTED = 1.5  # digits: stretches of the front at least so long have their price written on them
+
+
+def picture(plt, found):
+    """Time against error, both logarithmic: a panel per question, a line per method, the front as a grey band."""
+    questions = found.questions
+    if not questions:
+        raise InputError(f"{found.case.name}: nothing to draw: {found.reference.reason}")
+    columns = min(2, len(questions))
+    rows = -(-len(questions) // columns)
+    figure, axes = plt.subplots(rows, columns, figsize=(5.6 * columns, 4.0 * rows + (1.3 if columns == 2 else 2.1)), layout="constrained", squeeze=False)
+    for ax, question in zip(axes.flat, questions):
+        _panel(ax, found, question)
+    for ax in axes.flat[len(questions):]:
+        ax.set_visible(False)
+    shown = [m for m in LOOKS if any(p.method == m for p in found.points)]
+    style.legend(figure, [(_legend(found, m), LOOKS[m]) for m in shown] + [("front: none is both faster and better", FRONT)],
+                 columns=4 if columns == 2 else 2)
+    figure.suptitle(f"{found.case.name}: what accuracy costs", fontsize=11, parse_math=False)
+    note = f"Reference error {found.reference.error.max():.0e}. {caption()}"
+    width = 150 if columns == 2 else 84
+    figure.legends[0].set_title("\n".join(textwrap.wrap(note, width)), prop={"size": 7.5})
+    figure.legends[0].get_title().set(color=style.GREY, parse_math=False)
+    return figure
+
+
+FRONT = {"color": "#CDD5DA", "linewidth": 7, "marker": "o", "markersize": 11, "markeredgewidth": 0, "solid_joinstyle": "round"}
+
+
+def _legend(found, method) -> str:
+    factor = next((f for q in found.questions if (f := digit_price(found.of(q, method))) is not None), None)
+    name = f"{method} (a motion of {found.of('span', method)[0].lanes})" if method == "taylor-batch" else method
+    return name if factor is None else f"{name}: {price(factor)} a digit"
+
+
+def _panel(ax, found, question):
+    ax.set(xscale="log", yscale="log", xlabel="largest relative error", ylabel="time (s)", title=title(found, question))
+    front = found.front(question)
+    ax.plot([_clipped(p.error) for p in front], [p.seconds for p in front], zorder=1, **FRONT)
+    for method in methods(found, question):
+        points = [p for p in found.of(question, method) if not math.isinf(p.error)]
+        x, y = [_clipped(p.error) for p in points], [p.seconds for p in points]
+        ax.vlines(x, y, [p.slowest for p in points], color=LOOKS[method]["color"], linewidth=0.6, alpha=0.3, zorder=2)
+        ax.plot(x, y, markersize=5, linewidth=1.3, zorder=3, **LOOKS[method])
+        if method in FORMULAS and points:
+            ax.axvline(min(x), color=LOOKS[method]["color"], linewidth=0.8, linestyle=":", zorder=1)
+    if question in ("span", "end") and found.sensitivity is not None:
+        ax.axvline(_clipped(found.sensitivity * EPS), color=style.GREY, linestyle="--", linewidth=0.9)
+        ax.annotate("last place of the start", (_clipped(found.sensitivity * EPS), 0.98), xycoords=("data", "axes fraction"),
+                    rotation=90, va="top", ha="right", fontsize=7, color=style.GREY)
+    ax.invert_xaxis()  # better to the right
+    for one, two in zip(front, front[1:]):
+        if two.digits - one.digits >= NOTED:
+            factor = (two.seconds / one.seconds) ** (1 / (two.digits - one.digits))
+            ax.annotate(f"{price(factor)} a digit", (math.sqrt(_clipped(one.error) * _clipped(two.error)),
+                        math.sqrt(one.seconds * two.seconds)), xytext=(0, 9), textcoords="offset points", ha="center", fontsize=7.5)
+
+
+def _clipped(error) -> float:
+    return min(max(error, LEAST), WORST)

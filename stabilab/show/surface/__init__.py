@@ -1,0 +1,1 @@
+"""Separatrix surfaces as meshes and pictures."""

@@ -1,0 +1,322 @@
+"""The separatrix as files: meshes of every sheet, a summary, a picture and a scene to turn round."""
+from __future__ import annotations
+
+import io
+import json
+import re
+from contextlib import nullcontext
+from pathlib import Path
+
+import numpy as np
+
+from ...case.read import blamed_on
+from ...errors import RenderingUnavailable, StabilabError
+from ...packages import present
+from ..files import endings, manifest
+from .. import style
+from .mesh import glb, Mesh, stl, triangulate
+
+SCHEMA = "stabilab.surface/1"
+
+
+def write(case, out, reach=None, shape=None, picture=True, arguments=None) -> dict:
+    """Write the separatrix of a case (or scene) into the folder `out` and return its summary.
+
+    The files of `write_all` for one case; raises RenderingUnavailable with the summary as its attribute `summary`.
+    """
+    try:
+        return write_all([case], out, reach, shape, picture, arguments)[0]
+    except RenderingUnavailable as unavailable:
+        unavailable.summary = unavailable.summaries[0]
+        raise
+
+
+def write_all(cases, out, reach=None, shape=None, picture=True, arguments=None) -> list[dict]:
+    """Write the separatrices of cases (or scenes) into the folder `out` and return a summary of each.
+
+    NAME.vtp (double precision, point arrays "sheet" and "residual"), NAME.glb and NAME.stl (single precision, as those
+    formats are), NAME.json (the summary), NAME.png and manifest.json (arguments: of the command line, for it); NAME is that
+    of the case. A case without a separatrix has no files; its summary gives the reason. Where no case has one, nothing is
+    written. Raises RenderingUnavailable (with the summaries as its attribute `summaries`), after the meshes are written,
+    where this machine cannot draw.
+    """
+    from .render_probe import probe
+    out = endings.folder(out)
+    rows = [(case, *_found(case, reach, shape)) for case in cases]
+    summaries = [summarise(case, found, meshes) | {"files": []} for case, found, meshes in rows]
+    if not any(meshes for *_, meshes in rows):
+        return summaries
+    renderer = probe() if picture else None
+    inputs = dict.fromkeys(case.path for case in cases if hasattr(case, "path"))
+    residual = max(summary["largest_residual"] for summary in summaries)
+    with manifest.written(out, arguments, inputs, {"distance of a vertex from its surface": residual}) as folder:
+        for (case, found, meshes), summary in zip(rows, summaries):
+            if meshes:
+                _write(case, found, meshes, folder, renderer, summary)
+    if picture and not renderer.available:
+        written = ", ".join(name for summary in summaries for name in summary["files"])
+        unavailable = RenderingUnavailable(f"the meshes are in {out} ({written}), but no picture could be drawn: {renderer.words}. "
+                                           f"Cure: {renderer.cure}")
+        unavailable.summaries = summaries
+        raise unavailable
+    return summaries
+
+
+def _found(case, reach, shape):
+    """(separatrix, its meshes) of a case or scene."""
+    from ...orbit.separatrix.sheets import separatrix
+    with blamed_on(case) if hasattr(case, "scene") else nullcontext():
+        found = separatrix(_scene(case)[0], reach=reach, **({"shape": shape} if shape else {}))
+    return found, [triangulate(sheet) for sheet in found.sheets]
+
+
+def _write(case, found, meshes, folder, renderer, summary):
+    """The files of one case; renderer: None where no picture is asked for. The summary is completed and written with them."""
+    scene, name = _scene(case)
+    files = write_meshes(meshes, folder, name)
+    if renderer:
+        summary["rendering"] = renderer.words if renderer.available else f"unavailable: {renderer.words}"
+    if renderer and renderer.available:
+        files.append(draw(scene, found, meshes, folder / f"{name}.png"))
+    summary["files"] = sorted([f"{name}.json", *(f.name for f in files)])
+    with style.whole_file(folder / f"{name}.json") as waiting:
+        waiting.write_text(json.dumps(summary, indent=1) + "\n", encoding="utf-8")
+
+
+def _scene(case):
+    return (case.scene, case.name) if hasattr(case, "scene") else (case, "surface")
+
+
+def summarise(case, found, meshes) -> dict:
+    """Counts and the largest residual, sheet by sheet and in all; plain JSON values."""
+    scene, name = _scene(case)
+    rows = []
+    for sheet, mesh in zip(found.sheets, meshes):
+        invariant = np.asarray(sheet.invariant, float)
+        rows.append({"name": sheet.name, "rows": int(sheet.points.shape[0]), "columns": int(sheet.points.shape[1]),
+                     "vertices": len(mesh.points), "triangles": len(mesh.triangles),
+                     "largest_residual": float(mesh.residual.max(initial=0.0)),
+                     "invariant": [float(invariant.min()), float(invariant.max())],
+                     "bounds": [[float(v) for v in pair] for pair in zip(mesh.points.min(0), mesh.points.max(0))]})
+    return {"schema": SCHEMA, "case": getattr(case, "name", name), "variables": scene.variables,
+            "components": list(scene.components), "sheets": rows, "vertices": sum(r["vertices"] for r in rows),
+            "triangles": sum(r["triangles"] for r in rows),
+            "largest_residual": max((r["largest_residual"] for r in rows), default=0.0), "reason": found.reason}
+
+
+def write_meshes(meshes: list[Mesh], out: Path, name: str) -> list[Path]:
+    """NAME.vtp (where vtk is installed), NAME.glb, NAME.stl; none of them needs GL. Returns their paths."""
+    out.mkdir(parents=True, exist_ok=True)
+    writers = {"glb": lambda path: path.write_bytes(glb(meshes, style.SHEETS)), "stl": lambda path: path.write_bytes(stl(meshes))}
+    if present("vtkmodules"):
+        writers = {"vtp": lambda path: _write_vtp(meshes, path), **writers}
+    for kind, write_one in writers.items():
+        with style.whole_file(out / f"{name}.{kind}") as waiting:
+            write_one(waiting)
+    return [out / f"{name}.{kind}" for kind in writers]
+
+
+def _write_vtp(meshes, path):
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+    writer = vtkXMLPolyDataWriter()
+    writer.SetFileName(str(path))
+    writer.SetInputData(polydata(meshes))
+    writer.SetDataModeToAppended()
+    writer.EncodeAppendedDataOff()
+    if not writer.Write():
+        raise OSError(f"{path}: VTK could not write it")
+
+
+def polydata(meshes):
+    """All sheets in one vtkPolyData: double-precision points, point arrays "sheet" (int32) and "residual" (float64)."""
+    from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+    from vtkmodules.vtkCommonCore import vtkPoints
+    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+    points = np.concatenate([m.points for m in meshes] or [np.zeros((0, 3))])
+    shifts = np.cumsum([0, *(len(m.points) for m in meshes)])
+    triangles = np.concatenate([m.triangles + s for m, s in zip(meshes, shifts)] or [np.zeros((0, 3), int)])
+    arrays = {"sheet": np.concatenate([np.full(len(m.points), i, np.int32) for i, m in enumerate(meshes)] or [np.zeros(0, np.int32)]),
+              "residual": np.concatenate([m.residual for m in meshes] or [np.zeros(0)])}
+    data, where, cells = vtkPolyData(), vtkPoints(), vtkCellArray()
+    where.SetDataTypeToDouble()
+    where.SetData(numpy_to_vtk(np.ascontiguousarray(points), deep=True))
+    cells.SetData(3, numpy_to_vtkIdTypeArray(np.ascontiguousarray(triangles, np.int64).ravel(), deep=True))
+    data.SetPoints(where)
+    data.SetPolys(cells)
+    for name, values in arrays.items():
+        array = numpy_to_vtk(values, deep=True)
+        array.SetName(name)
+        data.GetPointData().AddArray(array)
+    return data
+
+
+# -- pictures ----------------------------------------------------------------------------------------------------------
+
+
+def equilibrium_lines(scene, found, size):
+    """[("stable" | "unstable" | "degenerate", points (n, 3))] of the equilibrium curves within `size` of the origin."""
+    from ...equilibrium.gyrostat import equilibria
+    lines = []
+    for curve in equilibria(scene).curves:
+        for segment in curve.segments:
+            points = np.array([curve.point(float(t)) for t in _spread(*segment.t)], float)
+            points = points[np.all(np.isfinite(points), axis=1) & (np.linalg.norm(points, axis=1) < size)]
+            if len(points) > 1:
+                lines.append((segment.linear, points))
+    return lines
+
+
+def _spread(low, high, number=600):
+    """Parameters inside (low, high), dense at both ends, geometric towards an infinite end and towards zero."""
+    if np.isfinite(low) and np.isfinite(high):
+        t = low + (high - low) * (1 - np.cos(np.linspace(1e-3, np.pi - 1e-3, number))) / 2
+        return t
+    if np.isfinite(low):
+        return low + np.geomspace(1e-4, 1e4, number) * max(1.0, abs(low))
+    if np.isfinite(high):
+        return high - np.geomspace(1e-4, 1e4, number)[::-1] * max(1.0, abs(high))
+    half = np.geomspace(1e-4, 1e4, number // 2)
+    return np.concatenate([-half[::-1], half])
+
+
+def plotter(scene, found, meshes, still=True):
+    """A pyvista plotter with the sheets, the equilibrium curves and the three axes; the caller closes it."""
+    from .render_probe import use
+    use()
+    import pyvista
+    stage = pyvista.Plotter(off_screen=True, window_size=(1000, 800))
+    stage.set_background("white")
+    for number, mesh in enumerate(meshes):
+        if len(mesh.triangles):
+            faces = np.column_stack([np.full(len(mesh.triangles), 3), mesh.triangles]).ravel()
+            surface = pyvista.PolyData(mesh.points.astype(np.float32), faces)
+            surface.point_data["Normals"] = _normals(mesh)
+            stage.add_mesh(surface, color=style.SHEETS[number % len(style.SHEETS)], smooth_shading=False, ambient=0.35,
+                           diffuse=0.7, specular=0.1, name=f"sheet {number}")
+    size = 1.15 * max([np.abs(m.points).max(initial=0.0) for m in meshes] or [0.0]) or 5.0
+    for number, (kind, points) in enumerate(equilibrium_lines(scene, found, size)):
+        stage.add_mesh(pyvista.lines_from_points(points).tube(radius=size * 0.008), color=_colour(kind), name=f"line {number}")
+    for axis, colour in enumerate((style.VERMILION, style.GREEN, style.BLUE)):
+        ends = np.zeros((2, 3))
+        ends[:, axis] = (-size, size)
+        stage.add_mesh(pyvista.Line(*ends).tube(radius=size * 0.003), color=style.GREY, name=f"axis {axis}")
+        tip = np.zeros(3)
+        tip[axis] = size
+        cone = pyvista.Cone(center=tip, direction=np.eye(3)[axis], height=size * 0.06, radius=size * 0.02)
+        stage.add_mesh(cone, color=colour, name=f"tip {axis}")
+    if still:
+        _name_axes(stage, scene, size)
+    stage.camera_position = [(2.6 * size, -3.4 * size, 2.0 * size), (0, 0, 0), (0, 0, 1)]
+    stage.reset_camera()
+    stage.camera.zoom(1.45)
+    return stage
+
+
+def _name_axes(stage, scene, size):
+    """The components at the tips of the axes, and a round number on each of them for the scale."""
+    step = 10 ** np.floor(np.log10(0.9 * size))
+    mark = step * max(k for k in (1, 2, 5) if k * step <= 0.9 * size)
+    for at, words, font in ((1.08 * size, scene.components, 22), (mark, (f"  {mark:g}",) * 3, 16)):
+        stage.add_point_labels(at * np.eye(3), list(words), shape=None, font_size=font, text_color="black",
+                               show_points=at == mark, point_color="black", point_size=7, render_points_as_spheres=True,
+                               always_visible=True)
+
+
+def _colour(kind):
+    return style.MEANING["fold" if kind == "degenerate" else kind]["color"]
+
+
+def _write_legend(image, scene, found, meshes):
+    """Into the lower corners of a picture: what the colours stand for, and the unit of the axes."""
+    from matplotlib import get_data_path
+    from PIL import ImageDraw, ImageFont
+    font = ImageFont.truetype(str(Path(get_data_path()) / "fonts/ttf/DejaVuSans.ttf"), 16)
+    pen, (width, height) = ImageDraw.Draw(image), image.size
+    kinds = {kind for kind, _ in equilibrium_lines(scene, found, np.inf)}
+    rows = [(mesh.name, style.SHEETS[number % len(style.SHEETS)]) for number, mesh in enumerate(meshes)]
+    rows += [(f"{kind} equilibria", _colour(kind)) for kind in sorted(kinds)]
+    left = width - 44 - max((pen.textlength(words, font) for words, _ in rows), default=0)
+    for number, (words, colour) in enumerate(reversed(rows)):
+        top = height - 34 - 24 * number
+        pen.rectangle((left, top + 3, left + 14, top + 17), fill=colour)
+        pen.text((left + 22, top), words, fill="black", font=font)
+    unit = "components of \u03c9 in rad/s" if scene.variables == "physical" else "scaled components, no unit"
+    pen.text((20, height - 34), unit, fill="black", font=font)
+
+
+def _normals(mesh):
+    from .mesh import normals
+    return normals(mesh).astype(np.float32)
+
+
+def draw(scene, found, meshes, path) -> Path:
+    """The still picture (PNG), quantised to keep it small; needs a renderer that the probe approved."""
+    from PIL import Image
+    stage = plotter(scene, found, meshes)
+    try:
+        pixels = stage.screenshot(return_img=True)
+    finally:
+        stage.close()
+    image = Image.fromarray(pixels)
+    _write_legend(image, scene, found, meshes)
+    style.write_small(image, path)
+    return Path(path)
+
+
+def turntable(scene, found, meshes, path) -> Path:
+    """One self-contained HTML file in which the surfaces can be turned; needs a renderer that the probe approved."""
+    from trame_vtk.tools.vtksz2html import write_html
+    stage = plotter(scene, found, meshes, still=False)
+    try:
+        stage.render()
+        data = _scene_archive(stage.render_window)
+    finally:
+        stage.close()
+    page = io.StringIO()
+    write_html(data, page)
+    with style.whole_file(Path(path)) as waiting:
+        waiting.write_text(offline(page.getvalue()), encoding="utf-8")
+    return Path(path)
+
+
+# A text in the viewer's program that is the address of something to fetch (its icons); names of XML vocabularies are no such.
+ADDRESS = re.compile(r"""(["'`])https?://(?!www\.w3\.org/)[\w-]+(?:\.[\w-]+)+(?::\d+)?(?:/[^"'`\s<>]*)?\1""")
+# What is not in the file itself is not fetched, whatever else the viewer may come to ask for.
+POLICY = ("default-src 'none'; script-src 'unsafe-inline' 'unsafe-eval' blob: data:; style-src 'unsafe-inline'; img-src data: blob:; "
+          "font-src data:; connect-src data: blob:; worker-src data: blob:")
+
+
+def offline(page: str) -> str:
+    """An HTML page that asks for nothing from the network: addresses in its program become an empty icon, and a policy in its
+    head forbids the browser the rest."""
+    page, number = re.subn(r"<head>", lambda m: f'<head>\n    <meta http-equiv="Content-Security-Policy" content="{POLICY}" />\n'
+                           '    <link rel="icon" href="data:," />', page, count=1)
+    if number != 1:
+        raise StabilabError("the viewer's page has no <head>: this version of trame-vtk is not known")
+    return ADDRESS.sub(lambda m: f"{m[1]}data:,{m[1]}", page)
+
+
+def _scene_archive(window) -> bytes:
+    """The render window as the viewer's zip archive.
+
+    pyvista's own export_html starts a local web server, and one of its modules then fetches files from the network;
+    the serialisation underneath needs neither.
+    """
+    import zipfile
+
+    from trame_vtk.modules.vtk.serializers import (SynchronizationContext, extract_array_hash, initialize_serializers,
+                                                   reference_id, serialize)
+    initialize_serializers()
+    context = SynchronizationContext()
+    context.set_ignore_last_dependencies(True)
+    camera = window.GetRenderers().GetFirstRenderer().GetActiveCamera()
+    description = serialize(None, window, reference_id(window), context, 1)
+    description["extra"] = {"vtkRefId": reference_id(window), "centerOfRotation": camera.GetFocalPoint(),
+                            "camera": reference_id(camera)}
+    arrays = {entry["hash"]: {**entry, "content": context.get_cached_data_array(entry["hash"], False)}
+              for entry in extract_array_hash(description)}
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr(zipfile.ZipInfo("index.json"), json.dumps({"hashes": arrays, "scene": description}),
+                         compress_type=zipfile.ZIP_DEFLATED)
+    return buffer.getvalue()

@@ -1,0 +1,57 @@
+"""Certificates as files, and what a check of one found, in words and as JSON."""
+from __future__ import annotations
+
+from pathlib import Path
+
+from ...files import whole_file
+from ..files import endings
+
+SCHEMA = "stabilab.verification/1"
+
+
+def checked(path) -> Path:
+    """The path, if its ending is one that can be written."""
+    return endings.file(path, (".json",))
+
+
+def write(certificate: dict, path) -> Path:
+    """The certificate as a JSON file, whole or not at all. Raises InputError where it cannot be written."""
+    import json
+    path = checked(path)
+    with whole_file(path) as waiting:
+        waiting.write_text(json.dumps(certificate, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    return path
+
+
+def summary(certificate: dict) -> str:
+    """A line on what is certified, and one for each thing that is not."""
+    parts = []
+    if certificate["equilibria"]:
+        found = certificate["equilibria"]
+        planes = f", {len(found['planes'])} planes" if found.get("planes") else ""
+        count = f"{len(found['points'])} isolated, {len(found['curves'])} curves{planes}" if found["kind"] in ("points", "curves") else found["kind"]
+        parts.append(f"equilibria ({count})")
+    if certificate["motion"]:
+        motion = certificate["motion"]
+        numbers = [name for name in ("extremes", "period") if motion[name]]
+        parts.append(", ".join([f"fate ({motion['fate']})", *numbers]))
+    lines = [f"certified: {'; '.join(parts) or 'nothing'}"]
+    return "\n".join(lines + [f"not certified: {why}" for why in certificate["uncertified"]])
+
+
+def text(found) -> str:
+    """One line a claim, then the verdict on the whole."""
+    lines = [f"{f.status:<12} {f.claim}{f': {f.reason}' if f.reason else ''}" for f in found.findings]
+    silent = f"; nothing is claimed of: {', '.join(found.silent)}" if found.silent else ""
+    return "\n".join([*lines, f"{found.status}: {_count(found)}{silent}"])
+
+
+def _count(found) -> str:
+    numbers = {word: sum(f.status == word for f in found.findings) for word in ("proved", "not checked", "refuted")}
+    return ", ".join(f"{n} {word}" for word, n in numbers.items() if n) or "no claims"
+
+
+def as_dict(found) -> dict:
+    """The object of `stabilab verify --json`."""
+    return {"schema": SCHEMA, "status": found.status, "silent": list(found.silent),
+            "findings": [{"claim": f.claim, "status": f.status, "reason": f.reason} for f in found.findings]}

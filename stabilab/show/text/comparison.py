@@ -1,0 +1,95 @@
+"""Models beside the exact motion: as text, JSON, CSV, and as a picture of histories."""
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from ...theories.theory import lines as told
+from ...physics.blocks import PARTS
+from ..files import endings
+from .. import style
+
+LOOKS = {"exact": {"color": style.BLACK, "linewidth": 2.2}, "linear": {"color": style.BLUE, "linewidth": 1.4, "linestyle": "--"},
+         "corrected": {"color": style.PURPLE, "linewidth": 1.5, "linestyle": "-."},
+         "printed": {"color": style.ORANGE, "linewidth": 1.6, "linestyle": ":"},
+         "averaged1": {"color": style.GREEN, "linewidth": 1.4, "linestyle": "-."},
+         "averaged2": {"color": style.BLUE, "linewidth": 1.4, "linestyle": "--"},
+         "lindstedt": {"color": style.BLUE, "linewidth": 1.4, "linestyle": "--"}}
+NAMES = {"omega": (r"$\omega_1$", r"$\omega_2$", r"$\omega_3$"), "gamma": (r"$\gamma_1$", r"$\gamma_2$", r"$\gamma_3$"),
+         "angles": (r"$\psi$", r"$\phi$", r"$\theta$"), "momentum": (r"$H_1$", r"$H_2$", r"$H_3$"),
+         "velocity": (r"$v_1$", r"$v_2$", r"$v_3$"), "position": (r"$x_1$", r"$x_2$", r"$x_3$")}
+REACH = 1.6  # a model that leaves the exact motion's range by more than this factor is cut off, and the panel says so
+
+
+def as_dict(case, found) -> dict:
+    """The object of `stabilab compare --json`."""
+    return {"schema": "stabilab.compare/1", "case": case.name, "time": case.scene.time_unit, "t": found.t,
+            "models": {name: {"status": run.status, "reason": run.reason} for name, run in found.runs.items()}
+            | {name: {"status": "refused", "reason": why} for name, why in found.refused.items()},
+            "departures": [{"model": d.model, "part": d.part, "error": d.error, "scale": d.scale, "largest": d.largest,
+                            "first": {f"{level:g}": time for level, time in d.first.items()}} for d in found.departures],
+            "theory": list(found.theory)}
+
+
+def text(case, found) -> str:
+    """A line per model and part of the state, then what each model says of itself."""
+    unit = case.scene.time_unit
+    lines = [f"{case.name}: {', '.join(list(found.runs)[1:]) or 'no model'} against the exact motion, {found.t[0]:g} to {found.t[-1]:g} {unit}",
+             f"  {'model':<12}{'part':<12}{'largest error':>16}{'of':>14}{'1 % from':>14}{'10 % from':>14}"]
+    for d in found.departures:
+        first = [f"{time:.4g} {unit}" if time is not None else "never" for time in d.first.values()]
+        lines.append(f"  {d.model:<12}{d.part:<12}{d.largest:>16.4g}{d.scale:>14.4g}{first[0]:>14}{first[1]:>14}")
+    notes = [f"  {name}: {run.reason}" for name, run in found.runs.items() if run.reason and run.reason != "all times reached"]
+    notes += [f"  {name}: no answer: {why}" for name, why in found.refused.items()]
+    return "\n".join(lines + notes + [f"  {line}" for line in told(found.theory)])
+
+
+def checked(path) -> Path:
+    """The path, if its ending is one that can be written."""
+    return endings.file(path, (".csv",))
+
+
+def write(case, found, path) -> Path:
+    """Errors over time as CSV, whole or not at all."""
+    path = checked(path)
+    with style.whole_file(path) as waiting, open(waiting, "w", encoding="utf-8") as stream:
+        stream.write(",".join([case.scene.time_unit, *(f"{d.model} {d.part}" for d in found.departures)]) + "\n")
+        for row in zip(found.t, *(d.error for d in found.departures)):
+            stream.write(",".join(repr(float(v)) for v in row) + "\n")
+    return path
+
+
+def picture(plt, case, runs, parts=("omega",)):
+    """A figure: one row per part of the state, one column per component, every model of `runs` over the exact motion."""
+    parts = [p for p in parts if p in runs["exact"].state]
+    figure, axes = plt.subplots(len(parts), 3, figsize=(10.5, 0.9 + 2.3 * len(parts)), layout="constrained", squeeze=False,
+                                sharex=True)
+    for row, part in zip(axes, parts):
+        for column, ax in enumerate(row):
+            _curves(ax, runs, part, column)
+            unit = PARTS[part].unit.replace("m^2", "m$^2$")
+            ax.set_ylabel(f"{NAMES[part][column]}{f' ({unit})' if unit else ''}")
+    for ax in axes[-1]:
+        ax.set_xlabel("t (s)")
+    figure.suptitle(case.heading, fontsize=10, parse_math=False, wrap=True)
+    style.legend(figure, [(name, LOOKS[name]) for name in runs], columns=6)
+    return figure
+
+
+def _curves(ax, runs, part, column):
+    exact = np.asarray(runs["exact"].state[part])[:, column]
+    for name, run in runs.items():
+        if part in run.state:
+            ax.plot(run.t, np.asarray(run.state[part])[:, column], **LOOKS[name])
+    middle, half = (exact.max() + exact.min()) / 2, (exact.max() - exact.min()) / 2
+    low, high = ax.get_ylim()
+    wide = half * REACH or 1e-9 * max(abs(middle), 1)
+    if half and (high - low) > 6 * half:  # a model far off must not flatten the motion itself
+        ax.set_ylim(middle - 2 * wide, middle + 2 * wide)
+        out = [name for name, run in runs.items() if part in run.state and _leaves(np.asarray(run.state[part])[:, column], ax.get_ylim())]
+        ax.set_title(f"cut: {', '.join(out)}", loc="right", fontsize=8)
+
+
+def _leaves(values, limits):
+    return len(values) and (values.min() < limits[0] or values.max() > limits[1])

@@ -1,0 +1,48 @@
+"""How far approximate laws hold: the first line of a text, a key of JSON, a line of a picture, an exit code."""
+from __future__ import annotations
+
+from ...errors import printable
+
+
+def first(validity, text: str) -> str:
+    """The text, headed by what is to be said of its law; as it is where all laws are exact."""
+    return text if validity is None else f"{printable(validity.words)}\n{text}"
+
+
+def key(validity) -> dict:
+    """The key of a JSON object; null where all laws are exact."""
+    if validity is None:
+        return {"validity": None}
+    from ...physics.law_limits import as_dict
+    return {"validity": as_dict(validity)}
+
+
+def worst(*found):
+    """The most exceeded of several; None where all laws are exact."""
+    known = [v for v in found if v is not None]
+    if not known:
+        return None
+    from ...physics.law_limits import worst
+    return worst(*known)
+
+
+def beyond(*found) -> bool:
+    """Whether a law does not hold."""
+    return any(v is not None and not v.held for v in found)
+
+
+def of_case(case):
+    """Of a case's own motion over its span (15 units of time without one), at rest where it has none; None where all laws are exact."""
+    if not case.scene.approximate:
+        return None
+    if case.state is None:
+        from ...physics.law_limits import validity
+        return validity(case.scene, (0.0,) * 3, "at rest")
+    from ...answers.simulate import simulate
+    return simulate(case.scene, case.state, case.span or (0.0, 15.0), case.blocks).validity
+
+
+def of_cases(cases) -> str:
+    """A line for every law among cases that one of them leaves; empty where there is none."""
+    told = [(case.name, v) for case in cases if (v := of_case(case)) is not None and not v.held]
+    return "\n".join(f"{v.words} ({printable(name)})" for name, v in told)

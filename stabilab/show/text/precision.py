@@ -1,0 +1,91 @@
+"""What accuracy costs, shown: as a table, in words, as CSV, JSON and the work-precision picture."""
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+from ...cost.accuracy import digit_price
+from ...answers.digits.front import machine, versions
+from ...packages import demand
+from ..files import endings
+from .. import style
+from ..report.precision_picture import picture
+from .precision_words import caption, duration, methods, setting, title, words
+
+COLUMNS = ("case", "question", "method", "setting", "value", "error", "digits", "steps", "evaluations", "seconds", "slowest",
+           "repeats", "compile_seconds", "lanes", "parts", "on_front")
+
+
+def text(found) -> str:
+    """The table of the terminal, * marking the front, then the words."""
+    lines = [f"{found.case.name}: {found.case.title}" if found.case.title else found.case.name]
+    for question in found.questions:
+        front = set(map(id, found.front(question)))
+        lines += ["", title(found, question),
+                  f"  {'method':<14}{'setting':<15}{'error':>9}{'digits':>8}{'steps':>9}{'evaluations':>13}{'time':>10}{'slowest':>10}{'compile':>10}"]
+        lines += [_line(p, id(p) in front) for p in found.of(question)]
+    lines += [f"  left out: {line}" for line in _left_out(found)]
+    return "\n".join([*lines, "", *words(found), "", caption()])
+
+
+def _left_out(found):
+    """A line per method and reason: the coarsest setting that it holds for."""
+    first = {}
+    for name, value, why in found.left_out:
+        first.setdefault((name, why), []).append(value)
+    return [f"{name}, {values[0]:g}{' and finer' if len(values) > 1 else ''}: {why}" for (name, why), values in first.items()]
+
+
+def _line(p, best) -> str:
+    error = "none" if math.isinf(p.error) else f"{p.error:.1e}"
+    counts = "".join(f"{'' if n is None else n:>{width}}" for n, width in ((p.steps, 9), (p.evaluations, 13)))
+    times = "".join(f"{duration(s) if s else '':>10}" for s in (p.seconds, p.slowest, p.compile if p.compile > 1e-4 else 0))
+    return f"{'*' if best else ' '} {p.method:<14}{setting(p)[2:]:<15}{error:>9}{p.digits:>8.1f}{counts}{times}"
+
+
+def as_dict(found) -> dict:
+    """The object of `stabilab precision --json`. Errors are null where no answer came."""
+    r = found.reference
+    return {"schema": "stabilab.precision/1", "case": found.case.name, "time": found.case.scene.time_unit, "quick": found.quick,
+            "times": r.t, "machine": machine(), "versions": versions(),
+            "reference": {"digits": r.digits, "error": float(r.error.max()) if len(r.t) else None, "status": r.status,
+                          "reason": r.reason, "multiplications": r.work, "period": r.period and r.period[0],
+                          "period_error": r.period and r.period[2], "extremes_error": r.extremes_error},
+            "sensitivity": found.sensitivity, "points": [_row(found, p) for p in found.points],
+            "digit_price": {q: {m: digit_price(found.of(q, m)) for m in methods(found, q)} for q in found.questions},
+            "fates": [vars(f) for f in found.fates],
+            "left_out": [{"method": m, "value": v, "reason": why} for m, v, why in found.left_out], "words": words(found)}
+
+
+def _row(found, p) -> dict:
+    values = (found.case.name, p.question, p.method, p.setting, p.value, p.error, min(p.digits, 99.0), p.steps, p.evaluations, p.seconds,
+              p.slowest, p.repeats, p.compile, p.lanes, p.parts, any(p is q for q in found.front(p.question)))
+    return dict(zip(COLUMNS, values))
+
+
+def csv(*measured) -> str:
+    """One line per point of every case; empty where a count does not exist, inf where no answer came."""
+    rows = [",".join(COLUMNS)]
+    for found, p in ((found, p) for found in measured for p in found.points):
+        cells = ["" if v is None else repr(v) if isinstance(v, float) else str(v) for v in _row(found, p).values()]
+        rows.append(",".join(f'"{c}"' if "," in c else c for c in cells))
+    return "\n".join(rows)
+
+
+def write(found, path) -> Path:
+    """The picture (.png, .svg, .pdf) or the points (.csv), whole or not at all."""
+    path = checked(path)
+    if endings.ending(path) == ".csv":
+        with style.whole_file(path) as waiting:
+            waiting.write_text(csv(found) + "\n", encoding="utf-8")
+        return path
+    with style.drawing() as plt:
+        return style.save(picture(plt, found), path)
+
+
+def checked(path) -> Path:
+    """The path, if its ending is one that can be written."""
+    path = endings.file(path, (*endings.PICTURES, ".csv"))
+    if endings.ending(path) != ".csv":
+        demand(*style.PACKAGES)
+    return path

@@ -1,0 +1,149 @@
+"""What accuracy costs, in plain words made from the measured front."""
+from __future__ import annotations
+
+from ...cost.accuracy import digit_price, EPS
+from ...answers.digits.front import machine, versions
+
+FORMULAS = ("linear", "corrected", "printed", "averaged1", "averaged2", "lindstedt")
+WANTED = (3, 6, 9, 12, 15)  # digits whose price the words tell
+BLAMED = 20  # an error this many times the effect of the start's last place has other causes
+
+
+def words(found) -> list[str]:
+    """The measurement in plain words, one sentence or two a string."""
+    return [_reference_words(found), *(s for q in found.questions for s in _question_words(found, q)), *_fate_words(found),
+            *_model_words(found)]
+
+
+def _reference_words(found) -> str:
+    r = found.reference
+    if not len(r.t):
+        return f"Nothing was measured: {r.reason}."
+    reach = "" if r.status == "agrees" else f" Only so far: {r.reason}; the rest of the span is not judged."
+    return (f"Judged at {len(r.t)} times up to {_moment(found)} by a Taylor series run in {r.digits[0]} and in {r.digits[1]} "
+            f"digits; the two differ by {r.error.max():.0e} of the state, which is the reference's error.{reach}")
+
+
+def _question_words(found, question):
+    points = [p for p in found.of(question) if p.lanes == 1 and not p.parts]
+    prices = []
+    for digits in WANTED:
+        enough = [p for p in points if p.digits >= digits]
+        if enough:
+            prices.append((digits, min(enough, key=lambda p: p.seconds)))
+    head = title(found, question)
+    if not prices:
+        yield f"{head}: no method has {WANTED[0]} digits."
+        return
+    yield from _six(found, points, head)
+    parts = [f"{digits} digits cost {duration(p.seconds)} ({p.method}{setting(p)})" for digits, p in _merged(prices)]
+    yield f"{head}: " + ", ".join(parts) + "." + _against(points, prices) + _digit_words(found, question)
+    missing = next((d for d in WANTED if d > prices[-1][0]), None)
+    best = max(points, key=lambda p: p.digits)
+    if missing:
+        yield f"No method gets {missing} digits: the best is {best.digits:.1f} ({best.method}{setting(best)}){_because(found, question, missing, best)}."
+
+
+SIX = 6  # digits at which the methods are set side by side
+
+
+def _six(found, points, head):
+    """What six digits cost by each method, cheapest first."""
+    enough = {}
+    for p in sorted(points, key=lambda p: p.seconds):
+        if p.digits >= SIX:
+            enough.setdefault(p.method, p)
+    if len(enough) > 1:
+        yield f"{head}: six digits cost " + ", ".join(f"{duration(p.seconds)} with {name}" for name, p in enough.items()) + "."
+
+
+def title(found, question) -> str:
+    """The question of this case, as a heading."""
+    named = {"span": f"States at {len(found.reference.t)} times up to {_moment(found)}", "end": f"The state at {_moment(found)}"}
+    return named.get(question, f"The {question}")
+
+
+def _moment(found):
+    """The last time that is judged, with its unit."""
+    last = f"{found.reference.t[-1]:.6g}"
+    return f"tau = {last}" if found.case.variables == "scaled" else f"t = {last} s"
+
+
+def _merged(prices):
+    """Where one setting has the digits of several lines, the most digits alone."""
+    return [(d, p) for (d, p), following in zip(prices, [*prices[1:], (None, None)]) if following[1] is not p]
+
+
+def _against(points, prices) -> str:
+    """How much longer SciPy's best takes, for the most digits that it reaches."""
+    from ...integrate.trajectory import SCIPY_METHODS
+    for digits, p in reversed(prices):
+        others = [q for q in points if q.method in SCIPY_METHODS and q.digits >= digits]
+        if others and p.method not in SCIPY_METHODS:
+            other = min(others, key=lambda q: q.seconds)
+            return f" SciPy's best for {digits} digits among the settings tried, {other.method}, takes {other.seconds / p.seconds:.3g} times as long ({duration(other.seconds)})."
+    return ""
+
+
+def _digit_words(found, question) -> str:
+    prices = {m: digit_price(found.of(question, m)) for m in methods(found, question)}
+    known = [f"{m} {price(v)}" for m, v in prices.items() if v is not None and m != "taylor-batch"]
+    return f" One more digit: {', '.join(known)}." if known else ""
+
+
+def price(factor) -> str:
+    """A digit's price as a factor in time."""
+    return f"x{factor:.2f}"
+
+
+def _because(found, question, missing, best) -> str:
+    shift = (found.sensitivity or 0.0) * EPS if question in ("span", "end") else 0.0
+    if shift > max(0.2 * 10.0**-missing, best.error / BLAMED):
+        return (f"; a change of the start in its last place (1e-16) moves the state by {shift:.0e} within the span, "
+                "so doubles do not hold more")
+    if found.left_out:
+        return "; rounding on the way has the last word, or the finer settings that were left out"
+    return "; rounding on the way has the last word"
+
+
+def _fate_words(found):
+    if found.fates:
+        yield "Fate: " + "; ".join(_FATE[f.method].format(f.word, duration(f.seconds)) for f in found.fates) + "."
+
+
+_FATE = {"energy": "{0}, by the energy in doubles with its error bound in {1}", "balls": "in many digits the energy is {0}: {1}"}
+
+
+def _model_words(found):
+    for name in FORMULAS:
+        points = found.of("span", name)
+        if points:
+            best = min(points, key=lambda p: p.error)
+            yield (f"The model {name}{setting(best)}: its own error is {best.error:.2g} of the state, whatever is spent on it"
+                   f"{f' (of {best.parts} alone)' if best.parts else ''}.")
+        elif any(m == name for m, *_ in found.left_out):
+            yield f"The model {name} has no answer over the whole span."
+
+
+def duration(seconds) -> str:
+    """Seconds in a fitting unit, three digits."""
+    for unit, factor in (("s", 1.0), ("ms", 1e-3), ("µs", 1e-6)):
+        if seconds >= factor:
+            return f"{seconds / factor:.3g} {unit}"
+    return f"{seconds / 1e-9:.3g} ns"
+
+
+def setting(p) -> str:
+    """", rtol 1e-09" and its like; nothing for a formula."""
+    return "" if p.setting == "formula" else f", {p.setting} {p.value:.2g}" if p.setting == "rtol" else f", {p.setting} {p.value:g}"
+
+
+def caption() -> str:
+    """Machine and versions that the times belong to."""
+    m, v = machine(), versions()
+    return f"{m['processor']}, {m['cores']} cores, {m['system']}; " + ", ".join(f"{name} {number}" for name, number in v.items())
+
+
+def methods(found, question) -> list[str]:
+    """Names of the methods that answered a question."""
+    return list(dict.fromkeys(p.method for p in found.of(question)))

@@ -1,0 +1,54 @@
+"""The scene in words, its equations of motion, and the laws that hold for it."""
+from __future__ import annotations
+
+
+def text(case) -> str:
+    """Scene, parameters, equations of motion as text and LaTeX, invariants: what `stabilab show` prints."""
+    from ...physics.equations import derive, invariants, latex, lines
+    equations = derive(case.scene)
+    parts = [_head(case), _parameters(equations), "Equations of motion", *(f"  {line}" for line in lines(equations)), "",
+             "In LaTeX", latex(equations), "", "Laws that hold for every value of the parameters"]
+    parts += [f"  {law.words}" for law in equations.balances]
+    return "\n".join(parts + ["", "Laws of this scene"] + (_laws(invariants(case.scene)) or ["  none is known"]))
+
+
+def _head(case) -> str:
+    rows = [case.title or case.name, f"  from {case.place}"]
+    rows += [f"  source: {case.source}"] if case.source else []
+    rows += [f"  variables: {case.variables} ({', '.join(case.scene.components)}; time in {case.scene.time_unit})"]
+    if case.physical:
+        rows.append(f"  body with inertia {case.physical.body.inertia} kg m^2")
+        rows += [f"  {effect.name.replace('_', ' ')}: {_values(effect)}" for effect in case.physical.effects]
+    if case.scaling:
+        rows.append(f"  one unit of tau is {float(case.scaling.time):.15g} s; "
+                    f"omega_j = {', '.join(f'{float(r):.15g}' for r in case.scaling.rate)} times x_j (rad/s)")
+    rows += [f"  motion from {case.state}"] if case.state else []
+    return "\n".join(rows) + "\n"
+
+
+def _values(effect) -> str:
+    return ", ".join(f"{name} = {float(v):.15g}" for name, v in effect.parameters().items())
+
+
+def _parameters(equations) -> str:
+    return "Parameters\n" + "\n".join(f"  {name} = {_value(v)}" for name, v in equations.parameters.items()) + "\n"
+
+
+def _value(v) -> str:
+    """Exact where that is short; else its nearest double."""
+    written = str(v)
+    if "/" not in written:
+        return written
+    return f"{written} = {float(v)!r}" if len(written) <= 24 else f"{float(v)!r}"
+
+
+def _laws(laws) -> list[str]:
+    return [row for law in laws for row in (f"  {law.words}", f"    {_short(law.quantity)}"
+                                            + ("" if law.rate == 0 else f"   at the rate {_short(law.rate)}"))]
+
+
+def _short(expression) -> str:
+    """The expression with rationals that are long rounded to 15 digits."""
+    from sympy import Rational
+    long = {r: r.evalf(15) for r in expression.atoms(Rational) if len(str(r)) > 24}
+    return str(expression.xreplace(long))

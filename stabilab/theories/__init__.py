@@ -1,0 +1,1 @@
+"""Analytic theories of a case, and what papers print of them."""

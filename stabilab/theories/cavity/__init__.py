@@ -1,0 +1,1 @@
+"""The body with a cavity of viscous liquid, averaged."""

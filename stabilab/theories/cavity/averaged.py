@@ -1,0 +1,266 @@
+"""Averaged motion of a nearly spherical body with a liquid: slow amplitude, spin and phase instead of every turn.
+
+p = A cos phi, q = -A sin phi, r: A and r change slowly while phi turns at about nu = (d r - Gamma)/J0. The equations
+come from `averaging_form`; they are integrated in W = A exp(i (phi - psi)), r, psi, which is regular at A = 0, at
+r < 0 and through nu = 0.
+"""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from ...physics.to_numpy import lambdified
+from ...errors import InputError
+from .normal_form import check, constants, NAMES, normal_form
+
+RTOL = 1e-10  # the equations themselves are true to eps^2 at best
+# Width of the band of slow turn in which phases are kept, as a share of (|d| |omega| + |Gamma|)/J0: in powers of e it
+# is of order one, as the second order needs; at twice the width from nu = 0 the kept part is exp(-16), at 2.5 times 1e-17.
+SHARE = 0.4
+# A removed harmonic leaves about (its rate)/nu of the state: within this many times the rate of nu = 0 it is kept.
+GUARD = 4.0
+SAMPLES = 400  # between asked-for times, to follow the angle of W
+INVERSIONS = 100
+
+
+@dataclass(frozen=True)
+class AveragedMotion:
+    """What the averaged equations say at the asked-for times.
+
+    t: (n,) s; amplitude A, rad/s, spin r, rad/s, phase phi, rad, unwrapped: (n,), the averaged variables; omega: (n, 3)
+    rad/s, body frame, rebuilt from them (second order: with the near-identity change of variables, so omega at t = 0 is
+    the given state). At A = 0 the phase is that of the turn alone. order: 1 or 2; eps: the small parameter. status:
+    "reached", or "stopped" with t up to where the run came; reason: why; horizon: in words, how far to trust it.
+    """
+
+    t: object
+    amplitude: object
+    spin: object
+    phase: object
+    omega: object
+    order: int
+    eps: float
+    status: str
+    reason: str
+    horizon: str
+
+
+def averaged(scene, state, times, order: int = 1, eps: float | None = None) -> AveragedMotion:
+    """Averaged motion from `state` (three numbers, rad/s, or {"omega": ...}) at t = 0; times: (n,) s, any order and sign.
+
+    D3 is J0; axes 1, 2 have moments near it, the gyrostatic moment lies along axis 3. eps names the small parameter
+    (None: the larger of |D1 - D3|, |D2 - D3| over D3); it counts orders only, the motion does not depend on it.
+    Errors in A and r over t ~ 1/eps^2: eps (first order), eps^2 (second); after a passage through nu = 0 with M1, M2 or
+    D1 != D2, whose jump of size sqrt(eps) depends on the phase there: eps^(1/2) and eps^(3/2). In the phase one order
+    less. Raises InputError where the scene does not fit the assumptions and says which.
+    """
+    if order not in (1, 2):
+        raise InputError(f"order: expected 1 or 2, got {order!r}")
+    omega, times = _omega(state), _times(times)
+    check(scene)
+    numbers = constants(scene)
+    small = Smallness.of(numbers, omega, eps)
+    small.refuse()
+    model = _Model(scene, numbers, omega, order)
+    start = model.inward(omega)
+    w0, rows, failures = complex(start[0], -start[1]), {}, []
+    for sense in (-1, 1):
+        grid = np.unique(times[times * sense > 0] * sense)
+        if grid.size:
+            found, failure = model.run(w0, start[2], grid, sense)
+            rows |= {sense * t: row for t, row in zip(grid, found)}
+            failures += [failure] if failure else []
+    rows[0.0] = (w0, start[2], 0.0, math.atan2(w0.imag, w0.real))
+    reached = np.array([t for t in times if t in rows])
+    W, r, psi, angle = (np.array([rows[t][i] for t in reached]) for i in range(4))
+    omega = model.outward(W * np.exp(1j * psi), r.real)
+    return AveragedMotion(reached, np.abs(W), r.real, psi.real + angle.real, omega, order, small.eps,
+                          "stopped" if failures else "reached", "; ".join(failures) or "all times reached",
+                          small.horizon(order))
+
+
+def _omega(state):
+    values = state["omega"] if isinstance(state, dict) and "omega" in state else state
+    try:
+        array = np.array([float(v) for v in values])
+    except (TypeError, ValueError):
+        raise InputError(f"state: expected three numbers or a block omega, got {state!r}") from None
+    if array.shape != (3,) or not np.isfinite(array).all():
+        raise InputError(f"state: expected three finite numbers, got {state!r}")
+    return array
+
+
+def _times(times):
+    try:
+        array = np.array([float(v) for v in times])
+    except (TypeError, ValueError):
+        raise InputError(f"times: expected finite numbers in one row, got {times!r}") from None
+    if not array.size or not np.isfinite(array).all():
+        raise InputError("times: expected finite numbers in one row")
+    return array
+
+
+@dataclass(frozen=True)
+class Smallness:
+    """The numbers whose smallness the averaging assumes; `ratios`: words -> number that must stay below 1; `soft`: those
+    that only make the answer doubtful. eps: small parameter; slow: fastest slow rate, 1/s."""
+
+    eps: float
+    ratios: dict
+    soft: dict
+    slow: float
+
+    @classmethod
+    def of(cls, numbers, omega, eps=None) -> Smallness:
+        J, d, h, g, kappa, zeta, *M = (float(numbers[n]) for n in NAMES)
+        moment, size = math.hypot(*M), float(np.linalg.norm(omega))
+        if eps is None:
+            eps = (abs(d) + abs(h)) / J
+        elif not (isinstance(eps, (int, float)) and 0 < eps < math.inf):
+            raise InputError(f"eps: expected a positive number, got {eps!r}")
+        turn = (abs(d) * size + abs(g)) / J
+        speed = max(size, abs(g) / J)
+        ratios = {"(D1 + D2)/2 - D3 against D3": 2 * abs(d) / J,
+                  "the splitting D1 - D2 against the turn it disturbs (|D1 + D2 - 2 D3| |omega|/2 + |Gamma|)":
+                      abs(h) * size / (J * turn) if turn else (math.inf if h * size else 0.0),
+                  "the liquid (kappa (|omega| + |Gamma|/J0)/J0)": kappa * speed / J,
+                  "the torque (|M|/(J0 |omega|^2), with |Gamma|/J0 or the steady spin M3/(zeta J0) where that is larger)":
+                      _over(moment / J, max(speed, abs(M[2]) / (zeta * J) if zeta else 0.0) ** 2)}
+        slow = max(zeta, kappa * speed * turn / J, _over(moment, J * speed))
+        # The liquid torque is of second degree in Gamma and the turn by Gamma is in nu: a large one spoils first order only.
+        # First order leaves M1, M2 out: their share comes round with the turn, if there is one.
+        soft = {"Gamma against J0 |omega|, for first order": _over(abs(g) / J, size) if kappa else 0.0,
+                "the torque across axis 3, left out in first order, against the turn": _over(math.hypot(*M[:2]) / J, turn * speed)}
+        return cls(float(eps), ratios, soft, slow)
+
+    def refuse(self):
+        """InputError for the first ratio that is not below 1."""
+        for words, ratio in self.ratios.items():
+            if not ratio < 1:
+                raise InputError(f"averaging needs small disturbances: {words} is {ratio:.3g}, expected it below 1 (much "
+                                 "below 1 for a close answer); use the exact motion (`trajectory`) here")
+
+    def horizon(self, order) -> str:
+        """How far the answer may be trusted, in words."""
+        ratios = self.ratios | (self.soft if order == 1 else {})
+        largest = max(ratios, key=ratios.get)
+        worst, reach = ratios[largest], f"{1 / self.slow:.3g} s" if self.slow else "all times"
+        doubt = f"; doubtful here, for {largest} is {worst:.2g}" if worst > 0.3 else ""
+        return (f"errors of order eps^{order} (eps = {self.eps:.3g}) in amplitude and spin up to about {reach} (the time of "
+                f"the slow change), in the phase they grow with time{doubt}")
+
+
+def _over(a, b):
+    return a / b if b else (math.inf if a else 0.0)
+
+
+class _Model:
+    """The averaged equations of one scene as plain numbers."""
+
+    def __init__(self, scene, numbers, omega, order):
+        self.order = order
+        self.parameters = [float(numbers[n]) for n in NAMES]
+        J, d, h, g = self.parameters[:4]
+        self.slope, self.offset = d / J, float(numbers["Gamma"] / numbers["J0"])
+        size = float(np.linalg.norm(omega))
+        harmonics = abs(h) * size / J + (math.hypot(*self.parameters[6:8]) / (J * size) if size else 0.0)
+        self.width = max(SHARE * (abs(d) * size + abs(g)) / J, GUARD * harmonics)
+        self.means, self.kept, self.near = _functions(normal_form(scene), order, frozenset(n for n in NAMES if not numbers[n]))
+
+    def removal(self, nu):
+        """m = (1 - K)/nu, its derivative, and K = exp(-(nu/width)^4); without a width everything is kept."""
+        if not self.width:
+            return nu * 0.0, nu * 0.0, nu * 0.0 + 1.0
+        x = np.clip(nu / self.width, -1e60, 1e60)
+        kept = np.exp(-x**4)
+        safe = np.where(x == 0, 1.0, x)
+        share = np.where(x == 0, 0.0, -np.expm1(-x**4) / safe)
+        return share / self.width, (4 * x**2 * kept - share / safe) / self.width**2, kept
+
+    def removal_at(self, nu):
+        """`removal` of one float."""
+        x = nu / self.width if self.width else 0.0
+        if not x:
+            return 0.0, 0.0, 1.0
+        x = min(max(x, -1e60), 1e60)
+        kept, share = math.exp(-x**4), -math.expm1(-x**4) / x
+        return share / self.width, (4 * x**2 * kept - share / x) / self.width**2, kept
+
+    def near_identity(self, Z, r):
+        """(U_Z, U_r) at averaged variables; complex and real."""
+        uz, ur = self.near(Z, np.conj(Z), r, *self.removal(self.slope * r - self.offset), *self.parameters)
+        return uz, np.real(ur)
+
+    def outward(self, Z, r):
+        """(n, 3) angular velocity of the averaged variables Z, r, each (n,)."""
+        if self.order == 2:
+            uz, ur = self.near_identity(Z, r)
+            Z, r = Z + uz, r + ur
+        return np.stack([np.real(Z), -np.imag(Z), r], axis=-1)
+
+    def inward(self, omega):
+        """Averaged (p, q, r) of an angular velocity: the change of variables undone. Raises InputError if it cannot be."""
+        y = omega.copy()
+        if self.order == 1:
+            return y
+        scale = float(np.abs(omega).max())
+        for _ in range(INVERSIONS):
+            miss = omega - self.outward(np.array([complex(y[0], -y[1])]), y[2:])[0]
+            y = y + miss
+            if not np.abs(miss).max() > 4e-16 * scale:
+                return y
+        if np.abs(miss).max() < 1e-13 * scale:
+            return y
+        raise InputError("averaging to second order needs smaller disturbances: the change of the initial values to averaged "
+                         f"variables does not converge (off by {np.abs(miss).max():.2g} rad/s); use order 1 or the exact motion")
+
+    def rates(self, t, y):
+        """Rates of (Re W, Im W, r, psi)."""
+        W, r, psi = complex(y[0], y[1]), y[2], y[3]
+        nu = self.slope * r - self.offset
+        if self.order == 1:
+            turn, spin = self.means(abs(W) ** 2, r, 0.0, 0.0, 0.0, *self.parameters)
+            kept_W = kept_r = 0.0
+        else:
+            removal = self.removal_at(nu)
+            turn, spin = self.means(abs(W) ** 2, r, *removal, *self.parameters)
+            kept_W = kept_r = 0.0
+            if removal[2]:
+                unit = complex(math.cos(psi), math.sin(psi))
+                Z = W * unit
+                kept_W, kept_r = self.kept(Z, Z.conjugate(), r, *removal, *self.parameters)
+                kept_W = kept_W * unit.conjugate()
+        turn = complex(turn)
+        dW = W * turn.real + kept_W
+        return [dW.real, dW.imag, complex(spin + kept_r).real, nu + turn.imag]
+
+    def run(self, w0, r0, grid, sense):
+        """([(W, r, psi, unwrapped angle of W)] at the times of grid, failure or None); grid > 0, run backward for sense -1."""
+        from scipy.integrate import solve_ivp
+        fine = np.union1d(grid, np.linspace(0.0, grid[-1], SAMPLES))
+        y0 = [w0.real, w0.imag, r0, 0.0]
+        floor = RTOL * 1e-2 * max(abs(w0), abs(r0), self.width, 1e-300)
+        with np.errstate(all="ignore"):
+            run = solve_ivp(lambda t, y: [sense * v for v in self.rates(t, y)], (0.0, grid[-1]), y0, "DOP853", t_eval=fine,
+                            rtol=RTOL, atol=floor)
+        W = run.y[0] + 1j * run.y[1]
+        angle = np.unwrap(np.angle(W))
+        wanted = np.isin(run.t, grid)
+        rows = list(zip(W[wanted], run.y[2][wanted], run.y[3][wanted], angle[wanted]))
+        return rows, None if run.success else f"the run stopped at t = {sense * run.t[-1]:.6g}: {run.message}"
+
+
+@lru_cache(maxsize=32)
+def _functions(form, order, absent):
+    """(means(S, r, m, m1, K, ...), kept(Z, Zc, r, m, m1, K, ...), near(...)) up to an order; absent: names that are 0."""
+    from sympy import Symbol, expand
+    Z, Zc, r, m, m1, K = form.variables
+    gone = {s: 0 for s, n in zip(form.symbols, NAMES) if n in absent}
+    means = [sum(part[:order]) for part in (form.turn, form.spin)]
+    kept = [sum(parts) for parts in zip(*form.kept)]
+    inner = [r, m, m1, K, *form.symbols]
+    return tuple(lambdified([*first, *inner], [expand(e.subs(gone)) for e in expressions], cse=True) for first, expressions
+                 in (([Symbol("S", real=True)], means), ([Z, Zc], kept), ([Z, Zc], form.near)))

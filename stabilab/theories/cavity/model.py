@@ -1,0 +1,35 @@
+"""The averaged models of a body with a liquid or a resistance, as models of a case."""
+from __future__ import annotations
+
+import numpy as np
+
+from ...errors import InputError
+from ...answers.simulate import Simulation
+
+MODELS = ("averaged1", "averaged2", "printed")
+
+
+def applies(scene) -> bool:
+    """Whether averaging covers the scene."""
+    from .normal_form import check
+    if not {e.name for e in scene.effects} & {"liquid_cavity", "resistance"}:
+        return False
+    try:
+        check(scene)
+    except InputError:
+        return False
+    return True
+
+
+def follow(model, case, times, order=None) -> Simulation:
+    """The case's motion by an averaged model, or by the paper's polynomials."""
+    if model == "printed":
+        from .printed import printed
+        run = printed(case.scene, case.state, times, compare=False)
+        how, reason = "Galal et al. (24)-(26)", run.reason
+    else:
+        from .averaged import averaged
+        run = averaged(case.scene, case.state, times, order=int(model[-1]))
+        how, reason = f"averaged equations of order {run.order}, eps = {run.eps:.6g}", f"{run.reason}; {run.horizon}"
+    state = {"omega": run.omega, "amplitude": run.amplitude, "spin": run.spin, "phase": run.phase}
+    return Simulation(np.asarray(run.t), state, model, how, None, status=run.status, reason=reason)

@@ -1,0 +1,154 @@
+"""The printed Taylor polynomials of the body with a liquid, and the time at which they stop being true.
+
+Galal, Amer, Elneklawy, El-Kafly, "Studying the influence of a gyrostatic moment on the motion of a charged rigid body
+containing a viscous incompressible liquid", eqs (13), (14), (24)-(29). What is wrong in print, and how it is read here:
+- (20), (24), (27): the term of (D1' - D2')/4 lacks the factor a^2/2 that averaging (18) gives: kept as printed (its dimension is wrong).
+- (20)-(22), (24)-(28): the liquid torque is that of a body without rotor and charge, the average of a frequency that
+  contains both; terms of the same order are missing: kept as printed.
+- (24): "- eps lambda a" for "- eps zeta a" of (20), (27); lambda is nowhere defined: read as zeta.
+- (25): B' for D2'; (19): A' for D1'; (7): D3' for D1': read so.
+- (24)-(26): braces that do not close: closed so that (24)-(26) are the Taylor polynomials of (20)-(22), which they are otherwise.
+- after (13): sin phi0 lacks the sign of (13): the phase is taken from (13), so the motion starts at the given state.
+- (13), (14): the amplitude is that of p alone, with a square root of (D1' r - g)/(D2' r - g): no real motion where
+  that is negative, and none at D2' r = g, though the true motion is regular there.
+The polynomials are of second degree in t and turn back, the phase among them: they hold for short times only.
+"""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ...errors import InputError
+from .averaged import _omega, _times
+from .normal_form import check, constants
+from ...integrate.trajectory import trajectory
+
+GRID = 2001  # times at which the departure is looked for; the crossing is interpolated
+LEVELS = (0.01, 0.1)
+
+
+@dataclass(frozen=True)
+class PrintedMotion:
+    """The printed solution at the asked-for times.
+
+    t: (n,) s, up to where it exists; amplitude a of p, rad/s, spin r, rad/s, phase phi, rad: (n,); omega: (n, 3) rad/s, body
+    frame, by (14). stops: quantity ("omega", "amplitude", "spin", "phase") -> (time of the first 1 %, of the first 10 %
+    departure from the exact motion), s; None where there is none in the span. A departure is relative to the largest
+    size of the quantity so far; of the phase it is 0.01 and 0.1 of a turn. status: "reached" or "stopped"; reason: why.
+    """
+
+    t: object
+    amplitude: object
+    spin: object
+    phase: object
+    omega: object
+    stops: dict = field(default_factory=dict)
+    status: str = "reached"
+    reason: str = "all times reached"
+
+
+@dataclass(frozen=True)
+class Polynomials:
+    """(24)-(26) of one scene and start: Taylor coefficients of a, r, phi in t, in s (tau = eps t, so eps drops out)."""
+
+    a: tuple
+    r: tuple
+    phi: tuple
+    d: tuple
+    gamma: float
+    J0: float
+
+    @classmethod
+    def of(cls, scene, omega) -> Polynomials:
+        check(scene)
+        n = {k: float(v) for k, v in constants(scene).items()}
+        J, g, zeta, M3, L = n["J0"], n["Gamma"], n["zeta"], n["M3"], n["kappa"] / n["J0"] ** 3  # (23)
+        exact = scene.body.exact
+        d1, d2 = float(exact[0] - exact[2]), float(exact[1] - exact[2])
+        p, q, r = omega
+        x1, x2 = d1 * r - g, d2 * r - g
+        if not x1 * x2 > 0:
+            raise InputError(f"the printed solution does not exist here: it needs (D1'r - g)(D2'r - g) > 0 at the start, got "
+                             f"{x1 * x2:.3g}")
+        a, phi = math.hypot(p, q * math.sqrt(x2 / x1)), math.atan2(-q * math.copysign(math.sqrt(x2 / x1), x2), p)  # (13)
+        G, dG = x1 / x2, (d2 - d1) * g / x2**2  # and its derivative in r
+        mean, one, two = J * (d1 + d2) + (d1 - d2) ** 2, J + d1 + 2 * d2, J + 2 * d1 + d2
+        three, four = d2 * (J + 2 * d2 - d1), d1 * (J + 2 * d1 - d2)
+        f1 = L * a * (r**2 / 2 * mean + (d1 - d2) / 4 * (one * G - two)) - zeta * a  # (27)
+        f2 = -L * r * a**2 / 2 * (three * G + four) - (zeta * r - M3 / J)  # (28)
+        shrink = 1 - (d1 + d2) / (2 * J)
+        f3 = math.sqrt(x1 * x2) / J * shrink  # (29)
+        a2 = ((L * f1 * r**2 / 2 + L * a * r * f2) * mean + one * (f1 * G + a * dG * f2) * L * (d1 - d2) / 4
+              - L * f1 * (d1 - d2) / 4 * two - zeta * f1)
+        r2 = (-L * a / 2 * three * ((2 * r * f1 + f2 * a) * G + r * a * dG * f2) - L * a / 2 * four * (2 * r * f1 + f2 * a)
+              - zeta * f2)
+        phi2 = shrink / (2 * J) * (2 * d1 * d2 * r - (d1 + d2) * g) * f2 / math.sqrt(x1 * x2)
+        return cls((a, f1, a2 / 2), (r, f2, r2 / 2), (phi, f3, phi2 / 2), (d1, d2), g, J)
+
+    def at(self, t):
+        """(a, r, phi, omega) at the times t (n,); rows of omega are NaN where (14) has no real value."""
+        a, r, phi = (np.polyval(c[::-1], t) for c in (self.a, self.r, self.phi))
+        x1, x2 = (d * r - self.gamma for d in self.d)
+        with np.errstate(all="ignore"):
+            ratio = np.where(x1 * x2 > 0, x1 / x2, np.nan)
+        q = -a * np.sign(x2) * np.sqrt(ratio) * np.sin(phi)  # (14)
+        return a, r, phi, np.stack([a * np.cos(phi), q, r], axis=-1)
+
+
+def printed(scene, state, times, compare: bool = True) -> PrintedMotion:
+    """The paper's solution from `state` (three numbers, rad/s, or {"omega": ...}) at times (n,) >= 0, increasing, s.
+
+    compare: integrate the exact motion too and say when the polynomials stop being true (over the span of the times).
+    Raises InputError where the scene is not the paper's (as `averaged`) and where the printed formulas have no real
+    value at the start.
+    """
+    omega, times = _omega(state), _times(times)
+    if (times < 0).any() or (np.diff(times) <= 0).any():
+        raise InputError("times: expected increasing times, 0 or later")
+    poly = Polynomials.of(scene, omega)
+    a, r, phi, w = poly.at(times)
+    good = np.isfinite(w).all(axis=1)
+    count = len(times) if good.all() else int(np.argmin(good))
+    stops = departures(scene, omega, poly, float(times[-1])) if compare and times[-1] > 0 else {}
+    reason = ("all times reached" if count == len(times) else
+              f"the printed q has no real value at t = {times[count]:.6g}: (D1'r - g)(D2'r - g) is not positive there")
+    return PrintedMotion(times[:count], a[:count], r[:count], phi[:count], w[:count], stops,
+                         "reached" if count == len(times) else "stopped", reason)
+
+
+def departures(scene, omega, poly, end) -> dict:
+    """Quantity -> times of the first 1 % and 10 % departure of the polynomials from the exact motion up to `end`.
+
+    The amplitude and phase of the exact motion are those of (13) for its own r. Where the printed motion ceases to
+    exist counts as a full departure.
+    """
+    t = np.linspace(0.0, end, GRID)
+    run = trajectory(scene, omega, t)
+    t, exact = run.t, run.states
+    a, r, phi, w = poly.at(t)
+    x1, x2 = (d * exact[:, 2] - poly.gamma for d in poly.d)
+    with np.errstate(all="ignore"):
+        stretch = np.sqrt(np.where(x1 * x2 > 0, x2 / x1, np.nan))
+    amplitude = np.hypot(exact[:, 0], exact[:, 1] * stretch)
+    turn = np.unwrap(np.nan_to_num(np.arctan2(-exact[:, 1] * np.sign(x2) * stretch, exact[:, 0])))
+    turn = np.where(np.isnan(stretch), np.nan, turn)
+    size = np.linalg.norm(exact, axis=1)
+    pairs = {"omega": (np.linalg.norm(w - exact, axis=1), size), "amplitude": (np.abs(a - amplitude), amplitude),
+             "spin": (np.abs(r - exact[:, 2]), np.abs(exact[:, 2])), "phase": (np.abs(phi - turn), np.full(t.size, 2 * math.pi))}
+    return {name: tuple(_first(t, error, np.fmax.accumulate(scale), level) for level in LEVELS)
+            for name, (error, scale) in pairs.items()}
+
+
+def _first(t, error, scale, level):
+    """Time at which error/scale first passes the level, between two grid times by a straight line; None if never."""
+    with np.errstate(all="ignore"):
+        share = np.where(scale > 0, error / scale, np.where(error > 0, np.inf, 0.0))
+    over = ~(share <= level)  # NaN: the quantity does not exist, a departure
+    if not over.any():
+        return None
+    i = int(np.argmax(over))
+    if i == 0 or not np.isfinite(share[i]):
+        return float(t[i])
+    return float(t[i - 1] + (t[i] - t[i - 1]) * (level - share[i - 1]) / (share[i] - share[i - 1]))

@@ -1,0 +1,1 @@
+"""The charged, nearly axisymmetric body."""

@@ -1,0 +1,56 @@
+"""The models a case can be followed with: the exact motion, and the analytic solutions that apply to its scene."""
+from __future__ import annotations
+
+import difflib
+from dataclasses import replace
+from importlib import import_module
+
+from ..errors import InputError
+from ..answers.simulate import simulate, Simulation
+
+# model -> the modules that may have it, each with `applies(scene)` and `follow(model, case, times, order)`
+FAMILIES = ("charged.model", "cavity.model", "top.model")
+MODELS = ("exact", "linear", "corrected", "printed", "averaged1", "averaged2", "lindstedt")
+
+
+def family(scene):
+    """The module of analytic solutions that applies to a scene, or None."""
+    if scene.variables == "scaled":
+        return None
+    for name in FAMILIES:
+        module = import_module(f".{name}", __package__)
+        if module.applies(scene):
+            return module
+    return None
+
+
+def models_of(scene) -> tuple[str, ...]:
+    """The models that apply to a scene, the exact one first."""
+    found = family(scene)
+    return ("exact",) if found is None else ("exact", *found.MODELS)
+
+
+def follow(case, times, model: str = "exact", method: str | None = None, rtol: float | None = None,
+           order: int | None = None) -> Simulation:
+    """The motion of a case by one model at the given times.
+
+    order: of the expansion, for "lindstedt" only. Raises InputError for a model that does not apply to the scene, with
+    those that do, and as `simulate` does.
+    """
+    if model not in MODELS:
+        close = difflib.get_close_matches(str(model), MODELS, 1)
+        hint = f'; did you mean "{close[0]}"?' if close else ""
+        raise InputError(f"model: there is no {model!r}; choose one of {', '.join(MODELS)}{hint}")
+    if order is not None and model != "lindstedt":
+        raise InputError(f"order: belongs to the model \"lindstedt\", not to {model!r}")
+    if model == "exact":
+        return simulate(case.scene, case.state, times, case.blocks, method, rtol)
+    if model not in models_of(case.scene):
+        raise InputError(f"model: {model!r} does not apply to this scene; it has {', '.join(models_of(case.scene))}")
+    if method is not None or rtol is not None:
+        raise InputError(f"method, rtol: the model {model!r} is a formula; they belong to the model \"exact\"")
+    run = family(case.scene).follow(model, case, times, order)
+    if not case.scene.approximate or "omega" not in run.state or not len(run.t):
+        return run
+    from ..physics.law_limits import along
+    return replace(run, validity=along(case.scene, run.state, "at the times told"))

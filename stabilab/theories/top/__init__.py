@@ -1,0 +1,1 @@
+"""The fast top in a Newtonian field, by a small parameter."""

@@ -1,0 +1,186 @@
+"""Classical Euler angles of a top: precession psi, nutation theta, self-rotation phi, followed through whole turns.
+
+gamma = (sin theta sin phi, sin theta cos phi, cos theta); phi' + psi' cos theta = r, and
+
+    psi' = (p gamma + q gamma')/(1 - gamma''^2)
+
+(Amer et al. 2023, fast top: eq. (42) prints 1 - gamma'^2). Where theta is 0 or pi, psi and phi have no values of their
+own, but psi + phi has at theta = 0 and psi - phi at theta = pi. What is integrated is therefore psi + phi where
+gamma'' >= 0 and psi - phi where it is negative, with rates that stay regular there, and psi follows by taking off phi.
+At a sample with sin theta < 1e-8 phi keeps its last value; `status` is then "singular" and `reason` says when.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...errors import InputError
+
+SINGULAR = 1e-8  # below this sin(theta) rounding decides phi
+AWAY = 0.1  # 1 +- gamma'' beyond this is far enough from the pole for a smooth rate
+COARSE = 1e-3  # rad: an estimated error of psi above this is said
+FINEST = 2**16  # samples of one revolution; a path closer to a pole than they resolve is said to be coarse
+
+
+@dataclass(frozen=True)
+class EulerAngles:
+    """psi, theta, phi (n,), rad, at t (n,), s; theta in [0, pi], psi and phi unwrapped, psi = psi0 at the first time
+    (for a periodic motion: at t = 0). error: estimated error of psi, rad. status: "regular", "singular" (theta reaches 0
+    or pi), "coarse" (the samples are too far apart for psi); reason: in words."""
+
+    t: np.ndarray
+    psi: np.ndarray
+    theta: np.ndarray
+    phi: np.ndarray
+    error: float
+    status: str
+    reason: str
+
+
+def euler_angles(t, omega, gamma, psi0: float = 0.0) -> EulerAngles:
+    """Angles along samples of any motion.
+
+    t: (n,) strictly increasing, s; omega: (n, 3) rad/s and gamma: (n, 3), body frame. psi is the integral of its rate
+    through a cubic spline of the samples, so they must resolve the motion (some twenty to a revolution; the error is
+    estimated from every other sample). Raises InputError for arrays of other shapes and for times that do not increase.
+    """
+    t, omega, gamma = (np.asarray(x, float) for x in (t, omega, gamma))
+    if t.ndim != 1 or not t.size or omega.shape != (t.size, 3) or gamma.shape != (t.size, 3):
+        raise InputError(f"expected t (n,), omega (n, 3), gamma (n, 3); got shapes {t.shape}, {omega.shape}, {gamma.shape}")
+    if not (np.diff(t) > 0).all():
+        raise InputError("t: expected strictly increasing times")
+    gamma = _unit(gamma)
+    phi, singular = _phi(t, omega, gamma)
+    psi = psi0 + _psi(t, omega, gamma, phi)
+    error = float(np.abs(_psi(t[::2], omega[::2], gamma[::2], phi[::2]) - (psi[::2] - psi0)).max()) / 15 if t.size > 4 else 0.0
+    return EulerAngles(t, psi, _theta(gamma), phi, error, *_verdict(t[singular], error))
+
+
+def _unit(gamma):
+    length = np.linalg.norm(gamma, axis=1)
+    if not (length > 0).all():
+        raise InputError("gamma: expected vectors other than zero")
+    return gamma / length[:, None]
+
+
+def _theta(gamma):
+    return np.arctan2(np.hypot(gamma[:, 0], gamma[:, 1]), gamma[:, 2])
+
+
+def _verdict(times, error):
+    if times.size:
+        return "singular", (f"theta is 0 or pi at t = {times[0]:.6g} s: there only the sum (or difference) of psi and phi means "
+                            "something; phi keeps its last value")
+    if error > COARSE:
+        return "coarse", f"the samples are too far apart: psi is known to about {error:.2g} rad"
+    return "regular", "theta stays away from 0 and pi at all samples"
+
+
+def _moment(omega, gamma):
+    return omega[:, 0] * gamma[:, 0] + omega[:, 1] * gamma[:, 1]
+
+
+def _rates(omega, gamma):
+    """Rates of psi + phi and of psi - phi; each held finite where the other one is in use."""
+    m, r, g3 = _moment(omega, gamma), omega[:, 2], gamma[:, 2]
+    return r + m / np.maximum(1 + g3, AWAY), -r + m / np.maximum(1 - g3, AWAY)
+
+
+def _phi(t, omega, gamma):
+    """(phi unwrapped along its rate, where it has no value)."""
+    phi, sine = np.arctan2(gamma[:, 0], gamma[:, 1]), np.hypot(gamma[:, 0], gamma[:, 1])
+    singular = sine < SINGULAR
+    if singular.any():
+        last = np.maximum.accumulate(np.where(singular, 0, np.arange(t.size)))
+        phi = phi[last] if not singular[0] else np.where(last > 0, phi[last], phi[np.argmin(singular)])
+    rate = omega[:, 2] - _moment(omega, gamma) * gamma[:, 2] / np.maximum(sine, SINGULAR)**2
+    expected = np.diff(t) * (rate[1:] + rate[:-1]) / 2
+    step = np.diff(phi)
+    # Beside a pole the rate says nothing: there the shorter way round is taken.
+    blind = singular[1:] | singular[:-1] | (np.abs(expected - np.diff(t) * (omega[1:, 2] + omega[:-1, 2]) / 2) > np.pi)
+    turns = np.where(blind, -np.round(step / (2 * np.pi)), np.round((expected - step) / (2 * np.pi)))
+    return phi + 2 * np.pi * np.concatenate([[0.0], np.cumsum(turns)]), singular
+
+
+def _psi(t, omega, gamma, phi):
+    """psi - psi(first), by the integral of psi + phi or psi - phi, whichever is regular."""
+    if t.size == 1:
+        return np.zeros(1)
+    from scipy.interpolate import CubicSpline
+    total, difference = (np.diff(CubicSpline(t, rate).antiderivative()(t)) for rate in _rates(omega, gamma))
+    turn = np.diff(phi)
+    upper = gamma[1:, 2] + gamma[:-1, 2] >= 0
+    return np.concatenate([[0.0], np.cumsum(np.where(upper, total - turn, difference + turn))])
+
+
+@dataclass(frozen=True)
+class _Revolution:
+    """psi and phi over one revolution of a periodic motion, as functions of the phase s."""
+
+    sign: int  # what is integrated is psi + sign phi; 0: psi itself
+    mean: float  # its mean rate over s
+    coefficients: np.ndarray  # Fourier coefficients of its rate over s, without the mean
+    s: np.ndarray
+    phi: np.ndarray  # unwrapped, at the phases s
+    winding: float
+    singular: bool
+    tail: float
+
+    def integral(self, s):
+        """psi + sign phi, 0 at s = 0."""
+        k = np.arange(1, self.coefficients.size + 1)
+        waves = self.coefficients / (1j * k)
+        return self.mean * s + 2 * np.real(np.exp(1j * np.outer(s, k)) @ waves - waves.sum())
+
+    def turned(self, s, phi):
+        """phi (modulo a turn, at the phases s) unwrapped from s = 0 on."""
+        expected = np.interp(s % (2 * np.pi), self.s, self.phi) + self.winding * np.floor(s / (2 * np.pi))
+        return phi + 2 * np.pi * np.round((expected - phi) / (2 * np.pi))
+
+
+def _revolution(motion) -> _Revolution:
+    n = 64
+    while True:
+        s = np.linspace(0, 2 * np.pi, n + 1)
+        omega, gamma = motion.at(s / motion.frequency)
+        omega, gamma = omega / motion.frequency, _unit(gamma)
+        phi, singular = _phi(s, omega, gamma)
+        low, high = gamma[:, 2].min(), gamma[:, 2].max()
+        sign = 1 if low > AWAY - 1 else -1 if high < 1 - AWAY else 0
+        rate = (_rates(omega, gamma)[0 if sign > 0 else 1] if sign else
+                _moment(omega, gamma) / np.maximum(1 - gamma[:, 2]**2, SINGULAR**2))
+        waves = np.fft.rfft(rate[:-1]) / n
+        tail = float(np.abs(waves[n // 4:]).max() / (np.abs(waves).max() or 1.0))
+        step = float(np.abs(np.diff(phi)).max())
+        if (tail < 1e-15 and step < 1) or n >= FINEST:
+            keep = n // 4
+            return _Revolution(sign, float(waves[0].real), waves[1:keep + 1], s, phi, float(phi[-1] - phi[0]),
+                               bool(singular.any()), tail)
+        n *= 2
+
+
+def periodic_angles(motion, times=None, psi0: float = 0.0) -> EulerAngles:
+    """Angles of a `LindstedtMotion` at its times (or others, s, in any order), psi = psi0 at t = 0; psi is integrated
+    term by term of its Fourier series, so it is as good after a million revolutions as in the first."""
+    times = motion.t if times is None else np.asarray(times, float)
+    if motion.order < 0:
+        raise InputError(f"there is no periodic motion to take angles of: {motion.reason}")
+    turn, s = _revolution(motion), motion.frequency * times
+    gamma = _unit(motion.at(times)[1])
+    phi = turn.turned(s, np.arctan2(gamma[:, 0], gamma[:, 1]))
+    psi = psi0 + turn.integral(s) - turn.sign * (phi - turn.phi[0])
+    sine = np.hypot(gamma[:, 0], gamma[:, 1])
+    error = turn.tail * float(np.abs(s).max(initial=0.0))
+    singular = times[sine < SINGULAR] if not turn.singular else times[:1]
+    return EulerAngles(times, psi, _theta(gamma), phi, error, *_verdict(singular, error))
+
+
+def mean_precession(motion) -> float:
+    """Mean of psi' over a period of a `LindstedtMotion`, rad/s. Where theta passes through 0 or pi it is the mean of
+    (psi +- phi)' less that of phi' counted at the samples. Raises InputError where the axis stays within 1e-8 of the vertical."""
+    turn = _revolution(motion)
+    gamma = _unit(motion.at(turn.s / motion.frequency)[1])
+    if (np.hypot(gamma[:, 0], gamma[:, 1]) < SINGULAR).mean() > 0.5:
+        raise InputError("the axis stays within 1e-8 rad of the vertical: psi has no rate of its own there; start further off")
+    return motion.frequency * (turn.mean - turn.sign * turn.winding / (2 * np.pi))

@@ -1,0 +1,224 @@
+"""The motion of a body with more than a gyrostat and a constant torque: bounded or not, and where it tends.
+
+What proves a bound here: the energy falls (liquid, resistance), or resistance outgrows any torque of bounded size, or
+energy and |gamma| = 1 are kept (field). Each proof comes with its numbers. Extremes are roots of the rates over the span.
+"""
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from math import hypot, sqrt
+
+from ..physics.effects.base import cross, dot
+from ..errors import InputError
+from ..physics.coefficients import Content, content, gyrostat_scene
+from ..orbit.fate.reasons import Reason, REASONS
+from ..orbit.result import Fate, Motion
+
+STIFF = 1e5  # fastest decay times span beyond which a search for extremes would take minutes
+
+
+def other_motion(scene, state, span=None, exact=None) -> Motion | None:
+    """The motion from `state` (three numbers; six, omega and gamma, or a dict of blocks, where gamma is part of the state); None for
+    scenes with effects that are not known here. exact: as of `motion`."""
+    parts = content(scene)
+    if parts is None:
+        return None
+    omega, gamma = split(parts, state)
+    if parts.kind == "gyrostat":
+        from ..answers.motion import motion
+        found = motion(gyrostat_scene(parts), omega, span, exact=exact)
+        return replace(found, because=f"{found.because}; {parts.note}") if parts.note else found
+    at = omega + (gamma or ())
+    seen = {} if span is None else _over_span(scene, omega, gamma, span)
+    if _at_rest(parts, exact or omega, gamma):
+        fields = {"fate": Fate.EQUILIBRIUM, "because": REASONS[Reason.AT_REST],
+                  "extremes": tuple((w, w) for w in omega)}
+    else:
+        fate, because, bounds = judged(parts, omega, gamma)
+        fields = {**seen, "fate": fate, "because": because, "invariants": bounds}
+    because = f"{fields['because']}; {parts.note}" if parts.note else fields["because"]
+    return Motion(at=at, **{**fields, "because": because})
+
+
+def split(parts: Content, state):
+    """(omega, gamma or None) as plain floats."""
+    from ..integrate.trajectory import _numbers
+    if isinstance(state, dict):
+        rows = [state.get("omega", ()), state.get("gamma", ())]
+    else:
+        row = _numbers(state, "state")
+        rows = [row[:3], row[3:]]
+    omega, gamma = (tuple(map(float, _numbers(row, "state"))) if len(row) else () for row in rows)
+    if len(omega) != 3 or len(gamma) not in (0, 3):
+        raise InputError("state: expected three numbers (omega), or six (omega, gamma), or a dict of blocks")
+    if not parts.directed:
+        return omega, None
+    if not gamma:
+        raise InputError("state: an effect of this scene asks where the vertical is: give gamma too (six numbers, or a dict of blocks)")
+    return omega, gamma
+
+
+def rates(parts: Content, omega, gamma):
+    """(omega', gamma') in exact fractions; with a liquid only where nothing depends on gamma."""
+    w = tuple(map(Fraction, omega))
+    g = tuple(map(Fraction, gamma)) if gamma else (Fraction(0),) * 3
+    D = parts.D
+    H = tuple(d * x + l for d, x, l in zip(D, w, parts.Lambda))
+    total = list(cross(H, w))
+    total = [t + m - parts.c * d * x for t, m, d, x in zip(total, parts.M, D, w)]
+    if parts.kappa:
+        total = [t + parts.kappa * v for t, v in zip(total, liquid_torque(parts, w))]
+    if gamma:
+        field = (cross(parts.s, g), cross(g, tuple(parts.N * d * x for d, x in zip(D, g))), cross(w, (0, 0, parts.E * g[2])))
+        total = [t + sum(part[i] for part in field) for i, t in enumerate(total)]
+    return tuple(t / d for t, d in zip(total, D)), cross(g, w) if gamma else ()
+
+
+def liquid_torque(parts: Content, w):
+    """omega'' + omega x omega' along the motion without small effects (any scalar type)."""
+    D = parts.D
+    moment = (0, 0, 0) if parts.printed else parts.Lambda
+    H = tuple(d * x + l for d, x, l in zip(D, w, moment))
+    first = tuple(t * (1 / d) for t, d in zip(cross(H, w), D))
+    turned = tuple(p + q for p, q in zip(cross(tuple(d * a for d, a in zip(D, first)), w), cross(H, first)))
+    return tuple(t * (1 / d) + v for t, d, v in zip(turned, D, cross(w, first)))
+
+
+def _at_rest(parts: Content, omega, gamma) -> bool:
+    """Whether every rate vanishes exactly (not asked with a liquid in a field)."""
+    return not (parts.kappa and gamma) and not any(v for block in rates(parts, omega, gamma) for v in block)
+
+
+def judged(parts: Content, omega, gamma) -> tuple[Fate, str, dict]:
+    """(fate, proof in words, the numbers in it)."""
+    if gamma:
+        return _directed(parts, omega, gamma)
+    T0 = sum(float(d) * w * w for d, w in zip(parts.D, omega)) / 2
+    if parts.kappa and any(parts.Lambda) and not parts.printed:
+        return _wheel_and_liquid(parts, T0)
+    if parts.c:
+        return _resisted(parts, T0)
+    if any(parts.M):
+        return (Fate.UNDECIDED, "undecided: the torque does work at the rate M . omega, and what the liquid takes, of fourth order in the rates, "
+                "vanishes about the principal axes: no bound is proved", {})
+    return _liquid(parts, omega, T0)
+
+
+def _resisted(parts: Content, T0) -> tuple[Fate, str, dict]:
+    from ..equilibrium.damped.medium import energy_bound, GLOBAL, resisted_equilibria
+    least = sqrt(float(min(parts.D)))
+    takes = "T' <= " if parts.kappa else "T' = "
+    if not any(parts.M):
+        return (Fate.BOUNDED, f"{takes}-2 c T: the energy falls at least as T(0) exp(-2 c t), so the motion tends to rest",
+                {"energy": T0, "rate_bound": sqrt(2 * T0) / least})
+    largest, late = energy_bound(parts, T0)
+    words = (f"{takes}M . omega - 2 c T <= sqrt(2 T) (sqrt(M . D^-1 M) - c sqrt(2 T)): resistance outgrows the torque, so |omega| <= "
+             f"{largest / least:.6g} rad/s always and <= {late / least:.6g} rad/s in the end")
+    bounds = {"energy": T0, "rate_bound": largest / least, "late_rate_bound": late / least}
+    if parts.kappa:
+        return Fate.BOUNDED, words + "; where it tends is undecided", bounds
+    found = resisted_equilibria(parts)
+    drawn = [p for p in found.points if GLOBAL in p.because]
+    if drawn:
+        where = "it tends to the equilibrium (" + ", ".join(f"{v:.12g}" for v in drawn[0].at) + "), as every motion does"
+    else:
+        attracting = sum(p.verdict == "asymptotically stable" for p in found.points)
+        where = f"where it tends is undecided: {attracting} of {len(found.points)} equilibria attract their neighbourhood, and no proof covers all motions"
+    return Fate.BOUNDED, f"{words}; {where}", bounds
+
+
+def _liquid(parts: Content, omega, T0) -> tuple[Fate, str, dict]:
+    """Liquid alone: |H| stays where no wheel acts, the energy falls."""
+    if any(parts.Lambda):  # the printed torque
+        return (Fate.BOUNDED, "the printed torque of the liquid takes energy, T' <= 0; where the motion tends is undecided, since "
+                "this torque changes the angular momentum", {"energy": T0, "rate_bound": sqrt(2 * T0 / float(min(parts.D)))})
+    w = tuple(map(Fraction, omega))
+    square, twice = sum((d * x) ** 2 for d, x in zip(parts.D, w)), sum(d * x * x for d, x in zip(parts.D, w))
+    size, order = sqrt(float(square)), sorted(range(3), key=lambda i: -parts.D[i])
+    bounds = {"energy": T0, "momentum": size, "rate_bound": size / float(min(parts.D))}
+    words = "the liquid keeps |H| and takes energy at every rotation that is not permanent (LaSalle), so the motion is bounded"
+    first, second = order[:2]
+    if parts.D[first] == parts.D[second]:
+        return Fate.BOUNDED, words + " and tends to permanent rotations of its |H|", bounds
+    final = [0.0] * 3
+    final[first] = size / float(parts.D[first]) * (1 if w[first] > 0 else -1)
+    if twice * parts.D[second] < square:
+        place = ", ".join(f"{v:.12g}" for v in final)
+        return (Fate.BOUNDED, f"{words}; its energy is below that of rotation about axis {second + 1} at this |H|, so it stays on its side and tends to "
+                f"rotation about axis {first + 1}, the axis of the largest moment: ({place})", bounds)
+    return (Fate.BOUNDED, f"{words} and tends to a permanent rotation of its |H|: about axis {first + 1} (largest moment) but for a set of measure zero; "
+            "which sense is undecided, since its energy is not below that of rotation about the next axis", bounds)
+
+
+def _wheel_and_liquid(parts: Content, T0) -> tuple[Fate, str, dict]:
+    """With Lambda the liquid's work has parts of either sign, which resistance outweighs below a certain energy."""
+    from ..equilibrium.damped.liquid_and_torque import trap
+    found, x0 = trap(parts), sqrt(2 * T0)
+    if found is None or x0 >= found[1]:
+        return (Fate.UNDECIDED, "undecided: with a wheel or a charge the liquid keeps |H| to first order in kappa only, and its work has parts "
+                "of either sign; no bound is proved for this state", {"energy": T0})
+    x1, x2 = found
+    least = sqrt(float(min(parts.D)))
+    words = (f"resistance outweighs torque and liquid: sqrt(2 T) falls wherever it is between {x1:.6g} and {x2:.6g}, so |omega| <= "
+             f"{max(x0, x1) / least:.6g} rad/s always")
+    end = f" and <= {x1 / least:.6g} rad/s in the end; where it tends is undecided" if x1 else "; the motion tends to rest"
+    return Fate.BOUNDED, words + end, {"energy": T0, "rate_bound": max(x0, x1) / least, "late_rate_bound": x1 / least}
+
+
+def _directed(parts: Content, omega, gamma) -> tuple[Fate, str, dict]:
+    T0 = sum(float(d) * w * w for d, w in zip(parts.D, omega)) / 2
+    s, N = tuple(map(float, parts.s)), float(parts.N)
+    V0 = -dot(s, gamma) + N / 2 * sum(float(d) * g * g for d, g in zip(parts.D, gamma))
+    least, most = float(min(parts.D)), float(max(parts.D))
+    floor = -hypot(*s) + N / 2 * (least if N > 0 else most)
+    if parts.kappa:
+        return (Fate.UNDECIDED, "undecided: the torque of the field enters the liquid's own, whose work may have either sign; no bound is proved",
+                {"energy": T0 + V0})
+    if not any(parts.M):
+        rate = sqrt(max(0.0, 2 * (T0 + V0 - floor) / least))
+        kept = "falls (the medium takes 2 c T)" if parts.c else "is kept"
+        end = "; it tends to rest (LaSalle)" if parts.c else ""
+        return (Fate.BOUNDED, f"|gamma| = 1 bounds the potential energy from below and the sum of kinetic and potential energy {kept}: T <= "
+                f"{T0 + V0 - floor:.6g} J, so |omega| <= {rate:.6g} rad/s{end}", {"energy": T0 + V0, "rate_bound": rate})
+    if parts.c:
+        torque = hypot(*map(float, parts.M)) + hypot(*s) + abs(N) * (most - least) / 2
+        late = torque / sqrt(least) / float(parts.c)
+        rate = max(sqrt(2 * T0), late) / sqrt(least)
+        return (Fate.BOUNDED, f"the torque is at most {torque:.6g} N m, and T' <= |torque| |omega| - 2 c T: resistance outgrows it, so |omega| <= {rate:.6g} "
+                "rad/s; where it tends is undecided", {"energy": T0 + V0, "rate_bound": rate})
+    return (Fate.UNDECIDED, "undecided: the constant torque does work in a body that also turns in a field; no bound and no release is proved",
+            {"energy": T0 + V0})
+
+
+def _over_span(scene, omega, gamma, span) -> dict:
+    """Extremes as roots of the rates over the length of the span, and how the energy went; empty where the decay is too fast."""
+    import numpy as np
+    from ..physics.to_numpy import to_numpy
+    from ..integrate.extrema import roots_of_rates
+    from ..integrate.trajectory import _start
+    start = {"omega": omega} | ({"gamma": gamma} if gamma else {})
+    from ..physics.scene import Scene
+    turning = Scene(scene.body, *(e for e in scene.effects if e.name != "body_force"))
+    equations, state = _start(turning, start)
+    system, length = to_numpy(equations), float(span[1]) - float(span[0])
+    J = system.jacobian(state)
+    if not np.isfinite(J).all() or abs(np.linalg.eigvals(J).real).max() * length > STIFF:
+        return {"extremes_over": "none: the decay is too fast for a search over the span"}
+    found = roots_of_rates(turning, start, length)
+    over = f"s in [{float(span[0]):g}, {float(span[0]) + found.t_reached:g}]"
+    ends = system.invariants(np.vstack([found.start, found.end]))["energy"]
+    return {"extremes": tuple((float(a), float(b)) for a, b in found.extremes()),
+            "extremes_over": over,
+            **_validity(turning, found, over),
+            "evidence": {"span": found.t_reached, "energy_change": float(ends[1] - ends[0]),
+                         "rate_end": [float(v) for v in found.end[:3]], "steps": found.steps}}
+
+
+def _validity(scene, found, over) -> dict:
+    """Of approximate laws, at every state that the search met: where a rate vanishes, and at both ends."""
+    if not scene.approximate:
+        return {}
+    import numpy as np
+    from ..physics.law_limits import along
+    return {"validity": along(scene, np.vstack([found.start, found.states, found.end]), f"over {over}")}
