@@ -5,7 +5,7 @@ import numpy as np
 
 from stabilab.theories.charged.closed_form import solution
 from stabilab.theories.charged.modes import ChargedBody
-from stabilab.physics.to_numpy import TAYLOR_TOLERANCE
+from stabilab.integrate.to_heyoka import TAYLOR_TOLERANCE
 
 from .rows import Row, each
 from .timing import side_by_side

@@ -5,7 +5,7 @@ import numpy as np
 
 from stabilab import Body, ConstantTorque, derive, ensemble, Gyrostat, Scene, trajectory
 from stabilab.integrate.reference import reference, relative_errors
-from stabilab.physics.to_numpy import TAYLOR_TOLERANCE
+from stabilab.integrate.to_heyoka import TAYLOR_TOLERANCE
 
 from .contestants import BatchRuns, ScalarRuns, off_axis_rates
 from .rows import Row, each

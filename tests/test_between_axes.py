@@ -10,7 +10,7 @@ import stabilab
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, Scene
 from stabilab.orbit.extremes.arrays import extremes, extremes_and_periods, period
 from stabilab.answers.motion import motion
-from stabilab.unreduced.off_axis import extremes_over_period
+from stabilab.unreduced.free_gyrostat import extremes_over_period
 from stabilab.errors import InputError
 
 TURN = np.array([[0.6, 0.8, 0.0], [-0.8, 0.6, 0.0], [0.0, 0.0, 1.0]])

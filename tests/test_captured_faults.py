@@ -9,8 +9,11 @@ import numpy as np
 import pytest
 
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
-from stabilab.unreduced.growth import captured_extremes, captured_fate, spin_up_margin, well_margin
+from stabilab.unreduced.growth_extremes import captured_extremes
+from stabilab.unreduced.growth import captured_fate
+from stabilab.unreduced.growth_certificates import spin_up_margin, well_margin
 from stabilab.integrate.trajectory import trajectory
+from stabilab.unreduced import growth_certificates, growth_run
 
 captured = importlib.import_module("stabilab.unreduced.growth")
 STATES = [(c, y) for c in (-0.05, -0.7, -3.0, -20.0) for y in (
@@ -60,7 +63,7 @@ def test_the_margin_of_a_spin_up_is_that_of_the_proof(c, y):
                                         (2.0, -5.0, 0.0), (2.0, -3.5, 0.125)])
 def test_a_capture_is_over_when_the_barrier_has_vanished(c, J, time):
     """J falls by 2c a unit of time: to 2 for small c, else to -c^2."""
-    assert captured._release_estimate(c, J) == time
+    assert growth_certificates.release_estimate(c, J) == time
 
 
 @pytest.mark.parametrize("sign", [-1, 1])
@@ -84,7 +87,7 @@ def test_the_last_reversal_of_the_turn_is_the_same_by_both_steppers(state, turns
     compiled, found = importlib.import_module("stabilab.physics.to_numpy"), []
     for available in (True, False):
         monkeypatch.setattr(compiled, "heyoka_available", lambda: available)
-        run, last = captured._runner(0.3, state), None
+        run, last = growth_run._runner(0.3, state), None
         for t in (1.0, 2.5, 6.0):
             reached, y, reversal, steps = run(t, 10**6)
             assert reached == t and steps > 0

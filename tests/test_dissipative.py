@@ -18,7 +18,7 @@ from stabilab.equilibrium.gyrostat import equilibria
 from stabilab.physics.coefficients import content
 from stabilab.equilibrium.damped.liquid_and_torque import trap
 from stabilab.answers.motion import motion
-from stabilab.unreduced.bounds import rates
+from stabilab.physics.coefficients import rates
 from stabilab.orbit.result import Fate
 from stabilab.integrate.trajectory import trajectory
 from stabilab.physics.to_numpy import to_numpy

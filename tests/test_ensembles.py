@@ -7,7 +7,7 @@ import pytest
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, trajectory
 from stabilab.integrate import ensemble as ensembles
 from stabilab.integrate.ensemble import ensemble, LANES
-from stabilab.physics.to_numpy import heyoka_available
+from stabilab.integrate.to_heyoka import heyoka_available
 from stabilab.physics.effects import effect_class
 from stabilab.errors import InputError
 

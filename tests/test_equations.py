@@ -8,13 +8,16 @@ import pytest
 import sympy as sp
 
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
-from stabilab.physics.to_numpy import form, heyoka_available, to_numpy, to_taylor
+from stabilab.physics.to_numpy import form, to_numpy
+from stabilab.integrate.to_heyoka import heyoka_available, to_taylor
 from stabilab.physics.effects.body_force import BodyForce
 from stabilab.physics.effects.charge import Charge
 from stabilab.physics.effects.gravity import Gravity
 from stabilab.physics.effects.liquid_cavity import LiquidCavity
 from stabilab.physics.effects.resistance import Resistance
-from stabilab.physics.equations import derive, invariants, latex, lines
+from stabilab.physics.equations import derive
+from stabilab.physics.laws import invariants
+from stabilab.physics.notation import latex, lines
 
 BODY = Body((2000, "1500.5", 1000))
 WHEEL, THRUST = Gyrostat((100, "2/3", 0)), ConstantTorque((1, -2, "204.1"))

@@ -14,7 +14,8 @@ import numpy as np
 import pytest
 
 import stabilab
-from stabilab.orbit.landscape import EPS, landscape
+from stabilab.numbers.constants import EPS
+from stabilab.orbit.landscape import landscape
 from stabilab.orbit.reduction import reduce, Reduction
 
 from tests.oracles import energy

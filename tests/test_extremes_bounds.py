@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 import stabilab
-from stabilab.orbit.extremes import turning_points as turning
-from stabilab.orbit.landscape import EPS, landscape
+from stabilab.orbit.extremes import guards, turning_points as turning
+from stabilab.numbers.constants import EPS
+from stabilab.orbit.landscape import landscape
 from stabilab.orbit.reduction import reduce
 
 from tests.oracles.pairs import brink, scaled
@@ -86,9 +87,9 @@ def test_motions_within_a_share_of_the_energy_s_terms_of_the_separatrix_go_to_ba
         pot, unit = land.potential, land.reduction.energy_unit
         g, forces = abs(pot.G), (pot.c, pot.d) if land.e < 0 else (pot.e1, pot.e2)
         scale = speed**2 / 2 + pot.mu + 2 * g * size**2 + sum(map(abs, forces)) * np.sqrt(2) * size
-        found = flip_of(margins, extremes.near_separatrix(land, place, w, decided, 1e-3))
+        found = flip_of(margins, guards.near_separatrix(land, place, w, decided, 1e-3))
         assert found == pytest.approx(1e-3 * unit * scale, rel=0.03)
-        np.testing.assert_array_equal(extremes.near_separatrix(land, place, w, type("d", (), {"margins": -margins}), 1e-3),
+        np.testing.assert_array_equal(guards.near_separatrix(land, place, w, type("d", (), {"margins": -margins}), 1e-3),
                                       margins <= found)
 
 
@@ -96,7 +97,7 @@ def test_on_parabolas_the_kinetic_energy_alone_is_the_scale_of_a_margin():
     land = landscape(PARABOLIC["first axis"][0])
     margins = 10.0 ** np.arange(-12, 6, 0.01)
     one = np.ones(len(margins))
-    found = flip_of(margins, extremes.near_separatrix(land, (one, one), 4 * one, type("d", (), {"margins": margins}), 1e-3))
+    found = flip_of(margins, guards.near_separatrix(land, (one, one), 4 * one, type("d", (), {"margins": margins}), 1e-3))
     assert found == pytest.approx(1e-3 * land.reduction.energy_unit * 8, rel=0.03)
 
 
@@ -107,8 +108,8 @@ def test_states_ten_thousand_times_smaller_than_the_shift_go_to_balls():
     for column in range(3):
         states = np.zeros((len(sizes), 3))
         states[:, column] = -sizes
-        assert flip_of(sizes, extremes.needs_digits(land, states)) == pytest.approx(1e-2, rel=0.06)
-    assert not extremes.needs_digits(landscape(PARABOLIC["first axis"][0]), np.zeros((2, 3))).any()
+        assert flip_of(sizes, guards.needs_digits(land, states)) == pytest.approx(1e-2, rel=0.06)
+    assert not guards.needs_digits(landscape(PARABOLIC["first axis"][0]), np.zeros((2, 3))).any()
 
 
 @pytest.mark.parametrize("name", ["minor scaled +", "middle scaled, |c| far above"])
@@ -122,7 +123,7 @@ def test_states_at_the_place_of_a_barrier_go_to_balls_and_those_at_a_well_do_not
         spot = tuple(np.full(len(off), v) for v in spots[:, 0, column])
         for side in (-1, 1):
             near = pot.move(spot, side * off)
-            found = extremes.on_top(land, near)
+            found = guards.on_top(land, near)
             if barrier[0, column]:
                 edge = flip_of(off, found)
                 assert edge * pot.slope(tuple(spots[:, 0, column])) / pot.terms(tuple(spots[:, 0, column])) == pytest.approx(

@@ -145,7 +145,7 @@ def test_arrays_and_loops_leave_the_same_states_to_the_general_formula_and_agree
     scene, states = FAMILIES[name][0], edge_states(name)
     table, answers, count = barrier_table(scene), [], len(states)
     for loops in (None, {-1: barrier_heights.circle_loop, 1: barrier_heights.hyperbola_loop}):
-        out = fate._columns(count)
+        out = fate.empty_columns(count)
         with np.errstate(all="ignore"):
             unsure = label_by_table(table, states, out, loops)
         certain = np.delete(np.arange(count), unsure)

@@ -45,8 +45,8 @@ def available(fast):
 
 def general(scene, states):
     """Columns by the general formula, whatever the array's size."""
-    out = module._columns(len(states))
-    module._label_all(scene, states, out)
+    out = module.empty_columns(len(states))
+    module.label_all(scene, states, out)
     return out
 
 
@@ -115,7 +115,7 @@ def test_labels_and_margins_of_random_states_equal_the_oracle(name, fast, tables
 def test_the_table_answers_as_the_general_formula_and_leaves_little_to_it(name):
     scene, problem = FAMILIES[name]
     states, table = sample(name, 20000), barrier_table(scene)
-    fast, slow = module._columns(len(states)), general(scene, states)
+    fast, slow = module.empty_columns(len(states)), general(scene, states)
     rest = label_by_table(table, states, fast)
     assert len(rest) <= 0.03 * len(states) and table.gaps <= 0.01
     sure = np.ones(len(states), bool)

@@ -9,7 +9,7 @@ from stabilab import Body, ConstantTorque, Fate, Gyrostat, Scene
 from stabilab.numbers.balls import Digits
 from stabilab.unreduced.growth import captured_fate
 from stabilab.orbit.fate.free_margin import free_margin
-from stabilab.equilibrium.curve import decimal
+from stabilab.equilibrium.curve_text import decimal
 from stabilab.physics.effects.resistance import Resistance
 from stabilab.errors import InputError
 

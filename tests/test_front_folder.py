@@ -9,6 +9,7 @@ import pytest
 import stabilab
 from stabilab.answers.digits import front as precision_front
 from stabilab.answers.digits.front import cache_folder, front, FrontPoint
+from stabilab import machine
 
 CASE = stabilab.load(Path(__file__).parent.parent / "cases" / "torque-free-body.toml")
 
@@ -31,15 +32,15 @@ def test_each_platform_has_its_cache_folder(system, local, wanted, given, tmp_pa
 def test_a_machine_without_a_list_of_processors_is_called_by_its_platform(monkeypatch):
     def missing(self, **_):
         raise FileNotFoundError(self)
-    named = precision_front.machine()
+    named = machine.machine()
     monkeypatch.setattr(Path, "read_text", missing)
     monkeypatch.setattr(platform, "processor", lambda: "")
-    bare = precision_front.machine()
+    bare = machine.machine()
     assert bare == named | {"processor": platform.machine()}
     monkeypatch.setattr(Path, "read_text", lambda self, **_: "flags\t: fpu\nmodel name\t: Some CPU: fast\nmodel name\t: other\n")
-    assert precision_front.machine()["processor"] == "Some CPU: fast"
+    assert machine.machine()["processor"] == "Some CPU: fast"
     monkeypatch.setattr(Path, "read_text", lambda self, **_: "Hardware\t: none of these lines\n")
-    assert precision_front.machine()["processor"] == platform.machine()
+    assert machine.machine()["processor"] == platform.machine()
 
 
 def test_a_library_that_is_missing_is_named_so(monkeypatch):
@@ -50,9 +51,9 @@ def test_a_library_that_is_missing_is_named_so(monkeypatch):
         if name == "heyoka":
             raise metadata.PackageNotFoundError(name)
         return real(name)
-    before = precision_front.versions()
+    before = machine.versions()
     monkeypatch.setattr(metadata, "version", version)
-    assert precision_front.versions() == before | {"heyoka": "not installed"} and before["numpy"][0].isdigit()
+    assert machine.versions() == before | {"heyoka": "not installed"} and before["numpy"][0].isdigit()
 
 
 def kept(tmp_path, monkeypatch, **changes):
@@ -60,7 +61,7 @@ def kept(tmp_path, monkeypatch, **changes):
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     path = precision_front._file(CASE)
     path.parent.mkdir(parents=True, exist_ok=True)
-    good = {"schema": precision_front.CACHE_SCHEMA, "machine": precision_front.machine() | precision_front.versions(),
+    good = {"schema": precision_front.CACHE_SCHEMA, "machine": machine.machine() | machine.versions(),
             "front": [{"method": "taylor", "rtol": 1e-6, "digits": 5.5, "cost": 1e-4}]}
     path.write_text(json.dumps({name: value for name, value in (good | changes).items() if value is not None}))
     return front(CASE)

@@ -12,7 +12,7 @@ from stabilab.orbit.flow.profile import Arrays, relief
 from stabilab.orbit.flow.periodic import ByPanels, BySeries
 from stabilab.orbit.flow.spin_up import SpinUp
 from stabilab.orbit.flow.table import Tabulated, tabulated
-from stabilab.physics.to_numpy import heyoka_available
+from stabilab.integrate.to_heyoka import heyoka_available
 from stabilab.errors import InputError
 
 from tests.hard.circles import textbook_period

@@ -12,7 +12,7 @@ import pytest
 import stabilab
 from stabilab.physics.coefficients import content
 from stabilab.theories.follow import follow
-from stabilab.unreduced.bounds import liquid_torque
+from stabilab.physics.coefficients import liquid_torque
 from stabilab.answers.digits.run import best_reached
 from stabilab.answers.simulate import simulate
 from stabilab.physics.body import Body

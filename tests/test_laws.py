@@ -8,7 +8,8 @@ import sympy as sp
 from stabilab import Body, ScaledGyrostat, Scene
 from stabilab.physics.to_numpy import to_numpy
 from stabilab.physics.effects import effect_class, REGISTRY
-from stabilab.physics.equations import derive, invariants
+from stabilab.physics.equations import derive
+from stabilab.physics.laws import invariants
 
 
 ARGUMENTS = {  # what each effect is made from; an effect of one vector needs no line

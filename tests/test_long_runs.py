@@ -2,8 +2,8 @@
 import numpy as np
 import pytest
 
-from stabilab.physics.to_numpy import heyoka_available
-from stabilab.show.report.long_runs import Drift, drifts, growth, integrals, starts
+from stabilab.integrate.to_heyoka import heyoka_available
+from stabilab.cost.drift import Drift, drifts, growth, integrals, starts
 
 from tests.oracles import taylor
 from tests.oracles.model import scaled

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from stabilab import Body, ConstantTorque, Fate, fate, Gyrostat, ScaledGyrostat, Scene, trajectory
-from stabilab.unreduced.off_axis import evidence, extremes_over_period
+from stabilab.unreduced.off_axis import evidence
+from stabilab.unreduced.free_gyrostat import extremes_over_period
 from stabilab.integrate.extrema import roots_of_rates
 from stabilab.errors import InputError
 

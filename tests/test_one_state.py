@@ -13,7 +13,7 @@ from stabilab.numbers.double_ball import Ball, Doubles, Unclear
 from stabilab.orbit.separatrix.distance import distance_of
 from stabilab.answers.motion import motion
 from stabilab.numbers.balls import DOUBLE_BITS, settled, START_BITS
-from stabilab.orbit.ball_orbit import decide
+from stabilab.orbit.fate.balls import decide
 from stabilab.orbit.reduction import reduce
 from stabilab.orbit.result import Fate
 

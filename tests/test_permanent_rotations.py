@@ -15,8 +15,9 @@ from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.equilibrium.gyrostat import equilibria
 from stabilab.physics.coefficients import content
 from stabilab.answers.motion import motion
-from stabilab.unreduced.bounds import rates
-from stabilab.equilibrium.field.balance import many_digits, rotations_at
+from stabilab.physics.coefficients import rates
+from stabilab.numbers.balls import many_digits
+from stabilab.equilibrium.field.balance import rotations_at
 from stabilab.orbit.result import Fate
 from stabilab.equilibrium.field.spectrum import Field
 from stabilab.integrate.trajectory import trajectory

@@ -11,7 +11,7 @@ from stabilab.theories.charged.printed import printed
 from stabilab.integrate.ensemble import ensemble
 from stabilab.equilibrium.gyrostat import equilibria
 from stabilab.answers.motion import motion
-from stabilab.unreduced.off_axis import extremes_over_period
+from stabilab.unreduced.free_gyrostat import extremes_over_period
 from stabilab.integrate.trajectory import trajectory
 from stabilab.physics.effects.charge import Charge
 from stabilab.physics.effects.liquid_cavity import LiquidCavity

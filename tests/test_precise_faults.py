@@ -13,8 +13,9 @@ from stabilab import Body, Fate, Gyrostat, Scene
 from stabilab.numbers.balls import DOUBLE_BITS, START_BITS
 from stabilab.orbit.landscape import landscape
 from stabilab.answers.motion import motion
-from stabilab.orbit.fate.one_state import fate_of, invariants_of
-from stabilab.orbit.ball_orbit import decide
+from stabilab.orbit.fate.one_state import fate_of
+from stabilab.orbit.invariants import invariants_of
+from stabilab.orbit.fate.balls import decide
 from stabilab.orbit.extremes.balls import precise_extremes
 from stabilab.orbit.period.balls import precise_period
 from stabilab.orbit.reduction import reduce

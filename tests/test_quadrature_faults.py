@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import stabilab
-from stabilab.orbit.period import arrays as quadrature
+from stabilab.orbit.period import arrays as quadrature, modes as period_modes
 from stabilab.orbit.landscape import landscape
 from stabilab.orbit.extremes.turning_points import interval
 
@@ -31,10 +31,10 @@ def test_second_differences_of_the_modes_are_right_to_rounding(rho):
         sides = np.array([rho]), np.array([left]), np.array([1 - left])
         y = sides[0] * (sides[1] - sides[2])
         for k in (1, 2):
-            got = quadrature._cos_difference(k, *sides)[0], quadrature._sin_difference(k, rho, y, *sides[1:])[0]
+            got = period_modes._cos_difference(k, *sides)[0], period_modes._sin_difference(k, rho, y, *sides[1:])[0]
             for value, f in zip(got, (lambda t: mp.cos(k * t), lambda t: mp.sin(k * t))):
                 assert value == pytest.approx(second_difference(f, rho, left), abs=3e-15 * k * k)
-        assert quadrature._exp_difference(*sides)[0] == pytest.approx(second_difference(mp.exp, rho, left), rel=1.5e-14)
+        assert period_modes._exp_difference(*sides)[0] == pytest.approx(second_difference(mp.exp, rho, left), rel=1.5e-14)
 
 
 @pytest.mark.parametrize("name", ["minor scaled -", "major physical", "middle scaled +", "middle physical, other sign",
@@ -44,7 +44,7 @@ def test_the_curvature_of_an_interval_is_that_of_the_potential_between_its_ends(
     """(E - V)/((theta - l)(r - theta)) from rises alone, at places where nothing cancels much."""
     land = landscape(ALL[name][0])
     middle, _, _ = land.start(np.random.default_rng(3).normal(size=(5, 3)))
-    modes, force = quadrature.Modes(land, np.array(middle)), land.potential.force(middle)
+    modes, force = period_modes.Modes(land, np.array(middle)), land.potential.force(middle)
     rise = lambda y: land.potential.rise(np.full(5, y), middle, force)  # noqa: E731
     for left in (0.2, 0.5, 0.9):
         y = rho * (2 * left - 1)
@@ -65,7 +65,7 @@ def test_the_trapezoidal_and_the_double_exponential_rule_give_the_same_periods(n
     states = states[stabilab.fate(scene, states).labels == 0][:8]
     place, w, _ = land.start(states)
     span = interval(land, place, w)
-    modes = quadrature.Modes(land, span.middle)
+    modes = period_modes.Modes(land, span.middle)
     plain, peaked = quadrature._midpoint(modes, span.half), quadrature._double_exponential(modes, span.half)
     values, found = quadrature.libration_period(land, place, w)
     assert found.all()

@@ -8,9 +8,11 @@ import pytest
 import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
 from stabilab.answers.digits import run as precision_digits
-from stabilab.unreduced.growth import _search
+from stabilab.unreduced.growth_run import search_certificate
 from stabilab.equilibrium.gyrostat import equilibria
-from stabilab.orbit.ball_orbit import PreciseOrbit, settled, Unclear
+from stabilab.orbit.ball_orbit import PreciseOrbit
+from stabilab.numbers.balls import settled
+from stabilab.numbers.double_ball import Unclear
 from stabilab.orbit.period.balls import _rate
 from stabilab.answers.digits.run import best_reached, OWN
 from stabilab.answers.digits.front import FrontPoint
@@ -95,7 +97,7 @@ def test_a_curve_of_steady_states_has_no_point_at_its_ends():
 
 
 def test_rates_beyond_doubles_get_no_certificate_of_a_capture():
-    assert _search(-1.0, (1e200, 1e200, 1e200), 1.0)[:2] == ("none", None)
+    assert search_certificate(-1.0, (1e200, 1e200, 1e200), 1.0)[:2] == ("none", None)
 
 
 # -- verdicts of polynomials: the words against the roots themselves
@@ -154,9 +156,9 @@ def test_a_departure_at_the_first_time_is_that_time():
 
 @pytest.mark.parametrize("times", [[np.nan], [[0.0, 1.0]], ["a"]])
 def test_times_of_an_expansion_are_finite_numbers_in_a_row(times):
-    from stabilab.theories.top.lindstedt import _times
+    from stabilab.theories.top.lindstedt import times_row
     with pytest.raises(InputError, match="times: expected"):
-        _times(times)
+        times_row(times)
 
 
 # -- circles of which an arc between two folds holds barriers; steps in the motion's own unit; rotations that nearly stop

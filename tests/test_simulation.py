@@ -134,7 +134,8 @@ def test_a_stiff_liquid_is_followed_by_an_implicit_method_that_says_so():
 
 def test_a_stiff_scene_with_an_attitude_is_left_to_the_series_where_the_turn_costs_the_implicit_method_more():
     """Measured: 40 Radau steps a radian at 0.25 ms against 0.8 Taylor steps a decay at 0.02 ms."""
-    from stabilab.answers.simulate import _chosen, start_of
+    from stabilab.answers.simulate import _chosen
+    from stabilab.physics.states import start_of
     scene = Scene(Body(("9.51", "9.3", 9)), make("liquid_cavity", 1250, "0.01", "1.9"), Gyrostat((0, 0, "0.1")))
     for omega, blocks, method in (((1, 0.5, 1), {}, "Radau"), ((1, 0.5, 1), {"attitude": (0, 0, 0)}, "taylor"),
                                   ((1000, 500, 1000), {"gamma": (0, 0, 1)}, "Radau")):  # the decay grows as omega^2

@@ -15,7 +15,8 @@ from stabilab.orbit.fate.table import barrier_table
 from stabilab.equilibrium.spectrum import eigenvalues
 from stabilab.orbit.fate.reasons import Reason, REASONS
 from stabilab.orbit.reduction import reduce
-from stabilab.equilibrium.stability import isolated_verdict, sample_parameters
+from stabilab.equilibrium.stability import isolated_verdict
+from stabilab.equilibrium.curve import sample_parameters
 from stabilab.orbit.fate.by_table import label_by_table
 
 from tests.oracles import energy

@@ -10,7 +10,7 @@ from stabilab import Body, ConstantTorque, Gyrostat, Scene, trajectory
 from stabilab.theories.top.lindstedt import lindstedt
 from stabilab.theories.top.euler_angles import euler_angles, mean_precession, periodic_angles
 from stabilab.theories.top.printed import paper_numbers, printed
-from stabilab.physics.to_numpy import heyoka_available
+from stabilab.integrate.to_heyoka import heyoka_available
 from stabilab.physics.effects.gravity import Gravity
 from stabilab.physics.effects.newtonian_field import NewtonianField
 from stabilab.errors import InputError

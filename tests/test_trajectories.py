@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, trajectory
-from stabilab.physics import to_numpy as compiled
 from stabilab.integrate.trajectory import METHODS, SCIPY_METHODS
-from stabilab.physics.to_numpy import heyoka_available
+from stabilab.integrate.to_heyoka import heyoka_available
 from stabilab.errors import InputError
 
 from tests.oracles import model, taylor
+from stabilab.integrate import to_heyoka
 
 BODY = Body((2000, 1500, 1000))
 TORQUED = Scene(BODY, Gyrostat((100, 0, 0)), ConstantTorque((0, 0, "204.1")))
@@ -208,10 +208,10 @@ def test_a_second_run_compiles_and_copies_no_integrator(monkeypatch):
     one, other = (Scene(Body((9, 7, d)), Gyrostat((1, 2, 3)), ConstantTorque((1, "0.5", "0.2"))) for d in (4, 5))
     first = trajectory(other, (1, 2, 3), [4.0]).states
     trajectory(one, (1e200, 1e200, 1.0), [1.0])  # overflows
-    before = (compiled._integrator.cache_info().misses, compiled._free.cache_info().misses)
+    before = (to_heyoka._integrator.cache_info().misses, to_heyoka._free.cache_info().misses)
     monkeypatch.setattr(copy, "copy", None)
     assert (trajectory(other, (1, 2, 3), [4.0]).states == first).all()
-    assert (compiled._integrator.cache_info().misses, compiled._free.cache_info().misses) == before
+    assert (to_heyoka._integrator.cache_info().misses, to_heyoka._free.cache_info().misses) == before
 
 
 @pytest.mark.parametrize("scale", [2.0**-9, 2.0**-20, 2.0**-33])

@@ -4,7 +4,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ..physics.coefficients import Content, content, gyrostat_scene
-from ..orbit.result import Equilibria
+from ..equilibrium.result import Equilibria
 
 
 def other_equilibria(scene) -> Equilibria | None:

@@ -4,11 +4,14 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from ..asked import checked_scene, checked_span, real
+from ..asked import checked_scene, checked_span
 from ..orbit.far_states import far_exponent, in_range, in_scene_unit, own
-from ..orbit.fate.one_state import extremes_of, fate_of, invariants_of
+from ..orbit.extremes.one_state import extremes_of
+from ..orbit.fate.one_state import fate_of
+from ..orbit.invariants import invariants_of
 from ..orbit.reduction import reduce
 from ..orbit.result import Fate, Motion
+from ..physics.state import three_floats
 
 
 def motion(scene, state, span=None, brief=False, exact=None) -> Motion:
@@ -32,7 +35,7 @@ def _found(scene, state, span, brief, exact) -> Motion:
         found = other_motion(scene, state, span, exact)
         if found is not None:
             return found
-    state = _checked(state)
+    state = three_floats(state)
     given = exact or state
     reduction = reduce(scene)
     if reduction is None:
@@ -51,18 +54,6 @@ def _reduced(reduction, state, given, decided, brief, k=0) -> Motion:
     fields |= {"margin_energy": _finite(decided.margin), "tolerance": 1e-12,
                "extremes": extremes_of(reduction, given, decided.label, k)}
     return Motion(**fields, **({} if brief else _rest(reduction, state, given, decided)))
-
-
-def _checked(state) -> tuple[float, float, float]:
-    """Three finite floats; InputError otherwise."""
-    try:
-        values = tuple(map(float, real(state, "states")))
-        if len(values) == 3 and all(map(math.isfinite, values)):
-            return values
-    except (TypeError, ValueError):
-        pass
-    from ..orbit.fate.arrays import checked_states  # other shapes that hold one state, and the words for what is none
-    return tuple(checked_states(state).reshape(3).tolist())
 
 
 def _common(state, label, because, axis, sense) -> dict:
@@ -124,7 +115,7 @@ def _other(scene, kind, state, given, span, decided) -> dict:
     if decided.label == Fate.EQUILIBRIUM:
         return {"margin_energy": _finite(decided.margin), "extremes": tuple((v, v) for v in state)}
     if kind == "free":
-        from ..unreduced.off_axis import extremes_over_period
+        from ..unreduced.free_gyrostat import extremes_over_period
         closed = extremes_over_period(scene, given)
         return {"margin_energy": _finite(decided.margin), "extremes": _pairs(closed.extremes), "extremes_over": closed.over,
                 "period": _repeats(closed.period)}

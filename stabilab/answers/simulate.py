@@ -5,9 +5,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..physics.attitude import angles, beyond, quaternion, to_space, unwrapped
-from ..physics.blocks import ordered
+from ..physics.attitude import angles, beyond, body_momentum, to_space, unwrapped
 from ..integrate.trajectory import trajectory
+from ..physics.states import start_of
 
 STIFF = 1e6  # fastest decay times duration beyond which an explicit method would only shorten its steps
 TURNING = 700  # decays per radian of turn below which an attitude or gamma, which turn on, cost Radau more (measured)
@@ -37,15 +37,6 @@ class Simulation:
     status: str = "reached"
     reason: str = ""
     validity: object = None
-
-
-def start_of(scene, omega, blocks) -> dict:
-    """The blocks of the state at time 0 as `trajectory` takes them; attitude from its 3-1-2 angles."""
-    start = {"omega": omega, **blocks}
-    for name in ordered((*scene.blocks, *blocks)):
-        if name == "attitude":
-            start[name] = tuple(quaternion(*blocks.get("attitude", (0.0, 0.0, 0.0))))
-    return start
 
 
 def simulate(scene, omega, times, blocks=None, method: str | None = None, rtol: float | None = None) -> Simulation:
@@ -87,8 +78,8 @@ def _chosen(scene, start, times, method, rtol):
     if method is not None or not any(not e.keeps_volume for e in scene.effects):
         return method or "taylor", rtol, ""
     from ..physics.to_numpy import to_numpy
-    from ..integrate.trajectory import _start
-    equations, state = _start(scene, start)
+    from ..physics.states import equations_and_start
+    equations, state = equations_and_start(scene, start)
     fastest = float(np.max(-np.linalg.eigvals(to_numpy(equations).jacobian(state)).real, initial=0.0))
     stiffness = fastest * float(np.abs(times).max(initial=0.0))
     turn = float(np.linalg.norm(start["omega"])) if len(equations.blocks) > 1 else 0.0
@@ -135,13 +126,3 @@ def _grid(scene, start, times, method, rtol):
     inside = max(1, min(INSIDE, POINTS // len(ends)))
     share = np.arange(inside) / inside
     return np.unique(np.concatenate([base, (ends[:-1, None] + np.diff(ends)[:, None] * share).ravel()]))
-
-
-def body_momentum(scene, omega):
-    """D omega + momenta carried inside, body frame: (..., 3)."""
-    total = np.asarray(scene.body.inertia) * omega
-    for effect in scene.effects:
-        values = {name: float(v) for name, v in effect.parameters().items()}
-        carried = effect.momentum(values)
-        total = total if carried is None else total + np.array(carried)
-    return total

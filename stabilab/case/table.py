@@ -11,7 +11,8 @@ from unicodedata import category
 
 from .lines import KeyLines
 from ..errors import InputError, printable, Problem
-from ..numbers.exact import exact, plus_minus, states_uncertainty
+from ..numbers.exact import exact
+from .uncertainty import plus_minus, states_uncertainty
 
 
 UNSEEN = ("Cc", "Cf", "Cs")  # Unicode's categories of control, format (such as right-to-left override) and surrogate characters

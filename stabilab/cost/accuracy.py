@@ -261,7 +261,7 @@ def _extremes_error(answer, exact) -> float:
 def _sensitivity(task, exact) -> float | None:
     """Largest relative change of the state over the span per relative change of the start, for one change of every
     component by about a unit in its last place."""
-    from ..integrate.reference import _pairs, one_run
+    from ..integrate.reference import one_run, pairs
     from ..integrate.taylor_digits import Recursion
     if not len(exact.t):
         return None
@@ -272,6 +272,6 @@ def _sensitivity(task, exact) -> float | None:
         return None
     found, _ = one_run(Recursion(task.equations), nudged, exact.t, 30, [WORK], exact.period is not None)
     n = len(found)
-    states, rest = _pairs(found)
+    states, rest = pairs(found)
     shift = relative_errors(states, exact.states[:n], exact.rest[:n] - rest, task.slices)
     return float(shift.max() / moved)

@@ -12,7 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..physics.body import Body
-from ..physics.to_numpy import borrowed_taylor, Form, form, heyoka_available, to_numpy
+from ..integrate.to_heyoka import borrowed_taylor, heyoka_available
+from ..physics.to_numpy import Form, form, to_numpy
 from ..physics.effects import effect_class, REGISTRY
 from ..physics.equations import derive
 from ..physics.scene import Scene

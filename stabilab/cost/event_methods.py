@@ -9,7 +9,8 @@ from typing import Callable
 
 import numpy as np
 
-from ..physics.to_numpy import form, heyoka_available, taylor_events
+from ..physics.to_numpy import form
+from ..integrate.to_heyoka import heyoka_available, taylor_events
 from .methods import Answer, IMPLICIT, Method, Problem, SCIPY_LADDER, TAYLOR_LADDER, thinned
 from ..integrate.trajectory import ATOL_SHARE
 
@@ -118,7 +119,7 @@ def fate_methods(task: Problem) -> list:
     from ..orbit.fate.arrays import fate
     from ..orbit.fate.free_margin import free_margin, is_free
     from ..orbit.landscape import landscape
-    from ..orbit.ball_orbit import decide
+    from ..orbit.fate.balls import decide
     from ..orbit.result import Fate
     try:
         if task.equations.blocks != ("omega",) or landscape(task.scene) is None:

@@ -117,7 +117,7 @@ def with_digits(case, effort: str = "brief", tell=lambda words: None) -> list[Gr
 
 def _many(task, exact, digits):
     from ..orbit.landscape import landscape
-    from ..orbit.ball_orbit import precise_margin
+    from ..orbit.fate.balls import precise_margin
     from ..orbit.extremes.balls import extreme_balls
     from ..orbit.period.balls import period_ball
     reduction, bits = landscape(task.scene).reduction, math.ceil(digits * math.log2(10))
@@ -147,8 +147,8 @@ def _series(task, exact, digits) -> Growth:
 
 def _reached(states, exact) -> float:
     """Digits on which a run agrees with the reference, whose own error is the limit."""
-    from ..integrate.reference import _pairs, relative_errors
-    high, low = _pairs(states)
+    from ..integrate.reference import pairs, relative_errors
+    high, low = pairs(states)
     error = relative_errors(high, exact.states, exact.rest - low, exact.slices).max()
     return -math.log10(max(float(error), float(exact.error.max())))
 
@@ -188,7 +188,8 @@ def with_closeness(case, tell=lambda words: None) -> list[Growth]:
 def bits_needed(scene, state) -> int | None:
     """The least working precision at which the balls of every barrier part from the energy's."""
     from ..orbit.landscape import landscape
-    from ..numbers.balls import sign, Unclear, working
+    from ..numbers.balls import sign, working
+    from ..numbers.double_ball import Unclear
     from ..orbit.ball_orbit import PreciseOrbit
     for bits in BITS:
         try:
@@ -205,7 +206,8 @@ def nodes_needed(scene, state) -> int | None:
     """Nodes of the midpoint rule, doubled until the period has NODE_DIGITS digits of that in balls; None where rounding forbids it."""
     from ..orbit.landscape import landscape
     from ..orbit.period.balls import precise_period
-    from ..orbit.period.arrays import _inverse_speed, Modes
+    from ..orbit.period.arrays import inverse_speed
+    from ..orbit.period.modes import Modes
     from ..orbit.extremes.turning_points import interval
     land = landscape(scene)
     exact = precise_period(land.reduction, state, Fate.BOUNDED)
@@ -214,7 +216,7 @@ def nodes_needed(scene, state) -> int | None:
     modes, nodes = Modes(land, span.middle), 4
     while nodes <= MOST_NODES:
         phi = (np.arange(nodes) + 0.5) * (np.pi / nodes)
-        total = float(_inverse_speed(modes, span.half, np.sin(0.5 * phi) ** 2, np.cos(0.5 * phi) ** 2).sum()) * 2 * np.pi / nodes
+        total = float(inverse_speed(modes, span.half, np.sin(0.5 * phi) ** 2, np.cos(0.5 * phi) ** 2).sum()) * 2 * np.pi / nodes
         if abs(total - exact) <= 10.0**-NODE_DIGITS * exact:
             return nodes
         nodes *= 2

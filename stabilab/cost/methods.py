@@ -13,11 +13,12 @@ import numpy as np
 
 from ..physics.attitude import quaternion
 from ..physics.blocks import slices
-from ..physics.to_numpy import heyoka_available, TAYLOR_TOLERANCE, to_numpy, to_taylor
+from ..integrate.to_heyoka import heyoka_available, TAYLOR_TOLERANCE, to_taylor
+from ..physics.to_numpy import to_numpy
 from ..errors import InputError
 from ..theories.follow import follow, models_of
-from ..answers.simulate import start_of
-from ..integrate.trajectory import _start, ATOL_SHARE, SCIPY_METHODS
+from ..physics.states import equations_and_start, start_of
+from ..integrate.trajectory import ATOL_SHARE, SCIPY_METHODS
 
 LANES = 4  # of the batch: doubles in one AVX register
 NUDGE = 2.0**-20  # relative difference between neighbouring lanes, so that they do not share one motion
@@ -54,7 +55,7 @@ def problem(case, count: int) -> Problem:
     if case.state is None or case.span is None:
         raise InputError(f"{case.path}: motion: expected a state and a span (or tau) in [motion]; precision needs both")
     scaled = case.scene.variables == "scaled"
-    equations, start = _start(case.scene, case.state if scaled else start_of(case.scene, case.state, case.blocks))
+    equations, start = equations_and_start(case.scene, case.state if scaled else start_of(case.scene, case.state, case.blocks))
     end = max(case.span, key=abs)
     return Problem(case, equations, start, end * np.arange(1, count + 1) / count)
 
@@ -116,9 +117,10 @@ def _batch(task, tolerance):
     """One lane is the motion, the others start next to it; cost is counted for one lane."""
     import heyoka
 
-    from ..physics.to_numpy import _heyoka_form, form
+    from ..integrate.to_heyoka import heyoka_form
+    from ..physics.to_numpy import form
     rates = form(task.equations, task.equations.rhs)
-    variables, expressions = _heyoka_form(rates.state, rates.symbols, rates.expressions)
+    variables, expressions = heyoka_form(rates.state, rates.symbols, rates.expressions)
     spread = task.start[:, None] * (1 + NUDGE * np.arange(LANES))
     integrator = heyoka.taylor_adaptive_batch(list(zip(variables, expressions)), spread.copy(), tol=tolerance,
                                               pars=np.repeat(np.array(rates.numbers)[:, None], LANES, axis=1))

@@ -12,8 +12,8 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import NamedTuple
 
-from ..physics.effects.base import cross, dot
-from ..physics.quadratic import CYCLE, Exact3, QuadraticForm
+from ..numbers.vectors import cross, CYCLE, dot, Exact3
+from ..physics.quadratic import QuadraticForm
 
 ONE, ZERO = Fraction(1), Fraction(0)
 
@@ -60,3 +60,8 @@ def pencil(scene) -> Pencil:
 
 
 __all__ = ["CYCLE", "ONE", "ZERO", "Pencil", "cross", "dot", "pencil"]
+
+
+def unit(i: int):
+    """Unit vector of axis i."""
+    return tuple(ONE if n == i else ZERO for n in range(3))

@@ -17,8 +17,10 @@ from __future__ import annotations
 from fractions import Fraction
 
 from ..numbers.exact import sqrt_fraction
-from .curve import decimal, Grounds, line_text, RationalCurve, shifted, size_of, straight_line, sum_of, T, Verdict
-from .balance import cross, CYCLE, dot, ONE, Pencil, ZERO
+from .curve_text import decimal, line_text, shifted, sum_of
+from .curve import Grounds, RationalCurve, size_of, straight_line, T, Verdict
+from ..numbers.vectors import cross, CYCLE, dot
+from .balance import ONE, Pencil, unit, ZERO
 from ..numbers.polynomial import Poly
 
 WELL = Grounds(
@@ -56,11 +58,6 @@ def plane_basis(p: Pencil):
         k = 3 - sum(support)
         return (cross(unit(k), p.M), p.D[support[0]]), (unit(k), p.D[k]), ONE
     return (p.M, p.D[0]), (p.M, p.D[0]), ONE  # a sphere: only the equality of the moments is used
-
-
-def unit(i: int):
-    """Unit vector of axis i."""
-    return tuple(ONE if n == i else ZERO for n in range(3))
 
 
 def conic_curves(p: Pencil) -> list[RationalCurve]:

@@ -52,51 +52,43 @@ class RationalCurve:
         return point
 
 
-def decimal(value) -> str:
-    """A number for the user's eye: the shortest decimal that reads back as the same double; six digits beyond the doubles."""
-    try:
-        number = float(value)
-    except OverflowError:
-        number = 0.0
-    if value and not number:
-        from decimal import Context
-        digits, value = Context(prec=6, Emin=-10**6, Emax=10**6), Fraction(value)
-        return f"{digits.divide(digits.create_decimal(value.numerator), digits.create_decimal(value.denominator)):e}"
-    return repr(number + 0.0).removesuffix(".0")
-
-
-def shifted(name: str, centre: Fraction) -> str:
-    """"x1", "(x1 + 0.4)" or "(x1 - 0.4)" for the distance of a component from its centre."""
-    return name if not centre else f"({name} {'-' if centre > 0 else '+'} {decimal(abs(centre))})"
-
-
-def sum_of(*terms) -> str:
-    """A readable sum of numbers and strings such as "2 + t", without zero terms."""
-    out = ""
-    for term in terms:
-        text = term if isinstance(term, str) else decimal(term) if term else ""
-        if text:
-            out += text if not out else f" - {text[1:]}" if text.startswith("-") else f" + {text}"
-    return out or "0"
-
-
 def straight_line(start, direction) -> tuple[Poly, Poly, Poly]:
     """start + t direction as polynomials."""
     return tuple(Poly((s, d)) for s, d in zip(start, direction))
 
 
-def line_text(names, start, direction) -> tuple[str, str]:
-    """(equation, parametrisation) of start + t direction."""
-    fixed = [f"{n} = {decimal(s)}" for n, s, d in zip(names, start, direction) if not d]
-    free = [n for n, d in zip(names, direction) if d]
-    moving = []
-    for s, d in zip(start, direction):
-        term = "t" if d == 1 else "-t" if d == -1 else f"{decimal(d)} t" if d else ""
-        moving.append(sum_of(s, term))
-    along = f"{free[0]} arbitrary" if len(free) == 1 else f"({', '.join(free)}) on a straight line"
-    return ", ".join(fixed + [along]), ", ".join(f"{n} = {v}" for n, v in zip(names, moving))
-
-
 def size_of(*vectors) -> Fraction:
     """The largest entry in size, 1 where all vanish: a scale for the parameter of a line."""
     return max((abs(v) for vector in vectors for v in vector), default=Fraction(0)) or Fraction(1)
+
+
+def values_inside(lo, hi, scale) -> Fraction:
+    if lo is None and hi is None:
+        return Fraction(0)
+    if lo is None:
+        return hi - (abs(hi) or scale)
+    return lo + (abs(lo) or scale) if hi is None else (lo + hi) / 2
+
+
+def sample_parameters(lo, hi, scale) -> list[Fraction]:
+    """Doubles (as fractions) inside the open interval, spread over it and log-spaced towards its infinite ends."""
+    if lo is None and hi is None:
+        raw = [f * scale for f in (-100, -1, 0, 1, 100)]
+    elif hi is None:
+        raw = [lo + (abs(lo) or scale) * f for f in (Fraction(1, 100), 1, 100, 10000)]
+    elif lo is None:
+        return [-t for t in reversed(sample_parameters(-hi, None, scale))]
+    elif lo == 0 or 0 < lo and hi > 100 * lo:
+        ratio = float(hi / lo) if lo else 1e4
+        raw = [hi / Fraction(ratio ** f) for f in (0.95, 0.7, 0.4, 0.1, 0.01)]
+    elif hi == 0 or hi < 0 and lo < 100 * hi:
+        return [-t for t in reversed(sample_parameters(-hi, -lo, scale))]
+    else:
+        raw = [lo + (hi - lo) * f for f in (Fraction(1, 1000), Fraction(1, 10), Fraction(1, 2), Fraction(9, 10), Fraction(999, 1000))]
+    rounded = []
+    for t in raw:
+        try:
+            rounded.append(Fraction(float(t)))
+        except OverflowError:
+            continue
+    return [t for t in dict.fromkeys(rounded) if (lo is None or t > lo) and (hi is None or t < hi)]

@@ -13,7 +13,7 @@ from ..asked import checked_scene
 from .conics import balance_fails, conic_curves
 from .isolated import off_axis_equilibria
 from .balance import Pencil, pencil
-from ..orbit.result import Equilibria
+from .result import Equilibria
 from .stability import curve_with_verdicts
 from .torque_free import torque_free_curves
 

@@ -12,10 +12,11 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from .conics import unit
-from .curve import decimal, Grounds, line_text, RationalCurve, size_of, straight_line
-from .balance import cross, dot, Pencil
-from ..orbit.result import EquilibriumPoint
+from .balance import Pencil, unit
+from .curve_text import decimal, line_text
+from .curve import Grounds, RationalCurve, size_of, straight_line
+from ..numbers.vectors import cross, dot
+from .result import EquilibriumPoint
 from .stability import isolated_point
 from ..numbers.surd import Surd
 

@@ -20,9 +20,9 @@ from fractions import Fraction
 
 from ..errors import InputError
 from .spectrum import eigenvalues, invariants
-from .curve import RationalCurve, Verdict
+from .curve import RationalCurve, sample_parameters, values_inside, Verdict
 from ..numbers.polynomial import real_roots
-from ..orbit.result import CurveSegment, EquilibriumCurve, EquilibriumPoint
+from .result import CurveSegment, EquilibriumCurve, EquilibriumPoint
 from ..numbers.surd import Surd
 
 POSITIVE_EIGENVALUE = ("unstable", "n = 0 and m < 0 in z^3 + m z + n: the eigenvalue sqrt(-m) is positive")
@@ -100,7 +100,7 @@ def cuts_of(form, curve: RationalCurve) -> list[Fraction]:
 
 def _segment(form, curve: RationalCurve, lo, hi):
     """The segment between two neighbouring cuts (None: infinite) and its samples."""
-    middle = _inside(lo, hi, curve.scale)
+    middle = values_inside(lo, hi, curve.scale)
     m_sign = _sign(_m_at(form, curve, middle))
     word, (verdict, because) = linear_word(m_sign, 0), _regular_verdict(curve, m_sign)
     samples = []
@@ -141,35 +141,3 @@ def _m_at(form, curve: RationalCurve, t: Fraction) -> Fraction:
 
 def _sign(value) -> int:
     return (value > 0) - (value < 0)
-
-
-def _inside(lo, hi, scale) -> Fraction:
-    if lo is None and hi is None:
-        return Fraction(0)
-    if lo is None:
-        return hi - (abs(hi) or scale)
-    return lo + (abs(lo) or scale) if hi is None else (lo + hi) / 2
-
-
-def sample_parameters(lo, hi, scale) -> list[Fraction]:
-    """Doubles (as fractions) inside the open interval, spread over it and log-spaced towards its infinite ends."""
-    if lo is None and hi is None:
-        raw = [f * scale for f in (-100, -1, 0, 1, 100)]
-    elif hi is None:
-        raw = [lo + (abs(lo) or scale) * f for f in (Fraction(1, 100), 1, 100, 10000)]
-    elif lo is None:
-        return [-t for t in reversed(sample_parameters(-hi, None, scale))]
-    elif lo == 0 or 0 < lo and hi > 100 * lo:
-        ratio = float(hi / lo) if lo else 1e4
-        raw = [hi / Fraction(ratio ** f) for f in (0.95, 0.7, 0.4, 0.1, 0.01)]
-    elif hi == 0 or hi < 0 and lo < 100 * hi:
-        return [-t for t in reversed(sample_parameters(-hi, -lo, scale))]
-    else:
-        raw = [lo + (hi - lo) * f for f in (Fraction(1, 1000), Fraction(1, 10), Fraction(1, 2), Fraction(9, 10), Fraction(999, 1000))]
-    rounded = []
-    for t in raw:
-        try:
-            rounded.append(Fraction(float(t)))
-        except OverflowError:
-            continue
-    return [t for t in dict.fromkeys(rounded) if (lo is None or t > lo) and (hi is None or t < hi)]

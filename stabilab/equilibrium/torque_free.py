@@ -14,12 +14,12 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from .curve import decimal, Grounds, line_text, RationalCurve, size_of, straight_line, T, Verdict
-from .conics import unit
-from .balance import CYCLE, ONE, Pencil, ZERO
+from .curve_text import decimal, line_text
+from .curve import Grounds, RationalCurve, sample_parameters, size_of, straight_line, T, Verdict
+from .balance import ONE, Pencil, unit, ZERO
+from ..numbers.vectors import CYCLE
 from ..numbers.polynomial import Poly
-from ..orbit.result import CurveSegment, EquilibriumCurve, EquilibriumPoint
-from .stability import sample_parameters
+from .result import CurveSegment, EquilibriumCurve, EquilibriumPoint
 
 CASIMIR = Grounds(
     positive=("stable", "energy-Casimir: on its momentum sphere the energy has a non-degenerate extremum (m > 0); where the "

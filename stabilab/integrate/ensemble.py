@@ -13,11 +13,12 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..physics.blocks import slices
-from ..physics.to_numpy import _equations, borrowed_taylor, form, heyoka_available, TAYLOR_TOLERANCE, to_numpy
-from ..asked import real
+from ..physics.to_numpy import equations_of, form, to_numpy
+from .to_heyoka import borrowed_taylor, heyoka_available, TAYLOR_TOLERANCE
 from ..errors import InputError
 from ..physics.motion_units import in_unit, own_unit
-from .trajectory import _rtol, _times, STEP_LIMIT, trajectory
+from ..physics.states import checked_rtol, checked_starts, checked_times
+from .trajectory import STEP_LIMIT, trajectory
 
 # Motions in step: eight doubles fill the widest vectors there are, and narrower ones two or four at a time. Not asked of
 # the machine, so that every machine groups alike.
@@ -64,8 +65,8 @@ def ensemble(scene, states, times, rtol: float | None = None, workers: int = 1) 
     bytes for any number. Where heyoka is not installed every motion is run by itself with SciPy's DOP853, and workers
     gain nothing. Raises InputError for states, times, rtol and workers that are none.
     """
-    equations, times, rtol = _equations(scene), _times(times), _rtol(rtol)
-    starts = _starts(equations, states)
+    equations, times, rtol = equations_of(scene), checked_times(times), checked_rtol(rtol)
+    starts = checked_starts(equations, states)
     workers = _workers(workers)
     if not heyoka_available():
         return _one_by_one(scene, starts, times, rtol)
@@ -94,19 +95,6 @@ def _by_units(scene, starts, times, rtol, workers, units):
         out[rows], steps = part.states * unit, steps + part.counters["steps"]
         stopped |= {int(rows[n]): why for n, why in part.stopped.items()}
     return Ensemble(times, out, np.isfinite(out).all(axis=2), dict(sorted(stopped.items())), "taylor", rtol, {"steps": steps}, scene)
-
-
-def _starts(equations, states):
-    wanted = len(equations.state)
-    try:
-        array = np.asarray(real(np.asarray(states), "states"), float)
-    except (TypeError, ValueError):
-        raise InputError(f"states: expected rows of {wanted} numbers, got {states!r}") from None
-    if array.ndim != 2 or array.shape[1] != wanted or not len(array):
-        raise InputError(f"states: expected rows of {wanted} numbers ({', '.join(map(str, equations.state))}), got the shape {array.shape}")
-    if not np.isfinite(array).all():
-        raise InputError(f"states: row {int(np.argmin(np.isfinite(array).all(axis=1)))} is not finite")
-    return array
 
 
 def _workers(workers):

@@ -9,9 +9,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..physics.to_numpy import form, heyoka_available, taylor_events, TAYLOR_TOLERANCE, to_numpy
+from ..physics.to_numpy import form, to_numpy
+from .to_heyoka import heyoka_available, taylor_events, TAYLOR_TOLERANCE
 from ..physics.motion_units import in_unit, mass_unit, own_unit
-from .trajectory import _start, ATOL_SHARE, FALLBACK_RTOL, STEP_LIMIT
+from ..physics.states import equations_and_start
+from .trajectory import ATOL_SHARE, FALLBACK_RTOL, STEP_LIMIT
 
 SUBSAMPLES = 16
 
@@ -51,7 +53,7 @@ def roots_of_rates(scene, state, t_end: float, tolerance: float = TAYLOR_TOLERAN
     t_end: s (tau when scaled), of either sign. Raises InputError for a state that is none. Rates
     that vanish identically have no roots.
     """
-    equations, state = _start(scene, state)
+    equations, state = equations_and_start(scene, state)
     with np.errstate(all="ignore"):
         rates = to_numpy(equations)(state)
     if not np.isfinite(rates).all():

@@ -116,8 +116,8 @@ def reference(scene, start, times, blocks=(), orbit=False, work: int = WORK) -> 
 def _compared(times, before, now, parts, work) -> Reference:
     (low_digits, (low, low_loop)), (high, loop) = before, now
     n = min(len(low), len(high))
-    states, rest = _pairs(high[:n])
-    lower, lower_rest = _pairs(low[:n])
+    states, rest = pairs(high[:n])
+    lower, lower_rest = pairs(low[:n])
     error = relative_errors(lower, states, rest - lower_rest, parts) if n else np.empty(0)
     error = np.maximum(error, 10.0**-low_digits)
     good = error <= AGREEMENT
@@ -132,7 +132,7 @@ def _compared(times, before, now, parts, work) -> Reference:
                      extremes_error, "agrees" if ok else "stopped", why, work)
 
 
-def _pairs(rows):
+def pairs(rows):
     """Lists of balls as two arrays of doubles whose sum they are."""
     with working(DOUBLE_BITS):
         high = np.array([[float(v) for v in row] for row in rows])

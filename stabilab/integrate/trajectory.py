@@ -6,17 +6,16 @@ steps (feathered, see `compiled`), so a law with a non-zero rate is as good a wi
 from __future__ import annotations
 
 import difflib
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ..physics.blocks import BLOCKS, ORDER, slices
-from ..physics.to_numpy import _equations, borrowed_taylor, FEATHER, form, heyoka_available, TAYLOR_TOLERANCE, to_numpy
-from ..physics.equations import derive
-from ..asked import real
+from ..physics.blocks import slices
+from ..physics.to_numpy import form, to_numpy
+from .to_heyoka import borrowed_taylor, FEATHER, heyoka_available, TAYLOR_TOLERANCE
 from ..errors import InputError
-from ..orbit.separatrix.result import Trajectory
 from ..physics.motion_units import in_unit, mass_unit, own_unit
+from ..physics.states import checked_rtol, checked_times, equations_and_start
 
 SCIPY_METHODS = ("RK45", "RK23", "DOP853", "Radau", "BDF", "LSODA")
 METHODS = ("taylor", *SCIPY_METHODS)
@@ -49,8 +48,8 @@ def trajectory(scene, state, times, method: str = "taylor", rtol: float | None =
     t, states hold the times that were reached. Raises InputError for states and times that are no such numbers and
     for an unknown method.
     """
-    method, times, rtol = _method(method), _times(times), _rtol(rtol)
-    equations, state = _start(scene, state)
+    method, times, rtol = _method(method), checked_times(times), checked_rtol(rtol)
+    equations, state = equations_and_start(scene, state)
     if method == REDUCED:
         return _by_quadrature(scene, equations, state, times, rtol)
     reason, landing = "all times reached", False
@@ -70,7 +69,7 @@ def trajectory(scene, state, times, method: str = "taylor", rtol: float | None =
     else:
         rtol = SCIPY_RTOL if rtol is None else rtol
         run = _SciPy(system, method, rtol, landing)
-    watch = _watch(scene, equations, state)
+    watch = watcher(scene, equations, state)
     still = (times == 0).sum()
     reached, states, drift, failures = [np.zeros(still)], [np.repeat(state[None], still, axis=0)], {}, []
     for chosen, sense in ((times < 0, -1), (times > 0, 1)):
@@ -91,7 +90,7 @@ def trajectory(scene, state, times, method: str = "taylor", rtol: float | None =
                       {name: part for name, part in slices(equations.blocks).items()}, watch and watch.result())
 
 
-def _watch(scene, equations, state):
+def watcher(scene, equations, state):
     """What looks at each step of a run under an approximate law; None where all laws are exact."""
     if not getattr(scene, "approximate", ()):
         return None
@@ -132,68 +131,12 @@ def _by_quadrature(scene, equations, state, times, rtol):
     unit = np.vstack([np.zeros(3), np.eye(3)[axis]])
     integrals = [row[0] * times + (row[1] - row[0]) * turned for row in system.law_rates(unit).values()]  # affine in that rate
     drift = _departures(system, state, np.column_stack([states, *integrals]))
-    watch = _watch(scene, equations, state)
+    watch = watcher(scene, equations, state)
     for row in states if watch else ():
         watch.note(row)
     return Trajectory(times, states, REDUCED, None, drift, {"evaluations": motion.evaluations}, "reached",
                       "all times reached, without steps: time as an integral over the reduced coordinate, inverted",
                       validity=watch and watch.result())
-
-
-def _numbers(values, name):
-    try:
-        array = np.atleast_1d(np.asarray(real(np.asarray(values), name), float))
-    except (TypeError, ValueError):
-        raise InputError(f"{name}: expected numbers, got {values!r}") from None
-    if array.ndim != 1 or not array.size or not np.isfinite(array).all():
-        raise InputError(f"{name}: expected finite numbers in one row, got {values!r}")
-    return array
-
-
-def _state(state):
-    array = _numbers(state, "state")
-    if array.size != 3:
-        raise InputError(f"state: expected three numbers, got {array.size} of them")
-    return array
-
-
-REST = {"gamma": (0.0, 0.0, 1.0), "attitude": (1.0, 0.0, 0.0, 0.0), "velocity": (0.0,) * 3, "position": (0.0,) * 3}
-
-
-def _start(scene, state):
-    """(equations, state as one row) of a start given as numbers or block by block."""
-    if not isinstance(state, dict):
-        equations, array = _equations(scene), _numbers(state, "state")
-        wanted = len(equations.state)
-        if array.size != wanted:
-            words = "three numbers" if wanted == 3 else f"{wanted} numbers ({', '.join(map(str, equations.state))})"
-            raise InputError(f"state: expected {words}, got {array.size} of them")
-        return equations, array
-    unknown = [name for name in state if name not in BLOCKS]
-    if unknown or "omega" not in state:
-        raise InputError(f"state: expected the block omega and any of {', '.join(ORDER[1:])}; got {', '.join(state) or 'none'}")
-    equations = derive(scene, state)
-    rows = []
-    for name in equations.blocks:
-        row = _numbers(state.get(name, REST.get(name)), f"state: {name}")
-        if row.size != len(BLOCKS[name].components):
-            raise InputError(f"state: {name} has {len(BLOCKS[name].components)} components, got {row.size}")
-        rows.append(row)
-    return equations, np.concatenate(rows)
-
-
-def _times(times):
-    array = _numbers(times, "times")
-    steps = np.diff(array)
-    if not ((steps > 0).all() or (steps < 0).all()):
-        raise InputError("times: expected strictly increasing or strictly decreasing times")
-    return array
-
-
-def _rtol(rtol):
-    if rtol is not None and not (isinstance(rtol, (int, float)) and 0 < rtol < 1):
-        raise InputError(f"rtol: expected a number between 0 and 1, got {rtol!r}")
-    return rtol
 
 
 def _departures(system, state, points) -> dict[str, float]:
@@ -335,3 +278,28 @@ class _SciPy:
 def _stopped(points, grid, why):
     last = f"t = {grid[len(points) - 1]:.17g}" if len(points) else "the start"
     return f"the run stopped after {last}: {why}"
+
+
+@dataclass(frozen=True)
+class Trajectory:
+    """States at the asked-for times.
+
+    t: (n,) times; states: (n, N), blocks: where each block of the state stands in the N columns; invariant_drift: law name -> largest relative departure from it over the run;
+    counters: integrator's own counts (steps, rate evaluations); status: "reached", "stopped" (reason says why). validity: of an
+    approximate law (`stabilab.physics.law_limits`), its largest value at any step of the run; None where all laws are exact.
+    """
+
+    t: object
+    states: object
+    method: str
+    rtol: float
+    invariant_drift: dict[str, float]
+    counters: dict[str, int]
+    status: str
+    reason: str
+    blocks: dict = field(default_factory=lambda: {"omega": slice(0, 3)})
+    validity: object = None
+
+    def block(self, name: str):
+        """(n, m) states of one block."""
+        return self.states[:, self.blocks[name]]

@@ -120,3 +120,10 @@ def sign(number) -> int:
     if number.is_zero():
         return 0
     raise Unclear
+
+BITS = 320
+
+
+def many_digits():
+    """Context in which flint works with `BITS` bits."""
+    return working(BITS)

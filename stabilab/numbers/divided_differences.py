@@ -14,7 +14,7 @@ from math import factorial
 import numpy as np
 
 from ..errors import InputError
-from .double_double import exact_product
+from .error_free import exact_product
 
 LARGEST_EXPONENT = 700.0  # exp(709.78) is the largest double; the rest is room for the sums
 MOST_TERMS = 100  # reached by no cluster narrower than 30

@@ -8,28 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-
-SPLITTER = 134217729.0  # 2**27 + 1 cuts a 53-bit significand into two halves whose products are exact
-
-
-def exact_sum(x, y):
-    """The rounded sum of two doubles and what rounding took away."""
-    s = x + y
-    back = s - x
-    return s, (x - (s - back)) + (y - back)
-
-
-def exact_product(x, y):
-    """The rounded product of two doubles and what rounding took away."""
-    p = x * y
-    (xh, xl), (yh, yl) = _halves(x), _halves(y)
-    return p, ((xh * yh - p) + xh * yl + xl * yh) + xl * yl
-
-
-def _halves(x):
-    big = SPLITTER * x
-    high = big - (big - x)
-    return high, x - high
+from .error_free import exact_product, exact_sum
 
 
 def twofold(x) -> Twofold:

@@ -5,6 +5,7 @@ from functools import lru_cache
 from importlib.util import find_spec
 
 from ..errors import InputError
+from types import FunctionType
 
 
 @lru_cache(maxsize=1)
@@ -23,3 +24,14 @@ def wanted(n: int, fast: bool | None, loaded: bool, cold: int, warm: int) -> boo
     if fast and not installed():
         raise InputError("fast=True needs numba, which is not installed: pip install 'stabilab[fast]', or leave fast out")
     return bool(fast)
+
+
+def compiled(module, inlined, cache):
+    """The names of a module of straight-line kernels with all its functions compiled."""
+    from numba import njit
+    names = dict(vars(module))
+    for name, function in list(names.items()):
+        if isinstance(function, FunctionType) and function.__module__ == module.__name__:
+            twin = FunctionType(function.__code__, names, name)
+            names[name] = njit(cache=cache, error_model="numpy", forceinline=name in inlined)(twin)
+    return names

@@ -79,7 +79,7 @@ def _poly(value) -> Poly:
     return value if isinstance(value, Poly) else Poly((value,))
 
 
-def _integers(p: Poly) -> list[int]:
+def integers(p: Poly) -> list[int]:
     """A positive multiple with coprime integer coefficients."""
     common = 1
     for v in p.c:
@@ -92,15 +92,15 @@ def _integers(p: Poly) -> list[int]:
 def _square_free(p: Poly) -> Poly:
     a, b = p, p.derivative()
     while b:
-        a, b = b, Poly(_integers(a.divmod(b)[1]) if a.divmod(b)[1] else ())
+        a, b = b, Poly(integers(a.divmod(b)[1]) if a.divmod(b)[1] else ())
     return p.divmod(a)[0]
 
 
 def _sturm_chain(p: Poly) -> list[list[int]]:
-    chain = [Poly(_integers(p)), Poly(_integers(p.derivative()))]
+    chain = [Poly(integers(p)), Poly(integers(p.derivative()))]
     while chain[-1].degree > 0:
         rest = -chain[-2].divmod(chain[-1])[1]
-        chain.append(Poly(_integers(rest)))
+        chain.append(Poly(integers(rest)))
     return [[int(v) for v in q.c] for q in chain]
 
 

@@ -111,7 +111,7 @@ def far_numbers(scene, state):
     """((3, 2) extremes, period) of one state of a scene with a reduction, as rows of `extremes` and `period` have them; NaN where
     they are no doubles."""
     from .period.one_state import period_of
-    from .fate.one_state import extremes_of
+    from .extremes.one_state import extremes_of
     from .reduction import reduce
     reduction, k = reduce(scene), far_exponent(scene, state)
     near, small = own(reduction, state, k)

@@ -8,10 +8,9 @@ import numpy as np
 from .conic import Conic
 from .potential import Hyperbolic, potential
 from .reduction import reduce
+from ..numbers.constants import TURN
 
 ONE_STEP, MOST_STEPS = 3e-9, 8  # a Newton step as small leaves its square; from half a radian five are enough, but at a fold
-EPS = float(np.finfo(float).eps)
-TURN = 2 * np.pi
 LOST = 1e-3  # of the terms: a sum that is smaller than this share has lost more than three digits
 
 

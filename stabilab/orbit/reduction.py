@@ -22,7 +22,8 @@ from fractions import Fraction
 from functools import cached_property
 
 from ..numbers.exact import sqrt_fraction
-from ..physics.quadratic import CYCLE, QuadraticForm
+from ..numbers.vectors import CYCLE
+from ..physics.quadratic import QuadraticForm
 
 
 def _sign(value) -> int:

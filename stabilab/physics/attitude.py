@@ -41,3 +41,13 @@ def unwrapped(wrapped, start):
     """Angles (n, 3) made continuous from `start` (3,), each step taken the short way round."""
     turns = np.round(np.diff(np.vstack([start, wrapped]), axis=0) / (2 * np.pi))
     return wrapped - 2 * np.pi * np.cumsum(turns, axis=0)
+
+
+def body_momentum(scene, omega):
+    """D omega + momenta carried inside, body frame: (..., 3)."""
+    total = np.asarray(scene.body.inertia) * omega
+    for effect in scene.effects:
+        values = {name: float(v) for name, v in effect.parameters().items()}
+        carried = effect.momentum(values)
+        total = total if carried is None else total + np.array(carried)
+    return total

@@ -16,7 +16,7 @@ from typing import ClassVar
 from .body import Body
 from .effects import effect_class
 from .effects.base import Effect
-from .quadratic import Exact3
+from ..numbers.vectors import cross, Exact3
 from .scene import Scene, ZERO3
 
 KNOWN = {"gyrostat", "constant_torque", "charge", "resistance", "liquid_cavity", "newtonian_field", "gravity", "body_force"}
@@ -113,3 +113,45 @@ def gyrostat_scene(parts: Content):
     """The scene of a gyrostat and a constant torque that has the same rates (kind "gyrostat")."""
     torque = [effect_class("constant_torque")(parts.M)] if any(parts.M) else []  # a scene loads no effect that it does not have
     return Scene(Body(parts.D), Together(parts.Lambda), *torque)
+
+
+def linear_rates(D, omega, H):
+    """Rows of the derivative by omega of D^-1 (D omega + Lambda) x omega, where H = D omega + Lambda (any scalar type)."""
+    rows = []
+    for i, (j, k) in enumerate(((1, 2), (2, 0), (0, 1))):  # D_i a_i = H_j omega_k - H_k omega_j
+        row = [omega[0] * 0] * 3
+        row[j] = (omega[k] * D[j] - H[k]) * (1 / D[i])
+        row[k] = (H[j] - omega[j] * D[k]) * (1 / D[i])
+        rows.append(row)
+    return rows
+
+
+def rates(parts: Content, omega, gamma):
+    """(omega', gamma') in exact fractions; with a liquid only where nothing depends on gamma."""
+    w = tuple(map(Fraction, omega))
+    g = tuple(map(Fraction, gamma)) if gamma else (Fraction(0),) * 3
+    D = parts.D
+    H = tuple(d * x + l for d, x, l in zip(D, w, parts.Lambda))
+    total = list(cross(H, w))
+    total = [t + m - parts.c * d * x for t, m, d, x in zip(total, parts.M, D, w)]
+    if parts.kappa:
+        total = [t + parts.kappa * v for t, v in zip(total, liquid_torque(parts, w))]
+    if gamma:
+        field = (cross(parts.s, g), cross(g, tuple(parts.N * d * x for d, x in zip(D, g))), cross(w, (0, 0, parts.E * g[2])))
+        total = [t + sum(part[i] for part in field) for i, t in enumerate(total)]
+    return tuple(t / d for t, d in zip(total, D)), cross(g, w) if gamma else ()
+
+
+def liquid_torque(parts: Content, w):
+    """omega'' + omega x omega' along the motion without small effects (any scalar type)."""
+    D = parts.D
+    moment = (0, 0, 0) if parts.printed else parts.Lambda
+    H = tuple(d * x + l for d, x, l in zip(D, w, moment))
+    first = tuple(t * (1 / d) for t, d in zip(cross(H, w), D))
+    turned = tuple(p + q for p, q in zip(cross(tuple(d * a for d, a in zip(D, first)), w), cross(H, first)))
+    return tuple(t * (1 / d) + v for t, d, v in zip(turned, D, cross(w, first)))
+
+
+def at_rest(parts: Content, omega, gamma) -> bool:
+    """Whether every rate vanishes exactly (not asked with a liquid in a field)."""
+    return not (parts.kappa and gamma) and not any(v for block in rates(parts, omega, gamma) for v in block)

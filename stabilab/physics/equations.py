@@ -12,7 +12,7 @@ from functools import lru_cache, reduce
 
 from ..asked import checked_scene
 from .blocks import BLOCKS, ordered
-from .effects.base import cross, dot
+from ..numbers.vectors import cross, dot
 from ..errors import InputError
 from ..numbers.exact import exact
 
@@ -89,18 +89,18 @@ def _present(parameters) -> dict:
     return {name: value for name, value in parameters.items() if value}
 
 
-def _with_zeros(names, symbols) -> dict:
+def with_zeros(names, symbols) -> dict:
     """Name -> symbol, 0 for a parameter that is zero."""
     from sympy import Integer
     return {name: symbols.get(name, Integer(0)) for name in names}
 
 
-def _strengths(scene, symbols) -> dict:
+def strengths(scene, symbols) -> dict:
     """What the formulas of the scene's effects are called with: a symbol for every parameter that is not zero."""
-    return symbols | _with_zeros([name for effect in scene.effects for name in effect.parameters()], symbols)
+    return symbols | with_zeros([name for effect in scene.effects for name in effect.parameters()], symbols)
 
 
-def _add(u, v):
+def add_terms(u, v):
     return tuple(p + q for p, q in zip(u, v))
 
 
@@ -118,29 +118,29 @@ def _physical(scene, names) -> Equations:
     for effect in scene.effects:
         parameters |= _present(effect.parameters())
         symbols |= _symbols(_present(effect.parameters()))
-    D, p = tuple(symbols[name] for name in ("D1", "D2", "D3")), _strengths(scene, symbols)
+    D, p = tuple(symbols[name] for name in ("D1", "D2", "D3")), strengths(scene, symbols)
     motion = MotionView(scene, blocks, D, p)
     zero = (Integer(0),) * 3
 
     torques, carried, outer, working, potential = {"inertia": motion.inertial}, zero, zero, zero, Integer(0)
     for effect in scene.effects:
         momentum, torque = effect.momentum(p) or zero, effect.torque_along(motion, p) or zero
-        torques[effect.name] = _add(cross(momentum, motion.omega), torque)
-        carried, outer = _add(carried, momentum), _add(outer, torque)
+        torques[effect.name] = add_terms(cross(momentum, motion.omega), torque)
+        carried, outer = add_terms(carried, momentum), add_terms(outer, torque)
         stored = effect.potential(motion, p)
         potential += stored or 0
-        working = _add(working, torque) if effect.works and stored is None else working
+        working = add_terms(working, torque) if effect.works and stored is None else working
 
     if "velocity" in blocks:
         if scene.body.mass is None:
             raise InputError("velocity and position need the mass of the body: give body.mass in kg")
         parameters["mass"] = exact(scene.body.mass)
         symbols |= _symbols(("mass",), positive=True)
-    rates = {"omega": tuple(total / d for total, d in zip(reduce(_add, torques.values()), D))}
+    rates = {"omega": tuple(total / d for total, d in zip(reduce(add_terms, torques.values()), D))}
     rates |= {name: rate(scene, motion, symbols | p) for name, rate in KINEMATICS.items() if name in blocks}
     state, rhs = (tuple(v for name in names for v in part[name]) for part in (blocks, rates))
     inertia = D + (Integer(1),) * (len(state) - 3)
-    energy, H = dot(motion.spin, motion.omega) / 2, _add(motion.spin, carried)
+    energy, H = dot(motion.spin, motion.omega) / 2, add_terms(motion.spin, carried)
     balances = [
         Balance("energy", "work and energy: T' = omega . (torques that do work)" if potential == 0 else
                 "work and energy: (T + potential)' = omega . (other torques that do work)", energy + potential,
@@ -163,7 +163,7 @@ def _gamma_laws(scene, motion, symbols, H):
     for effect in scene.effects:
         area = effect.area(motion, symbols)
         if area is None:
-            rest = _add(rest, effect.torque_along(motion, symbols) or zero)
+            rest = add_terms(rest, effect.torque_along(motion, symbols) or zero)
         else:
             quantity -= area
     yield Balance("area", "angular momentum along gamma: (H . gamma - shares of the torques)' = gamma . (other torques)",
@@ -188,8 +188,8 @@ class MotionView:
         for effect in () if free else self._scene.effects:
             if not effect.small:
                 momentum = effect.momentum(self._symbols)
-                total = _add(total, cross(momentum, self.omega)) if momentum else total
-                total = _add(total, effect.torque_along(self, self._symbols) or (0, 0, 0))
+                total = add_terms(total, cross(momentum, self.omega)) if momentum else total
+                total = add_terms(total, effect.torque_along(self, self._symbols) or (0, 0, 0))
         first = tuple(t / d for t, d in zip(total, self.D))
         change = list(zip(self.omega, first))
         if "gamma" in self._blocks:
@@ -216,7 +216,7 @@ def _quaternion_rate(scene, motion, symbols):
 def _acceleration(scene, motion, symbols):
     """m v' = R f."""
     zero = (motion.omega[0] * 0,) * 3
-    total = reduce(_add, (e.force(motion, symbols) or zero for e in scene.effects), zero)
+    total = reduce(add_terms, (e.force(motion, symbols) or zero for e in scene.effects), zero)
     return tuple(dot(row, total) / symbols["mass"] for row in rotation(motion.attitude))
 
 
@@ -237,10 +237,10 @@ def _scaled(scene) -> Equations:
     x1, x2, x3 = x = tuple(_symbols(scene.components).values())
     parameters = _present(dict(zip(SCALED, scene.exact_ab + scene.exact_mu)))
     symbols = _symbols(parameters)
-    a, b, *mu = _with_zeros(SCALED, symbols).values()
+    a, b, *mu = with_zeros(SCALED, symbols).values()
     torques = {"inertia": (x2 * x3, -x1 * x3, x1 * x2), "gyrostat": (Integer(0), -a * x3, b * x2),
                "constant_torque": tuple(mu)}
-    rhs = reduce(_add, torques.values())
+    rhs = reduce(add_terms, torques.values())
     X, Y = x1 + a, x1 + b
     circle = Balance("circle", "((x1+a)^2 + x2^2)' = 2 mu1 (x1+a) + 2 mu2 x2", X**2 + x2**2, 2 * mu[0] * X + 2 * mu[1] * x2)
     hyperbola = Balance("hyperbola", "((x1+b)^2 - x3^2)' = 2 mu1 (x1+b) - 2 mu3 x3", Y**2 - x3**2, 2 * mu[0] * Y - 2 * mu[2] * x3)
@@ -249,119 +249,3 @@ def _scaled(scene) -> Equations:
                    energy, (b - a) * mu[0] * x1 + b * mu[1] * x2 + a * mu[2] * x3)
     return Equations("scaled", x, parameters, symbols, (Integer(1),) * 3, torques, rhs, _jacobian(rhs, x), energy,
                      (circle, hyperbola, work))
-
-
-def invariants(scene) -> tuple[Balance, ...]:
-    """The laws that hold for this very scene, its numbers put in.
-
-    A Balance whose rate is 0 is a constant of the motion; a constant rate grows exactly in proportion to time; a
-    quantity may hold turn angles alpha_i; a rate that is a multiple of its quantity makes quantity = 0 an invariant
-    plane. Derived from the assembled equations, so a new effect is judged without being named here.
-    """
-    equations = derive(scene)
-    laws = [*_conserved(equations)]
-    laws += _scaled_laws(equations) if equations.variables == "scaled" else _physical_laws(scene, equations)
-    return tuple(laws)
-
-
-CONSERVED = {
-    "energy": "no torque does work: kinetic energy is constant",
-    "momentum": "no outer torque: the size of the angular momentum is constant",
-    "area": "no torque along gamma but the part accounted for: this area integral is constant",
-    "gamma": "gamma is a unit vector fixed in space",
-    "quaternion": "the quaternion of the attitude has length one"}
-
-
-def _conserved(equations):
-    for law in equations.balances:
-        if equations.numeric(law.rate) == 0 and (quantity := equations.numeric(law.quantity)) != 0:
-            words = CONSERVED.get(law.name, f"no torque acts in it: the {law.name} is constant")
-            if law.name == "energy" and law.quantity != equations.energy:
-                words = "all torques that do work have a potential: kinetic plus potential energy is constant"
-            yield Balance(law.name, words, quantity, law.rate * 0)
-
-
-def _outer(scene, equations):
-    """(carried momentum, outer torque) of a physical scene as exact numbers, or None where they vary with the state."""
-    from sympy import Integer, expand
-    zero, p = (Integer(0),) * 3, _strengths(scene, equations.symbols)
-    momenta = [e.momentum(p) or zero for e in scene.effects]
-    parts = [equations.torques[e.name] for e in scene.effects]
-    torques = [tuple(a - b for a, b in zip(part, cross(h, equations.state[:3]))) for part, h in zip(parts, momenta)]
-    pair = tuple(tuple(equations.numeric(expand(Integer(0) + v)) for v in reduce(_add, rows, zero)) for rows in (momenta, torques))
-    return None if any(v.free_symbols for row in pair for v in row) else pair
-
-
-def _physical_laws(scene, equations):
-    known = _outer(scene, equations)
-    if known is None:
-        return
-    (lam, M), omega, alpha = known, equations.state, turn_angles()
-    D = [equations.numeric(d) for d in equations.inertia]
-    T, half_H2 = (equations.numeric(law.quantity) for law in equations.balances[:2])
-    if any(M):
-        yield Balance("energy with turn angles", "constant torque: T - M . (turn angles) is constant, alpha_i' = omega_i",
-                      T - dot(M, alpha), T * 0)
-    moments = {D[i] for i in range(3) if M[i]}
-    if len(moments) == 1:
-        d, rate = moments.pop(), dot(M, lam)
-        words = ("torque along a principal axis (or in a plane of equal moments), no gyrostatic component along it: "
-                 "the quadratic invariant C is constant" if rate == 0 else "torque along a principal axis: |H|^2/2 - D_M T grows by lambda . M each second, "
-                                   "so there is no equilibrium and no bounded motion")
-        yield Balance("quadratic", words, half_H2 - d * T, rate)
-    elif moments:
-        turned = dot(tuple(d * m for d, m in zip(D, M)), alpha)
-        yield Balance("momentum with turn angles", "constant torque: |H|^2/2 - (D M) . (turn angles) changes by lambda . M "
-                      "each second", half_H2 - turned, dot(M, lam))
-    for i, (j, k) in enumerate(((1, 2), (2, 0), (0, 1))):
-        if D[j] == D[k] and lam[j] == lam[k] == 0:
-            yield Balance(f"spin {i + 1}", f"symmetric body: the spin about axis {i + 1} changes by its torque alone",
-                          omega[i], M[i] / D[i])
-
-
-def _scaled_laws(equations):
-    x1, x2, x3 = equations.state
-    a, b, mu1, mu2, mu3 = (equations.numeric(s) for s in _with_zeros(SCALED, equations.symbols).values())
-    alpha = turn_angles()
-    if mu1 != 0 or mu2 != 0:
-        yield Balance("circle with turn angles", "((x1+a)^2 + x2^2)/2 - mu1 alpha1 - mu2 alpha2 changes by mu1 a per unit "
-                      "of tau, alpha_i' = x_i", ((x1 + a)**2 + x2**2) / 2 - mu1 * alpha[0] - mu2 * alpha[1], mu1 * a)
-    if mu1 != 0 or mu3 != 0:
-        yield Balance("hyperbola with turn angles", "((x1+b)^2 - x3^2)/2 - mu1 alpha1 + mu3 alpha3 changes by mu1 b per "
-                      "unit of tau, alpha_i' = x_i", ((x1 + b)**2 - x3**2) / 2 - mu1 * alpha[0] + mu3 * alpha[2], mu1 * b)
-    if mu2 == 0 and mu3 == 0 and mu1 != 0:
-        words = ("a = b, torque on axis 1: x2^2 + x3^2 is constant" if a == b else
-                 "torque on axis 1: J = x2^2 + x3^2 - 2(b-a) x1 changes by -2(b-a) mu1 per unit of tau, "
-                 "so there is no equilibrium and no bounded motion")
-        yield Balance("J", words, x2**2 + x3**2 - 2 * (b - a) * x1, -2 * (b - a) * mu1)
-    if mu1 == mu3:
-        yield Balance("plane x1 + b = x3", "mu1 = mu3: the plane x1 + b = x3 is invariant", x1 + b - x3, -x2 * (x1 + b - x3))
-    if mu1 == -mu3:
-        yield Balance("plane x1 + b = -x3", "mu1 = -mu3: the plane x1 + b = -x3 is invariant", x1 + b + x3, x2 * (x1 + b + x3))
-
-
-def lines(equations) -> tuple[str, ...]:
-    """The equations of motion as plain text, one line each."""
-    return tuple(f"{_left(d, x)}' = {_right(equations, i)}" for i, (d, x) in enumerate(zip(equations.inertia, equations.state)))
-
-
-def _left(d, x):
-    return str(x) if d == 1 else f"{d} {x}"
-
-
-def _right(equations, i):
-    from sympy import Poly, PolynomialError, prod
-    total = sum(part[i] for part in equations.torques.values()) if i < 3 else equations.rhs[i]
-    try:
-        terms = Poly(total, *equations.state).terms()
-    except PolynomialError:
-        return total
-    return sum(factor * prod(x**n for x, n in zip(equations.state, powers)) for powers, factor in terms)
-
-
-def latex(equations) -> str:
-    """The equations of motion as a LaTeX align* environment."""
-    from sympy import latex as tex
-    rows = [rf"{'' if d == 1 else tex(d) + ' '}\dot{{{tex(x)}}} &= {tex(_right(equations, i))}"
-            for i, (d, x) in enumerate(zip(equations.inertia, equations.state))]
-    return "\\begin{align*}\n" + " \\\\\n".join(rows) + "\n\\end{align*}"

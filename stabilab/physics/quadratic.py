@@ -10,9 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-
-Exact3 = tuple[Fraction, Fraction, Fraction]
-CYCLE = ((1, 2), (2, 0), (0, 1))  # axis i -> (j, k)
+from ..numbers.vectors import CYCLE, Exact3
 
 
 @dataclass(frozen=True)
@@ -64,3 +62,8 @@ def scaled_form(a: Fraction, b: Fraction, mu: Exact3) -> QuadraticForm:
     """x1' = x2 x3 + mu1, x2' = -x3 (x1 + a) + mu2, x3' = x2 (x1 + b) + mu3 (Amer et al. 2024, eqs (3), (5))."""
     zero, one = Fraction(0), Fraction(1)
     return QuadraticForm(kappa=(one, -one, one), rho=(zero, zero, b), sigma=(zero, -a, zero), m=tuple(mu), symbol="x")
+
+
+def rests(form, state) -> bool:
+    """Whether every rate vanishes at the state (floats or Fractions, taken as exact), exactly."""
+    return not any(form.rate([Fraction(v) for v in state]))

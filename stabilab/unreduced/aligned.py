@@ -13,11 +13,14 @@ import numpy as np
 from ..errors import InputError
 from ..physics.alignment import aligned
 from ..orbit.far_states import in_range
-from ..orbit.fate.arrays import _write, at_rest, equilibrium_mask, fate, nearly_flat
-from ..orbit.landscape import EPS, landscape
+from ..orbit.fate.arrays import at_rest, fate, nearly_flat, write_row
+from ..physics.states import equilibrium_mask
+from ..numbers.constants import EPS
+from ..orbit.landscape import landscape
 from .near_rest import beside_rest, small_loop
 from ..orbit.fate.one_state import at_rest as rest_of, fate_of, free_fate, OneFate
-from ..orbit.fate.reasons import Reason, rests
+from ..orbit.fate.reasons import Reason
+from ..physics.quadratic import rests
 from ..orbit.reduction import reduce
 from ..orbit.result import Fate
 
@@ -40,15 +43,15 @@ def labeller(scene):
     """The chunk labeller of `fate` for such a scene with a torque; it returns how many states it decided in many digits."""
     kind = kind_of(scene)
     if kind == "turned":
-        return lambda states, out: _label_turned(scene, states, out)
+        return lambda states, out: label_turned(scene, states, out)
 
     def label(states, out):
         with in_range():
             for index, state in enumerate(states):
                 if kind == "law":
-                    _law(scene, state, out, index)
+                    label_by_law(scene, state, out, index)
                 else:
-                    _write(out, index, *one_fate(scene, state, kind))
+                    write_row(out, index, *one_fate(scene, state, kind))
         at_rest(scene, states, out)
         return 0
     return label
@@ -59,13 +62,13 @@ def one_fate(scene, state, kind) -> OneFate:
     if kind == "off-axis":
         found = OneFate(Fate.UNDECIDED, Reason.OFF_AXIS, math.nan)
     elif kind == "turned":
-        found = _turned_fate(aligned(scene), state)
+        found = turned_fate(aligned(scene), state)
     else:
         found = free_fate(scene, state)
     return rest_of(scene, found) if rests(scene.quadratic(), state) else found
 
 
-def _turned_fate(turn, state) -> OneFate:
+def turned_fate(turn, state) -> OneFate:
     """Of the twin's motion, whose numbers are exact or good to 240 bits."""
     reduction = reduce(turn.twin)
     if reduction is None:  # a gyrostatic component stands along the torque
@@ -79,7 +82,7 @@ def _turned_fate(turn, state) -> OneFate:
     return found._replace(axis=0)  # the spin-up is about the torque's direction, not about a body axis
 
 
-def _label_turned(scene, states, out) -> int:
+def label_turned(scene, states, out) -> int:
     """By the twin's formulas in doubles; in many digits where a change of the state in its last places, as the turn makes,
     could matter."""
     turn = aligned(scene)
@@ -100,14 +103,14 @@ def _label_turned(scene, states, out) -> int:
             change += np.abs(np.nan_to_num(fate(turn.twin, moved).margins - result.margins, nan=0.0, posinf=np.inf, neginf=np.inf))
     doubtful = (np.abs(result.margins) <= 2 * change) | nearly_flat(land, turned)
     for index in np.nonzero(doubtful)[0]:
-        _write(out, index, *_turned_fate(turn, states[index].tolist()))
+        write_row(out, index, *turned_fate(turn, states[index].tolist()))
     at_rest(scene, states, out)
     return int(doubtful.sum())
 
 
-def _law(scene, state, out, index):
+def label_by_law(scene, state, out, index):
     from .growth import captured_fate
-    _write(out, index, *_unbounded(captured_fate(scene, state)))
+    write_row(out, index, *_unbounded(captured_fate(scene, state)))
 
 
 def _unbounded(found) -> OneFate:
@@ -120,9 +123,10 @@ def extremes_one_by_one(scene, states, span):
     kind = kind_of(scene)
     if kind == "turned":
         labels = fate(scene, states).labels
-        times = _turned_periods(scene, states, labels)
+        times = turned_periods(scene, states, labels)
         return np.array([turned_extremes(scene, *one, span) for one in zip(states, labels, times)]).reshape(-1, 3, 2)
-    from .off_axis import evidence, extremes_over_period
+    from .off_axis import evidence
+    from .free_gyrostat import extremes_over_period
     rest = equilibrium_mask(scene, states)
     if span is None and kind != "free" and not rest.all():
         raise InputError("this scene has no reduction, so its extremes are searched over a time span: give span=T "
@@ -155,7 +159,7 @@ def turned_period(scene, state, label) -> float:
     return period_of(reduce(turn.twin), turn(state), label) if label == Fate.BOUNDED else 0.0 if label == Fate.EQUILIBRIUM else math.inf
 
 
-def _turned_periods(scene, states, labels):
+def turned_periods(scene, states, labels):
     """(n,) the same of states with these labels."""
     from ..orbit.period.arrays import periods
     turn = aligned(scene)
@@ -167,9 +171,9 @@ def periods_one_by_one(scene, states):
     """(n,) periods for scenes without a reduction: from one return of a free motion; inf for unbounded ones."""
     kind = kind_of(scene)
     if kind == "turned":
-        return _turned_periods(scene, states, fate(scene, states).labels)
+        return turned_periods(scene, states, fate(scene, states).labels)
     rest = equilibrium_mask(scene, states)
     if kind == "free":
-        from .off_axis import extremes_over_period
+        from .free_gyrostat import extremes_over_period
         return np.array([0.0 if still else extremes_over_period(scene, s).period for s, still in zip(states, rest)])
     return np.where(rest, 0.0, np.inf)

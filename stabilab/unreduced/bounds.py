@@ -9,11 +9,11 @@ from dataclasses import replace
 from fractions import Fraction
 from math import hypot, sqrt
 
-from ..physics.effects.base import cross, dot
-from ..errors import InputError
-from ..physics.coefficients import Content, content, gyrostat_scene
+from ..numbers.vectors import dot
+from ..physics.coefficients import at_rest, Content, content, gyrostat_scene
 from ..orbit.fate.reasons import Reason, REASONS
 from ..orbit.result import Fate, Motion
+from ..physics.state import split
 
 STIFF = 1e5  # fastest decay times span beyond which a search for extremes would take minutes
 
@@ -31,7 +31,7 @@ def other_motion(scene, state, span=None, exact=None) -> Motion | None:
         return replace(found, because=f"{found.because}; {parts.note}") if parts.note else found
     at = omega + (gamma or ())
     seen = {} if span is None else _over_span(scene, omega, gamma, span)
-    if _at_rest(parts, exact or omega, gamma):
+    if at_rest(parts, exact or omega, gamma):
         fields = {"fate": Fate.EQUILIBRIUM, "because": REASONS[Reason.AT_REST],
                   "extremes": tuple((w, w) for w in omega)}
     else:
@@ -39,55 +39,6 @@ def other_motion(scene, state, span=None, exact=None) -> Motion | None:
         fields = {**seen, "fate": fate, "because": because, "invariants": bounds}
     because = f"{fields['because']}; {parts.note}" if parts.note else fields["because"]
     return Motion(at=at, **{**fields, "because": because})
-
-
-def split(parts: Content, state):
-    """(omega, gamma or None) as plain floats."""
-    from ..integrate.trajectory import _numbers
-    if isinstance(state, dict):
-        rows = [state.get("omega", ()), state.get("gamma", ())]
-    else:
-        row = _numbers(state, "state")
-        rows = [row[:3], row[3:]]
-    omega, gamma = (tuple(map(float, _numbers(row, "state"))) if len(row) else () for row in rows)
-    if len(omega) != 3 or len(gamma) not in (0, 3):
-        raise InputError("state: expected three numbers (omega), or six (omega, gamma), or a dict of blocks")
-    if not parts.directed:
-        return omega, None
-    if not gamma:
-        raise InputError("state: an effect of this scene asks where the vertical is: give gamma too (six numbers, or a dict of blocks)")
-    return omega, gamma
-
-
-def rates(parts: Content, omega, gamma):
-    """(omega', gamma') in exact fractions; with a liquid only where nothing depends on gamma."""
-    w = tuple(map(Fraction, omega))
-    g = tuple(map(Fraction, gamma)) if gamma else (Fraction(0),) * 3
-    D = parts.D
-    H = tuple(d * x + l for d, x, l in zip(D, w, parts.Lambda))
-    total = list(cross(H, w))
-    total = [t + m - parts.c * d * x for t, m, d, x in zip(total, parts.M, D, w)]
-    if parts.kappa:
-        total = [t + parts.kappa * v for t, v in zip(total, liquid_torque(parts, w))]
-    if gamma:
-        field = (cross(parts.s, g), cross(g, tuple(parts.N * d * x for d, x in zip(D, g))), cross(w, (0, 0, parts.E * g[2])))
-        total = [t + sum(part[i] for part in field) for i, t in enumerate(total)]
-    return tuple(t / d for t, d in zip(total, D)), cross(g, w) if gamma else ()
-
-
-def liquid_torque(parts: Content, w):
-    """omega'' + omega x omega' along the motion without small effects (any scalar type)."""
-    D = parts.D
-    moment = (0, 0, 0) if parts.printed else parts.Lambda
-    H = tuple(d * x + l for d, x, l in zip(D, w, moment))
-    first = tuple(t * (1 / d) for t, d in zip(cross(H, w), D))
-    turned = tuple(p + q for p, q in zip(cross(tuple(d * a for d, a in zip(D, first)), w), cross(H, first)))
-    return tuple(t * (1 / d) + v for t, d, v in zip(turned, D, cross(w, first)))
-
-
-def _at_rest(parts: Content, omega, gamma) -> bool:
-    """Whether every rate vanishes exactly (not asked with a liquid in a field)."""
-    return not (parts.kappa and gamma) and not any(v for block in rates(parts, omega, gamma) for v in block)
 
 
 def judged(parts: Content, omega, gamma) -> tuple[Fate, str, dict]:
@@ -196,11 +147,11 @@ def _over_span(scene, omega, gamma, span) -> dict:
     import numpy as np
     from ..physics.to_numpy import to_numpy
     from ..integrate.extrema import roots_of_rates
-    from ..integrate.trajectory import _start
+    from ..physics.states import equations_and_start
     start = {"omega": omega} | ({"gamma": gamma} if gamma else {})
     from ..physics.scene import Scene
     turning = Scene(scene.body, *(e for e in scene.effects if e.name != "body_force"))
-    equations, state = _start(turning, start)
+    equations, state = equations_and_start(turning, start)
     system, length = to_numpy(equations), float(span[1]) - float(span[0])
     J = system.jacobian(state)
     if not np.isfinite(J).all() or abs(np.linalg.eigvals(J).real).max() * length > STIFF:

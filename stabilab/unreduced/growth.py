@@ -35,20 +35,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from fractions import Fraction
 
 from ..errors import InputError
 from .growth_form import growth_law, standard_form
 from ..orbit.result import Fate
+from .growth_certificates import angle_of, certificate, release_estimate
+from .growth_run import nearest_other, search_certificate
 
-# A certificate counts when its inequality holds by this share of the terms in it: 100 times their rounding.
-CLEARANCE = 2e-14
-# Units of rounding by which a step of the run (a Taylor polynomial of 20 terms) may move the motion: generous, for the boundary is met seldom.
-STEP_ROUNDINGS = 64
-# Steps of the search: several seconds where the fate hangs on it, one or two where only the time of release does.
-STEP_BUDGET, RELEASE_BUDGET = 5_000_000, 2_000_000
-# Steps after which the finite end of a spin-up is given over the span run, unproved beyond it.
-EXTREMES_BUDGET = 300_000
 # How long to look where the caller names no time, in the motion's own unit 1/sqrt(g |m|).
 PATIENCE = 1e6
 
@@ -78,54 +71,14 @@ class CapturedFate:
     steps: int
 
 
-def spin_up_margin(c, y) -> tuple[float, float]:
-    """(margin, size of its terms) of the certificate "spin-up" at y = (u, y2, y3): it holds where margin > 0."""
-    phi, P, J = _angle(c, y)
-    bend, depth, tail = P * P / 2, J / 2 * math.sin(phi)**2, c * c / 8 * math.sin(2 * phi)**2
-    size = bend + abs(depth) + abs(J) + c * c
-    return (bend - depth + tail + min(J, 0.0) / 2 - 0.625 * c * c if P > 0 else -size), size
-
-
-def well_margin(c, y) -> tuple[float, float]:
-    """(margin, size of its terms) of the certificate "well" (c < 0) at y, for the best barrier angle found."""
-    phi, P, J = _angle(c, y)
-    p = phi % math.pi
-
-    def rise(b):  # V(b) - V(p), differences formed term by term
-        return (p - b) - J / 2 * math.sin(b - p) * math.sin(b + p) + c * c / 8 * math.sin(2 * (b - p)) * math.sin(2 * (b + p))
-    barrier = _highest(rise, max(p, math.pi - p), J, c)
-    return rise(barrier) - P * P / 2, P * P / 2 + abs(J) / 2 + c * c / 8 + math.pi
-
-
-def _angle(c, y):
-    u, y2, y3 = y
-    phi = math.atan2(y3, y2)
-    return phi, u + c / 2 * math.cos(2 * phi), y2 * y2 + y3 * y3 - 2 * c * u
-
-
-def _highest(rise, low, J, c):
-    """An angle in [low, pi] where V is about highest (any angle makes a valid certificate)."""
-    places = [low + (math.pi - low) * n / 48 for n in range(49)] + [math.pi - (math.pi - low) * 4.0**-n for n in range(1, 24)]
-    b = max(places, key=rise)
-    for _ in range(6):  # Newton on V' = -1 - (J/2) sin 2b + (c^2/4) sin 4b, kept only where it climbs
-        slope, bend = -1 - J / 2 * math.sin(2 * b) + c * c / 4 * math.sin(4 * b), -J * math.cos(2 * b) + c * c * math.cos(4 * b)
-        if bend >= 0:
-            break
-        step = min(max(b - slope / bend, low), math.pi)
-        if rise(step) <= rise(b):
-            break
-        b = step
-    return b
-
-
 def captured_fate(scene, state, t_max: float | None = None) -> CapturedFate:
     """Which axis the motion from `state` (three numbers, the scene's variables) spins up about, and when it is released.
 
     t_max: how long to look for a certificate, in the scene's time (None: a million of the motion's own units). Raises InputError for a scene whose torque is not along
     one principal axis with a gyrostatic component along it.
     """
-    from ..integrate.trajectory import _state
-    state = tuple(_state(state).tolist())
+    from ..physics.states import three_numbers
+    state = tuple(three_numbers(state).tolist())
     try:
         law = growth_law(scene)
         start = None if law is None else law[1](state)
@@ -147,10 +100,10 @@ def _by_certificate(change, y, t_max):
     if y[1] == y[2] == 0:
         return spin | dict(because=f"pure spin about axis {i + 1}, which the torque speeds up for ever", release_time=0.0,
                            release_estimate=None, certificate="axis", t_certificate=0.0, steps=0)
-    vanishing = _release_estimate(c, _angle(c, y)[2]) * unit if c > 0 else None
+    vanishing = release_estimate(c, angle_of(c, y)[2]) * unit if c > 0 else None
     t_max = PATIENCE * unit if t_max is None else t_max
-    name, t, end, last, steps = _search(c, y, t_max / unit)
-    if c < 0 and steps and name != "none" and (reach := _nearest_other(c, y, t_max / unit, name, steps)):
+    name, t, end, last, steps = search_certificate(c, y, t_max / unit)
+    if c < 0 and steps and name != "none" and (reach := nearest_other(c, y, t_max / unit, name, steps)):
         return dict(fate=Fate.UNDECIDED, axis=0, sense=0, release_time=None, release_estimate=None, certificate="none", t_certificate=None,
                     steps=steps, because=f"unbounded, but between spin-up about axis {i + 1} and capture about axis {q + 1}: a change of the "
                                          f"state by {reach:.0e} of its size, as rounding of the run may make, turns the one into the other")
@@ -174,109 +127,6 @@ def _by_certificate(change, y, t_max):
         f"(the search ends at t = {t_max:g})"))
 
 
-def _release_estimate(c, J):
-    """When a temporary capture (c > 0) is over. Small c: P' > 0 everywhere once J < 2 (about). Any c: P = 0 needs
-    J = R^2 + c^2 cos 2phi >= -c^2."""
-    return max(0.0, (J - 2 if c * c < 2 else J + c * c) / (2 * c))
-
-
-def certificate(c, y) -> str | None:
-    """"spin-up" or "well" where the one or the other holds at y beyond rounding, None otherwise."""
-    margin, size = spin_up_margin(c, y)
-    if margin > CLEARANCE * size or (c > 0 and _angle(c, y)[2] + c * c < -CLEARANCE * size):
-        return "spin-up"
-    if c < 0:
-        margin, size = well_margin(c, y)
-        if margin > CLEARANCE * size:
-            return "well"
-    return None
-
-
-def _search(c, y, t_max):
-    """(certificate or "none", its time, state there, last reversal of the turn, steps): run until one holds."""
-    if found := certificate(c, y):
-        return found, 0.0, y, 0.0, 0
-    if not math.isfinite(sum(v * v for v in y) * (1 + c * c)):
-        return "none", None, y, 0.0, 0
-    run, t, last, steps = _runner(c, y), 0.0, 0.0, 0
-    budget = STEP_BUDGET if c < 0 else RELEASE_BUDGET
-    while t < t_max and steps < budget:
-        t = min(t_max, t + max(1.0 / (1 + abs(c) + max(map(abs, y))), 0.2 * t))
-        t, y, reversal, taken = run(t, budget - steps)
-        last, steps = reversal if reversal is not None else last, steps + taken
-        if not all(map(math.isfinite, y)):
-            break
-        if found := certificate(c, y):
-            return found, t, y, last, steps
-    return "none", None, y, last, steps
-
-
-def _nearest_other(c, y, t_max, name, steps):
-    """The relative change of the state within the run's rounding that leads to another end; None where there is none."""
-    reach = STEP_ROUNDINGS * 2.0**-52 * (steps + 1)
-    length = reach * (max(map(abs, y)) + abs(c))
-    for i in range(3):
-        for move in (-length, length):
-            if _search(c, (*y[:i], y[i] + move, *y[i + 1:]), t_max)[0] != name:
-                return reach
-    return None
-
-
-def _runner(c, y):
-    """run(t, step limit) -> (time reached, state, last reversal of the turn on the way or None, steps)."""
-    from ..physics.to_numpy import form, heyoka_available
-    from ..physics.equations import derive
-    from ..physics.scene import ScaledGyrostat
-    equations = derive(ScaledGyrostat(Fraction(c) / -2, Fraction(c) / 2, (1, 0, 0)))
-    _, x2, x3 = equations.state
-    turn = x2 * equations.rhs[2] - x3 * equations.rhs[1]  # R^2 phi'
-    maker = _taylor_runner if heyoka_available() else _scipy_runner
-    return maker(equations, form(equations, (*equations.rhs, turn)), y)
-
-
-def _taylor_runner(equations, forms, y):
-    from ..physics.to_numpy import taylor_events
-    at = [0.0, y]
-
-    def run(t, limit):
-        with taylor_events(forms) as (integrator, found):
-            integrator.time = at[0]
-            integrator.state[:] = at[1]
-            steps = integrator.propagate_until(t, max_steps=limit)[3]
-            at[:] = integrator.time, tuple(integrator.state.tolist())
-            reversals = [time for time, *_ in found]
-        return at[0], at[1], max(reversals, default=None), steps
-    return run
-
-
-def _scipy_runner(equations, forms, y):
-    import numpy as np
-    from scipy.integrate import DOP853
-    from scipy.optimize import brentq
-    from ..physics.to_numpy import to_numpy
-    from ..integrate.trajectory import ATOL_SHARE, FALLBACK_RTOL
-    system, at = to_numpy(equations), [0.0, np.array(y)]
-
-    def turn(x):
-        rate = system.rate(list(x))
-        return x[1] * rate[2] - x[2] * rate[1]
-
-    def run(t, limit):
-        solver = DOP853(lambda _, x: np.array(system.rate(x.tolist())), at[0], at[1], t, rtol=FALLBACK_RTOL,
-                        atol=FALLBACK_RTOL * ATOL_SHARE)
-        steps, last = 0, None
-        while solver.status == "running" and steps < limit:
-            solver.step()
-            steps += 1
-            dense, times = solver.dense_output(), np.linspace(solver.t_old, solver.t, 9)
-            values = np.array([turn(x) for x in dense(times).T])
-            for n in np.nonzero(values[:-1] * values[1:] < 0)[0]:
-                last = brentq(lambda s: turn(dense(s)), times[n], times[n + 1])
-        at[:] = solver.t, solver.y
-        return solver.t, tuple(solver.y.tolist()), last, steps
-    return run
-
-
 def _without_form(scene, state, axis, t_max):
     """Fields of CapturedFate where the standard form does not exist: exact spin of a symmetric body, else evidence."""
     form = scene.quadratic()
@@ -298,42 +148,3 @@ def _without_form(scene, state, axis, t_max):
     return dict(fate=Fate.SPIN_UP if clear else Fate.UNDECIDED, axis=seen.axis, sense=seen.sense, release_time=None,
                 release_estimate=None, certificate="evidence" if clear else "none", t_certificate=None, steps=seen.steps,
                 because=f"unbounded, because |H|^2/2 - D{axis + 1} T grows in proportion to time; {words}")
-
-
-def captured_extremes(scene, state, answer: CapturedFate | None = None):
-    """((3, 2) array of extremes over t >= 0, words saying over what they are known).
-
-    Growing components have +-inf at their growing end; in a capture "well" the two other components swing ever wider, like
-    t^(1/4) (their action is an adiabatic invariant), and have both. The finite end of a certified spin-up holds for all
-    time, P >= sqrt(2L) keeping it from falling lower; every other finite entry is over the span named.
-    """
-    import numpy as np
-    from ..integrate.extrema import roots_of_rates
-    answer = answer or captured_fate(scene, state)
-    change = standard_form(scene)
-    unit = change.time if change else 1 / math.sqrt(max(abs(float(v)) for v in scene.quadratic().m))
-    span = max(1.5 * (answer.t_certificate or 0.0), 20 * unit)
-    roots = roots_of_rates(scene, state, span)
-    certain = answer.certificate in ("spin-up", "axis")
-    while answer.certificate == "spin-up" and certain and not _floor_holds(change, roots):
-        span *= 1.5
-        certain = not roots.reason and roots.steps < EXTREMES_BUDGET
-        roots = roots_of_rates(scene, state, span) if certain else roots
-    extremes = roots.extremes()
-    if answer.certificate == "well":
-        others = [i for i in range(3) if i != answer.axis - 1]
-        extremes[others] = -np.inf, np.inf
-    if answer.axis:
-        extremes[answer.axis - 1, 1 if answer.sense > 0 else 0] = answer.sense * np.inf
-    where = f"{scene.time_unit} in [0, {roots.t_reached:g}]"
-    if answer.certificate == "axis":
-        return extremes, "all time"
-    return extremes, f"axis {answer.axis} for all time, the others over {where}" if certain else f"finite entries over {where}"
-
-
-def _floor_holds(change, roots):
-    """Whether u can fall no lower after the run than it did in it: u >= sqrt(2L) - |c|/2, L growing (module docstring)."""
-    c, i = change.c, change.axes[0]
-    margin, _ = spin_up_margin(c, change.to_standard(roots.end.tolist()))
-    u = [change.to_standard(x.tolist())[0] for x in (roots.start, roots.end, *roots.states[roots.component == i])]
-    return margin > 0 and math.sqrt(2 * (margin + c * c / 2)) - abs(c) / 2 >= min(u)

@@ -10,7 +10,7 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction
 
-from ..physics.quadratic import CYCLE
+from ..numbers.vectors import CYCLE
 
 
 @dataclass(frozen=True)

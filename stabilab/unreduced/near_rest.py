@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from ..physics.quadratic import CYCLE
+from ..numbers.vectors import CYCLE
 
 # A run in doubles loses the ratio of the terms of the rates to the rates: from here on more than five digits.
 BESIDE = 1e-5

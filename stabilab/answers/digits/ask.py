@@ -14,7 +14,7 @@ import numpy as np
 
 from ...numbers.balls import Digits, DOUBLE_BITS, working
 from ...orbit.fate.free_margin import free_margin, is_free
-from .run import moved_row
+from ...physics.states import moved_row
 from .checked import CAUTION, checked_digits, digits_of, MOST, MOST_DECIMALS, NEAR, nothing, Told
 from ...orbit.result import Fate
 
@@ -52,7 +52,8 @@ def ask(question, scene, state, digits: int, span=None, known=None, exact=None, 
 def ask_all(question, scene, states, digits: int, span=None) -> Told:
     """The same for an array of states (..., 3), values (..., 3, 2) or (...,); span: a time. Of many states a sample is checked."""
     from ...orbit.extremes.arrays import extremes, period
-    from ...orbit.fate.arrays import checked_states, fate
+    from ...physics.states import checked_states
+    from ...orbit.fate.arrays import fate
     array = checked_states(states)
     rows = array.reshape(-1, 3)
     picked = np.unique(np.linspace(0, len(rows) - 1, min(SAMPLE, len(rows))).astype(int))
@@ -114,7 +115,7 @@ def _judged(question, values, balls, digits) -> Told:
 
 def _balls(question, reduction, state, label, digits):
     """The answer in balls, nested as its floats are."""
-    from ...orbit.ball_orbit import precise_margin
+    from ...orbit.fate.balls import precise_margin
     from ...orbit.extremes.balls import extreme_balls
     from ...orbit.period.balls import period_ball
     if question == "extremes":
@@ -174,7 +175,7 @@ def _margin_without_reduction(scene, known, digits, state) -> Told:
         balls = None if margin.tie else margin.ball
     else:
         from ...physics.alignment import aligned
-        from ...orbit.ball_orbit import precise_margin
+        from ...orbit.fate.balls import precise_margin
         from ...orbit.reduction import reduce
         turn = aligned(scene)
         balls = precise_margin(reduce(turn.twin), turn(state), wanted)
@@ -223,16 +224,16 @@ def _by_small_loop(question, form, values, digits, state) -> Told:
 
 
 def _over_span(scene, state, span, known, digits, exact, slack) -> Told:
-    from ...physics.to_numpy import TAYLOR_TOLERANCE
+    from ...integrate.to_heyoka import TAYLOR_TOLERANCE
     from ...physics.scene import Scene
     from ...integrate.extrema import roots_of_rates
-    from ...integrate.trajectory import _start
+    from ...physics.states import equations_and_start
     if known.extremes is None:
         return nothing("extremes", digits, known.extremes_over)
     if scene.variables != "scaled":  # a force at the centre of mass does not turn the body
         scene = Scene(scene.body, *(e for e in scene.effects if e.name != "body_force"))
     length = float(span[1]) - (0.0 if scene.plain else float(span[0])) if span is not None else 0.0
-    equations, start = _start(scene, known.at)
+    equations, start = equations_and_start(scene, known.at)
     values = np.array(known.extremes)
     other = roots_of_rates(scene, moved_row(start), length, 8 * TAYLOR_TOLERANCE)
     error = CAUTION * _apart(values, other.extremes()) if not other.reason else math.inf

@@ -3,11 +3,11 @@ from __future__ import annotations
 
 import json
 import os
-import platform
 import sys
 from dataclasses import asdict, dataclass
 from hashlib import sha256
 from pathlib import Path
+from ...machine import machine, versions
 
 CACHE_SCHEMA = "stabilab.front/1"
 SAFETY = 1.0  # digits that a setting must have had to spare when it was measured
@@ -73,32 +73,3 @@ def _file(case) -> Path:
     """One file per motion: the scene's numbers, the start and the span, whatever the case file is called."""
     key = repr((case.scene, case.state, case.span, sorted(case.blocks.items())))
     return cache_folder() / "precision" / f"{sha256(key.encode()).hexdigest()[:24]}.json"
-
-
-def machine() -> dict[str, str]:
-    """What the times depend on besides the program."""
-    return {"processor": _processor(), "cores": str(os.cpu_count()), "system": f"{platform.system()} {platform.machine()}"}
-
-
-def _processor() -> str:
-    try:
-        for line in Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines():
-            if line.startswith("model name"):
-                return line.partition(":")[2].strip()
-    except OSError:
-        pass
-    return platform.processor() or platform.machine()
-
-
-def versions() -> dict[str, str]:
-    """The program's version and those of the libraries that do the work."""
-    from importlib.metadata import PackageNotFoundError, version
-
-    from ... import __version__
-    found = {"stabilab": __version__, "Python": platform.python_version()}
-    for name in ("numpy", "scipy", "heyoka", "python-flint"):
-        try:
-            found[name] = version(name)
-        except PackageNotFoundError:
-            found[name] = "not installed"
-    return found

@@ -11,18 +11,18 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...physics.attitude import angles, beyond, to_space
-from ...physics.to_numpy import TAYLOR_TOLERANCE
+from ...physics.attitude import angles, beyond, body_momentum, to_space
+from ...integrate.to_heyoka import TAYLOR_TOLERANCE
 from ...errors import InputError, ToleranceNotMet
 from .front import front, SAFETY
 from .checked import CAUTION, checked_digits, DEFAULT, digits_of, MOST, NEAR
-from ..simulate import body_momentum, simulate, Simulation, start_of, STIFF_METHOD
-from ...integrate.trajectory import _start, FALLBACK_RTOL, SCIPY_METHODS
+from ..simulate import simulate, Simulation, STIFF_METHOD
+from ...physics.states import equations_and_start, moved_row, start_of
+from ...integrate.trajectory import FALLBACK_RTOL, SCIPY_METHODS
 
 MANY, REDUCED_FORM = "many digits", "reduced form"
 OWN = ("as simulate chooses", 0.0)  # the finest Taylor series, which costs little more than a coarse one; Radau where the scene is stiff
 STIFF_FINE = (STIFF_METHOD, 1e-12)
-LAST_PLACE = 2.0**-52
 FAR = 1e4  # radians or so from which the reduced form, whose cost does not grow, is cheaper than a run
 FARTHEST = 1e5  # radians beyond which a run in many digits takes more than the work allowed (`precision_reference.WORK`)
 NODES = (-4, -1)  # which of the reduced form's resolutions are tried: one that mostly does, and the finest
@@ -174,13 +174,6 @@ def _other(method, value):
     return max(value / 1000, finest) if value > 4 * finest and method != STIFF_METHOD else value * 8
 
 
-def moved_row(row, places: float = 1.0) -> np.ndarray:
-    """Numbers each moved by about so many units in its last place; a zero by half as many of the largest."""
-    row = np.asarray(row, float)
-    signs = np.random.default_rng(1).choice([-1.0, 1.0], row.size)
-    return row + places * signs * LAST_PLACE * np.where(row == 0, 0.5 * np.abs(row).max(), np.abs(row))
-
-
 def _moved(case, places: float = 1.0):
     """The case with its start moved; what is zero throughout (rest at the origin) stays."""
     return replace(case, state=tuple(map(float, moved_row(case.state, places))),
@@ -220,7 +213,7 @@ def _many_digits(case, times, asked) -> Reached | None:
     """The reference itself, rounded once; at times of one sign."""
     from ...integrate.reference import reference
     scaled = case.scene.variables == "scaled"
-    equations, start = _start(case.scene, case.state if scaled else start_of(case.scene, case.state, case.blocks))
+    equations, start = equations_and_start(case.scene, case.state if scaled else start_of(case.scene, case.state, case.blocks))
     if times.min() < 0 < times.max():
         return None
     start = [*(case.exact_state or start[:3]), *start[3:]]  # the decimals as they were written

@@ -14,7 +14,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import NamedTuple
 
-from ...physics.quadratic import CYCLE
+from ...numbers.vectors import CYCLE
 from ...numbers.affine import Affine, squared
 from .orbit import reduction_over
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 from ...physics.coefficients import Content
-from ...orbit.result import CurveSegment, Equilibria, EquilibriumCurve, EquilibriumPoint
+from ..result import CurveSegment, Equilibria, EquilibriumCurve, EquilibriumPoint
 
 MINIMUM = ("asymptotically stable", "the potential energy has a strict minimum here and the medium takes energy at every rotation (LaSalle)")
 NO_MINIMUM = ("unstable", "the potential energy is not least here and the medium takes energy at every rotation: states of less energy next to "
@@ -41,7 +41,8 @@ def _rest_with_liquid(parts: Content) -> Equilibria:
 
 def rest_positions(parts: Content) -> Equilibria:
     """Rest positions of a body in a field with a resisting medium: (omega, gamma) with omega = 0."""
-    from ..field.balance import many_digits, rotations_at
+    from ...numbers.balls import many_digits
+    from ..field.balance import rotations_at
     from ..field.spectrum import Field
     with many_digits():
         field = Field.of(parts)
@@ -55,7 +56,7 @@ def rest_positions(parts: Content) -> Equilibria:
 
 def _rest(parts, field, rotation) -> EquilibriumPoint:
     """Verdict by the second variation of the potential energy on the tangent plane of |gamma| = 1."""
-    from ..field.spectrum import dot
+    from ...numbers.vectors import dot
     n = [k - rotation.mu for k in field.stiffness(0 * field.N)]
     squares = [g * g for g in rotation.gamma]
     trace = -dot(n, [1 - x for x in squares])

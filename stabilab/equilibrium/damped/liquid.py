@@ -16,12 +16,11 @@ from dataclasses import replace
 from fractions import Fraction
 
 from ...numbers.exact import sqrt_fraction
-from ..curve import RationalCurve
-from ...physics.coefficients import Content, gyrostat_scene
+from ..curve import RationalCurve, sample_parameters, values_inside
+from ...physics.coefficients import Content, gyrostat_scene, linear_rates
 from ..balance import pencil
 from ...numbers.polynomial import Poly, real_roots
-from ...orbit.result import CurveSegment, Equilibria, EquilibriumCurve, EquilibriumPoint
-from ..stability import _inside, sample_parameters
+from ..result import CurveSegment, Equilibria, EquilibriumCurve, EquilibriumPoint
 from ..torque_free import torque_free_curves
 
 ATTRACTING = ("stable", "c1, c2 > 0 in z (z^2 + c2 z + c1): the curve of permanent rotations attracts, so this rotation is stable and "
@@ -61,17 +60,6 @@ def validity(parts: Content) -> Fraction:
     least, most = min(parts.D), max(parts.D)
     moment = sqrt_fraction(sum(v * v for v in parts.Lambda))
     return (least / parts.kappa - moment / least) / (2 * most / least + 1)
-
-
-def linear_rates(D, omega, H):
-    """Rows of the derivative by omega of D^-1 (D omega + Lambda) x omega, where H = D omega + Lambda (any scalar type)."""
-    rows = []
-    for i, (j, k) in enumerate(((1, 2), (2, 0), (0, 1))):  # D_i a_i = H_j omega_k - H_k omega_j
-        row = [omega[0] * 0] * 3
-        row[j] = (omega[k] * D[j] - H[k]) * (1 / D[i])
-        row[k] = (H[j] - omega[j] * D[k]) * (1 / D[i])
-        rows.append(row)
-    return rows
 
 
 def jacobian(parts: Content, omega, w=1):
@@ -131,10 +119,10 @@ def _judged(parts: Content, curve: RationalCurve) -> EquilibriumCurve:
     cuts = sorted({*curve.poles, *curve.crossings, *(t for t in inner if fixed[t].linear == "degenerate")})
     ends, segments, samples, folds = [None, *cuts, None], [], [], []
     for lo, hi in zip(ends, ends[1:]):
-        word = _word(*coefficients(jacobian(parts, curve.exact_point(_inside(lo, hi, curve.scale)))))
+        word = _word(*coefficients(jacobian(parts, curve.exact_point(values_inside(lo, hi, curve.scale)))))
         where = (float("-inf") if lo is None else float(lo), float("inf") if hi is None else float(hi))
         segments.append(CurveSegment(where, word, *_verdict(parts, word)))
-        chosen = sample_parameters(lo, hi, curve.scale) or [_inside(lo, hi, curve.scale)]
+        chosen = sample_parameters(lo, hi, curve.scale) or [values_inside(lo, hi, curve.scale)]
         samples += [point(parts, curve.exact_point(t)) for t in chosen]
         if hi in fixed:
             samples.append(fixed[hi])

@@ -15,11 +15,10 @@ from fractions import Fraction
 from math import inf, sqrt
 from types import SimpleNamespace
 
-from ...physics.effects.base import cross, dot
-from ...physics.coefficients import Content
-from ...unreduced.bounds import liquid_torque
+from ...numbers.vectors import cross, dot
+from ...physics.coefficients import Content, liquid_torque
 from ...numbers.balls import rational
-from ...orbit.result import Equilibria, EquilibriumPoint
+from ..result import Equilibria, EquilibriumPoint
 
 ROUND = 1 + 1e-9  # more than all roundings of a bound
 RADIUS = 1e-45    # relative radius of the ball in which the sharpened zero is proved to lie
@@ -115,7 +114,7 @@ def _region(parts: Content):
 def _point(parts: Content, polynomials, x) -> EquilibriumPoint:
     """Spectrum and verdict at a proved zero, sharpened to some fifty digits and enclosed in balls."""
     import numpy as np
-    from ..field.balance import many_digits
+    from ...numbers.balls import many_digits
     with many_digits() as numbers:
         ball = _enclosed(polynomials, x, numbers)
         derivatives = [[_derivative(p, k) for k in range(3)] for p in polynomials]

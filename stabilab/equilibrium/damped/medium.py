@@ -15,9 +15,10 @@ from fractions import Fraction
 
 from ..spectrum import eigenvalues, invariants
 from ...physics.coefficients import Content
-from ...numbers.polynomial import _integers, Poly, real_roots
-from ...orbit.result import Equilibria, EquilibriumPoint
-from ...physics.quadratic import CYCLE, euler_form
+from ...numbers.polynomial import integers, Poly, real_roots
+from ..result import Equilibria, EquilibriumPoint
+from ...numbers.vectors import CYCLE
+from ...physics.quadratic import euler_form
 
 T = Poly((0, 1))
 BITS = 256
@@ -80,7 +81,7 @@ def elimination(parts: Content, form, e):
 def _gcd(a: Poly, b: Poly) -> Poly:
     while b:
         rest = a.divmod(b)[1]
-        a, b = b, Poly(_integers(rest)) if rest else Poly(())
+        a, b = b, Poly(integers(rest)) if rest else Poly(())
     return a
 
 

@@ -4,10 +4,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from ...numbers.balls import rational, working
+from ...numbers.balls import BITS, rational, working
 from .spectrum import Field
-
-BITS = 320
 
 
 @dataclass(frozen=True)
@@ -17,11 +15,6 @@ class Rotation:
     mu: object
     gamma: tuple
     circle: tuple = ()
-
-
-def many_digits():
-    """Context in which flint works with `BITS` bits."""
-    return working(BITS)
 
 
 def groups_at(S, b):

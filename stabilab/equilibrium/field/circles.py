@@ -6,7 +6,7 @@ from itertools import combinations
 from math import cos, sin
 
 from ...physics.coefficients import Content
-from ...orbit.result import CurveSegment, EquilibriumCurve
+from ..result import CurveSegment, EquilibriumCurve
 from ...numbers.balls import rational
 from .balance import Rotation, rotations_at, rounded_gamma
 from .bifurcations import NEXT_TO

@@ -16,13 +16,14 @@ from fractions import Fraction
 
 from ...errors import InputError
 from ...physics.coefficients import Content
-from ...orbit.result import CurveSegment, Equilibria, EquilibriumCurve, EquilibriumPoint
-from .balance import many_digits, rotations_at, rounded_gamma
+from ..result import CurveSegment, Equilibria, EquilibriumCurve, EquilibriumPoint
+from ...numbers.balls import many_digits
+from .balance import rotations_at, rounded_gamma
 from .circles import circles
 from .bifurcations import cuts_of, separated, step_at
 from .spectrum import Field
 from .verdict import judged
-from ..stability import _inside, sample_parameters
+from ..curve import sample_parameters, values_inside
 
 SAME = 2.0**-30  # far above the 2**-45 by which a branch differs on the two sides of a cut, far below the distance of two branches
 REASON = ("omega = Omega gamma, and (S - mu) gamma = -b with S = (Omega^2 - N) D - Omega E e3 e3^T, b = Omega Lambda + s: for each Omega one "
@@ -45,7 +46,7 @@ def _branches(field, cuts):
     size = max(map(abs, cuts), default=Fraction(1)) or Fraction(1)
     open_, done = [], []
     for lo, hi in zip(ends, ends[1:]):
-        found = rotations_at(field, _inside(lo, hi, size))
+        found = rotations_at(field, values_inside(lo, hi, size))
         joined = {}
         if lo is not None:
             step = step_at(cuts, lo)
@@ -86,7 +87,7 @@ def _sample(field, Omega: Fraction, index: int) -> EquilibriumPoint:
 def _curve(field, number, branch, cuts) -> EquilibriumCurve:
     """Segments of one verdict, changes of verdict and samples of one branch."""
     size = max(map(abs, cuts), default=Fraction(1)) or Fraction(1)
-    pieces = [(lo, hi, index, _sample(field, _inside(lo, hi, size), index)) for lo, hi, index in branch]
+    pieces = [(lo, hi, index, _sample(field, values_inside(lo, hi, size), index)) for lo, hi, index in branch]
     runs = []
     for piece in pieces:
         same = runs and _words(runs[-1][-1][3]) == _words(piece[3])
@@ -99,7 +100,7 @@ def _curve(field, number, branch, cuts) -> EquilibriumCurve:
         samples += [_at(field, branch, t) for t in _chosen(lo, hi, size, cuts)]
         if run is not runs[-1]:
             changes.append(_at(field, branch, hi - step_at(cuts, hi)).at)
-    circle = rotations_at(field, _inside(*branch[0][:2], size))[branch[0][2]].circle
+    circle = rotations_at(field, values_inside(*branch[0][:2], size))[branch[0][2]].circle
     name = f"branch {number}" + (f", a circle about axis {6 - sum(i + 1 for i in circle)}" if circle else "")
     first, last = segments[0].t[0], segments[-1].t[1]
     return EquilibriumCurve(
@@ -114,7 +115,7 @@ def _words(sample):
 
 def _chosen(lo, hi, size, cuts):
     """Three values of Omega of a segment, and 0 (rest) where it is inside; none on a cut."""
-    some = [t for t in sample_parameters(lo, hi, size) if t not in cuts] or [_inside(lo, hi, size)]
+    some = [t for t in sample_parameters(lo, hi, size) if t not in cuts] or [values_inside(lo, hi, size)]
     some = [some[0], some[len(some) // 2], some[-1]]
     if (lo is None or lo < 0) and (hi is None or hi > 0) and 0 not in cuts:
         some.append(Fraction(0))

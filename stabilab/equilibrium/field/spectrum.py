@@ -15,8 +15,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ...physics.effects.base import cross, dot
-from ..damped.liquid import linear_rates
+from ...numbers.vectors import cross, dot
+from ...physics.coefficients import linear_rates
 
 
 @dataclass(frozen=True)

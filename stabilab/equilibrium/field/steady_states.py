@@ -17,12 +17,12 @@ from fractions import Fraction
 from math import tan
 
 from ...errors import InputError
-from ...physics.quadratic import CYCLE
+from ...numbers.vectors import CYCLE
 from ...physics.coefficients import Content
 from ...numbers.polynomial import Poly, real_roots
-from ...orbit.result import CurveSegment, Equilibria, EquilibriumCurve, EquilibriumPoint
+from ..result import CurveSegment, Equilibria, EquilibriumCurve, EquilibriumPoint
 from .spectrum import blocks, Field
-from ..stability import _inside
+from ..curve import values_inside
 
 TAU = Poly((0, 1))
 COS, SIN, ONE = Poly((1, 0, -1)), Poly((0, 2)), Poly((1, 0, 1))  # times 1 + tau^2
@@ -76,7 +76,7 @@ def _pieces(plane: Plane):
     cuts |= {Fraction(0)}
     ends = [None, *sorted(cuts), None]
     for lo, hi in zip(ends, ends[1:]):
-        middle = _inside(lo, hi, Fraction(1))
+        middle = values_inside(lo, hi, Fraction(1))
         if plane.discriminant(middle) > 0:
             yield lo, hi
 
@@ -145,7 +145,7 @@ def _eigenvalues(e2, e3, e4):
 
 def _curve(parts, plane: Plane, lo, hi, side) -> EquilibriumCurve:
     """One side of the quadratic over one interval of tau."""
-    from .balance import many_digits
+    from ...numbers.balls import many_digits
     j, k = CYCLE[plane.i]
     ends = _angle(lo, -1), _angle(hi, 1)
     with many_digits():
@@ -176,6 +176,6 @@ def _angle(tau, otherwise) -> float:
 
 
 def _chosen(lo, hi):
-    from ..stability import sample_parameters
-    some = sample_parameters(lo, hi, Fraction(1)) or [_inside(lo, hi, Fraction(1))]
+    from ..curve import sample_parameters
+    some = sample_parameters(lo, hi, Fraction(1)) or [values_inside(lo, hi, Fraction(1))]
     return sorted({some[0], some[len(some) // 2], some[-1]})

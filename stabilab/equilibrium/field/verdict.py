@@ -3,8 +3,8 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from ...physics.effects.base import cross
-from ...orbit.result import EquilibriumPoint
+from ...numbers.vectors import cross
+from ..result import EquilibriumPoint
 from ...numbers.balls import rational
 from .spectrum import coefficients, Field, second_variation
 

@@ -11,18 +11,17 @@ from ...asked import checked_span
 from ...errors import InputError
 from ...physics.effective import effective
 from ..far_states import far_numbers, far_rows
-from ..fate.arrays import checked_states, CHUNK, fate_on_orbit
-from ..landscape import EPS, Landscape, landscape, TURN
+from ...physics.states import checked_states
+from ..fate.arrays import CHUNK, fate_on_orbit
+from ...numbers.constants import EPS, TURN
+from ..landscape import Landscape, landscape
 from ..reduction import reduce
 from ..result import Fate
 from ...numbers.roots import bracketed_newton
 from .turning_points import interval, spots_along, turning_point
-
-EXTREMES_SHARE = 1e-7  # closer to the separatrix than this share of the energy terms, rounding costs extremes 1e-12
-SPIN_UP_SHARE = 1e-4  # the same for the least rate of a motion that just passes a barrier: the root of a difference
-DIGITS = 1e-12  # rounding that leaves less than this goes to ball arithmetic
-ON_TOP = 1e-13  # of the terms of the force, some hundreds of roundings
-SHIFT_LIMIT = 1e4  # canonical variables lose this factor of accuracy to the shift before the precise path takes over
+from .guards import (
+    clear_of_barriers, DIGITS, EXTREMES_SHARE, into, near_separatrix, needs_digits, on_top, picked, SPIN_UP_SHARE,
+    trapped_rows)
 
 
 def extremes(scene, states, span=None, digits: int | None = None, fast: bool | None = None):
@@ -90,9 +89,9 @@ def _fill(land, scene, states, boxes, periods):
     decided = fate_on_orbit(scene, land, states)
     start = land.start(states)
     trapped = trapped_rows(land, decided)
-    span = interval(land, *_pick(start[0], start[1], trapped)) if len(boxes) and len(periods) and trapped.any() else None
+    span = interval(land, *picked(start[0], start[1], trapped)) if len(boxes) and len(periods) and trapped.any() else None
     if len(boxes):
-        boxes[:] = _chunk(land, states, decided, start, span)
+        boxes[:] = extremes_of_chunk(land, states, decided, start, span)
     if len(periods):
         from ..period.arrays import period_chunk
         periods[:] = period_chunk(land, states, decided, start, span)
@@ -108,13 +107,7 @@ def _fill_open(land, scene, states, boxes, periods, bits):
             column[rows] = some
 
 
-def trapped_rows(land, decided):
-    """(n,) True for motions between two turning points."""
-    trapped = decided.labels == Fate.BOUNDED
-    return trapped & (decided.margins >= 0) if land.e < 0 and land.sense == 0 else trapped
-
-
-def _chunk(land: Landscape, states, decided, start, span=None):
+def extremes_of_chunk(land: Landscape, states, decided, start, span=None):
     """span: the intervals of all `trapped_rows`, where they are known already."""
     out = np.repeat(states[:, :, None], 2, axis=2)
     place, w, size = start
@@ -125,13 +118,13 @@ def _chunk(land: Landscape, states, decided, start, span=None):
     labels = np.where(precise, -1, decided.labels)
     rows = trapped_rows(land, decided)
     trapped, rotating = rows & (labels == Fate.BOUNDED), ~rows & (labels == Fate.BOUNDED)
-    _into(out, rotating, _rotating(land, *_pick(place, w, rotating)))
+    into(out, rotating, _rotating(land, *picked(place, w, rotating)))
     span = None if span is None else span.take(trapped[rows])
-    values, found = _trapped(land, *_pick(place, w, trapped), span)
-    _into(out, trapped, values)
+    values, found = _trapped(land, *picked(place, w, trapped), span)
+    into(out, trapped, values)
     precise[np.nonzero(trapped)[0][~found]] = True
     spinning = labels == Fate.SPIN_UP
-    _into(out, spinning, _spinning(land, *_pick(place, w, spinning)))
+    into(out, spinning, _spinning(land, *picked(place, w, spinning)))
     if precise.any():
         from .balls import precise_extremes
         for index in np.nonzero(precise)[0]:
@@ -139,53 +132,6 @@ def _chunk(land: Landscape, states, decided, start, span=None):
     out[:, :, 0] = np.minimum(out[:, :, 0], states)  # rounding must not exclude the state itself
     out[:, :, 1] = np.maximum(out[:, :, 1], states)
     return out
-
-
-def needs_digits(land: Landscape, states):
-    """(n,) True where the canonical shift is so large that doubles would lose digits (nearly equal moments, or a wheel on the
-    axis of symmetry of a body that hardly turns about it)."""
-    r = land.reduction
-    shift, along = r.parabolic_shift_size, abs(float(r.s))
-    lost = np.zeros(len(states), bool)
-    if shift:
-        lost |= shift > SHIFT_LIMIT * np.maximum(np.abs(states).max(axis=1), 1e-300)
-    return lost | (along > SHIFT_LIMIT * np.abs(states[:, r.axis])) if along else lost
-
-
-def on_top(land: Landscape, place):
-    """(n,) True where the state is at the place of a barrier to rounding: before it or behind, doubles do not tell."""
-    pot = land.potential
-    return (np.abs(pot.force(place)) <= ON_TOP * pot.terms(place)) & (pot.slope(place) > 0)
-
-
-def near_separatrix(land, place, w, decided, share):
-    """(n,) True where the margin is below `share` of the energy's terms: turning points and periods magnify the
-    margin's rounding there, so ball arithmetic takes over."""
-    return np.abs(decided.margins) <= share * land.reduction.energy_unit * energy_terms(land, place, w)
-
-
-def clear_of_barriers(land, place, w, span, share):
-    """(n,) False where the energy of a motion between turning points is so near a barrier's, the highest or not."""
-    return span.closest > share * energy_terms(land, place, w)
-
-
-def energy_terms(land, place, w):
-    """(n,) size of the energy's terms, canonical."""
-    if land.e == 0:
-        return 0.5 * w * w
-    size = np.hypot(*place)
-    pot = land.potential
-    slopes = abs(pot.c) + abs(pot.d) if land.e < 0 else abs(pot.e1) + abs(pot.e2)
-    return 0.5 * w * w + abs(pot.mu) + np.abs(pot.G) * size**2 + slopes * size
-
-
-def _pick(place, w, mask):
-    return tuple(v[mask] for v in place), w[mask]
-
-
-def _into(out, mask, values):
-    if mask.any():
-        out[mask] = values
 
 
 def _components(land, low, high, w_low, w_high):
@@ -322,7 +268,7 @@ def _slowest_ahead(land, place, w):
         slowest = np.minimum(w, np.sqrt(2 * np.maximum(ahead.min(axis=1, initial=np.inf), 0)))
     back = w < 0
     if back.any():
-        place, w = _pick(place, w, back)
+        place, w = picked(place, w, back)
         # the wells between the turning point on the left and the state
         behind_energy = _fastest_behind(land, place, w)
         slowest[back] = -np.sqrt(2 * behind_energy)
@@ -355,7 +301,7 @@ def _spinning_on_plane(land, place, w):
         low_w = np.where(w >= 0, np.minimum(w, np.sqrt(2 * np.maximum(ahead, 0))), w)
     back = (w < 0) & (eta != 0)
     if back.any():
-        one, speed = _pick(place, w, back)
+        one, speed = picked(place, w, back)
         offset, fastest = _turn_back(land, one, speed)
         low_w[back], far[back] = -np.sqrt(2 * fastest), eta[back] * np.exp(-offset)
     zero = np.zeros(n)

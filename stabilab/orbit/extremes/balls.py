@@ -2,7 +2,8 @@
 wherever else doubles would lose digits. Every digit returned is certain."""
 from __future__ import annotations
 
-from ...numbers.balls import DOUBLE_BITS, settled, sign, START_BITS, Unclear, working
+from ...numbers.balls import DOUBLE_BITS, settled, sign, START_BITS, working
+from ...numbers.double_ball import Unclear
 from ..ball_orbit import PreciseOrbit, TIE_BITS
 from ..result import Fate
 

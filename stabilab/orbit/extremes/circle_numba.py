@@ -6,14 +6,13 @@ scene, goes the way of the arrays.
 from __future__ import annotations
 
 from functools import lru_cache
-from types import FunctionType
 
 import numpy as np
 
 from . import circle_kernel
 from .circle_kernel import BOX, LINE, NODES, PERIOD
 from ..landscape import Landscape
-from ...numbers.numba_door import wanted
+from ...numbers.numba_door import compiled, wanted
 
 # Loading numba and its cached code costs 1 to 2 s, compiling it once per machine some ten; NumPy takes some 5 us an orbit.
 COLD, WARM = 1_000_000, 20_000
@@ -71,17 +70,6 @@ def kernel():
         return compiled(circle_kernel, INLINED, cache=True)["orbits"]
     except RuntimeError:  # numba found no folder that it may write to
         return compiled(circle_kernel, INLINED, cache=False)["orbits"]
-
-
-def compiled(module, inlined, cache):
-    """The names of a module of straight-line kernels with all its functions compiled."""
-    from numba import njit
-    names = dict(vars(module))
-    for name, function in list(names.items()):
-        if isinstance(function, FunctionType) and function.__module__ == module.__name__:
-            twin = FunctionType(function.__code__, names, name)
-            names[name] = njit(cache=cache, error_model="numpy", forceinline=name in inlined)(twin)
-    return names
 
 
 def run_kernel(orbits, land, states, wanted, boxes, periods):

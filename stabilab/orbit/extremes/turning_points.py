@@ -6,7 +6,8 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from .circle_kernel import way_of_cosine
-from ..landscape import angle_between, EPS, Landscape, TURN
+from ..landscape import angle_between, Landscape
+from ...numbers.constants import EPS, TURN
 from ...numbers.roots import bracketed_newton
 
 

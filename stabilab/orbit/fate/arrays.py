@@ -7,104 +7,33 @@ of the invariant planes Q = 0. Inputs are taken as exact; what doubles cannot de
 """
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from fractions import Fraction
-from functools import cached_property
 
 import numpy as np
 
-from ...asked import real
-from ...errors import InputError
 from .table import barrier_table
 from ...physics.effective import effective
-from ..far_states import BEYOND, far_exponent, far_fate, far_rows
+from ..far_states import far_exponent, far_fate, far_rows
 from .table_numba import compiled_loops
 from .free_arrays import label_free
 from .free_margin import is_free
-from ..landscape import EPS, Landscape, landscape, TURN
+from ...numbers.constants import EPS, TURN
+from ..landscape import Landscape, landscape
 from ..potential import derivatives_on_parabola
-from ..ball_orbit import decide
-from .reasons import margin_at_rest, Reason, REASONS, rests
+from .balls import decide
+from .reasons import margin_at_rest, Reason
 from ..reduction import reduce
 from ..result import Fate
 from .by_table import label_by_table
+from .result import FateResult
+from ...physics.states import checked_states, equilibrium_mask
 
 CHUNK = 16384
 TABLE_FROM = 5000  # a table costs some ten milliseconds to build, as much as the general formula needs for these
 MARGIN_SHARE = 5e-13  # of the kinetic energy and the barrier's height: half of the rounding that `fate` admits
 DOUBLE_ROOT = 1e-10  # share of a cubic's discriminant: eigenvalues tell two roots 1e-7 apart, whose discriminant is 1e-14 and more
-UNDERFLOW = 2.0**-1060  # what four terms may lose that are no normal doubles
 ROUNDINGS = 64  # units of rounding allowed for in the error bound of a margin: some thirty operations, each counted twice
-
-
-@dataclass(frozen=True)
-class FateResult:
-    """Labels and margins of states (..., 3).
-
-    labels: (...,) int8 of `Fate`. margins: (...,) barrier minus energy in the scene's energy (J; or x_i^2/2 + U when
-    scaled): positive below the barrier; -inf where there is no barrier ahead, +inf where no separatrix bounds the
-    motion, NaN where nothing is known of any (undecided, and no law keeps the motion from being bounded); at an
-    equilibrium on the separatrix 0, and NaN where it is no double (`because` says so). Without a torque all motions are bounded, and the barrier is the kinetic energy of a permanent
-    rotation of the same momentum that is a saddle, of two the nearer in energy: 0 on a separatrix, > 0 with less energy than that (a
-    body turning about its major axis), < 0 with more, whatever the axes are called (`free_gyrostat`; in scaled variables, which know
-    no momentum, the reduction about axis 3 has the barrier). axis: 1, 2, 3 of a spin-up, else 0; sense: its sign, else 0.
-    reasons: (...,) `Reason` codes. precise: how
-    many states had to be decided in many digits. Iterating gives labels, margins.
-    """
-
-    labels: np.ndarray
-    margins: np.ndarray
-    axis: np.ndarray
-    sense: np.ndarray
-    reasons: np.ndarray
-    precise: int = 0
-    scene: object = field(default=None, repr=False, compare=False)
-    states: np.ndarray = field(default=None, repr=False, compare=False)
-    given: object = field(default=None, repr=False, compare=False)  # the scene asked for, of which `scene` is the twin
-
-    def __iter__(self):
-        return iter((self.labels, self.margins))
-
-    @property
-    def because(self):
-        """The reason in words: a string for one state, an object array otherwise."""
-        words = np.array([_told(*one) for one in zip(*map(np.ravel, (self.reasons, self.labels, self.margins)))], dtype=object)
-        return words[0] if self.reasons.ndim == 0 else words.reshape(self.reasons.shape)
-
-    @cached_property
-    def velocity_margins(self) -> np.ndarray:
-        """(...,) smallest change of the state that reaches the separatrix, in the state's unit; inf without one, NaN where the
-        label is undecided."""
-        from ..separatrix.distance import separatrix_distance
-        return np.where(self.labels == Fate.UNDECIDED, np.nan, separatrix_distance(self.scene, self.states))[()]
-
-    @cached_property
-    def validity(self):
-        """Of an approximate law (`stabilab.physics.law_limits`), value and holds (...,): without bound in a spin-up, else at the start; None where
-        all laws are exact."""
-        if not self.given.approximate:
-            return None
-        from ...physics.law_limits import validity
-        rows = np.where((self.labels == Fate.SPIN_UP)[..., None], np.inf, self.states)
-        return validity(self.given, rows, "along a spin-up, or at the start")
-
-
-def _told(reason, label, margin) -> str:
-    known = margin == margin or reason in (Reason.OFF_AXIS, Reason.TURN_ROUNDS) or label == Fate.EQUILIBRIUM
-    return REASONS[Reason(reason)] + ("" if known else f"; the margin in energy is {BEYOND}")
-
-
-def checked_states(states) -> np.ndarray:
-    """States as a float array (..., 3); InputError otherwise."""
-    try:
-        array = np.asarray(real(np.asarray(states), "states"), dtype=float)
-    except (TypeError, ValueError):
-        raise InputError("states: expected numbers in an array of shape (..., 3)") from None
-    if array.ndim < 1 or array.shape[-1] != 3:
-        raise InputError(f"states: expected an array of shape (..., 3), got shape {array.shape}")
-    if not np.isfinite(array).all():
-        raise InputError("states: every component must be finite; at least one is NaN or infinite")
-    return array
 
 
 def fate(scene, states, fast=None, digits: int | None = None) -> FateResult:
@@ -125,9 +54,9 @@ def fate(scene, states, fast=None, digits: int | None = None) -> FateResult:
         return replace(fate(scene, states, fast), margins=ask_all("fate", scene, states, digits).required().values)
     given, scene, array = scene, effective(scene), checked_states(states)
     flat = np.ascontiguousarray(array.reshape(-1, 3))
-    out, far = _columns(len(flat)), _far(scene, flat)
+    out, far = empty_columns(len(flat)), _far(scene, flat)
     if far.any():
-        precise = _label_far(scene, flat, out, np.nonzero(far)[0]) + _label_some(scene, flat, out, np.nonzero(~far)[0])
+        precise = _label_far(scene, flat, out, np.nonzero(far)[0]) + label_some(scene, flat, out, np.nonzero(~far)[0])
     else:
         precise = _label_ordinary(scene, flat, out, fast)
     shape = array.shape[:-1]
@@ -135,7 +64,7 @@ def fate(scene, states, fast=None, digits: int | None = None) -> FateResult:
                       states=array, given=given)
 
 
-def _columns(n):
+def empty_columns(n):
     return {"labels": np.empty(n, np.int8), "margins": np.empty(n), "axis": np.zeros(n, np.int8),
             "sense": np.zeros(n, np.int8), "reasons": np.empty(n, np.int8)}
 
@@ -144,8 +73,8 @@ def _label_ordinary(scene, flat, out, fast) -> int:
     """Fill the columns; how many states needed many digits."""
     table = barrier_table(scene) if len(flat) >= TABLE_FROM else None
     if table is None:
-        return _label_all(scene, flat, out)
-    return _label_some(scene, flat, out, label_by_table(table, flat, out, compiled_loops(len(flat), fast)))
+        return label_all(scene, flat, out)
+    return label_some(scene, flat, out, label_by_table(table, flat, out, compiled_loops(len(flat), fast)))
 
 
 def _far(scene, flat):
@@ -159,32 +88,32 @@ def _label_far(scene, flat, out, indices) -> int:
     for index in indices:
         state = flat[index].tolist()
         found = far_fate(scene, reduction, state, far_exponent(scene, state))
-        _write(out, index, found.label, found.reason, found.margin, found.axis, found.sense)
+        write_row(out, index, found.label, found.reason, found.margin, found.axis, found.sense)
     return len(indices)
 
 
-def _label_all(scene, flat, out) -> int:
+def label_all(scene, flat, out) -> int:
     """Fill the columns by the general formula; how many states needed many digits."""
-    label_chunk, precise = _labeller(scene), 0
+    label_chunk, precise = labeller_of(scene), 0
     for start in range(0, len(flat), CHUNK):
         part = slice(start, min(start + CHUNK, len(flat)))
         precise += label_chunk(flat[part], {name: column[part] for name, column in out.items()})
     return precise
 
 
-def _label_some(scene, flat, out, indices) -> int:
+def label_some(scene, flat, out, indices) -> int:
     """`_label_all` for the states at `indices`, in chunks of them."""
     precise = 0
     for start in range(0, len(indices), CHUNK):
         part = indices[start:start + CHUNK]
-        columns = _columns(len(part))
-        precise += _label_all(scene, flat[part], columns)
+        columns = empty_columns(len(part))
+        precise += label_all(scene, flat[part], columns)
         for name, column in columns.items():
             out[name][part] = column
     return precise
 
 
-def _labeller(scene):
+def labeller_of(scene):
     """The function that labels a chunk (n, 3) into the columns of `out` and returns how many needed many digits."""
     if is_free(scene):
         return _at_rest_too(scene, lambda states, out: label_free(scene, states, out))
@@ -212,23 +141,6 @@ def at_rest(scene, states, out):
         out["labels"][found], out["reasons"][found] = Fate.EQUILIBRIUM, Reason.AT_REST
         out["axis"][found] = out["sense"][found] = 0
         out["margins"][found] = [margin_at_rest(scene, margin) for margin in out["margins"][found]]
-
-
-def equilibrium_mask(scene, states) -> np.ndarray:
-    """(n,) True where every rate of the state vanishes: in doubles to their rounding, then, for the few that pass, exactly."""
-    form = scene.quadratic()
-    kappa, rho, sigma, m = form.coefficients
-    candidate = np.ones(len(states), bool)
-    with np.errstate(all="ignore"):
-        for i, (j, k) in enumerate(((1, 2), (2, 0), (0, 1))):
-            u, v = states[:, j], states[:, k]
-            terms = kappa[i] * u * v, rho[i] * v, sigma[i] * u
-            rate = terms[0] + terms[1] + terms[2] + m[i]
-            size = np.abs(terms[0]) + np.abs(terms[1]) + np.abs(terms[2]) + abs(m[i])
-            candidate &= ~(np.abs(rate) > 16 * EPS * size + UNDERFLOW)  # what overflows is a candidate, too
-    for index in np.nonzero(candidate)[0]:
-        candidate[index] = rests(form, states[index])
-    return candidate
 
 
 def fate_on_orbit(scene, land, states) -> FateResult:
@@ -386,22 +298,22 @@ def _label_plane(land, state, place, out, index):
     xi, eta = place
     axis = land.reduction.axis + 1
     if xi == 0 and eta == 0:
-        _write(out, index, Fate.SPIN_UP, Reason.PURE_SPIN, -np.inf, axis, land.sense)
+        write_row(out, index, Fate.SPIN_UP, Reason.PURE_SPIN, -np.inf, axis, land.sense)
         return
     if eta == 0:  # grows ahead, and the torque's tilt rises behind
-        _write(out, index, Fate.BOUNDED, Reason.WALLS, np.inf)
+        write_row(out, index, Fate.BOUNDED, Reason.WALLS, np.inf)
         return
     tie = decide(land.reduction, state)
     margin = tie.margin * land.reduction.energy_unit
     if tie.sign > 0:
-        _write(out, index, Fate.BOUNDED, Reason.PLANE_CAPTURED, margin)
+        write_row(out, index, Fate.BOUNDED, Reason.PLANE_CAPTURED, margin)
     elif tie.sign == 0:
-        _write(out, index, Fate.SEPARATRIX, Reason.TIE, 0.0)
+        write_row(out, index, Fate.SEPARATRIX, Reason.TIE, 0.0)
     else:
-        _write(out, index, Fate.SPIN_UP, Reason.PLANE_ESCAPES, margin, axis, land.sense)
+        write_row(out, index, Fate.SPIN_UP, Reason.PLANE_ESCAPES, margin, axis, land.sense)
 
 
-def _write(out, index, label, reason, margin, axis=0, sense=0):
+def write_row(out, index, label, reason, margin, axis=0, sense=0):
     spin = label == Fate.SPIN_UP
     out["labels"][index], out["reasons"][index], out["margins"][index] = label, reason, margin
     out["axis"][index], out["sense"][index] = axis * spin, sense * spin
@@ -414,7 +326,7 @@ def _label_parabola(land: Landscape, states, out) -> int:
     out["margins"][:] = margins * land.reduction.energy_unit
     _mark_ties(out, signs == 0)
     for index in np.nonzero(flat_mask(land, states, place))[0]:
-        _write(out, index, Fate.SPIN_UP, Reason.PURE_SPIN, -np.inf, land.reduction.axis + 1, land.sense)
+        write_row(out, index, Fate.SPIN_UP, Reason.PURE_SPIN, -np.inf, land.reduction.axis + 1, land.sense)
     return precise
 
 

@@ -6,7 +6,7 @@ import numpy as np
 from . import table_kernel as arithmetic
 from .table_kernel import ANGLE, BEND, BULK, GROWTH, HIGH, LEAD, LOW, ORIGIN, SIDE, SIGN, STEEP, WIDTH
 from .table import BarrierTable
-from ..landscape import TURN
+from ...numbers.constants import TURN
 
 CHUNK = 8192  # a dozen temporary arrays of this length fit a core's own cache
 KEPT = 1 << 22  # bytes, more than all temporary arrays of a chunk; fresh pages for them would double the time

@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .free_margin import free_margin, free_middle
-from ..landscape import EPS
+from ...numbers.constants import EPS
 from .reasons import Reason
 from ..result import Fate
 from ...numbers.roots import bracketed_newton

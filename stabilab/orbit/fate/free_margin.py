@@ -26,8 +26,9 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import NamedTuple
 
-from ...numbers.balls import DOUBLE_BITS, settled, sign, START_BITS, Unclear
-from .tie import polynomial, shares_root
+from ...numbers.balls import DOUBLE_BITS, settled, sign, START_BITS
+from ...numbers.double_ball import Unclear
+from ...numbers.flint_polynomial import polynomial, shares_root
 from ...numbers.polynomial import Poly
 
 EQUAL_BITS = 512  # two distances in energy that agree to so many bits count as equal

@@ -13,9 +13,10 @@ from typing import NamedTuple
 
 from ...numbers.balls import DOUBLE_BITS, settled, working
 from .free_margin import free_margin, is_free
-from ..ball_orbit import decide, PreciseOrbit
-from ..extremes.balls import extreme_balls
-from .reasons import margin_at_rest, Reason, REASONS, rests
+from .balls import decide
+from ..ball_orbit import PreciseOrbit
+from .reasons import margin_at_rest, Reason, REASONS
+from ...physics.quadratic import rests
 from ..result import Fate
 
 INF = math.inf
@@ -119,54 +120,19 @@ def _on_parabola(r, state) -> OneFate:
     return _valley(r, state)
 
 
-def extremes_of(reduction, state, label: Fate, k: int = 0) -> tuple:
-    """((least, greatest),) * 3 over t >= 0 in units 2^-k of the reduction's; +-inf where unbounded, NaN where larger than any double."""
-    here = [_double(Fraction(v) * Fraction(2) ** k) for v in state]
-    if label == Fate.EQUILIBRIUM:
-        return tuple((v, v) for v in here)
-    balls = extreme_balls(reduction, state, label, doubles=True)
-    # rounding must not exclude the state itself
-    return tuple((min(_scaled(low, k), v), max(_scaled(high, k), v)) for (low, high), v in zip(balls, here))
-
-
-def _double(value: Fraction) -> float:
+def as_double(value: Fraction) -> float:
     try:
         return float(value)
     except OverflowError:
         return math.nan
 
 
-def _scaled(value, k: int) -> float:
+def scaled_double(value, k: int) -> float:
     """The double nearest to 2^k times a ball or float; its own double may have underflowed in the other unit."""
     if not k or isinstance(value, float):
         return float(value)
     middle = float(value)
     if abs(middle) > 2.0**-900:
-        return _double(Fraction(middle) * Fraction(2) ** k)
+        return as_double(Fraction(middle) * Fraction(2) ** k)
     with working(DOUBLE_BITS) as numbers:
         return float(value * numbers.ball(Fraction(2) ** k))
-
-
-def invariants_of(reduction, state) -> dict[str, float]:
-    """Q (the squared radius of the circle, or Z^2 - X^2 on a hyperbola) in canonical units, and the energy W^2/2 + V in
-    the scene's, with the turn angle counted from the direction X = 0; nothing on a parabola."""
-    r = reduction
-    if r.e == 0:
-        return {}
-
-    def question(numbers):
-        o = PreciseOrbit(r, state, numbers)
-        found = {"Q": float(o.Q)}
-        angle = _angle(o)
-        if angle is not None:
-            energy = o.energy - o.mu * angle - o.x * (o.G * o.x / 2 + o.c) - r.e * o.d * o.z
-            found["energy"] = float(energy.mid()) * r.energy_unit
-        return found
-    return settled(question, DOUBLE_BITS)
-
-
-def _angle(orbit):
-    """The turn angle from the direction X = 0; None where there is none, on an invariant plane."""
-    if orbit.r.e < 0:
-        return orbit.energy * 0 if orbit.Q == 0 else orbit.numbers.angle(orbit.x, orbit.z)
-    return None if orbit.on_plane else (abs(orbit.xi) / abs(orbit.eta)).log() / 2

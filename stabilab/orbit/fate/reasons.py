@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 from enum import IntEnum
-from fractions import Fraction
 
 
 class Reason(IntEnum):
@@ -39,11 +38,6 @@ REASONS = {
     Reason.TURN_ROUNDS: "the energy is within 1e-36 of a barrier's, and the turn that puts the torque on an axis has irrational numbers, "
                         "carried to 240 bits",
 }
-
-
-def rests(form, state) -> bool:
-    """Whether every rate vanishes at the state (floats or Fractions, taken as exact), exactly."""
-    return not any(form.rate([Fraction(v) for v in state]))
 
 
 def margin_at_rest(scene, margin: float) -> float:

@@ -10,6 +10,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 from ...numbers.balls import rational
+from ...numbers.flint_polynomial import polynomial, shares_root
 
 
 def exact_tie(orbit) -> bool:
@@ -23,18 +24,6 @@ def exact_tie(orbit) -> bool:
         return False
     tied = _on_parabola if orbit.r.e == 0 else _on_conic
     return all(tied(orbit, spot) for spot in close)
-
-
-def polynomial(*coefficients):
-    """flint's polynomial with these rational coefficients, lowest power first."""
-    from flint import fmpq_poly
-    return fmpq_poly([rational(Fraction(c)) for c in coefficients])
-
-
-def shares_root(first, second, root) -> bool:
-    """Whether the root (a ball that isolates it among those of `first`) is one of `second` as well; flint's polynomials."""
-    common = first.gcd(second)
-    return common.degree() > 0 and any(z.imag.is_zero() and z.real.overlaps(root) for z, _ in common.complex_roots())
 
 
 def _on_parabola(orbit, spot) -> bool:

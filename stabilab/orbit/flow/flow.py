@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from ...errors import InputError
-from ..fate.arrays import checked_states
+from ...physics.states import checked_states
 from .in_doubles import constants, ordinary
 from .panels import Panels, Passing, POINTS, Turn, Turning, turning_offset
 from .profile import Relief, relief

@@ -12,7 +12,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...numbers.balls import settled, Unclear
+from ...numbers.balls import settled
+from ...numbers.double_ball import Unclear
 from ..ball_orbit import PreciseOrbit, TIE_BITS
 
 SURE_BITS = 60  # relative accuracy of a ball that is rounded to a double

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from functools import lru_cache
 
-from ...numbers.balls import settled, sign, Unclear, working
+from ...numbers.balls import settled, sign, working
+from ...numbers.double_ball import Unclear
 from ..ball_orbit import PreciseOrbit
 from ..extremes.balls import turning_points
 from ..result import Fate

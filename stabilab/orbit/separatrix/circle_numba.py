@@ -24,7 +24,7 @@ def serves(land, strips) -> bool:
 @lru_cache(maxsize=1)
 def kernel():
     """The compiled names of `circle_loops`; kept on disk where there is a place for it."""
-    from ..extremes.circle_numba import compiled
+    from ...numbers.numba_door import compiled
     try:
         return compiled(circle_loops, {"force", "slope", "moved", "y_minus_sin", "rise", "stray"}, cache=True)
     except RuntimeError:  # numba found no folder that it may write to

@@ -18,12 +18,13 @@ import math
 from fractions import Fraction
 from typing import NamedTuple
 
-from ...numbers.balls import DOUBLE_BITS, Unclear
+from ...numbers.balls import DOUBLE_BITS
+from ...numbers.double_ball import Unclear
 from ..conic import Conic
 from .nearest import nearest
 from .parabola_chart import parabola_seen, ParabolaChart, rectangle
 from .plane_chart import plane_roots, PlaneChart
-from ..ball_orbit import decide
+from ..fate.balls import decide
 from .sheet_chart import Chart, Hyperbola, Seen, Straight
 from .shade import Shade
 

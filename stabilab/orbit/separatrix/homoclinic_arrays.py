@@ -10,7 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from .circle_kernel import NONE, SHARED, SHARPEST
-from ..landscape import angle_between, TURN
+from ..landscape import angle_between
+from ...numbers.constants import TURN
 from .homoclinic import loop_end
 
 

@@ -1,7 +1,7 @@
 """What the analyses of surfaces and runs answer: frozen results that hold arrays."""
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
@@ -33,28 +33,3 @@ class Separatrix:
 
     sheets: tuple[Sheet, ...]
     reason: str
-
-
-@dataclass(frozen=True)
-class Trajectory:
-    """States at the asked-for times.
-
-    t: (n,) times; states: (n, N), blocks: where each block of the state stands in the N columns; invariant_drift: law name -> largest relative departure from it over the run;
-    counters: integrator's own counts (steps, rate evaluations); status: "reached", "stopped" (reason says why). validity: of an
-    approximate law (`stabilab.physics.law_limits`), its largest value at any step of the run; None where all laws are exact.
-    """
-
-    t: object
-    states: object
-    method: str
-    rtol: float
-    invariant_drift: dict[str, float]
-    counters: dict[str, int]
-    status: str
-    reason: str
-    blocks: dict = field(default_factory=lambda: {"omega": slice(0, 3)})
-    validity: object = None
-
-    def block(self, name: str):
-        """(n, m) states of one block."""
-        return self.states[:, self.blocks[name]]

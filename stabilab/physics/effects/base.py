@@ -87,13 +87,3 @@ class Effect:
     def force(self, motion, p: dict) -> Triple | None:
         """Force on the body, body frame, N; only a scene with translation asks."""
         return None
-
-
-def cross(u, v):
-    """Vector product of two triples of any scalar type."""
-    return (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
-
-
-def dot(u, v):
-    """Scalar product of two triples of any scalar type."""
-    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]

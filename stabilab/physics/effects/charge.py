@@ -7,7 +7,8 @@ from typing import ClassVar
 
 from ...errors import InputError
 from ...numbers.exact import exact, precise
-from .base import cross, Effect, Limit
+from ...numbers.vectors import cross
+from .base import Effect, Limit
 
 SHARE = 0.1  # of the torque, by which a constant angle may be wrong
 

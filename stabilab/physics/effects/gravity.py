@@ -6,7 +6,8 @@ from fractions import Fraction
 from typing import ClassVar
 
 from ...numbers.exact import exact, exact_vector, floats
-from .base import cross, dot, Effect
+from ...numbers.vectors import cross, dot
+from .base import Effect
 
 
 @dataclass(frozen=True)

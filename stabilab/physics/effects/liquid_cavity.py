@@ -8,7 +8,8 @@ from typing import ClassVar
 
 from ...errors import InputError
 from ...numbers.exact import exact, precise
-from .base import cross, Effect, Limit
+from ...numbers.vectors import cross
+from .base import Effect, Limit
 from .pace import pace
 
 TORQUES = ("consistent", "printed")

@@ -6,7 +6,8 @@ from fractions import Fraction
 from typing import ClassVar
 
 from ...numbers.exact import exact
-from .base import cross, Effect, Limit
+from ...numbers.vectors import cross
+from .base import Effect, Limit
 
 SMALL = 0.1  # size over distance at which the next term of the field's torque is a tenth or so of the one that is kept
 

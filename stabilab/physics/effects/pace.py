@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from types import SimpleNamespace
 
-from .base import dot
+from ...numbers.vectors import dot
 
 
 def pace(scene, state: dict, without):

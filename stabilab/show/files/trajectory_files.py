@@ -6,7 +6,7 @@ from pathlib import Path
 from ...physics.blocks import PARTS
 from ...packages import demand
 from . import endings
-from ..style import whole_file
+from ...files import whole_file
 
 
 def checked(path) -> Path:

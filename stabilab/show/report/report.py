@@ -191,7 +191,9 @@ def _section(case, folder, tell) -> dict:
 
 
 def _equations(scene):
-    from ...physics.equations import derive, invariants, latex, lines
+    from ...physics.equations import derive
+    from ...physics.laws import invariants
+    from ...physics.notation import latex, lines
     equations = derive(scene)
     values = ", ".join(f"{name} = {float(value):.12g}" for name, value in equations.parameters.items())
     return {"equations": lines(equations), "latex": latex(equations), "parameters": values,

@@ -5,7 +5,7 @@ import math
 from pathlib import Path
 
 from ...cost.accuracy import digit_price
-from ...answers.digits.front import machine, versions
+from ...machine import machine, versions
 from ...packages import demand
 from ..files import endings
 from .. import style

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from ...cost.accuracy import digit_price, EPS
-from ...answers.digits.front import machine, versions
+from ...machine import machine, versions
 
 FORMULAS = ("linear", "corrected", "printed", "averaged1", "averaged2", "lindstedt")
 WANTED = (3, 6, 9, 12, 15)  # digits whose price the words tell

@@ -78,7 +78,7 @@ def _exists_below_zero():
     return len(points), _largest_rate(points, a, b, mu)
 
 
-def _major_axis_ideal(a, b):
+def major_axis_ideal(a, b):
     """1 where the equilibrium equations of a torque on axis 1 contradict each other (Groebner basis {1}), else 0."""
     import sympy as sp
     x1, x2, x3 = sp.symbols("x1:4")
@@ -90,7 +90,7 @@ def _major_axis_ideal(a, b):
 def _zero_product():
     """The contradiction for a != b (print: equilibria exist), and for a = b (corrected: they do)."""
     import sympy as sp
-    return _major_axis_ideal(sp.Rational(1, 5), sp.Rational(2, 5)), _major_axis_ideal(sp.Rational(1, 5), sp.Rational(1, 5))
+    return major_axis_ideal(sp.Rational(1, 5), sp.Rational(2, 5)), major_axis_ideal(sp.Rational(1, 5), sp.Rational(1, 5))
 
 
 def _characteristic():

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import math
 
-from .general import _major_axis_ideal
+from .general import major_axis_ideal
 from .published import drift, generic, middle_equilibria, misjudged, number, parse, Published, symbols
 
 # Figs 8-11: ranges of x2 and x3 over tau in [0, 15] from (4.5, 1.8, 3.4); lambda1 -> ((x2), (x3)); printed in the
@@ -175,7 +175,7 @@ ROWS = (
     Published("after eq. (41)", "equilibria X2 X3 = −1", "torque on the major axis", "wrong",
               "none unless a = b; then X1 = −a with X2 X3 = −1",
               "whether the three equations contradict each other (Gröbner basis {1}): at a ≠ b; at a = b",
-              lambda: (_major_axis_ideal("1/5", "2/5"), _major_axis_ideal("1/5", "1/5"))),
+              lambda: (major_axis_ideal("1/5", "2/5"), major_axis_ideal("1/5", "1/5"))),
     Published("after eq. (41)", "stable for X3 > 1, unstable for |X2| > 1", "stability on it (a = b)", "wrong",
               "stable if and only if |X3| > |X2|, so also for X3 < −1",
               "share of eight equilibria judged against their spectrum", _major_rule),

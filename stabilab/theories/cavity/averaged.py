@@ -59,7 +59,7 @@ def averaged(scene, state, times, order: int = 1, eps: float | None = None) -> A
     """
     if order not in (1, 2):
         raise InputError(f"order: expected 1 or 2, got {order!r}")
-    omega, times = _omega(state), _times(times)
+    omega, times = omega_of(state), times_row(times)
     check(scene)
     numbers = constants(scene)
     small = Smallness.of(numbers, omega, eps)
@@ -82,7 +82,7 @@ def averaged(scene, state, times, order: int = 1, eps: float | None = None) -> A
                           small.horizon(order))
 
 
-def _omega(state):
+def omega_of(state):
     values = state["omega"] if isinstance(state, dict) and "omega" in state else state
     try:
         array = np.array([float(v) for v in values])
@@ -93,7 +93,7 @@ def _omega(state):
     return array
 
 
-def _times(times):
+def times_row(times):
     try:
         array = np.array([float(v) for v in times])
     except (TypeError, ValueError):

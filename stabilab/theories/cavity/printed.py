@@ -21,7 +21,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ...errors import InputError
-from .averaged import _omega, _times
+from .averaged import omega_of, times_row
 from .normal_form import check, constants
 from ...integrate.trajectory import trajectory
 
@@ -104,7 +104,7 @@ def printed(scene, state, times, compare: bool = True) -> PrintedMotion:
     Raises InputError where the scene is not the paper's (as `averaged`) and where the printed formulas have no real
     value at the start.
     """
-    omega, times = _omega(state), _times(times)
+    omega, times = omega_of(state), times_row(times)
     if (times < 0).any() or (np.diff(times) <= 0).any():
         raise InputError("times: expected increasing times, 0 or later")
     poly = Polynomials.of(scene, omega)

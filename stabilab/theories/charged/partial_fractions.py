@@ -13,7 +13,7 @@ import numpy as np
 
 from .modes import ChargedBody, modes
 from .terms import Terms
-from ...numbers.double_double import exact_product
+from ...numbers.error_free import exact_product
 
 # |difference of two frequencies| t from which on the fractions are used: from 3 on they lose no more than the rounding of
 # the data and of t does, at 1 eight times that (measured against balls; tests)

@@ -86,7 +86,7 @@ def lindstedt(scene, state, times, order: int = 2) -> LindstedtMotion:
     """
     if isinstance(order, bool) or not isinstance(order, (int, np.integer)) or not 0 <= order <= HIGHEST_ORDER:
         raise InputError(f"order: expected a whole number from 0 to {HIGHEST_ORDER}, got {order!r}")
-    times = _times(times)
+    times = times_row(times)
     top = fast_top(scene, state)
     expansion, further, r0 = expand(top, int(order)), expand(top, int(order) + FURTHER), float(top.r0)
     exists = expansion.order >= 0
@@ -107,7 +107,7 @@ def lindstedt(scene, state, times, order: int = 2) -> LindstedtMotion:
                            float(top.Omega2), near, expansion.terms, ahead, residual, departure, left_out, status, reason, r0, expansion)
 
 
-def _times(times):
+def times_row(times):
     try:
         array = np.atleast_1d(np.asarray(times, float))
     except (TypeError, ValueError):

@@ -22,7 +22,7 @@ import numpy as np
 
 from ...errors import InputError
 from .scaling import fast_top
-from .lindstedt import _times
+from .lindstedt import times_row
 
 
 @dataclass(frozen=True)
@@ -100,7 +100,7 @@ def paper_numbers(scene, state) -> PaperNumbers:
 def printed(scene, state, times) -> PrintedMotion:
     """The paper's (41) and (43) at the times, s, through r and gamma of the state at t = 0 (arguments as of `lindstedt`; its
     p, q are not free). Raises InputError without gravity, for gamma0'' not between 0 and 1, and for l_y."""
-    times, top = _times(times), fast_top(scene, state)
+    times, top = times_row(times), fast_top(scene, state)
     try:
         n = paper_numbers(scene, state)
     except ZeroDivisionError:

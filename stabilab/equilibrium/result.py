@@ -1,0 +1,65 @@
+"""Equilibria as data."""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+from dataclasses import dataclass, field
+from typing import Callable
+
+if TYPE_CHECKING:
+    from ..physics.law_limits import Validity
+
+
+@dataclass(frozen=True)
+class EquilibriumPoint:
+    """One equilibrium with its verdicts.
+
+    at: three components in the scene's variables. eigenvalues: of the Jacobian there (1/s, or 1/tau when scaled).
+    linear: "stable" (centre), "unstable", "degenerate". verdict: "stable", "unstable", "undecided" (Lyapunov sense,
+    for the full nonlinear motion), because: its proof in words.
+    """
+
+    at: tuple[float, float, float]
+    eigenvalues: tuple[complex, complex, complex]
+    linear: str
+    verdict: str
+    because: str
+
+
+@dataclass(frozen=True)
+class CurveSegment:
+    """A piece of an equilibrium curve with one verdict; `t` is the open parameter interval (ends may be infinite)."""
+
+    t: tuple[float, float]
+    linear: str
+    verdict: str
+    because: str
+
+
+@dataclass(frozen=True)
+class EquilibriumCurve:
+    """A curve of equilibria: point(t) -> (x1, x2, x3) for t inside the segments' intervals.
+
+    equation and parametrisation in symbols; folds are the points between segments where the linear verdict is
+    degenerate; samples are equilibria spread over every segment.
+    """
+
+    name: str
+    equation: str
+    parametrisation: str
+    point: Callable[[float], tuple[float, float, float]] = field(repr=False, compare=False)
+    segments: tuple[CurveSegment, ...] = ()
+    folds: tuple[tuple[float, float, float], ...] = ()
+    samples: tuple[EquilibriumPoint, ...] = ()
+
+
+@dataclass(frozen=True)
+class Equilibria:
+    """All equilibria of a scene. kind: "none", "points", "curves" (curves, possibly with points) or "all" (every
+    state is one); reason: why these and no others. validity: of an approximate law (`stabilab.physics.law_limits`), at the points; None where
+    all laws are exact."""
+
+    kind: str
+    reason: str
+    points: tuple[EquilibriumPoint, ...] = ()
+    curves: tuple[EquilibriumCurve, ...] = ()
+    validity: Validity | None = None

@@ -1,0 +1,140 @@
+"""From symbols to heyoka: the gate to its Taylor series and event searches."""
+from __future__ import annotations
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import lru_cache
+from threading import RLock
+import numpy as np
+from ..physics.equations import Equations
+from ..physics.to_numpy import equations_of, Form, form
+
+# Default tolerance of the Taylor series: half an ulp of 1. In a spin-up the phase grows as t^2, so a relative 1e-12
+# per step would cost 2e-5 at t = 1000; a tighter step costs a few per cent.
+TAYLOR_TOLERANCE = 2.0**-53
+# Quadratures ride along scaled by this power of two (exact), too small ever to steer the step size.
+FEATHER = 2.0**-300
+
+
+def heyoka_available() -> bool:
+    """Whether the Taylor integrator is installed (Linux wheels only); SciPy stands in where it is not."""
+    try:
+        import heyoka  # noqa: F401
+    except ImportError:
+        return False
+    return True
+
+
+def to_taylor(equations: Equations, quadratures=(), tolerance: float = TAYLOR_TOLERANCE):
+    """A heyoka integrator at t = 0 whose state is the scene's, followed by FEATHER times one integral per quadrature.
+
+    quadratures: SymPy expressions of the state, integrated alongside without steering the step. Raises ImportError
+    where heyoka is not installed (ask `heyoka_available` first).
+    """
+    import copy
+    equations = equations_of(equations)
+    everything = form(equations, (*equations.rhs, *quadratures))
+    integrator = copy.copy(_integrator(everything.state, everything.symbols, everything.expressions, tolerance))
+    integrator.pars[:] = everything.numbers
+    return integrator
+
+
+@contextmanager
+def borrowed_taylor(forms: Form, tolerance: float = TAYLOR_TOLERANCE, lanes: int = 0):
+    """Context giving an integrator as `to_taylor` makes them, which goes back for the next user: copying one takes
+    longer than some hundred steps. Its time and state are those of its last user: set them.
+
+    forms: `form(equations, (*rhs, *quadratures))`. lanes: 0, or how many motions step together (state, pars and the
+    rest are then (..., lanes)). An integrator whose user failed is not handed on.
+    """
+    import copy
+    key = (forms.state, forms.symbols, forms.expressions, tolerance, lanes)
+    free = _free(*key)
+    try:
+        integrator = free.pop()  # one operation: safe among threads
+    except IndexError:
+        integrator = copy.copy(_integrator(*key))
+    integrator.pars[:] = np.reshape(forms.numbers, (-1, 1)) if lanes else forms.numbers
+    yield integrator
+    if len(free) < MOST_FREE:
+        free.append(integrator)
+
+MOST_FREE = 8
+
+
+@lru_cache(maxsize=64)
+def _free(state, symbols, expressions, tolerance, lanes) -> list:
+    """The integrators of this kind that nobody uses."""
+    return []
+
+
+@contextmanager
+def taylor_events(event_forms: Form, tolerance: float = TAYLOR_TOLERANCE):
+    """Context giving (integrator, found): a heyoka integrator that notes every root of every event it passes.
+
+    event_forms: `form(equations, (*rhs, *events))`, the rates first. found: list of (time, index of event, state),
+    emptied at the start. The integrator is shared within the process and held by a lock: set its time and state.
+    """
+    with _LOCK:
+        integrator, recorder = _event_integrator(event_forms.state, event_forms.symbols, event_forms.expressions, tolerance)
+        integrator.pars[:] = event_forms.numbers[:len(integrator.pars)]  # constant events, which are left out, may hold the last
+        recorder.found.clear()
+        yield integrator, recorder.found
+
+_LOCK = RLock()
+
+
+class _Recorder:
+    def __init__(self):
+        self.found = []
+
+    def __deepcopy__(self, memo):  # heyoka copies its callbacks; the list must stay the same one
+        return self
+
+
+@dataclass(frozen=True)
+class _Note:
+    """Callback of one event."""
+
+    index: int
+    recorder: _Recorder
+    size: int
+
+    def __call__(self, integrator, time, sign):
+        integrator.update_d_output(time)
+        self.recorder.found.append((time, self.index, integrator.d_output[:self.size].copy()))
+
+
+def heyoka_form(state, symbols, expressions):
+    import heyoka
+    variables = heyoka.make_vars(*map(str, state))
+    swap = dict(zip(state, variables)) | {s: heyoka.par[i] for i, s in enumerate(symbols)}
+    return variables, [_from_sympy(heyoka, e, swap) for e in expressions]
+
+
+def _from_sympy(heyoka, expression, swap):
+    """heyoka.from_sympy turns away ratios and lone numbers; `form` has left only integers and symbols."""
+    return heyoka.expression(float(expression)) if expression.is_number else heyoka.from_sympy(expression, swap)
+
+
+@lru_cache(maxsize=64)
+def _integrator(state, symbols, expressions, tolerance, lanes=0):
+    import heyoka
+    n = len(state)
+    variables, rates = heyoka_form(state, symbols, expressions)
+    extra = heyoka.make_vars(*(f"quadrature{i}" for i in range(len(expressions) - n))) if len(expressions) > n else []
+    extra = extra if isinstance(extra, list) else [extra]
+    rates[n:] = [FEATHER * r for r in rates[n:]]
+    make, shape = (heyoka.taylor_adaptive_batch, (lanes,)) if lanes else (heyoka.taylor_adaptive, ())
+    return make(list(zip([*variables, *extra], rates)), np.zeros((len(expressions), *shape)),
+                pars=np.zeros((len(symbols), *shape)), tol=tolerance)
+
+
+@lru_cache(maxsize=64)
+def _event_integrator(state, symbols, expressions, tolerance):
+    import heyoka
+    n, recorder = len(state), _Recorder()
+    variables, everything = heyoka_form(state, symbols, expressions)
+    events = [heyoka.nt_event(e, _Note(i, recorder, n)) for i, e in enumerate(everything[n:])
+              if expressions[n + i].free_symbols & set(state)]
+    integrator = heyoka.taylor_adaptive(list(zip(variables, everything[:n])), [0.0] * n, tol=tolerance, nt_events=events)
+    return integrator, recorder

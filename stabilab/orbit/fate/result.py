@@ -1,0 +1,65 @@
+"""Fates and margins of arrays as data."""
+from __future__ import annotations
+from dataclasses import dataclass, field
+from functools import cached_property
+import numpy as np
+from ..result import Fate
+from ..far_states import BEYOND
+from .reasons import Reason, REASONS
+
+
+@dataclass(frozen=True)
+class FateResult:
+    """Labels and margins of states (..., 3).
+
+    labels: (...,) int8 of `Fate`. margins: (...,) barrier minus energy in the scene's energy (J; or x_i^2/2 + U when
+    scaled): positive below the barrier; -inf where there is no barrier ahead, +inf where no separatrix bounds the
+    motion, NaN where nothing is known of any (undecided, and no law keeps the motion from being bounded); at an
+    equilibrium on the separatrix 0, and NaN where it is no double (`because` says so). Without a torque all motions are bounded, and the barrier is the kinetic energy of a permanent
+    rotation of the same momentum that is a saddle, of two the nearer in energy: 0 on a separatrix, > 0 with less energy than that (a
+    body turning about its major axis), < 0 with more, whatever the axes are called (`free_gyrostat`; in scaled variables, which know
+    no momentum, the reduction about axis 3 has the barrier). axis: 1, 2, 3 of a spin-up, else 0; sense: its sign, else 0.
+    reasons: (...,) `Reason` codes. precise: how
+    many states had to be decided in many digits. Iterating gives labels, margins.
+    """
+
+    labels: np.ndarray
+    margins: np.ndarray
+    axis: np.ndarray
+    sense: np.ndarray
+    reasons: np.ndarray
+    precise: int = 0
+    scene: object = field(default=None, repr=False, compare=False)
+    states: np.ndarray = field(default=None, repr=False, compare=False)
+    given: object = field(default=None, repr=False, compare=False)  # the scene asked for, of which `scene` is the twin
+
+    def __iter__(self):
+        return iter((self.labels, self.margins))
+
+    @property
+    def because(self):
+        """The reason in words: a string for one state, an object array otherwise."""
+        words = np.array([_told(*one) for one in zip(*map(np.ravel, (self.reasons, self.labels, self.margins)))], dtype=object)
+        return words[0] if self.reasons.ndim == 0 else words.reshape(self.reasons.shape)
+
+    @cached_property
+    def velocity_margins(self) -> np.ndarray:
+        """(...,) smallest change of the state that reaches the separatrix, in the state's unit; inf without one, NaN where the
+        label is undecided."""
+        from ..separatrix.distance import separatrix_distance
+        return np.where(self.labels == Fate.UNDECIDED, np.nan, separatrix_distance(self.scene, self.states))[()]
+
+    @cached_property
+    def validity(self):
+        """Of an approximate law (`stabilab.physics.law_limits`), value and holds (...,): without bound in a spin-up, else at the start; None where
+        all laws are exact."""
+        if not self.given.approximate:
+            return None
+        from ...physics.law_limits import validity
+        rows = np.where((self.labels == Fate.SPIN_UP)[..., None], np.inf, self.states)
+        return validity(self.given, rows, "along a spin-up, or at the start")
+
+
+def _told(reason, label, margin) -> str:
+    known = margin == margin or reason in (Reason.OFF_AXIS, Reason.TURN_ROUNDS) or label == Fate.EQUILIBRIUM
+    return REASONS[Reason(reason)] + ("" if known else f"; the margin in energy is {BEYOND}")

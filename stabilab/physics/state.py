@@ -1,0 +1,36 @@
+"""One state, checked and split into plain floats; no NumPy."""
+from __future__ import annotations
+import math
+from .coefficients import Content
+from ..errors import InputError
+from ..asked import real
+
+
+def split(parts: Content, state):
+    """(omega, gamma or None) as plain floats."""
+    from .states import numbers_in_a_row
+    if isinstance(state, dict):
+        rows = [state.get("omega", ()), state.get("gamma", ())]
+    else:
+        row = numbers_in_a_row(state, "state")
+        rows = [row[:3], row[3:]]
+    omega, gamma = (tuple(map(float, numbers_in_a_row(row, "state"))) if len(row) else () for row in rows)
+    if len(omega) != 3 or len(gamma) not in (0, 3):
+        raise InputError("state: expected three numbers (omega), or six (omega, gamma), or a dict of blocks")
+    if not parts.directed:
+        return omega, None
+    if not gamma:
+        raise InputError("state: an effect of this scene asks where the vertical is: give gamma too (six numbers, or a dict of blocks)")
+    return omega, gamma
+
+
+def three_floats(state) -> tuple[float, float, float]:
+    """Three finite floats; InputError otherwise."""
+    try:
+        values = tuple(map(float, real(state, "states")))
+        if len(values) == 3 and all(map(math.isfinite, values)):
+            return values
+    except (TypeError, ValueError):
+        pass
+    from .states import checked_states  # other shapes that hold one state, and the words for what is none
+    return tuple(checked_states(state).reshape(3).tolist())

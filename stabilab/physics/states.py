@@ -1,0 +1,129 @@
+"""States, starts and times as the program takes them, checked once: arrays."""
+from __future__ import annotations
+import numpy as np
+from ..errors import InputError
+from ..asked import real
+from .blocks import BLOCKS, ORDER, ordered
+from .equations import derive
+from .to_numpy import equations_of
+from ..numbers.constants import EPS
+from .quadratic import rests
+from .attitude import quaternion
+
+
+def numbers_in_a_row(values, name):
+    try:
+        array = np.atleast_1d(np.asarray(real(np.asarray(values), name), float))
+    except (TypeError, ValueError):
+        raise InputError(f"{name}: expected numbers, got {values!r}") from None
+    if array.ndim != 1 or not array.size or not np.isfinite(array).all():
+        raise InputError(f"{name}: expected finite numbers in one row, got {values!r}")
+    return array
+
+
+def three_numbers(state):
+    array = numbers_in_a_row(state, "state")
+    if array.size != 3:
+        raise InputError(f"state: expected three numbers, got {array.size} of them")
+    return array
+
+REST = {"gamma": (0.0, 0.0, 1.0), "attitude": (1.0, 0.0, 0.0, 0.0), "velocity": (0.0,) * 3, "position": (0.0,) * 3}
+
+
+def equations_and_start(scene, state):
+    """(equations, state as one row) of a start given as numbers or block by block."""
+    if not isinstance(state, dict):
+        equations, array = equations_of(scene), numbers_in_a_row(state, "state")
+        wanted = len(equations.state)
+        if array.size != wanted:
+            words = "three numbers" if wanted == 3 else f"{wanted} numbers ({', '.join(map(str, equations.state))})"
+            raise InputError(f"state: expected {words}, got {array.size} of them")
+        return equations, array
+    unknown = [name for name in state if name not in BLOCKS]
+    if unknown or "omega" not in state:
+        raise InputError(f"state: expected the block omega and any of {', '.join(ORDER[1:])}; got {', '.join(state) or 'none'}")
+    equations = derive(scene, state)
+    rows = []
+    for name in equations.blocks:
+        row = numbers_in_a_row(state.get(name, REST.get(name)), f"state: {name}")
+        if row.size != len(BLOCKS[name].components):
+            raise InputError(f"state: {name} has {len(BLOCKS[name].components)} components, got {row.size}")
+        rows.append(row)
+    return equations, np.concatenate(rows)
+
+
+def checked_times(times):
+    array = numbers_in_a_row(times, "times")
+    steps = np.diff(array)
+    if not ((steps > 0).all() or (steps < 0).all()):
+        raise InputError("times: expected strictly increasing or strictly decreasing times")
+    return array
+
+
+def checked_rtol(rtol):
+    if rtol is not None and not (isinstance(rtol, (int, float)) and 0 < rtol < 1):
+        raise InputError(f"rtol: expected a number between 0 and 1, got {rtol!r}")
+    return rtol
+
+LAST_PLACE = 2.0**-52
+
+
+def moved_row(row, places: float = 1.0) -> np.ndarray:
+    """Numbers each moved by about so many units in its last place; a zero by half as many of the largest."""
+    row = np.asarray(row, float)
+    signs = np.random.default_rng(1).choice([-1.0, 1.0], row.size)
+    return row + places * signs * LAST_PLACE * np.where(row == 0, 0.5 * np.abs(row).max(), np.abs(row))
+
+UNDERFLOW = 2.0**-1060  # what four terms may lose that are no normal doubles
+
+
+def checked_states(states) -> np.ndarray:
+    """States as a float array (..., 3); InputError otherwise."""
+    try:
+        array = np.asarray(real(np.asarray(states), "states"), dtype=float)
+    except (TypeError, ValueError):
+        raise InputError("states: expected numbers in an array of shape (..., 3)") from None
+    if array.ndim < 1 or array.shape[-1] != 3:
+        raise InputError(f"states: expected an array of shape (..., 3), got shape {array.shape}")
+    if not np.isfinite(array).all():
+        raise InputError("states: every component must be finite; at least one is NaN or infinite")
+    return array
+
+
+def equilibrium_mask(scene, states) -> np.ndarray:
+    """(n,) True where every rate of the state vanishes: in doubles to their rounding, then, for the few that pass, exactly."""
+    form = scene.quadratic()
+    kappa, rho, sigma, m = form.coefficients
+    candidate = np.ones(len(states), bool)
+    with np.errstate(all="ignore"):
+        for i, (j, k) in enumerate(((1, 2), (2, 0), (0, 1))):
+            u, v = states[:, j], states[:, k]
+            terms = kappa[i] * u * v, rho[i] * v, sigma[i] * u
+            rate = terms[0] + terms[1] + terms[2] + m[i]
+            size = np.abs(terms[0]) + np.abs(terms[1]) + np.abs(terms[2]) + abs(m[i])
+            candidate &= ~(np.abs(rate) > 16 * EPS * size + UNDERFLOW)  # what overflows is a candidate, too
+    for index in np.nonzero(candidate)[0]:
+        candidate[index] = rests(form, states[index])
+    return candidate
+
+
+def checked_starts(equations, states):
+    wanted = len(equations.state)
+    try:
+        array = np.asarray(real(np.asarray(states), "states"), float)
+    except (TypeError, ValueError):
+        raise InputError(f"states: expected rows of {wanted} numbers, got {states!r}") from None
+    if array.ndim != 2 or array.shape[1] != wanted or not len(array):
+        raise InputError(f"states: expected rows of {wanted} numbers ({', '.join(map(str, equations.state))}), got the shape {array.shape}")
+    if not np.isfinite(array).all():
+        raise InputError(f"states: row {int(np.argmin(np.isfinite(array).all(axis=1)))} is not finite")
+    return array
+
+
+def start_of(scene, omega, blocks) -> dict:
+    """The blocks of the state at time 0 as `trajectory` takes them; attitude from its 3-1-2 angles."""
+    start = {"omega": omega, **blocks}
+    for name in ordered((*scene.blocks, *blocks)):
+        if name == "attitude":
+            start[name] = tuple(quaternion(*blocks.get("attitude", (0.0, 0.0, 0.0))))
+    return start
