@@ -403,7 +403,7 @@ def _over_boxes(cases, *questions):
 
 
 def _equilibria(case):
-    from .equilibrium.gyrostat import equilibria
+    from .answers.equilibria import equilibria
     from .case.read import blamed_on
     with blamed_on(case):
         return equilibria(case.scene)

@@ -10,7 +10,7 @@ from stabilab.unreduced.growth_extremes import captured_extremes
 from stabilab.unreduced.growth import captured_fate
 from stabilab.unreduced.growth_certificates import certificate, spin_up_margin, well_margin
 from stabilab.unreduced.growth_form import growth_law, standard_form
-from stabilab.integrate.trajectory import trajectory
+from stabilab.answers.trajectory import trajectory
 from stabilab.errors import InputError
 
 heyoka = pytest.importorskip("heyoka")

@@ -12,7 +12,7 @@ from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
 from stabilab.unreduced.growth_extremes import captured_extremes
 from stabilab.unreduced.growth import captured_fate
 from stabilab.unreduced.growth_certificates import spin_up_margin, well_margin
-from stabilab.integrate.trajectory import trajectory
+from stabilab.answers.trajectory import trajectory
 from stabilab.unreduced import growth_certificates, growth_run
 
 captured = importlib.import_module("stabilab.unreduced.growth")

@@ -14,13 +14,12 @@ import sympy as sp
 import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.numbers.krawczyk import zeros
-from stabilab.equilibrium.gyrostat import equilibria
-from stabilab.physics.coefficients import content
+from stabilab.answers.equilibria import equilibria
+from stabilab.physics.coefficients import content, rates
 from stabilab.equilibrium.damped.liquid_and_torque import trap
 from stabilab.answers.motion import motion
-from stabilab.physics.coefficients import rates
 from stabilab.orbit.result import Fate
-from stabilab.integrate.trajectory import trajectory
+from stabilab.answers.trajectory import trajectory
 from stabilab.physics.to_numpy import to_numpy
 from stabilab.physics.effects.body_force import BodyForce
 from stabilab.physics.effects.charge import Charge

@@ -14,16 +14,14 @@ from stabilab.cost import effects as effect_cost
 from stabilab.answers.digits import run as precision_digits
 from stabilab.integrate import trajectory as trajectories
 from stabilab.numbers.balls import Digits, DOUBLE_BITS, settled
-from stabilab.orbit.separatrix.circle_kernel import force, moved, real_cubic
-from stabilab.orbit.separatrix.circle_kernel import settled as settled_on_circle
+from stabilab.orbit.separatrix.circle_kernel import force, moved, real_cubic, settled as settled_on_circle
 from stabilab.numbers.double_ball import Unclear
-from stabilab.equilibrium.gyrostat import equilibria
+from stabilab.answers.equilibria import equilibria, other_equilibria
 from stabilab.physics.coefficients import content
 from stabilab.orbit.landscape import landscape
 from stabilab.orbit.separatrix.homoclinic import settled_on
 from stabilab.theories.follow import models_of
 from stabilab.answers.motion import motion
-from stabilab.answers.equilibria import other_equilibria
 from stabilab.unreduced.bounds import other_motion
 from stabilab.physics.motion_units import in_unit
 from stabilab.numbers.polynomial import Poly, real_roots
@@ -32,7 +30,7 @@ from stabilab.answers.digits.ask import ask, ask_all
 from stabilab.answers.digits.checked import digits_of
 from stabilab.theories.top.euler_angles import euler_angles
 from stabilab.orbit.flow.table import tabulated
-from stabilab.integrate.trajectory import trajectory
+from stabilab.answers.trajectory import trajectory
 from stabilab.physics.effects.base import Effect
 from stabilab.physics.effects.resistance import Resistance
 from stabilab.errors import InputError

@@ -5,7 +5,7 @@ from scipy.integrate import solve_ivp
 
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, Scene
 from stabilab.theories.cavity.averaged import Smallness
-from stabilab.equilibrium.gyrostat import equilibria
+from stabilab.answers.equilibria import equilibria
 from stabilab.answers.motion import motion
 from stabilab.physics.effects.charge import Charge
 from stabilab.physics.effects.liquid_cavity import LiquidCavity

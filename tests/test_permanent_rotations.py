@@ -12,15 +12,14 @@ import sympy as sp
 
 import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
-from stabilab.equilibrium.gyrostat import equilibria
-from stabilab.physics.coefficients import content
+from stabilab.answers.equilibria import equilibria
+from stabilab.physics.coefficients import content, rates
 from stabilab.answers.motion import motion
-from stabilab.physics.coefficients import rates
 from stabilab.numbers.balls import many_digits
 from stabilab.equilibrium.field.balance import rotations_at
 from stabilab.orbit.result import Fate
 from stabilab.equilibrium.field.spectrum import Field
-from stabilab.integrate.trajectory import trajectory
+from stabilab.answers.trajectory import trajectory
 from stabilab.physics.to_numpy import to_numpy
 from stabilab.physics.effects.charge import Charge
 from stabilab.physics.effects.gravity import Gravity

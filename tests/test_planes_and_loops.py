@@ -9,10 +9,10 @@ from stabilab.theories.cavity.attractors import attractors
 from stabilab.theories.charged.modes import ChargedBody
 from stabilab.theories.charged.printed import printed
 from stabilab.integrate.ensemble import ensemble
-from stabilab.equilibrium.gyrostat import equilibria
+from stabilab.answers.equilibria import equilibria
 from stabilab.answers.motion import motion
 from stabilab.unreduced.free_gyrostat import extremes_over_period
-from stabilab.integrate.trajectory import trajectory
+from stabilab.answers.trajectory import trajectory
 from stabilab.physics.effects.charge import Charge
 from stabilab.physics.effects.liquid_cavity import LiquidCavity
 from stabilab.physics.effects.resistance import Resistance

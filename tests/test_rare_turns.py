@@ -9,7 +9,7 @@ import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
 from stabilab.answers.digits import run as precision_digits
 from stabilab.unreduced.growth_run import search_certificate
-from stabilab.equilibrium.gyrostat import equilibria
+from stabilab.answers.equilibria import equilibria
 from stabilab.orbit.ball_orbit import PreciseOrbit
 from stabilab.numbers.balls import settled
 from stabilab.numbers.double_ball import Unclear

@@ -11,7 +11,7 @@ import sympy as sp
 from scipy.integrate import solve_ivp
 
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
-from stabilab.equilibrium.gyrostat import equilibria
+from stabilab.answers.equilibria import equilibria
 from stabilab.physics.effects.resistance import Resistance
 from stabilab.physics.equations import derive
 

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, trajectory
-from stabilab.integrate.trajectory import METHODS, SCIPY_METHODS
+from stabilab.answers.trajectory import METHODS
+from stabilab.integrate.trajectory import SCIPY_METHODS
 from stabilab.integrate.to_heyoka import heyoka_available
 from stabilab.errors import InputError
 

@@ -1,10 +1,34 @@
-"""Equilibria of scenes with more than a gyrostat and a constant torque: which analysis answers which scene."""
+"""All equilibria of a scene, whatever acts on the body: which analysis answers which scene."""
 from __future__ import annotations
 
 from dataclasses import replace
 
 from ..physics.coefficients import Content, content, gyrostat_scene
+from ..asked import checked_scene
+from ..equilibrium.gyrostat import gyrostat_equilibria
 from ..equilibrium.result import Equilibria
+
+
+def equilibria(scene) -> Equilibria:
+    """Every equilibrium of a Scene (body, gyrostat, constant torque) or ScaledGyrostat, each with its stability.
+
+    States are in the scene's variables: rad/s in the principal axes, or the dimensionless x. kind is "none" (the reason
+    says why), "points" (isolated), "curves" or "all". A plane of equilibria (equal moments) is one entry of `curves`
+    named "plane ...": its point(t) runs along one line through the centre, its samples lie on several. Folds are also
+    among the samples, with their verdicts. Scenes with charge, liquid, resistance, gravity, Newtonian field or body
+    force are answered too; there a point may be (omega, gamma), and kind "undecided" says that not all equilibria
+    are known. Raises InputError for effects this analysis does not cover.
+    """
+    found = _found(checked_scene(scene))
+    if not scene.approximate:
+        return found
+    from ..physics.law_limits import at_equilibria
+    return replace(found, validity=at_equilibria(scene, found))
+
+
+def _found(scene) -> Equilibria:
+    found = None if scene.plain else other_equilibria(scene)
+    return gyrostat_equilibria(scene) if found is None else found
 
 
 def other_equilibria(scene) -> Equilibria | None:
@@ -22,8 +46,7 @@ def other_equilibria(scene) -> Equilibria | None:
 
 
 def _gyrostat(parts: Content) -> Equilibria:
-    from ..equilibrium.gyrostat import equilibria
-    return equilibria(gyrostat_scene(parts))
+    return gyrostat_equilibria(gyrostat_scene(parts))
 
 
 def _dissipative(parts: Content) -> Equilibria:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..physics.attitude import angles, beyond, body_momentum, to_space, unwrapped
-from ..integrate.trajectory import trajectory
+from .trajectory import trajectory
 from ..physics.states import start_of
 
 STIFF = 1e6  # fastest decay times duration beyond which an explicit method would only shorten its steps

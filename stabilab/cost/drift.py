@@ -4,7 +4,7 @@ from dataclasses import dataclass
 import numpy as np
 from ..physics.scene import ScaledGyrostat
 from ..orbit.extremes.arrays import period
-from ..integrate.trajectory import trajectory
+from ..answers.trajectory import trajectory
 
 SCENE = ScaledGyrostat("0.2", "0.4", (0, 0, 1))
 PIECE = 10_000  # turns a call: a run of the method has a limit of steps

@@ -148,9 +148,9 @@ def without(name: str) -> Scene:
 
 def answers(scene) -> dict[str, object]:
     """Question -> the answer to its last bit, as something that compares equal only to the same bits."""
-    from ..equilibrium.gyrostat import equilibria
+    from ..answers.equilibria import equilibria
     from ..answers.motion import motion
-    from ..integrate.trajectory import trajectory
+    from ..answers.trajectory import trajectory
     runs = {method: trajectory(scene, STATE, TIMES, method) for method in ("taylor", "DOP853")}
     return {"equations": tuple(map(str, (*derive(scene).state, *derive(scene).parameters, *derive(scene).rhs))),
             **{f"states, {method}": (run.states.tobytes(), tuple(run.invariant_drift.items()), tuple(run.counters.items()))

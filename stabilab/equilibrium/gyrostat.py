@@ -7,9 +7,7 @@ Source: derived here; Amer et al. 2024 treats lambda along axis 1 and torques on
 """
 from __future__ import annotations
 
-from dataclasses import replace
 
-from ..asked import checked_scene
 from .conics import balance_fails, conic_curves
 from .isolated import off_axis_equilibria
 from .balance import Pencil, pencil
@@ -18,29 +16,9 @@ from .stability import curve_with_verdicts
 from .torque_free import torque_free_curves
 
 
-def equilibria(scene) -> Equilibria:
-    """Every equilibrium of a Scene (body, gyrostat, constant torque) or ScaledGyrostat, each with its stability.
-
-    States are in the scene's variables: rad/s in the principal axes, or the dimensionless x. kind is "none" (the reason
-    says why), "points" (isolated), "curves" or "all". A plane of equilibria (equal moments) is one entry of `curves`
-    named "plane ...": its point(t) runs along one line through the centre, its samples lie on several. Folds are also
-    among the samples, with their verdicts. Scenes with charge, liquid, resistance, gravity, Newtonian field or body
-    force go to `other_effects`; there a point may be (omega, gamma), and kind "undecided" says that not all equilibria
-    are known. Raises InputError for effects this analysis does not cover.
-    """
-    found = _found(checked_scene(scene))
-    if not scene.approximate:
-        return found
-    from ..physics.law_limits import at_equilibria
-    return replace(found, validity=at_equilibria(scene, found))
-
-
-def _found(scene) -> Equilibria:
-    if not scene.plain:
-        from ..answers.equilibria import other_equilibria
-        found = other_equilibria(scene)
-        if found is not None:
-            return found
+def gyrostat_equilibria(scene) -> Equilibria:
+    """Every equilibrium of a Scene (body, gyrostat, constant torque) or ScaledGyrostat, each with its stability, as `answers.equilibria`
+    tells them. Raises InputError for other effects."""
     p = pencil(scene)
     if not any(p.M):
         return _torque_free(p)

@@ -18,7 +18,7 @@ from .to_heyoka import borrowed_taylor, heyoka_available, TAYLOR_TOLERANCE
 from ..errors import InputError
 from ..physics.motion_units import in_unit, own_unit
 from ..physics.states import checked_rtol, checked_starts, checked_times
-from .trajectory import STEP_LIMIT, trajectory
+from .trajectory import integrated, STEP_LIMIT
 
 # Motions in step: eight doubles fill the widest vectors there are, and narrower ones two or four at a time. Not asked of
 # the machine, so that every machine groups alike.
@@ -160,7 +160,7 @@ class _Rows:
 
 def _single(scene, start, times, method, rtol, out):
     """(why it stopped or "", run) of one motion, its states put into `out` (m, N), inf where it did not get."""
-    run = trajectory(scene, start, times, method, rtol, laws=False)
+    run = integrated(scene, start, times, method, rtol, laws=False)
     out[:] = np.inf
     out[np.isin(times, run.t)] = run.states
     return ("" if run.status == "reached" else run.reason), run

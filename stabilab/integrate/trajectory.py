@@ -5,7 +5,6 @@ steps (feathered, see `compiled`), so a law with a non-zero rate is as good a wi
 """
 from __future__ import annotations
 
-import difflib
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -13,13 +12,10 @@ import numpy as np
 from ..physics.blocks import slices
 from ..physics.to_numpy import form, to_numpy
 from .to_heyoka import borrowed_taylor, FEATHER, heyoka_available, TAYLOR_TOLERANCE
-from ..errors import InputError
 from ..physics.motion_units import in_unit, mass_unit, own_unit
 from ..physics.states import checked_rtol, checked_times, equations_and_start
 
 SCIPY_METHODS = ("RK45", "RK23", "DOP853", "Radau", "BDF", "LSODA")
-METHODS = ("taylor", *SCIPY_METHODS)
-REDUCED = "reduced"  # follows nothing: see `reduced_motion`
 # SciPy's own default is 1e-3, too coarse to judge a motion by; 1e-10 is within reach of every method in the list.
 SCIPY_RTOL = 1e-10
 # What DOP853 can still hold in double precision; it stands in for the Taylor series.
@@ -31,27 +27,14 @@ REPORT, PATIENCE = 1_000_000, 5  # steps after which the rest is forecast; forec
 OUTCOMES = {"err_nf_state": "the numbers overflowed"}
 
 
-def trajectory(scene, state, times, method: str = "taylor", rtol: float | None = None, steps: list | None = None,
+def integrated(scene, state, times, method: str = "taylor", rtol: float | None = None, steps: list | None = None,
                laws: bool = True) -> Trajectory:
-    """States of a scene at the given times, the motion being at `state` at t = 0.
+    """States of a scene at the given times, followed in steps; see `answers.trajectory` for the arguments.
 
-    state: three numbers, the angular velocity (x when scaled); for scenes with more blocks of state all their
-    components in order, or a dict of blocks {"omega": ..., "gamma": ..., "attitude": ...} as in `blocks` (a block
-    beyond those that the scene needs is integrated too; a missing one starts at gamma = e3, the unit quaternion, rest).
-
-    times: (n,) strictly increasing or decreasing, of any sign, in s (tau when scaled). method: "taylor" (heyoka; where
-    it is not installed SciPy's DOP853 at rtol 1e-13, and `method` and `reason` say so) or a method of
-    scipy.integrate.solve_ivp by name, in any case; "reduced" (the quadrature of a scene with one degree of freedom, at a cost
-    that does not grow with the times; InputError where the motion has none). rtol: relative tolerance; None is half an ulp for "taylor", 1e-10
-    for the others. steps: a list that takes the times at which the method ended its own steps. laws: check the balance
-    laws (costs the Taylor series a fifth or so); without, `invariant_drift` is empty. Where the run cannot go on (overflow, a failing step) `status` is "stopped", `reason` says why, and
-    t, states hold the times that were reached. Raises InputError for states and times that are no such numbers and
-    for an unknown method.
+    method: "taylor" or one of SCIPY_METHODS, as spelt there.
     """
-    method, times, rtol = _method(method), checked_times(times), checked_rtol(rtol)
+    times, rtol = checked_times(times), checked_rtol(rtol)
     equations, state = equations_and_start(scene, state)
-    if method == REDUCED:
-        return _by_quadrature(scene, equations, state, times, rtol)
     reason, landing = "all times reached", False
     if method == "taylor" and not heyoka_available():
         method, rtol, landing = "DOP853", max(rtol or 0.0, FALLBACK_RTOL), True
@@ -81,7 +64,7 @@ def trajectory(scene, state, times, method: str = "taylor", rtol: float | None =
             failures += [failure] if failure else []
             for row in points if watch else ():
                 watch.note(row[:state.size])
-            for name, departure in _departures(system, state, points).items() if laws else ():
+            for name, departure in departures(system, state, points).items() if laws else ():
                 drift[name] = max(drift.get(name, 0.0), departure)
     reached, states = np.concatenate(reached), np.concatenate(states)
     order = np.argsort(reached)[::1 if times.size < 2 or times[1] > times[0] else -1]
@@ -103,43 +86,13 @@ def watcher(scene, equations, state):
 def _in_unit(scene, state, times, rtol, steps, laws, unit, mass) -> Trajectory:
     """The same in the motion's own units of time and mass: exact, as they are powers of two."""
     passed = None if steps is None else []
-    run = trajectory(in_unit(scene, unit, mass), state / unit, times * unit, "taylor", rtol, passed, laws)
+    run = integrated(in_unit(scene, unit, mass), state / unit, times * unit, "taylor", rtol, passed, laws)
     if steps is not None:
         steps += [t / unit for t in passed]
     return replace(run, t=times[np.isin(times * unit, run.t)], states=run.states * unit)
 
 
-def _method(name: str) -> str:
-    known = {m.lower(): m for m in (*METHODS, REDUCED)}
-    if isinstance(name, str) and name.lower() in known:
-        return known[name.lower()]
-    close = difflib.get_close_matches(str(name).lower(), known, 1)
-    hint = f'; did you mean "{known[close[0]]}"?' if close else ""
-    raise InputError(f"method: there is no {name!r}; choose one of {', '.join(known.values())}{hint}")
-
-
-def _by_quadrature(scene, equations, state, times, rtol):
-    from ..orbit.flow.flow import axis_way, reduced_motion
-    if equations.blocks != ("omega",):
-        raise InputError(f"method reduced: it gives the rates alone, and the state has the blocks {', '.join(equations.blocks)}; take "
-                         "method taylor")
-    if rtol is not None:
-        raise InputError("method reduced: it takes as many nodes as doubles need and has no tolerance; leave rtol out")
-    motion = reduced_motion(scene, state, backwards=bool((times < 0).any()))
-    states, turned, axis = axis_way(motion, times)
-    system = to_numpy(equations)
-    unit = np.vstack([np.zeros(3), np.eye(3)[axis]])
-    integrals = [row[0] * times + (row[1] - row[0]) * turned for row in system.law_rates(unit).values()]  # affine in that rate
-    drift = _departures(system, state, np.column_stack([states, *integrals]))
-    watch = watcher(scene, equations, state)
-    for row in states if watch else ():
-        watch.note(row)
-    return Trajectory(times, states, REDUCED, None, drift, {"evaluations": motion.evaluations}, "reached",
-                      "all times reached, without steps: time as an integral over the reduced coordinate, inverted",
-                      validity=watch and watch.result())
-
-
-def _departures(system, state, points) -> dict[str, float]:
+def departures(system, state, points) -> dict[str, float]:
     """Law name -> largest |Q(t) - Q(0) - integral of its rate| over the largest size of its terms in the run."""
     if not len(points):
         return {}

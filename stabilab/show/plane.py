@@ -92,7 +92,7 @@ def _plane_picture(plt, case, plane):
 
 
 def _projections(plt, case):
-    from ..integrate.trajectory import trajectory
+    from ..answers.trajectory import trajectory
     span = case.span or (0.0, 15.0)
     run = trajectory(case.scene, case.state, np.linspace(*span, 4001))
     states, labels = np.asarray(run.states), style.axis_labels(case.scene)

@@ -15,7 +15,7 @@ from ..errors import InputError
 from ..integrate.extrema import roots_of_rates
 from ..orbit.result import Fate
 from ..physics.states import three_numbers
-from ..integrate.trajectory import trajectory
+from ..integrate.trajectory import integrated
 
 # A run that has not shown what is asked after this many steps (seconds of work) gives up and says so.
 STEP_BUDGET = 1_000_000
@@ -68,7 +68,7 @@ def evidence(scene, state, span) -> Evidence:
     if not math.isfinite(length) or length == 0:
         raise InputError(f"span: expected a finite length other than 0, got {span!r}")
     roots = roots_of_rates(scene, state, length)
-    run = trajectory(scene, state, np.linspace(0, roots.t_reached, 65)[1:] if roots.t_reached else [0.0])
+    run = integrated(scene, state, np.linspace(0, roots.t_reached, 65)[1:] if roots.t_reached else [0.0])
     points = np.vstack([state, run.states])
     energy = _energy(scene, points)
     sizes = np.linalg.norm(np.vstack([points, roots.states]), axis=1)
@@ -105,7 +105,7 @@ def growth(scene, state, t_max: float) -> Growth:
     begin = np.linalg.norm(here) + math.sqrt(max(abs(float(v)) for v in scene.quadratic().m))
     span = min(10 / math.sqrt(max(abs(float(v)) for v in scene.quadratic().m)), t_max)
     while t < t_max and steps < STEP_BUDGET:
-        run = trajectory(scene, here, np.linspace(0, span, 257)[1:])
+        run = integrated(scene, here, np.linspace(0, span, 257)[1:])
         if run.status == "stopped":
             return Growth(0, 0, t, run.reason, steps)
         t, here, steps = t + span, run.states[-1], steps + run.counters["steps"]

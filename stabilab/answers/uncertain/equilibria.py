@@ -7,7 +7,7 @@ import numpy as np
 
 from ...errors import InputError
 from ...numbers.affine import lifted
-from ...equilibrium.gyrostat import equilibria
+from ..equilibria import equilibria
 from .box import Box
 from .conditions import Condition, conditions, known, Unknown
 from .branch_and_bound import branch_and_bound, importance, Parts, Proof, whole

@@ -14,7 +14,7 @@ PLANES = {"13": (0, 2), "23": (1, 2), "12": (0, 1)}
 
 @lru_cache
 def _trajectories(start):
-    from ...integrate.trajectory import trajectory
+    from ...answers.trajectory import trajectory
     times = np.linspace(*paper.SPAN, 6001)
     return {lam: trajectory(paper.scene("major", lam), start, times) for lam in paper.LAMBDAS}
 

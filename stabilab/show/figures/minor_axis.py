@@ -227,7 +227,7 @@ def _dividing(ax, a, b):
 
 @lru_cache
 def _stable_runs():
-    from ...integrate.trajectory import trajectory
+    from ...answers.trajectory import trajectory
     scene = paper.scene("minor", 100)
     return [trajectory(scene, state, np.linspace(0.0, 15.0, 3001)) for state in _bounded_starts(scene)]
 

@@ -201,7 +201,7 @@ def _equations(scene):
 
 
 def _equilibria(scene):
-    from ...equilibrium.gyrostat import equilibria
+    from ...answers.equilibria import equilibria
     found = equilibria(scene)
     rows = [{"where": _triple(p.at), "linear": p.linear, "verdict": p.verdict, "because": p.because, "css": _css(p.verdict)}
             for p in found.points]

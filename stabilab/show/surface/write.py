@@ -155,7 +155,7 @@ def polydata(meshes):
 
 def equilibrium_lines(scene, found, size):
     """[("stable" | "unstable" | "degenerate", points (n, 3))] of the equilibrium curves within `size` of the origin."""
-    from ...equilibrium.gyrostat import equilibria
+    from ...answers.equilibria import equilibria
     lines = []
     for curve in equilibria(scene).curves:
         for segment in curve.segments:

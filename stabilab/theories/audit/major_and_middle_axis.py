@@ -17,7 +17,7 @@ def _ranges(table):
     """Largest distance of the table's ranges from those of the motion."""
     import numpy as np
 
-    from ...integrate.trajectory import trajectory
+    from ...answers.trajectory import trajectory
     from ...physics.scene import ScaledGyrostat
     worst = 0.0
     for lam, limits in table.items():
@@ -31,7 +31,7 @@ def _ranges(table):
 def _capture():
     """J of the end state minus J of the start, plus 2 c tau: the law that forbids a bounded motion. Fig. 12,
     lambda1 = 100: the print's "stable" would keep J; start (0, -1, 5), tau = 15."""
-    from ...integrate.trajectory import trajectory
+    from ...answers.trajectory import trajectory
     from ...physics.scene import ScaledGyrostat
     c = 0.2
     run = trajectory(ScaledGyrostat(0.2, 0.4, (1, 0, 0)), (0.0, -1.0, 5.0), (0.0, 15.0))

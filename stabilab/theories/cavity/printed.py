@@ -23,7 +23,7 @@ import numpy as np
 from ...errors import InputError
 from .averaged import omega_of, times_row
 from .normal_form import check, constants
-from ...integrate.trajectory import trajectory
+from ...answers.trajectory import trajectory
 
 GRID = 2001  # times at which the departure is looked for; the crossing is interpolated
 LEVELS = (0.01, 0.1)
