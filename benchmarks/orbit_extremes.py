@@ -97,7 +97,7 @@ def beside_the_separatrix(count) -> Row:
     from stabilab.orbit.landscape import landscape
     from stabilab.orbit.extremes.balls import precise_extremes
     from stabilab.orbit.period.balls import precise_period
-    from stabilab.orbit.extremes.arrays import extremes_and_periods
+    from stabilab.orbit.extremes_and_periods import extremes_and_periods
     r, boxes_off, periods_off, states = landscape(SCENE).reduction, [], [], []
     for decade in (3, 6, 9, 12, 15):
         part = brink(10.0**-decade, count)

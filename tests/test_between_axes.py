@@ -8,7 +8,8 @@ from scipy.integrate import solve_ivp
 
 import stabilab
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, Scene
-from stabilab.orbit.extremes.arrays import extremes, extremes_and_periods, period
+from stabilab.answers.extremes import extremes, period
+from stabilab.orbit.extremes_and_periods import extremes_and_periods
 from stabilab.answers.motion import motion
 from stabilab.unreduced.free_gyrostat import extremes_over_period
 from stabilab.errors import InputError

@@ -12,7 +12,7 @@ from stabilab import Body, ConstantTorque, Gyrostat, load, Scene
 from stabilab.cost import growth as cost_growth
 from stabilab.cost.growth import (
     bits_needed, engines, Growth, near, nodes_needed, with_closeness, with_digits, with_states)
-from stabilab.orbit.fate.arrays import fate
+from stabilab.answers.fate import fate
 from stabilab.integrate.reference import reference
 from stabilab.orbit.result import Fate
 from stabilab.physics.equations import derive

@@ -9,7 +9,7 @@ import stabilab
 from stabilab import Fate
 from stabilab.orbit.extremes import circle_kernel, circle_numba as fast_extremes
 from stabilab.numbers import numba_door
-from stabilab.orbit.extremes.arrays import extremes_and_periods
+from stabilab.orbit.extremes_and_periods import extremes_and_periods
 from stabilab.orbit.landscape import landscape
 from stabilab.orbit.extremes.balls import precise_extremes
 from stabilab.orbit.period.balls import precise_period

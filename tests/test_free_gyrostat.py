@@ -10,7 +10,7 @@ from stabilab import Body, ConstantTorque, Fate, Gyrostat, Scene
 from stabilab.numbers.balls import DOUBLES
 from stabilab.numbers.double_ball import Unclear
 from stabilab.orbit.fate.free_margin import _nearest, free_margin
-from stabilab.unreduced.aligned import kind_of
+from stabilab.answers.kinds import kind_of
 from stabilab.answers.digits.ask import ask
 
 from tests.oracles import sphere

@@ -22,7 +22,7 @@ from stabilab.orbit.landscape import landscape
 from stabilab.orbit.separatrix.homoclinic import settled_on
 from stabilab.theories.follow import models_of
 from stabilab.answers.motion import motion
-from stabilab.unreduced.bounds import other_motion
+from stabilab.unreduced.bounds import motion as other_motion
 from stabilab.physics.motion_units import in_unit
 from stabilab.numbers.polynomial import Poly, real_roots
 from stabilab.cost.methods import problem

@@ -11,8 +11,8 @@ import numpy as np
 from ..errors import InputError
 from ..orbit.fate.table_kernel import SIGN_BOUND
 from ..orbit.fate.table import barrier_table
-from ..physics.effective import effective
-from ..orbit.fate.arrays import fate
+from ..physics.coefficients import effective
+from .fate import fate
 from ..orbit.result import Fate
 from ..orbit.fate.by_table import canonical, circle_heights, hyperbola_heights
 

@@ -3,7 +3,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 import numpy as np
 from ..physics.scene import ScaledGyrostat
-from ..orbit.extremes.arrays import period
+from ..answers.extremes import period
 from ..answers.trajectory import trajectory
 
 SCENE = ScaledGyrostat("0.2", "0.4", (0, 0, 1))

@@ -81,7 +81,7 @@ def _answer(task, period, found, steps, evaluations) -> Answer:
 
 
 def _roots(task, _):
-    from ..orbit.extremes.arrays import extremes, period
+    from ..answers.extremes import extremes, period
     return lambda times: Answer({"period": np.array([float(period(task.scene, task.start))]),
                                  "extremes": extremes(task.scene, task.start)})
 
@@ -102,7 +102,7 @@ def _balls(task, _):
 def known_period(task: Problem):
     """The period of a motion that repeats, or None where the question does not arise (or no reduction answers it)."""
     from ..errors import InputError
-    from ..orbit.extremes.arrays import period
+    from ..answers.extremes import period
     from ..orbit.landscape import landscape
     try:
         if task.equations.blocks != ("omega",) or landscape(task.scene) is None:
@@ -116,7 +116,7 @@ def known_period(task: Problem):
 def fate_methods(task: Problem) -> list:
     """(name, call) of the ways to the fate: by energy in doubles, and by energy in balls; call() -> its word."""
     from ..errors import InputError
-    from ..orbit.fate.arrays import fate
+    from ..answers.fate import fate
     from ..orbit.fate.free_margin import free_margin, is_free
     from ..orbit.landscape import landscape
     from ..orbit.fate.balls import decide

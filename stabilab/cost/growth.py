@@ -80,17 +80,17 @@ def engines(function) -> list[tuple[str, dict]]:
 
 
 def _fate():
-    from ..orbit.fate.arrays import fate
+    from ..answers.fate import fate
     return fate
 
 
 def _extremes():
-    from ..orbit.extremes.arrays import extremes
+    from ..answers.extremes import extremes
     return extremes
 
 
 def _period():
-    from ..orbit.extremes.arrays import period
+    from ..answers.extremes import period
     return period
 
 
@@ -160,7 +160,7 @@ def near(case, decade: int) -> tuple[np.ndarray, float]:
     """(state, distance): the case's state with its rate about the torque's axis changed so that its energy lies below the barrier
     by 10^-decade of the barrier's height above a rate of zero, up to the rounding of the state; and the distance it then has.
     For a torque on an axis, no wheel momentum along it."""
-    from ..orbit.fate.arrays import fate
+    from ..answers.fate import fate
     from ..orbit.landscape import landscape
     axis = landscape(case.scene).reduction.axis
     state = np.array(case.state, float)

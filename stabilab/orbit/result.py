@@ -1,6 +1,8 @@
 """What the analyses answer: frozen results that say how well they are known."""
 from __future__ import annotations
 
+import math
+
 from dataclasses import dataclass, field
 from enum import IntEnum
 from typing import TYPE_CHECKING
@@ -57,3 +59,26 @@ class Motion:
     evidence: dict = field(default_factory=dict)
     tolerance: float | None = None
     validity: Validity | None = None
+
+
+def judged(state, decided) -> dict:
+    """The fields of a Motion that its decided fate fills: label, reason in words, axis and sense."""
+    because = decided.because
+    if decided.label == Fate.SPIN_UP and (decided.axis or decided.sense):
+        because += f"; it spins up about axis {decided.axis}" if decided.axis else "; it spins up about the torque"
+    return {"at": state, "fate": decided.label, "because": because, "axis": decided.axis, "sense": decided.sense}
+
+
+def finite(value) -> float | None:
+    """The number as a float; None where it is infinite or no number."""
+    return float(value) if math.isfinite(value) else None
+
+
+def repeats(time) -> float | None:
+    """The period; None where there is none (at rest, or a motion that does not repeat)."""
+    return time if 0 < time < math.inf else None
+
+
+def pairs(array) -> tuple:
+    """((least, greatest), ...) in plain floats."""
+    return tuple((float(low), float(high)) for low, high in array)

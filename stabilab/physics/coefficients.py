@@ -18,6 +18,7 @@ from .effects import effect_class
 from .effects.base import Effect
 from ..numbers.vectors import cross, Exact3
 from .scene import Scene, ZERO3
+from ..asked import checked_scene
 
 KNOWN = {"gyrostat", "constant_torque", "charge", "resistance", "liquid_cavity", "newtonian_field", "gravity", "body_force"}
 ZERO = Fraction(0)
@@ -155,3 +156,13 @@ def liquid_torque(parts: Content, w):
 def at_rest(parts: Content, omega, gamma) -> bool:
     """Whether every rate vanishes exactly (not asked with a liquid in a field)."""
     return not (parts.kappa and gamma) and not any(v for block in rates(parts, omega, gamma) for v in block)
+
+
+def effective(scene):
+    """The scene itself, or, where charges of constant angle and forces are all it has besides, its twin with the
+    gyrostatic moment lambda - k e3. Other scenes come back as they are."""
+    if checked_scene(scene).plain:
+        return scene
+    parts = content(scene)
+    return gyrostat_scene(parts) if parts is not None and parts.kind == "gyrostat" else scene
+

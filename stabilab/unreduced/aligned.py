@@ -1,8 +1,6 @@
-"""Scenes without a reduction: what can still be said of the fate, extremes and period of their motions.
+"""A torque in the plane of two equal moments: the body turned so that the torque lies on an axis has an orbit, or grows by law.
 
-Three kinds: no torque and a gyrostatic moment with no zero component (closed orbits on the momentum sphere); a torque
-along a principal axis with a gyrostatic component along it (unbounded by an exact law); a torque in the plane of two
-equal moments (turned onto an axis); and a torque off the axes, where nothing is known and a run gives evidence.
+The twin's answers are those of the scene, told in the body's own axes; extremes of body components are roots of their own rates.
 """
 from __future__ import annotations
 
@@ -11,60 +9,43 @@ import math
 import numpy as np
 
 from ..errors import InputError
-from ..physics.alignment import aligned
-from ..orbit.far_states import in_range
-from ..orbit.fate.arrays import at_rest, fate, nearly_flat, write_row
-from ..physics.states import equilibrium_mask
 from ..numbers.constants import EPS
-from ..orbit.landscape import landscape
-from .near_rest import beside_rest, small_loop
-from ..orbit.fate.one_state import at_rest as rest_of, fate_of, free_fate, OneFate
+from ..orbit import many
+from ..orbit.fate.arrays import at_rest, fates as fates_on_orbit, nearly_flat
+from ..orbit.fate.one_state import at_rest as rest_of, fate_of, OneFate
 from ..orbit.fate.reasons import Reason
-from ..physics.quadratic import rests
+from ..orbit.fate.result import FateResult, in_chunks, write_row
+from ..orbit.landscape import landscape
+from ..orbit.period.one_state import period_of
 from ..orbit.reduction import reduce
-from ..orbit.result import Fate
+from ..orbit.result import Fate, finite, judged, Motion, pairs, repeats
+from ..physics.alignment import aligned
+from ..physics.quadratic import rests
+from ..physics.state import three_floats
+from . import growth
+from .growth import captured_fate, unbounded
+from .near_rest import beside_rest, small_loop
+from .off_axis import evidence, length_of
 
 TURN_ROUNDINGS = 16  # units of rounding that turning a state costs: nine products and sums
 TURN_SHARE = 1e-36  # of the energies: half the digits of a turn by irrational numbers
 
 
-def kind_of(scene) -> str:
-    """"free", "law", "turned" or "off-axis" for a scene that has no reduction."""
-    form = scene.quadratic()
-    acting = [i for i in range(3) if form.m[i]]
-    if not acting:
-        return "free"
-    if len(acting) == 1:
-        return "law"
-    return "turned" if aligned(scene) is not None else "off-axis"
+def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
+    """See `answers.motion`; the extremes of a motion that does not repeat are over the span."""
+    state = three_floats(state)
+    given = exact or state
+    decided = aligned_fate(scene, given)
+    time = turned_period(scene, given, decided.label)
+    fields = {**judged(state, decided), "margin_energy": finite(decided.margin), "period": repeats(time)}
+    if span is not None or decided.label == Fate.EQUILIBRIUM or repeats(time) is not None:
+        fields["extremes"] = pairs(turned_extremes(scene, given, decided.label, time, length_of(span)))
+    return Motion(**fields)
 
 
-def labeller(scene):
-    """The chunk labeller of `fate` for such a scene with a torque; it returns how many states it decided in many digits."""
-    kind = kind_of(scene)
-    if kind == "turned":
-        return lambda states, out: label_turned(scene, states, out)
-
-    def label(states, out):
-        with in_range():
-            for index, state in enumerate(states):
-                if kind == "law":
-                    label_by_law(scene, state, out, index)
-                else:
-                    write_row(out, index, *one_fate(scene, state, kind))
-        at_rest(scene, states, out)
-        return 0
-    return label
-
-
-def one_fate(scene, state, kind) -> OneFate:
-    """The fate of one state (floats or Fractions, taken exactly) of a scene of kind "free", "turned" or "off-axis"."""
-    if kind == "off-axis":
-        found = OneFate(Fate.UNDECIDED, Reason.OFF_AXIS, math.nan)
-    elif kind == "turned":
-        found = turned_fate(aligned(scene), state)
-    else:
-        found = free_fate(scene, state)
+def aligned_fate(scene, state) -> OneFate:
+    """The fate of one state (floats or Fractions, taken exactly)."""
+    found = turned_fate(aligned(scene), state)
     return rest_of(scene, found) if rests(scene.quadratic(), state) else found
 
 
@@ -72,8 +53,7 @@ def turned_fate(turn, state) -> OneFate:
     """Of the twin's motion, whose numbers are exact or good to 240 bits."""
     reduction = reduce(turn.twin)
     if reduction is None:  # a gyrostatic component stands along the torque
-        from .growth import captured_fate
-        return _unbounded(captured_fate(turn.twin, tuple(map(float, turn(state)))))._replace(axis=0, sense=0)
+        return unbounded(captured_fate(turn.twin, tuple(map(float, turn(state)))))._replace(axis=0, sense=0)
     found = fate_of(turn.twin, reduction, turn(state))
     speed = sum(float(v) ** 2 for v in state)
     scale = max(map(float, turn.twin.body.exact)) * speed + max(abs(float(m)) for m in turn.twin.vector("constant_torque"))
@@ -82,12 +62,17 @@ def turned_fate(turn, state) -> OneFate:
     return found._replace(axis=0)  # the spin-up is about the torque's direction, not about a body axis
 
 
-def label_turned(scene, states, out) -> int:
+def fates(scene, states, fast: bool | None = None) -> FateResult:
+    """Fates of states (n, 3)."""
+    return in_chunks(lambda rows, out: _label(scene, rows, out), states)
+
+
+def _label(scene, states, out) -> int:
     """By the twin's formulas in doubles; in many digits where a change of the state in its last places, as the turn makes,
     could matter."""
     turn = aligned(scene)
     turned, land = states @ turn.matrix.T, landscape(turn.twin)
-    result = fate(turn.twin, turned)
+    result = _twin_fates(turn.twin, turned)
     for name in ("labels", "margins", "reasons", "sense"):
         out[name][:] = getattr(result, name)
     out["axis"][:] = 0
@@ -100,7 +85,7 @@ def label_turned(scene, states, out) -> int:
         for i in range(3):
             moved = turned.copy()
             moved[:, i] += step
-            change += np.abs(np.nan_to_num(fate(turn.twin, moved).margins - result.margins, nan=0.0, posinf=np.inf, neginf=np.inf))
+            change += np.abs(np.nan_to_num(_twin_fates(turn.twin, moved).margins - result.margins, nan=0.0, posinf=np.inf, neginf=np.inf))
     doubtful = (np.abs(result.margins) <= 2 * change) | nearly_flat(land, turned)
     for index in np.nonzero(doubtful)[0]:
         write_row(out, index, *turned_fate(turn, states[index].tolist()))
@@ -108,37 +93,20 @@ def label_turned(scene, states, out) -> int:
     return int(doubtful.sum())
 
 
-def label_by_law(scene, state, out, index):
-    from .growth import captured_fate
-    write_row(out, index, *_unbounded(captured_fate(scene, state)))
+def _twin_fates(twin, states) -> FateResult:
+    return growth.fates(twin, states) if landscape(twin) is None else fates_on_orbit(twin, states)
 
 
-def _unbounded(found) -> OneFate:
-    """The fate that `captured` found under the law: unbounded, about an axis that may be undecided."""
-    return OneFate(found.fate, Reason.UNBOUNDED_LAW, -math.inf, found.axis, found.sense)
-
-
-def extremes_one_by_one(scene, states, span):
-    """(n, 3, 2) extremes for scenes without a reduction; see `extremes.extremes`."""
-    kind = kind_of(scene)
-    if kind == "turned":
-        labels = fate(scene, states).labels
-        times = turned_periods(scene, states, labels)
-        return np.array([turned_extremes(scene, *one, span) for one in zip(states, labels, times)]).reshape(-1, 3, 2)
-    from .off_axis import evidence
-    from .free_gyrostat import extremes_over_period
-    rest = equilibrium_mask(scene, states)
-    if span is None and kind != "free" and not rest.all():
-        raise InputError("this scene has no reduction, so its extremes are searched over a time span: give span=T "
-                         f"({scene.time_unit}), or a span in the case's [motion]")
-    moving = (lambda s: extremes_over_period(scene, s)) if kind == "free" else lambda s: evidence(scene, s, span)
-    return np.array([np.stack([s, s], axis=1) if still else moving(s).extremes for s, still in zip(states, rest)]).reshape(-1, 3, 2)
+def extremes(scene, states, span=None, fast: bool | None = None):
+    """(n, 3, 2) over all time where the motion repeats, else over the span."""
+    labels = fates(scene, states).labels
+    times = turned_periods(scene, states, labels)
+    return np.array([turned_extremes(scene, *one, span) for one in zip(states, labels, times)]).reshape(-1, 3, 2)
 
 
 def turned_extremes(scene, state, label, time, span):
     """(3, 2) extremes in a plane of equal moments of a motion with this label and period: roots of the body components' own rates
     over one period, or over the span."""
-    from .off_axis import evidence
     if label == Fate.EQUILIBRIUM:
         return np.array([[float(v)] * 2 for v in state])
     form = scene.quadratic()
@@ -152,28 +120,21 @@ def turned_extremes(scene, state, label, time, span):
     return evidence(scene, state, span).extremes
 
 
+def periods(scene, states, fast: bool | None = None):
+    """(n,); inf where the motion does not repeat, 0 at an equilibrium."""
+    return turned_periods(scene, states, fates(scene, states).labels)
+
+
 def turned_period(scene, state, label) -> float:
     """The period of one state (floats or Fractions); inf where the motion does not repeat."""
-    from ..orbit.period.one_state import period_of
     turn = aligned(scene)
     return period_of(reduce(turn.twin), turn(state), label) if label == Fate.BOUNDED else 0.0 if label == Fate.EQUILIBRIUM else math.inf
 
 
 def turned_periods(scene, states, labels):
     """(n,) the same of states with these labels."""
-    from ..orbit.period.arrays import periods
     turn = aligned(scene)
-    found = periods(turn.twin, states @ turn.matrix.T)  # turned in doubles: what is at rest hardly moves there
+    if reduce(turn.twin) is None:
+        return np.where(labels == Fate.EQUILIBRIUM, 0.0, np.inf)
+    found = many.periods(turn.twin, states @ turn.matrix.T)  # turned in doubles: what is at rest hardly moves there
     return np.where(labels == Fate.EQUILIBRIUM, 0.0, np.where(labels == Fate.BOUNDED, found, np.inf))
-
-
-def periods_one_by_one(scene, states):
-    """(n,) periods for scenes without a reduction: from one return of a free motion; inf for unbounded ones."""
-    kind = kind_of(scene)
-    if kind == "turned":
-        return turned_periods(scene, states, fate(scene, states).labels)
-    rest = equilibrium_mask(scene, states)
-    if kind == "free":
-        from .free_gyrostat import extremes_over_period
-        return np.array([0.0 if still else extremes_over_period(scene, s).period for s, still in zip(states, rest)])
-    return np.where(rest, 0.0, np.inf)

@@ -5,12 +5,11 @@ energy and |gamma| = 1 are kept (field). Each proof comes with its numbers. Extr
 """
 from __future__ import annotations
 
-from dataclasses import replace
 from fractions import Fraction
 from math import hypot, sqrt
 
 from ..numbers.vectors import dot
-from ..physics.coefficients import at_rest, Content, content, gyrostat_scene
+from ..physics.coefficients import at_rest, Content, content
 from ..orbit.fate.reasons import Reason, REASONS
 from ..orbit.result import Fate, Motion
 from ..physics.state import split
@@ -18,17 +17,14 @@ from ..physics.state import split
 STIFF = 1e5  # fastest decay times span beyond which a search for extremes would take minutes
 
 
-def other_motion(scene, state, span=None, exact=None) -> Motion | None:
-    """The motion from `state` (three numbers; six, omega and gamma, or a dict of blocks, where gamma is part of the state); None for
-    scenes with effects that are not known here. exact: as of `motion`."""
+def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
+    """See `answers.motion`. state: three numbers; six, omega and gamma, or a dict of blocks, where gamma is part of the state.
+
+    Raises InputError for a scene with an effect that is not known here."""
     parts = content(scene)
     if parts is None:
-        return None
+        scene.quadratic()  # says which effect it is
     omega, gamma = split(parts, state)
-    if parts.kind == "gyrostat":
-        from ..answers.motion import motion
-        found = motion(gyrostat_scene(parts), omega, span, exact=exact)
-        return replace(found, because=f"{found.because}; {parts.note}") if parts.note else found
     at = omega + (gamma or ())
     seen = {} if span is None else _over_span(scene, omega, gamma, span)
     if at_rest(parts, exact or omega, gamma):

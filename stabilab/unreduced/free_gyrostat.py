@@ -8,7 +8,12 @@ from ..errors import InputError
 from .off_axis import STEP_BUDGET
 from .near_rest import beside_rest, small_loop
 from ..integrate.extrema import roots_of_rates
-from ..physics.states import three_numbers
+from ..physics.states import equilibrium_mask, three_numbers
+from ..orbit.fate.arrays import fates
+from ..orbit.fate.one_state import at_rest, free_fate
+from ..orbit.result import finite, judged, Motion, pairs, repeats
+from ..physics.quadratic import rests
+from ..physics.state import three_floats
 
 # Two points of a closed orbit are the same where they agree to this share of the orbit's size.
 SAME_POINT = 1e-9
@@ -106,3 +111,28 @@ def _polish(form, first, second, start, x, i):
         except np.linalg.LinAlgError:
             return x
     return better if np.abs(better - x).max() <= 1e-9 * np.abs(x).max() else x
+
+
+def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
+    """See `answers.motion`: the motion is closed, and one return gives its period and every extreme."""
+    state = three_floats(state)
+    given = exact or state
+    decided = free_fate(scene, given)
+    if rests(scene.quadratic(), given):
+        decided = at_rest(scene, decided)
+        return Motion(**judged(state, decided), margin_energy=finite(decided.margin), extremes=tuple((v, v) for v in state))
+    closed = extremes_over_period(scene, given)
+    return Motion(**judged(state, decided), margin_energy=finite(decided.margin), extremes=pairs(closed.extremes), extremes_over=closed.over,
+                  period=repeats(closed.period))
+
+
+def extremes(scene, states, span=None, fast: bool | None = None):
+    """(n, 3, 2) over all time."""
+    rest = equilibrium_mask(scene, states)
+    return np.array([np.stack([s, s], axis=1) if still else extremes_over_period(scene, s).extremes for s, still in zip(states, rest)]).reshape(-1, 3, 2)
+
+
+def periods(scene, states, fast: bool | None = None):
+    """(n,); 0 at an equilibrium, inf on or next to a separatrix."""
+    rest = equilibrium_mask(scene, states)
+    return np.array([0.0 if still else extremes_over_period(scene, s).period for s, still in zip(states, rest)])

@@ -38,10 +38,18 @@ from dataclasses import dataclass
 
 from ..errors import InputError
 from .growth_form import growth_law, standard_form
-from ..orbit.result import Fate
-from .growth_certificates import angle_of, certificate, release_estimate
+from ..orbit.result import Fate, judged, Motion
+from .growth_certificates import angle_of, release_estimate
 from .growth_run import nearest_other, search_certificate
+from .off_axis import extremes, growth as seen_growth, periods, seen_over
+from ..orbit.fate.arrays import at_rest as mark_rest
+from ..orbit.fate.one_state import OneFate
+from ..orbit.far_states import in_range
+from ..orbit.fate.reasons import Reason
+from ..orbit.fate.result import FateResult, in_chunks, write_row
+from ..physics.state import three_floats
 
+__all__ = ["captured_fate", "CapturedFate", "extremes", "fates", "motion", "periods", "unbounded"]  # extremes, periods: as off the axes
 # How long to look where the caller names no time, in the motion's own unit 1/sqrt(g |m|).
 PATIENCE = 1e6
 
@@ -139,12 +147,38 @@ def _without_form(scene, state, axis, t_max):
         return dict(fate=Fate.SPIN_UP, axis=0, sense=0, release_time=0.0, release_estimate=None, certificate="law", t_certificate=0.0,
                     steps=0, because="three equal moments: the spin along lambda, which is on no axis, grows exactly in "
                                      "proportion to time, the rest of the motion is bounded")
-    from .off_axis import growth
     t_max = PATIENCE / math.sqrt(abs(form.m[axis])) if t_max is None else t_max
-    seen = growth(scene, state, t_max)
+    seen = seen_growth(scene, state, t_max)
     clear = seen.axis > 0
     words = (f"spin-up about axis {seen.axis} by the evidence of a run to t = {seen.span:.6g} ({seen.words})" if clear else
              f"no axis of spin-up was clear in a run to t = {seen.span:.6g}")
     return dict(fate=Fate.SPIN_UP if clear else Fate.UNDECIDED, axis=seen.axis, sense=seen.sense, release_time=None,
                 release_estimate=None, certificate="evidence" if clear else "none", t_certificate=None, steps=seen.steps,
                 because=f"unbounded, because |H|^2/2 - D{axis + 1} T grows in proportion to time; {words}")
+
+
+def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
+    """See `answers.motion`: unbounded by an exact law; what is seen over the span is told beside it."""
+    state = three_floats(state)
+    found = captured_fate(scene, state)
+    seen = seen_over(scene, state, span) if span is not None else {}
+    known = {"certificate": found.certificate, "t_certificate": found.t_certificate, "release_time": found.release_time,
+             "release_estimate": found.release_estimate, "steps": found.steps}
+    fields = {**judged(state, unbounded(found)), **seen, "because": found.because}
+    return Motion(**fields | {"invariants": {"J": found.J0, "J_rate": found.J_rate}, "evidence": {**seen.get("evidence", {}), **known}})
+
+
+def unbounded(found) -> OneFate:
+    """The fate that `captured` found under the law: unbounded, about an axis that may be undecided."""
+    return OneFate(found.fate, Reason.UNBOUNDED_LAW, -math.inf, found.axis, found.sense)
+
+
+def fates(scene, states, fast: bool | None = None) -> FateResult:
+    """Fates of states (n, 3), one by one."""
+    def label(rows, out):
+        with in_range():
+            for index, state in enumerate(rows):
+                write_row(out, index, *unbounded(captured_fate(scene, state)))
+        mark_rest(scene, rows, out)
+        return 0
+    return in_chunks(label, states)

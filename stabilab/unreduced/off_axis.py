@@ -13,9 +13,15 @@ import numpy as np
 
 from ..errors import InputError
 from ..integrate.extrema import roots_of_rates
-from ..orbit.result import Fate
-from ..physics.states import three_numbers
+from ..orbit.result import Fate, finite, judged, Motion, pairs
+from ..physics.states import equilibrium_mask, three_numbers
 from ..integrate.trajectory import integrated
+from ..orbit.fate.arrays import at_rest as mark_rest
+from ..orbit.fate.one_state import at_rest, OneFate
+from ..orbit.fate.reasons import Reason
+from ..orbit.fate.result import FateResult, in_chunks, write_row
+from ..physics.quadratic import rests
+from ..physics.state import three_floats
 
 # A run that has not shown what is asked after this many steps (seconds of work) gives up and says so.
 STEP_BUDGET = 1_000_000
@@ -127,3 +133,61 @@ def _holder(stages, begin):
     senses, least = (np.array(column) for column in zip(*stages))
     held = (np.abs(senses.sum(axis=0)) == len(stages)) & (least[1:] > GROWTH * least[:-1]).all(axis=0) & (least[-1] > begin)
     return int(held.argmax()) if held.sum() == 1 else None
+
+
+def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
+    """See `answers.motion`; what is seen over the span is told as evidence."""
+    state = three_floats(state)
+    decided = OneFate(Fate.UNDECIDED, Reason.OFF_AXIS, math.nan)
+    if rests(scene.quadratic(), exact or state):
+        decided = at_rest(scene, decided)
+        return Motion(**judged(state, decided), margin_energy=finite(decided.margin), extremes=tuple((v, v) for v in state))
+    fields = judged(state, decided)
+    if span is not None:
+        fields |= seen_over(scene, state, span)
+        fields["because"] = decided.because + "; over the span its size went " + _size_words(fields["evidence"])
+    return Motion(**fields)
+
+
+def fates(scene, states, fast: bool | None = None) -> FateResult:
+    """Fates of states (n, 3): nothing is known but which of them are at rest."""
+    def label(rows, out):
+        for index in range(len(rows)):
+            write_row(out, index, Fate.UNDECIDED, Reason.OFF_AXIS, math.nan)
+        mark_rest(scene, rows, out)
+        return 0
+    return in_chunks(label, states)
+
+
+def extremes(scene, states, span=None, fast: bool | None = None):
+    """(n, 3, 2) over the span [0, span] (InputError without it)."""
+    rest = equilibrium_mask(scene, states)
+    if span is None and not rest.all():
+        raise InputError("this scene has no reduction, so its extremes are searched over a time span: give span=T "
+                         f"({scene.time_unit}), or a span in the case's [motion]")
+    return np.array([np.stack([s, s], axis=1) if still else evidence(scene, s, span).extremes for s, still in zip(states, rest)]).reshape(-1, 3, 2)
+
+
+def periods(scene, states, fast: bool | None = None):
+    """(n,): 0 at an equilibrium, inf elsewhere: no motion is known to repeat."""
+    return np.where(equilibrium_mask(scene, states), 0.0, np.inf)
+
+
+def seen_over(scene, state, span) -> dict:
+    """The fields of a Motion that a run over the span fills."""
+    seen = evidence(scene, state, (0.0, length_of(span)))
+    return {"extremes": pairs(seen.extremes), "extremes_over": seen.extremes_over,
+            "evidence": {"span": seen.span, "size_start": seen.size[0], "size_end": seen.size[1],
+                         "size_largest": seen.size[2], "energy_start": seen.energy[0], "energy_end": seen.energy[1],
+                         "energy_trend": seen.trend, "steps": seen.steps,
+                         "invariant_drift": max(seen.drift.values(), default=0.0)}}
+
+
+def _size_words(evidence) -> str:
+    return (f"from {evidence['size_start']:.6g} to {evidence['size_end']:.6g} (largest {evidence['size_largest']:.6g}), "
+            f"and its energy {evidence['energy_trend']}")
+
+
+def length_of(span) -> float | None:
+    """The end of a span that starts at 0; None without one."""
+    return None if span is None else float(span[1])

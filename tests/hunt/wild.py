@@ -9,7 +9,7 @@ import numpy as np
 
 import stabilab
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
-from stabilab.orbit.extremes.arrays import extremes_and_periods
+from stabilab.orbit.extremes_and_periods import extremes_and_periods
 from stabilab.orbit.landscape import landscape
 from stabilab.answers.digits.ask import ask
 from stabilab.orbit.fate.reasons import Reason, REASONS

@@ -49,20 +49,18 @@ def ask(question, scene, state, digits: int, span=None, known=None, exact=None, 
     return _over_span(scene, state, span, known, digits, exact, NEAR * aim)
 
 
-def ask_all(question, scene, states, digits: int, span=None) -> Told:
-    """The same for an array of states (..., 3), values (..., 3, 2) or (...,); span: a time. Of many states a sample is checked."""
-    from ...orbit.extremes.arrays import extremes, period
+def ask_all(question, scene, states, digits: int, values, span=None) -> Told:
+    """The same for an array of states (..., 3); values (..., 3, 2) or (...,): what the formulas say of them; span: a time. Of many
+    states a sample is checked."""
     from ...physics.states import checked_states
-    from ...orbit.fate.arrays import fate
     array = checked_states(states)
     rows = array.reshape(-1, 3)
     picked = np.unique(np.linspace(0, len(rows) - 1, min(SAMPLE, len(rows))).astype(int))
     whole = None if span is None else (0.0, float(span))
     told = [ask(question, scene, rows[i], digits, whole) for i in picked]
-    plain = {"extremes": lambda: extremes(scene, rows, span), "period": lambda: period(scene, rows), "fate": lambda: fate(scene, rows).margins}[question]
     if len(picked) < len(rows) and not all(t.method in ("formulas", "none") for t in told):
         told = [ask(question, scene, row, digits, whole) for row in rows]
-    values = plain()
+    values = np.reshape(values, (len(rows), *np.shape(values)[array.ndim - 1:]))
     if len(told) == len(rows):
         values = np.array([old if t.values is None else t.values for old, t in zip(values, told)]).reshape(values.shape)
     judged = [t for t in told if t.digits is not None]
@@ -75,7 +73,7 @@ def ask_all(question, scene, states, digits: int, span=None) -> Told:
 
 def _reduced(scene):
     """(the scene that turns alike and has nothing but a wheel and a torque, its landscape or None)."""
-    from ...physics.effective import effective
+    from ...physics.coefficients import effective
     from ...orbit.landscape import landscape
     twin = effective(scene)
     return twin, landscape(twin) if twin.plain else None

@@ -7,8 +7,8 @@ import numpy as np
 
 from ...errors import InputError
 from ...numbers.affine import Affine, lifted, sign_over
-from ...orbit.fate.arrays import fate
-from ...unreduced.aligned import kind_of
+from ..fate import fate
+from ..kinds import kind_of
 from ...orbit.fate.one_state import fate_of
 from ...orbit.potential import derivatives_on_parabola
 from ...orbit.fate.reasons import Reason, REASONS
@@ -59,7 +59,7 @@ def verdict_at(box: Box, point) -> str | None:
     except InputError:
         return None
     reduction = reduce(scene)
-    if reduction is None and kind_of(scene) == "law":
+    if kind_of(scene) == "growth":
         return UNBOUNDED  # about which axis is a question for a run, not for the law
     if reduction is None:
         found = fate(scene, np.array(state))

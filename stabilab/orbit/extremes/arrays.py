@@ -7,104 +7,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...asked import checked_span
-from ...errors import InputError
-from ...physics.effective import effective
-from ..far_states import far_numbers, far_rows
-from ...physics.states import checked_states
-from ..fate.arrays import CHUNK, fate_on_orbit
 from ...numbers.constants import EPS, TURN
-from ..landscape import Landscape, landscape
-from ..reduction import reduce
+from ..landscape import Landscape
 from ..result import Fate
 from ...numbers.roots import bracketed_newton
 from .turning_points import interval, spots_along, turning_point
 from .guards import (
     clear_of_barriers, DIGITS, EXTREMES_SHARE, into, near_separatrix, needs_digits, on_top, picked, SPIN_UP_SHARE,
     trapped_rows)
-
-
-def extremes(scene, states, span=None, digits: int | None = None, fast: bool | None = None):
-    """Smallest and largest value of each component over all t >= 0: array (..., 3, 2) in the scene's variables.
-
-    +-inf where a component grows without bound; at an equilibrium both are the state. Scenes without a reduction need
-    `span`, a time: their extremes hold over [0, span] (InputError without it). digits (1 to 50): reach so many and check
-    them (ToleranceNotMet otherwise); without it eleven, by the formulas' own bound. fast: whether numba (the extra `fast`)
-    may compile the work; None where it is installed and pays. Raises InputError as `fate` does, and where fast=True
-    finds no numba.
-    """
-    span = _length(span)
-    if digits is not None:
-        from ...answers.digits.ask import ask_all
-        return ask_all("extremes", scene, states, digits, span).required().values
-    scene, array = effective(scene), checked_states(states)
-    if reduce(scene) is None:
-        from ...unreduced.aligned import extremes_one_by_one
-        return extremes_one_by_one(scene, array.reshape(-1, 3), span).reshape(array.shape + (2,))
-    return extremes_and_periods(scene, array, fast, period=False)[0]
-
-
-def _length(span):
-    """The length of a span; None where none is given."""
-    ends = checked_span(span)
-    return None if ends is None else ends[1] - ends[0]
-
-
-def extremes_and_periods(scene, states, fast: bool | None = None, *, box=True, period=True):
-    """(extremes (..., 3, 2), periods (...,)) in one go, each as the function of its name gives it; None for one that
-    is not asked for. For scenes with a reduction only (InputError for others, and as `extremes` raises it)."""
-    scene, array = effective(scene), checked_states(states)
-    if reduce(scene) is None:
-        raise InputError("extremes_and_periods: this scene has no reduction to one coordinate; ask for `extremes` with a"
-                         " span, or for `period`")
-    flat = np.ascontiguousarray(array.reshape(-1, 3))
-    boxes, periods = np.empty((len(flat) if box else 0, 3, 2)), np.empty(len(flat) if period else 0)
-    if (far := far_rows(scene, flat)).any():
-        _fill_far(scene, flat, boxes, periods, far)
-        return boxes.reshape(array.shape + (2,)) if box else None, periods.reshape(array.shape[:-1]) if period else None
-    land, left_open = landscape(scene), None
-    if fast is not False:
-        from .circle_numba import by_kernel
-        left_open = by_kernel(land, flat, boxes, periods, fast)
-    for start in range(0, len(flat), CHUNK):
-        rows = slice(start, start + CHUNK)
-        if left_open is None:
-            _fill(land, scene, flat[rows], boxes[rows], periods[rows])
-        elif left_open[rows].any():
-            _fill_open(land, scene, flat[rows], boxes[rows], periods[rows], left_open[rows])
-    return (boxes.reshape(array.shape + (2,)) if box else None, periods.reshape(array.shape[:-1]) if period else None)
-
-
-def _fill_far(scene, states, boxes, periods, far):
-    """All rows, those that are `far` (their squares may be no doubles) one at a time in their own unit."""
-    near = extremes_and_periods(scene, states[~far], box=len(boxes) > 0, period=len(periods) > 0) if not far.all() else (None, None)
-    for column, values, which in zip((boxes, periods), near, (0, 1)):
-        if len(column):
-            column[far] = [far_numbers(scene, state)[which] for state in states[far].tolist()]
-            column[~far] = values if values is not None else column[~far]
-
-
-def _fill(land, scene, states, boxes, periods):
-    """One chunk: boxes (n, 3, 2) and periods (n,), each unless it is empty."""
-    decided = fate_on_orbit(scene, land, states)
-    start = land.start(states)
-    trapped = trapped_rows(land, decided)
-    span = interval(land, *picked(start[0], start[1], trapped)) if len(boxes) and len(periods) and trapped.any() else None
-    if len(boxes):
-        boxes[:] = extremes_of_chunk(land, states, decided, start, span)
-    if len(periods):
-        from ..period.arrays import period_chunk
-        periods[:] = period_chunk(land, states, decided, start, span)
-
-
-def _fill_open(land, scene, states, boxes, periods, bits):
-    """The same for those states of a chunk that the compiled kernel left open."""
-    for column, bit in ((boxes, 1), (periods, 2)):
-        rows = np.nonzero(bits & bit)[0]
-        if len(column) and len(rows):
-            some, none = np.empty((len(rows),) + column.shape[1:]), np.empty(0)
-            _fill(land, scene, states[rows], *((some, none) if bit == 1 else (none, some)))
-            column[rows] = some
 
 
 def extremes_of_chunk(land: Landscape, states, decided, start, span=None):
@@ -327,16 +237,3 @@ def _turn_back(land, place, w):
     passed = spots.there & (spots.offset < 0) & (spots.offset > offset[:, None])
     fastest = np.where(passed, spots.energy, -np.inf).max(axis=1, initial=-np.inf)
     return offset, np.maximum(fastest, 0.5 * w * w)
-
-
-def period(scene, states, digits: int | None = None, fast: bool | None = None):
-    """Period of each motion, (...,) in the scene's time: inf where the motion does not repeat, 0 at an equilibrium.
-
-    digits, fast: as of `extremes`. Raises InputError as `fate` does, and for scenes without a known period (torque off
-    the axes).
-    """
-    if digits is not None:
-        from ...answers.digits.ask import ask_all
-        return ask_all("period", scene, states, digits).required().values
-    from ..period.arrays import periods
-    return periods(scene, states, fast)

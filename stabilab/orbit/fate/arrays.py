@@ -13,7 +13,6 @@ from fractions import Fraction
 import numpy as np
 
 from .table import barrier_table
-from ...physics.effective import effective
 from ..far_states import far_exponent, far_fate, far_rows
 from .table_numba import compiled_loops
 from .free_arrays import label_free
@@ -26,103 +25,53 @@ from .reasons import margin_at_rest, Reason
 from ..reduction import reduce
 from ..result import Fate
 from .by_table import label_by_table
-from .result import FateResult
-from ...physics.states import checked_states, equilibrium_mask
+from .result import empty_columns, FateResult, in_chunks, write_row
+from ...physics.states import equilibrium_mask
 
-CHUNK = 16384
 TABLE_FROM = 5000  # a table costs some ten milliseconds to build, as much as the general formula needs for these
 MARGIN_SHARE = 5e-13  # of the kinetic energy and the barrier's height: half of the rounding that `fate` admits
 DOUBLE_ROOT = 1e-10  # share of a cubic's discriminant: eigenvalues tell two roots 1e-7 apart, whose discriminant is 1e-14 and more
 ROUNDINGS = 64  # units of rounding allowed for in the error bound of a margin: some thirty operations, each counted twice
 
 
-def fate(scene, states, fast=None, digits: int | None = None) -> FateResult:
-    """The fate of every state of an array (..., 3) in the scene's variables (rad/s, or x when scaled).
+def fates(scene, states, fast=None) -> FateResult:
+    """Fates and margins of states (n, 3) of a scene with an orbit, or of a free body: `answers.fate` for one shape.
 
-    scene: Scene or ScaledGyrostat. fast: True for numba's compiled loops (the extra `fast`), False for NumPy alone, None
-    for numba where it is installed and the array is large; the two give the same bytes. Returns a FateResult. Raises
-    InputError for arrays of another shape, for non-finite numbers, for scenes with effects that this analysis does not
-    cover, and for fast=True without numba. digits (1 to 50): give the margins so many, checked, as of `extremes` (the
-    labels have no digits to lose); ToleranceNotMet otherwise.
-
-    Arrays of `TABLE_FROM` states or more look the barrier up in a table of the scene; smaller ones, and any state that
-    is near a tie, a fold or an equilibrium, solve for it. Labels are the same either way; margins may differ by 1e-12 of
-    their terms, the kinetic energy and the barrier's height over the state (without a torque: both kinetic energies).
+    From `TABLE_FROM` states on the barriers come from the scene's table (`fast`: whether compiled), and what it leaves open
+    from the general formula. States whose squares may leave the range of doubles are decided one at a time, each in its own unit.
     """
-    if digits is not None:
-        from ...answers.digits.ask import ask_all
-        return replace(fate(scene, states, fast), margins=ask_all("fate", scene, states, digits).required().values)
-    given, scene, array = scene, effective(scene), checked_states(states)
-    flat = np.ascontiguousarray(array.reshape(-1, 3))
-    out, far = empty_columns(len(flat)), _far(scene, flat)
-    if far.any():
-        precise = _label_far(scene, flat, out, np.nonzero(far)[0]) + label_some(scene, flat, out, np.nonzero(~far)[0])
-    else:
-        precise = _label_ordinary(scene, flat, out, fast)
-    shape = array.shape[:-1]
-    return FateResult(**{name: column.reshape(shape) for name, column in out.items()}, precise=precise, scene=scene,
-                      states=array, given=given)
-
-
-def empty_columns(n):
-    return {"labels": np.empty(n, np.int8), "margins": np.empty(n), "axis": np.zeros(n, np.int8),
-            "sense": np.zeros(n, np.int8), "reasons": np.empty(n, np.int8)}
-
-
-def _label_ordinary(scene, flat, out, fast) -> int:
-    """Fill the columns; how many states needed many digits."""
-    table = barrier_table(scene) if len(flat) >= TABLE_FROM else None
-    if table is None:
-        return label_all(scene, flat, out)
-    return label_some(scene, flat, out, label_by_table(table, flat, out, compiled_loops(len(flat), fast)))
-
-
-def _far(scene, flat):
-    """(n,) True for the states of a scene with a reduction whose squares may leave the range of doubles."""
-    return far_rows(scene, flat) if reduce(scene) is not None else np.zeros(len(flat), bool)
-
-
-def _label_far(scene, flat, out, indices) -> int:
-    """Fill the columns for such states one at a time, each in its own unit; how many they are."""
     reduction = reduce(scene)
-    for index in indices:
-        state = flat[index].tolist()
-        found = far_fate(scene, reduction, state, far_exponent(scene, state))
-        write_row(out, index, found.label, found.reason, found.margin, found.axis, found.sense)
-    return len(indices)
+    far = far_rows(scene, states) if reduction is not None else np.zeros(len(states), bool)
+    if not far.any():
+        return _ordinary(scene, states, fast)
+    out, near = empty_columns(len(states)), in_chunks(labeller(scene), states[~far])
+    for name, column in out.items():
+        column[~far] = getattr(near, name)
+    for index in np.nonzero(far)[0]:
+        state = states[index].tolist()
+        write_row(out, index, *far_fate(scene, reduction, state, far_exponent(scene, state)))
+    return FateResult(**out, precise=near.precise + int(far.sum()))
 
 
-def label_all(scene, flat, out) -> int:
-    """Fill the columns by the general formula; how many states needed many digits."""
-    label_chunk, precise = labeller_of(scene), 0
-    for start in range(0, len(flat), CHUNK):
-        part = slice(start, min(start + CHUNK, len(flat)))
-        precise += label_chunk(flat[part], {name: column[part] for name, column in out.items()})
-    return precise
+def _ordinary(scene, states, fast) -> FateResult:
+    label, table = labeller(scene), barrier_table(scene) if len(states) >= TABLE_FROM else None
+    if table is None:
+        return in_chunks(label, states)
+    out = empty_columns(len(states))
+    rest = label_by_table(table, states, out, compiled_loops(len(states), fast))
+    open_ones = in_chunks(label, states[rest])
+    for name, column in out.items():
+        column[rest] = getattr(open_ones, name)
+    return FateResult(**out, precise=open_ones.precise)
 
 
-def label_some(scene, flat, out, indices) -> int:
-    """`_label_all` for the states at `indices`, in chunks of them."""
-    precise = 0
-    for start in range(0, len(indices), CHUNK):
-        part = indices[start:start + CHUNK]
-        columns = empty_columns(len(part))
-        precise += label_all(scene, flat[part], columns)
-        for name, column in columns.items():
-            out[name][part] = column
-    return precise
-
-
-def labeller_of(scene):
+def labeller(scene):
     """The function that labels a chunk (n, 3) into the columns of `out` and returns how many needed many digits."""
     if is_free(scene):
         return _at_rest_too(scene, lambda states, out: label_free(scene, states, out))
     land = landscape(scene)
-    if land is not None:
-        by_geometry = {-1: _label_circle, 1: _label_hyperbola, 0: _label_parabola}[land.e]
-        return _at_rest_too(scene, lambda states, out: by_geometry(land, states, out))
-    from ...unreduced.aligned import labeller
-    return labeller(scene)
+    by_geometry = {-1: _label_circle, 1: _label_hyperbola, 0: _label_parabola}[land.e]
+    return _at_rest_too(scene, lambda states, out: by_geometry(land, states, out))
 
 
 def _at_rest_too(scene, label):
@@ -144,9 +93,9 @@ def at_rest(scene, states, out):
 
 
 def fate_on_orbit(scene, land, states) -> FateResult:
-    """`fate` with the margin against the barriers of the reduction's own orbit: without a torque that is another one, for there the
+    """`fates` with the margin against the barriers of the reduction's own orbit: without a torque that is another one, for there the
     reduction keeps another invariant than the momentum. 0 on an invariant plane, where no barrier stands."""
-    found = fate(scene, states)
+    found = fates(scene, states)
     if land.sense or not len(states):
         return found
     place, w, size = land.start(states)
@@ -311,12 +260,6 @@ def _label_plane(land, state, place, out, index):
         write_row(out, index, Fate.SEPARATRIX, Reason.TIE, 0.0)
     else:
         write_row(out, index, Fate.SPIN_UP, Reason.PLANE_ESCAPES, margin, axis, land.sense)
-
-
-def write_row(out, index, label, reason, margin, axis=0, sense=0):
-    spin = label == Fate.SPIN_UP
-    out["labels"][index], out["reasons"][index], out["margins"][index] = label, reason, margin
-    out["axis"][index], out["sense"][index] = axis * spin, sense * spin
 
 
 def _label_parabola(land: Landscape, states, out) -> int:

@@ -8,6 +8,9 @@ from ..far_states import BEYOND
 from .reasons import Reason, REASONS
 
 
+CHUNK = 16384  # states at a time: a dozen arrays of so many doubles stay in the processor's caches
+
+
 @dataclass(frozen=True)
 class FateResult:
     """Labels and margins of states (..., 3).
@@ -63,3 +66,25 @@ class FateResult:
 def _told(reason, label, margin) -> str:
     known = margin == margin or reason in (Reason.OFF_AXIS, Reason.TURN_ROUNDS) or label == Fate.EQUILIBRIUM
     return REASONS[Reason(reason)] + ("" if known else f"; the margin in energy is {BEYOND}")
+
+
+def empty_columns(n) -> dict[str, np.ndarray]:
+    """Columns of a FateResult for n states, to be filled."""
+    return {"labels": np.empty(n, np.int8), "margins": np.empty(n), "axis": np.zeros(n, np.int8),
+            "sense": np.zeros(n, np.int8), "reasons": np.empty(n, np.int8)}
+
+
+def in_chunks(label, states) -> FateResult:
+    """The fates of states (n, 3) by a labeller: it fills the columns of a chunk and returns how many needed many digits."""
+    out, precise = empty_columns(len(states)), 0
+    for start in range(0, len(states), CHUNK):
+        part = slice(start, start + CHUNK)
+        precise += label(states[part], {name: column[part] for name, column in out.items()})
+    return FateResult(**out, precise=precise)
+
+
+def write_row(out, index, label, reason, margin, axis=0, sense=0) -> None:
+    """Put the fate of one state into the columns."""
+    spin = label == Fate.SPIN_UP
+    out["labels"][index], out["reasons"][index], out["margins"][index] = label, reason, margin
+    out["axis"][index], out["sense"][index] = axis * spin, sense * spin

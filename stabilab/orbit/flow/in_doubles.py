@@ -14,7 +14,7 @@ import math
 from functools import lru_cache
 
 from ...errors import InputError
-from ...physics.effective import effective
+from ...physics.coefficients import effective
 from ..reduction import reduce
 from .panels import POINTS
 from .profile import TURN

@@ -10,13 +10,9 @@ from __future__ import annotations
 import numpy as np
 
 from ..extremes.circle_kernel import divided_pair, ENOUGH, NARROW, NODES
-from ...physics.effective import effective
 from ..extremes.guards import clear_of_barriers, near_separatrix, needs_digits, picked, trapped_rows
-from ..extremes.arrays import extremes_and_periods
-from ...physics.states import checked_states
 from ...numbers.constants import EPS, TURN
 from ..landscape import Landscape
-from ..reduction import reduce
 from ..result import Fate
 from ..extremes.turning_points import interval
 from .modes import Modes
@@ -26,15 +22,6 @@ DIGITS = 1e-11  # rounding that leaves less than this goes to ball arithmetic
 TOLERANCE = 4e-15  # two successive rules agree to this: some twenty roundings
 PAIR_CHUNK = 2048  # a dozen arrays of so many doubles stay in the processor's second cache
 MIDPOINT_NODES = (16, 32, 64, 128, 256)
-
-
-def periods(scene, states, fast=None):
-    """See `extremes.period`."""
-    scene, array = effective(scene), checked_states(states)
-    if reduce(scene) is None:
-        from ...unreduced.aligned import periods_one_by_one
-        return periods_one_by_one(scene, array.reshape(-1, 3)).reshape(array.shape[:-1])
-    return extremes_and_periods(scene, array, fast, box=False)[1]
 
 
 def period_chunk(land: Landscape, states, decided, start, span=None):

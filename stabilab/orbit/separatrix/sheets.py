@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 
 from .result import Separatrix, Sheet
-from ...physics.effective import effective
+from ...physics.coefficients import effective
 from ..landscape import landscape
 from .homoclinic_arrays import residual
 from ...numbers.numba_door import wanted

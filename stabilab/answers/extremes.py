@@ -1,0 +1,46 @@
+"""Extremes and periods of every state of an array, whatever the scene."""
+from __future__ import annotations
+
+import numpy as np
+
+from ..asked import checked_span
+from ..physics.coefficients import effective
+from ..physics.states import checked_states
+from .digits.ask import ask_all
+from .kinds import many
+
+
+def extremes(scene, states, span=None, digits: int | None = None, fast: bool | None = None):
+    """Smallest and largest value of each component over all t >= 0: array (..., 3, 2) in the scene's variables.
+
+    +-inf where a component grows without bound; at an equilibrium both are the state. Scenes without a reduction need
+    `span`, a time: their extremes hold over [0, span] (InputError without it). digits (1 to 50): reach so many and check
+    them (ToleranceNotMet otherwise); without it eleven, by the formulas' own bound. fast: whether numba (the extra `fast`)
+    may compile the work; None where it is installed and pays. Raises InputError as `fate` does, and where fast=True
+    finds no numba.
+    """
+    span = _length(span)
+    if digits is not None:
+        return ask_all("extremes", scene, states, digits, extremes(scene, states, span), span).required().values
+    scene, array = effective(scene), checked_states(states)
+    rows = np.ascontiguousarray(array.reshape(-1, 3))
+    return many(scene).extremes(scene, rows, span, fast).reshape(array.shape + (2,))
+
+
+def _length(span):
+    """The length of a span; None where none is given."""
+    ends = checked_span(span)
+    return None if ends is None else ends[1] - ends[0]
+
+
+def period(scene, states, digits: int | None = None, fast: bool | None = None):
+    """Period of each motion, (...,) in the scene's time: inf where the motion does not repeat, 0 at an equilibrium.
+
+    digits, fast: as of `extremes`. Raises InputError as `fate` does, and for scenes without a known period (torque off
+    the axes).
+    """
+    if digits is not None:
+        return ask_all("period", scene, states, digits, period(scene, states)).required().values
+    scene, array = effective(scene), checked_states(states)
+    rows = np.ascontiguousarray(array.reshape(-1, 3))
+    return many(scene).periods(scene, rows, fast).reshape(array.shape[:-1])

@@ -1,0 +1,73 @@
+"""Extremes and periods of arrays in one pass: they share fates, turning points and the compiled kernel."""
+from __future__ import annotations
+
+import numpy as np
+
+from ..errors import InputError
+from ..physics.coefficients import effective
+from ..physics.states import checked_states
+from .extremes.arrays import extremes_of_chunk
+from .extremes.guards import picked, trapped_rows
+from .extremes.turning_points import interval
+from .fate.arrays import fate_on_orbit
+from .fate.result import CHUNK
+from .far_states import far_numbers, far_rows
+from .landscape import landscape
+from .period.arrays import period_chunk
+from .reduction import reduce
+
+
+def extremes_and_periods(scene, states, fast: bool | None = None, *, box=True, period=True):
+    """(extremes (..., 3, 2), periods (...,)) in one go, each as the function of its name gives it; None for one that
+    is not asked for. For scenes with a reduction only (InputError for others, and as `extremes` raises it)."""
+    scene, array = effective(scene), checked_states(states)
+    if reduce(scene) is None:
+        raise InputError("extremes_and_periods: this scene has no reduction to one coordinate; ask for `extremes` with a"
+                         " span, or for `period`")
+    flat = np.ascontiguousarray(array.reshape(-1, 3))
+    boxes, periods = np.empty((len(flat) if box else 0, 3, 2)), np.empty(len(flat) if period else 0)
+    if (far := far_rows(scene, flat)).any():
+        _fill_far(scene, flat, boxes, periods, far)
+        return boxes.reshape(array.shape + (2,)) if box else None, periods.reshape(array.shape[:-1]) if period else None
+    land, left_open = landscape(scene), None
+    if fast is not False:
+        from .extremes.circle_numba import by_kernel
+        left_open = by_kernel(land, flat, boxes, periods, fast)
+    for start in range(0, len(flat), CHUNK):
+        rows = slice(start, start + CHUNK)
+        if left_open is None:
+            _fill(land, scene, flat[rows], boxes[rows], periods[rows])
+        elif left_open[rows].any():
+            _fill_open(land, scene, flat[rows], boxes[rows], periods[rows], left_open[rows])
+    return (boxes.reshape(array.shape + (2,)) if box else None, periods.reshape(array.shape[:-1]) if period else None)
+
+
+def _fill_far(scene, states, boxes, periods, far):
+    """All rows, those that are `far` (their squares may be no doubles) one at a time in their own unit."""
+    near = extremes_and_periods(scene, states[~far], box=len(boxes) > 0, period=len(periods) > 0) if not far.all() else (None, None)
+    for column, values, which in zip((boxes, periods), near, (0, 1)):
+        if len(column):
+            column[far] = [far_numbers(scene, state)[which] for state in states[far].tolist()]
+            column[~far] = values if values is not None else column[~far]
+
+
+def _fill(land, scene, states, boxes, periods):
+    """One chunk: boxes (n, 3, 2) and periods (n,), each unless it is empty."""
+    decided = fate_on_orbit(scene, land, states)
+    start = land.start(states)
+    trapped = trapped_rows(land, decided)
+    span = interval(land, *picked(start[0], start[1], trapped)) if len(boxes) and len(periods) and trapped.any() else None
+    if len(boxes):
+        boxes[:] = extremes_of_chunk(land, states, decided, start, span)
+    if len(periods):
+        periods[:] = period_chunk(land, states, decided, start, span)
+
+
+def _fill_open(land, scene, states, boxes, periods, bits):
+    """The same for those states of a chunk that the compiled kernel left open."""
+    for column, bit in ((boxes, 1), (periods, 2)):
+        rows = np.nonzero(bits & bit)[0]
+        if len(column) and len(rows):
+            some, none = np.empty((len(rows),) + column.shape[1:]), np.empty(0)
+            _fill(land, scene, states[rows], *((some, none) if bit == 1 else (none, some)))
+            column[rows] = some

@@ -1,0 +1,17 @@
+"""Many states of a scene with an orbit: fates, extremes and periods of rows (n, 3)."""
+from __future__ import annotations
+
+from .extremes_and_periods import extremes_and_periods
+from .fate.arrays import fates
+
+__all__ = ["extremes", "fates", "periods"]
+
+
+def extremes(scene, states, span=None, fast: bool | None = None):
+    """(n, 3, 2) over t >= 0; `span` is not needed."""
+    return extremes_and_periods(scene, states, fast, period=False)[0]
+
+
+def periods(scene, states, fast: bool | None = None):
+    """(n,); inf where the motion does not repeat, 0 at an equilibrium."""
+    return extremes_and_periods(scene, states, fast, box=False)[1]

@@ -1,0 +1,49 @@
+"""The motion of one state of a scene with an orbit: fate, extremes, margins, period, invariants; no arrays."""
+from __future__ import annotations
+
+import math
+
+from ..physics.state import three_floats
+from .extremes.one_state import extremes_of
+from .far_states import far_exponent, in_scene_unit, own
+from .fate.one_state import fate_of
+from .invariants import invariants_of
+from .period.one_state import period_of
+from .reduction import reduce
+from .result import Fate, finite, judged, Motion, repeats
+from .separatrix.distance import distance_of
+
+
+def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
+    """See `answers.motion`; the scene has a reduction, and `span` is not needed."""
+    state, reduction = three_floats(state), reduce(scene)
+    given = exact or state
+    far = far_exponent(scene, given)
+    if far is None:
+        return _reduced(reduction, state, given, fate_of(scene, reduction, given), brief)
+    near, small = own(reduction, given, far)
+    return in_scene_unit(_reduced(near, tuple(map(float, small)), small, fate_of(scene, reduction, given, near, small), brief, far), far, state)
+
+
+def _reduced(reduction, state, given, decided, brief, k=0) -> Motion:
+    """All that is known of a motion with a reduction and this fate; the extremes in units 2^-k of the reduction's."""
+    fields = judged(state, decided)
+    fields |= {"margin_energy": finite(decided.margin), "tolerance": 1e-12,
+               "extremes": extremes_of(reduction, given, decided.label, k)}
+    return Motion(**fields, **({} if brief else _rest(reduction, state, given, decided)))
+
+
+def _rest(reduction, state, given, decided) -> dict:
+    return {**_apart(reduction, state, given, decided), "period": repeats(period_of(reduction, given, decided.label)),
+            "invariants": invariants_of(reduction, given)}
+
+
+def _apart(reduction, state, given, decided) -> dict:
+    """The fields that tell the distance from the separatrix."""
+    if decided.label == Fate.SEPARATRIX or decided.margin == 0:
+        return {"margin_velocity": 0.0, "velocity_bounds": (0.0, 0.0), "velocity_witness": state}
+    found = distance_of(reduction, given)
+    if not math.isfinite(found.upper):
+        return {"velocity_because": found.because}
+    return {"margin_velocity": found.value, "velocity_bounds": (found.lower, found.upper), "velocity_witness": found.witness,
+            "velocity_because": found.because}
