@@ -3,6 +3,7 @@ from __future__ import annotations
 from pathlib import Path
 import os
 import platform
+from stabilab import __version__
 
 
 def machine() -> dict[str, str]:
@@ -24,7 +25,6 @@ def versions() -> dict[str, str]:
     """The program's version and those of the libraries that do the work."""
     from importlib.metadata import PackageNotFoundError, version
 
-    from . import __version__
     found = {"stabilab": __version__, "Python": platform.python_version()}
     for name in ("numpy", "scipy", "heyoka", "python-flint"):
         try:

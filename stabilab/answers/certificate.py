@@ -13,6 +13,11 @@ from ..equilibrium.balance import pencil
 from ..orbit.result import Fate
 from ..equilibrium.stability import curve_with_verdicts, cuts_of, isolated_point
 from ..equilibrium.torque_free import DRIFT, plane_centre, plane_moments, plane_of_equal_moments, torque_free_curves
+from stabilab import __version__
+from ..orbit.fate.one_state import fate_of
+from ..orbit.reduction import reduce
+from ..orbit.extremes.balls import extreme_balls
+from ..orbit.period.balls import period_ball
 
 SCHEMA = "stabilab.certificate/1"
 ROOT_BITS = 150  # roots are known to 160 bits and more (`polynomials.real_roots`, `Surd.fraction`)
@@ -26,7 +31,6 @@ def certificate(scene, state=None) -> dict:
 
     Returns the object of `stabilab.certificate/1`. Raises InputError as `equilibria` does for effects it does not know.
     """
-    from .. import __version__
     out = {"schema": SCHEMA, "program": f"stabilab {__version__}", "scene": None, "equilibria": None, "motion": None, "uncertified": []}
     if not scene.plain:
         out["uncertified"].append("effects beyond the gyrostat and a constant torque: there is no certificate for their equilibria "
@@ -111,8 +115,6 @@ def _plane(p, d) -> dict:
 
 
 def _motion(scene, state, uncertified):
-    from ..orbit.fate.one_state import fate_of
-    from ..orbit.reduction import reduce
     rates = scene.quadratic().rate(state)
     claims = {"state": list(map(_text, state)), "axis": 0, "sense": 0, "extremes": None, "period": None}
     if not any(rates):
@@ -131,13 +133,11 @@ def _motion(scene, state, uncertified):
 
 
 def _extremes(reduction, state, label):
-    from ..orbit.extremes.balls import extreme_balls
     balls = extreme_balls(reduction, state, label, certain=int(DIGITS * 3.33))
     return [[_ends(v) for v in pair] for pair in balls]
 
 
 def _period(reduction, state, label):
-    from ..orbit.period.balls import period_ball
     return _ends(period_ball(reduction, state), PERIOD_DIGITS) if label == Fate.BOUNDED else None
 
 

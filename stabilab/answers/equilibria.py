@@ -7,6 +7,9 @@ from ..physics.coefficients import Content, content, gyrostat_scene
 from ..asked import checked_scene
 from ..equilibrium.gyrostat import gyrostat_equilibria
 from ..equilibrium.result import Equilibria
+from ..equilibrium.damped.dissipative import dissipative_equilibria, rest_positions
+from ..equilibrium.field.permanent_rotations import permanent_rotations
+from ..equilibrium.field.steady_states import steady_states
 
 
 def equilibria(scene) -> Equilibria:
@@ -50,15 +53,12 @@ def _gyrostat(parts: Content) -> Equilibria:
 
 
 def _dissipative(parts: Content) -> Equilibria:
-    from ..equilibrium.damped.dissipative import dissipative_equilibria
     return dissipative_equilibria(parts)
 
 
 def _directed(parts: Content) -> Equilibria:
     if any(parts.M):
-        from ..equilibrium.field.steady_states import steady_states
         return steady_states(parts)
-    from ..equilibrium.field.permanent_rotations import permanent_rotations
     return permanent_rotations(parts)
 
 
@@ -69,7 +69,6 @@ def _directed_dissipative(parts: Content) -> Equilibria:
     if any(parts.M):
         return Equilibria("undecided", "undecided: a constant torque and a field hold a turning body against the medium only where four equations in omega "
                                        "and gamma meet; no closed form is known")
-    from ..equilibrium.damped.dissipative import rest_positions
     return rest_positions(parts)
 
 

@@ -7,7 +7,8 @@ import numpy as np
 
 from ..physics.attitude import angles, beyond, body_momentum, to_space, unwrapped
 from .trajectory import trajectory
-from ..physics.states import start_of
+from ..physics.states import equations_and_start, start_of
+from ..physics.to_numpy import to_numpy
 
 STIFF = 1e6  # fastest decay times duration beyond which an explicit method would only shorten its steps
 TURNING = 700  # decays per radian of turn below which an attitude or gamma, which turn on, cost Radau more (measured)
@@ -77,8 +78,6 @@ def _chosen(scene, start, times, method, rtol):
     """(method, rtol, why) with the stiff method where nothing was asked for and the decay is too fast."""
     if method is not None or not any(not e.keeps_volume for e in scene.effects):
         return method or "taylor", rtol, ""
-    from ..physics.to_numpy import to_numpy
-    from ..physics.states import equations_and_start
     equations, state = equations_and_start(scene, start)
     fastest = float(np.max(-np.linalg.eigvals(to_numpy(equations).jacobian(state)).real, initial=0.0))
     stiffness = fastest * float(np.abs(times).max(initial=0.0))

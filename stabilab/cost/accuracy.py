@@ -14,8 +14,9 @@ import numpy as np
 
 from .event_methods import answer_methods, fate_methods, known_period
 from .methods import Method, methods, Problem, problem
-from ..integrate.reference import Reference, reference, relative_errors, WORK
+from ..integrate.reference import one_run, pairs, Reference, reference, relative_errors, WORK
 from ..integrate.trajectory import SCIPY_METHODS
+from ..integrate.taylor_digits import Recursion
 
 TIMES = 16  # states over the span
 QUESTIONS = {"span": "states over the span", "end": "state at the end", "extremes": "extremes", "period": "period"}
@@ -261,8 +262,6 @@ def _extremes_error(answer, exact) -> float:
 def _sensitivity(task, exact) -> float | None:
     """Largest relative change of the state over the span per relative change of the start, for one change of every
     component by about a unit in its last place."""
-    from ..integrate.reference import one_run, pairs
-    from ..integrate.taylor_digits import Recursion
     if not len(exact.t):
         return None
     signs = np.random.default_rng(1).choice([-1.0, 1.0], task.start.size)

@@ -17,6 +17,9 @@ from ..physics.to_numpy import Form, form, to_numpy
 from ..physics.effects import effect_class, REGISTRY
 from ..physics.equations import derive
 from ..physics.scene import Scene
+from ..answers.equilibria import equilibria
+from ..answers.motion import motion
+from ..answers.trajectory import trajectory
 
 BODY = Body((3, 2, "1.5"), 10)  # kg m^2, kg: three different moments, so that no term vanishes
 # effect -> (arguments of a generic one, arguments of one of zero strength), in the order in which `ladder` adds them:
@@ -148,9 +151,6 @@ def without(name: str) -> Scene:
 
 def answers(scene) -> dict[str, object]:
     """Question -> the answer to its last bit, as something that compares equal only to the same bits."""
-    from ..answers.equilibria import equilibria
-    from ..answers.motion import motion
-    from ..answers.trajectory import trajectory
     runs = {method: trajectory(scene, STATE, TIMES, method) for method in ("taylor", "DOP853")}
     return {"equations": tuple(map(str, (*derive(scene).state, *derive(scene).parameters, *derive(scene).rhs))),
             **{f"states, {method}": (run.states.tobytes(), tuple(run.invariant_drift.items()), tuple(run.counters.items()))

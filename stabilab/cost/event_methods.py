@@ -13,6 +13,15 @@ from ..physics.to_numpy import form
 from ..integrate.to_heyoka import heyoka_available, taylor_events
 from .methods import Answer, IMPLICIT, Method, Problem, SCIPY_LADDER, TAYLOR_LADDER, thinned
 from ..integrate.trajectory import ATOL_SHARE
+from ..answers.extremes import extremes, period
+from ..orbit.landscape import landscape
+from ..orbit.extremes.balls import precise_extremes
+from ..orbit.period.balls import precise_period
+from ..orbit.result import Fate
+from ..errors import InputError
+from ..answers.fate import fate
+from ..orbit.fate.free_margin import free_margin, is_free
+from ..orbit.fate.balls import decide
 
 OVERRUN = 1.02  # periods to run: a coarse run comes home late
 EARLY = 0.25  # periods before which a passage of the plane is no return
@@ -81,16 +90,11 @@ def _answer(task, period, found, steps, evaluations) -> Answer:
 
 
 def _roots(task, _):
-    from ..answers.extremes import extremes, period
     return lambda times: Answer({"period": np.array([float(period(task.scene, task.start))]),
                                  "extremes": extremes(task.scene, task.start)})
 
 
 def _balls(task, _):
-    from ..orbit.landscape import landscape
-    from ..orbit.extremes.balls import precise_extremes
-    from ..orbit.period.balls import precise_period
-    from ..orbit.result import Fate
     reduction = landscape(task.scene).reduction
 
     def run(times):
@@ -101,9 +105,6 @@ def _balls(task, _):
 
 def known_period(task: Problem):
     """The period of a motion that repeats, or None where the question does not arise (or no reduction answers it)."""
-    from ..errors import InputError
-    from ..answers.extremes import period
-    from ..orbit.landscape import landscape
     try:
         if task.equations.blocks != ("omega",) or landscape(task.scene) is None:
             return None
@@ -115,12 +116,6 @@ def known_period(task: Problem):
 
 def fate_methods(task: Problem) -> list:
     """(name, call) of the ways to the fate: by energy in doubles, and by energy in balls; call() -> its word."""
-    from ..errors import InputError
-    from ..answers.fate import fate
-    from ..orbit.fate.free_margin import free_margin, is_free
-    from ..orbit.landscape import landscape
-    from ..orbit.fate.balls import decide
-    from ..orbit.result import Fate
     try:
         if task.equations.blocks != ("omega",) or landscape(task.scene) is None:
             return []

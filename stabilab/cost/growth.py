@@ -12,6 +12,21 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..orbit.result import Fate
+from ..answers.fate import fate
+from ..answers.extremes import extremes, period
+from .accuracy import precision
+from ..orbit.landscape import landscape
+from ..orbit.fate.balls import precise_margin
+from ..orbit.extremes.balls import extreme_balls
+from ..orbit.period.balls import period_ball, precise_period
+from ..integrate.reference import one_run, pairs, relative_errors, WORK
+from ..integrate.taylor_digits import Recursion
+from ..numbers.balls import sign, working
+from ..numbers.double_ball import Unclear
+from ..orbit.ball_orbit import PreciseOrbit
+from ..orbit.period.arrays import inverse_speed
+from ..orbit.period.modes import Modes
+from ..orbit.extremes.turning_points import interval
 
 SEED = 4
 STATES = {"fate": (2, 7), "extremes": (2, 5), "period": (2, 5)}  # decades of the number of states
@@ -80,17 +95,14 @@ def engines(function) -> list[tuple[str, dict]]:
 
 
 def _fate():
-    from ..answers.fate import fate
     return fate
 
 
 def _extremes():
-    from ..answers.extremes import extremes
     return extremes
 
 
 def _period():
-    from ..answers.extremes import period
     return period
 
 
@@ -103,7 +115,6 @@ _FUNCTIONS = {"fate": _fate, "extremes": _extremes, "period": _period}
 def with_digits(case, effort: str = "brief", tell=lambda words: None) -> list[Growth]:
     """The states over the span by every method, at the digits that it reached; from 16 digits on by Taylor series in many
     digits; and extremes, period and margin by formulas in doubles and by balls. For motions that repeat."""
-    from .accuracy import precision
     tell("cost of digits: doubles")
     found = precision(case, effort)
     rows = [Growth("digits", "states over the span", p.method, p.digits, p.seconds, p.repeats, p.evaluations, "evaluations")
@@ -116,10 +127,6 @@ def with_digits(case, effort: str = "brief", tell=lambda words: None) -> list[Gr
 
 
 def _many(task, exact, digits):
-    from ..orbit.landscape import landscape
-    from ..orbit.fate.balls import precise_margin
-    from ..orbit.extremes.balls import extreme_balls
-    from ..orbit.period.balls import period_ball
     reduction, bits = landscape(task.scene).reduction, math.ceil(digits * math.log2(10))
     if digits > DOUBLES:
         yield _series(task, exact, digits)
@@ -131,8 +138,6 @@ def _many(task, exact, digits):
 
 
 def _series(task, exact, digits) -> Growth:
-    from ..integrate.reference import one_run, WORK
-    from ..integrate.taylor_digits import Recursion
     spent = []
 
     def series():
@@ -147,7 +152,6 @@ def _series(task, exact, digits) -> Growth:
 
 def _reached(states, exact) -> float:
     """Digits on which a run agrees with the reference, whose own error is the limit."""
-    from ..integrate.reference import pairs, relative_errors
     high, low = pairs(states)
     error = relative_errors(high, exact.states, exact.rest - low, exact.slices).max()
     return -math.log10(max(float(error), float(exact.error.max())))
@@ -160,8 +164,6 @@ def near(case, decade: int) -> tuple[np.ndarray, float]:
     """(state, distance): the case's state with its rate about the torque's axis changed so that its energy lies below the barrier
     by 10^-decade of the barrier's height above a rate of zero, up to the rounding of the state; and the distance it then has.
     For a torque on an axis, no wheel momentum along it."""
-    from ..answers.fate import fate
-    from ..orbit.landscape import landscape
     axis = landscape(case.scene).reduction.axis
     state = np.array(case.state, float)
     state[axis] = 0.0
@@ -187,10 +189,6 @@ def with_closeness(case, tell=lambda words: None) -> list[Growth]:
 
 def bits_needed(scene, state) -> int | None:
     """The least working precision at which the balls of every barrier part from the energy's."""
-    from ..orbit.landscape import landscape
-    from ..numbers.balls import sign, working
-    from ..numbers.double_ball import Unclear
-    from ..orbit.ball_orbit import PreciseOrbit
     for bits in BITS:
         try:
             with working(bits) as numbers:
@@ -204,11 +202,6 @@ def bits_needed(scene, state) -> int | None:
 
 def nodes_needed(scene, state) -> int | None:
     """Nodes of the midpoint rule, doubled until the period has NODE_DIGITS digits of that in balls; None where rounding forbids it."""
-    from ..orbit.landscape import landscape
-    from ..orbit.period.balls import precise_period
-    from ..orbit.period.arrays import inverse_speed
-    from ..orbit.period.modes import Modes
-    from ..orbit.extremes.turning_points import interval
     land = landscape(scene)
     exact = precise_period(land.reduction, state, Fate.BOUNDED)
     place, w, _ = land.start(np.asarray(state, float)[None])

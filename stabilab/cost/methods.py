@@ -13,12 +13,13 @@ import numpy as np
 
 from ..physics.attitude import quaternion
 from ..physics.blocks import slices
-from ..integrate.to_heyoka import heyoka_available, TAYLOR_TOLERANCE, to_taylor
-from ..physics.to_numpy import to_numpy
+from ..integrate.to_heyoka import heyoka_available, heyoka_form, TAYLOR_TOLERANCE, to_taylor
+from ..physics.to_numpy import form, to_numpy
 from ..errors import InputError
 from ..theories.follow import follow, models_of
 from ..physics.states import equations_and_start, start_of
 from ..integrate.trajectory import ATOL_SHARE, SCIPY_METHODS
+from ..answers.digits.reduced import ladder, reduced
 
 LANES = 4  # of the batch: doubles in one AVX register
 NUDGE = 2.0**-20  # relative difference between neighbouring lanes, so that they do not share one motion
@@ -117,8 +118,6 @@ def _batch(task, tolerance):
     """One lane is the motion, the others start next to it; cost is counted for one lane."""
     import heyoka
 
-    from ..integrate.to_heyoka import heyoka_form
-    from ..physics.to_numpy import form
     rates = form(task.equations, task.equations.rhs)
     variables, expressions = heyoka_form(rates.state, rates.symbols, rates.expressions)
     spread = task.start[:, None] * (1 + NUDGE * np.arange(LANES))
@@ -159,7 +158,6 @@ def _scipy(name):
 
 
 def _reduced(task) -> list[Method]:
-    from ..answers.digits.reduced import ladder, reduced
     if task.times[-1] < 0 or task.equations.blocks != ("omega",):
         return []
     try:

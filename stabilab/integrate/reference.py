@@ -11,6 +11,7 @@ import numpy as np
 from ..physics.equations import derive
 from ..numbers.balls import DOUBLE_BITS, working
 from .taylor_digits import Exhausted, Loop, Recursion, steps
+from ..physics.blocks import slices
 
 DIGITS = (30, 42, 84, 168)  # of successive runs; each is checked by the one before
 AGREEMENT = 1e-19  # two runs agree where they differ by less than this share of the state: far below a double's 1e-16
@@ -92,7 +93,6 @@ def reference(scene, start, times, blocks=(), orbit=False, work: int = WORK) -> 
     extremes as well, and fold later times by the period. work: multiplications allowed. Where two precisions do not agree within it, the longest part of the span that
     does is returned, with status "stopped". Raises InputError for rates that are no polynomials.
     """
-    from ..physics.blocks import slices
     equations = derive(scene, blocks)
     recursion, times, budget = Recursion(equations), np.asarray(times, float), [work]
     parts, before, best = slices(equations.blocks), None, None

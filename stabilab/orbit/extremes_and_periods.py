@@ -15,6 +15,7 @@ from .far_states import far_numbers, far_rows
 from .landscape import landscape
 from .period.arrays import period_chunk
 from .reduction import reduce
+from .extremes.circle_numba import by_kernel
 
 
 def extremes_and_periods(scene, states, fast: bool | None = None, *, box=True, period=True):
@@ -31,7 +32,6 @@ def extremes_and_periods(scene, states, fast: bool | None = None, *, box=True, p
         return boxes.reshape(array.shape + (2,)) if box else None, periods.reshape(array.shape[:-1]) if period else None
     land, left_open = landscape(scene), None
     if fast is not False:
-        from .extremes.circle_numba import by_kernel
         left_open = by_kernel(land, flat, boxes, periods, fast)
     for start in range(0, len(flat), CHUNK):
         rows = slice(start, start + CHUNK)

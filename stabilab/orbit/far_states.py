@@ -14,6 +14,9 @@ from ..errors import InputError
 from .fate.free_margin import is_free
 from .fate.one_state import fate_of
 from .result import Motion
+from .period.one_state import period_of
+from .extremes.one_state import extremes_of
+from .reduction import reduce
 
 ORDINARY = 100  # rates of 2^-100 to 2^100: fourth powers of them, beside ratios of moments, are doubles
 BEYOND = "beyond the range of doubles"
@@ -110,9 +113,6 @@ def _finite(pairs):
 def far_numbers(scene, state):
     """((3, 2) extremes, period) of one state of a scene with a reduction, as rows of `extremes` and `period` have them; NaN where
     they are no doubles."""
-    from .period.one_state import period_of
-    from .extremes.one_state import extremes_of
-    from .reduction import reduce
     reduction, k = reduce(scene), far_exponent(scene, state)
     near, small = own(reduction, state, k)
     label = fate_of(scene, reduction, state, near, small).label

@@ -7,6 +7,8 @@ from functools import cached_property
 import numpy as np
 
 from .reduction import reduce, Reduction
+from .potential import potential
+from .conic import Conic
 
 
 @dataclass(frozen=True)
@@ -23,7 +25,6 @@ class PhasePlane:
 
     @cached_property
     def potential(self):
-        from .potential import potential
         return potential(self.reduction)
 
     @cached_property
@@ -73,7 +74,6 @@ class PhasePlane:
                 if abs(root.imag) < 1e-9 * (1 + abs(root)):
                     found.append(float(root.real))
         else:
-            from .conic import Conic
             for x, z, exists, _ in Conic(self.reduction).critical_places(np.array([self.Q])):
                 if exists[0]:
                     found += self._angle_to(float(x[0]), float(z[0]))

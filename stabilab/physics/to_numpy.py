@@ -13,7 +13,7 @@ from threading import RLock
 
 import numpy as np
 
-from .equations import derive, Equations
+from .equations import derive, Equations, values
 from ..errors import InputError
 
 
@@ -39,7 +39,6 @@ def form(equations: Equations, expressions, drop_constants=False) -> Form:
 
 @lru_cache(maxsize=64)
 def _known(equations) -> tuple:
-    from .equations import values
     return tuple(values(equations).items())
 
 

@@ -9,6 +9,11 @@ from ..packages import demand
 from .files import endings
 from . import style
 from ..orbit.phase_plane import motion_curve, phase_plane, PhasePlane, window
+from ..orbit.far_states import far_exponent
+from ..errors import InputError
+from ..theories.comparison import side_by_side
+from .text import comparison
+from ..answers.trajectory import trajectory
 
 
 def draw(ax, plane: PhasePlane, scale=1.0, offset=0.0, rate_scale=1.0, span=None, levels=22, motion=True):
@@ -44,8 +49,6 @@ def draw(ax, plane: PhasePlane, scale=1.0, offset=0.0, rate_scale=1.0, span=None
 def plot(case, path) -> Path:
     """The picture of a case, written to `path` (.png, .svg or .pdf): its phase plane where the motion reduces to one degree of
     freedom, else three projections of the trajectory. Needs case.state; raises InputError without one."""
-    from ..orbit.far_states import far_exponent
-    from ..errors import InputError
     endings.file(path, endings.PICTURES)  # before the motion is computed
     demand(*style.PACKAGES)
     if case.state is None:
@@ -63,8 +66,6 @@ def plot(case, path) -> Path:
 
 def _histories(case, path):
     """Every part of the state over time, the analytic models beside the exact motion."""
-    from ..theories.comparison import side_by_side
-    from .text import comparison
     runs, _ = side_by_side(case, np.linspace(*(case.span or (0.0, 15.0)), 801))
     parts = [name for name in comparison.NAMES if name in runs["exact"].state]
     with style.drawing() as plt:
@@ -92,7 +93,6 @@ def _plane_picture(plt, case, plane):
 
 
 def _projections(plt, case):
-    from ..answers.trajectory import trajectory
     span = case.span or (0.0, 15.0)
     run = trajectory(case.scene, case.state, np.linspace(*span, 4001))
     states, labels = np.asarray(run.states), style.axis_labels(case.scene)

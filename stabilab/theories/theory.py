@@ -5,6 +5,15 @@ import numpy as np
 
 from ..errors import InputError
 from .follow import family
+from .charged.printed import MISPRINTS
+from .charged.validity import horizon, largest_tilt, SMALL_ANGLE
+from .charged.model import body_of
+from .charged.modes import modes, resonances
+from .charged.mean_pointing import pointing, spin_drift
+from .cavity.attractors import attractors
+from .top.lindstedt import lindstedt
+from .top.euler_angles import mean_precession, periodic_angles
+from .top.model import ORDER, state_of
 
 REVOLUTION = np.linspace(0.0, 1.0, 721)  # shares of a period at which the nutation is looked at
 
@@ -33,7 +42,6 @@ def _row(about, words, **values):
 
 
 def _misprints():
-    from .charged.printed import MISPRINTS
     return [_row(f"misprint, {where}", f"{what}: {wrong}; right: {right}") for where, (what, wrong, right) in MISPRINTS.items() if wrong]
 
 
@@ -42,9 +50,6 @@ def _pair(z):
 
 
 def _axisymmetric(case, order):
-    from .charged.validity import horizon, largest_tilt, SMALL_ANGLE
-    from .charged.model import body_of
-    from .charged.modes import modes, resonances
     body = body_of(case)
     m, until, tilt = modes(body), float(horizon(body)), float(largest_tilt(body))
     root = float(m.root.value())
@@ -60,7 +65,6 @@ def _axisymmetric(case, order):
 
 
 def _means(body):
-    from .charged.mean_pointing import pointing, spin_drift
     rows, aim, drift = [], pointing(body), spin_drift(body)
     if aim.status != "mean exists":
         rows.append(_row("mean pointing", f"{aim.status}: {aim.reason}"))
@@ -79,7 +83,6 @@ def _means(body):
 
 
 def _averaged(case, order):
-    from .cavity.attractors import attractors
     found = attractors(case.scene)
     rows = []
     for p in found.points:
@@ -92,9 +95,6 @@ def _averaged(case, order):
 
 
 def _top(case, order):
-    from .top.lindstedt import lindstedt
-    from .top.euler_angles import mean_precession, periodic_angles
-    from .top.model import ORDER, state_of
     motion = lindstedt(case.scene, state_of(case), [0.0], ORDER if order is None else order)
     rows = [_row("resonance", f"{r.condition}, at a distance of {r.distance:.6g}", harmonic=r.harmonic, distance=r.distance)
             for r in motion.resonances]

@@ -13,6 +13,9 @@ from ..physics.coefficients import at_rest, Content, content
 from ..orbit.fate.reasons import Reason, REASONS
 from ..orbit.result import Fate, Motion
 from ..physics.state import split
+from ..equilibrium.damped.medium import energy_bound, GLOBAL, resisted_equilibria
+from ..equilibrium.damped.liquid_and_torque import trap
+from ..physics.scene import Scene
 
 STIFF = 1e5  # fastest decay times span beyond which a search for extremes would take minutes
 
@@ -53,7 +56,6 @@ def judged(parts: Content, omega, gamma) -> tuple[Fate, str, dict]:
 
 
 def _resisted(parts: Content, T0) -> tuple[Fate, str, dict]:
-    from ..equilibrium.damped.medium import energy_bound, GLOBAL, resisted_equilibria
     least = sqrt(float(min(parts.D)))
     takes = "T' <= " if parts.kappa else "T' = "
     if not any(parts.M):
@@ -100,7 +102,6 @@ def _liquid(parts: Content, omega, T0) -> tuple[Fate, str, dict]:
 
 def _wheel_and_liquid(parts: Content, T0) -> tuple[Fate, str, dict]:
     """With Lambda the liquid's work has parts of either sign, which resistance outweighs below a certain energy."""
-    from ..equilibrium.damped.liquid_and_torque import trap
     found, x0 = trap(parts), sqrt(2 * T0)
     if found is None or x0 >= found[1]:
         return (Fate.UNDECIDED, "undecided: with a wheel or a charge the liquid keeps |H| to first order in kappa only, and its work has parts "
@@ -145,7 +146,6 @@ def _over_span(scene, omega, gamma, span) -> dict:
     from ..integrate.extrema import roots_of_rates
     from ..physics.states import equations_and_start
     start = {"omega": omega} | ({"gamma": gamma} if gamma else {})
-    from ..physics.scene import Scene
     turning = Scene(scene.body, *(e for e in scene.effects if e.name != "body_force"))
     equations, state = equations_and_start(turning, start)
     system, length = to_numpy(equations), float(span[1]) - float(span[0])

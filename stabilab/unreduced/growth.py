@@ -48,6 +48,7 @@ from ..orbit.far_states import in_range
 from ..orbit.fate.reasons import Reason
 from ..orbit.fate.result import FateResult, in_chunks, write_row
 from ..physics.state import three_floats
+from ..physics.states import three_numbers
 
 __all__ = ["captured_fate", "CapturedFate", "extremes", "fates", "motion", "periods", "unbounded"]  # extremes, periods: as off the axes
 # How long to look where the caller names no time, in the motion's own unit 1/sqrt(g |m|).
@@ -85,7 +86,6 @@ def captured_fate(scene, state, t_max: float | None = None) -> CapturedFate:
     t_max: how long to look for a certificate, in the scene's time (None: a million of the motion's own units). Raises InputError for a scene whose torque is not along
     one principal axis with a gyrostatic component along it.
     """
-    from ..physics.states import three_numbers
     state = tuple(three_numbers(state).tolist())
     try:
         law = growth_law(scene)

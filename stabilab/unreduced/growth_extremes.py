@@ -4,6 +4,7 @@ import math
 from .growth import captured_fate, CapturedFate
 from .growth_form import standard_form
 from .growth_certificates import spin_up_margin
+from ..integrate.extrema import roots_of_rates
 
 # Steps after which the finite end of a spin-up is given over the span run, unproved beyond it.
 EXTREMES_BUDGET = 300_000
@@ -17,7 +18,6 @@ def captured_extremes(scene, state, answer: CapturedFate | None = None):
     time, P >= sqrt(2L) keeping it from falling lower; every other finite entry is over the span named.
     """
     import numpy as np
-    from ..integrate.extrema import roots_of_rates
     answer = answer or captured_fate(scene, state)
     change = standard_form(scene)
     unit = change.time if change else 1 / math.sqrt(max(abs(float(v)) for v in scene.quadratic().m))

@@ -3,6 +3,8 @@ from __future__ import annotations
 from fractions import Fraction
 import math
 from .growth_certificates import certificate
+from ..physics.equations import derive
+from ..physics.scene import ScaledGyrostat
 
 # Units of rounding by which a step of the run (a Taylor polynomial of 20 terms) may move the motion: generous, for the boundary is met seldom.
 STEP_ROUNDINGS = 64
@@ -44,8 +46,6 @@ def _runner(c, y):
     """run(t, step limit) -> (time reached, state, last reversal of the turn on the way or None, steps)."""
     from ..physics.to_numpy import form
     from ..integrate.to_heyoka import heyoka_available
-    from ..physics.equations import derive
-    from ..physics.scene import ScaledGyrostat
     equations = derive(ScaledGyrostat(Fraction(c) / -2, Fraction(c) / 2, (1, 0, 0)))
     _, x2, x3 = equations.state
     turn = x2 * equations.rhs[2] - x3 * equations.rhs[1]  # R^2 phi'

@@ -9,6 +9,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 from ..numbers.vectors import CYCLE
+from ..numbers.balls import working
 
 # A run in doubles loses the ratio of the terms of the rates to the rates: from here on more than five digits.
 BESIDE = 1e-5
@@ -64,7 +65,6 @@ class FromStart:
 
 def small_loop(form, state, digits: int = DIGITS):
     """(period, [(least, greatest)] * 3) of a closed motion as balls; None where it did not return within the work allowed."""
-    from ..numbers.balls import working
     from ..integrate.reference import one_run
     share = smallness(form, state)
     lost = len(str(share.denominator // share.numerator))  # a saddle so near magnifies by as much on the way out, and on the way back

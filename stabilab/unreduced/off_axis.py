@@ -22,6 +22,7 @@ from ..orbit.fate.reasons import Reason
 from ..orbit.fate.result import FateResult, in_chunks, write_row
 from ..physics.quadratic import rests
 from ..physics.state import three_floats
+from ..physics.to_numpy import equations_of, to_numpy
 
 # A run that has not shown what is asked after this many steps (seconds of work) gives up and says so.
 STEP_BUDGET = 1_000_000
@@ -94,7 +95,6 @@ def _why_undecided(scene):
 
 
 def _energy(scene, points):
-    from ..physics.to_numpy import equations_of, to_numpy
     return np.asarray(to_numpy(equations_of(scene)).invariants(points)["energy"])
 
 

@@ -14,9 +14,23 @@ import numpy as np
 
 from ...numbers.balls import Digits, DOUBLE_BITS, working
 from ...orbit.fate.free_margin import free_margin, is_free
-from ...physics.states import moved_row
+from ...physics.states import checked_states, equations_and_start, moved_row
 from .checked import CAUTION, checked_digits, digits_of, MOST, MOST_DECIMALS, NEAR, nothing, Told
 from ...orbit.result import Fate
+from ...physics.coefficients import effective
+from ...orbit.landscape import landscape
+from ...orbit.fate.balls import precise_margin
+from ...orbit.extremes.balls import extreme_balls
+from ...orbit.period.balls import period_ball
+from ...unreduced.near_rest import beside_rest, small_loop
+from ...integrate.reference import DIGITS, GUARD, reference, WORK
+from ...integrate.to_heyoka import TAYLOR_TOLERANCE
+from ...physics.scene import Scene
+from ...integrate.extrema import roots_of_rates
+from ...integrate.taylor_digits import Exhausted, Recursion, steps, widen
+from ..motion import motion
+from ...physics.alignment import aligned
+from ...orbit.reduction import reduce
 
 FORMULA_DIGITS = 11  # the formulas hand over to balls where they hold less
 SAMPLE = 16  # states of an array that are checked one by one; where all agree the formulas serve for the rest
@@ -31,7 +45,6 @@ def ask(question, scene, state, digits: int, span=None, known=None, exact=None, 
     """
     digits = checked_digits(digits, MOST_DECIMALS)
     if known is None:
-        from ..motion import motion
         known = motion(scene, state, span, exact=exact)
     twin, land = _reduced(scene)
     if question != "extremes" and _number(question, known) is None:
@@ -52,7 +65,6 @@ def ask(question, scene, state, digits: int, span=None, known=None, exact=None, 
 def ask_all(question, scene, states, digits: int, values, span=None) -> Told:
     """The same for an array of states (..., 3); values (..., 3, 2) or (...,): what the formulas say of them; span: a time. Of many
     states a sample is checked."""
-    from ...physics.states import checked_states
     array = checked_states(states)
     rows = array.reshape(-1, 3)
     picked = np.unique(np.linspace(0, len(rows) - 1, min(SAMPLE, len(rows))).astype(int))
@@ -73,8 +85,6 @@ def ask_all(question, scene, states, digits: int, values, span=None) -> Told:
 
 def _reduced(scene):
     """(the scene that turns alike and has nothing but a wheel and a torque, its landscape or None)."""
-    from ...physics.coefficients import effective
-    from ...orbit.landscape import landscape
     twin = effective(scene)
     return twin, landscape(twin) if twin.plain else None
 
@@ -113,9 +123,6 @@ def _judged(question, values, balls, digits) -> Told:
 
 def _balls(question, reduction, state, label, digits):
     """The answer in balls, nested as its floats are."""
-    from ...orbit.fate.balls import precise_margin
-    from ...orbit.extremes.balls import extreme_balls
-    from ...orbit.period.balls import period_ball
     if question == "extremes":
         return extreme_balls(reduction, state, int(label), math.ceil(digits * math.log2(10)))
     if question == "period":
@@ -172,9 +179,6 @@ def _margin_without_reduction(scene, known, digits, state) -> Told:
         margin = free_margin(scene, state, wanted)
         balls = None if margin.tie else margin.ball
     else:
-        from ...physics.alignment import aligned
-        from ...orbit.fate.balls import precise_margin
-        from ...orbit.reduction import reduce
         turn = aligned(scene)
         balls = precise_margin(reduce(turn.twin), turn(state), wanted)
     return _tie("fate", digits) if balls is None else _judged("fate", known.margin_energy, balls, digits)
@@ -182,8 +186,6 @@ def _margin_without_reduction(scene, known, digits, state) -> Told:
 
 def _by_return(question, scene, known, digits, state) -> Told:
     """A closed motion: its return in doubles against the return of a Taylor series in many digits."""
-    from ...unreduced.near_rest import beside_rest
-    from ...integrate.reference import reference
     values = _number(question, known)
     if beside_rest(scene.quadratic(), state):
         return _by_small_loop(question, scene.quadratic(), values, digits, state)
@@ -206,7 +208,6 @@ def _by_return(question, scene, known, digits, state) -> Told:
 
 def _by_small_loop(question, form, values, digits, state) -> Told:
     """A closed motion that starts next to an equilibrium: two runs of its series from the start, the second with more digits."""
-    from ...unreduced.near_rest import small_loop
     more = max(digits, MOST) + 8
     with working(2 * int(3.33 * more) + 400):
         found = [loop and loop[question != "period"] for loop in (small_loop(form, state, n) for n in (more, more + 8))]
@@ -222,10 +223,6 @@ def _by_small_loop(question, form, values, digits, state) -> Told:
 
 
 def _over_span(scene, state, span, known, digits, exact, slack) -> Told:
-    from ...integrate.to_heyoka import TAYLOR_TOLERANCE
-    from ...physics.scene import Scene
-    from ...integrate.extrema import roots_of_rates
-    from ...physics.states import equations_and_start
     if known.extremes is None:
         return nothing("extremes", digits, known.extremes_over)
     if scene.variables != "scaled":  # a force at the centre of mass does not turn the body
@@ -248,8 +245,6 @@ def _apart(one, two) -> float:
 
 def _many_digits(equations, start, length, digits):
     """Extremes over the span by a Taylor series, each precision checked by the one before; None where the work allowed is not enough."""
-    from ...integrate.reference import DIGITS, GUARD, WORK
-    from ...integrate.taylor_digits import Exhausted, Recursion
     recursion, before = Recursion(equations), None
     for n in DIGITS:
         budget = [WORK // 12 if before is None else WORK // 4]  # the second run costs twice the first
@@ -277,7 +272,6 @@ def _balls_apart(now, before) -> float:
 
 
 def _series_extremes(recursion, start, length, digits, budget, numbers):
-    from ...integrate.taylor_digits import steps, widen
     pairs, left = [[numbers.ball(v)] * 2 for v in start[:3]], numbers.ball(length)
     for step in steps(recursion, start, digits, budget, numbers):
         budget[0] -= SEARCH * len(pairs) * len(step.rows[0])

@@ -19,6 +19,10 @@ from .checked import CAUTION, checked_digits, DEFAULT, digits_of, MOST, NEAR
 from ..simulate import simulate, Simulation, STIFF_METHOD
 from ...physics.states import equations_and_start, moved_row, start_of
 from ...integrate.trajectory import FALLBACK_RTOL, SCIPY_METHODS
+from ...physics.to_numpy import to_numpy
+from ...physics.equations import derive
+from .reduced import ladder, reduced
+from ...integrate.reference import reference
 
 MANY, REDUCED_FORM = "many digits", "reduced form"
 OWN = ("as simulate chooses", 0.0)  # the finest Taylor series, which costs little more than a coarse one; Radau where the scene is stiff
@@ -107,8 +111,6 @@ def _unmeasured(case, times):
 
 def _turned(case, times) -> float:
     """Radians or so that a motion goes through: its rates, or the roots of their rates where these are larger, times the longest time."""
-    from ...physics.to_numpy import to_numpy
-    from ...physics.equations import derive
     scene = case.scene
     row = np.array([*case.state, *(v for name in scene.blocks[1:] for v in case.blocks.get(name, (0.0,) * 3))])
     if scene.blocks != ("omega",):
@@ -122,7 +124,6 @@ def _resolutions(case, times):
     """Of the reduced form; none where it does not serve."""
     if case.blocks or case.scene.blocks != ("omega",) or (times < 0).any():
         return ()
-    from .reduced import ladder
     try:
         found = ladder(case.scene, case.state)
     except InputError:
@@ -194,7 +195,6 @@ def _integrated(case, times, method, rtol):
 
 
 def _reduced(case, times, method, nodes):
-    from .reduced import reduced
     if case.blocks or case.scene.blocks != ("omega",) or (times < 0).any():
         raise InputError("the reduced form gives the rate alone, from time 0 on")
     orbit = reduced(case.scene, case.state, int(nodes))
@@ -211,7 +211,6 @@ def _first(case):
 
 def _many_digits(case, times, asked) -> Reached | None:
     """The reference itself, rounded once; at times of one sign."""
-    from ...integrate.reference import reference
     scaled = case.scene.variables == "scaled"
     equations, start = equations_and_start(case.scene, case.state if scaled else start_of(case.scene, case.state, case.blocks))
     if times.min() < 0 < times.max():

@@ -11,6 +11,9 @@ from dataclasses import dataclass
 
 from ...errors import InputError
 from .result import Over
+from .box import box_of
+from .equilibria import equilibria_over
+from .fate import fate_over
 
 
 @dataclass(frozen=True)
@@ -27,9 +30,6 @@ def uncertain(case, questions=("equilibria", "fate")) -> Uncertainty | None:
     """What the uncertain numbers of a Case do to its verdicts, None where it has none; questions: those to be answered."""
     if not case.uncertain:
         return None
-    from .box import box_of
-    from .equilibria import equilibria_over
-    from .fate import fate_over
     ask = {"equilibria": equilibria_over, "fate": fate_over}
     asked = [name for name in questions if name == "equilibria" or case.state is not None]
     try:

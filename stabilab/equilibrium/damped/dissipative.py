@@ -9,6 +9,14 @@ from fractions import Fraction
 
 from ...physics.coefficients import Content
 from ..result import CurveSegment, Equilibria, EquilibriumCurve, EquilibriumPoint
+from .liquid_and_torque import balanced_equilibria
+from ...numbers.balls import many_digits
+from ..field.balance import rotations_at
+from ..field.spectrum import blocks, Field
+from ...numbers.vectors import dot
+from ..field.circles import around
+from .medium import resisted_equilibria
+from .liquid import liquid_equilibria
 
 MINIMUM = ("asymptotically stable", "the potential energy has a strict minimum here and the medium takes energy at every rotation (LaSalle)")
 NO_MINIMUM = ("unstable", "the potential energy is not least here and the medium takes energy at every rotation: states of less energy next to "
@@ -21,14 +29,11 @@ OPEN = ("undecided", "the second variation of the potential energy is degenerate
 def dissipative_equilibria(parts: Content) -> Equilibria:
     """Equilibria of the angular velocity with resistance, a liquid or both, a wheel, a constant charge and a torque."""
     if not parts.kappa:
-        from .medium import resisted_equilibria
         return resisted_equilibria(parts)
     if not parts.c and not any(parts.M):
-        from .liquid import liquid_equilibria
         return liquid_equilibria(parts)
     if not any(parts.M) and not any(parts.Lambda):
         return _rest_with_liquid(parts)
-    from .liquid_and_torque import balanced_equilibria
     return balanced_equilibria(parts)
 
 
@@ -41,9 +46,6 @@ def _rest_with_liquid(parts: Content) -> Equilibria:
 
 def rest_positions(parts: Content) -> Equilibria:
     """Rest positions of a body in a field with a resisting medium: (omega, gamma) with omega = 0."""
-    from ...numbers.balls import many_digits
-    from ..field.balance import rotations_at
-    from ..field.spectrum import Field
     with many_digits():
         field = Field.of(parts)
         found = [(rotation, _rest(parts, field, rotation)) for rotation in rotations_at(field, Fraction(0))]
@@ -56,7 +58,6 @@ def rest_positions(parts: Content) -> Equilibria:
 
 def _rest(parts, field, rotation) -> EquilibriumPoint:
     """Verdict by the second variation of the potential energy on the tangent plane of |gamma| = 1."""
-    from ...numbers.vectors import dot
     n = [k - rotation.mu for k in field.stiffness(0 * field.N)]
     squares = [g * g for g in rotation.gamma]
     trace = -dot(n, [1 - x for x in squares])
@@ -77,7 +78,6 @@ def _rest(parts, field, rotation) -> EquilibriumPoint:
 
 def _spectrum(parts, field, rotation):
     import numpy as np
-    from ..field.spectrum import blocks
     A, B = (np.array([[float(v) if not hasattr(v, "mid") else float(v.mid()) for v in row] for row in block])
             for block in blocks(field, 0 * field.N, rotation.gamma))
     x, y, z = (float(g.mid()) for g in rotation.gamma)
@@ -87,7 +87,6 @@ def _spectrum(parts, field, rotation):
 
 
 def _continuum(rotation, point: EquilibriumPoint) -> EquilibriumCurve:
-    from ..field.circles import around
     name = "every direction" if len(rotation.circle) == 3 else "circle of rest positions"
     segment = CurveSegment((float("-inf"), float("inf")), point.linear, point.verdict, point.because)
     equation, parametrisation, run = around(Fraction(0), rotation)

@@ -17,8 +17,9 @@ from types import SimpleNamespace
 
 from ...numbers.vectors import cross, dot
 from ...physics.coefficients import Content, liquid_torque
-from ...numbers.balls import rational
+from ...numbers.balls import many_digits, rational
 from ..result import Equilibria, EquilibriumPoint
+from .liquid import validity
 
 ROUND = 1 + 1e-9  # more than all roundings of a bound
 RADIUS = 1e-45    # relative radius of the ball in which the sharpened zero is proved to lie
@@ -93,7 +94,6 @@ def trap(parts: Content) -> tuple[float, float] | None:
 
 def _region(parts: Content):
     """(reach of omega, words), or (None, why not)."""
-    from .liquid import validity
     found = trap(parts)
     if found is not None:
         x1, x2 = found
@@ -114,7 +114,6 @@ def _region(parts: Content):
 def _point(parts: Content, polynomials, x) -> EquilibriumPoint:
     """Spectrum and verdict at a proved zero, sharpened to some fifty digits and enclosed in balls."""
     import numpy as np
-    from ...numbers.balls import many_digits
     with many_digits() as numbers:
         ball = _enclosed(polynomials, x, numbers)
         derivatives = [[_derivative(p, k) for k in range(3)] for p in polynomials]

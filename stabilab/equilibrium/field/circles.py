@@ -12,6 +12,7 @@ from .balance import Rotation, rotations_at, rounded_gamma
 from .bifurcations import NEXT_TO
 from .spectrum import Field
 from .verdict import judged
+from ...numbers.exact import sqrt_fraction
 
 
 def circles(field: Field, parts: Content):
@@ -21,7 +22,6 @@ def circles(field: Field, parts: Content):
 
 def _special(field: Field, parts: Content):
     """(Omega, rotation) for rational Omega at which b vanishes on axes that share S, though not for every Omega."""
-    from ...numbers.exact import sqrt_fraction
     values = {-s / l for s, l in zip(parts.s, parts.Lambda) if l}
     if parts.N >= 0:
         root = sqrt_fraction(parts.N)
@@ -58,7 +58,6 @@ def _exact(v) -> Fraction:
 
 def _same_stiffness(parts: Content, i: int, j: int) -> list[Fraction]:
     """Real roots of (Omega^2 - N)(D_i - D_j) - Omega E (i is axis 3, less j is axis 3)."""
-    from ...numbers.exact import sqrt_fraction
     A, B = parts.D[i] - parts.D[j], -parts.E * ((i == 2) - (j == 2))
     if not A:
         return [Fraction(0)]

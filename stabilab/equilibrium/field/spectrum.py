@@ -17,6 +17,7 @@ from dataclasses import dataclass
 
 from ...numbers.vectors import cross, dot
 from ...physics.coefficients import linear_rates
+from ...numbers.balls import rational
 
 
 @dataclass(frozen=True)
@@ -31,7 +32,6 @@ class Field:
 
     @classmethod
     def of(cls, parts):
-        from ...numbers.balls import rational
         return cls(*(tuple(map(rational, row)) for row in (parts.D, parts.Lambda, parts.s)), rational(parts.N), rational(parts.E))
 
     def stiffness(self, Omega):

@@ -22,7 +22,8 @@ from ...physics.coefficients import Content
 from ...numbers.polynomial import Poly, real_roots
 from ..result import CurveSegment, Equilibria, EquilibriumCurve, EquilibriumPoint
 from .spectrum import blocks, Field
-from ..curve import values_inside
+from ..curve import sample_parameters, values_inside
+from ...numbers.balls import many_digits, rational
 
 TAU = Poly((0, 1))
 COS, SIN, ONE = Poly((1, 0, -1)), Poly((0, 2)), Poly((1, 0, 1))  # times 1 + tau^2
@@ -84,7 +85,6 @@ def _pieces(plane: Plane):
 def _omega(plane: Plane, tau: Fraction, side: int):
     """The root Omega at tau as a ball; None where the quadratic is linear and this side has none."""
     from flint import arb
-    from ...numbers.balls import rational
     a, b, c = (rational(p(tau)) for p in (plane.square, plane.linear, plane.constant))
     if a == 0:
         return arb(-c / b) if side < 0 and b != 0 else None
@@ -98,7 +98,6 @@ def _omega(plane: Plane, tau: Fraction, side: int):
 def _state(plane: Plane, tau: Fraction, side: int):
     """(Omega, gamma) as balls."""
     from flint import arb
-    from ...numbers.balls import rational
     j, k = CYCLE[plane.i]
     gamma = [arb(0)] * 3
     gamma[j], gamma[k] = (arb(rational(p(tau) / ONE(tau))) for p in (COS, SIN))
@@ -145,7 +144,6 @@ def _eigenvalues(e2, e3, e4):
 
 def _curve(parts, plane: Plane, lo, hi, side) -> EquilibriumCurve:
     """One side of the quadratic over one interval of tau."""
-    from ...numbers.balls import many_digits
     j, k = CYCLE[plane.i]
     ends = _angle(lo, -1), _angle(hi, 1)
     with many_digits():
@@ -176,6 +174,5 @@ def _angle(tau, otherwise) -> float:
 
 
 def _chosen(lo, hi):
-    from ..curve import sample_parameters
     some = sample_parameters(lo, hi, Fraction(1)) or [values_inside(lo, hi, Fraction(1))]
     return sorted({some[0], some[len(some) // 2], some[-1]})

@@ -15,6 +15,7 @@ from .turning_points import interval, spots_along, turning_point
 from .guards import (
     clear_of_barriers, DIGITS, EXTREMES_SHARE, into, near_separatrix, needs_digits, on_top, picked, SPIN_UP_SHARE,
     trapped_rows)
+from .balls import precise_extremes
 
 
 def extremes_of_chunk(land: Landscape, states, decided, start, span=None):
@@ -36,7 +37,6 @@ def extremes_of_chunk(land: Landscape, states, decided, start, span=None):
     spinning = labels == Fate.SPIN_UP
     into(out, spinning, _spinning(land, *picked(place, w, spinning)))
     if precise.any():
-        from .balls import precise_extremes
         for index in np.nonzero(precise)[0]:
             out[index] = precise_extremes(land.reduction, states[index], int(decided.labels[index]))
     out[:, :, 0] = np.minimum(out[:, :, 0], states)  # rounding must not exclude the state itself

@@ -3,6 +3,7 @@ from __future__ import annotations
 from typing import NamedTuple
 from ...numbers.balls import DOUBLE_BITS, settled, sign, START_BITS, Unclear
 from ..ball_orbit import PreciseOrbit
+from .tie import exact_tie
 
 DOUBLE_SHARE = 1e-12  # of a margin: with less certainty balls of doubles do not settle it
 EXACT_BITS, MOST_BITS = 512, 1 << 17  # from these bits on algebra is asked whether two energies are equal; and where balls end
@@ -57,7 +58,6 @@ def _ties(orbit, margin) -> bool:
         return False
     if orbit.numbers.bits < EXACT_BITS:
         raise Unclear
-    from .tie import exact_tie
     return exact_tie(orbit) or (0 in margin and orbit.numbers.bits >= MOST_BITS)
 
 

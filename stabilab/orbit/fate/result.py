@@ -6,6 +6,7 @@ import numpy as np
 from ..result import Fate
 from ..far_states import BEYOND
 from .reasons import Reason, REASONS
+from ..separatrix.distance import separatrix_distance
 
 
 CHUNK = 16384  # states at a time: a dozen arrays of so many doubles stay in the processor's caches
@@ -49,7 +50,6 @@ class FateResult:
     def velocity_margins(self) -> np.ndarray:
         """(...,) smallest change of the state that reaches the separatrix, in the state's unit; inf without one, NaN where the
         label is undecided."""
-        from ..separatrix.distance import separatrix_distance
         return np.where(self.labels == Fate.UNDECIDED, np.nan, separatrix_distance(self.scene, self.states))[()]
 
     @cached_property

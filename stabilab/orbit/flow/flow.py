@@ -18,6 +18,7 @@ from .periodic import Around, Between, by_samples, ByPanels, BySeries, DIP, Rest
 from ..result import Fate
 from .spin_up import SpinUp
 from .table import tabulated
+from ..period.one_state import period_of
 
 PERIODS_AGREE = 1e-10  # ten times what either is off by
 MANY = 2000  # times that are worth a table
@@ -48,7 +49,6 @@ def reduced_motion(scene, state, nodes: int | None = None, backwards: bool = Fal
 
 def _refuse_another_period(motion, reduction, state):
     """InputError where the panels of a libration do not add up to its period, which is known by other means."""
-    from ..period.one_state import period_of
     expected = period_of(reduction, tuple(state), Fate.BOUNDED)
     if not abs(motion.period - expected) <= PERIODS_AGREE * expected:
         raise InputError("the reduced form of this motion takes more digits than doubles have; take method taylor")

@@ -16,6 +16,7 @@ from ..landscape import Landscape
 from ..result import Fate
 from ..extremes.turning_points import interval
 from .modes import Modes
+from .balls import precise_period
 
 PERIOD_SHARE = 1e-5  # closer to the separatrix than this share of the energy terms, rounding costs the period 1e-11
 DIGITS = 1e-11  # rounding that leaves less than this goes to ball arithmetic
@@ -40,7 +41,6 @@ def period_chunk(land: Landscape, states, decided, start, span=None):
     out[trapped] = values
     precise[np.nonzero(trapped)[0][~found]] = True
     if precise.any():
-        from .balls import precise_period
         for index in np.nonzero(precise)[0]:
             out[index] = precise_period(land.reduction, states[index], int(decided.labels[index]))
     return out

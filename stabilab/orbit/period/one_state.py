@@ -15,6 +15,7 @@ from ...numbers.balls import DOUBLE_BITS, settled
 from ..ball_orbit import PreciseOrbit
 from ..extremes.balls import turning_points
 from ..result import Fate
+from .balls import precise_period
 
 NODES = (16, 32, 64, 128, 256, 512)
 AGREE = 1e-11  # two rules agree to this: the error of a geometric rule is squared by doubling its nodes
@@ -35,7 +36,6 @@ def period_of(reduction, state, label: Fate) -> float:
     try:
         return settled(question, DOUBLE_BITS, DOUBLE_BITS)
     except Unclear:
-        from .balls import precise_period
         return precise_period(reduction, state, label)
 
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from . import circle_kernel as circle_loops
 from .grid import DENSE, fewest_cells, finer, FLOOR, MIXTURES, MOST, ROUNDS, shrinks, STRAIGHT, TRIAL, UNIFORM
+from ...numbers.numba_door import compiled
 
 GRADING = (FLOOR, STRAIGHT, UNIFORM, DENSE, MIXTURES)
 EVEN = np.linspace(0, 1, TRIAL)
@@ -24,7 +25,6 @@ def serves(land, strips) -> bool:
 @lru_cache(maxsize=1)
 def kernel():
     """The compiled names of `circle_loops`; kept on disk where there is a place for it."""
-    from ...numbers.numba_door import compiled
     try:
         return compiled(circle_loops, {"force", "slope", "moved", "y_minus_sin", "rise", "stray"}, cache=True)
     except RuntimeError:  # numba found no folder that it may write to

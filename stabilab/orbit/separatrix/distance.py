@@ -27,6 +27,8 @@ from .plane_chart import plane_roots, PlaneChart
 from ..fate.balls import decide
 from .sheet_chart import Chart, Hyperbola, Seen, Straight
 from .shade import Shade
+from ..reduction import reduce
+from .saddles import foot
 
 AGREE = 1e-9  # relative: nearer than that, lower bound and witness are one number
 LEAST_SHARE = 1e-90  # of a place beside a plane: nearer, and the chart of the loops themselves goes on alone
@@ -64,7 +66,6 @@ def separatrix_distance(scene, states):
     """Euclidean distance (...,) of states (..., 3) from the nearest point of the scene's separatrix, in the unit of the
     states: to 1e-9, or a proved lower bound; inf where the scene has none."""
     import numpy as np
-    from ..reduction import reduce
     array = np.asarray(states, float)
     reduction = reduce(scene)
     flat = [distance_of(reduction, state).value for state in array.reshape(-1, 3).tolist()]
@@ -148,7 +149,6 @@ def _arcs(conic, seen):
 
 
 def _knots(conic, line):
-    from .saddles import foot
     yield foot(conic, line)
     if conic.G:  # where the two lines cross
         yield -conic.d / conic.G - line.z0 if line.dz else -conic.c / conic.G - line.x0

@@ -13,6 +13,7 @@ from __future__ import annotations
 import math
 
 from .sheet_chart import Chart, EPS, Point, ROUNDINGS
+from .spans import Span
 
 
 class ParabolaChart(Chart):
@@ -64,7 +65,6 @@ class ParabolaChart(Chart):
                      (off, off_phi, off_w))
 
     def bends(self, t, dt, y, dy):
-        from .spans import Span
         g = self.here
         kappa, a, k2 = g["kappa"], g["a"], g["kappa"] ** 2
         N, s = self._saddle(t)

@@ -19,6 +19,8 @@ from .homoclinic_arrays import residual
 from ...numbers.numba_door import wanted
 from .saddles import limit_of, saddle_branches, sides
 from .grid import grid
+from .circle_numba import serves, sheets_by_kernel
+from ...errors import InputError
 
 SHAPE = (96, 129)  # fine enough for pictures
 
@@ -59,12 +61,10 @@ def _goes_fast(land, strips, fast) -> bool:
     # never on its own: the same case must give the same bytes, whatever was loaded before
     if not fast:
         return False
-    from .circle_numba import serves
     return wanted(1, True, False, 1, 1) and serves(land, strips)
 
 
 def _check(reach, shape, accuracy):
-    from ...errors import InputError
     if shape is not None and accuracy is not None:
         raise InputError("separatrix: got both a shape and an accuracy; expected one of them, as an accuracy chooses the shape")
     if shape is not None and (shape[0] < 3 or shape[1] < 5):
@@ -76,7 +76,6 @@ def _check(reach, shape, accuracy):
 
 
 def _by_kernel(land, strips, shape, accuracy):
-    from .circle_numba import sheets_by_kernel
     points, residual, *places, found, cut, error = sheets_by_kernel(land, strips, shape, accuracy)
     return points, residual, *(np.moveaxis(place, -1, 0) for place in places), found, cut, error
 

@@ -5,13 +5,12 @@ from functools import partial
 from pathlib import Path
 
 from ...errors import InputError
-from . import cavity as figures_cavity, charged as figures_charged, top as figures_top
-from . import major_axis as major
-from . import middle_axis as middle
-from . import minor_axis as minor
-from . import paper
+from . import (
+    cavity as figures_cavity, charged as figures_charged, major_axis as major, middle_axis as middle,
+    minor_axis as minor, paper, top as figures_top)
 from .. import style
 from .figure import Figure
+from stabilab import __version__
 
 _LEVEL = "curves: level sets of the exact potential, in doubles"
 _LAW = ("x2² + x3² − 2(b−a)x1 falls by exactly 2(b−a)τ, so no motion is bounded and there is no equilibrium, stable or "
@@ -110,7 +109,6 @@ def write(numbers=None, out="figures", progress=None, paper_name: str | None = N
 
 
 def _write(row, out, progress):
-    from ... import __version__
     if progress:
         progress(f"figure {row.number}{f' ({row.paper})' if row.paper else ''}")
     with style.drawing() as plt:

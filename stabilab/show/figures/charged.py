@@ -8,6 +8,10 @@ import numpy as np
 
 from . import panels
 from .figure import Figure, listed
+from ...theories.charged.validity import horizon as until, horizon
+from ...theories.charged.model import body_of
+from ...theories.charged.printed import circle as by_35
+from ...theories.charged.corrected import one_frequency
 
 PAPER = "Galal et al., charged rigid body with a gyrostatic moment (short form: Elneklawy)"
 SWEEP, SPAN, POINTS = "charged-sweep", 50.0, 2001
@@ -26,8 +30,6 @@ PLACE = tuple(panels.history("position", i, rf"$\eta_{i + 1}$", "m") for i in ra
 
 
 def _columns(family, end=SPAN, horizon=True):
-    from ...theories.charged.validity import horizon as until
-    from ...theories.charged.model import body_of
     symbol, values, unit, variant = FAMILIES[family]
     for i, value in enumerate(values, 1):
         name = variant.format(i)
@@ -53,8 +55,6 @@ def _without(column, model):
 
 def _by_35(family, i, run):
     """The printed run with the momentum of (35) in place of (33)."""
-    from ...theories.charged.model import body_of
-    from ...theories.charged.printed import circle as by_35
     across = by_35(body_of(panels.sweep(SWEEP)[FAMILIES[family][3].format(i)]), run.t)
     return replace(run, state=run.state | {"momentum": np.hstack([across, np.asarray(run.state["momentum"])[:, 2:]])})
 
@@ -92,7 +92,6 @@ def runs_of(family) -> list[dict]:
 
 
 def _bodies(family):
-    from ...theories.charged.model import body_of
     return [body_of(panels.sweep(SWEEP)[FAMILIES[family][3].format(i)]) for i in (1, 2, 3)]
 
 
@@ -107,14 +106,12 @@ def _rates(family, more=""):
 
 
 def _rates_by_torque(family):
-    from ...theories.charged.corrected import one_frequency
     period = 2 * np.pi / abs(float(one_frequency(_bodies(family)[0]).root.value()))
     return _rates(family, "The text says that amplitude and wavelength fall with M1; by its own formulas the amplitude is proportional "
                           f"to M1 and the period, {period:.3g} s, does not change.")
 
 
 def _angles(family, more=""):
-    from ...theories.charged.validity import horizon
     tilts = [np.hypot(*a[:, :2].T).max() for a in _state(family, "printed", "angles")]
     until = dict.fromkeys(f"{float(horizon(b)):.2f}" for b in _bodies(family))
     return (f"The print lets the tilt of psi and phi swing to {listed(tilts)} rad as if it were small. In truth 0.1 rad is outgrown after "
@@ -135,7 +132,6 @@ def _by_33(family, more):
 def _misprinted(family, part, unit):
     """How far the misprinted integrals are off, and where they divide by little."""
     off = [np.abs(a - b).max() for a, b in zip(_state(family, "printed", part), _state(family, "corrected", part))]
-    from ...theories.charged.corrected import one_frequency
     down = [float(b.spin) - abs(float(one_frequency(b).root.value())) for b in _bodies(family)]
     return (f"The misprinted integrals are off by up to {listed(off)} {unit} from those that (44) and (49) define, the more the smaller "
             f"r0 - W is ({listed(dict.fromkeys(f'{d:.2g}' for d in down), '{}')} 1/s), whose powers divide them"

@@ -8,13 +8,15 @@ import numpy as np
 from . import paper
 from .. import style
 from .figure import listed
+from ...answers.trajectory import trajectory
+from ...unreduced.growth import captured_fate
+from ...physics.scaling import to_scaled
 
 PLANES = {"13": (0, 2), "23": (1, 2), "12": (0, 1)}
 
 
 @lru_cache
 def _trajectories(start):
-    from ...answers.trajectory import trajectory
     times = np.linspace(*paper.SPAN, 6001)
     return {lam: trajectory(paper.scene("major", lam), start, times) for lam in paper.LAMBDAS}
 
@@ -37,14 +39,12 @@ def amplitudes(start, component) -> str:
 
 def releases(start) -> str:
     """When each run of a start is released from its capture."""
-    from ...unreduced.growth import captured_fate
     times = [captured_fate(paper.scene("major", lam), start).release_time for lam in paper.LAMBDAS]
     return f"This start is released at τ = {listed(times, '{:.1f}')} for λ1 = {listed(paper.LAMBDAS, '{}')}."
 
 
 def second() -> float:
     """Seconds of one unit of tau for the paper's body."""
-    from ...physics.scaling import to_scaled
     return float(to_scaled(paper.physical("major", paper.LAMBDAS[0]), mu=paper.TORQUE["major"])[1].time)
 
 

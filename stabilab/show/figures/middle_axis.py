@@ -6,6 +6,7 @@ import numpy as np
 from . import paper
 from .. import style
 from ...orbit.phase_plane import motion_curve, phase_plane
+from .minor_axis import exactness as of_sheets, sheets
 
 LAMBDA_BEYOND = 1250  # c = b - a = 2.5, beyond the cusp 1.7548: there a figure-eight separatrix does exist
 CUSP = 4 * 3**-0.75
@@ -14,7 +15,6 @@ EIGHT = {"lambda1": LAMBDA_BEYOND, "reach": None, "shape": (60, 121), "axis": "m
 
 def exactness() -> str:
     """How far the vertices of Fig. 16 are from their surface."""
-    from .minor_axis import exactness as of_sheets
     return of_sheets(**EIGHT)
 
 
@@ -71,7 +71,6 @@ def _nested(ax, scene):
 
 
 def _figure_eight(ax):
-    from .minor_axis import sheets
     found = sheets(**EIGHT)
     for number, sheet in enumerate(found.sheets):
         ax.plot_surface(*_upright(sheet.points), color=style.SHEETS[number % len(style.SHEETS)], alpha=0.55, rstride=4,

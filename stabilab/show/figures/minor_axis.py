@@ -10,6 +10,8 @@ from .. import style
 from .figure import listed
 from ...orbit.phase_plane import motion_curve, phase_plane
 from ..plane import draw
+from ...orbit.separatrix.sheets import separatrix
+from ...answers.trajectory import trajectory
 
 WINDOW = (-6.9, 9.6)  # alpha = 2 theta: both wells and their saddles; the plane repeats every 4 pi
 PRINTED_FIG4 = {100: ((0.0, 6.2), (-3.0, 3.3)), 300: ((0.19, 6.15), (-3.1, 3.29)), 500: ((0.32, 5.8), (-3.13, 3.28))}
@@ -107,7 +109,6 @@ def wheel_effect(plt):
 
 def sheets(lambda1=100, reach=MAP_REACH, shape=(60, 121), axis="minor"):
     """The separatrix of the paper's scene."""
-    from ...orbit.separatrix.sheets import separatrix
     return separatrix(paper.scene(axis, lambda1), reach=reach, shape=shape)
 
 
@@ -227,7 +228,6 @@ def _dividing(ax, a, b):
 
 @lru_cache
 def _stable_runs():
-    from ...answers.trajectory import trajectory
     scene = paper.scene("minor", 100)
     return [trajectory(scene, state, np.linspace(0.0, 15.0, 3001)) for state in _bounded_starts(scene)]
 

@@ -13,6 +13,8 @@ import numpy as np
 
 from .. import style
 from ..text.comparison import LOOKS
+from ..text.table import cases_folder
+from ...theories.comparison import side_by_side
 
 TIME = "t (s)"
 THIN = {"linewidth": 1.0, "antialiased": False}
@@ -58,7 +60,6 @@ class Column:
 def sweep(name: str) -> dict:
     """Variant -> case of a sweep file of the repository ("" for a file without sweep)."""
     from ...case.read import load_all
-    from ..text.table import cases_folder
     return {case.variant: case for case in load_all(cases_folder() / f"{name}.toml")}
 
 
@@ -66,7 +67,6 @@ def sweep(name: str) -> dict:
 def motions(name: str, variant: str, end: float, count: int, order: int | None = None, crowd: int = 1) -> dict:
     """model -> Simulation of a case of the repository at `count` times from 0 to `end`, crowd > 1: closer at the start;
     models that refuse are left out."""
-    from ...theories.comparison import side_by_side
     return side_by_side(sweep(name)[variant], end * np.linspace(0.0, 1.0, count) ** crowd, order)[0]
 
 

@@ -8,6 +8,9 @@ import numpy as np
 
 from . import panels
 from .figure import Figure
+from ...theories.top.euler_angles import euler_angles
+from ...theories.top.printed import printed
+from ...theories.top.scaling import fast_top
 
 PAPER = "Amer, Amer, Galal 2023, rigid body in a Newtonian field with a gyrostatic moment"
 SPAN, POINTS, ORDER = 1.3, 2601, 2
@@ -31,8 +34,6 @@ def _columns(family, angles=False):
 @lru_cache(maxsize=8)
 def _with_angles(name):
     """The runs of a case with a part "euler": theta, phi, psi."""
-    from ...theories.top.euler_angles import euler_angles
-    from ...theories.top.printed import printed
     case, found = panels.sweep(name)[""], {}
     for model, run in panels.motions(name, "", SPAN, POINTS, ORDER).items():
         if model == "printed":
@@ -55,7 +56,6 @@ def _runs(family):
 
 def _fast(family, more=""):
     """The caption of every figure: what is wrong with the data."""
-    from ...theories.top.scaling import fast_top
     case = panels.sweep("top-lx30-lz30")[""]
     top = fast_top(case.scene, {"omega": case.state, "gamma": case.blocks["gamma"]})
     run, A = _runs(family)[0]["exact"], float(case.scene.body.inertia[0])

@@ -13,6 +13,7 @@ from pathlib import Path
 from ... import files
 from ...errors import InputError
 from . import endings
+from stabilab import __version__
 
 SCHEMA, NAME = "stabilab.manifest/1", "manifest.json"
 TIMED = ("precision.html", "precision/", "growth.html", "growth.csv", "growth/", "effects.html",
@@ -84,7 +85,6 @@ def environment() -> dict:
     import platform
     from importlib.metadata import PackageNotFoundError, version
 
-    from ... import __version__
     found = {}
     for name in PACKAGES:
         try:

@@ -7,6 +7,8 @@ from ...physics.blocks import PARTS
 from ...packages import demand
 from . import endings
 from ...files import whole_file
+from stabilab import __version__
+from ..text.answers import columns
 
 
 def checked(path) -> Path:
@@ -26,7 +28,6 @@ def write(case, run, path) -> Path:
 
 
 def _csv(case, run, path):
-    from ..text.answers import columns
     names, rows = columns(run)
     with open(path, "w", encoding="utf-8", newline="") as stream:
         stream.write(",".join((case.scene.time_unit, *names)) + "\n")
@@ -37,7 +38,6 @@ def _csv(case, run, path):
 def _netcdf(case, run, path):
     import xarray
     import numpy as np
-    from ... import __version__
     time = "t" if case.variables == "physical" else "tau"
     parts = {name: ((time, "axis")[:np.ndim(values)], values, {"units": PARTS[name].unit or "1", "long_name": PARTS[name].words})
              for name, values in run.state.items()}

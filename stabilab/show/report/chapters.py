@@ -21,6 +21,8 @@ from . import claims
 from ..text import comparison
 from ..figures import catalogue as figures, panels
 from .. import style
+from ...physics.equations import derive
+from ...theories.comparison import compare, side_by_side
 
 
 @dataclass(frozen=True)
@@ -141,7 +143,6 @@ def _section(chapter, folder, tell) -> dict:
 
 def _parameters(case):
     """Parameters and start of a case in words."""
-    from ...physics.equations import derive
     values = ", ".join(f"{name} = {float(value):.6g}" for name, value in derive(case.scene).parameters.items())
     starts = {"omega": case.state, **case.blocks}
     return f"{values}; at t = 0: " + ", ".join(f"{name} = ({', '.join(f'{v:.6g}' for v in row)})" for name, row in starts.items())
@@ -149,7 +150,6 @@ def _parameters(case):
 
 def _errors(case, end, found=None):
     """A row per model and part of the state: first times of 1 % and 10 %, and the largest error."""
-    from ...theories.comparison import compare
     found = found or compare(case, np.linspace(0.0, end, POINTS))
     rows = [{"case": case.name, "model": panels.WORDS[d.model], "part": d.part, "one": _time(d.first[0.01]), "ten": _time(d.first[0.1]),
              "largest": f"{d.largest / d.scale:.2g}" if d.scale else f"{d.largest:.2g}"} for d in found.departures]
@@ -163,7 +163,6 @@ def _time(value):
 
 def _sensible(chapter, folder):
     """The variant: its errors and its picture."""
-    from ...theories.comparison import compare, side_by_side
     case = panels.sweep(chapter.sensible)[""]
     found = compare(case, np.linspace(0.0, chapter.sensible_end, POINTS))
     runs, _ = side_by_side(case, np.linspace(0.0, chapter.window, 1001))

@@ -7,6 +7,11 @@ import numpy as np
 
 from ..figures import cavity as figures_cavity, charged as figures_charged, panels
 from ..figures.figure import listed
+from ...theories.charged.validity import horizon
+from ...theories.charged.model import body_of
+from ...theories.top.printed import paper_numbers
+from ...theories.top.scaling import fast_top
+from ..figures.top import ORDER, POINTS, SPAN
 
 
 def _row(says, is_so, right=False):
@@ -18,8 +23,6 @@ def _row(says, is_so, right=False):
 
 def charged() -> list[dict]:
     """Claims of Galal et al., charged body."""
-    from ...theories.charged.validity import horizon
-    from ...theories.charged.model import body_of
     family = {name: figures_charged.runs_of(name) for name in figures_charged.FAMILIES}
     base = body_of(panels.sweep(figures_charged.SWEEP)["-1-2-1"])
     M1, r0, D3 = base.torque[0], float(base.spin), base.inertia[2]
@@ -106,9 +109,6 @@ def _left(runs):
 
 def top() -> list[dict]:
     """Claims of Amer et al. 2023, fast top."""
-    from ...theories.top.printed import paper_numbers
-    from ...theories.top.scaling import fast_top
-    from ..figures.top import ORDER, POINTS, SPAN
     case = panels.sweep("top-lx30-lz30")[""]
     state = {"omega": case.state, "gamma": case.blocks["gamma"]}
     numbers, scaled = paper_numbers(case.scene, state), fast_top(case.scene, state)

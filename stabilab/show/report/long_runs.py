@@ -13,6 +13,7 @@ import numpy as np
 
 from .. import style
 from ...cost.drift import Drift, drifts, EPS, growth, spread, starts
+from stabilab import __version__
 
 NAMES = {"circle": "A², radius of the circle squared", "energy": "energy"}
 
@@ -40,7 +41,6 @@ def picture(plt, rows):
 
 def write(folder, turns: float = 1e6, others: float = 1e5, motions: int = 6) -> list[Path]:
     """Run one motion for `turns` and the rest for `others` turns; long-runs.png, .csv and .txt. Returns their paths."""
-    from ... import __version__
     rows = [row for n, state in enumerate(starts(motions)) for row in drifts(state, others if n else turns, n)]
     path = Path(folder) / "long-runs.png"
     with style.drawing() as plt:

@@ -6,6 +6,9 @@ from pathlib import Path
 from . import html
 from ..text.precision import write
 from ..text.precision_words import caption, duration, setting, words
+from ...physics.equations import derive
+from ...cost import accuracy as measuring
+from ...errors import InputError
 
 PRICED = (3, 6, 9, 12)  # digits of the table over all cases
 
@@ -32,7 +35,6 @@ def page(cases, folder, tell=None) -> Path:
 
 def _kind(case):
     """Cases of one kind obey the same equations with other numbers, the torque along the same axes."""
-    from ...physics.equations import derive
     equations = derive(case.scene, case.blocks)
     acting = tuple(m != 0 for m in case.scene.quadratic().m) if case.scene.plain else ()
     return equations.blocks, tuple(map(str, equations.rhs)), acting
@@ -40,8 +42,6 @@ def _kind(case):
 
 def _section(case, folder, effort):
     """(what the template says of a case, None), or (None, why nothing could be measured)."""
-    from ...cost import accuracy as measuring
-    from ...errors import InputError
     try:
         found = measuring.precision(case, effort)
     except InputError as error:

@@ -12,12 +12,23 @@ import numpy as np
 from ...errors import StabilabError
 from ...interrupt import undoing
 from ...packages import cure, demand, present
-from . import chapters, html
+from . import chapters, cost_growth, effect_cost, html, precision_page
 from ..figures import catalogue as figures, paper
 from ..files import manifest
 from .. import style
 from ..surface import write as surface
 from ..text import table
+from stabilab import __version__
+from ...case.read import load_all
+from ...theories.audit import check
+from ..surface.render_probe import probe
+from ...orbit.separatrix.sheets import separatrix
+from ...physics.equations import derive
+from ...physics.laws import invariants
+from ...physics.notation import latex, lines
+from ...answers.equilibria import equilibria
+from ...answers.motion import motion
+from ..plane import plot
 
 PACKAGES = ("numpy", "scipy", "sympy", "heyoka", "matplotlib", "vtk", "pyvista", "python-flint")
 TOLERANCES = {"verdicts, fates, periods": "exact structure of the equations, to rounding", "extremes": "roots, to rounding",
@@ -48,7 +59,6 @@ def write(cases=None, out="report", progress=None, arguments=None) -> Path:
 
 def of_all(cases):
     """The cases that a report is on: those given, or all of the papers."""
-    from ...case.read import load_all
     paths = list(cases or sorted(table.case_files(), key=lambda p: _natural(Path(p).stem)))
     return [case for item in paths for case in ([item] if hasattr(item, "scene") else load_all(item))]
 
@@ -78,7 +88,6 @@ def _make(cases, folder, tell, named, others):
     surfaces, note = _surfaces(cases, folder, tell)
     sections = [_section(case, folder, tell) for case in cases]
     tell("printed formulas")
-    from ...theories.audit import check
     told, pages = others(tell), _pages(cases, folder, tell)  # the chapters' process is done, so that times are disturbed least
     page = html.render(
         "index.html", title="Bounded motion and spin-up of a gyrostat under constant torque", paper=paper.PAPER, rendering_note=note,
@@ -90,19 +99,16 @@ def _make(cases, folder, tell, named, others):
 
 
 def _precision(cases, folder, tell):
-    from .precision_page import page
-    return page(cases, folder, tell)
+    return precision_page.page(cases, folder, tell)
 
 
 def _growth(cases, folder, tell):
-    from .cost_growth import page
     case = next((case for case in cases if case.name == GROWING), None)
-    return case and page(case, folder, tell)
+    return case and cost_growth.page(case, folder, tell)
 
 
 def _effects(cases, folder, tell):
-    from .effect_cost import page
-    return page(folder, tell)
+    return effect_cost.page(folder, tell)
 
 
 # what stands on pages of its own: (title, what it says, page(cases, folder, tell) -> its path, or None where the cases do not call for it)
@@ -133,7 +139,6 @@ def _tables(folder):
 
 def _surfaces(cases, folder, tell):
     """One entry for every different scene that has a separatrix; and what to say where nothing can be drawn."""
-    from ..surface.render_probe import probe
     renderer, entries, seen = probe(), [], []
     for case in cases:
         if case.scene in seen:
@@ -150,7 +155,6 @@ def _surfaces(cases, folder, tell):
 
 
 def _surface(case, folder, renderer, tell):
-    from ...orbit.separatrix.sheets import separatrix
     try:
         found = separatrix(case.scene, shape=SURFACE_SHAPE)
     except StabilabError:
@@ -191,9 +195,6 @@ def _section(case, folder, tell) -> dict:
 
 
 def _equations(scene):
-    from ...physics.equations import derive
-    from ...physics.laws import invariants
-    from ...physics.notation import latex, lines
     equations = derive(scene)
     values = ", ".join(f"{name} = {float(value):.12g}" for name, value in equations.parameters.items())
     return {"equations": lines(equations), "latex": latex(equations), "parameters": values,
@@ -201,7 +202,6 @@ def _equations(scene):
 
 
 def _equilibria(scene):
-    from ...answers.equilibria import equilibria
     found = equilibria(scene)
     rows = [{"where": _triple(p.at), "linear": p.linear, "verdict": p.verdict, "because": p.because, "css": _css(p.verdict)}
             for p in found.points]
@@ -222,7 +222,6 @@ def _triple(values):
 
 
 def _motion(case):
-    from ...answers.motion import motion
     found = motion(case.scene, case.start, case.span, exact=case.exact_state)
     names = case.scene.components
     rows = [] if found.validity is None else [("law", found.validity.words)]
@@ -259,7 +258,6 @@ def _evidence(value):
 
 
 def _picture(case, folder):
-    from ..plane import plot
     path = plot(case, folder / "cases" / f"{case.name}.png")
     return {"file": f"cases/{path.name}", "size": chapters.size(path)}
 
@@ -269,7 +267,6 @@ def _versions():
     import platform
     from importlib.metadata import PackageNotFoundError, version
 
-    from ... import __version__
     rows = [("stabilab", __version__), ("Python", platform.python_version()), ("system", f"{platform.system()} {platform.machine()}")]
     for name in PACKAGES:
         try:

@@ -14,7 +14,10 @@ from ...errors import RenderingUnavailable, StabilabError
 from ...packages import present
 from ..files import endings, manifest
 from .. import style
-from .mesh import glb, Mesh, stl, triangulate
+from .mesh import glb, Mesh, normals, stl, triangulate
+from .render_probe import probe, use
+from ...orbit.separatrix.sheets import separatrix
+from ...answers.equilibria import equilibria
 
 SCHEMA = "stabilab.surface/1"
 
@@ -40,7 +43,6 @@ def write_all(cases, out, reach=None, shape=None, picture=True, arguments=None) 
     written. Raises RenderingUnavailable (with the summaries as its attribute `summaries`), after the meshes are written,
     where this machine cannot draw.
     """
-    from .render_probe import probe
     out = endings.folder(out)
     rows = [(case, *_found(case, reach, shape)) for case in cases]
     summaries = [summarise(case, found, meshes) | {"files": []} for case, found, meshes in rows]
@@ -64,7 +66,6 @@ def write_all(cases, out, reach=None, shape=None, picture=True, arguments=None) 
 
 def _found(case, reach, shape):
     """(separatrix, its meshes) of a case or scene."""
-    from ...orbit.separatrix.sheets import separatrix
     with blamed_on(case) if hasattr(case, "scene") else nullcontext():
         found = separatrix(_scene(case)[0], reach=reach, **({"shape": shape} if shape else {}))
     return found, [triangulate(sheet) for sheet in found.sheets]
@@ -155,7 +156,6 @@ def polydata(meshes):
 
 def equilibrium_lines(scene, found, size):
     """[("stable" | "unstable" | "degenerate", points (n, 3))] of the equilibrium curves within `size` of the origin."""
-    from ...answers.equilibria import equilibria
     lines = []
     for curve in equilibria(scene).curves:
         for segment in curve.segments:
@@ -181,7 +181,6 @@ def _spread(low, high, number=600):
 
 def plotter(scene, found, meshes, still=True):
     """A pyvista plotter with the sheets, the equilibrium curves and the three axes; the caller closes it."""
-    from .render_probe import use
     use()
     import pyvista
     stage = pyvista.Plotter(off_screen=True, window_size=(1000, 800))
@@ -245,7 +244,6 @@ def _write_legend(image, scene, found, meshes):
 
 
 def _normals(mesh):
-    from .mesh import normals
     return normals(mesh).astype(np.float32)
 
 

@@ -5,6 +5,7 @@ import os
 import platform
 import re
 from importlib import metadata
+from ..surface.render_probe import probe
 
 
 def text() -> str:
@@ -32,7 +33,6 @@ def _version(name: str) -> str:
 
 
 def _rendering() -> str:
-    from ..surface.render_probe import probe
     found = probe()
     return f"works ({found.words})" if found.available else f"does not work: {found.words}; cure: {found.cure}"
 

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 from ...cost.accuracy import digit_price, EPS
 from ...machine import machine, versions
+from ...integrate.trajectory import SCIPY_METHODS
 
 FORMULAS = ("linear", "corrected", "printed", "averaged1", "averaged2", "lindstedt")
 WANTED = (3, 6, 9, 12, 15)  # digits whose price the words tell
@@ -76,7 +77,6 @@ def _merged(prices):
 
 def _against(points, prices) -> str:
     """How much longer SciPy's best takes, for the most digits that it reaches."""
-    from ...integrate.trajectory import SCIPY_METHODS
     for digits, p in reversed(prices):
         others = [q for q in points if q.method in SCIPY_METHODS and q.digits >= digits]
         if others and p.method not in SCIPY_METHODS:

@@ -1,12 +1,12 @@
 """The scene in words, its equations of motion, and the laws that hold for it."""
 from __future__ import annotations
+from ...physics.equations import derive
+from ...physics.laws import invariants
+from ...physics.notation import latex, lines
 
 
 def text(case) -> str:
     """Scene, parameters, equations of motion as text and LaTeX, invariants: what `stabilab show` prints."""
-    from ...physics.equations import derive
-    from ...physics.laws import invariants
-    from ...physics.notation import latex, lines
     equations = derive(case.scene)
     parts = [_head(case), _parameters(equations), "Equations of motion", *(f"  {line}" for line in lines(equations)), "",
              "In LaTeX", latex(equations), "", "Laws that hold for every value of the parameters"]

@@ -12,6 +12,8 @@ from pathlib import Path
 from ...errors import InputError
 from ..figures import paper
 from .. import style
+from ...equilibrium.torque_table import torque_table
+from ...answers.motion import motion
 
 SHOWN_DIGITS = 6  # in the readable formats; the CSV holds every double in full
 
@@ -54,7 +56,6 @@ _SIGNS = {"mu1": "μ1", "mu2": "μ2", "mu3": "μ3", "!=": "≠", "+-": "±", "sq
 
 def torque_signs() -> Table:
     """Table 1: every combination of torque signs, with the wheel (a != b) and without its effect (a = b)."""
-    from ...equilibrium.torque_table import torque_table
     scene = paper.scene("minor", 100)
     rows = [tuple(_signs(getattr(row, field)) for field in TORQUE_COLUMNS.values())
             for pair in ((scene.a, scene.b), (scene.a, scene.a)) for row in torque_table(*pair)]
@@ -110,7 +111,6 @@ def extremes_table(number: int, folder: Path | None = None) -> Table:
 
 
 def _extremes_row(path, lam):
-    from ...answers.motion import motion
     from ...case.read import load
     case = load(path)
     found = motion(case.scene, case.start, case.span, exact=case.exact_state)  # of one state: the same bytes on every processor

@@ -5,6 +5,9 @@ import math
 
 from .general import major_axis_ideal
 from .published import drift, generic, middle_equilibria, misjudged, number, parse, Published, symbols
+from ...physics.scene import ScaledGyrostat
+from ...physics.body import Body
+from ...physics.scaling import scaling
 
 # Figs 8-11: ranges of x2 and x3 over tau in [0, 15] from (4.5, 1.8, 3.4); lambda1 -> ((x2), (x3)); printed in the
 # text, and from the equations (Taylor integration; the smallest and largest value of the dense output).
@@ -18,7 +21,6 @@ def _ranges(table):
     import numpy as np
 
     from ...answers.trajectory import trajectory
-    from ...physics.scene import ScaledGyrostat
     worst = 0.0
     for lam, limits in table.items():
         run = trajectory(ScaledGyrostat(lam / 500, lam / 250, (1, 0, 0)), (4.5, 1.8, 3.4), np.linspace(0, 15, 60001))
@@ -32,7 +34,6 @@ def _capture():
     """J of the end state minus J of the start, plus 2 c tau: the law that forbids a bounded motion. Fig. 12,
     lambda1 = 100: the print's "stable" would keep J; start (0, -1, 5), tau = 15."""
     from ...answers.trajectory import trajectory
-    from ...physics.scene import ScaledGyrostat
     c = 0.2
     run = trajectory(ScaledGyrostat(0.2, 0.4, (1, 0, 0)), (0.0, -1.0, 5.0), (0.0, 15.0))
     first, last = (x2 * x2 + x3 * x3 - 2 * c * x1 for x1, x2, x3 in (run.states[0], run.states[-1]))
@@ -146,8 +147,6 @@ def _plane_equilibria(factor):
 
 def _time_scale():
     """Seconds in one tau, from the scaling of the package (u = 1)."""
-    from ...physics.body import Body
-    from ...physics.scaling import scaling
     return float(scaling(Body((2000, 1500, 1000)), 1).time)
 
 

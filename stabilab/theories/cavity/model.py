@@ -5,13 +5,15 @@ import numpy as np
 
 from ...errors import InputError
 from ...answers.simulate import Simulation
+from .normal_form import check
+from .printed import printed
+from .averaged import averaged
 
 MODELS = ("averaged1", "averaged2", "printed")
 
 
 def applies(scene) -> bool:
     """Whether averaging covers the scene."""
-    from .normal_form import check
     if not {e.name for e in scene.effects} & {"liquid_cavity", "resistance"}:
         return False
     try:
@@ -24,11 +26,9 @@ def applies(scene) -> bool:
 def follow(model, case, times, order=None) -> Simulation:
     """The case's motion by an averaged model, or by the paper's polynomials."""
     if model == "printed":
-        from .printed import printed
         run = printed(case.scene, case.state, times, compare=False)
         how, reason = "Galal et al. (24)-(26)", run.reason
     else:
-        from .averaged import averaged
         run = averaged(case.scene, case.state, times, order=int(model[-1]))
         how, reason = f"averaged equations of order {run.order}, eps = {run.eps:.6g}", f"{run.reason}; {run.horizon}"
     state = {"omega": run.omega, "amplitude": run.amplitude, "spin": run.spin, "phase": run.phase}

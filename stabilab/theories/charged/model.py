@@ -4,6 +4,11 @@ from __future__ import annotations
 from fractions import Fraction
 
 from ...answers.simulate import Simulation
+from .modes import ChargedBody
+from .validity import spin_words
+from .closed_form import solution
+from .printed import printed
+from .corrected import corrected
 
 MODELS = ("linear", "corrected", "printed")
 NEARLY = Fraction(1, 10)  # D1 - D2 over D1 up to which a body counts as nearly axisymmetric
@@ -24,7 +29,6 @@ def applies(scene) -> bool:
 
 def body_of(case):
     """The case as the closed forms take it."""
-    from .modes import ChargedBody
     scene, blocks = case.scene, case.blocks
     charge, force = scene.effect("charge"), scene.effect("body_force")
     p, q, r = case.state
@@ -39,7 +43,6 @@ def body_of(case):
 def follow(model, case, times, order=None) -> Simulation:
     """The case's motion by the linear model, by the paper's single frequency with its integrals corrected, or as printed;
     the parts of the state that the exact motion has."""
-    from .validity import spin_words
     blocks, body = set(case.scene.blocks) | set(case.blocks), body_of(case)
     wanted = ["omega"] + ["angles", "momentum"] * bool(blocks & {"attitude", "velocity", "position"})
     wanted += ["velocity", "position"] * bool(blocks & {"velocity", "position"} and body.mass is not None)
@@ -55,10 +58,7 @@ def follow(model, case, times, order=None) -> Simulation:
 def _motion(model, body, times, wanted):
     """The motion by the model, and how it was found."""
     if model == "printed":
-        from .printed import printed
         return printed(body, times, wanted), "Galal et al., charged body: formulas as printed, misprints and all"
     if model == "corrected":
-        from .corrected import corrected
         return corrected(body, times), "Galal et al., charged body: its single frequency (8), integrals corrected"
-    from .closed_form import solution
     return solution(body, times), "closed forms of the linear model, both rates"

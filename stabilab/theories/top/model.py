@@ -2,6 +2,8 @@
 from __future__ import annotations
 
 from ...answers.simulate import Simulation
+from .printed import printed
+from .lindstedt import lindstedt
 
 MODELS = ("lindstedt", "printed")
 ORDER = 4
@@ -23,11 +25,9 @@ def follow(model, case, times, order=None) -> Simulation:
     """The case's motion by the expansion (order 4 unless asked for otherwise), or as printed."""
     state = state_of(case)
     if model == "printed":
-        from .printed import printed
         run = printed(case.scene, state, times)
         how, reason = "Amer et al. 2023, first order", run.reason
     else:
-        from .lindstedt import lindstedt
         run = lindstedt(case.scene, state, times, ORDER if order is None else order)
         how, reason = f"expansion of order {run.order}", f"{run.status}: {run.reason}"
     reached = "reached" if len(run.t) == len(times) else "stopped"
