@@ -13,7 +13,7 @@ from pathlib import Path
 from tests.hard import bodies, charged, circles, late, liquid, off_axis, sectors, top
 from tests.hard.row import Row, Verdict
 
-PAGE = Path(__file__).parent.parent / "docs" / "hard-cases.md"
+PAGE = Path(__file__).parents[1] / "docs" / "hard-cases.md"
 ALLOWED = 32  # times the condition: some thirty operations, each as good as rounding its operands
 
 # (what it is about, case, numbers of the default suite, numbers of the slow one)

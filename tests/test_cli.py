@@ -15,7 +15,7 @@ import pytest
 from stabilab import cli, streams
 from stabilab.errors import CaseError
 
-ROOT = Path(__file__).parent.parent
+ROOT = Path(__file__).parents[1]
 CASES = sorted((ROOT / "cases").glob("*.toml"))
 MINOR, OFF_AXIS = ROOT / "cases/minor-axis-100.toml", ROOT / "cases/off-axis-two.toml"
 STILL = "[body]\ninertia = [3, 2, 1]\n"

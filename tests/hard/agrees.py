@@ -8,7 +8,7 @@ import stabilab
 
 from tests.oracles import energy
 from tests.oracles.pairs import WORDS
-from tests.test_extremes import assert_extremes
+from tests.orbit.extremes.test_extremes import assert_extremes
 
 
 def agrees(pair, states, digits=120, extremes=True, tolerance=1e-11, period=True):

@@ -7,7 +7,7 @@ import numpy as np
 
 from stabilab.theories.charged.closed_form import solution
 
-from tests.test_axisymmetric import body_of, D1, D2, D3, K, R0, RESONANT, START
+from tests.theories.charged.test_closed_form import body_of, D1, D2, D3, K, R0, RESONANT, START
 from tests.hard.row import Row, UNIT
 
 USUAL = START | dict(D1=D1, D2=D2, D3=D3, k=K)

@@ -12,7 +12,7 @@ from stabilab.unreduced.growth import captured_fate
 
 from tests.oracles import energy, taylor
 from tests.oracles.pairs import scaled
-from tests.test_late_times import MINOR, SPINNING, summed_time
+from tests.orbit.flow.test_flow import MINOR, SPINNING, summed_time
 from tests.hard.row import numbers, Verdict
 
 A, B, MU = 0.25, 0.75, (0, 0, 1)

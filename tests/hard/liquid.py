@@ -13,7 +13,7 @@ from stabilab.theories.cavity.averaged import averaged
 from stabilab.physics.effects.liquid_cavity import LiquidCavity
 
 from tests.oracles import energy, euler
-from tests.test_averaging import body as small_body, by_hand
+from tests.theories.cavity.test_averaged import body as small_body, by_hand
 from tests.hard.row import numbers, Row, Verdict
 
 SHAPE, STATE = (9.5, 9.25, 9.0), (0.5, -0.25, 1.0)

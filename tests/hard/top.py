@@ -14,7 +14,7 @@ from stabilab.physics.effects.gravity import Gravity
 from stabilab.errors import InputError
 
 from tests.oracles import energy, euler
-from tests.test_small_parameter import ARM, FIELD, MOMENTS, near, R0, START, top, WEIGHT
+from tests.theories.top.test_lindstedt import ARM, FIELD, MOMENTS, near, R0, START, top, WEIGHT
 from tests.hard.row import numbers, Verdict
 
 

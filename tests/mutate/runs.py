@@ -13,7 +13,7 @@ ROOT = Path(__file__).resolve().parents[2]
 # Answers by methods that share no code with the package: the same for every fault. module -> functions
 ORACLES = {"tests.oracles.energy": ("label", "margin", "extremes", "period"),
            "tests.oracles.brute": ("label", "extremes", "period"),
-           "tests.oracles.pairs": ("brink",), "tests.test_equilibria": ("real_solutions",)}
+           "tests.oracles.pairs": ("brink",), "tests.equilibrium.test_gyrostat": ("real_solutions",)}
 MEMORY = 8 << 30
 
 

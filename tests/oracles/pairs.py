@@ -78,3 +78,7 @@ def random_problem(rng, axis, variables="physical"):
 def rank_axis(inertia, rank):
     """Index of the minor (0), middle (1), major (2) axis."""
     return int(np.argsort(inertia)[rank])
+
+
+def exactly(*digits):
+    return tuple(map(float.fromhex, digits))

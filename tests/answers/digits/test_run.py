@@ -1,0 +1,57 @@
+"""Tests of `answers/digits/run.py`: what once went wrong there, and its edges."""
+from __future__ import annotations
+from dataclasses import replace
+from types import SimpleNamespace
+import numpy as np
+import pytest
+import stabilab
+from stabilab.answers.digits.front import FrontPoint
+from stabilab.answers.digits.run import best_reached, OWN
+from tests.shared import case
+from stabilab.answers.digits import run as precision_digits
+from stabilab.errors import InputError
+
+
+def test_a_measured_method_that_refuses_the_motion_is_passed_over(monkeypatch):
+    one = case("charged-body-attitude")  # the reduced form has no attitude
+    monkeypatch.setattr(precision_digits, "front", lambda case: (FrontPoint("reduced", 40, 14.0, 1e-6),))
+    found = best_reached(one, [0.0, 0.5], 8)
+    assert found.enough and "reduced" not in found.because and "attitude" not in found.run.state and "angles" in found.run.state
+
+
+def test_a_check_that_stops_early_shows_no_digit(monkeypatch):
+    one, plain = case("minor-axis-100"), precision_digits.RUNS["taylor"]
+
+    def stops(case, times, method, rtol):
+        run = plain(case, times, method, rtol)
+        return run if case is one else replace(run, status="stopped")
+    monkeypatch.setattr(precision_digits, "RUNS", {**precision_digits.RUNS, "taylor": stops, OWN[0]: stops})
+    found = precision_digits._checked(one, np.array([0.0, 1.0]), *OWN, 9)
+    assert found.digits == 0 and not found.enough and "stopped early" in found.because
+
+
+@pytest.mark.parametrize("status, turned", [("stopped", 0.0), ("reached", 2.0)])  # 2 rad are more than COUNTED
+def test_attitudes_in_many_digits_need_a_run_that_counts_their_turns(monkeypatch, status, turned):
+    one, times = case("charged-body-attitude"), np.array([0.0, 0.1])
+    assert precision_digits._many_digits(one, times, 12).enough
+    near = precision_digits._integrated(one, times, *OWN)
+    state = {**near.state, "angles": near.state["angles"] + turned}
+    monkeypatch.setattr(precision_digits, "_integrated", lambda *asked: replace(near, status=status, state=state))
+    assert precision_digits._many_digits(one, times, 12) is None
+
+
+def test_times_of_both_signs_are_left_to_doubles():
+    assert precision_digits._many_digits(case("minor-axis-100"), np.array([-1.0, 1.0]), 12) is None
+
+
+def test_digits_that_no_way_gives_are_told(tmp_path):
+    path = tmp_path / "case.toml"
+    path.write_text("[scaled]\na = 0.2\nb = 0.4\nmu = [0, 0, 1]\n[motion]\nx = [2.5, 4.0, 0.1]\ntau = [0, 5]\n")
+    case = stabilab.load(path)
+    assert precision_digits._many_digits(case, np.array([-1.0, 1.0]), 20) is None  # one run goes one way
+    with pytest.raises(InputError, match="from time 0 on"):
+        precision_digits._reduced(case, np.array([-1.0, 1.0]), "reduced", 16)
+    run = SimpleNamespace(status="stopped", reason="it ran out of steps")
+    words = [precision_digits.missed(case, SimpleNamespace(run=one, asked=12, digits=3.25, because="a check")) for one in
+             (run, SimpleNamespace(status="reached", reason=""))]
+    assert words[0].endswith("it ran out of steps") and "12 digits asked for, 3.2 reached (a check)" in words[1]

@@ -1,0 +1,19 @@
+"""Tests of `cost/event_methods.py`: what once went wrong there, and its edges."""
+from __future__ import annotations
+from pathlib import Path
+import numpy as np
+import pytest
+import stabilab
+from stabilab.errors import InputError
+from stabilab.cost.event_methods import fate_methods, known_period
+from stabilab.cost.methods import problem
+from stabilab.theories.comparison import side_by_side
+
+CASES = Path(__file__).parents[2] / "cases"
+
+
+def test_what_has_no_reduction_has_no_period_and_no_energies_to_measure():
+    task = problem(stabilab.load(CASES / "off-axis-two.toml"), 3)
+    assert known_period(task) is None and fate_methods(task) == []
+    with pytest.raises(InputError):
+        side_by_side(task.case, np.array([np.nan]))

@@ -1,0 +1,13 @@
+"""Tests of `cost/methods.py`: what once went wrong there, and its edges."""
+from __future__ import annotations
+import pytest
+import stabilab
+from stabilab.errors import InputError
+from stabilab.cost.methods import problem
+
+
+def test_a_precision_needs_a_motion(tmp_path):
+    path = tmp_path / "case.toml"
+    path.write_text("[scaled]\na = 0.2\nb = 0.4\nmu = [0, 0, 1]\n")
+    with pytest.raises(InputError, match="motion"):
+        problem(stabilab.load(path), 5)

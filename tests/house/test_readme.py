@@ -1,0 +1,241 @@
+"""What README.md and docs/ say is so: their commands run, their output is what comes, their files and links exist.
+
+Conventions of those pages. A block ```toml or ```python whose first line is a comment with a path is that file. A ```python block with
+>>> is a doctest. In a ```console block lines after "$ " are commands; what follows is the whole output, where a line "..." stands for any lines
+and "..." inside a line for any text. Every command must end with 0, unless "$ echo $?" follows it. Lines of a ```sh block are
+commands too.
+"""
+import doctest
+import importlib.util
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from stabilab import errors
+from stabilab.show.surface.render_probe import CURE, probe
+
+ROOT = Path(__file__).parents[2]
+README = ROOT / "README.md"
+PAGES = [README, *sorted((ROOT / "docs").glob("*.md"))]
+NAMES = [page.name for page in PAGES]
+SECONDS = 300
+SLOW = ("stabilab report", "python -m pytest")  # run by the slow test
+HEYOKA = importlib.util.find_spec("heyoka") is not None
+
+
+def blocks(text):
+    """(language, body) of every fenced block, in order."""
+    return [(m[1], m[2]) for m in re.finditer(r"^```(\w*)\n(.*?)^```$", text, re.M | re.S)]
+
+
+def commands(text):
+    """[command, output or None where none is shown, exit code] of every shell block, in order."""
+    found = []
+    for language, body in blocks(text):
+        if language == "sh":
+            found += [[line, None, 0] for line in body.splitlines() if line.strip()]
+        if language == "console":
+            assert body.startswith("$ "), f"a console block begins with a command: {body[:60]!r}"
+            for part in re.split(r"^\$ ", body, flags=re.M)[1:]:
+                command, _, output = part.partition("\n")
+                if command == "echo $?":
+                    found[-1][2] = int(output)
+                else:
+                    found.append([command, output, 0])
+    return found
+
+
+def files(text):
+    """path -> content of the blocks that are files."""
+    named = ((re.match(r"# (\S+\.(?:toml|py))\n", body), body) for language, body in blocks(text))
+    return {m[1]: body for m, body in named if m}
+
+
+def as_pattern(shown):
+    """The regular expression of an output shown, "..." standing for what is left out."""
+    lines = [r"(?:.*\n)*?" if line == "..." else "[^\n]*".join(map(re.escape, line.rstrip().split("..."))) + r"[ ]*\n"
+             for line in shown.splitlines()]
+    return re.compile("".join(lines))
+
+
+def make_knows(target):
+    """A dry run of make gives the target's commands."""
+    run = subprocess.run(["make", "-n", "-B", target], cwd=ROOT, capture_output=True, text=True)
+    assert run.returncode == 0, run.stderr
+    return run.stdout
+
+
+# Commands that are not run here, for they install or take minutes, and how each is checked instead.
+NOT_RUN = {
+    "make report": lambda: "-m venv .venv" in make_knows("report") and "stabilab report cases/*.toml --out report" in make_knows("report"),
+    "make test": lambda: "-m venv .venv" in make_knows("test") and "-m pytest" in make_knows("test"),
+    "pip install -e .": lambda: 'readme = "README.md"' in (ROOT / "pyproject.toml").read_text() and README.exists(),
+    "apt install libegl1 libgl1-mesa-dri": lambda: CURE == "apt install libegl1 libgl1-mesa-dri",
+    "make coverage": lambda: "--cov" in make_knows("coverage") and "fail_under = 95" in (ROOT / "pyproject.toml").read_text(),
+    "make mutate": lambda: "-m tests.mutate" in make_knows("mutate"),
+    "python -m benchmarks": lambda: importlib.util.find_spec("benchmarks.__main__") and "-m benchmarks" in make_knows("bench"),
+}
+
+
+def run(command, folder):
+    """(what the terminal shows, exit code), with the stabilab of this interpreter on the path, or that of a copy in the folder."""
+    own = folder if (folder / "stabilab").is_dir() else ROOT
+    env = {name: value for name, value in os.environ.items() if name != "PYTEST_ADDOPTS"} | {
+        "PATH": os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]]), "PYTHONPATH": str(own),
+        "PYTHONDONTWRITEBYTECODE": "1"}
+    done = subprocess.run(command, shell=True, cwd=folder, env=env, stdin=subprocess.DEVNULL, text=True,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=SECONDS)
+    return done.stdout, done.returncode
+
+
+def follow(text, folder, wanted):
+    """Run the commands of a page that `wanted` picks, in order; assert exit codes and outputs; the commands run."""
+    followed = [item for item in commands(text) if item[0] not in NOT_RUN and wanted(item[0])]
+    for command, shown, stated in followed:
+        output, code = run(command, folder)
+        if command.startswith("stabilab surface") and not probe().available:
+            assert code == errors.NO_RENDERING and CURE in output, output
+        else:
+            assert code == stated, f"$ {command}\nended with {code}\n{output}"
+        if shown is not None and (HEYOKA or not command.startswith("stabilab simulate")):
+            assert as_pattern(shown).fullmatch(output), f"$ {command}\nprinted\n{output}\nbut the page shows\n{shown}"
+    return [command for command, _, _ in followed]
+
+
+def prepared(text, folder):
+    """The page's files in the folder, beside the cases."""
+    shutil.copytree(ROOT / "cases", folder / "cases", dirs_exist_ok=True)
+    for path, content in files(text).items():
+        (folder / path).parent.mkdir(parents=True, exist_ok=True)
+        (folder / path).write_text(content)
+    return text, folder
+
+
+@pytest.fixture(scope="module")
+def readme(tmp_path_factory):
+    return prepared(README.read_text(), tmp_path_factory.mktemp("readme"))
+
+
+def test_readme_commands_print_what_it_shows(readme):
+    text, folder = readme
+    done = follow(text, folder, lambda command: not command.startswith(SLOW))
+    needed = ("show", "classify", "extremes", "surface", "simulate", "plot", "tables")
+    assert all(any(command.startswith(f"stabilab {name} ") for command in done) for name in needed)
+    for name in ("my.csv", "my.png", "surfaces/my.vtp", "surfaces/my.glb", "surfaces/my.stl", "tables/table-4.tex"):
+        assert (folder / name).stat().st_size > 0
+
+
+@pytest.mark.slow
+def test_readme_report_is_written(readme):
+    text, folder = readme
+    assert follow(text, folder, lambda command: command.startswith("stabilab report"))
+    assert "<html" in (folder / "my-report/index.html").read_text()[:500]
+
+
+def test_readme_session_in_python_gives_what_it_shows(readme, monkeypatch):
+    text, folder = readme
+    monkeypatch.chdir(folder)
+    sessions = [body for language, body in blocks(text) if language == "python" and ">>>" in body]
+    assert sessions
+    for body in sessions:
+        test = doctest.DocTestParser().get_doctest(body, {}, "README.md", "README.md", 0)
+        report = []
+        result = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS, verbose=False).run(test, out=report.append)
+        assert test.examples and result.failed == 0, "".join(report)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=NAMES)
+def test_commands_that_are_not_run_are_listed_and_checked(page):
+    """Every command is one of the program's or of its tests, or stands in the list above."""
+    for command, _, _ in commands(page.read_text()):
+        if command in NOT_RUN:
+            assert NOT_RUN[command](), command
+        else:
+            assert command.startswith(("stabilab ", "python -m pytest tests/")), f"unknown command: {command}"
+
+
+@pytest.mark.parametrize("page", PAGES, ids=NAMES)
+def test_blocks_are_of_a_kind_that_is_checked(page):
+    text = page.read_text()
+    assert text.count("\n```") == 2 * len(blocks(text))
+    for language, body in blocks(text):
+        checked = language in ("sh", "console") or ">>>" in body or re.match(r"# \S+\.(toml|py)\n", body)
+        assert checked or body.strip() == LORENTZ_ROW, body
+
+
+@pytest.mark.parametrize("page", PAGES, ids=NAMES)
+def test_links_and_pictures_exist(page):
+    targets = re.findall(r"\]\(([^)\s]+)\)", page.read_text())
+    for target in targets:
+        assert "://" in target or (page.parent / target.split("#")[0]).exists(), target
+
+
+def test_readme_has_a_picture():
+    assert re.search(r"!\[[^]]+\]\(figures/[\w-]+\.png\)", README.read_text())
+
+
+def test_fates_and_exit_codes_in_readme_are_those_of_the_program():
+    from stabilab import Fate
+    from stabilab.physics.effects import REGISTRY
+    rows = [line.split("|")[1].strip() for line in README.read_text().splitlines() if line.startswith("|")]
+    fates, effects = rows[rows.index("fate"):], rows[rows.index("effect"):rows.index("fate")]
+    assert {row.strip("`") for row in fates if row.startswith("`")} == {fate.word for fate in Fate}
+    assert [row[1:].split("`")[0] for row in effects if row.startswith("`")] == list(REGISTRY)
+    codes = {errors.OK, errors.BUG, errors.BAD_INPUT, errors.UNDECIDED, errors.NO_RENDERING, errors.TOLERANCE_NOT_MET, errors.INTERRUPTED}
+    assert {int(row) for row in rows if row.isdigit()} == codes
+
+
+@pytest.mark.skipif(not HEYOKA, reason="counts heyoka's steps")
+def test_cost_table_is_what_simulate_counts(readme):
+    """Counters within a tenth (a processor's rounding moves a step), departures within a factor of three."""
+    from stabilab import load, trajectory
+    case = load(readme[1] / "my.toml")
+    table = re.findall(r"^\| (\w+) \| (1e-\d+) \| (\d+) \| (?:order )?(\d+) \| (\S+) \|$", (ROOT / "docs/cost.md").read_text(), re.M)
+    assert len(table) >= 8
+    for method, rtol, steps, other, departure in table:
+        run = trajectory(case.scene, case.state, [300.0], method=method, rtol=float(rtol))
+        count = run.counters["order" if method == "taylor" else "rate evaluations"]
+        assert run.counters["steps"] == pytest.approx(int(steps), rel=0.1)
+        assert count == pytest.approx(int(other), rel=0.1)
+        least = 0 if float(departure) < 1e-14 else float(departure) / 3  # rounding alone may be smaller
+        assert least <= max(run.invariant_drift.values()) <= 3 * float(departure), (method, rtol)
+
+
+LORENTZ_ROW = '"lorentz": ("lorentz", "Lorentz"),'
+
+
+@pytest.fixture
+def with_new_effect(tmp_path):
+    """A copy of the program with the effect of docs/adding-an-effect.md, made as that page says."""
+    text = (ROOT / "docs/adding-an-effect.md").read_text()
+    for name in ("stabilab", "tests"):
+        shutil.copytree(ROOT / name, tmp_path / name, ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copy(ROOT / "pyproject.toml", tmp_path)
+    row = next(body for language, body in blocks(text) if body.strip() == LORENTZ_ROW)
+    registry = tmp_path / "stabilab/effects/__init__.py"
+    before, bracket, after = registry.read_text().partition("\n}\n")
+    registry.write_text(before + "\n" + row.rstrip("\n") + bracket + after)
+    return prepared(text, tmp_path)
+
+
+def test_an_effect_added_as_documented_is_known_to_the_commands(with_new_effect):
+    done = follow(*with_new_effect, lambda command: not command.startswith(SLOW))
+    assert any(command.startswith("stabilab simulate") for command in done)
+
+
+@pytest.mark.slow
+def test_an_effect_added_as_documented_obeys_the_laws(with_new_effect):
+    assert follow(*with_new_effect, lambda command: command.startswith("python -m pytest"))
+
+
+def test_an_output_that_differs_is_seen():
+    """The comparison itself: a wrong digit, a missing and an extra line, and what "..." may stand for."""
+    assert as_pattern("a 1\n...\nb ...\n").fullmatch("a 1\nx\ny\nb 23\n")
+    assert as_pattern("...\n").fullmatch("") and as_pattern("a\n...\nb\n").fullmatch("a\nb\n")
+    for other in ("a 2\nb 23\n", "a 1\nx\n", "a 1\nb 23\nc\n"):
+        assert not as_pattern("a 1\n...\nb ...\n").fullmatch(other)

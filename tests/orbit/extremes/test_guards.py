@@ -1,0 +1,151 @@
+"""What extremes leave to ball arithmetic: where rounding costs a component a trillionth, next to separatrices, at barriers."""
+from __future__ import annotations
+
+import importlib
+
+import numpy as np
+import pytest
+
+import stabilab
+from stabilab.orbit.extremes import guards, turning_points as turning
+from stabilab.numbers.constants import EPS
+from stabilab.orbit.landscape import landscape
+from stabilab.orbit.reduction import reduce
+
+from tests.oracles.pairs import brink, scaled
+from tests.orbit.fate.test_fate import FAMILIES
+from tests.shared import PARABOLIC
+
+extremes = importlib.import_module("stabilab.orbit.extremes.arrays")
+ALL = FAMILIES | PARABOLIC
+
+
+def flip_of(values, accepted):
+    """The largest of the rising values that is accepted; those below are, those above are not."""
+    accepted = np.asarray(accepted)
+    assert accepted[0] and not accepted[-1] and (np.diff(accepted.astype(int)) <= 0).all()
+    return values[np.nonzero(accepted)[0][-1]]
+
+
+@pytest.mark.parametrize("name", ["minor scaled +", "major physical", "middle scaled +", "middle physical, other sign",
+                                  "first axis", "second axis"])
+@pytest.mark.parametrize("end", [0, 1])
+def test_an_end_may_be_off_by_what_costs_a_component_a_trillionth(name, end):
+    """The speed of each component along the orbit is found by moving the end a little."""
+    scene = ALL[name][0]
+    land, r = landscape(scene), reduce(scene)
+    states = np.array([s for s in np.random.default_rng(9).normal(size=(90, 3)) * 2 if stabilab.fate(scene, s).labels == 0][:6])
+    place, w, _ = land.start(states)
+    for n in range(len(states)):
+        one = tuple(v[n:n + 1] for v in place)
+        span = turning.interval(land, one, w[n:n + 1])
+        values = extremes._trapped(land, one, w[n:n + 1])[0]
+        ends = span.left_place, span.right_place
+        beside = [[land.components(land.potential.move(tuple(p), y), np.zeros(1)) for y in (1e-6, -1e-6)] for p in ends]
+        speed = [np.abs(ahead - behind) / 2e-6 for ahead, behind in beside]
+        size = np.abs(values).max(axis=2)[0]
+        wanted = min(1e-12 * size[a] / speed[end][0, a] for a in (r.j, r.k) if speed[end][0, a] > 1e-3 * size[a])
+        off = 10.0 ** np.arange(-17, 3, 0.02)
+        blur = np.zeros((2, len(off)))
+        blur[end] = off
+        many = turning.Interval(**{**vars(span.take(np.zeros(len(off), int))), "blur": blur, "haze": np.zeros(len(off))})
+        found = flip_of(off, extremes._sharp(land, many, np.repeat(values, len(off), axis=0)))
+        # on a hyperbola (|xi| + |eta|)/2 bounds both speeds
+        assert (0.4 if r.e > 0 else 0.9) * wanted < found < 1.1 * wanted
+        many = turning.Interval(**{**vars(many), "blur": 0 * blur, "haze": off})
+        assert flip_of(off, extremes._sharp(land, many, np.repeat(values, len(off), axis=0))) == pytest.approx(
+            2e-12 * span.fastest[0], rel=0.06)
+
+
+@pytest.mark.parametrize("a", [0.0, 1.0, 1e3])
+def test_components_far_smaller_than_the_shift_of_the_circle_go_to_balls(a):
+    """omega = X - shift: a component of size s keeps 1e-12 while EPS (shift + radius) < 1e-12 s."""
+    scene = scaled(a, a + 0.25, (0, 0, 1))[0]
+    land = landscape(scene)
+    sizes = 10.0 ** np.arange(-6, 4, 0.05)
+    n = len(sizes)
+    place, w, _ = land.start(np.array([[1.5 - a, 3.0, 0.1]]))
+    span = turning.interval(land, place, w)
+    many = turning.Interval(**{**vars(span.take(np.zeros(n, int))), "blur": np.zeros((2, n)), "haze": np.zeros(n)})
+    values = np.stack([np.zeros((n, 3)), np.repeat(sizes[:, None], 3, axis=1)], axis=2)
+    sharp = extremes._sharp(land, many, values)
+    radius = max(np.abs(p[0, 0]) + np.abs(p[1, 0]) for p in (span.left_place, span.right_place))
+    smallest = -flip_of(-sizes[::-1], sharp[::-1])
+    assert smallest == pytest.approx(EPS / 1e-12 * (radius + (a + 0.25)), rel=0.35)
+
+
+@pytest.mark.parametrize("name", ["minor scaled -", "major physical", "middle physical, other sign",
+                                  "middle scaled, |c| far above"])
+def test_motions_within_a_share_of_the_energy_s_terms_of_the_separatrix_go_to_balls(name):
+    """The terms: the kinetic energy, the torque's, and the force's at a place with both rates alike times its size."""
+    land = landscape(FAMILIES[name][0])
+    margins = 10.0 ** np.arange(-12, 6, 0.01)
+    for size, speed in ((0.02, 0.0), (3.0, 0.1), (50.0, 0.0), (3.0, 40.0)):
+        place = tuple(np.full(len(margins), v) for v in (size, -size))
+        w = np.full(len(margins), speed)
+        decided = type("decided", (), {"margins": margins})
+        pot, unit = land.potential, land.reduction.energy_unit
+        g, forces = abs(pot.G), (pot.c, pot.d) if land.e < 0 else (pot.e1, pot.e2)
+        scale = speed**2 / 2 + pot.mu + 2 * g * size**2 + sum(map(abs, forces)) * np.sqrt(2) * size
+        found = flip_of(margins, guards.near_separatrix(land, place, w, decided, 1e-3))
+        assert found == pytest.approx(1e-3 * unit * scale, rel=0.03)
+        np.testing.assert_array_equal(guards.near_separatrix(land, place, w, type("d", (), {"margins": -margins}), 1e-3),
+                                      margins <= found)
+
+
+def test_on_parabolas_the_kinetic_energy_alone_is_the_scale_of_a_margin():
+    land = landscape(PARABOLIC["first axis"][0])
+    margins = 10.0 ** np.arange(-12, 6, 0.01)
+    one = np.ones(len(margins))
+    found = flip_of(margins, guards.near_separatrix(land, (one, one), 4 * one, type("d", (), {"margins": margins}), 1e-3))
+    assert found == pytest.approx(1e-3 * land.reduction.energy_unit * 8, rel=0.03)
+
+
+def test_states_ten_thousand_times_smaller_than_the_shift_go_to_balls():
+    """The scaled circle's centre is x1 = -a (and 0): the canonical X has lost four digits there."""
+    land = landscape(scaled(100.0, 100.25, (0, 0, 1))[0])
+    sizes = 10.0 ** np.arange(-4, 1, 0.02)
+    for column in range(3):
+        states = np.zeros((len(sizes), 3))
+        states[:, column] = -sizes
+        assert flip_of(sizes, guards.needs_digits(land, states)) == pytest.approx(1e-2, rel=0.06)
+    assert not guards.needs_digits(landscape(PARABOLIC["first axis"][0]), np.zeros((2, 3))).any()
+
+
+@pytest.mark.parametrize("name", ["minor scaled +", "middle scaled, |c| far above"])
+def test_states_at_the_place_of_a_barrier_go_to_balls_and_those_at_a_well_do_not(name):
+    land = landscape(FAMILIES[name][0])
+    place, _, _ = land.start(np.array([[2.5, 0.8, 1.5]] if land.e > 0 else [[2.5, 1.0, 0.3]]))
+    _, spots, barrier = land.critical(place)
+    off = 10.0 ** np.arange(-17, 0, 0.05)
+    pot = land.potential
+    for column in np.nonzero(~np.isnan(land.critical(place)[0][0]))[0]:
+        spot = tuple(np.full(len(off), v) for v in spots[:, 0, column])
+        for side in (-1, 1):
+            near = pot.move(spot, side * off)
+            found = guards.on_top(land, near)
+            if barrier[0, column]:
+                edge = flip_of(off, found)
+                assert edge * pot.slope(tuple(spots[:, 0, column])) / pot.terms(tuple(spots[:, 0, column])) == pytest.approx(
+                    1e-13, rel=0.2)
+            else:
+                assert not found.any()
+
+
+@pytest.mark.parametrize("inside, share, module", [(True, 1e-7, "extremes.balls"), (False, 1e-4, "extremes.balls"),
+                                                   (True, 1e-5, "period.balls")])
+def test_extremes_and_periods_leave_to_balls_what_is_within_their_share_of_the_separatrix(inside, share, module, monkeypatch):
+    """Asked is whoever is nearer than the share of the terms: the torque's, the force's along the orbit, the kinetic energy."""
+    scene, problem = FAMILIES["minor scaled +"]
+    module, asked = importlib.import_module(f"stabilab.orbit.{module}"), []
+    name = {"extremes": "precise_extremes", "period": "precise_period"}[module.__name__.split(".")[-2]]
+    real = getattr(module, name)
+    monkeypatch.setattr(module, name, lambda r, state, label: asked.append(tuple(state)) or real(r, state, label))
+    off = 10.0 ** np.arange(-9, -1.5, 0.5)
+    edge = np.array(brink(problem, (-3.0, 1.0), 0.0))
+    states = np.array([[*edge[:2], edge[2] * (1 + (-d if inside else d))] for d in off])
+    (stabilab.extremes if name == "precise_extremes" else stabilab.period)(scene, states, fast=False)
+    x, z = -3.0 + 0.2, 1.0
+    scale = edge[2] ** 2 / 2 + 1 + (x * x + z * z) + 0.2 * np.hypot(x, z)
+    near = edge[2] ** 2 * off <= share * scale
+    np.testing.assert_array_equal([tuple(s) in asked for s in states.tolist()], near)

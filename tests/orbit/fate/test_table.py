@@ -1,0 +1,295 @@
+"""Fates of large arrays: the table of barriers and its compiled loops against the oracle and the general formula."""
+from __future__ import annotations
+
+import importlib
+import math
+import os
+import subprocess
+import sys
+import tracemalloc
+from functools import lru_cache
+
+import mpmath as mp
+import numpy as np
+import pytest
+
+import stabilab
+from stabilab.orbit.fate import table_kernel as barrier_heights, table_numba as fast_fate
+from stabilab.numbers import numba_door
+from stabilab.orbit.fate.table import barrier_table
+from stabilab.answers.fate_grid import fate_grid
+from stabilab.orbit.fate.by_table import canonical, circle_heights, label_by_table
+from stabilab.errors import InputError
+
+from tests.oracles import energy
+from tests.oracles.pairs import brink, physical, random_body, random_problem, scaled, WORDS
+from tests.orbit.fate.test_fate import axis_of, ELLIPTIC, FAMILIES, sample
+
+module = importlib.import_module("stabilab.orbit.fate.arrays")
+TABLED = [name for name in FAMILIES if barrier_table(FAMILIES[name][0]) is not None]
+EASY = ["minor scaled +", "minor physical, other sign", "middle scaled -, |c| above the cusp", "major physical, other sign"]
+ways = pytest.mark.parametrize("fast", [False, True], ids=["numpy", "numba"])
+
+
+@pytest.fixture
+def tables_always(monkeypatch):
+    """Small arrays take the way of large ones."""
+    monkeypatch.setattr(module, "TABLE_FROM", 0)
+
+
+def available(fast):
+    if fast:
+        pytest.importorskip("numba")
+    return fast
+
+
+def general(scene, states):
+    """Columns by the general formula, whatever the array's size."""
+    out = module.empty_columns(len(states))
+    module.label_all(scene, states, out)
+    return out
+
+
+def near_the_separatrix(problem, rng, distances, spread=2.0):
+    states = []
+    while len(states) < len(distances):
+        state = brink(problem, rng.normal(size=2) * spread, distances[len(states)], rng.choice([-1, 1]))
+        if state is not None:
+            states.append(state)
+    return np.array(states)
+
+
+def test_every_family_with_curved_equilibria_and_a_torque_has_a_table():
+    assert set(FAMILIES) - set(TABLED) == set()
+
+
+@lru_cache
+def hard_states(name):
+    """(states at relative distances 1e-3 to 1e-15 on both sides of the separatrix, their labels by the oracle)."""
+    distances = [side * 10.0 ** -p for p in (3, 8, 12, 14, 15) for side in (-1, 1)]
+    states = near_the_separatrix(FAMILIES[name][1], np.random.default_rng(ELLIPTIC.index(name)), distances)
+    return states, [WORDS[energy.label(FAMILIES[name][1], s)] for s in states.tolist()]
+
+
+@ways
+@pytest.mark.parametrize("name", [n for n in ELLIPTIC if "a=b" not in n])
+def test_labels_next_to_the_separatrix_equal_the_oracle(name, fast, tables_always):
+    states, expected = hard_states(name)
+    result = stabilab.fate(FAMILIES[name][0], states, fast=available(fast))
+    np.testing.assert_array_equal(result.labels, expected)
+    assert result.precise >= 2  # 1e-15 of the speed is less than the rounding of the energy's terms
+
+
+def test_the_sign_of_a_table_s_margin_alone_mislabels_next_to_the_separatrix():
+    """The case is hard: within some units in the last place of the speed, the table's rounding decides."""
+    scene, problem = FAMILIES["minor physical"]
+    table, rng, wrong = barrier_table(scene), np.random.default_rng(4), 0
+    for state in near_the_separatrix(problem, rng, [0.0] * 5):
+        states = np.array([state] * 3)
+        i = axis_of(problem)
+        states[0, i], states[2, i] = np.nextafter(state[i], -np.inf), np.nextafter(state[i], np.inf)
+        x, z, w = canonical(table, states)
+        naive = (circle_heights(table, x, z)[0] - 0.5 * w * w < 0).astype(int)
+        wrong += sum(a != WORDS[energy.label(problem, s)] for a, s in zip(naive, states.tolist()))
+    assert wrong > 0
+
+
+@ways
+@pytest.mark.parametrize("name", EASY)
+def test_labels_and_margins_of_random_states_equal_the_oracle(name, fast, tables_always):
+    scene, problem = FAMILIES[name]
+    states = sample(name, 15)
+    result = stabilab.fate(scene, states, fast=available(fast))
+    weight = float(problem.weight[axis_of(problem)])
+    for state, label, got in zip(states.tolist(), result.labels, result.margins):
+        assert label == WORDS[energy.label(problem, tuple(state), digits=60)]
+        exact = energy.margin(problem, state, digits=60)
+        if exact is None:
+            assert np.isinf(got)
+            continue
+        exact, kinetic = float(exact), 0.5 * weight * state[axis_of(problem)] ** 2
+        assert abs(got - exact) <= 1e-12 * (abs(exact + kinetic) + kinetic), state
+
+
+@pytest.mark.parametrize("name", FAMILIES)
+def test_the_table_answers_as_the_general_formula_and_leaves_little_to_it(name):
+    scene, problem = FAMILIES[name]
+    states, table = sample(name, 20000), barrier_table(scene)
+    fast, slow = module.empty_columns(len(states)), general(scene, states)
+    rest = label_by_table(table, states, fast)
+    assert len(rest) <= 0.03 * len(states) and table.gaps <= 0.01
+    sure = np.ones(len(states), bool)
+    sure[rest] = False
+    for column in ("labels", "reasons", "axis", "sense"):
+        np.testing.assert_array_equal(fast[column][sure], slow[column][sure], err_msg=column)
+    finite = sure & np.isfinite(slow["margins"])
+    np.testing.assert_array_equal(fast["margins"][sure & ~finite], slow["margins"][sure & ~finite])
+    kinetic = 0.5 * float(problem.weight[axis_of(problem)]) * states[:, axis_of(problem)] ** 2
+    terms = np.abs(slow["margins"][finite] + kinetic[finite]) + kinetic[finite]
+    assert np.all(np.abs(fast["margins"][finite] - slow["margins"][finite]) <= 1e-12 * terms)
+
+
+@pytest.mark.parametrize("name", FAMILIES)
+def test_numba_and_numpy_give_the_same_bytes(name):
+    pytest.importorskip("numba")
+    scene, _ = FAMILIES[name]
+    states = sample(name, 7001)
+    one, other = (stabilab.fate(scene, states, fast=fast) for fast in (False, True))
+    for column in ("labels", "margins", "axis", "sense", "reasons"):
+        assert getattr(one, column).tobytes() == getattr(other, column).tobytes(), column
+    assert one.precise == other.precise
+
+
+@ways
+def test_labels_of_random_bodies_over_twelve_decades_equal_the_oracle(fast, tables_always):
+    rng = np.random.default_rng(11)
+    for n in range(15):
+        axis, size, rate = n % 3, 10.0 ** rng.uniform(-6, 6), 10.0 ** rng.uniform(-6, 6)
+        inertia = np.array(random_body(rng)) * size
+        momentum, torque = rng.normal(size=3) * size * rate * (n % 4 > 0), np.zeros(3)
+        momentum[axis], torque[axis] = 0.0, rng.choice([-1, 1]) * 10.0 ** rng.uniform(-1, 1) * size * rate * rate
+        scene, problem = physical(inertia, momentum, torque)
+        states = rng.normal(size=(4, 3)) * 2 * rate
+        if (near := brink(problem, states[0, [(axis + 1) % 3, (axis + 2) % 3]], 10.0 ** rng.uniform(-15, -3))) is not None:
+            states = np.concatenate([states, [near]])
+        expected = [WORDS[energy.label(problem, tuple(s))] for s in states.tolist()]
+        np.testing.assert_array_equal(stabilab.fate(scene, states, fast=available(fast)).labels, expected)
+
+
+@pytest.mark.slow
+@ways
+@pytest.mark.parametrize("seed", range(40))
+def test_a_hundred_thousand_states_of_random_scenes_answer_as_the_general_formula(seed, fast):
+    rng = np.random.default_rng(seed)
+    scene, _ = random_problem(rng, seed % 3) if seed % 2 else random_problem(rng, 1 + seed % 4 // 2, "scaled")
+    states = rng.normal(size=(50_000, 3)) * 10.0 ** rng.uniform(-2, 2)
+    np.testing.assert_array_equal(stabilab.fate(scene, states, fast=available(fast)).labels, general(scene, states)["labels"])
+
+
+@ways
+def test_equilibria_and_centres_in_a_large_array_are_recognised(fast):
+    """X1 = 0, X2 = -1/b is an equilibrium of the scaled minor-axis system (rates by hand); the axis X1 = -a, X2 = 0 is the
+    centre of every circle: pure spin."""
+    scene = scaled(0.25, 0.5, (0, 0, 1))[0]
+    states = sample("minor scaled +", 6000)
+    states[17], states[5999] = (0.0, -2.0, 0.0), (-0.25, 0.0, 0.3)
+    result = stabilab.fate(scene, states, fast=available(fast))
+    assert result.labels[17] == stabilab.Fate.EQUILIBRIUM and result.axis[17] == result.sense[17] == 0
+    assert result.labels[5999] == stabilab.Fate.SPIN_UP and result.margins[5999] == -np.inf
+
+
+def test_random_states_need_no_ball_arithmetic_and_ties_do(tables_always):
+    scene, problem = FAMILIES["minor scaled +"]
+    assert stabilab.fate(scene, sample("minor scaled +", 20000)).precise == 0
+    ties = near_the_separatrix(problem, np.random.default_rng(8), [0.0] * 3)
+    assert stabilab.fate(scene, ties).precise == 3
+
+
+def test_a_fate_map_takes_less_memory_than_three_times_its_input():
+    scene, states = FAMILIES["minor scaled +"][0], np.random.default_rng(1).uniform(-5, 5, (400_000, 3))
+    stabilab.fate(scene, states[:6000])
+    tracemalloc.start()
+    try:
+        stabilab.fate(scene, states, fast=False)
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert peak + states.nbytes <= 3 * states.nbytes
+
+
+@pytest.mark.parametrize("name", ["minor scaled +", "middle scaled -, |c| above the cusp", "minor on axis 1", "major physical",
+                                  "minor physical"])
+def test_a_grid_has_the_labels_of_its_states(name):
+    scene, _ = FAMILIES[name]
+    rng = np.random.default_rng(3)
+    axes = [np.linspace(-4, 4, 17), np.sort(rng.normal(size=23)) * 2, rng.normal(size=19) * 2]  # 17: zero is among them
+    states = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
+    labels = fate_grid(scene, axes)
+    assert labels.dtype == np.int8
+    np.testing.assert_array_equal(labels, general(scene, states.reshape(-1, 3))["labels"].reshape(labels.shape))
+
+
+def test_a_grid_through_ties_equilibria_and_the_centre_has_the_labels_of_its_states():
+    scene, problem = scaled(0.25, 0.5, (0, 0, 1))
+    tie = near_the_separatrix(problem, np.random.default_rng(2), [0.0])[0]
+    speeds = [np.nextafter(tie[2], -np.inf), tie[2], np.nextafter(tie[2], np.inf), 0.0]
+    axes = [np.array([tie[0], -0.25, 0.0]), np.array([tie[1], 0.0, -2.0]), np.array(speeds)]
+    labels = fate_grid(scene, axes)
+    expected = [WORDS[energy.label(problem, s)] for s in [(tie[0], tie[1], w) for w in speeds]]
+    np.testing.assert_array_equal(labels[0, 0], expected)
+    assert labels[2, 2, 3] == stabilab.Fate.EQUILIBRIUM and (labels[1, 1] == stabilab.Fate.SPIN_UP).all()
+
+
+def test_a_grid_of_a_scene_without_a_table_has_the_labels_of_its_states():
+    scene = physical((3.0, 2.0, 1.5))[0]
+    axes = [np.linspace(-1, 1, 4)] * 3
+    states = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
+    np.testing.assert_array_equal(fate_grid(scene, axes), stabilab.fate(scene, states).labels)
+
+
+@pytest.mark.parametrize("axes", [[[0.0], [1.0]], [[0.0], [1.0], [[2.0]]], [[0.0], [np.nan], [1.0]], [["x"], [0], [0]]])
+def test_grid_axes_that_are_not_three_rows_of_finite_numbers_are_refused(axes):
+    with pytest.raises(InputError):
+        fate_grid(FAMILIES["minor scaled +"][0], axes)
+
+
+def test_angle_and_logarithm_are_right_to_rounding():
+    """Against mpmath at 40 digits."""
+    rng = np.random.default_rng(0)
+    x, z = rng.normal(size=(2, 300)) * 10.0 ** rng.uniform(-8, 8, (2, 300))
+    got, logs = barrier_heights.angle(x, z), barrier_heights.logarithm(*np.frexp(np.abs(x)))
+    with mp.workdps(40):
+        for a, b, g, l in zip(x.tolist(), z.tolist(), got, logs):
+            assert abs(g - mp.atan2(a, b)) <= 4e-16 * math.pi
+            assert abs(l - mp.log(abs(a))) <= 4e-16 * max(1, abs(l))
+
+
+def run(code, **env):
+    return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env={**os.environ, **env})
+
+
+def test_small_arrays_never_load_numba():
+    code = ("import sys, numpy as np, stabilab; s = stabilab.ScaledGyrostat(0.2, 0.4, (0, 0, 1));"
+            "stabilab.fate(s, np.ones((20_000, 3))); sys.exit('numba' in sys.modules)")
+    assert run(code).returncode == 0
+
+
+def test_without_numba_large_arrays_are_answered_by_numpy_and_asking_for_numba_is_refused(monkeypatch):
+    scene, states = FAMILIES["minor scaled +"][0], sample("minor scaled +", 6000)
+    expected = stabilab.fate(scene, states, fast=False).margins
+    monkeypatch.setattr(numba_door, "installed", lambda: False)
+    monkeypatch.setattr(fast_fate, "LOADED", 0)
+    fast_fate._loops.cache_clear()
+    monkeypatch.setattr(fast_fate, "LARGE", 0)
+    np.testing.assert_array_equal(stabilab.fate(scene, states).margins, expected)
+    with pytest.raises(InputError, match="stabilab\\[fast\\]"):
+        stabilab.fate(scene, states, fast=True)
+
+
+@pytest.mark.slow
+def test_compiled_loops_work_where_no_folder_can_be_written():
+    pytest.importorskip("numba")
+    code = ("import numpy as np, stabilab; s = stabilab.ScaledGyrostat(0.2, 0.4, (0, 0, 1));"
+            "x = np.random.default_rng(0).normal(size=(6000, 3)) * 3;"
+            "a, b = (stabilab.fate(s, x, fast=f) for f in (True, False)); print(a.margins.tobytes() == b.margins.tobytes())")
+    done = run(code, NUMBA_CACHE_DIR="/proc/no/such/folder")
+    assert done.stdout.strip() == "True", done.stderr
+
+
+@pytest.mark.parametrize("gap", [0.0, 1e-15, 1e-14, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4])
+def test_tables_hold_however_nearly_equal_two_moments_are(gap):
+    """The curve of equilibria led from a point 1e15 away to the well instead of the barrier: spin-up for bounded."""
+    scene, problem = physical((21.500084290532417, 24.358784335374747, 21.500084290532417 * (1 + gap)),
+                              (-1.3709072194035352, 0.0, 0.09621494789491448), (0.0, -0.10920909535513186, 0.0))
+    rng = np.random.default_rng(4)
+    states = rng.normal(size=(5000, 3)) * (1, 0.5, 0.3)
+    states[0] = -0.6078189955764939, 1.3931012988621379e-12, 0.14338820960207116
+    many, few = stabilab.fate(scene, states), stabilab.fate(scene, states[:2500])
+    np.testing.assert_array_equal(many.labels[:2500], few.labels)
+    for n in range(20):
+        state = states[n].tolist()
+        assert WORDS[energy.label(problem, state, digits=150)] == many.labels[n]
+        exact = energy.margin(problem, state, digits=150)
+        if exact is not None:
+            size = abs(float(exact)) + float(problem.weight[1]) * state[1] ** 2
+            assert abs(many.margins[n] - float(exact)) <= 2e-12 * size

@@ -1,0 +1,26 @@
+"""Tests of `orbit/fate/table_kernel.py`: what once went wrong there, and its edges."""
+from __future__ import annotations
+import numpy as np
+import pytest
+import stabilab
+from tests.orbit.fate.test_fate import FAMILIES, sample
+from stabilab.orbit.fate import table_kernel as barrier_heights
+from stabilab.orbit.fate.table import barrier_table
+from stabilab.orbit.fate.by_table import label_by_table
+
+
+@pytest.mark.parametrize("name", ["minor scaled +", "major physical, other sign", "middle scaled -, |c| above the cusp"])
+def test_the_loops_for_the_compiler_run_as_plain_python_give_the_bytes_of_the_arrays(name):
+    """Two ways to write the same arithmetic; 600 states are more than one block of the loops."""
+    scene, states = FAMILIES[name][0], sample(name, 600)
+    table, answers = barrier_table(scene), []
+    for loops in (None, {-1: barrier_heights.circle_loop, 1: barrier_heights.hyperbola_loop}):
+        out = {"margins": np.zeros(600), **{key: np.zeros(600, np.int8) for key in ("labels", "axis", "sense", "reasons")}}
+        with np.errstate(all="ignore"):
+            unsure = label_by_table(table, states, out, loops)
+        certain = np.delete(np.arange(600), unsure)
+        # reasons apart: two truth values add to 2 in machine code, to True in Python (test_fate_speed compares them compiled)
+        answers.append((unsure.tobytes(), *(out[key][certain].tobytes() for key in ("margins", "labels", "axis", "sense"))))
+    assert answers[0] == answers[1] and len(certain) > 500
+    # and the general formula, which has no table, agrees
+    np.testing.assert_array_equal(out["labels"][certain], stabilab.fate(scene, states).labels[certain])

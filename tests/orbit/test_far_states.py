@@ -1,0 +1,59 @@
+"""Tests of `orbit/far_states.py`: what once went wrong there, and its edges."""
+from __future__ import annotations
+from fractions import Fraction
+from stabilab import Body, ConstantTorque, Gyrostat, Scene
+import numpy as np
+import pytest
+import stabilab
+from stabilab.answers.motion import motion
+from stabilab.errors import InputError
+from stabilab.answers.digits.ask import ask
+
+RATES = (0.1, 0.05, 0.2)
+BODIES = {"circle": (Body((12, 9, 5)), (1, 0, 0), (0, 0, 1)), "parabola": (Body((2, 2, 1)), (0, 1, 2), (1, 0, 0)),
+          "hyperbola": (Body((12, 9, 5)), (1, 0, 0), (0, 1, 0)), "free": (Body((12, 9, 5)), (1, 0, 0), (0, 0, 0))}
+
+
+@pytest.mark.parametrize("k", [-900, -300, 300, 900])
+@pytest.mark.parametrize("name", BODIES)
+def test_a_motion_in_another_unit_of_rate_is_the_same_motion(name, k):
+    """Euler's equations are homogeneous (rates and wheel by u, torque by u^2, time by 1/u), and for u = 2^k the change is exact."""
+    body, wheel, torque = BODIES[name]
+    u, power = Fraction(2) ** k, k if abs(k) < 500 else k // 2  # the torque, which goes with the square, must stay a double
+    u = Fraction(2) ** power
+    made = [Scene(body, Gyrostat(tuple(Fraction(w, 5) * v for w in wheel)), ConstantTorque(tuple(Fraction(m, 50) * v * v for m in torque)))
+            for v in (1, u)]
+    one, far = (motion(scene, tuple(w * v for w in RATES)) for scene, v in zip(made, (1.0, float(u))))
+    assert (far.fate, far.axis, far.sense) == (one.fate, one.axis, one.sense)
+    np.testing.assert_allclose(np.array(far.extremes) / float(u), one.extremes, rtol=1e-11)
+    assert (one.period is None) == (far.period is None) and (one.period is None or far.period * float(u) == pytest.approx(one.period, rel=1e-11))
+    many = stabilab.fate(made[1], np.array(RATES) * float(u))
+    assert int(many.labels) == far.fate
+    np.testing.assert_allclose(stabilab.extremes(made[1], np.array(RATES) * float(u)), far.extremes, rtol=1e-11)
+
+
+@pytest.mark.parametrize("rate", [1e155, 1e160, 1e200, 1e308])
+def test_rates_up_to_the_largest_doubles_have_a_fate_and_no_margin_that_is_no_double(rate):
+    """Torque-free in effect: the wheelless body turns about axis 1 under a torque on axis 3, bounded by its centrifugal barrier
+    (D1 - D3)(D1 - D2) w1^2/... far above the torque; the period is 2 pi over w1 sqrt((D1 - D2)(D1 - D3)/(D2 D3)) (Euler)."""
+    scene = Scene(Body((12, 9, 5)), ConstantTorque((0, 0, "0.02")))
+    found, rows = motion(scene, (rate, 0.0, 0.0)), stabilab.fate(scene, np.array([(rate, 0, 0), (0.1, 0.05, 0.02)]))
+    assert found.fate == rows.labels[0] == stabilab.Fate.BOUNDED and found.margin_energy is None
+    assert np.isnan(rows.margins[0]) and "beyond the range of doubles" in found.because and "beyond the range" in rows.because[0]
+    assert rows.margins[1] == stabilab.fate(scene, (0.1, 0.05, 0.02)).margins
+    assert found.period == pytest.approx(2 * np.pi / rate / np.sqrt(3 * 7 / (9 * 5)), rel=1e-11)
+    assert stabilab.period(scene, (rate, 0, 0)) == pytest.approx(found.period, rel=1e-12)
+    least = stabilab.extremes(scene, (rate, 0, 0))[1, 0]  # D2 w2' = (D3 - D1) w3 w1, D3 w3' = M + (D1 - D2) w1 w2: 2 M/((D2 - D1) w1)
+    assert least == pytest.approx(2 * 0.02 / -3 / rate, rel=1e-11) or rate > 1e300
+
+
+@pytest.mark.parametrize("effects", [(Gyrostat((1, 2, 3)),), (ConstantTorque((1, 1, 0)),), (Gyrostat((1, 0, 0)), ConstantTorque((1, 0, 0)))])
+@pytest.mark.parametrize("power", [-300, -160, 160, 200])
+def test_scenes_without_a_reduction_answer_or_refuse_any_rate(effects, power):
+    """No warning (pytest makes them errors), no overflow: a fate, or InputError in words."""
+    scene, state = Scene(Body((12, 9, 5)), *effects), np.array([1.0, 0.5, -0.7]) * 10.0**power
+    for ask in (stabilab.fate, lambda scene, state: motion(scene, tuple(state))):
+        try:
+            ask(scene, state)
+        except InputError as error:
+            assert "range of doubles" in str(error) or "largest double" in str(error)

@@ -1,0 +1,235 @@
+"""How far approximate laws hold: the numbers, their values along a motion, and that every command and result carries them."""
+import json
+import subprocess
+import sys
+from fractions import Fraction
+from pathlib import Path
+
+import mpmath
+import numpy as np
+import pytest
+
+import stabilab
+from stabilab.physics.coefficients import content
+from stabilab.theories.follow import follow
+from stabilab.physics.coefficients import liquid_torque
+from stabilab.answers.digits.run import best_reached
+from stabilab.answers.simulate import simulate
+from stabilab.physics.body import Body
+from stabilab.physics.effects.body_force import BodyForce
+from stabilab.physics.effects.charge import Charge
+from stabilab.physics.effects.constant_torque import ConstantTorque
+from stabilab.physics.effects.gravity import Gravity
+from stabilab.physics.effects.gyrostat import Gyrostat
+from stabilab.physics.effects.liquid_cavity import LiquidCavity, NEXT_TERM
+from stabilab.physics.effects.newtonian_field import NewtonianField
+from stabilab.physics.effects.pace import pace
+from stabilab.physics.effects.resistance import Resistance
+from stabilab.physics.scene import Scene
+
+CASES = Path(__file__).parents[2] / "cases"
+WATER = """
+[body]
+inertia = [6000, 5500, 5000]
+[effects.liquid_cavity]
+density = 1000
+viscosity = {viscosity}
+radius = 1.2
+[effects.constant_torque]
+torque = [0, 0, 439.5]
+[motion]
+angular_velocity = [0.052, 0, 0]
+span = [0, 20]
+"""
+
+
+def water(tmp_path, viscosity):
+    path = tmp_path / "water.toml"
+    path.write_text(WATER.format(viscosity=viscosity), encoding="utf-8")
+    return path
+
+
+def ball(viscosity, *more):
+    """Three equal moments: the undisturbed motion is constant, so the pace of the motion is |omega| itself."""
+    return Scene(Body((5000, 5000, 5000)), LiquidCavity.of_sphere(1000, viscosity, "1.2"), *more)
+
+
+# -- the numbers ---------------------------------------------------------------------------------------------------------
+
+
+def share(z):
+    """Angular momentum of the liquid in an oscillating sphere over that of rigid rotation: 5 i2(z)/(z i1(z)), z^2 = h^2 s/nu."""
+    i = lambda n: mpmath.sqrt(mpmath.pi / (2 * z)) * mpmath.besseli(n + mpmath.mpf(1) / 2, z)
+    return 5 * i(2) / (z * i(1))
+
+
+def test_series_of_the_liquids_angular_momentum_has_the_law_as_second_term_and_the_next_at_two_forty_fifths():
+    with mpmath.workdps(60):  # Stokes flow in an oscillating sphere, solved exactly
+        series = mpmath.taylor(lambda x: share(mpmath.sqrt(x)), mpmath.mpf("1e-9"), 2)
+    liquid = LiquidCavity.of_sphere(1000, "0.5", "1.2")
+    assert float(-series[1]) * liquid.moment * liquid.radius**2 / 0.5 == pytest.approx(float(liquid.exact), rel=1e-8)
+    assert float(-series[2] / series[1]) == pytest.approx(NEXT_TERM, rel=1e-6)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_pace_bounds_the_second_rate_of_the_undisturbed_motion_as_seen_from_space(seed):
+    random = np.random.default_rng(seed)
+    D = tuple(Fraction(int(v)) for v in random.integers(600, 1000, 3))
+    scene = Scene(Body(D), Gyrostat(tuple(int(v) for v in random.integers(-400, 400, 3))), LiquidCavity(1, 1, 1), Charge("0.3", 200, 1, 0))
+    omega = tuple(Fraction(v).limit_denominator(10**6) for v in random.normal(size=3))
+    parts = content(scene)
+    H = [d * w + l for d, w, l in zip(D, omega, parts.Lambda)]
+    first = np.cross(np.array(H, float), np.array(omega, float)) / np.array(D, float)
+    second = np.array(liquid_torque(parts, omega), float)  # omega'' + omega x omega' by the analysis' exact rates
+    rate = pace(scene, {"omega": tuple(map(float, omega))}, scene.effect("liquid_cavity"))
+    assert np.linalg.norm(second) <= rate * np.linalg.norm(first) * (1 + 1e-12)
+    assert rate <= 10 * (np.linalg.norm(np.array(omega, float)) + np.linalg.norm(np.array(parts.Lambda, float)) / 600)
+
+
+def test_pace_of_a_ball_is_its_rate_and_a_medium_adds_its_decay():
+    plain, damped = ball(1), ball(1, Resistance(2))
+    assert pace(plain, {"omega": (3.0, 0.0, 4.0)}, plain.effect("liquid_cavity")) == 5
+    # derivative of -c omega: c on the diagonal
+    assert pace(damped, {"omega": (3.0, 0.0, 4.0)}, damped.effect("liquid_cavity")) == pytest.approx(5 + 2 * 3**0.5, rel=1e-14)
+
+
+def test_liquid_of_more_moment_than_its_body_is_told():
+    found = stabilab.validity(stabilab.load(CASES / "liquid-base.toml").scene, (1, 0, 1))  # theory: 25 t of liquid in a body of 9 kg m^2
+    radius = (525 * 1.9 / (8 * np.pi)) ** (1 / 7)
+    assert found.value == pytest.approx(0.4 * (4 / 3 * np.pi * radius**3 * 1250) * radius**2 / 9, rel=1e-12)  # (2/5) m h^2
+    assert not found.holds and "moment of the liquid" in found.words
+
+
+def test_liquid_of_sensible_size_is_within_its_law():
+    case = stabilab.load(CASES / "liquid-sensible.toml")
+    found = stabilab.validity(case.scene, case.state)
+    assert found.holds and found.words.startswith("within the law: liquid cavity: Reynolds number")
+    assert 0.2 < found.value < 0.22  # omega h^2/viscosity = 0.2, as the case says; the wheel adds a little
+
+
+def test_near_centre_of_attraction_is_beyond_the_law_of_the_field():
+    scene = lambda R: Scene(Body((4, 5, 6), 1.5), NewtonianField(1, R))
+    assert stabilab.validity(scene(100), (0, 0, 1)).value == pytest.approx(0.02, rel=1e-14)  # sqrt(6/1.5) = 2 m
+    assert not stabilab.validity(scene(10), (0, 0, 1)).holds
+    assert stabilab.validity(Scene(Body((4, 5, 6), 1.5), NewtonianField(1)), (0, 0, 1)) is None  # nothing is known of its distance
+
+
+def test_weight_tells_the_mass_that_the_field_needs():
+    found = stabilab.validity(Scene(Body((4, 5, 6)), NewtonianField(3, 10), Gravity(15, (0, 0, 1))), (0, 0, 1))
+    assert found.value == pytest.approx(0.2, rel=1e-14)  # g = N R/3 = 10, mass 1.5
+
+
+def test_constant_angle_of_a_charge_is_judged_where_the_attitude_is_known():
+    scene = Scene(Body((8, 8, 11)), Charge("0.1", 1, 1, 0), ConstantTorque((4, 0, 0)))
+    assert stabilab.validity(scene, (0, 0, 1)) is None
+    half = np.deg2rad(60) / 2
+    tilted = {"omega": (0, 0, 1), "attitude": (np.cos(half), np.sin(half), 0, 0)}
+    found = stabilab.validity(scene, tilted)
+    assert found.value == pytest.approx(0.5, rel=1e-14) and not found.holds  # cos 60 degrees against cos 0
+    assert stabilab.validity(Scene(Body((8, 8, 11)), Charge("0.1", 1, 1, "attitude")), tilted) is None
+
+
+# -- along a motion ----------------------------------------------------------------------------------------------------------
+
+
+def test_value_of_a_run_is_the_largest_on_the_way_and_not_at_the_times_asked_for():
+    scene = ball(1000, ConstantTorque((0, 0, -500)))
+    run = stabilab.trajectory(scene, (0, 0, 2), [60])  # omega3 = 2 - t/10, exactly: 2 at the start, -4 at the end
+    assert run.validity.value == pytest.approx(1.44 * 4 / 1000, rel=1e-12)
+    back = stabilab.trajectory(scene, (0, 0, 2), [20])  # at rest at the end
+    assert back.validity.value == pytest.approx(1.44 * 2 / 1000, rel=1e-12)
+
+
+@pytest.mark.parametrize("method", ["DOP853", "Radau"])
+def test_value_of_a_run_by_scipy_is_the_same(method):
+    run = stabilab.trajectory(ball(1000, ConstantTorque((0, 0, -500))), (0, 0, 2), [60], method)
+    assert run.validity.value == pytest.approx(1.44 * 4 / 1000, rel=1e-6)
+
+
+def test_every_result_carries_it():
+    scene = ball("1e-6", ConstantTorque((0, 0, 500)))
+    states = np.array([[0, 0, 0], [0, 0, 0.1]])
+    assert stabilab.motion(scene, states[1]).validity.value == np.inf  # it spins up
+    assert not stabilab.fate(scene, states).validity.holds.any()
+    many = stabilab.ensemble(scene, states, [1, 10]).validity
+    assert many.value == pytest.approx([1.44e6 * 1.0, 1.44e6 * 1.1], rel=1e-12) and many.holds.shape == (2,)
+    still = stabilab.validity(ball("1e-6"), states)
+    assert still.value == pytest.approx([0, 1.44e5], rel=1e-12) and still.holds.tolist() == [True, False]
+    thick = stabilab.validity(ball(1000), states)
+    assert thick.holds.all() and thick.status == "within the law"
+    case = stabilab.load(CASES / "liquid-base.toml")
+    assert not stabilab.equilibria(case.scene).validity.holds
+    assert not simulate(case.scene, case.state, [0, 1]).validity.holds
+    assert not follow(case, [0, 1], "averaged1").validity.holds
+    assert not best_reached(case, [1.0], 12, measured=False).run.validity.holds
+
+
+def test_exact_laws_have_none():
+    scene = Scene(Body((3, 4, 5)), Gyrostat((1, 0, 0)), ConstantTorque((0, 0, 1)))
+    state = (0.1, 0.2, 0.3)
+    found = (stabilab.motion(scene, state), stabilab.fate(scene, [state]), stabilab.equilibria(scene), stabilab.trajectory(scene, state, [1]),
+             stabilab.ensemble(scene, [state], [1]), simulate(scene, state, [1]))
+    assert all(one.validity is None for one in found)
+    assert stabilab.validity(scene, state) is None
+    assert stabilab.validity(Scene(Body((3, 4, 5), 2), BodyForce((1, 0, 0)), Resistance(1), Gravity(1, (0, 0, 1))), (0, 0, 1)) is None
+
+
+# -- commands ------------------------------------------------------------------------------------------------------------------
+
+COMMANDS = ["classify", "fate", "extremes", "period", "simulate --at 10", "precision --quick --until 2", "compare", "plot --out picture.png"]
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_commands_say_first_that_a_liquid_is_too_thin_for_its_law(stabilab, tmp_path, monkeypatch, command):
+    monkeypatch.chdir(tmp_path)
+    name, *more = command.split()
+    code, out, _ = stabilab(name, water(tmp_path, "1e-6"), *more)
+    assert code == 0
+    assert out.startswith("BEYOND THE LAW: liquid cavity: Reynolds number n h^2/nu of the liquid, ")
+    assert "limit 1: " in out.splitlines()[0]
+    assert stabilab(name, tmp_path / "water.toml", *more, "--strict")[0] == 3
+
+
+@pytest.mark.parametrize("command", ["simulate --at 10", "compare", "plot --out picture.png"])
+def test_commands_say_first_that_a_thick_liquid_is_within_its_law(stabilab, tmp_path, monkeypatch, command):
+    monkeypatch.chdir(tmp_path)
+    name, *more = command.split()
+    code, out, _ = stabilab(name, water(tmp_path, "1000"), *more, "--strict")
+    assert code == 0
+    assert out.startswith("within the law: liquid cavity: ")
+
+
+@pytest.mark.parametrize("command", [c for c in COMMANDS if "plot" not in c])
+def test_json_carries_number_value_and_limit(stabilab, tmp_path, command):
+    name, *more = command.split()
+    told = json.loads(stabilab(name, water(tmp_path, "1e-6"), *more, "--json")[1])
+    found = (told[0] if isinstance(told, list) else told)["validity"]
+    assert found["status"] == "beyond the law" and found["holds"] is False and found["limit"] == 1
+    assert found["value"] > 1.44e6 * 0.052  # omega h^2/nu of the start, the least that n allows
+    assert len(found["also"]) == 2
+    exact = json.loads(stabilab(name, CASES / "torque-free-body.toml", *more, "--json")[1]) if name != "compare" else {"validity": None}
+    assert (exact[0] if isinstance(exact, list) else exact)["validity"] is None
+
+
+def test_csv_of_extremes_stays_a_table_and_the_law_is_told_beside_it(tmp_path):
+    run = subprocess.run([sys.executable, "-m", "stabilab", "extremes", str(water(tmp_path, "1e-6")), "--csv"], capture_output=True, text=True)
+    assert run.stdout.startswith("case,component") and run.stderr.startswith("BEYOND THE LAW")
+
+
+def test_strict_of_fate_is_three_for_an_undecided_motion(stabilab):
+    assert stabilab("fate", CASES / "off-axis-two.toml", "--strict")[0] == 3
+    assert stabilab("fate", CASES / "minor-axis-100.toml", "--strict")[0] == 0
+
+
+def test_surface_carries_it_in_its_summary(stabilab, tmp_path, monkeypatch):
+    from stabilab.show.surface import render_probe
+    monkeypatch.setattr(render_probe, "probe", lambda: render_probe.Renderer(False, "none here"))
+    _, out, _ = stabilab("surface", CASES / "charged-body.toml", "--out", tmp_path / "s")
+    assert json.loads(out)["validity"]["effect"] == "charge"
+
+
+def test_section_of_a_report_says_it_first(tmp_path):
+    from stabilab.show.report.report import _section
+    from stabilab.case.read import load
+    section = _section(load(water(tmp_path, "1e-6")), tmp_path, lambda words: None)
+    assert section["motion"][0][0] == "law" and section["motion"][0][1].startswith("BEYOND THE LAW")

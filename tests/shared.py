@@ -1,0 +1,56 @@
+"""Scenes, states and answers that tests of several rooms share."""
+from __future__ import annotations
+from pathlib import Path
+from stabilab import Body, ScaledGyrostat
+import json
+import stabilab
+import subprocess
+import sys
+from stabilab.physics.effects.liquid_cavity import LiquidCavity
+from stabilab.answers.certificate import certificate
+from tests.oracles.pairs import physical
+
+CASES = Path(__file__).parents[1] / "cases"
+
+
+def case(name):
+    return stabilab.load(CASES / f"{name}.toml")
+
+ROUND, LIQUID = Body(("9.5", "9.5", "9")), LiquidCavity(1250, 1000, "1.9")
+
+
+def written(scene, *state):
+    """A certificate as it comes from its file."""
+    return json.loads(json.dumps(certificate(scene, *state)))
+
+TIE = """
+title = "tie of decimals"
+source = "3 omega1 = 4 omega3 is the separatrix: D1 (D1 - D2) = 9, D3 (D2 - D3) = 16"
+[body]
+inertia = [9, 8, 4]
+[motion]
+angular_velocity = [0.4, 0.7, 0.3]
+span = [0, 20]
+"""
+# mpmath in 60 digits from x1' = x2 x3, x2' = -x3 (x1 + a), x3' = 1 + x2 (x1 + b) on the circle x1 + a = A sin, x2 = A cos:
+# midpoint rule between the turning points, bisected; barrier by findroot. With the double nearest to 0.1 the 18th digit differs.
+PERIOD, MARGIN = "1.804312247500545757485173072956", "1.632183021364656117174097282608"
+
+
+def answer(command, folder, text, *options):
+    """What a command says of a case file, as JSON."""
+    path = folder / "case.toml"
+    path.write_text(text)
+    done = subprocess.run([sys.executable, "-m", "stabilab", command, str(path), "--json", *options], capture_output=True, text=True, check=True)
+    return json.loads(done.stdout)
+
+# Two equal moments, the torque on a transverse axis: the orbit's pair of rates runs along a parabola or a straight line.
+PARABOLIC = {
+    "first axis": physical((2, 2, 1), (0, 0.25, 0.5), (0.5, 0, 0)),
+    "first axis, other sign": physical((2, 2, 1), (0, -1.5, 0.7), (-0.8, 0, 0)),
+    "second axis": physical((2, 2, 3), (0.4, 0, -0.9), (0, 0.3, 0)),
+    "third axis": physical((1.5, 2, 2), (0.6, -0.3, 0), (0, 0, -0.4)),
+    "oblate": physical((3, 2, 2), (1.5, 0.8, 0), (0, 0, 0.2)), "no gyrostat": physical((2, 2, 1), (0, 0, 0), (1, 0, 0)),
+    "wheel on the symmetry axis": physical((2, 2, 1), (0, 0, 0.5), (0.5, 0, 0)),
+    "a sphere": physical((2, 2, 2), (0, 0.5, 1), (0.5, 0, 0))}
+SCALED_MINOR = ScaledGyrostat("0.2", "0.4", (0, 0, 1))

@@ -1,0 +1,342 @@
+"""Tables, pictures and meshes: the data in them, not their pixels."""
+import csv
+import io
+import json
+import math
+import re
+import struct
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from stabilab import errors
+from stabilab.orbit.separatrix.result import Sheet
+from stabilab.show.figures import catalogue as figures, paper
+from stabilab.show.surface import mesh, render_probe, write as surface
+from stabilab.orbit import phase_plane as phase
+from stabilab.show import plane, style
+from stabilab.show.text import table
+
+CASES = Path(__file__).parents[2] / "cases"
+
+
+# -- tables --
+
+HOSTILE = table.Table(9, 'a <b>bold</b> & "title"', "50 % of $5_000 {x} ~ ^ \\ # |", ("h<1>", "n|m"),
+                      (("<script>alert(1)</script>", 1 / 3), ("a_b & c|d", math.inf), (None, 7)))
+
+
+def test_csv_holds_every_digit():
+    rows = list(csv.reader(io.StringIO(table.comma_separated(HOSTILE))))
+    assert float(rows[1][1]) == 1 / 3 and float(rows[2][1]) == math.inf and rows[3][0] == ""
+
+
+def test_html_escapes_hostile_cells():
+    text = table.html_page(HOSTILE)
+    assert "<script" not in text and "<b>" not in text and "&lt;script&gt;alert(1)&lt;/script&gt;" in text
+
+
+def test_latex_escapes_every_special_character():
+    text = table.latex(HOSTILE)
+    assert r"a\_b \& c$|$d" in text and r"50 \% of \$5\_000 \{x\} \textasciitilde{} \textasciicircum{} \textbackslash{} \#" in text
+    assert text.count(r"\begin{tabular}") == text.count(r"\end{tabular}") == 1
+
+
+def test_markdown_rows_keep_their_columns():
+    lines = [line for line in table.markdown(HOSTILE).splitlines() if line.startswith("|")]
+    assert {line.replace("\\|", "").count("|") for line in lines} == {3}
+
+
+def test_readable_formats_show_six_digits():
+    assert table.cell(1 / 3) == "0.333333" and table.cell(-math.inf) == "-unbounded" and table.cell(None) == "–"
+
+
+def test_table_1_has_every_sign_pattern_with_and_without_the_wheel():
+    rows = table.torque_signs().rows
+    patterns = [row[1] for row in rows]
+    assert len(rows) == 54 and len(set(patterns)) == 27 and patterns[:27] == patterns[27:]
+
+
+@pytest.mark.parametrize("number", table.EXTREMES)
+def test_the_case_files_of_the_tables_hold_the_papers_data(number):
+    import stabilab
+    starts = {"minor-axis": paper.START_MINOR, "middle-axis": paper.START_MIDDLE, "middle-axis-equal": paper.START_PLANE}
+    for family in table.EXTREMES[number][0]:
+        for lam in paper.LAMBDAS:
+            case = stabilab.load(CASES / f"{family}-{lam}.toml")
+            assert case.scene == paper.scene(family.split("-")[0], lam)
+            if family in starts:
+                assert case.state == starts[family]
+            else:  # the case that was meant lies in the invariant plane x1 + b = x3
+                assert case.state[0] + case.scene.b == pytest.approx(case.state[2], abs=1e-15)
+
+
+@pytest.mark.parametrize("number", table.EXTREMES)
+def test_tables_agree_with_a_tight_run(number):
+    """Oracle: SciPy's DOP853 at 1e-12 over three periods, extremes of its dense output; no code of the package."""
+    from scipy.integrate import solve_ivp
+    for row in table.extremes_table(number).rows:
+        values = dict(zip(table.EXTREMES_HEADER, row))
+        a, b = values["a"], values["b"]
+        mu = (0, 0, 1) if "minor" in values["case"] else (0, 1, 0)
+        assert values["fate"] == "bounded"
+        rates = lambda t, x: (x[1] * x[2] + mu[0], -x[2] * (x[0] + a) + mu[1], x[1] * (x[0] + b) + mu[2])
+        end = 3 * values["period"]
+        run = solve_ivp(rates, (0, end), [values[f"x{i}(0)"] for i in (1, 2, 3)], method="DOP853", rtol=1e-12, atol=1e-13,
+                        dense_output=True)
+        states = run.sol(np.linspace(0, end, 60001))
+        for i in (1, 2, 3):  # a grid of 20,000 a period misses an extreme by less than 1e-6
+            assert states[i - 1].min() == pytest.approx(values[f"x{i} min"], abs=2e-6)
+            assert states[i - 1].max() == pytest.approx(values[f"x{i} max"], abs=2e-6)
+        assert np.abs(run.sol(values["period"]) - run.sol(0)).max() < 1e-8
+
+
+def test_a_format_that_does_not_exist_is_refused(tmp_path):
+    with pytest.raises(errors.InputError, match="expected one of"):
+        table.write_tables(tmp_path, formats=("pdf",))
+
+
+def test_a_file_is_written_whole_or_not_at_all(tmp_path):
+    path = tmp_path / "x.txt"
+    path.write_text("old")
+    with pytest.raises(ZeroDivisionError):
+        with style.whole_file(path) as waiting:
+            waiting.write_text("half")
+            1 / 0
+    assert path.read_text() == "old" and list(tmp_path.iterdir()) == [path]
+
+
+# -- phase planes and figures --
+
+
+def test_saddles_without_wheel_are_where_the_paper_puts_them():
+    """Amer et al. 2024, after (25): sin alpha = -2/F^2 for lambda1 = 0."""
+    from stabilab import ScaledGyrostat
+    found = phase.phase_plane(ScaledGyrostat(0, 0, (0, 0, 1)), (3.0, 0.0, 0.0))
+    start = np.arctan2(3.0, 0.0)
+    for y in found.saddles + found.centres:
+        assert np.sin(2 * (start + y)) == pytest.approx(-2 / 9, abs=1e-12)
+    assert len(found.saddles) == len(found.centres) == 2
+
+
+@pytest.mark.parametrize("lam", paper.LAMBDAS)
+def test_the_drawn_separatrix_is_a_level_curve_of_the_true_integral(lam):
+    scene = paper.scene("minor", lam)
+    found = phase.phase_plane(scene, paper.START_MINOR)
+    saddle = found.saddles[0]
+    y, W = found.separatrix(saddle, -4.0, 4.0)
+    theta = np.arctan2(2.5 + scene.a, 4.0) + y
+    A, c = np.hypot(2.5 + scene.a, 4.0), scene.b - scene.a
+    energy = W**2 / 2 - theta - (A * np.sin(theta)) ** 2 / 2 - c * A * np.sin(theta)  # derived by hand from (13)
+    assert np.ptp(energy) < 1e-11 and W[np.argmin(np.abs(y - saddle))] == 0.0
+
+
+def test_states_of_the_plane_go_back_to_the_start():
+    for axis, start in (("minor", paper.START_MINOR), ("middle", paper.START_MIDDLE)):
+        found = phase.phase_plane(paper.scene(axis, 300), start)
+        assert found.states(np.float64(0.0), np.float64(found.W0)) == pytest.approx(start, abs=1e-14)
+
+
+def test_the_motion_of_a_middle_axis_case_closes():
+    found = phase.phase_plane(paper.scene("middle", 100), paper.START_MIDDLE)
+    y, W = phase.motion_curve(found, -8, 8)
+    assert W[0] == pytest.approx(0, abs=1e-6) and W[-1] == pytest.approx(0, abs=1e-6)
+
+
+@pytest.mark.parametrize("name", ["minor-axis-100", "middle-axis-300", "major-axis-500"])
+def test_plot_writes_a_picture_of_any_case(name, tmp_path):
+    import stabilab
+    path = plane.plot(stabilab.load(CASES / f"{name}.toml"), tmp_path / "picture.png")
+    assert path.read_bytes()[:8] == b"\x89PNG\r\n\x1a\n" and path.stat().st_size < 200_000
+
+
+def test_a_picture_needs_a_motion(tmp_path):
+    from types import SimpleNamespace
+    with pytest.raises(errors.InputError, match="angular_velocity"):
+        plane.plot(SimpleNamespace(state=None, path="x.toml"), tmp_path / "x.png")
+
+
+def test_the_same_figure_gives_the_same_bytes(tmp_path):
+    first, second = (figures.write([3], tmp_path / name)[0] for name in ("a", "b"))
+    assert first.read_bytes() == second.read_bytes()
+
+
+def test_each_figure_has_a_note_with_its_command(tmp_path):
+    figures.write([9], tmp_path)
+    note = (tmp_path / "figure-09.txt").read_text(encoding="utf-8")
+    assert "stabilab figures 9 --out figures" in note and "tolerance:" in note
+
+
+def test_an_unknown_figure_is_refused():
+    with pytest.raises(errors.InputError, match="figure 1: expected one of 2 to 17"):
+        figures.figure(1)
+
+
+def test_the_repository_keeps_a_small_picture_of_every_figure():
+    folder = CASES.parent / "figures"
+    assert figures.NUMBERS == tuple(range(2, 18))
+    for row in figures.FIGURES:
+        assert (folder / row.file).stat().st_size < 200_000
+        assert row.command in (folder / row.file.replace(".png", ".txt")).read_text(encoding="utf-8")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("number", figures.NUMBERS)
+def test_every_figure_can_be_drawn(number, tmp_path):
+    assert figures.write([number], tmp_path)[0].stat().st_size > 5_000
+
+
+# -- meshes --
+
+
+def cone(rows=41, columns=81):
+    """A sheet with known geometry: circles of radius r at height r, from the fold (r = 0) to r = 1."""
+    r, turn = np.linspace(0, 1, rows)[:, None], np.linspace(0, 2 * np.pi, columns)[None, :]
+    points = np.stack(np.broadcast_arrays(r * np.cos(turn), r * np.sin(turn), r), -1).copy()
+    points[:, -1] = points[:, 0]
+    residual = np.full((rows, columns), 1e-17)
+    residual[-1, 3] = 3e-16
+    centre = points.mean(1)
+    return Sheet("cone", points, residual, points[:, 0], centre, r[:, 0])
+
+
+def test_the_mesh_is_one_disc_without_degenerate_triangles():
+    made = mesh.triangulate(cone())
+    corner = made.points[made.triangles]
+    area = np.linalg.norm(np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]), axis=1) / 2
+    edges = {tuple(sorted(e)) for t in made.triangles for e in ((t[0], t[1]), (t[1], t[2]), (t[2], t[0]))}
+    assert len(made.points) - len(edges) + len(made.triangles) == 1  # Euler characteristic of a disc
+    assert area.min() > 0 and area.sum() == pytest.approx(np.pi * np.sqrt(2), rel=2e-3)
+    assert made.residual.max() == 3e-16
+
+
+def test_stl_and_glb_hold_every_triangle():
+    made = mesh.triangulate(cone())
+    data = mesh.stl([made])
+    assert struct.unpack("<I", data[80:84])[0] == len(made.triangles) and len(data) == 84 + 50 * len(made.triangles)
+    data = mesh.glb([made], style.SHEETS)
+    magic, version, length = struct.unpack("<4sII", data[:12])
+    size, kind = struct.unpack("<II", data[12:20])
+    document = json.loads(data[20:20 + size])
+    assert (magic, version, length, kind) == (b"glTF", 2, len(data), 0x4E4F534A)
+    position, _, index = (document["accessors"][i] for i in range(3))
+    assert position["count"] == len(made.points) and index["count"] == 3 * len(made.triangles)
+    assert position["max"] == pytest.approx([1, 1, 1]) and document["buffers"][0]["byteLength"] == len(data) - 28 - size
+
+
+def test_empty_meshes_are_valid_files(tmp_path):
+    import pyvista
+    files = surface.write_meshes([], tmp_path, "none")
+    assert pyvista.read(files[0]).n_cells == 0
+    assert json.loads(files[1].read_bytes()[20:])["asset"]["version"] == "2.0"
+    assert struct.unpack("<I", files[2].read_bytes()[80:84])[0] == 0
+
+
+def test_the_same_mesh_gives_the_same_bytes(tmp_path):
+    made = mesh.triangulate(cone())
+    first, second = (surface.write_meshes([made], tmp_path / name, "cone") for name in ("a", "b"))
+    assert [p.read_bytes() for p in first] == [p.read_bytes() for p in second]
+
+
+def test_vtp_keeps_doubles_and_point_arrays(tmp_path):
+    import pyvista
+    made = mesh.triangulate(cone())
+    data = pyvista.read(surface.write_meshes([made, made], tmp_path, "two")[0])
+    assert data.points.dtype == np.float64 and np.array_equal(data.points[:len(made.points)], made.points)
+    assert set(np.unique(data.point_data["sheet"])) == {0, 1} and data.point_data["residual"].max() == 3e-16
+
+
+# -- rendering --
+
+
+@pytest.fixture
+def no_gl(monkeypatch):
+    """A machine whose VTK crashes at the first picture."""
+    render_probe.probe.cache_clear()
+    monkeypatch.setattr(render_probe, "_CHILD", "import os, signal; os.kill(os.getpid(), signal.SIGSEGV)")
+    yield
+    render_probe.probe.cache_clear()
+
+
+def test_a_renderer_that_crashes_is_reported_and_not_fatal(no_gl):
+    assert not render_probe.probe().available and "GL libraries" in render_probe.probe().words
+
+
+def test_without_gl_the_meshes_are_written_and_the_cure_is_named(no_gl, tmp_path):
+    with pytest.raises(errors.RenderingUnavailable, match="apt install libegl1 libgl1-mesa-dri") as caught:
+        surface.write(paper.scene("minor", 100), tmp_path, shape=(12, 25))
+    assert caught.value.exit_code == 4 and caught.value.summary["triangles"] > 0
+    assert {p.suffix for p in tmp_path.iterdir()} == {".vtp", ".glb", ".stl", ".json"}
+    assert json.loads((tmp_path / "surface.json").read_text())["triangles"] > 0
+
+
+def test_a_scene_without_separatrix_is_answered_with_the_reason_and_no_file(tmp_path):
+    """For |b - a| < 1.7548 a torque on the middle axis leaves no saddle (docstring of figure 16)."""
+    summary = surface.write(paper.scene("middle", 100), tmp_path / "none")
+    assert summary["schema"] == "stabilab.surface/1" and summary["sheets"] == [] and summary["files"] == []
+    assert "no separatrix" in summary["reason"] and not list(tmp_path.iterdir())
+
+
+# what a file of each kind begins with, by the definition of the format
+BEGINS = {".png": b"\x89PNG\r\n\x1a\n", ".svg": b"<?xml", ".pdf": b"%PDF-"}
+
+
+@pytest.mark.parametrize("name", ["plane.png", "plane.svg", "plane.pdf", "PLANE.SVG"])
+def test_a_picture_is_what_its_ending_says_and_the_same_bytes_again(name, tmp_path):
+    import stabilab
+    case = stabilab.load(CASES / "minor-axis-100.toml")
+    first, second = (plane.plot(case, tmp_path / side / name) for side in ("a", "b"))
+    assert first.read_bytes().startswith(BEGINS[first.suffix.lower()])
+    assert first.read_bytes() == second.read_bytes()
+
+
+def test_what_is_not_a_picture_is_refused_before_anything_is_drawn(tmp_path):
+    import stabilab
+    for name in ("plane.jpg", "plane", "plane.png.gz", ".png"):
+        with pytest.raises(errors.InputError, match=r"expected a name that ends in \.png, \.svg or \.pdf, got"):
+            plane.plot(stabilab.load(CASES / "minor-axis-100.toml"), tmp_path / name)
+    assert not list(tmp_path.iterdir())
+
+
+FETCHED = re.compile(r"""(?:\b(?:src|href|action|data|poster)\s*=\s*|url\(\s*|@import\s+|\b(?:fetch|open|importScripts|Worker|WebSocket)\(\s*|"""
+                     r"""setAttribute\(\s*["'](?:src|href)["']\s*,\s*)["'`]?(?:https?:|wss?:)?//[\w-]+\.""", re.I)
+
+
+def test_the_viewer_of_a_surface_asks_the_network_for_nothing():
+    """The viewer that trame-vtk brings names icons on a web site; the page that is written names none, and forbids the rest."""
+    from trame_vtk.tools.vtksz2html import HTML_VIEWER_PATH
+    page = HTML_VIEWER_PATH.read_text(encoding="utf-8")
+    written = surface.offline(page)
+    assert FETCHED.search('e.setAttribute("href",`https://kitware.github.io/icon.png`)') and FETCHED.search("url(//a.b/c.png)")
+    assert not FETCHED.search(written) and written.index("Content-Security-Policy") < written.index("<script")
+    assert "default-src 'none'" in surface.POLICY and "http" not in surface.POLICY and "*" not in surface.POLICY
+    assert abs(len(written) - len(page)) < 1000 and 'new URL(t,"http://any")' in written or "http://any" not in page
+
+
+def test_an_address_in_the_viewer_becomes_an_empty_icon_and_a_vocabulary_stays():
+    text = "<head>`https://a.b/${t}x${t}.png` 'http://c.d' \"http://www.w3.org/2000/svg\" \"http://any\" 'see http://e.f/g for more'"
+    assert surface.offline(text).split("/>")[-1].strip() == ("`data:,` 'data:,' \"http://www.w3.org/2000/svg\" \"http://any\" "
+                                                           "'see http://e.f/g for more'")
+
+
+def test_the_summary_counts_what_the_mesh_holds(tmp_path):
+    import pyvista
+    summary = surface.write(paper.scene("minor", 300), tmp_path, shape=(20, 41), picture=False)
+    data = pyvista.read(tmp_path / "surface.vtp")
+    assert (data.n_points, data.n_cells) == (summary["vertices"], summary["triangles"])
+    assert summary["largest_residual"] == data.point_data["residual"].max() < 1e-12
+    assert json.loads((tmp_path / "surface.json").read_text())["sheets"] == summary["sheets"]
+
+
+def test_surface_points_lie_on_the_level_of_their_saddle(tmp_path):
+    """Oracle: the energy of the minor axis derived by hand, x3^2/2 - theta - X^2/2 - c X, continuous along each loop."""
+    from stabilab.orbit.separatrix.sheets import separatrix
+    scene = paper.scene("minor", 100)
+    for sheet in separatrix(scene, shape=(12, 41)).sheets:
+        p = np.asarray(sheet.points)
+        X, x2, x3 = p[..., 0] + scene.a, p[..., 1], p[..., 2]
+        theta = np.unwrap(np.arctan2(X, x2), axis=1)
+        energy = x3**2 / 2 - theta - X**2 / 2 - (scene.b - scene.a) * X
+        scale = 1 + np.abs(X).max() ** 2
+        assert np.ptp(energy, axis=1).max() < 1e-11 * scale

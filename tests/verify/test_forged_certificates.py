@@ -1,0 +1,459 @@
+"""Forged certificates: each claim of a proved one changed in turn is refuted, or left unproved, or refused; never proved."""
+import copy
+import itertools
+import json
+import random
+import subprocess
+import sys
+from fractions import Fraction, Fraction as F
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from stabilab import Body, ConstantTorque, Gyrostat, load, ScaledGyrostat, Scene
+from stabilab.answers.certificate import certificate
+from stabilab.errors import InputError
+from stabilab.show.text import certification
+from stabilab.verify import orbit, verify, verify_file
+from stabilab.verify.numbers import Malformed
+from stabilab.verify.zeros import Purse
+
+from tests.verify import forge
+from tests.oracles import elimination as by_hand
+from tests.equilibrium.test_random_scenes import disagreements
+from tests.shared import written
+
+
+def physical(D, lam=(0, 0, 0), M=(0, 0, 0)):
+    return Scene(Body(D), Gyrostat(lam), ConstantTorque(M))
+
+
+SCENES = {
+    "two points": ScaledGyrostat(0, 0, (1, 2, 1)), "a double root": ScaledGyrostat(0, 2, (-3, 3, 1)),
+    "a triple zero eigenvalue": ScaledGyrostat(0, 2, (F(-15, 16), F(5, 4), F(3, 4))),
+    "a hyperbola": ScaledGyrostat("0.2", "0.4", (0, 0, 1)), "crossing lines, a minimum": physical((5, 4, 5), (2, 3, 0), (0, 0, -6)),
+    "crossing lines, no minimum": physical((3, 4, 5), (2, 3, 0), (0, 0, 6)), "a single line": physical((1, 2, 2), (0, 1, 1), (1, 0, 0)),
+    "a torque oblique among equal moments": physical((2, 2, 1), (1, -1, 1), (1, 1, 0)),
+    "an oblique line that is left slowly": physical((4, 3, 2), (1, 5, 14), (0, 7, -5)),
+    "an oblique line of a symmetric body": physical((2, 2, 1), (1, 0, 1), (0, 1, 1)),
+    "a free gyrostat": physical((5, 4, 2), (0, 2, 3)), "a free gyrostat, one wheel": physical((5, 4, 2), (0, 2, 0)),
+    "free, three axes": physical((5, 4, 2)), "a plane": physical((2, 2, 1), (0, 0, 1)), "a plane through rest": physical((1, 2, 2)),
+    "free, scaled": ScaledGyrostat(1, 2, (0, 0, 0)), "free, scaled, no wheel": ScaledGyrostat(1, 1, (0, 0, 0)),
+    "none, contradictory": physical((3, 2, 1), (1, 0, 0), (1, 0, 0)), "none, a constant": physical((3, 2, 2), (0, 0, 0), (1, 0, 0)),
+    "none, no real root": ScaledGyrostat(0, 0, (-1, 1, 1)), "all": physical((2, 2, 2))}
+OTHER = {"stable": "unstable", "unstable": "stable", "degenerate": "stable"}
+
+
+def proved(scene, state=None):
+    """The certificate of a scene as read from its file; proved."""
+    claims = json.loads(json.dumps(certificate(scene, state)))
+    found = verify(claims)
+    assert found.status == "proved", found.findings
+    return claims
+
+
+def status_of(claims):
+    try:
+        return verify(claims).status
+    except Malformed:
+        return "refused"
+
+
+def moved(ends, share=F(1, 7)):
+    """A bracket beside the right one."""
+    low, high = map(F, ends)
+    step = 3 * (high - low) + share * (abs(low) + 1)
+    return [str(low + step), str(high + step)]
+
+
+def forgeries(claims):
+    """(what was forged, the certificate) for every claim on the equilibria."""
+    def changed(*path, to):
+        forged = copy.deepcopy(claims)
+        place = forged["equilibria"]
+        for key in path[:-1]:
+            place = place[key]
+        if to is None:
+            del place[path[-1]]
+        else:
+            place[path[-1]] = to
+        return path, forged
+    found = claims["equilibria"]
+    yield changed("kind", to="points" if found["kind"] != "points" else "curves")
+    for part in ("points", "curves", "planes"):
+        for n, entry in enumerate(found[part]):
+            yield changed(part, n, to=None)
+            for word in ("linear", "verdict"):
+                if word in entry:
+                    yield changed(part, n, word, to=OTHER[entry[word]])
+    for n, point in enumerate(found["points"]):
+        yield changed("points", to=[*found["points"], point])
+        yield from (changed("points", n, "box", i, to=moved(point["box"][i])) for i in range(3))
+    for n, curve in enumerate(found["curves"]):
+        line = len(curve["denominator"]) == 1 and all(len(row) < 3 for row in curve["numerators"])
+        for i, row in enumerate(curve["numerators"]):
+            if not (line and len(row) == 2):  # along a line itself a change is another parametrisation
+                yield from (changed("curves", n, "numerators", i, k, to=str(F(c) + 1)) for k, c in enumerate(row))
+        for part in ("segments", "folds"):
+            for k, piece in enumerate(curve[part]):
+                yield changed("curves", n, part, k, to=None)
+                yield from (changed("curves", n, part, k, word, to=OTHER[piece[word]]) for word in ("linear", "verdict"))
+        for k, fold in enumerate(curve["folds"]):
+            yield changed("curves", n, "folds", k, "t", to=moved(fold["t"]))
+        for k, piece in enumerate(curve["segments"]):
+            for side in (0, 1):
+                end = piece["t"][side]
+                yield changed("curves", n, "segments", k, "t", side, to=["0", "0"] if end is None else moved(end))
+    for n, plane in enumerate(found["planes"]):
+        across = next(i for i in range(3) if not any(F(row[i]) for row in plane["directions"]))
+        yield changed("planes", n, "base", across, to=str(F(plane["base"][across]) + 1))
+        yield changed("planes", n, "directions", 1, to=["1", "1", "1"])
+        yield from (changed("planes", n, "centre", "at", i, to=str(F(v) + 1)) for i, v in enumerate(plane["centre"]["at"]))
+        yield changed("planes", n, "centre", "verdict", to="unstable")
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_a_forged_claim_on_the_equilibria_is_never_proved(name):
+    claims = proved(SCENES[name])
+    for path, forged in forgeries(claims):
+        status = status_of(forged)
+        assert status == "refuted", (path, status, verify(forged).findings)
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_equilibria_that_are_not_there_are_refuted(name):
+    claims = proved(SCENES[name])
+    others = {"points": {"box": [["3", "3"], ["5", "5"], ["7", "7"]], "linear": "unstable", "verdict": "unstable"},
+              "curves": {"numerators": [["3", "1"], ["5"], ["7"]], "denominator": ["1"], "segments": [], "folds": []},
+              "planes": {"base": ["3", "5", "7"], "directions": [["1", "0", "0"], ["0", "1", "1"]], "linear": "degenerate", "verdict": "unstable",
+                         "centre": {"at": ["3", "5", "7"], "verdict": "stable"}}}
+    for part, entry in others.items():
+        forged = copy.deepcopy(claims)
+        forged["equilibria"][part].append(entry)
+        assert status_of(forged) == "refuted" or claims["equilibria"]["kind"] == "all", part
+
+
+@pytest.mark.parametrize("name", [name for name in SCENES if name != "all"])
+def test_the_same_claimed_twice_is_refuted(name):
+    claims = proved(SCENES[name])
+    for part in ("points", "curves", "planes"):
+        for entry in claims["equilibria"][part]:
+            forged = copy.deepcopy(claims)
+            forged["equilibria"][part].append(entry)
+            assert status_of(forged) == "refuted", part
+    for curve in claims["equilibria"]["curves"]:
+        if len(curve["denominator"]) == 1 and not curve["folds"]:  # the same line the other way round
+            turned = curve | {"numerators": [[("-" + c).replace("--", "") if k else c for k, c in enumerate(row)] for row in curve["numerators"]],
+                              "segments": curve["segments"][::-1]}
+            assert status_of(claims | {"equilibria": claims["equilibria"] | {"curves": [*claims["equilibria"]["curves"], turned]}}) == "refuted"
+
+
+CASES = Path(__file__).parents[2] / "cases"
+
+
+def case_proved(name):
+    return json.loads(_case_text(name))
+
+
+@cache
+def _case_text(name):
+    case = load(CASES / f"{name}.toml")
+    return json.dumps(proved(case.scene, case.exact_state))
+
+
+def test_boxes_without_a_zero_are_refuted():
+    claims = case_proved("off-axis-two")
+    for point, box in zip(claims["equilibria"]["points"], (["100", "101"], ["200", "201"])):
+        point |= {"box": [box] * 3, "verdict": "stable"}
+        assert status_of(claims) == "refuted"
+    first, second = case_proved("off-axis-two")["equilibria"]["points"]
+    claims["equilibria"]["points"] = [first, first | {"box": [[str(2 * F(low) - F(high)), high] for low, high in first["box"]]}]  # one zero in two boxes
+    assert status_of(claims) == "refuted"
+    claims["equilibria"]["points"] = [second, first]  # their order says nothing
+    assert status_of(claims) == "proved"
+
+
+@pytest.mark.parametrize("change", [{"extremes": [[["5", "6"], ["5", "6"]]] * 3}, {"period": ["1", "2"]}, {"axis": 3}, {"sense": -1}, {"fate": "bounded"},
+                                    {"extremes": [[None, None]] * 3}], ids=str)
+def test_false_numbers_beside_an_equilibrium_are_refuted(change):
+    claims = case_proved("off-axis-fold")
+    assert claims["motion"]["fate"] == "equilibrium"
+    assert status_of(claims | {"motion": claims["motion"] | change}) == "refuted"
+
+
+@pytest.mark.parametrize("bad", [True, float("nan"), "1/0", [], [[]], "\u0661", 1.0, "1e1000000000"], ids=ascii)
+@pytest.mark.parametrize("key", ["state", "fate", "axis", "sense", "extremes", "period"])
+@pytest.mark.parametrize("name", ["off-axis-fold", "off-axis-none", "minor-axis-100"])
+def test_junk_in_a_motion_is_refused_whatever_its_fate(name, key, bad):
+    # at an equilibrium, without a reduction, and with one
+    claims = case_proved("minor-axis-100") | {"scene": case_proved(name)["scene"]}
+    claims["motion"] |= {key: bad}
+    assert status_of(claims) == "refused"
+
+
+def test_an_equilibrium_is_its_own_extremes():
+    claims = case_proved("off-axis-fold")
+    claims["motion"]["extremes"] = [[[x, x], [x, x]] for x in claims["motion"]["state"]]
+    assert status_of(claims) == "proved"
+
+
+def test_a_fate_left_open_still_has_its_numbers_checked():
+    claims = case_proved("minor-axis-100")
+    claims["motion"]["fate"] = "undecided"
+    assert status_of(claims) == "partly"
+    claims["motion"]["period"] = moved(claims["motion"]["period"])
+    assert status_of(claims) == "refuted"
+
+
+def malformed(claims, where=()):
+    """Every string of the mathematics replaced by what is no number, and every list and object by a string."""
+    place = claims
+    for key in where:
+        place = place[key]
+    for key in list(place) if isinstance(place, dict) else range(len(place)):
+        if key in ("program", "uncertified"):
+            continue
+        here, kept = (*where, key), place[key]
+        wrong = [5, "x"] if isinstance(kept, (str, list, dict)) else []
+        for bad in wrong:
+            if isinstance(kept, str) and bad == "x" and key in ("linear", "verdict", "fate", "kind"):
+                continue
+            place[key] = bad
+            yield here, bad
+        place[key] = kept
+        if isinstance(kept, (list, dict)):
+            yield from malformed(claims, here)
+
+
+@pytest.mark.parametrize("name", ["two points", "a hyperbola", "a plane"])
+def test_what_is_no_number_or_no_list_is_refused(name):
+    claims = proved(SCENES[name])
+    for where, bad in malformed(claims):
+        with pytest.raises(Malformed):
+            verify(claims)
+            pytest.fail(f"{where}: {bad!r} was taken")
+
+
+MOTIONS = {
+    "bounded in a well": (ScaledGyrostat("0.2", "0.4", (0, 0, 1)), (3, F(-3, 2), F(3, 10))),
+    "spin-up": (ScaledGyrostat("0.2", "0.4", (0, 0, 1)), (1, 1, 1)), "spin-up after turning": (ScaledGyrostat(0, 0, (0, 0, 1)), (1, 1, -3)),
+    "free, round": (physical((3, 2, 1), (0, 1, 0)), (1, 1, 3)), "free, in a well": (physical((3, 2, 1), (1, 0, 0)), (3, 1, 1)),
+    "free, steady rate": (physical((3, 3, 1)), (1, 1, 1)), "on a hyperbola": (ScaledGyrostat("0.5", 1, (0, 1, 0)), (1, -1, 2)),
+    "on a decaying plane": (ScaledGyrostat("0.5", 1, (0, 1, 0)), (F(1, 2), -1, F(-3, 2))),
+    "pure spin": (physical((3, 2, 1), (0, 0, 0), (0, 1, 0)), (0, 1, 0)),
+    "on a parabola": (physical((2, 2, 1), (0, 1, 1), (1, 0, 0)), (1, 1, 2)),
+    "released at rest": (ScaledGyrostat("0.2", "0.4", (0, 0, 1)), (3, F(-3, 2), 0)),
+    "released, free": (physical((3, 2, 1), (1, 0, 0)), (0, 1, 3)),
+    "released to spin": (ScaledGyrostat(0, 0, (0, 0, 1)), (F(1, 2), F(1, 2), 0)),
+    "released on a plane": (ScaledGyrostat("0.5", 1, (0, 1, 0)), (F(1, 2), 0, F(-3, 2))),
+    "at rest": (ScaledGyrostat(0, 0, (0, 0, 1)), (-3, F(1, 3), 0))}
+
+
+@pytest.mark.parametrize("name", MOTIONS)
+def test_a_forged_claim_on_the_motion_is_refuted(name):
+    claims = proved(*MOTIONS[name])
+    claims["equilibria"] = None
+    true = claims["motion"]
+    changes = [{"fate": word} for word in ("bounded", "spin-up", "equilibrium") if word != true["fate"]] + [{"state": ["3", "5", "7"]}]
+    if true["fate"] == "spin-up":
+        changes += [{"axis": true["axis"] % 3 + 1}, {"sense": -true["sense"]}, {"period": ["1", "2"]}]
+    elif true["period"]:
+        changes += [{"period": moved(true["period"])}, {"axis": 1}]
+    for i, pair in enumerate(true["extremes"] or []):
+        for side, ends in enumerate(pair):
+            forged = copy.deepcopy(true["extremes"])
+            forged[i][side] = ["0", "1"] if ends is None else moved(ends, F(1, 10**6))
+            changes.append({"extremes": forged, "period": None})
+            forged = copy.deepcopy(true["extremes"])
+            if ends is not None:
+                forged[i][side] = None
+                changes.append({"extremes": forged, "period": None})
+    for change in changes:
+        status = status_of(claims | {"motion": true | change})
+        assert status == "refuted", (change, verify(claims | {"motion": true | change}).findings)
+
+
+# -- by machine: tests/verify/forge.py says what is known of each change without the checker
+
+ALLOWED = {"false": {"refuted", "refused"}, "true": {"proved"}, "same": {"proved"}, "junk": {"refused"}, "extra": {"partly", "refuted", "refused"},
+           "weaker": {"partly", "refuted"}, "narrow": {"partly", "refuted"}, "open": {"proved", "partly", "refuted", "refused"}}
+KINDS = {name: (scene, None) for name, scene in SCENES.items()} | MOTIONS
+FILES = ("middle-axis-double-well", "middle-axis-spin-up", "off-axis-fold", "off-axis-none", "off-axis-one", "off-axis-two", "sphere-wheel", "symmetric-body",
+         "symmetric-spin-up", "thruster-negative-minor-axis", "torque-free-body", "torque-free-gyrostat", "wheel-and-thruster")
+
+
+def part_of(claims, path):
+    """The certificate without the other part, which has nothing to do with a claim: it need not be proved again."""
+    other = {"equilibria": "motion", "motion": "equilibria"}.get(path[0])
+    return {key: value for key, value in claims.items() if key != other} if len(path) > 1 and claims.get(path[0]) else claims
+
+
+def says_what_is_true(claims):
+    """Whether a certificate of a scene of its own agrees with elimination in fractions, and its motion with the analysis."""
+    numbers = claims["scene"]
+    if numbers["variables"] == "scaled":
+        arguments = F(numbers["a"]), F(numbers["b"]), tuple(map(F, numbers["mu"]))
+        model, answer = by_hand.of_scaled(*arguments)
+        scene = ScaledGyrostat(*arguments)
+    else:
+        arguments = tuple(tuple(map(F, numbers[key])) for key in ("inertia", "momentum", "torque"))
+        model, answer = by_hand.of_body(*arguments)
+        scene = None
+    found = claims.get("equilibria")
+    if found and disagreements({part: found.get(part) or [] for part in ("points", "curves", "planes")} | {"kind": found["kind"]}, model, answer):
+        return False
+    motion = claims.get("motion")
+    if not motion:
+        return True
+    try:
+        true = certificate(scene or physical(*arguments), tuple(map(F, motion["state"])))["motion"]
+    except InputError:  # no rigid body, or beyond doubles: the analysis does not speak of it
+        return True
+    return true is None or meets(motion, true)
+
+
+def meets(motion, true):
+    """Whether claims on a motion agree with another's: the same words, brackets that have a number in common."""
+    if any(motion.get(key) not in (None, true[key]) for key in ("fate", "axis", "sense")):
+        return False
+    pairs = list(zip(sum(motion["extremes"], []), sum(true["extremes"], []))) if motion.get("extremes") and true["extremes"] else []
+    pairs += [(motion["period"], true["period"])] if motion.get("period") and true["period"] else []
+    return all((one is None) == (two is None) and (one is None or max(F(one[0]), F(two[0])) <= min(F(one[1]), F(two[1]))) for one, two in pairs)
+
+
+def forge_all(claims, seed, count, paths=None):
+    """Forge a certificate by machine; the number of changes, and what was found of those that went wrong."""
+    rng, made, wrong = random.Random(seed), 0, []
+    everything = list(forge.claims_of(claims))
+    for path in everything if paths is None else rng.sample(everything, min(paths, len(everything))):
+        whole = part_of(claims, path)
+        for known, to in forge.changes(whole, path, rng, count):
+            changed = forge.forged(whole, path, to)
+            status = status_of(changed)
+            made += 1
+            if known == "true" and not any(changed.get(part) for part in ("equilibria", "motion")):
+                known = "open"  # nothing is claimed any more
+            fine = status in ALLOWED[known]
+            if fine and known == "open" and status == "proved" and path[0] not in ("program", "uncertified", "schema"):
+                fine = says_what_is_true(changed)
+            if not fine:
+                wrong.append((known, status, path, ascii(to)[:200]))
+    return made, wrong
+
+
+@pytest.mark.parametrize("name", [*KINDS, *FILES])
+def test_what_a_machine_forges_is_never_proved(name):
+    claims = case_proved(name) if name in FILES else proved(*KINDS[name])
+    made, wrong = forge_all(claims, name, 2, paths=4)
+    assert made > 300 and not wrong, wrong[:3]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", [*KINDS, *FILES])
+def test_three_hundred_forgeries_of_every_claim_are_never_proved(name):
+    claims = case_proved(name) if name in FILES else proved(*KINDS[name])
+    made, wrong = forge_all(claims, name, 200)
+    assert made > 300 * 10 and not wrong, wrong[:3]
+
+
+@pytest.mark.parametrize("count", [40, pytest.param(468, marks=pytest.mark.slow)])
+def test_parts_of_two_certificates_exchanged_are_never_proved(count):
+    made = {name: case_proved(name) for name in FILES}
+    swaps = [(one, two, part) for one, two in itertools.permutations(made, 2) for part in ("scene", "equilibria", "motion")]
+    for one, two, part in random.Random(1).sample(swaps, count):
+        if made[one][part] and made[two][part] and made[one][part] != made[two][part]:
+            mixed = part_of(made[one] | {part: made[two][part]}, (part, ""))
+            status = status_of(mixed)
+            assert status in ("refuted", "partly") or (status == "proved" and says_what_is_true(mixed)), (one, two, part)
+
+
+@pytest.mark.parametrize("spoil, words", [
+    (lambda text: text.replace('"kind"', '"kind": "none", "kind"'), "stands twice"), (lambda text: text.replace('"motion"', '"motion": null, "motion"'), "stands twice"),
+    (lambda text: text.replace('"program"', '"x": ' + "[" * 5000 + "]" * 5000 + ', "program"'), "JSON"), (lambda text: text.replace('"axis": 0', '"axis": NaN'), "NaN"),
+    (lambda text: text.replace('"axis": 0', '"axis": ' + "1" * 5000), "JSON|axis"), (lambda text: text + " " * 5_000_000, "bytes"), (lambda text: text[:-3], "JSON"),
+    (lambda text: text.replace('"fate": "', '"fate": "\ud800'), "JSON"), (lambda text: "\ufeff" + text, "JSON"), (lambda text: text.replace('"axis": 0', '"axis": 1e400'), "axis"),
+    (lambda text: text.replace('"period": [', '"period": [' + "[" * 600 + "]" * 600 + ","), "period")])
+def test_a_file_that_is_spoilt_as_text_is_refused(spoil, words, tmp_path):
+    path = tmp_path / "certificate.json"
+    path.write_bytes(spoil(json.dumps(case_proved("minor-axis-100"))).encode("utf-8", "surrogatepass"))
+    with pytest.raises(Malformed, match=words):
+        verify_file(path)
+
+
+def test_a_key_without_a_meaning_is_not_checked_and_shown_without_control_characters():
+    claims = case_proved("minor-axis-100")
+    claims["equilibria"]["curves"][0]["\x1b[2Jname\nproved"] = "all"
+    found = verify(claims)
+    assert found.status == "partly" and all(f.claim.isprintable() for f in found.findings)
+
+
+def test_a_dropped_part_is_named_as_not_claimed():
+    claims = case_proved("minor-axis-100")
+    del claims["motion"]
+    found = verify(claims)
+    assert found.silent == ("motion",) and not any("fate" in f.claim for f in found.findings)
+    assert "nothing is claimed of: motion" in certification.text(found)
+
+
+def test_work_on_one_orbit_is_bounded():
+    # 10^100 zeros of the force on the way: the count of cells ends the search, not the clock
+    claims = {"schema": "stabilab.certificate/1", "scene": {"variables": "scaled", "a": "-720124e193", "b": "0", "mu": ["0", "0", "1"]},
+              "motion": {"state": ["1", "1", "-3"], "fate": "spin-up", "axis": 3, "sense": 1}}
+    purses = []
+
+    class Counted(Purse):
+        def __init__(self, cells):
+            super().__init__(cells // 10)
+            purses.append(self)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(orbit, "Purse", Counted)
+        assert status_of(claims) == "partly"
+    assert 0 in [purse.cells for purse in purses]
+
+
+def test_forgeries_are_refuted_without_asserts_too(tmp_path):
+    # python -O leaves asserts out
+    rng, lines, expected = random.Random(8), [], []
+    for name in ("two points", "a triple zero eigenvalue", "a plane", "a free gyrostat", "at rest", "spin-up"):
+        claims = proved(*KINDS[name])
+        for path in rng.sample(list(forge.claims_of(claims)), 8):
+            for known, to in rng.sample(forge.changes(claims, path, rng, 3), 4):
+                text = json.dumps(forge.forged(claims, path, to))
+                lines.append(text)
+                expected.append(status_of(json.loads(text)))
+    (tmp_path / "forged").write_text("\n".join(lines), encoding="utf-8")
+    program = """
+import json, sys
+from stabilab.verify import verify
+from stabilab.verify.numbers import Malformed
+for line in open(sys.argv[1], encoding="utf-8"):
+    try:
+        print(verify(json.loads(line)).status)
+    except Malformed:
+        print("refused")
+"""
+    child = subprocess.run([sys.executable, "-O", "-c", program, str(tmp_path / "forged")], capture_output=True, text=True, check=True)
+    assert child.stdout.split() == expected and {"refuted", "refused"} <= set(expected)
+
+OBLIQUE = Scene(Body((3, 2, "1.5")), ConstantTorque(("0.1", "0.2", "0.1")))  # two equilibria (cases/off-axis-two.toml)
+
+
+@pytest.mark.parametrize("scene", [Scene(Body((3, 2, 1)), Gyrostat((1, 2, 3))), ScaledGyrostat(0.2, 0.4, (0, 0, 0))], ids=["physical", "scaled"])
+@pytest.mark.parametrize("kind", ["none", "all", "points"])
+def test_curves_without_a_torque_are_not_proved_under_another_name(scene, kind):
+    claimed = written(scene)
+    claimed["equilibria"]["kind"] = kind
+    assert verify(claimed).status == "refuted"
+    claimed["equilibria"]["kind"] = "some"
+    with pytest.raises(Malformed, match="kind"):
+        verify(claimed)
+
+
+def test_a_box_beside_the_equilibrium_is_not_proved():
+    claimed = written(OBLIQUE)
+    assert verify(claimed).status == "proved"
+    for point in claimed["equilibria"]["points"]:  # from just beside the zero (known to 2^-160) to 2^-110 away
+        middles = [(Fraction(low) + Fraction(high)) / 2 for low, high in point["box"]]
+        point["box"] = [[str(m + Fraction(1, 10**12 * 2**110)), str(m + Fraction(1, 2**110))] for m in middles]
+    assert verify(claimed).status != "proved"

@@ -1,0 +1,157 @@
+"""The checker of certificates: it proves what is right and refutes what is wrong, with code of its own."""
+import ast
+import copy
+import json
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from stabilab import Body, ConstantTorque, extremes, fate, Gyrostat, period, Scene
+from stabilab.verify import verify, verify_file
+from stabilab.verify.numbers import Malformed
+
+FOLDER = Path(__file__).parents[2] / "stabilab" / "verify"
+
+
+def text(value) -> str:
+    return str(Fraction(float(value)))
+
+
+def around(value, share=1e-9):
+    """A bracket about a number that was worked out in doubles by the analysis."""
+    reach = share * (1 + abs(value))
+    return [text(value - reach), text(value + reach)]
+
+
+def motion_certificate(D, lam, M, state):
+    """What the fast analysis says of a state, as a certificate."""
+    scene = Scene(Body(D), Gyrostat(lam), ConstantTorque(M))
+    found, ends, time = fate(scene, state), extremes(scene, state), float(period(scene, state))
+    return {"schema": "stabilab.certificate/1",
+            "scene": {"variables": "physical", "inertia": list(map(text, D)), "momentum": list(map(text, lam)), "torque": list(map(text, M))},
+            "motion": {"state": list(map(text, state)), "fate": ["bounded", "spin-up", "separatrix", "equilibrium"][int(found.labels)],
+                       "axis": int(found.axis), "sense": int(found.sense),
+                       "extremes": [[around(v) if np.isfinite(v) else None for v in pair] for pair in ends],
+                       "period": around(time) if 0 < time < np.inf else None}}
+
+
+def random_motions(count, seed):
+    rng = np.random.default_rng(seed)
+    for number in range(count):
+        D, axis = tuple(map(float, rng.uniform(1, 2, 3))), int(rng.integers(3))
+        lam, M = rng.normal(size=3), np.zeros(3)
+        lam[axis], M[axis] = 0.0, rng.normal() if number % 4 else 0.0
+        lam *= number % 3 > 0
+        yield D, tuple(map(float, lam)), tuple(map(float, M)), rng.normal(size=3) * 10 ** rng.uniform(-1, 1.5)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_fast_answers_are_proved_by_separate_code(seed):
+    # the checker shares nothing with fate, extremes and period: other variables, other potential, other quadrature
+    for arguments in random_motions(8, seed):
+        found = verify(motion_certificate(*arguments))
+        assert found.status == "proved", [f for f in found.findings if f.status != "proved"]
+
+
+BOUNDED = {"schema": "stabilab.certificate/1", "scene": {"variables": "scaled", "a": "0.2", "b": "0.4", "mu": ["0", "0", "1"]},
+           "motion": {"state": ["3", "-1.5", "0.3"], "fate": "bounded", "axis": 0, "sense": 0,
+                      "extremes": [[["-9", "9"], ["-9", "9"]]] * 3, "period": ["1", "30"]}}
+
+
+@pytest.mark.parametrize("change", [
+    {"fate": "spin-up", "axis": 3, "sense": 1}, {"fate": "equilibrium"}, {"period": ["2", "30"]},
+    {"extremes": [[["-9", "9"], ["-9", "9"]]] * 2 + [[["-9", "9"], None]]},
+    {"extremes": [[["-9", "9"], ["-9", "9"]]] * 2 + [[["-9", "9"], ["8", "9"]]]}])
+def test_a_wrong_claim_on_the_motion_is_refuted(change):
+    assert verify(BOUNDED).status == "proved"
+    wrong = copy.deepcopy(BOUNDED)
+    wrong["motion"].update(change)
+    assert verify(wrong).status == "refuted"
+
+
+# theory: minor axis, equilibria x3 = 0, x2 (x1 + b) = -1; with a = b = 0 the hyperbola x1 = -1/t, x2 = t, m = 1/t^2 - t^2
+HYPERBOLA = {"schema": "stabilab.certificate/1", "scene": {"variables": "scaled", "a": "0", "b": "0", "mu": ["0", "0", "1"]},
+             "equilibria": {"kind": "curves", "points": [], "curves": [{
+                 "numerators": [["-1"], ["0", "0", "1"], []], "denominator": ["0", "1"],
+                 "segments": [{"t": [None, ["-1", "-1"]], "linear": "unstable", "verdict": "unstable"},
+                              {"t": [["-1", "-1"], ["0", "0"]], "linear": "stable", "verdict": "stable"},
+                              {"t": [["0", "0"], ["1", "1"]], "linear": "stable", "verdict": "stable"},
+                              {"t": [["1", "1"], None], "linear": "unstable", "verdict": "unstable"}],
+                 "folds": [{"t": [n, n], "linear": "degenerate", "verdict": "unstable"} for n in ("-1", "1")]}]}}
+
+
+def test_the_equilibrium_hyperbola_is_proved():
+    found = verify(HYPERBOLA)
+    assert found.status == "proved" and any("complete" in f.claim for f in found.findings)
+
+
+@pytest.mark.parametrize("spoil", [
+    lambda e: e.update(kind="none", curves=[]), lambda e: e["curves"][0]["segments"][1].update(verdict="unstable"),
+    lambda e: e["curves"][0]["segments"][0].update(linear="stable"), lambda e: e["curves"][0]["folds"].pop(),
+    lambda e: e["curves"][0].update(numerators=[["1"], ["0", "0", "1"], []]),
+    lambda e: e["curves"][0]["folds"][0].update(t=["-2", "-1.5"]), lambda e: e["curves"][0]["folds"][1].update(verdict="stable"),
+    lambda e: e["curves"].append(e["curves"][0]),
+    # t -> t^2 runs over one branch only, twice
+    lambda e: e["curves"][0].update(numerators=[["-1"], ["0", "0", "0", "0", "1"], []], denominator=["0", "0", "1"])])
+def test_a_wrong_claim_on_the_curve_is_refuted(spoil):
+    wrong = copy.deepcopy(HYPERBOLA)
+    spoil(wrong["equilibria"])
+    assert verify(wrong).status == "refuted"
+
+
+# (x1 + a)(x1 + b) = mu2 mu3/mu1, x2 = -mu3/(x1 + b), x3 = mu2/(x1 + a) (theory.md, section 1); a = b = 0, mu = (1, 1, 1): x = +-(1, -1, 1)
+POINTS = {"schema": "stabilab.certificate/1", "scene": {"variables": "scaled", "a": "0", "b": "0", "mu": ["1", "1", "1"]},
+          "equilibria": {"kind": "points", "curves": [], "points": [
+              {"box": [["0.99", "1.01"], ["-1.01", "-0.99"], ["0.99", "1.01"]], "linear": "unstable", "verdict": "unstable"},
+              {"box": [["-1.01", "-0.99"], ["0.99", "1.01"], ["-1.01", "-0.99"]], "linear": "unstable", "verdict": "unstable"}]}}
+
+
+def test_two_isolated_equilibria_are_proved_in_their_boxes():
+    assert verify(POINTS).status == "proved"
+
+
+@pytest.mark.parametrize("spoil", [
+    lambda e: e["points"].pop(), lambda e: e["points"][0].update(verdict="stable"), lambda e: e["points"][1].update(linear="stable"),
+    lambda e: e["points"].append(copy.deepcopy(e["points"][0])), lambda e: e.update(kind="none")])
+def test_a_wrong_claim_on_the_points_is_refuted(spoil):
+    wrong = copy.deepcopy(POINTS)
+    spoil(wrong["equilibria"])
+    assert verify(wrong).status == "refuted"
+
+
+def test_a_box_without_an_equilibrium_is_not_proved():
+    wrong = copy.deepcopy(POINTS)
+    wrong["equilibria"]["points"][0]["box"] = [["2", "2.1"], ["-1.01", "-0.99"], ["0.99", "1.01"]]
+    assert verify(wrong).status != "proved"
+
+
+@pytest.mark.parametrize("spoil, word", [
+    (lambda c: c.update(schema="other"), "schema"), (lambda c: c["scene"].update(a="1e999999999"), "scene.a"),
+    (lambda c: c["scene"].update(mu=["0", "0"]), "scene.mu"), (lambda c: c["scene"].update(a=0.2), "scene.a"),
+    (lambda c: c["motion"].update(state=["x", "0", "0"]), "motion.state"), (lambda c: c["motion"].update(period=["3", "1"]), "motion.period")])
+def test_a_malformed_certificate_is_refused_with_its_key(spoil, word):
+    wrong = copy.deepcopy(BOUNDED)
+    spoil(wrong)
+    with pytest.raises(Malformed, match=word):
+        verify(wrong)
+
+
+def test_a_file_that_is_no_json_is_refused(tmp_path):
+    path = tmp_path / "certificate.json"
+    path.write_text("{", encoding="utf-8")
+    with pytest.raises(Malformed, match="JSON"):
+        verify_file(path)
+    path.write_text(json.dumps(POINTS), encoding="utf-8")
+    assert verify_file(path).status == "proved"
+
+
+def test_the_checker_shares_only_flint():
+    for path in FOLDER.glob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.ImportFrom):
+                assert node.level == 1 or node.module in ("flint", "fractions", "contextlib", "dataclasses", "functools", "math", "threading",
+                                                          "types", "__future__"), (path, node.module)
+            elif isinstance(node, ast.Import):
+                assert [a.name for a in node.names] in (["flint"], ["json"], ["re"], ["reprlib"]), path
