@@ -4,25 +4,34 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 
-.PHONY: report test test-slow test-long floors figures bench fuzz hunt coverage mutate clean
+.PHONY: report test check test-slow test-long floors figures bench fuzz hunt coverage mutate clean
 
 report: $(STAMP)
 	$(BIN)/stabilab report cases/*.toml --out report
 
+# ROOM=orbit/fate: the tests of one room or wing alone
+ROOM ?=
 test: $(STAMP)
-	$(BIN)/python -m pytest -n 2 -m "not slow"
+	$(BIN)/python -m pytest -n 2 -m "not slow" $(if $(ROOM),tests/$(ROOM))
+
+# Ruff's rules, and who may import whom
+check: $(STAMP)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e ".[check]"
+	$(BIN)/python -m ruff check
+	$(BIN)/python -m pytest tests/house/test_layout.py -k "not loads"
 
 test-slow: $(STAMP)
 	$(BIN)/python -m pytest -n 2 -m "slow and not long"
 
 # The tests that touch other packages, on the lowest versions that pyproject.toml admits, in an environment of their own
 FLOORS := .floors
-FLOOR_TESTS := $(addprefix tests/test_,$(addsuffix .py,case certificate cli digits equations extremes_speed fate_speed layout models \
-  separatrix_fast show simulation stability surroundings trajectories verify))
+FLOOR_TESTS := $(addprefix tests/,$(addsuffix .py,case/test_read answers/test_certificate test_cli answers/digits/test_digits physics/test_equations \
+  orbit/extremes/test_circle_kernel orbit/fate/test_table house/test_layout theories/test_follow orbit/separatrix/test_circle_kernel \
+  show/test_pictures answers/test_simulate equilibrium/test_stability house/test_surroundings integrate/test_trajectory verify/test_verify))
 floors:
 	rm -rf $(FLOORS)
 	$(PYTHON) -m venv $(FLOORS)
-	$(PYTHON) -m tests.floors > $(FLOORS)/constraints.txt
+	$(PYTHON) -m tests.house.floors > $(FLOORS)/constraints.txt
 	$(FLOORS)/bin/python -m pip install --quiet --disable-pip-version-check -c $(FLOORS)/constraints.txt -e ".[test,fast]"
 	$(FLOORS)/bin/python -m pytest -n 2 -m "not slow" -p no:cacheprovider $(FLOOR_TESTS)
 

@@ -243,7 +243,7 @@ def test_plot_writes_a_picture_and_says_where(stabilab, tmp_path):
 
 def test_surface_without_a_renderer_writes_the_meshes_and_ends_with_4(stabilab, tmp_path, monkeypatch):
     from stabilab.show.surface import render_probe
-    monkeypatch.setattr(render_probe, "probe", lambda: render_probe.Renderer(False, "no GL here"))
+    monkeypatch.setattr("stabilab.show.surface.write.probe", lambda: render_probe.Renderer(False, "no GL here"))
     code, _, err = stabilab("surface", MINOR, "--out", tmp_path)
     assert code == 4 and "no GL here" in err and render_probe.CURE in err
     assert {p.name for p in tmp_path.iterdir()} == {f"{MINOR.stem}.{end}" for end in ("vtp", "glb", "stl", "json")} | {"manifest.json"}
@@ -315,7 +315,7 @@ def test_files_of_a_sweep_bear_the_labels_of_its_combinations(stabilab, swept, c
 
 def test_surfaces_of_a_sweep_share_a_folder_and_a_manifest(stabilab, swept, monkeypatch):
     from stabilab.show.surface import render_probe
-    monkeypatch.setattr(render_probe, "probe", lambda: render_probe.Renderer(False, "no GL here"))
+    monkeypatch.setattr("stabilab.show.surface.write.probe", lambda: render_probe.Renderer(False, "no GL here"))
     code, out, err = stabilab("surface", "two.toml", "--out", "made")
     assert code == 4 and [row["case"] for row in strict_json(out)] == ["two-1", "two-2"] and "two-2.vtp" in err
     assert {p.name for p in (swept / "made").iterdir()} == {f"two-{i}.{end}" for i in (1, 2) for end in ("vtp", "glb", "stl", "json")} | {"manifest.json"}

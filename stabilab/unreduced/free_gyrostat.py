@@ -9,7 +9,7 @@ from .off_axis import STEP_BUDGET
 from .near_rest import beside_rest, small_loop
 from ..integrate.extrema import roots_of_rates
 from ..physics.states import equilibrium_mask, three_numbers
-from ..orbit.fate.arrays import fates
+from ..orbit.fate.arrays import fates  # noqa: F401  one of the four questions of `answers.kinds`
 from ..orbit.fate.one_state import at_rest, free_fate
 from ..orbit.result import finite, judged, Motion, pairs, repeats
 from ..physics.quadratic import rests

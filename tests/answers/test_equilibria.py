@@ -13,7 +13,6 @@ from stabilab.physics.coefficients import content
 from stabilab.answers.equilibria import equilibria, other_equilibria
 from stabilab.theories.follow import models_of
 from stabilab.answers.motion import motion
-from stabilab.unreduced.bounds import motion as other_motion
 from stabilab.answers.trajectory import trajectory
 
 
@@ -32,7 +31,7 @@ class Drift(Effect):
 
 def test_an_effect_that_is_not_known_is_run_and_not_judged():
     scene = Scene(Body((3, 2, 1)), Drift())
-    assert content(scene) is None and other_equilibria(scene) is None and other_motion(scene, (1.0, 0.5, 0.25)) is None
+    assert content(scene) is None and other_equilibria(scene) is None
     for question in (equilibria, lambda scene: motion(scene, (1.0, 0.5, 0.25)), lambda scene: stabilab.fate(scene, np.ones(3))):
         with pytest.raises(InputError):
             question(scene)

@@ -11,7 +11,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from stabilab import load, machine
+from stabilab import load
 from stabilab.cost import accuracy as measuring
 from stabilab.answers.digits import front as precision_front, run as precision_digits
 from stabilab.cost.accuracy import digit_price, pareto, Point, precision
@@ -332,7 +332,7 @@ def test_front_is_kept_per_motion_machine_and_version(tmp_path, monkeypatch, mea
     assert precision_front.keep(replace(coarse, effort="full")) == path and len(precision_front.front(FREE)) == 1
     short = replace(measured, effort="full", reference=replace(measured.reference, status="stopped"))
     assert precision_front.keep(short) is None  # it would speak of times that were not judged
-    monkeypatch.setattr(machine, "versions", lambda: {"stabilab": "0"})
+    monkeypatch.setattr("stabilab.answers.digits.front.versions", lambda: {"stabilab": "0"})
     assert precision_front.front(FREE) == ()
     path.write_text("{")
     assert precision_front.front(FREE) == ()

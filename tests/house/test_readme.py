@@ -217,7 +217,7 @@ def with_new_effect(tmp_path):
         shutil.copytree(ROOT / name, tmp_path / name, ignore=shutil.ignore_patterns("__pycache__"))
     shutil.copy(ROOT / "pyproject.toml", tmp_path)
     row = next(body for language, body in blocks(text) if body.strip() == LORENTZ_ROW)
-    registry = tmp_path / "stabilab/effects/__init__.py"
+    registry = tmp_path / "stabilab/physics/effects/__init__.py"
     before, bracket, after = registry.read_text().partition("\n}\n")
     registry.write_text(before + "\n" + row.rstrip("\n") + bracket + after)
     return prepared(text, tmp_path)

@@ -207,7 +207,7 @@ def nodes(path):
 
 def test_only_gates_that_hold_a_lock_set_a_precision():
     """Another place that set it would do so while some thread computes."""
-    gates = {"numbers/balls.py": "flint", "verify/precision.py": "flint", "exact.py": "mpmath", "theories/top/series.py": "mpmath"}
+    gates = {"numbers/balls.py": "flint", "verify/precision.py": "flint", "numbers/exact.py": "mpmath", "theories/top/series.py": "mpmath"}
     found = {path.relative_to(ROOT / "stabilab").as_posix(): ast.unparse(node.value).split(".")[0] for path in (ROOT / "stabilab").rglob("*.py")
              for node in nodes(path) if isinstance(node, ast.Attribute) and node.attr in ("workprec", "extraprec", "workdps", "extradps")}
     assert found == gates

@@ -4,7 +4,7 @@ import random
 from dataclasses import dataclass
 from pathlib import Path
 
-PACKAGE = Path(__file__).resolve().parents[2] / "stabilab" / "analysis"
+PACKAGE = Path(__file__).resolve().parents[2] / "stabilab"
 
 
 @dataclass(frozen=True)

@@ -83,8 +83,8 @@ class Changed(importlib.abc.MetaPathFinder, importlib.abc.SourceLoader):
     """Imports one module from changed text."""
 
     def __init__(self, fault):
-        self.name, self.fault = f"stabilab.analysis.{fault.module}", fault
-        self.path = str(ROOT / "stabilab" / "analysis" / f"{fault.module}.py")
+        self.name, self.fault = "stabilab." + fault.module.replace("/", "."), fault
+        self.path = str(ROOT / "stabilab" / f"{fault.module}.py")
 
     def find_spec(self, name, path=None, target=None):
         return importlib.util.spec_from_file_location(name, self.path, loader=self) if name == self.name else None

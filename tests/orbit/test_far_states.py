@@ -7,7 +7,6 @@ import pytest
 import stabilab
 from stabilab.answers.motion import motion
 from stabilab.errors import InputError
-from stabilab.answers.digits.ask import ask
 
 RATES = (0.1, 0.05, 0.2)
 BODIES = {"circle": (Body((12, 9, 5)), (1, 0, 0), (0, 0, 1)), "parabola": (Body((2, 2, 1)), (0, 1, 2), (1, 0, 0)),

@@ -181,7 +181,7 @@ def turned_by(cosine, sine):
 @pytest.mark.parametrize("cosine, sine", [(Fraction(3, 5), Fraction(4, 5)), (Fraction(-5, 13), Fraction(12, 13)), (Fraction(7, 25), Fraction(-24, 25))])
 def test_a_state_on_the_separatrix_stays_there_when_the_scene_is_turned(cosine, sine):
     scene, state = turned_by(cosine, sine)
-    assert kind_of(scene) == "turned"
+    assert kind_of(scene) == "aligned"
     given = tuple(map(float, state))
     assert stabilab.motion(scene, given, exact=state, brief=True).fate is Fate.SEPARATRIX
     near = (state[0], state[1] * (1 + Fraction(1, 10**25)), state[2])
@@ -212,7 +212,7 @@ def test_a_state_too_near_a_separatrix_for_an_irrational_turn_is_undecided_and_s
 def test_spin_along_a_torque_between_equal_axes_is_pure_spin_for_arrays_and_single_states(torque, along):
     """Nothing but the torque acts on a spin along it; turned in doubles, a component of 1e-17 across it would seem to bound it."""
     scene = Scene(Body((4, 4, 2)), Gyrostat((0, 0, 0)), ConstantTorque(torque))
-    assert kind_of(scene) == "turned"
+    assert kind_of(scene) == "aligned"
     many = stabilab.fate(scene, np.array([along, np.multiply(along, 2)]))
     np.testing.assert_array_equal(many.labels, Fate.SPIN_UP)
     assert many.precise == 2 and stabilab.motion(scene, along, brief=True).fate is Fate.SPIN_UP
@@ -233,7 +233,7 @@ def test_a_gyrostatic_component_along_a_torque_between_equal_axes_leaves_no_moti
     """Found by the search: decimals of a moment across the torque leave a hair along it, and the turned scene has no reduction.
     Law: |H|^2/2 - D T grows at the rate lambda.M, D the equal moments (from D omega.M = (D omega).M)."""
     scene = Scene(Body((4, 4, 2)), Gyrostat((-4.1, 3.0750000000000006, 0)), ConstantTorque((3, 4, 0)))
-    assert kind_of(scene) == "turned" and -4.1 * 3 + 3.0750000000000006 * 4 != 0
+    assert kind_of(scene) == "aligned" and -4.1 * 3 + 3.0750000000000006 * 4 != 0
     states = np.array([(1.0, 0.5, -0.25), (0.1, -2.0, 0.5)])
     many = stabilab.fate(scene, states)
     assert set(many.labels.tolist()) <= {Fate.SPIN_UP, Fate.UNDECIDED} and (many.margins == -np.inf).all() and not many.axis.any()

@@ -84,9 +84,9 @@ def test_a_captured_motion_names_its_axis_and_goes_where_it_says(sign, turned):
 def test_the_last_reversal_of_the_turn_is_the_same_by_both_steppers(state, turns, monkeypatch):
     """A series with events, and a Runge-Kutta method with roots of its interpolant."""
     pytest.importorskip("heyoka")
-    compiled, found = importlib.import_module("stabilab.physics.to_numpy"), []
+    found = []
     for available in (True, False):
-        monkeypatch.setattr(compiled, "heyoka_available", lambda: available)
+        monkeypatch.setattr("stabilab.integrate.to_heyoka.heyoka_available", lambda: available)
         run, last = growth_run._runner(0.3, state), None
         for t in (1.0, 2.5, 6.0):
             reached, y, reversal, steps = run(t, 10**6)

@@ -105,13 +105,13 @@ def test_what_has_no_number_needs_no_digits():
 def test_arrays_are_checked_on_a_sample_and_redone_where_it_falls_short():
     one = case("minor-axis-100")
     states = np.asarray(one.state) + np.random.default_rng(3).normal(size=(40, 3)) * 0.05
-    told = ask_all("period", one.scene, states, 9)
+    told = ask_all("period", one.scene, states, 9, period(one.scene, states))
     assert told.values.shape == (40,) and "16 of 40 states checked" in told.because
     assert np.array_equal(extremes(one.scene, states, digits=9), extremes(one.scene, states))
     fine = period(one.scene, states[:3], digits=14)
     for state, value in zip(states[:3], fine):
         assert float(abs(energy.period(model(one), tuple(state), digits=40) - value)) <= 1e-14 * value
-    assert ask_all("fate", one.scene, states[0], 20).decimals.shape == ()
+    assert ask_all("fate", one.scene, states[0], 20, fate(one.scene, states[0]).margins).decimals.shape == ()
     decided = fate(one.scene, states[:3], digits=15)
     assert (decided.labels == fate(one.scene, states[:3]).labels).all()
     for state, margin in zip(states[:3], decided.margins):

@@ -250,7 +250,7 @@ def test_where_no_folder_is_writable_the_kernel_compiles_without_a_cache(monkeyp
         if cache:
             raise RuntimeError("cannot cache function: no locator available")
         return {"orbits": "kernel"}
-    monkeypatch.setattr(numba_door, "compiled", compiled)
+    monkeypatch.setattr(fast_extremes, "compiled", compiled)
     fast_extremes.kernel.cache_clear()
     assert fast_extremes.kernel() == "kernel" and asked == [True, False]
     fast_extremes.kernel.cache_clear()

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import stabilab
+from stabilab.physics import quadratic
 from stabilab import Body, ConstantTorque, Fate, Scene
 from stabilab.orbit.fate import table_kernel as barrier_heights
 from stabilab.orbit.fate.table import barrier_table
@@ -82,11 +83,11 @@ def test_long_arrays_are_answered_in_chunks_and_any_chunk_gives_the_same_bytes(n
     states[[7, 31]] = near
     whole = stabilab.fate(scene, states)
     assert whole.precise == 2
-    monkeypatch.setattr(fate, "CHUNK", 7)
+    monkeypatch.setattr("stabilab.orbit.fate.result.CHUNK", 7)
     same(stabilab.fate(scene, states), whole)
     monkeypatch.setattr(fate, "TABLE_FROM", 0)
     by_chunks = stabilab.fate(scene, states)
-    monkeypatch.setattr(fate, "CHUNK", 100)
+    monkeypatch.setattr("stabilab.orbit.fate.result.CHUNK", 100)
     same(by_chunks, stabilab.fate(scene, states))
     np.testing.assert_array_equal(by_chunks.labels, whole.labels)
     assert by_chunks.precise == 2
@@ -103,8 +104,8 @@ def test_a_table_is_built_for_large_arrays_alone(monkeypatch):
 
 def test_few_states_are_asked_exactly_whether_they_rest(monkeypatch):
     """Rates in doubles are off by some roundings of their terms: only rates as small as that need fractions."""
-    scene, asked, real = scaled(0.25, 0.5, (0, 0, 1))[0], [], fate.rests
-    monkeypatch.setattr(fate, "rests", lambda form, state: asked.append(tuple(state)) or real(form, state))
+    scene, asked, real = scaled(0.25, 0.5, (0, 0, 1))[0], [], quadratic.rests
+    monkeypatch.setattr("stabilab.physics.states.rests", lambda form, state: asked.append(tuple(state)) or real(form, state))
     off = 10.0 ** np.arange(-17, -10, 0.25)
     states = np.array([(0.0, -2.0, 0.0), *((0.0, -2.0 * (1 + d), 0.0) for d in off)])
     labels = stabilab.fate(scene, states).labels
@@ -245,8 +246,7 @@ families = pytest.mark.parametrize("name", FAMILIES)
 @families
 def test_generic_states_need_no_many_digits(name, monkeypatch):
     """Error bounds that are too wide change no answer, only the cost: the counters tell."""
-    from stabilab.orbit.extremes import balls as precise_extremes
-    monkeypatch.setattr(precise_extremes, "precise_extremes", lambda *a: pytest.fail("a generic state went to ball arithmetic"))
+    monkeypatch.setattr("stabilab.orbit.extremes.arrays.precise_extremes", lambda *a: pytest.fail("a generic state went to ball arithmetic"))
     scene, states = FAMILIES[name][0], sample(name, 300)
     assert stabilab.fate(scene, states).precise == 0
     stabilab.extremes(scene, states, fast=False)

@@ -45,9 +45,8 @@ def available(fast):
 
 def general(scene, states):
     """Columns by the general formula, whatever the array's size."""
-    out = module.empty_columns(len(states))
-    module.label_all(scene, states, out)
-    return out
+    found = module.in_chunks(module.labeller(scene), states)
+    return {name: getattr(found, name) for name in module.empty_columns(0)}
 
 
 def near_the_separatrix(problem, rng, distances, spread=2.0):

@@ -1,0 +1,149 @@
+"""The rooms of the package and what each may import; the walk over all imports; the drawing in docs/house.md.
+
+`python -m tests.house.rooms` writes the drawing anew from the imports as they stand.
+"""
+from __future__ import annotations
+
+import ast
+from collections import Counter, defaultdict
+from pathlib import Path
+from typing import NamedTuple
+
+ROOT = Path(__file__).resolve().parents[2]
+PACKAGE = ROOT / "stabilab"
+PAGE = ROOT / "docs" / "house.md"
+GROUND = {"errors", "files", "interrupt", "machine", "packages", "streams", "asked"}
+# room -> rooms that it may import, besides itself and the ground; None: nothing, the ground included
+MAY: dict[str, str | None] = {
+    "numbers": "", "physics": "numbers", "case": "physics numbers", "integrate": "physics numbers", "equilibrium": "physics numbers",
+    "orbit": "physics numbers", "unreduced": "orbit equilibrium integrate physics numbers",
+    "answers": "unreduced orbit equilibrium integrate physics numbers", "theories": "answers integrate physics numbers",
+    "cost": "theories answers orbit integrate physics numbers", "verify": None,
+    "show": "cost theories answers unreduced orbit equilibrium integrate case physics numbers verify"}
+
+
+class Import(NamedTuple):
+    """One imported name: importing module, imported module, the name (None where the module itself is meant), the line, and
+    whether the import stands inside a function."""
+
+    source: str
+    target: str
+    name: str | None
+    line: int
+    inside: bool
+
+
+def modules() -> dict[str, Path]:
+    """Dotted name -> file of every module of the package."""
+    return {dotted(path): path for path in sorted(PACKAGE.rglob("*.py"))}
+
+
+def dotted(path: Path) -> str:
+    """The dotted name of a file of the package."""
+    parts = path.relative_to(ROOT).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+def imports(name: str, path: Path, known) -> list[Import]:
+    """Every import of a file that leads inside the package, those inside functions too."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    functions = (node for node in ast.walk(tree) if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)))
+    deep = {id(inner) for function in functions for inner in ast.walk(function)}
+    found = []
+    for node in ast.walk(tree):
+        for target, imported in _names(node, name, path.name == "__init__.py", known):
+            found.append(Import(name, target, imported, node.lineno, id(node) in deep))
+    return found
+
+
+def _names(node, name, is_room, known):
+    """(module, imported name or None) of one statement, where it leads inside the package."""
+    if isinstance(node, ast.Import):
+        yield from ((alias.name, None) for alias in node.names if alias.name.split(".")[0] == "stabilab")
+    elif isinstance(node, ast.ImportFrom):
+        package = name.split(".") if is_room else name.split(".")[:-1]
+        base = package[:len(package) + 1 - node.level] if node.level else []
+        stem = ".".join(base + (node.module.split(".") if node.module else []))
+        if stem.split(".")[0] == "stabilab":
+            for alias in node.names:
+                whole = f"{stem}.{alias.name}"
+                yield (whole, None) if whole in known else (stem, alias.name)
+
+
+def all_imports() -> list[Import]:
+    """Every import inside the package, in the order of the files."""
+    known = modules()
+    return [one for name, path in known.items() for one in imports(name, path, known)]
+
+
+def room(name: str) -> str:
+    """The room of a module: the first folder below the package, or the module itself where it lies in none."""
+    return name.split(".")[1] if "." in name else "stabilab"
+
+
+def circles(arrows) -> list[list[str]]:
+    """The circles among (source, target) arrows: strongly connected components of more than one member (Tarjan)."""
+    graph = defaultdict(set)
+    for source, target in arrows:
+        graph[source].add(target)
+    index, low, stack, found = {}, {}, [], []
+
+    def visit(node):
+        index[node] = low[node] = len(index)
+        stack.append(node)
+        for other in sorted(graph[node]):
+            if other not in index:
+                visit(other)
+                low[node] = min(low[node], low[other])
+            elif other in stack:
+                low[node] = min(low[node], index[other])
+        if low[node] == index[node]:
+            circle = stack[stack.index(node):]
+            del stack[stack.index(node):]
+            if len(circle) > 1:
+                found.append(sorted(circle))
+    for node in sorted(graph):
+        if node not in index:
+            visit(node)
+    return found
+
+
+def drawing() -> str:
+    """The rooms from the ground up, a line each: files, lines, and the rooms that it really imports, with the number of imports."""
+    known, arrows = modules(), all_imports()
+    size = Counter()
+    files = Counter()
+    for name, path in known.items():
+        files[room(name)] += 1
+        size[room(name)] += len(path.read_text(encoding="utf-8").splitlines())
+    into: dict[str, Counter] = defaultdict(Counter)
+    for one in arrows:
+        a, b = room(one.source), room(one.target)
+        if a != b and b in MAY:
+            into[a][b] += 1
+    rows = ["cli", *reversed(_floors())]
+    lines = []
+    for name in rows:
+        below = ", ".join(f"{other} {count}" for other, count in sorted(into[name].items(), key=lambda item: rows.index(item[0])))
+        lines.append(f"{name:<12}{files[name]:>4} files {size[name]:>6} lines   {'-> ' + below if below else ''}".rstrip())
+    return "\n".join(f"    {line}" for line in lines)
+
+
+def _floors() -> list[str]:
+    """The rooms from the lowest to the highest: each after those that it may import."""
+    order: list[str] = []
+    while len(order) < len(MAY):
+        order += [name for name, may in MAY.items() if name not in order and set((may or "").split()) <= set(order)]
+    return order
+
+
+def main() -> None:
+    """Write the drawing into docs/house.md, between its two marks."""
+    text = PAGE.read_text(encoding="utf-8")
+    head, rest = text.split("<!-- drawing -->\n", 1)
+    tail = rest.split("<!-- end of drawing -->", 1)[1]
+    PAGE.write_text(f"{head}<!-- drawing -->\n\n{drawing()}\n\n<!-- end of drawing -->{tail}", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
