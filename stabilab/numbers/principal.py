@@ -1,0 +1,225 @@
+"""Principal axes of a symmetric tensor of rationals, without a rounding that is not known.
+
+Whether a tensor is that of a rigid body is decided by signs of exact determinants. Its principal moments are the roots of its
+characteristic polynomial, isolated by Sturm's theorem: rational roots are recognised and kept, the others are enclosed. The direction
+of a rational moment is exact, and the other two are exactly across it, so a torque along it has no component across it. A length that
+is irrational has the same error. `error` bounds what is left, proved by the residual and the gaps (Davis and Kahan 1970).
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from ..errors import InputError
+from .exact import sqrt_fraction
+from .polynomial import Poly, integers, real_roots
+from .vectors import cross, dot
+
+BITS = 240  # of the numbers that cannot be rational
+IDENTITY = tuple(tuple(Fraction(i == j) for j in range(3)) for i in range(3))
+NAMES = "xyz"
+
+
+@dataclass(frozen=True)
+class PrincipalAxes:
+    """moments: three, in the tensor's unit; axes: rows, unit vectors of the principal axes in the input frame, right-handed.
+
+    exact: whether both are without error; else error bounds that of every moment relative to the largest and, as an angle in rad,
+    that of every axis. A tensor that is diagonal keeps its order; else the moments descend.
+    """
+
+    moments: tuple[Fraction, Fraction, Fraction]
+    axes: tuple[tuple[Fraction, Fraction, Fraction], ...]
+    exact: bool
+    error: Fraction = Fraction(0)
+
+    @property
+    def as_given(self) -> bool:
+        """Whether the principal axes are those of the input."""
+        return self.axes == IDENTITY
+
+    def turned(self, vector) -> tuple:
+        """The components along the principal axes of a vector of the input frame."""
+        return tuple(vector) if self.as_given else tuple(sum(a * v for a, v in zip(axis, vector)) for axis in self.axes)
+
+    def back(self, vector) -> tuple:
+        """The components in the input frame of a vector given along the principal axes."""
+        return tuple(vector) if self.as_given else tuple(sum(self.axes[i][j] * vector[i] for i in range(3)) for j in range(3))
+
+
+def principal_axes(tensor) -> PrincipalAxes:
+    """The principal moments and axes of an inertia tensor: 3 x 3 exact numbers. Raises InputError for one that no body has."""
+    rows = tuple(tuple(Fraction(v) for v in row) for row in tensor)
+    wrong = fault_of(rows)
+    if wrong:
+        raise InputError(wrong)
+    if not any(rows[i][j] for i in range(3) for j in range(3) if i != j):
+        return PrincipalAxes(tuple(rows[i][i] for i in range(3)), IDENTITY, True)
+    polynomial, bits = _characteristic(rows), BITS + 32
+    while True:
+        found = _axes(rows, _moments(rows, polynomial, bits), bits)
+        if found and found.error < Fraction(1, 1 << BITS):
+            return found
+        bits *= 2
+
+
+def fault_of(rows) -> str | None:
+    """What keeps a 3 x 3 tensor of rationals from being the inertia tensor of a body, in words; None where nothing does."""
+    for i, j in ((0, 1), (0, 2), (1, 2)):
+        if rows[i][j] != rows[j][i]:
+            return (f"the tensor is not symmetric: its {NAMES[i]}{NAMES[j]} entry is {float(rows[i][j])!r} and its {NAMES[j]}{NAMES[i]} "
+                    f"entry {float(rows[j][i])!r}, they differ by {float(abs(rows[i][j] - rows[j][i])):.6g}; write the same number in both places")
+    if any(minor < 0 for minor in _principal_minors(rows)) or not _determinant(rows) > 0:
+        least = float(real_roots(_characteristic(rows))[0])
+        return (f"the tensor is not positive definite: its least principal moment is {least:.6g} kg m^2, and those of a body are positive; "
+                "are the products too large, or their sign convention another one?")
+    half = (rows[0][0] + rows[1][1] + rows[2][2]) / 2
+    if any(minor < 0 for minor in _principal_minors(_shifted(rows, half, -1))):
+        largest = real_roots(_characteristic(rows))[-1]
+        return (f"the triangle inequality is broken: the largest principal moment, {float(largest):.12g}, exceeds the sum of the other two, "
+                f"{float(2 * half - largest):.12g}, by {float(2 * (largest - half)):.6g}; no rigid body has this tensor: "
+                "correct a moment, or the sign of a product")
+    return None
+
+
+def _principal_minors(m):
+    """All seven principal minors: a symmetric matrix is positive semidefinite where none is negative."""
+    pairs = [m[i][i] * m[j][j] - m[i][j] ** 2 for i, j in ((0, 1), (0, 2), (1, 2))]
+    return [*(m[i][i] for i in range(3)), *pairs, _determinant(m)]
+
+
+def _determinant(m) -> Fraction:
+    return dot(m[0], cross(m[1], m[2]))
+
+
+def _shifted(m, shift, sign=1):
+    """sign m - sign shift I."""
+    return tuple(tuple(sign * (v - (shift if i == j else 0)) for j, v in enumerate(row)) for i, row in enumerate(m))
+
+
+def _characteristic(m) -> Poly:
+    trace = m[0][0] + m[1][1] + m[2][2]
+    return Poly((-_determinant(m), sum(_principal_minors(m)[3:6]), -trace, 1))
+
+
+def _moments(m, polynomial, bits):
+    """((moment, whether it is rational and exact), ...) descending, as often as they are repeated; their sum is the exact trace."""
+    trace = m[0][0] + m[1][1] + m[2][2]
+    roots = [_rational(polynomial, root) for root in reversed(real_roots(polynomial, bits))]
+    if len(roots) == 3:
+        middle = trace - roots[0][0] - roots[2][0]
+        return roots[0], (middle, roots[1][1]), roots[2]
+    first, second = roots  # one of a cubic's two roots is double, so both are rational
+    return (first, first, second) if polynomial.derivative()(first[0]) == 0 else (first, second, second)
+
+
+def _rational(polynomial, root):
+    """(the rational root that this is within its error, True), or (root, False)."""
+    near = root.limit_denominator(integers(polynomial)[-1])
+    return (near, True) if polynomial(near) == 0 else (root, False)
+
+
+def _axes(m, moments, bits) -> PrincipalAxes | None:
+    """Axes of these moments with the error they have; None where the moments are not told apart yet."""
+    values = [value for value, _ in moments]
+    if len(set(values)) == 3:
+        directions = _three(m, moments, bits)
+    elif values[0] == values[1]:
+        first, second, third = _with_plane(_column(m, values[2]))
+        directions = [second, third, first]
+    else:
+        directions = list(_with_plane(_column(m, values[0])))
+    if directions is None:
+        return None
+    axes = _oriented([_unit(direction, bits) for direction in directions])
+    error = _error(m, values, axes)
+    return error if error is None else PrincipalAxes(tuple(values), axes, not error, error)
+
+
+def _three(m, moments, bits):
+    """Three directions. Where one moment is rational its direction is exact and the others exactly across it."""
+    order = sorted(range(3), key=lambda i: (not moments[i][1], i == 1))  # the best two; the third is across them
+    exact = [moments[i][1] for i in order]
+    first, second = (_column(m, moments[i][0]) for i in order[:2])
+    if not any(first) or not any(second):
+        return None
+    if not exact[1]:
+        second = _across(first, second, bits) if exact[0] else _rounded(second, bits)
+        first = first if exact[0] else _rounded(first, bits)
+    found = [None] * 3
+    found[order[0]], found[order[1]], found[order[2]] = first, second, cross(first, second)
+    return found
+
+
+def _across(first, direction, bits):
+    """The direction with two short numbers in the plane across `first`, to which it is exactly orthogonal."""
+    _, p, q = _with_plane(first)
+    a, b = _rounded((dot(direction, p) / dot(p, p), dot(direction, q) / dot(q, q)), bits)
+    return tuple(a * x + b * y for x, y in zip(p, q))
+
+
+def _rounded(numbers, bits):
+    """Multiples of the numbers with so many bits after the point, the largest of size 1."""
+    scale = max(map(abs, numbers))
+    return tuple(Fraction(round(v / scale * (1 << bits)), 1 << bits) for v in numbers)
+
+
+def _column(m, moment):
+    """The direction that (m - moment I) leaves out: the largest column of its adjugate; zero where two moments are alike."""
+    a = _shifted(m, moment)
+    adjugate = [cross(a[1], a[2]), cross(a[2], a[0]), cross(a[0], a[1])]  # symmetric
+    return adjugate[max(range(3), key=lambda i: abs(adjugate[i][i]))]
+
+
+def _unit(direction, bits):
+    """Scaled to length 1, exactly where that is rational; the scale has so many bits, so that exact zeros and angles stay."""
+    square = dot(direction, direction)
+    length = sqrt_fraction(square, bits)
+    if length * length != square:
+        length = 1 / _short(1 / length, bits)
+    return tuple(v / length for v in direction)
+
+
+def _short(value, bits):
+    """A positive number in so many bits."""
+    shift = bits - value.numerator.bit_length() + value.denominator.bit_length()
+    return Fraction(round(value * Fraction(2) ** shift)) / Fraction(2) ** shift
+
+
+def _with_plane(direction):
+    """A direction and two across it and across each other: any do where the moments there are equal."""
+    least = min(range(3), key=lambda i: (abs(direction[i]), i))
+    second = cross(direction, IDENTITY[least])
+    return direction, second, cross(direction, second)
+
+
+def _oriented(axes):
+    """Axes 1 and 3 with their largest component positive, axis 2 so that all are right-handed."""
+    first, third = (_positive(axes[0]), _positive(axes[2]))
+    second = axes[1] if dot(cross(third, first), axes[1]) > 0 else tuple(-v for v in axes[1])
+    return first, second, third
+
+
+def _positive(axis):
+    return axis if max(axis, key=lambda v: (abs(v), v)) > 0 else tuple(-v for v in axis)
+
+
+def _error(m, values, axes) -> Fraction | None:
+    """A bound of the errors of moments and axes; None where two moments are too close for this many bits.
+
+    A vector v of length 1 with |m v - D v| = r is within r of a moment, and within 2 r/gap (as an angle) of its axis, where gap is
+    the distance from D to the other moments. The lengths differ from 1 by the error of their square roots.
+    """
+    worst, scale = Fraction(0), values[0]
+    for index, (value, axis) in enumerate(zip(values, axes)):
+        rest = max(abs(dot(row, axis) - value * axis[i]) for i, row in enumerate(m))
+        gaps = [abs(value - other) for other in values if other != value]
+        if rest and not min(gaps, default=scale) > 8 * rest:
+            return None
+        worst = max(worst, abs(dot(axis, axis) - 1), 2 * rest / scale, 4 * rest / min(gaps, default=scale))
+    return _rounded_up(worst)
+
+
+def _rounded_up(value: Fraction) -> Fraction:
+    return Fraction(0) if not value else Fraction(1, 1 << max(0, value.denominator.bit_length() - value.numerator.bit_length() - 1))
+
