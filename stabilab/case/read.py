@@ -13,17 +13,21 @@ from ..physics.body import Body
 from .attitude import judge as judge_attitude
 from .attitude import vertical_of
 from .expect import expected
+from .hardware import judge_limits, Limits, limits_of, Thruster, thrusters_of, Wheel, wheels_of
+from .inertia import body_of, centre_of_mass
 from .lines import key_lines
 from .source import parsed, source_text
-from .sweep import combinations, swept
-from .table import did_you_mean, Faults, Table, Uncertain
+from .sweep import combinations, place, swept
+from .table import did_you_mean, dotted, Faults, Table, Uncertain
+from .turning import added, judge_oblique, turned_effects, turned_motion
 from ..physics.effects import effect_class, REGISTRY
 from ..errors import CaseError, InputError, printable
 from ..numbers.exact import floats
+from ..numbers.principal import PrincipalAxes
 from ..physics.scaling import Scaling, to_scaled, torque_from_mu
 from ..physics.scene import ScaledGyrostat, Scene
 
-TABLES = ("title", "source", "body", "effects", "scaled", "motion", "expect", "sweep")
+TABLES = ("title", "source", "body", "effects", "thrusters", "wheels", "limits", "scaled", "motion", "expect", "sweep")
 STATES, SPANS = ("angular_velocity", "x"), ("span", "tau")
 BLOCKS = {"attitude": "attitude", "vertical": "gamma", "velocity": "velocity", "position": "position"}  # key: block
 UNIT_SLACK = 1e-6  # a direction given to six decimals counts as a unit vector; the laws show |gamma| as it is
@@ -42,6 +46,11 @@ class Case:
     the case's time or None; expect: facts the case's test asserts; text: the source. uncertain: the numbers given with an
     uncertainty, whose middles everything else holds; mu: the dimensionless torque where the file gives it for a body.
     decimals: those of the state as they were written, before the one rounding to doubles (`exact_state`).
+
+    A file gives vectors in its own frame; scene, state and vertical are along the principal axes, which `frame` tells (None where
+    the file gives [scaled]); where the tensor is diagonal the two frames are one. thrusters, wheels, limits: as stated, in the frame
+    of the file; torques of the stuck ones and momenta of the wheels are in the scene. inexact: the keys whose unit holds pi, good to
+    240 bits. notes: what was taken for granted, in words.
     """
 
     path: str
@@ -60,6 +69,12 @@ class Case:
     uncertain: tuple[Uncertain, ...] = ()
     mu: tuple | None = None
     decimals: tuple[Fraction, Fraction, Fraction] | None = None
+    frame: PrincipalAxes | None = None
+    thrusters: tuple[Thruster, ...] = ()
+    wheels: tuple[Wheel, ...] = ()
+    limits: Limits | None = None
+    inexact: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
 
     @property
     def exact_state(self) -> tuple[Fraction, Fraction, Fraction] | None:
@@ -128,7 +143,7 @@ def load_all(path) -> list[Case]:
     found = combinations(Table((), data, faults))
     if not found:
         return [base]
-    moved = {tuple(key.split(".")): ("sweep", key) for key in data["sweep"]}
+    moved = {place(data, key): ("sweep", key) for key in data["sweep"]}
     return [_built(path, text, values, Faults(faults.lines, moved), suffix) for suffix, values in found]
 
 
@@ -143,9 +158,13 @@ def _built(path, text, data, faults, variant="") -> Case:
     top.known(TABLES, "table or key")
     swept(top)  # notes the faults of [sweep]
     title, source = top.text("title"), top.text("source")
-    physical, mu = _physical(top)
+    craft = _craft(top)
+    physical, mu, frame = _physical(top, craft)
     scaled = _scaled(top)
     motion = _motion(top)
+    judge_oblique(top, frame)
+    judge_limits(top, craft.limits, motion.exact if motion.state_key == "angular_velocity" else None)
+    motion = turned_motion(motion, frame)
     expect = expected(top.table("expect"))
     scene, variables, scaling = _variables(top, motion, physical, scaled, mu)
     _judge_blocks(motion, scene)
@@ -153,7 +172,26 @@ def _built(path, text, data, faults, variant="") -> Case:
     if faults.problems:
         raise CaseError(path, sorted(faults.problems, key=lambda p: p.line or 0))
     return Case(path, title, source, scene, variables, physical, scaling, motion.state, span, expect, motion.blocks, text,
-                variant, tuple(faults.uncertain.values()), mu, motion.exact)
+                variant, tuple(faults.uncertain.values()), mu, motion.exact, frame if physical else None, craft.thrusters, craft.wheels,
+                craft.limits, tuple(dict.fromkeys(map(dotted, sorted(faults.inexact, key=str)))), craft.notes)
+
+
+class _Craft(NamedTuple):
+    """What the file says a spacecraft carries."""
+
+    thrusters: tuple[Thruster, ...] = ()
+    wheels: tuple[Wheel, ...] = ()
+    limits: Limits | None = None
+    notes: tuple[str, ...] = ()
+
+
+def _craft(top: Table) -> _Craft:
+    if "scaled" in top:
+        return _Craft()
+    centre = centre_of_mass(top)
+    thrusters = thrusters_of(top, centre)
+    notes = ("the file gives no centre_of_mass: thrusters are placed from it",) if thrusters and centre is None else ()
+    return _Craft(thrusters, wheels_of(top), limits_of(top), notes)
 
 
 class _Context(NamedTuple):
@@ -166,16 +204,32 @@ class _Context(NamedTuple):
         return torque_from_mu(self.body, mu)
 
 
-def _physical(top: Table) -> tuple[Scene | None, tuple | None]:
-    """The scene of [body] and [effects], and the dimensionless torque where the file gives it."""
+def _physical(top: Table, craft: _Craft) -> tuple[Scene | None, tuple | None, PrincipalAxes | None]:
+    """The scene of [body], [effects] and hardware along principal axes, the dimensionless torque where the file gives it, the axes."""
     if "scaled" in top:
-        for key in ("body", "effects"):
+        for key in ("body", "effects", "thrusters", "wheels", "limits"):
             if key in top:
                 top.fault("[scaled] stands for [body] and [effects]: keep one or the other", key)
-        return None, None
-    body, effects = _body(top), top.table("effects")
+        return None, None, None
+    body, frame = body_of(top)
+    made = _effects(top, body)
+    if body is None or None in made:
+        return None, None, frame
+    whole = turned_effects(top, added(made, craft.thrusters, craft.wheels), frame)
+    torque = top.data.get("effects", {}).get("constant_torque") if isinstance(top.data.get("effects"), dict) else None
+    if not isinstance(torque, dict):  # absent, or no table, which is noted already
+        return Scene(body, *whole), None, frame
+    mu = Table(("effects", "constant_torque"), torque, Faults(top.faults.lines)).vector("mu")
+    if mu and any(thruster.stuck for thruster in craft.thrusters):
+        top.fault("mu cannot be added to the torque of a thruster: give torque in N m", "effects", "constant_torque", "mu")
+    return Scene(body, *whole), mu, frame
+
+
+def _effects(top: Table, body: Body | None) -> list:
+    """The effects as the file gives them, None for one at fault."""
+    effects = top.table("effects")
     if effects is None:
-        return (Scene(body) if body else None), None
+        return []
     made = []
     for name, value in effects.data.items():
         if name not in REGISTRY:
@@ -192,51 +246,7 @@ def _physical(top: Table) -> tuple[Scene | None, tuple | None]:
             made.append(cls.from_case(table, _Context(body or STAND_IN, body is None)))
         except InputError as error:  # numbers that are good one by one, but not together
             effects.fault(str(error), name)
-    if body is None or None in made:
-        return None, None
-    torque = effects.data.get("constant_torque")
-    if not isinstance(torque, dict):  # absent, or no table, which is noted above
-        return Scene(body, *made), None
-    mu = Table(("effects", "constant_torque"), torque, Faults(top.faults.lines)).vector("mu")
-    return Scene(body, *made), mu
-
-
-def _body(top: Table) -> Body | None:
-    table = top.table("body")
-    if table is None:
-        if "body" not in top:
-            top.fault("expected a table [body] with inertia (kg m^2), or [scaled] with a, b and mu")
-        return None
-    table.known(("inertia", "mass"))
-    mass = table.positive("mass")
-    moments = table.vector("inertia") if table.required("inertia") else None
-    negative = [index for index, moment in enumerate(moments or ()) if moment <= 0]
-    for index in negative:
-        table.fault(f"number {index + 1} is {float(moments[index])!r}; principal moments are positive", "inertia", index)
-    if moments and not negative and not _possible(table, moments):
-        return None
-    try:
-        return None if moments is None or negative or (mass is None and "mass" in table) else Body(moments, mass)
-    except InputError as error:
-        table.fault(str(error).removeprefix("inertia: "), "inertia")
-        return None
-
-
-def _possible(table: Table, moments) -> bool:
-    """Whether every body within the uncertainties exists; a fault where not."""
-    given = [table.faults.uncertain.get(table.path + ("inertia", i)) for i in range(3)]
-    low, high = ([m + sign * u.half if u else m for m, u in zip(moments, given)] for sign in (-1, 1))
-    if not any(given) or 2 * max(moments) > sum(moments):
-        return True  # `Body` says what is wrong with the middle
-    for index in range(3):
-        others = sum(low) - low[index]
-        if low[index] <= 0 or high[index] > others:
-            wrong = (f"moments down to {float(low[index])!r}" if low[index] <= 0 else
-                     f"{float(high[index])!r} beside others of {float(others)!r} together, against the triangle inequality")
-            table.fault(f"number {index + 1}: the uncertainty reaches {wrong}; no rigid body has these: make it smaller",
-                        "inertia", index)
-            return False
-    return True
+    return made
 
 
 def _scaled(top: Table) -> ScaledGyrostat | None:
@@ -261,6 +271,7 @@ class _Motion:
     span: tuple | None = None
     blocks: dict = field(default_factory=dict)
     exact: tuple | None = None
+    exact_vertical: tuple | None = None
 
 
 def _motion(top: Table) -> _Motion:
@@ -278,8 +289,9 @@ def _motion(top: Table) -> _Motion:
         for key, other in (("angular_velocity", "x"), ("span", "tau")):
             if key in table:
                 table.fault(f"a [scaled] system has no body to convert {key} with: give {other}", key)
-    blocks = {block: floats(vector) for key, block in BLOCKS.items() if (vector := table.vector(key)) is not None}
-    return _Motion(table, state_key, floats(state) if state else None, span_key, span, blocks, state)
+    vectors = {block: vector for key, block in BLOCKS.items() if (vector := table.vector(key)) is not None}
+    blocks = {block: floats(vector) for block, vector in vectors.items()}
+    return _Motion(table, state_key, floats(state) if state else None, span_key, span, blocks, state, vectors.get("gamma"))
 
 
 def _judge_blocks(motion: _Motion, scene):

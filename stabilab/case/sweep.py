@@ -7,7 +7,7 @@ from itertools import product
 from .table import described, Table
 
 MOST = 10_000  # combinations; a sweep beyond that is a program's work, not a file's
-SWEPT = ("body", "effects", "scaled", "motion")
+SWEPT = ("body", "effects", "scaled", "motion", "thrusters", "wheels", "limits")
 
 
 def combinations(top: Table) -> list[tuple[str, dict]]:
@@ -25,12 +25,12 @@ def swept(top: Table) -> tuple[list[tuple], list[list]]:
         return [], []
     paths, choices = [], []
     for key, values in table.data.items():
-        path = tuple(key.split("."))
+        path = place(top.data, key)
         if not isinstance(values, list) or not values:
             table.fault(f"expected a list of the values that {key} takes, got {described(values)}", key)
         elif _holder(top.data, path) is None:
-            table.fault(f"this file has no key {key}; write it as \"effects.gyrostat.momentum\", with a value in "
-                        "its place", key)
+            table.fault(f"this file has no key {key}; write it as \"effects.gyrostat.momentum\" or \"thrusters.NAME.force\", "
+                        "with a value in its place", key)
         else:
             paths.append(path)
             choices.append(list(enumerate(values, 1)))
@@ -43,12 +43,24 @@ def swept(top: Table) -> tuple[list[tuple], list[list]]:
     return paths, choices
 
 
+def place(data, key: str) -> tuple:
+    """The path of a key of [sweep]; a thruster or wheel is named, and stands at its index."""
+    path = tuple(key.split("."))
+    if len(path) == 3 and isinstance(data.get(path[0]), list):
+        at = [i for i, one in enumerate(data[path[0]]) if isinstance(one, dict) and one.get("name") == path[1]]
+        return (path[0], at[0], path[2]) if at else path
+    return path
+
+
 def _holder(data, path):
     """The table that holds the key of this path, or None."""
     if len(path) < 2 or path[0] not in SWEPT:
         return None
     for part in path[:-1]:
-        data = data.get(part) if isinstance(data, dict) else None
+        if isinstance(data, list):
+            data = data[part] if isinstance(part, int) else None
+        else:
+            data = data.get(part) if isinstance(data, dict) else None
     return data if isinstance(data, dict) and path[-1] in data else None
 
 

@@ -12,8 +12,9 @@ from unicodedata import category
 from .lines import KeyLines
 from ..errors import InputError, printable, Problem
 from ..numbers.exact import exact
+from .dimensions import dimension_of
 from .uncertainty import plus_minus, states_uncertainty
-
+from .units import quantity
 
 UNSEEN = ("Cc", "Cf", "Cs")  # Unicode's categories of control, format (such as right-to-left override) and surrogate characters
 
@@ -37,12 +38,13 @@ class Uncertain(NamedTuple):
 
 class Faults:
     """The faults found so far, each at the line of its key; moved: path -> path of the key that stands for it. uncertain:
-    path -> the number with an uncertainty that was read there."""
+    path -> the number with an uncertainty that was read there; inexact: paths of the numbers whose unit holds pi."""
 
     def __init__(self, lines: KeyLines, moved: dict | None = None):
         self.lines, self.moved = lines, moved or {}
         self.problems: list[Problem] = []
         self.uncertain: dict[tuple, Uncertain] = {}
+        self.inexact: set[tuple] = set()
 
     def add(self, path: tuple, message: str):
         source = next((there for here, there in self.moved.items() if path[:len(here)] == here), path)
@@ -86,6 +88,21 @@ class Table:
             return None
         return Table(self.path + (key,), value, self.faults)
 
+    def tables(self, key: str) -> list[Table]:
+        """The tables [[key]], each with its index in its path."""
+        value = self.data.get(key, [])
+        if isinstance(value, list) and all(isinstance(item, dict) for item in value):
+            return [Table(self.path + (key, index), item, self.faults) for index, item in enumerate(value)]
+        self.fault(f"expected tables [[{key}]], one for each, got {described(value)}", key)
+        return []
+
+    def truth(self, key: str) -> bool:
+        """true or false; false where the key is absent."""
+        value = self.data.get(key, False)
+        if not isinstance(value, bool):
+            self.fault(f"expected true or false, got {described(value)}", key)
+        return value is True
+
     def text(self, key: str, default: str = "") -> str:
         value = self.data.get(key, default)
         if not isinstance(value, str) or isinstance(value, Written):
@@ -124,6 +141,15 @@ class Table:
         read = [self._exact(item, key, index) for index, item in enumerate(value)]
         return None if None in read else tuple(read)
 
+    def matrix(self, key: str) -> tuple[tuple[Fraction, ...], ...] | None:
+        """Three rows of three exact numbers, all of their faults noted."""
+        value = self.data[key]
+        if len(value) != 3 or not all(isinstance(row, list) and len(row) == 3 for row in value):
+            self.fault("expected three numbers, or three rows of three numbers", key)
+            return None
+        read = [[self._exact(item, key, i, j) for j, item in enumerate(row)] for i, row in enumerate(value)]
+        return None if any(None in row for row in read) else tuple(map(tuple, read))
+
     def vector(self, key: str) -> tuple[Fraction, Fraction, Fraction] | None:
         """Three exact numbers."""
         return self.numbers(key, 3)
@@ -139,32 +165,44 @@ class Table:
         try:
             if isinstance(value, str) and not isinstance(value, Written) and states_uncertainty(value):
                 return self._middle(value, keys)
-            return _number(value)
+            return self._number(value, keys)
         except InputError as error:
-            place = f"number {keys[1] + 1}: " if len(keys) > 1 else ""
-            self.fault(place + str(error), *keys)
+            row, number = (f"row {keys[1] + 1}, " if len(keys) > 2 else "", f"number {keys[-1] + 1}: " if len(keys) > 1 else "")
+            self.fault(row + number + str(error), *keys)
             return None
 
     def _middle(self, text: str, keys) -> Fraction:
         """The middle of an uncertain number, which is noted."""
-        if self.path + keys[:1] not in UNCERTAIN:
+        if self.path + keys[:1] not in UNCERTAIN or len(keys) > 2:
             raise InputError(f"takes no uncertainty, got {described(text)}; one may stand in inertia, momentum, torque, mu, "
                              "a, b, angular_velocity and x")
-        found = Uncertain(self.path + keys, *plus_minus(text))
-        if found.half:
-            self.faults.uncertain[found.path] = found
-        return found.middle
+        path = self.path + keys
+        middle, half, sharp = plus_minus(text, dimension_of(path))
+        if half:
+            self.faults.uncertain[path] = Uncertain(path, middle, half)
+        if not sharp:
+            self.faults.inexact.add(path)
+        return middle
+
+    def _number(self, value, keys) -> Fraction:
+        if isinstance(value, Written) or not isinstance(value, str):
+            return _number(value)
+        number, sharp = quantity(value, dimension_of(self.path + keys))
+        if not sharp:
+            self.faults.inexact.add(self.path + keys)
+        return number
 
 
 def _number(value) -> Fraction:
+    """What TOML gives for a number: SI units."""
     if isinstance(value, Written):
         bare = value.lstrip("+-")
         if bare in ("inf", "nan"):
             raise InputError(f"expected a finite number, got {value}")
         return exact(str(value))
-    if isinstance(value, bool) or not isinstance(value, (int, str)):
+    if isinstance(value, bool) or not isinstance(value, int):
         raise InputError(f"expected a number, got {described(value)}")
-    if isinstance(value, int) and value.bit_length() > 1100:
+    if value.bit_length() > 1100:
         raise InputError("the number is larger than the largest double (about 1.8e308)")
     return exact(value)
 

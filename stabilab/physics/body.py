@@ -33,7 +33,7 @@ class Body:
         if 2 * largest > sum(moments):
             raise InputError(
                 f"inertia: the triangle inequality is broken: {float(largest):.17g} exceeds the sum of the other two, "
-                f"{float(sum(moments) - largest):.17g}; no rigid body has these moments")
+                f"{float(sum(moments) - largest):.17g}, by {float(2 * largest - sum(moments)):.6g}; no rigid body has these moments")
         if self.mass is not None:
             mass = exact(self.mass)
             if mass <= 0:

@@ -62,6 +62,11 @@ class Effect:
         """Up to where its law may be used in this scene."""
         return ()
 
+    def turned(self, frame) -> Effect | None:
+        """The same effect along the principal axes of `frame` (numbers.principal), from the frame that a case gives it in; None
+        where it cannot be turned. An effect that is alike in every frame is itself."""
+        return None
+
     def momentum(self, p: dict) -> Triple | None:
         """Angular momentum carried inside the body, body frame, kg m^2/s, from the parameter symbols `p`."""
         return None

@@ -42,6 +42,9 @@ class ConstantTorque(Effect):
         except InputError as error:
             table.fault(f"{error}; give torque in N m", key)
 
+    def turned(self, frame):
+        return ConstantTorque(frame.turned(self.exact))
+
     def parameters(self):
         return dict(zip(("M1", "M2", "M3"), self.exact))
 

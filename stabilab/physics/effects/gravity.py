@@ -36,6 +36,10 @@ class Gravity(Effect):
         weight, centre = table.number("weight"), table.vector("centre_of_mass")
         return None if weight is None or centre is None else cls(weight, centre)
 
+    def turned(self, frame):
+        weight = exact(self.weight)
+        return Gravity(weight, tuple(c / weight for c in frame.turned(self.exact))) if weight else self
+
     def parameters(self):
         return dict(zip(("Mgx", "Mgy", "Mgz"), self.exact))
 

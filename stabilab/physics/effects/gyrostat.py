@@ -27,6 +27,9 @@ class Gyrostat(Effect):
         object.__setattr__(self, "exact", exact_vector(self.moment, "momentum"))
         object.__setattr__(self, "moment", floats(self.exact))
 
+    def turned(self, frame):
+        return Gyrostat(frame.turned(self.exact))
+
     def parameters(self):
         return dict(zip(("lambda1", "lambda2", "lambda3"), self.exact))
 

@@ -69,6 +69,9 @@ class LiquidCavity(Effect):
         make = cls if shape == "P0" else cls.of_sphere
         return make(values["density"], values["viscosity"], values[shape], law)
 
+    def turned(self, frame):
+        return self
+
     def parameters(self):
         return {"kappa": self.exact}
 

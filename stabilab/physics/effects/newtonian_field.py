@@ -66,6 +66,9 @@ class NewtonianField(Effect):
                       "the field's torque is the first term of a series in this number, so near a centre the body does not move as computed",
                       "Amer et al. 2023, fast top: eq. (2)"),)
 
+    def turned(self, frame):
+        return self
+
     def parameters(self):
         return {"N": self.exact}
 

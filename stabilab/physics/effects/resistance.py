@@ -34,6 +34,9 @@ class Resistance(Effect):
         value = table.positive("coefficient", zero=True) if table.required("coefficient") else None
         return None if value is None else cls(value)
 
+    def turned(self, frame):
+        return self
+
     def parameters(self):
         return {"zeta": self.exact}
 

@@ -1,0 +1,112 @@
+"""[body] of a case file: moments, a full tensor, or moments beside products of inertia; mass and centre of mass."""
+from __future__ import annotations
+
+from fractions import Fraction
+
+from .table import described, Table
+from ..errors import InputError
+from ..numbers.principal import fault_of, IDENTITY, principal_axes, PrincipalAxes
+from ..physics.body import Body
+
+KEYS = ("inertia", "products", "mass", "centre_of_mass")
+PAIRS = {"xy": (0, 1), "xz": (0, 2), "yz": (1, 2)}
+CONVENTIONS = ('"positive" (the products are the integrals of x y dm and so on, the entries of the tensor are minus these; '
+               'NASA 42 and many mass-property reports) or "negative" (the products are the entries of the tensor themselves)')
+
+
+def body_of(top: Table) -> tuple[Body | None, PrincipalAxes | None]:
+    """The body in its principal axes and these, (None, None) where it is at fault."""
+    table = top.table("body")
+    if table is None:
+        if "body" not in top:
+            top.fault("expected a table [body] with inertia (kg m^2), or [scaled] with a, b and mu")
+        return None, None
+    table.known(KEYS)
+    mass = table.positive("mass")
+    table.vector("centre_of_mass")
+    frame = _frame(table) if table.required("inertia") else None
+    try:
+        return (None, None) if frame is None or (mass is None and "mass" in table) else (Body(frame.moments, mass), frame)
+    except InputError as error:
+        table.fault(str(error).removeprefix("inertia: "), "inertia")
+        return None, None
+
+
+def centre_of_mass(top: Table) -> tuple[Fraction, Fraction, Fraction] | None:
+    """Where the centre of mass is in the structural frame, m; None where the file does not say. Faults are noted by `body_of`."""
+    body = top.data.get("body")
+    if not isinstance(body, dict) or "centre_of_mass" not in body:
+        return None
+    return Table(("body",), body, type(top.faults)(top.faults.lines)).vector("centre_of_mass")
+
+
+def _frame(table: Table) -> PrincipalAxes | None:
+    value = table.data["inertia"]
+    nested = isinstance(value, list) and any(isinstance(row, list) for row in value) and all(isinstance(row, list) for row in value)
+    if not nested and "products" not in table:
+        moments = table.vector("inertia")
+        return PrincipalAxes(moments, IDENTITY, True) if moments and _good(table, moments) else None
+    rows = _tensor(table) if nested else _with_products(table)
+    wrong = rows and fault_of(rows)
+    if wrong:
+        table.fault(wrong, "inertia")
+    return None if wrong or rows is None else principal_axes(rows)
+
+
+def _tensor(table: Table):
+    """The 3 x 3 tensor as it is written."""
+    if "products" in table:
+        table.fault("a full tensor has the products of inertia in it: keep one of them", "products")
+        return None
+    return table.matrix("inertia")
+
+
+def _with_products(table: Table):
+    """Three moments and [body.products] as a tensor."""
+    moments, products = table.vector("inertia"), table.table("products")
+    if products is None or moments is None:
+        return None
+    products.known((*PAIRS, "convention"))
+    signs = {"positive": -1, "negative": 1}
+    convention = products.data.get("convention")
+    if convention not in signs:
+        came = "" if convention is None else f", got {described(convention)}"
+        keys = () if convention is None else ("convention",)
+        products.fault(f"products of inertia are printed with either sign: add convention = {CONVENTIONS}{came}", *keys)
+        return None
+    if any(path[:2] == ("body", "inertia") for path in table.faults.uncertain):
+        table.fault("moments with an uncertainty stand beside products, and no box is known for a tensor that turns: "
+                    "give numbers without uncertainty, or principal moments", "inertia")
+        return None
+    rows = [[moments[i] if i == j else Fraction(0) for j in range(3)] for i in range(3)]
+    for name, (i, j) in PAIRS.items():
+        value = products.number(name) if name in products else Fraction(0)
+        if value is None:
+            return None
+        rows[i][j] = rows[j][i] = signs[convention] * value
+    return rows
+
+
+def _good(table: Table, moments) -> bool:
+    """Whether three principal moments are positive, and possible within their uncertainties; the faults of both."""
+    negative = [index for index, moment in enumerate(moments) if moment <= 0]
+    for index in negative:
+        table.fault(f"number {index + 1} is {float(moments[index])!r}; principal moments are positive", "inertia", index)
+    return not negative and _possible(table, moments)
+
+
+def _possible(table: Table, moments) -> bool:
+    """Whether every body within the uncertainties exists; a fault where not."""
+    given = [table.faults.uncertain.get(table.path + ("inertia", i)) for i in range(3)]
+    low, high = ([m + sign * u.half if u else m for m, u in zip(moments, given)] for sign in (-1, 1))
+    if not any(given) or 2 * max(moments) > sum(moments):
+        return True  # `Body` says what is wrong with the middle
+    for index in range(3):
+        others = sum(low) - low[index]
+        if low[index] <= 0 or high[index] > others:
+            wrong = (f"moments down to {float(low[index])!r}" if low[index] <= 0 else
+                     f"{float(high[index])!r} beside others of {float(others)!r} together, against the triangle inequality")
+            table.fault(f"number {index + 1}: the uncertainty reaches {wrong}; no rigid body has these: make it smaller",
+                        "inertia", index)
+            return False
+    return True

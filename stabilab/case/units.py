@@ -1,0 +1,150 @@
+"""Numbers with a unit, exactly: "22 N", "30 deg/s", "0.3 N m s".
+
+A table of our own rather than pint: pint's import takes longer than the whole of `stabilab classify`, its numbers are doubles where
+ours are exact, and an unknown unit should be answered with the few that a spacecraft needs. Exact decimals stay exact in every unit
+but those of a turn (deg, arcmin, arcsec, rev, rpm), which hold pi: these are good to 240 bits.
+"""
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+from functools import lru_cache
+from typing import NamedTuple
+
+from ..errors import InputError
+from ..numbers.exact import exact
+
+Dimension = tuple  # exponents of m, kg, s, A, rad
+
+
+class Unit(NamedTuple):
+    """One of it in SI units, its dimension, and whether its size is exact."""
+
+    size: Fraction
+    dimension: Dimension
+    exact: bool = True
+
+
+PREFIXES = {"n": -9, "u": -6, "µ": -6, "μ": -6, "m": -3, "c": -2, "d": -1, "k": 3, "M": 6, "G": 9}
+BASE = {"m": (1, 0, 0, 0, 0), "g": (0, 1, 0, 0, 0), "s": (0, 0, 1, 0, 0), "A": (0, 0, 0, 1, 0), "rad": (0, 0, 0, 0, 1),
+        "N": (1, 1, -2, 0, 0), "J": (2, 1, -2, 0, 0), "W": (2, 1, -3, 0, 0), "Pa": (-1, 1, -2, 0, 0), "C": (0, 0, 1, 1, 0),
+        "V": (2, 1, -3, -1, 0), "T": (0, 1, -2, -1, 0), "Nm": (2, 1, -2, 0, 0), "Nms": (2, 1, -1, 0, 0)}
+TURNS = {"deg": 360, "°": 360, "arcmin": 21600, "arcsec": 1296000, "rev": 1}  # how many make a turn
+OTHERS = {"min": ("60", "s"), "h": ("3600", "s"), "hr": ("3600", "s"), "day": ("86400", "s"), "lb": ("453.59237", "g"),
+          "in": ("0.0254", "m"), "ft": ("0.3048", "m"), "lbf": ("4.4482216152605", "N"), "slug": ("44482216152605/3048000000", "g")}
+WHOLE = {"sec": "s", "kilogram": "kg", "newton": "N"}  # other words for a unit
+ACCEPTED = ("m, kg, g, s, A, rad, N, J, W, Pa, C, V, T with the prefixes n u m c d k M G; deg, arcmin, arcsec, rev, rpm; "
+            "min, h, day; in, ft, lb, lbf, slug; and products, powers and quotients of these such as N m s, kg m^2, deg/s")
+NONE, LENGTH, MASS, TIME, ANGLE = (0,) * 5, (1, 0, 0, 0, 0), (0, 1, 0, 0, 0), (0, 0, 1, 0, 0), (0, 0, 0, 0, 1)
+RATE, FORCE, TORQUE, MOMENTUM = (0, 0, -1, 0, 1), (1, 1, -2, 0, 0), (2, 1, -2, 0, 0), (2, 1, -1, 0, 0)
+INERTIA, VELOCITY, CHARGE, FLUX = (2, 1, 0, 0, 0), (1, 0, -1, 0, 0), (0, 0, 1, 1, 0), (0, 1, -2, -1, 0)
+PER_SECOND, PER_SECOND_2, DENSITY, VISCOSITY = (0, 0, -1, 0, 0), (0, 0, -2, 0, 0), (-3, 1, 0, 0, 0), (2, 0, -1, 0, 0)
+ATTRACTION, LENGTH_7 = (3, 0, -2, 0, 0), (7, 0, 0, 0, 0)
+NAMES = {NONE: "a number without a unit", LENGTH: "length (m)", MASS: "mass (kg)", TIME: "time (s)", ANGLE: "angle (rad)",
+         RATE: "angular velocity (rad/s)", FORCE: "force (N)", TORQUE: "torque (N m)", MOMENTUM: "angular momentum (N m s)",
+         INERTIA: "moment of inertia (kg m^2)", VELOCITY: "velocity (m/s)", CHARGE: "charge (C)", FLUX: "magnetic flux density (T)",
+         PER_SECOND: "rate (1/s)", DENSITY: "density (kg/m^3)", VISCOSITY: "kinematic viscosity (m^2/s)", (2, 1, -3, 0, 0): "power (W)",
+         (-1, 1, -2, 0, 0): "pressure (Pa)", (0, 0, -2, 0, 1): "angular acceleration (rad/s^2)", (1, 1, -1, 0, 0): "momentum (N s)"}
+
+_NUMBER = re.compile(r"\s*([+-]?(?:\d[\d_]*(?:\.[\d_]*)?|\.\d[\d_]*)(?:[eE][+-]?\d+)?(?:\s*/\s*\d+)?)\s*(.*)", re.ASCII | re.DOTALL)
+_FACTOR = re.compile(r"\s*([*·/.\-]|)\s*(1|[A-Za-zµμ°]+)(?:(?:\^|\*\*)?([+-]?\d{1,2})|([²³]))?\s*")
+_SUPER = {"²": 2, "³": 3}
+
+
+def split(text: str) -> tuple[str, str] | None:
+    """("22", "N") of "22 N"; None where the text does not begin with a number."""
+    found = _NUMBER.fullmatch(text) if len(text) <= 400 else None
+    return (found[1], found[2].strip()) if found else None
+
+
+def quantity(text: str, wanted: Dimension) -> tuple[Fraction, bool]:
+    """(the number in SI units, whether that is exact) of a number with its unit, or without, which is SI. Raises InputError."""
+    parts = split(text)
+    if parts is None:
+        return exact(text), True  # which says what is wrong
+    if not parts[1]:
+        return exact(parts[0]), True
+    unit = in_dimension(parts[1], wanted, text)
+    value = exact(parts[0])
+    return exact(value * unit.size), unit.exact or not value  # refuses what no double can hold
+
+
+def in_dimension(words: str, wanted: Dimension, text: str = "") -> Unit:
+    """The unit, which must have the dimension that is wanted. Raises InputError with both dimensions otherwise."""
+    unit = unit_of(words)
+    if unit.dimension != wanted:
+        came = text or words
+        if wanted == NONE:
+            raise InputError(f'expected {named(wanted)}, got {named(unit.dimension)}: "{came[:60]}"')
+        raise InputError(f'expected {named(wanted)}, got {named(unit.dimension)}: "{came[:60]}"; a number alone is in SI units')
+    return unit
+
+
+def unit_of(words: str) -> Unit:
+    """The unit that a product of units makes. Raises InputError for a word that is none, with those that are accepted."""
+    size, dimension, is_exact, at, divided = Fraction(1), NONE, True, 0, False
+    while at < len(words):
+        found = _FACTOR.match(words, at)
+        if not found or (at == 0 and found[1]):
+            raise InputError(f'unknown unit "{words[:60]}"; accepted are {ACCEPTED}')
+        if found[1] == "/" and divided:
+            raise InputError(f'"{words[:60]}" divides twice: write what is divided by in powers, such as m s^-2')
+        divided = divided or found[1] == "/"
+        one = _single(found[2], words)
+        power = int(found[3] or _SUPER.get(found[4], 1)) * (-1 if divided else 1)
+        size *= one.size ** power
+        dimension = tuple(d + power * e for d, e in zip(dimension, one.dimension))
+        is_exact, at = is_exact and one.exact, found.end()
+    return Unit(size, dimension, is_exact)
+
+
+def named(dimension: Dimension) -> str:
+    """The name of a dimension, with its SI unit."""
+    found = NAMES.get(dimension)
+    powers = zip(("m", "kg", "s", "A", "rad"), dimension)
+    return found or " ".join(f"{name}^{power}" if power != 1 else name for name, power in powers if power)
+
+
+def _single(word: str, words: str) -> Unit:
+    word = WHOLE.get(word, word)
+    if word == "1":
+        return Unit(Fraction(1), NONE)
+    if word == "rpm":
+        return Unit(2 * pi() / 60, RATE, False)
+    if word in TURNS:
+        return Unit(2 * pi() / TURNS[word], BASE["rad"], False)
+    if word in OTHERS:
+        size, of = OTHERS[word]
+        base = _single(of, words)
+        return Unit(Fraction(size) * base.size, base.dimension)
+    if word in BASE:
+        return Unit(Fraction(1, 1000) if word == "g" else Fraction(1), BASE[word])
+    if word[:1] in PREFIXES and word[1:] in BASE:
+        base = _single(word[1:], words)
+        return Unit(Fraction(10) ** PREFIXES[word[0]] * base.size, base.dimension)
+    if word == "Hz":
+        raise InputError('"Hz" may mean rad/s or turns a second: write rad/s, rev/s or 1/s')
+    raise InputError(f'unknown unit "{word[:60]}"{_near(word)}; accepted are {ACCEPTED}')
+
+
+def _near(word: str) -> str:
+    from difflib import get_close_matches
+    known = [*BASE, *TURNS, *OTHERS, "rpm", "kg", "mN", "cm", "mm", "km", "kN"]
+    near = get_close_matches(word, known, n=1, cutoff=0.6) or get_close_matches(word.lower(), known, n=1, cutoff=0.6)
+    return f", did you mean {near[0]}?" if near else ""
+
+
+@lru_cache(maxsize=1)
+def pi() -> Fraction:
+    """Pi within 2**-300, by Machin's formula in integers."""
+    bits = 320
+    one = 1 << bits
+
+    def arctan(inverse):
+        term, total, n = one // inverse, 0, 1
+        while term:
+            total += term // n if n % 4 == 1 else -(term // n)
+            term //= inverse * inverse
+            n += 2
+        return total
+    return Fraction((4 * (4 * arctan(5) - arctan(239))) >> 16, 1 << (bits - 16))
