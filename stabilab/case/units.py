@@ -17,6 +17,10 @@ from ..numbers.exact import exact
 Dimension = tuple  # exponents of m, kg, s, A, rad
 
 
+class UnknownUnit(InputError):
+    """A word that is no unit."""
+
+
 class Unit(NamedTuple):
     """One of it in SI units, its dimension, and whether its size is exact."""
 
@@ -64,8 +68,12 @@ def quantity(text: str, wanted: Dimension) -> tuple[Fraction, bool]:
         return exact(text), True  # which says what is wrong
     if not parts[1]:
         return exact(parts[0]), True
-    unit = in_dimension(parts[1], wanted, text)
     value = exact(parts[0])
+    try:
+        unit = in_dimension(parts[1], wanted, text)
+    except UnknownUnit as error:
+        raise InputError(f'expected a decimal or a ratio such as "0.1" or "2/3"{"" if wanted == NONE else ", alone or with a unit"}, '
+                         f'got "{text[:60]}"{"" if wanted == NONE else f": {error}"}') from None
     return exact(value * unit.size), unit.exact or not value  # refuses what no double can hold
 
 
@@ -86,7 +94,7 @@ def unit_of(words: str) -> Unit:
     while at < len(words):
         found = _FACTOR.match(words, at)
         if not found or (at == 0 and found[1]):
-            raise InputError(f'unknown unit "{words[:60]}"; accepted are {ACCEPTED}')
+            raise UnknownUnit(f'unknown unit "{words[:60]}"; accepted are {ACCEPTED}')
         if found[1] == "/" and divided:
             raise InputError(f'"{words[:60]}" divides twice: write what is divided by in powers, such as m s^-2')
         divided = divided or found[1] == "/"
@@ -124,7 +132,7 @@ def _single(word: str, words: str) -> Unit:
         return Unit(Fraction(10) ** PREFIXES[word[0]] * base.size, base.dimension)
     if word == "Hz":
         raise InputError('"Hz" may mean rad/s or turns a second: write rad/s, rev/s or 1/s')
-    raise InputError(f'unknown unit "{word[:60]}"{_near(word)}; accepted are {ACCEPTED}')
+    raise UnknownUnit(f'unknown unit "{word[:60]}"{_near(word)}; accepted are {ACCEPTED}')
 
 
 def _near(word: str) -> str:
