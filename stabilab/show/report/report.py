@@ -17,7 +17,7 @@ from ..figures import catalogue as figures, paper
 from ..files import manifest
 from .. import style
 from ..surface import write as surface
-from ..text import table
+from ..text import frame, table
 from stabilab import __version__
 from ...case.read import load_all
 from ...theories.audit import check
@@ -225,6 +225,7 @@ def _motion(case):
     found = motion(case.scene, case.start, case.span, exact=case.exact_state)
     names = case.scene.components
     rows = [] if found.validity is None else [("law", found.validity.words)]
+    rows += [("frame", line.strip().removeprefix("frame: ")) for line in frame.lines(case)]
     rows += [("start", _triple(found.at)), ("fate", found.fate.word + (f" about axis {found.axis}, "
              f"{'positive' if found.sense > 0 else 'negative'} sense" if found.axis else "")), ("because", found.because)]
     if found.margin_energy is not None:

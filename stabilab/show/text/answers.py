@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import math
 
+from . import frame
 from ...physics.blocks import PARTS
 
 UNITS = {"physical": ("rad/s", "s", "J"), "scaled": ("", "tau", "")}
@@ -33,9 +34,15 @@ def classification(case, equilibria, motion) -> dict:
     """One object of `stabilab classify --json`."""
     return {"schema": "stabilab.classify/1", "case": case.name, "variables": case.variables,
             "equilibria": {"kind": equilibria.kind, "reason": equilibria.reason,
-                           "points": [_point(p) for p in equilibria.points],
+                           "points": [_point(p) | _input(case, p.at) for p in equilibria.points],
                            "curves": [_curve(c) for c in equilibria.curves]},
-            "motion": None if motion is None else _motion(motion)}
+            "motion": None if motion is None else _motion(motion) | _input(case, motion.at)} | frame.key(case)
+
+
+def _input(case, at) -> dict:
+    """The same vector in the frame of the file, where that is another one."""
+    found = frame.back(case, at[:3])
+    return {} if found is None else {"at_input": found}
 
 
 def _point(p) -> dict:
@@ -67,14 +74,14 @@ def extremes(case, motion) -> dict:
     """One object of `stabilab extremes --json`; null where a component is unbounded or unknown (see fate)."""
     return {"schema": "stabilab.extremes/1", "case": case.name, "variables": case.variables, "at": motion.at,
             "fate": motion.fate.word, "components": case.scene.components, "extremes": motion.extremes,
-            "over": motion.extremes_over}
+            "over": motion.extremes_over} | frame.key(case)
 
 
 def simulation(case, run) -> dict:
     """The object of `stabilab simulate --json`."""
     return {"schema": "stabilab.simulate/1", "case": case.name, "model": run.model, "time": case.scene.time_unit,
             "t": run.t, "state": run.state, "invariant_drift": run.invariant_drift, "counters": run.counters,
-            "method": run.method, "rtol": run.rtol, "status": run.status, "reason": run.reason}
+            "method": run.method, "rtol": run.rtol, "status": run.status, "reason": run.reason} | frame.rows(case, run) | frame.key(case)
 
 
 def columns(run) -> tuple[list[str], list[list[float]]]:
@@ -112,7 +119,7 @@ def _extreme_lines(case, pairs) -> list[str]:
 def classification_text(case, equilibria, motion) -> str:
     """What `stabilab classify` prints for one case."""
     head = [f"{case.name}: {case.title}" if case.title else case.name, f"variables: {case.variables}",
-            f"equilibria: {equilibria.kind}", f"  {equilibria.reason}"]
+            *frame.lines(case), f"equilibria: {equilibria.kind}", f"  {equilibria.reason}"]
     points = [line for p in equilibria.points for line in _point_lines(p)]
     curves = [line for c in equilibria.curves for line in _curve_lines(c)]
     return "\n".join(head + points + curves + ([] if motion is None else _motion_lines(case, motion)))
@@ -165,7 +172,7 @@ def simulation_text(case, run) -> str:
     laws = [f"# {name}: largest relative departure {value:.3g}" for name, value in run.invariant_drift.items()]
     how = f"# {run.method}, rtol {run.rtol:.3g}" if run.rtol else f"# {run.model}: {run.method}"
     notes = [f"# {run.reason}"] if run.reason and run.reason != "all times reached" else []
-    return "\n".join([head, *lines, how, *laws, *notes])
+    return "\n".join([head, *lines, how, *laws, *notes, *(f"# {line.strip()}" for line in frame.note(case))])
 
 
 def _number(value) -> str:

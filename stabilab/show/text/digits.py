@@ -4,7 +4,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from . import answers
+from . import answers, frame
 
 SHOWN = 12  # digits of a number in text where no more were asked for
 
@@ -42,7 +42,7 @@ def extremes_text(case, motion, told, say: bool) -> str:
     unit, wide = answers.UNITS[case.variables][0], max(24, told.asked + 8)
     pairs = told.decimals or [[_number(v, told.asked) for v in pair] for pair in (_with(motion, told).extremes or ((None, None),) * 3)]
     lines += [f"  {name:<8}{_word(low):>{wide}}{_word(high):>{wide}}  {unit}".rstrip() for name, (low, high) in zip(case.scene.components, pairs)]
-    return "\n".join(lines + [_said(told)] * say)
+    return "\n".join(lines + frame.note(case) + [_said(told)] * say)
 
 
 def _word(text) -> str:
@@ -66,20 +66,20 @@ def fate(case, motion, told) -> dict:
     margin = motion.margin_energy if told.values is None else told.values
     return {"schema": "stabilab.fate/1", "case": case.name, "variables": case.variables, "at": motion.at, "fate": motion.fate.word,
             "axis": motion.axis or None, "sense": motion.sense or None, "because": motion.because, "margin": margin,
-            "digits": as_dict(told)}
+            "digits": as_dict(told)} | frame.key(case)
 
 
 def fate_text(case, motion, told, say: bool) -> str:
     """The fate, why, and the margin in energy."""
     spin = f" about axis {motion.axis}, {'positive' if motion.sense > 0 else 'negative'} sense" if motion.axis else ""
     margin = [] if told.values is None else [f"  margin, energy  {told.decimals or _number(told.values, told.asked)} {answers.UNITS[case.variables][2]}".rstrip()]
-    return "\n".join([f"{case.name}: {motion.fate.word}{spin}", f"  {motion.because}", *margin, *([_said(told)] * say)])
+    return "\n".join([f"{case.name}: {motion.fate.word}{spin}", f"  {motion.because}", *margin, *frame.note(case), *([_said(told)] * say)])
 
 
 def period(case, motion, told) -> dict:
     """One object of `stabilab period --json`; null where the motion does not repeat."""
     return {"schema": "stabilab.period/1", "case": case.name, "variables": case.variables, "at": motion.at, "fate": motion.fate.word,
-            "period": told.values, "time": case.scene.time_unit, "digits": as_dict(told)}
+            "period": told.values, "time": case.scene.time_unit, "digits": as_dict(told)} | frame.key(case)
 
 
 def period_text(case, motion, told, say: bool) -> str:

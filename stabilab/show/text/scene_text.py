@@ -4,6 +4,10 @@ from ...physics.equations import derive
 from ...physics.laws import invariants
 from ...physics.notation import latex, lines
 
+import math
+
+from . import frame
+
 
 def text(case) -> str:
     """Scene, parameters, equations of motion as text and LaTeX, invariants: what `stabilab show` prints."""
@@ -21,11 +25,39 @@ def _head(case) -> str:
     if case.physical:
         rows.append(f"  body with inertia {case.physical.body.inertia} kg m^2")
         rows += [f"  {effect.name.replace('_', ' ')}: {_values(effect)}" for effect in case.physical.effects]
+    rows += [f"  {line}" for line in frame.lines(case)]
+    rows += [f"  {line}" for line in _craft(case)]
     if case.scaling:
         rows.append(f"  one unit of tau is {float(case.scaling.time):.15g} s; "
                     f"omega_j = {', '.join(f'{float(r):.15g}' for r in case.scaling.rate)} times x_j (rad/s)")
     rows += [f"  motion from {case.state}"] if case.state else []
+    rows += [f"  good to 240 bits, as their unit holds pi: {', '.join(case.inexact)}"] if case.inexact else []
+    rows += [f"  note: {note}" for note in case.notes]
     return "\n".join(rows) + "\n"
+
+
+def _craft(case) -> list[str]:
+    """Thrusters, wheels and limits, in the frame of the file."""
+    lines = []
+    for t in case.thrusters:
+        cone = "" if t.misalignment is None else f", within {math.degrees(t.misalignment):.6g} deg"
+        off = "" if t.force_tolerance is None else f" +- {float(t.force_tolerance):.6g}"
+        lines.append(f"thruster {t.name}{' (stuck)' if t.stuck else ''}: {float(t.force):.12g}{off} N along {_triple(t.direction)}{cone} at "
+                     f"{_triple(t.position)} m, torque {_triple(t.torque)} N m, all in the frame of the file")
+    lines += [f"wheel {w.name}: {float(w.momentum):.12g} N m s about {_triple(w.axis)} in the frame of the file" for w in case.wheels]
+    if case.limits:
+        words = f"|omega| up to {_degrees(case.limits.rate)}" if case.limits.rate is not None else (
+            f"components up to {', '.join(map(_degrees, case.limits.rates))} in the frame of the file")
+        lines.append(f"limit: {words}")
+    return lines
+
+
+def _degrees(rate) -> str:
+    return f"{math.degrees(rate):.12g} deg/s"
+
+
+def _triple(vector) -> str:
+    return f"({', '.join(f'{float(v):.9g}' for v in vector)})"
 
 
 def _values(effect) -> str:
