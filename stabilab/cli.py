@@ -367,6 +367,34 @@ def rerun(manifest: Annotated[Path, typer.Argument(metavar="MANIFEST", help="A m
     _print("\n".join(repeat(manifest, out)))
 
 
+@app.command(name="import")
+def import_(file: Annotated[Path, typer.Argument(metavar="FILE", help="A NASA 42 spacecraft file, or JSON or a Python dictionary with "
+                                                                      "Basilisk's names.", show_default=False)],
+            out: Annotated[Optional[Path], typer.Option(metavar="FILE.toml", help="Write the case to a file.")] = None,
+            stuck: Annotated[Optional[List[str]], typer.Option(metavar="NAME", help="A thruster that is stuck open; may be repeated.")] = None):
+    """Write another program's spacecraft as a case.
+
+    What has no counterpart in a case is listed on stderr. Exits with 2 where the case still has faults.
+
+    Example: stabilab import SC_Simple.txt --out simple.toml
+    """
+    from .case.imported import case_text, faults_of, read_spacecraft
+    from .files import whole_file
+    craft = read_spacecraft(file)
+    text = case_text(craft, file, stuck or ())
+    if out:
+        with whole_file(out) as waiting:
+            waiting.write_text(text, encoding="utf-8")
+        _say(f"written: {out}")
+    else:
+        _print(text)
+    for words in craft.omitted:
+        _say(f"{printable(str(file))}: no counterpart: {printable(words)}")
+    faults = faults_of(text, out or file)
+    if faults:
+        raise InputError("\n".join(("the case has faults yet:", *faults)))
+
+
 @app.command()
 def doctor():
     """Say what is installed and whether pictures can be drawn.

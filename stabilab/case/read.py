@@ -147,6 +147,12 @@ def load_all(path) -> list[Case]:
     return [_built(path, text, values, Faults(faults.lines, moved), suffix) for suffix, values in found]
 
 
+def read_text(path, text: str) -> Case:
+    """The case in a text that is not a file yet; `path` is named in its faults."""
+    path = os.fspath(path)
+    return _built(path, text, *parsed(path, text))
+
+
 def _read(path):
     path = os.fspath(path)
     text = source_text(path)

@@ -12,9 +12,8 @@ from unicodedata import category
 from .lines import KeyLines
 from ..errors import InputError, printable, Problem
 from ..numbers.exact import exact
-from .dimensions import dimension_of
 from .uncertainty import plus_minus, states_uncertainty
-from .units import quantity
+from .units import dimension_of, quantity
 
 UNSEEN = ("Cc", "Cf", "Cs")  # Unicode's categories of control, format (such as right-to-left override) and surrogate characters
 

@@ -50,6 +50,21 @@ NAMES = {NONE: "a number without a unit", LENGTH: "length (m)", MASS: "mass (kg)
          PER_SECOND: "rate (1/s)", DENSITY: "density (kg/m^3)", VISCOSITY: "kinematic viscosity (m^2/s)", (2, 1, -3, 0, 0): "power (W)",
          (-1, 1, -2, 0, 0): "pressure (Pa)", (0, 0, -2, 0, 1): "angular acceleration (rad/s^2)", (1, 1, -1, 0, 0): "momentum (N s)"}
 
+DIMENSIONS = {  # of the numbers of a case file; one that is not here is a number without a unit
+    "body.inertia": INERTIA, "body.products.xy": INERTIA, "body.products.xz": INERTIA, "body.products.yz": INERTIA,
+    "body.mass": MASS, "body.centre_of_mass": LENGTH,
+    "thrusters.position": LENGTH, "thrusters.force": FORCE, "thrusters.force_tolerance": FORCE, "thrusters.misalignment": ANGLE,
+    "wheels.momentum": MOMENTUM, "wheels.inertia": INERTIA, "wheels.speed": RATE,
+    "limits.rate": RATE, "motion.angular_velocity": RATE, "motion.span": TIME, "motion.attitude": ANGLE,
+    "motion.velocity": VELOCITY, "motion.position": LENGTH, "expect.period": TIME,
+    "effects.gyrostat.momentum": MOMENTUM, "effects.constant_torque.torque": TORQUE, "effects.body_force.force": FORCE,
+    "effects.gravity.weight": FORCE, "effects.gravity.centre_of_mass": LENGTH, "effects.resistance.coefficient": PER_SECOND,
+    "effects.newtonian_field.strength": PER_SECOND_2, "effects.newtonian_field.lambda": ATTRACTION, "effects.newtonian_field.R": LENGTH,
+    "effects.charge.charge": CHARGE, "effects.charge.field": FLUX, "effects.charge.arm": LENGTH, "effects.charge.angle": ANGLE,
+    "effects.liquid_cavity.density": DENSITY, "effects.liquid_cavity.viscosity": VISCOSITY, "effects.liquid_cavity.P0": LENGTH_7,
+    "effects.liquid_cavity.radius": LENGTH,
+}
+
 _NUMBER = re.compile(r"\s*([+-]?(?:\d[\d_]*(?:\.[\d_]*)?|\.\d[\d_]*)(?:[eE][+-]?\d+)?(?:\s*/\s*\d+)?)\s*(.*)", re.ASCII | re.DOTALL)
 _FACTOR = re.compile(r"\s*([*·/.\-]|)\s*(1|[A-Za-zµμ°]+)(?:(?:\^|\*\*)?([+-]?\d{1,2})|([²³]))?\s*")
 _SUPER = {"²": 2, "³": 3}
@@ -104,6 +119,11 @@ def unit_of(words: str) -> Unit:
         dimension = tuple(d + power * e for d, e in zip(dimension, one.dimension))
         is_exact, at = is_exact and one.exact, found.end()
     return Unit(size, dimension, is_exact)
+
+
+def dimension_of(path: tuple) -> Dimension:
+    """The dimension of the number at this path (list indices do not count)."""
+    return DIMENSIONS.get(".".join(key for key in path if isinstance(key, str)), NONE)
 
 
 def named(dimension: Dimension) -> str:
