@@ -6,8 +6,7 @@ from dataclasses import replace
 from .table import Table
 from ..numbers.exact import floats
 from ..numbers.principal import PrincipalAxes
-from ..physics.effects.constant_torque import ConstantTorque
-from ..physics.effects.gyrostat import Gyrostat
+from ..physics.effects import effect_class
 
 OBLIQUE = "the tensor is not diagonal, and"
 REFUSED = {"x": f"{OBLIQUE} x counts along principal axes: give angular_velocity in rad/s, in the frame of the tensor",
@@ -20,20 +19,20 @@ def added(effects: list, thrusters, wheels) -> list:
     """The effects with the torques of stuck thrusters and the momenta of wheels, all in the input frame."""
     torque = _sum([t.torque for t in thrusters if t.stuck])
     momentum = _sum([w.vector for w in wheels])
-    return _with(_with(effects, Gyrostat, momentum), ConstantTorque, torque)
+    return _with(_with(effects, "gyrostat", momentum), "constant_torque", torque)
 
 
 def _sum(vectors):
     return tuple(map(sum, zip(*vectors))) if vectors else None
 
 
-def _with(effects, cls, vector):
+def _with(effects, name, vector):
     if vector is None:
         return effects
-    given = next((e for e in effects if isinstance(e, cls)), None)
+    given = next((e for e in effects if e.name == name), None)
     if given is None:
-        return [*effects, cls(vector)]
-    whole = cls(tuple(a + b for a, b in zip(given.exact, vector)))
+        return [*effects, effect_class(name)(vector)]
+    whole = effect_class(name)(tuple(a + b for a, b in zip(given.exact, vector)))
     return [whole if e is given else e for e in effects]
 
 
