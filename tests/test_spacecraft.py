@@ -211,6 +211,8 @@ FAULTS = [
     (FULL + '[effects.constant_torque]\ntorque = ["1 +- 0.1", 0, 1]\n', 4, "effects.constant_torque.torque", "not followed through the turn"),
     (FULL + "[effects.charge]\ncharge = 1\nfield = 1\narm = 1\nangle = 0.3\n", 3, "effects.charge", "known along principal axes alone"),
     (FULL + "[motion]\nangular_velocity = [1, 1, 1]\nattitude = [0, 0, 0]\n", 5, "motion.attitude", "not turned"),
+    (DIAGONAL + STUCK.replace("10 N", "1e200 N").replace("[1, 2, 3]", "[1e200, 0, 0]"), 3, "thrusters", "largest double"),
+    (FULL + "[motion]\nangular_velocity = [1.7e308, 1.7e308, 1.7e308]\n", 4, "motion.angular_velocity", "along the principal axes"),
     ("[scaled]\na = 1\nb = 2\nmu = [0, 0, 1]\n" + WHEEL, 5, "wheels", "keep one or the other"),
 ]
 

@@ -77,10 +77,25 @@ def _dictionary(text: str, path):
         tree = ast.parse(text)
         literals = (node.value for node in tree.body if isinstance(node, (ast.Assign, ast.AnnAssign, ast.Expr)) and isinstance(node.value, ast.Dict))
         for node in literals:
-            return ast.literal_eval(node)
+            return _literal(node)
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
         raise InputError(f"{path}: neither JSON ({json_words}) nor a dictionary of plain numbers in Python ({error})") from None
     raise InputError(f"{path}: expected a NASA 42 spacecraft file (SC_*.txt), or JSON or a Python dictionary with Basilisk's names; JSON says: {json_words}")
+
+
+def _literal(node):
+    """The value of numbers, texts, lists and dictionaries as they are written; ValueError for anything that would have to be run."""
+    if isinstance(node, ast.Constant):
+        return node.value
+    if isinstance(node, (ast.List, ast.Tuple)):
+        return [_literal(item) for item in node.elts]
+    if isinstance(node, ast.Dict) and None not in node.keys:
+        return {str(_literal(key)): _literal(value) for key, value in zip(node.keys, node.values)}
+    if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
+        value = _literal(node.operand)
+        if isinstance(value, (int, float)):
+            return -value
+    raise ValueError(f"line {getattr(node, 'lineno', '?')} is none")
 
 
 def _flat(data: dict) -> dict:

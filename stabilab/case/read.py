@@ -221,7 +221,11 @@ def _physical(top: Table, craft: _Craft) -> tuple[Scene | None, tuple | None, Pr
     made = _effects(top, body)
     if body is None or None in made:
         return None, None, frame
-    whole = turned_effects(top, added(made, craft.thrusters, craft.wheels), frame)
+    try:
+        whole = turned_effects(top, added(made, craft.thrusters, craft.wheels), frame)
+    except InputError as error:  # numbers that are good one by one, but not added up or turned
+        top.fault(f"added up along principal axes, {error}", next(key for key in ("thrusters", "wheels", "effects") if key in top))
+        return None, None, frame
     torque = top.data.get("effects", {}).get("constant_torque") if isinstance(top.data.get("effects"), dict) else None
     if not isinstance(torque, dict):  # absent, or no table, which is noted already
         return Scene(body, *whole), None, frame

@@ -69,5 +69,9 @@ def turned_motion(motion, frame: PrincipalAxes | None):
     if frame is None or frame.as_given or motion.state_key == "x":
         return motion
     state = motion.exact and frame.turned(motion.exact)
-    vertical = {"gamma": floats(frame.turned(motion.exact_vertical))} if motion.exact_vertical else {}
-    return replace(motion, exact=state, state=state and floats(state), blocks=motion.blocks | vertical)
+    try:
+        vertical = {"gamma": floats(frame.turned(motion.exact_vertical))} if motion.exact_vertical else {}
+        return replace(motion, exact=state, state=state and floats(state), blocks=motion.blocks | vertical)
+    except OverflowError:
+        motion.table.fault("exceeds the largest double (about 1.8e308) along the principal axes", motion.state_key)
+        return motion

@@ -34,7 +34,7 @@ def lines(case) -> list[str]:
     frame = _turned(case)
     if frame is None:
         return []
-    known = "exact" if frame.exact else f"known to {float(frame.error):.1g}"
+    known = "exact" if frame.exact else f"known to {float(frame.error) or 1e-300:.1g}"
     told = [f"frame: principal axes 1, 2, 3 ({known}), along which every vector here is; in the frame of the file, x y z, they are"]
     for number, (moment, axis) in enumerate(zip(frame.moments, frame.axes), 1):
         nearest = max(range(3), key=lambda j: abs(axis[j]))
