@@ -378,9 +378,12 @@ def import_(file: Annotated[Path, typer.Argument(metavar="FILE", help="A NASA 42
 
     Example: stabilab import SC_Simple.txt --out simple.toml
     """
-    from .case.imported import case_text, faults_of, read_spacecraft
+    from .case import import_42, import_basilisk
+    from .case.imported import case_text, faults_of
+    from .case.source import source_text
     from .files import whole_file
-    craft = read_spacecraft(file)
+    given = source_text(file)
+    craft = (import_42 if import_42.is_one(given) else import_basilisk).spacecraft(given, file)
     text = case_text(craft, file, stuck or ())
     if out:
         with whole_file(out) as waiting:

@@ -5,7 +5,7 @@ import json
 import os
 from dataclasses import dataclass, field
 
-from .source import source_text
+from .read import read_text
 from ..errors import InputError, printable
 
 
@@ -30,15 +30,6 @@ class Craft:
     omitted: list = field(default_factory=list)
 
 
-def read_spacecraft(path) -> Craft:
-    """The spacecraft in a NASA 42 spacecraft file, or in JSON or a Python dictionary with Basilisk's names. Raises InputError."""
-    from . import import_42, import_basilisk
-    text = source_text(path)
-    if import_42.is_one(text):
-        return import_42.spacecraft(text, path)
-    return import_basilisk.spacecraft(text, path)
-
-
 def case_text(craft: Craft, path, stuck=()) -> str:
     """The case as TOML. stuck: names of the thrusters that are."""
     names = [t["name"] for t in craft.thrusters]
@@ -59,13 +50,13 @@ def case_text(craft: Craft, path, stuck=()) -> str:
     for wheel in craft.wheels:
         lines += ["", "[[wheels]]", *_pairs(wheel)]
     if craft.rate:
-        lines += ["", "[motion]", f"angular_velocity = {_list([f'{v} {craft.rate_unit}' for v in craft.rate] if craft.rate_unit else craft.rate, craft.rate_unit)}"]
+        rate = [_text(f"{v} {craft.rate_unit}") for v in craft.rate] if craft.rate_unit else craft.rate
+        lines += ["", "[motion]", f"angular_velocity = {_list(rate)}"]
     return "\n".join(lines) + "\n"
 
 
 def faults_of(text: str, path) -> list[str]:
     """What a reader of the case would refuse."""
-    from .read import read_text
     try:
         read_text(path, text)
     except InputError as error:
@@ -77,8 +68,8 @@ def _pairs(part):
     return [f"{key} = {_text(value) if key == 'name' else _list(value) if isinstance(value, list) else value}" for key, value in part.items()]
 
 
-def _list(values, quoted="") -> str:
-    return f"[{', '.join(_text(v) if quoted else v for v in values)}]"
+def _list(values) -> str:
+    return f"[{', '.join(values)}]"
 
 
 def _text(words: str) -> str:

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from .table import described, Table
+from .table import described, Faults, Table
 from ..errors import InputError
 from ..numbers.principal import fault_of, IDENTITY, principal_axes, PrincipalAxes
 from ..physics.body import Body
@@ -37,7 +37,7 @@ def centre_of_mass(top: Table) -> tuple[Fraction, Fraction, Fraction] | None:
     body = top.data.get("body")
     if not isinstance(body, dict) or "centre_of_mass" not in body:
         return None
-    return Table(("body",), body, type(top.faults)(top.faults.lines)).vector("centre_of_mass")
+    return Table(("body",), body, Faults(top.faults.lines)).vector("centre_of_mass")
 
 
 def _frame(table: Table) -> PrincipalAxes | None:
