@@ -12,7 +12,7 @@ from stabilab.case.read import load, load_all
 from stabilab.errors import CaseError
 from stabilab.numbers.vectors import cross
 
-ROOT = Path(__file__).parent.parent
+ROOT = Path(__file__).parents[2]
 SPACECRAFT = [ROOT / "cases" / f"{name}.toml" for name in ("cubesat-3u", "geostationary-22n", "upper-stage")]
 DIAGONAL = "[body]\ninertia = [3, 2, 1.5]\n"
 FULL = "[body]\ninertia = [[3, 0.1, 0], [0.1, 2, 0.2], [0, 0.2, 1.5]]\n"
