@@ -44,7 +44,8 @@ def test_classify_answers_once_per_case_with_the_documented_keys(classified):
         assert {"at", "fate", "axis", "because", "margin", "period", "extremes", "invariants"} <= answer["motion"].keys()
         assert answer["motion"]["margin"].keys() == {"energy", "angular_velocity", "bounds", "witness", "because"}
         for point in answer["equilibria"]["points"]:
-            assert point.keys() == {"at", "eigenvalues", "linear", "verdict", "because"}
+            turned = {"at_input"} if "frame" in answer else set()  # a full tensor: the state in the frame of the file as well
+            assert point.keys() == {"at", "eigenvalues", "linear", "verdict", "because"} | turned
             assert np.shape(point["eigenvalues"]) == (len(point["at"]), 2)
         for curve in answer["equilibria"]["curves"]:
             assert {"name", "samples", "folds", "segments"} <= curve.keys()
