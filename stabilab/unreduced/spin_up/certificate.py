@@ -1,0 +1,177 @@
+"""A certificate of spin-up: an inequality between numbers of one state that, once true, stays true for ever.
+
+Theorem. Let x be the spin of a form, D1 x' = V(x) + what oscillates, zeta its amplitude, Om(x) > 0 increasing (the rate of the phase up to
+a constant), V >= drive from z on, and let, by elimination, for all x >= z and |zeta| <= A
+
+    Y  = D1 int Om dx + (added),             Y' = Om V + (left),       |added| <= e,  |left|/Om <= k,
+    B  = w(x) |zeta|^2 + (added),            |added| <= b,             int |B'| dx <= r,    w >= w_ > 0.
+
+(e, k, b: sums of |c| A^(j+k) times the greatest value of the factor of x from z on; r the same with the factor's integral.) If at one time
+
+    x > z, |zeta| < A;    D1 int_z^x Om + added > e;    eta = drive - k > 0;    F = [B + b + r D1/eta]/w_ < A^2,
+
+then at all later times |zeta| < A and x >= z + eta t/D1, x <= z+ + eta+ t/D1 with D1 int_x^(z+) Om = added + e, eta+ = greatest V + k.
+
+Proof. Let tau be the end of the times up to which |zeta| < A and x > z; it is not 0. Before it Y' >= Om (V - k) >= Om eta > 0, so Y grows and
+D1 int_z^x Om >= Y - e - D1 int^z Om keeps a margin above 0. Let y be defined by D1 int_z^y Om = Y - e - D1 int^z Om: z < y <= x, and D1 Om(y) y' =
+Y' >= Om(x) eta >= Om(y) eta, so x >= y >= z + eta t/D1. Hence int |B'| dt <= sum |c| A^(j+k) int f(x(t)) dt, and where f falls from z on
+the integral is at most (D1/eta) int_z f dx = r D1/eta. (|B'| is bounded by decreasing majorants of its factors.) So w_ |zeta|^2
+<= B + b <= B(0) + b + r D1/eta < w_ A^2, a margin too, and tau has no end. Above: y+ >= x with D1 int^(y+) Om = Y + e has D1 Om(y+) y+' = Y' <=
+Om(x) eta+ <= Om(y+) eta+. QED.
+
+For the fixed centre Om = x, V = M1 + m*/x, and orders (0, 2) without the weight w = 1 + m*/(M1 x) are the classical
+E + Im/X and B + R/(om X) + Psi/(D1 om^2 X^3), with k formed from the sums as they come out. Then also D1 y' >= M1 - c/y with
+c = max(0, -m*) + z k, for k x falls: the sharper clock (`clock`). Since Om is concave, int_z^x Om >= (x - z)(Om(x) + Om(z))/2, which is what is
+tested (equal for the fixed centre), and int_x^(z+) Om >= (z+ - x) Om(x) gives z+.
+
+Rounding. The place of a state is known within its blur (rounding and, asked for, a ball of states about it): x and |zeta| are
+taken at their worse ends and each term at the start within the change that the blur can make of it. Coefficients hold
+their rounding (`elimination`), sums of positive numbers are off by less than 2^-40 of themselves, and every comparison leaves SLACK =
+2^-30 of the sum of the sizes in it.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+ORDERS = ((0, 2), (4, 6))          # of energy and amplitude: tested always
+HIGH_ORDERS = ((12, 14), (16, 18))  # sparsely; the series is asymptotic, higher ones gain nothing
+PASSES = 60  # of the search for A and z: it is monotone and settles in ten or never
+GROWTH = 1 + 1e-7  # of A between passes: strict inequalities need room
+SLACK = 2.0**-30
+COEFFICIENT = 2.0**-36  # rounding of the terms' values, of their majorant: four times that of the coefficients alone
+
+
+class Sums:
+    """Sums of |c| A^(j+k) f(z) over the terms of a quantity: coefficients gathered by degree and exponents, (degrees, pairs)."""
+
+    def __init__(self, sizes: dict, shift=(0, 0)):
+        self.pairs = sorted({(a + shift[0], b + shift[1]) for _, _, a, b in sizes}) or [(8, 0)]
+        self.a, self.b = np.array(self.pairs, float).T
+        place = {pair: n for n, pair in enumerate(self.pairs)}
+        self.table = np.zeros((1 + max((j + k for j, k, *_ in sizes), default=0), len(self.pairs)))
+        for (j, k, a, b), size in sizes.items():
+            self.table[j + k, place[a + shift[0], b + shift[1]]] += size
+
+    def __call__(self, A, factors):
+        """A: (n,); factors: (n, pairs) -> (n,)."""
+        return (np.vander(A, len(self.table), increasing=True) @ self.table * factors).sum(axis=1)
+
+
+class Values:
+    """The value of a sum of terms at many places."""
+
+    def __init__(self, terms: dict, pairs):
+        self.powers = sorted({(j, k) for j, k, *_ in terms if j >= k})
+        place, row = {pair: n for n, pair in enumerate(pairs)}, {power: n for n, power in enumerate(self.powers)}
+        self.table = np.zeros((max(len(self.powers), 1), len(pairs)), complex)
+        for (j, k, a, b), c in terms.items():
+            if j >= k:  # terms come with their conjugates
+                self.table[row[j, k], place[a, b]] += c if j == k else 2 * c
+
+    def __call__(self, zeta, factors):
+        if not self.powers:
+            return np.zeros(len(zeta))
+        table = np.vander(zeta, 1 + max(j for j, _ in self.powers), increasing=True)
+        j, k = np.array(self.powers).T
+        return ((table[:, j] * table[:, k].conj()) @ self.table * factors).sum(axis=1).real
+
+
+@dataclass(frozen=True)
+class Found:
+    """What the test finds of n states: good (n,), and where it is True the constants of the theorem, (n,) each."""
+
+    good: np.ndarray
+    A: np.ndarray
+    z: np.ndarray
+    eta: np.ndarray
+    z_up: np.ndarray
+    eta_up: np.ndarray
+    k: np.ndarray
+
+
+class Certifier:
+    """The test in one field (`FixedCentre`, `MovingCentre`) at one pair of orders."""
+
+    def __init__(self, field, orders: tuple[int, int]):
+        self.field, self.orders = field, orders
+        energy, amplitude = field.energy(orders[0]), field.amplitude(orders[1])
+        turn = field.algebra.turn
+        self.e, self.k = Sums(energy.sizes_added), Sums(energy.sizes_rate, (-turn[0], -turn[1]))
+        self.b, self.r = Sums(amplitude.sizes_added), Sums(amplitude.sizes_rate)
+        self.energy_majorant, self.amplitude_majorant = Sums(energy.majorant), Sums(amplitude.majorant)
+        self.energy_added, self.amplitude_added = Values(energy.added, self.e.pairs), Values(amplitude.added, self.b.pairs)
+
+    def __call__(self, states, near=0.0) -> Found:
+        """The theorem's inequality for states (n, 3), searched from the smallest A and z that could do; for all states of the
+        balls of radius `near` (n,) about them."""
+        n = len(states)
+        out = np.full((6, n), np.nan)
+        good = np.zeros(n, bool)
+        with np.errstate(all="ignore"):
+            x, zeta, dx, dz = self.field.place(np.asarray(states, float), near)
+            rows = np.flatnonzero(self.field.valid(x - dx) & (dx < x / 8))
+            if rows.size:
+                start = _Start(self, x[rows], zeta[rows], dx[rows], dz[rows])
+                self._search(start, rows, good, out)
+        return Found(good, *out)
+
+    def _search(self, start, rows, good, out):
+        field = self.field
+        A, z = start.size * GROWTH, start.x / GROWTH
+        for _ in range(PASSES):
+            e = self.e(A, field.greatest(self.e.a, self.e.b, z))
+            for _ in range(2):  # the equation for z is nearly linear
+                need = np.maximum(e - start.energy, 0) * GROWTH + 1e-7 * start.x * field.turning(start.x)
+                z = start.x - 2 * need / (field.D1 * (field.turning(start.x) + field.turning(np.where(field.valid(z), z, start.x))))
+            here = field.valid(z)
+            z = np.where(here, z, start.x)
+            k = self.k(A, field.greatest(self.k.a, self.k.b, z))
+            low, high = field.drive(z)
+            eta, least = (low - k) * (1 - SLACK) - SLACK * np.abs(low), field.least_weight(z) * (1 - SLACK)
+            alive = here & (eta > 0) & (least > 0)
+            F = (start.amplitude + self.b(A, field.greatest(self.b.a, self.b.b, z)) + self.r(A, field.tails(self.r.a, self.r.b, z)) * field.D1 / eta) / least
+            alive &= F < 1e100
+            e = self.e(A, field.greatest(self.e.a, self.e.b, z))
+            gained = field.D1 * (start.x - z) * (field.turning(start.x) + field.turning(z)) / 2
+            room = gained * (1 - SLACK) - SLACK * field.D1 * start.x * field.turning(start.x) * 2.0**-8 > e - start.energy
+            done = alive & room & (F * (1 + SLACK) < A * A) & (start.size < A) & (z < start.x)
+            if done.any():
+                z_up = start.top + (e + start.energy_up) / (field.D1 * field.turning(start.x)) * (1 + SLACK) + SLACK * start.top
+                values = np.array([A, z * (1 - SLACK), eta, z_up, (high + k) * (1 + SLACK), k])
+                good[rows[done]], out[:, rows[done]] = True, values[:, done]
+            keep = alive & ~done
+            if not keep.any():
+                return
+            A = np.maximum(A, np.sqrt(np.maximum(F, 0.0))) * GROWTH
+            A, z, rows, start = A[keep], z[keep], rows[keep], start.chosen(keep)
+
+
+class _Start:
+    """The numbers of the start that the search uses, at the worse end of their blur."""
+
+    def __init__(self, test, x, zeta, dx, dz):
+        field = test.field
+        self.x, self.top, self.size = x - dx, x + dx, np.abs(zeta) * (1 + SLACK) + dz
+        value, blur = self._value(test.energy_added, test.e, test.energy_majorant, field, x, zeta, dx)
+        self.energy, self.energy_up = value - blur, value + blur
+        value, blur = self._value(test.amplitude_added, test.b, test.amplitude_majorant, field, x, zeta, dx)
+        weight = np.maximum(np.maximum(field.weight(self.x), field.weight(self.top)), 0)
+        self.amplitude = weight * self.size**2 * (1 + SLACK) + value + blur
+
+    def _value(self, values, sums, majorant, field, x, zeta, dx):
+        """(value, blur): |zeta1^j zeta1*^k - zeta^j zeta*^k| <= (|zeta| + d)^(j+k) - |zeta|^(j+k), and the factors move by their steepness."""
+        a, b = sums.a, sums.b
+        value = values(zeta, field.factors(a, b, x))
+        greatest = field.greatest(a, b, self.x)
+        wide, inner = sums(self.size, greatest), sums(np.abs(zeta), greatest)
+        moved = sums(self.size, greatest * (field.steepness(a, b, self.x) * dx[:, None]))
+        return value, (wide - inner) + moved * (1 + SLACK) + SLACK * wide + COEFFICIENT * majorant(self.size, greatest)
+
+    def chosen(self, keep):
+        """The rows that `keep` marks."""
+        new = object.__new__(_Start)
+        for name in ("x", "top", "size", "energy", "energy_up", "amplitude"):
+            setattr(new, name, getattr(self, name)[keep])
+        return new

@@ -1,0 +1,82 @@
+"""The normal form about its fixed centre as the certificate wants it: where states lie, how terms are bounded from a spin on."""
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+
+from .elimination import corrected_amplitude, corrected_energy, fixed_algebra
+from .form import NormalForm
+
+BLUR = 2.0**-50  # relative rounding in the place of a state: a dozen operations, each within half of 2^-52
+
+
+class FixedCentre:
+    """A normal form with p = X. Arrays: (n,) or (n, m) for m pairs of exponents.
+
+    In every such field x is the spin that grows, D1 x' = drive + what oscillates, `turning(x)` the rate of the phase up to a
+    constant, increasing and concave.
+    """
+
+    name, sharp = "fixed centre", True
+
+    def __init__(self, form: NormalForm):
+        self.form, self.algebra = form, fixed_algebra(form)
+        self.D1, self.axis, self.sense = form.D1, form.axis, form.sense
+
+    def place(self, states, near=0.0):
+        """(x, zeta, blur of x, blur of zeta) of states (n, 3): the true place of each state within `near` (n,) of them."""
+        f = self.form
+        w = states[:, list(f.order)] * np.array(f.turn, float)
+        U, V = w[:, 1] - f.centre[0], w[:, 2] - f.centre[1]
+        most = max(map(abs, f.scale))
+        size = np.abs(w).sum(axis=1) + abs(f.centre[0]) + abs(f.centre[1])
+        return (w[:, 0] + f.shift, f.scale[0] * U + 1j * f.scale[1] * V, BLUR * (np.abs(w[:, 0]) + abs(f.shift)) + near,
+                most * (BLUR * size + near))
+
+    def turning(self, x):
+        """X itself: om X is the rate of the phase."""
+        return x
+
+    def drive(self, z):
+        """(least, greatest) of M1 + m*/x over x >= z."""
+        f = self.form
+        return f.M1 + min(0.0, f.drag) / z, f.M1 + max(0.0, f.drag) / z
+
+    def weight(self, x):
+        """The factor of |zeta|^2 in the amplitude."""
+        return 1 + self.form.drag / (self.form.M1 * x)
+
+    def least_weight(self, z):
+        """Its least value over x >= z."""
+        return 1 + min(0.0, self.form.drag) / (self.form.M1 * z)
+
+    def factors(self, a, b, x):
+        """p^(-a/4) q^(-b/4), (n, m): each decreases, so it is its own greatest value over all greater x."""
+        return x[:, None] ** (-a / 4.0)
+
+    greatest = factors
+
+    def steepness(self, a, b, x):
+        """|d log factor/dx| at most, over x and beyond."""
+        return np.abs(a) / (4.0 * x[:, None])
+
+    def tails(self, a, b, z):
+        """The integral of the factors over x from z on."""
+        n = a / 4.0
+        return z[:, None] ** (1 - n) / (n - 1)
+
+    def valid(self, x):
+        """Where the form applies."""
+        return x > 0
+
+    def energy(self, order):
+        return corrected_energy(self.form, order)
+
+    def amplitude(self, order):
+        return corrected_amplitude(self.form, order)
+
+    @cached_property
+    def transverse(self):
+        """|omega2 - c2| and |omega3 - c3| are at most these times A."""
+        return tuple(1 / abs(v) for v in self.form.scale)
