@@ -67,7 +67,7 @@ class Values:
         place, row = {pair: n for n, pair in enumerate(pairs)}, {power: n for n, power in enumerate(self.powers)}
         self.table = np.zeros((max(len(self.powers), 1), len(pairs)), complex)
         for (j, k, a, b), c in terms.items():
-            if j >= k:  # terms come with their conjugates
+            if j >= k and c:  # terms come with their conjugates
                 self.table[row[j, k], place[a, b]] += c if j == k else 2 * c
 
     def __call__(self, zeta, factors):

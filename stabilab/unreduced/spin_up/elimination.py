@@ -117,7 +117,7 @@ def corrected(algebra: Algebra, rate: dict, sizes: dict, order: int, added=None,
     bound = _eliminated(algebra.majorant(), sizes, order, sizes_added or {})
     inflated = [{key: abs(terms.get(key, 0.0)) + ROUNDING * c for key, c in all_.items() if c}
                 for terms, all_ in zip(exact, bound)]
-    return Corrected(*exact, *inflated, bound[0])
+    return Corrected(*exact, *inflated, {key: c for key, c in bound[0].items() if c})
 
 
 def _eliminated(algebra, rate, order, added):

@@ -1,8 +1,6 @@
 """The normal form about its fixed centre as the certificate wants it: where states lie, how terms are bounded from a spin on."""
 from __future__ import annotations
 
-from functools import cached_property
-
 import numpy as np
 
 from .elimination import corrected_amplitude, corrected_energy, fixed_algebra
@@ -76,7 +74,14 @@ class FixedCentre:
     def amplitude(self, order):
         return corrected_amplitude(self.form, order)
 
-    @cached_property
-    def transverse(self):
-        """|omega2 - c2| and |omega3 - c3| are at most these times A."""
-        return tuple(1 / abs(v) for v in self.form.scale)
+    def transverse(self, A, z):
+        """((low, high), (low, high)) of omega2 and omega3 of the form while |zeta| <= A."""
+        return tuple((c - A / abs(scale), c + A / abs(scale)) for c, scale in zip(self.form.centre, self.form.scale))
+
+    @property
+    def basis(self):
+        """The form's three axes in principal axes of the body, rows."""
+        basis = np.zeros((3, 3))
+        for row, (t, n) in enumerate(zip(self.form.turn, self.form.order)):
+            basis[row, n] = t
+        return basis

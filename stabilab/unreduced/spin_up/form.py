@@ -97,16 +97,16 @@ def normal_form(D, wheel, torque, axis: int, kind=Floats) -> NormalForm | None:
     a2, a3 = abs(d2), abs(d3)
     real, root = kind.real, lambda value: kind.root(kind.real(value))
     part = lambda sign, square: sign * root(square)  # noqa: E731  a signed root, rounded twice
-    m2, m3, gam = M2 - l1 * l3 / d3, M3 + l1 * l2 / d2, _signed((a3 - a2) / 2, D2 * D3 * a2 * a3)
+    m2, m3, gam = M2 - l1 * l3 / d3, M3 + l1 * l2 / d2, signed_square((a3 - a2) / 2, D2 * D3 * a2 * a3)
     return NormalForm(
-        axis, sense, order, real(D1), real(M1), root(a2 * a3 / (D2 * D3)), part(*gam), part(*_signed(s * l1 * (a3 - a2) / 2, D2 * D3 * a2 * a3)),
-        kind.pair(part(*_signed(m2, D2 / a2)), part(*_signed(s * m3, D3 / a3))),
-        kind.pair(part(*_signed(-l3 * a2 / a3, D2 * a2)), part(*_signed(s * l2 * a3 / a2, D3 * a3))),
+        axis, sense, order, real(D1), real(M1), root(a2 * a3 / (D2 * D3)), part(*gam), part(*signed_square(s * l1 * (a3 - a2) / 2, D2 * D3 * a2 * a3)),
+        kind.pair(part(*signed_square(m2, D2 / a2)), part(*signed_square(s * m3, D3 / a3))),
+        kind.pair(part(*signed_square(-l3 * a2 / a3, D2 * a2)), part(*signed_square(s * l2 * a3 / a2, D3 * a3))),
         real(s * l1 * (a2 + a3) / (2 * a2 * a3)), (real(l2 / d2), real(l3 / d3)), (root(D2 * a2), s * root(D3 * a3)),
         real(l2 * M2 / d2 + l3 * M3 / d3), kind)
 
 
-def _signed(numerator, square):
+def signed_square(numerator, square):
     """numerator/sqrt(square) as (sign, its square): exact."""
     return (numerator > 0) - (numerator < 0), numerator * numerator / square
 

@@ -1,0 +1,65 @@
+"""The forms in which a scene's spin-up can be certified, and the scene in its natural units."""
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+
+from ...physics.motion_units import in_unit
+from .certificate import Certifier, HIGH_ORDERS, ORDERS
+from .fixed_centre import FixedCentre
+from .form import forms_of
+from .moving_centre import moving_centre
+from .symmetric import equatorial
+
+MOVING_ORDERS = ((2, 4), (4, 6))
+EQUATORIAL_ORDERS = ((2, 4), (4, 6))
+
+
+def natural(scene):
+    """(scene in natural units, unit of rates): powers of two near the mean moment and near the root of torque over moment."""
+    if scene.variables == "scaled":
+        torque, mass = max(map(abs, scene.exact_mu)), 1
+    else:
+        torque, mass = max(map(abs, scene.vector("constant_torque"))), sum(scene.body.exact) / 3
+    if not torque:
+        return scene, 1.0
+    weight = 2.0 ** round(_log2(mass))
+    unit = 2.0 ** round((_log2(torque) - _log2(mass)) / 2)
+    return in_unit(scene, unit, weight), unit
+
+
+def _log2(value):
+    return math.log2(value.numerator) - math.log2(value.denominator) if hasattr(value, "numerator") else math.log2(value)
+
+
+class Tests:
+    """The certificates of a scene (in natural units), each made when it is first asked for. often: those of low order."""
+
+    def __init__(self, scene):
+        forms = forms_of(scene)
+        self.fixed = [FixedCentre(form) for form in forms]
+        self.moving = [moving for moving in (moving_centre(form, scene) for form in forms) if moving]
+        round_ = equatorial(scene)
+        self.equatorial = [round_] if round_ else []
+        self.made = {}
+        low = [(field, orders) for field in self.fixed for orders in ORDERS]
+        self.often = low + [(field, EQUATORIAL_ORDERS[0]) for field in self.equatorial]
+        self.all = (self.often + [(field, orders) for field in self.fixed for orders in HIGH_ORDERS] +
+                    [(field, orders) for field in self.moving for orders in MOVING_ORDERS] +
+                    [(field, EQUATORIAL_ORDERS[1]) for field in self.equatorial])
+
+    def __bool__(self):
+        return bool(self.all)
+
+    def certifier(self, field, orders) -> Certifier:
+        """The test itself."""
+        key = id(field), orders
+        if key not in self.made:
+            self.made[key] = Certifier(field, orders)
+        return self.made[key]
+
+
+@lru_cache(maxsize=32)
+def tests_of(scene) -> Tests:
+    """The tests of a scene, kept for the next state of the same one."""
+    return Tests(scene)

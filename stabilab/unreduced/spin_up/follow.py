@@ -1,0 +1,49 @@
+"""One motion under a torque of any direction, followed until its spin-up is certified."""
+from __future__ import annotations
+
+import numpy as np
+
+from ...orbit.result import Fate
+from ...physics.state import three_floats
+from .cause import seen
+from .chase import chase, Chased
+from .clock import Trap
+from .fields import natural, tests_of
+from .result import SpinUp
+from .symmetric import exactly
+
+NATURAL_TIMES, BUDGET = 2e4, 600_000
+
+
+def spin_up(scene, state, t_max: float | None = None, budget: int | None = None) -> SpinUp:
+    """Whether and how the motion from a state spins up, decided by a certificate (`certificate`, `symmetric`) or not at all.
+
+    scene: gyrostat and constant torque, physical or scaled. state: three rates at t = 0, taken at their word. t_max: how long the motion
+    is followed, in the scene's time (None: 2e4 natural units, of the root of mean moment over torque); budget: in how many steps
+    (None: 600,000).
+    """
+    state = three_floats(state)
+    if answer := exactly(scene, state):
+        return answer
+    own, unit = natural(scene)
+    tests = tests_of(own)
+    if not tests:
+        return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, 0.0, state, 0, seen(scene, state), 1.0)
+    found = chase(own, tests, np.array([state]) / unit, NATURAL_TIMES if t_max is None else t_max * unit, BUDGET if budget is None else budget)
+    return answer_of(scene, unit, found, 0)
+
+
+def answer_of(scene, unit: float, found: Chased, row: int) -> SpinUp:
+    """The answer of one row of what `chase` found."""
+    t, state = float(found.t[row]) / unit, tuple((found.states[row] * unit).tolist())
+    steps, condition = int(found.steps[row]), float(found.condition[row])
+    if found.fired[row] < 0:
+        words = seen(scene, state) + f"; followed for {t:.6g} {scene.time_unit}, {steps} steps, over which a small change grew {condition:.3g} times"
+        return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, t, state, steps, words, condition)
+    field, orders = found.tests.all[found.fired[row]]
+    trap = Trap(field, field.name, orders, *map(float, found.constants[:, row]), unit, t)
+    direction = tuple(field.basis[0].tolist())
+    axis, sense = (0, 1) if field.axis is None else (field.axis + 1, field.sense)
+    where = "in the equator, across the axis of symmetry" if not axis else f"about axis {axis}"
+    words = f"spin-up {where} is certified about the {field.name} at orders {orders[0]} and {orders[1]}: the inequality holds for ever"
+    return SpinUp(Fate.SPIN_UP, axis, sense, direction, "certified", trap, t, state, steps, words, condition)

@@ -1,0 +1,63 @@
+"""Many motions of one scene, each by its own steps: heyoka's batches, or SciPy row by row where heyoka is not installed."""
+from __future__ import annotations
+
+import numpy as np
+
+from ...integrate.ensemble import LANES
+from ...integrate.to_heyoka import borrowed_taylor, heyoka_available
+from ...integrate.trajectory import ATOL_SHARE, FALLBACK_RTOL
+from ...physics.to_numpy import equations_of, form, to_numpy
+
+
+class Runs:
+    """States (n, 3) and times (n,) of motions that `advance` carries on; rows that cannot go on are not finite any more.
+
+    The rows advance by steps, not to common times: no step is cut short, and no lane waits for another.
+    """
+
+    def __init__(self, scene, states):
+        self.equations = equations_of(scene)
+        self.states, self.times = np.array(states, float), np.zeros(len(states))
+        self.taylor = heyoka_available()
+        self.steps_done = 0  # of each row
+        if not self.taylor:
+            self.system, self.solvers = to_numpy(self.equations), [None] * len(states)
+
+    # Units of rounding by which a step may move the motion: a Taylor polynomial of 20 terms; what DOP853 is asked for.
+    @property
+    def step_error(self) -> float:
+        return 2.0**-50 if self.taylor else 4 * FALLBACK_RTOL
+
+    def advance(self, rows, steps: int, t_max: float):
+        """Carry the given rows (indices) on by so many steps, or to t_max."""
+        self.steps_done += steps
+        if self.taylor:
+            self._batches(rows, steps, t_max)
+        else:
+            for row in rows:
+                self._alone(row, steps, t_max)
+
+    def _batches(self, rows, steps, t_max):
+        filled = np.append(rows, np.repeat(rows[-1:], -len(rows) % LANES)).reshape(-1, LANES)
+        times, ends = np.zeros(LANES), np.full(LANES, 1.0)
+        with borrowed_taylor(form(self.equations, self.equations.rhs), lanes=LANES) as ta, np.errstate(all="ignore"):
+            for group in filled:
+                times = self.times[group]
+                ta.set_time(times)
+                ta.state[:] = self.states[group].T
+                ends[:] = t_max
+                ta.propagate_until(ends, max_steps=steps)
+                self.states[group], self.times[group] = ta.state.T, ta.time
+
+    def _alone(self, row, steps, t_max):
+        from scipy.integrate import DOP853
+        if self.solvers[row] is None:
+            size = np.abs(self.states[row]).max() or 1.0
+            self.solvers[row] = DOP853(lambda _, y: np.array(self.system.rate(y.tolist())), 0.0, self.states[row], t_max,
+                                       rtol=FALLBACK_RTOL, atol=FALLBACK_RTOL * ATOL_SHARE * size)
+        solver = self.solvers[row]
+        for _ in range(steps):
+            if solver.status == "running":
+                solver.step()
+        self.states[row] = solver.y if solver.status != "failed" else np.nan
+        self.times[row] = solver.t
