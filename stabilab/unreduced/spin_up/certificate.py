@@ -35,6 +35,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .elimination import sizes
+from .terms import Terms
+
 ORDERS = ((0, 2), (4, 6))          # of energy and amplitude: tested always
 HIGH_ORDERS = ((12, 14), (16, 18))  # sparsely; the series is asymptotic, higher ones gain nothing
 PASSES = 60  # of the search for A and z: it is monotone and settles in ten or never
@@ -46,13 +49,12 @@ COEFFICIENT = 2.0**-36  # rounding of the terms' values, of their majorant: four
 class Sums:
     """Sums of |c| A^(j+k) f(z) over the terms of a quantity: coefficients gathered by degree and exponents, (degrees, pairs)."""
 
-    def __init__(self, sizes: dict, shift=(0, 0)):
-        self.pairs = sorted({(a + shift[0], b + shift[1]) for _, _, a, b in sizes}) or [(8, 0)]
-        self.a, self.b = np.array(self.pairs, float).T
-        place = {pair: n for n, pair in enumerate(self.pairs)}
-        self.table = np.zeros((1 + max((j + k for j, k, *_ in sizes), default=0), len(self.pairs)))
-        for (j, k, a, b), size in sizes.items():
-            self.table[j + k, place[a + shift[0], b + shift[1]]] += size
+    def __init__(self, terms: Terms, coefficients, shift=(0, 0)):
+        j, k, a, b = terms.powers
+        pairs, column = np.unique(np.stack([a + shift[0], b + shift[1]], axis=1).reshape(-1, 2), axis=0, return_inverse=True)
+        self.a, self.b = pairs.T.astype(float)
+        self.table = np.zeros((1 + int((j + k).max(initial=0)), len(pairs)))
+        np.add.at(self.table, ((j + k).astype(int), column.ravel()), coefficients)
 
     def __call__(self, A, factors):
         """A: (n,); factors: (n, pairs) -> (n,)."""
@@ -60,22 +62,20 @@ class Sums:
 
 
 class Values:
-    """The value of a sum of terms at many places."""
+    """The value of a sum of terms at many places; pairs of exponents in the order of `Sums`."""
 
-    def __init__(self, terms: dict, pairs):
-        self.powers = sorted({(j, k) for j, k, *_ in terms if j >= k})
-        place, row = {pair: n for n, pair in enumerate(pairs)}, {power: n for n, power in enumerate(self.powers)}
-        self.table = np.zeros((max(len(self.powers), 1), len(pairs)), complex)
-        for (j, k, a, b), c in terms.items():
-            if j >= k and c:  # terms come with their conjugates
-                self.table[row[j, k], place[a, b]] += c if j == k else 2 * c
+    def __init__(self, terms: Terms):
+        j, k, a, b = terms.powers
+        half = j >= k  # terms come with their conjugates
+        pairs, column = np.unique(np.stack([a, b], axis=1).reshape(-1, 2), axis=0, return_inverse=True)
+        powers, row = np.unique(np.stack([j, k], axis=1).reshape(-1, 2)[half], axis=0, return_inverse=True)
+        self.j, self.k = powers.T
+        self.table = np.zeros((len(powers), len(pairs)), complex)
+        np.add.at(self.table, (row.ravel(), column.ravel()[half]), np.where(j == k, 1, 2)[half] * terms.c[half])
 
     def __call__(self, zeta, factors):
-        if not self.powers:
-            return np.zeros(len(zeta))
-        table = np.vander(zeta, 1 + max(j for j, _ in self.powers), increasing=True)
-        j, k = np.array(self.powers).T
-        return ((table[:, j] * table[:, k].conj()) @ self.table * factors).sum(axis=1).real
+        table = np.vander(zeta, 1 + int(self.j.max(initial=0)), increasing=True)
+        return ((table[:, self.j] * table[:, self.k].conj()) @ self.table * factors).sum(axis=1).real
 
 
 @dataclass(frozen=True)
@@ -98,10 +98,10 @@ class Certifier:
         self.field, self.orders = field, orders
         energy, amplitude = field.energy(orders[0]), field.amplitude(orders[1])
         turn = field.algebra.turn
-        self.e, self.k = Sums(energy.sizes_added), Sums(energy.sizes_rate, (-turn[0], -turn[1]))
-        self.b, self.r = Sums(amplitude.sizes_added), Sums(amplitude.sizes_rate)
-        self.energy_majorant, self.amplitude_majorant = Sums(energy.majorant), Sums(amplitude.majorant)
-        self.energy_added, self.amplitude_added = Values(energy.added, self.e.pairs), Values(amplitude.added, self.b.pairs)
+        self.e, self.b, self.r = (Sums(terms, sizes(terms)) for terms in (energy.added, amplitude.added, amplitude.rate))
+        self.k = Sums(energy.rate, sizes(energy.rate), (-turn[0], -turn[1]))
+        self.energy_majorant, self.amplitude_majorant = (Sums(terms, terms.m) for terms in (energy.added, amplitude.added))
+        self.energy_added, self.amplitude_added = Values(energy.added), Values(amplitude.added)
 
     def __call__(self, states, near=0.0) -> Found:
         """The theorem's inequality for states (n, 3), searched from the smallest A and z that could do; for all states of the

@@ -24,9 +24,10 @@ from fractions import Fraction
 
 import numpy as np
 
-from .elimination import Algebra, corrected, product
+from .elimination import Algebra, corrected
 from .fixed_centre import BLUR
 from .form import signed_square
+from .terms import gathered, packed, product, Terms, terms_of
 
 CONDITION = 2.0**8  # rounding of p and q over themselves: 2^-44 at most, 2^-36 in the powers that occur
 
@@ -58,13 +59,12 @@ class MovingCentre:
         self.r = self._folded({(0, 0, 4, 4): float(s * l1 * s * (d2 - d3) / 4)})
         self.f = self._folded({(0, 0, 1, 7): -root(d2 * M3 + l1 * l2, 1 / D2), (0, 0, 7, 1): 1j * s * root(d3 * M2 - l1 * l3, 1 / D3)})
         self.g = g
-        rate = {key: c / self.D1 for key, c in (self.G0 | self.swing | self.pull).items()}
-        carried = {(0, 1, a, b): c for (_, _, a, b), c in self.r.items()} | self.f
+        rate = gathered(*map(terms_of, (self.G0, self.swing, self.pull))).times(1 / self.D1)
+        carried = terms_of({(0, 1, a, b): c for (_, _, a, b), c in self.r.items()} | self.f)
         om = 1 / (self.roots[0] * self.roots[1])
-        scale = self._folded({(0, 0, -2, -2): 1.0})  # sqrt(p q), of which a constant q is part of the number
-        (turn, size), = (((a, b), c) for (_, _, a, b), c in scale.items())
-        self.turn_size = size
-        self.algebra = Algebra(1j / (om * size), turn, (-self.a3 / 4, -self.a2 / 4), rate, {}, carried, (1, 1 if self.a2 else 0))
+        (((_, _, *turn), self.turn_size),) = self._folded({(0, 0, -2, -2): 1.0}).items()  # sqrt(p q): a constant q is part of the number
+        self.algebra = Algebra(1j / (om * self.turn_size), tuple(turn), (-self.a3 / 4, -self.a2 / 4), rate, terms_of({}), carried,
+                               (1, 1 if self.a2 else 0))
 
     def _folded(self, terms):
         """Terms without those that vanish; a constant q becomes part of their numbers."""
@@ -80,34 +80,20 @@ class MovingCentre:
         """D1 int sqrt(p q) dx, corrected; the drive sqrt(p q) G0 is left out of its rate."""
         a, b = self.algebra.turn
         start = {(j, k, m + a, n + b): c * self.turn_size for (j, k, m, n), c in (self.swing | self.pull).items()}
-        return corrected(self.algebra, start, _sizes(start), order)
+        return corrected(self.algebra, terms_of(start), order)
 
     def amplitude(self, order):
-        """G0/M1 |eta|^2, corrected."""
-        rate = self._amplitude_rate(self.G0, self.swing, self.pull, self.k, self.r, self.f, self.g, self.algebra)
-        sizes = self._amplitude_rate(*map(_sizes, (self.G0, self.swing, self.pull, self.k, self.r, self.f)), abs(self.g), self.algebra.majorant())
-        return corrected(self.algebra, rate, sizes, order)
-
-    def _amplitude_rate(self, G0, swing, pull, k, r, f, g, algebra):
-        """D1 times: (x' - G0/D1) w' |eta|^2 + 2 w [...], each bracket's products of oscillating factors written out, without the mean part."""
-        sign = 1 if algebra.absolute else -1
-        conj = lambda terms: {key: c.conjugate() if not algebra.absolute else c for key, c in terms.items()}  # noqa: E731
-        slope = {}
-        for (_, _, a, b), c in G0.items():
-            for at, fall, key in ((a, algebra.fall[0], (0, 0, a + 4, b)), (b, algebra.fall[1], (0, 0, a, b + 4))):
-                if at and fall:
-                    slope[key] = slope.get(key, 0) + c * at * fall
-        square = lambda terms, n: {(n, 0, a, b): c / 2 for (_, _, a, b), c in terms.items()} | {(0, n, a, b): c / 2 for (_, _, a, b), c in conj(terms).items()}  # noqa: E731  Re(terms eta^n)
-        twist = {(4, 0, 0, 0): sign * 0.5j * g / 2, (0, 4, 0, 0): -sign * 0.5j * g / 2} if not algebra.absolute else {(4, 0, 0, 0): g / 4, (0, 4, 0, 0): g / 4}
-        inner = product(G0, square(r, 2))
-        product(twist, r, inner)
-        product(pull, square(r, 2), inner)
-        product(G0, square(conj(f), 1), inner)
-        product(swing, square(conj(f), 1), inner)
-        product({(0, 0, 0, 0): 0.5}, square(product(conj(k), conj(f)), 2), inner)
-        out = product({key: 2 * c for key, c in G0.items()}, inner)
-        product(product(swing | pull, slope), {(1, 1, 0, 0): 1.0}, out)
-        return {key: c / (self.M1 * self.D1) for key, c in out.items()}
+        """G0/M1 |eta|^2, corrected. D1 M1 times its rate is (D1 x' - G0) G0' |eta|^2 + 2 G0 [...], each bracket's products of oscillating
+        factors written out, without the mean part."""
+        G0, swing, pull, k, r, f = map(terms_of, (self.G0, self.swing, self.pull, self.k, self.r, self.f))
+        k, f = (Terms(part.keys, part.c.conjugate(), part.m) for part in (k, f))
+        twist = terms_of({(4, 0, 0, 0): -0.25j * self.g, (0, 4, 0, 0): 0.25j * self.g})  # g Im eta^2 Re eta^2 = (g/2) Im eta^4
+        inner = [product(G0, _real(r, 2)), product(twist, r), product(pull, _real(r, 2)), product(G0, _real(f, 1)),
+                 product(swing, _real(f, 1)), _real(product(k, f), 2).times(0.5)]
+        slope = self.algebra.slope(G0)
+        around = product(product(gathered(swing, pull), slope), terms_of({(1, 1, 0, 0): 1.0}))
+        rate = gathered(product(G0.times(2.0), gathered(*inner)), around).times(1 / (self.M1 * self.D1))
+        return corrected(self.algebra, rate, order)
 
     def _pq(self, x):
         return self.a3 * x + self.c, self.a2 * x + self.c
@@ -199,8 +185,10 @@ class MovingCentre:
         return (p > 0) & (q > 0) & well & (x > 0)
 
 
-def _sizes(terms):
-    return {key: abs(c) for key, c in terms.items()}
+def _real(terms: Terms, n: int) -> Terms:
+    """Re(terms eta^n) of terms without eta."""
+    _, _, a, b = terms.powers
+    return gathered(Terms(packed(n, 0, a, b), terms.c / 2, terms.m / 2), Terms(packed(0, n, a, b), terms.c.conjugate() / 2, terms.m / 2))
 
 
 def moving_centre(form, scene) -> MovingCentre | None:

@@ -1,12 +1,15 @@
 """Many motions of one scene, each by its own steps: heyoka's batches, or SciPy row by row where heyoka is not installed."""
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 from ...integrate.ensemble import LANES
 from ...integrate.to_heyoka import borrowed_taylor, heyoka_available
 from ...integrate.trajectory import ATOL_SHARE, FALLBACK_RTOL
-from ...physics.to_numpy import equations_of, form, to_numpy
+from ...numbers.vectors import CYCLE
+from ...physics.to_numpy import Form
 
 
 class Runs:
@@ -16,12 +19,12 @@ class Runs:
     """
 
     def __init__(self, scene, states):
-        self.equations = equations_of(scene)
+        self.quadratic = scene.quadratic()
         self.states, self.times = np.array(states, float), np.zeros(len(states))
         self.taylor = heyoka_available()
         self.steps_done = 0  # of each row
         if not self.taylor:
-            self.system, self.solvers = to_numpy(self.equations), [None] * len(states)
+            self.solvers = [None] * len(states)
 
     # Units of rounding by which a step may move the motion: a Taylor polynomial of 20 terms; what DOP853 is asked for.
     @property
@@ -40,7 +43,7 @@ class Runs:
     def _batches(self, rows, steps, t_max):
         filled = np.append(rows, np.repeat(rows[-1:], -len(rows) % LANES)).reshape(-1, LANES)
         times, ends = np.zeros(LANES), np.full(LANES, 1.0)
-        with borrowed_taylor(form(self.equations, self.equations.rhs), lanes=LANES) as ta, np.errstate(all="ignore"):
+        with borrowed_taylor(_form(self.quadratic), lanes=LANES) as ta, np.errstate(all="ignore"):
             for group in filled:
                 times = self.times[group]
                 ta.set_time(times)
@@ -53,7 +56,7 @@ class Runs:
         from scipy.integrate import DOP853
         if self.solvers[row] is None:
             size = np.abs(self.states[row]).max() or 1.0
-            self.solvers[row] = DOP853(lambda _, y: np.array(self.system.rate(y.tolist())), 0.0, self.states[row], t_max,
+            self.solvers[row] = DOP853(lambda _, y: np.array(self.quadratic.rate(y.tolist())), 0.0, self.states[row], t_max,
                                        rtol=FALLBACK_RTOL, atol=FALLBACK_RTOL * ATOL_SHARE * size)
         solver = self.solvers[row]
         for _ in range(steps):
@@ -61,3 +64,17 @@ class Runs:
                 solver.step()
         self.states[row] = solver.y if solver.status != "failed" else np.nan
         self.times[row] = solver.t
+
+
+def _form(quadratic) -> Form:
+    """The rates for heyoka. Every scene has the same twelve coefficients, zeros too: it is compiled once for all."""
+    state, symbols, expressions = _structure()
+    return Form(state, expressions, symbols, sum(zip(*quadratic.coefficients), ()))
+
+
+@lru_cache(maxsize=1)
+def _structure():
+    from sympy import symbols
+    x, c = symbols("x1:4", real=True), symbols("c0:12", real=True)
+    rates = [c[4 * i] * x[j] * x[k] + c[4 * i + 1] * x[k] + c[4 * i + 2] * x[j] + c[4 * i + 3] for i, (j, k) in enumerate(CYCLE)]
+    return x, c, tuple(rates)
