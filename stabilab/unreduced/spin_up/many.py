@@ -1,0 +1,63 @@
+"""Many motions of one scene under a torque of any direction: their spin-up as columns."""
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ...orbit.result import Fate
+from ...physics.states import checked_states
+from .chase import chase, Chased
+from .fields import natural, tests_of
+from .follow import answer_of, BUDGET, NATURAL_TIMES, spin_up
+from .result import SpinUp
+
+LEVELS = ("undecided", "certified", "exact")
+
+
+@dataclass(frozen=True)
+class SpinUps:
+    """Columns (n,) of what `follow.spin_up` says of each state.
+
+    fate: int8 of `Fate`; axis: 1, 2, 3 or 0; sense: +1, -1 or 0; level: int8, index into LEVELS; t, steps, condition as of `SpinUp`, states (n, 3) at t;
+    """
+
+    fate: np.ndarray
+    axis: np.ndarray
+    sense: np.ndarray
+    level: np.ndarray
+    t: np.ndarray
+    steps: np.ndarray
+    condition: np.ndarray
+    states: np.ndarray
+    scene: object = field(repr=False)
+    unit: float = field(repr=False)
+    chased: Chased | None = field(repr=False)
+    exact: tuple = field(repr=False)
+
+    def row(self, number: int) -> SpinUp:
+        """All that is known of one state: trap, cause, direction."""
+        return self.exact[number] if self.chased is None else answer_of(self.scene, self.unit, self.chased, number)
+
+
+def spin_up_many(scene, states, t_max: float | None = None, budget: int | None = None) -> SpinUps:
+    """`follow.spin_up` for states (n, 3), in batches; every motion leaves its batch as soon as it is decided. Limits as there."""
+    states = checked_states(states).reshape(-1, 3)
+    own, unit = natural(scene)
+    tests = tests_of(own)
+    first = spin_up(scene, states[0].tolist(), t_max=0.0, budget=0) if len(states) else None
+    if first is not None and (first.level == "exact" or not tests):  # closed solutions: of all states of the scene or of none
+        return _one_by_one(scene, states)
+    found = chase(own, tests, states / unit, NATURAL_TIMES if t_max is None else t_max * unit, BUDGET if budget is None else budget)
+    good = found.fired >= 0
+    axes = np.array([0 if field.axis is None else field.axis + 1 for field, _ in tests.all] + [0])
+    senses = np.array([field.sense for field, _ in tests.all] + [0])
+    return SpinUps(np.where(good, Fate.SPIN_UP, Fate.UNDECIDED).astype(np.int8), axes[found.fired].astype(np.int8), senses[found.fired].astype(np.int8),
+                   good.astype(np.int8), found.t / unit, found.steps, found.condition, found.states * unit, scene, unit, found, ())
+
+
+def _one_by_one(scene, states):
+    rows = tuple(spin_up(scene, state) for state in states.tolist())
+    columns = [np.array([getattr(row, name) for row in rows]) for name in ("fate", "axis", "sense")]
+    return SpinUps(*(column.astype(np.int8) for column in columns), np.array([LEVELS.index(row.level) for row in rows], np.int8),
+                   *(np.array([getattr(row, name) for row in rows]) for name in ("t", "steps", "condition", "state")), scene, 1.0, None, rows)
