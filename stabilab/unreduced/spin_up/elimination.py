@@ -56,13 +56,13 @@ class Algebra:
     def slope(self, terms: Terms) -> Terms:
         """d/dx of terms at constant zeta."""
         _, _, a, b = terms.powers
-        return gathered(*(terms.moved(packed(0, 0, *step)).times(fall * n)[n != 0]
+        return gathered(*(terms.moved(packed(0, 0, *step)).times(n).times(fall)[n != 0]
                           for step, fall, n in (((4, 0), self.fall[0], a), ((0, 4), self.fall[1], b)) if fall))
 
     def removed(self, terms: Terms) -> Terms:
         """What is added to a quantity to take oscillating terms out of its rate."""
         j, k, _, _ = terms.powers
-        return terms.moved(-packed(0, 0, *self.turn)).times(self.lift).times(1.0 / (j - k))
+        return terms.moved(-packed(0, 0, *self.turn)).times(self.lift).over(j - k)
 
 
 def _along(terms, direction):

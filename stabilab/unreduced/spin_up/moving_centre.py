@@ -109,6 +109,11 @@ class MovingCentre:
         return tuple((min(end) - size, max(end) + size) for end, size in zip(ends, (u, v)))
 
     def place(self, states, near=0.0):
+        """As of `FixedCentre`; nan where the form does not apply."""
+        with np.errstate(all="ignore"):
+            return self._place(states, near)
+
+    def _place(self, states, near):
         w = states @ self.basis.T
         x, (p, q), (l2, l3), (M2, M3), (r2, r3) = w[:, 0], self._pq(w[:, 0]), self.wheel, self.torque, self.roots
         rho = np.sqrt(np.sqrt(q / p))

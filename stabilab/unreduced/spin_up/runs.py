@@ -29,7 +29,7 @@ class Runs:
     # Units of rounding by which a step may move the motion: a Taylor polynomial of 20 terms; what DOP853 is asked for.
     @property
     def step_error(self) -> float:
-        return 2.0**-50 if self.taylor else 4 * FALLBACK_RTOL
+        return 2.0**-52 if self.taylor else 4 * FALLBACK_RTOL
 
     def advance(self, rows, steps: int, t_max: float):
         """Carry the given rows (indices) on by so many steps, or to t_max."""

@@ -35,8 +35,16 @@ class Terms:
         return Terms(self.keys[rows], self.c[rows], self.m[rows])
 
     def times(self, factor):
-        """Each coefficient times a number or an array of them."""
-        return Terms(self.keys, self.c * factor, self.m * np.abs(factor))
+        """Each coefficient times a number or an array of whole numbers."""
+        return Terms(self.keys, self.c * self._like(factor), self.m * np.abs(self._like(factor)))
+
+    def over(self, divisors):
+        """Each coefficient over a whole number of its own."""
+        return Terms(self.keys, self.c / self._like(divisors), self.m / np.abs(self._like(divisors)))
+
+    def _like(self, numbers):
+        """Whole numbers as Python's own where the coefficients are no doubles: other kinds of number know those."""
+        return numbers.astype(object) if isinstance(numbers, np.ndarray) and self.c.dtype == object else numbers
 
     def moved(self, key):
         """Times one monomial."""

@@ -1,0 +1,113 @@
+"""The normal forms are Euler's equations, exactly."""
+import random
+from fractions import Fraction
+
+import numpy as np
+import pytest
+import sympy as sp
+
+from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
+from stabilab.unreduced.spin_up.form import forms_of, normal_form
+from stabilab.unreduced.spin_up.moving_centre import moving_centre
+from .scenes import euler, random_scene, rates_of
+
+
+def scaled_rates(scene):
+    """Amer et al. 2024, eq. (5), written out."""
+    a, b, mu = scene.a, scene.b, scene.mu
+    return lambda x: [x[1] * x[2] + mu[0], -x[2] * (x[0] + a) + mu[1], x[1] * (x[0] + b) + mu[2]]
+
+
+def gap(form, rate, w):
+    """Relative departure of the form's rates from those of the motion; X and zeta are affine, so a difference gives theirs."""
+    X, z = form.place(w)
+    X1, z1 = form.place([a + b for a, b in zip(w, rate(w))])
+    G = form.M1 + form.gam * (z * z).imag + (form.kap.conjugate() * z).real
+    turned = 1j * form.om * X * z + 1j * form.h * z.conjugate() + form.mu
+    return max(abs(X1 - X - G / form.D1) / (1 + abs(G)), abs(z1 - z - turned) / (1 + abs(turned)))
+
+
+def test_normal_forms_move_as_eulers_equations_say():
+    rng = random.Random(1)
+    for _ in range(60):
+        scene = random_scene(rng)
+        rate, w = rates_of(scene), [rng.gauss(0, 3) for _ in range(3)]
+        forms = forms_of(scene)
+        assert len(forms) == 2  # major and minor axis
+        assert max(gap(form, rate, w) for form in forms) < 1e-11  # rounding; oracle: Euler's equations written out
+
+
+def test_scaled_forms_move_as_the_paper_says_for_any_a_and_b():
+    rng = random.Random(2)
+    for _ in range(40):
+        scene = ScaledGyrostat(rng.gauss(0, 2), rng.gauss(0, 2), tuple(rng.gauss(0, 1) for _ in range(3)))
+        w = [rng.gauss(0, 3) for _ in range(3)]
+        forms = forms_of(scene)
+        assert [form.axis for form in forms] == [0, 2]
+        assert max(gap(form, scaled_rates(scene), w) for form in forms) < 1e-12  # oracle: eq. (5)
+
+
+def test_mean_drag_of_the_wheel_is_that_of_the_form():
+    rng = random.Random(3)
+    for _ in range(40):
+        for form in forms_of(random_scene(rng)):
+            drag = -(form.kap.conjugate() * form.mu).imag / form.om
+            assert abs(form.drag - drag) < 1e-12 * (1 + abs(form.kap * form.mu) / form.om)  # off-axis identity m* = -Im(kap* mu)/om
+
+
+@pytest.mark.parametrize("D, torque, axis", [((3, 2, 1.5), (1, 1, 1), 1), ((3, 2, 2), (1, 1, 1), 1), ((3, 2, 1.5), (0, 1, 1), 0)],
+                         ids=["middle axis", "axis of two equal moments", "no torque about it"])
+def test_no_form_where_none_exists(D, torque, axis):
+    assert normal_form(D, (1, 1, 1), torque, axis) is None
+
+
+def test_moving_centre_moves_as_eulers_equations_say():
+    rng = random.Random(4)
+    for _ in range(30):
+        scene = random_scene(rng, 1)
+        rate, step = rates_of(scene), 1e-5
+        for form in forms_of(scene):
+            field = moving_centre(form, scene)
+            w = np.array([rng.gauss(0, 1) for _ in range(3)])
+            w[form.axis] = form.sense * rng.uniform(20, 40)
+            place = lambda v: tuple(part[0] for part in field.place(np.array([v]))[:2])  # noqa: E731
+            if not field.valid(np.array([place(w)[0]]))[0]:
+                continue
+            x, z = place(w)
+            (xp, zp), (xm, zm) = place(w + step * np.array(rate(w))), place(w - step * np.array(rate(w)))
+            value = lambda terms: sum(c * z**j * z.conjugate()**k * p**(-a / 4) * q**(-b / 4) for (j, k, a, b), c in terms.as_dict().items())  # noqa: E731
+            p, q = field._pq(x)
+            swing = value(field.algebra.x_rate)
+            turned = -1 / field.algebra.lift * (p * q)**0.5 * z + swing * value(field.algebra.carried)
+            assert abs((xp - xm) / (2 * step) - swing) < 1e-6 * (1 + abs(swing))  # central differences of Euler's equations
+            assert abs((zp - zm) / (2 * step) - turned) < 1e-5 * (1 + abs(turned))
+
+
+def test_mean_drift_about_the_moving_centre_vanishes_identically():
+    x, l1, l2, l3, M1, M2, M3, D1, D2, D3 = sp.symbols("x l1 l2 l3 M1 M2 M3 D1 D2 D3", positive=True)
+    d2, d3, e = D1 - D2, D1 - D3, D2 - D3
+    P, Q = d3 * x + l1, d2 * x + l1
+    n2, n3 = d3 * M2 - l1 * l3, d2 * M3 + l1 * l2
+    G0 = M1 + l2 * M2 / Q + l3 * M3 / P - e * M2 * M3 / (P * Q)
+    # Re(k* f) with s = 1: rho cancels between k and f
+    product = -(e * M2 - l3 * Q) / P * n3 / Q**2 + (l2 * P - e * M3) / Q * n2 / P**2
+    assert sp.simplify(product + sp.diff(G0, x)) == 0  # in symbols: Re(k* f) = -G0', what lets the mean terms be dropped
+
+
+def test_quasi_equilibrium_gives_the_mean_torque():
+    numbers = [Fraction(n, 7) for n in (3, 5, 11, 2, 13, 4, 1, 9, 8, 6)]
+    x, l1, l2, l3, M1, M2, M3 = numbers[:7]
+    D = (Fraction(3), Fraction(2), Fraction(5, 3))
+    P, Q, e = (D[0] - D[2]) * x + l1, (D[0] - D[1]) * x + l1, D[1] - D[2]
+    w = (x, (l2 * x - M3) / Q, (l3 * x + M2) / P)
+    rate = euler(D, (l1, l2, l3), (M1, M2, M3), w)
+    assert rate[1:] == [0, 0]  # exact rationals
+    assert D[0] * rate[0] == M1 + l2 * M2 / Q + l3 * M3 / P - e * M2 * M3 / (P * Q)
+
+
+def test_a_turned_case_has_the_same_forms():
+    """Half a turn about axis 2 turns torque, wheel and state: the form is that of the turned scene, sense reversed."""
+    one = Scene(Body((3, 2, 1.5)), Gyrostat((.3, .2, .1)), ConstantTorque((1, .5, .2)))
+    other = Scene(Body((3, 2, 1.5)), Gyrostat((-.3, .2, -.1)), ConstantTorque((-1, .5, -.2)))
+    for a, b in zip(forms_of(one), forms_of(other)):
+        assert a.sense == -b.sense and a.place((1, 2, 3)) == b.place((-1, 2, -3)) and a.mu == b.mu or a.axis == 2
