@@ -1,0 +1,68 @@
+"""Times to a rate and bounds for ever, after the trap."""
+import math
+import random
+
+import numpy as np
+import pytest
+
+from stabilab import Body, ConstantTorque, Scene
+from stabilab.unreduced.spin_up.follow import spin_up
+from .scenes import EXAMPLE, random_scene, rates_of, run, sphere
+
+
+def test_clock_of_the_worked_example_brackets_the_true_time():
+    answer = spin_up(EXAMPLE, (6, 1, -1))
+    early, late = answer.trap.clock(100)
+    assert 260.96 < early < 264.80 < late < 266.65  # true time 264.80; the printed interval is wider
+
+
+def test_clock_and_lines_bracket_runs():
+    rng, seen = random.Random(11), 0
+    while seen < 8:
+        scene = random_scene(rng)
+        answer = spin_up(scene, sphere(rng, 3), 300, 20_000)
+        if answer.level != "certified":
+            continue
+        seen += 1
+        times = answer.t + np.linspace(0, 6, 301)
+        states = run(rates_of(scene), answer.state, times)
+        spin = states @ np.array(answer.direction)
+        low, high = np.array([answer.trap.line(t) for t in times]).T
+        assert (spin > low - 1e-6).all() and (spin < high + 1e-6).all()  # DOP853
+        for n, (a, b) in enumerate(answer.trap.bounds()):
+            assert (states[:, n] > a - 1e-6).all() and (states[:, n] < b + 1e-6).all()
+        for limit in np.linspace(spin[0], spin[-1], 5)[1:]:
+            early, late = answer.trap.clock(limit)
+            reached = times[np.argmax(spin >= limit)]
+            assert early <= reached + 1e-9 and late >= reached - 0.03
+
+
+def test_clock_shrinks_when_asked_again_at_a_later_state():
+    """The same limit from a later state of the same motion: the interval lies inside nearly and is narrower."""
+    first = spin_up(EXAMPLE, (6, 1, -1))
+    later_state = run(rates_of(EXAMPLE), (6, 1, -1), np.array([0.0, 50.0, 100.0]))[-1]
+    later = spin_up(EXAMPLE, tuple(later_state))
+    one, two = first.trap.clock(100), [100 + t for t in later.trap.clock(100)]
+    assert two[1] - two[0] < 0.3 * (one[1] - one[0]) and two[0] < 264.80 < two[1] + 0.01
+
+
+def test_a_rate_already_reached_has_no_earliest_time():
+    trap = spin_up(EXAMPLE, (6, 1, -1)).trap
+    assert trap.clock(1.0) == (0.0, trap.t)
+
+
+def test_clock_of_a_body_of_revolution_is_the_linear_law():
+    scene = Scene(Body((2, 1.5, 1.5)), ConstantTorque((0.5, 0.3, 0.1)))
+    answer = spin_up(scene, (-3, 1, 2))
+    early, late = answer.trap.clock(10)
+    assert early <= 52 <= late and late - early < 1e-9  # omega1 = -3 + t/4
+    assert answer.trap.bounds()[0] == (-3, math.inf)
+
+
+@pytest.mark.parametrize("scale", [2.0**-20, 2.0**15])
+def test_clock_keeps_units(scale):
+    """The same motion in another unit of time: powers of two, exact."""
+    from stabilab import Gyrostat
+    other = Scene(Body((1.4, 1, .6)), Gyrostat([scale * v for v in (.2, .1, -.3)]), ConstantTorque([scale**2 * v for v in (.5, .6, .62)]))
+    one, two = spin_up(EXAMPLE, (6, 1, -1)), spin_up(other, [scale * v for v in (6, 1, -1)])
+    assert np.allclose(two.trap.clock(100 * scale), np.array(one.trap.clock(100)) / scale, rtol=1e-9)

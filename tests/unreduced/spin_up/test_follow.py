@@ -1,0 +1,165 @@
+"""Motions followed to their certificate: one and many, and none against a run of another kind."""
+import math
+import random
+
+import numpy as np
+import pytest
+
+from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
+from stabilab.errors import InputError
+from stabilab.physics.scaling import to_scaled
+from stabilab.unreduced.spin_up import runs
+from stabilab.unreduced.spin_up.cause import seen, _equilibria
+from stabilab.unreduced.spin_up.follow import spin_up
+from stabilab.unreduced.spin_up.many import spin_up_many
+from .scenes import euler, EXAMPLE, random_scene, rates_of, run, sphere
+
+
+def departures(scene, answer, span):
+    """What a run by DOP853 from the certified state breaks of the bounds told."""
+    times = answer.t + np.linspace(0, span, 101)
+    states = run(rates_of(scene), answer.state, times)
+    spin = states @ np.array(answer.direction)
+    low, high = np.array([answer.trap.line(t) for t in times]).T
+    wrong = [side for side, bad in (("low", spin < low - 1e-6), ("high", spin > high + 1e-6)) if bad.any()]
+    return wrong + [n for n, (a, b) in enumerate(answer.trap.bounds()) if ((states[:, n] < a - 1e-6) | (states[:, n] > b + 1e-6)).any()]
+
+
+def test_certified_motions_keep_what_they_promise():
+    rng, certified = random.Random(21), 0
+    for _ in range(40):
+        scene = random_scene(rng)
+        answer = spin_up(scene, sphere(rng, rng.choice((.1, 1, 3))), 200, 5000)
+        if answer.level == "certified":
+            certified += 1
+            assert not departures(scene, answer, 1.5)
+    assert certified > 25
+
+
+@pytest.mark.slow
+def test_certified_motions_keep_what_they_promise_for_long():
+    from benchmarks.spin_up import main
+    rows = main(31, 300, 2e4, 600_000, 3600, 3000)
+    assert not any(wrong for *_, wrong in rows)  # a compiled Runge-Kutta run of 3,000 natural units after each certificate
+    no_wheel = [answer for _, wheel, answer, *_ in rows if wheel == 0]
+    assert all(answer.level == "certified" and answer.t < 5000 for answer in no_wheel)
+    assert sum(answer.level == "certified" for _, _, answer, *_ in rows) >= 0.93 * len(rows)
+    assert all(answer.cause for _, _, answer, *_ in rows)
+
+
+def test_every_motion_without_a_wheel_spins_up():
+    rng = random.Random(22)
+    for _ in range(25):
+        answer = spin_up(random_scene(rng, 0), sphere(rng, rng.choice((.1, 1, 10))))
+        assert answer.level == "certified" and answer.t < 10_000
+
+
+def test_fate_agrees_with_a_long_run_by_brute_force():
+    rng = random.Random(23)
+    for _ in range(6):
+        scene = random_scene(rng, rng.choice((0, .1)))
+        answer = spin_up(scene, sphere(rng), 500)
+        end = run(rates_of(scene), sphere(rng) if answer.level != "certified" else answer.state, np.array([0.0, 15.0, 30.0]))
+        if answer.level == "certified":
+            i = answer.axis - 1
+            assert np.sign(end[-1, i]) == answer.sense and abs(end[-1, i]) > abs(end[1, i])
+
+
+def test_many_answer_as_one_by_one():
+    scene = random_scene(random.Random(24), 1)
+    states = np.random.default_rng(2).normal(size=(37, 3)) * 3
+    columns = spin_up_many(scene, states, 300, 4000)
+    for i in range(0, 37, 3):
+        one, row = spin_up(scene, states[i], 300, 4000), columns.row(i)
+        assert (one.level, one.axis, one.sense, one.steps) == (row.level, row.axis, row.sense, row.steps)
+        assert (columns.fate[i], columns.axis[i], columns.sense[i]) == (one.fate, one.axis, one.sense)
+        assert one.t == pytest.approx(row.t, rel=1e-9) and np.allclose(one.state, row.state, rtol=1e-6, atol=1e-6)
+
+
+def test_company_does_not_matter():
+    scene = random_scene(random.Random(25), 0.1)
+    states = np.random.default_rng(3).normal(size=(20, 3))
+    all_, some = spin_up_many(scene, states, 200), spin_up_many(scene, states[::4], 200)
+    assert np.array_equal(all_.t[::4], some.t) and np.array_equal(all_.axis[::4], some.axis)
+
+
+def test_scipy_takes_the_place_of_heyoka(monkeypatch):
+    states = np.random.default_rng(4).normal(size=(3, 3))
+    with_it = spin_up_many(EXAMPLE, states, 100)
+    monkeypatch.setattr(runs, "heyoka_available", lambda: False)
+    without = spin_up_many(EXAMPLE, states, 100)
+    assert (without.level == 1).all() and np.array_equal(with_it.axis, without.axis) and np.array_equal(with_it.sense, without.sense)
+
+
+def test_scaled_twin_has_the_fate_of_its_body():
+    """Scaled axis for axis: D1 > D2 > D3, omega_j = rate_j x_j with positive rates."""
+    scene = Scene(Body((2000, 1500, 1000)), Gyrostat((30, 0, 0)), ConstantTorque((4, 3, -2)))
+    twin, change = to_scaled(scene)
+    for state in np.random.default_rng(5).normal(size=(6, 3)) * 0.1:
+        one, two = spin_up(scene, state), spin_up(twin, change.to_scaled(state))
+        assert (one.level, one.axis, one.sense) == (two.level, two.axis, two.sense) and one.level == "certified"
+
+
+def test_scaled_scenes_of_no_body_are_certified_too():
+    scene = ScaledGyrostat(1.5, -0.7, (0.4, 0.3, 0.5))
+    answer = spin_up(scene, (0.3, -0.2, 0.4))
+    assert answer.level == "certified"
+    a, b, mu = 1.5, -0.7, scene.mu
+    rate = lambda x: [x[1] * x[2] + mu[0], -x[2] * (x[0] + a) + mu[1], x[1] * (x[0] + b) + mu[2]]  # noqa: E731  Amer et al., eq. (5)
+    times = answer.t + np.linspace(0, 5, 101)
+    spin = run(rate, answer.state, times) @ np.array(answer.direction)
+    low, high = np.array([answer.trap.line(t) for t in times]).T
+    assert (spin > low - 1e-7).all() and (spin < high + 1e-7).all()
+
+
+@pytest.mark.parametrize("unit, mass", [(2.0**-30, 1.0), (2.0**20, 2.0**40)])
+def test_fate_does_not_depend_on_units(unit, mass):
+    scene = Scene(Body([mass * v for v in (1.4, 1, .6)]), Gyrostat([mass * unit * v for v in (.2, .1, -.3)]),
+                  ConstantTorque([mass * unit**2 * v for v in (.5, .6, .62)]))
+    one, two = spin_up(EXAMPLE, (.1, .2, .3)), spin_up(scene, [unit * v for v in (.1, .2, .3)])
+    assert (one.axis, one.sense, one.steps) == (two.axis, two.sense, two.steps) and two.t == pytest.approx(one.t / unit, rel=1e-9)
+
+
+def test_bounded_island_is_never_certified():
+    """D = (1.2412, .3937, 1.3650): bounded over 1e6 units, an elliptic orbit between two saddle-foci."""
+    scene = Scene(Body((1.2412, .3937, 1.3650)), Gyrostat((-.5224, .8309, .1914)), ConstantTorque((.0987, .8450, .5255)))
+    answer = spin_up(scene, (-1.572, .657, .738), 3000)
+    assert answer.level == "undecided" and answer.fate is Fate.UNDECIDED and "island" in answer.cause
+
+
+def test_two_equilibria_rest():
+    scene = Scene(Body((1.2412, .3937, 1.3650)), Gyrostat((-.5224, .8309, .1914)), ConstantTorque((.0987, .8450, .5255)))
+    D, l, M = ([float(v) for v in vector] for vector in (scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque")))
+    ends = _equilibria(scene)
+    assert len(ends) == 2 and all(max(map(abs, euler(D, l, M, w))) < 1e-12 for w in ends)
+
+
+def test_parked_motion_is_called_parked():
+    """l2 M2/d2 + l3 M3/d3 > 0 and small M1: the saddle-focus at -m*/M1."""
+    scene = Scene(Body((1.4, 1, .6)), Gyrostat((0, 0, .8)), ConstantTorque((.02, 0.1, .6)))
+    drag = .8 * .6 / .8
+    assert "parked" in seen(scene, (-drag / .02, 0, .8 / .8))
+
+
+def test_condition_is_the_growth_of_a_small_change():
+    """Against two runs by DOP853 started 1e-6 apart in the same direction."""
+    state = np.array((.3, -.2, .4))
+    answer = spin_up(EXAMPLE, state)
+    times = np.linspace(0, answer.t, 400)
+    step = 1e-6 * np.array((1, -1, 1))
+    apart = np.abs(run(rates_of(EXAMPLE), state + step, times) - run(rates_of(EXAMPLE), state, times)).max(axis=1).max() / 1e-6
+    assert 0.3 * apart < max(answer.condition, 1) < 1.1 * max(apart, 1)
+
+
+def test_bad_states_are_refused():
+    with pytest.raises(InputError):
+        spin_up(EXAMPLE, (1, math.nan, 2))
+    with pytest.raises(InputError):
+        spin_up_many(EXAMPLE, [[1, 2]])
+
+
+def test_nothing_is_followed_beyond_the_limits():
+    scene = random_scene(random.Random(26), 10)
+    answer = spin_up(scene, (.1, .2, .1), 2.0)
+    assert answer.level == "certified" or answer.t == pytest.approx(2.0)
+    assert spin_up(scene, (.1, .2, .1), budget=20).steps <= 20
