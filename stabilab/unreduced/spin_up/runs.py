@@ -20,6 +20,7 @@ class Runs:
 
     def __init__(self, scene, states):
         self.quadratic = scene.quadratic()
+        self.coefficients = [np.array(row) for row in self.quadratic.coefficients]
         self.states, self.times = np.array(states, float), np.zeros(len(states))
         self.taylor = heyoka_available()
         self.steps_done = 0  # of each row
@@ -39,6 +40,12 @@ class Runs:
         else:
             for row in rows:
                 self._alone(row, steps, t_max)
+
+    def rates(self, rows):
+        """The rates of the given rows now, (m, 3)."""
+        (kappa, rho, sigma, m), x = self.coefficients, self.states[rows]
+        j, k = x[:, [1, 2, 0]], x[:, [2, 0, 1]]
+        return kappa * j * k + rho * k + sigma * j + m
 
     def _batches(self, rows, steps, t_max):
         filled = np.append(rows, np.repeat(rows[-1:], -len(rows) % LANES)).reshape(-1, LANES)
