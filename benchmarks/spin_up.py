@@ -47,9 +47,11 @@ def _sphere(rng, size):
 def violations(scene, answer, span: float, points: int = 400) -> list[str]:
     """Where a run by a compiled Runge-Kutta formula leaves what the trap allows, over a span after it."""
     import numpy as np
-    trap, i = answer.trap, answer.axis - 1
+    trap, i, c = answer.trap, answer.axis - 1, np.array(scene.quadratic().coefficients)
+    pace = 1 + np.abs(c[1:3]).max() * 2 + max(map(abs, answer.state))
+    span = min(span, 1e4 / pace)  # some fifteen hundred turns at most
     times = np.linspace(answer.t, answer.t + span, points)
-    run = _runge_kutta()(np.array(scene.quadratic().coefficients), np.array(answer.state), times)
+    run = _runge_kutta()(c, np.array(answer.state), times)
     spin = run @ np.array(answer.direction)
     low, high = np.array([trap.line(t) for t in times]).T
     wrong = [f"line {side}" for side, bad in (("below", spin < low * (1 - 1e-7)), ("above", spin > high * (1 + 1e-7))) if bad.any()]

@@ -129,9 +129,10 @@ class Certifier:
             z = np.where(here, z, start.x)
             k = self.k(A, field.greatest(self.k.a, self.k.b, z))
             low, high = field.drive(z)
-            eta, least = (low - k) * (1 - SLACK) - SLACK * np.abs(low), field.least_weight(z) * (1 - SLACK)
+            eta, least = low - k - SLACK * (field.M1 + k), field.least_weight(z) - SLACK  # what is taken off M1 is below it
             alive = here & (eta > 0) & (least > 0)
-            F = (start.amplitude + self.b(A, field.greatest(self.b.a, self.b.b, z)) + self.r(A, field.tails(self.r.a, self.r.b, z)) * field.D1 / eta) / least
+            b, r = self.b(A, field.greatest(self.b.a, self.b.b, z)), self.r(A, field.tails(self.r.a, self.r.b, z))
+            F = (start.amplitude + b + r * field.D1 / eta) / least
             alive &= F < 1e100
             e = self.e(A, field.greatest(self.e.a, self.e.b, z))
             gained = field.D1 * (start.x - z) * (field.turning(start.x) + field.turning(z)) / 2
@@ -157,8 +158,7 @@ class _Start:
         value, blur = self._value(test.energy_added, test.e, test.energy_majorant, field, x, zeta, dx)
         self.energy, self.energy_up = value - blur, value + blur
         value, blur = self._value(test.amplitude_added, test.b, test.amplitude_majorant, field, x, zeta, dx)
-        weight = np.maximum(np.maximum(field.weight(self.x), field.weight(self.top)), 0)
-        self.amplitude = weight * self.size**2 * (1 + SLACK) + value + blur
+        self.amplitude = field.most_weight(x, dx) * self.size**2 * (1 + SLACK) + value + blur
 
     def _value(self, values, sums, majorant, field, x, zeta, dx):
         """(value, blur): |zeta1^j zeta1*^k - zeta^j zeta*^k| <= (|zeta| + d)^(j+k) - |zeta|^(j+k), and the factors move by their steepness."""

@@ -13,7 +13,8 @@ import numpy as np
 from .fields import Tests
 from .runs import Runs
 
-APART = 2.0**-30  # of the twin, relative to the state or to the natural rate
+APART = 2.0**-36  # of the twin, relative to the state or to the natural rate
+LOST = 2.0**-4  # twins farther apart than this, in the same measure, tell no growth any more: nothing is certified
 STAGE, MOST = 1.12, 2000  # steps between tests: a share of those before, at most so many
 SPARSE = 4  # tests of high order in one stage of so many, once the low ones have had their first
 FIRST = 3   # stages with low orders alone
@@ -98,6 +99,7 @@ def _test(out, runs, n, rows, field, orders):
     test = out.tests.certifier(field, orders)
     size = np.maximum(np.abs(out.states[candidates]).max(axis=1), 1.0)
     near = runs.step_error * (1 + runs.steps_done) * out.condition[candidates] * size if runs.steps_done else np.zeros(len(candidates))
+    near[out.condition[candidates] * APART > LOST] = np.inf
     found = test(out.states[candidates], near)
     good = found.good.copy()
     if good.any():

@@ -20,7 +20,7 @@ class FixedCentre:
 
     def __init__(self, form: NormalForm):
         self.form, self.algebra = form, fixed_algebra(form)
-        self.D1, self.axis, self.sense = form.D1, form.axis, form.sense
+        self.D1, self.M1, self.axis, self.sense = form.D1, form.M1, form.axis, form.sense
 
     def place(self, states, near=0.0):
         """(x, zeta, blur of x, blur of zeta) of states (n, 3): the true place of each state within `near` (n,) of them."""
@@ -41,9 +41,10 @@ class FixedCentre:
         f = self.form
         return f.M1 + min(0.0, f.drag) / z, f.M1 + max(0.0, f.drag) / z
 
-    def weight(self, x):
-        """The factor of |zeta|^2 in the amplitude."""
-        return 1 + self.form.drag / (self.form.M1 * x)
+    def most_weight(self, x, dx):
+        """A bound of the factor of |zeta|^2 in the amplitude within dx of x, rounding included."""
+        mean = self.form.drag / self.form.M1
+        return 1 + mean / x + abs(mean) * (dx / (x - dx) ** 2 + BLUR / x) + BLUR
 
     def least_weight(self, z):
         """Its least value over x >= z."""

@@ -119,13 +119,13 @@ class MovingCentre:
         rho = np.sqrt(np.sqrt(q / p))
         u, v = w[:, 1] - self.s * (l2 * x - M3) / q, w[:, 2] - self.s * (l3 * x + M2) / p
         eta = r2 * rho * u + 1j * self.s * r3 / rho * v
-        rounding = BLUR * CONDITION
+        rounding, near = BLUR * CONDITION, near + BLUR * np.abs(states).sum(axis=1)
         moved2 = rounding * (np.abs(states).sum(axis=1) + (abs(l2 * x) + abs(M3)) / q) + near * (1 + abs(self.n3) / q**2)
         moved3 = rounding * (np.abs(states).sum(axis=1) + (abs(l3 * x) + abs(M2)) / p) + near * (1 + abs(self.n2) / p**2)
         turned = near * abs(self.c * (self.a2 - self.a3)) / (4 * p * q)
         dz = 1.25 * (r2 * rho * moved2 + r3 / rho * moved3 + (turned + rounding) * np.abs(eta))
         near_enough = near * np.maximum(self.a3 / p, self.a2 / q) < 1 / 64
-        return x, eta, np.where(near_enough, BLUR * np.abs(states).sum(axis=1) + near, np.inf), dz
+        return x, eta, np.where(near_enough, near, np.inf), dz
 
     def turning(self, x):
         p, q = self._pq(x)
@@ -140,9 +140,15 @@ class MovingCentre:
                 low, high = low + np.minimum(value, 0), high + np.maximum(value, 0)
         return low, high
 
-    def weight(self, x):
-        p, q = self._pq(x)
-        return sum(c * p ** (-a / 4) * q ** (-b / 4) for (_, _, a, b), c in self.G0.items()) / self.M1
+    def most_weight(self, x, dx):
+        """A bound of G0/M1 within dx of x, rounding included: each of its terms moves by its steepness at most."""
+        total = 0.0
+        for (_, _, a, b), c in self.G0.items():
+            a, b = np.array([a]), np.array([b])
+            least = np.maximum(x - dx, np.finfo(float).tiny)
+            total = total + c * self.factors(a, b, x)[:, 0]
+            total = total + abs(c) * self.factors(a, b, least)[:, 0] * (self.steepness(a, b, least)[:, 0] * dx + BLUR * CONDITION)
+        return total / self.M1
 
     def least_weight(self, z):
         return self.drive(z)[0] / self.M1

