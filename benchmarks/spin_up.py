@@ -49,7 +49,7 @@ def violations(scene, answer, span: float, points: int = 400) -> list[str]:
     import numpy as np
     trap, i, c = answer.trap, answer.axis - 1, np.array(scene.quadratic().coefficients)
     pace = 1 + np.abs(c[1:3]).max() * 2 + max(map(abs, answer.state))
-    span = min(span, 1e4 / pace)  # some fifteen hundred turns at most
+    span = min(span, 2e3 / pace)  # some three hundred turns
     times = np.linspace(answer.t, answer.t + span, points)
     run = _runge_kutta()(c, np.array(answer.state), times)
     spin = run @ np.array(answer.direction)

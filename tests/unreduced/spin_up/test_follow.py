@@ -41,7 +41,7 @@ def test_certified_motions_keep_what_they_promise():
 def test_certified_motions_keep_what_they_promise_for_long():
     from benchmarks.spin_up import main
     rows = main(31, 300, 2e4, 600_000, 3600, 3000)
-    assert not any(wrong for *_, wrong in rows)  # a compiled Runge-Kutta run of 3,000 natural units after each certificate
+    assert not any(wrong for *_, wrong in rows)  # a compiled Runge-Kutta run of some three hundred turns after each certificate
     no_wheel = [answer for _, wheel, answer, *_ in rows if wheel == 0]
     assert all(answer.level == "certified" and answer.t < 5000 for answer in no_wheel)
     assert sum(answer.level == "certified" for _, _, answer, *_ in rows) >= 0.93 * len(rows)
