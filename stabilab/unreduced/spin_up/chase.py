@@ -33,8 +33,9 @@ class Chased:
     constants: np.ndarray
 
 
-def chase(scene, tests: Tests, starts, t_max: float, budget: int) -> Chased:
-    """Follow the motions from starts (n, 3) of a scene in natural units, each until a test fires, t_max, or `budget` steps."""
+def chase(scene, tests: Tests, starts, t_max: float, budget: int, after: float = 0.0) -> Chased:
+    """Follow the motions from starts (n, 3) of a scene in natural units, each until a test fires at a time no earlier than `after`,
+    t_max, or `budget` steps."""
     n = len(starts)
     runs = _with_twins(scene, starts)
     out = Chased(tests, np.full(n, -1), np.zeros(n), np.zeros(n, int), np.ones(n), np.array(starts, float), np.full((6, n), np.nan))
@@ -43,14 +44,16 @@ def chase(scene, tests: Tests, starts, t_max: float, budget: int) -> Chased:
         _measure(out, runs, n, open_, begun)
         sparse = stage >= FIRST and stage % SPARSE == 0
         ended = (out.t[open_] >= t_max) | (runs.steps_done >= budget)
-        open_ = _tested(out, runs, n, open_, tests.all if sparse or ended.all() else tests.often)
+        ready = out.t[open_] >= after
+        left = _tested(out, runs, n, open_[ready], tests.all if sparse or ended.all() else tests.often)
+        open_ = np.union1d(open_[~ready], left)
         ended = (out.t[open_] >= t_max) | (runs.steps_done >= budget) | ~np.isfinite(out.states[open_]).all(axis=1)
         if ended.any() and not sparse:  # the last word is that of all tests
-            _tested(out, runs, n, open_[ended], tests.all)
+            _tested(out, runs, n, open_[ended & (out.t[open_] >= after)], tests.all)
         open_ = open_[~ended]
         if open_.size:
             steps = int(min(max(2, runs.steps_done * (STAGE - 1)), MOST, budget - runs.steps_done))
-            runs.advance(_paired(open_, n), steps, t_max)
+            runs.advance(_paired(open_, n), steps, t_max, after)
         stage += 1
     return out
 

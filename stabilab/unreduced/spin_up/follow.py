@@ -6,7 +6,7 @@ import numpy as np
 from ...orbit.result import Fate
 from ...physics.state import three_floats
 from .cause import seen
-from .chase import chase, Chased
+from .chase import APART, chase, Chased, LOST
 from .clock import Trap
 from .fields import natural, tests_of
 from .result import SpinUp
@@ -15,12 +15,12 @@ from .symmetric import exactly
 NATURAL_TIMES, BUDGET = 2e4, 600_000
 
 
-def spin_up(scene, state, t_max: float | None = None, budget: int | None = None) -> SpinUp:
+def spin_up(scene, state, t_max: float | None = None, budget: int | None = None, after: float = 0.0) -> SpinUp:
     """Whether and how the motion from a state spins up, decided by a certificate (`certificate`, `symmetric`) or not at all.
 
     scene: gyrostat and constant torque, physical or scaled. state: three rates at t = 0, taken at their word. t_max: how long the motion
     is followed, in the scene's time (None: 2e4 natural units, of the root of mean moment over torque); budget: in how many steps
-    (None: 600,000).
+    (None: 600,000). after: the inequality is to hold for a state at this time or later: bounds and clocks of a later trap are narrower.
     """
     state = three_floats(state)
     if answer := exactly(scene, state):
@@ -29,7 +29,7 @@ def spin_up(scene, state, t_max: float | None = None, budget: int | None = None)
     tests = tests_of(own)
     if not tests:
         return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, 0.0, state, 0, seen(scene, state), 1.0)
-    found = chase(own, tests, np.array([state]) / unit, NATURAL_TIMES if t_max is None else t_max * unit, BUDGET if budget is None else budget)
+    found = chase(own, tests, np.array([state]) / unit, NATURAL_TIMES if t_max is None else t_max * unit, BUDGET if budget is None else budget, after * unit)
     return answer_of(scene, unit, found, 0)
 
 
@@ -39,6 +39,8 @@ def answer_of(scene, unit: float, found: Chased, row: int) -> SpinUp:
     steps, condition = int(found.steps[row]), float(found.condition[row])
     if found.fired[row] < 0:
         words = seen(scene, state) + f"; followed for {t:.6g} {scene.time_unit}, {steps} steps, over which a small change grew {condition:.3g} times"
+        if condition * APART > LOST:
+            words += ": more than a run in doubles can tell"
         return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, t, state, steps, words, condition)
     field, orders = found.tests.all[found.fired[row]]
     trap = Trap(field, field.name, orders, *map(float, found.constants[:, row]), unit, t)

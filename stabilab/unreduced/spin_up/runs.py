@@ -32,11 +32,11 @@ class Runs:
     def step_error(self) -> float:
         return 2.0**-52 if self.taylor else 4 * FALLBACK_RTOL
 
-    def advance(self, rows, steps: int, t_max: float):
-        """Carry the given rows (indices) on by so many steps, or to t_max."""
+    def advance(self, rows, steps: int, t_max: float, pause: float = 0.0):
+        """Carry the given rows (indices) on by so many steps, or to t_max; a row that has not passed the time `pause` stops there."""
         self.steps_done += steps
         if self.taylor:
-            self._batches(rows, steps, t_max)
+            self._batches(rows, steps, t_max, pause)
         else:
             for row in rows:
                 self._alone(row, steps, t_max)
@@ -47,16 +47,14 @@ class Runs:
         j, k = x[:, [1, 2, 0]], x[:, [2, 0, 1]]
         return kappa * j * k + rho * k + sigma * j + m
 
-    def _batches(self, rows, steps, t_max):
+    def _batches(self, rows, steps, t_max, pause):
         filled = np.append(rows, np.repeat(rows[-1:], -len(rows) % LANES)).reshape(-1, LANES)
-        times, ends = np.zeros(LANES), np.full(LANES, 1.0)
         with borrowed_taylor(_form(self.quadratic), lanes=LANES) as ta, np.errstate(all="ignore"):
             for group in filled:
                 times = self.times[group]
                 ta.set_time(times)
                 ta.state[:] = self.states[group].T
-                ends[:] = t_max
-                ta.propagate_until(ends, max_steps=steps)
+                ta.propagate_until(np.where(times < pause, min(pause, t_max), t_max), max_steps=steps)
                 self.states[group], self.times[group] = ta.state.T, ta.time
 
     def _alone(self, row, steps, t_max):
