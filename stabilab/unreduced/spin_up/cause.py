@@ -7,7 +7,7 @@ from .form import forms_of
 
 SMALL = 0.05  # a component of the torque below this share of it is called small
 PARKED = 0.3  # relative distance from the saddle-focus, in spin and in cone, that is called parked
-AXIAL = 0.8   # share of the kinetic energy about an axis that makes it the axis of the spin
+WIDE = 2.0    # transverse motion over spin beyond which the motion is not about the axis at all
 
 
 def seen(scene, state) -> str:
@@ -15,8 +15,7 @@ def seen(scene, state) -> str:
     forms = forms_of(scene)
     if not forms:
         return _no_form(scene)
-    looks = [look for form in forms for look in (_look(form, state),)]
-    causes = [words for rank, words in sorted(looks) if words]
+    causes = [words for rank, words in sorted(_look(form, state, scene.time_unit) for form in forms) if words]
     island = _between(scene, state)
     small = _small(scene, forms)
     return "; ".join(filter(None, [causes[0] if causes else "slow: the torque has not yet gathered the spin about an axis", small, island]))
@@ -29,7 +28,7 @@ def _no_form(scene):
             "spin-up exists about that axis, and nothing was followed")
 
 
-def _look(form, state):
+def _look(form, state, unit):
     """(rank, words) of one form."""
     X, zeta = form.place(state)
     axis, cone = form.axis + 1, abs(zeta) / (abs(X) or 1e-300) / math.sqrt(form.D1 * abs(form.scale[0] * form.scale[1]))
@@ -37,10 +36,12 @@ def _look(form, state):
         rest = form.drag / form.M1
         if form.drag > 0 and abs(X + rest) < PARKED * rest and cone < 3 * PARKED:
             return 0, (f"parked near a saddle-focus, a spin of {-form.sense * rest:.4g} against the torque about axis {axis}, which it leaves on the "
-                       f"time scale of {form.D1 * form.drag / form.M1**2:.3g}")
+                       f"time scale of {form.D1 * form.drag / form.M1**2:.3g} {unit}")
         if cone < 1:
-            return 1, (f"spin against the torque about axis {axis}, still slowing down: it ends after some {form.D1 * -X / form.M1:.3g} "
+            return 1, (f"spin against the torque about axis {axis}, still slowing down: it ends after some {form.D1 * -X / form.M1:.3g} {unit} "
                        "and the fate is open until then")
+        return 4, ""
+    if cone > WIDE:
         return 4, ""
     return (2, f"wide cone about axis {axis}: the transverse motion is {cone:.2g} of the spin, which gains only in the mean") if cone > 0.3 else (
         3, f"spin along the torque about axis {axis}, whose rate swings by much more than the torque gives it")
