@@ -40,7 +40,7 @@ from .terms import Terms
 
 ORDERS = ((0, 2), (4, 6))          # of energy and amplitude: tested always
 HIGH_ORDERS = ((12, 14), (16, 18))  # sparsely; the series is asymptotic, higher ones gain nothing
-PASSES = 60  # of the search for A and z: it is monotone and settles in ten or never
+PASSES = 25  # of the search for A and z: it is monotone and settles in ten or never
 GROWTH = 1 + 1e-7  # of A between passes: strict inequalities need room
 SLACK = 2.0**-30
 COEFFICIENT = 2.0**-36  # rounding of the terms' values, of their majorant: four times that of the coefficients alone
@@ -120,13 +120,14 @@ class Certifier:
     def _search(self, start, rows, good, out):
         field = self.field
         A, z = start.size * GROWTH, start.x / GROWTH
-        for _ in range(PASSES):
-            e = self.e(A, field.greatest(self.e.a, self.e.b, z))
+        for number in range(PASSES):
+            growth = min(1e-2, 1e-6 * 4.0**number)  # ever faster past a slow approach
             for _ in range(2):  # the equation for z is nearly linear
-                need = np.maximum(e - start.energy, 0) * GROWTH + 1e-7 * start.x * field.turning(start.x)
+                e = self.e(A, field.greatest(self.e.a, self.e.b, z))
+                need = np.maximum(e - start.energy, 0) * (GROWTH + growth) + 1e-7 * start.x * field.turning(start.x)
                 z = start.x - 2 * need / (field.D1 * (field.turning(start.x) + field.turning(np.where(field.valid(z), z, start.x))))
-            here = field.valid(z)
-            z = np.where(here, z, start.x)
+                z = np.where(field.valid(z), z, start.x)
+            here = z < start.x
             k = self.k(A, field.greatest(self.k.a, self.k.b, z))
             low, high = field.drive(z)
             eta, least = low - k - SLACK * (field.M1 + k), field.least_weight(z) - SLACK  # what is taken off M1 is below it
@@ -145,7 +146,7 @@ class Certifier:
             keep = alive & ~done
             if not keep.any():
                 return
-            A = np.maximum(A, np.sqrt(np.maximum(F, 0.0))) * GROWTH
+            A = np.maximum(A, np.sqrt(np.maximum(F, 0.0))) * (1 + growth)
             A, z, rows, start = A[keep], z[keep], rows[keep], start.chosen(keep)
 
 

@@ -16,13 +16,13 @@ from .runs import Runs
 APART = 2.0**-36  # of the twin, relative to the state or to the natural rate
 LOST = 2.0**-4  # twins farther apart than this, in the same measure, tell no growth any more: nothing is certified
 STAGE, MOST = 1.12, 2000  # steps between tests: a share of those before, at most so many
-SPARSE = 4  # tests of high order in one stage of so many, once the low ones have had their first
-FIRST = 3   # stages with low orders alone
+# Which tests a stage asks: (every so many stages, from so many steps on, name in `Tests`), the last that applies. What costs more comes later.
+PLAN = ((1, 0, "often"), (3, 6, "high"), (4, 100, "all"), (16, 5000, "last"))
 
 
 @dataclass
 class Chased:
-    """Columns (n,): which test fired (-1 none) as index into `tests.all`, time, steps, condition, state there; constants (6, n) of it."""
+    """Columns (n,): which test fired (-1 none) as index into `tests.last`, time, steps, condition, state there; constants (6, n) of it."""
 
     tests: Tests
     fired: np.ndarray
@@ -42,14 +42,13 @@ def chase(scene, tests: Tests, starts, t_max: float, budget: int, after: float =
     open_, stage, begun = np.arange(n), 0, _distance(runs, n, np.arange(n))
     while open_.size:
         _measure(out, runs, n, open_, begun)
-        sparse = stage >= FIRST and stage % SPARSE == 0
-        ended = (out.t[open_] >= t_max) | (runs.steps_done >= budget)
         ready = out.t[open_] >= after
-        left = _tested(out, runs, n, open_[ready], tests.all if sparse or ended.all() else tests.often)
+        which = [name for every, since, name in PLAN if stage % every == 0 and runs.steps_done >= since][-1]
+        left = _tested(out, runs, n, open_[ready], getattr(tests, which))
         open_ = np.union1d(open_[~ready], left)
         ended = (out.t[open_] >= t_max) | (runs.steps_done >= budget) | ~np.isfinite(out.states[open_]).all(axis=1)
-        if ended.any() and not sparse:  # the last word is that of all tests
-            _tested(out, runs, n, open_[ended & (out.t[open_] >= after)], tests.all)
+        if ended.any():  # the last word is that of all tests
+            _tested(out, runs, n, open_[ended & (out.t[open_] >= after)], tests.last)
         open_ = open_[~ended]
         if open_.size:
             steps = int(min(max(2, runs.steps_done * (STAGE - 1)), MOST, budget - runs.steps_done))
@@ -108,6 +107,6 @@ def _test(out, runs, n, rows, field, orders):
     if good.any():
         good[good] = test(runs.states[candidates[good] + n]).good
     done = candidates[good]
-    out.fired[done] = out.tests.all.index((field, orders))
+    out.fired[done] = out.tests.last.index((field, orders))
     out.constants[:, done] = np.array([found.A, found.z, found.eta, found.z_up, found.eta_up, found.k])[:, good]
     return np.setdiff1d(rows, done, assume_unique=True)

@@ -12,6 +12,7 @@ from .moving_centre import moving_centre
 from .symmetric import equatorial
 
 MOVING_ORDERS = ((2, 4), (4, 6))
+LAST_ORDERS = (8, 10)  # about the moving centre, asked last and seldom: making it takes a tenth of a second
 EQUATORIAL_ORDERS = ((2, 4), (4, 6))
 
 
@@ -33,7 +34,8 @@ def _log2(value):
 
 
 class Tests:
-    """The certificates of a scene (in natural units), each made when it is first asked for. often: those of low order."""
+    """The certificates of a scene (in natural units), each made when it is first asked for. often: those of low order; high: with high orders about the
+    fixed centre; all: with the moving centre; last: with those that take long to make. Each is a prefix of the next."""
 
     def __init__(self, scene):
         forms = forms_of(scene)
@@ -44,9 +46,10 @@ class Tests:
         self.made = {}
         low = [(field, orders) for field in self.fixed for orders in ORDERS]
         self.often = low + [(field, EQUATORIAL_ORDERS[0]) for field in self.equatorial]
-        self.all = (self.often + [(field, orders) for field in self.fixed for orders in HIGH_ORDERS] +
-                    [(field, orders) for field in self.moving for orders in MOVING_ORDERS] +
+        self.high = self.often + [(field, orders) for field in self.fixed for orders in HIGH_ORDERS]
+        self.all = (self.high + [(field, orders) for field in self.moving for orders in MOVING_ORDERS] +
                     [(field, EQUATORIAL_ORDERS[1]) for field in self.equatorial])
+        self.last = self.all + [(field, LAST_ORDERS) for field in self.moving]
 
     def __bool__(self):
         return bool(self.all)

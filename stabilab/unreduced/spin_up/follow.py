@@ -42,7 +42,7 @@ def answer_of(scene, unit: float, found: Chased, row: int) -> SpinUp:
         if condition * APART > LOST:
             words += ": more than a run in doubles can tell"
         return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, t, state, steps, words, condition)
-    field, orders = found.tests.all[found.fired[row]]
+    field, orders = found.tests.last[found.fired[row]]
     trap = Trap(field, field.name, orders, *map(float, found.constants[:, row]), unit, t)
     direction = tuple(field.basis[0].tolist())
     axis, sense = (0, 1) if field.axis is None else (field.axis + 1, field.sense)

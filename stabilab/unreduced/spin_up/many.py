@@ -50,8 +50,8 @@ def spin_up_many(scene, states, t_max: float | None = None, budget: int | None =
         return _one_by_one(scene, states)
     found = chase(own, tests, states / unit, NATURAL_TIMES if t_max is None else t_max * unit, BUDGET if budget is None else budget)
     good = found.fired >= 0
-    axes = np.array([0 if field.axis is None else field.axis + 1 for field, _ in tests.all] + [0])
-    senses = np.array([field.sense for field, _ in tests.all] + [0])
+    axes = np.array([0 if field.axis is None else field.axis + 1 for field, _ in tests.last] + [0])
+    senses = np.array([field.sense for field, _ in tests.last] + [0])
     return SpinUps(np.where(good, Fate.SPIN_UP, Fate.UNDECIDED).astype(np.int8), axes[found.fired].astype(np.int8), senses[found.fired].astype(np.int8),
                    good.astype(np.int8), found.t / unit, found.steps, found.condition, found.states * unit, scene, unit, found, ())
 
