@@ -15,7 +15,7 @@ from .runs import Runs
 
 APART = 2.0**-36  # of the twin, relative to the state or to the natural rate
 LOST = 2.0**-4  # twins farther apart than this, in the same measure, tell no growth any more: nothing is certified
-STAGE, MOST = 1.12, 2000  # steps between tests: a share of those before, at most so many
+STAGE, MOST = 1.15, 2000  # steps between tests: a share of those before, at most so many
 # Which tests a stage asks: (every so many stages, from so many steps on, name in `Tests`), the last that applies. What costs more comes later.
 PLAN = ((1, 0, "often"), (3, 6, "high"), (4, 100, "all"), (16, 5000, "last"))
 
@@ -51,7 +51,7 @@ def chase(scene, tests: Tests, starts, t_max: float, budget: int, after: float =
             _tested(out, runs, n, open_[ended & (out.t[open_] >= after)], tests.last)
         open_ = open_[~ended]
         if open_.size:
-            steps = int(min(max(2, runs.steps_done * (STAGE - 1)), MOST, budget - runs.steps_done))
+            steps = int(min(max(3, runs.steps_done * (STAGE - 1)), MOST, budget - runs.steps_done))
             runs.advance(_paired(open_, n), steps, t_max, after)
         stage += 1
     return out
