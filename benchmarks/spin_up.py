@@ -113,11 +113,11 @@ def main(seed=1, scenes=100, times=2000.0, steps=60_000, seconds=170.0, continue
         rows.append((kind, wheel, answer, took, wrong))
         if time.perf_counter() - begun > seconds:
             break
-    _table(rows)
+    _table(rows, continued)
     return rows
 
 
-def _table(rows):
+def _table(rows, continued):
     print(f"{'':>12}{'scenes':>7}{'t<10':>7}{'<100':>7}{'<1e3':>7}{'<5e3':>7}{'all':>7}{'1e3 st':>8}{'1e4':>7}{'1e5':>7}{'med t':>8}{'steps':>7}{'ms':>7}")
     groups = [(f"wheel {w}", [r for r in rows if r[1] == w]) for w in WHEELS] + [(k, [r for r in rows if r[0] == k]) for k in KINDS]
     groups += [("generic l<=1", [r for r in rows if r[0] == "generic" and r[1] <= 1]), ("all", rows)]
@@ -130,7 +130,9 @@ def _table(rows):
         if wrong:
             print("VIOLATION", kind, wheel, wrong, answer)
     forms = [(r[2].trap.form, r[2].trap.orders) for r in rows if r[2].level == "certified"]
-    print({form: forms.count(form) for form in sorted(set(forms))}, "continued:", sum(r[2].level == "certified" for r in rows), "violations:", sum(bool(r[4]) for r in rows))
+    print({form: forms.count(form) for form in sorted(set(forms))})
+    if continued:
+        print("continued beyond the certificate:", len(forms), "violations:", sum(bool(row[4]) for row in rows))
 
 
 def _line(group):
