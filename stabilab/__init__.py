@@ -13,7 +13,7 @@ _HOME = {
     "Fate": "orbit.result",
     "equilibria": "answers.equilibria",
     "fate": "answers.fate", "motion": "answers.motion",
-    "extremes": "answers.extremes", "period": "answers.extremes",
+    "extremes": "answers.extremes", "period": "answers.extremes", "spin_up": "unreduced.spin_up.follow",
     "separatrix": "orbit.separatrix.sheets",
     "trajectory": "answers.trajectory", "ensemble": "integrate.ensemble",
     "simulate": "answers.simulate", "compare": "theories.comparison", "theory": "theories.theory",

@@ -257,11 +257,11 @@ def test_what_the_analysis_refuses_is_an_error_of_the_file_and_its_line(stabilab
 SCENE, OFF = stabilab_package.ScaledGyrostat("0.2", "0.4", (0, 0, 1)), stabilab_package.ScaledGyrostat("0.2", "0.4", (1, 1, 1))
 STATE = [0.1, 0.05, 0.02]
 ASKED = {name: lambda scene=SCENE, states=STATE, name=name, **more: getattr(stabilab_package, name)(scene, states, **more)
-         for name in ("fate", "motion", "extremes", "period")}
+         for name in ("fate", "motion", "extremes", "period", "spin_up")}
 ASKED["trajectory"] = lambda scene=SCENE, states=STATE, times=(0, 1): stabilab_package.trajectory(scene, states, times)
 ASKED["ensemble"] = lambda scene=SCENE, states=STATE, times=(0, 1): stabilab_package.ensemble(scene, [states], times)
 ASKED |= {name: lambda scene=SCENE, name=name: getattr(stabilab_package, name)(scene) for name in ("equilibria", "separatrix", "derive")}
-WITH_STATES = ("fate", "motion", "extremes", "period", "trajectory", "ensemble")
+WITH_STATES = ("fate", "motion", "extremes", "period", "spin_up", "trajectory", "ensemble")
 NO_SCENES = ("x", None, 3, [1, 2], object())
 NO_STATES = (None, "abc", ["a", "b", "c"], [[1, 2, 3], [1, 2]], [1j, 0, 0], np.array([1 + 0j, 2, 3]), [np.nan, 0, 0], [np.inf, 0, 0], [1, 2], {}, [None] * 3)
 WRONG = [*((name, {"scene": bad}) for name in ASKED for bad in NO_SCENES), *((name, {"states": bad}) for name in WITH_STATES for bad in NO_STATES),
