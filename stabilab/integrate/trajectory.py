@@ -1,7 +1,7 @@
 """Trajectories: the state at asked-for times, and how far the run departs from the laws of the motion.
 
 The laws are checked against the integrals of their rates, which ride along in the same run without steering its
-steps (feathered, see `compiled`), so a law with a non-zero rate is as good a witness as a constant.
+steps (feathered, see `to_heyoka`), so a law with a non-zero rate is as good a witness as a constant.
 """
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """Ball arithmetic in doubles: what one state of an ordinary motion needs, without loading a library for many digits.
 
 A ball is a double and a bound on its error, carried through every operation; it has the interface of python-flint's `arb`
-as far as the reduced potential uses it. So the mechanics of one state are written once (`precise`), are asked in doubles
+as far as the reduced potential uses it. So the mechanics of one state are written once (`orbit.ball_orbit`), are asked in doubles
 first, and in many digits where the doubles say `Unclear`. Standard functions are taken to err by less than one unit in
 the last place (as those of the C libraries do: Zimmermann et al., "Accuracy of mathematical functions", 2024).
 """

@@ -3,7 +3,7 @@
     D omega' = (D omega + h) x omega + tau,     h, tau: momenta and torques of the effects, each once
     T' = omega . tau  (effects that do work),   (|H|^2 / 2)' = H . tau,   H = D omega + h
 
-Everything here is a SymPy value; numbers enter at `compiled`.
+Everything here is a SymPy value; numbers enter at `to_numpy`.
 """
 from __future__ import annotations
 

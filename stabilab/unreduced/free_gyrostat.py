@@ -1,4 +1,4 @@
-"""TODO"""
+"""A free gyrostat whose wheel has no zero component: no orbit in a plane, but a closed one, and one return gives its period and every extreme."""
 from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction

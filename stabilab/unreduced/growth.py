@@ -169,7 +169,7 @@ def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
 
 
 def unbounded(found) -> OneFate:
-    """The fate that `captured` found under the law: unbounded, about an axis that may be undecided."""
+    """The fate that `captured_fate` found under the law: unbounded, about an axis that may be undecided."""
     return OneFate(found.fate, Reason.UNBOUNDED_LAW, -math.inf, found.axis, found.sense)
 
 

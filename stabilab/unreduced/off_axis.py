@@ -1,8 +1,6 @@
-"""Motions without a reduction: torque off the principal axes (evidence of a run), and free motion (periodic, exact).
+"""A torque off the principal axes: the evidence of a run over a span, labelled so, and how a growing spin is told from it.
 
-Off the axes the system has no known invariant that would settle boundedness: what is reported is what a tight run
-shows over its span, labelled so. Without torque the motion is closed on an energy ellipsoid, and one return gives its
-period and every extreme.
+No integral of motion is known that would settle boundedness here; `spin_up` decides it by a certificate.
 """
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""Fate, extremes, period and invariants of one state of a scene with a reduction, without arrays.
+"""The fate of one state of a scene with a reduction, without arrays.
 
-The mechanics is that of `precise` (the orbit, its equilibria, its turning points); it is asked in balls of doubles first
+The mechanics is that of `ball_orbit` (the orbit, its equilibria, its turning points); it is asked in balls of doubles first
 and in many digits where these leave a question open. So a single state needs neither NumPy nor, as a rule, python-flint,
 every answer is certain to at least twelve digits, and near a separatrix there is no second formula to disagree with.
 Answers are those of `fate`, `extremes` and `period` for arrays: the same labels and reasons, numbers to rounding.
@@ -23,7 +23,7 @@ INF = math.inf
 
 
 class OneFate(NamedTuple):
-    """Fate of one state: as in `fate.FateResult`, the margin in the scene's energy."""
+    """Fate of one state: as in `result.FateResult`, the margin in the scene's energy."""
 
     label: Fate
     reason: Reason
