@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import ast
-from collections import Counter, defaultdict
+from collections import defaultdict
 from pathlib import Path
 from typing import NamedTuple
 
@@ -109,24 +109,13 @@ def circles(arrows) -> list[list[str]]:
 
 
 def drawing() -> str:
-    """The rooms from the ground up, a line each: files, lines, and the rooms that it really imports, with the number of imports."""
-    known, arrows = modules(), all_imports()
-    size = Counter()
-    files = Counter()
-    for name, path in known.items():
-        files[room(name)] += 1
-        size[room(name)] += len(path.read_text(encoding="utf-8").splitlines())
-    into: dict[str, Counter] = defaultdict(Counter)
-    for one in arrows:
-        a, b = room(one.source), room(one.target)
-        if a != b and b in MAY:
-            into[a][b] += 1
+    """The rooms from the top down, a line each: the rooms that it really imports, as the imports stand."""
+    into: dict[str, set] = defaultdict(set)
+    for one in all_imports():
+        into[room(one.source)].add(room(one.target))
     rows = ["cli", *reversed(_floors())]
-    lines = []
-    for name in rows:
-        below = ", ".join(f"{other} {count}" for other, count in sorted(into[name].items(), key=lambda item: rows.index(item[0])))
-        lines.append(f"{name:<12}{files[name]:>4} files {size[name]:>6} lines   {'-> ' + below if below else ''}".rstrip())
-    return "\n".join(f"    {line}" for line in lines)
+    lines = (f"    {name:<12}-> {', '.join(other for other in rows if other in into[name] - {name})}" for name in rows)
+    return "\n".join(line.removesuffix("-> ").rstrip() for line in lines)
 
 
 def _floors() -> list[str]:
