@@ -12,7 +12,7 @@ _HOME = {
     "Gyrostat": "physics.effects.gyrostat", "ConstantTorque": "physics.effects.constant_torque",
     "Fate": "orbit.result",
     "equilibria": "answers.equilibria",
-    "fate": "answers.fate", "motion": "answers.motion",
+    "fate": "answers.fate", "fate_grid": "answers.fate_grid", "motion": "answers.motion",
     "extremes": "answers.extremes", "period": "answers.extremes", "spin_up": "unreduced.spin_up.follow",
     "separatrix": "orbit.separatrix.sheets",
     "trajectory": "answers.trajectory", "ensemble": "integrate.ensemble",

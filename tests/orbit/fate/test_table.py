@@ -292,3 +292,7 @@ def test_tables_hold_however_nearly_equal_two_moments_are(gap):
         if exact is not None:
             size = abs(float(exact)) + float(problem.weight[1]) * state[1] ** 2
             assert abs(many.margins[n] - float(exact)) <= 2e-12 * size
+
+
+def test_the_grid_is_a_public_name():
+    assert "fate_grid" in stabilab.__all__ and "fate_grid" in dir(stabilab) and stabilab.fate_grid is fate_grid
