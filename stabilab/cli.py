@@ -85,24 +85,33 @@ def classify(cases: CaseFiles, json: Json = False, strict: Annotated[bool, typer
 
 @app.command()
 def verify(certificate: Annotated[Path, typer.Argument(metavar="CERTIFICATE", help="A certificate.json of classify --certify.",
-                                                       show_default=False)], json: Json = False,
+                                                       show_default=False)],
+           case: Annotated[Optional[Path], typer.Option(metavar="CASE.toml", help="The case it must be of: exit with 5 where scene or "
+                                                        "state differ.")] = None, json: Json = False,
            strict: Annotated[bool, typer.Option("--strict", help="Exit with 3 where a claim could not be checked.")] = False):
     """Check a certificate with separate code.
 
     Shares only python-flint with the analysis. Exits with 5 where a claim is wrong.
 
-    Example: stabilab verify certificate.json
+    Example: stabilab verify certificate.json --case cases/minor-axis-100.toml
     """
     from .show.text import answers, certification
-    from .verify import verify_file
+    from .verify import verify as check
+    from .verify.about import about, line
+    from .verify.form import read
     from .verify.numbers import Malformed
+    cases = _load([case]) if case else []
     try:
-        found = verify_file(certificate)
+        claims = read(certificate)
+        found = check(claims)
     except (Malformed, UnicodeDecodeError) as error:
         raise InputError(f"{certificate}: {error}; expected a certificate of stabilab classify --certify") from None
-    _print(answers.as_json(certification.as_dict(found)) if json else certification.text(found))
+    told = about(claims)
+    _print(answers.as_json(certification.as_dict(found, told)) if json else certification.text(found, line(told)))
     if found.status == "refuted":
         raise ToleranceNotMet(f"{certificate}: a claim is wrong")
+    if cases:
+        _about_one_of(cases, told, certificate)
     if strict and found.status != "proved":
         raise typer.Exit(UNDECIDED)
 
@@ -457,6 +466,15 @@ def _motion(case, brief=False):
     from .case.read import blamed_on
     with blamed_on(case):
         return motion(case.scene, case.start, case.span, brief, case.exact_state)
+
+
+def _about_one_of(cases, told, certificate):
+    """Exit with 5 where a certificate is of none of the cases."""
+    from .answers.certificate import subject
+    from .verify.about import differences
+    apart = [(case, differences(told, subject(case.scene, case.exact_state))) for case in cases]
+    if all(differing for _, differing in apart):
+        raise ToleranceNotMet("\n".join(f"{printable(str(certificate))}: of another case than {case.place}: {words}" for case, differing in apart for words in differing))
 
 
 def _strictly(strict, validities):

@@ -364,6 +364,31 @@ def test_tables_writes_every_table_in_every_format_and_names_them(stabilab, tmp_
     assert {p.suffix for p in written} == {".txt", ".csv", ".md", ".tex", ".html"} and len(written) == 20
 
 
+def test_an_intact_certificate_of_another_case_does_not_pass_for_this_one(stabilab, tmp_path):
+    def write(name, momentum="0.8", rate="0.1"):
+        path = tmp_path / f"{name}.toml"
+        path.write_text(f"[body]\ninertia = [12, 9, 5]\n[effects.gyrostat]\nmomentum = [{momentum}, 0, 0]\n"
+                        f"[effects.constant_torque]\ntorque = [0, 0, 0.02]\n[motion]\nangular_velocity = [{rate}, 0.05, 0.02]\n", encoding="utf-8")
+        return path
+    own, proof = write("own"), tmp_path / "certificate.json"
+    assert stabilab("classify", own, "--certify", "--out", proof)[0] == 0
+    code, out, _ = stabilab("verify", proof, "--case", write("same", "8e-1", "0.10"))  # other decimals of the same numbers
+    assert code == 0 and out.startswith("about: moments 12 9 5, wheel 4/5 0 0, torque 0 0 1/50, state 1/10 1/20 1/50\n")
+    for other, words, silent in ((write("wheel", momentum="0.8000000000000000001"), "wheel: the certificate's 4/5 0 0, the case's", "state:"),
+                                 (write("start", rate="0.11"), "state: the certificate's 1/10 1/20 1/50, the case's 11/100 1/20 1/50", "wheel:")):
+        code, out, err = stabilab("verify", proof, "--case", other)
+        assert code == 5 and "proved: " in out and words in err and silent not in err and other.name in err
+    scaled = tmp_path / "scaled.toml"
+    scaled.write_text("[scaled]\na = 0.2\nb = 0.4\nmu = [0, 0, 1]\n", encoding="utf-8")
+    code, _, err = stabilab("verify", proof, "--case", scaled)
+    assert code == 5 and "variables: the certificate's physical, the case's scaled" in err and "state: " in err
+    sweep = tmp_path / "sweep.toml"
+    sweep.write_text(own.read_text(encoding="utf-8") + '[sweep]\n"motion.angular_velocity" = [[9, 9, 9], [0.1, 0.05, 0.02]]\n', encoding="utf-8")
+    assert stabilab("verify", proof, "--case", sweep)[0] == 0
+    code, out, _ = stabilab("verify", proof, "--json")
+    assert code == 0 and '"about"' in out
+
+
 def test_every_command_has_help_with_an_example(stabilab):
     code, out, _ = stabilab("--help")
     commands = [line.split()[0] for line in out.split("Commands:")[1].splitlines() if line.startswith("  ")]

@@ -43,6 +43,13 @@ def certificate(scene, state=None) -> dict:
     return out
 
 
+def subject(scene, state=None) -> dict:
+    """What the certificate of this scene and state is about, as `verify.about` tells it; empty for a scene that has none."""
+    if not scene.plain:
+        return {}
+    return _scene(scene) | ({} if state is None else {"state": [_text(v) for v in state]})
+
+
 def _text(value) -> str:
     return str(Fraction(value))
 

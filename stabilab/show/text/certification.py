@@ -39,9 +39,9 @@ def summary(certificate: dict) -> str:
     return "\n".join(lines + [f"not certified: {why}" for why in certificate["uncertified"]])
 
 
-def text(found) -> str:
-    """One line a claim, then the verdict on the whole."""
-    lines = [f"{f.status:<12} {f.claim}{f': {f.reason}' if f.reason else ''}" for f in found.findings]
+def text(found, first: str) -> str:
+    """What it is about, one line a claim, then the verdict on the whole."""
+    lines = [first, *(f"{f.status:<12} {f.claim}{f': {f.reason}' if f.reason else ''}" for f in found.findings)]
     silent = f"; nothing is claimed of: {', '.join(found.silent)}" if found.silent else ""
     return "\n".join([*lines, f"{found.status}: {_count(found)}{silent}"])
 
@@ -51,7 +51,7 @@ def _count(found) -> str:
     return ", ".join(f"{n} {word}" for word, n in numbers.items() if n) or "no claims"
 
 
-def as_dict(found) -> dict:
+def as_dict(found, about: dict) -> dict:
     """The object of `stabilab verify --json`."""
-    return {"schema": SCHEMA, "status": found.status, "silent": list(found.silent),
+    return {"schema": SCHEMA, "status": found.status, "about": about, "silent": list(found.silent),
             "findings": [{"claim": f.claim, "status": f.status, "reason": f.reason} for f in found.findings]}
