@@ -239,6 +239,8 @@ class Doubles:
         """(root, multiplicity) of the real roots, lowest first, of a polynomial with rational coefficients, lowest power
         first. Unclear where two roots cannot be told from one or from none by a wide margin."""
         c = [float(v) for v in reversed(coefficients)]
+        if any(v and abs(a) < LEAST for v, a in zip(reversed(coefficients), c)):
+            raise Unclear  # underflow: without a coefficient it is another polynomial
         while c and not c[0]:
             c.pop(0)
         slopes = _derivative(c)

@@ -13,7 +13,7 @@ from fractions import Fraction
 from ..errors import InputError
 from .fate.free_margin import is_free
 from .fate.one_state import fate_of
-from .result import Motion
+from .result import finite, Motion
 from .period.one_state import period_of
 from .extremes.one_state import extremes_of
 from .reduction import reduce
@@ -85,15 +85,16 @@ def far_fate(scene, reduction, state, k: int):
     return found if is_free(scene) else found._replace(margin=powered(found.margin, 2 * k))
 
 
-def in_scene_unit(found: Motion, k: int, state) -> Motion:
-    """A motion found in the unit 2^k, but for its extremes, in the scene's own; state: the doubles of its start."""
-    lost = []
+def in_scene_unit(found: Motion, k: int, state, margin: float) -> Motion:
+    """A motion found in the unit 2^k, but for its extremes, in the scene's own; state: the doubles of its start; margin: of its fate, in
+    the scene's unit."""
+    lost = ["the margin in energy"] if math.isnan(margin) else []
 
     def told(name, value, power):
         if value is None or not math.isnan(number := powered(value, power * k)):
             return None if value is None else number
         lost.append(name)
-    fields = {"margin_energy": told("the margin in energy", found.margin_energy, 2),
+    fields = {"margin_energy": finite(margin),
               "margin_velocity": told("the margin in angular velocity", found.margin_velocity, 1),
               "period": told("the period", found.period, -1)}
     invariants = {name: powered(value, 2 * k) for name, value in found.invariants.items()}

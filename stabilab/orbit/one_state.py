@@ -5,7 +5,7 @@ import math
 
 from ..physics.state import three_floats
 from .extremes.one_state import extremes_of
-from .far_states import far_exponent, in_scene_unit, own
+from .far_states import far_exponent, far_fate, in_scene_unit, own
 from .fate.one_state import fate_of
 from .invariants import invariants_of
 from .period.one_state import period_of
@@ -22,7 +22,8 @@ def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
     if far is None:
         return _reduced(reduction, state, given, fate_of(scene, reduction, given), brief)
     near, small = own(reduction, given, far)
-    return in_scene_unit(_reduced(near, tuple(map(float, small)), small, fate_of(scene, reduction, given, near, small), brief, far), far, state)
+    decided = far_fate(scene, reduction, given, far)
+    return in_scene_unit(_reduced(near, tuple(map(float, small)), small, decided, brief, far), far, state, decided.margin)
 
 
 def _reduced(reduction, state, given, decided, brief, k=0) -> Motion:
@@ -34,12 +35,12 @@ def _reduced(reduction, state, given, decided, brief, k=0) -> Motion:
 
 
 def _rest(reduction, state, given, decided) -> dict:
-    return {**_apart(reduction, state, given, decided), "period": repeats(period_of(reduction, given, decided.label)),
+    return {**apart_fields(reduction, state, given, decided), "period": repeats(period_of(reduction, given, decided.label)),
             "invariants": invariants_of(reduction, given)}
 
 
-def _apart(reduction, state, given, decided) -> dict:
-    """The fields that tell the distance from the separatrix."""
+def apart_fields(reduction, state, given, decided) -> dict:
+    """The fields of a Motion that tell the distance from the separatrix; state: the doubles of `given`."""
     if decided.label == Fate.SEPARATRIX or decided.margin == 0:
         return {"margin_velocity": 0.0, "velocity_bounds": (0.0, 0.0), "velocity_witness": state}
     found = distance_of(reduction, given)

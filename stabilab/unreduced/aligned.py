@@ -5,6 +5,7 @@ The twin's answers are those of the scene, told in the body's own axes; extremes
 from __future__ import annotations
 
 import math
+from fractions import Fraction
 
 import numpy as np
 
@@ -16,6 +17,7 @@ from ..orbit.fate.one_state import at_rest as rest_of, fate_of, OneFate
 from ..orbit.fate.reasons import Reason
 from ..orbit.fate.result import FateResult, in_chunks, write_row
 from ..orbit.landscape import landscape
+from ..orbit.one_state import apart_fields
 from ..orbit.period.one_state import period_of
 from ..orbit.reduction import reduce
 from ..orbit.result import Fate, finite, judged, Motion, pairs, repeats
@@ -40,7 +42,19 @@ def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
     fields = {**judged(state, decided), "margin_energy": finite(decided.margin), "period": repeats(time)}
     if span is not None or decided.label == Fate.EQUILIBRIUM or repeats(time) is not None:
         fields["extremes"] = pairs(turned_extremes(scene, given, decided.label, time, length_of(span)))
-    return Motion(**fields)
+    return Motion(**fields, **({} if brief else turned_apart(aligned(scene), state, given, decided)))
+
+
+def turned_apart(turn, state, given, decided) -> dict:
+    """The fields of a Motion that tell the distance from the separatrix: that of the twin, as a turn keeps distances."""
+    if decided.label == Fate.UNDECIDED:
+        return {"velocity_because": f"not known: {decided.because}"}
+    found = apart_fields(reduce(turn.twin), state, turn(given), decided)
+    witness = found.get("velocity_witness")
+    if witness in (None, state):
+        return found
+    back = tuple(zip(*turn.rotation))  # the inverse of a rotation
+    return found | {"velocity_witness": tuple(float(sum(r * Fraction(v) for r, v in zip(row, witness))) for row in back)}
 
 
 def aligned_fate(scene, state) -> OneFate:

@@ -1,6 +1,12 @@
-"""A free gyrostat whose wheel has no zero component: no orbit in a plane, but a closed one, and one return gives its period and every extreme."""
+"""Motions without a torque that no orbit serves: a gyrostatic moment with no zero component. They are closed, and one return to the
+first extreme gives the period and every extreme.
+
+Squares of rates beyond some 1e150 are no doubles. Such a motion is followed in its own unit 2^k of rate, where its numbers are of
+order one: with rates and gyrostatic moment over u the motion is the same in a time that runs u times as fast, and for a power of two
+the change is exact. What is no double in the scene's own units in the end is NaN in arrays, and told in words of one motion.
+"""
 from __future__ import annotations
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 import math
 import numpy as np
@@ -10,11 +16,15 @@ from .near_rest import beside_rest, small_loop
 from ..integrate.extrema import roots_of_rates
 from ..physics.states import equilibrium_mask, three_numbers
 from ..orbit.fate.arrays import fates  # noqa: F401  one of the four questions of `answers.kinds`
-from ..orbit.fate.one_state import at_rest, free_fate
-from ..orbit.result import finite, judged, Motion, pairs, repeats
+from ..orbit.far_states import BEYOND, ORDINARY, powered
+from ..orbit.fate.one_state import as_double, at_rest, free_fate, scaled_double
+from ..orbit.result import Fate, finite, judged, Motion, pairs, repeats
+from ..physics.motion_units import in_unit, mass_unit
 from ..physics.quadratic import rests
+from ..orbit.separatrix.distance import has_no_saddle
 from ..physics.state import three_floats
 
+NOT_SHEETS = "not known: the separatrix of a free gyrostat whose moment has no zero component is known by its energy on each momentum sphere, not as sheets"
 # Two points of a closed orbit are the same where they agree to this share of the orbit's size.
 SAME_POINT = 1e-9
 
@@ -34,18 +44,54 @@ def extremes_over_period(scene, state) -> PeriodExtremes:
 
     Each extreme is polished on the two invariants of the state, so it does not carry the run's drift. An equilibrium has
     period 0; a motion that does not return within the step budget (on or next to a separatrix) has period inf and its
-    extremes are over the span run. Raises InputError where a torque acts.
+    extremes are over the span run. Numbers that are no doubles are NaN. Raises InputError where a torque acts, and where rates and
+    gyrostatic moment are so far apart that no unit makes doubles of both.
     """
     form, given = scene.quadratic(), list(state)
     state = three_numbers(state)
     if any(form.m):
         raise InputError("the period by return is for motions without torque; this scene has one")
-    if not any(form.rate([Fraction(v) for v in given])):
+    exact = [Fraction(v) for v in given]
+    if not any(form.rate(exact)):
         return PeriodExtremes(np.stack([state, state], axis=1), 0.0, "all time", "equilibrium: every rate is exactly 0")
-    if beside_rest(form, given) and (loop := small_loop(form, given)):
-        period, pairs = loop
-        return PeriodExtremes(np.array([[float(v) for v in pair] for pair in pairs]), float(period), "all time",
-                              "no torque: the motion is closed and periodic; followed in many digits, as its rates are small")
+    k, mass = _own_exponent(form, exact), mass_unit(scene)
+    if k or mass != 1:
+        unit = Fraction(2) ** k
+        scene, exact, state = in_unit(scene, unit, mass), [v / unit for v in exact], np.array([as_double(v / unit) for v in exact])
+    form = scene.quadratic()
+    if beside_rest(form, exact) and (loop := small_loop(form, exact)):
+        period, swings = loop
+        return PeriodExtremes(np.array([[scaled_double(v, k) for v in pair] for pair in swings]), _no_double_is_nan(scaled_double(period, -k)),
+                              "all time", "no torque: the motion is closed and periodic; followed in many digits, as its rates are small")
+    return _in_scene_unit(_by_return(scene, form, state, k), k)
+
+
+def _own_exponent(form, x) -> int:
+    """k of the own unit 2^k of a motion: the size of its rates, or of what these make of it, the root of omega'; 0 where it is ordinary."""
+    size = max([_exponent(v) for v in x if v] + [_exponent(v) // 2 for v in form.rate(x) if v])
+    return 0 if -ORDINARY <= size <= ORDINARY else size
+
+
+def _exponent(value: Fraction) -> int:
+    return value.numerator.bit_length() - value.denominator.bit_length()
+
+
+def _no_double_is_nan(period: float) -> float:
+    """A period that is known; NaN where its double is 0 or inf, which say something else."""
+    return period if 0 < period < math.inf else math.nan
+
+
+def _in_scene_unit(found: PeriodExtremes, k: int) -> PeriodExtremes:
+    """What was found in the unit 2^k, in the scene's own."""
+    if not k:
+        return found
+    with np.errstate(over="ignore", under="ignore"):
+        box = np.ldexp(found.extremes, k)
+    return replace(found, extremes=np.where(np.isfinite(box), box, np.nan), period=found.period if math.isinf(found.period) else powered(found.period, -k))
+
+
+def _by_return(scene, form, state, k) -> PeriodExtremes:
+    """By a run to the first return; extremes and period in the unit 2^k of the scene asked for, in which this one is, words in its own."""
     span, roots = _first_span(form, state), None
     while roots is None or (roots.steps < STEP_BUDGET and not roots.reason):
         roots = roots_of_rates(scene, state, span)
@@ -53,7 +99,7 @@ def extremes_over_period(scene, state) -> PeriodExtremes:
         if closing is not None:
             return _one_period(scene, roots, closing)
         span *= 4
-    return PeriodExtremes(roots.extremes(), math.inf, f"{scene.time_unit} in [0, {roots.t_reached:g}]",
+    return PeriodExtremes(roots.extremes(), math.inf, f"{scene.time_unit} in [0, {powered(roots.t_reached, -k):g}]",
                           f"no return within {roots.steps} steps: on or next to a separatrix")
 
 
@@ -118,12 +164,24 @@ def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
     state = three_floats(state)
     given = exact or state
     decided = free_fate(scene, given)
+    fields = {"velocity_because": NOT_SHEETS}
+    if decided.label == Fate.SEPARATRIX:
+        fields = {"margin_velocity": 0.0, "velocity_bounds": (0.0, 0.0), "velocity_witness": state}
+    elif has_no_saddle(scene):
+        fields = {"velocity_because": "with three equal moments there is no separatrix"}
+    lost = ["the margin in energy"] if math.isnan(decided.margin) else []
     if rests(scene.quadratic(), given):
         decided = at_rest(scene, decided)
-        return Motion(**judged(state, decided), margin_energy=finite(decided.margin), extremes=tuple((v, v) for v in state))
-    closed = extremes_over_period(scene, given)
-    return Motion(**judged(state, decided), margin_energy=finite(decided.margin), extremes=pairs(closed.extremes), extremes_over=closed.over,
-                  period=repeats(closed.period))
+        fields["extremes"] = tuple((v, v) for v in state)
+    else:
+        closed = extremes_over_period(scene, given)
+        whole = bool(np.isfinite(closed.extremes).all())
+        lost += ([] if whole else ["an extreme"]) + (["the period"] if math.isnan(closed.period) else [])
+        fields |= {"extremes": pairs(closed.extremes) if whole else None, "period": repeats(closed.period),
+                   "extremes_over": closed.over if whole else f"none: {BEYOND}"}
+    known = judged(state, decided)
+    known["because"] += f"; {BEYOND}: {', '.join(lost)}" if lost else ""
+    return Motion(**known, margin_energy=finite(decided.margin), **fields)
 
 
 def extremes(scene, states, span=None, fast: bool | None = None):

@@ -133,14 +133,17 @@ def _holder(stages, begin):
     return int(held.argmax()) if held.sum() == 1 else None
 
 
+NO_SHEETS = "not known: the torque is off the principal axes, and no separatrix is known there"
+
+
 def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
     """See `answers.motion`; what is seen over the span is told as evidence."""
     state = three_floats(state)
     decided = OneFate(Fate.UNDECIDED, Reason.OFF_AXIS, math.nan)
     if rests(scene.quadratic(), exact or state):
         decided = at_rest(scene, decided)
-        return Motion(**judged(state, decided), margin_energy=finite(decided.margin), extremes=tuple((v, v) for v in state))
-    fields = judged(state, decided)
+        return Motion(**judged(state, decided), margin_energy=finite(decided.margin), extremes=tuple((v, v) for v in state), velocity_because=NO_SHEETS)
+    fields = {**judged(state, decided), "velocity_because": NO_SHEETS}
     if span is not None:
         fields |= seen_over(scene, state, span)
         fields["because"] = decided.because + "; over the span its size went " + _size_words(fields["evidence"])

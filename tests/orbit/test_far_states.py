@@ -46,6 +46,18 @@ def test_rates_up_to_the_largest_doubles_have_a_fate_and_no_margin_that_is_no_do
     assert least == pytest.approx(2 * 0.02 / -3 / rate, rel=1e-11) or rate > 1e300
 
 
+@pytest.mark.parametrize("name", BODIES)
+def test_margins_of_far_motions_go_with_the_square_of_the_unit(name):
+    """Law: energies go with u^2, and u = 2^200 rounds nothing."""
+    body, wheel, torque = BODIES[name]
+    u = Fraction(2) ** 200
+    made = [Scene(body, Gyrostat(tuple(Fraction(w, 5) * v for w in wheel)), ConstantTorque(tuple(Fraction(m, 50) * v * v for m in torque)))
+            for v in (1, u)]
+    one, far = (motion(scene, tuple(w * v for w in RATES)).margin_energy for scene, v in zip(made, (1.0, float(u))))
+    many = stabilab.fate(made[1], np.array(RATES) * float(u)).margins
+    assert one is None and far is None or far / float(u) ** 2 == pytest.approx(one, rel=1e-11) == many / float(u) ** 2
+
+
 @pytest.mark.parametrize("effects", [(Gyrostat((1, 2, 3)),), (ConstantTorque((1, 1, 0)),), (Gyrostat((1, 0, 0)), ConstantTorque((1, 0, 0)))])
 @pytest.mark.parametrize("power", [-300, -160, 160, 200])
 def test_scenes_without_a_reduction_answer_or_refuse_any_rate(effects, power):

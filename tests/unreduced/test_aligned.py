@@ -51,6 +51,44 @@ def test_a_torque_between_two_equal_axes_moves_the_body_as_one_along_an_axis():
         np.testing.assert_allclose(single.extremes, one, rtol=1e-9, atol=1e-12)
 
 
+# with barriers: the torque (-50, 0, 0) and the wheel (0, 1, 0), turned alike
+BARRED = Scene(Body((4, 4, 2)), Gyrostat(("-0.8", "0.6", 0)), ConstantTorque((-30, -40, 0)))
+BARRED_ALONG = Scene(Body((4, 4, 2)), Gyrostat((0, 1, 0)), ConstantTorque((-50, 0, 0)))
+BESIDE = np.array([[1.0, -7.75, -3.5], [1.0, -7.0, -3.25], [0.5, -0.25, 0.75]])  # (1, -7.5, -3.5) is on the separatrix
+
+
+def test_the_distance_from_a_separatrix_does_not_change_when_the_scene_is_turned():
+    """A rotation keeps distances: the exact turn by (3/5, 4/5) puts the torque on axis 1."""
+    states = BESIDE @ TURN
+    found, wanted = stabilab.fate(BARRED, states).velocity_margins, stabilab.fate(BARRED_ALONG, BESIDE).velocity_margins
+    assert np.isfinite(wanted).all() and (wanted > 0).all() and (wanted[:2] < 0.5).all()
+    np.testing.assert_allclose(found, wanted, rtol=2e-9)
+    for state, distance in zip(states, found):
+        one = motion(BARRED, tuple(state))
+        assert one.margin_velocity == pytest.approx(distance, rel=2e-9)
+        witness = np.array(one.velocity_witness)
+        assert np.linalg.norm(witness - state) == pytest.approx(distance, rel=2e-9)
+        assert abs(stabilab.fate(BARRED, witness).margins) < 1e-9 * (witness @ witness)  # the witness has the energy of a barrier
+
+
+def test_no_change_of_a_bounded_state_below_its_distance_releases_it():
+    rng, state = np.random.default_rng(3), (BESIDE @ TURN)[0]
+    many, here = rng.normal(size=(500, 3)), stabilab.fate(BARRED, state)
+    ways = many / np.linalg.norm(many, axis=1)[:, None]
+    assert here.labels == Fate.BOUNDED and 0 < here.velocity_margins < 0.25
+    assert (stabilab.fate(BARRED, state + 0.999 * here.velocity_margins * ways).labels == Fate.BOUNDED).all()
+
+
+@pytest.mark.parametrize("scene, state, wanted", [
+    (Scene(Body((2, 2, 1)), Gyrostat((3, 4, 0)), ConstantTorque((3, 4, 0))), (0.1, 0.2, 0.3), np.inf),  # a wheel along the torque: no equilibrium
+    (Scene(Body((3, 2, 1)), Gyrostat((1, 0, 0)), ConstantTorque((1, 0, 0))), (0.1, 0.2, 0.3), np.inf),
+    (OFF, (0.1, 0.2, 0.3), np.nan), (OFF, (1.0, 1.0, 1.0), np.nan)])  # off the axes nothing is known, at rest neither
+def test_the_distance_from_a_separatrix_is_infinite_only_where_there_is_none(scene, state, wanted):
+    np.testing.assert_array_equal(stabilab.fate(scene, np.array(state)).velocity_margins, wanted)
+    assert motion(scene, state).margin_velocity is None
+    assert np.isinf(wanted) or motion(scene, state).velocity_because.startswith("not known")
+
+
 def test_rest_between_the_axes_is_exact():
     # (D2 - D3) omega_2 omega_3 = -|M| on the turned axes: (0, 5, -1) there is (-4, 3, -1) here
     scene, state = Scene(Body((2, 2, 1)), ConstantTorque((3, 4, 0))), np.array([-4.0, 3.0, -1.0])

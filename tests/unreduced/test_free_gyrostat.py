@@ -323,6 +323,66 @@ def test_a_free_gyrostat_of_any_pace_returns(unit):
     assert np.abs(extremes - wanted).max() < 1e-13
 
 
+@pytest.mark.parametrize("u", [Fraction(2) ** k for k in (-900, -300, 300, 900)] + [Fraction(10) ** p for p in (155, 160, 200, 300)])
+def test_a_free_gyrostat_at_any_rate_is_the_same_motion(u):
+    """Law: with moment and rates times u the motion is the same in a time 1/u as long, and its energies go with u^2."""
+    def made(u):
+        return Scene(Body((12, 9, 5)), Gyrostat([v * u for v in (1, 2, 3)])), [Fraction(v) * u for v in (1, Fraction(1, 2), Fraction(-3, 4))]
+    (scene, state), (plain, start) = made(u), made(1)
+    rows, size = np.array([[float(v) for v in state]]), float(u)
+    one, wanted = stabilab.motion(scene, tuple(rows[0]), exact=state), stabilab.motion(plain, tuple(map(float, start)))
+    assert one.fate == wanted.fate and one.period * size == pytest.approx(wanted.period, rel=1e-11)
+    np.testing.assert_allclose(np.array(one.extremes) / size, wanted.extremes, rtol=1e-11)
+    np.testing.assert_allclose(stabilab.period(scene, rows) * size, wanted.period, rtol=1e-11)
+    np.testing.assert_allclose(stabilab.extremes(scene, rows)[0] / size, wanted.extremes, rtol=1e-11)
+    margin = stabilab.fate(scene, rows)
+    if abs(np.log2(size)) < 500:
+        assert margin.margins[0] / size**2 == pytest.approx(wanted.margin_energy, rel=1e-11) == one.margin_energy / size**2
+    else:
+        assert np.isnan(margin.margins[0]) and one.margin_energy is None
+        assert "the margin in energy" in one.because and "beyond the range of doubles" in margin.because[0]
+
+
+def test_rates_next_to_the_largest_doubles_lose_what_is_no_double_and_say_so():
+    """Law: rates and wheel times u are the same motion, whose extremes beyond 1.797 u are no doubles for u = 1e308."""
+    def made(u):
+        return Scene(Body((12, 9, 5)), Gyrostat((0.1 * u, 0.2 * u, 0.3 * u))), np.array([1.0, 1.7, -1.7]) * u
+    (scene, state), (plain, start) = made(1e308), made(1.0)
+    ordinary, found = stabilab.extremes(plain, start), stabilab.extremes(scene, state)
+    held = np.abs(ordinary) < 1.797
+    assert not held.all() and held.any()
+    np.testing.assert_allclose(found[held] / 1e308, ordinary[held], rtol=1e-11)
+    assert np.isnan(found[~held]).all()
+    one = stabilab.motion(scene, tuple(state))
+    assert one.extremes is None and "an extreme" in one.because and one.extremes_over == "none: beyond the range of doubles"
+    assert one.period * 1e308 == pytest.approx(stabilab.period(plain, start), rel=1e-11)
+
+
+@pytest.mark.parametrize("mass", [1e160, 1e-160])
+def test_the_unit_of_mass_leaves_a_free_motion_as_it_is(mass):
+    """Law: moments and wheel times a number give the same rates; the margin in energy goes with it."""
+    def asked(u):
+        return stabilab.motion(Scene(Body((12 * u, 9 * u, 5 * u)), Gyrostat((u, 2 * u, 3 * u))), (1.0, 0.5, -0.75))
+    found, wanted = asked(mass), asked(1.0)
+    np.testing.assert_allclose(found.extremes, wanted.extremes, rtol=1e-11)
+    assert (found.period, found.margin_energy / mass) == pytest.approx((wanted.period, wanted.margin_energy), rel=1e-11)
+
+
+def test_the_distance_of_a_free_gyrostat_from_its_separatrix_is_told_as_not_known():
+    scene, state = Scene(Body((12, 9, 5)), Gyrostat((1, 2, 3))), (1.0, 0.5, -0.75)
+    found = stabilab.motion(scene, state)
+    assert np.isnan(stabilab.fate(scene, np.array([state])).velocity_margins).all()
+    assert found.margin_velocity is None and found.velocity_because.startswith("not known")
+    ball = Scene(Body((2, 2, 2)), Gyrostat((1, 2, 3)))  # T = |H - lambda|^2/(2 D) is linear on the sphere |H| = h: it has no saddle
+    assert stabilab.fate(ball, state).velocity_margins == np.inf and "no separatrix" in stabilab.motion(ball, state).velocity_because
+
+
+def test_a_free_gyrostat_on_its_separatrix_has_no_distance_from_it():
+    D, lam, saddle, state = saddle_and_another()
+    found = stabilab.motion(Scene(Body(D), Gyrostat(lam)), tuple(map(float, state)), exact=state)
+    assert found.fate is Fate.SEPARATRIX and found.margin_velocity == 0 and found.velocity_witness == found.at
+
+
 @pytest.mark.parametrize("state", [(1.0, 2.0), (1.0, 2.0, 3.0, 4.0)])
 def test_a_free_motion_needs_three_numbers(state):
     with pytest.raises(InputError, match="three numbers"):

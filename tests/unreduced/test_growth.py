@@ -320,7 +320,7 @@ def test_no_state_beside_the_boundary_between_spin_up_and_capture_gets_the_wrong
     assert words == {"undecided", "spin-up", "well"} and max(told) >= 9  # nine digits of a state are enough to be told
 
 
-@pytest.mark.parametrize("torque", [(0, 0, 0), (1e160, 0, 0), (1e160, 0, 1e160)])
+@pytest.mark.parametrize("torque", [(1e160, 0, 0), (1e160, 0, 1e160)])  # without a torque: test_free_gyrostat
 def test_moments_whose_squares_are_beyond_the_doubles_are_refused(torque):
     scene = Scene(Body((3e160, 2e160, 1.5e160)), Gyrostat((1e160, 2e160, -3e160)), ConstantTorque(torque))
     with pytest.raises(InputError, match="choose other units"):

@@ -55,7 +55,7 @@ def saddles_of(scene) -> Saddles:
     """The saddles of a torque-free scene (cached)."""
     D, lam, middle = scene.body.exact, scene.vector("gyrostat"), sorted(scene.body.exact)[1]
     largest = float(max(map(abs, lam)))
-    unit = 2.0 ** np.frexp(largest)[1] if largest else 1.0
+    unit = 2.0 ** min(int(np.frexp(largest)[1]), 1023) if largest else 1.0
     floats = lambda values: np.array([float(v) for v in values])  # noqa: E731
     found = Saddles(floats(D), floats(lam) / unit, unit, float(middle), floats(middle - d for d in D), (), np.inf)
     with np.errstate(all="ignore"):
@@ -113,7 +113,7 @@ def label_free(scene, states, out) -> int:
     ties = np.zeros(len(states), bool)
     for index in np.nonzero(doubtful)[0]:
         found = free_margin(scene, states[index].tolist())
-        margins[index], ties[index] = float(found), found.tie
+        margins[index], ties[index] = found.double, found.tie
     out["margins"][:], out["axis"][:], out["sense"][:] = margins, 0, 0
     out["labels"][:] = np.where(ties, Fate.SEPARATRIX, Fate.BOUNDED)
     out["reasons"][:] = np.where(ties, Reason.TIE, Reason.TORQUE_FREE)
@@ -137,7 +137,9 @@ def free_margins(scene, states):
             nearer = there & (np.abs(margin) < np.abs(best))
             best, rounding = np.where(nearer, margin, best), np.where(nearer, error, rounding)
         known = np.isinf(best) | (np.abs(best) > OWN * rounding) & (rounding <= MARGIN_SHARE * (energy + np.abs(best + energy)))
-        return best * saddles.unit**2, doubtful | ~known
+        margins = best * saddles.unit * saddles.unit
+        lost = np.isfinite(best) & (best != 0) & ~(np.isfinite(margins) & (margins != 0))  # in J, a margin that is no double
+        return margins, doubtful | ~known | lost
 
 
 def _candidates(saddles, omega, size, blur):

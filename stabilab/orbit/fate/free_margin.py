@@ -24,6 +24,7 @@ has less energy than the saddle (without a wheel: turns about the major axis), a
 from __future__ import annotations
 
 from fractions import Fraction
+from math import isinf, nan
 from typing import NamedTuple
 
 from ...numbers.balls import DOUBLE_BITS, settled, sign, START_BITS
@@ -55,6 +56,12 @@ class FreeMargin(NamedTuple):
 
     def __float__(self):
         return float("inf") if self.ball is None else float(self.ball.mid())
+
+    @property
+    def double(self) -> float:
+        """The margin as a double; NaN where it is none, or would be 0 without a tie."""
+        height = float(self)
+        return nan if self.ball is not None and not self.tie and (height == 0 or isinf(height)) else height
 
 
 def free_margin(scene, state, digits: int = 17, doubles: bool = False) -> FreeMargin:

@@ -58,10 +58,7 @@ def at_rest(scene, found: OneFate) -> OneFate:
 def free_fate(scene, state) -> OneFate:
     """The fate without a torque: bounded, whatever the margin, or on a separatrix of the momentum sphere."""
     margin = free_margin(scene, state, doubles=True)
-    height = float(margin)
-    if margin.ball is not None and not margin.tie and (height == 0 or math.isinf(height)):
-        height = math.nan  # beyond the range of doubles
-    return _tie() if margin.tie else OneFate(Fate.BOUNDED, Reason.TORQUE_FREE, height)
+    return _tie() if margin.tie else OneFate(Fate.BOUNDED, Reason.TORQUE_FREE, margin.double)
 
 
 def _spin_up(r, reason, margin) -> OneFate:

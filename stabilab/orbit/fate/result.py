@@ -48,9 +48,10 @@ class FateResult:
 
     @cached_property
     def velocity_margins(self) -> np.ndarray:
-        """(...,) smallest change of the state that reaches the separatrix, in the state's unit; inf without one, NaN where the
-        label is undecided."""
-        return np.where(self.labels == Fate.UNDECIDED, np.nan, separatrix_distance(self.scene, self.states))[()]
+        """(...,) smallest change of the state that reaches the separatrix, in the state's unit; inf without one, 0 on it; NaN, not
+        known, where the label is undecided, for free gyrostats whose moment has no zero component, and for torques off the axes."""
+        known = np.where(self.labels == Fate.SEPARATRIX, 0.0, separatrix_distance(self.scene, self.states))
+        return np.where(self.labels == Fate.UNDECIDED, np.nan, known)[()]
 
     @cached_property
     def validity(self):

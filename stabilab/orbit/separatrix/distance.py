@@ -28,6 +28,7 @@ from ..fate.balls import decide
 from .sheet_chart import Chart, Hyperbola, Seen, Straight
 from .shade import Shade
 from ..reduction import reduce
+from ...physics.alignment import aligned
 from .saddles import foot
 
 AGREE = 1e-9  # relative: nearer than that, lower bound and witness are one number
@@ -64,12 +65,35 @@ ENDED = "the search ended before its proved lower bound met the nearest point fo
 
 def separatrix_distance(scene, states):
     """Euclidean distance (...,) of states (..., 3) from the nearest point of the scene's separatrix, in the unit of the
-    states: to 1e-9, or a proved lower bound; inf where the scene has none."""
+    states: to 1e-9, or a proved lower bound; inf where the scene has none, NaN where it is not known.
+
+    A torque in a plane of equal moments: the distance of the turned state in the turned scene, as a turn keeps distances. Not known:
+    a free gyrostat without a reduction (its separatrix is known by its energy on each momentum sphere, not as sheets), and a torque
+    off the axes. A gyrostatic moment along the torque leaves no equilibrium (|H|^2/2 - D T grows steadily), so no separatrix: inf.
+    """
     import numpy as np
     array = np.asarray(states, float)
-    reduction = reduce(scene)
-    flat = [distance_of(reduction, state).value for state in array.reshape(-1, 3).tolist()]
+    asked = _asker(scene)
+    flat = [asked(state) for state in array.reshape(-1, 3).tolist()]
     return np.array(flat, float).reshape(array.shape[:-1])
+
+
+def _asker(scene):
+    """The function of one state that gives its distance."""
+    reduction, turn = reduce(scene), aligned(scene)
+    if reduction is not None:
+        return lambda state: distance_of(reduction, state).value
+    if turn is not None:
+        turned = reduce(turn.twin)
+        return lambda state: distance_of(turned, turn(state)).value
+    return lambda state: INF if has_no_saddle(scene) else math.nan
+
+
+def has_no_saddle(scene) -> bool:
+    """Whether a scene without a reduction, its torque on one axis or none, has no saddle for sure: a gyrostatic moment along the torque
+    leaves no equilibrium, and with equal moments the kinetic energy is a linear function on each momentum sphere."""
+    acting = sum(m != 0 for m in scene.quadratic().m)
+    return acting == 1 or not acting and not any(scene.quadratic().kappa)
 
 
 def distance_of(reduction, state) -> Apart:
