@@ -62,7 +62,7 @@ class Conic:
             self.lines = (Line(float(-c / G), 0.0, 0.0, 1.0), Line(0.0, float(-d / G), 1.0, 0.0))
             self.tangents = float(-self.e * (c / G) ** 2), float((d / G) ** 2)
             return
-        quartic = [Fraction(1), -d / G, Fraction(0), -self.e * c * K / G**2, self.e * K * K / G**2]
+        self.quartic = quartic = [Fraction(1), -d / G, Fraction(0), -self.e * c * K / G**2, self.e * K * K / G**2]
         self.folds = tuple(real_polynomial_roots([_shorten(a) for a in quartic]))
 
         def exact_at(h):
@@ -71,6 +71,11 @@ class Conic:
         # of two almost equal moments a fold's h lies far out, and one rounding of it would move its orbit
         exact_places = [exact_at(_sharpened(quartic, h)) for h in self.folds]
         self.fold_invariants = tuple(float(z * z - self.e * x * x) for x, z in exact_places)
+
+    def sharp_ends(self, piece):
+        """|h| of the ends of a piece, those at folds to some 200 bits."""
+        return tuple(abs(_sharpened(self.quartic, piece.sign * end)) if 0 < end < math.inf else end
+                     for end in (piece.inner, piece.outer))
 
     def at(self, h):
         """(X, Z) on the hyperbola."""

@@ -25,7 +25,7 @@ from .nearest import nearest
 from .parabola_chart import parabola_seen, ParabolaChart, rectangle
 from .plane_chart import plane_roots, PlaneChart
 from ..fate.balls import decide
-from .sheet_chart import Chart, Hyperbola, Seen, Straight
+from .sheet_chart import Chart, EPS, Hyperbola, ROUNDINGS, Seen, Straight
 from .shade import Shade
 from ..reduction import reduce
 from ...physics.alignment import aligned
@@ -125,7 +125,7 @@ def _on_conic(reduction, state) -> Apart:
     if seen.e > 0:
         charts += _plane_charts(seen, conic, arcs, start[0])
     found = nearest(charts, seen.plain["w"], start[0] * (1 + 1e-14) + 1e-300, genuine=shade)
-    place = start[1] if found.chart is None else _place(found)
+    place = start[1] if found.chart is None else found.chart.place(found.t, found.y)
     return Apart(found.lower, found.upper, _rates(reduction, seen, place, state), "", found.boxes)
 
 
@@ -160,12 +160,10 @@ def _arcs(conic, seen):
     """The branches of saddles."""
     for piece in conic.pieces:
         if piece.barrier:
-            low = math.log(piece.inner) if piece.inner else -INF
-            high = math.log(piece.outer) if piece.outer < INF else INF
-            curve = Hyperbola(seen, piece.sign)
-            yield _Arc(curve, low, high)
+            curve = Hyperbola(seen, *conic.sharp_ends(piece), piece.sign)
+            yield _Arc(curve, curve.low, curve.high)
     for line in conic.lines:
-        curve = Straight(line)
+        curve = Straight(seen, line)
         knots = sorted({-INF, *_knots(conic, line), INF})
         for low, high in zip(knots, knots[1:]):
             if _slope(seen, *curve.at(_between(low, high))[:2]) > 0:
@@ -203,7 +201,7 @@ def _first(seen, arc, shade):
     """(distance, (X, Z, W)) of the nearest of some saddles of a branch that count."""
     g = seen.plain
     size = math.hypot(g["X"], g["Z"])
-    places = []
+    places = [0.0] if isinstance(arc.curve, Hyperbola) and arc.low <= 0 <= arc.high else []
     ends = [t for t in (arc.low, arc.high) if math.isfinite(t)]
     near = arc.curve.window(2 * size + 1e-300)
     for low, high in ((arc.low, arc.high), near, (ends[0] - 1, ends[-1] + 1) if ends else near):
@@ -212,10 +210,11 @@ def _first(seen, arc, shade):
             places += [low + (high - low) * n / 8 for n in range(9)]
     best = INF, None
     for t in places:
-        x, z = arc.curve.at(t)[:2]
-        distance = math.sqrt(g["a"] * (x - g["X"]) ** 2 + g["b"] * (z - g["Z"]) ** 2 + g["w"] ** 2)
+        at = arc.curve.at(t)
+        u, v = abs(at.u) + ROUNDINGS * EPS * at.su, abs(at.v) + ROUNDINGS * EPS * at.sv
+        distance = math.sqrt(g["a"] * u * u + g["b"] * v * v + g["w"] ** 2)
         if distance < best[0] and (shade is None or shade(Chart(seen, arc.curve, (t, t), (0.0, 0.0)), t, 0.0)):
-            best = distance, (x, z, 0.0)
+            best = distance, (at.u, at.v, 0.0)
     return best
 
 
@@ -252,7 +251,7 @@ def _beside(g, arc, flip):
         K, c, G, shift = curve.plain
         turn = flip * K / G  # xi = K/(h G) + flip h - ... is stationary at h^2 = flip K/G
         if turn > 0:
-            spots.insert(1, min(max(0.5 * math.log(turn), arc.low), arc.high))
+            spots.insert(1, min(max(curve.to(math.sqrt(turn)), arc.low), arc.high))
     for t in spots:
         x, z = curve.at(t)[:2]
         values.append(x + flip * z)
@@ -313,20 +312,16 @@ def _flat_pieces(seen, sense):
         energy = 0.5 * g["n2"] * g["w"] ** 2 - x * (0.5 * g["G"] * x + g["c"] + flip * g["d"])
         if energy >= 0:
             apart = abs(g["X"] - flip * g["Z"]) * math.sqrt(g["a"] * g["b"] / (g["a"] + g["b"]))
-            found.append((apart, (x, flip * x, g["w"])))
+            found.append((apart, (x - g["X"], flip * x - g["Z"], g["w"])))
     return found
 
 
-def _place(found):
-    return found.chart.place(found.t, found.y)
-
-
 def _rates(reduction, seen, place, state):
-    """The three rates at (X, Z, |W|/n), with W of the sign of the state's."""
+    """The three rates at (X, Z, |W|/n), X and Z less the state's, with W of the sign of the state's."""
     x, z, w = place
-    r = reduction
+    r, g = reduction, reduction.constants
     out = [0.0] * 3
-    out[r.j], out[r.k] = r.component_j(x), r.component_k(z)
+    out[r.j], out[r.k] = float(state[r.j]) + g["flip"] * g["rx"] * x, float(state[r.k]) + g["rz"] * z
     sign = 1.0 if Fraction(state[r.axis]) + r.s >= 0 else -1.0
     out[r.axis] = sign * w - float(r.s)
     return tuple(out)

@@ -36,9 +36,9 @@ class PlaneChart(Chart):
         return False
 
     def place(self, t, y):
-        xi, less = self.xi0 + t, math.exp(-y)
-        eta = self._saddle(xi * less)[0] * less
-        return 0.5 * (xi + eta), self.flip * 0.5 * (xi - eta), math.sqrt(max(self.point(t, y).phi, 0.0))
+        less = math.exp(-y)
+        gap = self._saddle((self.xi0 + t) * less)[0] * less - (self.here["X"] - self.Z)
+        return 0.5 * (t + gap), self.flip * 0.5 * (t - gap), math.sqrt(max(self.point(t, y).phi, 0.0))
 
     def _saddle(self, r):
         """E, E', E'' at r, for floats."""

@@ -18,6 +18,7 @@ from typing import NamedTuple
 from ..potential import y_minus_sin
 
 EPS = 2.0**-52
+INF = math.inf
 ROUNDINGS = 48  # units in the last place of the largest terms that a value at a point is off by at most
 ROUNDING = 16 * EPS
 MORE = 1 + 1e-9  # on bounds of second derivatives, for their own rounding
@@ -54,56 +55,125 @@ class Seen(NamedTuple):
         return Seen(reduction.e, exact, {name: float(v) for name, v in exact.items()})
 
 
+class Spot(NamedTuple):
+    """A saddle: its place, slopes, the sizes of the terms of x and z; (u, v) from the state, with the sizes of their terms; the
+    parts (p, r) = (G x + c, G z + d) of the force, with theirs."""
+
+    x: float
+    z: float
+    xt: float
+    zt: float
+    sx: float
+    sz: float
+    u: float
+    v: float
+    su: float
+    sv: float
+    p: float
+    r: float
+    sp: float
+    sr: float
+
+
 class Hyperbola:
-    """Saddles X = (K/h - c)/G, Z = h - shift for h = sign exp(t)."""
+    """Saddles X = (K/h - c)/G, Z = h - shift for h = h0 exp(t), |h| within [inner, outer].
 
-    def __init__(self, seen, sign):
-        self.sign = sign
+    h0 is, of the ends of the branch and the saddles level with the state, the one nearest to the state; the places there, and how far they
+    are from the state, are differences of exact numbers. So doubles resolve the branch next to the state, however far from the
+    centre both are: with two moments equal to a share g, the saddles near the state have h alike to that share.
+    """
+
+    def __init__(self, seen, inner, outer, sign):
         g = seen.exact
-        self.plain = tuple(map(float, (g["c"] * g["d"] / g["G"] - g["mu"], g["c"], g["G"], g["d"] / g["G"])))
+        self.seen, self.sign = seen, sign
+        self.K, self.shift = g["c"] * g["d"] / g["G"] - g["mu"], g["d"] / g["G"]
+        self.plain = tuple(map(float, (self.K, g["c"], g["G"], self.shift)))
+        self.h0 = self._anchor(inner, outer)
+        k0 = self.K / (self.h0 * g["G"])
+        x, z = k0 - g["c"] / g["G"], self.h0 - self.shift
+        self.first = tuple(map(float, (self.h0, k0, x, z, x - g["X"], z - g["Z"])))
+        self.low, self.high = self.to(inner), self.to(outer)
 
-    def at(self, t):
-        """x, z, their slopes, and the sizes of their terms."""
+    def _anchor(self, inner, outer):
+        g = self.seen.exact
+        pull = g["G"] * g["X"] + g["c"]
+        level = [self.sign * (self.shift + g["Z"]), self.sign * self.K / pull if pull else None]
+        found = [short(h) for h in (inner, outer, *level) if h and 0 < h < INF and inner <= h <= outer]
+
+        def apart(h):
+            h = self.sign * h
+            return g["a"] * ((self.K / h - g["c"]) / g["G"] - g["X"]) ** 2 + g["b"] * (h - self.shift - g["Z"]) ** 2
+        return self.sign * min(found, key=apart, default=short(Fraction(math.sqrt(abs(self.K)) or 1.0)))
+
+    def to(self, size):
+        """t of the saddle with |h| = size."""
+        if not 0 < size < INF:
+            return INF if size else -INF
+        more = Fraction(size) / abs(self.h0) - 1
+        return math.log1p(more) if abs(more) < 0.5 else math.log((more + 1).numerator) - math.log((more + 1).denominator)
+
+    def at(self, t) -> Spot:
         K, c, G, shift = self.plain
-        h = self.sign * math.exp(t)
-        k = K / h
-        return (k - c) / G, h - shift, -k / G, h, (abs(k) + abs(c)) / abs(G), abs(h) + abs(shift)
+        h0, k0, x0, z0, u0, v0 = self.first
+        up, down = math.expm1(t), math.expm1(-t)
+        h, k, dh, dk = h0 + h0 * up, k0 + k0 * down, h0 * up, k0 * down
+        if abs(t) > 1:
+            h, k = h0 * math.exp(t), k0 * math.exp(-t)
+        p, r = G * k, G * h
+        return Spot(x0 + dk, z0 + dh, -k, h, abs(x0) + abs(dk), abs(z0) + abs(dh), u0 + dk, v0 + dh,
+                    abs(u0) + abs(dk), abs(v0) + abs(dh), p, r, abs(p), abs(r))
 
     def window(self, reach):
-        """t of the saddles within `reach` of the centre."""
-        K, c, G, shift = self.plain
-        return math.log(abs(K) / (abs(G) * reach + abs(c))) - 1e-13, math.log(reach + abs(shift)) + 1e-13
+        """t of the saddles within `reach` of the centre; the first above the second where there is none."""
+        g, reach = self.seen.exact, Fraction(reach) * (1 + Fraction(1, 10**12))
+        low, high = (self.sign * self.shift + side * reach for side in (-1, 1))
+        side = 1 if self.sign * self.K > 0 else -1
+        least, most = (side * g["c"] + n * abs(g["G"]) * reach for n in (-1, 1))
+        if high <= 0 or most <= 0:
+            return INF, -INF
+        low = max(low, abs(self.K) / most)
+        return self.to(low), self.to(min(high, abs(self.K) / least) if least > 0 else high)
 
     def over(self, t, dt):
-        """Middles and radii of x, z, x_t, z_t, x_tt, z_tt over [t - dt, t + dt]."""
-        K, c, G, shift = self.plain
-        h = self.sign * math.exp(t)
-        m, r = math.cosh(dt), math.sinh(dt)
-        k, hm, hr = K / (h * G), h * m, abs(h) * r
-        km, kr = k * m, abs(k) * r
-        return (km - c / G, kr + ROUNDING * (abs(k) + abs(c / G)), hm - shift, hr + ROUNDING * (abs(h) + abs(shift)),
-                -km, kr, hm, hr, km, kr, hm, hr)
+        """Middles and radii of x, z, x_t, z_t, x_tt, z_tt over [t - dt, t + dt]; what x and z are there less the state's, and the
+        sizes of the terms of these."""
+        s = self.at(t)
+        half, r = math.sinh(0.5 * dt), math.sinh(dt)
+        more, m = 2 * half * half, math.cosh(dt)
+        km, kr, hm, hr = -s.xt * m, abs(s.xt) * r, s.zt * m, abs(s.zt) * r
+        return (s.x - s.xt * more, kr + ROUNDING * s.sx, s.z + s.zt * more, hr + ROUNDING * s.sz,
+                -km, kr, hm, hr, km, kr, hm, hr, s.u - s.xt * more, s.v + s.zt * more, s.su + kr, s.sv + hr)
 
 
 class Straight:
     """Saddles (x0 + t dx, z0 + t dz) on a line."""
 
-    def __init__(self, line):
-        self.plain = tuple(line)
+    def __init__(self, seen, line):
+        self.here, self.plain = seen.plain, tuple(line)
 
-    def at(self, t):
+    def at(self, t) -> Spot:
         x0, z0, dx, dz = self.plain
-        return x0 + t * dx, z0 + t * dz, dx, dz, abs(x0) + abs(t * dx), abs(z0) + abs(t * dz)
+        g = self.here
+        x, z, sx, sz = x0 + t * dx, z0 + t * dz, abs(x0) + abs(t * dx), abs(z0) + abs(t * dz)
+        return Spot(x, z, dx, dz, sx, sz, x - g["X"], z - g["Z"], sx + abs(g["X"]), sz + abs(g["Z"]), g["G"] * x + g["c"],
+                    g["G"] * z + g["d"], abs(g["G"]) * sx + abs(g["c"]), abs(g["G"]) * sz + abs(g["d"]))
 
     def over(self, t, dt):
-        x0, z0, dx, dz = self.plain
-        return (x0 + t * dx, abs(dx) * dt + ROUNDING * (abs(x0) + abs(t * dx)), z0 + t * dz,
-                abs(dz) * dt + ROUNDING * (abs(z0) + abs(t * dz)), dx, 0.0, dz, 0.0, 0.0, 0.0, 0.0, 0.0)
+        s = self.at(t)
+        return (s.x, abs(s.xt) * dt + ROUNDING * s.sx, s.z, abs(s.zt) * dt + ROUNDING * s.sz, s.xt, 0.0, s.zt, 0.0,
+                0.0, 0.0, 0.0, 0.0, s.u, s.v, s.su, s.sv)
 
     def window(self, reach):
         x0, z0, dx, dz = self.plain
         far = (reach + math.hypot(x0, z0)) / math.hypot(dx, dz) * (1 + 1e-12)
         return -far, far
+
+
+def short(number):
+    """A positive Fraction near another, with 160 bits."""
+    number = Fraction(number)
+    bits = 160 - number.numerator.bit_length() + number.denominator.bit_length()
+    return Fraction(round(number * Fraction(2) ** bits)) / Fraction(2) ** bits
 
 
 class Chart:
@@ -137,15 +207,16 @@ class Chart:
         return Chart(self.seen, self.curve, (t, t), self.y)
 
     def place(self, t, y):
-        """(X, Z, W/n) in floats."""
-        x, z = self.curve.at(t)[:2]
-        s, q = (math.sin(y), math.cos(y)) if self.seen.e < 0 else (math.sinh(y), math.cosh(y))
-        return x * q + z * s, z * q + self.seen.e * x * s, math.sqrt(max(self.point(t, y).phi, 0.0))
+        """(X, Z, W/n) in floats, X and Z less the state's."""
+        at = self.curve.at(t)
+        s, half = (math.sin(y), math.sin(0.5 * y)) if self.seen.e < 0 else (math.sinh(y), math.sinh(0.5 * y))
+        b = 2 * self.seen.e * half * half
+        return at.u + at.x * b + at.z * s, at.v + at.z * b + self.seen.e * at.x * s, math.sqrt(max(self.point(t, y).phi, 0.0))
 
     def point(self, t, y) -> Point:
         e, g = self.seen.e, self.here
         G, c, d, mu, n2, a, b2 = g["G"], g["c"], g["d"], g["mu"], g["n2"], g["a"], g["b"]
-        x, z, xt, zt, sx, sz = self.curve.at(t)
+        x, z, xt, zt, sx, sz, u, v, su, sv, p, r, sp, sr = self.curve.at(t)
         if e < 0:
             s, half = math.sin(y), math.sin(0.5 * y)
             b, lag = -2 * half * half, y_minus_sin(y)
@@ -154,17 +225,17 @@ class Chart:
             b, lag = 2 * half * half, y - s if abs(y) > 0.3 else _less_sinh(y)
         q = 1 + b
         X, Z, Xt, Zt = x * q + z * s, z * q + e * x * s, xt * q + zt * s, zt * q + e * xt * s
-        dx = z * s + x * b
-        u, v, big_s, big_b = X - g["X"], Z - g["Z"], abs(s), abs(b)
-        phi = 2 * (mu * lag + b * (G * x * x + c * x + e * d * z) + 0.5 * G * dx * dx) / n2
+        big_s, big_b = abs(s), abs(b)
+        dx, dz, dxt, dzt = z * s + x * b, z * b + e * x * s, zt * s + xt * b, zt * b + e * xt * s
+        u, v = u + dx, v + dz
+        # the squares of dx, with s^2 = e b (b + 2), are put to the terms in b: these are then as small as their sum
+        phi = 2 * (mu * lag + b * (x * p + e * z * r) + 0.5 * G * b * b * (x * x + e * z * z) + G * b * s * x * z) / n2
         force = mu + G * X * Z + c * Z + d * X
-        pull, still = G * X + c, G * x + c
-        phi_t = 2 * (pull * Xt + e * d * Zt - still * xt - e * d * zt) / n2
-        sd = sz * big_s + sx * big_b
-        off_phi = 2 * (abs(mu * lag) + big_b * (abs(G) * sx * sx + abs(c) * sx + abs(d) * sz) + 0.5 * abs(G) * sd * sd
-                       + (abs(G) * sd + 0.0) * (sx * big_b + sz * big_s)) / n2 * ROUNDINGS * EPS
-        off_u = ROUNDINGS * EPS * (sx * abs(q) + sz * big_s + abs(g["X"]))
-        off_v = ROUNDINGS * EPS * (sz * abs(q) + sx * big_s + abs(g["Z"]))
+        phi_t = 2 * (b * ((p + G * x) * xt + e * d * zt) + G * dx * dxt) / n2  # p z_t + r x_t is zero
+        off_phi = 2 * (abs(mu * lag) + big_b * (sx * sp + sz * sr) + 0.5 * abs(G) * big_b * big_b * (sx * sx + sz * sz)
+                       + abs(G) * big_b * big_s * sx * sz) / n2 * ROUNDINGS * EPS
+        off_u = ROUNDINGS * EPS * (su + sx * big_b + sz * big_s)
+        off_v = ROUNDINGS * EPS * (sv + sz * big_b + sx * big_s)
         apart = a * u * u + b2 * v * v
         off = a * off_u * (2 * abs(u) + off_u) + b2 * off_v * (2 * abs(v) + off_v) + 8 * EPS * apart
         w0 = g["w"]
@@ -178,7 +249,7 @@ class Chart:
         """((mid, radius) of apart_tt, apart_ty, apart_yy), the same of phi over the box about (t, y)."""
         e, g = self.seen.e, self.here
         G, c, d, n2, a, b2 = g["G"], g["c"], g["d"], g["n2"], g["a"], g["b"]
-        x, rx, z, rz, x1, rx1, z1, rz1, x2, rx2, z2, rz2 = self.curve.over(t, dt)
+        x, rx, z, rz, x1, rx1, z1, rz1, x2, rx2, z2, rz2, u, v, su, sv = self.curve.over(t, dt)
         if e < 0:
             s, q = math.sin(y), math.cos(y)
             rs, rq, half = dy * min(1.0, abs(q) + dy), dy * min(1.0, abs(s) + dy), math.sin(0.5 * y)
@@ -199,8 +270,9 @@ class Chart:
         X, rX, Z, rZ = turned(x, rx, z, rz)
         X1, rX1, Z1, rZ1 = turned(x1, rx1, z1, rz1)
         X2, rX2, Z2, rZ2 = turned(x2, rx2, z2, rz2)
-        u, v = X - g["X"], Z - g["Z"]
-        rX, rZ = rX + ROUNDING * (abs(X) + abs(g["X"])), rZ + ROUNDING * (abs(Z) + abs(g["Z"]))
+        xb, zs, zb, xs = x * less, z * s, z * less, e * x * s
+        u, v = u + (xb + zs), v + (zb + xs)
+        rX, rZ = rX + ROUNDING * (abs(X) + su + abs(xb) + abs(zs)), rZ + ROUNDING * (abs(Z) + sv + abs(zb) + abs(xs))
         mX, mZ, mX1, mZ1, mX2, mZ2 = abs(X) + rX, abs(Z) + rZ, abs(X1) + rX1, abs(Z1) + rZ1, abs(X2) + rX2, abs(Z2) + rZ2
         tt = 2 * (a * (X1 * X1 + u * X2) + b2 * (Z1 * Z1 + v * Z2))
         rtt = 2 * (a * (rX1 * (mX1 + abs(X1)) + rX * mX2 + abs(u) * rX2) + b2 * (rZ1 * (mZ1 + abs(Z1)) + rZ * mZ2 + abs(v) * rZ2))
