@@ -255,7 +255,7 @@ def test_an_installed_wheel_makes_tables_figures_and_reports_anywhere(tmp_path):
     if subprocess.run([*pip, "--version"], capture_output=True).returncode:
         pytest.skip("this environment has no pip")
     copy = tmp_path / "source"  # setuptools leaves its own folders beside what it builds
-    shutil.copytree(ROOT, copy, symlinks=True, ignore=lambda folder, names: [n for n in names if n.startswith(".") or n in ("build", "report", "figures")])
+    shutil.copytree(ROOT, copy, symlinks=True, ignore=lambda folder, names: [n for n in names if n.startswith(".") or Path(folder) == ROOT and n in ("build", "report", "figures")])
     subprocess.run([*pip, "wheel", "--no-deps", "-w", tmp_path / "wheel", copy], check=True)
     (wheel,) = (tmp_path / "wheel").iterdir()
     subprocess.run([*pip, "install", "--no-deps", "--target", tmp_path / "made", wheel], check=True)
