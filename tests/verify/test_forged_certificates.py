@@ -350,6 +350,7 @@ def test_what_a_machine_forges_is_never_proved(name):
 
 
 @pytest.mark.slow
+@pytest.mark.long  # some twenty minutes in all; a sample of each kind is in the default suite
 @pytest.mark.parametrize("name", [*KINDS, *FILES])
 def test_three_hundred_forgeries_of_every_claim_are_never_proved(name):
     claims = case_proved(name) if name in FILES else proved(*KINDS[name])
