@@ -38,6 +38,7 @@ def test_certified_motions_keep_what_they_promise():
 
 
 @pytest.mark.slow
+@pytest.mark.long  # half an hour of runs
 def test_certified_motions_keep_what_they_promise_for_long():
     from benchmarks.spin_up import main
     rows = main(31, 300, 2e4, 600_000, 3600, 3000)
