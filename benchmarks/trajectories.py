@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from stabilab import Body, ConstantTorque, derive, ensemble, Gyrostat, Scene, trajectory
+from stabilab import Body, ConstantTorque, ensemble, Gyrostat, Scene, trajectory
 from stabilab.integrate.reference import reference, relative_errors
 from stabilab.integrate.to_heyoka import TAYLOR_TOLERANCE
 

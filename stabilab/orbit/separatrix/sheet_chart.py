@@ -226,7 +226,7 @@ class Chart:
         q = 1 + b
         X, Z, Xt, Zt = x * q + z * s, z * q + e * x * s, xt * q + zt * s, zt * q + e * xt * s
         big_s, big_b = abs(s), abs(b)
-        dx, dz, dxt, dzt = z * s + x * b, z * b + e * x * s, zt * s + xt * b, zt * b + e * xt * s
+        dx, dz, dxt = z * s + x * b, z * b + e * x * s, zt * s + xt * b
         u, v = u + dx, v + dz
         # the squares of dx, with s^2 = e b (b + 2), are put to the terms in b: these are then as small as their sum
         phi = 2 * (mu * lag + b * (x * p + e * z * r) + 0.5 * G * b * b * (x * x + e * z * z) + G * b * s * x * z) / n2
