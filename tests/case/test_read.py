@@ -19,25 +19,6 @@ WHEEL = "[effects.gyrostat]\nmomentum = [100.0, 0.0, 0.0]\n"
 MU = "[effects.constant_torque]\nmu = [0, 0, 1]\n"
 
 
-@pytest.fixture
-def case(tmp_path):
-    def read(text):
-        path = tmp_path / "my.toml"
-        path.write_bytes(text if isinstance(text, bytes) else text.encode())
-        return load(path)
-    return read
-
-
-@pytest.fixture
-def faults(case):
-    """(line, key, message) of every fault of a text."""
-    def collect(text):
-        with pytest.raises(CaseError) as caught:
-            case(text)
-        return [(p.line, p.key, p.message) for p in caught.value.problems]
-    return collect
-
-
 @pytest.mark.parametrize("path", CASES, ids=lambda p: p.stem)
 def test_every_case_of_the_repository_loads_and_says_what_it_is(path):
     loaded = load(path)

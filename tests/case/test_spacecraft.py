@@ -20,25 +20,6 @@ THRUSTER = '[[thrusters]]\nname = "A1"\nposition = [1, 2, 3]\ndirection = [0, 3,
 WHEEL = '[[wheels]]\naxis = [0, 0, 2]\nmomentum = "0.5 N m s"\n'
 
 
-@pytest.fixture
-def case(tmp_path):
-    def read(text):
-        path = tmp_path / "my.toml"
-        path.write_text(text)
-        return load(path)
-    return read
-
-
-@pytest.fixture
-def faults(case):
-    """(line, key, message) of every fault of a text."""
-    def collect(text):
-        with pytest.raises(CaseError) as caught:
-            case(text)
-        return [(p.line, p.key, p.message) for p in caught.value.problems]
-    return collect
-
-
 def test_thrusters_wheels_and_torques_add_up_exactly(case):
     """(p - c) x F with p - c = (1, 1, 3), F = 10 (0, 3, 4)/5: (4 - 9, -4, 3) 2, by hand; the wheel's axis has length 2."""
     read = case(DIAGONAL + "centre_of_mass = [0, 1, 0]\n" + THRUSTER + "stuck = true\n" + WHEEL + '[effects.constant_torque]\ntorque = ["1 N m", 0, 0]\n'
