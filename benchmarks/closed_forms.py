@@ -3,9 +3,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from stabilab.integrate.to_heyoka import TAYLOR_TOLERANCE
 from stabilab.theories.charged.closed_form import solution
 from stabilab.theories.charged.modes import ChargedBody
-from stabilab.integrate.to_heyoka import TAYLOR_TOLERANCE
 
 from .rows import Row, each
 from .timing import side_by_side
@@ -25,7 +25,7 @@ def rows(small=False) -> list[Row]:
 
 def body():
     """VALUES as the closed forms take them."""
-    get = lambda *names: [VALUES[n] for n in names]  # noqa: E731
+    get = lambda *names: [VALUES[n] for n in names]
     return ChargedBody(get("D1", "D2", "D3"), VALUES["r0"], VALUES["lambda3"], VALUES["k"], get("M1", "M2"), get("p0", "q0"),
                        get("psi0", "phi0", "theta0"), get("f1", "f2", "f3"), VALUES["m"], get("v1", "v2", "v3"), get("x1", "x2", "x3"))
 

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from stabilab import Body, ConstantTorque, Fate, fate, Gyrostat, ScaledGyrostat, Scene
+from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene, fate
 from stabilab.answers.fate_grid import fate_grid
 
 from .contestants import BatchFate, SciPyFate

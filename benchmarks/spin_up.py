@@ -141,7 +141,7 @@ def _line(group):
         return f"{sum(map(test, good)) / len(group):7.3f}"
     text = "".join(share(lambda a, t=t: a.t < t) for t in (10, 100, 1000, 5000, math.inf))
     text += " " + "".join(share(lambda a, n=n: a.steps < n) for n in (1e3, 1e4, 1e5))
-    middle = lambda values: sorted(values)[len(values) // 2]  # noqa: E731
+    middle = lambda values: sorted(values)[len(values) // 2]
     return text + f"{middle([r[2].t for r in group]):8.3g}{middle([r[2].steps for r in group]):7d}{middle([r[3] for r in group]):7.1f}"
 
 

@@ -11,7 +11,6 @@ from stabilab.show.surface.mesh import triangulate
 from .rows import SCENE, A, Row, numba_available
 from .timing import side_by_side
 
-
 HALF = 6.0        # of the side of the cube that the grid of margins fills
 REACH = 5.6       # with it the sheets go beyond every corner of the cube's section
 ACCURACY = 3e-3   # largest distance of our facets from the surface

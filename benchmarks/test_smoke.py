@@ -3,7 +3,7 @@ import pytest
 
 pytest.importorskip("heyoka")
 
-from . import fates, orbit_extremes, suite  # noqa: E402
+from . import fates, orbit_extremes, suite
 
 
 @pytest.mark.parametrize("topic", suite.TOPICS)

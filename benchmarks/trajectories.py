@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from stabilab import Body, ConstantTorque, ensemble, Gyrostat, Scene, trajectory
+from stabilab import Body, ConstantTorque, Gyrostat, Scene, ensemble, trajectory
 from stabilab.integrate.reference import reference, relative_errors
 from stabilab.integrate.to_heyoka import TAYLOR_TOLERANCE
 
@@ -29,7 +29,7 @@ def against_heyoka(span, count, repeats, rounds=7) -> list[Row]:
     found, theirs = [], raw(START, times)
     for laws in (False, True):
         run = trajectory(OFF_AXIS, START, times, laws=laws)
-        timed = side_by_side(lambda: [trajectory(OFF_AXIS, START, times, laws=laws) for _ in range(repeats)],  # noqa: B023
+        timed = side_by_side(lambda: [trajectory(OFF_AXIS, START, times, laws=laws) for _ in range(repeats)],
                              lambda: [raw(START, times) for _ in range(repeats)], repeats, repeats, rounds)
         apart = np.abs(run.states - theirs).max() / np.abs(theirs).max()
         found.append(Row(f"trajectory off the axes, {span:g} s, {count} times, {run.counters['steps']} steps, "
@@ -50,8 +50,8 @@ def against_scipy(span=300.0, repeats=10, rounds=7) -> Row:
         a, b, c = D1 * w[0] + h1, D2 * w[1] + h2, D3 * w[2] + h3
         return (b * w[2] - c * w[1] + M1) / D1, (c * w[0] - a * w[2] + M2) / D2, (a * w[1] - b * w[0] + M3) / D3
 
-    slow = lambda: solve_ivp(rates, (0, span), START, "DOP853", times, rtol=SCIPY_RTOL, atol=SCIPY_RTOL).y.T  # noqa: E731
-    fast = lambda: trajectory(OFF_AXIS, START, times, laws=False).states  # noqa: E731
+    slow = lambda: solve_ivp(rates, (0, span), START, "DOP853", times, rtol=SCIPY_RTOL, atol=SCIPY_RTOL).y.T
+    fast = lambda: trajectory(OFF_AXIS, START, times, laws=False).states
     timed = side_by_side(lambda: [fast() for _ in range(repeats)], slow, repeats, 1, rounds)
     exact = reference(OFF_AXIS, START, times)
     errors = [relative_errors(states, exact.states, exact.rest, exact.slices).max() for states in (fast(), slow())]
@@ -66,7 +66,7 @@ def against_batch(size=256, span=200.0, count=21, rounds=7) -> list[Row]:
     theirs, ours = raw(states, times), ensemble(OFF_AXIS, states, times).states
     apart = np.abs(ours - theirs).max() / np.abs(theirs).max()
     for workers in (1, 2):
-        timed = side_by_side(lambda: ensemble(OFF_AXIS, states, times, workers=workers), lambda: raw(states, times),  # noqa: B023
+        timed = side_by_side(lambda: ensemble(OFF_AXIS, states, times, workers=workers), lambda: raw(states, times),
                              size, size, rounds)
         found.append(Row(f"ensemble of {size} motions off the axes, {span:g} s, {count} times, {workers} worker{'s' * (workers > 1)}",
                          each(timed.ours), f"{each(timed.theirs)} heyoka batch by hand", timed.ratio, (timed.low, timed.high),

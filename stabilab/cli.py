@@ -5,22 +5,20 @@ import os
 import sys
 from functools import partial
 from pathlib import Path
-from typing import Annotated, List, Optional  # typer reads the annotations at run time
+from typing import Annotated  # typer reads the annotations at run time
 
 import typer
 
-from .errors import (
-    BAD_INPUT, BUG, InputError, INTERRUPTED, OK, printable, RenderingUnavailable, StabilabError, ToleranceNotMet,
-    UNDECIDED)
-from .streams import guarded, LOST, OutputLost
+from .errors import BAD_INPUT, BUG, INTERRUPTED, OK, UNDECIDED, InputError, RenderingUnavailable, StabilabError, ToleranceNotMet, printable
+from .streams import LOST, OutputLost, guarded
 
 # Plain help: rich costs more time than the rest of `stabilab --help`.
 app = typer.Typer(name="stabilab", no_args_is_help=True, rich_markup_mode=None, pretty_exceptions_enable=False)
 
 CaseFile = Annotated[Path, typer.Argument(metavar="CASE", help="A case file (TOML).", show_default=False)]
-CaseFiles = Annotated[List[Path], typer.Argument(metavar="CASE...", help="Case files (TOML).", show_default=False)]
+CaseFiles = Annotated[list[Path], typer.Argument(metavar="CASE...", help="Case files (TOML).", show_default=False)]
 Json = Annotated[bool, typer.Option("--json", help="JSON on stdout instead of text.")]
-Digits = Annotated[Optional[int], typer.Option(metavar="N", help="Reach N digits (1 to 50) the cheapest way and check them; "
+Digits = Annotated[int | None, typer.Option(metavar="N", help="Reach N digits (1 to 50) the cheapest way and check them; "
                                                                  "exit 5 where they are not reached. Without it 10 are the aim.")]
 Strict = Annotated[bool, typer.Option("--strict", help="Exit with 3 where a fate is undecided or an approximate law does not hold "
                                                        "along the motion.")]
@@ -61,8 +59,7 @@ def classify(cases: CaseFiles, json: Json = False, strict: Annotated[bool, typer
 
     Example: stabilab classify cases/minor-axis-100.toml --json
     """
-    from .show.text import answers, law
-    from .show.text import certification
+    from .show.text import answers, certification, law
     loaded = _load(cases)
     if certify:
         certification.checked(out)
@@ -86,7 +83,7 @@ def classify(cases: CaseFiles, json: Json = False, strict: Annotated[bool, typer
 @app.command()
 def verify(certificate: Annotated[Path, typer.Argument(metavar="CERTIFICATE", help="A certificate.json of classify --certify.",
                                                        show_default=False)],
-           case: Annotated[Optional[Path], typer.Option(metavar="CASE.toml", help="The case it must be of: exit with 5 where scene or "
+           case: Annotated[Path | None, typer.Option(metavar="CASE.toml", help="The case it must be of: exit with 5 where scene or "
                                                         "state differ.")] = None, json: Json = False,
            strict: Annotated[bool, typer.Option("--strict", help="Exit with 3 where a claim could not be checked.")] = False):
     """Check a certificate with separate code.
@@ -151,19 +148,19 @@ def period(cases: CaseFiles, json: Json = False, digits: Digits = None, strict: 
 
 @app.command()
 def simulate(case: CaseFile,
-             at: Annotated[Optional[str], typer.Option(metavar="T1,T2,...", help="Times; the state is at 0. "
+             at: Annotated[str | None, typer.Option(metavar="T1,T2,...", help="Times; the state is at 0. "
                                                        "Default: 201 times over the span of the case.")] = None,
              model: Annotated[str, typer.Option(help="exact, or an analytic solution that applies: linear, corrected, printed, "
                                                      "averaged1, averaged2, lindstedt.")] = "exact",
-             order: Annotated[Optional[int], typer.Option(min=1, help="Order of the lindstedt expansion.")] = None,
-             method: Annotated[Optional[str], typer.Option(help="taylor (default), a method of SciPy's solve_ivp by name, or "
+             order: Annotated[int | None, typer.Option(min=1, help="Order of the lindstedt expansion.")] = None,
+             method: Annotated[str | None, typer.Option(help="taylor (default), a method of SciPy's solve_ivp by name, or "
                                                                 "reduced (any time at one cost); for the exact model.")] = None,
-             rtol: Annotated[Optional[float], typer.Option(help="Relative tolerance; default: the method's own.")] = None,
-             digits: Annotated[Optional[int], typer.Option(metavar="N", help="Reach N digits (1 to 15) the cheapest way, check "
+             rtol: Annotated[float | None, typer.Option(help="Relative tolerance; default: the method's own.")] = None,
+             digits: Annotated[int | None, typer.Option(metavar="N", help="Reach N digits (1 to 15) the cheapest way, check "
                                                            "them, or exit with 5. Without it 10 are the aim, unless "
                                                            "--model, --method or --rtol is given.")] = None,
              angles: Annotated[bool, typer.Option("--angles", help="Euler angles psi, theta, phi of the vertical, too.")] = False,
-             out: Annotated[Optional[Path], typer.Option(metavar="FILE.nc|.csv", help="Write the states to a file.")] = None,
+             out: Annotated[Path | None, typer.Option(metavar="FILE.nc|.csv", help="Write the states to a file.")] = None,
              json: Json = False, strict: Strict = False):
     """Follow a motion in time.
 
@@ -193,8 +190,8 @@ def simulate(case: CaseFile,
 
 @app.command()
 def compare(case: CaseFile,
-            order: Annotated[Optional[int], typer.Option(min=1, help="Order of the lindstedt expansion.")] = None,
-            out: Annotated[Optional[Path], typer.Option(metavar="FILE.csv", help="Write the errors over time.")] = None,
+            order: Annotated[int | None, typer.Option(min=1, help="Order of the lindstedt expansion.")] = None,
+            out: Annotated[Path | None, typer.Option(metavar="FILE.csv", help="Write the errors over time.")] = None,
             json: Json = False, strict: Strict = False):
     """Set the analytic models of a case beside its exact motion.
 
@@ -219,8 +216,8 @@ def compare(case: CaseFile,
 @app.command()
 def precision(case: CaseFile, json: Json = False,
               csv: Annotated[bool, typer.Option("--csv", help="CSV on stdout instead of text.")] = False,
-              out: Annotated[Optional[Path], typer.Option(metavar="FILE.png|.svg|.pdf|.csv", help="Write the picture or the points.")] = None,
-              until: Annotated[Optional[float], typer.Option(metavar="T", help="End of the span; default: the case's own.")] = None,
+              out: Annotated[Path | None, typer.Option(metavar="FILE.png|.svg|.pdf|.csv", help="Write the picture or the points.")] = None,
+              until: Annotated[float | None, typer.Option(metavar="T", help="End of the span; default: the case's own.")] = None,
               quick: Annotated[bool, typer.Option("--quick", help="Few settings: seconds instead of a minute.")] = False,
               strict: Strict = False):
     """Measure what accuracy costs: every method, error and time.
@@ -231,10 +228,10 @@ def precision(case: CaseFile, json: Json = False,
     """
     if json and csv:
         raise typer.BadParameter("choose one of --json and --csv")
+    from .answers.digits.front import keep
+    from .cost.accuracy import precision as measure
     from .show.text import law
     from .show.text import precision as shown
-    from .cost.accuracy import precision as measure
-    from .answers.digits.front import keep
     if out:
         shown.checked(out)
     loaded = _load([case], motion=True)
@@ -264,8 +261,8 @@ def surface(case: CaseFile, out: Annotated[Path, typer.Option(metavar="DIR", hel
 
     Example: stabilab surface cases/minor-axis-100.toml --out surfaces
     """
-    from .show.text import law
     from .show.surface.write import write_all
+    from .show.text import law
     loaded, unavailable = _load([case]), None
     laws = [law.of_case(one) for one in loaded]
     try:
@@ -284,7 +281,7 @@ def surface(case: CaseFile, out: Annotated[Path, typer.Option(metavar="DIR", hel
 
 
 @app.command()
-def plot(case: CaseFile, out: Annotated[Optional[Path], typer.Option(
+def plot(case: CaseFile, out: Annotated[Path | None, typer.Option(
         metavar="FILE.png|.svg|.pdf", help="Picture to write; default: CASE.png in the current folder.")] = None,
          strict: Strict = False):
     """Draw the motion of a case in its phase plane.
@@ -293,8 +290,8 @@ def plot(case: CaseFile, out: Annotated[Optional[Path], typer.Option(
     """
     from .case.read import blamed_on
     from .show.files import endings
-    from .show.text import law
     from .show.plane import plot as draw
+    from .show.text import law
     loaded, drawn = _load([case], motion=True), []
     target = endings.file(out or f"{printable(case.stem)}.png", endings.PICTURES)
     for one in loaded:
@@ -321,9 +318,9 @@ def tables(out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the
 
 
 @app.command()
-def figures(numbers: Annotated[Optional[List[int]], typer.Argument(
+def figures(numbers: Annotated[list[int] | None, typer.Argument(
                 metavar="[N...]", help="Figure numbers of one paper; none: all.", show_default=False)] = None,
-            paper: Annotated[Optional[str], typer.Option(metavar="NAME", help="constant-torque, charged, cavity or top. Default: "
+            paper: Annotated[str | None, typer.Option(metavar="NAME", help="constant-torque, charged, cavity or top. Default: "
                                                          "constant-torque where numbers are given, else all.")] = None,
             out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the pictures.")] = Path("figures")):
     """Draw the figures of the papers.
@@ -342,7 +339,7 @@ def figures(numbers: Annotated[Optional[List[int]], typer.Argument(
 
 
 @app.command()
-def report(cases: Annotated[Optional[List[Path]], typer.Argument(
+def report(cases: Annotated[list[Path] | None, typer.Argument(
                metavar="[CASE...]", help="Case files; none: those of the papers, which stabilab brings.", show_default=False)] = None,
            out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the report.")] = Path("report"),
            strict: Strict = False):
@@ -352,8 +349,8 @@ def report(cases: Annotated[Optional[List[Path]], typer.Argument(
 
     Example: stabilab report --out report
     """
-    from .show.text import law
     from .show.report.report import of_all, write
+    from .show.text import law
     loaded = _load(cases or [])
     made = write(loaded, out, arguments=sys.argv[1:])
     beyond = law.of_cases(of_all(loaded))
@@ -365,7 +362,7 @@ def report(cases: Annotated[Optional[List[Path]], typer.Argument(
 @app.command()
 def rerun(manifest: Annotated[Path, typer.Argument(metavar="MANIFEST", help="A manifest.json, or the folder that holds it.",
                                                    show_default=False)],
-          out: Annotated[Optional[Path], typer.Option(metavar="DIR", help="Keep the new files in an empty folder.")] = None):
+          out: Annotated[Path | None, typer.Option(metavar="DIR", help="Keep the new files in an empty folder.")] = None):
     """Repeat what made a folder and compare every byte.
 
     Exits with 2 where inputs are missing or changed, with 5 where a file differs.
@@ -379,8 +376,8 @@ def rerun(manifest: Annotated[Path, typer.Argument(metavar="MANIFEST", help="A m
 @app.command(name="import")
 def import_(file: Annotated[Path, typer.Argument(metavar="FILE", help="A NASA 42 spacecraft file, or JSON or a Python dictionary with "
                                                                       "Basilisk's names.", show_default=False)],
-            out: Annotated[Optional[Path], typer.Option(metavar="FILE.toml", help="Write the case to a file.")] = None,
-            stuck: Annotated[Optional[List[str]], typer.Option(metavar="NAME", help="A thruster that is stuck open; may be repeated.")] = None):
+            out: Annotated[Path | None, typer.Option(metavar="FILE.toml", help="Write the case to a file.")] = None,
+            stuck: Annotated[list[str] | None, typer.Option(metavar="NAME", help="A thruster that is stuck open; may be repeated.")] = None):
     """Write another program's spacecraft as a case.
 
     What has no counterpart in a case is listed on stderr. Exits with 2 where the case still has faults.
@@ -453,8 +450,8 @@ def _certified(case, out) -> bool:
     """Write the certificate of one case; whether all of it could be certified."""
     from .answers.certificate import certificate
     from .case.read import blamed_on
-    from .show.text import certification
     from .show.files.endings import labelled
+    from .show.text import certification
     with blamed_on(case):
         made = certificate(case.scene, case.exact_state)
     _say(f"written: {certification.write(made, labelled(out, case))}\n{certification.summary(made)}")
@@ -525,7 +522,7 @@ def _tell(question, paths, digits, json, strict, csv=False):
 
 def _told(question, case, motion, digits):
     """The answer with its digits; where none were asked for and a formula bounds its own error, that is the check."""
-    from .answers.digits.checked import by_bound, DEFAULT
+    from .answers.digits.checked import DEFAULT, by_bound
     found = by_bound(question, motion) if digits is None else None
     if found is None:
         from .answers.digits.ask import ask
@@ -551,8 +548,8 @@ def _run_or_best(case, times, model, method, rtol, order, digits):
     if chosen:
         raise InputError("--digits chooses method and tolerance of the exact motion itself: give it without --model, --method, "
                          "--rtol and --order")
-    from .answers.digits.run import best_reached
     from .answers.digits.checked import DEFAULT
+    from .answers.digits.run import best_reached
     reached = best_reached(case, times, DEFAULT if digits is None else digits, measured=digits is not None, aim=digits is None)
     return reached.run, reached
 
@@ -582,8 +579,8 @@ def _theory(case, run, words=False):
 
 
 def _with_angles(case, run, model, order):
-    from .theories.top.run_angles import with_euler_angles
     from .case.read import blamed_on
+    from .theories.top.run_angles import with_euler_angles
     with blamed_on(case):
         return with_euler_angles(case, run, model, order)
 
@@ -599,9 +596,9 @@ def _judge_runs(runs, digits):
 
 def _compared(case, order):
     """The models of a case beside its exact motion."""
+    from .case.read import blamed_on
     from .theories.comparison import compare as set_side_by_side
     from .theories.follow import models_of
-    from .case.read import blamed_on
     if case.span is None:
         raise InputError(f"{case.place}: motion: no span; compare needs span = [0, T] in [motion]")
     if models_of(case.scene) == ("exact",):

@@ -1,8 +1,10 @@
 """What this machine is: processor, versions of the program and of its libraries."""
 from __future__ import annotations
-from pathlib import Path
+
 import os
 import platform
+from pathlib import Path
+
 from stabilab import __version__
 
 

@@ -1,13 +1,15 @@
 """Scenes, states and answers that tests of several rooms share."""
 from __future__ import annotations
-from pathlib import Path
-from stabilab import Body, ScaledGyrostat
+
 import json
-import stabilab
 import subprocess
 import sys
-from stabilab.physics.effects.liquid_cavity import LiquidCavity
+from pathlib import Path
+
+import stabilab
+from stabilab import Body, ScaledGyrostat
 from stabilab.answers.certificate import certificate
+from stabilab.physics.effects.liquid_cavity import LiquidCavity
 from tests.oracles.pairs import physical
 
 CASES = Path(__file__).parents[1] / "cases"

@@ -7,17 +7,18 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+from stabilab import __version__
+
+from ..equilibrium.balance import pencil
 from ..equilibrium.conics import balance_fails, conic_curves
 from ..equilibrium.isolated import isolated_states
-from ..equilibrium.balance import pencil
-from ..orbit.result import Fate
 from ..equilibrium.stability import curve_with_verdicts, cuts_of, isolated_point
 from ..equilibrium.torque_free import DRIFT, plane_centre, plane_moments, plane_of_equal_moments, torque_free_curves
-from stabilab import __version__
-from ..orbit.fate.one_state import fate_of
-from ..orbit.reduction import reduce
 from ..orbit.extremes.balls import extreme_balls
+from ..orbit.fate.one_state import fate_of
 from ..orbit.period.balls import period_ball
+from ..orbit.reduction import reduce
+from ..orbit.result import Fate
 
 SCHEMA = "stabilab.certificate/1"
 ROOT_BITS = 150  # roots are known to 160 bits and more (`polynomials.real_roots`, `Surd.fraction`)
@@ -112,7 +113,7 @@ def _curve(form, curve) -> dict:
 
 def _plane(p, d) -> dict:
     i, j, k, centre = plane_of_equal_moments(p, d)
-    unit = lambda axis: [str(int(n == axis)) for n in range(3)]  # noqa: E731
+    unit = lambda axis: [str(int(n == axis)) for n in range(3)]
     at = list(map(_text, centre))
     return {"base": at, "directions": [unit(i), unit(j)], "linear": "degenerate", "verdict": DRIFT[0],
             "centre": {"at": at, "verdict": plane_centre(p)[0]}}

@@ -3,13 +3,13 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ..physics.coefficients import Content, content, gyrostat_scene
 from ..asked import checked_scene
-from ..equilibrium.gyrostat import gyrostat_equilibria
-from ..equilibrium.result import Equilibria
 from ..equilibrium.damped.dissipative import dissipative_equilibria, rest_positions
 from ..equilibrium.field.permanent_rotations import permanent_rotations
 from ..equilibrium.field.steady_states import steady_states
+from ..equilibrium.gyrostat import gyrostat_equilibria
+from ..equilibrium.result import Equilibria
+from ..physics.coefficients import Content, content, gyrostat_scene
 
 
 def equilibria(scene) -> Equilibria:

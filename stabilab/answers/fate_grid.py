@@ -9,12 +9,12 @@ from __future__ import annotations
 import numpy as np
 
 from ..errors import InputError
-from ..orbit.fate.table_kernel import SIGN_BOUND
+from ..orbit.fate.by_table import canonical, circle_heights, hyperbola_heights
 from ..orbit.fate.table import barrier_table
+from ..orbit.fate.table_kernel import SIGN_BOUND
+from ..orbit.result import Fate
 from ..physics.coefficients import effective
 from .fate import fate
-from ..orbit.result import Fate
-from ..orbit.fate.by_table import canonical, circle_heights, hyperbola_heights
 
 TOGETHER = 1024  # lines whose states are handed to `fate` at once
 LINES = 8192  # lines worked on together: enough for NumPy, few enough for a core's cache

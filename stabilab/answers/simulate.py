@@ -6,9 +6,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..physics.attitude import angles, beyond, body_momentum, to_space, unwrapped
-from .trajectory import trajectory
 from ..physics.states import equations_and_start, start_of
 from ..physics.to_numpy import to_numpy
+from .trajectory import trajectory
 
 STIFF = 1e6  # fastest decay times duration beyond which an explicit method would only shorten its steps
 TURNING = 700  # decays per radian of turn below which an attitude or gamma, which turn on, cost Radau more (measured)

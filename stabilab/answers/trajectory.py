@@ -6,7 +6,7 @@ import difflib
 import numpy as np
 
 from ..errors import InputError
-from ..integrate.trajectory import departures, integrated, SCIPY_METHODS, Trajectory, watcher
+from ..integrate.trajectory import SCIPY_METHODS, Trajectory, departures, integrated, watcher
 from ..orbit.flow.flow import axis_way, reduced_motion
 from ..physics.states import checked_rtol, checked_times, equations_and_start
 from ..physics.to_numpy import to_numpy

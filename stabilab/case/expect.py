@@ -1,7 +1,7 @@
 """The facts that a case's test asserts: equilibria, verdicts, fate and extremes, each known before the program ran."""
 from __future__ import annotations
 
-from .table import described, Table, Written
+from .table import Table, Written, described
 
 KINDS = ("none", "points", "curves", "all")
 FATES = ("bounded", "spin-up", "separatrix", "equilibrium", "undecided")

@@ -4,12 +4,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from .table import described, Table
-from .uncertainty import plus_minus, states_uncertainty
-from .units import FORCE, pi
 from ..errors import InputError
 from ..numbers.exact import exact, sqrt_fraction
 from ..numbers.vectors import cross, dot
+from .table import Table, described
+from .uncertainty import plus_minus, states_uncertainty
+from .units import FORCE, pi
 
 Exact3 = tuple[Fraction, Fraction, Fraction]
 ZERO3 = (Fraction(0),) * 3

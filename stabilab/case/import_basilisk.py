@@ -8,8 +8,8 @@ import ast
 import json
 from decimal import Decimal
 
-from .imported import Craft
 from ..errors import InputError
+from .imported import Craft
 
 HUB = {"mass": ("mHub", "mass"), "centre": ("r_BcB_B",), "inertia": ("IHubPntBc_B", "inertia"), "rate": ("omega_BN_BInit", "omega_BN_B")}
 THRUSTERS, WHEELS = ("thrusters", "thruster", "thrs"), ("reactionWheels", "reaction_wheels", "wheels", "RWs", "rws", "RW")

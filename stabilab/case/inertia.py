@@ -3,10 +3,10 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from .table import described, Faults, Table
 from ..errors import InputError
-from ..numbers.principal import fault_of, IDENTITY, principal_axes, PrincipalAxes
+from ..numbers.principal import IDENTITY, PrincipalAxes, fault_of, principal_axes
 from ..physics.body import Body
+from .table import Faults, Table, described
 
 KEYS = ("inertia", "products", "mass", "centre_of_mass")
 PAIRS = {"xy": (0, 1), "xz": (0, 2), "yz": (1, 2)}

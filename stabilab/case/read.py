@@ -9,23 +9,23 @@ from fractions import Fraction
 from pathlib import Path
 from typing import NamedTuple
 
+from ..errors import CaseError, InputError, printable
+from ..numbers.exact import floats
+from ..numbers.principal import PrincipalAxes
 from ..physics.body import Body
+from ..physics.effects import REGISTRY, effect_class
+from ..physics.scaling import Scaling, to_scaled, torque_from_mu
+from ..physics.scene import ScaledGyrostat, Scene
 from .attitude import judge as judge_attitude
 from .attitude import vertical_of
 from .expect import expected
-from .hardware import judge_limits, Limits, limits_of, Thruster, thrusters_of, Wheel, wheels_of
+from .hardware import Limits, Thruster, Wheel, judge_limits, limits_of, thrusters_of, wheels_of
 from .inertia import body_of, centre_of_mass
 from .lines import key_lines
 from .source import parsed, source_text
 from .sweep import combinations, place, swept
-from .table import did_you_mean, dotted, Faults, Table, Uncertain
+from .table import Faults, Table, Uncertain, did_you_mean, dotted
 from .turning import added, judge_oblique, turned_effects, turned_motion
-from ..physics.effects import effect_class, REGISTRY
-from ..errors import CaseError, InputError, printable
-from ..numbers.exact import floats
-from ..numbers.principal import PrincipalAxes
-from ..physics.scaling import Scaling, to_scaled, torque_from_mu
-from ..physics.scene import ScaledGyrostat, Scene
 
 TABLES = ("title", "source", "body", "effects", "thrusters", "wheels", "limits", "scaled", "motion", "expect", "sweep")
 STATES, SPANS = ("angular_velocity", "x"), ("span", "tau")

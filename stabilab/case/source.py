@@ -6,9 +6,9 @@ import re
 import stat
 import tomllib
 
-from .lines import key_lines, KeyLines
-from .table import dotted, Faults, Written
 from ..errors import CaseError, Problem
+from .lines import KeyLines, key_lines
+from .table import Faults, Written, dotted
 
 LARGEST = 128 * 1024  # bytes; a case has one or two thousand, and a wrong file is refused before it is parsed
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 import copy
 from itertools import product
 
-from .table import described, Table
+from .table import Table, described
 
 MOST = 10_000  # combinations; a sweep beyond that is a program's work, not a file's
 SWEPT = ("body", "effects", "scaled", "motion", "thrusters", "wheels", "limits")

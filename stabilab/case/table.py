@@ -9,9 +9,9 @@ from fractions import Fraction
 from typing import NamedTuple
 from unicodedata import category
 
-from .lines import KeyLines
-from ..errors import InputError, printable, Problem
+from ..errors import InputError, Problem, printable
 from ..numbers.exact import exact
+from .lines import KeyLines
 from .uncertainty import plus_minus, states_uncertainty
 from .units import dimension_of, quantity
 

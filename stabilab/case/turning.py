@@ -3,10 +3,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from .table import Table
 from ..numbers.exact import floats
 from ..numbers.principal import PrincipalAxes
 from ..physics.effects import effect_class
+from .table import Table
 
 OBLIQUE = "the tensor is not diagonal, and"
 REFUSED = {"x": f"{OBLIQUE} x counts along principal axes: give angular_velocity in rad/s, in the frame of the tensor",

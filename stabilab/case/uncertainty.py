@@ -1,10 +1,12 @@
 """Uncertain numbers as a case file writes them: "2000 +- 20", "12.0 +- 3 %", "12 +- 0.5 N"."""
 from __future__ import annotations
+
 import re
 from fractions import Fraction
+
 from ..errors import InputError
 from ..numbers.exact import exact
-from .units import Dimension, in_dimension, NONE, quantity, split
+from .units import NONE, Dimension, in_dimension, quantity, split
 
 _PLUS_MINUS = re.compile(r"([^±%]*?)(?:\+-|±)([^±%]*)(%?)([^±%]*)")
 _BRACKETS = re.compile(r"\s*\(([^()]*)\)\s*([^()]*)")

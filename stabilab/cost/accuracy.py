@@ -12,11 +12,11 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from .event_methods import answer_methods, fate_methods, known_period
-from .methods import Method, methods, Problem, problem
-from ..integrate.reference import one_run, pairs, Reference, reference, relative_errors, WORK
-from ..integrate.trajectory import SCIPY_METHODS
+from ..integrate.reference import WORK, Reference, one_run, pairs, reference, relative_errors
 from ..integrate.taylor_digits import Recursion
+from ..integrate.trajectory import SCIPY_METHODS
+from .event_methods import answer_methods, fate_methods, known_period
+from .methods import Method, Problem, methods, problem
 
 TIMES = 16  # states over the span
 QUESTIONS = {"span": "states over the span", "end": "state at the end", "extremes": "extremes", "period": "period"}

@@ -1,10 +1,13 @@
 """How far invariants drift over many turns."""
 from __future__ import annotations
+
 from dataclasses import dataclass
+
 import numpy as np
-from ..physics.scene import ScaledGyrostat
+
 from ..answers.extremes import period
 from ..answers.trajectory import trajectory
+from ..physics.scene import ScaledGyrostat
 
 SCENE = ScaledGyrostat("0.2", "0.4", (0, 0, 1))
 PIECE = 10_000  # turns a call: a run of the method has a limit of steps

@@ -11,15 +11,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..physics.body import Body
-from ..integrate.to_heyoka import borrowed_taylor, heyoka_available
-from ..physics.to_numpy import Form, form, to_numpy
-from ..physics.effects import effect_class, REGISTRY
-from ..physics.equations import derive
-from ..physics.scene import Scene
 from ..answers.equilibria import equilibria
 from ..answers.motion import motion
 from ..answers.trajectory import trajectory
+from ..integrate.to_heyoka import borrowed_taylor, heyoka_available
+from ..physics.body import Body
+from ..physics.effects import REGISTRY, effect_class
+from ..physics.equations import derive
+from ..physics.scene import Scene
+from ..physics.to_numpy import Form, form, to_numpy
 
 BODY = Body((3, 2, "1.5"), 10)  # kg m^2, kg: three different moments, so that no term vanishes
 # effect -> (arguments of a generic one, arguments of one of zero strength), in the order in which `ladder` adds them:

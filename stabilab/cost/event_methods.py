@@ -5,23 +5,23 @@ through the start across the first velocity; the passage nearest the known perio
 """
 from __future__ import annotations
 
-from typing import Callable
+from collections.abc import Callable
 
 import numpy as np
 
-from ..physics.to_numpy import form
-from ..integrate.to_heyoka import heyoka_available, taylor_events
-from .methods import Answer, IMPLICIT, Method, Problem, SCIPY_LADDER, TAYLOR_LADDER, thinned
-from ..integrate.trajectory import ATOL_SHARE
 from ..answers.extremes import extremes, period
-from ..orbit.landscape import landscape
+from ..answers.fate import fate
+from ..errors import InputError
+from ..integrate.to_heyoka import heyoka_available, taylor_events
+from ..integrate.trajectory import ATOL_SHARE
 from ..orbit.extremes.balls import precise_extremes
+from ..orbit.fate.balls import decide
+from ..orbit.fate.free_margin import free_margin, is_free
+from ..orbit.landscape import landscape
 from ..orbit.period.balls import precise_period
 from ..orbit.result import Fate
-from ..errors import InputError
-from ..answers.fate import fate
-from ..orbit.fate.free_margin import free_margin, is_free
-from ..orbit.fate.balls import decide
+from ..physics.to_numpy import form
+from .methods import IMPLICIT, SCIPY_LADDER, TAYLOR_LADDER, Answer, Method, Problem, thinned
 
 OVERRUN = 1.02  # periods to run: a coarse run comes home late
 EARLY = 0.25  # periods before which a passage of the plane is no return

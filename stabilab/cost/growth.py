@@ -11,22 +11,22 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..orbit.result import Fate
-from ..answers.fate import fate
 from ..answers.extremes import extremes, period
-from .accuracy import precision
-from ..orbit.landscape import landscape
-from ..orbit.fate.balls import precise_margin
-from ..orbit.extremes.balls import extreme_balls
-from ..orbit.period.balls import period_ball, precise_period
-from ..integrate.reference import one_run, pairs, relative_errors, WORK
+from ..answers.fate import fate
+from ..integrate.reference import WORK, one_run, pairs, relative_errors
 from ..integrate.taylor_digits import Recursion
 from ..numbers.balls import sign, working
 from ..numbers.double_ball import Unclear
 from ..orbit.ball_orbit import PreciseOrbit
-from ..orbit.period.arrays import inverse_speed
-from ..orbit.period.modes import Modes
+from ..orbit.extremes.balls import extreme_balls
 from ..orbit.extremes.turning_points import interval
+from ..orbit.fate.balls import precise_margin
+from ..orbit.landscape import landscape
+from ..orbit.period.arrays import inverse_speed
+from ..orbit.period.balls import period_ball, precise_period
+from ..orbit.period.modes import Modes
+from ..orbit.result import Fate
+from .accuracy import precision
 
 SEED = 4
 STATES = {"fate": (2, 7), "extremes": (2, 5), "period": (2, 5)}  # decades of the number of states

@@ -5,21 +5,21 @@
 """
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Callable
 
 import numpy as np
 
+from ..answers.digits.reduced import ladder, reduced
+from ..errors import InputError
+from ..integrate.to_heyoka import TAYLOR_TOLERANCE, heyoka_available, heyoka_form, to_taylor
+from ..integrate.trajectory import ATOL_SHARE, SCIPY_METHODS
 from ..physics.attitude import quaternion
 from ..physics.blocks import slices
-from ..integrate.to_heyoka import heyoka_available, heyoka_form, TAYLOR_TOLERANCE, to_taylor
-from ..physics.to_numpy import form, to_numpy
-from ..errors import InputError
-from ..theories.follow import follow, models_of
 from ..physics.states import equations_and_start, start_of
-from ..integrate.trajectory import ATOL_SHARE, SCIPY_METHODS
-from ..answers.digits.reduced import ladder, reduced
+from ..physics.to_numpy import form, to_numpy
+from ..theories.follow import follow, models_of
 
 LANES = 4  # of the batch: doubles in one AVX register
 NUDGE = 2.0**-20  # relative difference between neighbouring lanes, so that they do not share one motion

@@ -12,7 +12,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import NamedTuple
 
-from ..numbers.vectors import cross, CYCLE, dot, Exact3
+from ..numbers.vectors import CYCLE, Exact3, cross, dot
 from ..physics.quadratic import QuadraticForm
 
 ONE, ZERO = Fraction(1), Fraction(0)

@@ -17,11 +17,11 @@ from __future__ import annotations
 from fractions import Fraction
 
 from ..numbers.exact import sqrt_fraction
-from .curve_text import decimal, line_text, shifted, sum_of
-from .curve import Grounds, RationalCurve, size_of, straight_line, T, Verdict
-from ..numbers.vectors import cross, CYCLE, dot
-from .balance import ONE, Pencil, unit, ZERO
 from ..numbers.polynomial import Poly
+from ..numbers.vectors import CYCLE, cross, dot
+from .balance import ONE, ZERO, Pencil, unit
+from .curve import Grounds, RationalCurve, T, Verdict, size_of, straight_line
+from .curve_text import decimal, line_text, shifted, sum_of
 
 WELL = Grounds(
     positive=("stable", "non-degenerate minimum of the reduced potential (U'' = m > 0): energy keeps nearby motions in the "

@@ -1,9 +1,10 @@
 """A curve of equilibria in exact form: rational in its parameter, cut where stability changes."""
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Callable, NamedTuple
+from typing import NamedTuple
 
 from ..errors import InputError
 from ..numbers.polynomial import Poly

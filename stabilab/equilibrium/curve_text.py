@@ -1,5 +1,6 @@
 """Words about curves of equilibria."""
 from __future__ import annotations
+
 from fractions import Fraction
 
 

@@ -7,10 +7,9 @@ Source: derived here; Amer et al. 2024 treats lambda along axis 1 and torques on
 """
 from __future__ import annotations
 
-
+from .balance import Pencil, pencil
 from .conics import balance_fails, conic_curves
 from .isolated import off_axis_equilibria
-from .balance import Pencil, pencil
 from .result import Equilibria
 from .stability import curve_with_verdicts
 from .torque_free import torque_free_curves

@@ -12,13 +12,13 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from .balance import Pencil, unit
-from .curve_text import decimal, line_text
-from .curve import Grounds, RationalCurve, size_of, straight_line
+from ..numbers.surd import Surd
 from ..numbers.vectors import cross, dot
+from .balance import Pencil, unit
+from .curve import Grounds, RationalCurve, size_of, straight_line
+from .curve_text import decimal, line_text
 from .result import EquilibriumPoint
 from .stability import isolated_point
-from ..numbers.surd import Surd
 
 # Line of equilibria along axis 1 (x1 = X, the others at y2, y3): deltas obey d2' = -P(X) d3, d3' = Q(X) d2, X' = e d2 d3
 # + f d2 + g d3 with P, Q linear in X and m = P Q. Removing the terms linear in d from X' by X -> X - (f/Q) d3 + (g/P) d2
@@ -85,7 +85,7 @@ def quadratic_on_line(p: Pencil, start, v):
     """(q2, q1, q0) of the one condition left on the line."""
     Dv, H = p.turned(v), tuple(a + b for a, b in zip(p.turned(start), p.lam))
     normal = dot(p.M, p.M)
-    triple = lambda a, b: dot(cross(a, b), p.M) / normal  # noqa: E731
+    triple = lambda a, b: dot(cross(a, b), p.M) / normal
     return triple(Dv, v), triple(Dv, start) + triple(H, v), triple(H, start) + 1
 
 

@@ -1,9 +1,9 @@
 """Equilibria as data."""
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Callable
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from ..physics.law_limits import Validity

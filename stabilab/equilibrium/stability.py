@@ -19,11 +19,11 @@ from __future__ import annotations
 from fractions import Fraction
 
 from ..errors import InputError
-from .spectrum import eigenvalues, invariants
-from .curve import RationalCurve, sample_parameters, values_inside, Verdict
 from ..numbers.polynomial import real_roots
-from .result import CurveSegment, EquilibriumCurve, EquilibriumPoint
 from ..numbers.surd import Surd
+from .curve import RationalCurve, Verdict, sample_parameters, values_inside
+from .result import CurveSegment, EquilibriumCurve, EquilibriumPoint
+from .spectrum import eigenvalues, invariants
 
 POSITIVE_EIGENVALUE = ("unstable", "n = 0 and m < 0 in z^3 + m z + n: the eigenvalue sqrt(-m) is positive")
 

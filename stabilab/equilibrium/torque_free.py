@@ -14,11 +14,11 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from .curve_text import decimal, line_text
-from .curve import Grounds, RationalCurve, sample_parameters, size_of, straight_line, T, Verdict
-from .balance import ONE, Pencil, unit, ZERO
-from ..numbers.vectors import CYCLE
 from ..numbers.polynomial import Poly
+from ..numbers.vectors import CYCLE
+from .balance import ONE, ZERO, Pencil, unit
+from .curve import Grounds, RationalCurve, T, Verdict, sample_parameters, size_of, straight_line
+from .curve_text import decimal, line_text
 from .result import CurveSegment, EquilibriumCurve, EquilibriumPoint
 
 CASIMIR = Grounds(
@@ -139,7 +139,7 @@ def _plane(p: Pencil, d: Fraction) -> EquilibriumCurve:
     rays = [unit(i), unit(j), tuple(Fraction(3, 5) * a + Fraction(4, 5) * b for a, b in zip(unit(i), unit(j)))]
     curve = RationalCurve("", "", "", straight_line(start, rays[0]), CASIMIR)
     zero = (0j, 0j, 0j)
-    at = lambda ray, t: tuple(float(s + t * r) for s, r in zip(start, ray))  # noqa: E731
+    at = lambda ray, t: tuple(float(s + t * r) for s, r in zip(start, ray))
     half = sample_parameters(ZERO, None, size_of((height,)))
     outer = [EquilibriumPoint(at(ray, t), zero, "degenerate", *DRIFT) for ray in rays for t in (*(-v for v in half), *half)]
     middle = EquilibriumPoint(at(rays[0], ZERO), zero, "degenerate", *centre_verdict)

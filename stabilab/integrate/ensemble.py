@@ -12,13 +12,13 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..physics.blocks import slices
-from ..physics.to_numpy import equations_of, form, to_numpy
-from .to_heyoka import borrowed_taylor, heyoka_available, TAYLOR_TOLERANCE
 from ..errors import InputError
+from ..physics.blocks import slices
 from ..physics.motion_units import in_unit, own_unit
 from ..physics.states import checked_rtol, checked_starts, checked_times
-from .trajectory import integrated, STEP_LIMIT
+from ..physics.to_numpy import equations_of, form, to_numpy
+from .to_heyoka import TAYLOR_TOLERANCE, borrowed_taylor, heyoka_available
+from .trajectory import STEP_LIMIT, integrated
 
 # Motions in step: eight doubles fill the widest vectors there are, and narrower ones two or four at a time. Not asked of
 # the machine, so that every machine groups alike.

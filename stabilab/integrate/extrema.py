@@ -9,10 +9,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..physics.to_numpy import form, to_numpy
-from .to_heyoka import heyoka_available, taylor_events, TAYLOR_TOLERANCE
 from ..physics.motion_units import in_unit, mass_unit, own_unit
 from ..physics.states import equations_and_start
+from ..physics.to_numpy import form, to_numpy
+from .to_heyoka import TAYLOR_TOLERANCE, heyoka_available, taylor_events
 from .trajectory import ATOL_SHARE, FALLBACK_RTOL, STEP_LIMIT
 
 SUBSAMPLES = 16

@@ -8,10 +8,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..physics.equations import derive
 from ..numbers.balls import DOUBLE_BITS, working
-from .taylor_digits import Exhausted, Loop, Recursion, steps
 from ..physics.blocks import slices
+from ..physics.equations import derive
+from .taylor_digits import Exhausted, Loop, Recursion, steps
 
 DIGITS = (30, 42, 84, 168)  # of successive runs; each is checked by the one before
 AGREEMENT = 1e-19  # two runs agree where they differ by less than this share of the state: far below a double's 1e-16

@@ -1,12 +1,15 @@
 """From symbols to heyoka: the gate to its Taylor series and event searches."""
 from __future__ import annotations
+
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import lru_cache
 from threading import RLock
+
 import numpy as np
+
 from ..physics.equations import Equations
-from ..physics.to_numpy import equations_of, Form, form
+from ..physics.to_numpy import Form, equations_of, form
 
 # Default tolerance of the Taylor series: half an ulp of 1. In a spin-up the phase grows as t^2, so a relative 1e-12
 # per step would cost 2e-5 at t = 1000; a tighter step costs a few per cent.
@@ -18,7 +21,7 @@ FEATHER = 2.0**-300
 def heyoka_available() -> bool:
     """Whether the Taylor integrator is installed (Linux wheels only); SciPy stands in where it is not."""
     try:
-        import heyoka  # noqa: F401
+        import heyoka  # noqa: F401 - only whether it is there
     except ImportError:
         return False
     return True

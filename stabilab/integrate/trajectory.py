@@ -10,10 +10,10 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ..physics.blocks import slices
-from ..physics.to_numpy import form, to_numpy
-from .to_heyoka import borrowed_taylor, FEATHER, heyoka_available, TAYLOR_TOLERANCE
 from ..physics.motion_units import in_unit, mass_unit, own_unit
 from ..physics.states import checked_rtol, checked_times, equations_and_start
+from ..physics.to_numpy import form, to_numpy
+from .to_heyoka import FEATHER, TAYLOR_TOLERANCE, borrowed_taylor, heyoka_available
 
 SCIPY_METHODS = ("RK45", "RK23", "DOP853", "Radau", "BDF", "LSODA")
 # SciPy's own default is 1e-3, too coarse to judge a motion by; 1e-10 is within reach of every method in the list.

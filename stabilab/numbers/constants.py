@@ -1,5 +1,6 @@
 """Constants of the arithmetic."""
 from __future__ import annotations
+
 import numpy as np
 
 EPS = float(np.finfo(float).eps)

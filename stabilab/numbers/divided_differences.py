@@ -89,7 +89,7 @@ class _Table:
         return value
 
     def _recursion(self, counts, i, j, there):
-        without = lambda k: self.scaled(tuple(c - (n == k) for n, c in enumerate(counts)))[there]  # noqa: E731
+        without = lambda k: self.scaled(tuple(c - (n == k) for n, c in enumerate(counts)))[there]
         return (without(i) - without(j)) / self.gap[i, j][there]
 
     def _series(self, counts, present, there):

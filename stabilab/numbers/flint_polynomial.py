@@ -1,6 +1,8 @@
 """Polynomials with rational coefficients in python-flint: do two share a root?"""
 from __future__ import annotations
+
 from fractions import Fraction
+
 from .balls import rational
 
 

@@ -93,7 +93,7 @@ def _sieve(system, m, h):
     size = np.abs(Y) @ (SLACK * system.sizes(np.abs(m) + h))[..., None]
     g = np.abs((Y @ system.values(m)[..., None])[..., 0])
     linear = np.abs(Y @ J)
-    higher = lambda w: (np.abs(Y) @ (0.5 * np.einsum("nikl,nk,nl->ni", np.abs(H), w, w)  # noqa: E731
+    higher = lambda w: (np.abs(Y) @ (0.5 * np.einsum("nikl,nk,nl->ni", np.abs(H), w, w)
                                      + np.einsum("iklm,nk,nl,nm->ni", np.abs(system.third), w, w, w) / 6)[..., None])[..., 0]
     empty = (g > (linear @ h[..., None])[..., 0] + higher(h) + size[..., 0]).any(axis=1)
     w = WIDER * h

@@ -3,9 +3,9 @@ from __future__ import annotations
 
 from functools import lru_cache
 from importlib.util import find_spec
+from types import FunctionType
 
 from ..errors import InputError
-from types import FunctionType
 
 
 @lru_cache(maxsize=1)

@@ -1,5 +1,6 @@
 """Vectors of three components of any kind of number."""
 from __future__ import annotations
+
 from fractions import Fraction
 
 Exact3 = tuple[Fraction, Fraction, Fraction]

@@ -7,15 +7,15 @@ from ..errors import InputError
 from ..physics.coefficients import effective
 from ..physics.states import checked_states
 from .extremes.arrays import extremes_of_chunk
+from .extremes.circle_numba import by_kernel
 from .extremes.guards import picked, trapped_rows
 from .extremes.turning_points import interval
+from .far_states import far_numbers, far_rows
 from .fate.arrays import fate_on_orbit
 from .fate.result import CHUNK
-from .far_states import far_numbers, far_rows
 from .landscape import landscape
 from .period.arrays import period_chunk
 from .reduction import reduce
-from .extremes.circle_numba import by_kernel
 
 
 def extremes_and_periods(scene, states, fast: bool | None = None, *, box=True, period=True):

@@ -11,12 +11,12 @@ from dataclasses import replace
 from fractions import Fraction
 
 from ..errors import InputError
+from .extremes.one_state import extremes_of
 from .fate.free_margin import is_free
 from .fate.one_state import fate_of
-from .result import finite, Motion
 from .period.one_state import period_of
-from .extremes.one_state import extremes_of
 from .reduction import reduce
+from .result import Motion, finite
 
 ORDINARY = 100  # rates of 2^-100 to 2^100: fourth powers of them, beside ratios of moments, are doubles
 BEYOND = "beyond the range of doubles"

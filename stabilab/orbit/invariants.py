@@ -1,5 +1,6 @@
 """The two invariants of one orbit: its squared radius and its energy."""
 from __future__ import annotations
+
 from ..numbers.balls import DOUBLE_BITS, settled
 from .ball_orbit import PreciseOrbit
 

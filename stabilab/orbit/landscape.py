@@ -5,10 +5,10 @@ from functools import lru_cache
 
 import numpy as np
 
+from ..numbers.constants import TURN
 from .conic import Conic
 from .potential import Hyperbolic, potential
 from .reduction import reduce
-from ..numbers.constants import TURN
 
 ONE_STEP, MOST_STEPS = 3e-9, 8  # a Newton step as small leaves its square; from half a radian five are enough, but at a fold
 LOST = 1e-3  # of the terms: a sum that is smaller than this share has lost more than three digits
@@ -20,7 +20,7 @@ def angle_between(place, spot):
 
 
 @lru_cache(maxsize=64)
-def landscape(scene) -> "Landscape | None":
+def landscape(scene) -> Landscape | None:
     """The landscape of a scene's reduction (cached), or None where the scene has none."""
     reduction = reduce(scene)
     return None if reduction is None else Landscape(reduction)

@@ -10,7 +10,7 @@ from .fate.one_state import fate_of
 from .invariants import invariants_of
 from .period.one_state import period_of
 from .reduction import reduce
-from .result import Fate, finite, judged, Motion, repeats
+from .result import Fate, Motion, finite, judged, repeats
 from .separatrix.distance import distance_of
 
 

@@ -6,9 +6,9 @@ from functools import cached_property
 
 import numpy as np
 
-from .reduction import reduce, Reduction
-from .potential import potential
 from .conic import Conic
+from .potential import potential
+from .reduction import Reduction, reduce
 
 
 @dataclass(frozen=True)

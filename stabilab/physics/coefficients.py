@@ -13,12 +13,12 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import ClassVar
 
+from ..asked import checked_scene
+from ..numbers.vectors import Exact3, cross
 from .body import Body
 from .effects import effect_class
 from .effects.base import Effect
-from ..numbers.vectors import cross, Exact3
-from .scene import Scene, ZERO3
-from ..asked import checked_scene
+from .scene import ZERO3, Scene
 
 KNOWN = {"gyrostat", "constant_torque", "charge", "resistance", "liquid_cavity", "newtonian_field", "gravity", "body_force"}
 ZERO = Fraction(0)

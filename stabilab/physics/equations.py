@@ -11,10 +11,10 @@ from dataclasses import dataclass
 from functools import lru_cache, reduce
 
 from ..asked import checked_scene
-from .blocks import BLOCKS, ordered
-from ..numbers.vectors import cross, dot
 from ..errors import InputError
 from ..numbers.exact import exact
+from ..numbers.vectors import cross, dot
+from .blocks import BLOCKS, ordered
 
 
 @dataclass(frozen=True)

@@ -1,8 +1,10 @@
 """The laws of a scene in symbols: what is conserved, and how fast the rest changes."""
 from __future__ import annotations
+
 from functools import reduce
-from .equations import add_terms, Balance, derive, SCALED, strengths, turn_angles, with_zeros
+
 from ..numbers.vectors import cross, dot
+from .equations import SCALED, Balance, add_terms, derive, strengths, turn_angles, with_zeros
 
 
 def invariants(scene) -> tuple[Balance, ...]:

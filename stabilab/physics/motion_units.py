@@ -10,8 +10,8 @@ from __future__ import annotations
 import math
 from fractions import Fraction
 
-from .body import Body
 from ..errors import InputError
+from .body import Body
 from .scene import ScaledGyrostat, Scene
 
 SLOW, FAST = 2.0**-4, 2.0**20  # between these the unit stays: the control is at most 16 times coarser than asked

@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+
 from ..numbers.vectors import CYCLE, Exact3
 
 

@@ -12,9 +12,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from .effects import effect_class
 from ..errors import InputError
 from ..numbers.exact import exact_vector, sqrt_fraction
+from .effects import effect_class
 from .scene import ScaledGyrostat, Scene
 
 

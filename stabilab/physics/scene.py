@@ -4,12 +4,12 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from fractions import Fraction
 
+from ..errors import InputError
+from ..numbers.exact import exact, exact_vector, floats
 from .blocks import ordered
 from .body import Body
 from .effects.base import Effect
-from ..errors import InputError
-from ..numbers.exact import exact, exact_vector, floats
-from .quadratic import euler_form, QuadraticForm, scaled_form
+from .quadratic import QuadraticForm, euler_form, scaled_form
 
 ZERO3 = (Fraction(0),) * 3
 

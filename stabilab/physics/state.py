@@ -1,9 +1,11 @@
 """One state, checked and split into plain floats; no NumPy."""
 from __future__ import annotations
+
 import math
-from .coefficients import Content
-from ..errors import InputError
+
 from ..asked import real
+from ..errors import InputError
+from .coefficients import Content
 
 
 def split(parts: Content, state):

@@ -1,14 +1,16 @@
 """States, starts and times as the program takes them, checked once: arrays."""
 from __future__ import annotations
+
 import numpy as np
-from ..errors import InputError
+
 from ..asked import real
+from ..errors import InputError
+from ..numbers.constants import EPS
+from .attitude import quaternion
 from .blocks import BLOCKS, ORDER, ordered
 from .equations import derive
-from .to_numpy import equations_of
-from ..numbers.constants import EPS
 from .quadratic import rests
-from .attitude import quaternion
+from .to_numpy import equations_of
 
 
 def numbers_in_a_row(values, name):

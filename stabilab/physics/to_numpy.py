@@ -13,8 +13,8 @@ from threading import RLock
 
 import numpy as np
 
-from .equations import derive, Equations, values
 from ..errors import InputError
+from .equations import Equations, derive, values
 
 
 @dataclass(frozen=True)

@@ -5,15 +5,15 @@ from pathlib import Path
 
 import numpy as np
 
-from ..packages import demand
-from .files import endings
-from . import style
-from ..orbit.phase_plane import motion_curve, phase_plane, PhasePlane, window
-from ..orbit.far_states import far_exponent
-from ..errors import InputError
-from ..theories.comparison import side_by_side
-from .text import comparison
 from ..answers.trajectory import trajectory
+from ..errors import InputError
+from ..orbit.far_states import far_exponent
+from ..orbit.phase_plane import PhasePlane, motion_curve, phase_plane, window
+from ..packages import demand
+from ..theories.comparison import side_by_side
+from . import style
+from .files import endings
+from .text import comparison
 
 
 def draw(ax, plane: PhasePlane, scale=1.0, offset=0.0, rate_scale=1.0, span=None, levels=22, motion=True):

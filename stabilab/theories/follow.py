@@ -5,8 +5,8 @@ import difflib
 from dataclasses import replace
 from importlib import import_module
 
+from ..answers.simulate import Simulation, simulate
 from ..errors import InputError
-from ..answers.simulate import simulate, Simulation
 
 # model -> the modules that may have it, each with `applies(scene)` and `follow(model, case, times, order)`
 FAMILIES = ("charged.model", "cavity.model", "top.model")

@@ -4,15 +4,15 @@ from __future__ import annotations
 import numpy as np
 
 from ..errors import InputError
-from .follow import family
-from .charged.printed import MISPRINTS
-from .charged.validity import horizon, largest_tilt, SMALL_ANGLE
+from .cavity.attractors import attractors
+from .charged.mean_pointing import pointing, spin_drift
 from .charged.model import body_of
 from .charged.modes import modes, resonances
-from .charged.mean_pointing import pointing, spin_drift
-from .cavity.attractors import attractors
-from .top.lindstedt import lindstedt
+from .charged.printed import MISPRINTS
+from .charged.validity import SMALL_ANGLE, horizon, largest_tilt
+from .follow import family
 from .top.euler_angles import mean_precession, periodic_angles
+from .top.lindstedt import lindstedt
 from .top.model import ORDER, state_of
 
 REVOLUTION = np.linspace(0.0, 1.0, 721)  # shares of a period at which the nutation is looked at

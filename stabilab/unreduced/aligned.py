@@ -12,15 +12,17 @@ import numpy as np
 from ..errors import InputError
 from ..numbers.constants import EPS
 from ..orbit import many
-from ..orbit.fate.arrays import at_rest, fates as fates_on_orbit, nearly_flat
-from ..orbit.fate.one_state import at_rest as rest_of, fate_of, OneFate
+from ..orbit.fate.arrays import at_rest, nearly_flat
+from ..orbit.fate.arrays import fates as fates_on_orbit
+from ..orbit.fate.one_state import OneFate, fate_of
+from ..orbit.fate.one_state import at_rest as rest_of
 from ..orbit.fate.reasons import Reason
 from ..orbit.fate.result import FateResult, in_chunks, write_row
 from ..orbit.landscape import landscape
 from ..orbit.one_state import apart_fields
 from ..orbit.period.one_state import period_of
 from ..orbit.reduction import reduce
-from ..orbit.result import Fate, finite, judged, Motion, pairs, repeats
+from ..orbit.result import Fate, Motion, finite, judged, pairs, repeats
 from ..physics.alignment import aligned
 from ..physics.quadratic import rests
 from ..physics.state import three_floats

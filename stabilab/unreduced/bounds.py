@@ -8,14 +8,14 @@ from __future__ import annotations
 from fractions import Fraction
 from math import hypot, sqrt
 
-from ..numbers.vectors import dot
-from ..physics.coefficients import at_rest, Content, content
-from ..orbit.fate.reasons import Reason, REASONS
-from ..orbit.result import Fate, Motion
-from ..physics.state import split
-from ..equilibrium.damped.medium import energy_bound, GLOBAL, resisted_equilibria
 from ..equilibrium.damped.liquid_and_torque import trap
+from ..equilibrium.damped.medium import GLOBAL, energy_bound, resisted_equilibria
+from ..numbers.vectors import dot
+from ..orbit.fate.reasons import REASONS, Reason
+from ..orbit.result import Fate, Motion
+from ..physics.coefficients import Content, at_rest, content
 from ..physics.scene import Scene
+from ..physics.state import split
 
 STIFF = 1e5  # fastest decay times span beyond which a search for extremes would take minutes
 
@@ -142,9 +142,10 @@ def _directed(parts: Content, omega, gamma) -> tuple[Fate, str, dict]:
 def _over_span(scene, omega, gamma, span) -> dict:
     """Extremes as roots of the rates over the length of the span, and how the energy went; empty where the decay is too fast."""
     import numpy as np
-    from ..physics.to_numpy import to_numpy
+
     from ..integrate.extrema import roots_of_rates
     from ..physics.states import equations_and_start
+    from ..physics.to_numpy import to_numpy
     start = {"omega": omega} | ({"gamma": gamma} if gamma else {})
     turning = Scene(scene.body, *(e for e in scene.effects if e.name != "body_force"))
     equations, state = equations_and_start(turning, start)
@@ -167,5 +168,6 @@ def _validity(scene, found, over) -> dict:
     if not scene.approximate:
         return {}
     import numpy as np
+
     from ..physics.law_limits import along
     return {"validity": along(scene, np.vstack([found.start, found.states, found.end]), f"over {over}")}

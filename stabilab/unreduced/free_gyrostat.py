@@ -6,23 +6,25 @@ order one: with rates and gyrostatic moment over u the motion is the same in a t
 the change is exact. What is no double in the scene's own units in the end is NaN in arrays, and told in words of one motion.
 """
 from __future__ import annotations
+
+import math
 from dataclasses import dataclass, replace
 from fractions import Fraction
-import math
+
 import numpy as np
+
 from ..errors import InputError
-from .off_axis import STEP_BUDGET
-from .near_rest import beside_rest, small_loop
 from ..integrate.extrema import roots_of_rates
-from ..physics.states import equilibrium_mask, three_numbers
-from ..orbit.fate.arrays import fates  # noqa: F401  one of the four questions of `answers.kinds`
 from ..orbit.far_states import BEYOND, ORDINARY, powered
 from ..orbit.fate.one_state import as_double, at_rest, free_fate, scaled_double
-from ..orbit.result import Fate, finite, judged, Motion, pairs, repeats
+from ..orbit.result import Fate, Motion, finite, judged, pairs, repeats
+from ..orbit.separatrix.distance import has_no_saddle
 from ..physics.motion_units import in_unit, mass_unit
 from ..physics.quadratic import rests
-from ..orbit.separatrix.distance import has_no_saddle
 from ..physics.state import three_floats
+from ..physics.states import equilibrium_mask, three_numbers
+from .near_rest import beside_rest, small_loop
+from .off_axis import STEP_BUDGET
 
 NOT_SHEETS = "not known: the separatrix of a free gyrostat whose moment has no zero component is known by its energy on each momentum sphere, not as sheets"
 # Two points of a closed orbit are the same where they agree to this share of the orbit's size.

@@ -37,18 +37,19 @@ import math
 from dataclasses import dataclass
 
 from ..errors import InputError
-from .growth_form import growth_law, standard_form
-from ..orbit.result import Fate, judged, Motion
-from .growth_certificates import angle_of, release_estimate
-from .growth_run import nearest_other, search_certificate
-from .off_axis import extremes, growth as seen_growth, periods, seen_over
+from ..orbit.far_states import in_range
 from ..orbit.fate.arrays import at_rest as mark_rest
 from ..orbit.fate.one_state import OneFate
-from ..orbit.far_states import in_range
 from ..orbit.fate.reasons import Reason
 from ..orbit.fate.result import FateResult, in_chunks, write_row
+from ..orbit.result import Fate, Motion, judged
 from ..physics.state import three_floats
 from ..physics.states import three_numbers
+from .growth_certificates import angle_of, release_estimate
+from .growth_form import growth_law, standard_form
+from .growth_run import nearest_other, search_certificate
+from .off_axis import extremes, periods, seen_over
+from .off_axis import growth as seen_growth
 
 __all__ = ["captured_fate", "CapturedFate", "extremes", "fates", "motion", "periods", "unbounded"]  # extremes, periods: as off the axes
 # How long to look where the caller names no time, in the motion's own unit 1/sqrt(g |m|).

@@ -1,5 +1,6 @@
 """Certificates of endless growth: once true, they stay true."""
 from __future__ import annotations
+
 import math
 
 # A certificate counts when its inequality holds by this share of the terms in it: 100 times their rounding.

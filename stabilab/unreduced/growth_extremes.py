@@ -1,10 +1,12 @@
 """Extremes of a motion that grows for ever by an exact law."""
 from __future__ import annotations
+
 import math
-from .growth import captured_fate, CapturedFate
-from .growth_form import standard_form
-from .growth_certificates import spin_up_margin
+
 from ..integrate.extrema import roots_of_rates
+from .growth import CapturedFate, captured_fate
+from .growth_certificates import spin_up_margin
+from .growth_form import standard_form
 
 # Steps after which the finite end of a spin-up is given over the span run, unproved beyond it.
 EXTREMES_BUDGET = 300_000

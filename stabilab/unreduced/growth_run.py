@@ -1,10 +1,12 @@
 """A run that looks for a certificate of growth."""
 from __future__ import annotations
-from fractions import Fraction
+
 import math
-from .growth_certificates import certificate
+from fractions import Fraction
+
 from ..physics.equations import derive
 from ..physics.scene import ScaledGyrostat
+from .growth_certificates import certificate
 
 # Units of rounding by which a step of the run (a Taylor polynomial of 20 terms) may move the motion: generous, for the boundary is met seldom.
 STEP_ROUNDINGS = 64
@@ -44,8 +46,8 @@ def nearest_other(c, y, t_max, name, steps):
 
 def _runner(c, y):
     """run(t, step limit) -> (time reached, state, last reversal of the turn on the way or None, steps)."""
-    from ..physics.to_numpy import form
     from ..integrate.to_heyoka import heyoka_available
+    from ..physics.to_numpy import form
     equations = derive(ScaledGyrostat(Fraction(c) / -2, Fraction(c) / 2, (1, 0, 0)))
     _, x2, x3 = equations.state
     turn = x2 * equations.rhs[2] - x3 * equations.rhs[1]  # R^2 phi'
@@ -72,8 +74,9 @@ def _scipy_runner(equations, forms, y):
     import numpy as np
     from scipy.integrate import DOP853
     from scipy.optimize import brentq
-    from ..physics.to_numpy import to_numpy
+
     from ..integrate.trajectory import ATOL_SHARE, FALLBACK_RTOL
+    from ..physics.to_numpy import to_numpy
     system, at = to_numpy(equations), [0.0, np.array(y)]
 
     def turn(x):

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from ..numbers.vectors import CYCLE
 from ..numbers.balls import working
+from ..numbers.vectors import CYCLE
 
 # A run in doubles loses the ratio of the terms of the rates to the rates: from here on more than five digits.
 BESIDE = 1e-5

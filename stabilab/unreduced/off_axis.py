@@ -11,15 +11,15 @@ import numpy as np
 
 from ..errors import InputError
 from ..integrate.extrema import roots_of_rates
-from ..orbit.result import Fate, finite, judged, Motion, pairs
-from ..physics.states import equilibrium_mask, three_numbers
 from ..integrate.trajectory import integrated
 from ..orbit.fate.arrays import at_rest as mark_rest
-from ..orbit.fate.one_state import at_rest, OneFate
+from ..orbit.fate.one_state import OneFate, at_rest
 from ..orbit.fate.reasons import Reason
 from ..orbit.fate.result import FateResult, in_chunks, write_row
+from ..orbit.result import Fate, Motion, finite, judged, pairs
 from ..physics.quadratic import rests
 from ..physics.state import three_floats
+from ..physics.states import equilibrium_mask, three_numbers
 from ..physics.to_numpy import equations_of, to_numpy
 
 # A run that has not shown what is asked after this many steps (seconds of work) gives up and says so.

@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from .equilibria import check_equilibria, equilibria_of
-from .form import check_frame, read, SCHEMA, strangers
+from .form import SCHEMA, check_frame, read, strangers
 from .motion import check_motion, motion_of
 from .precision import working
 from .rates import Rates
@@ -48,7 +48,7 @@ def verify(certificate: dict) -> Verification:
     check_frame(certificate)
     silent = tuple(part for part in ("equilibria", "motion") if certificate.get(part) is None)
     findings = [Finding(f"key {where}", "not checked", "this key has no meaning here") for where in strangers(certificate)]
-    note = lambda claim, status, reason="": findings.append(Finding(claim, status, reason))  # noqa: E731
+    note = lambda claim, status, reason="": findings.append(Finding(claim, status, reason))
     if len(silent) == 2 and certificate.get("scene") is None:
         return Verification(tuple(findings), silent)  # a certificate of nothing: its `uncertified` says why
     with working(OUTSIDE):  # a check is one question: what lies between its parts of more bits is of the same thread

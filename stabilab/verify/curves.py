@@ -4,7 +4,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 from .degenerate import drift, leaves_fold, on_common_level, on_own_orbit, reducing_direction
-from .numbers import bracket, brief, entries, exact_sign, field, fraction, LINEAR, Malformed, numbers, q, VERDICT, word
+from .numbers import LINEAR, VERDICT, Malformed, bracket, brief, entries, exact_sign, field, fraction, numbers, q, word
 from .rates import AHEAD, characteristic
 from .roots import real_zeros
 
@@ -89,7 +89,7 @@ def check_curve(rates, curve, note):
         note(f"{curve.claim}: verdicts", "refuted" if n != 0 else "not checked",
              "the Jacobian's determinant does not vanish along it" if n != 0 else "three zero eigenvalues all along")
         return
-    pole = lambda z: curve.bottom % z.factor == 0  # noqa: E731
+    pole = lambda z: curve.bottom % z.factor == 0
     marks = real_zeros(m * curve.bottom)
     inner = [z for z in marks if not pole(z)]
     if len(curve.segments) != len(marks) + 1 or len(curve.folds) != len(inner):

@@ -71,7 +71,7 @@ def _meets_surface(A, g, B):
 
 def reducing_direction(rates, curve):
     """e with x' = eta J(P x) e across e and eta' = F(P x) along it, P x in a plane that holds the curve; or None."""
-    unit = lambda i: [Fraction(int(n == i)) for n in range(3)]  # noqa: E731
+    unit = lambda i: [Fraction(int(n == i)) for n in range(3)]
     places = [(rates.m, n, c) for n, c in rates.conditions if any(n)]
     last = curve.bottom.degree()
     for i, top in enumerate(curve.tops):
@@ -128,7 +128,7 @@ def drift(rates, J, m):
     power of m. J, m: along the line. 0, +-i sqrt(m): P = J^2 + m projects on the line, and J J^T m + J^2 J^2^T holds the means
     of d_i d_j over a turn."""
     square = product(J, J)
-    turn = lambda M: [list(row) for row in zip(*M)]  # noqa: E731
+    turn = lambda M: [list(row) for row in zip(*M)]
     once, twice = product(J, turn(J)), product(square, turn(square))
     means = [[m * a + b for a, b in zip(r, s)] for r, s in zip(once, twice)]
     lead = next((i for i in range(3) if any(square[i][j] + (m if i == j else 0) != 0 for j in range(3))), 0)

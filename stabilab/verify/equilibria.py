@@ -8,7 +8,7 @@ from .curves import check_curve, curve_of, identically_zero, judged
 from .degenerate import leaves_double_root
 from .krawczyk import excluded, only_zero
 from .line import contradictory, line_of, whole_line
-from .numbers import bracket, brief, entries, exact_sign, field, LINEAR, Malformed, VERDICT, word
+from .numbers import LINEAR, VERDICT, Malformed, bracket, brief, entries, exact_sign, field, word
 from .planes import check_plane, plane_of
 from .rates import characteristic
 
@@ -28,7 +28,7 @@ class Claims:
 
 def equilibria_of(table) -> Claims:
     """The claims on equilibria. Raises `Malformed` before anything is worked out."""
-    read = lambda key, made: [made(v, f"equilibria.{key}[{i}]") for i, v in enumerate(entries(table, key, "equilibria"))]  # noqa: E731
+    read = lambda key, made: [made(v, f"equilibria.{key}[{i}]") for i, v in enumerate(entries(table, key, "equilibria"))]
     return Claims(word(table, "kind", "equilibria", KINDS), read("points", _Point), read("curves", curve_of), read("planes", plane_of))
 
 

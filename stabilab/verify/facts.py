@@ -4,7 +4,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 from .numbers import ball, exact_sign, hull, sign
-from .zeros import above, below, narrowed, Open, SPLIT, zeros
+from .zeros import SPLIT, Open, above, below, narrowed, zeros
 
 WINDOWS = 24  # doublings of the reach of alpha in search of a wall: 2^24 e-foldings
 FAR = 2**WINDOWS - 1  # where they end
@@ -126,7 +126,7 @@ def _crossing(orbit, inner, outer):
     a = Fraction(0) if inner is None else (above(inner) if outer > inner else below(inner))
     b = below(outer) if outer > ball(a) else above(outer)
     low, high = sorted((a, b))
-    df = lambda x: -orbit.force(x)  # noqa: E731
+    df = lambda x: -orbit.force(x)
     # U - E is monotone between neighbouring zeros of the force, so a change of sign is a single zero
     lo_sign, hi_sign = sign(orbit.excess(ball(low))), sign(orbit.excess(ball(high)))
     if None in (lo_sign, hi_sign) or lo_sign * hi_sign >= 0:  # from rest a well comes first, so neither is zero
@@ -174,9 +174,9 @@ def _ranges(orbit, left, right):
     low, high = below(left), above(right)
     out = []
     for which in (0, 1):
-        f = lambda x, w=which: orbit.slopes(x)[w]  # noqa: E731
+        f = lambda x, w=which: orbit.slopes(x)[w]
         # u'' = p (q u + q0), v'' = q (p v + p0)
-        df = lambda x, w=which: ball(orbit.p if w == 0 else orbit.q) * orbit.slopes(x)[1 - w]  # noqa: E731
+        df = lambda x, w=which: ball(orbit.p if w == 0 else orbit.q) * orbit.slopes(x)[1 - w]
         values = [orbit.place(left)[which], orbit.place(right)[which]]
         if not orbit.constant(which):
             for z in zeros(f, df, low, high, purse=orbit.purse):

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import json
 
-from .numbers import field, Malformed, shown
+from .numbers import Malformed, field, shown
 
 SCHEMA = "stabilab.certificate/1"
 MOST_BYTES = 1 << 22  # the longest certificates of the program have some ten thousand

@@ -5,11 +5,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from .facts import Facts
-from .numbers import ball, bracket, exact_sign, field, Malformed, numbers, shown, word
+from .numbers import Malformed, ball, bracket, exact_sign, field, numbers, shown, word
 from .orbit import Orbit
 from .period import period_of, round_once
 from .precision import working
-from .zeros import above, below, Open, Spent
+from .zeros import Open, Spent, above, below
 
 BITS, MOST_BITS = 192, 6144
 CLOSER = 4  # times the bits that settled the fate: a bracket that these do not tell from the true value is left open
@@ -153,7 +153,7 @@ def _check_numbers(claims, proof, found, note):
             unbounded = found.extremes[i][k] is None
             note(claim, "proved" if unbounded and said is None else "refuted", "unbounded" if unbounded else "bounded")
         else:
-            status = at_rising_precision(lambda: _within(proof.facts().extremes[i][k], *said), found.bits, CLOSER * found.bits)  # noqa: B023
+            status = at_rising_precision(lambda: _within(proof.facts().extremes[i][k], *said), found.bits, CLOSER * found.bits)
             note(claim, status or "not checked", "roots on the potential" if status else "the bracket ends too close to the true value")
     if claims.period is not None and found.fate != "bounded":
         note("period", "refuted", "a motion that spins up does not repeat")
@@ -166,7 +166,7 @@ def _check_numbers(claims, proof, found, note):
 def _period_status(proof, said, bits):
     """Whether the bracket holds the period, by quadratures to more and more digits; None where they leave it open."""
     for goal in GOALS:
-        true = at_rising_precision(lambda: proof.period(goal), max(bits, 4 * goal))  # noqa: B023
+        true = at_rising_precision(lambda: proof.period(goal), max(bits, 4 * goal))
         try:
             return true and _within(true, *said)
         except Open:

@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 from fractions import Fraction
-
 from functools import lru_cache
 from types import SimpleNamespace
 

@@ -2,7 +2,8 @@
 from __future__ import annotations
 
 from .numbers import ball, hull, sign
-from .zeros import above, below, Open
+from .zeros import Open, above, below
+
 
 def period_of(orbit, ends, goal):
     """T = 2 int_l^r dalpha / sqrt(2 (E - U)) as a ball, to about `goal` bits. Raises Open where the precision does not do."""

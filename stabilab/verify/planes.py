@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from .curves import judged
 from .degenerate import cross, turned
-from .numbers import brief, field, LINEAR, Malformed, numbers, VERDICT, word
+from .numbers import LINEAR, VERDICT, Malformed, brief, field, numbers, word
 from .rates import AHEAD, characteristic
 
 

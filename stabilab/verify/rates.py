@@ -4,7 +4,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from .numbers import field, Malformed, number, numbers
+from .numbers import Malformed, field, number, numbers
 
 AHEAD = ((1, 2), (2, 0), (0, 1))
 
@@ -25,7 +25,7 @@ class Rates:
     parallel: tuple | None = None  # (D, lambda) of a body: without torque D x + lambda is parallel to x
 
     @classmethod
-    def of_scene(cls, scene) -> "Rates":
+    def of_scene(cls, scene) -> Rates:
         """The rates of the certificate's scene."""
         kind = field(scene, "variables", "scene", str)
         if kind == "physical":
@@ -39,7 +39,7 @@ class Rates:
         raise Malformed(f"scene.variables: expected 'physical' or 'scaled', got {kind!r}")
 
     @classmethod
-    def of_body(cls, D, lam, M) -> "Rates":
+    def of_body(cls, D, lam, M) -> Rates:
         """D x' = (D x + lambda) x x + M, written out."""
         kappa = [(D[j] - D[k]) / D[i] for i, (j, k) in enumerate(AHEAD)]
         rho = [lam[j] / D[i] for i, (j, k) in enumerate(AHEAD)]
@@ -50,7 +50,7 @@ class Rates:
         return cls(kappa, rho, sigma, m, conditions, any(M), integrals, (D, lam))
 
     @classmethod
-    def of_scaled(cls, a, b, mu) -> "Rates":
+    def of_scaled(cls, a, b, mu) -> Rates:
         """x1' = x2 x3 + mu1, x2' = -x3 (x1 + a) + mu2, x3' = x2 (x1 + b) + mu3."""
         o, one = Fraction(0), Fraction(1)
         conditions = (([mu[0], mu[1], o], mu[0] * a), ([mu[0], o, -mu[2]], mu[0] * b))

@@ -4,7 +4,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from .numbers import fraction, Malformed
+from .numbers import Malformed, fraction
 from .precision import working
 from .zeros import above, below
 
@@ -28,7 +28,7 @@ class Zero:
             if low <= zero.low and zero.high <= high:
                 return True
 
-    def before(self, other: "Zero") -> bool:
+    def before(self, other: Zero) -> bool:
         """Whether it is less than a zero of another irreducible factor."""
         for one, two in zip(self._closer(), other._closer()):
             if one.high < two.low or two.high < one.low:

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from stabilab import Body, ConstantTorque, Gyrostat, load, ScaledGyrostat, Scene
+from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, load
 from stabilab.answers.certificate import certificate
 from stabilab.verify import verify
 

@@ -1,19 +1,22 @@
 """Tests of `answers/equilibria.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
+
 from dataclasses import dataclass
 from fractions import Fraction
-from stabilab import Body, Scene
 from typing import ClassVar
+
 import numpy as np
 import pytest
+
 import stabilab
-from stabilab.physics.effects.base import Effect
-from stabilab.errors import InputError
-from stabilab.physics.coefficients import content
+from stabilab import Body, Scene
 from stabilab.answers.equilibria import equilibria, other_equilibria
-from stabilab.theories.follow import models_of
 from stabilab.answers.motion import motion
 from stabilab.answers.trajectory import trajectory
+from stabilab.errors import InputError
+from stabilab.physics.coefficients import content
+from stabilab.physics.effects.base import Effect
+from stabilab.theories.follow import models_of
 
 
 @dataclass(frozen=True)

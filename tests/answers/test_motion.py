@@ -1,12 +1,15 @@
 """Tests of `answers/motion.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
-from stabilab import Body, ConstantTorque, Fate, Gyrostat, load, Scene
+
 import json
+
 import numpy as np
 import pytest
+
 import stabilab
+from stabilab import Body, ConstantTorque, Fate, Gyrostat, Scene, load
 from stabilab.answers.motion import motion
-from tests.shared import answer, TIE
+from tests.shared import TIE, answer
 
 # D = (9, 5, 4), lambda = (4, 0, 1), no torque: the planes omega1 + 1 = k s/3, omega3 - 1 = s, k = +-1, keep k: s' = k omega2 s/3.
 # 5 omega2^2 = 2 T - 9 omega1^2 - 4 omega3^2 = 2 T - 13 - (8 - 6 k) s - 5 s^2, and s = 0 is the permanent rotation that they end in.

@@ -5,10 +5,9 @@ import pytest
 
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.answers.simulate import simulate
+from stabilab.errors import InputError
 from stabilab.physics.attitude import angles, quaternion, to_space
 from stabilab.physics.effects import effect_class
-from stabilab.errors import InputError
-
 from tests.oracles import euler
 
 

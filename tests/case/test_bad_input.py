@@ -15,8 +15,7 @@ from hypothesis import HealthCheck, given, settings
 import stabilab as stabilab_package
 from stabilab.case import sweep as case_sweep
 from stabilab.case.read import load
-from stabilab.errors import BAD_INPUT, CaseError, InputError, OK, printable
-
+from stabilab.errors import BAD_INPUT, OK, CaseError, InputError, printable
 from tests.fuzz.grammar import CASES, mutated_cases, written_cases
 from tests.fuzz.judge import judged
 
@@ -220,7 +219,7 @@ HOSTILE = "<script>alert(1)</script> & \\\\input{/etc/passwd} $x_1$ %d {{ 7*7 }}
 
 
 def test_latex_of_a_hostile_title_is_text():
-    from stabilab.show.text.table import comma_separated, html_page, latex, markdown, Table
+    from stabilab.show.text.table import Table, comma_separated, html_page, latex, markdown
     words = HOSTILE.replace("\\\\", "\\").replace('\\"', '"')
     one = Table(9, words, words, (words, "b"), ((words, 1.0), ("=1+1", None)))
     tex = latex(one)

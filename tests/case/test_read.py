@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from stabilab.case.read import load, load_all
+from stabilab.answers.digits.run import best_reached
 from stabilab.case.lines import key_lines
+from stabilab.case.read import load, load_all
 from stabilab.errors import CaseError
 from tests.shared import TIE
-from stabilab.answers.digits.run import best_reached
 
 CASES = sorted((Path(__file__).parents[2] / "cases").glob("*.toml"))
 BODY = "[body]\ninertia = [2000.0, 1500.0, 1000.0]\n"

@@ -12,23 +12,23 @@ import numpy as np
 import pytest
 
 from stabilab import load
-from stabilab.cost import accuracy as measuring
-from stabilab.answers.digits import front as precision_front, run as precision_digits
-from stabilab.cost.accuracy import digit_price, pareto, Point, precision
-from stabilab.answers.digits.run import candidates, simulate_to
+from stabilab.answers.digits import front as precision_front
+from stabilab.answers.digits import run as precision_digits
 from stabilab.answers.digits.front import FrontPoint
-from stabilab.cost.methods import methods, problem
 from stabilab.answers.digits.reduced import ladder, reduced
+from stabilab.answers.digits.run import candidates, simulate_to
+from stabilab.cost import accuracy as measuring
+from stabilab.cost.accuracy import Point, digit_price, pareto, precision
+from stabilab.cost.methods import methods, problem
+from stabilab.errors import InputError, ToleranceNotMet
 from stabilab.integrate.reference import reference, relative_errors
 from stabilab.integrate.taylor_digits import Recursion
 from stabilab.physics.body import Body
 from stabilab.physics.effects.gyrostat import Gyrostat
 from stabilab.physics.equations import derive
-from stabilab.errors import InputError, ToleranceNotMet
 from stabilab.physics.scene import Scene
-from stabilab.show.text import precision as shown
 from stabilab.show.report import precision_page
-
+from stabilab.show.text import precision as shown
 from tests.oracles.model import physical
 from tests.oracles.taylor import integrate_checked
 

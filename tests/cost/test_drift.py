@@ -2,9 +2,8 @@
 import numpy as np
 import pytest
 
-from stabilab.integrate.to_heyoka import heyoka_available
 from stabilab.cost.drift import Drift, drifts, growth, integrals, starts
-
+from stabilab.integrate.to_heyoka import heyoka_available
 from tests.oracles import taylor
 from tests.oracles.model import scaled
 

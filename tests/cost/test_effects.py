@@ -5,14 +5,13 @@ import json
 import pytest
 from typer.testing import CliRunner
 
-from stabilab import derive, load, Scene
-from stabilab.cost.effects import (
-    alone, answers, BODY, counted, example, EXAMPLES, imported, ladder, operations, without, zero_is_absent)
+from stabilab import Scene, derive, load
 from stabilab.cli import app
-from stabilab.physics.to_numpy import _function, Form, form
-from stabilab.physics.effects import effect_class, REGISTRY
-from stabilab.errors import CaseError
 from stabilab.cost import effects as effect_cost
+from stabilab.cost.effects import BODY, EXAMPLES, alone, answers, counted, example, imported, ladder, operations, without, zero_is_absent
+from stabilab.errors import CaseError
+from stabilab.physics.effects import REGISTRY, effect_class
+from stabilab.physics.to_numpy import Form, _function, form
 
 # By hand. States: omega 3, gamma 3, attitude 4, velocity 3, position 3. Symbols: the moments of inertia and the effect's
 # own; a force brings the mass.

@@ -1,12 +1,15 @@
 """Tests of `cost/event_methods.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
+
 from pathlib import Path
+
 import numpy as np
 import pytest
+
 import stabilab
-from stabilab.errors import InputError
 from stabilab.cost.event_methods import fate_methods, known_period
 from stabilab.cost.methods import problem
+from stabilab.errors import InputError
 from stabilab.theories.comparison import side_by_side
 
 CASES = Path(__file__).parents[2] / "cases"

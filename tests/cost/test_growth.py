@@ -8,16 +8,14 @@ import flint
 import numpy as np
 import pytest
 
-from stabilab import Body, ConstantTorque, Gyrostat, load, Scene
-from stabilab.cost import growth as cost_growth
-from stabilab.cost.growth import (
-    bits_needed, engines, Growth, near, nodes_needed, with_closeness, with_digits, with_states)
+from stabilab import Body, ConstantTorque, Gyrostat, Scene, load
 from stabilab.answers.fate import fate
+from stabilab.cost import growth as cost_growth
+from stabilab.cost.growth import Growth, bits_needed, engines, near, nodes_needed, with_closeness, with_digits, with_states
 from stabilab.integrate.reference import reference
 from stabilab.orbit.result import Fate
 from stabilab.physics.equations import derive
 from stabilab.show.report import cost_growth as shown
-
 from tests.oracles import energy
 from tests.oracles.model import physical, scaled
 

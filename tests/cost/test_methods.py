@@ -1,9 +1,11 @@
 """Tests of `cost/methods.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
+
 import pytest
+
 import stabilab
-from stabilab.errors import InputError
 from stabilab.cost.methods import problem
+from stabilab.errors import InputError
 
 
 def test_a_precision_needs_a_motion(tmp_path):

@@ -1,7 +1,9 @@
 """Tests of `equilibrium/conics.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
-from stabilab import Body, ConstantTorque, Gyrostat, Scene
+
 import numpy as np
+
+from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.answers.equilibria import equilibria
 
 

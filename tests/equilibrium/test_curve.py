@@ -1,13 +1,16 @@
 """Tests of `equilibrium/curve.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
-from fractions import Fraction as F
-from stabilab import Body, Scene
+
 import math
+from fractions import Fraction as F
+
 import numpy as np
 import pytest
-from stabilab.errors import InputError
+
+from stabilab import Body, Scene
 from stabilab.answers.equilibria import equilibria
 from stabilab.equilibrium.curve import sample_parameters
+from stabilab.errors import InputError
 
 
 def test_a_point_beyond_the_end_of_a_branch_is_refused():

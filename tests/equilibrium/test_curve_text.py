@@ -8,13 +8,12 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from stabilab import Body, equilibria, ScaledGyrostat, Scene
+from stabilab import Body, ScaledGyrostat, Scene, equilibria
 from stabilab.equilibrium.conics import WELL
 from stabilab.equilibrium.curve import RationalCurve, straight_line
 from stabilab.equilibrium.stability import curve_with_verdicts
-
-from tests.oracles.pairs import physical
 from tests.equilibrium.test_gyrostat import CURVED
+from tests.oracles.pairs import physical
 
 LINES = [((4, 3, 2), (1, 5, 14), (0, 7, -5)), ((2, 2, 1), (2, 1, 3), (1, -2, 0)), ((2, 2, 1), (2, 1, 3), (-1, 2, 0)),
          ((5, 4, 2), (2, 3, 0), (0, 0, -6)), ((5, 4, 2), (2, 3, 0), (0, 0, 7)), ((5, 4, 2), (2, 3, 0), (0, 0, -7)),
@@ -26,7 +25,7 @@ ON_EVERY_AXIS = [tuple(tuple(v[n] for n in order) for v in case) for case in LIN
 
 def said(text, t):
     """{name: value} of the clauses "name = 2 + 3 t" of an equation or a parametrisation, at t; a product as its own name."""
-    value = lambda e: eval(re.sub(r"([\d.]) t", r"\1*t", e), {"t": t})  # noqa: E731
+    value = lambda e: eval(re.sub(r"([\d.]) t", r"\1*t", e), {"t": t})
     pairs = [c.split(" = ", 1) for c in re.sub(r", N = e x M = \([^)]*\)", "", text).split(", ") if " = " in c]
     return {name: value(e) for name, e in pairs if "alpha N" not in e and "omega" not in e}
 
@@ -76,7 +75,7 @@ def test_where_two_lines_cross_the_potential_has_the_power_and_the_sign_that_are
                 ahead, behind = (problem.rate([mp.mpf(v) + s * m for v, m in zip(x, M)]) for s in (1, -1))
                 return [(u - v) / 2 for u, v in zip(ahead, behind)]
             flow = {s: mp.odefun(lambda t, x, s=s: [s * v for v in along(t, x)], 0, [mp.mpf(v) for v in at]) for s in (1, -1)}
-            pull = lambda t: -sum(m * v for m, v in zip(M, problem.rate(flow[1 if t > 0 else -1](abs(t)))))  # noqa: E731
+            pull = lambda t: -sum(m * v for m, v in zip(M, problem.rate(flow[1 if t > 0 else -1](abs(t)))))
             step = mp.mpf(1) / 1024 / max(map(abs, M))
             assert mp.sign(pull(step)) == (1 if sign == "+" else -1)
             assert mp.log(abs(pull(step) / pull(step / 2)), 2) == pytest.approx(int(power) - 1, abs=0.1)

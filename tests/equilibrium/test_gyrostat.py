@@ -11,9 +11,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from stabilab import Body, ConstantTorque, equilibria, Gyrostat, ScaledGyrostat, Scene
-from stabilab.equilibrium.conics import balance_fails, conic_curves
+from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, equilibria
 from stabilab.equilibrium.balance import pencil
+from stabilab.equilibrium.conics import balance_fails, conic_curves
 from stabilab.equilibrium.torque_free import torque_free_curves
 from stabilab.errors import InputError
 
@@ -165,7 +165,7 @@ def test_every_returned_point_satisfies_the_equations_to_rounding(D, lam, M, e):
 @settings(max_examples=60, deadline=None)
 @given(body, st.tuples(number, number, number), st.tuples(number, number, number))
 def test_relabelling_the_axes_relabels_the_answer(D, lam, M):
-    turn = lambda v: (v[1], v[2], v[0])  # noqa: E731
+    turn = lambda v: (v[1], v[2], v[0])
     one, two = equilibria(physical(D, lam, M)), equilibria(physical(turn(D), turn(lam), turn(M)))
     assert one.kind == two.kind and len(one.curves) == len(two.curves)
     assert sorted(turn(p.at) for p in one.points) == sorted(p.at for p in two.points)
@@ -182,7 +182,7 @@ def test_faster_rotation_scales_the_answer(D, lam, M, power):
     """omega -> s omega, lambda -> s lambda, M -> s^2 M, time -> time/s; s is a power of two, so every digit agrees."""
     s = F(2) ** power
     one, two = equilibria(physical(D, lam, M)), equilibria(physical(D, [s * v for v in lam], [s * s * v for v in M]))
-    grown = lambda v: tuple(float(s) * c for c in v)  # noqa: E731
+    grown = lambda v: tuple(float(s) * c for c in v)
     assert [grown(p.at) for p in one.points] == [p.at for p in two.points]
     assert [tuple(float(s) * z for z in p.eigenvalues) for p in one.points] == [p.eigenvalues for p in two.points]
     assert folds(one, grown) == folds(two)
@@ -198,7 +198,7 @@ def test_sign_symmetries_carry_equilibria_to_equilibria(a, b, mu, symmetry):
     sx, sab, smu = symmetry
     one = equilibria(ScaledGyrostat(a, b, mu))
     two = equilibria(ScaledGyrostat(sab * a, sab * b, [s * v for s, v in zip(smu, mu)]))
-    flip = lambda v: tuple(s * c + 0.0 for s, c in zip(sx, v))  # noqa: E731
+    flip = lambda v: tuple(s * c + 0.0 for s, c in zip(sx, v))
     assert sorted(flip(p.at) for p in one.points) == sorted(tuple(v + 0.0 for v in p.at) for p in two.points)
     assert folds(one, flip) == folds(two)
     assert [p.verdict for p in sorted(one.points, key=lambda p: flip(p.at))] == [p.verdict for p in sorted(two.points, key=lambda p: p.at)]
@@ -210,8 +210,8 @@ def test_coordinates_are_correct_to_the_last_digit_for_nearly_equal_moments():
     with mp.workdps(60):
         D = [mp.mpf(1), 1 - mp.mpf(10) ** -12, mp.mpf(1) / 2]
         lam, M = [mp.mpf(1), mp.mpf(2), mp.mpf(-1)], [mp.mpf(3) / 7, mp.mpf(-2) / 3, mp.mpf(1)]
-        w = lambda s: rotated(D, lam, M, s)  # noqa: E731
-        f = lambda s: w(s)[1]  # noqa: E731
+        w = lambda s: rotated(D, lam, M, s)
+        f = lambda s: w(s)[1]
         c, a1, b1 = f(mp.mpf(0)), f(mp.mpf(1)), f(mp.mpf(-1))
         A, B = (a1 + b1) / 2 - c, (a1 - b1) / 2
         disc = B * B - 4 * A * c
@@ -281,7 +281,7 @@ def test_the_major_axis_has_no_equilibrium_unless_a_equals_b():
 
 def test_existence_turns_exactly_where_the_discriminant_vanishes():
     """X Y = mu2 mu3/mu1 = -1 and c = 2: a double root at X = -1; a hair either way gives none or two."""
-    at = lambda mu1: equilibria(ScaledGyrostat(0, 2, (mu1, 1, 1)))  # noqa: E731
+    at = lambda mu1: equilibria(ScaledGyrostat(0, 2, (mu1, 1, 1)))
     assert [p.at for p in at(-1).points] == [(-1.0, -1.0, -1.0)]
     assert at(-1 - F(1, 10**40)).kind == "points" and len(at(-1 - F(1, 10**40)).points) == 2
     assert at(-1 + F(1, 10**40)).kind == "none"

@@ -1,8 +1,10 @@
 """Tests of `equilibrium/isolated.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
+
 from fractions import Fraction as F
-from stabilab import Body, ConstantTorque, Gyrostat, Scene
+
 import stabilab
+from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.equilibrium.curve_text import decimal
 
 

@@ -1,7 +1,9 @@
 """Tests of `equilibrium/spectrum.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
-from fractions import Fraction as F
+
 import random
+from fractions import Fraction as F
+
 from stabilab.equilibrium.spectrum import eigenvalues
 
 
@@ -22,7 +24,7 @@ def test_the_three_eigenvalues_together_have_the_coefficients_of_their_cubic():
     """Vieta, exactly: z1 + z2 + z3 = 0, z1 z2 + z1 z3 + z2 z3 = m, z1 z2 z3 = -n, to the rounding of each root."""
     for m, n in cubics():
         roots = [(F(z.real), F(z.imag)) for z in eigenvalues(m, n)]
-        times = lambda p, q: (p[0] * q[0] - p[1] * q[1], p[0] * q[1] + p[1] * q[0])  # noqa: E731
+        times = lambda p, q: (p[0] * q[0] - p[1] * q[1], p[0] * q[1] + p[1] * q[0])
         size = [abs(a) + abs(b) for a, b in roots]
         pairs = [(0, 1), (0, 2), (1, 2)]
         products = [times(roots[i], roots[k]) for i, k in pairs]

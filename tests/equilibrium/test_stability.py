@@ -7,14 +7,15 @@ from fractions import Fraction as F
 
 import numpy as np
 import pytest
-from hypothesis import given, settings, strategies as st
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
-from stabilab import Body, ConstantTorque, equilibria, Gyrostat, ScaledGyrostat, Scene
+from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, equilibria
 from stabilab.equilibrium.spectrum import eigenvalues
+from stabilab.equilibrium.stability import isolated_verdict
 from stabilab.numbers.polynomial import Poly, real_roots
 from stabilab.numbers.surd import Surd
-from stabilab.equilibrium.stability import isolated_verdict
 
 
 def physical(D, lam, M) -> Scene:
@@ -43,7 +44,7 @@ def jacobian(scene, x):
 
 def excursion(scene, start, centre, span, limit=math.inf):
     """Largest distance from `centre` of the motion from `start` (stops at `limit`)."""
-    away = lambda t, x: np.linalg.norm(np.asarray(x) - centre) - limit  # noqa: E731
+    away = lambda t, x: np.linalg.norm(np.asarray(x) - centre) - limit
     away.terminal = True
     run = solve_ivp(rates(scene), (0, span), start, method="DOP853", rtol=1e-10, atol=1e-13,
                     events=away if math.isfinite(limit) else None)

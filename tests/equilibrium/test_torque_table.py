@@ -6,7 +6,7 @@ from fractions import Fraction as F
 
 import pytest
 
-from stabilab import equilibria, ScaledGyrostat
+from stabilab import ScaledGyrostat, equilibria
 from stabilab.equilibrium.torque_table import torque_table
 
 GYROSTATS = {"a != b": (F(1, 3), F(5, 2)), "a = b": (F(1, 3), F(1, 3)), "a = b = 0": (F(0), F(0))}
@@ -24,8 +24,8 @@ def numbers(a, b, mu, x):
 
 def evaluate(text, values):
     """A formula of the table as a number: its own notation read by SymPy's implicit multiplication."""
-    from sympy.parsing.sympy_parser import implicit_multiplication, parse_expr, standard_transformations
     from sympy import Symbol
+    from sympy.parsing.sympy_parser import implicit_multiplication, parse_expr, standard_transformations
     names = {n: Symbol(n) for n in values}
     return complex(parse_expr(text.replace("^", "**"), names, (*standard_transformations, implicit_multiplication)).subs(values))
 
@@ -87,5 +87,5 @@ def test_the_printed_equations_of_every_form_hold_at_the_equilibria(name, row):
 
 def test_the_number_for_three_torques_turns_where_the_row_says():
     """(b-a)^2 against 4 |mu2 mu3/mu1|."""
-    count = lambda mu1: len(equilibria(ScaledGyrostat(0, 2, (mu1, 1, 1))).points)  # noqa: E731
+    count = lambda mu1: len(equilibria(ScaledGyrostat(0, 2, (mu1, 1, 1))).points)
     assert [count(F(-11, 10)), count(-1), count(F(-9, 10))] == [2, 1, 0]

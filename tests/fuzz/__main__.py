@@ -35,9 +35,8 @@ def one(target, folder, seconds):
     """Fuzz one target in this process; it ends the process."""
     import atheris
     with atheris.instrument_imports(include=["stabilab", "tomllib"]):
-        import tomllib._parser  # noqa: F401  where the standard reader works
 
-        import stabilab.case.read  # noqa: F401
+        pass
     options = [f"-max_total_time={seconds}", f"-timeout={SLOWEST}", f"-rss_limit_mb={MEMORY}", f"-artifact_prefix={folder}/",
                "-print_final_stats=1", "-verbosity=0", "-seed=1"]
     if target == "bytes":

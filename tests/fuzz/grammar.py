@@ -3,7 +3,7 @@ from pathlib import Path
 
 from hypothesis import strategies as st
 
-from stabilab.physics.effects import effect_class, REGISTRY
+from stabilab.physics.effects import REGISTRY, effect_class
 
 CASES = sorted((Path(__file__).parents[2] / "cases").glob("*.toml"))
 HARD = ["0", "-0.0", "1", "-1", "3", "1e-308", "4.9e-324", "1e-320", "2e-324", "1.7976931348623157e308", "1.8e308", "1e400", "-1e400", "1e-400",

@@ -5,7 +5,6 @@ import numpy as np
 import pytest
 
 import stabilab
-
 from tests.oracles import energy
 from tests.oracles.pairs import WORDS
 from tests.orbit.extremes.test_extremes import assert_extremes

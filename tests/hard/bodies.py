@@ -6,10 +6,9 @@ import math
 import numpy as np
 
 import stabilab
-
+from tests.hard.row import Verdict, labels, numbers
 from tests.oracles import energy, model
 from tests.oracles.pairs import PAPER_BODY, physical
-from tests.hard.row import labels, numbers, Verdict
 
 CYCLE = ((1, 2), (2, 0), (0, 1))
 
@@ -49,7 +48,7 @@ class Textbook:
 
 def fastest_row(case, wrong, inertia, momentum, torque, state):
     """Fastest rate about axis 1 of a swinging body, torque along axis 1, gyrostatic moment (0, *momentum)."""
-    ask = lambda D1, D2, D3, l2, l3, M, *x: energy.extremes(  # noqa: E731
+    ask = lambda D1, D2, D3, l2, l3, M, *x: energy.extremes(
         model.physical((D1, D2, D3), (0, l2, l3), (M, 0, 0)), x, digits=100)[0][1]
     moments = (0.0, *momentum), (torque, 0.0, 0.0)
     ours = float(stabilab.extremes(physical(inertia, *moments)[0], np.array(state))[0, 1])

@@ -6,9 +6,8 @@ import math
 import numpy as np
 
 from stabilab.theories.charged.closed_form import solution
-
-from tests.theories.charged.test_closed_form import body_of, D1, D2, D3, K, R0, RESONANT, START
-from tests.hard.row import Row, UNIT
+from tests.hard.row import UNIT, Row
+from tests.theories.charged.test_closed_form import D1, D2, D3, R0, RESONANT, START, K, body_of
 
 USUAL = START | dict(D1=D1, D2=D2, D3=D3, k=K)
 
@@ -21,9 +20,9 @@ def by_partial_fractions(v):
     p0, q0, m1, m2, start = v["p0"], v["q0"], v["M1"] / v["D1"], v["M2"] / v["D2"], complex(v["psi0"], v["phi0"])
     # p, q = (s p0 - a q0 + m1 - a m2/s)/(s^2 + w^2), (s q0 + b p0 + m2 + b m1/s)/(s^2 + w^2)
     # and Gamma = (p + iq + start)/(s + i r0)
-    top = lambda s: s * (s * (p0 + 1j * q0) - a * q0 + 1j * b * p0 + m1 + 1j * m2) - a * m2 + 1j * b * m1  # noqa: E731
+    top = lambda s: s * (s * (p0 + 1j * q0) - a * q0 + 1j * b * p0 + m1 + 1j * m2) - a * m2 + 1j * b * m1
     poles = np.array([0, -1j * r0, 1j * w, -1j * w])
-    others = lambda m: np.prod([poles[m] - z for n, z in enumerate(poles) if n != m])  # noqa: E731
+    others = lambda m: np.prod([poles[m] - z for n, z in enumerate(poles) if n != m])
     with np.errstate(all="ignore"):
         tilt = sum(top(s) * np.exp(s * t) / others(m) for m, s in enumerate(poles))
         tilt += start * np.exp(-1j * r0 * t)
@@ -49,7 +48,7 @@ def tilt_row(case, wrong, v, naive):
     exact, effect = conditioned(v)
     with ctx.workprec(BITS):
         size = max(abs(float(e.mid())) for e in exact[2:4])
-        away = lambda pair: max(abs(float((arb(float(x)) - e).mid())) for x, e in zip(pair, exact[2:4])) / size  # noqa: E731
+        away = lambda pair: max(abs(float((arb(float(x)) - e).mid())) for x, e in zip(pair, exact[2:4])) / size
         found = naive(v)
         return Row(case, "tilt", wrong, away(found) if np.isfinite(found).all() else math.inf,
                    away(solution(body_of(v), v["t"]).angles[:2]), max(effect[2:4]) / size + UNIT)

@@ -6,10 +6,9 @@ import math
 import numpy as np
 
 import stabilab
-
+from tests.hard.row import Verdict, labels, numbers
 from tests.oracles import energy, model
 from tests.oracles.pairs import brink, scaled
-from tests.hard.row import labels, numbers, Verdict
 
 
 def saddles(radius2, c):
@@ -23,7 +22,7 @@ def barrier_minus_energy(a, b, state):
     """Highest saddle within a turn ahead minus the energy, the two subtracted."""
     X, z, v, c = state[0] + a, state[1], state[2], b - a
     here = math.atan2(X, z)
-    height = lambda X, angle: -angle - X * (X + 2 * c) / 2  # noqa: E731
+    height = lambda X, angle: -angle - X * (X + 2 * c) / 2
     ahead = [(x, math.atan2(x, s)) for x, s in saddles(X * X + z * z, c)]
     tops = [height(x, t + (2 * math.pi if t <= here else 0)) for x, t in ahead]
     return max(tops) - (v * v / 2 + height(X, here)) if tops else -math.inf
@@ -34,7 +33,7 @@ def expanded(a, b, state):
     x3^2/2 - x1^2/2 - b x1 - t."""
     x1, x2, v = state
     radius2, here = x1 * x1 + 2 * a * x1 + a * a + x2 * x2, math.atan2(x1 + a, x2)
-    height = lambda x1, angle: -angle - x1 * x1 / 2 - b * x1  # noqa: E731
+    height = lambda x1, angle: -angle - x1 * x1 / 2 - b * x1
     ahead = [(x - a, math.atan2(x, s)) for x, s in saddles(radius2, b - a)]
     tops = [height(x, t + (2 * math.pi if t <= here else 0)) for x, t in ahead]
     return max(tops) - (v * v / 2 + height(x1, here)) if tops else -math.inf
@@ -45,7 +44,7 @@ def word(margin):
 
 
 def margin_row(case, wrong, a, b, state, digits=100, naive=barrier_minus_energy):
-    ask = lambda a, b, *x: energy.margin(model.scaled(a, b, (0, 0, 1)), x, digits=digits)  # noqa: E731
+    ask = lambda a, b, *x: energy.margin(model.scaled(a, b, (0, 0, 1)), x, digits=digits)
     ours = float(stabilab.fate(scaled(a, b, (0, 0, 1))[0], np.array(state)).margins)
     return numbers(case, "margin", wrong, naive(a, b, state), ours, ask, (a, b, *state))
 
@@ -64,7 +63,7 @@ def period_by_a_separatrix(distance):
     """1. The period, by the textbook's quadrature: the energies subtracted at every node."""
     a, b = 0.2, 0.4
     state = brink(scaled(a, b, (0, 0, 1))[1], (2.75, 1.125), -distance)
-    ask = lambda a, b, *x: energy.period(model.scaled(a, b, (0, 0, 1)), x, digits=50)  # noqa: E731
+    ask = lambda a, b, *x: energy.period(model.scaled(a, b, (0, 0, 1)), x, digits=50)
     ours = float(stabilab.period(scaled(a, b, (0, 0, 1))[0], np.array(state)))
     return numbers(f"{distance:g} inside the separatrix", "period", "two energies are subtracted",
                    textbook_period(a, b, state), ours, ask, (a, b, *state))
@@ -73,7 +72,7 @@ def period_by_a_separatrix(distance):
 def textbook_period(a, b, state):
     X, z, c = state[0] + a, state[1], b - a
     A, start = math.hypot(X, z), math.atan2(X, z)
-    height = lambda t: -t - 0.5 * (A * np.sin(t)) ** 2 - c * A * np.sin(t)  # noqa: E731
+    height = lambda t: -t - 0.5 * (A * np.sin(t)) ** 2 - c * A * np.sin(t)
     level = 0.5 * state[2] ** 2 + height(start)
 
     def turn(inside, outside):
@@ -149,9 +148,9 @@ def circle_of_no_radius(radius):
 def minute_orbit(amplitude):
     """11. Largest x3 of an orbit about the centre (-2, 1/2), a = b = 0, started one unit in the last place beside it."""
     state = (-2.0, 0.5 + 2.0 ** -52, amplitude)
-    ask = lambda *x: energy.extremes(model.scaled(0, 0, (0, 0, 1)), x, digits=120)[2][1]  # noqa: E731
+    ask = lambda *x: energy.extremes(model.scaled(0, 0, (0, 0, 1)), x, digits=120)[2][1]
     ours = float(stabilab.extremes(scaled(0.0, 0.0, (0, 0, 1))[0], np.array(state))[2, 1])
-    height = lambda X, z: -math.atan2(X, z) - X * X / 2  # noqa: E731
+    height = lambda X, z: -math.atan2(X, z) - X * X / 2
     deep = amplitude ** 2 / 2 + height(state[0], state[1]) - height(-2.0, 0.5)
     naive = math.sqrt(2 * deep) if deep >= 0 else math.nan
     return numbers(f"orbit of amplitude {amplitude:g} about a centre", "largest x3",

@@ -9,11 +9,10 @@ import numpy as np
 
 import stabilab
 from stabilab.unreduced.growth import captured_fate
-
+from tests.hard.row import Verdict, numbers
 from tests.oracles import energy, taylor
 from tests.oracles.pairs import scaled
 from tests.orbit.flow.test_flow import MINOR, SPINNING, summed_time
-from tests.hard.row import numbers, Verdict
 
 A, B, MU = 0.25, 0.75, (0, 0, 1)
 SWING = (2.75, 1.125, 1.0)
@@ -45,14 +44,14 @@ def swings(turns):
 def stepped(turns):
     """9. The state by an explicit method at its usual tolerance."""
     from scipy.integrate import solve_ivp
-    run = lambda time: solve_ivp(rates, (0, time), SWING, "RK45", rtol=1e-6, atol=1e-9).y[:, -1].tolist()  # noqa: E731
+    run = lambda time: solve_ivp(rates, (0, time), SWING, "RK45", rtol=1e-6, atol=1e-9).y[:, -1].tolist()
     return swing(turns, f"swing followed for {turns:g} periods", "RK45 at 1e-6: the energy drifts with every step", run)
 
 
 def after_measured_periods(time):
     """The state at `time` folded by a period that a run at the tolerance 1e-10 measures."""
     from scipy.integrate import solve_ivp
-    returned = lambda t, x: x[2]  # noqa: E731
+    returned = lambda t, x: x[2]
     returned.direction = 1
     run = solve_ivp(rates, (0, 60), SWING, "DOP853", rtol=1e-10, atol=1e-12, events=returned)
     period = run.t_events[0][1] - run.t_events[0][0]
@@ -63,11 +62,11 @@ def spun_up(state, time):
     """x1, x2 at `time` of a spin-up: the angle theta on the circle from summed_time(theta) = time by the secant method."""
     from flint import arb, ctx
     with ctx.workprec(120):
-        exact = lambda v: arb(Fraction(v).numerator) / arb(Fraction(v).denominator)  # noqa: E731
+        exact = lambda v: arb(Fraction(v).numerator) / arb(Fraction(v).denominator)
         x1, x2, x3 = state = tuple(map(exact, state))
         time, X = exact(time), x1 + arb(1) / 5
         radius, start = (X * X + x2 * x2).sqrt(), arb.atan2(X, x2)
-        late = lambda theta: summed_time(state, theta) - time  # noqa: E731
+        late = lambda theta: summed_time(state, theta) - time
         theta, ahead = start + time * time / 2 + x3 * time, start + time * time / 2 + x3 * time + 1
         behind, now = late(theta), late(ahead)
         while abs(float((ahead - theta).mid())) > 1e-26 * float(ahead):
@@ -78,7 +77,7 @@ def spun_up(state, time):
 
 def spins_up(time):
     """9. The place on the circle of a spin-up at a late time, t^2/(4 pi) turns on."""
-    ask = lambda t, *x: spun_up(x, t)  # noqa: E731
+    ask = lambda t, *x: spun_up(x, t)
     ours = stabilab.trajectory(MINOR, SPINNING, [time], "reduced").states[0, :2].tolist()
     naive = stabilab.trajectory(MINOR, SPINNING, [time], rtol=1e-12).states[0, :2].tolist()
     return numbers(f"spin-up after {time ** 2 / (4 * math.pi):.0e} turns", "x1, x2",
@@ -89,7 +88,7 @@ def released(c):
     """9. Captured about axis 3 for 10/c units of time before it spins up about axis 1: J = J0 - 2 c t holds exactly, so no
     motion is bounded and, for c > 0, x1 grows beyond all bounds (proof in theory of the major axis)."""
     from scipy.integrate import solve_ivp
-    flow = lambda t, x: (x[1] * x[2] + 1, -x[2] * x[0], x[1] * (x[0] + c))  # noqa: E731
+    flow = lambda t, x: (x[1] * x[2] + 1, -x[2] * x[0], x[1] * (x[0] + c))
     run = solve_ivp(flow, (0, 1000), (0.0, -1.0, 5.0), "DOP853", rtol=1e-10, atol=1e-12)
     naive = "bounded" if np.abs(run.y[:, run.t > 500]).max() <= 1.01 * np.abs(run.y[:, run.t < 500]).max() else "spin-up"
     answer = captured_fate(stabilab.ScaledGyrostat(0.0, c, (1, 0, 0)), (0.0, -1.0, 5.0))

@@ -9,12 +9,12 @@ import numpy as np
 
 import stabilab
 from stabilab import Body, Gyrostat, Scene
-from stabilab.theories.cavity.averaged import averaged
 from stabilab.physics.effects.liquid_cavity import LiquidCavity
-
+from stabilab.theories.cavity.averaged import averaged
+from tests.hard.row import Row, Verdict, numbers
 from tests.oracles import energy, euler
-from tests.theories.cavity.test_averaged import body as small_body, by_hand
-from tests.hard.row import numbers, Row, Verdict
+from tests.theories.cavity.test_averaged import body as small_body
+from tests.theories.cavity.test_averaged import by_hand
 
 SHAPE, STATE = (9.5, 9.25, 9.0), (0.5, -0.25, 1.0)
 
@@ -62,7 +62,7 @@ def computed(rows):
 
 def damping_row(case, wrong, D, kappa, axis):
     point, spin, rows = rotation(D, kappa, axis)
-    ask = lambda D1, D2, D3, kappa, spin: largest_rate(block((D1, D2, D3), kappa, spin, axis))  # noqa: E731
+    ask = lambda D1, D2, D3, kappa, spin: largest_rate(block((D1, D2, D3), kappa, spin, axis))
     ours = max(z.real for z in point.eigenvalues if z)
     return numbers(case, "growth rate of a rotation", wrong, computed(rows), ours, ask, (*D, kappa, spin))
 
@@ -101,7 +101,7 @@ def motion_row(case, wrong, kappa, gamma3, time, steps, naive):
 def printed_torque(time):
     """The liquid's torque as printed holds for a body without rotor: with one its terms have the wrong sign and size."""
     scene = Scene(Body(SHAPE), Gyrostat((0, 0, 1.5)), LiquidCavity(1, 1, 1.0, "printed"))
-    naive = lambda: stabilab.trajectory(scene, STATE, [time]).states[0].tolist()  # noqa: E731
+    naive = lambda: stabilab.trajectory(scene, STATE, [time]).states[0].tolist()
     return motion_row(f"liquid and rotor at t = {time:g} s", "the printed torque leaves terms of its own order out",
                       1.0, 1.5, time, 12, naive)
 
@@ -111,7 +111,7 @@ def stiff(kappa):
     def naive():
         rates = euler.liquid(SHAPE, 1.5, kappa, 0.0, (0.0, 0.0, 0.0))
         x, h = np.array(STATE), 0.1
-        f = lambda x: np.array(rates(list(x)))  # noqa: E731
+        f = lambda x: np.array(rates(list(x)))
         with np.errstate(all="ignore"):
             for _ in range(5):
                 k1 = f(x)

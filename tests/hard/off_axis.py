@@ -7,9 +7,8 @@ import mpmath as mp
 import numpy as np
 
 import stabilab
-
+from tests.hard.row import Verdict, numbers
 from tests.oracles import energy, model
-from tests.hard.row import numbers, Verdict
 
 
 def jacobian(a, b, x):

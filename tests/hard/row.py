@@ -8,7 +8,6 @@ from fractions import Fraction
 import numpy as np
 
 import stabilab
-
 from tests.oracles import energy
 from tests.oracles.pairs import WORDS
 
@@ -57,7 +56,7 @@ def numbers(case, asked, goes_wrong, naive, ours, ask, inputs) -> Row:
     """The row of an answer (number or row of numbers) whose exact value is ask(inputs)."""
     exact = ask(*map(Fraction, inputs))
     size = distance(exact, [0] * len(exact) if hasattr(exact, "__len__") else 0)
-    relative = lambda v: float(distance(v, exact) / size) if np.isfinite(np.asarray(v, float)).all() else math.inf  # noqa: E731
+    relative = lambda v: float(distance(v, exact) / size) if np.isfinite(np.asarray(v, float)).all() else math.inf
     return Row(case, asked, goes_wrong, relative(naive), relative(ours), float(half_units(ask, inputs, exact) / size) + UNIT)
 
 
@@ -66,6 +65,6 @@ def labels(case, goes_wrong, pair, states, naive, digits=120) -> Verdict:
     scene, problem = pair
     exact = [energy.label(problem, s, digits=digits) for s in states]
     ours = stabilab.fate(scene, np.array(states)).labels.tolist()
-    tell = lambda wrong: f"{sum(wrong)} of {len(states)} wrong"  # noqa: E731
+    tell = lambda wrong: f"{sum(wrong)} of {len(states)} wrong"
     return Verdict(case, f"fate of {len(states)} states", goes_wrong, tell(naive(s) != e for s, e in zip(states, exact)),
                    tell(o != WORDS[e] for o, e in zip(ours, exact)), tell([False]))

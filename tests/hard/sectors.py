@@ -6,16 +6,15 @@ import math
 import numpy as np
 
 import stabilab
-
+from tests.hard.row import Verdict, numbers
 from tests.oracles import energy, model
 from tests.oracles.pairs import PAPER_BODY, physical, scaled
-from tests.hard.row import numbers, Verdict
 
 
 def off_the_plane(C):
     """5. Largest x2 from x1 + b = 1 + C/2, x3 = -1, x2 = 0 (a = 0, b = C/2); the state's numbers are exact."""
     digits, tiny = int(60 - 1.2 * math.log10(C)), C / 2
-    ask = lambda b: energy.extremes(model.scaled(0, b, (0, 1, 0)), (1, 0, -1), digits=digits)[1][1]  # noqa: E731
+    ask = lambda b: energy.extremes(model.scaled(0, b, (0, 1, 0)), (1, 0, -1), digits=digits)[1][1]
     ours = float(stabilab.extremes(scaled(0.0, tiny, (0, 1, 0))[0], np.array([1.0, 0.0, -1.0]))[1, 1])
     rounded = (1.0 + tiny) ** 2 - 1.0  # zero in doubles: on the plane, where the motion spins up
     return numbers(f"C = {C:g}, middle axis", "largest x2", "x1 + b rounds: on the plane, spin-up for ever",
@@ -37,7 +36,7 @@ def on_the_plane(y):
     """8. Initial state on the invariant plane x1 + b = -x3, which a run leaves."""
     a, b = 0.25, 0.75
     state, (scene, problem) = (y - b, 0.5, -y), scaled(a, b, (0, 1, 0))
-    rates = lambda t, x: (x[1] * x[2], 1 - x[2] * (x[0] + a), x[1] * (x[0] + b))  # noqa: E731
+    rates = lambda t, x: (x[1] * x[2], 1 - x[2] * (x[0] + a), x[1] * (x[0] + b))
     return Verdict(f"on the invariant plane x1 + b = -x3 = {y:g}", "fate", "a run leaves the plane as exp(x2^2/2)",
                    runs(rates, 1, state, 100.0), fate_word(scene, state), energy.label(problem, state))
 
@@ -52,7 +51,7 @@ def exact_saddle(wk):
     D, l2 = np.array(PAPER_BODY), 62.3
     momentum, torque, state = np.array([125.0, l2, 0.0]), np.array([0.0, 0.0, -l2 / 4]), (-0.25, wk, 0.0)
     scene, problem = physical(PAPER_BODY, momentum, torque)
-    rates = lambda t, w: (np.cross(D * w + momentum, w) + torque) / D  # noqa: E731
+    rates = lambda t, w: (np.cross(D * w + momentum, w) + torque) / D
     return Verdict(f"exact saddle w2 = {wk:g} as initial state", "fate", "rates of rounding grow as exp(t)",
                    runs(rates, 2, state, 400.0), fate_word(scene, state), energy.label(problem, state))
 
@@ -62,10 +61,10 @@ def above_the_cusp(c):
     hundred places a radian."""
     g = -3 ** -0.25
     state = (1 / g, 2.0 ** -30, g)
-    ask = lambda c, *x: energy.margin(model.scaled(0, c, (0, 1, 0)), x, digits=60)  # noqa: E731
+    ask = lambda c, *x: energy.margin(model.scaled(0, c, (0, 1, 0)), x, digits=60)
     ours = float(stabilab.fate(scaled(0.0, c, (0, 1, 0))[0], np.array(state)).margins)
     Y, z, t = state[0] + c, state[2], 0.003 + np.arange(-500, 501) / 100
-    height = lambda t: (Y * np.cosh(t) + z * np.sinh(t)) ** 2 / 2 - c * (Y * np.cosh(t) + z * np.sinh(t)) - t  # noqa: E731
+    height = lambda t: (Y * np.cosh(t) + z * np.sinh(t)) ** 2 / 2 - c * (Y * np.cosh(t) + z * np.sinh(t)) - t
     found = height(t)
     tops = found[1:-1][(found[1:-1] > found[:-2]) & (found[1:-1] > found[2:])]
     naive = float(tops.max() - height(0.0) - state[1] ** 2 / 2) if tops.size else math.nan

@@ -12,10 +12,9 @@ import pytest
 
 import stabilab
 from stabilab import Fate
-
 from tests.hard.agrees import agrees
 from tests.oracles import energy
-from tests.oracles.pairs import brink, PAPER_BODY, physical, scaled
+from tests.oracles.pairs import PAPER_BODY, brink, physical, scaled
 
 BOUNDED, SPIN_UP, SEPARATRIX, EQUILIBRIUM, UNDECIDED = (int(f) for f in Fate)
 

@@ -7,8 +7,8 @@ import pytest
 pytest.importorskip("flint")
 pytest.importorskip("heyoka")
 
-from tests.hard.row import Verdict  # noqa: E402
-from tests.hard_table import ALLOWED, PAGE, page, row_of, ROWS, rows  # noqa: E402
+from tests.hard.row import Verdict
+from tests.hard_table import ALLOWED, PAGE, ROWS, page, row_of, rows
 
 NAMES = [f"{about}: {case.__name__.replace('_', ' ')} {number}" for about, case, number, _ in ROWS]
 each = pytest.mark.parametrize("n", [pytest.param(n, marks=[pytest.mark.slow] * slow, id=name)
@@ -44,6 +44,6 @@ def test_every_kind_of_hard_case_has_a_quick_line():
 @pytest.mark.slow
 def test_the_page_of_hard_cases_is_current():
     """Up to the digits, which may differ by a rounding between machines."""
-    plain = lambda text: re.sub(r"\de[-+]\d+|< 1e-15|\d+ of", "#", text)  # noqa: E731
+    plain = lambda text: re.sub(r"\de[-+]\d+|< 1e-15|\d+ of", "#", text)
     assert plain(PAGE.read_text(encoding="utf-8")) == plain(page(rows()))
 

@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 
 import stabilab
-
-from tests.hard.row import distance, half_units, UNIT
+from tests.hard.row import UNIT, distance, half_units
 from tests.oracles import energy, model
-from tests.oracles.pairs import physical, random_body, WORDS
+from tests.oracles.pairs import WORDS, physical, random_body
 
 ALLOWED = 8  # times the condition, and times half a unit in the last place of the distance to the centre of the conic
 DIGITS = 60

@@ -11,7 +11,6 @@ import pytest
 
 import stabilab
 from stabilab import Fate
-
 from tests.hard.agrees import agrees
 from tests.oracles import energy
 from tests.oracles.pairs import scaled

@@ -7,15 +7,14 @@ import mpmath as mp
 import numpy as np
 
 from stabilab import Body, Gyrostat, Scene
-from stabilab.theories.top.lindstedt import lindstedt
-from stabilab.theories.top.euler_angles import mean_precession
-from stabilab.theories.top.printed import printed
-from stabilab.physics.effects.gravity import Gravity
 from stabilab.errors import InputError
-
+from stabilab.physics.effects.gravity import Gravity
+from stabilab.theories.top.euler_angles import mean_precession
+from stabilab.theories.top.lindstedt import lindstedt
+from stabilab.theories.top.printed import printed
+from tests.hard.row import Verdict, numbers
 from tests.oracles import energy, euler
-from tests.theories.top.test_lindstedt import ARM, FIELD, MOMENTS, near, R0, START, top, WEIGHT
-from tests.hard.row import numbers, Verdict
+from tests.theories.top.test_lindstedt import ARM, FIELD, MOMENTS, R0, START, WEIGHT, near, top
 
 
 def resonance_nearby(distance):

@@ -11,7 +11,7 @@ import pytest
 
 import stabilab
 from tests.house import rooms
-from tests.house.rooms import all_imports, circles, GROUND, MAY, modules, PACKAGE, PAGE, room, ROOT
+from tests.house.rooms import GROUND, MAY, PACKAGE, PAGE, ROOT, all_imports, circles, modules, room
 
 HEAVY = {"sympy", "scipy", "matplotlib", "pyvista", "vtk", "vtkmodules", "heyoka", "xarray", "pandas", "mpmath", "flint",
          "rich", "jinja2", "pydantic", "numba", "trame", "h5netcdf", "hypothesis", "pytest"}

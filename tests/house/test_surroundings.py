@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from stabilab import files
-from stabilab.errors import BAD_INPUT, InputError, INTERRUPTED
+from stabilab.errors import BAD_INPUT, INTERRUPTED, InputError
 from stabilab.show.files import manifest
 
 ROOT = Path(__file__).parents[2]

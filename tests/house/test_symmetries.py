@@ -11,7 +11,6 @@ from hypothesis import strategies as st
 import stabilab
 from stabilab import Fate
 from stabilab.answers.digits.ask import ask
-
 from tests.oracles.pairs import physical, scaled
 
 BODY, SPAN = (3.0, 2.0, 1.5), 2.0
@@ -102,7 +101,7 @@ def test_nothing_depends_on_how_the_axes_are_numbered_or_pointed(seed):
         energies = 0.5 * (D * states**2).sum(axis=1)
         single = stabilab.motion(scene, states[n % 4], brief=True)
         for m, (order, signs, sign) in enumerate(images):
-            turn = lambda v: sign * signs * np.asarray(v)[..., order]  # noqa: E731, B023
+            turn = lambda v: sign * signs * np.asarray(v)[..., order]
             other, _ = physical(D[order], turn(momentum), turn(torque))
             image = stabilab.fate(other, turn(states))
             np.testing.assert_array_equal(image.labels, answer.labels, err_msg=repr((scene, order)))

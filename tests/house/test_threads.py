@@ -10,7 +10,7 @@ import sys
 import threading
 import time
 from fractions import Fraction
-from functools import lru_cache
+from functools import cache
 from pathlib import Path
 
 import flint
@@ -20,13 +20,13 @@ import pytest
 
 import stabilab
 from stabilab import Body, Gyrostat, Scene
-from stabilab.physics import to_numpy as compiled
-from stabilab.numbers import balls
 from stabilab.answers.certificate import certificate
-from stabilab.answers.digits.run import best_reached
 from stabilab.answers.digits.ask import ask
-from stabilab.physics.effects.gravity import Gravity
+from stabilab.answers.digits.run import best_reached
+from stabilab.numbers import balls
 from stabilab.numbers.exact import precise
+from stabilab.physics import to_numpy as compiled
+from stabilab.physics.effects.gravity import Gravity
 from stabilab.verify import precision, verify
 
 ROOT = Path(__file__).parents[2]
@@ -164,7 +164,7 @@ def test_analysis_and_checker_hold_one_lock_while_flint_has_their_precision():
 
 
 def test_exact_cosines_of_two_threads_keep_their_own_bits(monkeypatch):
-    cosine = lambda bits: precise("cos", Fraction(1, 7), bits=bits)  # noqa: E731
+    cosine = lambda bits: precise("cos", Fraction(1, 7), bits=bits)
     alone, found, cos = {bits: cosine(bits) for bits in (900, 240)}, {}, mpmath.mp.cos
 
     def slow(x):  # the thread of 900 bits works on while that of 240 has begun and not ended
@@ -200,7 +200,7 @@ def test_functions_of_symbols_are_made_by_one_thread_at_a_time(monkeypatch):
     assert most == [1] * 4
 
 
-@lru_cache(maxsize=None)
+@cache
 def nodes(path):
     return list(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
 

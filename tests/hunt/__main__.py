@@ -13,7 +13,6 @@ from time import monotonic
 import numpy as np
 
 from stabilab.errors import InputError
-
 from tests.hunt.disagreements import DISAGREEMENTS, WRONG
 from tests.hunt.problems import KNOBS, problem_of
 from tests.hunt.unreduced import problem_of as unreduced_problem
@@ -61,7 +60,7 @@ class Hunt:
             size, words = self.function(scene, problem, state)
         except InputError as error:  # an answer that is refused in words; the other way may not say more
             size, words = 0.0, str(error)
-        except Exception:  # noqa: BLE001  any other end is a finding
+        except Exception:
             size, words = WRONG, traceback.format_exc(limit=-4)
         self.worst = max(self.worst, size)
         if size > 1:

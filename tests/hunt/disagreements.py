@@ -15,10 +15,9 @@ from stabilab import Fate
 from stabilab.answers.certificate import certificate
 from stabilab.errors import InputError
 from stabilab.verify import verify
-
 from tests.oracles import energy
 from tests.oracles.model import CYCLE
-from tests.oracles.pairs import physical, scaled, WORDS
+from tests.oracles.pairs import WORDS, physical, scaled
 
 ELEVEN_DIGITS = 1e-11  # what `extremes` and `period` promise without `digits`
 MARGIN = 1e-12  # what `fate` promises of a margin, relative to the kinetic energy and the barrier's height
@@ -270,7 +269,7 @@ def _twins_of(scene, state):
                 "other side": (scaled(-a, -b, (-mu[0], mu[1], -mu[2]))[0], _signed(state, (-1, 1, -1)), (0, 1, 2), (-1, 1, -1), 1, 1)}
     D, (lam, M) = list(map(float, scene.body.exact)), ([float(v) for v in scene.vector(n)] for n in ("gyrostat", "constant_torque"))
     order = (1, 2, 0)
-    turn = lambda v: [v[i] for i in order]  # noqa: E731
+    turn = lambda v: [v[i] for i in order]
     fast, heavy = 2.0 ** 9, 2.0 ** -7
     return {"renamed": (physical(turn(D), turn(lam), turn(M))[0], turn(state), order, (1, 1, 1), 1, 1),
             "half a turn": (physical(D, _signed(lam, (-1, 1, -1)), _signed(M, (-1, 1, -1)))[0], _signed(state, (-1, 1, -1)),

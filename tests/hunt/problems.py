@@ -11,7 +11,6 @@ from fractions import Fraction
 import numpy as np
 
 import stabilab
-
 from tests.oracles.model import CYCLE
 from tests.oracles.pairs import physical, scaled
 

@@ -1,11 +1,14 @@
 """Tests of `hunt/hunt.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
+
 import json
 import math
+
 import numpy as np
 import pytest
+
 import stabilab.errors
-from tests.hunt.__main__ import aim, evolve, Hunt
+from tests.hunt.__main__ import Hunt, aim, evolve
 from tests.hunt.disagreements import DISAGREEMENTS
 from tests.hunt.problems import KNOBS, problem_of
 

@@ -10,10 +10,9 @@ import stabilab
 import stabilab.orbit.landscape
 from stabilab import Fate
 from stabilab.errors import InputError
-
-from tests.oracles.pairs import physical
-from tests.hunt.disagreements import _twins_of, MARGIN, NO_QUESTION, worst, WRONG
+from tests.hunt.disagreements import MARGIN, NO_QUESTION, WRONG, _twins_of, worst
 from tests.hunt.problems import wide
+from tests.oracles.pairs import physical
 
 FASTEST = 30.0  # in the motion's own unit: beyond it a search for a certificate takes seconds and more
 

@@ -9,10 +9,10 @@ import numpy as np
 
 import stabilab
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
-from stabilab.orbit.extremes_and_periods import extremes_and_periods
-from stabilab.orbit.landscape import landscape
 from stabilab.answers.digits.ask import ask
-from stabilab.orbit.fate.reasons import Reason, REASONS
+from stabilab.orbit.extremes_and_periods import extremes_and_periods
+from stabilab.orbit.fate.reasons import REASONS, Reason
+from stabilab.orbit.landscape import landscape
 
 MARGIN, DIGITS = 1e-12, 1e-11  # promised of a margin (of its terms), and of extremes and periods
 MANY = 5200  # rows: more than a table is built for

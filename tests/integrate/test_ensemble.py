@@ -5,12 +5,11 @@ import numpy as np
 import pytest
 
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, trajectory
+from stabilab.errors import InputError
 from stabilab.integrate import ensemble as ensembles
-from stabilab.integrate.ensemble import ensemble, LANES
+from stabilab.integrate.ensemble import LANES, ensemble
 from stabilab.integrate.to_heyoka import heyoka_available
 from stabilab.physics.effects import effect_class
-from stabilab.errors import InputError
-
 from tests.oracles import model, taylor
 
 SCENE = Scene(Body((3, 2, "1.5")), Gyrostat(("0.3", "-0.2", "0.5")), ConstantTorque(("0.1", "0.2", "0.1")))

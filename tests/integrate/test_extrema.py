@@ -1,8 +1,10 @@
 """Tests of `integrate/extrema.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
-from stabilab import Body, ScaledGyrostat, Scene
+
 import numpy as np
 import pytest
+
+from stabilab import Body, ScaledGyrostat, Scene
 from stabilab.integrate import extrema as rate_roots
 
 

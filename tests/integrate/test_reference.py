@@ -1,7 +1,9 @@
 """Tests of `integrate/reference.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
-from stabilab import Body, ConstantTorque, Scene
+
 import numpy as np
+
+from stabilab import Body, ConstantTorque, Scene
 from stabilab.integrate.reference import reference
 
 

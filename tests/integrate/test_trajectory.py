@@ -5,15 +5,15 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
+import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, trajectory
 from stabilab.answers.trajectory import METHODS
-from stabilab.integrate.trajectory import SCIPY_METHODS
-from stabilab.integrate.to_heyoka import heyoka_available
 from stabilab.errors import InputError
-
+from stabilab.integrate import to_heyoka
+from stabilab.integrate import trajectory as trajectories
+from stabilab.integrate.to_heyoka import heyoka_available
+from stabilab.integrate.trajectory import SCIPY_METHODS
 from tests.oracles import model, taylor
-from stabilab.integrate import to_heyoka, trajectory as trajectories
-import stabilab
 from tests.shared import SCALED_MINOR
 
 BODY = Body((2000, 1500, 1000))

@@ -1,9 +1,12 @@
 """Tests of `numbers/balls.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
+
 from fractions import Fraction
+
 import numpy as np
 import pytest
-from stabilab.numbers.balls import Digits, DOUBLE_BITS, settled
+
+from stabilab.numbers.balls import DOUBLE_BITS, Digits, settled
 from stabilab.numbers.double_ball import Unclear
 
 

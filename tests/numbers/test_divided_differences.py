@@ -4,9 +4,9 @@ import math
 import numpy as np
 import pytest
 
+from stabilab.errors import InputError
 from stabilab.numbers.divided_differences import divided_difference, divided_differences
 from stabilab.numbers.double_double import Twofold, twofold
-from stabilab.errors import InputError
 
 flint = pytest.importorskip("flint")
 BITS = 400
@@ -106,7 +106,7 @@ def test_growth_beyond_the_largest_double_is_refused():
 def test_twofold_numbers_keep_32_digits():
     from fractions import Fraction
     rng = np.random.default_rng(6)
-    exact = lambda z: Fraction(float(z.high)) + Fraction(float(z.low))  # noqa: E731
+    exact = lambda z: Fraction(float(z.high)) + Fraction(float(z.low))
     for _ in range(200):
         x, y = (Twofold(*map(np.float64, (v, v * 2.0**-54 * u))) for v, u in zip(10.0 ** rng.uniform(-5, 5, 2), rng.uniform(-1, 1, 2)))
         for got, want in ((x + y, exact(x) + exact(y)), (x - y, exact(x) - exact(y)), (x * y, exact(x) * exact(y)),

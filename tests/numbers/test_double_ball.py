@@ -9,7 +9,7 @@ from fractions import Fraction
 import mpmath
 import pytest
 
-from stabilab.numbers.double_ball import Ball, Doubles, LEAST, real_roots_of, Unclear
+from stabilab.numbers.double_ball import LEAST, Ball, Doubles, Unclear, real_roots_of
 
 
 def covers(ball, truth) -> bool:

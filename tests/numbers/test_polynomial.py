@@ -1,7 +1,10 @@
 """Tests of `numbers/polynomial.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
+
 from fractions import Fraction
+
 import pytest
+
 from stabilab.numbers.polynomial import Poly, real_roots
 
 

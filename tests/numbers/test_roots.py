@@ -8,7 +8,7 @@ from fractions import Fraction as F
 import numpy as np
 import pytest
 
-from stabilab.numbers.roots import between, bracketed_newton, EPS, real_polynomial_roots
+from stabilab.numbers.roots import EPS, between, bracketed_newton, real_polynomial_roots
 
 # name -> (f, f', bracket, root by hand, rising, most evaluations from the middle)
 FUNCTIONS = {

@@ -9,7 +9,7 @@ For the hyperbolic case there is no turn: w must cross zero twice (periodic) wit
 """
 from __future__ import annotations
 
-from functools import lru_cache
+from functools import cache
 
 import numpy as np
 
@@ -21,7 +21,7 @@ class Undecided(RuntimeError):
     """Neither rule fired in time."""
 
 
-@lru_cache(maxsize=None)
+@cache
 def _integrator(axis: int):
     """(integrator, log of events): states x1, x2, x3, alpha; parameters kappa, rho, sigma, m (3 each), h, sign e, turn."""
     import heyoka as hy

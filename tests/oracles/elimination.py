@@ -169,7 +169,7 @@ def m_and_n(model: Model, x, mul=lambda a, b: a * b, add=lambda *a: sum(a), one=
     for i, (j, k) in enumerate(CYCLE):
         J[i][j] = add(mul(model.kappa[i] * one, x[k]), model.sigma[i] * one)
         J[i][k] = add(mul(model.kappa[i] * one, x[j]), model.rho[i] * one)
-    minus = lambda v: mul(-1 * one, v)  # noqa: E731
+    minus = lambda v: mul(-1 * one, v)
     m = minus(add(mul(J[0][1], J[1][0]), mul(J[0][2], J[2][0]), mul(J[1][2], J[2][1])))
     n = minus(add(mul(J[0][1], mul(J[1][2], J[2][0])), mul(J[0][2], mul(J[2][1], J[1][0]))))
     return m, n
@@ -247,7 +247,7 @@ def _on_line(model, point, v):
 
 
 def _on_plane(model, point, u, w):
-    rate = lambda p, r: model.rate([o + p * a + r * b for o, a, b in zip(point, u, w)])  # noqa: E731
+    rate = lambda p, r: model.rate([o + p * a + r * b for o, a, b in zip(point, u, w)])
     at = {(p, r): rate(p, r) for p, r in ((0, 0), (1, 0), (-1, 0), (0, 1), (0, -1), (1, 1))}
     rows = []
     for i in range(3):
@@ -257,7 +257,7 @@ def _on_plane(model, point, u, w):
     lead = next(r for r in rows if any(r))
     assert all(a * y == b * x for r in rows for a, x in zip(r, lead) for b, y in zip(r, lead)), "multiples of one conic"
     A, B, C, D, E, F = lead
-    place = lambda p, r: [o + p * a + r * b for o, a, b in zip(point, u, w)]  # noqa: E731
+    place = lambda p, r: [o + p * a + r * b for o, a, b in zip(point, u, w)]
     if not (A or B or C):
         if not (D or E):
             return Answer("none")

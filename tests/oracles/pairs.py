@@ -5,7 +5,6 @@ import mpmath as mp
 import numpy as np
 
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
-
 from tests.oracles import model
 from tests.oracles.energy import Reduced
 

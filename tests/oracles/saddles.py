@@ -86,7 +86,7 @@ def major(inertia, momentum, torque, w2, w3):
         k, u0, v0 = mp.sqrt(-p * q), _num(w2) + s2, _num(w3) + s3
         # u = u0 cos + (p/k) v0 sin, v = v0 cos + (q/k) u0 sin of k t; with T = tan(k t/2) the torque's balance is a quartic
         U, V, one = [-u0, 2 * p * v0 / k, u0], [-v0, 2 * q * u0 / k, v0], [1, 0, 1]
-        times = lambda f, g: [sum(f[i] * g[n - i] for i in range(3) if 0 <= n - i < 3) for n in range(5)]  # noqa: E731
+        times = lambda f, g: [sum(f[i] * g[n - i] for i in range(3) if 0 <= n - i < 3) for n in range(5)]
         balance = [(D2 * p + D3 * q) * uv - D2 * p * s2 * v - D3 * q * s3 * u - M * w
                    for uv, v, u, w in zip(times(U, V), times(V, one), times(U, one), times(one, one))]
         heights = []

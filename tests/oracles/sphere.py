@@ -8,7 +8,6 @@ from fractions import Fraction
 import mpmath as mp
 
 
-
 def num(value):
     return mp.mpf(Fraction(value).numerator) / Fraction(value).denominator
 
@@ -69,5 +68,5 @@ def _is_saddle(D, s, w):
     i = min(range(3), key=lambda a: abs(n[a]))
     one = [(1 if a == i else 0) - n[i] * n[a] for a in range(3)]
     two = [n[1] * one[2] - n[2] * one[1], n[2] * one[0] - n[0] * one[2], n[0] * one[1] - n[1] * one[0]]
-    bend = lambda a, b: sum((1 / num(d) - 1 / s) * u * v for d, u, v in zip(D, a, b))  # noqa: E731
+    bend = lambda a, b: sum((1 / num(d) - 1 / s) * u * v for d, u, v in zip(D, a, b))
     return bend(one, one) * bend(two, two) - bend(one, two) ** 2 < 0

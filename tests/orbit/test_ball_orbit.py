@@ -10,18 +10,17 @@ import pytest
 
 import stabilab
 from stabilab import Body, Fate, Gyrostat, Scene
-from stabilab.numbers.balls import DOUBLE_BITS, START_BITS
-from stabilab.orbit.landscape import landscape
 from stabilab.answers.motion import motion
+from stabilab.numbers.balls import DOUBLE_BITS, START_BITS
+from stabilab.orbit.extremes.balls import precise_extremes
+from stabilab.orbit.fate.balls import decide
 from stabilab.orbit.fate.one_state import fate_of
 from stabilab.orbit.invariants import invariants_of
-from stabilab.orbit.fate.balls import decide
-from stabilab.orbit.extremes.balls import precise_extremes
+from stabilab.orbit.landscape import landscape
 from stabilab.orbit.period.balls import precise_period
 from stabilab.orbit.reduction import reduce
-
 from tests.oracles import energy
-from tests.oracles.pairs import brink, PAPER_BODY, physical, scaled, WORDS
+from tests.oracles.pairs import PAPER_BODY, WORDS, brink, physical, scaled
 from tests.orbit.extremes.test_extremes import assert_extremes
 from tests.orbit.fate.test_fate import FAMILIES
 from tests.shared import PARABOLIC

@@ -1,12 +1,14 @@
 """Tests of `orbit/conic.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
+
 import numpy as np
 import pytest
+
 import stabilab.errors
-from tests.oracles.pairs import exactly, physical, WORDS
-from tests.oracles import energy, sphere
-from tests.orbit.extremes.test_extremes import assert_extremes
 from stabilab.orbit.reduction import reduce
+from tests.oracles import energy, sphere
+from tests.oracles.pairs import WORDS, exactly, physical
+from tests.orbit.extremes.test_extremes import assert_extremes
 
 # Moments that are equal to 1e-15, torque about the other: the conic of equilibria is a line but for its far end, and its fold at 0.018
 # was told from a double of 1e13, whose rounding put it at 0.022. States between had no barrier in the table, and spun up.

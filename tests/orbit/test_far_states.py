@@ -1,10 +1,13 @@
 """Tests of `orbit/far_states.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
+
 from fractions import Fraction
-from stabilab import Body, ConstantTorque, Gyrostat, Scene
+
 import numpy as np
 import pytest
+
 import stabilab
+from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.answers.motion import motion
 from stabilab.errors import InputError
 

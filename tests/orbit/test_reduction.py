@@ -1,12 +1,15 @@
 """Tests of `orbit/reduction.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
+
 from fractions import Fraction as F
-from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
+
 import numpy as np
 import pytest
+
+from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
 from stabilab.orbit.reduction import reduce
-from tests.orbit.fate.test_fate import FAMILIES
 from tests.oracles.pairs import physical, scaled
+from tests.orbit.fate.test_fate import FAMILIES
 
 
 @pytest.mark.parametrize("mu, word, e", [((0, 0, 1), "elliptic", -1), ((0, 1, 0), "hyperbolic", 1)])

@@ -8,7 +8,6 @@ import pytest
 import sympy as sp
 
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
-from stabilab.physics.to_numpy import form, to_numpy
 from stabilab.integrate.to_heyoka import heyoka_available, to_taylor
 from stabilab.physics.effects.body_force import BodyForce
 from stabilab.physics.effects.charge import Charge
@@ -18,6 +17,7 @@ from stabilab.physics.effects.resistance import Resistance
 from stabilab.physics.equations import derive
 from stabilab.physics.laws import invariants
 from stabilab.physics.notation import latex, lines
+from stabilab.physics.to_numpy import form, to_numpy
 
 BODY = Body((2000, "1500.5", 1000))
 WHEEL, THRUST = Gyrostat((100, "2/3", 0)), ConstantTorque((1, -2, "204.1"))

@@ -10,22 +10,21 @@ import numpy as np
 import pytest
 
 import stabilab
-from stabilab.physics.coefficients import content
-from stabilab.theories.follow import follow
-from stabilab.physics.coefficients import liquid_torque
 from stabilab.answers.digits.run import best_reached
 from stabilab.answers.simulate import simulate
 from stabilab.physics.body import Body
+from stabilab.physics.coefficients import content, liquid_torque
 from stabilab.physics.effects.body_force import BodyForce
 from stabilab.physics.effects.charge import Charge
 from stabilab.physics.effects.constant_torque import ConstantTorque
 from stabilab.physics.effects.gravity import Gravity
 from stabilab.physics.effects.gyrostat import Gyrostat
-from stabilab.physics.effects.liquid_cavity import LiquidCavity, NEXT_TERM
+from stabilab.physics.effects.liquid_cavity import NEXT_TERM, LiquidCavity
 from stabilab.physics.effects.newtonian_field import NewtonianField
 from stabilab.physics.effects.pace import pace
 from stabilab.physics.effects.resistance import Resistance
 from stabilab.physics.scene import Scene
+from stabilab.theories.follow import follow
 
 CASES = Path(__file__).parents[2] / "cases"
 WATER = """
@@ -229,7 +228,7 @@ def test_surface_carries_it_in_its_summary(stabilab, tmp_path, monkeypatch):
 
 
 def test_section_of_a_report_says_it_first(tmp_path):
-    from stabilab.show.report.report import _section
     from stabilab.case.read import load
+    from stabilab.show.report.report import _section
     section = _section(load(water(tmp_path, "1e-6")), tmp_path, lambda words: None)
     assert section["motion"][0][0] == "law" and section["motion"][0][1].startswith("BEYOND THE LAW")

@@ -6,11 +6,10 @@ import pytest
 import sympy as sp
 
 from stabilab import Body, ScaledGyrostat, Scene
-from stabilab.physics.to_numpy import to_numpy
-from stabilab.physics.effects import effect_class, REGISTRY
+from stabilab.physics.effects import REGISTRY, effect_class
 from stabilab.physics.equations import derive
 from stabilab.physics.laws import invariants
-
+from stabilab.physics.to_numpy import to_numpy
 
 ARGUMENTS = {  # what each effect is made from; an effect of one vector needs no line
     "charge": ("0.003", 100, "1.02", "0.37"), "resistance": ("0.02",), "liquid_cavity": (1250, 1000, "1.9"),

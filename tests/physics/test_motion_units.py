@@ -1,9 +1,11 @@
 """Tests of `physics/motion_units.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
-from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
+
 import numpy as np
 import pytest
+
 import stabilab
+from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
 from stabilab.physics.effects.resistance import Resistance
 from stabilab.physics.motion_units import in_unit
 

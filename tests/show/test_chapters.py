@@ -7,9 +7,12 @@ import numpy as np
 import pytest
 
 from stabilab.errors import InputError
+from stabilab.show.figures import catalogue as figures
+from stabilab.show.figures import cavity as figures_cavity
+from stabilab.show.figures import charged as figures_charged
+from stabilab.show.figures import panels
+from stabilab.show.figures import top as figures_top
 from stabilab.show.report import chapters, claims, report
-from stabilab.show.figures import (
-    catalogue as figures, cavity as figures_cavity, charged as figures_charged, panels, top as figures_top)
 
 FOLDER = Path(__file__).parents[2] / "figures"
 OTHERS = [row for name in ("charged", "cavity", "top") for row in figures.of_paper(name)]

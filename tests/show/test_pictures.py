@@ -11,11 +11,13 @@ import numpy as np
 import pytest
 
 from stabilab import errors
-from stabilab.orbit.separatrix.result import Sheet
-from stabilab.show.figures import catalogue as figures, paper
-from stabilab.show.surface import mesh, render_probe, write as surface
 from stabilab.orbit import phase_plane as phase
+from stabilab.orbit.separatrix.result import Sheet
 from stabilab.show import plane, style
+from stabilab.show.figures import catalogue as figures
+from stabilab.show.figures import paper
+from stabilab.show.surface import mesh, render_probe
+from stabilab.show.surface import write as surface
 from stabilab.show.text import table
 
 CASES = Path(__file__).parents[2] / "cases"

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 import stabilab
-from stabilab.show.report import chapters, report
 from stabilab.show.figures import catalogue as figures
+from stabilab.show.report import chapters, report
 from stabilab.show.surface import render_probe
 
 CASES = Path(__file__).parents[2] / "cases"

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from stabilab.theories import audit
-from stabilab.theories.audit.published import examine, FALSE_ABOVE, generic, parse, symbols, VERDICTS
+from stabilab.theories.audit.published import FALSE_ABOVE, VERDICTS, examine, generic, parse, symbols
 
 ROWS = [row for paper in audit.PAPERS for row in audit.rows(paper)]
 

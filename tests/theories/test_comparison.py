@@ -1,6 +1,8 @@
 """Tests of `theories/comparison.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
+
 import numpy as np
+
 import stabilab
 from stabilab.theories.comparison import side_by_side
 

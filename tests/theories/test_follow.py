@@ -6,12 +6,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from stabilab import Body, Gyrostat, load, Scene
-from stabilab.theories.comparison import compare
-from stabilab.theories.follow import follow, models_of
+from stabilab import Body, Gyrostat, Scene, load
 from stabilab.case.read import load_all
 from stabilab.errors import CaseError, InputError
 from stabilab.physics.effects.resistance import Resistance
+from stabilab.theories.comparison import compare
+from stabilab.theories.follow import follow, models_of
 from tests.shared import SCALED_MINOR
 
 CASES = Path(__file__).parents[2] / "cases"
@@ -187,7 +187,7 @@ def test_simulate_gives_classical_euler_angles_when_asked_for(stabilab):
 
 def test_every_effect_and_the_runs_of_models_have_public_names():
     import stabilab as package
-    from stabilab.physics.effects import effect_class, REGISTRY
+    from stabilab.physics.effects import REGISTRY, effect_class
     assert {effect_class(name).__name__ for name in REGISTRY} <= set(package.__all__)
     assert all(getattr(package, name) is not None for name in package.__all__) and {"simulate", "compare", "theory"} <= set(package.__all__)
 

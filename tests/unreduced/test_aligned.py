@@ -9,10 +9,10 @@ from scipy.integrate import solve_ivp
 import stabilab
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, Scene
 from stabilab.answers.extremes import extremes, period
-from stabilab.orbit.extremes_and_periods import extremes_and_periods
 from stabilab.answers.motion import motion
-from stabilab.unreduced.free_gyrostat import extremes_over_period
 from stabilab.errors import InputError
+from stabilab.orbit.extremes_and_periods import extremes_and_periods
+from stabilab.unreduced.free_gyrostat import extremes_over_period
 
 TURN = np.array([[0.6, 0.8, 0.0], [-0.8, 0.6, 0.0], [0.0, 0.0, 1.0]])
 D = (2.0, 2.0, 1.0)

@@ -4,13 +4,13 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, Scene
-from stabilab.theories.cavity.averaged import Smallness
 from stabilab.answers.equilibria import equilibria
 from stabilab.answers.motion import motion
+from stabilab.errors import InputError
 from stabilab.physics.effects.charge import Charge
 from stabilab.physics.effects.liquid_cavity import LiquidCavity
 from stabilab.physics.effects.resistance import Resistance
-from stabilab.errors import InputError
+from stabilab.theories.cavity.averaged import Smallness
 
 LIQUID = LiquidCavity(1250, 1000, "0.1")  # kappa = 1/8
 SWINGING = Charge("0.3", 2, 1, "attitude")  # its angle follows the attitude: gamma is part of the state

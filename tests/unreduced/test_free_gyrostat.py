@@ -1,5 +1,6 @@
 """Fates without a reduction: free gyrostats on their momentum sphere, and torques turned onto an axis of a symmetric body."""
-from fractions import Fraction, Fraction as F
+from fractions import Fraction
+from fractions import Fraction as F
 
 import mpmath as mp
 import numpy as np
@@ -7,15 +8,14 @@ import pytest
 
 import stabilab
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, Scene
+from stabilab.answers.digits.ask import ask
+from stabilab.answers.kinds import kind_of
+from stabilab.errors import InputError
 from stabilab.numbers.balls import DOUBLES
 from stabilab.numbers.double_ball import Unclear
 from stabilab.orbit.fate.free_margin import _nearest, free_margin
-from stabilab.answers.kinds import kind_of
-from stabilab.answers.digits.ask import ask
-
-from tests.oracles import sphere
-from stabilab.errors import InputError
 from stabilab.unreduced.free_gyrostat import extremes_over_period
+from tests.oracles import sphere
 
 
 def rotations(D, lam, h2, digits=50):
@@ -141,8 +141,8 @@ def test_a_rational_state_on_the_separatrix_of_a_free_gyrostat_is_recognised_and
     D, lam, saddle, state = saddle_and_another()
     scene = Scene(Body(D), Gyrostat(lam))
     assert kind_of(scene) == "free"
-    energy = lambda w: sum(d * v * v for d, v in zip(D, w)) / 2  # noqa: E731
-    momentum = lambda w: sum((d * v + l) ** 2 for d, v, l in zip(D, w, lam))  # noqa: E731
+    energy = lambda w: sum(d * v * v for d, v in zip(D, w)) / 2
+    momentum = lambda w: sum((d * v + l) ** 2 for d, v, l in zip(D, w, lam))
     assert energy(state) == energy(saddle) and momentum(state) == momentum(saddle)
     found = free_margin(scene, state)
     assert found.tie and float(found) == 0
@@ -172,7 +172,7 @@ TIED = (1.0, -7.5, -3.5)
 
 def turned_by(cosine, sine):
     """The tied scene and state turned about axis 3 by an angle with these rational cosine and sine."""
-    turn = lambda x, y: (cosine * x - sine * y, sine * x + cosine * y)  # noqa: E731
+    turn = lambda x, y: (cosine * x - sine * y, sine * x + cosine * y)
     momentum, torque = (*turn(0, 1), 0), (*turn(-50, 0), 0)
     state = (*turn(Fraction(1), Fraction(-15, 2)), Fraction(-7, 2))
     return Scene(Body((4, 4, 2)), Gyrostat(momentum), ConstantTorque(torque)), state
@@ -195,7 +195,7 @@ def test_a_state_too_near_a_separatrix_for_an_irrational_turn_is_undecided_and_s
     root.dps = 90
     scale = root.sqrt(1 + root.mpf(1) / 9)
     cosine, sine = 1 / scale, 1 / (3 * scale)
-    as_fraction = lambda v: Fraction(int(root.floor(v * root.mpf(10) ** 80)), 10**80)  # noqa: E731
+    as_fraction = lambda v: Fraction(int(root.floor(v * root.mpf(10) ** 80)), 10**80)
     momentum = tuple(as_fraction(v) for v in (-sine, cosine))  # across the torque to 80 digits, made so exactly below
     momentum = (-momentum[1] * third, momentum[1], Fraction(0))
     length = as_fraction(50 * cosine)

@@ -1,18 +1,19 @@
 """Capture and spin-up under a torque along an axis that carries a gyrostatic component."""
 import math
-from fractions import Fraction, Fraction as F
+from fractions import Fraction
+from fractions import Fraction as F
 
 import numpy as np
 import pytest
 
+import stabilab
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
-from stabilab.unreduced.growth_extremes import captured_extremes
-from stabilab.unreduced.growth import captured_fate
-from stabilab.unreduced.growth_certificates import certificate, spin_up_margin, well_margin
-from stabilab.unreduced.growth_form import growth_law, standard_form
 from stabilab.answers.trajectory import trajectory
 from stabilab.errors import InputError
-import stabilab
+from stabilab.unreduced.growth import captured_fate
+from stabilab.unreduced.growth_certificates import certificate, spin_up_margin, well_margin
+from stabilab.unreduced.growth_extremes import captured_extremes
+from stabilab.unreduced.growth_form import growth_law, standard_form
 
 heyoka = pytest.importorskip("heyoka")
 BODY = Body((2000, 1500, 1000))

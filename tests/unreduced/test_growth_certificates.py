@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
-from stabilab.unreduced.growth_extremes import captured_extremes
-from stabilab.unreduced.growth import captured_fate
-from stabilab.unreduced.growth_certificates import spin_up_margin, well_margin
 from stabilab.answers.trajectory import trajectory
 from stabilab.unreduced import growth_certificates, growth_run
+from stabilab.unreduced.growth import captured_fate
+from stabilab.unreduced.growth_certificates import spin_up_margin, well_margin
+from stabilab.unreduced.growth_extremes import captured_extremes
 
 captured = importlib.import_module("stabilab.unreduced.growth")
 STATES = [(c, y) for c in (-0.05, -0.7, -3.0, -20.0) for y in (
@@ -25,7 +25,7 @@ def energy_terms(c, y):
     u, y2, y3 = map(mp.mpf, y)
     c, phi = mp.mpf(c), mp.atan2(y3, y2)
     P, J = u + c / 2 * mp.cos(2 * phi), y2 ** 2 + y3 ** 2 - 2 * c * u
-    V = lambda b: -b - J / 2 * mp.sin(b) ** 2 + c * c / 8 * mp.sin(2 * b) ** 2  # noqa: E731
+    V = lambda b: -b - J / 2 * mp.sin(b) ** 2 + c * c / 8 * mp.sin(2 * b) ** 2
     return phi - mp.pi * mp.floor(phi / mp.pi), P, J, V
 
 

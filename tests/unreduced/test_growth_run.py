@@ -1,5 +1,6 @@
 """Tests of `unreduced/growth_run.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
+
 from stabilab.unreduced.growth_run import search_certificate
 
 

@@ -5,11 +5,11 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from stabilab import Body, ConstantTorque, Fate, fate, Gyrostat, ScaledGyrostat, Scene, trajectory
-from stabilab.unreduced.off_axis import evidence
-from stabilab.unreduced.free_gyrostat import extremes_over_period
-from stabilab.integrate.extrema import roots_of_rates
+from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene, fate, trajectory
 from stabilab.errors import InputError
+from stabilab.integrate.extrema import roots_of_rates
+from stabilab.unreduced.free_gyrostat import extremes_over_period
+from stabilab.unreduced.off_axis import evidence
 
 BODY = Body((2000, 1500, 1000))
 OFF = Scene(BODY, Gyrostat((100, 20, 0)), ConstantTorque((10, 0, 20)))

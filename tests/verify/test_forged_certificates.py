@@ -5,24 +5,24 @@ import json
 import random
 import subprocess
 import sys
-from fractions import Fraction, Fraction as F
+from fractions import Fraction
+from fractions import Fraction as F
 from functools import cache
 from pathlib import Path
 
 import pytest
 
-from stabilab import Body, ConstantTorque, Gyrostat, load, ScaledGyrostat, Scene
+from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, load
 from stabilab.answers.certificate import certificate
 from stabilab.errors import InputError
 from stabilab.show.text import certification
 from stabilab.verify import orbit, verify, verify_file
 from stabilab.verify.numbers import Malformed
 from stabilab.verify.zeros import Purse
-
-from tests.verify import forge
-from tests.oracles import elimination as by_hand
 from tests.equilibrium.test_random_scenes import disagreements
+from tests.oracles import elimination as by_hand
 from tests.shared import written
+from tests.verify import forge
 
 
 def physical(D, lam=(0, 0, 0), M=(0, 0, 0)):

@@ -1,9 +1,11 @@
 """Tests of `verify/malformed.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
-from stabilab import Body, ConstantTorque, Scene
+
 import pytest
-from stabilab.verify.numbers import Malformed
+
+from stabilab import Body, ConstantTorque, Scene
 from stabilab.verify import verify
+from stabilab.verify.numbers import Malformed
 from tests.shared import written
 
 SPINNING = Scene(Body((3, 2, 1)), ConstantTorque((0, 0, 1)))

@@ -10,10 +10,10 @@ from stabilab.answers.certificate import certificate
 from stabilab.verify import complete, degenerate, motion, period, verify
 from stabilab.verify.curves import curve_of, judged
 from stabilab.verify.facts import _single
-from stabilab.verify.numbers import ball, hull, Malformed
+from stabilab.verify.numbers import Malformed, ball, hull
 from stabilab.verify.rates import Rates
 from stabilab.verify.roots import real_zeros
-from stabilab.verify.zeros import above, below, narrowed, Open, zeros
+from stabilab.verify.zeros import Open, above, below, narrowed, zeros
 
 ZERO, ONE = F(0), F(1)
 TOP = Rates.of_body([F(5), F(4), F(2)], [ZERO, F(2), ZERO], [ZERO] * 3)

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from stabilab import Body, ConstantTorque, extremes, fate, Gyrostat, period, Scene
+from stabilab import Body, ConstantTorque, Gyrostat, Scene, extremes, fate, period
 from stabilab.verify import verify, verify_file
 from stabilab.verify.numbers import Malformed
 

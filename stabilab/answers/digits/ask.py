@@ -12,25 +12,25 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...numbers.balls import Digits, DOUBLE_BITS, working
-from ...orbit.fate.free_margin import free_margin, is_free
-from ...physics.states import checked_states, equations_and_start, moved_row
-from .checked import CAUTION, checked_digits, digits_of, MOST, MOST_DECIMALS, NEAR, nothing, Told
-from ...orbit.result import Fate
-from ...physics.coefficients import effective
-from ...orbit.landscape import landscape
-from ...orbit.fate.balls import precise_margin
-from ...orbit.extremes.balls import extreme_balls
-from ...orbit.period.balls import period_ball
-from ...unreduced.near_rest import beside_rest, small_loop
-from ...integrate.reference import DIGITS, GUARD, reference, WORK
-from ...integrate.to_heyoka import TAYLOR_TOLERANCE
-from ...physics.scene import Scene
 from ...integrate.extrema import roots_of_rates
+from ...integrate.reference import DIGITS, GUARD, WORK, reference
 from ...integrate.taylor_digits import Exhausted, Recursion, steps, widen
-from ..motion import motion
-from ...physics.alignment import aligned
+from ...integrate.to_heyoka import TAYLOR_TOLERANCE
+from ...numbers.balls import DOUBLE_BITS, Digits, working
+from ...orbit.extremes.balls import extreme_balls
+from ...orbit.fate.balls import precise_margin
+from ...orbit.fate.free_margin import free_margin, is_free
+from ...orbit.landscape import landscape
+from ...orbit.period.balls import period_ball
 from ...orbit.reduction import reduce
+from ...orbit.result import Fate
+from ...physics.alignment import aligned
+from ...physics.coefficients import effective
+from ...physics.scene import Scene
+from ...physics.states import checked_states, equations_and_start, moved_row
+from ...unreduced.near_rest import beside_rest, small_loop
+from ..motion import motion
+from .checked import CAUTION, MOST, MOST_DECIMALS, NEAR, Told, checked_digits, digits_of, nothing
 
 FORMULA_DIGITS = 11  # the formulas hand over to balls where they hold less
 SAMPLE = 16  # states of an array that are checked one by one; where all agree the formulas serve for the rest

@@ -7,6 +7,7 @@ import sys
 from dataclasses import asdict, dataclass
 from hashlib import sha256
 from pathlib import Path
+
 from ...machine import machine, versions
 
 CACHE_SCHEMA = "stabilab.front/1"

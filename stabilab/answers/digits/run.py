@@ -11,18 +11,18 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...physics.attitude import angles, beyond, body_momentum, to_space
-from ...integrate.to_heyoka import TAYLOR_TOLERANCE
 from ...errors import InputError, ToleranceNotMet
-from .front import front, SAFETY
-from .checked import CAUTION, checked_digits, DEFAULT, digits_of, MOST, NEAR
-from ..simulate import simulate, Simulation, STIFF_METHOD
-from ...physics.states import equations_and_start, moved_row, start_of
-from ...integrate.trajectory import FALLBACK_RTOL, SCIPY_METHODS
-from ...physics.to_numpy import to_numpy
-from ...physics.equations import derive
-from .reduced import ladder, reduced
 from ...integrate.reference import reference
+from ...integrate.to_heyoka import TAYLOR_TOLERANCE
+from ...integrate.trajectory import FALLBACK_RTOL, SCIPY_METHODS
+from ...physics.attitude import angles, beyond, body_momentum, to_space
+from ...physics.equations import derive
+from ...physics.states import equations_and_start, moved_row, start_of
+from ...physics.to_numpy import to_numpy
+from ..simulate import STIFF_METHOD, Simulation, simulate
+from .checked import CAUTION, DEFAULT, MOST, NEAR, checked_digits, digits_of
+from .front import SAFETY, front
+from .reduced import ladder, reduced
 
 MANY, REDUCED_FORM = "many digits", "reduced form"
 OWN = ("as simulate chooses", 0.0)  # the finest Taylor series, which costs little more than a coarse one; Radau where the scene is stiff

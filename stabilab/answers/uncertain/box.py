@@ -13,14 +13,13 @@ from functools import cached_property
 
 import numpy as np
 
+from ...errors import InputError
+from ...numbers.affine import EPS, LEAST, Affine, root, sign_over, squared
 from ...physics.body import Body
 from ...physics.effects import effect_class
-from ...errors import InputError
-from ...physics.quadratic import euler_form, QuadraticForm, scaled_form
+from ...physics.quadratic import QuadraticForm, euler_form, scaled_form
 from ...physics.scaling import to_scaled, torque_from_mu
 from ...physics.scene import ScaledGyrostat, Scene
-from ...numbers.affine import Affine, EPS, LEAST, root, sign_over, squared
-
 
 
 @dataclass(frozen=True)

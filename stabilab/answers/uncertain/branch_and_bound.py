@@ -11,8 +11,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...numbers.affine import Affine, EPS, lifted, sign_over
-from .orbit import excess, force, highest_ahead, Orbit, orbit_of, reduction_over, stiffness, TURN
+from ...numbers.affine import EPS, Affine, lifted, sign_over
+from .orbit import TURN, Orbit, excess, force, highest_ahead, orbit_of, reduction_over, stiffness
 
 BATCH = 2048
 CELLS = 32

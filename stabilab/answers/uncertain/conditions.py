@@ -14,8 +14,8 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import NamedTuple
 
-from ...numbers.vectors import CYCLE
 from ...numbers.affine import Affine, squared
+from ...numbers.vectors import CYCLE
 from .orbit import reduction_over
 
 
@@ -87,8 +87,8 @@ def _off_axis(D, lam, M, acting):
     area = sum((squared(c) for c in v), Fraction(0))
     DM, load = [d * m for d, m in zip(D, M)], _dot(lam, M)
     foot = [load * (_dot(M, DM) * m - _dot(M, M) * dm) / area if _there(load) else load for m, dm in zip(M, DM)]
-    pair = lambda x, y: sum((M[i] * gaps[i] * x[j] * y[k] for i, (j, k) in enumerate(CYCLE)), Fraction(0))  # noqa: E731
-    turn = lambda x: sum((M[i] * (lam[j] * x[k] - lam[k] * x[j]) for i, (j, k) in enumerate(CYCLE)), Fraction(0))  # noqa: E731
+    pair = lambda x, y: sum((M[i] * gaps[i] * x[j] * y[k] for i, (j, k) in enumerate(CYCLE)), Fraction(0))
+    turn = lambda x: sum((M[i] * (lam[j] * x[k] - lam[k] * x[j]) for i, (j, k) in enumerate(CYCLE)), Fraction(0))
     q2, q1 = pair(v, v), pair(v, foot) + pair(foot, v) + turn(v)
     q0 = pair(foot, foot) + turn(foot) + sum((squared(m) for m in M), Fraction(0))
     plane = Condition(area, "the torque comes to lie along a principal axis")

@@ -9,10 +9,10 @@ from ...errors import InputError
 from ...numbers.affine import lifted
 from ..equilibria import equilibria
 from .box import Box
-from .conditions import Condition, conditions, known, Unknown
-from .branch_and_bound import branch_and_bound, importance, Parts, Proof, whole
-from .result import bracketed, by_trial, FEWER, Over
-from .search import confirmed, nearest_change, UNKNOWN
+from .branch_and_bound import Parts, Proof, branch_and_bound, importance, whole
+from .conditions import Condition, Unknown, conditions, known
+from .result import FEWER, Over, bracketed, by_trial
+from .search import UNKNOWN, confirmed, nearest_change
 
 
 def equilibria_over(box: Box) -> Over:
@@ -29,7 +29,7 @@ def equilibria_over(box: Box) -> Over:
 
 
 def _without_state(box: Box) -> Box:
-    keep = lambda numbers: {name: v for name, v in numbers.items() if name != "state"}  # noqa: E731
+    keep = lambda numbers: {name: v for name, v in numbers.items() if name != "state"}
     return Box(keep(box.middle), keep(box.half), box.variables)
 
 

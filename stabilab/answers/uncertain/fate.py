@@ -7,19 +7,18 @@ import numpy as np
 
 from ...errors import InputError
 from ...numbers.affine import Affine, lifted, sign_over
-from ..fate import fate
-from ..kinds import kind_of
 from ...orbit.fate.one_state import fate_of
+from ...orbit.fate.reasons import REASONS, Reason
 from ...orbit.potential import derivatives_on_parabola
-from ...orbit.fate.reasons import Reason, REASONS
 from ...orbit.reduction import reduce
 from ...orbit.result import Fate
+from ..fate import fate
+from ..kinds import kind_of
 from .box import Box
-from .orbit import orbit_of, reduction_over
 from .branch_and_bound import Family, Proof, prove
-from .result import bracketed, by_trial, Over, Witness
-from .search import confirmed, nearest_change, UNKNOWN
-
+from .orbit import orbit_of, reduction_over
+from .result import Over, Witness, bracketed, by_trial
+from .search import UNKNOWN, confirmed, nearest_change
 
 UNBOUNDED = "unbounded"
 TIE_STRETCHES = (1e-6, 1e-3, 1.0)
@@ -206,7 +205,7 @@ def _under_law(box, here, answer, numbers, form, axis) -> Over:
     if int(np.ravel(sign_over(along * form.m[axis]))[0]):
         return Over("holds", UNBOUNDED, f"{REASONS[Reason.UNBOUNDED_LAW]}; the axis it ends about is not followed over the box",
                     proved=1.0)
-    whether = lambda point: (found := answer(point)) and (UNBOUNDED if found.startswith("spin-up") else found)  # noqa: E731
+    whether = lambda point: (found := answer(point)) and (UNBOUNDED if found.startswith("spin-up") else found)
     return by_trial(box, whether(np.zeros(len(box.places))), whether,
                     f"the gyrostatic moment along the torque's axis {axis + 1} may vanish or not: where it does not, there is "
                     "no reduction to one degree of freedom, and no motion is bounded")

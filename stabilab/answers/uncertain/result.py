@@ -1,12 +1,12 @@
 """What an uncertain box does to a verdict: holds, depends or undecided, and how far from a change."""
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Callable
 
 import numpy as np
 
-from .search import Change, confirmed, MOST
+from .search import MOST, Change, confirmed
 
 PARTS, FEWER = 60_000, 2_500  # of the box: for the question asked, and for each try to prove more
 NEARER = (0.5, 0.75, 0.9, 0.99, 0.999)  # shares of a change that is there, tried as proved stretches until one fails

@@ -10,10 +10,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ...errors import InputError
-from .result import Over
 from .box import box_of
 from .equilibria import equilibria_over
 from .fate import fate_over
+from .result import Over
 
 
 @dataclass(frozen=True)

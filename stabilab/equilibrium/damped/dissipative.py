@@ -7,16 +7,16 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from ...physics.coefficients import Content
-from ..result import CurveSegment, Equilibria, EquilibriumCurve, EquilibriumPoint
-from .liquid_and_torque import balanced_equilibria
 from ...numbers.balls import many_digits
-from ..field.balance import rotations_at
-from ..field.spectrum import blocks, Field
 from ...numbers.vectors import dot
+from ...physics.coefficients import Content
+from ..field.balance import rotations_at
 from ..field.circles import around
-from .medium import resisted_equilibria
+from ..field.spectrum import Field, blocks
+from ..result import CurveSegment, Equilibria, EquilibriumCurve, EquilibriumPoint
 from .liquid import liquid_equilibria
+from .liquid_and_torque import balanced_equilibria
+from .medium import resisted_equilibria
 
 MINIMUM = ("asymptotically stable", "the potential energy has a strict minimum here and the medium takes energy at every rotation (LaSalle)")
 NO_MINIMUM = ("unstable", "the potential energy is not least here and the medium takes energy at every rotation: states of less energy next to "

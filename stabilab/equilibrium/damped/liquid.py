@@ -16,10 +16,10 @@ from dataclasses import replace
 from fractions import Fraction
 
 from ...numbers.exact import sqrt_fraction
-from ..curve import RationalCurve, sample_parameters, values_inside
+from ...numbers.polynomial import Poly, real_roots
 from ...physics.coefficients import Content, gyrostat_scene, linear_rates
 from ..balance import pencil
-from ...numbers.polynomial import Poly, real_roots
+from ..curve import RationalCurve, sample_parameters, values_inside
 from ..result import CurveSegment, Equilibria, EquilibriumCurve, EquilibriumPoint
 from ..torque_free import torque_free_curves
 

@@ -15,9 +15,9 @@ from fractions import Fraction
 from math import inf, sqrt
 from types import SimpleNamespace
 
+from ...numbers.balls import many_digits, rational
 from ...numbers.vectors import cross, dot
 from ...physics.coefficients import Content, liquid_torque
-from ...numbers.balls import many_digits, rational
 from ..result import Equilibria, EquilibriumPoint
 from .liquid import validity
 

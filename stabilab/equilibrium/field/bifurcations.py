@@ -8,7 +8,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 from .balance import groups_at, secular
-from .spectrum import coefficients, Field
+from .spectrum import Field, coefficients
 
 NEXT_TO = Fraction(1, 2**90)  # of the distance to the next cut: where branches on the two sides of one are compared
 SHARED = Fraction(1, 2**200)

@@ -5,14 +5,14 @@ from fractions import Fraction
 from itertools import combinations
 from math import cos, sin
 
+from ...numbers.balls import rational
+from ...numbers.exact import sqrt_fraction
 from ...physics.coefficients import Content
 from ..result import CurveSegment, EquilibriumCurve
-from ...numbers.balls import rational
 from .balance import Rotation, rotations_at, rounded_gamma
 from .bifurcations import NEXT_TO
 from .spectrum import Field
 from .verdict import judged
-from ...numbers.exact import sqrt_fraction
 
 
 def circles(field: Field, parts: Content):

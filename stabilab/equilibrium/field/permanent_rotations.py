@@ -15,15 +15,15 @@ from __future__ import annotations
 from fractions import Fraction
 
 from ...errors import InputError
-from ...physics.coefficients import Content
-from ..result import CurveSegment, Equilibria, EquilibriumCurve, EquilibriumPoint
 from ...numbers.balls import many_digits
+from ...physics.coefficients import Content
+from ..curve import sample_parameters, values_inside
+from ..result import CurveSegment, Equilibria, EquilibriumCurve, EquilibriumPoint
 from .balance import rotations_at, rounded_gamma
-from .circles import circles
 from .bifurcations import cuts_of, separated, step_at
+from .circles import circles
 from .spectrum import Field
 from .verdict import judged
-from ..curve import sample_parameters, values_inside
 
 SAME = 2.0**-30  # far above the 2**-45 by which a branch differs on the two sides of a cut, far below the distance of two branches
 REASON = ("omega = Omega gamma, and (S - mu) gamma = -b with S = (Omega^2 - N) D - Omega E e3 e3^T, b = Omega Lambda + s: for each Omega one "

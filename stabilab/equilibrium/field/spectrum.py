@@ -15,9 +15,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ...numbers.balls import rational
 from ...numbers.vectors import cross, dot
 from ...physics.coefficients import linear_rates
-from ...numbers.balls import rational
 
 
 @dataclass(frozen=True)

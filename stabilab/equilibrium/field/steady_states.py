@@ -17,13 +17,13 @@ from fractions import Fraction
 from math import tan
 
 from ...errors import InputError
+from ...numbers.balls import many_digits, rational
+from ...numbers.polynomial import Poly, real_roots
 from ...numbers.vectors import CYCLE
 from ...physics.coefficients import Content
-from ...numbers.polynomial import Poly, real_roots
-from ..result import CurveSegment, Equilibria, EquilibriumCurve, EquilibriumPoint
-from .spectrum import blocks, Field
 from ..curve import sample_parameters, values_inside
-from ...numbers.balls import many_digits, rational
+from ..result import CurveSegment, Equilibria, EquilibriumCurve, EquilibriumPoint
+from .spectrum import Field, blocks
 
 TAU = Poly((0, 1))
 COS, SIN, ONE = Poly((1, 0, -1)), Poly((0, 2)), Poly((1, 0, 1))  # times 1 + tau^2

@@ -3,10 +3,10 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+from ...numbers.balls import rational
 from ...numbers.vectors import cross
 from ..result import EquilibriumPoint
-from ...numbers.balls import rational
-from .spectrum import coefficients, Field, second_variation
+from .spectrum import Field, coefficients, second_variation
 
 MINIMUM = ("stable", "energy-Casimir: at constant area integral the energy has a strict minimum on |gamma| = 1 (K positive definite), and it "
                      "persists as the area changes")

@@ -8,14 +8,12 @@ from __future__ import annotations
 import numpy as np
 
 from ...numbers.constants import EPS, TURN
+from ...numbers.roots import bracketed_newton
 from ..landscape import Landscape
 from ..result import Fate
-from ...numbers.roots import bracketed_newton
-from .turning_points import interval, spots_along, turning_point
-from .guards import (
-    clear_of_barriers, DIGITS, EXTREMES_SHARE, into, near_separatrix, needs_digits, on_top, picked, SPIN_UP_SHARE,
-    trapped_rows)
 from .balls import precise_extremes
+from .guards import DIGITS, EXTREMES_SHARE, SPIN_UP_SHARE, clear_of_barriers, into, near_separatrix, needs_digits, on_top, picked, trapped_rows
+from .turning_points import interval, spots_along, turning_point
 
 
 def extremes_of_chunk(land: Landscape, states, decided, start, span=None):

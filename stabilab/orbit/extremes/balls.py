@@ -2,9 +2,9 @@
 wherever else doubles would lose digits. Every digit returned is certain."""
 from __future__ import annotations
 
-from ...numbers.balls import DOUBLE_BITS, settled, sign, START_BITS, working
+from ...numbers.balls import DOUBLE_BITS, START_BITS, settled, sign, working
 from ...numbers.double_ball import Unclear
-from ..ball_orbit import PreciseOrbit, TIE_BITS
+from ..ball_orbit import TIE_BITS, PreciseOrbit
 from ..result import Fate
 
 CERTAIN_BITS = 56  # the balls of the extremes are this much narrower than the component is large

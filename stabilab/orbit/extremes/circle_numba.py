@@ -9,10 +9,10 @@ from functools import lru_cache
 
 import numpy as np
 
+from ...numbers.numba_door import compiled, wanted
+from ..landscape import Landscape
 from . import circle_kernel
 from .circle_kernel import BOX, LINE, NODES, PERIOD
-from ..landscape import Landscape
-from ...numbers.numba_door import compiled, wanted
 
 # Loading numba and its cached code costs 1 to 2 s, compiling it once per machine some ten; NumPy takes some 5 us an orbit.
 COLD, WARM = 1_000_000, 20_000

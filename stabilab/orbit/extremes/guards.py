@@ -1,8 +1,10 @@
 """Which rows of an array doubles cannot answer, and must go to many digits."""
 from __future__ import annotations
+
 import numpy as np
-from ..result import Fate
+
 from ..landscape import Landscape
+from ..result import Fate
 
 EXTREMES_SHARE = 1e-7  # closer to the separatrix than this share of the energy terms, rounding costs extremes 1e-12
 SPIN_UP_SHARE = 1e-4  # the same for the least rate of a motion that just passes a barrier: the root of a difference

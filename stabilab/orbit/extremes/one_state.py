@@ -1,8 +1,10 @@
 """The extremes of one state's motion, without arrays."""
 from __future__ import annotations
+
 from fractions import Fraction
-from ..result import Fate
+
 from ..fate.one_state import as_double, scaled_double
+from ..result import Fate
 from .balls import extreme_balls
 
 

@@ -5,10 +5,10 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from .circle_kernel import way_of_cosine
-from ..landscape import angle_between, Landscape
 from ...numbers.constants import EPS, TURN
 from ...numbers.roots import bracketed_newton
+from ..landscape import Landscape, angle_between
+from .circle_kernel import way_of_cosine
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,7 @@ class Interval:
     haze: np.ndarray
     closest: np.ndarray
 
-    def take(self, rows) -> "Interval":
+    def take(self, rows) -> Interval:
         """Those of some of the states."""
         return Interval(**{field.name: getattr(self, field.name)[..., rows] for field in fields(self)})
 

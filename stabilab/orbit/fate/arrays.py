@@ -12,21 +12,21 @@ from fractions import Fraction
 
 import numpy as np
 
-from .table import barrier_table
-from ..far_states import far_exponent, far_fate, far_rows
-from .table_numba import compiled_loops
-from .free_arrays import label_free
-from .free_margin import is_free
 from ...numbers.constants import EPS, TURN
+from ...physics.states import equilibrium_mask
+from ..far_states import far_exponent, far_fate, far_rows
 from ..landscape import Landscape, landscape
 from ..potential import derivatives_on_parabola
-from .balls import decide
-from .reasons import margin_at_rest, Reason
 from ..reduction import reduce
 from ..result import Fate
+from .balls import decide
 from .by_table import label_by_table
-from .result import empty_columns, FateResult, in_chunks, write_row
-from ...physics.states import equilibrium_mask
+from .free_arrays import label_free
+from .free_margin import is_free
+from .reasons import Reason, margin_at_rest
+from .result import FateResult, empty_columns, in_chunks, write_row
+from .table import barrier_table
+from .table_numba import compiled_loops
 
 TABLE_FROM = 5000  # a table costs some ten milliseconds to build, as much as the general formula needs for these
 MARGIN_SHARE = 5e-13  # of the kinetic energy and the barrier's height: half of the rounding that `fate` admits

@@ -1,7 +1,9 @@
 """The margin of one state decided in balls, with as many digits as it takes."""
 from __future__ import annotations
+
 from typing import NamedTuple
-from ...numbers.balls import DOUBLE_BITS, settled, sign, START_BITS
+
+from ...numbers.balls import DOUBLE_BITS, START_BITS, settled, sign
 from ...numbers.double_ball import Unclear
 from ..ball_orbit import PreciseOrbit
 from .tie import exact_tie

@@ -3,10 +3,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from . import table_kernel as arithmetic
-from .table_kernel import ANGLE, BEND, BULK, GROWTH, HIGH, LEAD, LOW, ORIGIN, SIDE, SIGN, STEEP, WIDTH
-from .table import BarrierTable
 from ...numbers.constants import TURN
+from . import table_kernel as arithmetic
+from .table import BarrierTable
+from .table_kernel import ANGLE, BEND, BULK, GROWTH, HIGH, LEAD, LOW, ORIGIN, SIDE, SIGN, STEEP, WIDTH
 
 CHUNK = 8192  # a dozen temporary arrays of this length fit a core's own cache
 KEPT = 1 << 22  # bytes, more than all temporary arrays of a chunk; fresh pages for them would double the time

@@ -16,11 +16,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .free_margin import free_margin, free_middle
 from ...numbers.constants import EPS
-from .reasons import Reason
-from ..result import Fate
 from ...numbers.roots import bracketed_newton
+from ..result import Fate
+from .free_margin import free_margin, free_middle
+from .reasons import Reason
 
 SURE = 16  # times the estimate of rounding: so far from zero a margin's sign is certain
 OWN = 1e9  # times that estimate a margin exceeds it, or many digits are asked: so it keeps nine of its own, near a saddle too
@@ -56,7 +56,7 @@ def saddles_of(scene) -> Saddles:
     D, lam, middle = scene.body.exact, scene.vector("gyrostat"), sorted(scene.body.exact)[1]
     largest = float(max(map(abs, lam)))
     unit = 2.0 ** min(int(np.frexp(largest)[1]), 1023) if largest else 1.0
-    floats = lambda values: np.array([float(v) for v in values])  # noqa: E731
+    floats = lambda values: np.array([float(v) for v in values])
     found = Saddles(floats(D), floats(lam) / unit, unit, float(middle), floats(middle - d for d in D), (), np.inf)
     with np.errstate(all="ignore"):
         if free_middle(D, lam):
@@ -85,7 +85,7 @@ def _branch(saddles, side) -> Branch | None:
     """The branch on one side of the middle moment: where `side` times the fall is positive."""
     reach = float((-side * saddles.gaps).max())
     pole = bool((saddles.lam[saddles.gaps == 0] != 0).any())
-    rising = lambda r: side * _fall(saddles, side * np.array([r]))[0] > 0  # noqa: E731
+    rising = lambda r: side * _fall(saddles, side * np.array([r]))[0] > 0
     if not reach > 0 or not saddles.lam.any() or not (pole or rising(0.0)):
         return None
     end = reach if (saddles.lam[-side * saddles.gaps == reach] == 0).all() and rising(reach) else _fold(rising, reach)

@@ -27,7 +27,7 @@ from fractions import Fraction
 from math import isinf, nan
 from typing import NamedTuple
 
-from ...numbers.balls import DOUBLE_BITS, settled, sign, START_BITS
+from ...numbers.balls import DOUBLE_BITS, START_BITS, settled, sign
 from ...numbers.double_ball import Unclear
 from ...numbers.flint_polynomial import polynomial, shares_root
 from ...numbers.polynomial import Poly
@@ -134,7 +134,7 @@ class _Momenta:
     def saddles(self, numbers):
         """[(energy as a ball, whether it is the motion's)], the second a function without arguments."""
         level = self._numerator({d: d * w for d, w in self.w.items()}, Poly((1,)), 2 * self.energy)
-        same = lambda s: lambda: shares_root(polynomial(*self.sphere.c), polynomial(*level.c), s)  # noqa: E731
+        same = lambda s: lambda: shares_root(polynomial(*self.sphere.c), polynomial(*level.c), s)
         found = [(self._height(s, numbers.ball), same(s)) for s in self._speeds(numbers)]
         middle = self._about_middle()
         return found if middle is None else [*found, (numbers.ball(middle), lambda: middle == self.energy)]

@@ -12,12 +12,12 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from ...numbers.balls import DOUBLE_BITS, settled, working
-from .free_margin import free_margin, is_free
-from .balls import decide
-from ..ball_orbit import PreciseOrbit
-from .reasons import margin_at_rest, Reason, REASONS
 from ...physics.quadratic import rests
+from ..ball_orbit import PreciseOrbit
 from ..result import Fate
+from .balls import decide
+from .free_margin import free_margin, is_free
+from .reasons import REASONS, Reason, margin_at_rest
 
 INF = math.inf
 

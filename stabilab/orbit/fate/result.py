@@ -1,13 +1,15 @@
 """Fates and margins of arrays as data."""
 from __future__ import annotations
+
 from dataclasses import dataclass, field
 from functools import cached_property
-import numpy as np
-from ..result import Fate
-from ..far_states import BEYOND
-from .reasons import Reason, REASONS
-from ..separatrix.distance import separatrix_distance
 
+import numpy as np
+
+from ..far_states import BEYOND
+from ..result import Fate
+from ..separatrix.distance import separatrix_distance
+from .reasons import REASONS, Reason
 
 CHUNK = 16384  # states at a time: a dozen arrays of so many doubles stay in the processor's caches
 

@@ -13,9 +13,9 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 
-from .table_kernel import DEGREE
 from ...numbers.constants import EPS, TURN
 from ..landscape import Landscape, landscape
+from .table_kernel import DEGREE
 
 CELLS = (512, 2048, 8192)  # tried in turn
 GAPS = 0.002  # share of cells that may be left out before more cells are tried

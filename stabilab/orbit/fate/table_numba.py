@@ -3,8 +3,8 @@ from __future__ import annotations
 
 from functools import lru_cache
 
-from . import table_kernel as arithmetic
 from ...numbers.numba_door import wanted
+from . import table_kernel as arithmetic
 
 HELPERS = ("angle", "logarithm", "cell_position", "height_polynomial", "angle_polynomial", "circle_height",
            "force", "terms", "ahead", "trusted", "fold_is_clear", "hyperbola_scale", "places", "polar", "positions",

@@ -11,14 +11,14 @@ import numpy as np
 
 from ...errors import InputError
 from ...physics.states import checked_states
-from .in_doubles import constants, ordinary
-from .panels import Panels, Passing, POINTS, Turn, Turning, turning_offset
-from .profile import Relief, relief
-from .periodic import Around, Between, by_samples, ByPanels, BySeries, DIP, Resting, Rotation, ROTATION_SAMPLES, SAMPLES
+from ..period.one_state import period_of
 from ..result import Fate
+from .in_doubles import constants, ordinary
+from .panels import POINTS, Panels, Passing, Turn, Turning, turning_offset
+from .periodic import DIP, ROTATION_SAMPLES, SAMPLES, Around, Between, ByPanels, BySeries, Resting, Rotation, by_samples
+from .profile import Relief, relief
 from .spin_up import SpinUp
 from .table import tabulated
-from ..period.one_state import period_of
 
 PERIODS_AGREE = 1e-10  # ten times what either is off by
 MANY = 2000  # times that are worth a table

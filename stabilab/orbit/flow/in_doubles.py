@@ -17,8 +17,8 @@ from ...errors import InputError
 from ...physics.coefficients import effective
 from ..reduction import reduce
 from .panels import POINTS
+from .periodic import ROTATION_SAMPLES, SAMPLES, Around, Between, BySeries, Rotation, by_samples
 from .profile import TURN
-from .periodic import Around, Between, by_samples, BySeries, Rotation, ROTATION_SAMPLES, SAMPLES
 from .spin_up import SpinUp
 
 LOST = 24.0  # terms of the force or the energy against what is left of them: roundings that count in the answer

@@ -13,7 +13,7 @@ from functools import lru_cache
 import numpy as np
 
 from ...errors import InputError
-from .profile import Arrays, EPS, Plain, TURN
+from .profile import EPS, TURN, Arrays, Plain
 
 POINTS = 16
 FIXED = TURN / 8  # longest panel

@@ -14,8 +14,8 @@ from functools import cached_property
 import numpy as np
 
 from ...errors import InputError
-from .fourier import EvenPhase, NOISE, Phase, Rule
-from .profile import Arrays, Plain, TURN
+from .fourier import NOISE, EvenPhase, Phase, Rule
+from .profile import TURN, Arrays, Plain
 
 SAMPLES = (48, 96, 192)  # over a turn of phi, for the time
 PHASES = (48, 96, 192, 384)  # for the phase

@@ -14,7 +14,7 @@ import numpy as np
 
 from ...numbers.balls import settled
 from ...numbers.double_ball import Unclear
-from ..ball_orbit import PreciseOrbit, TIE_BITS
+from ..ball_orbit import TIE_BITS, PreciseOrbit
 
 SURE_BITS = 60  # relative accuracy of a ball that is rounded to a double
 FLOOR_BITS = 90  # a sum of terms whose ball is smaller than its terms by so many bits counts as zero

@@ -19,9 +19,9 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from ...errors import InputError
-from .panels import clenshaw, inverted, Panels, Passing, POINTS, rule, Turn, Turning, turning_offset
-from .profile import Arrays, Plain, TURN
+from .panels import POINTS, Panels, Passing, Turn, Turning, clenshaw, inverted, rule, turning_offset
 from .periodic import Motion
+from .profile import TURN, Arrays, Plain
 
 SMOOTH = 12.0  # kinetic energy in units of a turn's work: beyond it `TERMS` of the sum below end at 1e-17
 TERMS = 9

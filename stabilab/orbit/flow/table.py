@@ -6,8 +6,8 @@ from functools import lru_cache
 
 import numpy as np
 
-from .profile import TURN
 from .periodic import Motion
+from .profile import TURN
 
 PARTS = (48, 96, 192, 384)
 DEGREE = 11

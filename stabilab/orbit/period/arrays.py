@@ -9,14 +9,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..extremes.circle_kernel import divided_pair, ENOUGH, NARROW, NODES
-from ..extremes.guards import clear_of_barriers, near_separatrix, needs_digits, picked, trapped_rows
 from ...numbers.constants import EPS, TURN
+from ..extremes.circle_kernel import ENOUGH, NARROW, NODES, divided_pair
+from ..extremes.guards import clear_of_barriers, near_separatrix, needs_digits, picked, trapped_rows
+from ..extremes.turning_points import interval
 from ..landscape import Landscape
 from ..result import Fate
-from ..extremes.turning_points import interval
-from .modes import Modes
 from .balls import precise_period
+from .modes import Modes
 
 PERIOD_SHARE = 1e-5  # closer to the separatrix than this share of the energy terms, rounding costs the period 1e-11
 DIGITS = 1e-11  # rounding that leaves less than this goes to ball arithmetic

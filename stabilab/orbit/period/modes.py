@@ -1,5 +1,6 @@
 """Second divided differences of the potential, mode by mode, without cancellation."""
 from __future__ import annotations
+
 import numpy as np
 
 

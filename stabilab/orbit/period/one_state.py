@@ -9,11 +9,11 @@ from __future__ import annotations
 
 import math
 
-from ...numbers.double_ball import EPS, Unclear
-from ..potential import potential
 from ...numbers.balls import DOUBLE_BITS, settled
+from ...numbers.double_ball import EPS, Unclear
 from ..ball_orbit import PreciseOrbit
 from ..extremes.balls import turning_points
+from ..potential import potential
 from ..result import Fate
 from .balls import precise_period
 

@@ -6,7 +6,7 @@ numba's cache on disk watches no other. Arrays come from the caller.
 """
 from __future__ import annotations
 
-from math import acos, atan, atan2, cos, copysign, log1p, pi, sin, sinh, sqrt
+from math import acos, atan, atan2, copysign, cos, log1p, pi, sin, sinh, sqrt
 
 EPS = 2.220446049250313e-16
 TURN = 2 * pi

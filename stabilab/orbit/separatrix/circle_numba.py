@@ -8,9 +8,9 @@ from functools import lru_cache
 
 import numpy as np
 
-from . import circle_kernel as circle_loops
-from .grid import DENSE, fewest_cells, finer, FLOOR, MIXTURES, MOST, ROUNDS, shrinks, STRAIGHT, TRIAL, UNIFORM
 from ...numbers.numba_door import compiled
+from . import circle_kernel as circle_loops
+from .grid import DENSE, FLOOR, MIXTURES, MOST, ROUNDS, STRAIGHT, TRIAL, UNIFORM, fewest_cells, finer, shrinks
 
 GRADING = (FLOOR, STRAIGHT, UNIFORM, DENSE, MIXTURES)
 EVEN = np.linspace(0, 1, TRIAL)

@@ -20,16 +20,16 @@ from typing import NamedTuple
 
 from ...numbers.balls import DOUBLE_BITS
 from ...numbers.double_ball import Unclear
-from ..conic import Conic
-from .nearest import nearest
-from .parabola_chart import parabola_seen, ParabolaChart, rectangle
-from .plane_chart import plane_roots, PlaneChart
-from ..fate.balls import decide
-from .sheet_chart import Chart, EPS, Hyperbola, ROUNDINGS, Seen, Straight
-from .shade import Shade
-from ..reduction import reduce
 from ...physics.alignment import aligned
+from ..conic import Conic
+from ..fate.balls import decide
+from ..reduction import reduce
+from .nearest import nearest
+from .parabola_chart import ParabolaChart, parabola_seen, rectangle
+from .plane_chart import PlaneChart, plane_roots
 from .saddles import foot
+from .shade import Shade
+from .sheet_chart import EPS, ROUNDINGS, Chart, Hyperbola, Seen, Straight
 
 AGREE = 1e-9  # relative: nearer than that, lower bound and witness are one number
 LEAST_SHARE = 1e-90  # of a place beside a plane: nearer, and the chart of the loops themselves goes on alone

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .circle_kernel import NONE, SHARED, SHARPEST
-from ..landscape import angle_between
 from ...numbers.constants import TURN
+from ..landscape import angle_between
+from .circle_kernel import NONE, SHARED, SHARPEST
 from .homoclinic import loop_end
 
 
@@ -50,7 +50,7 @@ class Loops:
     w: np.ndarray
     points: np.ndarray
 
-    def at_rows(self, rows) -> "Loops":
+    def at_rows(self, rows) -> Loops:
         """The loops of some rows only."""
         return Loops(*(v[:, :, rows] if name in ("saddle", "centre") else v[:, rows] for name, v in vars(self).items()))
 

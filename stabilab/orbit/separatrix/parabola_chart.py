@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 
-from .sheet_chart import Chart, EPS, Point, ROUNDINGS
+from .sheet_chart import EPS, ROUNDINGS, Chart, Point
 from .spans import Span
 
 

@@ -12,15 +12,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from .result import Separatrix, Sheet
+from ...errors import InputError
+from ...numbers.numba_door import wanted
 from ...physics.coefficients import effective
 from ..landscape import landscape
-from .homoclinic_arrays import residual
-from ...numbers.numba_door import wanted
-from .saddles import limit_of, saddle_branches, sides
-from .grid import grid
 from .circle_numba import serves, sheets_by_kernel
-from ...errors import InputError
+from .grid import grid
+from .homoclinic_arrays import residual
+from .result import Separatrix, Sheet
+from .saddles import limit_of, saddle_branches, sides
 
 SHAPE = (96, 129)  # fine enough for pictures
 

@@ -5,9 +5,10 @@ The formulas use arithmetic only, so the same lines serve SymPy symbols, floats,
 """
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Callable, ClassVar
+from typing import ClassVar
 
 Triple = tuple
 

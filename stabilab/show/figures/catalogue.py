@@ -4,13 +4,18 @@ from __future__ import annotations
 from functools import partial
 from pathlib import Path
 
-from ...errors import InputError
-from . import (
-    cavity as figures_cavity, charged as figures_charged, major_axis as major, middle_axis as middle,
-    minor_axis as minor, paper, top as figures_top)
-from .. import style
-from .figure import Figure
 from stabilab import __version__
+
+from ...errors import InputError
+from .. import style
+from . import cavity as figures_cavity
+from . import charged as figures_charged
+from . import major_axis as major
+from . import middle_axis as middle
+from . import minor_axis as minor
+from . import paper
+from . import top as figures_top
+from .figure import Figure
 
 _LEVEL = "curves: level sets of the exact potential, in doubles"
 _LAW = ("x2² + x3² − 2(b−a)x1 falls by exactly 2(b−a)τ, so no motion is bounded and there is no equilibrium, stable or "

@@ -6,12 +6,13 @@ from functools import partial
 
 import numpy as np
 
-from . import panels
-from .figure import Figure, listed
-from ...theories.charged.validity import horizon as until, horizon
+from ...theories.charged.corrected import one_frequency
 from ...theories.charged.model import body_of
 from ...theories.charged.printed import circle as by_35
-from ...theories.charged.corrected import one_frequency
+from ...theories.charged.validity import horizon
+from ...theories.charged.validity import horizon as until
+from . import panels
+from .figure import Figure, listed
 
 PAPER = "Galal et al., charged rigid body with a gyrostatic moment (short form: Elneklawy)"
 SWEEP, SPAN, POINTS = "charged-sweep", 50.0, 2001

@@ -1,8 +1,8 @@
 """One figure of a paper: its number, what it shows, what the paper printed, and how to draw it."""
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Callable
 
 
 @dataclass(frozen=True)

@@ -5,12 +5,12 @@ from functools import lru_cache
 
 import numpy as np
 
-from . import paper
-from .. import style
-from .figure import listed
 from ...answers.trajectory import trajectory
-from ...unreduced.growth import captured_fate
 from ...physics.scaling import to_scaled
+from ...unreduced.growth import captured_fate
+from .. import style
+from . import paper
+from .figure import listed
 
 PLANES = {"13": (0, 2), "23": (1, 2), "12": (0, 1)}
 

@@ -3,10 +3,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from . import paper
-from .. import style
 from ...orbit.phase_plane import motion_curve, phase_plane
-from .minor_axis import exactness as of_sheets, sheets
+from .. import style
+from . import paper
+from .minor_axis import exactness as of_sheets
+from .minor_axis import sheets
 
 LAMBDA_BEYOND = 1250  # c = b - a = 2.5, beyond the cusp 1.7548: there a figure-eight separatrix does exist
 CUSP = 4 * 3**-0.75

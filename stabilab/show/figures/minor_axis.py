@@ -5,13 +5,13 @@ from functools import lru_cache
 
 import numpy as np
 
-from . import paper
-from .. import style
-from .figure import listed
-from ...orbit.phase_plane import motion_curve, phase_plane
-from ..plane import draw
-from ...orbit.separatrix.sheets import separatrix
 from ...answers.trajectory import trajectory
+from ...orbit.phase_plane import motion_curve, phase_plane
+from ...orbit.separatrix.sheets import separatrix
+from .. import style
+from ..plane import draw
+from . import paper
+from .figure import listed
 
 WINDOW = (-6.9, 9.6)  # alpha = 2 theta: both wells and their saddles; the plane repeats every 4 pi
 PRINTED_FIG4 = {100: ((0.0, 6.2), (-3.0, 3.3)), 300: ((0.19, 6.15), (-3.1, 3.29)), 500: ((0.32, 5.8), (-3.13, 3.28))}

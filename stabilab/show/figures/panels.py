@@ -11,10 +11,10 @@ from functools import lru_cache
 
 import numpy as np
 
+from ...theories.comparison import side_by_side
 from .. import style
 from ..text.comparison import LOOKS
 from ..text.table import cases_folder
-from ...theories.comparison import side_by_side
 
 TIME = "t (s)"
 THIN = {"linewidth": 1.0, "antialiased": False}

@@ -6,11 +6,11 @@ from functools import lru_cache, partial
 
 import numpy as np
 
-from . import panels
-from .figure import Figure
 from ...theories.top.euler_angles import euler_angles
 from ...theories.top.printed import printed
 from ...theories.top.scaling import fast_top
+from . import panels
+from .figure import Figure
 
 PAPER = "Amer, Amer, Galal 2023, rigid body in a Newtonian field with a gyrostatic moment"
 SPAN, POINTS, ORDER = 1.3, 2601, 2

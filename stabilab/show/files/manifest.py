@@ -10,10 +10,11 @@ import os
 from contextlib import contextmanager
 from pathlib import Path
 
+from stabilab import __version__
+
 from ... import files
 from ...errors import InputError
 from . import endings
-from stabilab import __version__
 
 SCHEMA, NAME = "stabilab.manifest/1", "manifest.json"
 TIMED = ("precision.html", "precision/", "growth.html", "growth.csv", "growth/", "effects.html",

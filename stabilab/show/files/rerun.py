@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 
-from ...errors import InputError, NO_RENDERING, OK, StabilabError, ToleranceNotMet
+from ...errors import NO_RENDERING, OK, InputError, StabilabError, ToleranceNotMet
 from ...interrupt import undoing
 from . import endings, manifest
 

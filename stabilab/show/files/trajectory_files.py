@@ -3,12 +3,13 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ...physics.blocks import PARTS
-from ...packages import demand
-from . import endings
-from ...files import whole_file
 from stabilab import __version__
+
+from ...files import whole_file
+from ...packages import demand
+from ...physics.blocks import PARTS
 from ..text.answers import columns
+from . import endings
 
 
 def checked(path) -> Path:
@@ -36,8 +37,8 @@ def _csv(case, run, path):
 
 
 def _netcdf(case, run, path):
-    import xarray
     import numpy as np
+    import xarray
     time = "t" if case.variables == "physical" else "tau"
     parts = {name: ((time, "axis")[:np.ndim(values)], values, {"units": PARTS[name].unit or "1", "long_name": PARTS[name].words})
              for name, values in run.state.items()}

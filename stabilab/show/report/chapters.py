@@ -8,21 +8,22 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from collections.abc import Callable
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Callable
 
 import numpy as np
 
 from ...errors import StabilabError
 from ...interrupt import end_with_parent, undoing
-from . import claims
-from ..text import comparison
-from ..figures import catalogue as figures, panels
-from .. import style
 from ...physics.equations import derive
 from ...theories.comparison import compare, side_by_side
+from .. import style
+from ..figures import catalogue as figures
+from ..figures import panels
+from ..text import comparison
+from . import claims
 
 
 @dataclass(frozen=True)

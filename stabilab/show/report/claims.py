@@ -5,12 +5,14 @@ import math
 
 import numpy as np
 
-from ..figures import cavity as figures_cavity, charged as figures_charged, panels
-from ..figures.figure import listed
-from ...theories.charged.validity import horizon
 from ...theories.charged.model import body_of
+from ...theories.charged.validity import horizon
 from ...theories.top.printed import paper_numbers
 from ...theories.top.scaling import fast_top
+from ..figures import cavity as figures_cavity
+from ..figures import charged as figures_charged
+from ..figures import panels
+from ..figures.figure import listed
 from ..figures.top import ORDER, POINTS, SPAN
 
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 from dataclasses import astuple, fields
 from pathlib import Path
 
-from ...cost.growth import Growth, NODE_DIGITS, with_closeness, with_digits, with_states
-from . import html
+from ...cost.growth import NODE_DIGITS, Growth, with_closeness, with_digits, with_states
 from .. import style
 from ..text.precision_words import caption, duration
+from . import html
 
 LOOKS = {("fate", "NumPy"): {"color": style.BLUE, "marker": "o"}, ("fate", "numba"): {"color": style.BLUE, "marker": "s", "linestyle": "--"},
          ("extremes", "NumPy"): {"color": style.GREEN, "marker": "o"}, ("extremes", "numba"): {"color": style.GREEN, "marker": "s", "linestyle": "--"},

@@ -3,10 +3,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ...cost.effects import alone, counted, EXAMPLES, imported, ladder, MANY, NOTHING, timed, zero_is_absent
-from . import html
+from ...cost.effects import EXAMPLES, MANY, NOTHING, alone, counted, imported, ladder, timed, zero_is_absent
 from .. import style
 from ..text.precision_words import caption, duration
+from . import html
 
 PICTURE = "effects.png"
 

@@ -11,9 +11,10 @@ from pathlib import Path
 
 import numpy as np
 
-from .. import style
-from ...cost.drift import Drift, drifts, EPS, growth, spread, starts
 from stabilab import __version__
+
+from ...cost.drift import EPS, Drift, drifts, growth, spread, starts
+from .. import style
 
 NAMES = {"circle": "A², radius of the circle squared", "energy": "energy"}
 

@@ -3,12 +3,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from . import html
-from ..text.precision import write
-from ..text.precision_words import caption, duration, setting, words
-from ...physics.equations import derive
 from ...cost import accuracy as measuring
 from ...errors import InputError
+from ...physics.equations import derive
+from ..text.precision import write
+from ..text.precision_words import caption, duration, setting, words
+from . import html
 
 PRICED = (3, 6, 9, 12)  # digits of the table over all cases
 

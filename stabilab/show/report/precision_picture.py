@@ -4,10 +4,10 @@ from __future__ import annotations
 import math
 import textwrap
 
-from ...cost.accuracy import digit_price, EPS
+from ...cost.accuracy import EPS, digit_price
 from ...errors import InputError
 from .. import style
-from ..text.precision_words import caption, FORMULAS, methods, price, title
+from ..text.precision_words import FORMULAS, caption, methods, price, title
 
 LOOKS = {  # method -> how its line is drawn; the same in every picture
     "taylor": {"color": style.BLUE, "marker": "o"}, "taylor-batch": {"color": style.SKY, "marker": "o", "linestyle": "--"},

@@ -9,26 +9,28 @@ from pathlib import Path
 
 import numpy as np
 
+from stabilab import __version__
+
+from ...answers.equilibria import equilibria
+from ...answers.motion import motion
+from ...case.read import load_all
 from ...errors import StabilabError
 from ...interrupt import undoing
-from ...packages import cure, demand, present
-from . import chapters, cost_growth, effect_cost, html, precision_page
-from ..figures import catalogue as figures, paper
-from ..files import manifest
-from .. import style
-from ..surface import write as surface
-from ..text import frame, table
-from stabilab import __version__
-from ...case.read import load_all
-from ...theories.audit import check
-from ..surface.render_probe import probe
 from ...orbit.separatrix.sheets import separatrix
+from ...packages import cure, demand, present
 from ...physics.equations import derive
 from ...physics.laws import invariants
 from ...physics.notation import latex, lines
-from ...answers.equilibria import equilibria
-from ...answers.motion import motion
+from ...theories.audit import check
+from .. import style
+from ..figures import catalogue as figures
+from ..figures import paper
+from ..files import manifest
 from ..plane import plot
+from ..surface import write as surface
+from ..surface.render_probe import probe
+from ..text import frame, table
+from . import chapters, cost_growth, effect_cost, html, precision_page
 
 PACKAGES = ("numpy", "scipy", "sympy", "heyoka", "matplotlib", "vtk", "pyvista", "python-flint")
 TOLERANCES = {"verdicts, fates, periods": "exact structure of the equations, to rounding", "extremes": "roots, to rounding",

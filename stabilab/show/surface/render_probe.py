@@ -7,7 +7,7 @@ import sys
 from dataclasses import dataclass
 from functools import lru_cache
 
-from ...packages import cure, INSTALLED_AS, present
+from ...packages import INSTALLED_AS, cure, present
 
 NEEDED = ("vtkmodules", "pyvista", "matplotlib", "PIL")  # the scene, its plotter, and the letters of the legend
 CURE = "apt install libegl1 libgl1-mesa-dri"

@@ -9,15 +9,15 @@ from pathlib import Path
 
 import numpy as np
 
+from ...answers.equilibria import equilibria
 from ...case.read import blamed_on
 from ...errors import RenderingUnavailable, StabilabError
-from ...packages import present
-from ..files import endings, manifest
-from .. import style
-from .mesh import glb, Mesh, normals, stl, triangulate
-from .render_probe import probe, use
 from ...orbit.separatrix.sheets import separatrix
-from ...answers.equilibria import equilibria
+from ...packages import present
+from .. import style
+from ..files import endings, manifest
+from .mesh import Mesh, glb, normals, stl, triangulate
+from .render_probe import probe, use
 
 SCHEMA = "stabilab.surface/1"
 
@@ -302,8 +302,7 @@ def _scene_archive(window) -> bytes:
     """
     import zipfile
 
-    from trame_vtk.modules.vtk.serializers import (SynchronizationContext, extract_array_hash, initialize_serializers,
-                                                   reference_id, serialize)
+    from trame_vtk.modules.vtk.serializers import SynchronizationContext, extract_array_hash, initialize_serializers, reference_id, serialize
     initialize_serializers()
     context = SynchronizationContext()
     context.set_ignore_last_dependencies(True)

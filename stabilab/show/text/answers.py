@@ -3,8 +3,8 @@ from __future__ import annotations
 
 import math
 
-from . import frame
 from ...physics.blocks import PARTS
+from . import frame
 
 UNITS = {"physical": ("rad/s", "s", "J"), "scaled": ("", "tau", "")}
 

@@ -5,10 +5,10 @@ from pathlib import Path
 
 import numpy as np
 
-from ...theories.theory import lines as told
 from ...physics.blocks import PARTS
-from ..files import endings
+from ...theories.theory import lines as told
 from .. import style
+from ..files import endings
 
 LOOKS = {"exact": {"color": style.BLACK, "linewidth": 2.2}, "linear": {"color": style.BLUE, "linewidth": 1.4, "linestyle": "--"},
          "corrected": {"color": style.PURPLE, "linewidth": 1.5, "linestyle": "-."},

@@ -5,6 +5,7 @@ import os
 import platform
 import re
 from importlib import metadata
+
 from ..surface.render_probe import probe
 
 

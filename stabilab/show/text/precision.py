@@ -7,8 +7,8 @@ from pathlib import Path
 from ...cost.accuracy import digit_price
 from ...machine import machine, versions
 from ...packages import demand
-from ..files import endings
 from .. import style
+from ..files import endings
 from ..report.precision_picture import picture
 from .precision_words import caption, duration, methods, setting, title, words
 

@@ -1,11 +1,11 @@
 """The scene in words, its equations of motion, and the laws that hold for it."""
 from __future__ import annotations
-from ...physics.equations import derive
-from ...physics.laws import invariants
-from ...physics.notation import latex, lines
 
 import math
 
+from ...physics.equations import derive
+from ...physics.laws import invariants
+from ...physics.notation import latex, lines
 from . import frame
 
 

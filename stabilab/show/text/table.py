@@ -9,11 +9,11 @@ import os
 from dataclasses import dataclass
 from pathlib import Path
 
-from ...errors import InputError
-from ..figures import paper
-from .. import style
-from ...equilibrium.torque_table import torque_table
 from ...answers.motion import motion
+from ...equilibrium.torque_table import torque_table
+from ...errors import InputError
+from .. import style
+from ..figures import paper
 
 SHOWN_DIGITS = 6  # in the readable formats; the CSV holds every double in full
 

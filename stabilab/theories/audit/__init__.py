@@ -4,7 +4,7 @@ from __future__ import annotations
 from functools import lru_cache
 from importlib import import_module
 
-from .published import examine, Finding, Published
+from .published import Finding, Published, examine
 
 PAPERS = {  # paper -> modules that hold its rows, in the order of the paper
     "Amer et al. 2024, Sci. Rep. (constant torque, gyrostat)":

@@ -1,7 +1,7 @@
 """Amer et al. 2024: the equations, their scaling, the equilibria under any torque (eqs (1)-(12))."""
 from __future__ import annotations
 
-from .published import generic, number, parse, Published, symbols
+from .published import Published, generic, number, parse, symbols
 
 DATA = (2000, 1500, 1000)
 

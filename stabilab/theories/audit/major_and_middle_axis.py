@@ -3,11 +3,11 @@ from __future__ import annotations
 
 import math
 
-from .general import major_axis_ideal
-from .published import drift, generic, middle_equilibria, misjudged, number, parse, Published, symbols
-from ...physics.scene import ScaledGyrostat
 from ...physics.body import Body
 from ...physics.scaling import scaling
+from ...physics.scene import ScaledGyrostat
+from .general import major_axis_ideal
+from .published import Published, drift, generic, middle_equilibria, misjudged, number, parse, symbols
 
 # Figs 8-11: ranges of x2 and x3 over tau in [0, 15] from (4.5, 1.8, 3.4); lambda1 -> ((x2), (x3)); printed in the
 # text, and from the equations (Taylor integration; the smallest and largest value of the dense output).

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import math
 
-from .published import drift, minor_equilibria, misjudged, number, parse, Published
+from .published import Published, drift, minor_equilibria, misjudged, number, parse
 
 # Saddles and centres of Fig. 4 in alpha = 2 atan2(x1 + a, x2): lambda1 -> (left saddle, right saddle, left centre,
 # right centre); printed, and roots of 1 + A cos(alpha/2) (A sin(alpha/2) + c) = 0.

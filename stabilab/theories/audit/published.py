@@ -5,9 +5,9 @@ that vanishes when the formula is true; each row says of what it is the residual
 """
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Callable
 
 TRUE_BELOW = 1e-12   # residuals are evaluated with 30 digits or as exact counts; a false formula leaves 1e-3 or more
 FALSE_ABOVE = 1e-3

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .normal_form import constants, NAMES, normal_form
+from .normal_form import NAMES, constants, normal_form
 
 
 @dataclass(frozen=True)

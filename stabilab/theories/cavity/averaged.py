@@ -12,9 +12,9 @@ from functools import lru_cache
 
 import numpy as np
 
-from ...physics.to_numpy import lambdified
 from ...errors import InputError
-from .normal_form import check, constants, NAMES, normal_form
+from ...physics.to_numpy import lambdified
+from .normal_form import NAMES, check, constants, normal_form
 
 RTOL = 1e-10  # the equations themselves are true to eps^2 at best
 # Width of the band of slow turn in which phases are kept, as a share of (|d| |omega| + |Gamma|)/J0: in powers of e it

@@ -3,11 +3,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...errors import InputError
 from ...answers.simulate import Simulation
+from ...errors import InputError
+from .averaged import averaged
 from .normal_form import check
 from .printed import printed
-from .averaged import averaged
 
 MODELS = ("averaged1", "averaged2", "printed")
 

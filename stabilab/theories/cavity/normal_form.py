@@ -15,8 +15,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import lru_cache
 
-from ...physics.equations import derive
 from ...errors import InputError
+from ...physics.equations import derive
 
 ORDERS = 3  # X0, X1, X2
 ALLOWED = {"gyrostat", "constant_torque", "charge", "resistance", "liquid_cavity"}

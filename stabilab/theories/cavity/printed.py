@@ -20,10 +20,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ...answers.trajectory import trajectory
 from ...errors import InputError
 from .averaged import omega_of, times_row
 from .normal_form import check, constants
-from ...answers.trajectory import trajectory
 
 GRID = 2001  # times at which the departure is looked for; the crossing is interpolated
 LEVELS = (0.01, 0.1)

@@ -10,10 +10,10 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ...errors import InputError
-from .partial_fractions import fractions
-from .validity import horizon, SMALL_ANGLE
 from .modes import ChargedBody, modes, resonances
+from .partial_fractions import fractions
 from .terms import Terms
+from .validity import SMALL_ANGLE, horizon
 
 WITHIN, BEYOND = "small angles", "beyond small angles"
 

@@ -16,11 +16,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...errors import InputError
+from ...numbers.double_double import twofold
 from .closed_form import times, verdict
-from .validity import horizon, SMALL_ANGLE
 from .modes import ChargedBody, modes
 from .terms import Terms
-from ...numbers.double_double import twofold
+from .validity import SMALL_ANGLE, horizon
 
 
 @dataclass(frozen=True, eq=False)

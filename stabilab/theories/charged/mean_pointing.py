@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .validity import tilt_parts
 from .modes import ChargedBody
+from .validity import tilt_parts
 
 
 @dataclass(frozen=True, eq=False)

@@ -4,11 +4,11 @@ from __future__ import annotations
 from fractions import Fraction
 
 from ...answers.simulate import Simulation
-from .modes import ChargedBody
-from .validity import spin_words
 from .closed_form import solution
-from .printed import printed
 from .corrected import corrected
+from .modes import ChargedBody
+from .printed import printed
+from .validity import spin_words
 
 MODELS = ("linear", "corrected", "printed")
 NEARLY = Fraction(1, 10)  # D1 - D2 over D1 up to which a body counts as nearly axisymmetric

@@ -11,9 +11,9 @@ from math import factorial
 
 import numpy as np
 
+from ...numbers.error_free import exact_product
 from .modes import ChargedBody, modes
 from .terms import Terms
-from ...numbers.error_free import exact_product
 
 # |difference of two frequencies| t from which on the fractions are used: from 3 on they lose no more than the rounding of
 # the data and of t does, at 1 eight times that (measured against balls; tests)

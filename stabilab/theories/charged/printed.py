@@ -14,8 +14,8 @@ import numpy as np
 from ...errors import InputError
 from .closed_form import times, verdict
 from .corrected import momentum
-from .validity import horizon, SMALL_ANGLE
 from .modes import ChargedBody
+from .validity import SMALL_ANGLE, horizon
 
 PARTS = ("omega", "angles", "momentum", "velocity", "position")
 # equation of the paper: (what it gives, what is wrong in print, what `axisymmetric_corrected` takes instead)
@@ -155,7 +155,7 @@ class Typed:
         eta = (1j * turn * f * t / (m * r0)
                + turn / m * (f * (e - 1) / r0**2 - 1j * f3 * (Gamma0 * t**2 / 2 + self._both(self.I1_eta, self.I2_eta))))
         under_eta = 1j * Gamma0 / r0 * (1j * (back - 1) / r0 - t) + self._both(self.I4_eta, self.I5_eta)
-        along = lambda z: (1j / 2 * (np.conj(f) * z - f * np.conj(z))).real / m  # noqa: E731
+        along = lambda z: (1j / 2 * (np.conj(f) * z - f * np.conj(z))).real / m
         v0, x0 = body.velocity, body.position
         return {"velocity": v0 + _three(omega.real, omega.imag, f3 * t / m + along(under)),
                 "position": x0 + v0 * t[..., None] + _three(eta.real, eta.imag, f3 * t**2 / (2 * m) + along(under_eta))}

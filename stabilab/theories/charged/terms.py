@@ -16,9 +16,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from .modes import ChargedBody, Modes
 from ...numbers.divided_differences import divided_differences
 from ...numbers.double_double import twofold
+from .modes import ChargedBody, Modes
 
 LOPSIDED = 4.0  # a/b beyond which the even split loses less: w - a cancels against 1 by sqrt(a/b)
 

@@ -79,7 +79,7 @@ def tilt_parts(body: ChargedBody) -> TiltParts:
     M = body.torque[..., 0] + 1j * body.torque[..., 1]
     Pi0 = body.rates[..., 0] + 1j * body.rates[..., 1]
     regular = ~m.unstable & (root != 0) & (X != 0) & ((r0 != 0) | (M == 0))
-    one = lambda z: np.where(regular & (z != 0), z, 1.0)  # noqa: E731 - a zero divisor only where nothing is asked
+    one = lambda z: np.where(regular & (z != 0), z, 1.0)
     rate = np.where(regular, 1j * body.torque[..., 0] / one(D1 * a) - body.torque[..., 1] / one(D2 * b), 0)
     w, away = one(root), Pi0 - rate
     alpha, beta = (a + b) / 2, (D1 - D2) * Y / (2 * D1 * D2)

@@ -13,7 +13,7 @@ import numpy as np
 
 from ...errors import InputError
 from .scaling import fast_top
-from .series import expand, Expansion
+from .series import Expansion, expand
 
 HIGHEST_ORDER = 24  # the cost grows as the fourth power of the order; double precision is used up long before
 FURTHER = 2  # orders beyond the one asked for, by which it is judged: without l_x, l_y odd ones hold p, q alone, even ones the rest

@@ -2,8 +2,8 @@
 from __future__ import annotations
 
 from ...answers.simulate import Simulation
-from .printed import printed
 from .lindstedt import lindstedt
+from .printed import printed
 
 MODELS = ("lindstedt", "printed")
 ORDER = 4

@@ -21,8 +21,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...errors import InputError
-from .scaling import fast_top
 from .lindstedt import times_row
+from .scaling import fast_top
 
 
 @dataclass(frozen=True)

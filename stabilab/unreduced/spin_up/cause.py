@@ -77,7 +77,7 @@ def _equilibria(scene):
         return ()
     base = [-_dot(M, l) * v / square for v in _cross(along, M)]  # M.base = 0, DM.base = -M.l
     # along M: (w x (Dw + l)).M = M.M with w = base + s along
-    H = lambda w: [d * v + e for d, v, e in zip(D, w, l)]  # noqa: E731
+    H = lambda w: [d * v + e for d, v, e in zip(D, w, l)]
     c = _dot(_cross(base, H(base)), M) - _dot(M, M)
     a = _dot(_cross(along, [d * v for d, v in zip(D, along)]), M)
     b = _dot(_cross(along, H(base)), M) + _dot(_cross(base, [d * v for d, v in zip(D, along)]), M)

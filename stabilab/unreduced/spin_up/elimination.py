@@ -22,7 +22,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .form import NormalForm
-from .terms import gathered, packed, product, Terms, terms_of
+from .terms import Terms, gathered, packed, product, terms_of
 
 ROUNDING = 2.0**-32
 

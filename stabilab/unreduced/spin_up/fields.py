@@ -5,7 +5,7 @@ import math
 from functools import lru_cache
 
 from ...physics.motion_units import in_unit
-from .certificate import Certifier, HIGH_ORDERS, ORDERS
+from .certificate import HIGH_ORDERS, ORDERS, Certifier
 from .fixed_centre import FixedCentre
 from .form import forms_of
 from .moving_centre import moving_centre

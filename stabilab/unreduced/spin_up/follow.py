@@ -8,7 +8,7 @@ from ...orbit.result import Fate
 from ...physics.coefficients import effective
 from ...physics.state import three_floats
 from .cause import seen
-from .chase import APART, chase, Chased, LOST
+from .chase import APART, LOST, Chased, chase
 from .clock import Trap
 from .fields import natural, tests_of
 from .result import SpinUp

@@ -96,7 +96,7 @@ def normal_form(D, wheel, torque, axis: int, kind=Floats) -> NormalForm | None:
     D1, D2, D3, s = D[i], D[j], D[k], 1 if d2 > 0 else -1
     a2, a3 = abs(d2), abs(d3)
     real, root = kind.real, lambda value: kind.root(kind.real(value))
-    part = lambda sign, square: sign * root(square)  # noqa: E731  a signed root, rounded twice
+    part = lambda sign, square: sign * root(square)
     m2, m3, gam = M2 - l1 * l3 / d3, M3 + l1 * l2 / d2, signed_square((a3 - a2) / 2, D2 * D3 * a2 * a3)
     return NormalForm(
         axis, sense, order, real(D1), real(M1), root(a2 * a3 / (D2 * D3)), part(*gam), part(*signed_square(s * l1 * (a3 - a2) / 2, D2 * D3 * a2 * a3)),

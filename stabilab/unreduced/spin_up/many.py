@@ -7,9 +7,9 @@ import numpy as np
 
 from ...orbit.result import Fate
 from ...physics.states import checked_states
-from .chase import chase, Chased
+from .chase import Chased, chase
 from .fields import natural, tests_of
-from .follow import answer_of, BUDGET, NATURAL_TIMES, spin_up
+from .follow import BUDGET, NATURAL_TIMES, answer_of, spin_up
 from .result import SpinUp
 
 LEVELS = ("undecided", "certified", "exact")

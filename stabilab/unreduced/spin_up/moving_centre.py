@@ -27,7 +27,7 @@ import numpy as np
 from .elimination import Algebra, corrected
 from .fixed_centre import BLUR
 from .form import signed_square
-from .terms import gathered, packed, product, Terms, terms_of
+from .terms import Terms, gathered, packed, product, terms_of
 
 CONDITION = 2.0**8  # rounding of p and q over themselves: 2^-44 at most, 2^-36 in the powers that occur
 
@@ -50,7 +50,7 @@ class MovingCentre:
         self.n2, self.n3, eps = float(d3 * M2 - l1 * l3), float(d2 * M3 + l1 * l2), d3 - d2
         self.G0 = self._folded({(0, 0, 0, 0): float(M1), (0, 0, 0, 4): float(s * l2 * M2), (0, 0, 4, 0): float(s * l3 * M3),
                                 (0, 0, 4, 4): float(-eps * M2 * M3)})
-        root = lambda value, square: (lambda sign, squared: sign * float(squared) ** 0.5)(*signed_square(value, square))  # noqa: E731
+        root = lambda value, square: (lambda sign, squared: sign * float(squared) ** 0.5)(*signed_square(value, square))
         g = root(s * eps / 2, D2 * D3)
         k = {(3, 1): root(s * eps * M2, D2), (3, -3): root(-l3, D2), (-3, 3): 1j * root(s * l2, D3), (1, 3): 1j * root(-eps * M3, D3)}
         self.swing = self._folded({(2, 0, 0, 0): -0.5j * g, (0, 2, 0, 0): 0.5j * g})

@@ -23,7 +23,7 @@ from fractions import Fraction
 
 from ...numbers.exact import sqrt_fraction
 from ...orbit.result import Fate
-from .clock import SteadyTrap, WIDER
+from .clock import WIDER, SteadyTrap
 from .moving_centre import MovingCentre
 from .result import SpinUp
 

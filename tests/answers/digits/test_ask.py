@@ -1,12 +1,15 @@
 """Tests of `answers/digits/ask.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
-from stabilab import ScaledGyrostat
+
 import json
+
 import numpy as np
 import pytest
+
 import stabilab
-from tests.shared import answer, MARGIN, PERIOD, SCALED_MINOR
+from stabilab import ScaledGyrostat
 from stabilab.answers.digits.ask import ask, ask_all
+from tests.shared import MARGIN, PERIOD, SCALED_MINOR, answer
 
 TENTH = """
 title = "a state that no double holds"

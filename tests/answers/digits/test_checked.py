@@ -1,7 +1,10 @@
 """Tests of `answers/digits/checked.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
+
 import math
+
 import pytest
+
 from stabilab.answers.digits.checked import digits_of
 
 

@@ -9,15 +9,15 @@ import numpy as np
 import pytest
 
 from stabilab import extremes, fate, load, period, trajectory
-from stabilab.cost import accuracy as measuring
-from stabilab.answers.digits import ask as precision_questions, run as precision_digits
-from stabilab.answers.digits.run import best_reached, simulate_to
-from stabilab.answers.digits.front import FrontPoint
+from stabilab.answers.digits import ask as precision_questions
+from stabilab.answers.digits import run as precision_digits
 from stabilab.answers.digits.ask import ask, ask_all
-from stabilab.integrate.reference import reference, relative_errors
 from stabilab.answers.digits.checked import Told
+from stabilab.answers.digits.front import FrontPoint
+from stabilab.answers.digits.run import best_reached, simulate_to
+from stabilab.cost import accuracy as measuring
 from stabilab.errors import InputError, ToleranceNotMet
-
+from stabilab.integrate.reference import reference, relative_errors
 from tests.oracles import energy
 from tests.oracles.model import physical, scaled
 
@@ -86,7 +86,6 @@ def test_a_closed_motion_without_a_reduction_is_checked_by_its_return_in_many_di
     from stabilab.physics.body import Body
     from stabilab.physics.effects.gyrostat import Gyrostat
     from stabilab.physics.scene import Scene
-
     from tests.oracles.taylor import integrate_checked
     scene, start = Scene(Body((2, 3, 4)), Gyrostat((0.5, 0.25, 1.0))), (1.0, 0.5, 0.25)
     told = ask("period", scene, start, 20)

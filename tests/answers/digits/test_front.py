@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 
 import stabilab
-from stabilab.answers.digits import front as precision_front
-from stabilab.answers.digits.front import cache_folder, front, FrontPoint
 from stabilab import machine
+from stabilab.answers.digits import front as precision_front
+from stabilab.answers.digits.front import FrontPoint, cache_folder, front
 
 CASE = stabilab.load(Path(__file__).parents[3] / "cases" / "torque-free-body.toml")
 

@@ -1,15 +1,18 @@
 """Tests of `answers/digits/run.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
+
 from dataclasses import replace
 from types import SimpleNamespace
+
 import numpy as np
 import pytest
+
 import stabilab
-from stabilab.answers.digits.front import FrontPoint
-from stabilab.answers.digits.run import best_reached, OWN
-from tests.shared import case
 from stabilab.answers.digits import run as precision_digits
+from stabilab.answers.digits.front import FrontPoint
+from stabilab.answers.digits.run import OWN, best_reached
 from stabilab.errors import InputError
+from tests.shared import case
 
 
 def test_a_measured_method_that_refuses_the_motion_is_passed_over(monkeypatch):

@@ -7,13 +7,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from stabilab.numbers.affine import Affine, root
-from stabilab.answers.uncertain.verdicts import uncertain
 from stabilab.answers.uncertain.box import box_of
 from stabilab.answers.uncertain.equilibria import signature_at
 from stabilab.answers.uncertain.fate import verdict_at
+from stabilab.answers.uncertain.verdicts import uncertain
 from stabilab.case.read import load
 from stabilab.errors import CaseError
+from stabilab.numbers.affine import Affine, root
 from stabilab.show.text import uncertain as shown
 
 CASES = Path(__file__).parents[3] / "cases"
@@ -179,7 +179,7 @@ def test_plain_interval_arithmetic_cannot_decide_what_the_mean_value_form_does(t
     case = case_of(tmp_path, listed((20.0, 15.0, 10.0), share), listed((3.0, 2.0, 0.0), share), listed((0.0, 0.0, 0.1), share),
                    listed((0.2, 0.15, 1.6), share))
     assert uncertain(case, ("fate",)).fate.answer == "holds"
-    ball = lambda v: arb(v, abs(v) * share)  # noqa: E731
+    ball = lambda v: arb(v, abs(v) * share)
     D, lam, w = [ball(v) for v in (20.0, 15.0, 10.0)], [ball(3.0), ball(2.0)], [ball(v) for v in (0.2, 0.15, 1.6)]
     p, q = (D[1] - D[2]) / D[0], (D[2] - D[0]) / D[1]
     n, sj, sk = (-p * q).sqrt(), lam[0] / (D[0] - D[2]), lam[1] / (D[1] - D[2])

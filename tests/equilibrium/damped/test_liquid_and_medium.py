@@ -13,19 +13,19 @@ import sympy as sp
 
 import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
-from stabilab.numbers.krawczyk import zeros
 from stabilab.answers.equilibria import equilibria
-from stabilab.physics.coefficients import content, rates
-from stabilab.equilibrium.damped.liquid_and_torque import trap
 from stabilab.answers.motion import motion
-from stabilab.orbit.result import Fate
 from stabilab.answers.trajectory import trajectory
-from stabilab.physics.to_numpy import to_numpy
+from stabilab.equilibrium.damped.liquid_and_torque import trap
+from stabilab.numbers.krawczyk import zeros
+from stabilab.orbit.result import Fate
+from stabilab.physics.coefficients import content, rates
 from stabilab.physics.effects.body_force import BodyForce
 from stabilab.physics.effects.charge import Charge
 from stabilab.physics.effects.liquid_cavity import LiquidCavity
 from stabilab.physics.effects.resistance import Resistance
 from stabilab.physics.equations import derive
+from stabilab.physics.to_numpy import to_numpy
 from stabilab.show.text import answers
 
 ROOT = Path(__file__).parents[3]

@@ -14,7 +14,6 @@ from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.answers.equilibria import equilibria
 from stabilab.physics.effects.resistance import Resistance
 from stabilab.physics.equations import derive
-
 from tests.equilibrium.damped.test_liquid_and_medium import real_solutions
 
 OMEGA = sp.symbols("x1:4")

@@ -13,22 +13,22 @@ import sympy as sp
 import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.answers.equilibria import equilibria
-from stabilab.physics.coefficients import content, rates
 from stabilab.answers.motion import motion
-from stabilab.numbers.balls import many_digits
-from stabilab.equilibrium.field.balance import rotations_at
-from stabilab.orbit.result import Fate
-from stabilab.equilibrium.field.spectrum import Field
 from stabilab.answers.trajectory import trajectory
-from stabilab.physics.to_numpy import to_numpy
+from stabilab.equilibrium.field.balance import rotations_at
+from stabilab.equilibrium.field.spectrum import Field
+from stabilab.errors import InputError
+from stabilab.numbers.balls import many_digits
+from stabilab.orbit.result import Fate
+from stabilab.physics.coefficients import content, rates
 from stabilab.physics.effects.charge import Charge
 from stabilab.physics.effects.gravity import Gravity
 from stabilab.physics.effects.liquid_cavity import LiquidCavity
 from stabilab.physics.effects.newtonian_field import NewtonianField
 from stabilab.physics.effects.resistance import Resistance
 from stabilab.physics.equations import derive
+from stabilab.physics.to_numpy import to_numpy
 from stabilab.show.text import answers
-from stabilab.errors import InputError
 
 ROOT = Path(__file__).parents[3]
 WHEEL, WEIGHT, CENTRE = Gyrostat((1, 0, 2)), Gravity(20, ("0.7", "0.3", "0.1")), NewtonianField("0.5")
@@ -135,7 +135,7 @@ def test_energy_decides_as_second_differences_of_the_amended_potential_do(name):
         A = Omega * (D * gamma) @ gamma + lam @ gamma - float(parts.E) * gamma[2]**2 / 2
         u = np.linalg.svd(gamma[None])[2][1:]  # tangent plane
         h = 1e-4
-        value = lambda a, b: amended(SCENES[name], A, gamma + h * (a * u[0] + b * u[1]))  # noqa: E731
+        value = lambda a, b: amended(SCENES[name], A, gamma + h * (a * u[0] + b * u[1]))
         K = np.array([[value(1, 0) - 2 * value(0, 0) + value(-1, 0), (value(1, 1) - value(1, -1) - value(-1, 1) + value(-1, -1)) / 4],
                       [0, value(0, 1) - 2 * value(0, 0) + value(0, -1)]]) / h**2
         K[1, 0] = K[0, 1]
@@ -312,7 +312,7 @@ def test_steady_states_of_a_torque_are_all_that_newton_finds():
         t, Omega = rng.uniform(-np.pi, np.pi), rng.normal(0, 5)
         c, s = np.cos(t), np.sin(t)
         system = to_numpy(derive(scene))
-        rate = lambda O: system(np.array([0, O * c, O * s, 0, c, s]))[0]  # noqa: E731
+        rate = lambda O: system(np.array([0, O * c, O * s, 0, c, s]))[0]
         for _ in range(60):
             h = 1e-6 * (1 + abs(Omega))
             Omega -= rate(Omega) * 2 * h / (rate(Omega + h) - rate(Omega - h))

@@ -1,11 +1,13 @@
 """Tests of `equilibrium/field/steady_states.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
-from stabilab import Scene
+
 import numpy as np
 import pytest
+
+from stabilab import Scene
+from stabilab.answers.equilibria import equilibria
 from stabilab.errors import InputError
 from tests.shared import case
-from stabilab.answers.equilibria import equilibria
 
 
 def test_a_curve_of_steady_states_has_no_point_at_its_ends():
@@ -23,6 +25,7 @@ def test_a_curve_of_steady_states_has_no_point_at_its_ends():
                                         (5, -1, 4), (0, 0, 0)])
 def test_steady_states_of_a_torque_are_told_by_their_quartic(e2, e3, e4):
     from flint import arb
+
     from stabilab.equilibrium.field.steady_states import _verdict
     roots = np.roots([1, 0, e2, -e3, e4])
     simple = min(abs(a - b) for n, a in enumerate(roots) for b in roots[:n]) > 1e-3

@@ -1,10 +1,12 @@
 """Tests of `equilibrium/field/verdict.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
-from stabilab import Body, Gyrostat, Scene
+
 import numpy as np
 import pytest
-from stabilab.physics.effects.gravity import Gravity
+
+from stabilab import Body, Gyrostat, Scene
 from stabilab.answers.equilibria import equilibria
+from stabilab.physics.effects.gravity import Gravity
 
 
 @pytest.mark.parametrize("wheel", [1, 30])

@@ -7,17 +7,16 @@ import pytest
 
 import stabilab
 from stabilab import Body, Fate, Gyrostat, Scene
-from stabilab.orbit.extremes import turning_points as turning
-from stabilab.orbit.landscape import landscape
 from stabilab.answers.motion import motion
 from stabilab.numbers.numba_door import installed
+from stabilab.orbit.extremes import turning_points as turning
+from stabilab.orbit.landscape import landscape
 from stabilab.orbit.reduction import reduce
-
 from tests.oracles import energy
-from tests.oracles.energy import _inner, _levels, Reduced
-from tests.oracles.pairs import exactly, physical, scaled, WORDS
+from tests.oracles.energy import Reduced, _inner, _levels
+from tests.oracles.pairs import WORDS, exactly, physical, scaled
 from tests.orbit.extremes.test_extremes import assert_extremes
-from tests.orbit.fate.test_fate import axis_of, FAMILIES
+from tests.orbit.fate.test_fate import FAMILIES, axis_of
 from tests.shared import PARABOLIC
 
 ALL = FAMILIES | PARABOLIC

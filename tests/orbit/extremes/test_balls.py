@@ -1,13 +1,16 @@
 """Tests of `orbit/extremes/balls.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
+
 import json
+
 import numpy as np
+
 import stabilab.errors
-from tests.orbit.extremes.test_extremes import assert_extremes
 from stabilab.answers.certificate import certificate
+from stabilab.verify import verify
 from tests.oracles import energy
 from tests.oracles.pairs import exactly, scaled
-from stabilab.verify import verify
+from tests.orbit.extremes.test_extremes import assert_extremes
 
 
 def test_the_turning_point_on_a_large_circle_is_settled_in_some_number_of_bits():

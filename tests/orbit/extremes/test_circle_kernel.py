@@ -7,18 +7,18 @@ import pytest
 
 import stabilab
 from stabilab import Fate
-from stabilab.orbit.extremes import circle_kernel, circle_numba as fast_extremes
+from stabilab.errors import InputError
 from stabilab.numbers import numba_door
+from stabilab.orbit.extremes import circle_kernel
+from stabilab.orbit.extremes import circle_numba as fast_extremes
+from stabilab.orbit.extremes.balls import precise_extremes
 from stabilab.orbit.extremes_and_periods import extremes_and_periods
 from stabilab.orbit.landscape import landscape
-from stabilab.orbit.extremes.balls import precise_extremes
 from stabilab.orbit.period.balls import precise_period
-from stabilab.errors import InputError
-
-from tests.oracles.pairs import brink, exactly, physical, scaled
-from tests.orbit.fate.test_fate import FAMILIES, sample
-from tests.orbit.extremes.test_extremes import assert_extremes
 from tests.oracles import energy
+from tests.oracles.pairs import brink, exactly, physical, scaled
+from tests.orbit.extremes.test_extremes import assert_extremes
+from tests.orbit.fate.test_fate import FAMILIES, sample
 
 BODY = (2000, 1500, 1000)
 pytestmark = pytest.mark.filterwarnings("ignore:invalid value")  # inf - inf of spin-ups, masked where it occurs

@@ -8,10 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import stabilab
-
 from tests.oracles import brute, energy
-from tests.oracles.pairs import as_floats, brink, paper, PAPER_BODY, physical, scaled
-from tests.orbit.fate.test_fate import axis_of, FAMILIES, sample
+from tests.oracles.pairs import PAPER_BODY, as_floats, brink, paper, physical, scaled
+from tests.orbit.fate.test_fate import FAMILIES, axis_of, sample
 
 families = pytest.mark.parametrize("name", FAMILIES)
 

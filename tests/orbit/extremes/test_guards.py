@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 import stabilab
-from stabilab.orbit.extremes import guards, turning_points as turning
 from stabilab.numbers.constants import EPS
+from stabilab.orbit.extremes import guards
+from stabilab.orbit.extremes import turning_points as turning
 from stabilab.orbit.landscape import landscape
 from stabilab.orbit.reduction import reduce
-
 from tests.oracles.pairs import brink, scaled
 from tests.orbit.fate.test_fate import FAMILIES
 from tests.shared import PARABOLIC

@@ -10,19 +10,18 @@ import numpy as np
 import pytest
 
 import stabilab
-from stabilab.physics import quadratic
 from stabilab import Body, ConstantTorque, Fate, Scene
 from stabilab.orbit.fate import table_kernel as barrier_heights
+from stabilab.orbit.fate.by_table import label_by_table
+from stabilab.orbit.fate.reasons import REASONS, Reason
 from stabilab.orbit.fate.table import barrier_table
 from stabilab.orbit.landscape import landscape
-from stabilab.orbit.fate.reasons import Reason, REASONS
-from stabilab.orbit.fate.by_table import label_by_table
-
+from stabilab.physics import quadratic
 from tests.oracles import energy
-from tests.oracles.pairs import brink, exactly, physical, scaled, WORDS
-from tests.orbit.fate.test_fate import axis_of, ELLIPTIC, FAMILIES, sample
-from tests.shared import PARABOLIC
+from tests.oracles.pairs import WORDS, brink, exactly, physical, scaled
 from tests.orbit.extremes.test_extremes import assert_extremes
+from tests.orbit.fate.test_fate import ELLIPTIC, FAMILIES, axis_of, sample
+from tests.shared import PARABOLIC
 
 fate = importlib.import_module("stabilab.orbit.fate.arrays")
 COLUMNS = ("labels", "margins", "axis", "sense", "reasons")

@@ -11,7 +11,6 @@ import pytest
 
 import stabilab
 from stabilab import Fate
-
 from tests.oracles import saddles
 from tests.oracles.pairs import physical, scaled
 
@@ -89,7 +88,7 @@ def test_energies_subtracted_in_doubles_do_mislabel():
         h = np.roots([1, 0, c * c - X * X - z * z, 2 * c, 1])
         h = h[abs(h.imag) < 1e-9].real
         h = h[h ** 4 - c * h - 1 > 0]
-        potential = lambda X, angle: -angle - X * (X + 2 * c) / 2  # noqa: E731
+        potential = lambda X, angle: -angle - X * (X + 2 * c) / 2
         here = np.arctan2(X, z)
         ahead = [np.arctan2(-(c + 1 / s), s) for s in h]
         tops = [potential(-(c + 1 / s), t + (2 * np.pi if t <= here else 0)) for s, t in zip(h, ahead)]

@@ -11,9 +11,8 @@ from hypothesis import strategies as st
 import stabilab
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
 from stabilab.answers.motion import motion
-
 from tests.oracles import brute, energy
-from tests.oracles.pairs import brink, paper, PAPER_BODY, physical, random_problem, scaled, WORDS
+from tests.oracles.pairs import PAPER_BODY, WORDS, brink, paper, physical, random_problem, scaled
 
 BOUNDED, SPIN_UP, SEPARATRIX, EQUILIBRIUM, UNDECIDED = (int(f) for f in Fate)
 

@@ -9,13 +9,13 @@ import pytest
 
 import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
-from stabilab.numbers.double_ball import Ball, Doubles, Unclear
-from stabilab.orbit.separatrix.distance import distance_of
 from stabilab.answers.motion import motion
-from stabilab.numbers.balls import DOUBLE_BITS, settled, START_BITS
+from stabilab.numbers.balls import DOUBLE_BITS, START_BITS, settled
+from stabilab.numbers.double_ball import Ball, Doubles, Unclear
 from stabilab.orbit.fate.balls import decide
 from stabilab.orbit.reduction import reduce
 from stabilab.orbit.result import Fate
+from stabilab.orbit.separatrix.distance import distance_of
 
 SCENES = {
     "circle": ScaledGyrostat("0.2", "0.4", (0, 0, 1)),

@@ -9,7 +9,6 @@ import pytest
 import stabilab
 from stabilab import Body, Fate, Gyrostat, Scene
 from stabilab.answers.motion import motion
-
 from tests.oracles import energy
 from tests.oracles.pairs import scaled
 from tests.orbit.extremes.test_extremes import assert_extremes

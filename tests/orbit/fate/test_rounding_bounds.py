@@ -16,12 +16,11 @@ import pytest
 import stabilab
 from stabilab.numbers.constants import EPS
 from stabilab.orbit.landscape import landscape
-from stabilab.orbit.reduction import reduce, Reduction
-
+from stabilab.orbit.reduction import Reduction, reduce
 from tests.oracles import energy
 from tests.oracles.energy import Reduced
 from tests.oracles.pairs import brink, physical, scaled
-from tests.orbit.fate.test_fate import axis_of, ELLIPTIC, FAMILIES
+from tests.orbit.fate.test_fate import ELLIPTIC, FAMILIES, axis_of
 from tests.shared import PARABOLIC
 
 fate = importlib.import_module("stabilab.orbit.fate.arrays")

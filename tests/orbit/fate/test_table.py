@@ -14,16 +14,16 @@ import numpy as np
 import pytest
 
 import stabilab
-from stabilab.orbit.fate import table_kernel as barrier_heights, table_numba as fast_fate
-from stabilab.numbers import numba_door
-from stabilab.orbit.fate.table import barrier_table
 from stabilab.answers.fate_grid import fate_grid
-from stabilab.orbit.fate.by_table import canonical, circle_heights, label_by_table
 from stabilab.errors import InputError
-
+from stabilab.numbers import numba_door
+from stabilab.orbit.fate import table_kernel as barrier_heights
+from stabilab.orbit.fate import table_numba as fast_fate
+from stabilab.orbit.fate.by_table import canonical, circle_heights, label_by_table
+from stabilab.orbit.fate.table import barrier_table
 from tests.oracles import energy
-from tests.oracles.pairs import brink, physical, random_body, random_problem, scaled, WORDS
-from tests.orbit.fate.test_fate import axis_of, ELLIPTIC, FAMILIES, sample
+from tests.oracles.pairs import WORDS, brink, physical, random_body, random_problem, scaled
+from tests.orbit.fate.test_fate import ELLIPTIC, FAMILIES, axis_of, sample
 
 module = importlib.import_module("stabilab.orbit.fate.arrays")
 TABLED = [name for name in FAMILIES if barrier_table(FAMILIES[name][0]) is not None]

@@ -1,12 +1,14 @@
 """Tests of `orbit/fate/table_kernel.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
+
 import numpy as np
 import pytest
+
 import stabilab
-from tests.orbit.fate.test_fate import FAMILIES, sample
 from stabilab.orbit.fate import table_kernel as barrier_heights
-from stabilab.orbit.fate.table import barrier_table
 from stabilab.orbit.fate.by_table import label_by_table
+from stabilab.orbit.fate.table import barrier_table
+from tests.orbit.fate.test_fate import FAMILIES, sample
 
 
 @pytest.mark.parametrize("name", ["minor scaled +", "major physical, other sign", "middle scaled -, |c| above the cusp"])

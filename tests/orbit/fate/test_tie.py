@@ -1,18 +1,19 @@
 """States exactly on a separatrix are recognised by algebra; states a hair beside it are not."""
-from fractions import Fraction, Fraction as F
+from fractions import Fraction
+from fractions import Fraction as F
 from itertools import product
 from math import isqrt
 
+import numpy as np
 import pytest
 
+import stabilab
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, Scene
 from stabilab.numbers.balls import working
-from stabilab.orbit.fate.tie import exact_tie
 from stabilab.orbit.ball_orbit import PreciseOrbit
-from stabilab.orbit.reduction import reduce
-import numpy as np
-import stabilab
 from stabilab.orbit.fate.reasons import Reason
+from stabilab.orbit.fate.tie import exact_tie
+from stabilab.orbit.reduction import reduce
 from tests.oracles.pairs import physical
 
 # |H|^2 = 2 D2 T (the middle axis' polhode, Euler): D1 (D1 - D2) w1^2 = D3 (D2 - D3) w3^2, here 4 w1^2 = 2.25 w3^2

@@ -4,22 +4,21 @@ import math
 import numpy as np
 import pytest
 
-from stabilab import Body, ConstantTorque, fate, Gyrostat, ScaledGyrostat, Scene, trajectory
-from stabilab.orbit.flow.in_doubles import constants, Here, ordinary
+import stabilab
+from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, fate, trajectory
+from stabilab.errors import InputError
 from stabilab.integrate.reference import reference, relative_errors
+from stabilab.integrate.to_heyoka import heyoka_available
 from stabilab.orbit.flow.flow import _motion, reduced_motion
-from stabilab.orbit.flow.profile import Arrays, relief
+from stabilab.orbit.flow.in_doubles import Here, constants, ordinary
 from stabilab.orbit.flow.periodic import ByPanels, BySeries
+from stabilab.orbit.flow.profile import Arrays, relief
 from stabilab.orbit.flow.spin_up import SpinUp
 from stabilab.orbit.flow.table import Tabulated, tabulated
-from stabilab.integrate.to_heyoka import heyoka_available
-from stabilab.errors import InputError
-
 from tests.hard.circles import textbook_period
-import stabilab
 from tests.hunt.disagreements import DISAGREEMENTS, many_digits
-from tests.oracles.pairs import exactly, physical, scaled
 from tests.oracles import energy
+from tests.oracles.pairs import exactly, physical, scaled
 
 MINOR = ScaledGyrostat("0.2", "0.4", (0, 0, 1))
 MIDDLE = ScaledGyrostat("0.2", "4.4", (0, 1, 0))  # |c| = 4.2: a double well

@@ -1,10 +1,12 @@
 """Tests of `orbit/flow/spin_up.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
+
 import numpy as np
 import pytest
+
 import stabilab.errors
-from tests.oracles.pairs import exactly, physical, scaled
 from tests.hunt.disagreements import many_digits
+from tests.oracles.pairs import exactly, physical, scaled
 
 
 def test_a_spin_up_right_after_its_start_keeps_its_digits():

@@ -1,7 +1,10 @@
 """Tests of `orbit/flow/table.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
+
 import math
+
 import numpy as np
+
 from stabilab.orbit.flow.table import tabulated
 
 

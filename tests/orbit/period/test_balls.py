@@ -1,12 +1,14 @@
 """Tests of `orbit/period/balls.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
-from stabilab import ScaledGyrostat
+
 import pytest
+
 import stabilab
-from stabilab.orbit.ball_orbit import PreciseOrbit
-from stabilab.numbers.double_ball import Unclear
-from stabilab.orbit.period.balls import _rate
+from stabilab import ScaledGyrostat
 from stabilab.numbers.balls import settled
+from stabilab.numbers.double_ball import Unclear
+from stabilab.orbit.ball_orbit import PreciseOrbit
+from stabilab.orbit.period.balls import _rate
 
 
 def test_a_rate_below_a_barrier_is_asked_for_again_with_more_bits():

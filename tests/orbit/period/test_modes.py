@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import stabilab
-from stabilab.orbit.period import arrays as quadrature, modes as period_modes
-from stabilab.orbit.landscape import landscape
 from stabilab.orbit.extremes.turning_points import interval
-
+from stabilab.orbit.landscape import landscape
+from stabilab.orbit.period import arrays as quadrature
+from stabilab.orbit.period import modes as period_modes
 from tests.orbit.fate.test_fate import FAMILIES
 from tests.shared import PARABOLIC
 
@@ -45,7 +45,7 @@ def test_the_curvature_of_an_interval_is_that_of_the_potential_between_its_ends(
     land = landscape(ALL[name][0])
     middle, _, _ = land.start(np.random.default_rng(3).normal(size=(5, 3)))
     modes, force = period_modes.Modes(land, np.array(middle)), land.potential.force(middle)
-    rise = lambda y: land.potential.rise(np.full(5, y), middle, force)  # noqa: E731
+    rise = lambda y: land.potential.rise(np.full(5, y), middle, force)
     for left in (0.2, 0.5, 0.9):
         y = rho * (2 * left - 1)
         exact = (rise(y) - rise(-rho) * (1 - left) - rise(rho) * left) / ((y - rho) * (y + rho))

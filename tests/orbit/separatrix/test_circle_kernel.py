@@ -5,12 +5,11 @@ import numpy as np
 import pytest
 
 import stabilab
+from stabilab.orbit.landscape import landscape
 from stabilab.orbit.separatrix import circle_kernel as circle_loops
 from stabilab.orbit.separatrix.circle_numba import serves, sheets_by_kernel
-from stabilab.orbit.landscape import landscape
 from stabilab.orbit.separatrix.saddles import limit_of, saddle_branches
 from stabilab.orbit.separatrix.sheets import _by_arrays
-
 from tests.oracles.pairs import physical, scaled
 
 SCENES = {

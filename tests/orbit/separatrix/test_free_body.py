@@ -13,11 +13,10 @@ import pytest
 import stabilab
 from stabilab import Body, ConstantTorque, Fate, ScaledGyrostat, Scene
 from stabilab.answers.motion import motion
-from stabilab.orbit.fate.balls import decide, precise_margin
 from stabilab.orbit.extremes.balls import precise_extremes
+from stabilab.orbit.fate.balls import decide, precise_margin
 from stabilab.orbit.period.balls import precise_period
 from stabilab.orbit.reduction import reduce
-
 from tests.oracles import energy
 from tests.oracles.model import scaled
 from tests.orbit.extremes.test_extremes import assert_extremes

@@ -5,13 +5,12 @@ import numpy as np
 import pytest
 
 import stabilab
+from stabilab.errors import InputError
+from stabilab.orbit.extremes.turning_points import spots_along
 from stabilab.orbit.landscape import landscape
 from stabilab.orbit.separatrix.homoclinic_arrays import loop_ends, polished
 from stabilab.orbit.separatrix.saddles import limit_of, saddle_branches
-from stabilab.orbit.extremes.turning_points import spots_along
-from stabilab.errors import InputError
 from stabilab.show.surface.mesh import triangulate
-
 from tests.oracles.pairs import PAPER_BODY, physical, scaled
 
 SCENES = {

@@ -1,12 +1,16 @@
 """Tests of `orbit/separatrix/homoclinic.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
+
 import math
+
 import numpy as np
 import pytest
-from stabilab.orbit.separatrix.circle_kernel import force, moved, real_cubic, settled as settled_on_circle
-from tests.shared import SCALED_MINOR
+
 from stabilab.orbit.landscape import landscape
+from stabilab.orbit.separatrix.circle_kernel import force, moved, real_cubic
+from stabilab.orbit.separatrix.circle_kernel import settled as settled_on_circle
 from stabilab.orbit.separatrix.homoclinic import settled_on
+from tests.shared import SCALED_MINOR
 
 
 @pytest.mark.parametrize("roots", [(1.0, 2.0, 4.0), (-3.0, 0.5, 0.5 + 1e-3), (2.0,), (-1.0, 5.0), ()])

@@ -8,14 +8,13 @@ import numpy as np
 import pytest
 
 import stabilab
-from stabilab.orbit.separatrix.distance import distance_of
-from stabilab.answers.motion import motion
-from stabilab.orbit.reduction import reduce
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, Scene
-
-from tests.oracles import energy
-from tests.oracles.pairs import PAPER_BODY, physical, scaled, WORDS
+from stabilab.answers.motion import motion
 from stabilab.errors import InputError
+from stabilab.orbit.reduction import reduce
+from stabilab.orbit.separatrix.distance import distance_of
+from tests.oracles import energy
+from tests.oracles.pairs import PAPER_BODY, WORDS, physical, scaled
 from tests.shared import SCALED_MINOR
 
 EPS = 2.0 ** -52
@@ -182,7 +181,7 @@ def _distance(vertex, saddle, c, digits=60):
     with mp.workdps(digits):
         def excess(Y, x2, x3):
             g = mp.findroot(lambda g: (c + 1 / g) ** 2 - g * g - (Y * Y - x3 * x3), mp.mpf(saddle))
-            V = lambda Y, x3: Y * Y / 2 - c * Y - mp.log(abs(Y + x3))  # noqa: E731
+            V = lambda Y, x3: Y * Y / 2 - c * Y - mp.log(abs(Y + x3))
             return x2 * x2 / 2 + V(Y, x3) - V(c + 1 / g, g)
         at = [mp.mpf(float(v)) for v in vertex]
         slope = [mp.diff(excess, at, tuple(int(i == k) for i in range(3))) for k in range(3)]

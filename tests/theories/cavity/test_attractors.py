@@ -1,11 +1,13 @@
 """Tests of `theories/cavity/attractors.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
-from stabilab import Body, ConstantTorque, Gyrostat, Scene
+
 import pytest
-from stabilab.physics.effects.resistance import Resistance
+
+from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.physics.effects.charge import Charge
-from tests.shared import LIQUID, ROUND
+from stabilab.physics.effects.resistance import Resistance
 from stabilab.theories.cavity.attractors import attractors
+from tests.shared import LIQUID, ROUND
 
 
 @pytest.mark.parametrize("rates, kind", [((-1, -2), "attracting"), ((1, 2), "repelling"), ((-1, 2), "saddle"), ((0, -1), "neutral"),

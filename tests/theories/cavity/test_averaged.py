@@ -8,17 +8,17 @@ import pytest
 import sympy as sp
 from scipy.integrate import solve_ivp
 
-from stabilab import Body, ConstantTorque, Gyrostat, load, ScaledGyrostat, Scene, trajectory
-from stabilab.theories.cavity import averaged as averaging
-from stabilab.theories.cavity.averaged import averaged
-from stabilab.theories.cavity.attractors import attractors
-from stabilab.theories.cavity.normal_form import constants, NAMES, normal_form
-from stabilab.theories.cavity.printed import printed
+from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, load, trajectory
+from stabilab.errors import InputError
 from stabilab.physics.effects.charge import Charge
 from stabilab.physics.effects.gravity import Gravity
 from stabilab.physics.effects.liquid_cavity import LiquidCavity
 from stabilab.physics.effects.resistance import Resistance
-from stabilab.errors import InputError
+from stabilab.theories.cavity import averaged as averaging
+from stabilab.theories.cavity.attractors import attractors
+from stabilab.theories.cavity.averaged import averaged
+from stabilab.theories.cavity.normal_form import NAMES, constants, normal_form
+from stabilab.theories.cavity.printed import printed
 
 CASES = Path(__file__).parents[3] / "cases"
 J0 = 9.0

@@ -1,5 +1,6 @@
 """Tests of `theories/cavity/printed.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
+
 import numpy as np
 
 

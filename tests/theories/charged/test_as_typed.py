@@ -1,9 +1,11 @@
 """Tests of `theories/charged/as_typed.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
+
 import numpy as np
 import pytest
-from stabilab.theories.charged.modes import ChargedBody
+
 from stabilab.errors import InputError
+from stabilab.theories.charged.modes import ChargedBody
 from stabilab.theories.charged.printed import printed
 
 

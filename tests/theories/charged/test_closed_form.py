@@ -4,17 +4,17 @@ import math
 import numpy as np
 import pytest
 
-from stabilab.theories.charged.closed_form import BEYOND, solution, WITHIN
-from stabilab.theories.charged.partial_fractions import fractions
-from stabilab.theories.charged.validity import horizon, largest_tilt, tilt_parts
+from stabilab.errors import InputError
+from stabilab.theories.charged.closed_form import BEYOND, WITHIN, solution
+from stabilab.theories.charged.corrected import corrected
 from stabilab.theories.charged.mean_pointing import pointing, spin_drift
 from stabilab.theories.charged.modes import ChargedBody, modes, resonances
-from stabilab.theories.charged.corrected import corrected
-from stabilab.theories.charged.printed import circle, MISPRINTS, printed, Typed
-from stabilab.errors import InputError
+from stabilab.theories.charged.partial_fractions import fractions
+from stabilab.theories.charged.printed import MISPRINTS, Typed, circle, printed
+from stabilab.theories.charged.validity import horizon, largest_tilt, tilt_parts
 
 flint = pytest.importorskip("flint")
-from tests.oracles.axisymmetric import BITS, conditioned, OUTPUTS  # noqa: E402
+from tests.oracles.axisymmetric import BITS, OUTPUTS, conditioned  # noqa: E402 - after importorskip
 
 ALLOWED = 20  # times the effect of half a unit in the last place of the inputs
 TIMES = (1e-12, 1e-6, 1e-3, 0.3, 7.0, 50.0, 1e3, 1e6, 1e9)
@@ -37,7 +37,7 @@ def near_resonance(name, distance, t):
 
 
 def body_of(v):
-    get = lambda *names: [v[n] for n in names]  # noqa: E731
+    get = lambda *names: [v[n] for n in names]
     return ChargedBody(get("D1", "D2", "D3"), v["r0"], v["lambda3"], v["k"], get("M1", "M2"), get("p0", "q0"),
                        get("psi0", "phi0", "theta0"), get("f1", "f2", "f3"), v["m"], get("v1", "v2", "v3"), get("x1", "x2", "x3"))
 
@@ -89,7 +89,7 @@ def test_partial_fractions_lose_what_the_closed_forms_keep():
     a, b, w, r0 = m.a.value(), m.b.value(), m.frequency, body.spin
     m1, m2 = v["M1"] / D1, v["M2"] / D2
     poles = (0, -1j * r0, 1j * w, -1j * w)
-    residue = lambda s: ((m1 + 1j * m2) * s - a * m2 + 1j * b * m1) / np.prod([s - z for z in poles if z != s])  # noqa: E731
+    residue = lambda s: ((m1 + 1j * m2) * s - a * m2 + 1j * b * m1) / np.prod([s - z for z in poles if z != s])
     tilt = sum(residue(s) * np.exp(s * t) for s in poles)
     good = twelve(solution(body, t))
     naive = [*good[:2], tilt.real, tilt.imag, *good[4:]]
@@ -99,7 +99,7 @@ def test_partial_fractions_lose_what_the_closed_forms_keep():
 
 def random_bodies(count, seed=7):
     rng = np.random.default_rng(seed)
-    u = lambda *size: rng.uniform(-1, 1, (count, *size))  # noqa: E731
+    u = lambda *size: rng.uniform(-1, 1, (count, *size))
     return ChargedBody(8 + u(3), u(), u(), u(), u(2), u(2), 0.1 * u(3), u(3), 10 + u(), u(3), u(3))
 
 
@@ -188,7 +188,7 @@ def test_the_printed_translation_is_what_the_paper_prints():
     spin = 1j / r0 * (1 - exp(1j * r0 * t)) - t
     I1 = A / W * (spin / r0 - (1j * (1 - exp(1j * t * plus)) / plus - t) / plus)
     I2 = -A / W * (spin / r0 - (1j * (exp(1j * t * (r0 - zeta * (r0 + zeta * Lam / (zeta1 * D1)))) - 1) / minus - t) / minus)
-    both = lambda a, b: ((math.sqrt(zeta1) + math.sqrt(zeta2)) * a + (math.sqrt(zeta1) - math.sqrt(zeta2)) * b) / (2 * zeta)  # noqa: E731
+    both = lambda a, b: ((math.sqrt(zeta1) + math.sqrt(zeta2)) * a + (math.sqrt(zeta1) - math.sqrt(zeta2)) * b) / (2 * zeta)
     omega = -1j * f3 * both(I1, I2) / m
     inner = 1j / r0 * (t - 1j / r0 * (1 - exp(1j * r0 * t))) - t**2 / 2
     J1 = A / W * (inner / r0 - (-t**2 / 2 + 1j / plus * (t + 1j * (exp(1j * t * plus) - 1) / plus)) / plus)
@@ -204,7 +204,7 @@ def test_the_printed_translation_is_what_the_paper_prints():
     ("(50), (51)", "I5_omega", "I2_Gamma", True), ("(60)", "I1_eta", "I1_omega", False), ("(61)", "I2_eta", "I2_omega", False)])
 def test_a_typed_integral_differs_from_what_it_integrates_exactly_if_listed_as_misprinted(number, integral, integrand, back):
     r0, W, h = 0.28, 0.19, 1e-4
-    at = lambda t: Typed(None, np.array(t), r0, W, r0 - 0.9 * W, (1.0, 1.0), 0.1 + 0.2j, 0.3 - 0.1j)  # noqa: E731
+    at = lambda t: Typed(None, np.array(t), r0, W, r0 - 0.9 * W, (1.0, 1.0), 0.1 + 0.2j, 0.3 - 0.1j)
     slope = (getattr(at(2 + h), integral)() - getattr(at(2 - h), integral)()) / (2 * h)
     meant = getattr(at(2.0), integrand)() * (np.exp(-2j * r0) if back else 1)
     assert (abs(slope - meant) > 1e-3) == (number in MISPRINTS), (slope, meant)

@@ -1,8 +1,11 @@
 """Tests of `theories/top/euler_angles.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
+
 import math
+
 import numpy as np
 import pytest
+
 from stabilab.errors import InputError
 from stabilab.theories.top.euler_angles import euler_angles
 

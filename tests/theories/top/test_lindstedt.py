@@ -7,13 +7,13 @@ import pytest
 
 import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, Scene, trajectory
-from stabilab.theories.top.lindstedt import lindstedt
-from stabilab.theories.top.euler_angles import euler_angles, mean_precession, periodic_angles
-from stabilab.theories.top.printed import paper_numbers, printed
+from stabilab.errors import InputError
 from stabilab.integrate.to_heyoka import heyoka_available
 from stabilab.physics.effects.gravity import Gravity
 from stabilab.physics.effects.newtonian_field import NewtonianField
-from stabilab.errors import InputError
+from stabilab.theories.top.euler_angles import euler_angles, mean_precession, periodic_angles
+from stabilab.theories.top.lindstedt import lindstedt
+from stabilab.theories.top.printed import paper_numbers, printed
 
 CASES = Path(__file__).parents[3] / "cases"
 R0, START = 150.0, {"omega": (0.0, 0.0, 150.0), "gamma": (0.8, 0.0, 0.6)}

@@ -10,6 +10,7 @@ from stabilab.unreduced.spin_up.elimination import corrected_amplitude, correcte
 from stabilab.unreduced.spin_up.fixed_centre import FixedCentre
 from stabilab.unreduced.spin_up.form import forms_of
 from stabilab.unreduced.spin_up.moving_centre import moving_centre
+
 from .scenes import EXAMPLE, random_scene, rates_of, run, sphere
 from .test_elimination import Digits
 
@@ -73,7 +74,7 @@ def test_values_at_the_start_lie_within_their_blur():
     start = _Start(test, x, zeta, dx, dz)
     with mpmath.workdps(40):
         X, z = fine.place([mpmath.mpf(v) for v in state.tolist()])
-        value = lambda terms: mpmath.re(sum(c * z**j * mpmath.conj(z)**k * X**(-mpmath.mpf(a) / 4) for (j, k, a, b), c in terms.as_dict().items()))  # noqa: E731
+        value = lambda terms: mpmath.re(sum(c * z**j * mpmath.conj(z)**k * X**(-mpmath.mpf(a) / 4) for (j, k, a, b), c in terms.as_dict().items()))
         energy = value(corrected_energy(fine, 12).added)
         amplitude = abs(z)**2 * (1 + fine.drag / fine.M1 / X) + value(corrected_amplitude(fine, 14).added)
         assert start.energy[0] <= energy <= start.energy_up[0] and amplitude <= start.amplitude[0]
@@ -105,7 +106,7 @@ def test_without_a_wheel_the_first_order_laws_of_the_scaled_body_agree():
     state = np.array([12.0, 0.5, -0.3])
     found = Certifier(FixedCentre(forms_of(scene)[0]), (0, 2))(state[None])
     assert found.good[0]
-    rate = lambda x: [x[1] * x[2] + mu[0], -x[2] * x[0] + mu[1], x[1] * x[0] + mu[2]]  # noqa: E731
+    rate = lambda x: [x[1] * x[2] + mu[0], -x[2] * x[0] + mu[1], x[1] * x[0] + mu[2]]
     p, x2, x3 = run(rate, state, np.linspace(0, 40, 2001)).T
     V = (x2**2 + x3**2) / 2 + (mu[2] * x2 - mu[1] * x3) / p
     change = np.abs((mu[2] * x2 - mu[1] * x3) * (x2 * x3 + mu[0]) / p**2).max() * 40  # V' = -(...)(x2 x3 + mu1)/p^2

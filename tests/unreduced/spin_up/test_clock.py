@@ -7,6 +7,7 @@ import pytest
 
 from stabilab import Body, ConstantTorque, Scene
 from stabilab.unreduced.spin_up.follow import spin_up
+
 from .scenes import EXAMPLE, random_scene, rates_of, run, sphere
 
 

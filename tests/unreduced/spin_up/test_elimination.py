@@ -10,6 +10,7 @@ from stabilab.unreduced.spin_up.elimination import corrected_amplitude, correcte
 from stabilab.unreduced.spin_up.fixed_centre import FixedCentre
 from stabilab.unreduced.spin_up.form import forms_of, normal_form
 from stabilab.unreduced.spin_up.moving_centre import moving_centre
+
 from .scenes import EXAMPLE, random_scene
 
 
@@ -106,6 +107,6 @@ def test_factors_fall_and_their_tails_are_their_integrals():
             z = np.array([7.0])
             most, tails = field.greatest(a, b, z)[0], field.tails(a, b, z)[0]
             for n in range(len(a)):
-                curve = lambda x: field.factors(a, b, np.array([x]))[0, n]  # noqa: E731
+                curve = lambda x: field.factors(a, b, np.array([x]))[0, n]
                 assert max(curve(x) for x in np.linspace(7, 60, 200)) <= most[n] * (1 + 1e-12)
                 assert quad(curve, 7, 4000, limit=400)[0] <= tails[n] * (1 + 1e-6)  # quadrature by SciPy

@@ -9,10 +9,11 @@ from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
 from stabilab.errors import InputError
 from stabilab.physics.scaling import to_scaled
 from stabilab.unreduced.spin_up import runs
-from stabilab.unreduced.spin_up.cause import seen, _equilibria
+from stabilab.unreduced.spin_up.cause import _equilibria, seen
 from stabilab.unreduced.spin_up.follow import spin_up
 from stabilab.unreduced.spin_up.many import spin_up_many
-from .scenes import euler, EXAMPLE, random_scene, rates_of, run, sphere
+
+from .scenes import EXAMPLE, euler, random_scene, rates_of, run, sphere
 
 
 def departures(scene, answer, span):
@@ -107,7 +108,7 @@ def test_scaled_scenes_of_no_body_are_certified_too():
     answer = spin_up(scene, (0.3, -0.2, 0.4))
     assert answer.level == "certified"
     a, b, mu = 1.5, -0.7, scene.mu
-    rate = lambda x: [x[1] * x[2] + mu[0], -x[2] * (x[0] + a) + mu[1], x[1] * (x[0] + b) + mu[2]]  # noqa: E731  Amer et al., eq. (5)
+    rate = lambda x: [x[1] * x[2] + mu[0], -x[2] * (x[0] + a) + mu[1], x[1] * (x[0] + b) + mu[2]]
     times = answer.t + np.linspace(0, 5, 101)
     spin = run(rate, answer.state, times) @ np.array(answer.direction)
     low, high = np.array([answer.trap.line(t) for t in times]).T

@@ -9,6 +9,7 @@ import sympy as sp
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
 from stabilab.unreduced.spin_up.form import forms_of, normal_form
 from stabilab.unreduced.spin_up.moving_centre import moving_centre
+
 from .scenes import euler, random_scene, rates_of
 
 
@@ -70,12 +71,12 @@ def test_moving_centre_moves_as_eulers_equations_say():
             field = moving_centre(form, scene)
             w = np.array([rng.gauss(0, 1) for _ in range(3)])
             w[form.axis] = form.sense * rng.uniform(20, 40)
-            place = lambda v: tuple(part[0] for part in field.place(np.array([v]))[:2])  # noqa: E731
+            place = lambda v: tuple(part[0] for part in field.place(np.array([v]))[:2])
             if not field.valid(np.array([place(w)[0]]))[0]:
                 continue
             x, z = place(w)
             (xp, zp), (xm, zm) = place(w + step * np.array(rate(w))), place(w - step * np.array(rate(w)))
-            value = lambda terms: sum(c * z**j * z.conjugate()**k * p**(-a / 4) * q**(-b / 4) for (j, k, a, b), c in terms.as_dict().items())  # noqa: E731
+            value = lambda terms: sum(c * z**j * z.conjugate()**k * p**(-a / 4) * q**(-b / 4) for (j, k, a, b), c in terms.as_dict().items())
             p, q = field._pq(x)
             swing = value(field.algebra.x_rate)
             turned = -1 / field.algebra.lift * (p * q)**0.5 * z + swing * value(field.algebra.carried)

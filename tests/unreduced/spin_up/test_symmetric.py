@@ -8,6 +8,7 @@ import pytest
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, Scene
 from stabilab.unreduced.spin_up.follow import spin_up
 from stabilab.unreduced.spin_up.symmetric import axis_of_symmetry, equatorial
+
 from .scenes import rates_of, run, sphere
 
 
