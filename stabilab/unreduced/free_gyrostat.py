@@ -16,6 +16,7 @@ import numpy as np
 from ..errors import InputError
 from ..integrate.extrema import roots_of_rates
 from ..orbit.far_states import BEYOND, ORDINARY, powered
+from ..orbit.fate.arrays import fates as free_fates
 from ..orbit.fate.one_state import as_double, at_rest, free_fate, scaled_double
 from ..orbit.result import Fate, Motion, finite, judged, pairs, repeats
 from ..orbit.separatrix.distance import has_no_saddle
@@ -184,6 +185,11 @@ def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
     known = judged(state, decided)
     known["because"] += f"; {BEYOND}: {', '.join(lost)}" if lost else ""
     return Motion(**known, margin_energy=finite(decided.margin), **fields)
+
+
+def fates(scene, states, fast: bool | None = None):
+    """FateResult of states (n, 3): the free body's energy against that of its saddles."""
+    return free_fates(scene, states, fast)
 
 
 def extremes(scene, states, span=None, fast: bool | None = None):
