@@ -29,7 +29,7 @@ def against_heyoka(span, count, repeats, rounds=7) -> list[Row]:
     found, theirs = [], raw(START, times)
     for laws in (False, True):
         run = trajectory(OFF_AXIS, START, times, laws=laws)
-        timed = side_by_side(lambda: [trajectory(OFF_AXIS, START, times, laws=laws) for _ in range(repeats)],
+        timed = side_by_side(lambda laws=laws: [trajectory(OFF_AXIS, START, times, laws=laws) for _ in range(repeats)],
                              lambda: [raw(START, times) for _ in range(repeats)], repeats, repeats, rounds)
         apart = np.abs(run.states - theirs).max() / np.abs(theirs).max()
         found.append(Row(f"trajectory off the axes, {span:g} s, {count} times, {run.counters['steps']} steps, "
@@ -66,7 +66,7 @@ def against_batch(size=256, span=200.0, count=21, rounds=7) -> list[Row]:
     theirs, ours = raw(states, times), ensemble(OFF_AXIS, states, times).states
     apart = np.abs(ours - theirs).max() / np.abs(theirs).max()
     for workers in (1, 2):
-        timed = side_by_side(lambda: ensemble(OFF_AXIS, states, times, workers=workers), lambda: raw(states, times),
+        timed = side_by_side(lambda workers=workers: ensemble(OFF_AXIS, states, times, workers=workers), lambda: raw(states, times),
                              size, size, rounds)
         found.append(Row(f"ensemble of {size} motions off the axes, {span:g} s, {count} times, {workers} worker{'s' * (workers > 1)}",
                          each(timed.ours), f"{each(timed.theirs)} heyoka batch by hand", timed.ratio, (timed.low, timed.high),

@@ -471,7 +471,8 @@ def _about_one_of(cases, told, certificate):
     from .verify.about import differences
     apart = [(case, differences(told, subject(case.scene, case.exact_state))) for case in cases]
     if all(differing for _, differing in apart):
-        raise ToleranceNotMet("\n".join(f"{printable(str(certificate))}: of another case than {case.place}: {words}" for case, differing in apart for words in differing))
+        raise ToleranceNotMet("\n".join(f"{printable(str(certificate))}: of another case than {case.place}: {words}"
+                                        for case, differing in apart for words in differing))
 
 
 def _strictly(strict, validities):

@@ -28,9 +28,9 @@ def trajectory(scene, state, times, method: str = "taylor", rtol: float | None =
     scipy.integrate.solve_ivp by name, in any case; "reduced" (the quadrature of a scene with one degree of freedom, at a cost
     that does not grow with the times; InputError where the motion has none). rtol: relative tolerance; None is half an ulp for "taylor", 1e-10
     for the others. steps: a list that takes the times at which the method ended its own steps. laws: check the balance
-    laws (costs the Taylor series a fifth or so); without, `invariant_drift` is empty. Where the run cannot go on (overflow, a failing step) `status` is "stopped", `reason` says why, and
-    t, states hold the times that were reached. Raises InputError for states and times that are no such numbers and
-    for an unknown method.
+    laws (costs the Taylor series a fifth or so); without, `invariant_drift` is empty. Where the run cannot go on (overflow, a
+    failing step) `status` is "stopped", `reason` says why, and t, states hold the times that were reached.
+    Raises InputError for states and times that are no such numbers and for an unknown method.
     """
     method = _method(method)
     if method == REDUCED:

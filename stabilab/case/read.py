@@ -241,7 +241,7 @@ def _effects(top: Table, body: Body | None) -> list:
     if effects is None:
         return []
     made = []
-    for name, value in effects.data.items():
+    for name in effects.data:
         if name not in REGISTRY:
             hint = did_you_mean(name, REGISTRY)
             known = f" Known effects: {', '.join(REGISTRY)}" if "did you mean" in hint else ""

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import time
 from dataclasses import dataclass, field, replace
+from functools import partial
 
 import numpy as np
 
@@ -214,7 +215,7 @@ def _states(task, method, exact, effort, points, left_out):
     asked = [("span", exact.t), ("end", exact.t[-1:])][:2 if effort.ends else 1]
     for value, run, compiled, take in _climbed(task, method, effort, left_out):
         for question, times in asked:
-            answer, fast, slow, repeats = _timed(lambda: run(times), effort)
+            answer, fast, slow, repeats = _timed(partial(run, times), effort)
             error = _state_error(task, answer, exact, len(times))
             if math.isinf(error):
                 left_out.append((method.name, value, "no answer over the whole span"))
@@ -240,7 +241,7 @@ def _state_error(task, answer, exact, count) -> float:
 
 def _answers(task, method, exact, effort, points, left_out):
     for value, run, compiled, take in _climbed(task, method, effort, left_out):
-        answer, fast, slow, repeats = _timed(lambda: run(None), effort)
+        answer, fast, slow, repeats = _timed(partial(run, None), effort)
         for question, error in (("period", _period_error(answer, exact)), ("extremes", _extremes_error(answer, exact))):
             points.append(Point(question, method.name, method.setting, value, error, answer.steps, answer.evaluations, fast,
                                 slow, repeats, compiled))

@@ -8,6 +8,7 @@ import inspect
 import math
 import time
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -80,7 +81,7 @@ def with_states(case, full: bool = False, tell=lambda words: None) -> list[Growt
             tell(f"{question} of 1e{decade} states")
             states = np.random.default_rng(SEED).normal(size=(10**decade, 3)) * SPREAD + np.asarray(case.state)
             for engine, options in engines(_FUNCTIONS[question]()):
-                answer, seconds, repeats = _timed(lambda: _FUNCTIONS[question]()(case.scene, states, **options))
+                answer, seconds, repeats = _timed(partial(_FUNCTIONS[question](), case.scene, states, **options))
                 precise = (int(answer.precise), "states in balls") if question == "fate" else (None, "")
                 found.append(Growth("states", question, engine, len(states), seconds, repeats, *precise))
     return found
@@ -181,7 +182,7 @@ def with_closeness(case, tell=lambda words: None) -> list[Growth]:
         tell(f"1e-{decade} from the separatrix")
         state, distance = near(case, decade)
         for question, function in _FUNCTIONS.items():
-            _, seconds, repeats = _timed(lambda: function()(case.scene, state))
+            _, seconds, repeats = _timed(partial(function(), case.scene, state))
             count = {"fate": (bits_needed(case.scene, state), "bits"), "period": (nodes_needed(case.scene, state), "nodes")}.get(question, (None, ""))
             found.append(Growth("separatrix", question, "as called", distance, seconds, repeats, *count))
     return found

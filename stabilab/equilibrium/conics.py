@@ -23,6 +23,8 @@ from .balance import ONE, ZERO, Pencil, unit
 from .curve import Grounds, RationalCurve, T, Verdict, size_of, straight_line
 from .curve_text import decimal, line_text, shifted, sum_of
 
+WHOLE = Poly((1,))  # the denominator of what has none
+
 WELL = Grounds(
     positive=("stable", "non-degenerate minimum of the reduced potential (U'' = m > 0): energy keeps nearby motions in the "
                         "well, and the well persists as the invariant changes"),
@@ -96,7 +98,7 @@ class _Plane:
         # the parameter is the component that theory and paper use: the second axis if it lies in the plane
         self.leading = 1 if self.oblique or jq == 1 or (jp != 1 and jq == 2) else 0
 
-    def state(self, u, v, bottom=Poly((1,))):
+    def state(self, u, v, bottom=WHOLE):
         """Polynomials (or numbers over bottom = 1) of the state from its two plane components over `bottom`."""
         a, b = u * self.stretch[0], v * self.stretch[1]
         if not self.oblique:

@@ -125,7 +125,7 @@ def _step_roots(system, solver, before, run):
     rates = system(dense(times).T)
     for i in range(3):
         for left in np.nonzero(np.sign(rates[:-1, i]) * np.sign(rates[1:, i]) < 0)[0]:
-            t = brentq(lambda s: system.rate(dense(s).tolist())[i], times[left], times[left + 1], xtol=1e-300, rtol=1e-15)
+            t = brentq(lambda s, i=i: system.rate(dense(s).tolist())[i], times[left], times[left + 1], xtol=1e-300, rtol=1e-15)
             hits.append((t, i, _land(run, solver.t_old, before, t)))
         hits += [(times[n], i, dense(times[n])) for n in np.nonzero(rates[1:, i] == 0)[0] + 1
                  if np.abs(rates[:, i]).max() > 0]

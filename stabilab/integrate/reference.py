@@ -90,8 +90,8 @@ def reference(scene, start, times, blocks=(), orbit=False, work: int = WORK) -> 
     """The motion from `start` (N numbers, taken as exact) at increasing (or decreasing) times of one sign.
 
     blocks: blocks of state beyond those the scene needs. orbit: the motion is known to repeat: find its period and
-    extremes as well, and fold later times by the period. work: multiplications allowed. Where two precisions do not agree within it, the longest part of the span that
-    does is returned, with status "stopped". Raises InputError for rates that are no polynomials.
+    extremes as well, and fold later times by the period. work: multiplications allowed. Where two precisions do not agree
+    within it, the longest part of the span that does is returned, with status "stopped". Raises InputError for rates that are no polynomials.
     """
     equations = derive(scene, blocks)
     recursion, times, budget = Recursion(equations), np.asarray(times, float), [work]

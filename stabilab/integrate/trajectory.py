@@ -237,8 +237,8 @@ def _stopped(points, grid, why):
 class Trajectory:
     """States at the asked-for times.
 
-    t: (n,) times; states: (n, N), blocks: where each block of the state stands in the N columns; invariant_drift: law name -> largest relative departure from it over the run;
-    counters: integrator's own counts (steps, rate evaluations); status: "reached", "stopped" (reason says why). validity: of an
+    t: (n,) times; states: (n, N), blocks: where each block of the state stands in the N columns; invariant_drift: law name -> largest relative
+    departure from it over the run; counters: integrator's own counts (steps, rate evaluations); status: "reached", "stopped" (reason says why). validity: of an
     approximate law (`stabilab.physics.law_limits`), its largest value at any step of the run; None where all laws are exact.
     """
 

@@ -211,7 +211,7 @@ def _error(m, values, axes) -> Fraction | None:
     the distance from D to the other moments. The lengths differ from 1 by the error of their square roots.
     """
     worst, scale = Fraction(0), values[0]
-    for index, (value, axis) in enumerate(zip(values, axes)):
+    for value, axis in zip(values, axes):
         rest = max(abs(dot(row, axis) - value * axis[i]) for i, row in enumerate(m))
         gaps = [abs(value - other) for other in values if other != value]
         if rest and not min(gaps, default=scale) > 8 * rest:

@@ -32,9 +32,9 @@ class Equations:
     """Equations of motion as SymPy values.
 
     blocks: the parts of the state (see `blocks`); state: symbols of the state; parameters: symbol name -> exact value,
-    in order of declaration, but for those that are zero, which are nowhere in the equations; symbols: name -> symbol, same order; rhs: rates of the state, 1/s of it (1/tau when scaled); jacobian: immutable matrix
-    d rhs_i / d state_j; torques: name -> triple, the parts of inertia * rhs (body frame, N m); inertia: the factors
-    of the rates on the left; energy: kinetic energy; balances: the laws.
+    in order of declaration, but for those that are zero, which are nowhere in the equations; symbols: name -> symbol, same order;
+    rhs: rates of the state, 1/s of it (1/tau when scaled); jacobian: immutable matrix d rhs_i / d state_j; torques: name -> triple,
+    the parts of inertia * rhs (body frame, N m); inertia: the factors of the rates on the left; energy: kinetic energy; balances: the laws.
     """
 
     variables: str

@@ -100,7 +100,8 @@ def _top(case, order):
             for r in motion.resonances]
     if motion.order < 0 or motion.status == "diverging":
         return rows + [_row("periodic motion", f"{motion.status}: {motion.reason}")]
-    rows.append(_row("periodic motion", f"by the expansion of order {motion.order}: period {motion.period:.12g} s; the free wobble turns at Omega^2 = {motion.Omega2:.6g} of the squared spin",
+    rows.append(_row("periodic motion", f"by the expansion of order {motion.order}: period {motion.period:.12g} s; "
+                     f"the free wobble turns at Omega^2 = {motion.Omega2:.6g} of the squared spin",
                      period=motion.period, Omega2=motion.Omega2))
     theta = periodic_angles(motion, motion.period * REVOLUTION).theta
     rows.append(_row("nutation", f"theta between {theta.min():.10g} and {theta.max():.10g} rad", least=float(theta.min()), greatest=float(theta.max())))

@@ -84,8 +84,8 @@ class CapturedFate:
 def captured_fate(scene, state, t_max: float | None = None) -> CapturedFate:
     """Which axis the motion from `state` (three numbers, the scene's variables) spins up about, and when it is released.
 
-    t_max: how long to look for a certificate, in the scene's time (None: a million of the motion's own units). Raises InputError for a scene whose torque is not along
-    one principal axis with a gyrostatic component along it.
+    t_max: how long to look for a certificate, in the scene's time (None: a million of the motion's own units). Raises InputError
+    for a scene whose torque is not along one principal axis with a gyrostatic component along it.
     """
     state = tuple(three_numbers(state).tolist())
     try:

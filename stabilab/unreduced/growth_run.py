@@ -93,7 +93,7 @@ def _scipy_runner(equations, forms, y):
             dense, times = solver.dense_output(), np.linspace(solver.t_old, solver.t, 9)
             values = np.array([turn(x) for x in dense(times).T])
             for n in np.nonzero(values[:-1] * values[1:] < 0)[0]:
-                last = brentq(lambda s: turn(dense(s)), times[n], times[n + 1])
+                last = brentq(lambda s, dense=dense: turn(dense(s)), times[n], times[n + 1])
         at[:] = solver.t, solver.y
         return solver.t, tuple(solver.y.tolist()), last, steps
     return run

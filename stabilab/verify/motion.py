@@ -3,6 +3,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
 
 from .facts import Facts
 from .numbers import Malformed, ball, bracket, exact_sign, field, numbers, shown, word
@@ -153,7 +154,7 @@ def _check_numbers(claims, proof, found, note):
             unbounded = found.extremes[i][k] is None
             note(claim, "proved" if unbounded and said is None else "refuted", "unbounded" if unbounded else "bounded")
         else:
-            status = at_rising_precision(lambda: _within(proof.facts().extremes[i][k], *said), found.bits, CLOSER * found.bits)
+            status = at_rising_precision(lambda i=i, k=k, said=said: _within(proof.facts().extremes[i][k], *said), found.bits, CLOSER * found.bits)
             note(claim, status or "not checked", "roots on the potential" if status else "the bracket ends too close to the true value")
     if claims.period is not None and found.fate != "bounded":
         note("period", "refuted", "a motion that spins up does not repeat")
@@ -166,7 +167,7 @@ def _check_numbers(claims, proof, found, note):
 def _period_status(proof, said, bits):
     """Whether the bracket holds the period, by quadratures to more and more digits; None where they leave it open."""
     for goal in GOALS:
-        true = at_rising_precision(lambda: proof.period(goal), max(bits, 4 * goal))
+        true = at_rising_precision(partial(proof.period, goal), max(bits, 4 * goal))
         try:
             return true and _within(true, *said)
         except Open:

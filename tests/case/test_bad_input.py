@@ -175,15 +175,16 @@ def test_every_command_refuses_what_is_no_file_with_2(stabilab, tmp_path, monkey
 def test_a_file_that_may_not_be_read_or_vanishes_is_refused(tmp_path, monkeypatch, stabilab):
     path = tmp_path / "my.toml"
     path.write_text(BODY)
-    real = open
+    real, failures = open, []
 
     def failing(file, *rest, **named):
         if str(file) == str(path):
-            raise failure
+            raise failures[-1]
         return real(file, *rest, **named)
     monkeypatch.setattr("builtins.open", failing)
     for failure, words in ((PermissionError(13, "Permission denied"), "Permission denied"), (OSError(5, "Input/output error"), "Input/output"),
                            (FileNotFoundError(2, "No such file"), "no such file")):  # it vanished after it was looked at
+        failures.append(failure)
         assert words in refused(stabilab, "classify", path)
 
 

@@ -153,7 +153,8 @@ STUCK = THRUSTER + "stuck = true\n"
 MOTION = "[motion]\nangular_velocity = [0.1, 0.2, 0.2]\n"
 FAULTS = [
     ("[body]\ninertia = [[3, 0.1, 0], [0.2, 2, 0.2], [0, 0.2, 1.5]]\n", 2, "body.inertia", "not symmetric"),
-    ("[body]\ninertia = [[3, 0, 0], [0, 2, 0.1], [0, 0.1, 0.5]]\n", 2, "body.inertia", "triangle inequality is broken: the largest principal moment, 3, exceeds the sum of the other two, 2.5, by 0.5"),
+    ("[body]\ninertia = [[3, 0, 0], [0, 2, 0.1], [0, 0.1, 0.5]]\n", 2, "body.inertia",
+     "triangle inequality is broken: the largest principal moment, 3, exceeds the sum of the other two, 2.5, by 0.5"),
     ("[body]\ninertia = [3, 2, 0.5]\n", 2, "body.inertia", "2.5, by 0.5;"),
     ("[body]\ninertia = [[1, 2, 0], [2, 1, 0], [0, 0, 1]]\n", 2, "body.inertia", "not positive definite"),
     ("[body]\ninertia = [[3, 0], [0, 2]]\n", 2, "body.inertia", "three rows of three numbers"),

@@ -6,6 +6,7 @@ from hypothesis import strategies as st
 from stabilab.physics.effects import REGISTRY, effect_class
 
 CASES = sorted((Path(__file__).parents[2] / "cases").glob("*.toml"))
+SEEDS = tuple(path.read_text(encoding="utf-8") for path in CASES)
 HARD = ["0", "-0.0", "1", "-1", "3", "1e-308", "4.9e-324", "1e-320", "2e-324", "1.7976931348623157e308", "1.8e308", "1e400", "-1e400", "1e-400",
         "nan", "-nan", "inf", "-inf", "+1", "1_0", "0x1F", "0o7", "0b1", "9007199254740993", "9" * 400, "1e9999", '"2/3"', '"1/0"', '"-1/3"',
         '"0.1"', '""', '"1e"', '"nan"', '"0x1"', '"١"', '"1 2"', '"2 +- 1"', '"__import__(\'os\')"', '"9**9**9"', '"1e99999"', "true", "1979-05-27", "07:32:00"]
@@ -13,7 +14,8 @@ SCALARS = st.sampled_from(HARD) | st.floats(allow_nan=False, allow_infinity=Fals
 GOOD = st.sampled_from(["1", "2.0", "0.5", "3", "-1", "0", "0.25", '"1/3"', "1e3"])
 VECTORS = st.lists(SCALARS, max_size=4).map(lambda v: f"[{', '.join(v)}]")
 GOOD_VECTORS = st.lists(GOOD, min_size=3, max_size=3).map(lambda v: f"[{', '.join(v)}]")
-STRANGE = st.sampled_from(['"attitude"', "[[]]", "{}", "{a = 1}", "[[1, 2, 3]]", '"\\u001b[31m"', "'''\n'''", "[" * 200 + "]" * 200, '"\\uD7FF\\U0010FFFF"']) | \
+STRANGE = st.sampled_from(['"attitude"', "[[]]", "{}", "{a = 1}", "[[1, 2, 3]]", '"\\u001b[31m"', "'''\n'''", "[" * 200 + "]" * 200,
+                           '"\\uD7FF\\U0010FFFF"']) | \
     st.text(max_size=8).map(lambda s: "'" + s.replace("'", "").replace("\n", "").replace("\r", "") + "'")
 VALUES = st.one_of(GOOD_VECTORS, GOOD_VECTORS, GOOD, GOOD, VECTORS, SCALARS, STRANGE)
 BODIES = st.sampled_from(["[2000.0, 1500.0, 1000.0]", "[3, 2, 1]", "[1, 1, 1]", "[1, 1, 2]", '["1e-300", "1e-300", "1e-300"]', "[1e308, 1e308, 1e308]",
@@ -50,7 +52,7 @@ def written_cases(draw) -> bytes:
 
 
 @st.composite
-def mutated_cases(draw, seeds=tuple(path.read_text(encoding="utf-8") for path in CASES)) -> bytes:
+def mutated_cases(draw, seeds=SEEDS) -> bytes:
     """A real case file with up to six stretches replaced."""
     text = draw(st.sampled_from(seeds))
     for _ in range(draw(st.integers(1, 6))):

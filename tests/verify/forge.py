@@ -13,11 +13,14 @@ from fractions import Fraction as F
 GONE = object()  # the key or entry is left out
 LONG = "9" * 4200
 JUNK = [True, False, 5, -1, 0, 1.5, float("nan"), float("inf"), 1e300, 10**30, {}, {"a": 1}, {"0": "1"}, [[]], [[[]]], [None], [True], ["x"], [1, 2], [["1"]],
-        ["1", "2", "3", "4", "5"], ["NaN", "1"], ["1/0", "1"], ["0", "1e400000"], [["0", "1"], ["0", "1"]], [[["0", "1"]]], [{}], ["1", None], "", " ", "x", "NaN",
-        "nan", "inf", "-inf", "Infinity", "1/0", "0/0", "1/", "/1", "1/2/3", "1e", "e5", "1e1000000000", "-1e-1000000000", "1e99999", "1E+999999999999999999", "1e4301",
-        "9" * 4301, "1/" + "9" * 4301, "0." + "3" * 4301, "1" * 100_000, "\u0661", "\uff11", "\u00bd", "\u00b2", "1\u0660", "\u0660.5", "1_0", " 1", "1 ", "\n1", "1\n", "+-1", "--1", "0x10",
-        "1,5", "1.5.2", "0b1", "1j", "(1)", "1e1.5", "1.5/2", "\ud800", "\x1b[31m1", "\x00", "stable\nproved", "Stable", "stable ", "st\u0430ble", "bounded\n", "BOUNDED", "equilibria",
-        "null", "true", "None", "[]", "{}", ["\u0661", "\u0662"], ["2", "1"], [["1", "0"]] * 3, [["1"] * 3] * 3, [[[["1"]]]], "points ", "curve", "separatrices"]
+        ["1", "2", "3", "4", "5"], ["NaN", "1"], ["1/0", "1"], ["0", "1e400000"], [["0", "1"], ["0", "1"]], [[["0", "1"]]], [{}], ["1", None], "", " ", "x",
+        "NaN", "nan", "inf", "-inf", "Infinity", "1/0", "0/0", "1/", "/1", "1/2/3", "1e", "e5", "1e1000000000", "-1e-1000000000", "1e99999",
+        "1E+999999999999999999", "1e4301", "9" * 4301, "1/" + "9" * 4301, "0." + "3" * 4301, "1" * 100_000,
+        "\u0661", "\uff11", "\u00bd", "\u00b2", "1\u0660", "\u0660.5", "1_0", " 1", "1 ", "\n1",
+        "1\n", "+-1", "--1", "0x10", "1,5", "1.5.2", "0b1", "1j", "(1)", "1e1.5", "1.5/2",
+        "\ud800", "\x1b[31m1", "\x00", "stable\nproved", "Stable", "stable ", "st\u0430ble", "bounded\n", "BOUNDED",
+        "equilibria", "null", "true", "None", "[]", "{}", ["\u0661", "\u0662"], ["2", "1"], [["1", "0"]] * 3, [["1"] * 3] * 3, [[[["1"]]]],
+        "points ", "curve", "separatrices"]
 WORDS = {"kind": ("none", "points", "curves", "all"), "linear": ("stable", "unstable", "degenerate"), "verdict": ("stable", "unstable"),
          "fate": ("bounded", "spin-up", "equilibrium", "separatrix"), "variables": ("physical", "scaled")}
 OPTIONAL = {"program", "uncertified", "equilibria", "motion", "axis", "sense", "extremes", "period"}  # a certificate may leave them out
@@ -116,7 +119,9 @@ def _null(path, old):
         return "false"
     if len(path) > 2 and path[-2] == "t" and "segments" in path:  # infinity
         return "false"
-    return "false" if path[-1] in ("points", "curves", "planes", "segments", "folds") and old else _without(None, path, old) if isinstance(path[-1], str) else "junk"
+    if path[-1] in ("points", "curves", "planes", "segments", "folds") and old:
+        return "false"
+    return _without(None, path, old) if isinstance(path[-1], str) else "junk"
 
 
 def _junk(path, old, bad):
@@ -148,7 +153,8 @@ def _drawn(claims, path, old, rng):
     if isinstance(old, str) and path[-1] not in WORDS and path[-1] not in ("program", "schema"):
         return "open", str(_other(F(old), rng))
     if path[-1] in ("axis", "sense"):
-        to = rng.choice([rng.randrange(-9, 9) + 0.5, rng.randrange(5, 10**6), -rng.randrange(2, 10**6), str(rng.randrange(9)), bool(rng.randrange(2)), [rng.randrange(4)]])
+        to = rng.choice([rng.randrange(-9, 9) + 0.5, rng.randrange(5, 10**6), -rng.randrange(2, 10**6), str(rng.randrange(9)),
+                         bool(rng.randrange(2)), [rng.randrange(4)]])
         return "junk", to
     if isinstance(old, str):
         letters = "stableunidgrcof-\u0430\u0455 \n\x1b\ud83d"
@@ -173,8 +179,9 @@ def _bracketed(path) -> bool:
 def _other(value, rng):
     """Another number: a little beside, far off, of the other sign, huge, tiny, zero."""
     size = abs(value) or F(1)
-    return rng.choice([value + size / 2**rng.randrange(1, 200), value - size / 2**rng.randrange(1, 200), value * rng.randrange(2, 99), -value if value else F(1), value + 1,
-                       value * F(10)**rng.randrange(-300, 300) + F(1, 7), F(0) if value else F(1, 3), F(rng.randrange(-9, 10), rng.randrange(1, 9)) + value + F(1, 97)])
+    return rng.choice([value + size / 2**rng.randrange(1, 200), value - size / 2**rng.randrange(1, 200), value * rng.randrange(2, 99),
+                       -value if value else F(1), value + 1, value * F(10)**rng.randrange(-300, 300) + F(1, 7), F(0) if value else F(1, 3),
+                       F(rng.randrange(-9, 10), rng.randrange(1, 9)) + value + F(1, 97)])
 
 
 def _bracket(claims, path, old, rng):
@@ -208,7 +215,8 @@ def _bracket(claims, path, old, rng):
     if what in (5, 6):  # wider
         return _known(old, low - size * F(rng.randrange(0, 50), 10**rng.randrange(2, 30)), high + little * rng.randrange(0, 9))
     if what == 7:  # all of it on one side of the true bracket, and long
-        return _known(old, *((high + little, high + little + size * 10**rng.randrange(9)) if way > 0 else (low - little - size * 10**rng.randrange(9), low - little)))
+        length = size * 10**rng.randrange(9)
+        return _known(old, *((high + little, high + little + length) if way > 0 else (low - little - length, low - little)))
     others = [b for p in claims_of(claims) if is_bracket(b := place_of(claims, p)[p[-1]]) and _bracketed(p)]
     return _known(old, *map(F, rng.choice(others)))
 

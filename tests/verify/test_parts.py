@@ -190,6 +190,6 @@ def test_a_box_too_wide_for_krawczyk_is_judged_by_the_exact_zeros_in_it():
         forged["equilibria"]["points"] = [made["equilibria"]["points"][0] | {"box": [box] * 3}]
         assert verify(forged).status == "refuted" and any(words in f.reason for f in verify(forged).findings)
     half = copy.deepcopy(made)
-    for n, point in enumerate(half["equilibria"]["points"]):  # half of space each: wide, and true
+    for point in half["equilibria"]["points"]:  # half of space each: wide, and true
         point["box"] = [["-900", "900"]] * 2 + [["-900", "0"] if F(point["box"][2][0]) < 0 else ["0", "900"]]
     assert verify(half).status == "proved" and any("one of the exact zeros" in f.reason for f in verify(half).findings)

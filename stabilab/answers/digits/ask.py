@@ -41,7 +41,8 @@ def ask(question, scene, state, digits: int, span=None, known=None, exact=None, 
     """The extremes, the period, or the margin of the "fate" of one state, to `digits` decimal digits (1 to 50).
 
     state, span, exact: as of `motion`; known: what `motion` found, where that is at hand. Digits of extremes are relative to the
-    size of their component. aim: nobody asked for the digits, so a run that misses them by `NEAR` is not done again. Told.digits may be below what was asked: see Told.required.
+    size of their component. aim: nobody asked for the digits, so a run that misses them by `NEAR` is not done again. Told.digits may
+    be below what was asked: see Told.required.
     """
     digits = checked_digits(digits, MOST_DECIMALS)
     if known is None:
@@ -235,7 +236,8 @@ def _over_span(scene, state, span, known, digits, exact, slack) -> Told:
     because = f"a run over the span; one at rtol {8 * TAYLOR_TOLERANCE:.1e} from a start moved in its last place differs by {error / CAUTION:.1e}"
     if digits <= MOST and error <= 10.0 ** (slack - digits):
         return Told("extremes", values, digits, digits_of(error), "run", because)
-    return _many_digits(equations, [*(exact or start[:3]), *start[3:]], length, digits) or Told("extremes", values, digits, digits_of(error), "run", other.reason or because)
+    return (_many_digits(equations, [*(exact or start[:3]), *start[3:]], length, digits)
+            or Told("extremes", values, digits, digits_of(error), "run", other.reason or because))
 
 
 def _apart(one, two) -> float:

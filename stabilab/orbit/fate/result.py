@@ -21,12 +21,12 @@ class FateResult:
     labels: (...,) int8 of `Fate`. margins: (...,) barrier minus energy in the scene's energy (J; or x_i^2/2 + U when
     scaled): positive below the barrier; -inf where there is no barrier ahead, +inf where no separatrix bounds the
     motion, NaN where nothing is known of any (undecided, and no law keeps the motion from being bounded); at an
-    equilibrium on the separatrix 0, and NaN where it is no double (`because` says so). Without a torque all motions are bounded, and the barrier is the kinetic energy of a permanent
-    rotation of the same momentum that is a saddle, of two the nearer in energy: 0 on a separatrix, > 0 with less energy than that (a
-    body turning about its major axis), < 0 with more, whatever the axes are called (`free_gyrostat`; in scaled variables, which know
-    no momentum, the reduction about axis 3 has the barrier). axis: 1, 2, 3 of a spin-up, else 0; sense: its sign, else 0.
-    reasons: (...,) `Reason` codes. precise: how
-    many states had to be decided in many digits. Iterating gives labels, margins.
+    equilibrium on the separatrix 0, and NaN where it is no double (`because` says so). Without a torque all motions are
+    bounded, and the barrier is the kinetic energy of a permanent rotation of the same momentum that is a saddle, of two
+    the nearer in energy: 0 on a separatrix, > 0 with less energy than that (a body turning about its major axis), < 0
+    with more, whatever the axes are called (`free_gyrostat`; in scaled variables, which know no momentum, the reduction
+    about axis 3 has the barrier). axis: 1, 2, 3 of a spin-up, else 0; sense: its sign, else 0. reasons: (...,) `Reason`
+    codes. precise: how many states had to be decided in many digits. Iterating gives labels, margins.
     """
 
     labels: np.ndarray

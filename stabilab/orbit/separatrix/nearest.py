@@ -74,8 +74,8 @@ class _Search:
         """Take the point, and where Newton's method leads from it, if it is nearer."""
         here = self._take(chart, t, y)
         if here:
-            for t, y in descent(chart, t, y, self.w):
-                self._take(chart, t, y)
+            for lower_t, lower_y in descent(chart, t, y, self.w):
+                self._take(chart, lower_t, lower_y)
         return here
 
     def _take(self, chart, t, y):

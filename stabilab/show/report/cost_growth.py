@@ -73,7 +73,8 @@ def picture(plt, rows, about):
 
 
 def _counts(ax, groups):
-    ax.set(xscale="log", yscale="log", xlabel=AXES["separatrix"], ylabel="bits, nodes", title=f"Bits for the fate, nodes for {NODE_DIGITS} digits of the period")
+    ax.set(xscale="log", yscale="log", xlabel=AXES["separatrix"], ylabel="bits, nodes",
+           title=f"Bits for the fate, nodes for {NODE_DIGITS} digits of the period")
     for (question, method), points in groups.items():
         known = [r for r in points if r.count is not None]
         if known:

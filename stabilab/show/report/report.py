@@ -94,7 +94,8 @@ def _make(cases, folder, tell, named, others):
     page = html.render(
         "index.html", title="Bounded motion and spin-up of a gyrostat under constant torque", paper=paper.PAPER, rendering_note=note,
         cases=sections, chapters=told, pages=pages, tables=tables, surfaces=surfaces, audit=check(), versions=_versions(),
-        figures=[{**vars(row), "caption": row.caption, "tolerance": row.tolerance, "file": f"figures/{path.name}", "command": row.command, "size": chapters.size(path)}
+        figures=[{**vars(row), "caption": row.caption, "tolerance": row.tolerance, "file": f"figures/{path.name}",
+                  "command": row.command, "size": chapters.size(path)}
                  for row, path in zip(figures.FIGURES, drawn)],
         command=" ".join(["stabilab report", *dict.fromkeys(case.path for case in cases if named)]))
     (folder / "index.html").write_text(page, encoding="utf-8")

@@ -72,7 +72,8 @@ def fate(case, motion, told) -> dict:
 def fate_text(case, motion, told, say: bool) -> str:
     """The fate, why, and the margin in energy."""
     spin = f" about axis {motion.axis}, {'positive' if motion.sense > 0 else 'negative'} sense" if motion.axis else ""
-    margin = [] if told.values is None else [f"  margin, energy  {told.decimals or _number(told.values, told.asked)} {answers.UNITS[case.variables][2]}".rstrip()]
+    unit = answers.UNITS[case.variables][2]
+    margin = [] if told.values is None else [f"  margin, energy  {told.decimals or _number(told.values, told.asked)} {unit}".rstrip()]
     return "\n".join([f"{case.name}: {motion.fate.word}{spin}", f"  {motion.because}", *margin, *frame.note(case), *([_said(told)] * say)])
 
 

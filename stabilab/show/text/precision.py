@@ -66,7 +66,7 @@ def _row(found, p) -> dict:
 def csv(*measured) -> str:
     """One line per point of every case; empty where a count does not exist, inf where no answer came."""
     rows = [",".join(COLUMNS)]
-    for found, p in ((found, p) for found in measured for p in found.points):
+    for found, p in ((one, p) for one in measured for p in one.points):
         cells = ["" if v is None else repr(v) if isinstance(v, float) else str(v) for v in _row(found, p).values()]
         rows.append(",".join(f'"{c}"' if "," in c else c for c in cells))
     return "\n".join(rows)

@@ -81,7 +81,8 @@ def _against(points, prices) -> str:
         others = [q for q in points if q.method in SCIPY_METHODS and q.digits >= digits]
         if others and p.method not in SCIPY_METHODS:
             other = min(others, key=lambda q: q.seconds)
-            return f" SciPy's best for {digits} digits among the settings tried, {other.method}, takes {other.seconds / p.seconds:.3g} times as long ({duration(other.seconds)})."
+            return (f" SciPy's best for {digits} digits among the settings tried, {other.method}, takes "
+                    f"{other.seconds / p.seconds:.3g} times as long ({duration(other.seconds)}).")
     return ""
 
 

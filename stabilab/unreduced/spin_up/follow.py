@@ -22,7 +22,8 @@ def spin_up(scene, state, t_max: float | None = None, budget: int | None = None,
 
     scene: gyrostat and constant torque, physical or scaled. state: three rates at t = 0, taken at their word. t_max: how long the motion
     is followed, in the scene's time (None: 2e4 natural units, of the root of mean moment over torque); budget: in how many steps
-    (None: 600,000). Raises InputError for scenes with other effects than turn the body as wheel and torque do, and for states that are none. after: the inequality is to hold for a state at this time or later: bounds and clocks of a later trap are narrower.
+    (None: 600,000). after: the inequality is to hold for a state at this time or later: bounds and clocks of a later trap are narrower.
+    Raises InputError for scenes with other effects than turn the body as wheel and torque do, and for states that are none.
     """
     scene, state = effective(checked_scene(scene)), three_floats(state)
     scene.quadratic()  # says which effect of the scene is not covered

@@ -151,7 +151,8 @@ def test_ten_digits_are_the_default_and_cost_nothing_where_formulas_bound_their_
 
 
 def test_too_few_digits_end_with_5_after_the_answer(stabilab, monkeypatch):
-    monkeypatch.setattr(precision_questions, "ask", lambda q, scene, state, digits, span, known, exact=None: Told(q, known.period, digits, 4.0, "run", "a check"))
+    few = lambda q, scene, state, digits, span, known, exact=None: Told(q, known.period, digits, 4.0, "run", "a check")
+    monkeypatch.setattr(precision_questions, "ask", few)
     code, out, err = stabilab("period", CASES / "minor-axis-100.toml", "--digits", "12")
     assert code == 5 and "1.8043122475" in out and "12 digits asked for, 4.0 reached" in err
 

@@ -82,9 +82,8 @@ def test_energies_subtracted_in_doubles_do_mislabel():
     name = "minor axis, a = -2.0, b = 3.0"
     states, sides = states_and_sides(name, 10, seed=1)
     a, c = -2.0, 5.0
-    X, z, v = states[:, 0] + a, states[:, 1], states[:, 2]
     wrong = 0
-    for X, z, v, side in zip(X, z, v, sides):
+    for X, z, v, side in zip(states[:, 0] + a, states[:, 1], states[:, 2], sides):
         h = np.roots([1, 0, c * c - X * X - z * z, 2 * c, 1])
         h = h[abs(h.imag) < 1e-9].real
         h = h[h ** 4 - c * h - 1 > 0]
