@@ -1,0 +1,31 @@
+"""The compiled kernel of validated steps: the door of numba (the extra `fast`)."""
+from __future__ import annotations
+
+from functools import lru_cache
+
+from ...numbers.numba_door import compiled, installed
+from . import kernel
+
+INLINED = {"exact_sum", "high_part", "exact_product"}
+
+
+@lru_cache(maxsize=1)
+def functions() -> dict:
+    """The kernel's functions by name, compiled where numba is installed (kept on disk where there is a place for it), else as they are."""
+    if not installed():
+        return vars(kernel)
+    try:
+        return compiled(kernel, INLINED, cache=True)
+    except RuntimeError:  # numba found no folder that it may write to
+        return compiled(kernel, INLINED, cache=False)
+
+
+def advance():
+    """`kernel.advance`, compiled; None without numba."""
+    return functions()["advance"] if installed() else None
+
+
+def helpers():
+    """What the steps in many digits take from the kernel."""
+    table = functions()
+    return tuple(table[name] for name in ("judged", "turned", "end_of_variations", "longest"))

@@ -1,0 +1,174 @@
+"""One motion under a constant torque of any direction, enclosed from an exact start: a set at each time, a band between them.
+
+The steps are those of `kernel` (compiled) or of `digits` (python-flint, as many bits as are asked for, no compiler). Scenes are taken
+at their exact numbers. Those of a frame of principal axes that is irrational have an error of 2^-240 (`numbers.principal`): each step allows the coefficients FINE =
+2^-92 of themselves.
+"""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+import numpy as np
+
+from ...asked import checked_scene
+from ...errors import InputError
+from ...numbers.exact import exact_vector
+from ...physics.coefficients import effective
+from ..spin_up.fields import natural
+from . import kernel
+from .digits import DigitSteps
+from .door import advance
+from .scene import energy_of, rows_of, twofold
+
+STEPS = 200_000  # at most, unless more are asked for: some six seconds compiled
+CHUNK = 512  # steps kept at a time between which the band is asked for
+TOLERANCE = 2.0**-88  # of a step's tail, beside the state: as small as the rounding of its coefficients
+BITS = 104  # of the compiled steps
+WHY = {kernel.DONE: "enclosed", kernel.GOING: "not finished: the steps allowed were used up", kernel.LOST: "lost: the set has grown too wide to follow",
+       kernel.ENDLESS: "lost: a step would be below the grain of time"}
+
+
+@dataclass(frozen=True)
+class Band:
+    """Where the motion surely is during each of n steps.
+
+    times: (n + 1,) ends, exact doubles; polynomials: (n, 3, N + 1) rates as polynomials in x = (t - times[i])/(times[i + 1] - times[i]), lowest first;
+    radii: (n, 3): at every time of step i each rate is within radii[i] of its polynomial, however exactly that is evaluated.
+    """
+
+    times: np.ndarray
+    polynomials: np.ndarray
+    radii: np.ndarray
+
+    def form(self, weights) -> tuple[np.ndarray, np.ndarray]:
+        """((n, 2 N + 1) polynomials, (n,) radii) of the sum of weights_i omega_i^2 (three numbers, not negative) during each step: ones for |omega|^2, halves
+        of the moments for the energy."""
+        weights = [float(w) for w in weights]
+        n, _, m = self.polynomials.shape
+        out, radius, size = np.zeros((n, 2 * m - 1)), np.zeros(n), np.abs(self.polynomials).sum(axis=2)
+        for i, w in enumerate(weights):
+            row = self.polynomials[:, i]
+            for k in range(m):
+                out[:, k:k + m] += w * row * row[:, k:k + 1]
+            r = self.radii[:, i]
+            radius += w * (r * (2 * size[:, i] + r) + 2.0**-44 * size[:, i] ** 2)  # N + 1 products and three sums to a coefficient, and the weight's rounding
+        return out, radius * (1 + 2.0**-30)
+
+    def at(self, t: float) -> tuple[np.ndarray, np.ndarray]:
+        """((3,) middle, (3,) radius) of the rates at a time in the band."""
+        i = min(max(int(np.searchsorted(self.times, t, "right")) - 1, 0), len(self.radii) - 1)
+        if not self.times[0] <= t <= self.times[-1]:
+            raise InputError(f"t: expected a time from {self.times[0]!r} to {self.times[-1]!r}, got {t!r}")
+        begin, end = self.times[i], self.times[i + 1]
+        x = (t - begin) / (end - begin)
+        rows = self.polynomials[i]
+        value = np.zeros(3)
+        for column in rows.T[::-1]:
+            value = value * x + column
+        size = np.abs(rows) @ np.arange(1, rows.shape[1] + 1)  # x is off by less than four roundings, of t - begin (t is any double) and of the quotient
+        return value, (self.radii[i] + 2.0**-46 * size) * (1 + 2.0**-30)
+
+
+@dataclass(frozen=True)
+class Enclosed:
+    """The set that surely holds the state at one time.
+
+    t: exact, the scene's unit of time; middle: (3,) rates (rad/s, or x when scaled); rest: (3,), to be added to them: the centre is a sum of two doubles; radius: (3,) each
+    true rate is within it of the centre. steps: so many; status: "enclosed" where t is the time asked for, else "stopped", and reason says why; bands: those
+    of the steps where they were asked for, in order. bits: of the centre.
+    """
+
+    t: float
+    middle: np.ndarray
+    rest: np.ndarray
+    radius: np.ndarray
+    steps: int
+    status: str
+    reason: str
+    bits: int
+    bands: tuple = field(default=(), repr=False)
+
+    @property
+    def box(self):
+        """((low, high),) * 3 in exact fractions."""
+        ends = []
+        for m, r, e in zip(self.middle.tolist(), self.rest.tolist(), self.radius.tolist()):
+            ends.append((Fraction(m) + Fraction(r) - Fraction(e), Fraction(m) + Fraction(r) + Fraction(e)))
+        return tuple(ends)
+
+
+class Course:
+    """A motion followed by validated steps: `advance` carries it on, `now` tells where it is.
+
+    scene: gyrostat and constant torque, physical or scaled; state: three rates at t = 0, each an exact number (a double at its word, a Fraction,
+    a decimal in a string). t_end: the end of what will be asked for; its last binary digit is the grain of time, and every step ends at a whole number of
+    grains, so that times are exact. bits: None for the compiled steps
+    (104 bits, `digits` where numba is not installed), else of python-flint's.
+    """
+
+    def __init__(self, scene, state, t_end: float, bits: int | None = None):
+        scene = effective(checked_scene(scene))
+        scene.quadratic()  # says which effect of the scene is not covered
+        start = exact_vector(state, "state")
+        if not (math.isfinite(t_end) and t_end > 0):
+            raise InputError(f"t: expected a time above 0, got {t_end!r}")
+        own, self.unit = natural(scene)
+        self.t, self.steps, self.status = 0.0, 0, kernel.GOING
+        self._end = t_end * self.unit
+        self._grain = math.ulp(self._end)
+        self._work = Doubles(own, start, self.unit) if bits is None and advance() else DigitSteps(own, start, self.unit, bits or 128)
+
+    def advance(self, t: float, steps: int = STEPS, band: bool = False) -> Band | None:
+        """Carry the motion on to the time t (taken down to the grain of time), by at most so many steps, at most CHUNK where the band is asked for.
+
+        Returns the band where it is asked for and a step was made."""
+        t = min(t * self.unit, self._end)
+        t = float(int(t / self._grain)) * self._grain
+        size = min(steps, CHUNK) if band else 0
+        times, polynomials, radii = np.empty(size), np.empty((size, 3, kernel.ORDER + 1)), np.empty((size, 3))
+        begun = self.t * self.unit
+        self.status, now, made = self._work.advance(begun, t, self._grain, size or steps, times, polynomials, radii)
+        self.t, self.steps = now / self.unit, self.steps + made
+        if not (band and made):
+            return None
+        return Band(np.append(begun, times[:made]) / self.unit, polynomials[:made] * self.unit, radii[:made] * self.unit)
+
+    @property
+    def now(self) -> Enclosed:
+        """Where the motion is."""
+        middle, rest, radius = self._work.box()
+        status = "enclosed" if self.status == kernel.DONE else "stopped"
+        return Enclosed(self.t, middle * self.unit, rest * self.unit, radius * self.unit, self.steps, status, WHY[self.status], self._work.bits)
+
+
+class Doubles:
+    """The set of the compiled steps, in a scene's natural unit."""
+
+    bits = BITS
+
+    def __init__(self, own, start, unit):
+        self.numbers, self.low = twofold(rows_of(own))
+        self.centre, self.low_centre = twofold([v / Fraction(unit) for v in start])
+        self.energy = energy_of(own)
+        self.B, self.rad = np.eye(3), np.abs(self.centre) * 2.0**-104 + kernel.TINY
+
+    def advance(self, t, t_end, grain, steps, times, polynomials, radii):
+        return advance()(self.numbers, self.low, self.energy, TOLERANCE, t, t_end, grain, steps, self.centre, self.low_centre, self.B, self.rad, times, polynomials, radii)
+
+    def box(self):
+        return self.centre.copy(), self.low_centre.copy(), np.abs(self.B) @ self.rad * kernel.WIDER
+
+
+def enclose(scene, state, t: float, bits: int | None = None, steps: int = STEPS, band: bool = False) -> Enclosed:
+    """The motion from a state enclosed at the time t > 0, by at most so many steps. Arguments as of `Course`. band: keep what holds it between the times too.
+
+    Raises InputError for scenes with other effects than wheel and constant torque, and for states and times that are none.
+    """
+    course, bands = Course(scene, state, t, bits), []
+    while course.status == kernel.GOING and course.steps < steps:
+        bands.append(course.advance(t, steps - course.steps, band))
+    found = course.now
+    return Enclosed(*(getattr(found, name) for name in ("t", "middle", "rest", "radius", "steps", "status", "reason", "bits")),
+                    tuple(one for one in bands if one is not None))

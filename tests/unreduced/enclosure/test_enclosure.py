@@ -1,0 +1,140 @@
+"""Enclosures hold the motions: judged by runs in 50 digits of another code, over bodies, sizes and kinds of numbers."""
+import random
+from fractions import Fraction
+
+import mpmath
+import numpy as np
+import pytest
+
+from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
+from stabilab.errors import InputError
+from stabilab.numbers.numba_door import installed
+from stabilab.unreduced.enclosure import kernel
+from stabilab.unreduced.enclosure.run import Course, enclose
+
+from ..spin_up.scenes import EXAMPLE, random_scene, sphere
+from .taylor import run, shares
+
+
+def rows(scene):
+    """kappa, rho, sigma, m written out anew from Euler's equations, or from those of the scaled gyrostat."""
+    if scene.variables == "scaled":
+        a, b = scene.exact_ab
+        return (1, -1, 1), (0, 0, b), (0, -a, 0), scene.exact_mu
+    (D1, D2, D3), (l1, l2, l3), M = scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque")
+    return ((D2 - D3) / D1, (D3 - D1) / D2, (D1 - D2) / D3), (l2 / D1, l3 / D2, l1 / D3), (-l3 / D1, -l1 / D2, -l2 / D3), [m / d for m, d in zip(M, (D1, D2, D3))]
+
+
+def drawn(rng, n):
+    """(scene, start, time): generic, nearly equal moments, scaled, fast; starts are doubles or decimals that are none."""
+    scene, kind = random_scene(rng), n % 4
+    if kind == 1:
+        wheel = Gyrostat(sphere(rng, rng.choice((0, 1))))
+        scene = Scene(Body((1, 1 + rng.choice((1e-3, 1e-6, 1e-9)), rng.uniform(.3, 1.5))), wheel, ConstantTorque(sphere(rng)))
+    if kind == 2:
+        scene = ScaledGyrostat(Fraction(rng.uniform(-1, 1)), Fraction(rng.uniform(-1, 1)), tuple(map(Fraction, sphere(rng))))
+    size = rng.choice((.1, 1, 10)) if kind < 3 else rng.choice((1e3, 1e5))
+    start = [Fraction(v) for v in sphere(rng, size)]
+    if n % 3 == 0:
+        start = [Fraction(round(v * 1000), 1000) for v in start]
+    return scene, start, rng.choice((.25, 1., 2.5)) / max(size, 1)
+
+
+def holds(scene, start, end, rng, bits=None):
+    """The greatest share of a radius that the true motion takes, at the end and at times between; the enclosure at the end."""
+    course, bands = Course(scene, start, end, bits), []
+    while course.status == kernel.GOING:
+        bands.append(course.advance(end, band=True))
+    found = course.now
+    assert found.status == "enclosed" and found.t == end
+    times = sorted(rng.uniform(0, end) for _ in range(2))
+    *between, last = run(rows(scene), start, [*times, end])
+    worst = shares(found.middle, found.rest, found.radius, last)
+    for t, true in zip(times, between):
+        band = next(b for b in bands if b.times[0] <= t <= b.times[-1])
+        middle, radius = band.at(t)
+        worst += shares(middle, np.zeros(3), radius, true)
+    return max(worst), found
+
+
+@pytest.mark.parametrize("n", range(12))
+def test_random_motions_lie_within_their_radii(n):
+    rng = random.Random(40 + n)
+    scene, start, end = drawn(rng, n)
+    worst, found = holds(scene, start, end, rng)
+    assert worst <= 1  # a run in 50 digits
+    assert found.radius.max() < 1e-22 * np.abs(found.middle).max()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("n", range(300))
+def test_many_random_motions_lie_within_their_radii(n):
+    rng = random.Random(1000 + n)
+    scene, start, end = drawn(rng, n)
+    assert holds(scene, start, 8 * end, rng)[0] <= 1  # a run in 50 digits
+
+
+@pytest.mark.parametrize("n", range(4))
+def test_motions_lie_within_radii_of_many_bits(n):
+    rng = random.Random(80 + n)
+    scene, start, end = drawn(rng, n)
+    worst, found = holds(scene, start, end / 4, rng, bits=128)
+    assert worst <= 1 and found.bits == 128 and found.radius.max() < 1e-26 * np.abs(found.middle).max()  # a run in 50 digits
+
+
+def test_a_long_motion_is_held():
+    worst, found = holds(EXAMPLE, (.1, 1, 2), 12.0, random.Random(1))
+    assert worst <= 1 and found.steps > 50  # a run in 50 digits
+
+
+@pytest.mark.skipif(not installed(), reason="thousands of steps take the compiled kernel")
+def test_a_thousand_turns_keep_ten_digits_beyond_those_of_a_double():
+    found = enclose(EXAMPLE, (.1, 1, 2), 200.0)
+    assert found.status == "enclosed" and found.radius.max() < 1e-16 and found.steps > 5000
+
+
+def test_a_fraction_and_a_decimal_in_a_string_are_taken_exactly():
+    end = 0.5
+    one, two = enclose(EXAMPLE, ("0.1", "1/3", "2"), end), enclose(EXAMPLE, (Fraction(1, 10), Fraction(1, 3), 2), end)
+    assert one.middle.tolist() == two.middle.tolist() and one.rest.tolist() == two.rest.tolist()
+    assert max(shares(one.middle, one.rest, one.radius, run(rows(EXAMPLE), ("0.1", "1/3", "2"), [end])[0])) <= 1  # a run in 50 digits
+    double = enclose(EXAMPLE, (.1, 1 / 3, 2.), end)  # another motion, 1e-17 beside it
+    assert max(shares(one.middle, one.rest, one.radius, run(rows(EXAMPLE), (.1, 1 / 3, 2), [end])[0])) > 1e3
+    assert max(shares(double.middle, double.rest, double.radius, run(rows(EXAMPLE), (.1, 1 / 3, 2), [end])[0])) <= 1
+
+
+def test_energy_and_squares_of_a_band_are_those_of_the_motion():
+    course = Course(EXAMPLE, (.1, 1, 2), 1.0)
+    band = course.advance(1.0, band=True)
+    D = EXAMPLE.body.exact
+    for weights in ((1, 1, 1), tuple(d / 2 for d in D)):
+        polynomials, radii = band.form(weights)
+        for i in range(len(radii)):
+            begin, end = map(Fraction, band.times[i:i + 2].tolist())
+            x = Fraction(3, 8)
+            state = run(rows(EXAMPLE), (.1, 1, 2), [begin + x * (end - begin)])[0]
+            with mpmath.workdps(50):
+                true = sum(mpmath.mpf(Fraction(w).numerator) / Fraction(w).denominator * v * v for w, v in zip(weights, state))
+                value = sum(mpmath.mpf(c) * (mpmath.mpf(3) / 8) ** k for k, c in enumerate(polynomials[i].tolist()))
+                assert abs(value - true) <= radii[i] and radii[i] < 1e-10  # a run in 50 digits
+
+
+def test_a_band_is_one_piece_and_ends_at_the_time_asked_for():
+    found = enclose(EXAMPLE, (.1, 1, 2), 1.7, band=True)
+    times = np.concatenate([band.times for band in found.bands])
+    assert times[0] == 0 and times[-1] == 1.7 and (np.diff(times) >= 0).all()
+    assert sum(len(band.radii) for band in found.bands) == found.steps
+    for band in found.bands:
+        ends, starts = band.polynomials[:-1].sum(axis=2), band.polynomials[1:, :, 0]
+        assert (np.abs(ends - starts) <= band.radii[:-1] + band.radii[1:]).all()
+
+
+def test_steps_that_run_out_are_told():
+    found = enclose(EXAMPLE, (.1, 1, 2), 50.0, steps=3)
+    assert found.status == "stopped" and found.steps == 3 and 0 < found.t < 50 and "used up" in found.reason
+
+
+def test_what_is_no_start_or_time_is_refused():
+    for state, t in (((1, 2), 1.), ((1, 2, "x"), 1.), ((1, 2, 3), 0.), ((1, 2, 3), float("inf")), ((1, 2, 3), float("nan"))):
+        with pytest.raises(InputError):
+            enclose(EXAMPLE, state, t)
