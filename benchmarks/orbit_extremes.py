@@ -94,6 +94,7 @@ def brink(part, count):
 
 def beside_the_separatrix(count) -> Row:
     """Errors at relative distances 1e-3 ... 1e-15 against ball arithmetic, and the time there against heyoka's."""
+    from stabilab.orbit.ball_orbit import Orbit
     from stabilab.orbit.extremes.balls import precise_extremes
     from stabilab.orbit.extremes_and_periods import extremes_and_periods
     from stabilab.orbit.landscape import landscape
@@ -103,8 +104,8 @@ def beside_the_separatrix(count) -> Row:
         part = brink(10.0**-decade, count)
         part = part[fate(SCENE, part).labels == 0]
         got, periods = extremes_and_periods(SCENE, part, fast=True if numba_available() else None)
-        exact = np.array([precise_extremes(r, state, 0) for state in part])
-        spans = np.array([precise_period(r, state, 0) for state in part])
+        exact = np.array([precise_extremes(Orbit(r, state), 0) for state in part])
+        spans = np.array([precise_period(Orbit(r, state), 0) for state in part])
         boxes_off.append((np.abs(got - exact).max(axis=2) / np.abs(exact).max(axis=2)).max())
         periods_off.append(np.abs(periods / spans - 1).max())
         if decade <= 9:  # closer, heyoka's run may pass the barrier by rounding and then spin up without end

@@ -14,6 +14,7 @@ from ..equilibrium.conics import balance_fails, conic_curves
 from ..equilibrium.isolated import isolated_states
 from ..equilibrium.stability import curve_with_verdicts, cuts_of, isolated_point
 from ..equilibrium.torque_free import DRIFT, plane_centre, plane_moments, plane_of_equal_moments, torque_free_curves
+from ..orbit.ball_orbit import Orbit
 from ..orbit.extremes.balls import extreme_balls
 from ..orbit.fate.one_state import fate_of
 from ..orbit.period.balls import period_ball
@@ -131,22 +132,23 @@ def _motion(scene, state, uncertified):
     if reduction is None:
         uncertified.append("motion: the scene has no reduction to one degree of freedom")
         return None
-    found = fate_of(scene, reduction, state)
+    orbit = Orbit(reduction, state)
+    found = fate_of(scene, orbit)
     label = Fate(found.label)
     if label not in (Fate.BOUNDED, Fate.SPIN_UP):
         uncertified.append(f"motion: {label.word}: {found.because}")
         return None
     return claims | {"fate": label.word, "axis": found.axis, "sense": found.sense,
-                     "extremes": _extremes(reduction, state, label), "period": _period(reduction, state, label)}
+                     "extremes": _extremes(orbit, label), "period": _period(orbit, label)}
 
 
-def _extremes(reduction, state, label):
-    balls = extreme_balls(reduction, state, label, certain=int(DIGITS * 3.33))
+def _extremes(orbit, label):
+    balls = extreme_balls(orbit, label, certain=int(DIGITS * 3.33))
     return [[_ends(v) for v in pair] for pair in balls]
 
 
-def _period(reduction, state, label):
-    return _ends(period_ball(reduction, state), PERIOD_DIGITS) if label == Fate.BOUNDED else None
+def _period(orbit, label):
+    return _ends(period_ball(orbit), PERIOD_DIGITS) if label == Fate.BOUNDED else None
 
 
 def _ends(value, digits: int = DIGITS):

@@ -14,6 +14,7 @@ from ..answers.fate import fate
 from ..errors import InputError
 from ..integrate.to_heyoka import heyoka_available, taylor_events
 from ..integrate.trajectory import ATOL_SHARE
+from ..orbit.ball_orbit import Orbit
 from ..orbit.extremes.balls import precise_extremes
 from ..orbit.fate.balls import decide
 from ..orbit.fate.free_margin import free_margin, is_free
@@ -98,8 +99,8 @@ def _balls(task, _):
     reduction = landscape(task.scene).reduction
 
     def run(times):
-        return Answer({"period": np.array([precise_period(reduction, task.start, Fate.BOUNDED)]),
-                       "extremes": precise_extremes(reduction, task.start, Fate.BOUNDED)})
+        return Answer({"period": np.array([precise_period(Orbit(reduction, task.start), Fate.BOUNDED)]),
+                       "extremes": precise_extremes(Orbit(reduction, task.start), Fate.BOUNDED)})
     return run
 
 
@@ -124,6 +125,6 @@ def fate_methods(task: Problem) -> list:
     reduction = landscape(task.scene).reduction
 
     def in_balls():
-        margin = float(free_margin(task.scene, task.start)) if is_free(task.scene) else decide(reduction, task.start).sign
+        margin = float(free_margin(task.scene, task.start)) if is_free(task.scene) else decide(Orbit(reduction, task.start)).sign
         return "at the barrier" if not margin else "below the barrier" if margin > 0 else "above the barrier, or none stands ahead"
     return [("energy", lambda: Fate(int(fate(task.scene, task.start).labels)).word), ("balls", in_balls)]

@@ -18,7 +18,7 @@ from ..integrate.reference import WORK, one_run, pairs, relative_errors
 from ..integrate.taylor_digits import Recursion
 from ..numbers.balls import sign, working
 from ..numbers.double_ball import Unclear
-from ..orbit.ball_orbit import PreciseOrbit
+from ..orbit.ball_orbit import BallOrbit, Orbit
 from ..orbit.extremes.balls import extreme_balls
 from ..orbit.extremes.turning_points import interval
 from ..orbit.fate.balls import precise_margin
@@ -131,9 +131,9 @@ def _many(task, exact, digits):
     reduction, bits = landscape(task.scene).reduction, math.ceil(digits * math.log2(10))
     if digits > DOUBLES:
         yield _series(task, exact, digits)
-    for question, call in (("extremes", lambda: extreme_balls(reduction, task.start, Fate.BOUNDED, bits)),
-                           ("period", lambda: period_ball(reduction, task.start, digits)),
-                           ("margin", lambda: precise_margin(reduction, task.start, digits))):
+    for question, call in (("extremes", lambda: extreme_balls(Orbit(reduction, task.start), Fate.BOUNDED, bits)),
+                           ("period", lambda: period_ball(Orbit(reduction, task.start), digits)),
+                           ("margin", lambda: precise_margin(Orbit(reduction, task.start), digits))):
         _, seconds, repeats = _timed(call)
         yield Growth("digits", question, "balls", digits, seconds, repeats)
 
@@ -193,7 +193,7 @@ def bits_needed(scene, state) -> int | None:
     for bits in BITS:
         try:
             with working(bits) as numbers:
-                for margin in PreciseOrbit(landscape(scene).reduction, state, numbers).margins():
+                for margin in BallOrbit(landscape(scene).reduction, state, numbers).margins():
                     sign(margin)
             return bits
         except Unclear:
@@ -204,7 +204,7 @@ def bits_needed(scene, state) -> int | None:
 def nodes_needed(scene, state) -> int | None:
     """Nodes of the midpoint rule, doubled until the period has NODE_DIGITS digits of that in balls; None where rounding forbids it."""
     land = landscape(scene)
-    exact = precise_period(land.reduction, state, Fate.BOUNDED)
+    exact = precise_period(Orbit(land.reduction, state), Fate.BOUNDED)
     place, w, _ = land.start(np.asarray(state, float)[None])
     span = interval(land, place, w)
     modes, nodes = Modes(land, span.middle), 4

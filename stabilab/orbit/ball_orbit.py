@@ -9,11 +9,12 @@ from fractions import Fraction
 from functools import cached_property
 from typing import NamedTuple
 
-from ..numbers.balls import sign
+from ..numbers.balls import START_BITS, settled, sign
 from ..numbers.double_ball import Unclear
 from ..numbers.polynomial import Poly
 from .potential import derivatives_on_parabola
 
+MOST_BITS = 1 << 17  # where balls end
 TIE_BITS = 4096  # with so many the extremes of a motion on the separatrix are worked out
 
 
@@ -24,8 +25,24 @@ class Spot(NamedTuple):
     kind: int
 
 
-class PreciseOrbit:
-    """The orbit of one state: V along it as a function of the offset y = theta - theta_0, and its equilibria.
+class Orbit:
+    """The orbit of one state (three doubles or Fractions, taken exactly), built once in each kind of number that a question asks for."""
+
+    def __init__(self, reduction, state):
+        self.reduction, self.state, self._built = reduction, state, {}
+
+    def settled(self, question, bits: int = START_BITS, most: int = MOST_BITS):
+        """question(orbit) of its `BallOrbit`, as `balls.settled` asks: with more bits as long as it is `Unclear`."""
+        return settled(lambda numbers: question(self._in(numbers)), bits, most)
+
+    def _in(self, numbers):
+        if numbers not in self._built:
+            self._built[numbers] = BallOrbit(self.reduction, self.state, numbers)
+        return self._built[numbers]
+
+
+class BallOrbit:
+    """The orbit of one state in balls: V along it as a function of the offset y = theta - theta_0, and its equilibria.
 
     numbers: the kind of ball that it computes in; to be used where that came from, inside `settled`.
     """

@@ -11,6 +11,7 @@ from dataclasses import replace
 from fractions import Fraction
 
 from ..errors import InputError
+from .ball_orbit import Orbit
 from .extremes.one_state import extremes_of
 from .fate.free_margin import is_free
 from .fate.one_state import fate_of
@@ -62,12 +63,12 @@ def _exponent(value: Fraction) -> int:
     return value.numerator.bit_length() - value.denominator.bit_length()
 
 
-def own(reduction, state, k: int):
-    """(reduction, state as Fractions) in the unit 2^k."""
-    u = Fraction(2) ** k
+def own(orbit: Orbit, k: int) -> Orbit:
+    """The orbit in the unit 2^k."""
+    u, reduction = Fraction(2) ** k, orbit.reduction
     near = replace(reduction, s=reduction.s / u, p0=reduction.p0 / u, q0=reduction.q0 / u, rho=reduction.rho / u,
                    sigma=reduction.sigma / u, m=reduction.m / (u * u))
-    return near, tuple(Fraction(v) / u for v in state)
+    return Orbit(near, tuple(Fraction(v) / u for v in orbit.state))
 
 
 def powered(value: float, k: int) -> float:
@@ -79,9 +80,9 @@ def powered(value: float, k: int) -> float:
     return found if found or not value else math.nan
 
 
-def far_fate(scene, reduction, state, k: int):
-    """The fate of one state of a scene with this reduction, as an `OneFate`."""
-    found = fate_of(scene, reduction, state, *own(reduction, state, k))
+def far_fate(scene, orbit: Orbit, k: int, near: Orbit | None = None):
+    """The fate of one state of a scene, as an `OneFate`; near: its orbit in the unit 2^k, where that is at hand."""
+    found = fate_of(scene, orbit, near or own(orbit, k))
     return found if is_free(scene) else found._replace(margin=powered(found.margin, 2 * k))
 
 
@@ -114,7 +115,7 @@ def _finite(pairs):
 def far_numbers(scene, state):
     """((3, 2) extremes, period) of one state of a scene with a reduction, as rows of `extremes` and `period` have them; NaN where
     they are no doubles."""
-    reduction, k = reduce(scene), far_exponent(scene, state)
-    near, small = own(reduction, state, k)
-    label = fate_of(scene, reduction, state, near, small).label
-    return extremes_of(near, small, label, k), powered(period_of(near, small, label), -k)
+    orbit, k = Orbit(reduce(scene), state), far_exponent(scene, state)
+    near = own(orbit, k)
+    label = fate_of(scene, orbit, near).label
+    return extremes_of(near, label, k), powered(period_of(near, label), -k)

@@ -4,6 +4,7 @@ from __future__ import annotations
 import math
 
 from ..physics.state import three_floats
+from .ball_orbit import Orbit
 from .extremes.one_state import extremes_of
 from .far_states import far_exponent, far_fate, in_scene_unit, own
 from .fate.one_state import fate_of
@@ -16,34 +17,33 @@ from .separatrix.distance import distance_of
 
 def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
     """See `answers.motion`; the scene has a reduction, and `span` is not needed."""
-    state, reduction = three_floats(state), reduce(scene)
-    given = exact or state
-    far = far_exponent(scene, given)
+    state = three_floats(state)
+    orbit = Orbit(reduce(scene), exact or state)
+    far = far_exponent(scene, orbit.state)
     if far is None:
-        return _reduced(reduction, state, given, fate_of(scene, reduction, given), brief)
-    near, small = own(reduction, given, far)
-    decided = far_fate(scene, reduction, given, far)
-    return in_scene_unit(_reduced(near, tuple(map(float, small)), small, decided, brief, far), far, state, decided.margin)
+        return _reduced(orbit, state, fate_of(scene, orbit), brief)
+    near = own(orbit, far)
+    decided = far_fate(scene, orbit, far, near)
+    return in_scene_unit(_reduced(near, tuple(map(float, near.state)), decided, brief, far), far, state, decided.margin)
 
 
-def _reduced(reduction, state, given, decided, brief, k=0) -> Motion:
-    """All that is known of a motion with a reduction and this fate; the extremes in units 2^-k of the reduction's."""
+def _reduced(orbit, state, decided, brief, k=0) -> Motion:
+    """All that is known of a motion with this orbit and fate; state: the doubles of its start. The extremes are in units 2^-k of the orbit's."""
     fields = judged(state, decided)
     fields |= {"margin_energy": finite(decided.margin), "tolerance": 1e-12,
-               "extremes": extremes_of(reduction, given, decided.label, k)}
-    return Motion(**fields, **({} if brief else _rest(reduction, state, given, decided)))
+               "extremes": extremes_of(orbit, decided.label, k)}
+    return Motion(**fields, **({} if brief else _rest(orbit, state, decided)))
 
 
-def _rest(reduction, state, given, decided) -> dict:
-    return {**apart_fields(reduction, state, given, decided), "period": repeats(period_of(reduction, given, decided.label)),
-            "invariants": invariants_of(reduction, given)}
+def _rest(orbit, state, decided) -> dict:
+    return {**apart_fields(orbit, state, decided), "period": repeats(period_of(orbit, decided.label)), "invariants": invariants_of(orbit)}
 
 
-def apart_fields(reduction, state, given, decided) -> dict:
-    """The fields of a Motion that tell the distance from the separatrix; state: the doubles of `given`."""
+def apart_fields(orbit: Orbit, state, decided) -> dict:
+    """The fields of a Motion that tell the distance from the separatrix; state: the doubles of the orbit's."""
     if decided.label == Fate.SEPARATRIX or decided.margin == 0:
         return {"margin_velocity": 0.0, "velocity_bounds": (0.0, 0.0), "velocity_witness": state}
-    found = distance_of(reduction, given)
+    found = distance_of(orbit.reduction, orbit.state, orbit)
     if not math.isfinite(found.upper):
         return {"velocity_because": found.because}
     return {"margin_velocity": found.value, "velocity_bounds": (found.lower, found.upper), "velocity_witness": found.witness,

@@ -12,6 +12,7 @@ import numpy as np
 from ..errors import InputError
 from ..numbers.constants import EPS
 from ..orbit import many
+from ..orbit.ball_orbit import Orbit
 from ..orbit.fate.arrays import at_rest, nearly_flat
 from ..orbit.fate.arrays import fates as fates_on_orbit
 from ..orbit.fate.one_state import OneFate, fate_of
@@ -39,19 +40,25 @@ def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
     """See `answers.motion`; the extremes of a motion that does not repeat are over the span."""
     state = three_floats(state)
     given = exact or state
-    decided = aligned_fate(scene, given)
-    time = turned_period(scene, given, decided.label)
+    orbit = twin_orbit(aligned(scene), given)
+    decided = aligned_fate(scene, given, orbit)
+    time = turned_period(orbit, decided.label)
     fields = {**judged(state, decided), "margin_energy": finite(decided.margin), "period": repeats(time)}
     if span is not None or decided.label == Fate.EQUILIBRIUM or repeats(time) is not None:
         fields["extremes"] = pairs(turned_extremes(scene, given, decided.label, time, length_of(span)))
-    return Motion(**fields, **({} if brief else turned_apart(aligned(scene), state, given, decided)))
+    return Motion(**fields, **({} if brief else turned_apart(aligned(scene), orbit, state, decided)))
 
 
-def turned_apart(turn, state, given, decided) -> dict:
+def twin_orbit(turn, state) -> Orbit:
+    """The orbit of the turned state; its reduction is None where the twin's motion grows by law."""
+    return Orbit(reduce(turn.twin), turn(state))
+
+
+def turned_apart(turn, orbit, state, decided) -> dict:
     """The fields of a Motion that tell the distance from the separatrix: that of the twin, as a turn keeps distances."""
     if decided.label == Fate.UNDECIDED:
         return {"velocity_because": f"not known: {decided.because}"}
-    found = apart_fields(reduce(turn.twin), state, turn(given), decided)
+    found = apart_fields(orbit, state, decided)
     witness = found.get("velocity_witness")
     if witness in (None, state):
         return found
@@ -59,18 +66,17 @@ def turned_apart(turn, state, given, decided) -> dict:
     return found | {"velocity_witness": tuple(float(sum(r * Fraction(v) for r, v in zip(row, witness))) for row in back)}
 
 
-def aligned_fate(scene, state) -> OneFate:
-    """The fate of one state (floats or Fractions, taken exactly)."""
-    found = turned_fate(aligned(scene), state)
+def aligned_fate(scene, state, orbit) -> OneFate:
+    """The fate of one state (floats or Fractions, taken exactly) with this orbit of its twin."""
+    found = turned_fate(aligned(scene), state, orbit)
     return rest_of(scene, found) if rests(scene.quadratic(), state) else found
 
 
-def turned_fate(turn, state) -> OneFate:
+def turned_fate(turn, state, orbit) -> OneFate:
     """Of the twin's motion, whose numbers are exact or good to 240 bits."""
-    reduction = reduce(turn.twin)
-    if reduction is None:  # a gyrostatic component stands along the torque
-        return unbounded(captured_fate(turn.twin, tuple(map(float, turn(state)))))._replace(axis=0, sense=0)
-    found = fate_of(turn.twin, reduction, turn(state))
+    if orbit.reduction is None:  # a gyrostatic component stands along the torque
+        return unbounded(captured_fate(turn.twin, tuple(map(float, orbit.state))))._replace(axis=0, sense=0)
+    found = fate_of(turn.twin, orbit)
     speed = sum(float(v) ** 2 for v in state)
     scale = max(map(float, turn.twin.body.exact)) * speed + max(abs(float(m)) for m in turn.twin.vector("constant_torque"))
     if not turn.exact and abs(found.margin) <= TURN_SHARE * scale:
@@ -104,7 +110,8 @@ def _label(scene, states, out) -> int:
             change += np.abs(np.nan_to_num(_twin_fates(turn.twin, moved).margins - result.margins, nan=0.0, posinf=np.inf, neginf=np.inf))
     doubtful = (np.abs(result.margins) <= 2 * change) | nearly_flat(land, turned)
     for index in np.nonzero(doubtful)[0]:
-        write_row(out, index, *turned_fate(turn, states[index].tolist()))
+        state = states[index].tolist()
+        write_row(out, index, *turned_fate(turn, state, twin_orbit(turn, state)))
     at_rest(scene, states, out)
     return int(doubtful.sum())
 
@@ -141,10 +148,9 @@ def periods(scene, states, fast: bool | None = None):
     return turned_periods(scene, states, fates(scene, states).labels)
 
 
-def turned_period(scene, state, label) -> float:
-    """The period of one state (floats or Fractions); inf where the motion does not repeat."""
-    turn = aligned(scene)
-    return period_of(reduce(turn.twin), turn(state), label) if label == Fate.BOUNDED else 0.0 if label == Fate.EQUILIBRIUM else math.inf
+def turned_period(orbit, label) -> float:
+    """The period of one motion with this orbit of its twin; inf where it does not repeat."""
+    return period_of(orbit, label) if label == Fate.BOUNDED else 0.0 if label == Fate.EQUILIBRIUM else math.inf
 
 
 def turned_periods(scene, states, labels):

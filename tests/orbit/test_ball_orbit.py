@@ -12,6 +12,7 @@ import stabilab
 from stabilab import Body, Fate, Gyrostat, Scene
 from stabilab.answers.motion import motion
 from stabilab.numbers.balls import DOUBLE_BITS, START_BITS
+from stabilab.orbit.ball_orbit import Orbit
 from stabilab.orbit.extremes.balls import precise_extremes
 from stabilab.orbit.fate.balls import decide
 from stabilab.orbit.fate.one_state import fate_of
@@ -44,7 +45,7 @@ def test_the_margin_of_balls_is_that_of_the_potential(name, bits):
     scene, problem = ALL[name]
     r = reduce(scene)
     for state in states_of(name, 5):
-        tie, exact = decide(r, state, bits), energy.margin(problem, state, digits=40)
+        tie, exact = decide(Orbit(r, state), bits), energy.margin(problem, state, digits=40)
         if exact is None:
             assert (tie.sign, tie.margin) == (-1, -math.inf)
         else:
@@ -58,9 +59,9 @@ def test_the_extremes_and_period_of_balls_are_those_of_the_potential_to_the_last
     r = reduce(scene)
     for n, state in enumerate(states_of(name, 3)):
         label = WORDS[energy.label(problem, state, digits=40)]
-        assert_extremes(precise_extremes(r, state, label), energy.extremes(problem, state, digits=40), 1e-15)
+        assert_extremes(precise_extremes(Orbit(r, state), label), energy.extremes(problem, state, digits=40), 1e-15)
         if n == 0:
-            assert precise_period(r, state, label) == pytest.approx(float(energy.period(problem, state, digits=40)), rel=1e-14)
+            assert precise_period(Orbit(r, state), label) == pytest.approx(float(energy.period(problem, state, digits=40)), rel=1e-14)
 
 
 @pytest.mark.parametrize("name", ["minor scaled +", "major physical", "middle scaled -, |c| above the cusp"])
@@ -70,7 +71,7 @@ def test_near_a_separatrix_some_hundred_bits_decide_and_algebra_is_not_asked(nam
     monkeypatch.setattr(exact_tie, "exact_tie", lambda orbit: pytest.fail("algebra was asked about a state off the separatrix"))
     for off in (1e-14, -1e-15, 0.0):
         state = brink(problem, {"mi": (-1.25, -1.25), "ma": (19.5, 14.0)}[name[:2]] if "+" not in name else (3.0, 1.0), off)
-        tie = decide(reduce(scene), state)
+        tie = decide(Orbit(reduce(scene), state))
         assert tie.sign == (1 if energy.margin(problem, state) > 0 else -1) and tie.bits < 512
 
 
@@ -86,7 +87,7 @@ def test_energy_and_invariant_of_a_state_are_those_of_every_other_on_its_orbit(n
             if w[0] ** 2 - 2 * fall[0] <= 0:
                 continue
             other = land.components(land.potential.move(place, y), np.sqrt(w * w - 2 * fall))[0]
-            one, two = invariants_of(land.reduction, state), invariants_of(land.reduction, other.tolist())
+            one, two = invariants_of(Orbit(land.reduction, state)), invariants_of(Orbit(land.reduction, other.tolist()))
             assert set(one) == {"Q", "energy"}
             # the turn angle of a circle is known up to turns, each 2 pi mu of the energy
             turn = 2 * math.pi * land.potential.mu * land.reduction.energy_unit * (land.e < 0)
@@ -94,7 +95,7 @@ def test_energy_and_invariant_of_a_state_are_those_of_every_other_on_its_orbit(n
             assert min(apart, abs(apart - turn)) <= 1e-12 * (abs(one["energy"]) + abs(two["energy"]) + turn)
             q = float(land.invariant(place)[0])
             assert one["Q"] == pytest.approx(q, rel=1e-12) and two["Q"] == pytest.approx(q, rel=1e-12)
-    assert invariants_of(reduce(PARABOLIC["first axis"][0]), [1.0, 2.0, 3.0]) == {}
+    assert invariants_of(Orbit(reduce(PARABOLIC["first axis"][0]), [1.0, 2.0, 3.0])) == {}
 
 
 @pytest.mark.parametrize("torque", [0.75, -0.75])
@@ -109,7 +110,7 @@ def test_on_planes_with_irrational_axes_one_state_and_arrays_know_the_fate_and_e
         assert found.labels[n] == one.fate == WORDS[word] and (found.axis[n], found.sense[n]) == (one.axis, one.sense)
         assert one.because.startswith(found.because[n])
         exact = energy.extremes(problem, state, digits=40)
-        for box in (boxes[n], np.array(one.extremes), precise_extremes(reduce(scene), state, WORDS[word])):
+        for box in (boxes[n], np.array(one.extremes), precise_extremes(Orbit(reduce(scene), state), WORDS[word])):
             assert_extremes(box, exact, 1e-11)
     assert {WORDS["spin-up"]} <= set(found.labels.tolist()) or set(found.labels.tolist()) == {Fate.BOUNDED}
 
@@ -121,7 +122,7 @@ def test_one_state_on_an_invariant_plane_is_told_as_arrays_tell_it(a, b, sign, p
     states = [(y - b, w, plane * y) for y in (-4.0, -0.5, 0.0, 1.25) for w in (-3.0, 0.0, 0.75)]
     found = stabilab.fate(scene, np.array(states))
     for n, state in enumerate(states):
-        one = fate_of(scene, reduce(scene), state)
+        one = fate_of(scene, Orbit(reduce(scene), state))
         assert (one.label, one.reason) == (found.labels[n], found.reasons[n])
         assert (one.axis, one.sense) == (found.axis[n], found.sense[n])
         assert one.margin == pytest.approx(found.margins[n], rel=1e-12)
@@ -137,7 +138,7 @@ def test_a_free_motion_on_the_separatrix_tends_to_the_middle_spin_with_extremes_
     side = sorted((0.0, turn * (most if ahead > 0 else 1.0)))  # w1 is greatest where w2 passes zero
     exact = [side, [-spin, ahead * 0.7], side]
     assert stabilab.fate(scene, np.array(state)).labels == motion(scene, state).fate == Fate.SEPARATRIX
-    for box in (stabilab.extremes(scene, np.array(state)), precise_extremes(reduce(scene), state, Fate.SEPARATRIX)):
+    for box in (stabilab.extremes(scene, np.array(state)), precise_extremes(Orbit(reduce(scene), state), Fate.SEPARATRIX)):
         np.testing.assert_allclose(box, exact, rtol=1e-15, atol=1e-15)
 
 
@@ -155,6 +156,6 @@ def test_rational_states_on_the_separatrix_of_a_free_gyrostat_are_ties_and_their
         state = [x + t * y for x, y in zip(p, v)]
         assert sum(d * x * x for d, x in zip(D, state)) == sum(d * x * x for d, x in zip(D, p))
         if state != list(p):
-            assert decide(r, state).sign == 0
+            assert decide(Orbit(r, state)).sign == 0
             beside = [state[0] + F(1, 10**60), *state[1:]]
-            assert decide(r, beside).sign != 0
+            assert decide(Orbit(r, beside)).sign != 0

@@ -17,6 +17,7 @@ from ...integrate.reference import DIGITS, GUARD, WORK, reference
 from ...integrate.taylor_digits import Exhausted, Recursion, steps, widen
 from ...integrate.to_heyoka import TAYLOR_TOLERANCE
 from ...numbers.balls import DOUBLE_BITS, Digits, working
+from ...orbit.ball_orbit import Orbit
 from ...orbit.extremes.balls import extreme_balls
 from ...orbit.fate.balls import precise_margin
 from ...orbit.fate.free_margin import free_margin, is_free
@@ -99,7 +100,7 @@ def _number(question, known):
 
 def _by_formula(question, scene, land, known, digits, state) -> Told:
     values, label = _number(question, known), known.fate
-    balls = _balls(question, land.reduction, state, label, max(digits, MOST) + 1)
+    balls = _balls(question, Orbit(land.reduction, state), label, max(digits, MOST) + 1)
     if balls is None:  # on the separatrix
         return _tie(question, digits)
     return _judged(question, values, balls, digits)
@@ -122,13 +123,13 @@ def _judged(question, values, balls, digits) -> Told:
                 f"ball arithmetic: the number is within {width:.0e}", _decimals(balls, digits) if digits > MOST else None)
 
 
-def _balls(question, reduction, state, label, digits):
+def _balls(question, orbit, label, digits):
     """The answer in balls, nested as its floats are."""
     if question == "extremes":
-        return extreme_balls(reduction, state, int(label), math.ceil(digits * math.log2(10)))
+        return extreme_balls(orbit, int(label), math.ceil(digits * math.log2(10)))
     if question == "period":
-        return period_ball(reduction, state, digits) if label == Fate.BOUNDED else Digits(DOUBLE_BITS).ball(0)
-    return precise_margin(reduction, state, digits)
+        return period_ball(orbit, digits) if label == Fate.BOUNDED else Digits(DOUBLE_BITS).ball(0)
+    return precise_margin(orbit, digits)
 
 
 def _each(values):
@@ -181,7 +182,7 @@ def _margin_without_reduction(scene, known, digits, state) -> Told:
         balls = None if margin.tie else margin.ball
     else:
         turn = aligned(scene)
-        balls = precise_margin(reduce(turn.twin), turn(state), wanted)
+        balls = precise_margin(Orbit(reduce(turn.twin), turn(state)), wanted)
     return _tie("fate", digits) if balls is None else _judged("fate", known.margin_energy, balls, digits)
 
 

@@ -7,6 +7,7 @@ import numpy as np
 
 from ...errors import InputError
 from ...numbers.affine import Affine, lifted, sign_over
+from ...orbit.ball_orbit import Orbit
 from ...orbit.fate.one_state import fate_of
 from ...orbit.fate.reasons import REASONS, Reason
 from ...orbit.potential import derivatives_on_parabola
@@ -63,7 +64,7 @@ def verdict_at(box: Box, point) -> str | None:
     if reduction is None:
         found = fate(scene, np.array(state))
         return words(Fate(int(found.labels)), int(found.axis), int(found.sense))
-    found = fate_of(scene, reduction, state)
+    found = fate_of(scene, Orbit(reduction, state))
     return words(found.label, found.axis, found.sense)
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from ...numbers.constants import EPS, TURN
 from ...numbers.roots import bracketed_newton
+from ..ball_orbit import Orbit
 from ..landscape import Landscape
 from ..result import Fate
 from .balls import precise_extremes
@@ -36,7 +37,7 @@ def extremes_of_chunk(land: Landscape, states, decided, start, span=None):
     into(out, spinning, _spinning(land, *picked(place, w, spinning)))
     if precise.any():
         for index in np.nonzero(precise)[0]:
-            out[index] = precise_extremes(land.reduction, states[index], int(decided.labels[index]))
+            out[index] = precise_extremes(Orbit(land.reduction, states[index]), int(decided.labels[index]))
     out[:, :, 0] = np.minimum(out[:, :, 0], states)  # rounding must not exclude the state itself
     out[:, :, 1] = np.maximum(out[:, :, 1], states)
     return out

@@ -2,9 +2,9 @@
 wherever else doubles would lose digits. Every digit returned is certain."""
 from __future__ import annotations
 
-from ...numbers.balls import DOUBLE_BITS, START_BITS, settled, sign, working
+from ...numbers.balls import DOUBLE_BITS, START_BITS, sign, working
 from ...numbers.double_ball import Unclear
-from ..ball_orbit import TIE_BITS, PreciseOrbit
+from ..ball_orbit import TIE_BITS, Orbit
 from ..result import Fate
 
 CERTAIN_BITS = 56  # the balls of the extremes are this much narrower than the component is large
@@ -14,25 +14,24 @@ WIDER = 4, 64, 4096
 MOST_BITS = 1 << 13  # a component that is still not settled is zero to this precision
 
 
-def precise_extremes(reduction, state, label: int):
+def precise_extremes(orbit: Orbit, label: int):
     """(3, 2) array of one state with the given `Fate` label, in the scene's variables."""
     import numpy as np
-    return np.array([[float(v if isinstance(v, float) else v.mid()) for v in pair] for pair in extreme_balls(reduction, state, label)])
+    return np.array([[float(v if isinstance(v, float) else v.mid()) for v in pair] for pair in extreme_balls(orbit, label)])
 
 
-def extreme_balls(reduction, state, label: int, certain: int = CERTAIN_BITS, doubles: bool = False):
+def extreme_balls(orbit: Orbit, label: int, certain: int = CERTAIN_BITS, doubles: bool = False):
     """[(least, greatest)] of the three components as balls, 2^-certain of the component's size wide at most; floats
     (infinite) where unbounded. doubles: balls of doubles will do where they are certain to DOUBLE_CERTAIN bits."""
     if label == Fate.EQUILIBRIUM:
         with working(START_BITS) as numbers:
-            return [(numbers.ball(v), numbers.ball(v)) for v in state]
+            return [(numbers.ball(v), numbers.ball(v)) for v in orbit.state]
     how = {Fate.SPIN_UP: _unbounded, Fate.SEPARATRIX: _asymptotic, Fate.BOUNDED: _bounded}[Fate(label)]
 
-    def question(numbers):
-        orbit = PreciseOrbit(reduction, state, numbers)
-        return _ranges(orbit, *how(orbit), DOUBLE_CERTAIN if numbers.bits == DOUBLE_BITS else certain)
+    def question(orbit):
+        return _ranges(orbit, *how(orbit), DOUBLE_CERTAIN if orbit.numbers.bits == DOUBLE_BITS else certain)
     start = TIE_BITS if label == Fate.SEPARATRIX else DOUBLE_BITS if doubles else max(START_BITS, 2 * certain)
-    return settled(question, start)
+    return orbit.settled(question, start)
 
 
 def turning_points(orbit):

@@ -14,6 +14,7 @@ import numpy as np
 
 from ...numbers.constants import EPS, TURN
 from ...physics.states import equilibrium_mask
+from ..ball_orbit import Orbit
 from ..far_states import far_exponent, far_fate, far_rows
 from ..landscape import Landscape, landscape
 from ..potential import derivatives_on_parabola
@@ -49,7 +50,7 @@ def fates(scene, states, fast=None) -> FateResult:
         column[~far] = getattr(near, name)
     for index in np.nonzero(far)[0]:
         state = states[index].tolist()
-        write_row(out, index, *far_fate(scene, reduction, state, far_exponent(scene, state)))
+        write_row(out, index, *far_fate(scene, Orbit(reduction, state), far_exponent(scene, state)))
     return FateResult(**out, precise=near.precise + int(far.sum()))
 
 
@@ -113,7 +114,7 @@ def _settled_circle(land, states, place, w, size):
     doubtful = np.nonzero(doubtful)[0]
     signs = np.sign(margins)
     for index in doubtful:
-        tie = decide(land.reduction, states[index])
+        tie = decide(Orbit(land.reduction, states[index]))
         margins[index], signs[index] = tie.margin, tie.sign
     return margins, signs, len(doubtful)
 
@@ -210,7 +211,7 @@ def _valley_margins(land, states, place, w, size):
         doubtful |= _beside_fold(land, place)
     signs = np.sign(margins)
     for index in np.nonzero(doubtful)[0]:
-        tie = decide(land.reduction, states[index])
+        tie = decide(Orbit(land.reduction, states[index]))
         signs[index], margins[index] = (tie.sign, tie.margin) if np.isfinite(tie.margin) else (1, np.inf)
     return margins, signs, int(doubtful.sum())
 
@@ -252,7 +253,7 @@ def _label_plane(land, state, place, out, index):
     if eta == 0:  # grows ahead, and the torque's tilt rises behind
         write_row(out, index, Fate.BOUNDED, Reason.WALLS, np.inf)
         return
-    tie = decide(land.reduction, state)
+    tie = decide(Orbit(land.reduction, state))
     margin = tie.margin * land.reduction.energy_unit
     if tie.sign > 0:
         write_row(out, index, Fate.BOUNDED, Reason.PLANE_CAPTURED, margin)

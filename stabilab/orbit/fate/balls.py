@@ -3,13 +3,13 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from ...numbers.balls import DOUBLE_BITS, START_BITS, settled, sign
+from ...numbers.balls import DOUBLE_BITS, START_BITS, sign
 from ...numbers.double_ball import Unclear
-from ..ball_orbit import PreciseOrbit
+from ..ball_orbit import MOST_BITS, Orbit
 from .tie import exact_tie
 
 DOUBLE_SHARE = 1e-12  # of a margin: with less certainty balls of doubles do not settle it
-EXACT_BITS, MOST_BITS = 512, 1 << 17  # from these bits on algebra is asked whether two energies are equal; and where balls end
+EXACT_BITS = 512  # from these bits on algebra is asked whether two energies are equal
 
 
 class Tie(NamedTuple):
@@ -20,17 +20,15 @@ class Tie(NamedTuple):
     bits: int
 
 
-def decide(reduction, state, bits: int = START_BITS) -> Tie:
-    """Sign of the margin of one state (doubles or fractions), doubling the bits until it is clear; sign -1 with margin -inf:
-    no barrier.
+def decide(orbit: Orbit, bits: int = START_BITS) -> Tie:
+    """Sign of the margin of one state, doubling the bits until it is clear; sign -1 with margin -inf: no barrier.
 
     bits: at first; from DOUBLE_BITS the margin comes with at least twelve digits.
 
     Margin: the highest barrier minus the energy on a circle, else that of the barrier nearest in height.
     """
-    def question(numbers):
-        orbit, bits = PreciseOrbit(reduction, state, numbers), numbers.bits
-        margin = _margin(orbit)
+    def question(orbit):
+        margin, bits = _margin(orbit), orbit.numbers.bits
         if margin is None:
             return Tie(-1, float("-inf"), bits)
         if _ties(orbit, margin):
@@ -38,7 +36,7 @@ def decide(reduction, state, bits: int = START_BITS) -> Tie:
         if bits == DOUBLE_BITS and not DOUBLE_SHARE * abs(margin) > margin.rad():
             raise Unclear
         return Tie(sign(margin), float(margin.mid()), bits)
-    return settled(question, bits, MOST_BITS)
+    return orbit.settled(question, bits)
 
 
 def _margin(orbit):
@@ -64,15 +62,16 @@ def _ties(orbit, margin) -> bool:
     return exact_tie(orbit) or (0 in margin and orbit.numbers.bits >= MOST_BITS)
 
 
-def precise_margin(reduction, state, digits: int):
+def precise_margin(orbit: Orbit, digits: int):
     """The margin of one state to `digits` decimal digits, as a ball in the scene's energy; None where there is no barrier,
     and on the separatrix, where no digit of it is known but that all vanish."""
-    def question(numbers):
-        orbit = PreciseOrbit(reduction, state, numbers)
+    r = orbit.reduction
+
+    def question(orbit):
         margin = _margin(orbit)
         if margin is None or _ties(orbit, margin):
             return None
         if not 10 ** digits * margin.rad() < abs(margin):
             raise Unclear
-        return margin * numbers.ball(reduction.weight / (abs(reduction.p * reduction.q) if reduction.e else 1))
-    return settled(question, most=MOST_BITS)
+        return margin * orbit.numbers.ball(r.weight / (abs(r.p * r.q) if r.e else 1))
+    return orbit.settled(question)

@@ -11,9 +11,9 @@ import math
 from fractions import Fraction
 from typing import NamedTuple
 
-from ...numbers.balls import DOUBLE_BITS, settled, working
+from ...numbers.balls import DOUBLE_BITS, working
 from ...physics.quadratic import rests
-from ..ball_orbit import PreciseOrbit
+from ..ball_orbit import Orbit
 from ..result import Fate
 from .balls import decide
 from .free_margin import free_margin, is_free
@@ -36,15 +36,16 @@ class OneFate(NamedTuple):
         return REASONS[self.reason]
 
 
-def fate_of(scene, reduction, state, near=None, small=None) -> OneFate:
-    """The fate of one state (three floats or Fractions) of a scene with this reduction.
+def fate_of(scene, orbit: Orbit, near: Orbit | None = None) -> OneFate:
+    """The fate of one state of a scene with this orbit.
 
-    near, small: reduction and state in a unit in which to compare energies; the margin is in it then.
+    near: the orbit in a unit in which to compare energies; the margin is in it then.
     """
+    reduction, state = orbit.reduction, orbit.state
     if is_free(scene):  # in the scene's unit, whatever its size
         found = free_fate(scene, state)
     else:
-        found = {-1: _on_circle, 1: _on_hyperbola, 0: _on_parabola}[reduction.e](near or reduction, small or state)
+        found = {-1: _on_circle, 1: _on_hyperbola, 0: _on_parabola}[reduction.e](near or orbit)
         lost = found.margin == 0 and found.label != Fate.SEPARATRIX  # its sign is known, and it is too small for a double
         found = found._replace(margin=math.nan if lost else found.margin * reduction.energy_unit)
     return at_rest(scene, found) if rests(scene.quadratic(), state) else found
@@ -69,11 +70,12 @@ def _tie() -> OneFate:
     return OneFate(Fate.SEPARATRIX, Reason.TIE, 0.0)
 
 
-def _on_circle(r, state) -> OneFate:
-    if _shifted(r, state) == (0, 0):  # the circle is a point: pure spin, and nothing stands in its way
+def _on_circle(orbit) -> OneFate:
+    r = orbit.reduction
+    if _shifted(orbit) == (0, 0):  # the circle is a point: pure spin, and nothing stands in its way
         found = None
     else:
-        found = decide(r, state, DOUBLE_BITS)
+        found = decide(orbit, DOUBLE_BITS)
         if found.sign == 0:
             return _tie()
     margin = -INF if found is None else found.margin
@@ -84,37 +86,38 @@ def _on_circle(r, state) -> OneFate:
     return _spin_up(r, Reason.NO_BARRIER if margin == -INF else Reason.ABOVE_BARRIER, margin)
 
 
-def _shifted(r, state) -> tuple[Fraction, Fraction]:
+def _shifted(orbit) -> tuple[Fraction, Fraction]:
     """(omega_j + s_j, omega_k + s_k), exactly."""
+    r, state = orbit.reduction, orbit.state
     return Fraction(state[r.j]) + r.q0 / r.q, Fraction(state[r.k]) + r.p0 / r.p
 
 
-def _valley(r, state) -> OneFate:
+def _valley(orbit) -> OneFate:
     """Between walls: bounded on either side of a barrier, if there is one."""
-    tie = decide(r, state, DOUBLE_BITS)
+    tie = decide(orbit, DOUBLE_BITS)
     if tie.sign == 0:
         return _tie()
     return OneFate(Fate.BOUNDED, Reason.WALLS, INF if tie.margin == -INF else tie.margin)
 
 
-def _on_hyperbola(r, state) -> OneFate:
-    u, v = _shifted(r, state)
+def _on_hyperbola(orbit) -> OneFate:
+    r, (u, v) = orbit.reduction, _shifted(orbit)
     if v * v * abs(r.p) != u * u * abs(r.q):
-        return _valley(r, state)
+        return _valley(orbit)
     if u == 0:
         return _spin_up(r, Reason.PURE_SPIN, -INF)
     if (u > 0) == (v > 0) and r.sense * r.p > 0 or (u > 0) != (v > 0) and r.sense * r.p < 0:
         return OneFate(Fate.BOUNDED, Reason.WALLS, INF)  # eta = 0: it grows ahead, and the torque's tilt rises behind
-    tie = decide(r, state, DOUBLE_BITS)
+    tie = decide(orbit, DOUBLE_BITS)
     if tie.sign > 0:
         return OneFate(Fate.BOUNDED, Reason.PLANE_CAPTURED, tie.margin)
     return _tie() if tie.sign == 0 else _spin_up(r, Reason.PLANE_ESCAPES, tie.margin)
 
 
-def _on_parabola(r, state) -> OneFate:
-    if not any(settled(lambda numbers: PreciseOrbit(r, state, numbers).taylor[1:], DOUBLE_BITS)):
-        return _spin_up(r, Reason.PURE_SPIN, -INF)  # the force is the same all along the orbit
-    return _valley(r, state)
+def _on_parabola(orbit) -> OneFate:
+    if not any(orbit.settled(lambda found: found.taylor[1:], DOUBLE_BITS)):
+        return _spin_up(orbit.reduction, Reason.PURE_SPIN, -INF)  # the force is the same all along the orbit
+    return _valley(orbit)
 
 
 def as_double(value: Fraction) -> float:

@@ -14,7 +14,7 @@ from ...numbers.flint_polynomial import polynomial, shares_root
 
 
 def exact_tie(orbit) -> bool:
-    """Whether each barrier that the balls of `orbit` (a PreciseOrbit) cannot tell from the energy equals it exactly.
+    """Whether each barrier that the balls of `orbit` (a BallOrbit) cannot tell from the energy equals it exactly.
 
     To be asked at the working precision at which the orbit was made; inputs are exact. False where a torque acts on a
     circle or a hyperbola. A barrier whose ball is clear of the energy plays no part.

@@ -11,6 +11,7 @@ import numpy as np
 
 from ...errors import InputError
 from ...physics.states import checked_states
+from ..ball_orbit import Orbit
 from ..period.one_state import period_of
 from ..result import Fate
 from .in_doubles import constants, ordinary
@@ -40,16 +41,17 @@ def reduced_motion(scene, state, nodes: int | None = None, backwards: bool = Fal
                          "gyrostatic moment has a component along it; take method taylor")
     motion = ordinary(plain, state, nodes, backwards) if plain else None
     if motion is None:
-        motion = _motion(relief(reduction, state), state, nodes, backwards)
+        orbit = Orbit(reduction, tuple(state))
+        motion = _motion(relief(orbit), state, nodes, backwards)
         if nodes is None and isinstance(motion, ByPanels) and not motion.sense:
-            _refuse_another_period(motion, reduction, state)
+            _refuse_another_period(motion, orbit)
     motion.axis, motion.spin = reduction.axis, plain.spin if plain else (1.0, float(reduction.s))
     return motion
 
 
-def _refuse_another_period(motion, reduction, state):
+def _refuse_another_period(motion, orbit):
     """InputError where the panels of a libration do not add up to its period, which is known by other means."""
-    expected = period_of(reduction, tuple(state), Fate.BOUNDED)
+    expected = period_of(orbit, Fate.BOUNDED)
     if not abs(motion.period - expected) <= PERIODS_AGREE * expected:
         raise InputError("the reduced form of this motion takes more digits than doubles have; take method taylor")
 

@@ -12,9 +12,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...numbers.balls import settled
 from ...numbers.double_ball import Unclear
-from ..ball_orbit import TIE_BITS, PreciseOrbit
+from ..ball_orbit import TIE_BITS, Orbit
 
 SURE_BITS = 60  # relative accuracy of a ball that is rounded to a double
 FLOOR_BITS = 90  # a sum of terms whose ball is smaller than its terms by so many bits counts as zero
@@ -208,9 +207,9 @@ class Relief:
     drops: tuple
 
 
-def relief(reduction, state) -> Relief:
+def relief(orbit: Orbit) -> Relief:
     """The relief of one state's orbit. Raises InputError where energies tie (on a separatrix)."""
-    return settled(lambda numbers: _relief(PreciseOrbit(reduction, state, numbers)))
+    return orbit.settled(_relief)
 
 
 def _relief(orbit) -> Relief:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...numbers.constants import EPS, TURN
+from ..ball_orbit import Orbit
 from ..extremes.circle_kernel import ENOUGH, NARROW, NODES, divided_pair
 from ..extremes.guards import clear_of_barriers, near_separatrix, needs_digits, picked, trapped_rows
 from ..extremes.turning_points import interval
@@ -42,7 +43,7 @@ def period_chunk(land: Landscape, states, decided, start, span=None):
     precise[np.nonzero(trapped)[0][~found]] = True
     if precise.any():
         for index in np.nonzero(precise)[0]:
-            out[index] = precise_period(land.reduction, states[index], int(decided.labels[index]))
+            out[index] = precise_period(Orbit(land.reduction, states[index]), int(decided.labels[index]))
     return out
 
 

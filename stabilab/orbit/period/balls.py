@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from functools import lru_cache
 
-from ...numbers.balls import settled, sign, working
+from ...numbers.balls import sign, working
 from ...numbers.double_ball import Unclear
-from ..ball_orbit import PreciseOrbit
+from ..ball_orbit import Orbit
 from ..extremes.balls import turning_points
 from ..result import Fate
 
@@ -15,24 +15,23 @@ SPARE = 8  # digits beyond those: terms that are smaller are left out
 FINEST = 9  # halvings of the step; the seventh serves a double
 
 
-def precise_period(reduction, state, label: int) -> float:
+def precise_period(orbit: Orbit, label: int) -> float:
     """Period of one state with the given `Fate` label: inf where the motion does not repeat, 0 at an equilibrium."""
     if label == Fate.EQUILIBRIUM:
         return 0.0
-    return float("inf") if label != Fate.BOUNDED else float(period_ball(reduction, state).mid())
+    return float("inf") if label != Fate.BOUNDED else float(period_ball(orbit).mid())
 
 
-def period_ball(reduction, state, digits: int = DIGITS):
+def period_ball(orbit: Orbit, digits: int = DIGITS):
     """Period of a bounded motion as a ball that is at most 10^-digits of it wide: two steps of the rule agree to `digits`."""
-    def question(numbers):
-        orbit = PreciseOrbit(reduction, state, numbers)
+    def question(orbit):
         ends = turning_points(orbit)
         found = _rotation(orbit, digits) if ends is None else _libration(orbit, *ends, digits)
         if not 10 ** digits * found.rad() < found:
             raise Unclear
         return found
     # nodes come within 10^-2(digits + SPARE) of the turning points, where E - V must keep its digits
-    return settled(question, int(3.33 * (3 * digits + 2 * SPARE + 20)))
+    return orbit.settled(question, int(3.33 * (3 * digits + 2 * SPARE + 20)))
 
 
 def _libration(orbit, left, right, digits):

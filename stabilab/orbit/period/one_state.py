@@ -9,9 +9,9 @@ from __future__ import annotations
 
 import math
 
-from ...numbers.balls import DOUBLE_BITS, settled
+from ...numbers.balls import DOUBLE_BITS
 from ...numbers.double_ball import EPS, Unclear
-from ..ball_orbit import PreciseOrbit
+from ..ball_orbit import Orbit
 from ..extremes.balls import turning_points
 from ..potential import potential
 from ..result import Fate
@@ -22,21 +22,20 @@ AGREE = 1e-11  # two rules agree to this: the error of a geometric rule is squar
 SHARP = 1e-11  # relative error that rounding may leave in E - V, as for the periods of arrays
 
 
-def period_of(reduction, state, label: Fate) -> float:
+def period_of(orbit: Orbit, label: Fate) -> float:
     """Period of one state with this label, in the scene's time: inf where the motion does not repeat, 0 at rest."""
     if label == Fate.EQUILIBRIUM:
         return 0.0
     if label != Fate.BOUNDED:
         return math.inf
 
-    def question(numbers):
-        orbit = PreciseOrbit(reduction, state, numbers)
+    def question(orbit):
         ends = turning_points(orbit)
         return _rotation(orbit) if ends is None else _libration(orbit, *ends)
     try:
-        return settled(question, DOUBLE_BITS, DOUBLE_BITS)
+        return orbit.settled(question, DOUBLE_BITS, DOUBLE_BITS)
     except Unclear:
-        return precise_period(reduction, state, label)
+        return precise_period(orbit, label)
 
 
 def _libration(orbit, left, right) -> float:

@@ -21,6 +21,7 @@ from typing import NamedTuple
 from ...numbers.balls import DOUBLE_BITS
 from ...numbers.double_ball import Unclear
 from ...physics.alignment import aligned
+from ..ball_orbit import Orbit
 from ..conic import Conic
 from ..fate.balls import decide
 from ..reduction import reduce
@@ -96,13 +97,16 @@ def has_no_saddle(scene) -> bool:
     return acting == 1 or not acting and not any(scene.quadratic().kappa)
 
 
-def distance_of(reduction, state) -> Apart:
-    """The distance of one state (three floats or Fractions) of a scene with this reduction (None: it has none)."""
+def distance_of(reduction, state, orbit: Orbit | None = None) -> Apart:
+    """The distance of one state (three floats or Fractions) of a scene with this reduction (None: it has none).
+
+    orbit: the state's, where that is at hand.
+    """
     if reduction is None:
         return NO_SEPARATRIX
     state = tuple(v if isinstance(v, Fraction) else float(v) for v in state)
     try:
-        found = (_on_conic if reduction.e else _on_parabolas)(reduction, state)
+        found = _on_conic(reduction, state, orbit or Orbit(reduction, state)) if reduction.e else _on_parabolas(reduction, state)
     except (Unclear, ArithmeticError, ValueError):  # a logarithm of what has vanished in doubles is a ValueError
         return UNKNOWN
     if found.upper != found.upper or found.lower != found.lower:
@@ -111,12 +115,12 @@ def distance_of(reduction, state) -> Apart:
 
 
 # --- circles and hyperbolas
-def _on_conic(reduction, state) -> Apart:
+def _on_conic(reduction, state, orbit) -> Apart:
     seen, conic = Seen.of(reduction, state), Conic(reduction)
     arcs = list(_arcs(conic, seen))
     if not arcs and not (seen.e > 0 and reduction.sense == 0):
         return NO_SEPARATRIX
-    shade = _shade(reduction, state, arcs)
+    shade = _shade(orbit, arcs)
     flat = _flat_pieces(seen, reduction.sense)
     start = min([_first(seen, arc, shade) for arc in arcs] + flat, key=lambda one: one[0], default=None)
     if start is None:
@@ -187,11 +191,12 @@ def _slope(seen, x, z):
     return g["G"] * (z * z + e * x * x) + e * g["c"] * x + g["d"] * z
 
 
-def _shade(reduction, state, arcs):
+def _shade(orbit, arcs):
     """What may shade a sheet: only a state that a barrier holds sees the difference, and only where there are two barriers."""
+    reduction = orbit.reduction
     if reduction.e > 0 or not reduction.sense or len(arcs) < 2:
         return None
-    if decide(reduction, state, DOUBLE_BITS).sign < 0:
+    if decide(orbit, DOUBLE_BITS).sign < 0:
         return None
     g = reduction.constants
     return Shade((g["G"], g["c"], g["d"], g["mu"]))

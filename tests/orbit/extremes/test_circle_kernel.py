@@ -9,6 +9,7 @@ import stabilab
 from stabilab import Fate
 from stabilab.errors import InputError
 from stabilab.numbers import numba_door
+from stabilab.orbit.ball_orbit import Orbit
 from stabilab.orbit.extremes import circle_kernel
 from stabilab.orbit.extremes import circle_numba as fast_extremes
 from stabilab.orbit.extremes.balls import precise_extremes
@@ -124,13 +125,13 @@ def test_next_to_the_separatrix_the_kernel_keeps_its_digits_or_lets_go(name, dec
         if decades >= 9:
             assert left[0] & 1
         if not left[0] & 1:
-            exact = precise_extremes(land.reduction, state, label)
+            exact = precise_extremes(Orbit(land.reduction, state), label)
             np.testing.assert_array_equal(np.isinf(boxes[0]), np.isinf(exact))
             finite = np.isfinite(exact)
             size = np.abs(np.where(finite, exact, 0)).max(axis=1, keepdims=True)
             assert np.all(np.abs(np.where(finite, boxes[0] - exact, 0)) <= 2e-12 * size)
         if not left[0] & 2:
-            assert periods[0] == pytest.approx(precise_period(land.reduction, state, label), rel=1e-11)
+            assert periods[0] == pytest.approx(precise_period(Orbit(land.reduction, state), label), rel=1e-11)
 
 
 def test_a_root_of_the_energy_difference_in_theta_loses_half_of_the_digits_next_to_the_separatrix():
@@ -159,7 +160,7 @@ def test_a_root_of_the_energy_difference_in_theta_loses_half_of_the_digits_next_
             low, high = (middle, high) if height(middle) < energy else (low, middle)
         X, Z = x * np.cos(low) + z * np.sin(low), z * np.cos(low) - x * np.sin(low)
         naive = land.components((np.array([X]), np.array([Z])), np.zeros(1))[0]
-        exact, got = precise_extremes(land.reduction, state, 0), stabilab.extremes(scene, state)
+        exact, got = precise_extremes(Orbit(land.reduction, state), 0), stabilab.extremes(scene, state)
         j, k = land.reduction.j, land.reduction.k
         off = min(np.abs(exact[a] - naive[a]).min() for a in (j, k))
         assert np.abs(got - exact).max() < 1e-12 * np.abs(exact).max()

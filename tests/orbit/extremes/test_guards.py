@@ -141,7 +141,7 @@ def test_extremes_and_periods_leave_to_balls_what_is_within_their_share_of_the_s
     name = {"extremes": "precise_extremes", "period": "precise_period"}[module.__name__.split(".")[-2]]
     real = getattr(module, name)
     user = f"stabilab.orbit.{module.__name__.split('.')[-2]}.arrays.{name}"
-    monkeypatch.setattr(user, lambda r, state, label: asked.append(tuple(state)) or real(r, state, label))
+    monkeypatch.setattr(user, lambda orbit, label: asked.append(tuple(orbit.state)) or real(orbit, label))
     off = 10.0 ** np.arange(-9, -1.5, 0.5)
     edge = np.array(brink(problem, (-3.0, 1.0), 0.0))
     states = np.array([[*edge[:2], edge[2] * (1 + (-d if inside else d))] for d in off])

@@ -12,6 +12,7 @@ from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
 from stabilab.answers.motion import motion
 from stabilab.numbers.balls import DOUBLE_BITS, START_BITS, settled
 from stabilab.numbers.double_ball import Ball, Doubles, Unclear
+from stabilab.orbit.ball_orbit import Orbit
 from stabilab.orbit.fate.balls import decide
 from stabilab.orbit.reduction import reduce
 from stabilab.orbit.result import Fate
@@ -113,7 +114,7 @@ def test_next_to_the_separatrix_doubles_hand_over_and_the_label_is_right():
     edge = math.sqrt(2 * margin)  # the scaled energy is x3^2/2 + U: from here the motion just reaches the barrier
     for side, label in ((-1, Fate.BOUNDED), (1, Fate.SPIN_UP)):
         near = [2.0, 1.0, edge * (1 + side * 1e-13)]
-        assert decide(reduction, near, DOUBLE_BITS).bits > DOUBLE_BITS
+        assert decide(Orbit(reduction, near), DOUBLE_BITS).bits > DOUBLE_BITS
         assert motion(scene, near).fate == label
 
 

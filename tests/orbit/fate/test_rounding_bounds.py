@@ -31,7 +31,7 @@ AWAY = 10.0 ** np.arange(-7, -17, -0.125)  # relative distances from the separat
 def doubtful(scene, states, monkeypatch):
     """(n,) True where a state goes to exact arithmetic."""
     asked = []
-    monkeypatch.setattr(fate, "decide", lambda r, state: asked.append(tuple(state)) or SimpleNamespace(sign=1, margin=1.0))
+    monkeypatch.setattr(fate, "decide", lambda orbit: asked.append(tuple(orbit.state)) or SimpleNamespace(sign=1, margin=1.0))
     stabilab.fate(scene, states)
     monkeypatch.undo()
     return np.array([tuple(state) in asked for state in states])

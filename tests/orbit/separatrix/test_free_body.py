@@ -13,6 +13,7 @@ import pytest
 import stabilab
 from stabilab import Body, ConstantTorque, Fate, ScaledGyrostat, Scene
 from stabilab.answers.motion import motion
+from stabilab.orbit.ball_orbit import Orbit
 from stabilab.orbit.extremes.balls import precise_extremes
 from stabilab.orbit.fate.balls import decide, precise_margin
 from stabilab.orbit.period.balls import precise_period
@@ -87,16 +88,16 @@ def test_beside_the_separatrix_a_free_body_turns_as_jacobis_functions_say(order,
 
 def test_on_the_separatrix_no_digit_of_a_margin_is_known_and_no_barrier_has_none():
     tied, spinning = reduce(Scene(Body(MOMENTS))), reduce(ScaledGyrostat(0, 0, (0, 0, 1)))
-    assert precise_margin(tied, (3.0, 1.0, 4.0), 20) is None and decide(tied, (3.0, 1.0, 4.0)).sign == 0
-    assert precise_margin(spinning, (0.5, 0.5, 0.0), 20) is None  # A^2 = 1/2 < 2: no equilibrium on the circle
-    assert decide(spinning, (0.5, 0.5, 0.0)).margin == -np.inf
+    assert precise_margin(Orbit(tied, (3.0, 1.0, 4.0)), 20) is None and decide(Orbit(tied, (3.0, 1.0, 4.0))).sign == 0
+    assert precise_margin(Orbit(spinning, (0.5, 0.5, 0.0)), 20) is None  # A^2 = 1/2 < 2: no equilibrium on the circle
+    assert decide(Orbit(spinning, (0.5, 0.5, 0.0))).margin == -np.inf
 
 
 def test_a_state_at_rest_has_itself_for_extremes_and_no_time_for_a_period():
     scene = reduce(ScaledGyrostat(0, 0, (0, 0, 1)))  # x1 x2 = -1, x3 = 0
-    assert precise_extremes(scene, (-1.0, 1.0, 0.0), Fate.EQUILIBRIUM).tolist() == [[-1, -1], [1, 1], [0, 0]]
-    assert precise_period(scene, (-1.0, 1.0, 0.0), Fate.EQUILIBRIUM) == 0.0
-    assert precise_period(scene, (0.5, 0.5, 0.0), Fate.SPIN_UP) == np.inf
+    assert precise_extremes(Orbit(scene, (-1.0, 1.0, 0.0)), Fate.EQUILIBRIUM).tolist() == [[-1, -1], [1, 1], [0, 0]]
+    assert precise_period(Orbit(scene, (-1.0, 1.0, 0.0)), Fate.EQUILIBRIUM) == 0.0
+    assert precise_period(Orbit(scene, (0.5, 0.5, 0.0)), Fate.SPIN_UP) == np.inf
 
 
 @pytest.mark.parametrize("speed", [0.5, -0.5, -3.0])
