@@ -121,12 +121,20 @@ class _Search:
             else:
                 if self.genuine is not None:
                     best = self.genuine.bound(self, form, best, chart, t, dt, y, dy)
+        if self._far_reaching(w_low, w_high):
+            along, across = (abs(s) * d + 0.5 * (abs(m) + n) * d * d for s, (m, n), d in ((p.phi_t, f[0], dt), (p.phi_y, f[2], dy)))
+            return best, 0 if along >= across else 1
         if form is not first:
             return best, form.way(dt, dy)
         # this bound loses by the range of W as well: D changes by (W - w0)/W times phi
         share = (abs(p.gap) + w_high - w_low) / (w_high + 1e-300)
         return best, form._replace(t=abs(p.apart_t) + share * abs(p.phi_t), y=abs(p.apart_y) + share * abs(p.phi_y), bends=[
             (abs(a[0]) + a[1] + share * (abs(b[0]) + b[1]), 0.0) for a, b in zip(r, f)]).way(dt, dy)
+
+    def _far_reaching(self, w_low, w_high):
+        """Whether W goes from near zero to far above the state's own over a box: near a cone's tip or a fold the root of phi then
+        decides the bound, and halving the side that phi changes along comes to the state's own W in a few steps."""
+        return 4 * self.w < w_high and 4 * w_low < w_high and self.w * w_high > 0.1 * CLOSE * self.goal
 
     def _forms(self, p, r, f, swing, w_low, w_high, t, dt, y, dy):
         """Smooth functions below D over the box."""

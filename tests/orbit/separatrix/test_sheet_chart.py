@@ -63,3 +63,17 @@ def test_bound_and_witness_meet_however_alike_two_moments_are(lift, pair, state)
     assert found.settled and np.linalg.norm(way) == pytest.approx(found.upper, rel=2e-9)
     signs = [np.sign(stabilab.fate(scene, state + way * (1 + side)).margins) for side in (-1e-6, 1e-6)]
     assert signs[0] * signs[1] < 0
+
+
+@pytest.mark.parametrize("inertia, wheel, torque, state", [
+    ((1.49736644, 0.44230883, 1.49736648), (-1.367, 0, 0), (0, 0, 0), (0.0977, -0.00325, 0.2235)),
+    ((1.6706906974740514, 1.6706906974740514, 1.236882267730723), (0.2887157196510496, 0.6707558503088299, 0), (0, 0, 0),
+     (-0.005014297134250996, 0.006338772360293345, 0.0015443377386760225)),
+    ((1.2118380149530614, 1.13074942401926, 1.276202384807355), (-1.3650447610137093, 0, -1.953706814412097), (0, 0, 0),
+     (0.5646276455972182, 0.005992371043408872, 0.39077055411060624)),
+    ((1.3514392022064112, 1.837516534734172, 1.3514017666271823), (0.7865822722196931, 0, 0), (0, 0, 0.3020370702905364),
+     (-2.4811783407460117, 1.2515862632451265, -5.671545379657007))])
+def test_bound_and_witness_meet_at_the_tips_of_cones_and_beside_the_folds_of_far_circles(inertia, wheel, torque, state):
+    """There W grows like a root, and halving boxes by the slopes of smooth bounds used to leave brackets of 2e-8 to 4e-6."""
+    found = distance_of(reduce(physical(inertia, wheel, torque)[0]), state)
+    assert found.settled and np.linalg.norm(np.array(found.witness) - state) == pytest.approx(found.upper, rel=1e-9)
