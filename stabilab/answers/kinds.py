@@ -5,43 +5,52 @@ One state: `motion(scene, state, span, exact, brief)` -> Motion. Many: `fates(sc
 """
 from __future__ import annotations
 
+from collections.abc import Callable
 from importlib import import_module
+from typing import NamedTuple
 
 from ..orbit.reduction import reduce
 from ..physics.alignment import aligned
 
-# kind -> (module for one state, module for many)
+
+class Kind(NamedTuple):
+    """holds: whether a scene is of this kind, when no row above holds it; one, many: the modules that answer for one state and for many."""
+
+    holds: Callable[..., bool]
+    one: str
+    many: str
+
+
+def _acting(scene) -> int:
+    """About how many axes a torque acts."""
+    return sum(m != 0 for m in scene.quadratic().m)
+
+
+# The first row that holds a scene answers it: a new kind is a file and a row, above those that would hold it otherwise.
 KINDS = {
-    "orbit": ("orbit.one_state", "orbit.many"),
-    "aligned": ("unreduced.aligned", "unreduced.aligned"),  # a torque in the plane of two equal moments
-    "free": ("unreduced.free_gyrostat", "unreduced.free_gyrostat"),  # no torque, a wheel with no zero component
-    "growth": ("unreduced.growth", "unreduced.growth"),  # a wheel along the torque
-    "off axis": ("unreduced.off_axis", "unreduced.off_axis"),
-    "bounds": ("unreduced.bounds", "orbit.many"),  # liquid, medium, field: rows are refused there, with the effect's name
+    "bounds": Kind(lambda scene: not scene.plain, "unreduced.bounds", "orbit.many"),  # liquid, medium, field: rows are refused, with the effect's name
+    "orbit": Kind(lambda scene: reduce(scene) is not None, "orbit.one_state", "orbit.many"),
+    "free": Kind(lambda scene: _acting(scene) == 0, "unreduced.free_gyrostat", "unreduced.free_gyrostat"),  # a wheel with no zero component
+    "growth": Kind(lambda scene: _acting(scene) == 1, "unreduced.growth", "unreduced.growth"),  # a wheel along the torque
+    "aligned": Kind(lambda scene: aligned(scene) is not None, "unreduced.aligned", "unreduced.aligned"),  # in the plane of two equal moments
+    "off axis": Kind(lambda scene: True, "unreduced.off_axis", "unreduced.off_axis"),
 }
 
 
 def kind_of(scene) -> str:
     """The kind of a scene, a key of KINDS; `physics.coefficients.effective` first, where other effects may turn as a wheel does."""
-    if not scene.plain:
-        return "bounds"
-    if reduce(scene) is not None:
-        return "orbit"
-    acting = sum(m != 0 for m in scene.quadratic().m)
-    if acting < 2:
-        return "growth" if acting else "free"
-    return "off axis" if aligned(scene) is None else "aligned"
+    return next(name for name, kind in KINDS.items() if kind.holds(scene))
 
 
 def one(scene):
     """The module that answers for one state of this scene."""
-    return _module(scene, 0)
+    return _module(KINDS[kind_of(scene)].one)
 
 
 def many(scene):
     """The module that answers for many states of this scene."""
-    return _module(scene, 1)
+    return _module(KINDS[kind_of(scene)].many)
 
 
-def _module(scene, column):
-    return import_module(f"..{KINDS[kind_of(scene)][column]}", __package__)
+def _module(place: str):
+    return import_module(f"..{place}", __package__)

@@ -1,0 +1,117 @@
+"""What a newcomer adds: a kind of scene and a question, each one file and one row, in a copy of the package."""
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+
+import pytest
+
+from tests.house.rooms import PACKAGE
+
+KIND = '''"""A sphere without wheel and torque: whatever its rates are, they stay."""
+from __future__ import annotations
+
+from ..orbit.fate.result import in_chunks, write_row
+from ..orbit.fate.reasons import Reason
+from ..orbit.result import Fate, Motion
+from ..physics.state import three_floats
+
+
+def holds(scene) -> bool:
+    """Whether no rate depends on another, and no torque acts."""
+    form = scene.quadratic()
+    return scene.plain and not any((*form.kappa, *form.rho, *form.sigma, *form.m))
+
+
+def motion(scene, state, span=None, exact=None, brief=False) -> Motion:
+    """The motion is its start."""
+    rates = three_floats(state)
+    return Motion(rates, Fate.EQUILIBRIUM, "a sphere keeps its rates", extremes=tuple((v, v) for v in rates))
+
+
+def fates(scene, states, fast=None):
+    """Fates of states (n, 3)."""
+    def label(rows, out):
+        for n in range(len(rows)):
+            write_row(out, n, Fate.EQUILIBRIUM, Reason.AT_REST, float("inf"))
+        return 0
+    return in_chunks(label, states)
+
+
+def extremes(scene, states, span=None, fast=None):
+    """(n, 3, 2)."""
+    return states[:, :, None].repeat(2, axis=2)
+
+
+def periods(scene, states, fast=None):
+    """(n,)."""
+    return 0 * states[:, 0]
+'''
+KIND_ROW = (
+    "answers/kinds.py", "KINDS",
+    '    "sphere": Kind(lambda scene: _module("unreduced.sphere").holds(scene), "unreduced.sphere", "unreduced.sphere"),\n')
+QUESTION = '''"""How far each rate swings."""
+from __future__ import annotations
+
+from .motion import motion
+
+
+def swing(scene, state, span=None) -> tuple:
+    """Greatest minus least value of the three rates from one state on."""
+    return tuple(high - low for low, high in motion(scene, state, span, brief=True).extremes)
+'''
+QUESTION_ROW = ("__init__.py", "_HOME", '    "swing": "answers.swing",\n')
+ASKED = """
+import json
+import stabilab
+from stabilab import Body, ConstantTorque, Gyrostat, Scene
+from stabilab.answers.kinds import kind_of
+sphere = Scene(Body((2, 2, 2)))
+satellite = Scene(Body((12, 9, 5)), Gyrostat(("0.8", 0, 0)), ConstantTorque((0, 0, "0.02")))
+state = (0.1, 0.05, 0.02)
+told = {"file": stabilab.__file__, "kinds": [kind_of(sphere), kind_of(satellite)], "because": stabilab.motion(sphere, state).because}
+if "swing" in stabilab.__all__:
+    told["swing"] = [stabilab.swing(sphere, state), stabilab.swing(satellite, state)]
+told["many"] = [stabilab.fate(sphere, [state]).labels.tolist(), stabilab.extremes(sphere, [state]).tolist(), stabilab.period(sphere, [state]).tolist()]
+told["satellite"] = repr(stabilab.motion(satellite, state))
+print(json.dumps(told))
+"""
+
+
+def added(package, file, text, row):
+    """One file and one row beside what stands there."""
+    (package / file).write_text(text, encoding="utf-8")
+    path, table, line = row
+    lines = (package / path).read_text(encoding="utf-8").splitlines(keepends=True)
+    start, = (n for n, one in enumerate(lines) if one.startswith(table) and one.endswith("= {\n"))
+    (package / path).write_text("".join([*lines[:start + 1], line, *lines[start + 1:]]), encoding="utf-8")
+
+
+def told_by(folder):
+    done = subprocess.run([sys.executable, "-c", ASKED], cwd=folder, env={**os.environ, "PYTHONPATH": str(folder)}, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+@pytest.fixture(scope="module")
+def copy(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("copy")
+    shutil.copytree(PACKAGE, folder / "stabilab", ignore=shutil.ignore_patterns("__pycache__"))
+    return folder
+
+
+def test_a_seventh_kind_and_a_new_question_are_one_file_and_one_row_each(copy):
+    before = told_by(copy)
+    assert before["file"].startswith(str(copy)) and before["kinds"] == ["orbit", "orbit"]
+    added(copy / "stabilab", "unreduced/sphere.py", KIND, KIND_ROW)
+    added(copy / "stabilab", "answers/swing.py", QUESTION, QUESTION_ROW)
+    after = told_by(copy)
+    assert after["kinds"] == ["sphere", "orbit"] and after["because"] == "a sphere keeps its rates"
+    assert after["swing"][0] == [0.0, 0.0, 0.0]
+    # the README's own numbers of this satellite: greatest less least rate
+    assert after["swing"][1] == pytest.approx([0.102485584364 - 0.0946418204942, 0.0521865054855 + 0.0882677138107, 2 * 0.0806376591042], rel=1e-10)
+    assert after["many"] == [[3], [[[v, v] for v in (0.1, 0.05, 0.02)]], [0.0]]
+    assert after["satellite"] == before["satellite"], "the other kinds answer as before"
