@@ -14,7 +14,7 @@ _HOME = {
     "equilibria": "answers.equilibria",
     "fate": "answers.fate", "fate_grid": "answers.fate_grid", "motion": "answers.motion",
     "extremes": "answers.extremes", "period": "answers.extremes", "spin_up": "unreduced.spin_up.follow",
-    "separatrix": "orbit.separatrix.sheets",
+    "separatrix": "orbit.separatrix.sheets", "stuck": "answers.stuck.ask",
     "trajectory": "answers.trajectory", "ensemble": "integrate.ensemble",
     "simulate": "answers.simulate", "compare": "theories.comparison", "theory": "theories.theory",
     "Charge": "physics.effects.charge", "Resistance": "physics.effects.resistance", "LiquidCavity": "physics.effects.liquid_cavity",

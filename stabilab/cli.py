@@ -303,6 +303,41 @@ def plot(case: CaseFile, out: Annotated[Path | None, typer.Option(
 
 
 @app.command()
+def stuck(case: CaseFile,
+          all_thrusters: Annotated[bool, typer.Option("--all-thrusters", help="Each thruster alone, stuck or not; the one that reaches "
+                                                                              "the limit first in front.")] = False,
+          si: Annotated[bool, typer.Option("--si", help="rad/s and s in the text instead of deg/s and min.")] = False,
+          out: Annotated[Path | None, typer.Option(metavar="FILE.png|.svg|.pdf", help="Draw the rates against time.")] = None,
+          json: Json = False, csv: Annotated[bool, typer.Option("--csv", help="CSV on stdout instead of text.")] = False,
+          strict: Annotated[bool, typer.Option("--strict", help="Exit with 3 where a fate is undecided.")] = False):
+    """Say what a thruster stuck open does, how soon, and what helps.
+
+    Fate, axis, time to the limit of [limits], margins; wheel momenta that keep the motion bounded, thrusters that help.
+
+    Example: stabilab stuck cases/upper-stage.toml
+    """
+    if json and csv:
+        raise typer.BadParameter("choose one of --json and --csv")
+    from .answers.stuck.ask import stuck as ask
+    from .case.read import blamed_on
+    from .show.progress import told
+    from .show.text import stuck as shown
+    loaded, answers = _load([case], motion=True), []
+    with told() as tell:
+        for one in loaded:
+            with blamed_on(one):
+                answers.append(ask(one, all_thrusters, tell))
+    if json:
+        _print_json(loaded, list(map(shown.as_dict, answers)))
+    elif csv:
+        _print(shown.csv(answers))
+    else:
+        _print("\n\n".join(shown.text(one, found, si) for one, found in zip(loaded, answers)))
+    if strict and any(row.fate == "undecided" for found in answers for row in found.rows):
+        raise typer.Exit(UNDECIDED)
+
+
+@app.command()
 def tables(out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the files.")] = ...):
     """Write Tables 1-4 of the constant-torque paper.
 

@@ -1,0 +1,61 @@
+"""The question: a thruster is stuck open, what becomes of the spacecraft, how soon, and what helps?"""
+from __future__ import annotations
+
+import math
+
+from ...errors import InputError
+from .fate import found
+from .result import Row, Stuck
+from .scenario import scenario_of
+
+
+def stuck(case, all_thrusters: bool = False, progress=None) -> Stuck:
+    """What the stuck thrusters of a case do: fate, axis, time to the limit, margins, wheels and thrusters that help.
+
+    case: as `stabilab.load` gives it, with a motion. The first row has all thrusters that the case marks as stuck firing together, with what
+    else turns the body; where they are several, a row for each alone follows. all_thrusters: a row for each thruster alone instead, stuck or not,
+    the one that reaches the limit first in front. progress: called with words before every row. Raises InputError for
+    a case without a motion or without a thruster that could be stuck, and for other effects than wheel and torque.
+    """
+    scenario = scenario_of(case)
+    rows = []
+    for chosen in _chosen(case, scenario, all_thrusters):
+        if progress:
+            progress(f"{case.name}: {_named(chosen)}")
+        rows.append(_row(scenario, chosen))
+    if all_thrusters:
+        rows.sort(key=_soonest)
+    return Stuck(case.name, tuple(rows), scenario.axes.principal, all_thrusters)
+
+
+def _named(thrusters) -> str:
+    return " and ".join(t.name for t in thrusters) or "the torque of the case"
+
+
+def _chosen(case, scenario, all_thrusters):
+    """The combinations of thrusters that are asked about, a tuple each."""
+    if all_thrusters:
+        if not case.thrusters:
+            raise InputError(f"{case.place}: the case has no thruster: describe each in a table [[thrusters]]")
+        return [(t,) for t in case.thrusters]
+    marked = tuple(t for t in case.thrusters if t.stuck)
+    if not marked and not any(scenario.base):
+        names = ", ".join(t.name for t in case.thrusters)
+        cure = (f"mark one of {names} with stuck = true, or ask with --all-thrusters" if names else
+                "describe one in a table [[thrusters]] with stuck = true, or give a torque")
+        raise InputError(f"{case.place}: no thruster is stuck and no torque acts: {cure}")
+    return [marked] + ([(t,) for t in marked] if len(marked) > 1 else [])
+
+
+def _soonest(row):
+    """In front: the limit is reached soon; then what spins up later or is not known, then what never reaches it."""
+    return (row.time_to_limit[0] if row.time_to_limit else math.inf, {"spin-up": 0, "undecided": 1}.get(row.fate, 2))
+
+
+def _row(scenario, thrusters) -> Row:
+    torque, axes = scenario.torque(thrusters), scenario.axes
+    seen = found(scenario, torque)
+    axis, sense = axes.number(seen.axis, seen.sense)
+    return Row(tuple(t.name for t in thrusters), scenario.torque_in_file(thrusters), axes.counted(torque), seen.fate.word, seen.level,
+               axis, sense, seen.direction and axes.back(seen.direction), scenario.limit, seen.time, seen.time_level, seen.never, seen.largest, seen.followed,
+               seen.because, {})

@@ -1,0 +1,70 @@
+"""A case with its thrusters stuck one way or another: what turns the body then."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from ...errors import InputError
+from ...physics.effects.constant_torque import ConstantTorque
+from ...physics.effects.gyrostat import Gyrostat
+from ...physics.scene import Scene
+from .axes import Axes, axes_of
+
+
+@dataclass(frozen=True)
+class Scenario:
+    """What a case says, ready to be asked with any torque and any wheel momentum; vectors exact, along the scene's axes.
+
+    state: rad/s; base: torque of the case without its thrusters, N m; wheel: N m s; limit: rad/s, a number, three (frame of the file) or None;
+    thrusters, wheels: as the case holds them, in the frame of the file.
+    """
+
+    case: object
+    body: object
+    axes: Axes
+    state: tuple
+    base: tuple
+    wheel: tuple
+    limit: float | tuple[float, float, float] | None
+
+    def scene(self, torque, wheel=None) -> Scene:
+        """The scene under a torque (N m), with another wheel momentum (N m s) where one is given."""
+        return Scene(self.body, Gyrostat(tuple(self.wheel if wheel is None else wheel)), ConstantTorque(tuple(torque)))
+
+    def torque(self, thrusters) -> tuple:
+        """The whole torque while these thrusters fire, along the scene's axes."""
+        return tuple(map(sum, zip(self.base, *(self.axes.turned(t.torque) for t in thrusters))))
+
+    def torque_in_file(self, thrusters) -> tuple[float, float, float]:
+        """The same in the frame of the file; what a thruster alone gives is rounded once."""
+        whole = [sum(column) for column in zip(*(t.torque for t in thrusters))] if thrusters else [Fraction(0)] * 3
+        base = self.axes.back(self.base) if any(self.base) else (0.0,) * 3
+        return tuple(float(a) + b for a, b in zip(whole, base))
+
+    @property
+    def start(self) -> tuple[float, float, float]:
+        """The state in doubles."""
+        return tuple(map(float, self.state))
+
+    @property
+    def rows(self) -> list[list[float]]:
+        """Axis n of the file's frame along the scene's axes."""
+        return [[float(self.axes.rows[i][n]) for i in range(3)] for n in range(3)]
+
+
+def scenario_of(case) -> Scenario:
+    """The scenario of a case. InputError where it has no body, no motion, or effects that no stuck thruster is answered with."""
+    if not hasattr(case, "thrusters"):
+        raise InputError(f"stuck: expected a case, as of stabilab.load(...), got {case!r:.80}")
+    if case.variables == "scaled" or case.physical is None:
+        raise InputError(f"{case.place}: the motion is in scaled variables: a stuck thruster is asked of a body in kg m^2 and angular_velocity in rad/s")
+    if case.state is None:
+        raise InputError(f"{case.place}: motion: expected angular_velocity in [motion]; this command needs a state")
+    case.scene.quadratic()  # says which effect is not covered
+    axes = axes_of(case.scene, case.frame)
+    fixed = [axes.turned(t.torque) for t in case.thrusters if t.stuck]
+    torque = case.scene.vector("constant_torque")
+    base = tuple(m - sum(t[i] for t in fixed) for i, m in enumerate(torque))
+    limits = case.limits
+    limit = None if limits is None else float(limits.rate) if limits.rate is not None else tuple(map(float, limits.rates))
+    return Scenario(case, case.scene.body, axes, case.exact_state, base, case.scene.vector("gyrostat"), limit)

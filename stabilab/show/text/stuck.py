@@ -1,0 +1,236 @@
+"""A stuck thruster in words, JSON and CSV: the answer first, in the units of engineers."""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
+
+from ...errors import printable
+
+AXIS = {1: "major", 2: "middle", 3: "minor"}
+CSV = ("case,thrusters,torque_x,torque_y,torque_z,torque_1,torque_2,torque_3,fate,level,axis,sense,limit,time_low,time_high,largest_rate,"
+       "margin_rate,margin_wheel,margin_torque")
+WORDS = {"rate": "rate", "wheel": "wheel momentum", "torque": "torque"}
+FIRST = 5  # lines of the answer at most
+
+
+@dataclass(frozen=True)
+class Units:
+    """(name, how many of it make one in SI) for rates and times."""
+
+    rate: tuple[str, float]
+    time: tuple[str, float]
+
+
+ENGINEERING, SI = Units(("deg/s", 180 / math.pi), ("min", 1 / 60)), Units(("rad/s", 1.0), ("s", 1.0))
+
+
+def as_dict(found) -> dict:
+    """One object of `stabilab stuck --json`: SI units, rates in rad/s."""
+    return {"schema": "stabilab.stuck/1", "case": found.case, "rows": [_row(row) for row in found.rows],
+            "principal": {"moments": list(found.principal.moments), "axes": [list(axis) for axis in found.principal.axes]}}
+
+
+def _row(row) -> dict:
+    return {"thrusters": list(row.thrusters), "torque": row.torque, "torque_principal": row.torque_principal, "fate": row.fate, "level": row.level,
+            "axis": row.axis, "sense": row.sense, "limit": row.limit, "time_to_limit": row.time_to_limit, "largest_rate": row.largest_rate,
+            "margin": {name: row.margins[name].size if name in row.margins else None for name in ("rate", "wheel", "torque")},
+            "wheel_intervals": [{"wheel": w.wheel, "keeps_bounded": w.keeps_bounded, "now": w.now, "axis": w.axis, "best": w.best, "best_time": w.best_time,
+                                 "gain": w.gain, "searched": w.searched, "because": w.because} for w in row.wheels],
+            "because": row.because, "direction": row.direction, "never": row.never, "time_level": row.time_level,
+            "margin_direction": {name: margin.direction for name, margin in row.margins.items()},
+            "margin_because": {name: margin.because for name, margin in row.margins.items()},
+            "helpers": [{"thrusters": list(h.thrusters), "duty": h.duty, "effect": h.effect, "torque_left": h.torque_left, "fate": h.fate,
+                         "time_to_limit": h.time_to_limit} for h in row.helpers]}
+
+
+def csv(answers) -> str:
+    """A line a row, SI units; empty where a number does not exist."""
+    import csv as table
+    import io
+    out = io.StringIO()
+    writer = table.writer(out, lineterminator="\n")
+    writer.writerow(CSV.split(","))
+    for found in answers:
+        for row in found.rows:
+            limit = "/".join(map(repr, row.limit)) if isinstance(row.limit, tuple) else row.limit
+            values = [*row.torque, *row.torque_principal, row.fate, row.level, row.axis, row.sense, limit, *(row.time_to_limit or (None, None)),
+                      row.largest_rate, *(row.margins[name].size if name in row.margins else None for name in ("rate", "wheel", "torque"))]
+            cells = ["" if v is None else repr(v) if isinstance(v, float) else v for v in values]
+            writer.writerow([printable(found.case), printable("+".join(row.thrusters)), *cells])
+    return out.getvalue()
+
+
+def text(case, found, si: bool = False) -> str:
+    """The answer in five lines at most, then the details."""
+    units = SI if si else ENGINEERING
+    head = _ranking(found, units) if found.ranked else _first(found.rows[0], units)
+    lines = [f"{printable(case.name)}: {head[0]}", *head[1:FIRST]]
+    for row in found.rows:
+        lines += ["", *_details(row, units)]
+    return "\n".join([*lines, "", *_axes(found.principal)])
+
+
+def _ranking(found, units):
+    """A line a thruster, the worst first; what the first lines have no place for stands in the details."""
+    told = [f"{printable(_name(row))} {_answer(row, units)}" for row in found.rows]
+    return told if len(told) <= FIRST else [*told[:FIRST - 1], f"and {len(told) - FIRST + 1} more below, none of them sooner"]
+
+
+def _first(row, units):
+    wheel = next((w for w in row.wheels if w.keeps_bounded), next((w for w in row.wheels if w.best is not None), None))
+    return [_answer(row, units), f"  {_torque(row, units)}", *(f"  {line}" for line in (_margins(row, units), wheel and _wheel(wheel, units),
+                                                                                      row.helpers and _helper(row.helpers[0], units)) if line)]
+
+
+def _name(row) -> str:
+    return " and ".join(row.thrusters) or "torque"
+
+
+def _answer(row, units) -> str:
+    """The first line."""
+    when = _when(row, units)
+    if row.fate == "spin-up":
+        return f"SPINS UP {_about(row)}{', ' + when if when else ''}{_known(row)}"
+    if row.fate == "undecided":
+        return f"UNDECIDED{', but ' + when if when else ': ' + _so_far(row, units)}"
+    words = {"bounded": "STAYS BOUNDED", "equilibrium": "AT REST in the body's frame: every rate stays as it is", "separatrix": "ON THE SEPARATRIX"}[row.fate]
+    while_ = _while(row)
+    if when:
+        return f"{words}{while_}, but {when}{_known(row)}"
+    largest = "" if row.largest_rate is None else f", rate at most {_number(row.largest_rate * units.rate[1])} {units.rate[0]}"
+    below = ", never at its limit" if row.never and row.limit is not None else ""
+    return f"{words}{while_}{largest}{below}{_known(row)}"
+
+
+def _while(row):
+    """On what a bound rests: a torque on an axis is one direction of many."""
+    acting = [n for n, v in enumerate(row.torque_principal, 1) if v]
+    return f" while the torque is exactly along axis {acting[0]} ({AXIS[acting[0]]})" if row.fate == "bounded" and len(acting) == 1 else ""
+
+
+def _known(row):
+    return f" ({row.level})" if row.time_to_limit is None else ""
+
+
+def _about(row) -> str:
+    if row.axis:
+        return f"about axis {row.axis} ({AXIS[row.axis]}), {'along' if row.sense > 0 else 'against'} it"
+    if row.direction:
+        return f"about the direction {_vector(row.direction)} of the file's frame"
+    return "without bound"
+
+
+def _when(row, units) -> str:
+    if row.time_to_limit is None:
+        return ""
+    low, high = (t * units.time[1] for t in row.time_to_limit)
+    if high == 0:
+        return f"starts at its limit, {_limit(row.limit, units)}"
+    a, b = _bracket(low, high)
+    return f"reaches {_limit(row.limit, units)} in {_number((low + high) / 2)} {units.time[0]} ({row.time_level} {a} to {b})"
+
+
+def _bracket(low, high) -> tuple[str, str]:
+    """Both ends with as many decimals as tell them apart, six digits at most; the lower rounded down and the upper up."""
+    most = max(0, 5 - math.floor(math.log10(high)))
+    decimals = most if not high > low else min(most, max(0, 1 - math.floor(math.log10(high - low))))
+    step = Decimal(1).scaleb(-decimals)
+    return tuple(str(Decimal(v).quantize(step, way)) for v, way in ((low, ROUND_FLOOR), (high, ROUND_CEILING)))
+
+
+def _limit(limit, units) -> str:
+    name, one = units.rate
+    if isinstance(limit, tuple):
+        if len(set(limit)) == 1:
+            return f"{_number(limit[0] * one)} {name} in a component"
+        return f"the limit of a component ({', '.join(_number(v * one) for v in limit)} {name})"
+    return f"{_number(limit * one)} {name}"
+
+
+def _so_far(row, units) -> str:
+    if row.limit is None:
+        return "no limit was given; " + row.because
+    return f"below {_limit(row.limit, units)} for {_number(row.followed * units.time[1])} {units.time[0]} of a run; " + row.because
+
+
+def _torque(row, units) -> str:
+    name, one = units.rate
+    known = row.largest_rate is not None and row.fate == "spin-up"
+    largest = f"; largest rate until then {_number(row.largest_rate * one)} {name}" if known else ""
+    return f"torque {_number(math.hypot(*row.torque))} N m, {_vector(row.torque)} in the frame of the file{largest}"
+
+
+def _margins(row, units) -> str:
+    known = {name: m for name, m in row.margins.items() if m.size is not None}
+    if not known:
+        because = next((m.because for m in row.margins.values() if m.because), "")
+        return f"margin: none: {because}" if because else ""
+    return "the fate changes with " + " or ".join(f"{_amount(name, m.size, units)} of {WORDS[name]}" for name, m in known.items())
+
+
+def _amount(name, size, units, digits=4) -> str:
+    unit, one = {"rate": units.rate, "wheel": ("N m s", 1.0), "torque": ("N m", 1.0)}[name]
+    return f"{_number(size * one, digits)} {unit}"
+
+
+def _wheel(wheel, units) -> str:
+    name = printable(wheel.wheel)
+    if wheel.keeps_bounded:
+        return f"wheel {name}, now {_number(wheel.now)} N m s, keeps it bounded at {' or '.join(map(_interval, wheel.keeps_bounded))}"
+    if wheel.best is None:
+        return f"wheel {name}: no momentum is known to keep it bounded: {wheel.because}"
+    later = "not reached while followed" if wheel.best_time is None else f"{_number(wheel.best_time[0] * units.time[1])} {units.time[0]}"
+    gain = "" if wheel.gain is None else f", {_number(wheel.gain * units.time[1])} {units.time[0]} later"
+    low, high = wheel.searched
+    return (f"wheel {name}, now {_number(wheel.now)} N m s: {_number(wheel.best)} N m s delays the limit most of all within {_number(low)} to "
+            f"{_number(high)}: {later}{gain}")
+
+
+def _interval(ends) -> str:
+    low, high = ends
+    if low == high:
+        return f"{_number(low, 12)} N m s alone"
+    if math.isinf(low) and math.isinf(high):
+        return "any momentum"
+    if math.isinf(low):
+        return f"up to {_number(high, 9)} N m s"
+    return f"{_number(low, 9)} N m s or more" if math.isinf(high) else f"{_number(low, 9)} to {_number(high, 9)} N m s"
+
+
+def _helper(helper, units) -> str:
+    fired = " and ".join(f"{printable(name)} for {_number(100 * duty)} % of the time" for name, duty in zip(helper.thrusters, helper.duty))
+    rest = f"{_number(helper.torque_left)} N m is left"
+    left = {"zero": "no torque is left", "bounded": f"{rest}, and the motion stays bounded while that is exactly on its axis", "slower": rest}[helper.effect]
+    known = helper.effect == "slower" and helper.time_to_limit is not None
+    then = f", and the limit comes in {_number(helper.time_to_limit[0] * units.time[1])} {units.time[0]}" if known else ""
+    return f"with {fired}, in the mean, {left}{then}"
+
+
+def _details(row, units) -> list[str]:
+    lines = [f"{printable(_name(row))}",
+             f"  torque, principal axes   {_vector(row.torque_principal)} N m",
+             f"  torque, frame of file    {_vector(row.torque)} N m",
+             f"  fate                     {row.fate} ({row.level})",
+             f"  because                  {row.because}"]
+    for name, margin in row.margins.items():
+        told = margin.because
+        if margin.size is not None:
+            told = f"{_amount(name, margin.size, units, 9)} along {_vector(margin.direction)}" + (f": {told}" if told else "")
+        lines.append(f"  {'margin, ' + name:<24} {told}")
+    lines += [f"  {_wheel(w, units)}" + (f" ({w.because})" if w.keeps_bounded or w.best is not None else "") for w in row.wheels]
+    return lines + [f"  {_helper(h, units)}" for h in row.helpers]
+
+
+def _axes(principal) -> list[str]:
+    return ["principal axes, unit vectors in the frame of the file:"] + [
+        f"  axis {n} ({AXIS[n]})  moment {_number(moment, 9)} kg m^2  {_vector(axis, 9)}"
+        for n, (moment, axis) in enumerate(zip(principal.moments, principal.axes), 1)]
+
+
+def _vector(vector, digits=6) -> str:
+    return f"({', '.join(_number(v, digits) for v in vector)})"
+
+
+def _number(value, digits=4) -> str:
+    return f"{value:.{digits}g}"
