@@ -1,7 +1,8 @@
 """The validated steps of `kernel` with a centre of as many bits as are asked for, by python-flint: without a compiler, or farther than doubles reach.
 
-Method, proof and bounds are those of the kernel. The centre and its Taylor coefficients are midpoints of flint's balls; in place of FINE stands 2^(20 - bits): a coefficient
-takes fewer than 4 (N + 10) operations, each within 2^-bits of its size. All else is in doubles, as there.
+Method, proof and bounds are those of the kernel. The centre and its Taylor coefficients are midpoints of flint's balls; in place of FINE
+stands 2^(20 - bits): a coefficient takes fewer than 4 (N + 10) operations, each within 2^-bits of its size. All else is in doubles, as
+there.
 """
 from __future__ import annotations
 
@@ -56,7 +57,8 @@ class DigitSteps:
 
     def _step(self, t, t_end, grain, number, polynomials, radii):
         middle = np.array([float(v) for v in self.centre])
-        fastest = max(float(np.abs(self.floats[0]).max() * np.abs(middle).max()), float(np.abs(self.floats[1:3]).max()), float(np.abs(self.floats[3]).max()) ** 0.5)
+        quadratic, linear, constant = (float(np.abs(self.floats[rows]).max()) for rows in (slice(0, 1), slice(1, 3), slice(3, 4)))
+        fastest = max(quadratic * float(np.abs(middle).max()), linear, constant**0.5)
         if not kernel.LEAST < fastest < kernel.MOST:
             return LOST, 0.0
         unit = ldexp(1.0, -frexp(fastest)[1])

@@ -4,29 +4,34 @@ The motion w' = f(w), f_i = kappa_i w_j w_k + rho_i w_k + sigma_i w_j + m_i (cyc
 step h further by a set of the same kind (Lohner: B is orthogonal but for rounding, and follows the directions in which the motion stretches). The centre c is
 a sum of two doubles.
 
-A step. p = sum of a_n s^n, n <= N, is the Taylor polynomial of the motion w of the centre as it is computed; its residue is d = p' - f(p). Below degree N the
-residue is rounding alone: the computed coefficients obey the recursion but for FINE times the sum of the sizes of what is added up. From degree N on it is what
-the products of coefficients leave over. With alpha_n = |a_n| h^n, P their sum, and the tails of these sums, the integral of |d| over the step is at most
+A step. p = sum of a_n s^n, n <= N, is the Taylor polynomial of the motion w of the centre as it is computed; its residue is d = p' - f(p).
+Below degree N the residue is rounding alone: the computed coefficients obey the recursion but for FINE times the sum of the sizes of what
+is added up. From degree N on it is what the products of coefficients leave over. With alpha_n = |a_n| h^n, P their sum, and the tails of
+these sums, the integral of |d| over the step is at most
 
-    h [FINE (|kappa| P_j P_k + |rho| P_k + |sigma| P_j + |m|) + (|kappa| sum over m + n >= N of alpha_j,m alpha_k,n + |rho| alpha_k,N + |sigma| alpha_j,N)/(N + 1)].
+    h [FINE (|kappa| P_j P_k + |rho| P_k + |sigma| P_j + |m|) + (|kappa| sum over m + n >= N of alpha_j,m alpha_k,n + |rho| alpha_k,N +
+    |sigma| alpha_j,N)/(N + 1)].
 
-The error e = w - p obeys e' = A(p) e + (kappa e e) - d, A the derivative of f. Let G = exp(h A+), A+ the matrix of the sizes of A's entries for rates of at most
-S+ = S + margin, where S bounds the rates over the step: by P, or by the energy, since |D^(1/2) w| grows at most at the rate |D^(-1/2) M|. By Gronwall's
-inequality for such (cooperative) systems |e| <= G times the integral of |d|, as long as twice the result stays below half the margin. No box has to be guessed, and
-the step is as long as the polynomial allows: whatever turns gently costs no more than a plain integrator's step.
+The error e = w - p obeys e' = A(p) e + (kappa e e) - d, A the derivative of f. Let G = exp(h A+), A+ the matrix of the sizes of A's entries
+for rates of at most S+ = S + margin, where S bounds the rates over the step: by P, or by the energy, since |D^(1/2) w| grows at most at the
+rate |D^(-1/2) M|. By Gronwall's inequality for such (cooperative) systems |e| <= G times the integral of |d|, as long as twice the result
+stays below half the margin. No box has to be guessed, and the step is as long as the polynomial allows: whatever turns gently costs no more
+than a plain integrator's step.
 
-The difference u = w(c + B r) - w(c) obeys u' = A(w) u + (kappa u u), so |u| <= G |B| rad =: U as long as U is below half the margin, and it is the linear part
-J B r (J' = A(w) J) up to h G (kappa U U). V = J B is computed in doubles as a polynomial; its residue is bounded as above with COARSE, and also by |e|, and
-Gronwall's inequality bounds its error. The radii are of the size 1e-27 where a motion is not sensitive, so doubles are enough for all but the centre.
+The difference u = w(c + B r) - w(c) obeys u' = A(w) u + (kappa u u), so |u| <= G |B| rad =: U as long as U is below half the margin, and it
+is the linear part J B r (J' = A(w) J) up to h G (kappa U U). V = J B is computed in doubles as a polynomial; its residue is bounded as
+above with COARSE, and also by |e|, and Gronwall's inequality bounds its error. The radii are of the size 1e-27 where a motion is not
+sensitive, so doubles are enough for all but the centre.
 
 Between the times: |w(c + B r) - p| <= |e| + U, all along the step.
 
-Rounding. Doubles to nearest, no operation fused with another or rearranged (numba without fastmath gives LLVM no leave to; a test holds it). A sum of at most
-N + 1 products of twofold numbers, exact products and sums (Dekker, Knuth) with what they leave gathered in one double, errs by less than 2^-93 of the sum of sizes:
-4 (N + 1) additions to a corrective sum, each within 2^-53 of a sum of at most (N + 4) 2^-53 of the sizes. FINE = 2^-92 holds the twofold products with coefficients
-and the division beside it; scenes' numbers are rounded to two doubles (2^-105). COARSE = 2^-44 holds N + 1 products in doubles. Bounds are sums and products of numbers
-that are not negative, fewer than 2^20 roundings each: WIDER. TINY, far below all that counts, holds what underflow could take. Everything is in the scene's natural
-unit, and the time of a step's polynomials in a power of two, so that nothing comes near the ends of the range; what does is given up.
+Rounding. Doubles to nearest, no operation fused with another or rearranged (numba without fastmath gives LLVM no leave to; a test holds
+it). A sum of at most N + 1 products of twofold numbers, exact products and sums (Dekker, Knuth) with what they leave gathered in one
+double, errs by less than 2^-93 of the sum of sizes: 4 (N + 1) additions to a corrective sum, each within 2^-53 of a sum of at most (N + 4)
+2^-53 of the sizes. FINE = 2^-92 holds the twofold products with coefficients and the division beside it; scenes' numbers are rounded to two
+doubles (2^-105). COARSE = 2^-44 holds N + 1 products in doubles. Bounds are sums and products of numbers that are not negative, fewer than
+2^20 roundings each: WIDER. TINY, far below all that counts, holds what underflow could take. Everything is in the scene's natural unit, and
+the time of a step's polynomials in a power of two, so that nothing comes near the ends of the range; what does is given up.
 
 All in one file: numba's cache on disk watches no other.
 """
@@ -200,8 +205,8 @@ def bound_of_flow(M, G):
 
 
 def judged(numbers, energy, fine, a, V, B, rad, h, x, error, spread, moved, E, P):
-    """Bounds of one step of length h (x in the unit of the coefficients a, V): |w - p| (error), |u| (spread), what it is beside V's part (moved), the error of
-    each column of V (E), the sums P; True where they hold. fine: what the recursion of a errs by."""
+    """Bounds of one step of length h (x in the unit of the coefficients a, V): |w - p| (error), |u| (spread), what it is beside V's part
+    (moved), the error of each column of V (E), the sums P; True where they hold. fine: what the recursion of a errs by."""
     alpha = np.empty((3, ORDER + 1))
     P[0], P[1], P[2] = 0.0, 0.0, 0.0
     v, vsum, tails = np.empty((3, 3, ORDER + 1)), np.zeros((3, 3)), np.zeros(ORDER + 2)
@@ -336,9 +341,10 @@ def on_grain(length, grain):
 
 
 def advance(numbers, low_numbers, energy, tolerance, t, t_end, grain, steps, centre, low_centre, B, rad, times, polynomials, radii):
-    """Carry the set on by at most so many steps, or to t_end. numbers, low_numbers: (4, 3) kappa, rho, sigma, m as twofold numbers; energy: (4,) roots of the moments
-    and the growth of |D^(1/2) w|, zeros where there is none; grain: every time is a multiple of it. centre, low_centre, B, rad change in place. Where `times` (n,) is not
-    empty the steps' ends, polynomials (n, 3, N + 1) in (t - start)/h from 0 to 1 and radii (n, 3) go there. Returns (status, time, steps)."""
+    """Carry the set on by at most so many steps, or to t_end. numbers, low_numbers: (4, 3) kappa, rho, sigma, m as twofold numbers; energy:
+    (4,) roots of the moments and the growth of |D^(1/2) w|, zeros where there is none; grain: every time is a multiple of it. centre,
+    low_centre, B, rad change in place. Where `times` (n,) is not empty the steps' ends, polynomials (n, 3, N + 1) in (t - start)/h from 0
+    to 1 and radii (n, 3) go there. Returns (status, time, steps)."""
     a, low, V = np.zeros((3, ORDER + 1)), np.zeros((3, ORDER + 1)), np.empty((ORDER + 1, 3, 3))
     error, spread, moved, P, E, M = np.zeros(3), np.zeros(3), np.zeros(3), np.zeros(3), np.zeros((3, 3)), np.empty((3, 3))
     dense = len(times) > 0

@@ -1,8 +1,8 @@
 """One motion under a constant torque of any direction, enclosed from an exact start: a set at each time, a band between them.
 
-The steps are those of `kernel` (compiled) or of `digits` (python-flint, as many bits as are asked for, no compiler). Scenes are taken
-at their exact numbers. Those of a frame of principal axes that is irrational have an error of 2^-240 (`numbers.principal`): each step allows the coefficients FINE =
-2^-92 of themselves.
+The steps are those of `kernel` (compiled) or of `digits` (python-flint, as many bits as are asked for, no compiler). Scenes are taken at
+their exact numbers. Those of a frame of principal axes that is irrational have an error of 2^-240 (`numbers.principal`): each step allows
+the coefficients FINE = 2^-92 of themselves.
 """
 from __future__ import annotations
 
@@ -75,9 +75,9 @@ class Band:
 class Enclosed:
     """The set that surely holds the state at one time.
 
-    t: exact, the scene's unit of time; middle: (3,) rates (rad/s, or x when scaled); rest: (3,), to be added to them: the centre is a sum of two doubles; radius: (3,) each
-    true rate is within it of the centre. steps: so many; status: "enclosed" where t is the time asked for, else "stopped", and reason says why; bands: those
-    of the steps where they were asked for, in order. bits: of the centre.
+    t: exact, the scene's unit of time; middle: (3,) rates (rad/s, or x when scaled); rest: (3,), to be added to them: the centre is a sum
+    of two doubles; radius: (3,) each true rate is within it of the centre. steps: so many; status: "enclosed" where t is the time asked
+    for, else "stopped", and reason says why; bands: those of the steps where they were asked for, in order. bits: of the centre.
     """
 
     t: float
@@ -155,7 +155,8 @@ class Doubles:
         self.B, self.rad = np.eye(3), np.abs(self.centre) * 2.0**-104 + kernel.TINY
 
     def advance(self, t, t_end, grain, steps, times, polynomials, radii):
-        return advance()(self.numbers, self.low, self.energy, TOLERANCE, t, t_end, grain, steps, self.centre, self.low_centre, self.B, self.rad, times, polynomials, radii)
+        return advance()(self.numbers, self.low, self.energy, TOLERANCE, t, t_end, grain, steps, self.centre, self.low_centre, self.B, self.rad,
+                         times, polynomials, radii)
 
     def box(self):
         return self.centre.copy(), self.low_centre.copy(), np.abs(self.B) @ self.rad * kernel.WIDER

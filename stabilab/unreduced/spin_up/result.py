@@ -11,11 +11,12 @@ from .clock import SteadyTrap, Trap
 class SpinUp:
     """The fate of one motion as far as spin-up decides it.
 
-    fate: SPIN_UP, BOUNDED (exact cases alone) or UNDECIDED. axis: 1, 2, 3 of the body, 0 where it is none; sense: +1 or -1 about it, 0 where undecided;
-    direction: unit vector in principal axes along which the rate grows, None where undecided. level: "exact" (by a closed solution),
-    "certified" (the theorem's inequality holds for the state at time t of a run in machine precision and for a ball about it that
-    holds the run's rounding) or "undecided". trap: bounds and clocks. t: when it fired, or how long the motion was followed; state there;
-    steps. cause: words. condition: growth of a small change of the start on the way to t.
+    fate: SPIN_UP, BOUNDED (exact cases alone) or UNDECIDED. axis: 1, 2, 3 of the body, 0 where it is none; sense: +1 or -1 about it, 0
+    where undecided; direction: unit vector in principal axes along which the rate grows, None where undecided. level: "exact" (by a closed
+    solution), "certified" (the theorem's inequality holds for the state at time t of a run in machine precision and for a ball about it
+    that holds the run's rounding), "proved" (the way to the inequality is enclosed, `enclosure.proof`; t is exact, state the middle of what
+    holds it) or "undecided". trap: bounds and clocks. t: when it fired, or how long the motion was followed; state there; steps. cause:
+    words. condition: growth of a small change of the start on the way to t.
     """
 
     fate: Fate

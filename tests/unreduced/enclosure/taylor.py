@@ -17,8 +17,9 @@ def run(rows, start, times, digits=50):
             while now < end:
                 a = [[v] for v in x]
                 for n in range(ORDER):
-                    new = [(kappa[i] * mpmath.fsum(p * q for p, q in zip(a[(i + 1) % 3], a[(i + 2) % 3][::-1])) + rho[i] * a[(i + 2) % 3][n] + sigma[i] * a[(i + 1) % 3][n]
-                            + (0 if n else m[i])) / (n + 1) for i in range(3)]
+                    products = [mpmath.fsum(p * q for p, q in zip(a[(i + 1) % 3], a[(i + 2) % 3][::-1], strict=True)) for i in range(3)]
+                    new = [(kappa[i] * products[i] + rho[i] * a[(i + 2) % 3][n] + sigma[i] * a[(i + 1) % 3][n] + (0 if n else m[i])) / (n + 1)
+                           for i in range(3)]
                     for row, value in zip(a, new):
                         row.append(value)
                 top, size = max(abs(row[ORDER]) for row in a), max(map(abs, x)) or mpmath.mpf(1)

@@ -22,7 +22,8 @@ def rows(scene):
         a, b = scene.exact_ab
         return (1, -1, 1), (0, 0, b), (0, -a, 0), scene.exact_mu
     (D1, D2, D3), (l1, l2, l3), M = scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque")
-    return ((D2 - D3) / D1, (D3 - D1) / D2, (D1 - D2) / D3), (l2 / D1, l3 / D2, l1 / D3), (-l3 / D1, -l1 / D2, -l2 / D3), [m / d for m, d in zip(M, (D1, D2, D3))]
+    kappa = (D2 - D3) / D1, (D3 - D1) / D2, (D1 - D2) / D3
+    return kappa, (l2 / D1, l3 / D2, l1 / D3), (-l3 / D1, -l1 / D2, -l2 / D3), [M[0] / D1, M[1] / D2, M[2] / D3]
 
 
 def drawn(rng, n):
@@ -67,11 +68,11 @@ def test_random_motions_lie_within_their_radii(n):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("n", range(300))
+@pytest.mark.parametrize("n", range(60))
 def test_many_random_motions_lie_within_their_radii(n):
     rng = random.Random(1000 + n)
     scene, start, end = drawn(rng, n)
-    assert holds(scene, start, 8 * end, rng)[0] <= 1  # a run in 50 digits
+    assert holds(scene, start, 4 * end, rng)[0] <= 1  # a run in 50 digits
 
 
 @pytest.mark.parametrize("n", range(4))

@@ -1,0 +1,82 @@
+"""Proved spin-up: the motion, run in 50 digits by another code, is where the proof says and stays where it says."""
+import random
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from stabilab import Body, ConstantTorque, Scene
+from stabilab.numbers.numba_door import installed
+from stabilab.unreduced.enclosure.proof import proved
+from stabilab.unreduced.spin_up.certificate import Certifier
+from stabilab.unreduced.spin_up.follow import spin_up
+
+from ..spin_up import scenes
+from ..spin_up.scenes import EXAMPLE, random_scene, rates_of, sphere
+from .taylor import run
+from .test_enclosure import rows
+
+
+@pytest.mark.parametrize("n", (0, 1, 2, 4))
+def test_random_motions_are_proved_to_spin_up_and_do(n):
+    rng = random.Random(60 + n)
+    scene, state = random_scene(rng, (0, .1)[n % 2]), sphere(rng, (3, .3)[n % 3 % 2])
+    found = spin_up(scene, state, t_max=200, budget=4000, proof=True)
+    assert found.level == "proved" and "is proved" in found.cause and "enclosed, within" in found.cause
+    true = np.array([float(v) for v in run(rows(scene), state, [found.t])[0]]) if found.t else np.array(state)  # a run in 50 digits
+    assert np.abs(true - found.state).max() < 1e-13 * max(1, np.abs(true).max())
+    times = np.linspace(0, 20, 201)
+    spin = found.sense * scenes.run(rates_of(scene), true, times)[:, found.axis - 1]  # DOP853
+    lines = np.array([found.trap.line(found.t + t) for t in times])
+    assert (lines[:, 0] - 1e-7 <= spin).all() and (spin <= lines[:, 1] + 1e-7).all()
+
+
+def test_a_proof_takes_fractions_and_decimals_at_their_word():
+    found = [spin_up(EXAMPLE, state, proof=True) for state in (("0.5", "-0.7", "1.1"), (Fraction(1, 2), Fraction(-7, 10), Fraction(11, 10)))]
+    assert found[0].level == found[1].level == "proved" and found[0].state == found[1].state
+    at = spin_up(EXAMPLE, ("6", "0.1", "-0.1"), proof=True)  # where the inequality holds at the start itself
+    assert at.level == "proved" and at.t == 0 and at.state == (6, .1, -.1)
+
+
+def test_what_cannot_be_enclosed_stays_certified_and_says_so():
+    found = spin_up(EXAMPLE, (.5, -.7, 1.))
+    short = proved(EXAMPLE, (.5, -.7, 1.), found, steps=2)
+    assert found.level == short.level == "certified" and short.trap == found.trap
+    assert "not proved: after 2 validated steps" in short.cause and "used up" in short.cause
+
+
+def test_a_set_that_is_too_wide_for_the_inequality_is_not_proved(monkeypatch):
+    state = (.5, -.7, 1.)
+    found, call = spin_up(EXAMPLE, state), Certifier.__call__
+    monkeypatch.setattr(Certifier, "__call__", lambda self, states, near=0.0: call(self, states, near + 3.0))
+    assert "does not hold for the whole set" in proved(EXAMPLE, state, found).cause
+
+
+def test_exact_and_undecided_answers_stay_what_they_are():
+    sphere_ = Scene(Body((1, 1, 1)), ConstantTorque((.1, .2, .3)))
+    assert spin_up(sphere_, (1, 0, 0), proof=True).level == "exact"
+    assert spin_up(EXAMPLE, (-9, 1, 1), t_max=.1, proof=True).level == "undecided"
+
+
+def share_of(count, wheel, seed, **limits):
+    """(proved, certified) of so many random motions."""
+    rng, levels = random.Random(seed), []
+    for _ in range(count):
+        scene = random_scene(rng, wheel)
+        levels.append(spin_up(scene, sphere(rng, rng.choice((.1, 1, 3, 10))), proof=True, **limits).level)
+    return levels.count("proved"), count - levels.count("undecided")
+
+
+@pytest.mark.skipif(not installed(), reason="thousands of steps take the compiled kernel")
+@pytest.mark.slow
+def test_motions_without_a_wheel_are_proved_and_nearly_all_others():
+    alone, certified = share_of(100, 0, 11)
+    assert certified == 100 and alone >= 99
+    some, certified = share_of(60, None, 12, t_max=5e3, budget=60_000)
+    assert some >= 0.92 * 60 and some >= certified - 1
+
+
+@pytest.mark.skipif(not installed(), reason="thousands of steps take the compiled kernel")
+def test_what_is_certified_is_proved():
+    some, certified = share_of(12, .1, 13, t_max=200, budget=4000)
+    assert some == certified >= 10
