@@ -6,19 +6,26 @@ with balls of doubles first (`double_balls`), which need no library.
 """
 from __future__ import annotations
 
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
 from threading import RLock
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from .double_ball import Doubles, Unclear
+from .vectors import Number
 
+if TYPE_CHECKING:
+    from flint import arb, fmpq
+
+T = TypeVar("T")
 DOUBLE_BITS = Doubles.bits
 START_BITS = 128
 
 
 @contextmanager
-def working(bits: int):
+def working(bits: int) -> Iterator[Digits]:
     """Context in which python-flint works with so many bits, for this thread alone; gives the kind of number, `Digits`.
 
     flint's precision belongs to the process: whoever forms balls from inexact ones holds the one lock that goes with it. It
@@ -37,52 +44,53 @@ class Digits:
     bits: int
 
     @staticmethod
-    def ball(value):
+    def ball(value: Number) -> arb:
         from flint import arb
         return arb(rational(Fraction(value)))
 
     @staticmethod
-    def pi():
+    def pi() -> arb:
         from flint import arb
         return arb.pi()
 
     @staticmethod
-    def around(middle, width):
+    def around(middle: arb, width: arb) -> arb:
         """The ball about the middle of one, as wide as `width` can be."""
         from flint import arb
         return arb(middle.mid(), width.abs_upper())
 
     @staticmethod
-    def upper(value):
+    def upper(value: arb) -> arb:
         from flint import arb
         return arb(value.abs_upper())
 
     @staticmethod
-    def lower(value):
+    def lower(value: arb) -> arb:
         from flint import arb
         return arb(value.abs_lower())
 
     @staticmethod
-    def angle(y, x):
+    def angle(y: arb, x: arb) -> arb:
         """atan2(y, x)."""
         from flint import arb
         return arb.atan2(y, x) if not (0 in y and not x > 0) else arb.pi() + arb.atan2(-y, -x)
 
     @staticmethod
-    def real_roots(coefficients) -> list:
+    def real_roots(coefficients: Sequence[Number]) -> list[tuple[arb, int]]:
         """(root, multiplicity) of the real roots of a polynomial with rational coefficients, lowest first; certified."""
         from flint import arb, fmpq_poly
         poly = fmpq_poly([rational(Fraction(c)) for c in coefficients])
         if poly.degree() < 1:
             return []
-        found = [(arb(root.real), many) for root, many in poly.complex_roots() if root.imag.is_zero()]
+        roots: list[Any] = poly.complex_roots()  # flint's own types leave the multiplicities out
+        found = [(arb(root.real), many) for root, many in roots if root.imag.is_zero()]
         return sorted(found, key=lambda one: one[0].mid())  # flint lists them multiplicity by multiplicity
 
 
 DOUBLES = Doubles()
 
 
-def settled(question, bits: int = START_BITS, most: int = 1 << 17):
+def settled(question: Callable[[Doubles | Digits], T], bits: int = START_BITS, most: int = 1 << 17) -> T:
     """question(numbers), with more bits as long as it is `Unclear`; the last Unclear when `most` are not enough.
 
     numbers: the kind, a `Doubles` or a `Digits`, with its `bits`. bits: at first. DOUBLE_BITS: with balls of doubles, then
@@ -105,13 +113,13 @@ def settled(question, bits: int = START_BITS, most: int = 1 << 17):
             bits *= 2
 
 
-def rational(value):
+def rational(value: Number) -> fmpq:
     """A Fraction, or flint's own rational or integer, as flint's rational."""
     from flint import fmpq
     return fmpq(value.numerator, value.denominator) if isinstance(value, Fraction) else fmpq(value)
 
 
-def sign(number) -> int:
+def sign(number: Number) -> int:
     """Sign of a ball; Unclear where it holds zero and more."""
     if number > 0:
         return 1
@@ -124,6 +132,6 @@ def sign(number) -> int:
 BITS = 320
 
 
-def many_digits():
+def many_digits() -> AbstractContextManager[Digits]:
     """Context in which flint works with `BITS` bits."""
     return working(BITS)

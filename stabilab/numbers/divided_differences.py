@@ -8,19 +8,25 @@ Math. Comp. 43, 501-528, for real nodes). Every subset of the nodes is needed an
 """
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from itertools import product
 from math import factorial
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
 from ..errors import InputError
 from .error_free import exact_product
 
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+Counts: TypeAlias = tuple[int, ...]  # how often each node is taken
 LARGEST_EXPONENT = 700.0  # exp(709.78) is the largest double; the rest is room for the sums
 MOST_TERMS = 100  # reached by no cluster narrower than 30
 
 
-def divided_difference(nodes, t, low=None):
+def divided_difference(nodes: Sequence[ArrayLike], t: ArrayLike, low: Sequence[ArrayLike] | None = None) -> np.ndarray:
     """D[x0 ... xn](t), complex, for one list of nodes (n at most 9); see `divided_differences`.
 
     nodes: sequence of n + 1 complex numbers or arrays (1/s), equal ones allowed; t: s, broadcast against them.
@@ -29,7 +35,7 @@ def divided_difference(nodes, t, low=None):
     return divided_differences(nodes, [(1,) * len(nodes)], t, low)[(1,) * len(nodes)]
 
 
-def divided_differences(nodes, counts, t, low=None) -> dict:
+def divided_differences(nodes: Sequence[ArrayLike], counts: Iterable[Counts], t: ArrayLike, low: Sequence[ArrayLike] | None = None) -> dict[Counts, np.ndarray]:
     """D over several multisets of the same nodes, sharing their parts.
 
     nodes: sequence of complex scalars or arrays, broadcast against the real t (1/s and s). counts: one tuple per answer:
@@ -60,18 +66,19 @@ def cluster_width(n: int) -> float:
 class _Table:
     """exp[x0 t, ...] of the sub-multisets asked for, each computed once; all arrays are flat and of one length."""
 
-    def __init__(self, nodes, low, t):
+    def __init__(self, nodes: Sequence[np.ndarray], low: Sequence[np.ndarray], t: np.ndarray) -> None:
         self.exponential = [_accurate_exp(x, rest, t) for x, rest in zip(nodes, low)]
         self.gap = {(i, j): ((nodes[j] - nodes[i]) + (low[j] - low[i])) * t
                     for i, j in product(range(len(nodes)), repeat=2) if i != j}
-        self.size, self.known = t.size, {}
+        self.size = t.size
+        self.known: dict[Counts, np.ndarray] = {}
 
-    def scaled(self, counts):
+    def scaled(self, counts: Counts) -> np.ndarray:
         if counts not in self.known:
             self.known[counts] = self._compute(counts)
         return self.known[counts]
 
-    def _compute(self, counts):
+    def _compute(self, counts: Counts) -> np.ndarray:
         present = [i for i, c in enumerate(counts) if c]
         if len(present) == 1:
             return self.exponential[present[0]] / factorial(sum(counts) - 1)
@@ -85,14 +92,15 @@ class _Table:
             farthest = widths.argmax(axis=0)
             for number in np.unique(farthest[~near]):
                 there = ~near & (farthest == number)
-                value[there] = self._recursion(counts, *pairs[number], there)
+                i, j = pairs[int(number)]
+                value[there] = self._recursion(counts, i, j, there)
         return value
 
-    def _recursion(self, counts, i, j, there):
+    def _recursion(self, counts: Counts, i: int, j: int, there: np.ndarray) -> np.ndarray:
         without = lambda k: self.scaled(tuple(c - (n == k) for n, c in enumerate(counts)))[there]
         return (without(i) - without(j)) / self.gap[i, j][there]
 
-    def _series(self, counts, present, there):
+    def _series(self, counts: Counts, present: list[int], there: np.ndarray) -> np.ndarray:
         """Taylor's series about the node that has the others nearest, at the elements `there`."""
         far = {r: sum(counts[i] * np.abs(self.gap[r, i][there]) for i in present if i != r) for r in present}
         centre = np.argmin([far[r] for r in present], axis=0)
@@ -105,7 +113,7 @@ class _Table:
         return value
 
 
-def _homogeneous_series(gaps, n):
+def _homogeneous_series(gaps: list[np.ndarray], n: int) -> np.ndarray:
     """sum over k of h_k(gaps) / (n + k)!, h_k the complete homogeneous polynomial (the other arguments are zero)."""
     partial = [np.ones_like(gaps[0]) for _ in gaps]  # h_k of the first 1, 2, ... gaps
     weight = 1.0 / factorial(n)
@@ -127,7 +135,7 @@ def _homogeneous_series(gaps, n):
     return total
 
 
-def _accurate_exp(x, rest, t):
+def _accurate_exp(x: np.ndarray, rest: np.ndarray, t: np.ndarray) -> np.ndarray:
     """exp((x + rest) t), the rounding of the product made good."""
     (re, re_low), (im, im_low) = exact_product(x.real, t), exact_product(x.imag, t)
     return np.exp(re + 1j * im) * np.exp(re_low + 1j * im_low + rest * t)

@@ -6,13 +6,17 @@ once, no fused multiply-add needed. Magnitudes must stay within 1e-140 ... 1e140
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .error_free import exact_product, exact_sum
 
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
-def twofold(x) -> Twofold:
+
+def twofold(x: ArrayLike | Twofold) -> Twofold:
     """A double, or an array of them, as a twofold number."""
     if isinstance(x, Twofold):
         return x
@@ -27,47 +31,47 @@ class Twofold:
     high: np.ndarray
     low: np.ndarray
 
-    def __add__(self, other):
+    def __add__(self, other: ArrayLike | Twofold) -> Twofold:
         other = twofold(other)
         s, e = exact_sum(self.high, other.high)
         t, f = exact_sum(self.low, other.low)
         s, e = exact_sum(s, e + t)
         return Twofold(*exact_sum(s, e + f))
 
-    def __mul__(self, other):
+    def __mul__(self, other: ArrayLike | Twofold) -> Twofold:
         other = twofold(other)
         p, e = exact_product(self.high, other.high)
         return Twofold(*exact_sum(p, e + (self.high * other.low + self.low * other.high)))
 
-    def __truediv__(self, other):
+    def __truediv__(self, other: ArrayLike | Twofold) -> Twofold:
         other = twofold(other)
         first = self.high / other.high
         rest = self - other * first
         return Twofold(*exact_sum(first, rest.high / other.high)) + (rest - other * (rest.high / other.high)).high / other.high
 
-    def __neg__(self):
+    def __neg__(self) -> Twofold:
         return Twofold(-self.high, -self.low)
 
-    def __sub__(self, other):
+    def __sub__(self, other: ArrayLike | Twofold) -> Twofold:
         return self + -twofold(other)
 
-    def __rsub__(self, other):
+    def __rsub__(self, other: ArrayLike | Twofold) -> Twofold:
         return -self + other
 
     __radd__, __rmul__ = __add__, __mul__
 
-    def sqrt(self):
+    def sqrt(self) -> Twofold:
         """Square root of a number that is not negative."""
         root = np.sqrt(self.high)
         safe = np.where(root == 0, 1.0, root)
         rest = self - Twofold(*exact_product(root, root))
         return Twofold(*exact_sum(root, rest.high / (2 * safe)))
 
-    def where(self, condition, other):
+    def where(self, condition: np.ndarray, other: ArrayLike | Twofold) -> Twofold:
         """This number where the condition holds, the other elsewhere."""
         other = twofold(other)
         return Twofold(np.where(condition, self.high, other.high), np.where(condition, self.low, other.low))
 
-    def value(self):
+    def value(self) -> np.ndarray:
         """The nearest double."""
         return self.high + self.low

@@ -3,19 +3,23 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from fractions import Fraction
 from numbers import Integral, Rational, Real
 from threading import RLock
+from types import ModuleType
+from typing import Any
 
 from ..errors import InputError
+from .vectors import Exact3
 
 _DIGITS = r"\d+(?:_\d+)*"  # one way only to match: else a long wrong number would be tried in exponentially many
 _DECIMAL = re.compile(rf"\s*[+-]?(?:{_DIGITS}(?:\.(?:{_DIGITS})?)?|\.{_DIGITS})(?:[eE][+-]?\d{{1,4}})?\s*", re.ASCII)
 _RATIO = re.compile(r"\s*[+-]?\d+\s*/\s*\d+\s*", re.ASCII)
 
 
-def exact(value) -> Fraction:
+def exact(value: object) -> Fraction:
     """The rational number that `value` denotes: int, float (its binary value), Fraction, or a string holding a
     decimal or a ratio ("0.1", "2/3"). Raises InputError for anything else, and where the double nearest to the
     value would be infinite or would lose a nonzero value to zero."""
@@ -29,16 +33,16 @@ def exact(value) -> Fraction:
     return number
 
 
-def _short(value) -> str:
+def _short(value: object) -> str:
     """The number as it came, or that it is a long one."""
     return repr(value) if len(repr(value)) <= 60 else "the number"
 
 
-def _parse(value) -> Fraction:
+def _parse(value: Any) -> Fraction:
     if isinstance(value, bool):
         raise InputError(f"expected a number, got the truth value {str(value).lower()}")
     if isinstance(value, (Integral, Rational)):
-        return Fraction(value.numerator, value.denominator) if isinstance(value, Rational) else Fraction(int(value))
+        return Fraction(int(value.numerator), int(value.denominator)) if isinstance(value, Rational) else Fraction(int(value))
     if isinstance(value, Real):
         if not math.isfinite(value):
             raise InputError(f"expected a finite number, got {float(value)}")
@@ -53,7 +57,7 @@ def _parse(value) -> Fraction:
     raise InputError(f"expected a number, got {type(value).__name__}")
 
 
-def exact_vector(values, name: str) -> tuple[Fraction, Fraction, Fraction]:
+def exact_vector(values: Iterable[object], name: str) -> Exact3:
     """Three exact numbers; InputError names `name` otherwise."""
     try:
         items = list(values) if not isinstance(values, str) else None
@@ -79,7 +83,7 @@ def sqrt_fraction(value: Fraction, bits: int = 240) -> Fraction:
 
 
 @contextmanager
-def mpmath_alone():
+def mpmath_alone() -> Iterator[ModuleType]:
     """Context giving mpmath to this thread alone: its precision, and the digits of pi that it keeps, belong to the process."""
     import mpmath
     with _MPMATH:
@@ -89,7 +93,7 @@ def mpmath_alone():
 _MPMATH = RLock()
 
 
-def precise(name: str, *arguments, bits: int = 240) -> Fraction:
+def precise(name: str, *arguments: Fraction, bits: int = 240) -> Fraction:
     """A rational within about 2**-bits of a function of rationals ("cos", "sqrt") or of a constant ("pi")."""
     with mpmath_alone() as mpmath, mpmath.workprec(bits + 20):
         values = [mpmath.mpf(a.numerator) / a.denominator for a in arguments]
@@ -99,6 +103,6 @@ def precise(name: str, *arguments, bits: int = 240) -> Fraction:
     return Fraction(-man if value < 0 else man) * Fraction(2) ** exp
 
 
-def floats(values) -> tuple[float, ...]:
+def floats(values: Iterable[Any]) -> tuple[float, ...]:
     """Each exact number rounded once, to the nearest double."""
     return tuple(float(v) for v in values)

@@ -2,17 +2,23 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from typing import TYPE_CHECKING, Any
 
 from .balls import rational
+from .vectors import Number
+
+if TYPE_CHECKING:
+    from flint import arb, fmpq_poly
 
 
-def polynomial(*coefficients):
+def polynomial(*coefficients: Number) -> fmpq_poly:
     """flint's polynomial with these rational coefficients, lowest power first."""
     from flint import fmpq_poly
     return fmpq_poly([rational(Fraction(c)) for c in coefficients])
 
 
-def shares_root(first, second, root) -> bool:
+def shares_root(first: fmpq_poly, second: fmpq_poly, root: arb) -> bool:
     """Whether the root (a ball that isolates it among those of `first`) is one of `second` as well; flint's polynomials."""
     common = first.gcd(second)
-    return common.degree() > 0 and any(z.imag.is_zero() and z.real.overlaps(root) for z, _ in common.complex_roots())
+    roots: list[Any] = common.complex_roots() if common.degree() > 0 else []  # flint's own types leave the multiplicities out
+    return any(z.imag.is_zero() and z.real.overlaps(root) for z, _ in roots)

@@ -5,10 +5,13 @@ holds on the box half as large again (exactly one zero there), and halved otherw
 """
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any, TypeAlias
 
 import numpy as np
 
+Polynomial: TypeAlias = Mapping[tuple[int, ...], Any]  # powers of x1, x2, x3 -> coefficient
 BUDGET = 400_000
 WIDER = 1.5       # a zero on the edge of a box is found from both sides
 SLACK = 1e-11     # relative to the sum of the terms' sizes; some forty roundings of 1e-16 each
@@ -26,33 +29,33 @@ class Zeros:
 class _Polynomials:
     """Three polynomials {powers: coefficient} with all their derivatives, over batches of points (n, 3)."""
 
-    def __init__(self, polynomials):
+    def __init__(self, polynomials: Sequence[Polynomial]) -> None:
         self.f = [_arrays(p) for p in polynomials]
         self.J = [[_arrays(_derivative(p, k)) for k in range(3)] for p in polynomials]
         self.H = [[[_arrays(_derivative(_derivative(p, k), l)) for l in range(3)] for k in range(3)] for p in polynomials]
         self.third = np.array([[[[_constant(_derivative(_derivative(_derivative(p, k), l), m)) for m in range(3)] for l in range(3)]
                                 for k in range(3)] for p in polynomials])
 
-    def values(self, x):
+    def values(self, x: np.ndarray) -> np.ndarray:
         return np.stack([_value(p, x) for p in self.f], -1)
 
-    def sizes(self, x):
+    def sizes(self, x: np.ndarray) -> np.ndarray:
         return np.stack([_value((np.abs(c), e), np.abs(x)) for c, e in self.f], -1)
 
-    def jacobian(self, x):
+    def jacobian(self, x: np.ndarray) -> np.ndarray:
         return np.stack([np.stack([_value(p, x) for p in row], -1) for row in self.J], -2)
 
-    def hessian(self, x):
+    def hessian(self, x: np.ndarray) -> np.ndarray:
         return np.stack([np.stack([np.stack([_value(p, x) for p in row], -1) for row in rows], -2) for rows in self.H], -3)
 
 
-def _arrays(polynomial):
+def _arrays(polynomial: Polynomial) -> tuple[np.ndarray, np.ndarray]:
     powers = np.array(list(polynomial) or [(0, 0, 0)])
     return np.array([float(v) for v in polynomial.values()] or [0.0]), powers
 
 
-def _derivative(polynomial, k):
-    out = {}
+def _derivative(polynomial: Polynomial, k: int) -> Polynomial:
+    out: dict[tuple[int, ...], Any] = {}
     for powers, value in polynomial.items():
         if powers[k]:
             lower = tuple(p - (i == k) for i, p in enumerate(powers))
@@ -60,22 +63,23 @@ def _derivative(polynomial, k):
     return out
 
 
-def _constant(polynomial) -> float:
+def _constant(polynomial: Polynomial) -> float:
     if any(any(powers) for powers in polynomial):
         raise ValueError("the polynomials are of third degree at most")
     return float(sum(polynomial.values()))
 
 
-def _value(polynomial, x):
+def _value(polynomial: tuple[np.ndarray, np.ndarray], x: np.ndarray) -> np.ndarray:
     coefficients, powers = polynomial
     return (coefficients * np.prod(x[:, None, :] ** powers[None], axis=2)).sum(axis=1)
 
 
-def zeros(polynomials, reach) -> Zeros:
+def zeros(polynomials: Sequence[Polynomial], reach: Sequence[float]) -> Zeros:
     """All common zeros of three polynomials {(i, j, k): coefficient}, of third degree at most, with |x_i| <= reach_i."""
     system = _Polynomials(polynomials)
     middles, halves = np.zeros((1, 3)), np.asarray(reach, float)[None] * 1.0123456789  # no zero of a symmetric system on an edge
-    found, used = [], 0
+    found: list[tuple[np.ndarray, np.ndarray, np.ndarray]] = []
+    used = 0
     while len(middles):
         used += len(middles)
         if used > BUDGET:
@@ -86,7 +90,7 @@ def zeros(polynomials, reach) -> Zeros:
     return Zeros(_distinct(found), True, used)
 
 
-def _sieve(system, m, h):
+def _sieve(system: _Polynomials, m: np.ndarray, h: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """(keep, settled) for boxes m +- h: not proved empty; proved to hold, half as large again, exactly one zero."""
     J, H = system.jacobian(m), system.hessian(m)
     Y = _inverses(J)
@@ -103,7 +107,7 @@ def _sieve(system, m, h):
     return ~empty, settled
 
 
-def _inverses(J):
+def _inverses(J: np.ndarray) -> np.ndarray:
     """Inverses of the Jacobians, the unit matrix where there is none."""
     scale = np.abs(J).max(axis=(1, 2), initial=0.0)
     good = (scale > 0) & (np.abs(np.linalg.det(J / np.where(scale > 0, scale, 1)[:, None, None])) > 1e-10)
@@ -113,7 +117,7 @@ def _inverses(J):
     return Y
 
 
-def _halved(m, h):
+def _halved(m: np.ndarray, h: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     if not len(m):
         return m, h
     side = h.argmax(axis=1)
@@ -124,7 +128,7 @@ def _halved(m, h):
     return np.concatenate([m - step, m + step]), np.concatenate([smaller, smaller])
 
 
-def _polished(system, x):
+def _polished(system: _Polynomials, x: np.ndarray) -> np.ndarray:
     for _ in range(20):
         step = np.linalg.solve(system.jacobian(x[None])[0], system.values(x[None])[0])
         x = x - step
@@ -133,9 +137,9 @@ def _polished(system, x):
     return x
 
 
-def _distinct(found):
+def _distinct(found: list[tuple[np.ndarray, np.ndarray, np.ndarray]]) -> np.ndarray:
     """Each zero once: one that lies in another's box, where there is exactly one, is that other."""
-    out = []
+    out: list[tuple[np.ndarray, np.ndarray, np.ndarray]] = []
     for m, w, x in found:
         if not any((np.abs(x - other) <= wide).all() for other, wide, _ in out):
             out.append((m, w, x))

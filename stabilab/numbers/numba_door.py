@@ -1,9 +1,11 @@
 """When the extra `fast` (numba) is to answer: asked for, or so many states that loading it pays."""
 from __future__ import annotations
 
+from collections.abc import Container
 from functools import lru_cache
 from importlib.util import find_spec
-from types import FunctionType
+from types import FunctionType, ModuleType
+from typing import Any
 
 from ..errors import InputError
 
@@ -26,7 +28,7 @@ def wanted(n: int, fast: bool | None, loaded: bool, cold: int, warm: int) -> boo
     return bool(fast)
 
 
-def compiled(module, inlined, cache):
+def compiled(module: ModuleType, inlined: Container[str], cache: bool) -> dict[str, Any]:
     """The names of a module of straight-line kernels with all its functions compiled."""
     from numba import njit
     names = dict(vars(module))

@@ -1,8 +1,11 @@
 """Polynomials in one variable with exact coefficients, and all their real roots."""
 from __future__ import annotations
 
+from collections.abc import Iterable
 from fractions import Fraction
 from math import gcd
+
+from .vectors import Number
 
 
 class Poly:
@@ -10,7 +13,7 @@ class Poly:
 
     __slots__ = ("c",)
 
-    def __init__(self, coefficients):
+    def __init__(self, coefficients: Iterable[Number]) -> None:
         c = [Fraction(v) for v in coefficients]
         while c and not c[-1]:
             c.pop()
@@ -20,22 +23,22 @@ class Poly:
     def degree(self) -> int:
         return len(self.c) - 1
 
-    def __bool__(self):
+    def __bool__(self) -> bool:
         return bool(self.c)
 
-    def __call__(self, t):
+    def __call__(self, t: Number) -> Number:
         value = Fraction(0)
         for v in reversed(self.c):
             value = value * t + v
         return value
 
-    def __add__(self, other):
+    def __add__(self, other: Number) -> Poly:
         a, b = self.c, _poly(other).c
         if len(a) < len(b):
             a, b = b, a
         return Poly([v + b[i] if i < len(b) else v for i, v in enumerate(a)])
 
-    def __mul__(self, other):
+    def __mul__(self, other: Number) -> Poly:
         b = _poly(other).c
         out = [Fraction(0)] * max(0, len(self.c) + len(b) - 1)
         for i, v in enumerate(self.c):
@@ -43,13 +46,13 @@ class Poly:
                 out[i + j] += v * w
         return Poly(out)
 
-    def __neg__(self):
+    def __neg__(self) -> Poly:
         return Poly([-v for v in self.c])
 
-    def __sub__(self, other):
+    def __sub__(self, other: Number) -> Poly:
         return self + -_poly(other)
 
-    def __rsub__(self, other):
+    def __rsub__(self, other: Number) -> Poly:
         return -self + other
 
     __radd__, __rmul__ = __add__, __mul__
@@ -75,7 +78,7 @@ class Poly:
         return out
 
 
-def _poly(value) -> Poly:
+def _poly(value: Number) -> Poly:
     return value if isinstance(value, Poly) else Poly((value,))
 
 
@@ -113,7 +116,7 @@ def _sign_at(c: list[int], n: int, e: int) -> int:
     return (value > 0) - (value < 0)
 
 
-def _variations(chain, n, e) -> int:
+def _variations(chain: list[list[int]], n: int, e: int) -> int:
     signs = [s for s in (_sign_at(c, n, e) for c in chain) if s]
     return sum(s != t for s, t in zip(signs, signs[1:]))
 
@@ -147,7 +150,7 @@ def _positive_roots(p: Poly, bits: int) -> list[Fraction]:
     return sorted(roots)
 
 
-def _refine(chain, a: int, b: int, e: int, bits: int) -> Fraction:
+def _refine(chain: list[list[int]], a: int, b: int, e: int, bits: int) -> Fraction:
     """The one simple root in (a, b] / 2**e, to 2**-bits relative; exact where a trial point hits it."""
     c = chain[0]
     if not _sign_at(c, b, e):

@@ -7,14 +7,18 @@ is irrational has the same error. `error` bounds what is left, proved by the res
 """
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import TypeAlias
 
 from ..errors import InputError
 from .exact import sqrt_fraction
 from .polynomial import Poly, integers, real_roots
-from .vectors import cross, dot
+from .vectors import Exact3, Number, Triple, cross, dot
 
+Rows: TypeAlias = Sequence[Sequence[Fraction]]  # of a 3 x 3 matrix
+Moment: TypeAlias = tuple[Fraction, bool]  # and whether it is exact
 BITS = 240  # of the numbers that cannot be rational
 IDENTITY = tuple(tuple(Fraction(i == j) for j in range(3)) for i in range(3))
 NAMES = "xyz"
@@ -28,8 +32,8 @@ class PrincipalAxes:
     that of every axis. A tensor that is diagonal keeps its order; else the moments descend.
     """
 
-    moments: tuple[Fraction, Fraction, Fraction]
-    axes: tuple[tuple[Fraction, Fraction, Fraction], ...]
+    moments: Exact3
+    axes: tuple[Exact3, ...]
     exact: bool
     error: Fraction = Fraction(0)
 
@@ -38,16 +42,16 @@ class PrincipalAxes:
         """Whether the principal axes are those of the input."""
         return self.axes == IDENTITY
 
-    def turned(self, vector) -> tuple:
+    def turned(self, vector: Sequence[Number]) -> Triple:
         """The components along the principal axes of a vector of the input frame."""
         return tuple(vector) if self.as_given else tuple(sum(a * v for a, v in zip(axis, vector)) for axis in self.axes)
 
-    def back(self, vector) -> tuple:
+    def back(self, vector: Sequence[Number]) -> Triple:
         """The components in the input frame of a vector given along the principal axes."""
         return tuple(vector) if self.as_given else tuple(sum(self.axes[i][j] * vector[i] for i in range(3)) for j in range(3))
 
 
-def principal_axes(tensor) -> PrincipalAxes:
+def principal_axes(tensor: Sequence[Sequence[Number]]) -> PrincipalAxes:
     """The principal moments and axes of an inertia tensor: 3 x 3 exact numbers. Raises InputError for one that no body has."""
     rows = tuple(tuple(Fraction(v) for v in row) for row in tensor)
     wrong = fault_of(rows)
@@ -63,7 +67,7 @@ def principal_axes(tensor) -> PrincipalAxes:
         bits *= 2
 
 
-def fault_of(rows) -> str | None:
+def fault_of(rows: Rows) -> str | None:
     """What keeps a 3 x 3 tensor of rationals from being the inertia tensor of a body, in words; None where nothing does."""
     for i, j in ((0, 1), (0, 2), (1, 2)):
         if rows[i][j] != rows[j][i]:
@@ -82,27 +86,27 @@ def fault_of(rows) -> str | None:
     return None
 
 
-def _principal_minors(m):
+def _principal_minors(m: Rows) -> list[Fraction]:
     """All seven principal minors: a symmetric matrix is positive semidefinite where none is negative."""
     pairs = [m[i][i] * m[j][j] - m[i][j] ** 2 for i, j in ((0, 1), (0, 2), (1, 2))]
     return [*(m[i][i] for i in range(3)), *pairs, _determinant(m)]
 
 
-def _determinant(m) -> Fraction:
+def _determinant(m: Rows) -> Fraction:
     return dot(m[0], cross(m[1], m[2]))
 
 
-def _shifted(m, shift, sign=1):
+def _shifted(m: Rows, shift: Fraction, sign: int = 1) -> Rows:
     """sign m - sign shift I."""
     return tuple(tuple(sign * (v - (shift if i == j else 0)) for j, v in enumerate(row)) for i, row in enumerate(m))
 
 
-def _characteristic(m) -> Poly:
+def _characteristic(m: Rows) -> Poly:
     trace = m[0][0] + m[1][1] + m[2][2]
     return Poly((-_determinant(m), sum(_principal_minors(m)[3:6]), -trace, 1))
 
 
-def _moments(m, polynomial, bits):
+def _moments(m: Rows, polynomial: Poly, bits: int) -> tuple[Moment, Moment, Moment]:
     """((moment, whether it is rational and exact), ...) descending, as often as they are repeated; their sum is the exact trace."""
     trace = m[0][0] + m[1][1] + m[2][2]
     roots = [_rational(polynomial, root) for root in reversed(real_roots(polynomial, bits))]
@@ -113,13 +117,13 @@ def _moments(m, polynomial, bits):
     return (first, first, second) if polynomial.derivative()(first[0]) == 0 else (first, second, second)
 
 
-def _rational(polynomial, root):
+def _rational(polynomial: Poly, root: Fraction) -> Moment:
     """(the rational root that this is within its error, True), or (root, False)."""
     near = root.limit_denominator(integers(polynomial)[-1])
     return (near, True) if polynomial(near) == 0 else (root, False)
 
 
-def _axes(m, moments, bits) -> PrincipalAxes | None:
+def _axes(m: Rows, moments: Sequence[Moment], bits: int) -> PrincipalAxes | None:
     """Axes of these moments with the error they have; None where the moments are not told apart yet."""
     values = [value for value, _ in moments]
     if len(set(values)) == 3:
@@ -136,7 +140,7 @@ def _axes(m, moments, bits) -> PrincipalAxes | None:
     return error if error is None else PrincipalAxes(tuple(values), axes, not error, error)
 
 
-def _three(m, moments, bits):
+def _three(m: Rows, moments: Sequence[Moment], bits: int) -> list[Triple] | None:
     """Three directions. Where one moment is rational its direction is exact and the others exactly across it."""
     order = sorted(range(3), key=lambda i: (not moments[i][1], i == 1))  # the best two; the third is across them
     exact = [moments[i][1] for i in order]
@@ -146,32 +150,31 @@ def _three(m, moments, bits):
     if not exact[1]:
         second = _across(first, second, bits) if exact[0] else _rounded(second, bits)
         first = first if exact[0] else _rounded(first, bits)
-    found = [None] * 3
-    found[order[0]], found[order[1]], found[order[2]] = first, second, cross(first, second)
-    return found
+    found = dict(zip(order, (first, second, cross(first, second))))
+    return [found[i] for i in range(3)]
 
 
-def _across(first, direction, bits):
+def _across(first: Triple, direction: Triple, bits: int) -> Triple:
     """The direction with two short numbers in the plane across `first`, to which it is exactly orthogonal."""
     _, p, q = _with_plane(first)
     a, b = _rounded((dot(direction, p) / dot(p, p), dot(direction, q) / dot(q, q)), bits)
     return tuple(a * x + b * y for x, y in zip(p, q))
 
 
-def _rounded(numbers, bits):
+def _rounded(numbers: Sequence[Fraction], bits: int) -> Triple:
     """Multiples of the numbers with so many bits after the point, the largest of size 1."""
     scale = max(map(abs, numbers))
     return tuple(Fraction(round(v / scale * (1 << bits)), 1 << bits) for v in numbers)
 
 
-def _column(m, moment):
+def _column(m: Rows, moment: Fraction) -> Triple:
     """The direction that (m - moment I) leaves out: the largest column of its adjugate; zero where two moments are alike."""
     a = _shifted(m, moment)
     adjugate = [cross(a[1], a[2]), cross(a[2], a[0]), cross(a[0], a[1])]  # symmetric
     return adjugate[max(range(3), key=lambda i: abs(adjugate[i][i]))]
 
 
-def _unit(direction, bits):
+def _unit(direction: Triple, bits: int) -> Triple:
     """Scaled to length 1, exactly where that is rational; the scale has so many bits, so that exact zeros and angles stay."""
     square = dot(direction, direction)
     length = sqrt_fraction(square, bits)
@@ -180,31 +183,31 @@ def _unit(direction, bits):
     return tuple(v / length for v in direction)
 
 
-def _short(value, bits):
+def _short(value: Fraction, bits: int) -> Fraction:
     """A positive number in so many bits."""
     shift = bits - value.numerator.bit_length() + value.denominator.bit_length()
     return Fraction(round(value * Fraction(2) ** shift)) / Fraction(2) ** shift
 
 
-def _with_plane(direction):
+def _with_plane(direction: Triple) -> tuple[Triple, Triple, Triple]:
     """A direction and two across it and across each other: any do where the moments there are equal."""
     least = min(range(3), key=lambda i: (abs(direction[i]), i))
     second = cross(direction, IDENTITY[least])
     return direction, second, cross(direction, second)
 
 
-def _oriented(axes):
+def _oriented(axes: Sequence[Triple]) -> tuple[Triple, Triple, Triple]:
     """Axes 1 and 3 with their largest component positive, axis 2 so that all are right-handed."""
     first, third = (_positive(axes[0]), _positive(axes[2]))
     second = axes[1] if dot(cross(third, first), axes[1]) > 0 else tuple(-v for v in axes[1])
     return first, second, third
 
 
-def _positive(axis):
+def _positive(axis: Triple) -> Triple:
     return axis if max(axis, key=lambda v: (abs(v), v)) > 0 else tuple(-v for v in axis)
 
 
-def _error(m, values, axes) -> Fraction | None:
+def _error(m: Rows, values: Sequence[Fraction], axes: Sequence[Triple]) -> Fraction | None:
     """A bound of the errors of moments and axes; None where two moments are too close for this many bits.
 
     A vector v of length 1 with |m v - D v| = r is within r of a moment, and within 2 r/gap (as an angle) of its axis, where gap is

@@ -2,13 +2,21 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from .vectors import Number
+
+if TYPE_CHECKING:
+    import numpy as np
 
 EPS = 2.0**-52
 TINY = 1e-290  # so small a sum of products may have lost some to underflow
 
 
-def bracketed_newton(fun, lo, hi, start, args=(), rising=True, iterations=200, enough=2 * EPS):
+def bracketed_newton(fun: Callable[..., tuple[np.ndarray, np.ndarray]], lo: np.ndarray, hi: np.ndarray, start: np.ndarray,
+                     args: Sequence[np.ndarray] = (), rising: bool | np.ndarray = True, iterations: int = 200, enough: float = 2 * EPS) -> np.ndarray:
     """Roots of monotone functions, one per element.
 
     fun(x, *args) -> (value, slope), all arrays (n,); lo, hi, start: arrays (n,), the root lies in [lo, hi] (ends may
@@ -20,7 +28,7 @@ def bracketed_newton(fun, lo, hi, start, args=(), rising=True, iterations=200, e
     import numpy as np
     x = np.array(start, float)
     lo, hi = np.array(np.broadcast_to(lo, x.shape), float), np.array(np.broadcast_to(hi, x.shape), float)
-    rising = np.broadcast_to(np.asarray(rising), x.shape)
+    upward = np.broadcast_to(np.asarray(rising), x.shape)
     args = tuple(np.broadcast_to(a, x.shape) for a in args)
     out = x.copy()
     live = np.arange(x.size)
@@ -29,7 +37,7 @@ def bracketed_newton(fun, lo, hi, start, args=(), rising=True, iterations=200, e
         with np.errstate(all="ignore"):
             value, slope = fun(x, *args)
             step = value / slope
-        right = (value > 0) == rising  # the root is on the low side of x
+        right = (value > 0) == upward  # the root is on the low side of x
         hi = np.where(right, x, hi)
         lo = np.where(right, lo, x)
         new = x - step
@@ -47,14 +55,14 @@ def bracketed_newton(fun, lo, hi, start, args=(), rising=True, iterations=200, e
             break
         if round_ >= 4:  # most are done by now: go on with the rest only
             keep = ~done
-            live, x, lo, hi, last, rising = live[keep], new[keep], lo[keep], hi[keep], last[keep], rising[keep]
+            live, x, lo, hi, last, upward = live[keep], new[keep], lo[keep], hi[keep], last[keep], upward[keep]
             args = tuple(a[keep] for a in args)
         else:
             x = new
     return out
 
 
-def real_polynomial_roots(coefficients) -> list[float]:
+def real_polynomial_roots(coefficients: Sequence[Fraction]) -> list[float]:
     """Real roots, ascending, of a polynomial with exact (Fraction) coefficients, highest first.
 
     The roots of the derivative separate those of the polynomial; signs at the separators are exact, so no root of odd
@@ -72,7 +80,7 @@ def real_polynomial_roots(coefficients) -> list[float]:
     if not any(coefficients[1:]):
         return [0.0]
 
-    def value(x):
+    def value(x: Number) -> Number:
         total = 0
         for a in coefficients:
             total = total * x + a
@@ -91,12 +99,12 @@ def real_polynomial_roots(coefficients) -> list[float]:
     return sorted(set(roots))
 
 
-def _log2(value) -> int:
+def _log2(value: Fraction) -> int:
     """Floor of log2|value|, give or take one, for exact numbers of any size."""
     return abs(value.numerator).bit_length() - value.denominator.bit_length()
 
 
-def _bisect_newton(value, left, right, fl, coefficients):
+def _bisect_newton(value: Callable[[Number], Number], left: Fraction, right: Fraction, fl: Fraction, coefficients: Sequence[Fraction]) -> float:
     """The root in (left, right), to the nearest double or its neighbour: floats guide, exact signs decide."""
     unit = Fraction(2) ** -max(_log2(a) for a in coefficients if a)  # coefficients of any size would overflow
     slopes = [float(a * unit) for a in coefficients]
@@ -127,7 +135,7 @@ def _bisect_newton(value, left, right, fl, coefficients):
     return x
 
 
-def between(lo, hi):
+def between(lo: float, hi: float) -> float:
     """A point inside (lo, hi), geometric where the ends differ by orders of magnitude."""
     if lo * hi > 0 and not 0.01 < abs(lo / hi) < 100:
         return math.copysign(math.sqrt(abs(lo)) * math.sqrt(abs(hi)), lo)

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from .exact import sqrt_fraction
+from .vectors import Number
 
 
 @dataclass(frozen=True)
@@ -15,20 +16,20 @@ class Surd:
     q: Fraction = Fraction(0)
     d: Fraction = Fraction(0)
 
-    def __add__(self, other):
+    def __add__(self, other: Number) -> Surd:
         if isinstance(other, Surd):
             return Surd(self.p + other.p, self.q + other.q, self.d)
         return Surd(self.p + other, self.q, self.d)
 
-    def __mul__(self, other):
+    def __mul__(self, other: Number) -> Surd:
         if isinstance(other, Surd):
             return Surd(self.p * other.p + self.q * other.q * self.d, self.p * other.q + self.q * other.p, self.d)
         return Surd(self.p * other, self.q * other, self.d)
 
-    def __neg__(self):
+    def __neg__(self) -> Surd:
         return Surd(-self.p, -self.q, self.d)
 
-    def __sub__(self, other):
+    def __sub__(self, other: Number) -> Surd:
         return self + -other
 
     __radd__, __rmul__ = __add__, __mul__
@@ -53,5 +54,5 @@ class Surd:
         return (self.p * self.p - self.q * self.q * self.d) / (self.p - term)
 
 
-def _sign(value) -> int:
+def _sign(value: Fraction) -> int:
     return (value > 0) - (value < 0)

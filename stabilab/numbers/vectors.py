@@ -1,17 +1,24 @@
 """Vectors of three components of any kind of number."""
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
+from typing import Any
 
-Exact3 = tuple[Fraction, Fraction, Fraction]
+Number = Any  # a number of any kind: double, array of doubles, ball, affine, exact, symbol
+Given = Any  # a number as a user gives it, "2/3" among them; the field that takes it keeps a double
+# Three of a kind; what a loop makes has no length that a type could tell.
+Triple = tuple[Number, ...]
+Exact3 = tuple[Fraction, ...]
+Float3 = tuple[float, ...]
 CYCLE = ((1, 2), (2, 0), (0, 1))  # axis i -> (j, k)
 
 
-def cross(u, v):
+def cross(u: Sequence[Number], v: Sequence[Number]) -> Triple:
     """Vector product of two triples of any scalar type."""
     return (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
 
 
-def dot(u, v):
+def dot(u: Sequence[Number], v: Sequence[Number]) -> Number:
     """Scalar product of two triples of any scalar type."""
     return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
