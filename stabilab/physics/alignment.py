@@ -2,32 +2,38 @@
 moments is principal."""
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
-from typing import NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..numbers.exact import sqrt_fraction
+from ..numbers.vectors import Number, dot
+from .scene import AnyScene, Scene
+
+if TYPE_CHECKING:
+    import numpy as np
 
 
 class Turn(NamedTuple):
     """twin: the scene with its torque along one axis. rotation: rows of Fractions, omega_twin = rotation @ omega, good to 240
     bits. exact: no row was rounded."""
 
-    twin: object
-    rotation: list
+    twin: Scene
+    rotation: list[list[Fraction]]
     exact: bool
 
-    def __call__(self, state) -> tuple[Fraction, ...]:
+    def __call__(self, state: Sequence[Number]) -> tuple[Fraction, ...]:
         """The twin's state for a state of the scene, numbers exact."""
-        return tuple(sum(r * Fraction(v) for r, v in zip(row, state)) for row in self.rotation)
+        return tuple(sum((r * Fraction(v) for r, v in zip(row, state)), Fraction(0)) for row in self.rotation)
 
     @property
-    def matrix(self):
+    def matrix(self) -> np.ndarray:
         """(3, 3) array of the rotation's doubles."""
         import numpy as np
         return np.array([[float(v) for v in row] for row in self.rotation])
 
 
-def aligned(scene) -> Turn | None:
+def aligned(scene: AnyScene) -> Turn | None:
     """The scene turned so that its torque lies along one axis, where its equal moments allow it.
 
     The twin has the same moments; its torque lies exactly along an axis, and its gyrostatic component along the torque
@@ -40,7 +46,7 @@ def aligned(scene) -> Turn | None:
     if len(acting) < 2 or len({D[i] for i in acting}) > 1:
         return None
     i = acting[0]
-    length = sqrt_fraction(sum(m * m for m in M))
+    length = sqrt_fraction(dot(M, M))
     unit = [m / length for m in M]
     # the second direction lies in the equal plane, across the torque
     j = acting[1]
@@ -52,7 +58,7 @@ def aligned(scene) -> Turn | None:
     even = (i, j, 3 - i - j) in ((0, 1, 2), (1, 2, 0), (2, 0, 1))
     rows = {i: unit, j: across, 3 - i - j: third if even else [-v for v in third]}
     rotation = [rows[n] for n in range(3)]
-    turned = [sum(r * v for r, v in zip(row, lam)) for row in rotation]
+    turned = [dot(row, lam) for row in rotation]
     if sum(m * v for m, v in zip(M, lam)) == 0:
         turned[i] = Fraction(0)
     torque = [length if n == i else Fraction(0) for n in range(3)]
@@ -60,6 +66,7 @@ def aligned(scene) -> Turn | None:
     return Turn(_turned(scene, {"gyrostat": turned, "constant_torque": torque}), rotation, exact)
 
 
-def _turned(scene, vectors):
+def _turned(scene: Scene, vectors: Mapping[str, Sequence[Fraction]]) -> Scene:
     """The scene with these vectors in place of those of its wheel and torque."""
-    return type(scene)(scene.body, *(type(effect)(tuple(vectors[effect.name])) for effect in scene.effects))
+    kinds: dict[str, Any] = {effect.name: type(effect) for effect in scene.effects}
+    return Scene(scene.body, *(kind(tuple(vectors[name])) for name, kind in kinds.items()))

@@ -1,6 +1,7 @@
 """The blocks a state may consist of, in their order: the angular velocity always, the others when something needs them."""
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 
@@ -33,7 +34,7 @@ PARTS = BLOCKS | {part.name: part for part in (
 BRINGS = {"position": ("velocity", "attitude"), "velocity": ("attitude",)}  # what a block cannot do without
 
 
-def ordered(names) -> tuple[str, ...]:
+def ordered(names: Iterable[str]) -> tuple[str, ...]:
     """The blocks of these names with all they bring along, in order; omega is always there."""
     wanted = {"omega", *names}
     for name in tuple(wanted):
@@ -41,7 +42,7 @@ def ordered(names) -> tuple[str, ...]:
     return tuple(name for name in ORDER if name in wanted)
 
 
-def slices(names) -> dict[str, slice]:
+def slices(names: Iterable[str]) -> dict[str, slice]:
     """Where each block stands in the state."""
     out, start = {}, 0
     for name in names:

@@ -1,11 +1,12 @@
 """The rigid body: three principal moments of inertia."""
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
-from fractions import Fraction
 
 from ..errors import InputError
 from ..numbers.exact import exact, exact_vector, floats
+from ..numbers.vectors import Exact3, Given
 
 AXIS_WORDS = ("minor", "middle", "major")
 
@@ -20,11 +21,11 @@ class Body:
     two (no mass distribution does that).
     """
 
-    inertia: tuple[float, float, float]
-    mass: float | None = None
-    exact: tuple[Fraction, Fraction, Fraction] = field(init=False, repr=False)
+    inertia: Sequence[Given]
+    mass: Given | None = None
+    exact: Exact3 = field(init=False, repr=False)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         moments = exact_vector(self.inertia, "inertia")
         for number, moment in enumerate(moments, 1):
             if moment <= 0:

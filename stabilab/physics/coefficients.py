@@ -9,16 +9,17 @@ of mass does not turn the body.
 """
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import ClassVar
 
 from ..asked import checked_scene
-from ..numbers.vectors import Exact3, cross
+from ..numbers.vectors import Exact3, Number, Triple, cross
 from .body import Body
 from .effects import effect_class
 from .effects.base import Effect
-from .scene import ZERO3, Scene
+from .scene import ZERO3, AnyScene, Scene
 
 KNOWN = {"gyrostat", "constant_torque", "charge", "resistance", "liquid_cavity", "newtonian_field", "gravity", "body_force"}
 ZERO = Fraction(0)
@@ -64,7 +65,7 @@ class Content:
         return "; ".join(parts)
 
 
-def content(scene) -> Content | None:
+def content(scene: AnyScene) -> Content | None:
     """The coefficients of a scene; None where it has an effect that is not in the equations above."""
     if scene.variables == "scaled" or {e.name for e in scene.effects} - KNOWN:
         return None
@@ -103,20 +104,20 @@ class Together(Effect):
 
     exact: Exact3
 
-    def parameters(self):
+    def parameters(self) -> dict[str, Fraction]:
         return dict(zip(("lambda1", "lambda2", "lambda3"), self.exact))
 
-    def momentum(self, p):
+    def momentum(self, p: Mapping[str, Number]) -> Triple:
         return (p["lambda1"], p["lambda2"], p["lambda3"])
 
 
-def gyrostat_scene(parts: Content):
+def gyrostat_scene(parts: Content) -> Scene:
     """The scene of a gyrostat and a constant torque that has the same rates (kind "gyrostat")."""
     torque = [effect_class("constant_torque")(parts.M)] if any(parts.M) else []  # a scene loads no effect that it does not have
     return Scene(Body(parts.D), Together(parts.Lambda), *torque)
 
 
-def linear_rates(D, omega, H):
+def linear_rates(D: Sequence[Number], omega: Sequence[Number], H: Sequence[Number]) -> list[list[Number]]:
     """Rows of the derivative by omega of D^-1 (D omega + Lambda) x omega, where H = D omega + Lambda (any scalar type)."""
     rows = []
     for i, (j, k) in enumerate(((1, 2), (2, 0), (0, 1))):  # D_i a_i = H_j omega_k - H_k omega_j
@@ -127,7 +128,7 @@ def linear_rates(D, omega, H):
     return rows
 
 
-def rates(parts: Content, omega, gamma):
+def rates(parts: Content, omega: Sequence[Number], gamma: Sequence[Number] | None) -> tuple[Exact3, Exact3]:
     """(omega', gamma') in exact fractions; with a liquid only where nothing depends on gamma."""
     w = tuple(map(Fraction, omega))
     g = tuple(map(Fraction, gamma)) if gamma else (Fraction(0),) * 3
@@ -143,7 +144,7 @@ def rates(parts: Content, omega, gamma):
     return tuple(t / d for t, d in zip(total, D)), cross(g, w) if gamma else ()
 
 
-def liquid_torque(parts: Content, w):
+def liquid_torque(parts: Content, w: Sequence[Number]) -> Triple:
     """omega'' + omega x omega' along the motion without small effects (any scalar type)."""
     D = parts.D
     moment = (0, 0, 0) if parts.printed else parts.Lambda
@@ -153,12 +154,12 @@ def liquid_torque(parts: Content, w):
     return tuple(t * (1 / d) + v for t, d, v in zip(turned, D, cross(w, first)))
 
 
-def at_rest(parts: Content, omega, gamma) -> bool:
+def at_rest(parts: Content, omega: Sequence[Number], gamma: Sequence[Number] | None) -> bool:
     """Whether every rate vanishes exactly (not asked with a liquid in a field)."""
     return not (parts.kappa and gamma) and not any(v for block in rates(parts, omega, gamma) for v in block)
 
 
-def effective(scene):
+def effective(scene: AnyScene) -> AnyScene:
     """The scene itself, or, where charges of constant angle and forces are all it has besides, its twin with the
     gyrostatic moment lambda - k e3. Other scenes come back as they are."""
     if checked_scene(scene).plain:

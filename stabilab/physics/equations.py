@@ -7,14 +7,21 @@ Everything here is a SymPy value; numbers enter at `to_numpy`.
 """
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import lru_cache, reduce
+from typing import Any, TypeAlias
 
 from ..asked import checked_scene
 from ..errors import InputError
 from ..numbers.exact import exact
-from ..numbers.vectors import cross, dot
+from ..numbers.vectors import Number, Triple, cross, dot
 from .blocks import BLOCKS, ordered
+from .scene import AnyScene, ScaledGyrostat, Scene
+
+Symbolic: TypeAlias = Any  # an expression or a symbol of SymPy, which is loaded by none who only reads
+Symbols: TypeAlias = dict[str, Symbolic]
 
 
 @dataclass(frozen=True)
@@ -23,8 +30,8 @@ class Balance:
 
     name: str
     words: str
-    quantity: object
-    rate: object
+    quantity: Symbolic
+    rate: Symbolic
 
 
 @dataclass(frozen=True, eq=False)  # one and the same object per scene: what is made of it is kept by identity
@@ -38,28 +45,28 @@ class Equations:
     """
 
     variables: str
-    state: tuple
-    parameters: dict
-    symbols: dict
-    inertia: tuple
-    torques: dict
-    rhs: tuple
-    jacobian: object
-    energy: object
+    state: tuple[Symbolic, ...]
+    parameters: dict[str, Fraction]
+    symbols: Symbols
+    inertia: tuple[Symbolic, ...]
+    torques: dict[str, Triple]
+    rhs: tuple[Symbolic, ...]
+    jacobian: Symbolic
+    energy: Symbolic
     balances: tuple[Balance, ...]
     blocks: tuple[str, ...] = ("omega",)
 
-    def numeric(self, expression):
+    def numeric(self, expression: Symbolic) -> Symbolic:
         """The expression with the exact parameter values put in (rationals; no rounding)."""
         return expression.subs(values(self))
 
-    def derivative(self, quantity):
+    def derivative(self, quantity: Symbolic) -> Symbolic:
         """Rate of a quantity along the motion; turn angles alpha_i (alpha_i' = state_i) may stand in it."""
         motion = list(zip(self.state, self.rhs)) + list(zip(turn_angles(), self.state[:3]))
         return sum(quantity.diff(variable) * rate for variable, rate in motion)
 
 
-def derive(scene, also=()) -> Equations:
+def derive(scene: AnyScene, also: Iterable[str] = ()) -> Equations:
     """Equations of motion of a Scene (omega, rad/s, body frame) or of a ScaledGyrostat (x).
 
     The state has the blocks that the scene's effects need, and those named in `also` (physical scenes only).
@@ -67,50 +74,50 @@ def derive(scene, also=()) -> Equations:
     return _scaled(scene) if checked_scene(scene).variables == "scaled" else _physical(scene, ordered((*scene.blocks, *also)))
 
 
-def values(equations) -> dict:
+def values(equations: Equations) -> dict[Symbolic, Symbolic]:
     """Symbol -> SymPy rational of every parameter."""
     from sympy import Rational
     return {equations.symbols[name]: Rational(v.numerator, v.denominator) for name, v in equations.parameters.items()}
 
 
-def turn_angles():
+def turn_angles() -> tuple[Symbolic, ...]:
     """Symbols alpha1, alpha2, alpha3: the integrals of the state's components over time."""
     from sympy import symbols
     return symbols("alpha1:4", real=True)
 
 
-def _symbols(names, **assumptions):
+def _symbols(names: Iterable[str], **assumptions: bool) -> Symbols:
     from sympy import Symbol
     return {name: Symbol(name, real=True, **assumptions) for name in names}
 
 
-def _present(parameters) -> dict:
+def _present(parameters: Mapping[str, Fraction]) -> dict[str, Fraction]:
     """Those that are not zero."""
     return {name: value for name, value in parameters.items() if value}
 
 
-def with_zeros(names, symbols) -> dict:
+def with_zeros(names: Iterable[str], symbols: Symbols) -> Symbols:
     """Name -> symbol, 0 for a parameter that is zero."""
     from sympy import Integer
     return {name: symbols.get(name, Integer(0)) for name in names}
 
 
-def strengths(scene, symbols) -> dict:
+def strengths(scene: Scene, symbols: Symbols) -> Symbols:
     """What the formulas of the scene's effects are called with: a symbol for every parameter that is not zero."""
     return symbols | with_zeros([name for effect in scene.effects for name in effect.parameters()], symbols)
 
 
-def add_terms(u, v):
+def add_terms(u: Iterable[Number], v: Iterable[Number]) -> Triple:
     return tuple(p + q for p, q in zip(u, v))
 
 
-def _jacobian(rhs, state):
+def _jacobian(rhs: Iterable[Symbolic], state: Sequence[Symbolic]) -> Symbolic:
     from sympy import ImmutableMatrix
     return ImmutableMatrix([[rate.diff(x) for x in state] for rate in rhs])
 
 
 @lru_cache(maxsize=32)  # one answer asks for the same equations several times, and a liquid takes a second
-def _physical(scene, names) -> Equations:
+def _physical(scene: Scene, names: tuple[str, ...]) -> Equations:
     from sympy import Integer
     blocks = {name: tuple(_symbols(BLOCKS[name].components).values()) for name in names}
     parameters = dict(zip(("D1", "D2", "D3"), scene.body.exact))
@@ -155,7 +162,7 @@ def _physical(scene, names) -> Equations:
                      tuple(balances), names)
 
 
-def _gamma_laws(scene, motion, symbols, H):
+def _gamma_laws(scene: Scene, motion: MotionView, symbols: Symbols, H: Triple) -> Iterator[Balance]:
     """(H . gamma - area functions)' = gamma . (torques without one), and |gamma|."""
     from sympy import Integer
     zero, gamma = (Integer(0),) * 3, motion.gamma
@@ -175,13 +182,18 @@ class MotionView:
     """What an effect may see of the motion: the blocks of the state by name, the principal moments D, and
     `undisturbed`."""
 
-    def __init__(self, scene, blocks, D, symbols):
+    omega: Triple
+    gamma: Triple
+    attitude: tuple[Symbolic, ...]
+    velocity: Triple
+
+    def __init__(self, scene: Scene, blocks: Mapping[str, tuple[Symbolic, ...]], D: Triple, symbols: Symbols) -> None:
         self._scene, self._blocks, self._symbols, self.D = scene, blocks, symbols, D
         self.__dict__ |= blocks
         self.spin = tuple(d * w for d, w in zip(D, self.omega))
         self.inertial = cross(self.spin, self.omega)
 
-    def undisturbed(self, free=False):
+    def undisturbed(self, free: bool = False) -> tuple[Triple, Triple]:
         """(omega', omega'') along the motion without the small effects; free: of the body alone."""
         from sympy import expand
         total = self.inertial
@@ -198,7 +210,7 @@ class MotionView:
         return first, second
 
 
-def rotation(q):
+def rotation(q: Iterable[Number]) -> tuple[Triple, Triple, Triple]:
     """Rows of the matrix from body to space of a unit quaternion (q0, q1, q2, q3), any scalar type."""
     a, b, c, d = q
     return ((a*a + b*b - c*c - d*d, 2*(b*c - a*d), 2*(b*d + a*c)),
@@ -206,14 +218,14 @@ def rotation(q):
             (2*(b*d - a*c), 2*(c*d + a*b), a*a - b*b - c*c + d*d))
 
 
-def _quaternion_rate(scene, motion, symbols):
+def _quaternion_rate(scene: Scene, motion: MotionView, symbols: Symbols) -> tuple[Symbolic, ...]:
     """q' = q (0, omega)/2."""
     a, b, c, d = motion.attitude
     p, q, r = motion.omega
     return ((-b*p - c*q - d*r) / 2, (a*p + c*r - d*q) / 2, (a*q + d*p - b*r) / 2, (a*r + b*q - c*p) / 2)
 
 
-def _acceleration(scene, motion, symbols):
+def _acceleration(scene: Scene, motion: MotionView, symbols: Symbols) -> Triple:
     """m v' = R f."""
     zero = (motion.omega[0] * 0,) * 3
     total = reduce(add_terms, (e.force(motion, symbols) or zero for e in scene.effects), zero)
@@ -232,7 +244,7 @@ SCALED = ("a", "b", "mu1", "mu2", "mu3")
 
 
 @lru_cache(maxsize=32)
-def _scaled(scene) -> Equations:
+def _scaled(scene: ScaledGyrostat) -> Equations:
     from sympy import Integer
     x1, x2, x3 = x = tuple(_symbols(scene.components).values())
     parameters = _present(dict(zip(SCALED, scene.exact_ab + scene.exact_mu)))

@@ -6,10 +6,20 @@ then neither called nor imported.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, TypeAlias
 
+from ..numbers.vectors import Number
 from .blocks import slices
+from .effects.base import Limit
+from .scene import AnyScene
 
+if TYPE_CHECKING:
+    import numpy as np
+
+States: TypeAlias = Any  # an array (..., N), a sequence of floats, or a dict of blocks
+Blocks: TypeAlias = dict[str, tuple[Number, ...]]
 BEYOND, WITHIN = "BEYOND THE LAW", "within the law"
 ROWS = 4096  # of a run that are looked at together
 
@@ -25,9 +35,9 @@ class Validity:
 
     effect: str
     number: str
-    value: object
+    value: float | np.ndarray
     limit: float
-    holds: object
+    holds: bool | np.ndarray
     over: str
     follows: str
     source: str
@@ -62,11 +72,11 @@ class Validity:
         return self._measured() if _excess(self) <= 1 else f"{self._measured()}: {self.follows}"
 
 
-def _largest(value) -> float:
+def _largest(value: float | np.ndarray) -> float:
     return value if isinstance(value, float) else float(value.max())
 
 
-def validity(scene, states, over: str = "at the start") -> Validity | None:
+def validity(scene: AnyScene, states: States, over: str = "at the start") -> Validity | None:
     """How far the approximate laws of a scene hold at states (..., N): the blocks of the scene in order, omega alone, or a dict of blocks.
 
     None where all its laws are exact. For arrays `value` and `holds` are arrays (...,). over: where the states are, in words.
@@ -74,12 +84,12 @@ def validity(scene, states, over: str = "at the start") -> Validity | None:
     return _judged(scene, _blocks(scene, states), over, None)
 
 
-def along(scene, states, over: str) -> Validity | None:
+def along(scene: AnyScene, states: States, over: str) -> Validity | None:
     """The same over one motion, states (n, N) or a dict of them; over several motions, (k, n, N)."""
     return _judged(scene, _blocks(scene, states), over, -1)
 
 
-def of_motion(scene, motion) -> Validity | None:
+def of_motion(scene: AnyScene, motion: Any) -> Validity | None:
     """Of a motion that is known by its extremes alone: the corner of its box, which is at least what it reaches."""
     if motion.extremes is None:
         return validity(scene, motion.at)
@@ -87,20 +97,20 @@ def of_motion(scene, motion) -> Validity | None:
     return validity(scene, (*corner, *motion.at[3:]), f"over {motion.extremes_over} at most")
 
 
-def at_equilibria(scene, found) -> Validity | None:
+def at_equilibria(scene: AnyScene, found: Any) -> Validity | None:
     """Of equilibria: at the isolated ones; where there are curves alone, which run to any rate, at rest."""
     if found.points:
         return worst(*(validity(scene, point.at, "at an equilibrium") for point in found.points))
     return validity(scene, (0.0,) * 3, "at rest (it grows with the rate along a curve)" if found.curves else "at rest")
 
 
-def worst(*found) -> Validity | None:
+def worst(*found: Validity | None) -> Validity | None:
     """Of several the one that is furthest beyond its limit; None of none."""
     known = [v for v in found if v is not None]
     return max(known, key=_excess, default=None)
 
 
-def as_dict(validity) -> dict | None:
+def as_dict(validity: Validity | None) -> dict[str, Any] | None:
     """What JSON says of it."""
     if validity is None:
         return None
@@ -111,18 +121,21 @@ def as_dict(validity) -> dict | None:
 class Watch:
     """The validity of a run that is told its states one by one (`note`), without keeping them."""
 
-    def __init__(self, scene, blocks):
-        self.scene, self.blocks, self.rows, self.found = scene, blocks, [], None
+    def __init__(self, scene: AnyScene, blocks: Sequence[str]) -> None:
+        self.scene, self.blocks = scene, blocks
+        self.rows: list[Sequence[float]] = []
+        self.found: Validity | None = None
 
-    def note(self, row):
+    def note(self, row: Sequence[float]) -> None:
         """A state of the run, N numbers."""
         self.rows.append(row)
         if len(self.rows) >= ROWS:
             self._look()
 
-    def _look(self):
+    def _look(self) -> None:
         import numpy as np
-        rows, self.rows = np.array(self.rows), []
+        rows = np.array(self.rows)
+        self.rows = []
         seen = {name: rows[:, part] for name, part in slices(self.blocks).items()}
         self.found = _larger(self.found, along(self.scene, seen, "along the run"))
 
@@ -133,7 +146,7 @@ class Watch:
         return self.found
 
 
-def _larger(one, two):
+def _larger(one: Validity | None, two: Validity | None) -> Validity | None:
     """Number by number the larger of two validities of one scene."""
     if one is None or two is None:
         return one or two
@@ -142,7 +155,7 @@ def _larger(one, two):
     return _together(best)
 
 
-def _blocks(scene, states) -> dict:
+def _blocks(scene: AnyScene, states: States) -> Blocks:
     """Block of the state -> its components, each of the shape of the states without their last axis."""
     if isinstance(states, dict):
         return {name: _components(values) for name, values in states.items()}
@@ -150,7 +163,7 @@ def _blocks(scene, states) -> dict:
     return {name: row[part] for name, part in slices(scene.blocks).items() if part.stop <= len(row)}
 
 
-def _components(values) -> tuple:
+def _components(values: Any) -> tuple[Number, ...]:
     """Floats of one state; arrays of several."""
     try:
         return tuple(map(float, values))
@@ -160,7 +173,7 @@ def _components(values) -> tuple:
         return tuple(array[..., i] for i in range(array.shape[-1]))
 
 
-def _judged(scene, blocks, over, axis):
+def _judged(scene: AnyScene, blocks: Blocks, over: str, axis: int | None) -> Validity | None:
     found = []
     for effect in scene.approximate:
         for limit in effect.limits(scene):
@@ -171,7 +184,7 @@ def _judged(scene, blocks, over, axis):
     return _together(found)
 
 
-def _value(limit, blocks, axis):
+def _value(limit: Limit, blocks: Blocks, axis: int | None) -> float | np.ndarray | None:
     """A float, or an array without its axis of times."""
     shape = next(iter(blocks.values()))[0]
     if isinstance(shape, float):
@@ -187,7 +200,7 @@ def _value(limit, blocks, axis):
     return float(values) if values.ndim == 0 else np.array(values)
 
 
-def _together(found):
+def _together(found: Sequence[Validity]) -> Validity | None:
     """The most exceeded number first, or, where none is, the first declared; the others beside it."""
     if not found:
         return None
@@ -199,5 +212,5 @@ def _together(found):
     return replace(first, holds=holds, also=others)
 
 
-def _excess(validity) -> float:
+def _excess(validity: Validity) -> float:
     return _largest(validity.value) / validity.limit

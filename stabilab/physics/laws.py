@@ -1,13 +1,15 @@
 """The laws of a scene in symbols: what is conserved, and how fast the rest changes."""
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import reduce
 
-from ..numbers.vectors import cross, dot
-from .equations import SCALED, Balance, add_terms, derive, strengths, turn_angles, with_zeros
+from ..numbers.vectors import Triple, cross, dot
+from .equations import SCALED, Balance, Equations, add_terms, derive, strengths, turn_angles, with_zeros
+from .scene import AnyScene, Scene
 
 
-def invariants(scene) -> tuple[Balance, ...]:
+def invariants(scene: AnyScene) -> tuple[Balance, ...]:
     """The laws that hold for this very scene, its numbers put in.
 
     A Balance whose rate is 0 is a constant of the motion; a constant rate grows exactly in proportion to time; a
@@ -16,7 +18,7 @@ def invariants(scene) -> tuple[Balance, ...]:
     """
     equations = derive(scene)
     laws = [*conserved(equations)]
-    laws += _scaled_laws(equations) if equations.variables == "scaled" else _physical_laws(scene, equations)
+    laws += _scaled_laws(equations) if scene.variables == "scaled" else _physical_laws(scene, equations)
     return tuple(laws)
 
 CONSERVED = {
@@ -27,7 +29,7 @@ CONSERVED = {
     "quaternion": "the quaternion of the attitude has length one"}
 
 
-def conserved(equations):
+def conserved(equations: Equations) -> Iterator[Balance]:
     for law in equations.balances:
         if equations.numeric(law.rate) == 0 and (quantity := equations.numeric(law.quantity)) != 0:
             words = CONSERVED.get(law.name, f"no torque acts in it: the {law.name} is constant")
@@ -36,7 +38,7 @@ def conserved(equations):
             yield Balance(law.name, words, quantity, law.rate * 0)
 
 
-def _outer(scene, equations):
+def _outer(scene: Scene, equations: Equations) -> tuple[Triple, ...] | None:
     """(carried momentum, outer torque) of a physical scene as exact numbers, or None where they vary with the state."""
     from sympy import Integer, expand
     zero, p = (Integer(0),) * 3, strengths(scene, equations.symbols)
@@ -47,7 +49,7 @@ def _outer(scene, equations):
     return None if any(v.free_symbols for row in pair for v in row) else pair
 
 
-def _physical_laws(scene, equations):
+def _physical_laws(scene: Scene, equations: Equations) -> Iterator[Balance]:
     known = _outer(scene, equations)
     if known is None:
         return
@@ -74,7 +76,7 @@ def _physical_laws(scene, equations):
                           omega[i], M[i] / D[i])
 
 
-def _scaled_laws(equations):
+def _scaled_laws(equations: Equations) -> Iterator[Balance]:
     x1, x2, x3 = equations.state
     a, b, mu1, mu2, mu3 = (equations.numeric(s) for s in with_zeros(SCALED, equations.symbols).values())
     alpha = turn_angles()

@@ -1,17 +1,19 @@
 """The equations of a scene as lines of text and as LaTeX."""
 from __future__ import annotations
 
+from .equations import Equations, Symbolic
 
-def lines(equations) -> tuple[str, ...]:
+
+def lines(equations: Equations) -> tuple[str, ...]:
     """The equations of motion as plain text, one line each."""
     return tuple(f"{_left(d, x)}' = {_right(equations, i)}" for i, (d, x) in enumerate(zip(equations.inertia, equations.state)))
 
 
-def _left(d, x):
+def _left(d: Symbolic, x: Symbolic) -> str:
     return str(x) if d == 1 else f"{d} {x}"
 
 
-def _right(equations, i):
+def _right(equations: Equations, i: int) -> Symbolic:
     from sympy import Poly, PolynomialError, prod
     total = sum(part[i] for part in equations.torques.values()) if i < 3 else equations.rhs[i]
     try:
@@ -21,7 +23,7 @@ def _right(equations, i):
     return sum(factor * prod(x**n for x, n in zip(equations.state, powers)) for powers, factor in terms)
 
 
-def latex(equations) -> str:
+def latex(equations: Equations) -> str:
     """The equations of motion as a LaTeX align* environment."""
     from sympy import latex as tex
     rows = [rf"{'' if d == 1 else tex(d) + ' '}\dot{{{tex(x)}}} &= {tex(_right(equations, i))}"

@@ -7,11 +7,12 @@ differences such as D1 - D2 or b - a are formed before the one rounding to doubl
 """
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 
-from ..numbers.vectors import CYCLE, Exact3
+from ..numbers.vectors import CYCLE, Exact3, Number, Triple
 
 
 @dataclass(frozen=True)
@@ -29,15 +30,15 @@ class QuadraticForm:
         """(kappa, rho, sigma, m), each rounded once to double."""
         return tuple(tuple(float(v) for v in row) for row in (self.kappa, self.rho, self.sigma, self.m))
 
-    def rate(self, x):
+    def rate(self, x: Sequence[Number]) -> list[Number]:
         """x' for one state: three numbers of any type (floats, fractions, balls) -> list of three."""
-        rows = (self.kappa, self.rho, self.sigma, self.m)
+        rows: tuple[Triple, ...] = (self.kappa, self.rho, self.sigma, self.m)
         if isinstance(x[0], float):
             rows = self.coefficients
         kappa, rho, sigma, m = rows
         return [kappa[i] * x[j] * x[k] + rho[i] * x[k] + sigma[i] * x[j] + m[i] for i, (j, k) in enumerate(CYCLE)]
 
-    def jacobian(self, x):
+    def jacobian(self, x: Sequence[Number]) -> list[list[Number]]:
         """3 x 3 nested list: derivative of rate i by component; entries of the type of x."""
         kappa, rho, sigma, _ = self.coefficients if isinstance(x[0], float) else (self.kappa, self.rho, self.sigma, 0)
         rows = []
@@ -65,6 +66,6 @@ def scaled_form(a: Fraction, b: Fraction, mu: Exact3) -> QuadraticForm:
     return QuadraticForm(kappa=(one, -one, one), rho=(zero, zero, b), sigma=(zero, -a, zero), m=tuple(mu), symbol="x")
 
 
-def rests(form, state) -> bool:
+def rests(form: QuadraticForm, state: Iterable[Number]) -> bool:
     """Whether every rate vanishes at the state (floats or Fractions, taken as exact), exactly."""
     return not any(form.rate([Fraction(v) for v in state]))

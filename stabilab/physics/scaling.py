@@ -9,11 +9,14 @@ The paper forgets the root of u in a and b, which is harmless only for its u = 1
 """
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
 from ..errors import InputError
 from ..numbers.exact import exact_vector, sqrt_fraction
+from ..numbers.vectors import Exact3, Float3, Number
+from .body import Body
 from .effects import effect_class
 from .scene import ScaledGyrostat, Scene
 
@@ -22,20 +25,20 @@ from .scene import ScaledGyrostat, Scene
 class Scaling:
     """omega_j = rate[j] x_j and t = time tau; exact up to square roots kept to 240 bits."""
 
-    rate: tuple[Fraction, Fraction, Fraction]
+    rate: Exact3
     time: Fraction
     u: Fraction
 
-    def to_scaled(self, omega):
+    def to_scaled(self, omega: Iterable[float]) -> Float3:
         """omega (rad/s), a sequence of three floats -> x."""
         return tuple(float(Fraction(w) / r) for w, r in zip(map(float, omega), self.rate))
 
-    def to_physical(self, x):
+    def to_physical(self, x: Iterable[float]) -> Float3:
         """x, a sequence of three floats -> omega (rad/s)."""
         return tuple(float(Fraction(v) * r) for v, r in zip(map(float, x), self.rate))
 
 
-def shape_factors(body) -> tuple[Fraction, Fraction, Fraction]:
+def shape_factors(body: Body) -> tuple[Fraction, Fraction, Fraction]:
     """k1, k2, k3 of eq. (2). Raises InputError where the scaling is undefined: it needs D1 > D2 > D3."""
     d1, d2, d3 = body.exact
     if not d1 > d2 > d3:
@@ -44,14 +47,14 @@ def shape_factors(body) -> tuple[Fraction, Fraction, Fraction]:
     return (d2 - d3) / d1, (d1 - d3) / d2, (d1 - d2) / d3
 
 
-def torque_measure(body, torque) -> Fraction:
+def torque_measure(body: Body, torque: Sequence[Fraction]) -> Fraction:
     """u of eq. (4): sqrt(k2 k3 u1^2 + k3 k1 u2^2 + k1 k2 u3^2)/k with u_j = M_j/D_j; 0 for no torque."""
     k1, k2, k3 = shape_factors(body)
     u1, u2, u3 = (m / d for m, d in zip(torque, body.exact))
     return sqrt_fraction(k2 * k3 * u1 * u1 + k3 * k1 * u2 * u2 + k1 * k2 * u3 * u3) / (k1 * k2 * k3)
 
 
-def scaling(body, u: Fraction) -> Scaling:
+def scaling(body: Body, u: Fraction) -> Scaling:
     """The change of variables for torque measure u > 0."""
     if u <= 0:
         raise InputError("the scaled variables are undefined without a torque (u = 0): use physical variables, "
@@ -60,14 +63,14 @@ def scaling(body, u: Fraction) -> Scaling:
     return Scaling(tuple(sqrt_fraction(u * k) for k in (k1, k2, k3)), 1 / sqrt_fraction(u * k1 * k2 * k3), u)
 
 
-def torque_from_mu(body, mu, u: Fraction = Fraction(1)) -> tuple[Fraction, Fraction, Fraction]:
+def torque_from_mu(body: Body, mu: Sequence[Number], u: Fraction = Fraction(1)) -> Exact3:
     """M (N m), exact to 240 bits, from the dimensionless torque; u = 1 is the paper's choice."""
     ks = shape_factors(body)
     k = ks[0] * ks[1] * ks[2]
     return tuple(d * u * sqrt_fraction(k * kj) * m for d, kj, m in zip(body.exact, ks, exact_vector(mu, "mu")))
 
 
-def to_scaled(scene: Scene, mu=None) -> tuple[ScaledGyrostat, Scaling]:
+def to_scaled(scene: Scene, mu: Sequence[Number] | None = None) -> tuple[ScaledGyrostat, Scaling]:
     """The scaled twin of a physical scene and the change of variables.
 
     mu: the dimensionless torque where the case gave it (u = 1, no rounding through M); otherwise u from the torque
@@ -89,7 +92,7 @@ def to_scaled(scene: Scene, mu=None) -> tuple[ScaledGyrostat, Scaling]:
     return ScaledGyrostat(lam[0] / ((d1 - d3) * root), lam[0] / ((d1 - d2) * root), tuple(mu)), change
 
 
-def to_physical(scaled: ScaledGyrostat, body, u=Fraction(1)) -> tuple[Scene, Scaling]:
+def to_physical(scaled: ScaledGyrostat, body: Body, u: Number = Fraction(1)) -> tuple[Scene, Scaling]:
     """The physical twin on `body` of a scaled system: needs b/a = (D1-D3)/(D1-D2) to hold to rounding."""
     k1, _, _ = shape_factors(body)
     d1, d2, d3 = body.exact

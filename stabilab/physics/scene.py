@@ -1,11 +1,14 @@
 """The scene: a body and the effects it is under, nothing more."""
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from typing import Any, ClassVar, Literal, TypeAlias
 
 from ..errors import InputError
 from ..numbers.exact import exact, exact_vector, floats
+from ..numbers.vectors import Exact3, Given
 from .blocks import ordered
 from .body import Body
 from .effects.base import Effect
@@ -21,7 +24,7 @@ class Scene:
 
     body: Body
     effects: tuple[Effect, ...] = ()
-    variables = "physical"
+    variables: ClassVar[Literal["physical"]] = "physical"
     components = ("omega1", "omega2", "omega3")
     time_unit = "s"
 
@@ -54,14 +57,14 @@ class Scene:
         """Whether it has no effect beyond a gyrostat and a constant torque."""
         return not self._beyond()
 
-    def _beyond(self):
+    def _beyond(self) -> list[str]:
         return [e.name for e in self.effects if e.name not in ("gyrostat", "constant_torque")]
 
-    def effect(self, name: str) -> Effect | None:
-        """The effect called `name`, or None."""
+    def effect(self, name: str) -> Any:
+        """The effect called `name`, with the fields that it alone has, or None."""
         return next((e for e in self.effects if e.name == name), None)
 
-    def vector(self, name: str) -> tuple[Fraction, Fraction, Fraction]:
+    def vector(self, name: str) -> Exact3:
         """Exact vector of the gyrostat or the constant torque; zero where the scene does not name it."""
         found = self.effect(name)
         return ZERO3 if found is None else found.exact
@@ -81,19 +84,19 @@ class ScaledGyrostat:
     x1' = x2 x3 + mu1,  x2' = -x3 (x1 + a) + mu2,  x3' = x2 (x1 + b) + mu3
     """
 
-    a: float
-    b: float
-    mu: tuple[float, float, float]
+    a: Given
+    b: Given
+    mu: Sequence[Given]
     exact_ab: tuple[Fraction, Fraction] = field(init=False, repr=False)
-    exact_mu: tuple[Fraction, Fraction, Fraction] = field(init=False, repr=False)
-    variables = "scaled"
+    exact_mu: Exact3 = field(init=False, repr=False)
+    variables: ClassVar[Literal["scaled"]] = "scaled"
     components = ("x1", "x2", "x3")
     time_unit = "tau"
     effects = approximate = ()
     blocks = ("omega",)
     plain = True
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         object.__setattr__(self, "exact_ab", (exact(self.a), exact(self.b)))
         object.__setattr__(self, "exact_mu", exact_vector(self.mu, "mu"))
         object.__setattr__(self, "a", float(self.exact_ab[0]))
@@ -103,3 +106,6 @@ class ScaledGyrostat:
     def quadratic(self) -> QuadraticForm:
         """The rates with exact coefficients."""
         return scaled_form(*self.exact_ab, self.exact_mu)
+
+
+AnyScene: TypeAlias = Scene | ScaledGyrostat

@@ -2,13 +2,15 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 from ..asked import real
 from ..errors import InputError
+from ..numbers.vectors import Float3
 from .coefficients import Content
 
 
-def split(parts: Content, state):
+def split(parts: Content, state: Any) -> tuple[Float3, Float3 | None]:
     """(omega, gamma or None) as plain floats."""
     from .states import numbers_in_a_row
     if isinstance(state, dict):
@@ -26,7 +28,7 @@ def split(parts: Content, state):
     return omega, gamma
 
 
-def three_floats(state) -> tuple[float, float, float]:
+def three_floats(state: Any) -> Float3:
     """Three finite floats; InputError otherwise."""
     try:
         values = tuple(map(float, real(state, "states")))

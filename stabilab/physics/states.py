@@ -1,6 +1,9 @@
 """States, starts and times as the program takes them, checked once: arrays."""
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
 
 from ..asked import real
@@ -8,12 +11,16 @@ from ..errors import InputError
 from ..numbers.constants import EPS
 from .attitude import quaternion
 from .blocks import BLOCKS, ORDER, ordered
-from .equations import derive
+from .equations import Equations, derive
 from .quadratic import rests
+from .scene import AnyScene
 from .to_numpy import equations_of
 
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
-def numbers_in_a_row(values, name):
+
+def numbers_in_a_row(values: Any, name: str) -> np.ndarray:
     try:
         array = np.atleast_1d(np.asarray(real(np.asarray(values), name), float))
     except (TypeError, ValueError):
@@ -23,7 +30,7 @@ def numbers_in_a_row(values, name):
     return array
 
 
-def three_numbers(state):
+def three_numbers(state: Any) -> np.ndarray:
     array = numbers_in_a_row(state, "state")
     if array.size != 3:
         raise InputError(f"state: expected three numbers, got {array.size} of them")
@@ -32,7 +39,7 @@ def three_numbers(state):
 REST = {"gamma": (0.0, 0.0, 1.0), "attitude": (1.0, 0.0, 0.0, 0.0), "velocity": (0.0,) * 3, "position": (0.0,) * 3}
 
 
-def equations_and_start(scene, state):
+def equations_and_start(scene: AnyScene, state: Any) -> tuple[Equations, np.ndarray]:
     """(equations, state as one row) of a start given as numbers or block by block."""
     if not isinstance(state, dict):
         equations, array = equations_of(scene), numbers_in_a_row(state, "state")
@@ -54,7 +61,7 @@ def equations_and_start(scene, state):
     return equations, np.concatenate(rows)
 
 
-def checked_times(times):
+def checked_times(times: Any) -> np.ndarray:
     array = numbers_in_a_row(times, "times")
     steps = np.diff(array)
     if not ((steps > 0).all() or (steps < 0).all()):
@@ -62,7 +69,7 @@ def checked_times(times):
     return array
 
 
-def checked_rtol(rtol):
+def checked_rtol(rtol: float | None) -> float | None:
     if rtol is not None and not (isinstance(rtol, (int, float)) and 0 < rtol < 1):
         raise InputError(f"rtol: expected a number between 0 and 1, got {rtol!r}")
     return rtol
@@ -70,7 +77,7 @@ def checked_rtol(rtol):
 LAST_PLACE = 2.0**-52
 
 
-def moved_row(row, places: float = 1.0) -> np.ndarray:
+def moved_row(row: ArrayLike, places: float = 1.0) -> np.ndarray:
     """Numbers each moved by about so many units in its last place; a zero by half as many of the largest."""
     row = np.asarray(row, float)
     signs = np.random.default_rng(1).choice([-1.0, 1.0], row.size)
@@ -79,7 +86,7 @@ def moved_row(row, places: float = 1.0) -> np.ndarray:
 UNDERFLOW = 2.0**-1060  # what four terms may lose that are no normal doubles
 
 
-def checked_states(states) -> np.ndarray:
+def checked_states(states: Any) -> np.ndarray:
     """States as a float array (..., 3); InputError otherwise."""
     try:
         array = np.asarray(real(np.asarray(states), "states"), dtype=float)
@@ -92,7 +99,7 @@ def checked_states(states) -> np.ndarray:
     return array
 
 
-def equilibrium_mask(scene, states) -> np.ndarray:
+def equilibrium_mask(scene: AnyScene, states: np.ndarray) -> np.ndarray:
     """(n,) True where every rate of the state vanishes: in doubles to their rounding, then, for the few that pass, exactly."""
     form = scene.quadratic()
     kappa, rho, sigma, m = form.coefficients
@@ -109,7 +116,7 @@ def equilibrium_mask(scene, states) -> np.ndarray:
     return candidate
 
 
-def checked_starts(equations, states):
+def checked_starts(equations: Equations, states: Any) -> np.ndarray:
     wanted = len(equations.state)
     try:
         array = np.asarray(real(np.asarray(states), "states"), float)
@@ -122,7 +129,7 @@ def checked_starts(equations, states):
     return array
 
 
-def start_of(scene, omega, blocks) -> dict:
+def start_of(scene: AnyScene, omega: Sequence[float], blocks: Mapping[str, Sequence[float]]) -> dict[str, Sequence[float]]:
     """The blocks of the state at time 0 as `trajectory` takes them; attitude from its 3-1-2 angles."""
     start = {"omega": omega, **blocks}
     for name in ordered((*scene.blocks, *blocks)):

@@ -6,24 +6,32 @@ on the monomials alone and is shared by all scenes of the same structure within 
 """
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache
 from threading import RLock
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
 from ..errors import InputError
-from .equations import Equations, derive, values
+from .equations import Equations, Symbolic, derive, values
+from .scene import AnyScene
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+Known: TypeAlias = tuple[tuple[Symbolic, Symbolic], ...]  # parameters and their numbers
 
 
 @dataclass(frozen=True)
 class Form:
     """Expressions in the state and in coefficient symbols c0, c1, ... with the numbers behind those."""
 
-    state: tuple
-    expressions: tuple
-    symbols: tuple
+    state: tuple[Symbolic, ...]
+    expressions: tuple[Symbolic, ...]
+    symbols: tuple[Symbolic, ...]
     numbers: tuple[float, ...]
 
     @property
@@ -32,40 +40,43 @@ class Form:
         return tuple(bool(e.free_symbols & set(self.state)) for e in self.expressions)
 
 
-def form(equations: Equations, expressions, drop_constants=False) -> Form:
+def form(equations: Equations, expressions: Iterable[Symbolic], drop_constants: bool = False) -> Form:
     """Expressions with one numbered coefficient per monomial; monomials whose coefficient is exactly 0 vanish."""
     return _form(equations.state, _known(equations), tuple(expressions), drop_constants)
 
 
 @lru_cache(maxsize=64)
-def _known(equations) -> tuple:
+def _known(equations: Equations) -> Known:
     return tuple(values(equations).items())
 
 
 @lru_cache(maxsize=128)  # a comparison asks for the same scene dozens of times, and this is most of a short run
-def _form(state, known, expressions, drop_constants) -> Form:
+def _form(state: tuple[Symbolic, ...], known: Known, expressions: tuple[Symbolic, ...], drop_constants: bool) -> Form:
     from sympy import Poly, PolynomialError
-    known, symbols, numbers, result = dict(known), [], [], []
+    numbers_of = dict(known)
+    symbols: list[Symbolic] = []
+    numbers: list[float] = []
+    result = []
     for expression in expressions:
         try:
             terms = Poly(expression, *state).terms()
         except PolynomialError:
-            result.append(_unstructured(expression, known, symbols, numbers))
+            result.append(_unstructured(expression, numbers_of, symbols, numbers))
             continue
         total = expression * 0
         for powers, factor in terms:
             if not (drop_constants and not any(powers)):
-                total += _coefficient(factor, known, symbols, numbers) * _monomial(state, powers)
+                total += _coefficient(factor, numbers_of, symbols, numbers) * _monomial(state, powers)
         result.append(total)
     return Form(state, tuple(result), tuple(symbols), tuple(numbers))
 
 
-def _monomial(state, powers):
+def _monomial(state: Sequence[Symbolic], powers: Sequence[int]) -> Symbolic:
     from sympy import prod
     return prod(x**n for x, n in zip(state, powers))
 
 
-def _coefficient(factor, known, symbols, numbers):
+def _coefficient(factor: Symbolic, known: dict[Symbolic, Symbolic], symbols: list[Symbolic], numbers: list[float]) -> Symbolic:
     """A symbol for the coefficient (its number rounded once), 0 where it vanishes, the integer itself where it is one."""
     from sympy import Integer
     if factor.is_Integer:
@@ -74,7 +85,7 @@ def _coefficient(factor, known, symbols, numbers):
     return Integer(0) if exact.is_zero else _numbered(_rounded(exact), symbols, numbers)
 
 
-def _unstructured(expression, known, symbols, numbers):
+def _unstructured(expression: Symbolic, known: dict[Symbolic, Symbolic], symbols: list[Symbolic], numbers: list[float]) -> Symbolic:
     """An expression that is no polynomial in the state: every parameter and every ratio in it becomes a number."""
     from sympy import Float, Rational
     swap = {p: _numbered(_rounded(v), symbols, numbers) for p, v in known.items() if expression.has(p)}
@@ -82,14 +93,14 @@ def _unstructured(expression, known, symbols, numbers):
     return swapped.subs({r: Float(r, 17) for r in swapped.atoms(Rational) if not r.is_Integer})
 
 
-def _numbered(number, symbols, numbers):
+def _numbered(number: float, symbols: list[Symbolic], numbers: list[float]) -> Symbolic:
     from sympy import Symbol
     symbols.append(Symbol(f"c{len(symbols)}", real=True))
     numbers.append(number)
     return symbols[-1]
 
 
-def _rounded(exact) -> float:
+def _rounded(exact: Symbolic) -> float:
     try:
         return float(Fraction(int(exact.p), int(exact.q))) if exact.is_Rational else float(exact.evalf(30))
     except OverflowError:
@@ -107,39 +118,39 @@ class System:
     quantities: Form
     rates: Form
 
-    def __call__(self, x):
+    def __call__(self, x: ArrayLike) -> np.ndarray:
         """Rates of the states x: (..., 3) -> (..., 3)."""
         return _evaluate(self.rhs, x)
 
-    def rate(self, x) -> list:
+    def rate(self, x: Sequence[float]) -> list[float]:
         """Rates of one state given as a list of three plain floats, as a list (no array overhead)."""
         return _call(self.rhs, x)
 
-    def rate_and_laws(self, x) -> list:
+    def rate_and_laws(self, x: Sequence[float]) -> list[float]:
         """`rate` followed by the rates of the laws, as one list."""
         return _call(self.rhs, x) + _call(self.rates, x)
 
-    def jacobian(self, x):
+    def jacobian(self, x: ArrayLike) -> np.ndarray:
         """d rate_i / d x_j: (..., 3) -> (..., 3, 3)."""
         flat = _evaluate(self.entries, x)
         n = len(self.equations.state)
         return flat.reshape(flat.shape[:-1] + (n, n))
 
-    def invariants(self, x) -> dict:
+    def invariants(self, x: ArrayLike) -> dict[str, np.ndarray]:
         """Law name -> its quantity (up to an additive constant) at the states x: (..., 3) -> (...)."""
         flat = _evaluate(self.quantities, x)
         return {law.name: flat[..., i] for i, law in enumerate(self.equations.balances)}
 
-    def law_rates(self, x) -> dict:
+    def law_rates(self, x: ArrayLike) -> dict[str, np.ndarray]:
         """Law name -> rate of its quantity at the states x: (..., 3) -> (...)."""
         flat = _evaluate(self.rates, x)
         return {law.name: flat[..., i] for i, law in enumerate(self.equations.balances)}
 
-    def law_sizes(self, x) -> dict:
+    def law_sizes(self, x: ArrayLike) -> dict[str, np.ndarray]:
         """Law name -> sum of the absolute terms of its quantity: what a relative departure is measured against."""
         return {name: sizes for name, (_, sizes) in self.law_values(x).items()}
 
-    def law_values(self, x) -> dict:
+    def law_values(self, x: ArrayLike) -> dict[str, tuple[np.ndarray, np.ndarray]]:
         """Law name -> (`invariants`, `law_sizes`) at the states x, each term formed once: (..., 3) -> two of (...)."""
         x = np.asarray(x)
         columns, nothing, found = np.moveaxis(x, -1, 0).copy(), np.zeros(x.shape[:-1]), {}
@@ -149,36 +160,36 @@ class System:
         return found
 
     @cached_property
-    def _law_terms(self) -> dict:
+    def _law_terms(self) -> dict[str, Form]:
         from sympy import Add
         form = self.quantities
         return {law.name: Form(form.state, Add.make_args(expression), form.symbols, form.numbers)
                 for law, expression in zip(self.equations.balances, form.expressions)}
 
 
-def to_numpy(equations: Equations) -> System:
+def to_numpy(equations: Equations | AnyScene) -> System:
     """The compiled system of derived equations (or of a scene), made once for one and the same equations."""
     return _system(equations_of(equations))
 
 
 @lru_cache(maxsize=64)
-def _system(equations) -> System:
+def _system(equations: Equations) -> System:
     laws = equations.balances
     return System(equations, form(equations, equations.rhs), form(equations, list(equations.jacobian)),
                   form(equations, [law.quantity for law in laws], drop_constants=True),
                   form(equations, [law.rate for law in laws]))
 
 
-def equations_of(equations_or_scene) -> Equations:
+def equations_of(equations_or_scene: Equations | AnyScene) -> Equations:
     return equations_or_scene if isinstance(equations_or_scene, Equations) else derive(equations_or_scene)
 
 
 @lru_cache(maxsize=256)
-def _function(arguments, expressions):
+def _function(arguments: tuple[Symbolic, ...], expressions: tuple[Symbolic, ...]) -> Callable[..., Any]:
     return lambdified(arguments, list(expressions))
 
 
-def lambdified(arguments, expressions, cse=False):
+def lambdified(arguments: Sequence[Symbolic], expressions: Sequence[Symbolic], cse: bool = False) -> Callable[..., Any]:
     """The expressions as one function of NumPy's arrays, made by one thread at a time: a second one would find the names that
     SymPy collects for the first function half collected."""
     from sympy import lambdify
@@ -189,11 +200,11 @@ def lambdified(arguments, expressions, cse=False):
 _NAMES = RLock()
 
 
-def _call(form: Form, x) -> list:
+def _call(form: Form, x: Sequence[float]) -> list[float]:
     return _function(form.state + form.symbols, form.expressions)(*x, *form.numbers)
 
 
-def _evaluate(form: Form, x):
+def _evaluate(form: Form, x: ArrayLike) -> np.ndarray:
     """Values of the form at x (..., 3), one per expression in the last place; constants are spread over the batch."""
     x = np.asarray(x)
     x = x if np.issubdtype(x.dtype, np.inexact) else x.astype(float)

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 from importlib import import_module
+from typing import Any
 
 REGISTRY: dict[str, tuple[str, str]] = {
     "gyrostat": ("gyrostat", "Gyrostat"),
@@ -15,7 +16,7 @@ REGISTRY: dict[str, tuple[str, str]] = {
 }
 
 
-def effect_class(name: str):
+def effect_class(name: str) -> Any:
     """The class of the effect called `name` in case files; KeyError if there is none."""
     module, cls = REGISTRY[name]
     return getattr(import_module(f"{__name__}.{module}"), cls)

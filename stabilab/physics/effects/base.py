@@ -5,12 +5,13 @@ The formulas use arithmetic only, so the same lines serve SymPy symbols, floats,
 """
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import ClassVar
+from typing import Any, ClassVar
 
-Triple = tuple
+from ...numbers.principal import PrincipalAxes
+from ...numbers.vectors import Number, Triple
 
 
 @dataclass(frozen=True)
@@ -23,7 +24,7 @@ class Limit:
 
     number: str
     limit: float
-    value: Callable[[dict], object]
+    value: Callable[[Mapping[str, tuple[Number, ...]]], Number | None]
     follows: str
     source: str
 
@@ -41,14 +42,15 @@ class Effect:
     approximate: ClassVar[bool] = False  # True: its law holds up to its `limits`; an exact law is never asked for any
 
     @classmethod
-    def from_case(cls, table, context) -> Effect | None:
+    def from_case(cls, table: Any, context: Any) -> Effect | None:
         """The effect that its table in a case file states; None where the table is faulty (it keeps the faults).
 
         table: reads values by key (`vector`, `number`, `one_of`, `fault`); context: what the rest of the case knows
         (`body`, `torque_from_mu`). As it stands: three numbers under the only key.
         """
         vector = table.vector(cls.keys[0]) if table.required(*cls.keys) else None
-        return None if vector is None else cls(vector)
+        made: Any = cls  # an effect of other keys reads them itself
+        return None if vector is None else made(vector)
 
     def parameters(self) -> dict[str, Fraction]:
         """Symbol name to exact value, in the order of declaration."""
@@ -59,37 +61,37 @@ class Effect:
         """Whether its strength differs from zero: every formula of an effect is linear in its parameters."""
         return any(self.parameters().values())
 
-    def limits(self, scene) -> tuple[Limit, ...]:
+    def limits(self, scene: Any) -> tuple[Limit, ...]:
         """Up to where its law may be used in this scene."""
         return ()
 
-    def turned(self, frame) -> Effect | None:
+    def turned(self, frame: PrincipalAxes) -> Effect | None:
         """The same effect along the principal axes of `frame` (numbers.principal), from the frame that a case gives it in; None
         where it cannot be turned. An effect that is alike in every frame is itself."""
         return None
 
-    def momentum(self, p: dict) -> Triple | None:
+    def momentum(self, p: Mapping[str, Number]) -> Triple | None:
         """Angular momentum carried inside the body, body frame, kg m^2/s, from the parameter symbols `p`."""
         return None
 
-    def torque(self, omega: Triple, p: dict) -> Triple | None:
+    def torque(self, omega: Triple, p: Mapping[str, Number]) -> Triple | None:
         """Torque on the body, body frame, N m."""
         return None
 
-    def torque_along(self, motion, p: dict) -> Triple | None:
+    def torque_along(self, motion: Any, p: Mapping[str, Number]) -> Triple | None:
         """The torque where it depends on more than omega; `motion` has the blocks of the state by name (`omega`,
         `gamma`), the principal moments `D`, and `undisturbed()`, the first and second rate of omega along the motion
         without the small effects."""
         return self.torque(motion.omega, p)
 
-    def potential(self, motion, p: dict):
+    def potential(self, motion: Any, p: Mapping[str, Number]) -> Number | None:
         """Potential energy, J, whose fall is the work of the torque; None where it has none."""
         return None
 
-    def area(self, motion, p: dict):
+    def area(self, motion: Any, p: Mapping[str, Number]) -> Number | None:
         """A function of the state whose rate is torque . gamma, N m; None where there is none in closed form."""
         return None
 
-    def force(self, motion, p: dict) -> Triple | None:
+    def force(self, motion: Any, p: Mapping[str, Number]) -> Triple | None:
         """Force on the body, body frame, N; only a scene with translation asks."""
         return None

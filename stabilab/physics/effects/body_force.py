@@ -1,11 +1,13 @@
 """A force constant in the body at its centre of mass: it moves the body, it does not turn it."""
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from ...numbers.exact import exact_vector, floats
+from ...numbers.vectors import Exact3, Given, Number, Triple
 from .base import Effect
 
 
@@ -18,22 +20,22 @@ class BodyForce(Effect):
     works: ClassVar[bool] = False
     needs = ("position",)
 
-    vector: tuple[float, float, float]
-    exact: tuple[Fraction, Fraction, Fraction] = field(init=False, repr=False)
+    vector: Sequence[Given]
+    exact: Exact3 = field(init=False, repr=False)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         object.__setattr__(self, "exact", exact_vector(self.vector, "force"))
         object.__setattr__(self, "vector", floats(self.exact))
 
     @classmethod
-    def from_case(cls, table, context):
+    def from_case(cls, table: Any, context: Any) -> Effect | None:
         if context.body.mass is None and not context.stand_in:
             table.fault("a force moves the body: give body.mass in kg")
             return None
         return super().from_case(table, context)
 
-    def parameters(self):
+    def parameters(self) -> dict[str, Fraction]:
         return dict(zip(("f1", "f2", "f3"), self.exact))
 
-    def force(self, motion, p):
+    def force(self, motion: Any, p: Mapping[str, Number]) -> Triple:
         return p["f1"], p["f2"], p["f3"]

@@ -1,13 +1,14 @@
 """A point charge on axis 3 of the body in a uniform magnetic field: a Lorentz torque k omega x e3."""
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from ...errors import InputError
 from ...numbers.exact import exact, precise
-from ...numbers.vectors import cross
+from ...numbers.vectors import Given, Number, Triple, cross
 from .base import Effect, Limit
 
 SHARE = 0.1  # of the torque, by which a constant angle may be wrong
@@ -26,14 +27,14 @@ class Charge(Effect):
     keys: ClassVar[tuple[str, ...]] = ("charge", "field", "arm", "angle")
     works: ClassVar[bool] = False
 
-    charge: float
-    field_strength: float
-    arm: float
-    angle: float | str
+    charge: Given
+    field_strength: Given
+    arm: Given
+    angle: Given | str
     exact: Fraction = field(init=False, repr=False)
     strength: float = field(init=False, repr=False)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         scale = exact(self.charge) * exact(self.field_strength) * exact(self.arm) ** 2
         if self.angle != "attitude":
             scale *= precise("cos", exact(self.angle))
@@ -45,7 +46,7 @@ class Charge(Effect):
             object.__setattr__(self, name, float(exact(getattr(self, name))))
 
     @classmethod
-    def from_case(cls, table, context):
+    def from_case(cls, table: Any, context: Any) -> Charge | None:
         if not table.required(*cls.keys):
             return None
         numbers = [table.number(key) for key in cls.keys[:3]]
@@ -54,7 +55,8 @@ class Charge(Effect):
             table.fault(f'expected a number (rad) or "attitude", got "{angle[:60]}"', "angle")
             return None
         angle = angle if angle == "attitude" else table.number("angle")
-        return None if None in (*numbers, angle) else cls(*numbers, angle)
+        charge, strength, arm = numbers
+        return None if None in (*numbers, angle) else cls(charge, strength, arm, angle)
 
     @property
     def follows_attitude(self) -> bool:
@@ -62,17 +64,17 @@ class Charge(Effect):
         return self.angle == "attitude"
 
     @property
-    def approximate(self) -> bool:
+    def approximate(self) -> bool:  # type: ignore[override]  # a constant of the other effects, here told by the values
         """A constant angle is an assumption about the motion."""
         return not self.follows_attitude
 
-    def limits(self, scene):
+    def limits(self, scene: Any) -> tuple[Limit, ...]:
         """How far cos sigma of the motion, e3 . (axis 3 of space, the field's), is from the constant one; told where the attitude is known."""
         if self.follows_attitude:
             return ()
         constant = float(precise("cos", exact(self.angle)))
 
-        def departure(state):
+        def departure(state: Mapping[str, Sequence[Number]]) -> Number | None:
             if "attitude" not in state:
                 return None
             a, b, c, d = state["attitude"]
@@ -82,20 +84,20 @@ class Charge(Effect):
                       "Galal et al., charged body: eq. (3) ff."),)
 
     @property
-    def needs(self):
+    def needs(self) -> tuple[str, ...]:  # type: ignore[override]  # a constant of the other effects, here told by the values
         return ("gamma",) if self.follows_attitude else ()
 
-    def parameters(self):
+    def parameters(self) -> dict[str, Fraction]:
         return {"eHl2" if self.follows_attitude else "k": self.exact}
 
-    def _strength(self, motion, p):
+    def _strength(self, motion: Any, p: Mapping[str, Number]) -> Number:
         return p["eHl2"] * motion.gamma[2] if self.follows_attitude else p["k"]
 
-    def torque_along(self, motion, p):
+    def torque_along(self, motion: Any, p: Mapping[str, Number]) -> Triple:
         k = self._strength(motion, p)
         return cross(motion.omega, (0, 0, k))
 
-    def area(self, motion, p):
+    def area(self, motion: Any, p: Mapping[str, Number]) -> Number:
         """gamma3' = gamma . (omega x e3), so the torque's share is k gamma3, or e H l^2 gamma3^2/2."""
         if self.follows_attitude:
             return p["eHl2"] * motion.gamma[2] ** 2 / 2

@@ -1,12 +1,15 @@
 """A torque constant in the body: a thruster stuck open."""
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from ...errors import InputError
 from ...numbers.exact import exact_vector, floats
+from ...numbers.principal import PrincipalAxes
+from ...numbers.vectors import Exact3, Given, Number, Triple
 from .base import Effect
 
 
@@ -18,15 +21,15 @@ class ConstantTorque(Effect):
     keys: ClassVar[tuple[str, ...]] = ("torque", "mu")
     small: ClassVar[bool] = True
 
-    vector: tuple[float, float, float]
-    exact: tuple[Fraction, Fraction, Fraction] = field(init=False, repr=False)
+    vector: Sequence[Given]
+    exact: Exact3 = field(init=False, repr=False)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         object.__setattr__(self, "exact", exact_vector(self.vector, "torque"))
         object.__setattr__(self, "vector", floats(self.exact))
 
     @classmethod
-    def from_case(cls, table, context):
+    def from_case(cls, table: Any, context: Any) -> ConstantTorque | None:
         key = table.one_of("torque", "mu")
         if key is None:
             if not table.data:
@@ -41,12 +44,13 @@ class ConstantTorque(Effect):
             return cls(context.torque_from_mu(vector))
         except InputError as error:
             table.fault(f"{error}; give torque in N m", key)
+            return None
 
-    def turned(self, frame):
+    def turned(self, frame: PrincipalAxes) -> ConstantTorque:
         return ConstantTorque(frame.turned(self.exact))
 
-    def parameters(self):
+    def parameters(self) -> dict[str, Fraction]:
         return dict(zip(("M1", "M2", "M3"), self.exact))
 
-    def torque(self, omega, p):
+    def torque(self, omega: Triple, p: Mapping[str, Number]) -> Triple:
         return (p["M1"], p["M2"], p["M3"])

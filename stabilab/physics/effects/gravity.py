@@ -1,12 +1,14 @@
 """Uniform gravity on a body that turns about a fixed point."""
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from ...numbers.exact import exact, exact_vector, floats
-from ...numbers.vectors import cross, dot
+from ...numbers.principal import PrincipalAxes
+from ...numbers.vectors import Exact3, Float3, Given, Number, Triple, cross, dot
 from .base import Effect
 
 
@@ -19,38 +21,38 @@ class Gravity(Effect):
     keys: ClassVar[tuple[str, ...]] = ("weight", "centre_of_mass")
     needs = ("gamma",)
 
-    weight: float
-    centre_of_mass: tuple[float, float, float]
-    exact: tuple[Fraction, Fraction, Fraction] = field(init=False, repr=False)
+    weight: Given
+    centre_of_mass: Float3
+    exact: Exact3 = field(init=False, repr=False)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         weight, centre = exact(self.weight), exact_vector(self.centre_of_mass, "centre_of_mass")
         object.__setattr__(self, "exact", tuple(weight * c for c in centre))
         object.__setattr__(self, "weight", float(weight))
         object.__setattr__(self, "centre_of_mass", floats(centre))
 
     @classmethod
-    def from_case(cls, table, context):
+    def from_case(cls, table: Any, context: Any) -> Gravity | None:
         if not table.required(*cls.keys):
             return None
         weight, centre = table.number("weight"), table.vector("centre_of_mass")
         return None if weight is None or centre is None else cls(weight, centre)
 
-    def turned(self, frame):
+    def turned(self, frame: PrincipalAxes) -> Gravity:
         weight = exact(self.weight)
         return Gravity(weight, tuple(c / weight for c in frame.turned(self.exact))) if weight else self
 
-    def parameters(self):
+    def parameters(self) -> dict[str, Fraction]:
         return dict(zip(("Mgx", "Mgy", "Mgz"), self.exact))
 
-    def _arm(self, p):
+    def _arm(self, p: Mapping[str, Number]) -> Triple:
         return p["Mgx"], p["Mgy"], p["Mgz"]
 
-    def torque_along(self, motion, p):
+    def torque_along(self, motion: Any, p: Mapping[str, Number]) -> Triple:
         return cross(self._arm(p), motion.gamma)
 
-    def potential(self, motion, p):
+    def potential(self, motion: Any, p: Mapping[str, Number]) -> Number:
         return -dot(self._arm(p), motion.gamma)
 
-    def area(self, motion, p):
+    def area(self, motion: Any, p: Mapping[str, Number]) -> Number:
         return 0 * motion.gamma[0]

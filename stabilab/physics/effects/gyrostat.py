@@ -1,11 +1,14 @@
 """A momentum wheel (rotor): angular momentum of constant size and direction in the body."""
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import ClassVar
 
 from ...numbers.exact import exact_vector, floats
+from ...numbers.principal import PrincipalAxes
+from ...numbers.vectors import Exact3, Given, Number, Triple
 from .base import Effect
 
 
@@ -20,18 +23,18 @@ class Gyrostat(Effect):
     keys: ClassVar[tuple[str, ...]] = ("momentum",)
     works: ClassVar[bool] = False
 
-    moment: tuple[float, float, float]
-    exact: tuple[Fraction, Fraction, Fraction] = field(init=False, repr=False)
+    moment: Sequence[Given]
+    exact: Exact3 = field(init=False, repr=False)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         object.__setattr__(self, "exact", exact_vector(self.moment, "momentum"))
         object.__setattr__(self, "moment", floats(self.exact))
 
-    def turned(self, frame):
+    def turned(self, frame: PrincipalAxes) -> Gyrostat:
         return Gyrostat(frame.turned(self.exact))
 
-    def parameters(self):
+    def parameters(self) -> dict[str, Fraction]:
         return dict(zip(("lambda1", "lambda2", "lambda3"), self.exact))
 
-    def momentum(self, p):
+    def momentum(self, p: Mapping[str, Number]) -> Triple:
         return (p["lambda1"], p["lambda2"], p["lambda3"])

@@ -1,14 +1,16 @@
 """A cavity filled with a very viscous liquid: the torque of the liquid carried along the undisturbed motion."""
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from math import pi
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from ...errors import InputError
 from ...numbers.exact import exact, precise
-from ...numbers.vectors import cross
+from ...numbers.principal import PrincipalAxes
+from ...numbers.vectors import Given, Number, Triple, cross
 from .base import Effect, Limit
 from .pace import pace
 
@@ -33,13 +35,13 @@ class LiquidCavity(Effect):
     keeps_volume: ClassVar[bool] = False
     approximate: ClassVar[bool] = True
 
-    density: float
-    viscosity: float
-    P0: float
+    density: Given
+    viscosity: Given
+    P0: Given
     law: str = "consistent"
     exact: Fraction = field(init=False, repr=False)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         density, viscosity, P0 = exact(self.density), exact(self.viscosity), exact(self.P0)
         for name, value in (("density", density), ("viscosity", viscosity), ("P0", P0)):
             if value < 0 or (value == 0 and name == "viscosity"):
@@ -51,12 +53,12 @@ class LiquidCavity(Effect):
             object.__setattr__(self, name, float(value))
 
     @classmethod
-    def of_sphere(cls, density, viscosity, radius, law: str = "consistent"):
+    def of_sphere(cls, density: float, viscosity: float, radius: float, law: str = "consistent") -> LiquidCavity:
         """The cavity as a sphere of this radius, m."""
         return cls(density, viscosity, 8 * precise("pi") * exact(radius) ** 7 / 525, law)
 
     @classmethod
-    def from_case(cls, table, context):
+    def from_case(cls, table: Any, context: Any) -> LiquidCavity | None:
         complete, shape = table.required("density", "viscosity"), table.one_of("P0", "radius")
         if shape is None and not ("P0" in table or "radius" in table):
             table.fault("expected P0 (m^7) or the radius of a spherical cavity (m)")
@@ -69,13 +71,13 @@ class LiquidCavity(Effect):
         make = cls if shape == "P0" else cls.of_sphere
         return make(values["density"], values["viscosity"], values[shape], law)
 
-    def turned(self, frame):
+    def turned(self, frame: PrincipalAxes) -> LiquidCavity:
         return self
 
-    def parameters(self):
+    def parameters(self) -> dict[str, Fraction]:
         return {"kappa": self.exact}
 
-    def torque_along(self, motion, p):
+    def torque_along(self, motion: Any, p: Mapping[str, Number]) -> Triple:
         first, second = motion.undisturbed(free=self.law == "printed")
         return tuple(p["kappa"] * (a + b) for a, b in zip(second, cross(motion.omega, first)))
 
@@ -89,7 +91,7 @@ class LiquidCavity(Effect):
         """Moment of inertia of the liquid as if frozen, kg m^2: part of the body's."""
         return 8 * pi / 15 * self.density * self.radius**5
 
-    def limits(self, scene):
+    def limits(self, scene: Any) -> tuple[Limit, ...]:
         """Three numbers, with n the pace of the motion (`pace`), h the radius, D the least moment.
 
         Seen from space the liquid's angular momentum is a series in h^2 d/dt/nu: with z^2 = h^2 s/nu, a sphere that turns as exp(s t)

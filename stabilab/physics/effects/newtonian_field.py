@@ -1,12 +1,14 @@
 """A distant centre of Newtonian attraction: its torque on the body to second order in size over distance."""
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from ...numbers.exact import exact
-from ...numbers.vectors import cross
+from ...numbers.principal import PrincipalAxes
+from ...numbers.vectors import Given, Number, Triple, cross
 from .base import Effect, Limit
 
 SMALL = 0.1  # size over distance at which the next term of the field's torque is a tenth or so of the one that is kept
@@ -22,18 +24,18 @@ class NewtonianField(Effect):
     keys: ClassVar[tuple[str, ...]] = ("strength", "lambda", "R")
     needs = ("gamma",)
 
-    strength: float
-    distance: float | None = None
+    strength: Given
+    distance: Given | None = None
     exact: Fraction = field(init=False, repr=False)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         object.__setattr__(self, "exact", exact(self.strength))
         object.__setattr__(self, "strength", float(self.exact))
         if self.distance is not None:
             object.__setattr__(self, "distance", float(exact(self.distance)))
 
     @classmethod
-    def from_case(cls, table, context):
+    def from_case(cls, table: Any, context: Any) -> NewtonianField | None:
         if table.one_of("strength", "lambda") == "strength":
             if "R" in table:
                 table.fault("R goes with lambda; strength is N = 3 lambda/R^3 already", "R")
@@ -49,11 +51,11 @@ class NewtonianField(Effect):
         return None if value is None else cls(value, distance)
 
     @property
-    def approximate(self) -> bool:
+    def approximate(self) -> bool:  # type: ignore[override]  # a constant of the other effects, here told by the values
         """Whether its distance is known."""
         return self.distance is not None
 
-    def limits(self, scene):
+    def limits(self, scene: Any) -> tuple[Limit, ...]:
         """Size over distance; the size is sqrt(largest moment/mass). The mass is the body's, or that which the weight tells: g = N R/3
         where the same centre pulls. None without either."""
         mass, gravity = scene.body.mass, scene.effect("gravity")
@@ -66,18 +68,18 @@ class NewtonianField(Effect):
                       "the field's torque is the first term of a series in this number, so near a centre the body does not move as computed",
                       "Amer et al. 2023, fast top: eq. (2)"),)
 
-    def turned(self, frame):
+    def turned(self, frame: PrincipalAxes) -> NewtonianField:
         return self
 
-    def parameters(self):
+    def parameters(self) -> dict[str, Fraction]:
         return {"N": self.exact}
 
-    def torque_along(self, motion, p):
+    def torque_along(self, motion: Any, p: Mapping[str, Number]) -> Triple:
         spread = tuple(d * g for d, g in zip(motion.D, motion.gamma))
         return tuple(p["N"] * t for t in cross(motion.gamma, spread))
 
-    def potential(self, motion, p):
+    def potential(self, motion: Any, p: Mapping[str, Number]) -> Number:
         return p["N"] * sum(d * g**2 for d, g in zip(motion.D, motion.gamma)) / 2
 
-    def area(self, motion, p):
+    def area(self, motion: Any, p: Mapping[str, Number]) -> Number:
         return 0 * motion.gamma[0]

@@ -1,12 +1,15 @@
 """How fast a scene's motion goes: the rate by which the series behind an approximate law is judged."""
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from types import SimpleNamespace
+from typing import Any
 
-from ...numbers.vectors import dot
+from ...numbers.vectors import Number, Triple, dot
+from .base import Effect
 
 
-def pace(scene, state: dict, without):
+def pace(scene: Any, state: Mapping[str, Sequence[Number]], without: Effect) -> Number:
     """The fastest rate of the motion at a state, 1/s, for any shape of its components; `without`: the effect that asks.
 
     |omega| + |A| + sqrt(|tau|/D): A is the derivative of omega' by omega along the motion without that effect (Frobenius norm: wheel,
@@ -37,6 +40,6 @@ def pace(scene, state: dict, without):
     return dot(omega, omega) ** 0.5 + squares ** 0.5 + (dot(still, still) ** 0.5 / min(D)) ** 0.5
 
 
-def _torque(effect, D, state, omega, p):
+def _torque(effect: Effect, D: Sequence[float], state: Mapping[str, Sequence[Number]], omega: Sequence[Number], p: Mapping[str, Number]) -> Triple:
     """The torque of an effect that is linear in omega, in numbers."""
-    return effect.torque_along(SimpleNamespace(**(state | {"omega": omega}), D=D), p) or (0.0,) * 3
+    return effect.torque_along(SimpleNamespace(**{**state, "omega": omega}, D=D), p) or (0.0,) * 3

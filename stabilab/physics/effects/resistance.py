@@ -1,12 +1,15 @@
 """A resisting medium: a torque against the angular momentum of the body."""
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from ...errors import InputError
 from ...numbers.exact import exact
+from ...numbers.principal import PrincipalAxes
+from ...numbers.vectors import Given, Number, Triple
 from .base import Effect
 
 
@@ -19,10 +22,10 @@ class Resistance(Effect):
     small: ClassVar[bool] = True
     keeps_volume: ClassVar[bool] = False
 
-    coefficient: float
+    coefficient: Given
     exact: Fraction = field(init=False, repr=False)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         value = exact(self.coefficient)
         if value < 0:
             raise InputError(f"coefficient: expected a number that is not negative, got {float(value):g}")
@@ -30,15 +33,15 @@ class Resistance(Effect):
         object.__setattr__(self, "coefficient", float(value))
 
     @classmethod
-    def from_case(cls, table, context):
+    def from_case(cls, table: Any, context: Any) -> Resistance | None:
         value = table.positive("coefficient", zero=True) if table.required("coefficient") else None
         return None if value is None else cls(value)
 
-    def turned(self, frame):
+    def turned(self, frame: PrincipalAxes) -> Resistance:
         return self
 
-    def parameters(self):
+    def parameters(self) -> dict[str, Fraction]:
         return {"zeta": self.exact}
 
-    def torque_along(self, motion, p):
+    def torque_along(self, motion: Any, p: Mapping[str, Number]) -> Triple:
         return tuple(-p["zeta"] * d * w for d, w in zip(motion.D, motion.omega))
