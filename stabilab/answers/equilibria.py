@@ -2,14 +2,20 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from importlib import import_module
 
 from ..asked import checked_scene
-from ..equilibrium.damped.dissipative import dissipative_equilibria, rest_positions
-from ..equilibrium.field.permanent_rotations import permanent_rotations
-from ..equilibrium.field.steady_states import steady_states
 from ..equilibrium.gyrostat import gyrostat_equilibria
 from ..equilibrium.result import Equilibria
-from ..physics.coefficients import Content, content, gyrostat_scene
+from ..physics.coefficients import content
+
+# kind of a scene's torques -> (module of `equilibrium`, its function of their coefficients); one that no scene names is not loaded
+BY_KIND = {
+    "gyrostat": ("gyrostat", "twin_equilibria"),
+    "dissipative": ("damped.dissipative", "dissipative_equilibria"),
+    "directed": ("field.steady_states", "directed_equilibria"),
+    "directed and dissipative": ("damped.dissipative", "held_in_a_field"),
+}
 
 
 def equilibria(scene) -> Equilibria:
@@ -44,33 +50,6 @@ def other_equilibria(scene) -> Equilibria | None:
     parts = content(scene)
     if parts is None:
         return None
-    found = BY_KIND[parts.kind](parts)
+    module, answer = BY_KIND[parts.kind]
+    found = getattr(import_module(f"..equilibrium.{module}", __package__), answer)(parts)
     return replace(found, reason=f"{found.reason}; {parts.note}") if parts.note else found
-
-
-def _gyrostat(parts: Content) -> Equilibria:
-    return gyrostat_equilibria(gyrostat_scene(parts))
-
-
-def _dissipative(parts: Content) -> Equilibria:
-    return dissipative_equilibria(parts)
-
-
-def _directed(parts: Content) -> Equilibria:
-    if any(parts.M):
-        return steady_states(parts)
-    return permanent_rotations(parts)
-
-
-def _directed_dissipative(parts: Content) -> Equilibria:
-    if parts.kappa:
-        return Equilibria("undecided", "undecided: where the body carries a liquid, the torque of a field or of a turning charge enters the liquid's own "
-                                       "torque, and equilibria beyond those of the body without liquid are not excluded")
-    if any(parts.M):
-        return Equilibria("undecided", "undecided: a constant torque and a field hold a turning body against the medium only where four equations in omega "
-                                       "and gamma meet; no closed form is known")
-    return rest_positions(parts)
-
-
-BY_KIND = {"gyrostat": _gyrostat, "dissipative": _dissipative, "directed": _directed,
-           "directed and dissipative": _directed_dissipative}

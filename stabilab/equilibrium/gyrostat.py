@@ -7,12 +7,18 @@ Source: derived here; Amer et al. 2024 treats lambda along axis 1 and torques on
 """
 from __future__ import annotations
 
+from ..physics.coefficients import Content, gyrostat_scene
 from .balance import Pencil, pencil
 from .conics import balance_fails, conic_curves
 from .isolated import off_axis_equilibria
 from .result import Equilibria
 from .stability import curve_with_verdicts
 from .torque_free import torque_free_curves
+
+
+def twin_equilibria(parts: Content) -> Equilibria:
+    """Equilibria of a scene whose effects turn the body as a wheel and a constant torque do."""
+    return gyrostat_equilibria(gyrostat_scene(parts))
 
 
 def gyrostat_equilibria(scene) -> Equilibria:

@@ -37,6 +37,17 @@ def dissipative_equilibria(parts: Content) -> Equilibria:
     return balanced_equilibria(parts)
 
 
+def held_in_a_field(parts: Content) -> Equilibria:
+    """Equilibria of a body in a field that a liquid or a medium takes energy from."""
+    if parts.kappa:
+        return Equilibria("undecided", "undecided: where the body carries a liquid, the torque of a field or of a turning charge enters the liquid's own "
+                                       "torque, and equilibria beyond those of the body without liquid are not excluded")
+    if any(parts.M):
+        return Equilibria("undecided", "undecided: a constant torque and a field hold a turning body against the medium only where four equations in omega "
+                                       "and gamma meet; no closed form is known")
+    return rest_positions(parts)
+
+
 def _rest_with_liquid(parts: Content) -> Equilibria:
     c = -float(parts.c)
     rest = EquilibriumPoint((0.0,) * 3, (complex(c, 0.0),) * 3, "stable", "asymptotically stable",

@@ -23,6 +23,7 @@ from ...numbers.vectors import CYCLE
 from ...physics.coefficients import Content
 from ..curve import sample_parameters, values_inside
 from ..result import CurveSegment, Equilibria, EquilibriumCurve, EquilibriumPoint
+from .permanent_rotations import permanent_rotations
 from .spectrum import Field, blocks
 
 TAU = Poly((0, 1))
@@ -47,6 +48,11 @@ class Plane:
     @property
     def discriminant(self) -> Poly:
         return self.linear * self.linear - 4 * self.square * self.constant
+
+
+def directed_equilibria(parts: Content) -> Equilibria:
+    """Equilibria in a field or with a charge that follows the attitude: permanent rotations, and under a constant torque the steady states."""
+    return steady_states(parts) if any(parts.M) else permanent_rotations(parts)
 
 
 def steady_states(parts: Content) -> Equilibria:
