@@ -15,6 +15,7 @@ _HOME = {
     "fate": "answers.fate", "fate_grid": "answers.fate_grid", "motion": "answers.motion",
     "extremes": "answers.extremes", "period": "answers.extremes", "spin_up": "unreduced.spin_up.follow",
     "separatrix": "orbit.separatrix.sheets", "stuck": "answers.stuck.ask",
+    "time_to": "answers.time_to", "TimeTo": "answers.passage.result",
     "trajectory": "answers.trajectory", "ensemble": "integrate.ensemble",
     "simulate": "answers.simulate", "compare": "theories.comparison", "theory": "theories.theory",
     "Charge": "physics.effects.charge", "Resistance": "physics.effects.resistance", "LiquidCavity": "physics.effects.liquid_cavity",

@@ -26,6 +26,7 @@ DOORS = {
     ("stabilab.answers.digits.run", "stabilab.physics.law_limits"): "loaded for approximate laws alone",
     ("stabilab.answers.equilibria", "stabilab.physics.law_limits"): "loaded for approximate laws alone",
     ("stabilab.answers.motion", "stabilab.physics.law_limits"): "loaded for approximate laws alone",
+    ("stabilab.answers.passage.result", "stabilab.physics.law_limits"): "loaded for approximate laws alone",
     ("stabilab.cost.accuracy", "stabilab.physics.law_limits"): "loaded for approximate laws alone",
     ("stabilab.equilibrium.damped.liquid_and_torque", "stabilab.numbers.krawczyk"): "loads numpy",
     ("stabilab.integrate.ensemble", "stabilab.physics.law_limits"): "loaded for approximate laws alone",

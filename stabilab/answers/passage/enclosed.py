@@ -1,0 +1,97 @@
+"""The first crossing with the motion enclosed: as many bits as it takes, as long as the work allowed reaches."""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+
+from ...integrate.crossing import Search
+from ...integrate.integer_flow import IntegerFlow
+
+FIRST_BITS, MOST_BITS = 112, 720
+KEPT = 58  # bits that the enclosure of the state is to keep
+MARGIN = KEPT + 18  # beyond the growth of the error, for the rounding of a longer series
+WORK = 30_000_000  # multiplications; two to four seconds
+
+
+@dataclass(frozen=True)
+class Enclosed:
+    """low, high: of the first crossing, in the scene's time, exact; high None: not found before `until`, and low is None or a place where the
+    limit is touched. until: the last time that was looked at; done: whether that is the time asked for; spent: multiplications."""
+
+    low: Fraction | None
+    high: Fraction | None
+    until: Fraction
+    done: bool
+    spent: int
+
+
+def enclosed(scene, start, limit, t_max: Fraction | None = None, work: int = WORK) -> Enclosed:
+    """The first crossing of the motion of a plain scene from three rationals, proved; or until when there is none.
+
+    t_max: None where only the work is to end the search. A first attempt, at few bits, is carried on beyond what its bits can prove, to learn
+    how many it takes.
+    """
+    form, unit = scene.quadratic(), own_unit(scene, start)
+    weights = (Fraction(1), Fraction(2), Fraction(1)) if scene.variables == "scaled" else scene.body.exact
+    bits, best, spent = FIRST_BITS, Enclosed(None, None, Fraction(0), False, 0), 0
+    while True:
+        attempt = _Attempt(IntegerFlow(form, weights, start, bits, unit, limit.direction), limit, unit, t_max)
+        found = attempt.run(work - spent)
+        spent += attempt.flow.work
+        best = found if found.high is not None or found.until > best.until or found.done else best
+        if best.high is not None or best.done or attempt.needs is None or spent > work:
+            break
+        bits = max(attempt.needs, bits + KEPT)
+    return Enclosed(best.low, best.high, best.until, best.done, spent)
+
+
+def own_unit(scene, start) -> Fraction:
+    """A power of two near the largest rate, or near the root of its rate of change."""
+    form = scene.quadratic()
+    size = max(float(max(map(abs, start))), math.sqrt(float(max(map(abs, form.rate([Fraction(v) for v in start]))))))
+    return Fraction(2) ** math.frexp(size)[1] if size else Fraction(1)
+
+
+class _Attempt:
+    """One run at a number of bits. needs: the bits that a proof would have taken, where these were too few; None otherwise."""
+
+    def __init__(self, flow, limit, unit, t_max):
+        self.flow, self.unit, self.needs = flow, unit, None
+        self.end = None if t_max is None else t_max * unit
+        self.thresholds = limit.thresholds(unit)
+        self.proved = [Search(one) for one in self.thresholds]
+
+    def run(self, work) -> Enclosed:
+        """Proved as far as the bits reach, then on, at its word, to where a proof would end."""
+        until, lost, flow = Fraction(0), 0, self.flow
+        searches, proving = self.proved, True
+        while True:
+            needs = lost + flow.error.bit_length() + MARGIN
+            if flow.work * (1 if proving else 1 + (needs / flow.bits) ** 2) > work or needs > MOST_BITS:
+                return self._answer(until, False)
+            if proving and flow.error.bit_length() > flow.bits - KEPT:
+                proving, searches = False, [Search(one, exactly=False) for one in self.thresholds]
+            piece = flow.step()
+            hit = [search.take(piece) for search in searches]
+            now = flow.now
+            if proving:
+                until = now
+            elif (excess := flow.error.bit_length() - flow.bits) > 0:
+                flow.forget(excess)
+                lost += excess
+            ended = self.end is not None and now >= self.end
+            if any(hit) or ended:
+                if proving:
+                    return self._answer(until, ended)
+                self.needs = needs + 1
+                return self._answer(until, False)
+
+    def _answer(self, until, done):
+        low = [one.low for one in self.proved if one.low is not None]
+        high = [one.high for one in self.proved if one.high is not None]
+        low, high = min(low, default=None), min(high, default=None)
+        if self.end is not None and low is not None and low > self.end:
+            low = high = None
+        scale = lambda t: None if t is None else t / self.unit
+        return Enclosed(scale(low), scale(high), scale(min(until, self.end) if done else until), done, 0)

@@ -1,0 +1,137 @@
+"""A limit as it is asked for: of the rate, of a component, of the kinetic energy, of the angle by which a body axis has turned."""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+
+from ...errors import InputError
+from ...integrate.crossing import Threshold
+from ...numbers.exact import exact, exact_vector, precise, sqrt_fraction
+from ...numbers.vectors import dot
+
+AXES = tuple(tuple(Fraction(int(i == j)) for j in range(3)) for i in range(3))
+COSINE_BITS = 1200  # of the cosine of a tilt: more than any run has
+SIGN = " (it is a size: give it without a sign)"
+
+
+@dataclass(frozen=True)
+class Limit:
+    """kind: "rate", "component", "energy" or "tilt". parts: ((weights and vectors, limit), ...): sum c (a . omega)^2 reaches the limit's
+    value `most`, the first of the parts counts; for a tilt vector and angle, rad. words: for the reader, in SI."""
+
+    kind: str
+    parts: tuple
+    words: str
+
+    def thresholds(self, unit: Fraction) -> list[Threshold]:
+        """In the motion's own unit, as `crossing` takes them."""
+        if self.kind == "tilt":
+            ((_, vector),), angle = self.parts[0]
+            zero = (Fraction(0),) * 3
+            return [Threshold(((Fraction(1), zero + vector),), precise("cos", angle, bits=COSINE_BITS), True)]
+        return [Threshold(terms, most / (unit * unit)) for terms, most in self.parts]
+
+    @property
+    def direction(self):
+        """The body axis whose tilt is asked for, a unit vector; None for other limits."""
+        return self.parts[0][0][0][1] if self.kind == "tilt" else None
+
+    def reached_by(self, state) -> bool:
+        """Whether an exact state has reached it; a tilt is 0 at the start."""
+        return self.kind != "tilt" and any(part.passed(state) for part in self.thresholds(Fraction(1)))
+
+    def beyond(self, extremes, slack: float) -> bool:
+        """Whether rates within their extremes, ((least, greatest),) * 3, each wider by the share `slack`, stay below it."""
+        if self.kind == "tilt":
+            return False
+        sizes = [max(abs(low), abs(high)) * (1 + slack) for low, high in extremes]
+        for terms, most in self.parts:
+            top = sum(float(c) * sum(abs(float(a)) * size for a, size in zip(vector, sizes) if a) ** 2 for c, vector in terms)
+            if not top < float(most):
+                return False
+        return True
+
+    def beyond_rate(self, rate: float) -> bool:
+        """Whether |omega| <= rate keeps the quantity below the limit."""
+        return self.kind != "tilt" and all(float(max(c for c, _ in terms)) * rate * rate < float(most) for terms, most in self.parts)
+
+
+def asked(scene, rate=None, component=None, energy=None, tilt=None) -> Limit:
+    """The one limit that is given; InputError for none, several, and for numbers that are none."""
+    given = {name: value for name, value in (("rate", rate), ("component", component), ("energy", energy), ("tilt", tilt)) if value is not None}
+    if len(given) != 1:
+        raise InputError(f"time_to: expected one of rate, component, energy and tilt, got {', '.join(given) or 'none'}")
+    (name, value), = given.items()
+    return {"rate": _rate, "component": _component, "energy": _energy, "tilt": _tilt}[name](scene, value)
+
+
+def _rate(scene, value) -> Limit:
+    unit = _unit(scene)
+    if hasattr(value, "__len__") and not isinstance(value, str):
+        limits = exact_vector(value, "rate")
+        parts = tuple((((Fraction(1), axis),), _positive(most, "rate") ** 2) for axis, most in zip(AXES, limits))
+        return Limit("component", parts, "|components| " + ", ".join(f"{float(v):.10g}" for v in limits) + f" {unit}")
+    most = _positive(value, "rate")
+    letter = "x" if scene.variables == "scaled" else "omega"
+    return Limit("rate", ((tuple((Fraction(1), axis) for axis in AXES), most**2),), f"|{letter}| = {float(most):.10g} {unit}".rstrip())
+
+
+def _component(scene, value) -> Limit:
+    axis, most = _pair(value, "component")
+    vector, named = _direction(axis, "component")
+    most = _positive(most, "component")
+    return Limit("component", ((((Fraction(1), vector),), most**2),), f"|rate about {named}| = {float(most):.10g} {_unit(scene)}")
+
+
+def _energy(scene, value) -> Limit:
+    if scene.variables == "scaled":
+        raise InputError("energy: scaled variables know no kinetic energy: give a body")
+    most = _positive(value, "energy")
+    return Limit("energy", ((tuple((d / 2, axis) for d, axis in zip(scene.body.exact, AXES)), most),), f"kinetic energy = {float(most):.10g} J")
+
+
+def _tilt(scene, value) -> Limit:
+    if scene.variables == "scaled":
+        raise InputError("tilt: scaled variables know no attitude: give a body")
+    axis, angle = _pair(value, "tilt")
+    vector, named = _direction(axis, "tilt")
+    angle = _positive(angle, "tilt")
+    if not float(angle) < math.pi:
+        raise InputError(f"tilt: expected an angle below half a turn (pi rad), got {float(angle):.10g} rad")
+    return Limit("tilt", ((((Fraction(1), vector),), angle),), f"tilt of {named} = {float(angle):.10g} rad")
+
+
+def _unit(scene) -> str:
+    return "" if scene.variables == "scaled" else "rad/s"
+
+
+def _pair(value, name):
+    try:
+        axis, most = value
+    except (TypeError, ValueError):
+        raise InputError(f"{name}: expected (axis, limit), the axis 1, 2, 3 or three numbers along it, got {value!r:.80}") from None
+    return axis, most
+
+
+def _direction(axis, name):
+    """(unit vector along it, its name)."""
+    if isinstance(axis, (int, float, str)) and not isinstance(axis, bool):
+        if axis in (1, 2, 3):
+            return AXES[int(axis) - 1], f"axis {int(axis)}"
+        raise InputError(f"{name}: expected the axis 1, 2 or 3 or three numbers along it, got {axis!r}")
+    vector = exact_vector(axis, name)
+    length = sqrt_fraction(dot(vector, vector))
+    if not length:
+        raise InputError(f"{name}: expected a direction, got zero: give a vector of any length but that")
+    return tuple(v / length for v in vector), "(" + ", ".join(f"{float(v / length):.6g}" for v in vector) + ")"
+
+
+def _positive(value, name) -> Fraction:
+    try:
+        number = exact(value)
+    except InputError as error:
+        raise InputError(f"{name}: {error}") from None
+    if number <= 0:
+        raise InputError(f"{name}: expected a positive limit, got {float(number):.10g}{SIGN if number < 0 else ''}")
+    return number

@@ -1,0 +1,46 @@
+"""What is known of the first time at which a limit is reached."""
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class TimeTo:
+    """The first times (...,) at which states (..., 3) reach a limit, in the scene's time: each is between low and high.
+
+    Both inf: never. high NaN: not known; then the limit is not reached before low. level (...,), texts: "exact" (a law, or all extremes), "proved"
+    (the motion enclosed by a proof), "certified" (the theorem of spin-up, applied to a run of machine precision), "run" (roots along a run of
+    machine precision, wider by what a second run shows), "undecided". words (...,): how it is known. quantity: what was asked, in words.
+    """
+
+    low: np.ndarray
+    high: np.ndarray
+    level: np.ndarray
+    words: np.ndarray
+    quantity: str = ""
+    scene: object = field(default=None, repr=False, compare=False)
+    states: np.ndarray = field(default=None, repr=False, compare=False)
+
+    @cached_property
+    def validity(self):
+        """Of an approximate law (`stabilab.physics.law_limits`) at the start; None where all laws are exact."""
+        if not self.scene.approximate:
+            return None
+        from ...physics.law_limits import validity
+        return validity(self.scene, self.states)
+
+    def __iter__(self):
+        return iter((self.low, self.high))
+
+
+@dataclass(frozen=True)
+class Found:
+    """The answer of one motion; fields as of `TimeTo`, plain numbers."""
+
+    low: float
+    high: float
+    level: str
+    words: str

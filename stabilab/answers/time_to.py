@@ -1,0 +1,127 @@
+"""When a motion first reaches a limit: of the rate, of a component, of the energy, or of the angle by which a body axis has turned."""
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+import numpy as np
+
+from ..asked import checked_scene
+from ..errors import InputError
+from ..numbers.exact import exact_vector
+from ..physics.coefficients import effective
+from ..physics.states import checked_states, equations_and_start
+from .passage.clock import by_clock
+from .passage.enclosed import WORK, enclosed
+from .passage.limit import Limit, asked
+from .passage.never import after_a_period, never, never_bounded
+from .passage.result import Found, TimeTo
+from .passage.run import by_run
+
+
+def time_to(scene, states, rate=None, component=None, energy=None, tilt=None, t_max: float | None = None, exact=None, work: int = WORK) -> TimeTo:
+    """The first time t >= 0 at which each motion reaches a limit, between a lower and an upper bound.
+
+    scene: Scene or ScaledGyrostat. states: (..., 3) at t = 0 in the scene's variables, taken at their word; for scenes whose effects need more of
+    the state (..., N), or one motion as a dict of blocks. One limit is given, each a positive number, exact where it is text ("0.1"):
+    rate, of |omega|, or three numbers, of the size of each component, whichever comes first; component=(axis, limit), of the size of the rate
+    about an axis: 1, 2, 3 or three numbers along it; energy, J, kinetic, of the body; tilt=(axis, angle), rad below pi, of the angle between a body
+    axis and its own direction in space at t = 0. t_max: the time at which the search ends; None: when its work is done. exact: three exact
+    numbers of which a single state is the rounding. work: multiplications that a proof may take (None of it: 0).
+
+    Torque and wheel: the motion is enclosed and its crossing proved where the work reaches; beyond that roots along a run, then the clock of the
+    spin-up. Other effects: roots along a run. Raises InputError for scenes, states and limits that are none.
+    """
+    given, scene = scene, effective(checked_scene(scene))
+    limit, end = asked(scene, rate, component, energy, tilt), _end(t_max)
+    if scene.plain and isinstance(states, dict):  # neither place nor attitude turns the body here, and a tilt counts from the start
+        states = states.get("omega", ())
+    if not scene.plain:
+        rows, shape = _rows(states)
+        array, found = np.array([equations_and_start(scene, row)[1] for row in rows]), [_of_any(scene, row, limit, end) for row in rows]
+        array = array.reshape(*shape, -1)
+    else:
+        array = checked_states(states)
+        rows, shape = array.reshape(-1, 3).tolist(), array.shape[:-1]
+        starts = [exact_vector(exact, "exact")] if exact is not None and len(rows) == 1 else [tuple(map(Fraction, row)) for row in rows]
+        found = [of_one(scene, row, start, limit, end, work) for row, start in zip(rows, starts)]
+    column = lambda name, kind: np.array([getattr(one, name) for one in found], kind).reshape(shape)[()]
+    return TimeTo(column("low", float), column("high", float), column("level", object), column("words", object), limit.words, given, array)
+
+
+def _rows(states):
+    """(one start for each motion, shape of the answer) of a scene whose state may be more than three rates."""
+    if isinstance(states, dict):
+        return [states], ()
+    try:
+        array = np.asarray(states, float)
+    except (TypeError, ValueError):
+        raise InputError(f"states: expected numbers in rows, or a dict of blocks, got {states!r:.80}") from None
+    return list(array.reshape(-1, array.shape[-1])) if array.ndim else [array], array.shape[:-1]
+
+
+def _end(t_max):
+    if t_max is None:
+        return None
+    try:
+        if (value := float(t_max)) > 0:
+            return None if value == math.inf else Fraction(t_max)
+    except (TypeError, ValueError):
+        pass
+    raise InputError(f"t_max: expected a positive time, got {t_max!r:.80}")
+
+
+def of_one(scene, state, start, limit: Limit, end: Fraction | None, work: int = WORK) -> Found:
+    """The answer for one motion of a plain scene: three floats, and the three rationals that they round."""
+    if limit.reached_by(start):
+        return Found(0.0, 0.0, "exact", f"{limit.words}: reached already at the start")
+    found, repeats = never(scene, state, start, limit)
+    if found:
+        return found
+    last = end if repeats is None or (end is not None and end < repeats) else Fraction(repeats)
+    proof = enclosed(scene, start, limit, last, work)
+    if proof.high is not None:
+        return Found(_down(proof.low), _up(proof.high), "proved", f"{limit.words}: the motion enclosed, its first crossing by roots")
+    if proof.done:
+        return _at_the_end(proof, limit, last is not end, scene.time_unit)
+    return _beyond_proof(scene, state, limit, end, proof)
+
+
+def _at_the_end(proof, limit, whole, unit) -> Found:
+    """The search reached its end, and no crossing is sure."""
+    if proof.low is not None:
+        return Found(_down(proof.low), math.nan, "proved", f"{limit.words}: touched at t = {float(proof.low):.10g} {unit} as closely as {2.0**-50:.0e}: "
+                                                           "whether it is reached cannot be told")
+    if whole:
+        return after_a_period(limit)
+    return Found(_down(proof.until), math.nan, "proved", f"{limit.words}: not reached by t_max, the motion enclosed")
+
+
+def _beyond_proof(scene, state, limit, end, proof) -> Found:
+    """The work allowed for a proof is done: a run, and where that is too long the clock."""
+    run = by_run(scene, state, limit, math.inf if end is None else float(end))
+    if run.high == run.high:
+        return run
+    clock = by_clock(scene, state, limit, run.low) if end is None else None
+    if clock is not None:
+        return clock
+    known = _down(proof.until)
+    return run if run.low > known else Found(known, math.nan, "proved", f"{limit.words}: proved not to be reached before low; {run.words}")
+
+
+def _of_any(scene, state, limit, end) -> Found:
+    """The answer for one motion of any scene."""
+    start = equations_and_start(scene, state)[1]
+    if limit.reached_by([Fraction(v) for v in start[:3].tolist()]):
+        return Found(0.0, 0.0, "exact", f"{limit.words}: reached already at the start")
+    return never_bounded(scene, state, limit) or by_run(scene, state, limit, math.inf if end is None else float(end))
+
+
+def _down(value) -> float:
+    near = float(value)
+    return near if near <= value else math.nextafter(near, -math.inf)
+
+
+def _up(value) -> float:
+    near = float(value)
+    return near if near >= value else math.nextafter(near, math.inf)

@@ -1,0 +1,83 @@
+"""The first root of an expression along a run in machine precision, whatever the scene.
+
+With heyoka the Taylor polynomial of the expression over each step is searched for all its real roots; SciPy's stand-in looks for sign
+changes on the step's own interpolant, sixteen to a step.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..physics.to_numpy import form, lambdified, to_numpy
+from .extrema import SUBSAMPLES
+from .to_heyoka import TAYLOR_TOLERANCE, heyoka_available, taylor_events
+from .trajectory import ATOL_SHARE, FALLBACK_RTOL
+
+TOGETHER = 400  # steps between looks at what was found
+
+
+@dataclass(frozen=True)
+class FirstRoot:
+    """t: the first root, None where none was found; until: the time that the run reached; ended: whether that is the time asked for."""
+
+    t: float | None
+    until: float
+    ended: bool
+
+
+def first_root(equations, state, expressions, t_max: float, steps: int, tolerance: float = TAYLOR_TOLERANCE) -> FirstRoot:
+    """The first time in (0, t_max] at which one of the expressions (SymPy, in the equations' state and rationals) is zero.
+
+    state: (N,) at time 0; steps: after so many the run is given up.
+    """
+    forms = form(equations, (*equations.rhs, *expressions))
+    return (_by_taylor if heyoka_available() else _by_scipy)(equations, forms, np.asarray(state, float), t_max, steps, tolerance)
+
+
+def _by_taylor(equations, forms, state, t_max, steps, tolerance):
+    with taylor_events(forms, tolerance) as (integrator, found), np.errstate(all="ignore"):
+        integrator.time, done = 0.0, 0
+        integrator.state[:] = state
+        while True:
+            outcome, _, _, taken, *_ = integrator.propagate_until(t_max, max_steps=min(TOGETHER, steps - done))
+            done += taken
+            hits = [t for t, *_ in found if t > 0]
+            if hits:
+                return FirstRoot(min(hits), float(integrator.time), True)
+            alive = np.isfinite(integrator.state).all()
+            if outcome.name != "step_limit" or done >= steps or not alive:
+                return FirstRoot(None, float(integrator.time) if alive else 0.0, outcome.name == "time_limit" and bool(alive))
+
+
+def _by_scipy(equations, forms, state, t_max, steps, tolerance):
+    from scipy.integrate import DOP853
+    system, count = to_numpy(equations), len(equations.rhs)
+    values = _compiled(forms, count)
+    rtol = max(tolerance, FALLBACK_RTOL)
+    solver = DOP853(lambda _, x: np.array(system.rate(x.tolist())), 0.0, state, t_max, rtol=rtol, atol=rtol * ATOL_SHARE * (np.abs(state).max() or 1.0))
+    for _ in range(steps):
+        if solver.status != "running":
+            break
+        with np.errstate(all="ignore"):
+            solver.step()
+        if solver.status == "failed" or not np.isfinite(solver.y).all():
+            return FirstRoot(None, float(solver.t_old or 0.0), False)
+        if roots := _of_step(values, solver.dense_output(), solver.t_old, solver.t):
+            return FirstRoot(float(min(roots)), float(solver.t), True)
+    return FirstRoot(None, float(solver.t), solver.status == "finished")
+
+
+def _of_step(values, dense, begin, end):
+    """The first sign change of each expression within one step."""
+    from scipy.optimize import brentq
+    times, roots = np.linspace(begin, end, SUBSAMPLES + 1), []
+    for n, row in enumerate(np.array([values(dense(t)) for t in times]).T):
+        for left in np.nonzero(np.sign(row[:-1]) * np.sign(row[1:]) < 0)[0][:1]:
+            roots.append(brentq(lambda s, n=n: values(dense(s))[n], times[left], times[left + 1], xtol=1e-300, rtol=1e-15))
+    return roots
+
+
+def _compiled(forms, count):
+    function = lambdified(forms.state + forms.symbols, list(forms.expressions[count:]))
+    return lambda y: function(*map(float, y), *forms.numbers)

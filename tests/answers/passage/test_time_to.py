@@ -1,0 +1,210 @@
+"""First times against brute force in long doubles (`tests.oracles.first_crossing`), which shares no code with the program."""
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+import stabilab
+from stabilab.errors import InputError
+from stabilab.integrate import event_run
+from stabilab.physics.scaling import to_scaled
+from tests.oracles.first_crossing import REAL, first_crossing
+
+FAR = 60.0  # how far brute force looks, in natural units
+
+
+def random_question(rng):
+    """(scene, state, question, the same for brute force): moments of a mass distribution, torque and wheel of any direction or along an axis."""
+    moments = rng.dirichlet((1.0, 1.0, 1.0)) + 0.02
+    D = moments.sum() - moments
+    torque = rng.normal(size=3)
+    torque /= np.linalg.norm(torque)
+    wheel = rng.normal(size=3) * rng.choice([0.0, 0.1, 1.0])
+    if rng.random() < 0.3:  # a torque on an axis, the wheel across it or absent
+        axis = rng.integers(3)
+        torque = np.eye(3)[axis] * rng.choice([-1, 1])
+        wheel[axis] *= rng.random() < 0.2
+    state = rng.normal(size=3) * rng.choice([0.1, 1.0, 3.0])
+    scene = stabilab.Scene(stabilab.Body(tuple(D)), stabilab.Gyrostat(tuple(wheel)), stabilab.ConstantTorque(tuple(torque)))
+    size = np.linalg.norm(state)
+    kind, nothing = rng.choice(["rate", "component", "energy", "tilt"]), np.zeros(3)
+    if kind == "rate":
+        most = float(size * rng.uniform(1.05, 1.5) + rng.uniform(0, 2))
+        return scene, state, {"rate": most}, (np.ones(3), nothing, REAL(most) ** 2)
+    if kind == "component":
+        axis = int(rng.integers(3))
+        most = float(abs(state[axis]) * 1.05 + rng.uniform(0.1, 2) * max(size, 0.5))
+        return scene, state, {"component": (axis + 1, most)}, (np.eye(3)[axis], nothing, REAL(most) ** 2)
+    if kind == "energy":
+        most = float(0.5 * state @ (np.array(scene.body.inertia) * state) * rng.uniform(1.1, 2.5) + 0.1)
+        return scene, state, {"energy": most}, (0.5 * np.array(scene.body.inertia), nothing, most)
+    axis, angle = int(rng.integers(3)), float(rng.uniform(0.05, 2.5))
+    return scene, state, {"tilt": (axis + 1, angle)}, (nothing, np.eye(3)[axis], np.cos(REAL(angle)))
+
+
+def judged(rng):
+    """(relative width or None, level) of one random question, the answer held against brute force."""
+    scene, state, question, limit = random_question(rng)
+    found = stabilab.time_to(scene, state, **question, t_max=FAR)
+    true = first_crossing(scene.body.inertia, np.array(scene.vector("gyrostat"), float), np.array(scene.vector("constant_torque"), float), state, limit, FAR)
+    if true is None:
+        assert found.high == math.inf or (math.isnan(found.high) and found.low >= FAR * (1 - 1e-12)), (question, found)
+        return None, found.level
+    slack = 1e-13 * true  # what brute force in long doubles may be off by: its unit 1e-19 times the growth of an error on the way
+    assert found.low - slack <= true <= found.high + slack, (question, found, true)
+    return (found.high - found.low) / found.low, found.level
+
+
+def crossings_of(seed, count):
+    rng = np.random.default_rng(seed)
+    rows = [judged(rng) for _ in range(count)]
+    widths = [width for width, _ in rows if width is not None]
+    assert len(widths) > count / 3
+    assert np.median(widths) <= 1e-9
+    return rows
+
+
+def test_first_times_of_random_scenes_hold_those_of_brute_force():
+    pytest.importorskip("heyoka")
+    rows = crossings_of(1, 25)
+    assert sum(level in ("proved", "exact") for _, level in rows) >= 22
+
+
+@pytest.mark.slow
+def test_first_times_of_a_thousand_random_scenes_hold_those_of_brute_force():
+    pytest.importorskip("heyoka")
+    rows = crossings_of(2, 1000)
+    assert sum(level in ("proved", "exact") for _, level in rows) >= 900
+
+
+BODY, WHEEL = stabilab.Body((12, 9, 5)), stabilab.Gyrostat(("0.8", 0, 0))
+TILTED = stabilab.Scene(BODY, WHEEL, stabilab.ConstantTorque(("0.001", 0, "0.02")))
+ON_AXIS = stabilab.Scene(BODY, WHEEL, stabilab.ConstantTorque((0, 0, "0.02")))
+
+
+def test_the_spin_of_a_symmetric_body_reaches_a_limit_when_the_torque_has_gathered_it():
+    scene = stabilab.Scene(stabilab.Body((4, 4, 5)), stabilab.ConstantTorque(("0.1", "-0.2", "0.5")))
+    found = stabilab.time_to(scene, [0.5, -1.0, 0.25], component=(3, 2))
+    assert found.low <= 17.5 <= found.high and found.high - found.low < 1e-14  # D3 omega3' = M3: (2 - 1/4) 5/0.5
+    assert found.level == "proved"
+
+
+def test_a_limit_far_beyond_any_run_is_told_by_the_clock_of_the_spin_up():
+    scene = stabilab.Scene(stabilab.Body((4, 4, 5)), stabilab.ConstantTorque(("0.1", "-0.2", "0.5")))
+    found = stabilab.time_to(scene, [0.5, -1.0, 0.25], component=(3, 20000))
+    true = (20000 - 0.25) * 10  # the same law
+    assert found.low <= true <= found.high and found.high - found.low < 1e-9 * true
+
+
+def test_the_clock_brackets_what_a_run_finds():
+    found = stabilab.time_to(TILTED, [0.1, 0.05, 0.9], rate=2)
+    early, late = stabilab.spin_up(TILTED, [0.1, 0.05, 0.9]).trap.clock(2.0)
+    assert early < found.low <= found.high < late  # |omega| passes 2 before the spin alone does, by less than the clock's width
+
+
+def test_both_sides_of_the_largest_rate_of_a_bounded_motion_are_told_apart():
+    state = [0.1, 0.05, 0.02]
+    for axis, (low, high) in enumerate(stabilab.extremes(ON_AXIS, state, digits=14), 1):
+        largest = max(abs(low), abs(high))  # by quadrature and roots of the reduced potential, checked to 14 digits
+        below, above = (stabilab.time_to(ON_AXIS, state, component=(axis, largest * (1 + step))) for step in (-1e-10, 1e-10))
+        assert below.high < 33 and below.level == "proved"  # the period is 32.84 s
+        assert above.low == above.high == math.inf
+
+
+def test_a_tilt_is_the_angle_that_a_run_of_the_attitude_shows():
+    found = stabilab.time_to(TILTED, [0.1, 0.05, 0.9], tilt=((1, 2, 2), "0.75"))
+    run = stabilab.trajectory(TILTED, {"omega": [0.1, 0.05, 0.9], "attitude": [1, 0, 0, 0]}, [found.low / 2, found.low])
+    axis = np.array([1, 2, 2]) / 3
+    w, q = run.block("attitude")[:, :1], run.block("attitude")[:, 1:]
+    turned = axis + 2 * np.cross(q, np.cross(q, axis) + w * axis)  # of a unit quaternion
+    angles = np.arccos(turned @ axis)
+    assert angles[0] < 0.75 and abs(angles[1] - 0.75) < 1e-12
+
+
+def test_of_three_components_the_first_to_reach_its_limit_counts():
+    state = [0.1, 0.05, 0.9]
+    each = [stabilab.time_to(TILTED, state, component=(axis, most)).low for axis, most in ((1, "0.2"), (2, "0.2"), (3, 1))]
+    both = stabilab.time_to(TILTED, state, rate=("0.2", "0.2", 1))
+    assert both.low == min(each) < sorted(each)[1]
+
+
+def test_scaled_variables_answer_as_their_body_does():
+    scene = stabilab.Scene(stabilab.Body((5, 4, 2)), stabilab.Gyrostat((1, 0, 0)), stabilab.ConstantTorque((0, 0, "0.5")))
+    scaled, change = to_scaled(scene)
+    state, most = (0.25, 0.5, 2.0), 4
+    found = stabilab.time_to(scene, state, component=(3, most))
+    other = stabilab.time_to(scaled, change.to_scaled(state), component=(3, most / change.rate[2]))
+    assert other.level == "proved" and abs(other.low * float(change.time) / found.low - 1) < 1e-13
+
+
+def test_a_limit_that_the_start_has_reached_takes_no_time():
+    found = stabilab.time_to(TILTED, [[0, 0, 2], [0, 0, 1.5]], rate=2)
+    assert found.low.tolist() == [0.0, found.low[1]] and found.high[0] == 0 and found.low[1] > 0
+
+
+def test_an_equilibrium_never_reaches_a_limit():
+    point = stabilab.Scene(BODY, WHEEL)
+    found = stabilab.time_to(point, [0.5, 0, 0], rate=2)
+    assert found.low == math.inf and found.level == "exact"
+
+
+def test_a_search_that_ends_says_until_when_the_limit_is_not_reached():
+    found = stabilab.time_to(TILTED, [0.1, 0.05, 0.9], rate=2, t_max=100)
+    assert found.low == 100 and math.isnan(found.high) and found.level == "proved" and "not reached" in found.words
+
+
+def test_without_work_for_a_proof_a_run_answers_the_same():
+    proved, run = (stabilab.time_to(TILTED, [0.1, 0.05, 0.9], rate="1.5", work=work) for work in (30_000_000, 0))
+    assert run.level == "run" and run.low <= proved.low <= proved.high <= run.high < proved.high * (1 + 1e-11)
+
+
+def test_without_heyoka_scipy_finds_the_same_root(monkeypatch):
+    pytest.importorskip("heyoka")
+    question = {"rate": "0.95", "work": 0}
+    taylor = stabilab.time_to(TILTED, [0.1, 0.05, 0.9], **question)
+    monkeypatch.setattr(event_run, "heyoka_available", lambda: False)
+    scipy = stabilab.time_to(TILTED, [0.1, 0.05, 0.9], **question)
+    assert scipy.low != taylor.low and abs(scipy.low - taylor.low) < 1e-8 and scipy.level == "run"
+
+
+def test_other_effects_are_answered_by_a_run():
+    from scipy.integrate import solve_ivp
+    scene = stabilab.Scene(BODY, WHEEL, stabilab.ConstantTorque(("0.001", 0, "0.02")), stabilab.Resistance("0.001"))
+    found = stabilab.time_to(scene, [0.1, 0.05, 0.9], rate="0.95")
+
+    def rates(_, w):  # Euler's equations with -c D omega, typed in by hand
+        D, H = np.array([12, 9, 5.0]), np.array([12, 9, 5.0]) * np.array(w) + np.array([0.8, 0, 0])
+        return (np.cross(H, w) + np.array([0.001, 0, 0.02])) / D - 0.001 * np.array(w)
+
+    def passed(_, w):
+        return np.dot(w, w) - 0.95**2
+    passed.terminal = True
+    true = solve_ivp(rates, (0, 1000), [0.1, 0.05, 0.9], method="DOP853", rtol=1e-12, atol=1e-14, events=passed).t_events[0][0]
+    assert found.level == "run" and abs(found.low - true) < 1e-8 and found.high - found.low < 1e-10
+
+
+def test_a_bound_of_the_rate_keeps_other_limits_from_being_reached():
+    scene = stabilab.Scene(BODY, stabilab.Resistance("0.01"))
+    found = stabilab.time_to(scene, [0.1, 0.05, 0.9], rate=2)  # T falls, and |omega|^2 <= 2 T / D3 < 1.5^2
+    assert found.low == math.inf and "always" in found.words
+
+
+@pytest.mark.parametrize("question, words", [
+    ({}, "expected one of rate, component, energy and tilt, got none"),
+    ({"rate": 2, "energy": 1}, "expected one of rate, component, energy and tilt, got rate, energy"),
+    ({"rate": -2}, "expected a positive limit, got -2"),
+    ({"rate": "30 deg"}, "rate: expected a decimal or a ratio"),
+    ({"component": 3}, "component: expected"),
+    ({"component": (4, 1)}, "expected the axis 1, 2 or 3"),
+    ({"component": ((0, 0, 0), 1)}, "expected a direction, got zero"),
+    ({"tilt": (3, 4)}, "expected an angle below half a turn"),
+    ({"rate": 2, "t_max": -1}, "t_max: expected a positive time"),
+])
+def test_limits_that_are_none_are_refused(question, words):
+    with pytest.raises(InputError, match="time_to|limit|expected"):
+        stabilab.time_to(TILTED, [0.1, 0.05, 0.9], **question)
+    with pytest.raises(InputError) as raised:
+        stabilab.time_to(TILTED, [0.1, 0.05, 0.9], **question)
+    assert words in str(raised.value)
