@@ -12,6 +12,7 @@ from .reduction import reduce
 
 ONE_STEP, MOST_STEPS = 3e-9, 8  # a Newton step as small leaves its square; from half a radian five are enough, but at a fold
 LOST = 1e-3  # of the terms: a sum that is smaller than this share has lost more than three digits
+CENTRE = 1e-10  # of the asymptotes' distance from a hyperbola's centre: nearer to it the conic's doubles place no equilibrium
 
 
 def angle_between(place, spot):
@@ -108,6 +109,17 @@ class Landscape:
             places[:, :, column] = spot
             barrier[:, column] = (self.potential.slope(spot) > 0 if is_barrier is None else is_barrier) & exists
         return offsets, places, barrier
+
+    def beside_centre(self, place):
+        """(n,) True where an equilibrium may stand so near the centre of a place's hyperbola that the conic, which is known by its
+        distance from its asymptotes, loses or invents it."""
+        if self.e <= 0 or not self.conic.pieces:
+            return np.zeros(np.shape(place[0]), bool)
+        c, d, G = (abs(getattr(self.conic, name)) for name in ("c", "d", "G"))
+        near = CENTRE * (c + d) / G  # the force of the wheel there is at most (c + d) times as much
+        if not self.conic.mu <= (c + d) * near:
+            return np.zeros(np.shape(place[0]), bool)
+        return np.sqrt(np.abs(place[0])) * np.sqrt(np.abs(place[1])) <= near
 
     def _locate_circle(self, place, Q, x, z, exists):
         with np.errstate(all="ignore"):

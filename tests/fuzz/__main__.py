@@ -6,6 +6,7 @@ the exit code is 1. `python -m tests.fuzz replay FILE...` shows again what such 
 import subprocess
 import sys
 import tempfile
+from importlib import import_module
 from pathlib import Path
 
 SLOWEST = 10  # s for one file on a busy machine; the largest files allowed load in a tenth of a second
@@ -35,8 +36,8 @@ def one(target, folder, seconds):
     """Fuzz one target in this process; it ends the process."""
     import atheris
     with atheris.instrument_imports(include=["stabilab", "tomllib"]):
-
-        pass
+        import_module("tomllib._parser")  # where the standard reader works
+        import_module("stabilab.case.read")
     options = [f"-max_total_time={seconds}", f"-timeout={SLOWEST}", f"-rss_limit_mb={MEMORY}", f"-artifact_prefix={folder}/",
                "-print_final_stats=1", "-verbosity=0", "-seed=1"]
     if target == "bytes":

@@ -22,7 +22,7 @@ def extremes_of_chunk(land: Landscape, states, decided, start, span=None):
     out = np.repeat(states[:, :, None], 2, axis=2)
     place, w, size = start
     share = np.where(decided.labels == Fate.SPIN_UP, SPIN_UP_SHARE, EXTREMES_SHARE)
-    precise = needs_digits(land, states) | near_separatrix(land, place, w, decided, share)
+    precise = needs_digits(land, states) | land.beside_centre(place) | near_separatrix(land, place, w, decided, share)
     precise |= (decided.labels == Fate.SEPARATRIX) | on_top(land, place)
     precise &= decided.labels != Fate.EQUILIBRIUM
     labels = np.where(precise, -1, decided.labels)

@@ -208,7 +208,7 @@ def _valley_margins(land, states, place, w, size):
             doubtful |= nearer & (vague | (np.abs(margin) <= ROUNDINGS * EPS * scale))
             # rounding has led to another equilibrium than was sought, or tilts the way to it
             doubtful |= barrier[:, column] & (~(pot.slope(spot) > 0) | _tilted(pot, spot, offset, -rise - energy, energy))
-        doubtful |= _beside_fold(land, place)
+        doubtful |= _beside_fold(land, place) | land.beside_centre(place)
     signs = np.sign(margins)
     for index in np.nonzero(doubtful)[0]:
         tie = decide(Orbit(land.reduction, states[index]))

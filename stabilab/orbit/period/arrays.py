@@ -33,7 +33,7 @@ def period_chunk(land: Landscape, states, decided, start, span=None):
     out[decided.labels == Fate.EQUILIBRIUM] = 0.0
     place, w, _ = start
     bounded = decided.labels == Fate.BOUNDED
-    precise = (needs_digits(land, states) | near_separatrix(land, place, w, decided, PERIOD_SHARE)) & bounded
+    precise = (needs_digits(land, states) | land.beside_centre(place) | near_separatrix(land, place, w, decided, PERIOD_SHARE)) & bounded
     rows = trapped_rows(land, decided)
     trapped, rotating = rows & ~precise, bounded & ~rows & ~precise
     out[rotating] = _rotation_period(land, *picked(place, w, rotating))
