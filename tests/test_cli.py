@@ -175,6 +175,19 @@ def test_unbounded_extremes_are_inf_in_csv_and_null_in_json(stabilab):
     assert strict_json(stabilab("extremes", path, "--json")[1])[0]["extremes"][2] == [-1.0, None]
 
 
+def test_words_with_commas_stay_one_cell_of_csv(stabilab, tmp_path):
+    """Of the name of a case and of what the extremes are known over; with every digit asked for, too."""
+    for name, text, options in (('two, "wheels"', (ROOT / "cases/off-axis-two.toml").read_text(), ()),
+                                ("a, b", (ROOT / "cases/minor-axis-100.toml").read_text(), ("--digits", "20"))):
+        path = tmp_path / f"{name}.toml"
+        path.write_text(text)
+        code, out, _ = stabilab("extremes", path, "--csv", *options)
+        rows = list(csv.reader(out.splitlines()))
+        told = strict_json(stabilab("extremes", path, "--json")[1])[0]
+        assert code == 0 and [len(row) for row in rows] == [5] * 4
+        assert [[row[0], row[4]] for row in rows[1:]] == [[told["case"], told["over"]]] * 3 and told["case"] == name
+
+
 def test_simulate_follows_the_closed_form_of_the_ball(stabilab):
     # D omega' = lambda x omega: a turn about axis 3 at 2 rad/s, by hand.
     code, out, _ = stabilab("simulate", ROOT / "cases/sphere-wheel.toml", "--at", "2,0,0.5", "--json")

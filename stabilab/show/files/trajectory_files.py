@@ -9,7 +9,7 @@ from ...files import whole_file
 from ...packages import demand
 from ...physics.blocks import PARTS
 from ..text.answers import columns
-from . import endings
+from . import comma, endings
 
 
 def checked(path) -> Path:
@@ -30,10 +30,7 @@ def write(case, run, path) -> Path:
 
 def _csv(case, run, path):
     names, rows = columns(run)
-    with open(path, "w", encoding="utf-8", newline="") as stream:
-        stream.write(",".join((case.scene.time_unit, *names)) + "\n")
-        for t, row in zip(run.t, rows):
-            stream.write(",".join(repr(float(v)) for v in (t, *row)) + "\n")
+    path.write_text(comma.lines([(case.scene.time_unit, *names), *((float(t), *row) for t, row in zip(run.t, rows))]), encoding="utf-8", newline="")
 
 
 def _netcdf(case, run, path):

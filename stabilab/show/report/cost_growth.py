@@ -6,6 +6,7 @@ from pathlib import Path
 
 from ...cost.growth import NODE_DIGITS, Growth, with_closeness, with_digits, with_states
 from .. import style
+from ..files import comma
 from ..text.precision_words import caption, duration
 from . import html
 
@@ -44,8 +45,7 @@ def page(case, folder, tell=None, full: bool = False) -> Path:
 
 def csv(rows) -> str:
     """One line per measurement; empty where there is no count."""
-    head = ",".join(f.name for f in fields(Growth))
-    return "\n".join([head, *(",".join("" if v is None else str(v) for v in astuple(row)) for row in rows), ""])
+    return comma.lines([[f.name for f in fields(Growth)], *map(astuple, rows)])
 
 
 def picture(plt, rows, about):

@@ -15,6 +15,7 @@ from stabilab import __version__
 
 from ...cost.drift import EPS, Drift, drifts, growth, spread, starts
 from .. import style
+from ..files import comma
 
 NAMES = {"circle": "A², radius of the circle squared", "energy": "energy"}
 
@@ -46,9 +47,8 @@ def write(folder, turns: float = 1e6, others: float = 1e5, motions: int = 6) -> 
     path = Path(folder) / "long-runs.png"
     with style.drawing() as plt:
         style.save(picture(plt, rows), path)
-    head = ",".join(f.name for f in fields(Drift))
     with style.whole_file(path.with_suffix(".csv")) as waiting:
-        waiting.write_text("\n".join([head, *(",".join(map(str, astuple(r))) for r in rows), ""]), encoding="utf-8")
+        waiting.write_text(comma.lines([[f.name for f in fields(Drift)], *map(astuple, rows)]), encoding="utf-8")
     words = ", ".join(f"{name} as turns^{growth(rows, name):.2f}" for name in NAMES)
     with style.whole_file(path.with_suffix(".txt")) as waiting:
         waiting.write_text(f"Drift of the integrals along bounded motions, Taylor series: {words} (1/2: independent roundings; 1: a bias)\n\n"

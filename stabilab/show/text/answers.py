@@ -4,6 +4,7 @@ from __future__ import annotations
 import math
 
 from ...physics.blocks import PARTS
+from ..files import comma
 from . import frame
 
 UNITS = {"physical": ("rad/s", "s", "J"), "scaled": ("", "tau", "")}
@@ -96,13 +97,9 @@ def columns(run) -> tuple[list[str], list[list[float]]]:
 
 
 def extremes_csv(answered) -> str:
-    """One line per case and component; inf where unbounded, empty where unknown."""
-    rows = ["case,component,min,max,over"]
-    for case, m in answered:
-        for name, pair in zip(case.scene.components, _pairs(m.extremes)):
-            low, high = ("" if v is None else repr(float(v)) for v in pair)
-            rows.append(f"{case.name},{name},{low},{high},{m.extremes_over}")
-    return "\n".join(rows)
+    """One line per case, motion and pairs (numbers or decimals; None where unknown) and component; inf where unbounded, empty where unknown."""
+    return comma.lines([("case", "component", "min", "max", "over"), *(
+        (case.name, name, *pair, m.extremes_over) for case, m, pairs in answered for name, pair in zip(case.scene.components, _pairs(pairs)))])[:-1]
 
 
 def _pairs(extremes):

@@ -8,7 +8,7 @@ import numpy as np
 from ...physics.blocks import PARTS
 from ...theories.theory import lines as told
 from .. import style
-from ..files import endings
+from ..files import comma, endings
 
 LOOKS = {"exact": {"color": style.BLACK, "linewidth": 2.2}, "linear": {"color": style.BLUE, "linewidth": 1.4, "linestyle": "--"},
          "corrected": {"color": style.PURPLE, "linewidth": 1.5, "linestyle": "-."},
@@ -53,10 +53,9 @@ def checked(path) -> Path:
 def write(case, found, path) -> Path:
     """Errors over time as CSV, whole or not at all."""
     path = checked(path)
-    with style.whole_file(path) as waiting, open(waiting, "w", encoding="utf-8") as stream:
-        stream.write(",".join([case.scene.time_unit, *(f"{d.model} {d.part}" for d in found.departures)]) + "\n")
-        for row in zip(found.t, *(d.error for d in found.departures)):
-            stream.write(",".join(repr(float(v)) for v in row) + "\n")
+    head = [case.scene.time_unit, *(f"{d.model} {d.part}" for d in found.departures)]
+    with style.whole_file(path) as waiting:
+        waiting.write_text(comma.lines([head, *(map(float, row) for row in zip(found.t, *(d.error for d in found.departures)))]), encoding="utf-8")
     return path
 
 

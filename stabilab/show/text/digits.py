@@ -26,14 +26,7 @@ def _with(motion, told):
 
 def extremes_csv(answered) -> str:
     """As of `answers.extremes_csv`, every digit that was asked for."""
-    plain = answers.extremes_csv([(case, _with(motion, told)) for case, motion, told in answered]).split("\n")
-    texts = [None] + [pair for _, _, told in answered for pair in (told.decimals or [None] * 3)]
-    return "\n".join(line if pair is None else _swapped(line, pair) for line, pair in zip(plain, texts))
-
-
-def _swapped(line, pair):
-    name, component, _, _, over = line.split(",", 4)
-    return ",".join([name, component, *map(str, pair), over])
+    return answers.extremes_csv([(case, motion, told.decimals or _with(motion, told).extremes) for case, motion, told in answered])
 
 
 def extremes_text(case, motion, told, say: bool) -> str:

@@ -8,7 +8,7 @@ from ...cost.accuracy import digit_price
 from ...machine import machine, versions
 from ...packages import demand
 from .. import style
-from ..files import endings
+from ..files import comma, endings
 from ..report.precision_picture import picture
 from .precision_words import caption, duration, methods, setting, title, words
 
@@ -65,11 +65,7 @@ def _row(found, p) -> dict:
 
 def csv(*measured) -> str:
     """One line per point of every case; empty where a count does not exist, inf where no answer came."""
-    rows = [",".join(COLUMNS)]
-    for found, p in ((one, p) for one in measured for p in one.points):
-        cells = ["" if v is None else repr(v) if isinstance(v, float) else str(v) for v in _row(found, p).values()]
-        rows.append(",".join(f'"{c}"' if "," in c else c for c in cells))
-    return "\n".join(rows)
+    return comma.lines([COLUMNS, *(_row(found, p).values() for found in measured for p in found.points)])[:-1]
 
 
 def write(found, path) -> Path:

@@ -1,9 +1,7 @@
 """Tables 1-4 of Amer et al. 2024, recomputed, in five formats: terminal text, CSV, Markdown, LaTeX, HTML."""
 from __future__ import annotations
 
-import csv
 import html
-import io
 import math
 import os
 from dataclasses import dataclass
@@ -14,6 +12,7 @@ from ...equilibrium.torque_table import torque_table
 from ...errors import InputError
 from .. import style
 from ..figures import paper
+from ..files import comma
 
 SHOWN_DIGITS = 6  # in the readable formats; the CSV holds every double in full
 
@@ -147,11 +146,7 @@ def _wrapped(words, width):
 
 def comma_separated(table: Table) -> str:
     """CSV: numbers with 17 significant digits, "inf" where unbounded, an empty cell for nothing."""
-    out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(table.header)
-    writer.writerows([["" if v is None else repr(v) if isinstance(v, float) else v for v in row] for row in table.rows])
-    return out.getvalue()
+    return comma.lines([table.header, *table.rows])
 
 
 def markdown(table: Table) -> str:
