@@ -18,7 +18,7 @@ from ..integrate.reference import WORK, one_run, pairs, relative_errors
 from ..integrate.taylor_digits import Recursion
 from ..numbers.balls import sign, working
 from ..numbers.double_ball import Unclear
-from ..orbit.ball_orbit import BallOrbit, Orbit
+from ..orbit.ball_orbit import Orbit, ball_orbit
 from ..orbit.extremes.balls import extreme_balls
 from ..orbit.extremes.turning_points import interval
 from ..orbit.fate.balls import precise_margin
@@ -193,7 +193,7 @@ def bits_needed(scene, state) -> int | None:
     for bits in BITS:
         try:
             with working(bits) as numbers:
-                for margin in BallOrbit(landscape(scene).reduction, state, numbers).margins():
+                for margin in ball_orbit(landscape(scene).reduction, state, numbers).margins():
                     sign(margin)
             return bits
         except Unclear:

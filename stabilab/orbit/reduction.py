@@ -100,10 +100,15 @@ class Reduction:
             return _sign(self.m)
         return 0 if self.exact_constants["mu"] == 0 else int(self.exact_constants["flip"])
 
+    @property
+    def exact_energy_unit(self) -> Fraction:
+        """Energy of the scene (J, or the scaled x_i^2/2 + U) per unit of W^2/2 + V."""
+        return self.weight / (abs(self.p * self.q) or 1)  # along a parabola theta is alpha
+
     @cached_property
     def energy_unit(self) -> float:
-        """Energy of the scene (J, or the scaled x_i^2/2 + U) per unit of W^2/2 + V."""
-        return float(self.weight / abs(self.p * self.q)) if self.e else float(self.weight)
+        """The same, rounded."""
+        return float(self.exact_energy_unit)
 
     def canonical(self, states):
         """(X, Z, W) of states (..., 3), each an array (...,); elliptic and hyperbolic."""

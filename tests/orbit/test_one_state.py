@@ -6,7 +6,7 @@ import pytest
 
 import stabilab
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
-from stabilab.orbit import ball_orbit
+from stabilab.orbit.ball_base import BallOrbit
 from tests.shared import PARABOLIC, case
 
 
@@ -26,12 +26,12 @@ ASKED = {
 @pytest.mark.parametrize("name", ASKED)
 def test_the_orbit_of_a_state_is_built_once_in_each_kind_of_number(name, monkeypatch):
     scene, state, label = ASKED[name]
-    built, build = collections.Counter(), ball_orbit.BallOrbit.__init__
+    built, build = collections.Counter(), BallOrbit.__init__
 
     def counted(self, reduction, state, numbers):
         built[reduction, state, numbers.bits] += 1
         build(self, reduction, state, numbers)
-    monkeypatch.setattr(ball_orbit.BallOrbit, "__init__", counted)
+    monkeypatch.setattr(BallOrbit, "__init__", counted)
     exact = state if isinstance(state[0], Fraction) else None
     found = stabilab.motion(scene, tuple(map(float, state)), exact=exact)
     assert found.fate == label and set(built.values()) == {1} and len({(r, s) for r, s, _ in built}) == 1
@@ -39,11 +39,11 @@ def test_the_orbit_of_a_state_is_built_once_in_each_kind_of_number(name, monkeyp
 
 def test_a_motion_that_doubles_leave_open_builds_one_orbit_more_for_each_number_of_bits(monkeypatch):
     found = case("middle-axis-double-well")
-    bits, build = [], ball_orbit.BallOrbit.__init__
+    bits, build = [], BallOrbit.__init__
 
     def counted(self, reduction, state, numbers):
         bits.append(numbers.bits)
         build(self, reduction, state, numbers)
-    monkeypatch.setattr(ball_orbit.BallOrbit, "__init__", counted)
+    monkeypatch.setattr(BallOrbit, "__init__", counted)
     stabilab.motion(found.scene, found.start, exact=found.exact_state)
     assert len(bits) == len(set(bits)) > 1

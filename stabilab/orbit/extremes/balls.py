@@ -56,13 +56,8 @@ def turning_point(orbit, side, tie=False):
         if sign(over) >= 0:
             return solve(orbit, inner, spot.y)
         inner = spot.y
-    if orbit.r.e < 0:
-        return None
-    step, outer = 1, inner + side
-    while not sign(orbit.height(outer) - orbit.energy) > 0:
-        step *= 2
-        outer = inner + side * step
-    return solve(orbit, inner, outer)
+    outer = orbit.wall(inner, side)
+    return None if outer is None else solve(orbit, inner, outer)
 
 
 def _spots_towards(orbit, side):
@@ -145,9 +140,6 @@ def _asymptotic(orbit):
     return [low, high, *_tops_between(orbit, low, high), orbit.energy * 0], rates
 
 
-FAR = 1 << 13  # exp(-FAR) is nothing against any double: an offset that stands for the end of an invariant plane
-
-
 def _asymptote(orbit, side):
     """(offset, W^2/2 there) of the equilibrium or plane's end that the motion would tend to on that side, or None."""
     zero = orbit.energy * 0
@@ -157,11 +149,7 @@ def _asymptote(orbit, side):
             return spot.y, zero
         if over > 0:
             return None
-    decays = orbit.r.e > 0 and orbit.on_plane and orbit.mu.is_zero() and sign(orbit.xi if side < 0 else orbit.eta)
-    if not decays:
-        return None
-    limit = orbit.x * (orbit.G * orbit.x / 2 + orbit.c) + orbit.d * orbit.z
-    return None if limit > orbit.energy else (zero + side * FAR, (orbit.energy - limit).max(zero))
+    return orbit.end_of_plane(side)
 
 
 def _fastest(orbit, low, high):
@@ -174,23 +162,7 @@ def _fastest(orbit, low, high):
 
 
 def _tops_between(orbit, low, high):
-    return [y for y in _tops(orbit) if not (y < low or y > high)]
-
-
-def _tops(orbit):
-    """Offsets where X or Z (or the components of a parabola) are stationary."""
-    e = orbit.r.e
-    if e < 0:
-        x, z = orbit.x, orbit.z
-        if x.is_zero() and z.is_zero():
-            return []
-        angle, quarter = orbit.numbers.angle(x, z), orbit.numbers.pi() / 2
-        return [k * quarter - angle for k in range(-8, 9)]
-    if e > 0:
-        xi, eta = orbit.xi, orbit.eta
-        return [(abs(eta) / abs(xi)).log() / 2] if sign(xi) and sign(eta) else []
-    _, a, pb, _, b, qa = orbit.speeds
-    return [-speed / (2 * bend) for speed, bend in ((a, pb), (b, qa)) if sign(bend)]
+    return [y for y in orbit.tops() if not (y < low or y > high)]
 
 
 def _round_the_circle(orbit):
@@ -200,16 +172,16 @@ def _round_the_circle(orbit):
         value = orbit.energy - orbit.height(spot.y)
         slow, fast = slow.min(value), fast.max(value)
     turn = sign(orbit.w)
-    return [orbit.energy * 0, *_tops(orbit)], (turn * (2 * slow).sqrt(), turn * (2 * fast).sqrt())
+    return [orbit.energy * 0, *orbit.tops()], (turn * (2 * slow).sqrt(), turn * (2 * fast).sqrt())
 
 
 def _unbounded(orbit):
     """Spin-up: all of the orbit's conic that it passes, and W from its least value to infinity."""
     zero = orbit.energy * 0
-    if orbit.r.e == 0 or (orbit.r.e > 0 and sign(orbit.xi) == sign(orbit.eta) == 0):
+    if orbit.spins_purely:
         return [zero], (orbit.w, None)
-    least, back = orbit.w, sign(orbit.w) < 0
-    if back:
+    least, left = orbit.w, None
+    if sign(orbit.w) < 0:
         left = turning_point(orbit, -1)
         # wells more than a turn behind are higher by the torque's tilt
         least = -(2 * _fastest(orbit, zero - 7 if left is None else left, zero)).sqrt()
@@ -217,10 +189,7 @@ def _unbounded(orbit):
         for spot in orbit.spots:
             if spot.y > 0:
                 least = least.min((2 * (orbit.energy - orbit.height(spot.y))).sqrt())
-    if orbit.r.e < 0:
-        return [zero, *_tops(orbit)], (least, None)
-    # on the decaying plane: from where it is, or where it turns back, to the plane's end
-    return [zero, *([left] if back else []), zero + FAR], (least, None)
+    return orbit.swept(left), (least, None)
 
 
 def _ranges(orbit, offsets, rates, certain):

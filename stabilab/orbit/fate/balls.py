@@ -25,10 +25,10 @@ def decide(orbit: Orbit, bits: int = START_BITS) -> Tie:
 
     bits: at first; from DOUBLE_BITS the margin comes with at least twelve digits.
 
-    Margin: the highest barrier minus the energy on a circle, else that of the barrier nearest in height.
+    Margin: see `BallOrbit.margin`.
     """
     def question(orbit):
-        margin, bits = _margin(orbit), orbit.numbers.bits
+        margin, bits = orbit.margin(), orbit.numbers.bits
         if margin is None:
             return Tie(-1, float("-inf"), bits)
         if _ties(orbit, margin):
@@ -39,23 +39,9 @@ def decide(orbit: Orbit, bits: int = START_BITS) -> Tie:
     return orbit.settled(question, bits)
 
 
-def _margin(orbit):
-    """The margin that `decide` speaks of, as a ball in canonical units; None where there is no barrier."""
-    margins = orbit.margins()
-    if not margins:
-        return None
-    margin = margins[0]
-    for other in margins[1:]:
-        margin = margin.max(other) if orbit.r.e < 0 else min(margin, other, key=lambda v: abs(float(v.mid())))
-    return margin
-
-
 def _ties(orbit, margin) -> bool:
-    """Whether a margin that cannot be told from zero is zero; where algebra denies it, the most bits settle the matter.
-
-    Without a torque a motion tends to whichever barrier its energy equals, be another one higher or not.
-    """
-    if not any(0 in m for m in ([margin] if orbit.r.e >= 0 or orbit.r.sense else orbit.margins())):
+    """Whether a margin that cannot be told from zero is zero; where algebra denies it, the most bits settle the matter."""
+    if not any(0 in m for m in orbit.margins_to_tie(margin)):
         return False
     if orbit.numbers.bits < EXACT_BITS:
         raise Unclear
@@ -65,13 +51,13 @@ def _ties(orbit, margin) -> bool:
 def precise_margin(orbit: Orbit, digits: int):
     """The margin of one state to `digits` decimal digits, as a ball in the scene's energy; None where there is no barrier,
     and on the separatrix, where no digit of it is known but that all vanish."""
-    r = orbit.reduction
+    unit = orbit.reduction.exact_energy_unit
 
     def question(orbit):
-        margin = _margin(orbit)
+        margin = orbit.margin()
         if margin is None or _ties(orbit, margin):
             return None
         if not 10 ** digits * margin.rad() < abs(margin):
             raise Unclear
-        return margin * orbit.numbers.ball(r.weight / (abs(r.p * r.q) if r.e else 1))
+        return margin * orbit.numbers.ball(unit)
     return orbit.settled(question)

@@ -20,7 +20,7 @@ def exact_tie(orbit) -> bool:
     circle or a hyperbola. A barrier whose ball is clear of the energy plays no part.
     """
     close = [s for s in orbit.barriers() if 0 in orbit.height(s.y) - orbit.energy]
-    if not close or (orbit.r.e and orbit.r.sense):
+    if not close:
         return False
     tied = _on_parabola if orbit.r.e == 0 else _on_conic
     return all(tied(orbit, spot) for spot in close)
@@ -36,8 +36,10 @@ def _on_parabola(orbit, spot) -> bool:
 
 def _on_conic(orbit, spot) -> bool:
     """Without torque V is a polynomial in U = omega_j + s_j and V = omega_k + s_k, and U a rational function of V (or the
-    equilibria lie on two lines)."""
+    equilibria lie on two lines); under a torque never."""
     r = orbit.r
+    if r.sense:
+        return False
     ap, aq, sp = abs(r.p), abs(r.q), 1 if r.p > 0 else -1
     sj, sk = orbit.sj, orbit.sk
     rho, sigma = r.rho - r.kappa * sj, r.sigma - r.kappa * sk

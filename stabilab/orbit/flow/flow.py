@@ -59,7 +59,7 @@ def _refuse_another_period(motion, orbit):
 def _motion(ground: Relief, state, nodes, backwards):
     if ground.here.force == 0 and ground.w == 0:
         return Resting(state)
-    if ground.e < 0 and ground.turn and not any(s.kind > 0 and s.at > 0 and s.kinetic < 0 for s in ground.spots):
+    if ground.turn and not any(s.kind > 0 and s.at > 0 and s.kinetic < 0 for s in ground.spots):
         _refuse_ties(ground, ground.spots)
         return SpinUp(ground, nodes or POINTS, backwards)
     if ground.e < 0 and not any(s.kind > 0 and s.kinetic < 0 for s in ground.spots):

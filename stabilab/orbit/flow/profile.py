@@ -273,11 +273,11 @@ def _sum(terms):
 def _spot(orbit, y, kind, kinetic, bits, force=None) -> Spot:
     r = orbit.r
     value = 0.0 if force is None else _rounded(force, bits)
-    spin = float((orbit.flip / orbit.n).mid()) if r.e else 1.0, float(r.s)
+    spin = orbit.spin, float(r.s)
     base = tuple(float(part.mid()) for part in orbit.components(y))
-    shape, curve = {-1: _circle, 1: _hyperbola, 0: _parabola}[r.e](orbit, y)
-    kind_of = {-1: OnCircle, 1: OnHyperbola, 0: OnParabola}[r.e]
-    return kind_of(_offset(y), _rounded(kinetic, bits), kind, value, base, shape, curve, (r.axis, r.j, r.k), spin)
+    spot, told = SPOTS[r.e]
+    shape, curve = told(orbit, y)
+    return spot(_offset(y), _rounded(kinetic, bits), kind, value, base, shape, curve, (r.axis, r.j, r.k), spin)
 
 
 def _circle(orbit, y):
@@ -303,3 +303,6 @@ def _parabola(orbit, y):
     u, a, pb, v, b, qa = orbit.speeds
     shape = (_sum([f1, 2 * f2 * y, 3 * f3 * y * y]), _sum([f2, 3 * f3 * y]), _sum([f3]))
     return shape, tuple(float(w.mid()) for w in (a + 2 * pb * y, pb, b + 2 * qa * y, qa))
+
+
+SPOTS = {-1: (OnCircle, _circle), 1: (OnHyperbola, _hyperbola), 0: (OnParabola, _parabola)}

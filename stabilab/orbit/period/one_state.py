@@ -44,7 +44,7 @@ def _libration(orbit, left, right) -> float:
     for spot in orbit.all_spots:
         if spot.y > left and spot.y < right:
             _demand_sharp(orbit, spot)
-    ends = [_place(orbit, y) for y in (left, right)]
+    ends = [orbit.doubles_at(y) for y in (left, right)]
     forces = [pot.force(place) for place in ends]
     if any(8 * EPS * pot.terms(place) > SHARP * abs(force) for place, force in zip(ends, forces)):
         raise Unclear
@@ -68,7 +68,7 @@ def _libration(orbit, left, right) -> float:
 
 def _rotation(orbit) -> float:
     """Once round the circle without torque."""
-    pot, place, energy = potential(orbit.r), _place(orbit, orbit.energy * 0), float(orbit.energy)
+    pot, place, energy = potential(orbit.r), orbit.doubles_at(orbit.energy * 0), float(orbit.energy)
     force = pot.force(place)
     for spot in orbit.spots:
         _demand_sharp(orbit, spot)
@@ -85,14 +85,6 @@ def _demand_sharp(orbit, spot):
     kinetic = orbit.energy - orbit.height(spot.y)
     if not kinetic.rad() < SHARP * kinetic:
         raise Unclear
-
-
-def _place(orbit, y):
-    """The place at offset y as floats, in the form that `potential` takes."""
-    if orbit.r.e > 0:
-        grow = y.exp()
-        return float(orbit.xi * grow), float(orbit.eta / grow)
-    return tuple(map(float, orbit.place(y)))
 
 
 def _midpoint(integrand, length) -> float:

@@ -10,7 +10,7 @@ import pytest
 import stabilab
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, Scene
 from stabilab.numbers.balls import working
-from stabilab.orbit.ball_orbit import BallOrbit
+from stabilab.orbit.ball_orbit import ball_orbit
 from stabilab.orbit.fate.reasons import Reason
 from stabilab.orbit.fate.tie import exact_tie
 from stabilab.orbit.reduction import reduce
@@ -22,7 +22,7 @@ BODY = Body((4, 3, "1.5"))
 
 def tied(scene, state, bits=256):
     with working(bits) as numbers:
-        return exact_tie(BallOrbit(reduce(scene), state, numbers))
+        return exact_tie(ball_orbit(reduce(scene), state, numbers))
 
 
 @pytest.mark.parametrize("state", [(3.0, 0.0, 4.0), (3.0, 1.0, 4.0), (3.0, -2.0, 4.0), (-3.0, 0.5, 4.0)])
