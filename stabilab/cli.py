@@ -114,6 +114,27 @@ def verify(certificate: Annotated[Path, typer.Argument(metavar="CERTIFICATE", he
 
 
 @app.command()
+def audit(paper: Annotated[str | None, typer.Argument(metavar="[PAPER]", help="A paper on record or a file of claims, .toml; default: all papers.",
+                                                      show_default=False)] = None,
+          equation: Annotated[str | None, typer.Option(metavar="N", help="One equation or claim, as 17 or text-8a.")] = None, json: Json = False,
+          out: Annotated[Path | None, typer.Option("--html", metavar="FILE.html", help="Write a page with the formulas typeset.")] = None):
+    """Hold published formulas against the equations of motion.
+
+    Each row: holds, holds only under a condition, wrong (with what is right), definition, or not checkable.
+
+    Example: stabilab audit constant-torque-gyrostat --equation 17
+    """
+    from .show.text import answers
+    from .show.text import audit as shown
+    from .theories.audit import audited
+    findings = audited(paper, equation)
+    if out is not None:
+        from .show.report.audit_page import page
+        _say(f"written: {page(findings, out)}")
+    _print(answers.as_json(shown.as_dict(findings)) if json else shown.text(findings))
+
+
+@app.command()
 def extremes(cases: CaseFiles, json: Json = False,
              csv: Annotated[bool, typer.Option("--csv", help="CSV on stdout instead of text.")] = False, digits: Digits = None,
              strict: Strict = False):

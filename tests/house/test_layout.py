@@ -39,7 +39,7 @@ DOORS = {
     ("stabilab.show.text.law", "stabilab.answers.simulate"): "loads numpy",
     ("stabilab.show.text.law", "stabilab.physics.law_limits"): "loaded for approximate laws alone",
     ("stabilab.show.text.table", "stabilab.case.read"): "loads tomllib",
-    ("stabilab.theories.audit.major_and_middle_axis", "stabilab.answers.trajectory"): "loads numpy",
+    ("stabilab.theories.audit.special.major_and_middle_axis", "stabilab.answers.trajectory"): "loads numpy",
     ("stabilab.theories.follow", "stabilab.physics.law_limits"): "loaded for approximate laws alone",
     ("stabilab.unreduced.bounds", "stabilab.integrate.extrema"): "loads numpy",
     ("stabilab.unreduced.bounds", "stabilab.physics.law_limits"): "loaded for approximate laws alone",

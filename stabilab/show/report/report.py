@@ -21,7 +21,7 @@ from ...packages import cure, demand, present
 from ...physics.equations import derive
 from ...physics.laws import invariants
 from ...physics.notation import latex, lines
-from ...theories.audit import check
+from ...theories.audit import audited
 from .. import style
 from ..figures import catalogue as figures
 from ..figures import paper
@@ -30,7 +30,7 @@ from ..plane import plot
 from ..surface import write as surface
 from ..surface.render_probe import probe
 from ..text import frame, table
-from . import chapters, cost_growth, effect_cost, html, precision_page
+from . import audit_page, chapters, cost_growth, effect_cost, html, precision_page
 
 PACKAGES = ("numpy", "scipy", "sympy", "heyoka", "matplotlib", "vtk", "pyvista", "python-flint")
 TOLERANCES = {"verdicts, fates, periods": "exact structure of the equations, to rounding", "extremes": "roots, to rounding",
@@ -93,12 +93,19 @@ def _make(cases, folder, tell, named, others):
     told, pages = others(tell), _pages(cases, folder, tell)  # the chapters' process is done, so that times are disturbed least
     page = html.render(
         "index.html", title="Bounded motion and spin-up of a gyrostat under constant torque", paper=paper.PAPER, rendering_note=note,
-        cases=sections, chapters=told, pages=pages, tables=tables, surfaces=surfaces, audit=check(), versions=_versions(),
+        cases=sections, chapters=told, pages=pages, tables=tables, surfaces=surfaces, audit=_audit(folder), versions=_versions(),
         figures=[{**vars(row), "caption": row.caption, "tolerance": row.tolerance, "file": f"figures/{path.name}",
                   "command": row.command, "size": chapters.size(path)}
                  for row, path in zip(figures.FIGURES, drawn)],
         command=" ".join(["stabilab report", *dict.fromkeys(case.path for case in cases if named)]))
     (folder / "index.html").write_text(page, encoding="utf-8")
+
+
+def _audit(folder):
+    """Counts of verdicts a paper; the rows stand on a page of their own."""
+    findings = audited()
+    audit_page.page(findings, folder / "audit.html")
+    return [{"title": paper.title, "name": paper.name, "count": audit_page.count(group)} for paper, group in findings]
 
 
 def _precision(cases, folder, tell):

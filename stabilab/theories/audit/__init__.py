@@ -1,23 +1,36 @@
-"""What the papers print, tried on the true equations: every formula with its verdict and the corrected statement."""
+"""What the papers print, held against the equations of motion: every numbered equation and numeric claim with its verdict.
+
+Published claims are data (`papers/*.toml`, format in docs/audit.md); `findings` is the machine that tries them.
+"""
+
 from __future__ import annotations
 
-from functools import lru_cache
-from importlib import import_module
+from pathlib import Path
 
-from .published import Finding, Published, examine
+from ...errors import InputError
+from .claims import Paper, read
+from .findings import Finding, audit, key
 
-PAPERS = {  # paper -> modules that hold its rows, in the order of the paper
-    "Amer et al. 2024, Sci. Rep. (constant torque, gyrostat)":
-        ("general", "minor_axis", "major_and_middle_axis"),
-}
+FOLDER = Path(__file__).parent / "papers"
 
 
-def rows(paper: str) -> tuple[Published, ...]:
-    """Every published formula of the paper that is on record. KeyError for a paper that is not."""
-    return tuple(row for module in PAPERS[paper] for row in import_module(f"{__name__}.{module}").ROWS)
+def papers() -> tuple[str, ...]:
+    """Names of the papers on record, in order."""
+    return tuple(sorted(path.stem for path in FOLDER.glob("*.toml")))
 
 
-@lru_cache
-def check() -> tuple[tuple[str, tuple[Finding, ...]], ...]:
-    """(paper, findings) for every paper: each formula tried on the true equations, and its verdict held to the result."""
-    return tuple((paper, tuple(examine(row) for row in rows(paper))) for paper in PAPERS)
+def paper(name: str) -> Paper:
+    """A paper on record by its name, or one in a file of that path. InputError names the known ones."""
+    if name.endswith(".toml"):
+        return read(Path(name))
+    if name not in papers():
+        raise InputError(f"unknown paper {name!r}: known are {', '.join(papers())}; a file of claims of your own ends in .toml (docs/audit.md)")
+    return read(FOLDER / f"{name}.toml")
+
+
+def audited(name: str | None = None, equation: str | None = None) -> tuple[tuple[Paper, tuple[Finding, ...]], ...]:
+    """(paper, findings, rows in order) of one paper or of all on record. InputError for an unknown paper or equation."""
+    if name is None and equation is not None:
+        raise InputError(f"equation {equation}: name its paper as well: {', '.join(papers())}")
+    chosen = [paper(one) for one in ([name] if name else papers())]
+    return tuple((one, tuple(sorted(audit(one, equation), key=lambda f: key(f.row.equation)))) for one in chosen)

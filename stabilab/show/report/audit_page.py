@@ -1,0 +1,93 @@
+"""The audit as HTML pages: a table a paper, each row with its formulas typeset, residual, correction and how it was checked."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from pathlib import Path
+
+from ...theories.audit.checks import raw
+from ...theories.audit.findings import VERDICTS
+from ...theories.audit.formulas import FormulaError
+from . import html
+
+GREEK = {"al": "alpha", "th": "theta", "gam": "gamma", "om": "omega", "lam": "lambda", "Om": "Omega", "eps": "varepsilon", "ep": "varepsilon"}
+
+
+def page(findings, path) -> Path:
+    """The page of (paper, findings) pairs as a file."""
+    papers = [
+        {"name": paper.name, "title": paper.title, "count": count(group), "rows": [_row(paper, finding) for finding in group]} for paper, group in findings
+    ]
+    return html.write(Path(path), "audit.html", title="Published formulas, held against the equations of motion", papers=papers, verdicts=VERDICTS)
+
+
+def count(group) -> list[tuple[str, int]]:
+    """(verdict, how many) in order."""
+    found = Counter(f.verdict for f in group)
+    return [(verdict, found[verdict]) for verdict in VERDICTS if found[verdict]]
+
+
+def _row(paper, finding):
+    row = finding.row
+    return {
+        "equation": row.equation,
+        "verdict": finding.verdict,
+        "condition": finding.condition,
+        "says": row.says,
+        "printed": typeset(paper, row.printed),
+        "correction": typeset(paper, row.corrected) if row.corrected else [finding.correction] if finding.correction else [],
+        "where": _texts(row.where),
+        "corrected_where": _texts(row.corrected_where),
+        "repairs": finding.repairs,
+        "method": finding.method,
+        "unit_fault": finding.unit_fault,
+        "residual": f"{finding.residual:.2g}" if finding.verdict in ("wrong", "only-if") else "",
+        "note": row.options.get("note", ""),
+    }
+
+
+def _texts(table):
+    return [f"{name} = {text}" for name, text in table.items()]
+
+
+def typeset(paper, formulas) -> list:
+    """Each formula as MathML where it can be read as one, else as its text."""
+    out = []
+    for text in formulas:
+        try:
+            ((left, right),) = raw(paper, (text,))
+            out.append(mathml(left, right))
+        except (FormulaError, ValueError):
+            out.append(text)
+    return out
+
+
+def mathml(left, right):
+    """left = right as MathML for a page."""
+    import sympy as sp
+    from markupsafe import Markup
+    from sympy.printing.mathml import mathml as printed
+
+    names = {s: sp.Symbol(_name(s.name)) for s in left.free_symbols | right.free_symbols}
+    equation = sp.Eq(_readable(left.xreplace(names)), _readable(right.xreplace(names)), evaluate=False)
+    return Markup(f'<math xmlns="http://www.w3.org/1998/Math/MathML">{printed(equation, printer="presentation")}</math>')
+
+
+def _readable(expression):
+    """rate(f) as a derivative by time, the other operators by their names."""
+    import sympy as sp
+
+    t = sp.Symbol("t")
+    return expression.replace(sp.Function("rate"), lambda f, n=1: sp.Derivative(sp.Function("f")(t), t).func(f, (t, int(n))) if f.has(t) else _Rate(f, n))
+
+
+def _Rate(f, n):
+    import sympy as sp
+
+    return sp.Mul(sp.Symbol("D_t" if int(n) == 1 else f"D_t^{n}"), f, evaluate=False)
+
+
+def _name(name):
+    stem, index = re.fullmatch(r"([A-Za-z]+?)_?(\d*|[a-z]?)", name).groups() if re.fullmatch(r"([A-Za-z]+?)_?(\d*|[a-z]?)", name) else (name, "")
+    return f"{GREEK.get(stem, stem)}_{index}" if index else GREEK.get(stem, stem)

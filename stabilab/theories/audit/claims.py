@@ -1,0 +1,201 @@
+"""What papers print, as data: a TOML file a paper, a row a claim. The format is told in docs/audit.md."""
+
+from __future__ import annotations
+
+import tomllib
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from ...errors import InputError
+from .formulas import FormulaError, parse, sides
+
+KINDS = {  # kind -> keys that a row of it needs besides `equation` and `printed`
+    "holds": (),  # left = right along every motion of the system
+    "solves": ("variable",),  # the printed functions of `variable` are a motion
+    "equilibrium": (),  # the printed point is at rest
+    "number": ("value",),  # an expression has the printed value
+    "order": ("small", "order"),  # left - right is of this order in a small symbol
+    "test": ("test",),  # a named function of the package decides: module:function, two residuals
+    "definition": ("defines",),
+    "not-checkable": ("because",),
+}
+ROW_KEYS = {
+    "equation",
+    "kind",
+    "says",
+    "printed",
+    "corrected",
+    "system",
+    "where",
+    "corrected_where",
+    "domain",
+    "variable",
+    "speed",
+    "start",
+    "value",
+    "small",
+    "order",
+    "test",
+    "defines",
+    "because",
+    "bound",
+    "note",
+    "solve",
+    "conditions",
+    "residual",
+    "verdict",
+    "figure",
+    "units",
+}
+
+
+@dataclass(frozen=True)
+class Row:
+    """One printed equation or claim.
+
+    equation: its number, or `text-...` for a claim of the text; kind: a key of KINDS; printed, corrected: formulas "left = right" in the
+    paper's notation; where: symbols that stand for expressions in this row (corrected_where: in the corrected one); domain: expressions
+    that are positive; options: what the kind needs; place: file and row, for errors.
+    """
+
+    equation: str
+    kind: str
+    printed: tuple[str, ...]
+    corrected: tuple[str, ...]
+    says: str
+    system: str | None
+    where: dict
+    corrected_where: dict
+    domain: tuple[str, ...]
+    options: dict
+    place: str
+
+
+@dataclass(frozen=True)
+class Paper:
+    """A paper's symbols, definitions, systems and rows."""
+
+    name: str
+    title: str
+    symbols: dict = field(repr=False)  # name -> SymPy symbol
+    units: dict = field(repr=False)  # name -> words
+    definitions: dict = field(repr=False)  # name -> text
+    systems: dict = field(repr=False)
+    conditions: tuple[str, ...] = field(repr=False)
+    domain: tuple[str, ...] = field(repr=False)  # expressions that are positive wherever their symbols stand
+    rows: tuple[Row, ...] = field(repr=False)
+    source: str = ""
+
+
+def read(path: Path) -> Paper:
+    """The paper of a file. InputError with file, row and position for what cannot be read."""
+    path = Path(path)
+    try:
+        data = tomllib.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(f"cannot read {path}: {error.strerror}") from None
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise InputError(f"{path.name}: no TOML: {error}") from None
+    unknown = set(data) - {"name", "title", "symbols", "definitions", "systems", "conditions", "domain", "row", "source"}
+    if unknown:
+        raise InputError(
+            f"{path.name}: unknown keys {', '.join(sorted(unknown))}; known are name, title, source, symbols, definitions, systems, conditions, domain, row"
+        )
+    symbols, units = _symbols(data.get("symbols", {}), path.name)
+    definitions = data.get("definitions", {})
+    for name in definitions:
+        symbols.setdefault(name, _symbol(name, ""))
+    rows = tuple(_row(row, n, path.name, symbols) for n, row in enumerate(data.get("row", ()), 1))
+    seen: dict = {}
+    for row in rows:
+        if row.equation in seen:
+            raise InputError(f"{row.place}: equation {row.equation} has a row already ({seen[row.equation]}): give each its own name, as 18-a")
+        seen[row.equation] = row.place
+    paper = Paper(
+        data.get("name", path.stem),
+        data.get("title", path.stem),
+        symbols,
+        units,
+        definitions,
+        data.get("systems", {}),
+        tuple(data.get("conditions", ())),
+        _tuple(data.get("domain", ())),
+        rows,
+        data.get("source", ""),
+    )
+    for name, text in definitions.items():
+        _located(f"{path.name}, definitions.{name}", parse, text, symbols)
+    for text in paper.domain:
+        _located(f"{path.name}, domain", parse, text, symbols)
+    return paper
+
+
+def _symbol(name, words):
+    import sympy as sp
+
+    if "complex" in words:
+        return sp.Symbol(name)
+    return sp.Symbol(name, positive=True) if "positive" in words else sp.Symbol(name, real=True)
+
+
+def _symbols(table, place):
+    """("D1 D2" = "kg m^2, positive") -> symbols and units by name."""
+    symbols, units = {}, {}
+    for names, words in table.items():
+        unit, _, kind = words.partition(",")
+        kind = kind.strip()
+        if kind not in ("", "positive", "complex"):
+            raise InputError(f'{place}, symbols "{names}": expected "unit", "unit, positive" or "unit, complex", got "{words}"')
+        for name in names.split():
+            if not name.isidentifier():
+                raise InputError(f'{place}, symbols: "{name}" is no name (letters, digits, _)')
+            symbols[name], units[name] = _symbol(name, kind), unit.strip() or "1"
+    return symbols, units
+
+
+def _row(data, number, file, symbols) -> Row:
+    place = f"{file}, row {number} (equation {data.get('equation', '?')})"
+    kind = data.get("kind", "holds")
+    if kind not in KINDS:
+        raise InputError(f"{place}: unknown kind {kind!r}; known are {', '.join(KINDS)}")
+    missing = [key for key in ("equation", *KINDS[kind]) if key not in data]
+    if missing:
+        raise InputError(f"{place}: a row of kind {kind} needs {', '.join(missing)}")
+    if unknown := set(data) - ROW_KEYS:
+        raise InputError(f"{place}: unknown keys {', '.join(sorted(unknown))}; known are {', '.join(sorted(ROW_KEYS))}")
+    printed, corrected = (_tuple(data.get(key, ())) for key in ("printed", "corrected"))
+    where, corrected_where = data.get("where", {}), data.get("corrected_where", {})
+    for name in (*where, *corrected_where):
+        symbols.setdefault(name, _symbol(name, ""))
+    if kind in ("holds", "solves", "equilibrium", "order"):
+        if not printed:
+            raise InputError(f'{place}: nothing printed: give printed = "left = right"')
+        for text in (*printed, *corrected):
+            _located(place, sides, text, symbols)
+    for text in (*where.values(), *corrected_where.values(), *_tuple(data.get("domain", ()))):
+        _located(place, parse, text, symbols)
+    known = {"equation", "kind", "says", "printed", "corrected", "system", "where", "corrected_where", "domain"}
+    return Row(
+        str(data["equation"]),
+        kind,
+        printed,
+        corrected,
+        data.get("says", ""),
+        data.get("system"),
+        where,
+        corrected_where,
+        _tuple(data.get("domain", ())),
+        {key: value for key, value in data.items() if key not in known},
+        place,
+    )
+
+
+def _tuple(value):
+    return (value,) if isinstance(value, str) else tuple(value)
+
+
+def _located(place, read_it, text, symbols):
+    try:
+        return read_it(text, symbols)
+    except FormulaError as error:
+        raise FormulaError(f"{place}: {error}") from None

@@ -1,0 +1,106 @@
+"""Amer et al. 2024: torque on the minor axis (eqs (13)-(40), Figs 2-7)."""
+from __future__ import annotations
+
+import math
+
+from .constant_torque import minor_equilibria, misjudged
+
+# Saddles and centres of Fig. 4 in alpha = 2 atan2(x1 + a, x2): lambda1 -> (left saddle, right saddle, left centre,
+# right centre); printed, and roots of 1 + A cos(alpha/2) (A sin(alpha/2) + c) = 0.
+FIG4_PRINTED = {100: (0.0, 6.2, -3.0, 3.3), 300: (0.19, 6.15, -3.1, 3.29), 500: (0.32, 5.8, -3.13, 3.28)}
+FIG4_TRUE = {100: (-0.16926911783859, 6.28019631200926, -3.05188202440815, 3.22414013741707),
+             300: (-0.31754628012639, 6.44213532039449, -3.05286555265963, 3.21146181957111),
+             500: (-0.45279697640931, 6.58903191561815, -3.05425914964370, 3.20120951761444)}
+G1_PRINTED = 2.54
+
+
+def _fig4(table, pull: bool):
+    """Largest residual of the equilibrium condition over the table; with `pull` the paper's own (23) is tried."""
+    worst = 0.0
+    for lam, angles in table.items():
+        a, b = lam / 500, lam / 250
+        radius, offset = (math.hypot(2.5, 4), -b) if pull else (math.hypot(2.5 + a, 4), b - a)
+        for alpha in angles:
+            worst = max(worst, abs(1 + radius * math.cos(alpha / 2) * (radius * math.sin(alpha / 2) + offset)))
+    return worst
+
+
+def _fold_radius():
+    """Circles x2^2 + (x1+a)^2 = A^2 that carry an equilibrium: smallest A found on the hyperbola, against the printed
+    root of 2 and against the true smaller fold radius, for c = 0.2 (lambda1 = 100)."""
+    import numpy as np
+    c = 0.2
+    heights = np.concatenate([-np.geomspace(0.1, 10, 40001), np.geomspace(0.1, 10, 40001)])
+    smallest = np.sqrt(np.min(heights**2 + (c + 1 / heights) ** 2))
+    folds = [h.real for h in np.roots([1, 0, 0, -c, -1]) if abs(h.imag) < 1e-12]
+    least = min(math.sqrt(h * h + h**6) for h in folds)
+    return smallest - math.sqrt(2), smallest - least
+
+
+def _line(x):
+    """The paper's dividing line x1 + x2 = 0: it calls the side |x1| > |x2| of the hyperbola stable."""
+    return abs(x[0]) > abs(x[1])
+
+
+def _dividing():
+    """Equilibria close to the folds, at c = 1 (lambda1 = 500), where line and curve part."""
+    a, b = 1.0, 2.0
+    heights = [h for h in (-1.3, -1.1, -0.95, -0.85, -0.75, 0.75, 0.9, 1.1, 1.15, 1.3)]
+    points = minor_equilibria(b, heights)
+    return (misjudged(_line, points, a, b),
+            misjudged(lambda x: (x[0] + a) * (x[0] + b) > x[1] ** 2, points, a, b))
+
+
+def _stability_after_13():
+    points = minor_equilibria(0.4)
+    return (misjudged(lambda x: abs(x[1]) > 1, points, 0.2, 0.4),
+            misjudged(lambda x: (x[0] + 0.2) * (x[0] + 0.4) > x[1] ** 2, points, 0.2, 0.4))
+
+
+def _contact_points(shifted: bool):
+    """x2 (x1 + b) + 1 at the merging points of saddle and centre, b = 0.4."""
+    if not shifted:
+        return (-1 + 0.4) * 1 + 1
+    import numpy as np
+    c = 0.2
+    folds = [h.real for h in np.roots([1, 0, 0, -c, -1]) if abs(h.imag) < 1e-12]
+    slope = [(-1 / h) * (-1 / h - c) - h * h for h in folds]  # (x1+b)(x1+a) - x2^2 vanishes at a fold
+    return max(abs(v) for v in slope)
+
+
+def _circle(alpha):
+    """The point (x1, x2) of the circle A = 4.826 at alpha, lambda1 = 100."""
+    A = math.hypot(2.7, 4)
+    return A * math.sin(alpha / 2) - 0.2, A * math.cos(alpha / 2)
+
+
+def _item4():
+    x1, x2 = _circle(FIG4_TRUE[100][0])
+    return x2**2 - x1**2 - 4 * 0.4 * x1 - 4 * math.atan2(x1, x2)
+
+
+def _loop_ends():
+    """The loop's far end from the printed (28) with A and c in their places, tried on the corrected (30)."""
+    from scipy.optimize import brentq
+    A, c, saddle, centre = math.hypot(2.7, 4), 0.2, FIG4_TRUE[100][0], FIG4_TRUE[100][2]
+
+    def speed(al):
+        return (A**2 * (math.cos(saddle) - math.cos(al)) + 4 * A * c * (math.sin(al / 2) - math.sin(saddle / 2))
+                + 2 * (al - saddle))
+
+    def invariant(al):
+        x1, x2 = _circle(al)
+        X = x1 + 0.2
+        return x2**2 - X**2 - 4 * c * X - 2 * al
+
+    return invariant(brentq(speed, -2 * math.pi, centre, xtol=1e-15)) - invariant(saddle)
+
+
+TESTS = {
+    "stability": _stability_after_13,
+    "fold radius": _fold_radius,
+    "positions": lambda: (_fig4(FIG4_PRINTED, True), _fig4(FIG4_TRUE, False)),
+    "dividing line": _dividing,
+    "figure 6 item 4": lambda: (_item4(), _loop_ends()),
+    "merging": lambda: (_contact_points(False), _contact_points(True)),
+}

@@ -1,0 +1,193 @@
+"""Values of formulas at random points, to any number of digits: what decides where symbols do not."""
+
+from __future__ import annotations
+
+import cmath
+import random
+import zlib
+from fractions import Fraction
+
+from ...errors import InputError
+
+FUNCTION_NAMES = {"Abs": "fabs", "conjugate": "conj", "log": "ln"}
+MEAN_POINTS = 48  # equally spaced angles: exact for harmonics below 48
+
+
+class Undefined(Exception):
+    """The formula has no value at the point: division by zero, a logarithm of it."""
+
+
+class Evaluator:
+    """Values of raw formulas at one point.
+
+    numbers: an mpmath context (`mpmath.fp`, or `mpmath.mp` whose digits the caller sets); point: symbol name -> value; bound: symbol
+    name -> SymPy expression it stands for (definitions, `where`); system: whose `rate` the operator asks for, or None.
+    """
+
+    def __init__(self, numbers, point: dict, bound: dict, system):
+        self.numbers, self.point, self.bound, self.system, self.known = numbers, point, bound, system, {}
+
+    def __call__(self, expression):
+        if expression in self.known:
+            return self.known[expression]
+        try:
+            value = self._value(expression)
+        except (ZeroDivisionError, ValueError, OverflowError):
+            raise Undefined(str(expression)) from None
+        if value != value:
+            raise Undefined(str(expression))
+        self.known[expression] = value
+        return value
+
+    def _value(self, e):
+        numbers = self.numbers
+        if e.is_Rational:
+            return numbers.mpf(int(e.p)) / int(e.q)
+        if e.is_Symbol:
+            return self(self.bound[e.name]) if e.name in self.bound else self._known(e.name)
+        if e.is_Add:
+            return sum((self(a) for a in e.args[1:]), self(e.args[0]))
+        if e.is_Mul:
+            out = self(e.args[0])
+            for factor in e.args[1:]:
+                out = out * self(factor)
+            return out
+        if e.is_Pow:
+            base, power = e.args
+            if power.is_Integer:
+                return self(base) ** int(power)
+            if power.is_Rational and power.q == 2:
+                return numbers.sqrt(self(base)) ** int(power.p)
+            return numbers.power(self(base), self(power))
+        name = e.func.__name__
+        if name in OPERATORS:
+            return OPERATORS[name](self, *e.args)
+        if name == "exp":
+            return numbers.exp(self(e.args[0]))
+        if name == "ImaginaryUnit":
+            return numbers.mpc(0, 1)
+        if name == "Pi":
+            return +numbers.pi
+        if name == "Exp1":
+            return numbers.exp(numbers.mpf(1))
+        if name in ("Integral", "Subs"):
+            raise InputError(f"cannot evaluate {e}")
+        name = FUNCTION_NAMES.get(name, name)
+        return getattr(numbers, name, getattr(cmath, name, None))(*map(self, e.args))
+
+    def _known(self, name):
+        if name not in self.point:
+            raise InputError(f"symbol {name!r} has no value")
+        return self.point[name]
+
+    def plain(self, e):
+        """The expression with bound symbols put in and every operator carried out, as far as SymPy can."""
+        e = e.xreplace({s: self.plain(self.bound[s.name]) for s in e.free_symbols if s.name in self.bound})
+        return self.carried(e)
+
+    def carried(self, e):
+        """The expression with every rate along the motion carried out."""
+        return e.replace(lambda f: f.func.__name__ == "rate", lambda f: _rate_of(self, f)) if e.has(*_operators()) else e
+
+
+def _operators():
+    import sympy as sp
+
+    return tuple(sp.Function(name) for name in OPERATORS)
+
+
+def _rate_of(evaluator, f):
+    expression = evaluator.plain(f.args[0])
+    for _ in range(int(f.args[1]) if len(f.args) > 1 else 1):
+        if evaluator.system is None:
+            raise InputError("rate(...) needs a system: name one in the row")
+        expression = evaluator.system.rate(expression)
+    return expression
+
+
+def _rate(evaluator, *arguments):
+    import sympy as sp
+
+    return evaluator(_rate_of(evaluator, sp.Function("rate")(*arguments)))
+
+
+def _diff(evaluator, f, s, n=1):
+    return evaluator(evaluator.plain(f).diff(s, int(n)))
+
+
+def _at(evaluator, f, s, value):
+    return evaluator(evaluator.plain(f).subs(s, value))
+
+
+def _moved(evaluator, f, s):
+    """f as a function of one symbol, the others as they are."""
+    f = evaluator.plain(f)
+
+    def of(value):
+        return Evaluator(evaluator.numbers, evaluator.point | {s.name: value}, {}, evaluator.system)(f)
+
+    return of
+
+
+def _mean(evaluator, f, angle):
+    of, numbers = _moved(evaluator, f, angle), evaluator.numbers
+    return sum(of(2 * numbers.pi * n / MEAN_POINTS) for n in range(MEAN_POINTS)) / MEAN_POINTS
+
+
+def _integral(evaluator, f, s, low, high):
+    return evaluator.numbers.quad(_moved(evaluator, f, s), [evaluator(low), evaluator(high)])
+
+
+OPERATORS = {"rate": _rate, "diff": _diff, "at": _at, "mean": _mean, "integral": _integral}
+
+
+def points(symbols, seed_text: str, count: int, domain, bound: dict, system, fixed: dict | None = None):
+    """`count` random rational points: symbol name -> Fraction (pairs for complex symbols), sizes 1/3 to 3, where every expression of `domain` is positive.
+
+    fixed: symbol name -> expression of the others (a condition). InputError where the domain is not met in many tries.
+    """
+    import mpmath
+
+    draw, out = random.Random(zlib.crc32(seed_text.encode())), []
+    for _ in range(400 * count):
+        point = {s.name: _random(draw, s) for s in symbols}
+        ready = settled(mpmath.fp, point, fixed, bound, system)
+        if ready is None:
+            continue
+        try:
+            if all(_positive(Evaluator(mpmath.fp, ready, bound, system)(d)) for d in domain):
+                out.append(point)
+        except Undefined:
+            continue
+        if len(out) == count:
+            return out
+    raise InputError(f"no point found at which all of {', '.join(map(str, domain))} are positive")
+
+
+def settled(numbers, point, fixed, bound, system):
+    """The point as numbers of a kind, fixed symbols by their expressions; None where these have no value."""
+    values = {
+        name: numbers.mpc(*(numbers.mpf(p.numerator) / p.denominator for p in value))
+        if isinstance(value, tuple)
+        else numbers.mpf(value.numerator) / value.denominator
+        for name, value in point.items()
+    }
+    for name, expression in (fixed or {}).items():
+        try:
+            values[name] = Evaluator(numbers, values, bound, system)(expression)
+        except Undefined:
+            return None
+    return values
+
+
+def _random(draw, symbol):
+    size = lambda: Fraction(draw.randrange(334, 3000), 1000)
+    if symbol.is_positive:
+        return size()
+    if symbol.is_real:
+        return size() * draw.choice((1, -1))
+    return size() * draw.choice((1, -1)), size() * draw.choice((1, -1))
+
+
+def _positive(value):
+    return abs(value.imag) < 1e-12 and value.real > 1e-9
