@@ -314,6 +314,14 @@ def _scene_archive(window) -> bytes:
               for entry in extract_array_hash(description)}
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
-        archive.writestr(zipfile.ZipInfo("index.json"), json.dumps({"hashes": arrays, "scene": description}),
+        archive.writestr(zipfile.ZipInfo("index.json"), json.dumps({"hashes": arrays, "scene": in_order(description)}),
                          compress_type=zipfile.ZIP_DEFLATED)
     return buffer.getvalue()
+
+
+def in_order(description: dict) -> dict:
+    """The same description with its objects named by the order in which they come, not by their addresses in this process: the same
+    surface gives the same bytes."""
+    names: dict[str, str] = {}
+    text = re.sub(r'(?<=["{])[0-9a-f]{16}(?=["}-])', lambda m: names.setdefault(m[0], f"{len(names) + 1:016x}"), json.dumps(description))
+    return json.loads(text)
