@@ -36,22 +36,25 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
 from ..errors import InputError
+from ..numbers.vectors import CYCLE
 from ..orbit.far_states import in_range
 from ..orbit.fate.arrays import at_rest as mark_rest
 from ..orbit.fate.one_state import OneFate
 from ..orbit.fate.reasons import Reason
 from ..orbit.fate.result import FateResult, in_chunks, write_row
-from ..orbit.result import Fate, Motion, judged
+from ..orbit.result import Fate, Motion, judged, pairs
 from ..physics.state import three_floats
 from ..physics.states import three_numbers
 from .growth_certificates import angle_of, release_estimate
+from .growth_extremes import captured_extremes
 from .growth_form import growth_law, standard_form
 from .growth_run import nearest_other, search_certificate
-from .off_axis import extremes, periods, seen_over
 from .off_axis import growth as seen_growth
+from .off_axis import length_of, seen_over, span_needed
 
-__all__ = ["captured_fate", "CapturedFate", "extremes", "fates", "motion", "periods", "unbounded"]  # extremes, periods: as off the axes
 # How long to look where the caller names no time, in the motion's own unit 1/sqrt(g |m|).
 PATIENCE = 1e6
 
@@ -81,11 +84,12 @@ class CapturedFate:
     steps: int
 
 
-def captured_fate(scene, state, t_max: float | None = None) -> CapturedFate:
+def captured_fate(scene, state, t_max: float | None = None, exact=None) -> CapturedFate:
     """Which axis the motion from `state` (three numbers, the scene's variables) spins up about, and when it is released.
 
-    t_max: how long to look for a certificate, in the scene's time (None: a million of the motion's own units). Raises InputError
-    for a scene whose torque is not along one principal axis with a gyrostatic component along it.
+    t_max: how long to look for a certificate, in the scene's time (None: a million of the motion's own units). exact: the state as
+    it was given (Fractions), which decides whether it is a pure spin. Raises InputError for a scene whose torque is not along one
+    principal axis with a gyrostatic component along it.
     """
     state = tuple(three_numbers(state).tolist())
     try:
@@ -97,18 +101,29 @@ def captured_fate(scene, state, t_max: float | None = None) -> CapturedFate:
         raise InputError("capture needs a torque along one principal axis and a gyrostatic component along that axis; "
                          "this scene is for the reduction or for the torque off the axes")
     axis, _, rate = law
+    if _is_pure_spin(scene.quadratic(), axis, exact or state):
+        return CapturedFate(J0=start, J_rate=rate, **_pure_spin(scene.quadratic(), axis))
     change = standard_form(scene)
     answer = _by_certificate(change, change.to_standard(state), t_max) if change else _without_form(scene, state, axis, t_max)
     return CapturedFate(J0=start, J_rate=rate, **answer)
+
+
+def _is_pure_spin(form, i, x) -> bool:
+    """Whether nothing turns but the torque's axis and, with no gyrostatic component across it, nothing else ever will."""
+    j, k = CYCLE[i]
+    return not (x[j] or x[k] or form.rho[j] or form.sigma[k])
+
+
+def _pure_spin(form, i):
+    """Fields of CapturedFate of a pure spin about the torque's axis."""
+    return dict(fate=Fate.SPIN_UP, axis=i + 1, sense=1 if form.m[i] > 0 else -1, release_time=0.0, release_estimate=None, certificate="axis",
+                t_certificate=0.0, steps=0, because=f"pure spin about axis {i + 1}, which the torque speeds up for ever")
 
 
 def _by_certificate(change, y, t_max):
     """Fields of CapturedFate from the standard form."""
     c, (i, _, q), unit = change.c, change.axes, change.time
     spin = dict(fate=Fate.SPIN_UP, axis=i + 1, sense=1 if change.rates[0] > 0 else -1)
-    if y[1] == y[2] == 0:
-        return spin | dict(because=f"pure spin about axis {i + 1}, which the torque speeds up for ever", release_time=0.0,
-                           release_estimate=None, certificate="axis", t_certificate=0.0, steps=0)
     vanishing = release_estimate(c, angle_of(c, y)[2]) * unit if c > 0 else None
     t_max = PATIENCE * unit if t_max is None else t_max
     name, t, end, last, steps = search_certificate(c, y, t_max / unit)
@@ -161,12 +176,33 @@ def _without_form(scene, state, axis, t_max):
 def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
     """See `answers.motion`: unbounded by an exact law; what is seen over the span is told beside it."""
     state = three_floats(state)
-    found = captured_fate(scene, state)
-    seen = seen_over(scene, state, span) if span is not None else {}
+    found = captured_fate(scene, state, exact=exact)
     known = {"certificate": found.certificate, "t_certificate": found.t_certificate, "release_time": found.release_time,
              "release_estimate": found.release_estimate, "steps": found.steps}
-    fields = {**judged(state, unbounded(found)), **seen, "because": found.because}
-    return Motion(**fields | {"invariants": {"J": found.J0, "J_rate": found.J_rate}, "evidence": {**seen.get("evidence", {}), **known}})
+    fields, seen = {**judged(state, unbounded(found)), "because": found.because}, {}
+    if span is not None or _for_ever(found):
+        grown = captured_extremes(scene, state, found, length_of(span), exact)
+        fields |= {"extremes": pairs(grown.box), "extremes_over": grown.over}
+        seen = {} if span is None else seen_over(scene, state, (0.0, grown.span or length_of(span)))["evidence"]
+    return Motion(**fields, invariants={"J": found.J0, "J_rate": found.J_rate}, evidence={**seen, **known})
+
+
+def _for_ever(found) -> bool:
+    """Whether all extremes of the motion are known for all time."""
+    return found.certificate in ("axis", "law")
+
+
+def extremes(scene, states, span=None, fast: bool | None = None):
+    """(n, 3, 2), as of `captured_extremes`; InputError where they are not known for all time and no span is named."""
+    found = [captured_fate(scene, state) for state in states]
+    if span is None and not all(map(_for_ever, found)):
+        raise span_needed(scene)
+    return np.array([captured_extremes(scene, *row, span).box for row in zip(states, found)]).reshape(-1, 3, 2)
+
+
+def periods(scene, states, fast: bool | None = None):
+    """(n,): inf, for what grows for ever does not repeat."""
+    return np.full(len(states), math.inf)
 
 
 def unbounded(found) -> OneFate:

@@ -164,9 +164,14 @@ def extremes(scene, states, span=None, fast: bool | None = None):
     """(n, 3, 2) over the span [0, span] (InputError without it)."""
     rest = equilibrium_mask(scene, states)
     if span is None and not rest.all():
-        raise InputError("this scene has no reduction, so its extremes are searched over a time span: give span=T "
-                         f"({scene.time_unit}), or a span in the case's [motion]")
+        raise span_needed(scene)
     return np.array([np.stack([s, s], axis=1) if still else evidence(scene, s, span).extremes for s, still in zip(states, rest)]).reshape(-1, 3, 2)
+
+
+def span_needed(scene) -> InputError:
+    """What is said to whoever asks for extremes that are not known for all time, and names no span."""
+    return InputError("this scene has no reduction, so its extremes are searched over a time span: give span=T "
+                      f"({scene.time_unit}), or a span in the case's [motion]")
 
 
 def periods(scene, states, fast: bool | None = None):

@@ -29,12 +29,14 @@ from ...physics.alignment import aligned
 from ...physics.coefficients import effective
 from ...physics.scene import Scene
 from ...physics.states import checked_states, equations_and_start, moved_row
+from ...unreduced.growth_extremes import law_extremes
 from ...unreduced.near_rest import beside_rest, small_loop
 from ..motion import motion
 from .checked import CAUTION, MOST, MOST_DECIMALS, NEAR, Told, checked_digits, digits_of, nothing
 
 FORMULA_DIGITS = 11  # the formulas hand over to balls where they hold less
 SAMPLE = 16  # states of an array that are checked one by one; where all agree the formulas serve for the rest
+LAW_BITS = 200  # of the numbers of a law that holds for all time: more than MOST_DECIMALS
 SEARCH = 20  # evaluations of a rate's series that the search for its roots takes in a step
 
 
@@ -59,6 +61,8 @@ def ask(question, scene, state, digits: int, span=None, known=None, exact=None, 
         return Told(question, _number(question, known), digits, math.inf, "exact", "the state is at rest")
     if question == "fate":
         return _margin_without_reduction(twin, known, digits, exact or known.at[:3])
+    if question == "extremes" and (balls := law_extremes(twin, exact or known.at[:3], known.evidence.get("certificate"), LAW_BITS)):
+        return _judged(question, known.extremes, [list(pair) for pair in balls], digits)
     if known.period:
         return _by_return(question, twin, known, digits, exact or known.at[:3])
     return _over_span(scene, state, span, known, digits, exact, NEAR * aim)
@@ -231,19 +235,31 @@ def _over_span(scene, state, span, known, digits, exact, slack) -> Told:
         scene = Scene(scene.body, *(e for e in scene.effects if e.name != "body_force"))
     length = float(span[1]) - (0.0 if scene.plain else float(span[0])) if span is not None else 0.0
     equations, start = equations_and_start(scene, known.at)
+    length = max(length, known.evidence.get("span", length))  # a spin-up may have been run on to where its least rate is certain
     values = np.array(known.extremes)
     other = roots_of_rates(scene, moved_row(start), length, 8 * TAYLOR_TOLERANCE)
     error = CAUTION * _apart(values, other.extremes()) if not other.reason else math.inf
     because = f"a run over the span; one at rtol {8 * TAYLOR_TOLERANCE:.1e} from a start moved in its last place differs by {error / CAUTION:.1e}"
     if digits <= MOST and error <= 10.0 ** (slack - digits):
         return Told("extremes", values, digits, digits_of(error), "run", because)
-    return (_many_digits(equations, [*(exact or start[:3]), *start[3:]], length, digits)
-            or Told("extremes", values, digits, digits_of(error), "run", other.reason or because))
+    found = _many_digits(equations, [*(exact or start[:3]), *start[3:]], length, digits)
+    return _unbounded_again(found, values) if found else Told("extremes", values, digits, digits_of(error), "run", other.reason or because)
 
 
-def _apart(one, two) -> float:
-    size = np.abs(one).max(axis=-1, keepdims=True)
-    return float((np.abs(one - two) / np.where(size > 0, size, 1.0)).max())
+def _apart(values, other) -> float:
+    """Largest distance of what is finite among the values from the other's, relative to the size of its component."""
+    finite = np.isfinite(values)
+    size = np.where(finite, np.abs(values), 0.0).max(axis=-1, keepdims=True)
+    return float((np.where(finite, np.abs(np.where(finite, values, 0.0) - other), 0.0) / np.where(size > 0, size, 1.0)).max())
+
+
+def _unbounded_again(told, values) -> Told:
+    """What a run found, with the entries that are known to be infinite."""
+    known = values.tolist()
+
+    def put(found, kind):
+        return tuple(tuple(kind(old) if math.isinf(old) else new for new, old in zip(*both)) for both in zip(found, known))
+    return replace(told, values=put(told.values, float), decimals=told.decimals and put(told.decimals, str))
 
 
 def _many_digits(equations, start, length, digits):
