@@ -4,9 +4,14 @@ from __future__ import annotations
 import math
 
 from ...errors import InputError
+from .delay import delayed
+from .family import STEADY
 from .fate import found
-from .result import Row, Stuck
+from .helpers import helpers
+from .margins import margins
+from .result import Row, Stuck, WheelAnswer
 from .scenario import scenario_of
+from .wheel import intervals
 
 
 def stuck(case, all_thrusters: bool = False, progress=None) -> Stuck:
@@ -56,6 +61,18 @@ def _row(scenario, thrusters) -> Row:
     torque, axes = scenario.torque(thrusters), scenario.axes
     seen = found(scenario, torque)
     axis, sense = axes.number(seen.axis, seen.sense)
+    others = [t for t in scenario.case.thrusters if t not in thrusters]
     return Row(tuple(t.name for t in thrusters), scenario.torque_in_file(thrusters), axes.counted(torque), seen.fate.word, seen.level,
                axis, sense, seen.direction and axes.back(seen.direction), scenario.limit, seen.time, seen.time_level, seen.never, seen.largest, seen.followed,
-               seen.because, {})
+               seen.because, margins(scenario, scenario.scene(torque), seen), tuple(_wheel(scenario, torque, seen, wheel) for wheel in scenario.case.wheels),
+               helpers(scenario, torque, others) if seen.fate not in STEADY else ())
+
+
+def _wheel(scenario, torque, seen, wheel) -> WheelAnswer:
+    """What one wheel of the case can do, the others left as they are."""
+    axis = scenario.axes.turned(wheel.axis)
+    others = tuple(w - wheel.momentum * a for w, a in zip(scenario.wheel, axis))
+    kept, because = intervals(scenario.scene(torque, others), scenario.state, axis)
+    told = tuple(map(float, wheel.axis)), float(wheel.momentum), kept, because
+    later = None if kept or seen.fate in STEADY else delayed(scenario, torque, axis, wheel.momentum, seen.time)
+    return WheelAnswer(wheel.name, *told, *(later or ()))

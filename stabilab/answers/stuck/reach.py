@@ -63,6 +63,17 @@ def reach(scene, state, limit, rows, t_max: float, budget: int) -> Reached:
     return Reached(((first.t - half) / unit, (first.t + half) / unit), largest, followed, first.steps)
 
 
+def first_time(scene, state, limit, rows, t_max: float, budget: int) -> float:
+    """The time at which a plain run first comes to its limit, s; inf where not until t_max or in `budget` steps. For searches: without a bracket."""
+    own, unit = natural(scene)
+    limits = tuple(v / unit for v in (limit if isinstance(limit, tuple) else (limit,)))
+    start = [v / unit for v in state]
+    if _passed(start, limits, rows):
+        return 0.0
+    found = _run(own, start, limits, rows, t_max * unit, budget).t
+    return math.inf if found is None else found / unit
+
+
 def _passed(state, limits, rows) -> bool:
     if len(limits) == 1:
         return math.hypot(*state) >= limits[0]

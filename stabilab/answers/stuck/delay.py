@@ -1,0 +1,56 @@
+"""Where no momentum of a wheel keeps a motion bounded: the one that delays the limit most, within what the wheel may be expected to take."""
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+import numpy as np
+
+from .fate import found
+from .reach import first_time
+
+RANGE = 2  # times the momentum that the wheel has now, either way
+PLACES, CLOSER = 41, 24  # momenta that are tried over the range, and nearer and nearer to the best of them
+PATIENCE = 100  # times the time without a change: a limit that is not reached by then counts as never
+BUDGET = 20_000  # steps of each run
+
+
+def delayed(scenario, torque, axis, now, time):
+    """(best momentum, N m s, bracket of its time or None, gain in s or None, the range searched), or None where there is nothing to search.
+
+    axis: exact unit vector of the wheel, scene's axes; now: its momentum; time: bracket of the limit as things are.
+    """
+    if scenario.limit is None or time is None or not now or time[0] <= 0:
+        return None
+    others = [w - now * a for w, a in zip(scenario.wheel, axis)]
+    reach = RANGE * abs(float(now))
+
+    def until(s):
+        wheel = [w + Fraction(float(s)) * a for w, a in zip(others, axis)]
+        return first_time(scenario.scene(torque, wheel), scenario.start, scenario.limit, scenario.rows, PATIENCE * time[0], BUDGET)
+    places = np.linspace(-reach, reach, PLACES)
+    times = [until(s) for s in places]
+    best = int(np.argmax(times))
+    s = float(places[best])
+    if math.isfinite(times[best]):
+        s = _closer(until, places[max(best - 1, 0)], places[min(best + 1, PLACES - 1)], s, times[best])
+    told = found(scenario, torque, [w + Fraction(s) * a for w, a in zip(others, axis)])
+    gain = None if told.time is None else told.time[0] - time[0]
+    return s, told.time, gain, (-reach, reach)
+
+
+def _closer(until, low, high, s, time) -> float:
+    """The best momentum between two of them, by the golden section."""
+    golden = (math.sqrt(5) - 1) / 2
+    a, b = high - golden * (high - low), low + golden * (high - low)
+    at_a, at_b = until(a), until(b)
+    for _ in range(CLOSER):
+        if at_a > at_b:
+            high, b, at_b = b, a, at_a
+            a = high - golden * (high - low)
+            at_a = until(a)
+        else:
+            low, a, at_a = a, b, at_b
+            b = low + golden * (high - low)
+            at_b = until(b)
+    return max(((s, time), (float(a), at_a), (float(b), at_b)), key=lambda one: one[1])[0]

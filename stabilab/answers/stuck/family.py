@@ -1,0 +1,112 @@
+"""One start under one torque, asked with many wheel momenta or many sizes of the torque: which of them keep it bounded, exactly."""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+
+from ...numbers.vectors import CYCLE
+from ...orbit.ball_orbit import Orbit
+from ...orbit.fate.one_state import fate_of
+from ...orbit.reduction import Reduction, reduce
+from ...orbit.result import Fate
+from ...physics.alignment import aligned
+from ...physics.effects.constant_torque import ConstantTorque
+from ...physics.effects.gyrostat import Gyrostat
+from ...physics.scene import Scene
+
+STEADY = (Fate.BOUNDED, Fate.EQUILIBRIUM)
+FINE = Fraction(1, 1 << 54)  # of an end, or of the size of the whole: an end is known to this
+TRIES = 400  # halvings or doublings at most: doubles have 2,098 binary orders, these bodies a few
+
+
+@dataclass(frozen=True)
+class Family:
+    """A torque along principal axis `axis` (0-based) of a body, and a start; exact, along the axes of the body or, where the torque lies between
+    two equal moments, of the body turned so that it does. back(vector): along the scene's own axes; turned(vector): from them."""
+
+    body: object
+    axis: int
+    torque: Fraction
+    wheel: tuple
+    state: tuple
+    turn: object = None
+
+    def scene(self, wheel=None, torque=None) -> Scene:
+        """With this wheel momentum, and this torque about the axis."""
+        size = self.torque if torque is None else torque
+        return Scene(self.body, Gyrostat(tuple(self.wheel if wheel is None else wheel)), ConstantTorque(tuple(size * (n == self.axis) for n in range(3))))
+
+    def fate(self, wheel=None, torque=None) -> Fate:
+        """The fate of the start, decided exactly; SPIN_UP where a wheel along the torque lets no motion be bounded."""
+        scene = self.scene(wheel, torque)
+        reduction = reduce(scene)
+        return Fate.SPIN_UP if reduction is None else fate_of(scene, Orbit(reduction, self.state)).label
+
+    def steady(self, wheel=None, torque=None) -> bool:
+        """Whether the start stays bounded."""
+        return self.fate(wheel, torque) in STEADY
+
+    def reduction(self, wheel) -> Reduction | None:
+        """About the torque's axis; None where the wheel has momentum along it."""
+        return reduce(self.scene(wheel))
+
+    def along(self, start, step, s):
+        """start + s step."""
+        return tuple(a + s * b for a, b in zip(start, step))
+
+    @property
+    def across(self) -> tuple[int, int]:
+        """The two other axes."""
+        return CYCLE[self.axis]
+
+    @property
+    def momentum_unit(self) -> float:
+        """A size that wheel momenta of this motion are measured by: that of the body's own, and of what its torque makes of it."""
+        weight = max(self.body.inertia)
+        return weight * max(math.hypot(*map(float, self.state)), math.sqrt(abs(float(self.torque)) / weight))
+
+    def turned(self, vector) -> tuple:
+        """A vector along the scene's axes, along those of the family."""
+        return tuple(vector) if self.turn is None else self.turn(vector)
+
+    def back(self, vector) -> tuple:
+        """The inverse of `turned`."""
+        if self.turn is None:
+            return tuple(vector)
+        return tuple(sum(self.turn.rotation[i][j] * Fraction(vector[i]) for i in range(3)) for j in range(3))
+
+
+def family_of(scene, state) -> Family | None:
+    """The family of a scene and an exact state; None where the torque is off the axes, or there is none."""
+    turn, torque = None, scene.vector("constant_torque")
+    if sum(m != 0 for m in torque) > 1:
+        turn = aligned(scene)
+        if turn is None:
+            return None
+        scene, state = turn.twin, turn(state)
+        torque = scene.vector("constant_torque")
+    acting = [n for n in range(3) if torque[n]]
+    if len(acting) != 1:
+        return None
+    return Family(scene.body, acting[0], torque[acting[0]], scene.vector("gyrostat"), tuple(map(Fraction, state)), turn)
+
+
+def change_between(holds, inside: Fraction, outside: Fraction, scale: Fraction) -> tuple[Fraction, Fraction]:
+    """(last number known to hold, first known not to) between one that holds and one that does not, as near as `FINE` of their size or of scale."""
+    for _ in range(TRIES):
+        if abs(outside - inside) <= FINE * max(abs(inside), abs(outside), scale * FINE):
+            break
+        middle = _short((inside + outside) / 2)
+        if not min(inside, outside) < middle < max(inside, outside):
+            break
+        if holds(middle):
+            inside = middle
+        else:
+            outside = middle
+    return inside, outside
+
+
+def _short(value: Fraction) -> Fraction:
+    """The double nearest to it: numbers do not grow while an interval is halved."""
+    return Fraction(float(value))

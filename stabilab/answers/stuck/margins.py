@@ -1,0 +1,245 @@
+"""How little must change for the fate to change: rate, wheel momentum, torque, each with its direction, where a separatrix is there."""
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+import numpy as np
+
+from ...numbers.exact import sqrt_fraction
+from ...orbit.result import Fate
+from .family import STEADY, TRIES, change_between, family_of
+from .result import Margin
+
+TURN = 2000  # places on the turn at which the rise of the potential is looked at, to find a direction
+MOST = 1000  # of the body's own momentum: changes of the wheel as great are not told
+BESIDE = 2 * math.pi * np.geomspace(1e-4, 1e-2, 5)  # of a turn: directions beside that of a circle that is a point
+FEW = 5  # nearest places that are looked at in exact numbers
+DIRECTIONS = 180  # of a change of wheel momentum, at first
+CLOSE = Fraction(1, 10**4)  # of a change: how near to it, as doubles saw it, the exact change is looked for
+
+
+def margins(scenario, scene, seen) -> dict[str, Margin]:
+    """The margins of one answer (`fate.Found`), by name: "rate" (rad/s), "wheel" (N m s), "torque" (N m)."""
+    if seen.fate == Fate.SEPARATRIX:
+        return {name: Margin(0.0, None, "the motion is on the separatrix") for name in ("rate", "wheel", "torque")}
+    family = family_of(scene, scenario.state)
+    if seen.motion is None or (family is None and any(scene.vector("constant_torque"))):
+        why = "the torque is off the principal axes: no separatrix is known"
+        return {name: Margin(because=why) for name in ("rate", "wheel", "torque")}
+    return {"rate": _rate(scenario, seen.motion), **_parameters(scenario, family)}
+
+
+def _rate(scenario, motion) -> Margin:
+    if motion.margin_velocity is None or motion.velocity_witness is None:
+        return Margin(because=motion.velocity_because or "no separatrix stands near it")
+    change = [b - a for a, b in zip(scenario.start, motion.velocity_witness)]
+    size = math.hypot(*change)
+    return Margin(motion.margin_velocity, _unit(scenario.axes.back(change)) if size else None, motion.velocity_because)
+
+
+def _parameters(scenario, family) -> dict:
+    """Those of torque and wheel momentum."""
+    words = _no_barrier(family)
+    if words:
+        return {name: Margin(because=words) for name in ("wheel", "torque")}
+    steady = family.fate() in STEADY
+    return {"wheel": _wheel(scenario, family, steady), "torque": _torque(scenario, family, steady)}
+
+
+def _no_barrier(family) -> str:
+    if family is None:
+        return "no torque acts: the motion is bounded whatever the wheel does"
+    reduction = family.reduction(family.wheel)
+    if reduction is None:
+        return "the wheel has momentum along the torque: no motion is bounded, and no separatrix divides them"
+    return "" if reduction.e < 0 else "every motion is bounded but for a set of measure zero: the fate does not change"
+
+
+def _torque(scenario, family, steady) -> Margin:
+    """Along the torque's axis: the more torque in one sense the lower every barrier ahead, so one size in each sense divides the fates."""
+    size = abs(family.torque)
+    now = 1 if family.torque > 0 else -1
+    if not steady:
+        ends = [change_between(lambda m: not family.steady(torque=now * m), size, Fraction(0), size)[1]]
+        changes = [now * ends[0] - family.torque]
+    else:
+        changes = [sign * end - family.torque for sign in (now, -now) if (end := _least_torque(family, sign, size)) is not None]
+    change = min(changes, key=abs, default=None)
+    if change is None:
+        return Margin(because="no torque along this axis changes the fate")
+    words = "of a torque that stays on its axis" if family.torque + change else "to no torque at all: along this axis any torque spins it up"
+    return Margin(float(abs(change)), _direction(scenario, family, {family.axis: 1 if change > 0 else -1}), words)
+
+
+def _least_torque(family, sign, size) -> Fraction | None:
+    """The least size of a torque in this sense that spins the start up."""
+    steady = Fraction(0)
+    for _ in range(TRIES):
+        if family.fate(torque=sign * size) == Fate.SPIN_UP:
+            return change_between(lambda m: family.steady(torque=sign * m), steady, size, size)[1]
+        steady, size = size, 2 * size
+    return None
+
+
+def _wheel(scenario, family, steady) -> Margin:
+    """Of a momentum across the torque: the nearest in the plane of the two other axes. Doubles show the way, exact fates give the number."""
+    j, k = family.across
+    rise, (best, step) = _Rise(family), _to_pure_spin(family) if steady else (None, None)
+    for angle, size in _nearest(rise, steady):
+        if not size < MOST * family.momentum_unit or (best is not None and size > best):
+            continue
+        towards = [Fraction(0)] * 3
+        towards[j], towards[k] = Fraction(math.cos(angle)), Fraction(math.sin(angle))
+        found = _exactly(family, towards, Fraction(size), steady)
+        if found is not None and (best is None or found < best):
+            best, step = found, towards
+    if best is None:
+        return Margin(because="no wheel momentum across the torque is known to change the fate, up to a thousand times the body's own")
+    return Margin(float(best), _direction(scenario, family, {j: step[j], k: step[k]}), "of a wheel momentum that stays across the torque")
+
+
+def _to_pure_spin(family):
+    """(size, step) of the change on the way to the momentum at which the orbit's circle is a point and nothing stands in the way of a spin-up."""
+    step = [Fraction(0)] * 3
+    for n in family.across:
+        step[n] = _pure_spin(family, n) - family.wheel[n]
+    whole = sqrt_fraction(sum(v * v for v in step))
+    if not whole:
+        return None, None
+    return change_between(lambda s: family.steady(family.along(family.wheel, step, s)), Fraction(0), Fraction(1), Fraction(1))[1] * whole, step
+
+
+def _pure_spin(family, n) -> Fraction:
+    """The wheel's momentum along axis n with which omega_n = -s_n of the reduction."""
+    D = family.body.exact
+    return (D[family.axis] - D[n]) * family.state[n]
+
+
+def _exactly(family, step, size, steady) -> Fraction | None:
+    """The s near `size` at which the fate changes along a step, decided exactly."""
+    def same(s):
+        return family.steady(family.along(family.wheel, step, s)) == steady
+    share = CLOSE
+    for _ in range(12):
+        low, high = size * max(Fraction(0), 1 - share), size * (1 + share)
+        if same(low) and not same(high):
+            return change_between(same, low, high, size)[1]
+        share *= 3
+    return None
+
+
+def _nearest(rise, steady) -> list[tuple[float, float]]:
+    """(angle, size) of the least changes of momentum in the plane across the torque, each nearest among its neighbours, seen in doubles."""
+    centre = rise.centre + np.concatenate([-BESIDE[::-1], [0.0], BESIDE])  # a circle that is a point has no barrier: a small island of spin-up
+    angles = np.sort(np.concatenate([np.linspace(0, 2 * math.pi, DIRECTIONS, endpoint=False), centre % (2 * math.pi)]))
+    sizes = np.array([rise.first_change(a, steady) for a in angles])
+    least = [n for n in range(len(angles)) if sizes[n] <= min(sizes[n - 1], sizes[(n + 1) % len(angles)]) and math.isfinite(sizes[n])]
+    least = sorted(least, key=lambda n: sizes[n])[:FEW]
+    return [_golden(lambda a: rise.first_change(a, steady), angles[n - 1] - 2 * math.pi * (n == 0), angles[n], angles[(n + 1) % len(angles)]
+                    + 2 * math.pi * (n + 1 == len(angles)), sizes[n]) for n in least]
+
+
+def _golden(size_of, low, middle, high, size):
+    """(angle, size) near the least size between two angles, by the golden section."""
+    golden = (math.sqrt(5) - 1) / 2
+    a, b = high - golden * (high - low), low + golden * (high - low)
+    at_a, at_b = size_of(a), size_of(b)
+    for _ in range(26):
+        if at_a < at_b:
+            high, b, at_b = b, a, at_a
+            a = high - golden * (high - low)
+            at_a = size_of(a)
+        else:
+            low, a, at_a = a, b, at_b
+            b = low + golden * (high - low)
+            at_b = size_of(b)
+    return min(((a, at_a), (b, at_b), (middle, size)), key=lambda one: one[1])
+
+
+class _Rise:
+    """How far the potential rises over the start, less its energy, at many places of one turn, as a quadratic of a change of the wheel: doubles."""
+
+    def __init__(self, family):
+        unit = Fraction(family.momentum_unit)
+        self.unit = float(unit)
+        place = [family.wheel]
+        for n in family.across:
+            place.append(tuple(w + unit * (m == n) for m, w in enumerate(family.wheel)))
+        rows = [_numbers(family.reduction(wheel), family.state) for wheel in place]
+        (X, Z, c, d), G, mu, E = rows[0][0], *rows[0][1]
+        j, k = family.across
+        self.centre = _towards_point(family, j, k)
+        slopes = [tuple(b - a for a, b in zip(rows[0][0], row[0])) for row in rows[1:]]
+        ends = 2 * math.pi * np.geomspace(1e-7, 1 / TURN, TURN // 4)  # a great momentum raises the potential close to the start, before or behind it
+        y = np.concatenate([ends, np.linspace(0, 2 * math.pi, TURN + 1)[1:], 2 * math.pi - ends])
+        S, K = np.sin(y / 2), np.cos(y / 2)
+
+        def parts(x, z, cc, dd):
+            w, u = z * K - x * S, x * K + z * S
+            return w, u, G * (x + S * w) + cc, dd
+        at, moved = parts(X, Z, c, d), [parts(*slope) for slope in slopes]
+        self.level = -mu * y - E - 2 * S * (at[0] * at[2] + at[3] * at[1])
+        self.slope = [-2 * S * (at[0] * m[2] + m[0] * at[2] + at[3] * m[1] + m[3] * at[1]) for m in moved]
+        self.bend = [[-2 * S * (m[0] * n[2] + m[3] * n[1]) for n in moved] for m in moved]
+
+    def first_change(self, angle, steady) -> float:
+        """The least s > 0 at which the fate changes along a direction of the plane; inf where it does not."""
+        a, b = math.cos(angle), math.sin(angle)
+        A, B = self.level, a * self.slope[0] + b * self.slope[1]
+        C = a * a * self.bend[0][0] + a * b * (self.bend[0][1] + self.bend[1][0]) + b * b * self.bend[1][1]
+        with np.errstate(all="ignore"):
+            root = np.sqrt(np.maximum(B * B - 4 * A * C, 0))
+            q = -0.5 * (B + np.where(B >= 0, 1, -1) * root)
+            low, high = np.sort(np.stack([np.where(C != 0, q / C, np.nan), np.where(q != 0, A / q, np.nan)]), axis=0)
+        real = B * B - 4 * A * C > 0
+        s = _end_of(A, C, real, low, high) if steady else _begin_of(A, C, real, low, high)
+        return s * self.unit
+
+
+def _towards_point(family, j, k) -> float:
+    """The angle in the plane across the torque towards the wheel momentum for which the orbit's circle is a point: omega_j = -s_j, omega_k = -s_k."""
+    return math.atan2(float(_pure_spin(family, k) - family.wheel[k]), float(_pure_spin(family, j) - family.wheel[j]))
+
+
+def _begin_of(A, C, real, low, high) -> float:
+    """The least s > 0 at which one of the quadratics A + B s + C s^2 becomes positive."""
+    at = np.where(C > 0, np.where(low > 0, np.inf, high), low)  # outside the roots where it opens upwards, between them where downwards
+    at = np.where(real & np.isfinite(at) & (at > 0), at, np.where((C > 0) & real & (high > 0), high, np.inf))
+    return float(np.min(at, initial=np.inf))
+
+
+def _end_of(A, C, real, low, high) -> float:
+    """The least s > 0 from which on, for a while, none of them is positive."""
+    starts = np.concatenate([np.where(C > 0, -np.inf, low), np.where(C > 0, high, np.inf)])
+    ends = np.concatenate([np.where(C > 0, low, high), np.where(C > 0, np.inf, -np.inf)])
+    always = (C > 0) & ~real
+    if always.any():
+        return math.inf
+    kept = np.concatenate([real, real]) & (ends > starts)
+    order = np.argsort(starts[kept])
+    now = 0.0
+    for start, end in zip(starts[kept][order], ends[kept][order]):
+        if start > now + 1e-9 * abs(now) and now > 0:
+            break
+        now = max(now, end)
+    return float(now) if now > 0 else math.inf
+
+
+def _numbers(reduction, state):
+    """((X, Z, c, d), (G, mu, E)) of the start, in doubles."""
+    g = reduction.exact_constants
+    x, z = g["flip"] * (state[reduction.j] + g["sj"]) / g["rx"], (state[reduction.k] + g["sk"]) / g["rz"]
+    speed = g["n"] * (state[reduction.axis] + reduction.s)
+    return tuple(map(float, (x, z, g["c"], g["d"]))), tuple(map(float, (g["G"], g["mu"], speed * speed / 2)))
+
+
+def _direction(scenario, family, parts) -> tuple:
+    """The unit vector with these parts along the family's axes, in the frame of the file."""
+    vector = [Fraction(parts.get(n, 0)) for n in range(3)]
+    return _unit(scenario.axes.back(family.back(vector)))
+
+
+def _unit(vector) -> tuple:
+    size = math.hypot(*vector)
+    return tuple(v / size + 0.0 for v in vector)

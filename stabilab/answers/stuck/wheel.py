@@ -1,0 +1,110 @@
+"""Which momenta of a wheel keep a motion bounded under a torque that lasts: all intervals, by roots; else the momentum that delays the limit most."""
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+from ...numbers.vectors import dot
+from ...physics.quadratic import rests
+from .family import STEADY, change_between, family_of
+from .wheel_roots import Circle, candidates
+
+INF = math.inf
+NEAR = Fraction(1, 10**9)  # of the unit: how near to a candidate its change of fate is looked for first
+EVERY = ((-INF, INF),)
+
+
+def intervals(scene, state, axis):
+    """(((least, greatest) momentum along a wheel's axis that keeps the motion bounded, N m s), ...), because.
+
+    scene: with the momentum of every other wheel in it, but not of this one; state: exact; axis: exact unit vector, scene's axes. An end is
+    a number that keeps it bounded, to the last places of a double; -inf, inf where there is none.
+    """
+    torque, wheel, D = scene.vector("constant_torque"), scene.vector("gyrostat"), scene.body.exact
+    if not any(torque):
+        return EVERY, "no torque acts: the energy is constant, whatever the wheel does"
+    if D[0] == D[1] == D[2]:
+        return _sphere(torque, wheel, axis)
+    family = family_of(scene, state)
+    if family is None:
+        return _off_axis(scene, state, axis)
+    start, step, i = family.wheel, list(family.turned(axis)), family.axis
+    if not dot(torque, axis):
+        step[i] = Fraction(0)  # a turn by rounded numbers leaves a trace
+    if step[i]:
+        return _one_momentum(family, start, step, -start[i] / step[i])
+    if start[i]:
+        return (), "momentum of the others lies along the torque: |H|^2/2 - D T then grows for ever, whatever this wheel does"
+    return _across(family, start, tuple(step))
+
+
+def _sphere(torque, wheel, axis):
+    """Three equal moments: bounded exactly if there is a wheel momentum and it is across the torque."""
+    level, slope = dot(torque, wheel), dot(torque, axis)
+    words = "three equal moments: bounded where the wheels' momentum is across the torque and not zero"
+    if slope:
+        s = -level / slope
+        return (((float(s),) * 2,) if any(w + s * a for w, a in zip(wheel, axis)) else ()), words
+    return (() if level else EVERY), words
+
+
+def _off_axis(scene, state, axis):
+    """Off the axes only an equilibrium is known to be bounded: M - omega x (D omega + l) = s omega x a has one s or none."""
+    form = scene.quadratic()
+    words = "the torque is off the principal axes, and no bounded motion is known there but equilibria"
+    rate = form.rate(list(state))
+    D = scene.body.exact
+    pull = [state[2] * axis[1] - state[1] * axis[2], state[0] * axis[2] - state[2] * axis[0], state[1] * axis[0] - state[0] * axis[1]]  # -(omega x a)
+    which = next((n for n in range(3) if pull[n]), None)
+    if which is None:
+        return (EVERY if rests(form, state) else ()), words
+    s = -rate[which] * D[which] / pull[which]
+    resting = all(rate[n] * D[n] + s * pull[n] == 0 for n in range(3))
+    return (((float(s),) * 2,) if resting else ()), words
+
+
+def _one_momentum(family, start, step, s):
+    """A wheel that is not across the torque: at one momentum alone it leaves none along it."""
+    wheel = list(family.along(start, step, s))
+    wheel[family.axis] = Fraction(0)
+    words = "with any momentum left along the torque |H|^2/2 - D T grows for ever; at one momentum none is left"
+    return (((float(s),) * 2,) if family.fate(wheel) in STEADY else ()), words
+
+
+def _across(family, start, step):
+    at_0, at_1 = (family.reduction(family.along(start, step, s)) for s in (0, 1))
+    if at_0.e >= 0:
+        where = "the middle axis" if at_0.e > 0 else "an axis between two equal moments"
+        return EVERY, f"the torque is on {where}: the potential has walls on both sides, so every motion is bounded but for a set of measure zero"
+    found = candidates(Circle(at_0, at_1, family.state))
+    if found is None:
+        return (), "not known: the balls did not isolate the momenta at which the start lies on a separatrix"
+    return _pieces(family, start, step, sorted(set(found))), ("bounded between the momenta at which the start lies on a separatrix: "
+                                                             f"{len(found)} of them, isolated as roots")
+
+
+def _pieces(family, start, step, cuts):
+    """The intervals among the cuts: the fate is one and the same between two of them."""
+    def holds(s):
+        return family.steady(family.along(start, step, s))
+    unit = Fraction(family.momentum_unit)
+    cuts = [Fraction(s) for s in cuts]
+    if not cuts:
+        return EVERY if holds(Fraction(0)) else ()
+    samples = [cuts[0] - unit, *((a + b) / 2 for a, b in zip(cuts, cuts[1:])), cuts[-1] + unit]
+    steady = [holds(s) for s in samples]
+    out, low = [], -INF if steady[0] else None
+    for n, cut in enumerate(cuts):
+        if steady[n] == steady[n + 1]:
+            continue
+        inside, outside = (samples[n], samples[n + 1]) if steady[n] else (samples[n + 1], samples[n])
+        near = cut + (1 if inside > cut else -1) * NEAR * unit, cut - (1 if inside > cut else -1) * NEAR * unit
+        if holds(near[0]) and not holds(near[1]):
+            inside, outside = near
+        end = float(change_between(holds, inside, outside, unit)[0])
+        if steady[n]:
+            out.append((low, end))
+            low = None
+        else:
+            low = end
+    return tuple([*out, (low, INF)] if low is not None else out)

@@ -1,0 +1,147 @@
+"""Where the start of a motion lies on a separatrix as the momentum s of a wheel across the torque's axis changes: all such s, by roots.
+
+On a circle (torque on the major or minor axis, `orbit.reduction`) the motion is bounded exactly if the potential somewhere within one turn ahead
+rises over the start by more than its energy, R(y, s) > E. The fate can change only where the highest barrier is as high as the energy:
+
+    R(y, s) = E  and  dR/dy = -F(y, s) = 0   for a y in (0, 2 pi],   or, where E = 0, where the start itself is an equilibrium, F(0, s) = 0.
+
+Shifts, c and d of the reduction are linear in s, so both are quadratics in s whose coefficients are functions of y. Their resultant in s is a
+function of y alone; its zeros are isolated by balls of it and of its derivative: a cell of y is left out where they exclude a zero, holds
+one where the derivative has a sign and Newton's step contracts, and is halved otherwise. With h = y/2, S = sin h, K = cos h, and at the start
+w = Z K - X S, u = X K + Z S,
+
+    R = -mu y - 2 S [w (G (X + S w) + c) + d u],
+
+and the terms in s^2 of R and of F vanish at S = 0 like S^2 and S, because the rate at the start is linear in s. So sigma = S s is the
+unknown: both quadratics are regular on the whole turn, and no zero stands for an infinite s.
+
+A start without energy, or nearly (E = 0: no rate about the torque's axis), has a double zero at y = 0; it is given the least energy `LEAST`, which moves the
+momenta a little: they are where a change of fate is looked for, and that is then decided for the start as it is.
+"""
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+from ...numbers.balls import working
+
+BITS = 128
+CELLS = 16  # the turn at first
+NARROW = 1e-13  # a cell of h as narrow holds a zero as far as anybody can see
+MOST = 20_000  # cells that are looked at; none of some thousand scenes needed a fifth
+LEAST = Fraction(1, 10**10)  # of the torque's own potential mu
+
+
+class Circle:
+    """The two quadratics along one line of wheel momenta: `at_0`, `at_1` are the reductions at s = 0 and 1; state: exact. Numbers are Fractions, linear ones
+    pairs (at s = 0, change per unit of s)."""
+
+    def __init__(self, at_0, at_1, state):
+        (g0, x0, z0), (g1, x1, z1) = _place(at_0, state), _place(at_1, state)
+        self.G, self.mu = g0["G"], g0["mu"]
+        self.c, self.d = ((g0[name], g1[name] - g0[name]) for name in "cd")
+        self.x, self.z = (x0, x1 - x0), (z0, z1 - z0)
+        speed = g0["n"] * (state[at_0.axis] + at_0.s)
+        self.energy = max(speed * speed / 2, LEAST * self.mu)
+
+    def balls(self, ball) -> tuple:
+        """Its numbers as balls, for `quadratics`."""
+        return tuple(map(ball, (self.G, self.mu, self.energy, *self.c, *self.d, *self.x, *self.z)))
+
+    def equilibrium(self):
+        """The s at which the torque is balanced at the start, F(0, s) = 0; None where there is none, or no one s."""
+        (c0, c1), (d0, d1), (x0, x1), (z0, z1), G = self.c, self.d, self.x, self.z, self.G
+        level = self.mu + G * x0 * z0 + c0 * z0 + d0 * x0
+        slope = G * (x0 * z1 + x1 * z0) + c0 * z1 + c1 * z0 + d0 * x1 + d1 * x0
+        return -level / slope if slope else None
+
+
+def _place(reduction, state):
+    g = reduction.exact_constants
+    return g, g["flip"] * (state[reduction.j] + g["sj"]) / g["rx"], (state[reduction.k] + g["sk"]) / g["rz"]
+
+
+def quadratics(numbers, h):
+    """((f2, f1, f0), (g2, g1, g0)) in sigma at half the turn h (a ball, or a series of balls): f = R - E and g = S F."""
+    G, mu, E, c0, c1, d0, d1, x0, x1, z0, z1 = numbers
+    S, K = h.sin_cos()
+    w0, w1, u0, u1 = z0 * K - x0 * S, z1 * K - x1 * S, x0 * K + z0 * S, x1 * K + z1 * S
+    i0, i1 = G * (x0 + S * w0) + c0, G * (x1 + S * w1) + c1
+    bend = (x1 * (G * x1 + c1) - d1 * z1) - G * w1 * w1
+    f = 2 * bend, -2 * (w0 * i1 + w1 * i0 + d0 * u1 + d1 * u0), -2 * S * (w0 * i0 + d0 * u0) - 2 * mu * h - E
+    sine, cosine = 2 * S * K, 1 - 2 * S * S
+    X0, X1, Z0, Z1 = x0 * cosine + z0 * sine, x1 * cosine + z1 * sine, z0 * cosine - x0 * sine, z1 * cosine - x1 * sine
+    F0, F1 = mu + G * X0 * Z0 + c0 * Z0 + d0 * X0, G * (X0 * Z1 + X1 * Z0) + c0 * Z1 + c1 * Z0 + d0 * X1 + d1 * X0
+    return f, (-2 * (K * bend + S * (G * w1 * u1)), F1, S * F0)
+
+
+def resultant(f, g):
+    """Of two quadratics (highest coefficient first): zero where they share a root."""
+    (f2, f1, f0), (g2, g1, g0) = f, g
+    cross = f2 * g0 - g2 * f0
+    return cross * cross - (f2 * g1 - g2 * f1) * (f1 * g0 - g1 * f0)
+
+
+def candidates(circle: Circle) -> list[float] | None:
+    """Every s at which the start may lie on a separatrix, ascending, in doubles; None where `MOST` cells do not tell."""
+    with working(BITS) as numbers:
+        known = circle.balls(numbers.ball)
+        kept = _isolated(known)
+        found = None if kept is None else [s for h in kept for s in _momenta(known, h)]
+    if found is None:
+        return None
+    rest = circle.equilibrium()
+    return sorted(found if rest is None else [*found, float(rest)])
+
+
+def _isolated(known) -> list[float] | None:
+    """The h in [0, pi] at which the resultant may vanish."""
+    step = math.pi * (1 + 1e-15) / CELLS
+    cells, found = [(n * step, (n + 1) * step) for n in range(CELLS)], []
+    for _ in range(MOST):
+        if not cells:
+            return found
+        low, high = cells.pop()
+        left = _narrowed(known, low, high)
+        if left is None:
+            continue
+        if left[1] - left[0] < NARROW:
+            found.append((left[0] + left[1]) / 2)
+        elif left[1] - left[0] < 0.5 * (high - low):
+            cells.append(left)
+        else:
+            middle = (left[0] + left[1]) / 2
+            cells += [(left[0], middle), (middle, left[1])]
+    return None
+
+
+def _narrowed(known, low, high):
+    """The part of a cell of h that may hold a zero; None where it holds none."""
+    from flint import arb, arb_series
+    middle, half = (low + high) / 2, (high - low) / 2 * (1 + 1e-12)
+    cell = resultant(*quadratics(known, arb_series([arb(middle, half), 1], 2)))
+    value, slope = cell[0], cell[1]
+    if 0 not in value:
+        return None
+    here = resultant(*quadratics(known, arb(middle)))
+    if 0 not in here + slope * arb(0, half):
+        return None
+    if 0 in slope:
+        return low, high
+    step = here / slope  # Newton's: the zero is within middle - step
+    least, most = middle - float((step.mid() + step.rad()).upper()), middle - float((step.mid() - step.rad()).lower())
+    low, high = max(low, least - 1e-15), min(high, most + 1e-15)
+    return (low, high) if low <= high else None
+
+
+def _momenta(known, h: float) -> list[float]:
+    """The s of a zero at h: the root that the quadratics share, or, where they are alike, both of them."""
+    from flint import arb
+    half = arb(h)
+    f, g = quadratics(known, half)
+    (f2, f1, f0), (g2, g1, g0) = ([float(v.mid()) for v in row] for row in (f, g))
+    line, sine = f2 * g1 - g2 * f1, math.sin(h)
+    if not sine or not line:
+        return []
+    s = -(f2 * g0 - g2 * f0) / line / sine
+    return [s] if math.isfinite(s) else []

@@ -1,0 +1,138 @@
+"""Margins, other thrusters, and wheels that only delay: what is told is checked by changing just that."""
+import math
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+import stabilab
+from tests.answers.stuck.brute import Craft
+
+CASE = """title = "On an axis"
+[body]
+inertia = [12.0, 9.0, 5.0]
+centre_of_mass = [0, 0, 0]
+[[thrusters]]
+name = "A"
+position = [1, 0, 0]
+direction = [0, 1, 0]
+force = "20 mN"
+stuck = true
+[[thrusters]]
+name = "B"
+position = [1, 0, 0]
+direction = [0, -1, 0]
+force = "50 mN"
+[[thrusters]]
+name = "C"
+position = [1, 0, 0.5]
+direction = [0, -1, 0]
+force = "30 mN"
+[[thrusters]]
+name = "D"
+position = [1, 0, -0.5]
+direction = [0, -1, 0]
+force = "15 mN"
+[[wheels]]
+name = "W1"
+axis = [1, 0, 0]
+momentum = "0.8 N m s"
+[limits]
+rate = "60 deg/s"
+[motion]
+angular_velocity = [0.1, 0.05, {spin}]
+"""
+OFF = CASE.replace("inertia = [12.0, 9.0, 5.0]", "inertia = [[12.0, 0.3, 0.1], [0.3, 9.0, -0.2], [0.1, -0.2, 5.0]]")
+
+
+@pytest.fixture
+def asked(tmp_path):
+    def ask(text, spin="0.9"):
+        path = tmp_path / "own.toml"
+        path.write_text(text.replace("{spin}", spin))
+        return stabilab.stuck(stabilab.load(path))
+    return ask
+
+
+@pytest.mark.parametrize("spin, fate", [("0.9", "spin-up"), ("0.02", "bounded")])
+def test_the_fate_changes_just_beyond_each_margin_and_not_before(asked, spin, fate):
+    """Fates by `stabilab.fate` of the changed scene: rate, wheel and torque each moved along the direction told."""
+    row = asked(CASE, spin).rows[0]
+    assert row.fate == fate
+    start, wheel, torque = (np.array(v, float) for v in ((0.1, 0.05, float(spin)), (0.8, 0, 0), (0, 0, 0.02)))
+
+    def label(omega=start, l=wheel, M=torque):
+        scene = stabilab.Scene(stabilab.Body((12, 9, 5)), stabilab.Gyrostat(tuple(l)), stabilab.ConstantTorque(tuple(M)))
+        return stabilab.motion(scene, tuple(omega)).fate.word
+    for name, moved in (("rate", lambda v: label(start + v)), ("wheel", lambda v: label(l=wheel + v)), ("torque", lambda v: label(M=torque + v))):
+        margin = row.margins[name]
+        change = margin.size * np.array(margin.direction)
+        assert math.hypot(*margin.direction) == pytest.approx(1)
+        change[2] = 0.0 if name == "wheel" else change[2]
+        if name != "rate" or fate == "spin-up":
+            assert moved(0.9999 * change) == fate
+        beyond = 1.0 if "no torque at all" in margin.because else 1.0001
+        assert moved(beyond * change) != fate
+
+
+def test_no_smaller_change_of_the_wheel_across_the_torque_changes_the_fate(asked):
+    row = asked(CASE).rows[0]
+    for n in range(24):
+        turn = 2 * math.pi * n / 24
+        l = (0.8 + 0.995 * row.margins["wheel"].size * math.cos(turn), 0.995 * row.margins["wheel"].size * math.sin(turn), 0)
+        scene = stabilab.Scene(stabilab.Body((12, 9, 5)), stabilab.Gyrostat(l), stabilab.ConstantTorque((0, 0, "0.02")))
+        assert stabilab.motion(scene, (0.1, 0.05, 0.9)).fate.word == "spin-up"
+
+
+def test_off_the_axes_no_margin_is_told(asked):
+    row = asked(OFF).rows[0]
+    assert all(margin.size is None and "no separatrix" in margin.because for margin in row.margins.values()) and len(row.margins) == 3
+
+
+def test_thrusters_that_leave_no_torque_are_found_alone_and_in_pairs(asked):
+    """B pushes the other way with 50 mN for 20 mN: 40 %; C and D pass above and below: 30 u + 15 v = 20 and 15 u = 7.5 v, by hand."""
+    alone, pair = asked(CASE).rows[0].helpers
+    assert (alone.thrusters, alone.effect) == (("B",), "zero") and alone.duty == pytest.approx((0.4,), rel=1e-12)
+    assert (pair.thrusters, pair.effect) == (("C", "D"), "zero") and pair.duty == pytest.approx((1 / 3, 2 / 3), rel=1e-12)
+
+
+def test_a_helper_that_leaves_an_axis_torque_keeps_it_bounded(asked):
+    """E takes the part across axis 3 away and leaves a small one along it, below which the start is captured."""
+    stuck = CASE.replace('position = [1, 0, 0]\ndirection = [0, 1, 0]\nforce = "20 mN"', 'position = [1, 0, -1]\ndirection = [0, 1, 0]\nforce = "20 mN"', 1)
+    text = stuck.split("[[thrusters]]")
+    text = "[[thrusters]]".join(text[:2]) + ('[[thrusters]]\nname = "E"\nposition = [0.9, 0, -1]\ndirection = [0, -1, 0]\nforce = "40 mN"\n'
+                                             + stuck[stuck.index("[[wheels]]"):])
+    row = asked(text, "0.02").rows[0]
+    assert row.fate == "spin-up" and row.torque == pytest.approx((0.02, 0, 0.02))
+    (helper,) = row.helpers
+    assert (helper.effect, helper.fate) == ("bounded", "bounded") and helper.duty == pytest.approx((0.5,))
+    assert helper.torque_left == pytest.approx(0.002, rel=1e-9)
+
+
+def test_a_wheel_that_only_delays_delays_by_what_is_told(asked, tmp_path):
+    row = asked(OFF).rows[0]
+    (wheel,) = row.wheels
+    assert wheel.keeps_bounded == () and wheel.best is not None and wheel.searched == (-1.6, 1.6) and wheel.searched[0] <= wheel.best <= wheel.searched[1]
+    craft = Craft(OFF.replace("{spin}", "0.9"))
+    now, _, _ = craft.run(1e3)
+    best, _, _ = craft.run(1e3, l=np.array([wheel.best, 0, 0]))
+    assert now == pytest.approx(row.time_to_limit[0], rel=1e-8) and best - now == pytest.approx(wheel.gain, rel=1e-5)
+    assert all(craft.run(1e3, l=np.array([s, 0, 0]))[0] <= best * (1 + 1e-9) for s in np.linspace(-1.6, 1.6, 9))
+
+
+def test_a_bounded_motion_never_reaches_a_limit_above_its_largest_rate(asked):
+    """The largest |omega| of a run over two periods by DOP853."""
+    row = asked(CASE, "0.02").rows[0]
+    assert row.fate == "bounded" and row.time_to_limit is None and row.never and row.level == "exact"
+    _, _, largest = Craft(CASE.replace("{spin}", "0.02")).run(70.0, limit=False)
+    assert row.largest_rate == pytest.approx(largest, rel=1e-3) and row.largest_rate >= largest * (1 - 1e-10)
+    low = asked(CASE.replace("60 deg/s", "7 deg/s"), "0.02").rows[0]
+    t, _, _ = Craft(CASE.replace("{spin}", "0.02").replace("60 deg/s", "7 deg/s")).run(70.0)
+    assert low.fate == "bounded" and not low.never and low.time_to_limit[0] == pytest.approx(t, rel=1e-8)
+
+
+def test_several_stuck_thrusters_are_answered_together_and_then_each_alone(asked):
+    found = asked(CASE.replace('name = "C"', 'stuck = true\nname = "C"'))
+    assert [row.thrusters for row in found.rows] == [("A", "C"), ("A",), ("C",)]
+    assert found.rows[0].torque == pytest.approx(np.add(found.rows[1].torque, found.rows[2].torque))
+    assert Fraction(found.rows[2].torque[0]) == Fraction(0.015)

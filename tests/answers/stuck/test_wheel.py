@@ -1,0 +1,129 @@
+"""Wheel momenta that keep a motion bounded: every end stands between a bounded motion and a spin-up of another kind of run."""
+import math
+import random
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from stabilab import Body, ConstantTorque, Gyrostat, Scene
+from stabilab.answers.stuck.family import family_of
+from stabilab.answers.stuck.wheel import intervals
+from stabilab.answers.stuck.wheel_roots import Circle, candidates, quadratics, resultant
+from stabilab.numbers.balls import working
+from stabilab.orbit.ball_geometry import ball_orbit
+from tests.oracles import brute
+from tests.oracles.model import physical
+
+INF = math.inf
+D, TORQUE, START = (12, 9, 5), (0, 0, "0.02"), (Fraction("0.1"), Fraction("0.05"), Fraction("0.9"))
+
+
+def scene(D, wheel, torque):
+    return Scene(Body(D), Gyrostat(wheel), ConstantTorque(torque))
+
+
+def run_is_bounded(D, wheel, torque, start):
+    """By an event of a run (`oracles.brute`): turned back against the torque, or round the whole circle."""
+    return brute.label(physical(D, wheel, torque), [float(v) for v in start]) == "bounded"
+
+
+def a_scene(numbers, at_rest=False):
+    """(moments, wheel, torque, start, axis of a wheel) with the torque on the major or the minor axis i and the wheels across it."""
+    while True:
+        moments = [Fraction(numbers.randint(20, 100), 10) for _ in range(3)]
+        if 2 * max(moments) < sum(moments) and len(set(moments)) == 3:
+            break
+    i = moments.index(numbers.choice([max, min])(moments))
+    torque, wheel, axis = [Fraction(0)] * 3, [Fraction(numbers.randint(-300, 300), 100) for _ in range(3)], [Fraction(numbers.randint(-3, 3)) for _ in range(3)]
+    torque[i], wheel[i], axis[i], axis[i - 1] = Fraction(numbers.randint(1, 100), numbers.choice([-100, 100])), Fraction(0), Fraction(0), Fraction(2)
+    start = [Fraction(numbers.randint(-300, 300), 100) for _ in range(3)]
+    start[i] = Fraction(0) if at_rest else start[i]
+    return moments, wheel, torque, start, axis
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_a_run_changes_its_fate_at_every_end(seed):
+    moments, wheel, torque, start, axis = a_scene(random.Random(seed))
+    found, _ = intervals(scene(moments, wheel, torque), start, axis)
+    ends = [end for pair in found for end in pair if math.isfinite(end)]
+    for end in ends:
+        step = 1e-6 * max(1.0, abs(end))
+        inside = [any(low <= s <= high for low, high in found) for s in (end - step, end + step)]
+        assert inside in ([True, False], [False, True])
+        for s, bounded in zip((end - step, end + step), inside):
+            momentum = [float(w + Fraction(s) * a) for w, a in zip(wheel, axis)]
+            assert run_is_bounded(moments, momentum, torque, start) == bounded, (s, found)
+
+
+@pytest.mark.parametrize("at_rest", [False, True])
+def test_no_momentum_between_the_ends_has_another_fate(at_rest):
+    """Exact fates, one by one, at places that know nothing of the roots; at_rest: no rate about the torque's axis, a double zero of the resultant."""
+    numbers, some = random.Random(7 + at_rest), 0
+    for _ in range(6):
+        moments, wheel, torque, start, axis = a_scene(numbers, at_rest)
+        given = scene(moments, wheel, torque)
+        found, because = intervals(given, start, axis)
+        assert "isolated as roots" in because
+        family = family_of(given, start)
+        for n in range(-20, 21):
+            s = Fraction(n, 7) * Fraction(family.momentum_unit) / 3
+            assert family.steady(family.along(wheel, axis, s)) == any(low <= s <= high for low, high in found)
+        some += len(found) > 1
+    assert some or at_rest
+
+
+def test_the_resultant_vanishes_where_the_start_is_on_a_separatrix():
+    """At a root, the rise of the potential and its slope by the formulas of `orbit.reduction`, in plain numbers."""
+    family = family_of(scene(D, (0, 0, 0), TORQUE), START)
+    at_0, at_1 = family.reduction((0, 0, 0)), family.reduction((1, 0, 0))
+    circle = Circle(at_0, at_1, START)
+    for s in candidates(circle)[::2]:
+        g = family.reduction((Fraction(s), 0, 0)).constants
+        x, z, w = family.reduction((Fraction(s), 0, 0)).canonical(np.array([[0.1, 0.05, 0.9]]))
+        y = np.linspace(0, 2 * math.pi, 400_001)[1:]
+        X, Z = x * np.cos(y) + z * np.sin(y), z * np.cos(y) - x * np.sin(y)
+        rise = -g["mu"] * y - g["G"] * (X * X - x * x) / 2 - g["c"] * (X - x) + g["d"] * (Z - z) - w * w / 2
+        assert abs(rise.max()) < 1e-8 * abs(rise).max()
+    with working(128) as numbers:
+        known = circle.balls(numbers.ball)
+        h, s = numbers.ball(Fraction(3, 4)), numbers.ball(Fraction("0.4"))
+        f, g = quadratics(known, h)
+        sigma = s * h.sin()
+        assert 0 in (f[0] * sigma * sigma + f[1] * sigma + f[2]) - _rise(family, Fraction("0.4"), Fraction(3, 2), numbers)
+        assert 0 not in resultant(f, g)
+
+
+def _rise(family, s, y, numbers):
+    """V(y) - V(0) - E of the orbit in balls, by `orbit.ball_geometry`."""
+    orbit = ball_orbit(family.reduction((s, 0, 0)), family.state, numbers)
+    return orbit.height(numbers.ball(y)) - orbit.energy
+
+
+def test_a_wheel_along_the_torque_keeps_nothing_bounded_but_at_one_momentum():
+    """|H|^2/2 - D_i T grows at the rate l_i M_i: README's law of endless growth."""
+    given = scene(D, ("0.8", 0, "0.3"), TORQUE)
+    found, because = intervals(given, (Fraction("0.1"), Fraction("0.05"), Fraction("0.02")), (Fraction(0), Fraction(0), Fraction(1)))
+    assert found == ((-0.3, -0.3),) and "grows for ever" in because
+    assert intervals(given, START, (Fraction(1), Fraction(0), Fraction(0)))[0] == ()
+
+
+def test_a_torque_on_the_middle_axis_is_borne_with_any_momentum():
+    found, because = intervals(scene(D, (0, 0, 0), (0, "0.02", 0)), START, (Fraction(1), Fraction(0), Fraction(0)))
+    assert found == ((-INF, INF),) and "middle axis" in because
+
+
+def test_a_sphere_is_bounded_where_the_wheels_are_across_the_torque():
+    """D omega' = M - omega x l is linear: the part of omega along l grows at the rate M.l/(|l| D)."""
+    ball = scene((2, 2, 2), (0, 0, 0), (0, 0, 1))
+    assert intervals(ball, START, (Fraction(1), Fraction(0), Fraction(0)))[0] == ((-INF, INF),)
+    tilted = scene((2, 2, 2), (1, 0, 0), (0, 1, 1))
+    assert intervals(tilted, START, (Fraction(0), Fraction(3, 5), Fraction(4, 5)))[0] == ((0.0, 0.0),)
+
+
+def test_off_the_axes_only_an_equilibrium_is_kept():
+    """M = omega x (D omega + l) with omega = (1, 2, 3), l = 7 (0, 0, 1), D = (3, 2, 1.5), by hand: omega x (3, 4, 11.5) = (11, -2.5, -2)."""
+    given = scene((3, 2, "1.5"), (0, 0, 0), (11, "-2.5", -2))
+    found, _ = intervals(given, (Fraction(1), Fraction(2), Fraction(3)), (Fraction(0), Fraction(0), Fraction(1)))
+    assert found == ((7.0, 7.0),)
+    assert intervals(given, (Fraction(1), Fraction(2), Fraction(2)), (Fraction(0), Fraction(0), Fraction(1)))[0] == ()
