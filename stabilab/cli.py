@@ -344,10 +344,16 @@ def stuck(case: CaseFile,
     from .show.progress import told
     from .show.text import stuck as shown
     loaded, answers = _load([case], motion=True), []
+    if out:
+        from .show.files import endings
+        endings.file(out, endings.PICTURES)
     with told() as tell:
         for one in loaded:
             with blamed_on(one):
                 answers.append(ask(one, all_thrusters, tell))
+    if out:
+        from .show.stuck_picture import draw
+        _write_each(out, [(one, partial(draw, one, found, si=si)) for one, found in zip(loaded, answers)])
     if json:
         _print_json(loaded, list(map(shown.as_dict, answers)))
     elif csv:

@@ -73,22 +73,23 @@ def text(case, found, si: bool = False) -> str:
 
 def _ranking(found, units):
     """A line a thruster, the worst first; what the first lines have no place for stands in the details."""
-    told = [f"{printable(_name(row))} {_answer(row, units)}" for row in found.rows]
+    told = [f"{printable(row_name(row))} {answer_line(row, units)}" for row in found.rows]
     return told if len(told) <= FIRST else [*told[:FIRST - 1], f"and {len(told) - FIRST + 1} more below, none of them sooner"]
 
 
 def _first(row, units):
     wheel = next((w for w in row.wheels if w.keeps_bounded), next((w for w in row.wheels if w.best is not None), None))
-    return [_answer(row, units), f"  {_torque(row, units)}", *(f"  {line}" for line in (_margins(row, units), wheel and _wheel(wheel, units),
+    return [answer_line(row, units), f"  {_torque(row, units)}", *(f"  {line}" for line in (_margins(row, units), wheel and _wheel(wheel, units),
                                                                                       row.helpers and _helper(row.helpers[0], units)) if line)]
 
 
-def _name(row) -> str:
+def row_name(row) -> str:
+    """The thrusters of a row."""
     return " and ".join(row.thrusters) or "torque"
 
 
-def _answer(row, units) -> str:
-    """The first line."""
+def answer_line(row, units) -> str:
+    """What becomes of the motion, in one line."""
     when = _when(row, units)
     if row.fate == "spin-up":
         return f"SPINS UP {_about(row)}{', ' + when if when else ''}{_known(row)}"
@@ -208,7 +209,7 @@ def _helper(helper, units) -> str:
 
 
 def _details(row, units) -> list[str]:
-    lines = [f"{printable(_name(row))}",
+    lines = [f"{printable(row_name(row))}",
              f"  torque, principal axes   {_vector(row.torque_principal)} N m",
              f"  torque, frame of file    {_vector(row.torque)} N m",
              f"  fate                     {row.fate} ({row.level})",

@@ -94,3 +94,17 @@ def test_csv_has_a_line_a_row_in_si(stabilab):
     head, *lines = out.splitlines()
     assert code == 0 and len(lines) == 2 and all(len(line.split(",")) == len(head.split(",")) for line in lines)
     assert lines[0].startswith("geostationary-22n,R4,18.87")
+
+
+@pytest.mark.parametrize("ending", ["png", "svg"])
+def test_the_picture_is_written_whole_and_the_same_twice(stabilab, tmp_path, ending):
+    files = [tmp_path / f"{n}.{ending}" for n in "ab"]
+    for file in files:
+        code, out, err = stabilab("stuck", BODIES["upper-stage"], "--out", file)
+        assert code == 0 and out.startswith("upper-stage: SPINS UP") and err == f"written: {file}\n"
+    assert files[0].read_bytes() == files[1].read_bytes() and files[0].stat().st_size > 5000
+
+
+def test_a_picture_of_another_ending_is_refused_before_the_work(stabilab, tmp_path):
+    code, out, err = stabilab("stuck", BODIES["upper-stage"], "--out", tmp_path / "a.csv")
+    assert code == 2 and not out and "expected a name that ends in .png, .svg or .pdf" in err
