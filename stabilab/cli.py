@@ -324,6 +324,48 @@ def plot(case: CaseFile, out: Annotated[Path | None, typer.Option(
 
 
 @app.command()
+def when(cases: CaseFiles,
+         rate: Annotated[str | None, typer.Option(metavar="RATE", help='Of |omega|: "30 deg/s". Default: the limit of [limits].')] = None,
+         component: Annotated[str | None, typer.Option(metavar="AXIS=RATE", help='Of one component\'s size: "z = 30 deg/s"; x, y, z of the file, '
+                                                                                 '1, 2, 3 for principal axes.')] = None,
+         energy: Annotated[str | None, typer.Option(metavar="ENERGY", help='Of the kinetic energy: "5 J".')] = None,
+         tilt: Annotated[str | None, typer.Option(metavar="AXIS=ANGLE", help='Of the angle between a body axis and its direction at the start: '
+                                                                             '"z = 20 deg".')] = None,
+         until: Annotated[str | None, typer.Option(metavar="TIME", help='Search no further than this: "10 min".')] = None,
+         si: Annotated[bool, typer.Option("--si", help="rad/s and s in the text instead of deg/s and min.")] = False,
+         json: Json = False, csv: Annotated[bool, typer.Option("--csv", help="CSV on stdout instead of text.")] = False,
+         strict: Annotated[bool, typer.Option("--strict", help="Exit with 3 where the time is not known or an approximate law does not hold.")] = False):
+    """Say when each motion first reaches a limit.
+
+    Enclosed between two times, by roots and not by sampling, or never.
+
+    Example: stabilab when cases/cubesat-3u.toml --rate "30 deg/s"
+    """
+    if json and csv:
+        raise typer.BadParameter("choose one of --json and --csv")
+    from .answers.time_to import time_of_case
+    from .case.limit_options import stated_limit
+    from .case.read import blamed_on
+    from .show.text import answers, law
+    from .show.text import when as shown
+    answered = []
+    for case in _load(cases, motion=True):
+        limit = stated_limit(case, rate, component, energy, tilt, until)
+        with blamed_on(case):
+            answered.append((case, limit, time_of_case(case, limit.ask, limit.until)))
+    if json:
+        _print(answers.as_json([shown.as_dict(*one) | law.key(one[2].validity) for one in answered]))
+    elif csv:
+        _say_laws(found.validity for *_, found in answered)
+        _print(shown.csv(answered))
+    else:
+        _print("\n".join(law.first(one[2].validity, shown.text(*one, si)) for one in answered))
+    if strict and any(shown.unknown(found) for *_, found in answered):
+        raise typer.Exit(UNDECIDED)
+    _strictly(strict, (found.validity for *_, found in answered))
+
+
+@app.command()
 def stuck(case: CaseFile,
           all_thrusters: Annotated[bool, typer.Option("--all-thrusters", help="Each thruster alone, stuck or not; the one that reaches "
                                                                               "the limit first in front.")] = False,

@@ -10,7 +10,7 @@ from ..asked import checked_scene
 from ..errors import InputError
 from ..numbers.exact import exact_vector
 from ..physics.coefficients import effective
-from ..physics.states import checked_states, equations_and_start
+from ..physics.states import checked_states, equations_and_start, start_of
 from .passage.clock import by_clock
 from .passage.enclosed import WORK, enclosed
 from .passage.limit import Limit, asked
@@ -25,9 +25,10 @@ def time_to(scene, states, rate=None, component=None, energy=None, tilt=None, t_
     scene: Scene or ScaledGyrostat. states: (..., 3) at t = 0 in the scene's variables, taken at their word; for scenes whose effects need more of
     the state (..., N), or one motion as a dict of blocks. One limit is given, each a positive number, exact where it is text ("0.1"):
     rate, of |omega|, or three numbers, of the size of each component, whichever comes first; component=(axis, limit), of the size of the rate
-    about an axis: 1, 2, 3 or three numbers along it; energy, J, kinetic, of the body; tilt=(axis, angle), rad below pi, of the angle between a body
-    axis and its own direction in space at t = 0. t_max: the time at which the search ends; None: when its work is done. exact: three exact
-    numbers of which a single state is the rounding. work: multiplications that a proof may take (None of it: 0).
+    about an axis: 1, 2, 3 or three numbers along it, or a list of such pairs, whichever comes first; energy, J, kinetic, of the body;
+    tilt=(axis, angle), rad below pi, of the angle between a body axis and its own direction in space at t = 0. t_max: the time at which the search
+    ends; None: when its work is done. exact: three exact numbers of which a single state is the rounding. work: multiplications that the proof
+    for a motion may take; 0: no proof.
 
     Torque and wheel: the motion is enclosed and its crossing proved where the work reaches; beyond that roots along a run, then the clock of the
     spin-up. Other effects: roots along a run. Raises InputError for scenes, states and limits that are none.
@@ -47,6 +48,13 @@ def time_to(scene, states, rate=None, component=None, energy=None, tilt=None, t_
         found = [of_one(scene, row, start, limit, end, work) for row, start in zip(rows, starts)]
     column = lambda name, kind: np.array([getattr(one, name) for one in found], kind).reshape(shape)[()]
     return TimeTo(column("low", float), column("high", float), column("level", object), column("words", object), limit.words, given, array)
+
+
+def time_of_case(case, ask: dict, t_max=None) -> TimeTo:
+    """The answer for the motion of a case; ask: the one limit, by its name as of `time_to`."""
+    if case.scene.plain:
+        return time_to(case.scene, case.state, **ask, t_max=t_max, exact=case.exact_state)
+    return time_to(case.scene, start_of(case.scene, case.state, case.blocks), **ask, t_max=t_max)
 
 
 def _rows(states):

@@ -43,7 +43,7 @@ NONE, LENGTH, MASS, TIME, ANGLE = (0,) * 5, (1, 0, 0, 0, 0), (0, 1, 0, 0, 0), (0
 RATE, FORCE, TORQUE, MOMENTUM = (0, 0, -1, 0, 1), (1, 1, -2, 0, 0), (2, 1, -2, 0, 0), (2, 1, -1, 0, 0)
 INERTIA, VELOCITY, CHARGE, FLUX = (2, 1, 0, 0, 0), (1, 0, -1, 0, 0), (0, 0, 1, 1, 0), (0, 1, -2, -1, 0)
 PER_SECOND, PER_SECOND_2, DENSITY, VISCOSITY = (0, 0, -1, 0, 0), (0, 0, -2, 0, 0), (-3, 1, 0, 0, 0), (2, 0, -1, 0, 0)
-ATTRACTION, LENGTH_7 = (3, 0, -2, 0, 0), (7, 0, 0, 0, 0)
+ATTRACTION, LENGTH_7, ENERGY = (3, 0, -2, 0, 0), (7, 0, 0, 0, 0), (2, 1, -2, 0, 0)  # an energy has the dimension of a torque
 NAMES = {NONE: "a number without a unit", LENGTH: "length (m)", MASS: "mass (kg)", TIME: "time (s)", ANGLE: "angle (rad)",
          RATE: "angular velocity (rad/s)", FORCE: "force (N)", TORQUE: "torque (N m)", MOMENTUM: "angular momentum (N m s)",
          INERTIA: "moment of inertia (kg m^2)", VELOCITY: "velocity (m/s)", CHARGE: "charge (C)", FLUX: "magnetic flux density (T)",

@@ -78,10 +78,14 @@ def _rate(scene, value) -> Limit:
 
 
 def _component(scene, value) -> Limit:
-    axis, most = _pair(value, "component")
-    vector, named = _direction(axis, "component")
-    most = _positive(most, "component")
-    return Limit("component", ((((Fraction(1), vector),), most**2),), f"|rate about {named}| = {float(most):.10g} {_unit(scene)}")
+    several = isinstance(value, list) and value and all(isinstance(one, tuple) for one in value)
+    parts, words = [], []
+    for axis, most in (_pair(one, "component") for one in (value if several else [value])):
+        vector, named = _direction(axis, "component")
+        most = _positive(most, "component")
+        parts.append((((Fraction(1), vector),), most**2))
+        words.append(f"|rate about {named}| = {float(most):.10g} {_unit(scene)}".rstrip())
+    return Limit("component", tuple(parts), " or ".join(words))
 
 
 def _energy(scene, value) -> Limit:

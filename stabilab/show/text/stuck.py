@@ -2,27 +2,17 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
 
 from ...errors import printable
+from .engineering import ENGINEERING, SI
+from .engineering import bracket as _bracket
+from .engineering import number as _number
 
 AXIS = {1: "major", 2: "middle", 3: "minor"}
 CSV = ("case,thrusters,torque_x,torque_y,torque_z,torque_1,torque_2,torque_3,fate,level,axis,sense,limit,time_low,time_high,largest_rate,"
        "margin_rate,margin_wheel,margin_torque")
 WORDS = {"rate": "rate", "wheel": "wheel momentum", "torque": "torque"}
 FIRST = 5  # lines of the answer at most
-
-
-@dataclass(frozen=True)
-class Units:
-    """(name, how many of it make one in SI) for rates and times."""
-
-    rate: tuple[str, float]
-    time: tuple[str, float]
-
-
-ENGINEERING, SI = Units(("deg/s", 180 / math.pi), ("min", 1 / 60)), Units(("rad/s", 1.0), ("s", 1.0))
 
 
 def as_dict(found) -> dict:
@@ -132,14 +122,6 @@ def _when(row, units) -> str:
     return f"reaches {_limit(row.limit, units)} in {_number((low + high) / 2)} {units.time[0]} ({row.time_level} {a} to {b})"
 
 
-def _bracket(low, high) -> tuple[str, str]:
-    """Both ends with as many decimals as tell them apart, six digits at most; the lower rounded down and the upper up."""
-    most = max(0, 5 - math.floor(math.log10(high)))
-    decimals = most if not high > low else min(most, max(0, 1 - math.floor(math.log10(high - low))))
-    step = Decimal(1).scaleb(-decimals)
-    return tuple(str(Decimal(v).quantize(step, way)) for v, way in ((low, ROUND_FLOOR), (high, ROUND_CEILING)))
-
-
 def _limit(limit, units) -> str:
     name, one = units.rate
     if isinstance(limit, tuple):
@@ -231,7 +213,3 @@ def _axes(principal) -> list[str]:
 
 def _vector(vector, digits=6) -> str:
     return f"({', '.join(_number(v, digits) for v in vector)})"
-
-
-def _number(value, digits=4) -> str:
-    return f"{value:.{digits}g}"

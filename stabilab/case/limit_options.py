@@ -1,0 +1,102 @@
+"""A limit as a command line or [limits] states it: "30 deg/s", "z = 30 deg/s", "5 J", "3 = 20 deg"; exact numbers in SI, along the scene's axes."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from ..errors import InputError
+from .units import ANGLE, ENERGY, NONE, RATE, TIME, quantity
+
+if TYPE_CHECKING:
+    from .read import Case
+
+FILE_AXES = "xyz"
+OPTIONS = ("rate", "component", "energy", "tilt")
+
+
+@dataclass(frozen=True)
+class StatedLimit:
+    """ask: the one argument of `time_to`, by name; kind: "rate", "component", "energy" or "tilt"; names: of the quantities, as many as limits, for the
+    reader; limits: in SI; until: the time at which the search ends, or None."""
+
+    ask: dict
+    kind: str
+    names: tuple[str, ...]
+    limits: tuple[float, ...]
+    until: Fraction | None = None
+
+
+def stated_limit(case: Case, rate: str | None = None, component: str | None = None, energy: str | None = None, tilt: str | None = None,
+                 until: str | None = None) -> StatedLimit:
+    """The limit that one of the options states, or [limits] of the case where none is given. Raises InputError that names the option."""
+    given = {name: text for name, text in zip(OPTIONS, (rate, component, energy, tilt)) if text is not None}
+    if len(given) > 1:
+        raise InputError(f"expected one limit, got {' and '.join(f'--{name}' for name in given)}: ask for each by itself")
+    scaled, end = case.variables == "scaled", None if until is None else _number(until, NONE if case.variables == "scaled" else TIME, "until")
+    if not given:
+        found = _of_case(case)
+    else:
+        (name, text), = given.items()
+        found = {"rate": _rate, "component": _component, "energy": _energy, "tilt": _tilt}[name](case, text, NONE if scaled else RATE)
+    return StatedLimit(*found, until=end)
+
+
+def _of_case(case):
+    if case.limits is None:
+        raise InputError(f'{case.place}: no limit: give --rate "30 deg/s", --component "z = 30 deg/s", --energy "5 J" or --tilt "z = 20 deg", or write '
+                         "[limits] rate")
+    if case.limits.rate is not None:
+        return {"rate": case.limits.rate}, "rate", ("|omega|",), (float(case.limits.rate),)
+    pairs = [(_along(case, FILE_AXES[n]), most) for n, most in enumerate(case.limits.rates)]
+    return {"component": pairs}, "component", tuple(f"|omega {name}|" for name in FILE_AXES), tuple(map(float, case.limits.rates))
+
+
+def _rate(case, text, dimension):
+    most = _number(text, dimension, "rate")
+    return {"rate": most}, "rate", ("|x|" if dimension is NONE else "|omega|",), (float(most),)
+
+
+def _component(case, text, dimension):
+    axis, most = _pair(text, dimension, "component")
+    return {"component": (_along(case, axis), most)}, "component", (f"|{'x' if dimension is NONE else 'omega'} {axis}|",), (float(most),)
+
+
+def _energy(case, text, _):
+    most = _number(text, ENERGY, "energy")
+    return {"energy": most}, "energy", ("the kinetic energy",), (float(most),)
+
+
+def _tilt(case, text, _):
+    axis, angle = _pair(text, ANGLE, "tilt")
+    return {"tilt": (_along(case, axis), angle)}, "tilt", (f"the tilt of axis {axis}",), (float(angle),)
+
+
+def _pair(text, dimension, option):
+    """(axis, number) of "z = 30 deg/s"."""
+    axis, equals, rest = text.partition("=")
+    axis = axis.strip().lower()
+    if not equals or axis not in (*FILE_AXES, "1", "2", "3"):
+        raise InputError(f'--{option}: expected an axis and its limit, as in "z = 30 deg/s" (x, y, z of the file, or 1, 2, 3, the principal axes), '
+                         f'got "{text[:60]}"')
+    return axis, _number(rest, dimension, option)
+
+
+def _along(case, axis):
+    """An axis as `time_to` takes it: the number of a principal axis, or three numbers along those."""
+    if axis in "123":
+        return int(axis)
+    number = FILE_AXES.index(axis)
+    if case.frame is None or case.frame.as_given:
+        return number + 1
+    return case.frame.turned([Fraction(int(n == number)) for n in range(3)])
+
+
+def _number(text, dimension, option) -> Fraction:
+    try:
+        value, _ = quantity(text.strip(), dimension)
+    except InputError as error:
+        raise InputError(f"--{option}: {error}") from None
+    if value <= 0:
+        raise InputError(f"--{option}: expected a positive number, got {text[:60]}")
+    return value

@@ -1,0 +1,100 @@
+"""`stabilab when`: the first line, JSON, CSV, units, frames and exit codes."""
+from __future__ import annotations
+
+import json
+import math
+
+import pytest
+
+import stabilab as package
+from stabilab.answers.time_to import time_of_case
+from stabilab.case.limit_options import stated_limit
+from stabilab.errors import InputError
+from tests.shared import CASES
+
+CUBESAT, OFF_AXIS, MAJOR = (CASES / f"{name}.toml" for name in ("cubesat-3u", "off-axis-two", "thruster-stuck-major-axis"))
+
+
+def test_the_first_line_answers_in_minutes_and_degrees(stabilab):
+    code, out, err = stabilab("when", CUBESAT)
+    assert code == 0 and not err
+    assert out.splitlines()[0].startswith("cubesat-3u: reaches |omega| = 60 deg/s in 0.2825 min (proved 0.282462 to 0.282463)")
+    code, out, _ = stabilab("when", CUBESAT, "--si")
+    assert code == 0 and "|omega| = 1.0472 rad/s in 16.95 s (proved 16.9477 to 16.9478)" in out
+
+
+def test_a_unit_is_read_as_in_a_case_file(stabilab):
+    one, other = (stabilab("when", CUBESAT, "--rate", text, "--csv")[1] for text in ("60 deg/s", "10 rpm"))
+    assert one == other and one.splitlines()[0] == "case,quantity,limit,time_low,time_high,level"
+
+
+def test_json_tells_never_unknown_and_the_time(stabilab):
+    rows = [json.loads(stabilab("when", *arguments, "--json")[1])[0] for arguments in (
+        (CUBESAT,), (MAJOR, "--rate", "5"), (CUBESAT, "--until", "5 s"))]
+    assert [row["reached"] for row in rows] == ["yes", "never", "unknown"]
+    assert all(row["schema"] == "stabilab.when/1" for row in rows)
+    assert rows[0]["time"][0] <= rows[0]["time"][1] and rows[1]["time"] is None and rows[1]["not_before"] is None
+    assert rows[2]["time"] is None and rows[2]["not_before"] == 5 and rows[2]["level"] == "proved"
+
+
+def test_strict_ends_with_3_where_the_time_is_not_known(stabilab):
+    assert stabilab("when", CUBESAT, "--until", "5 s")[0] == 0
+    assert stabilab("when", CUBESAT, "--until", "5 s", "--strict")[0] == 3
+    assert stabilab("when", MAJOR, "--rate", "5", "--strict")[0] == 0  # never is an answer
+
+
+def test_a_component_counts_in_the_frame_of_the_file_or_along_principal_axes(stabilab):
+    case = package.load(CUBESAT)
+    file, principal = (time_of_case(case, stated_limit(case, component=f"{axis} = 30 deg/s").ask) for axis in "z3")
+    run = package.trajectory(case.scene, case.state, [float(file.low), float(principal.low)])
+    z = [float(axis[2]) for axis in case.frame.axes]
+    first, second = sorted([0, 1], key=lambda n: (file.low, principal.low)[n])
+    at = {first: run.states[0], second: run.states[1]}
+    assert abs(abs(sum(a * b for a, b in zip(z, at[0]))) - math.radians(30)) < 1e-10
+    assert abs(abs(at[1][2]) - math.radians(30)) < 1e-10
+
+
+def test_limits_of_three_components_are_those_of_the_file(tmp_path):
+    text = CUBESAT.read_text().replace('rate = "60 deg/s"', 'rate = ["90 deg/s", "40 deg/s", "2 deg/s"]')
+    path = tmp_path / "three.toml"
+    path.write_text(text)
+    case = package.load(path)
+    whole = time_of_case(case, stated_limit(case).ask)
+    each = [time_of_case(case, stated_limit(case, component=one).ask).low for one in ("x = 90 deg/s", "y = 40 deg/s", "z = 2 deg/s")]
+    assert whole.low == min(each)
+
+
+def test_a_sweep_answers_row_by_row(stabilab):
+    code, out, _ = stabilab("when", CASES / "charged-sweep.toml", "--rate", "3", "--csv")
+    assert code == 0 and len(out.splitlines()) == 28 and out.splitlines()[1].startswith("charged-sweep-1-1-1,|omega|,3.0,7.25")
+
+
+def test_an_approximate_law_is_told_first(stabilab):
+    code, out, _ = stabilab("when", CASES / "liquid-base.toml", "--rate", "2 rad/s")
+    assert code == 0 and out.startswith("BEYOND THE LAW: liquid cavity")
+    assert stabilab("when", CASES / "liquid-base.toml", "--rate", "2 rad/s", "--strict")[0] == 3
+
+
+@pytest.mark.parametrize("option, text, words", [
+    ("rate", "30 deg", "--rate: expected angular velocity (rad/s), got angle (rad)"),
+    ("rate", "-3", "--rate: expected a positive number"),
+    ("rate", "30 degrees/s", "--rate: "),
+    ("component", "30 deg/s", '--component: expected an axis and its limit, as in "z = 30 deg/s"'),
+    ("component", "w = 30 deg/s", "--component: expected an axis"),
+    ("energy", "5 N", "--energy: expected"),
+    ("tilt", "z = 200 deg", "tilt: expected an angle below half a turn"),
+    ("until", "5 m", "--until: expected time (s), got length (m)"),
+])
+def test_wrong_limits_are_refused_with_the_option_and_the_cure(stabilab, option, text, words):
+    code, out, err = stabilab("when", CUBESAT, f"--{option}", text)
+    assert code == 2 and not out and words in err
+
+
+def test_a_case_without_a_limit_says_how_to_give_one(stabilab):
+    code, _, err = stabilab("when", OFF_AXIS)
+    assert code == 2 and 'off-axis-two.toml: no limit: give --rate "30 deg/s"' in err
+
+
+def test_two_limits_at_once_are_refused():
+    with pytest.raises(InputError, match="expected one limit, got --rate and --energy"):
+        stated_limit(package.load(CUBESAT), rate="1", energy="2")
