@@ -20,6 +20,8 @@ CaseFiles = Annotated[list[Path], typer.Argument(metavar="CASE...", help="Case f
 Json = Annotated[bool, typer.Option("--json", help="JSON on stdout instead of text.")]
 Digits = Annotated[int | None, typer.Option(metavar="N", help="Reach N digits (1 to 50) the cheapest way and check them; "
                                                                  "exit 5 where they are not reached. Without it 10 are the aim.")]
+Follow = Annotated[str | None, typer.Option(metavar="T", help="How long to follow a motion that only a run with a certificate decides (torque "
+                                                             "off the principal axes), with a unit or in the time of the case. Default: a second of work.")]
 Strict = Annotated[bool, typer.Option("--strict", help="Exit with 3 where a fate is undecided or an approximate law does not hold "
                                                        "along the motion.")]
 
@@ -54,7 +56,8 @@ def classify(cases: CaseFiles, json: Json = False, strict: Annotated[bool, typer
         "--strict", help="Exit with 3 where a verdict or a fate is undecided or an approximate law does not hold.")] = False,
              certify: Annotated[bool, typer.Option("--certify", help="Prove the answer in exact numbers and balls, and write it as a "
                                                                      "certificate that `stabilab verify` checks.")] = False,
-             out: Annotated[Path, typer.Option(metavar="FILE.json", help="Where the certificate goes.")] = Path("certificate.json")):
+             out: Annotated[Path, typer.Option(metavar="FILE.json", help="Where the certificate goes.")] = Path("certificate.json"),
+             follow: Follow = None):
     """Find the equilibria, their stability, and the motion's fate.
 
     Example: stabilab classify cases/minor-axis-100.toml --json
@@ -65,7 +68,7 @@ def classify(cases: CaseFiles, json: Json = False, strict: Annotated[bool, typer
         certification.checked(out)
         if len(cases) != 1:
             raise InputError(f"--certify: expected one case, got {len(cases)}; certify them one by one")
-    answered = [(case, _equilibria(case), _motion(case) if case.state else None) for case in loaded]
+    answered = [(case, _equilibria(case), _motion(case, follow=follow) if case.state else None) for case in loaded]
     boxes, shown = _over_boxes(loaded, "equilibria", "fate")
     laws = [law.worst(found.validity, motion and motion.validity) for _, found, motion in answered]
     if json:
@@ -137,25 +140,25 @@ def audit(paper: Annotated[str | None, typer.Argument(metavar="[PAPER]", help="A
 @app.command()
 def extremes(cases: CaseFiles, json: Json = False,
              csv: Annotated[bool, typer.Option("--csv", help="CSV on stdout instead of text.")] = False, digits: Digits = None,
-             strict: Strict = False):
+             strict: Strict = False, follow: Follow = None):
     """Find the least and greatest rates of each motion.
 
     Example: stabilab extremes cases/minor-axis-*.toml --csv
     """
     if json and csv:
         raise typer.BadParameter("choose one of --json and --csv")
-    _tell("extremes", cases, digits, json, strict, csv)
+    _tell("extremes", cases, digits, json, strict, csv, follow)
 
 
 @app.command()
-def fate(cases: CaseFiles, json: Json = False, digits: Digits = None, strict: Strict = False):
+def fate(cases: CaseFiles, json: Json = False, digits: Digits = None, strict: Strict = False, follow: Follow = None):
     """Say what becomes of each motion, and by how much.
 
     Digits are those of the margin in energy; the label itself is certain.
 
     Example: stabilab fate cases/minor-axis-100.toml --digits 30
     """
-    _tell("fate", cases, digits, json, strict)
+    _tell("fate", cases, digits, json, strict, follow=follow)
 
 
 @app.command()
@@ -562,11 +565,25 @@ def _certified(case, out) -> bool:
     return not made["uncertified"]
 
 
-def _motion(case, brief=False):
+def _motion(case, brief=False, follow=None):
     from .answers.motion import motion
     from .case.read import blamed_on
-    with blamed_on(case):
-        return motion(case.scene, case.start, case.span, brief, case.exact_state)
+    from .streams import Progress
+    long = _time(follow, case)
+    with blamed_on(case), Progress() as progress:
+        words = lambda t, steps, left: progress(f"{printable(case.name)}: followed to {t:.4g} {case.scene.time_unit}, {steps} steps")
+        return motion(case.scene, case.start, case.span, brief, case.exact_state, long, words if progress.wanted else None)
+
+
+def _time(text: str | None, case) -> float | None:
+    """A time of the command line: a number in the time of the case, or one with a unit where that is s."""
+    if text is None:
+        return None
+    from .case.units import NONE, TIME, quantity
+    try:
+        return float(quantity(text, NONE if case.variables == "scaled" else TIME)[0])
+    except InputError as error:
+        raise InputError(f"--follow: {error}") from None
 
 
 def _about_one_of(cases, told, certificate):
@@ -600,12 +617,12 @@ def _say_laws(validities):
             _say(validity.words)
 
 
-def _tell(question, paths, digits, json, strict, csv=False):
+def _tell(question, paths, digits, json, strict, csv=False, follow=None):
     """Answer a question for every case and say how many digits of it are known."""
     from .show.text import answers, law
     from .show.text import digits as shown
     answered = [(case, found, _told(question, case, found, digits)) for case in _load(paths, motion=True)
-                for found in [_motion(case, brief=question == "extremes")]]
+                for found in [_motion(case, brief=question == "extremes", follow=follow)]]
     boxes, over = _over_boxes([case for case, *_ in answered], *(["fate"] if question == "fate" else []))
     if json:
         _print(answers.as_json([getattr(shown, question)(*answer) | law.key(answer[1].validity) | over.as_dict(box)

@@ -4,6 +4,7 @@ from __future__ import annotations
 import errno
 import os
 import sys
+import time
 from contextlib import contextmanager
 
 from .errors import BAD_INPUT, StabilabError
@@ -42,6 +43,33 @@ def guarded():
         yield
     finally:
         sys.stdout, sys.stderr = before
+
+
+class Progress:
+    """A line on stderr that tells how far a long answer is, once a second has passed; nothing where nobody watches a terminal. As a context it
+    wipes its line in the end."""
+
+    def __init__(self, after: float = 1.0, every: float = 0.2):
+        self.wanted = bool(sys.stderr and sys.stderr.isatty())
+        self._next, self._every, self._shown = time.monotonic() + after, every, 0
+
+    def __call__(self, words: str):
+        now = time.monotonic()
+        if self.wanted and now >= self._next:
+            self._next = now + self._every
+            self._write(words)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        if self._shown:
+            self._write("")
+
+    def _write(self, words):
+        sys.stderr.write("\r" + words.ljust(self._shown) + ("" if words else "\r"))
+        sys.stderr.flush()
+        self._shown = len(words)
 
 
 def _lose(number):

@@ -144,10 +144,26 @@ def test_text_of_classify_names_fate_and_curve(stabilab):
 
 
 def test_strict_turns_an_undecided_fate_into_exit_code_3(stabilab):
-    assert stabilab("classify", OFF_AXIS)[0] == 0
-    code, out, _ = stabilab("classify", OFF_AXIS, "--strict", "--json")
-    assert code == 3 and strict_json(out)[0]["motion"]["fate"] == "undecided"
+    assert stabilab("classify", OFF_AXIS, "--follow", "1")[0] == 0
+    code, out, _ = stabilab("classify", OFF_AXIS, "--strict", "--json", "--follow", "1 s")
+    told = strict_json(out)[0]["motion"]
+    assert code == 3 and told["fate"] == told["level"] == "undecided" and told["t"] is None and "followed for 1 s" in told["cause"]
     assert stabilab("classify", MINOR, "--strict")[0] == 0
+
+
+def test_spin_up_off_the_axes_is_the_first_line_with_its_certificate(stabilab):
+    code, out, err = stabilab("fate", OFF_AXIS, "--strict")
+    assert code == 0 and not err and out.startswith("off-axis-two: SPINS UP about axis 3, positive sense (certified)\n")
+    told = strict_json(stabilab("fate", OFF_AXIS, "--json")[1])[0]
+    assert (told["fate"], told["level"], told["axis"], told["sense"]) == ("spin-up", "certified", 3, 1)
+    assert told["t"] > 0 and "certified" in told["cause"] and told["bounds"][2][1] is None and None not in told["bounds"][0]
+    assert "bounds for all times" in stabilab("extremes", OFF_AXIS)[1]
+
+
+@pytest.mark.parametrize("time", ["-1", "x", "3 kg"])
+def test_a_time_to_follow_that_is_none_is_bad_input(stabilab, time):
+    code, out, err = stabilab("fate", OFF_AXIS, "--follow", time)
+    assert code == 2 and not out and "follow" in err
 
 
 def test_all_bad_files_are_named_and_nothing_is_printed(stabilab, tmp_path):

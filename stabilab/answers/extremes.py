@@ -7,24 +7,25 @@ from ..asked import checked_span
 from ..physics.coefficients import effective
 from ..physics.states import checked_states
 from .digits.ask import ask_all
-from .kinds import many
+from .kinds import following, many
 
 
-def extremes(scene, states, span=None, digits: int | None = None, fast: bool | None = None):
+def extremes(scene, states, span=None, digits: int | None = None, fast: bool | None = None, follow: float | None = None):
     """Smallest and largest value of each component over all t >= 0: array (..., 3, 2) in the scene's variables.
 
     +-inf where a component grows without bound; at an equilibrium both are the state. Scenes without a reduction need
-    `span`, a time: their extremes hold over [0, span] (InputError without it). digits (1 to 50): reach so many and check
+    `span`, a time: their extremes hold over [0, span]. Without it they have bounds for all t >= 0 where spin-up is certified
+    (follow: as of `fate`) and NaN elsewhere, InputError where no state has any. digits (1 to 50): reach so many and check
     them (ToleranceNotMet otherwise); without it eleven, by the formulas' own bound. fast: whether numba (the extra `fast`)
     may compile the work; None where it is installed and pays. Raises InputError as `fate` does, and where fast=True
     finds no numba.
     """
     span = _length(span)
     if digits is not None:
-        return ask_all("extremes", scene, states, digits, extremes(scene, states, span), span).required().values
+        return ask_all("extremes", scene, states, digits, extremes(scene, states, span, follow=follow), span).required().values
     scene, array = effective(scene), checked_states(states)
     rows = np.ascontiguousarray(array.reshape(-1, 3))
-    return many(scene).extremes(scene, rows, span, fast).reshape(array.shape + (2,))
+    return many(scene).extremes(scene, rows, span, fast, **following(scene, follow)).reshape(array.shape + (2,))
 
 
 def _length(span):

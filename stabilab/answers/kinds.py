@@ -1,24 +1,29 @@
 """Which way answers a scene: a row a kind; each module answers the same questions.
 
 One state: `motion(scene, state, span, exact, brief)` -> Motion. Many: `fates(scene, states, fast)` -> FateResult,
-`extremes(scene, states, span, fast)` -> (n, 3, 2), `periods(scene, states, fast)` -> (n,), for rows (n, 3).
+`extremes(scene, states, span, fast)` -> (n, 3, 2), `periods(scene, states, fast)` -> (n,), for rows (n, 3). Kinds that
+follow motions also take `follow`, how long a motion is followed (None: as long as a user waits), and `tell`, which hears of it on the way.
 """
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from importlib import import_module
 from typing import NamedTuple
 
+from ..errors import InputError
 from ..orbit.reduction import reduce
 from ..physics.alignment import aligned
 
 
 class Kind(NamedTuple):
-    """holds: whether a scene is of this kind, when no row above holds it; one, many: the modules that answer for one state and for many."""
+    """holds: whether a scene is of this kind, when no row above holds it; one, many: the modules that answer for one state and for many;
+    follows: whether these take `follow` and `tell` (see `following`)."""
 
     holds: Callable[..., bool]
     one: str
     many: str
+    follows: bool = False
 
 
 def _acting(scene) -> int:
@@ -33,7 +38,7 @@ KINDS = {
     "free": Kind(lambda scene: _acting(scene) == 0, "unreduced.free_gyrostat", "unreduced.free_gyrostat"),  # a wheel with no zero component
     "growth": Kind(lambda scene: _acting(scene) == 1, "unreduced.growth", "unreduced.growth"),  # a wheel along the torque
     "aligned": Kind(lambda scene: aligned(scene) is not None, "unreduced.aligned", "unreduced.aligned"),  # in the plane of two equal moments
-    "off axis": Kind(lambda scene: True, "unreduced.off_axis", "unreduced.off_axis"),
+    "off axis": Kind(lambda scene: True, "unreduced.off_axis", "unreduced.off_axis", follows=True),
 }
 
 
@@ -50,6 +55,13 @@ def one(scene):
 def many(scene):
     """The module that answers for many states of this scene."""
     return _module(KINDS[kind_of(scene)].many)
+
+
+def following(scene, follow: float | None = None, tell=None) -> dict:
+    """The options of a kind whose motions are followed; none for the others, whose answers need no run."""
+    if follow is not None and not (isinstance(follow, (int, float)) and math.isfinite(follow) and follow >= 0):
+        raise InputError(f"follow: expected a time of at least 0, got {follow!r:.80}")
+    return {"follow": follow, "tell": tell} if KINDS[kind_of(scene)].follows else {}
 
 
 def _module(place: str):

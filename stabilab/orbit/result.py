@@ -38,7 +38,10 @@ class Motion:
     distance of velocity_witness), velocity_witness: a state on the separatrix as near as that; velocity_because: why the two
     bounds are apart. period: None where the motion does not repeat. extremes: ((min, max),) * 3 over t >= 0, entries +-inf where
     unbounded, None where unknown; extremes_over: "all time" or the span they were searched over. validity: of an approximate
-    law (`stabilab.physics.law_limits`), with its largest value along the motion; None where all laws are exact.
+    law (`stabilab.physics.law_limits`), with its largest value along the motion; None where all laws are exact. level: of the
+    fate, "exact", "certified" (a theorem applied to a run of machine precision) or "undecided". Of motions that were followed until a
+    certificate held, or as long as was asked: cause: what was found on the way, in words; bounds: ((low, high),) * 3 of the rates at
+    all t >= 0, wider than the extremes, +-inf where unbounded (None where not known).
     """
 
     at: tuple[float, float, float]
@@ -57,6 +60,9 @@ class Motion:
     invariants: dict[str, float] = field(default_factory=dict)
     evidence: dict = field(default_factory=dict)
     tolerance: float | None = None
+    level: str = "exact"
+    cause: str = ""
+    bounds: tuple | None = None
     validity: Validity | None = None
 
 
@@ -65,7 +71,8 @@ def judged(state, decided) -> dict:
     because = decided.because
     if decided.label == Fate.SPIN_UP and (decided.axis or decided.sense):
         because += f"; it spins up about axis {decided.axis}" if decided.axis else "; it spins up about the torque"
-    return {"at": state, "fate": decided.label, "because": because, "axis": decided.axis, "sense": decided.sense}
+    level = "undecided" if decided.label == Fate.UNDECIDED else "exact"
+    return {"at": state, "fate": decided.label, "because": because, "axis": decided.axis, "sense": decided.sense, "level": level}
 
 
 def finite(value) -> float | None:

@@ -28,9 +28,9 @@ from ..physics.alignment import aligned
 from ..physics.quadratic import rests
 from ..physics.state import three_floats
 from . import growth
+from .evidence import evidence, length_of
 from .growth import captured_fate, unbounded
 from .near_rest import beside_rest, small_loop
-from .off_axis import evidence, length_of
 
 TURN_ROUNDINGS = 16  # units of rounding that turning a state costs: nine products and sums
 TURN_SHARE = 1e-36  # of the energies: half the digits of a turn by irrational numbers

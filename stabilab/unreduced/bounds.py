@@ -37,7 +37,8 @@ def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
         fate, because, bounds = judged(parts, omega, gamma)
         fields = {**seen, "fate": fate, "because": because, "invariants": bounds}
     because = f"{fields['because']}; {parts.note}" if parts.note else fields["because"]
-    return Motion(at=at, **{**fields, "because": because})
+    level = "undecided" if fields["fate"] == Fate.UNDECIDED else "exact"
+    return Motion(at=at, **{**fields, "because": because, "level": level})
 
 
 def judged(parts: Content, omega, gamma) -> tuple[Fate, str, dict]:

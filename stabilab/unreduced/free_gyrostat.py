@@ -24,8 +24,8 @@ from ..physics.motion_units import in_unit, mass_unit
 from ..physics.quadratic import rests
 from ..physics.state import three_floats
 from ..physics.states import equilibrium_mask, three_numbers
+from .evidence import STEP_BUDGET
 from .near_rest import beside_rest, small_loop
-from .off_axis import STEP_BUDGET
 
 NOT_SHEETS = "not known: the separatrix of a free gyrostat whose moment has no zero component is known by its energy on each momentum sphere, not as sheets"
 # Two points of a closed orbit are the same where they agree to this share of the orbit's size.

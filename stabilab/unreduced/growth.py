@@ -48,15 +48,17 @@ from ..orbit.fate.result import FateResult, in_chunks, write_row
 from ..orbit.result import Fate, Motion, judged, pairs
 from ..physics.state import three_floats
 from ..physics.states import three_numbers
+from .evidence import growth as seen_growth
+from .evidence import length_of, seen_over, span_needed
 from .growth_certificates import angle_of, release_estimate
 from .growth_extremes import captured_extremes
 from .growth_form import growth_law, standard_form
 from .growth_run import nearest_other, search_certificate
-from .off_axis import growth as seen_growth
-from .off_axis import length_of, seen_over, span_needed
 
 # How long to look where the caller names no time, in the motion's own unit 1/sqrt(g |m|).
 PATIENCE = 1e6
+# How well the axis is known by each kind of certificate; that the motion is unbounded is exact.
+LEVEL = {"axis": "exact", "law": "exact", "bound": "exact", "spin-up": "certified", "well": "certified", "evidence": "run"}
 
 
 @dataclass(frozen=True)
@@ -179,7 +181,7 @@ def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
     found = captured_fate(scene, state, exact=exact)
     known = {"certificate": found.certificate, "t_certificate": found.t_certificate, "release_time": found.release_time,
              "release_estimate": found.release_estimate, "steps": found.steps}
-    fields, seen = {**judged(state, unbounded(found)), "because": found.because}, {}
+    fields, seen = {**judged(state, unbounded(found)), "because": found.because, "level": LEVEL.get(found.certificate, "undecided")}, {}
     if span is not None or _for_ever(found):
         grown = captured_extremes(scene, state, found, length_of(span), exact)
         fields |= {"extremes": pairs(grown.box), "extremes_over": grown.over}

@@ -1,199 +1,121 @@
-"""A torque off the principal axes: the evidence of a run over a span, labelled so, and how a growing spin is told from it.
+"""A torque off the principal axes: spin-up with its certificate, found by following the motion, or undecided with the cause seen.
 
-No integral of motion is known that would settle boundedness here; `spin_up` decides it by a certificate.
+No integral of motion is known that would settle boundedness here. `spin_up` follows each motion until an inequality holds that stays true
+for ever; what it finds is told here in the words of every other kind of scene, with the bounds that hold for all times.
 """
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ..errors import InputError
 from ..integrate.extrema import roots_of_rates
-from ..integrate.trajectory import integrated
-from ..orbit.fate.arrays import at_rest as mark_rest
 from ..orbit.fate.one_state import OneFate, at_rest
 from ..orbit.fate.reasons import Reason
-from ..orbit.fate.result import FateResult, in_chunks, write_row
+from ..orbit.fate.result import FateResult, empty_columns
 from ..orbit.result import Fate, Motion, finite, judged, pairs
 from ..physics.quadratic import rests
 from ..physics.state import three_floats
-from ..physics.states import equilibrium_mask, three_numbers
-from ..physics.to_numpy import equations_of, to_numpy
+from ..physics.states import equilibrium_mask
+from .evidence import evidence, periods, seen_over, size_words
+from .spin_up.follow import spin_up
+from .spin_up.many import LEVELS, SpinUps, spin_up_many
+from .spin_up.result import SpinUp
 
-# A run that has not shown what is asked after this many steps (seconds of work) gives up and says so.
-STEP_BUDGET = 1_000_000
-# An axis is called the spin-up's when in this many doublings of the run in a row it keeps its sense and its least rate
-# grows by this factor, and no other axis does (a spin like the square root of time gives 1.41, a steady spin-up 2); in the last
-# it exceeds the whole spin of the beginning, which a temporary capture, however slowly its swing dies out, never does.
-DOUBLINGS, GROWTH = 3, 1.2
-# Or when it keeps its sense through the last doubling, ends ten times faster than the whole spin began, and holds this
-# share of the squared spin throughout.
-SHARE, FASTER = 0.9, 10.0
-
-
-@dataclass(frozen=True)
-class Evidence:
-    """What a run over a span shows; it proves nothing beyond it.
-
-    span: its length, s (tau when scaled); extremes: (3, 2) over it, ends included, as roots of the rates; size: |omega|
-    (or |x|) at the start, at the end, and its largest value at those roots; energy: kinetic energy at start and end; trend:
-    "rises", "falls", "oscillates"; drift: relative departure from the balance laws.
-    """
-
-    fate: Fate
-    reason: str
-    span: float
-    extremes: np.ndarray
-    extremes_over: str
-    size: tuple[float, float, float]
-    energy: tuple[float, float]
-    trend: str
-    drift: dict[str, float]
-    steps: int
-
-
-@dataclass(frozen=True)
-class Growth:
-    """Axis (1, 2, 3; 0 where unclear) and sense of the growing spin at the end of a run of length `span`."""
-
-    axis: int
-    sense: int
-    span: float
-    words: str
-    steps: int
-
-
-def evidence(scene, state, span) -> Evidence:
-    """The evidence of one run: `state` (three numbers) at its start; span: its length, or its two ends."""
-    state = three_numbers(state)
-    start, end = (0.0, span) if np.ndim(span) == 0 else span
-    length = float(end) - float(start)
-    if not math.isfinite(length) or length == 0:
-        raise InputError(f"span: expected a finite length other than 0, got {span!r}")
-    roots = roots_of_rates(scene, state, length)
-    run = integrated(scene, state, np.linspace(0, roots.t_reached, 65)[1:] if roots.t_reached else [0.0])
-    points = np.vstack([state, run.states])
-    energy = _energy(scene, points)
-    sizes = np.linalg.norm(np.vstack([points, roots.states]), axis=1)
-    unit = scene.time_unit
-    over = f"{unit} in [{float(start):g}, {float(start) + roots.t_reached:g}]"
-    return Evidence(Fate.UNDECIDED, _why_undecided(scene) + (f"; {roots.reason}" if roots.reason else ""), roots.t_reached,
-                    roots.extremes(), over, (float(sizes[0]), float(sizes[len(points) - 1]), float(sizes.max())),
-                    (float(energy[0]), float(energy[-1])), _trend(energy), run.invariant_drift, roots.steps)
-
-
-def _why_undecided(scene):
-    torque = [f"axis {i + 1}" for i, m in enumerate(scene.quadratic().m) if m]
-    if len(torque) > 1:
-        return (f"the torque is off the principal axes (components on {' and '.join(torque)}): no invariant is known that decides "
-                "boundedness; a run over a span cannot")
-    return "boundedness was not decided; the run shows this span alone"
-
-
-def _energy(scene, points):
-    return np.asarray(to_numpy(equations_of(scene)).invariants(points)["energy"])
-
-
-def _trend(energy):
-    """Whether the energy of the last quarter of the run lies wholly above or below that of the first."""
-    quarter = max(1, len(energy) // 4)
-    first, last = energy[:quarter], energy[-quarter:]
-    return "rises" if last.min() > first.max() else "falls" if last.max() < first.min() else "oscillates"
-
-
-def growth(scene, state, t_max: float) -> Growth:
-    """Run in doubling spans, up to t_max or the step budget, until one axis clearly holds the growing spin."""
-    here, t, steps, stages = three_numbers(state), 0.0, 0, []
-    begin = np.linalg.norm(here) + math.sqrt(max(abs(float(v)) for v in scene.quadratic().m))
-    span = min(10 / math.sqrt(max(abs(float(v)) for v in scene.quadratic().m)), t_max)
-    while t < t_max and steps < STEP_BUDGET:
-        run = integrated(scene, here, np.linspace(0, span, 257)[1:])
-        if run.status == "stopped":
-            return Growth(0, 0, t, run.reason, steps)
-        t, here, steps = t + span, run.states[-1], steps + run.counters["steps"]
-        squares = run.states**2
-        share = (squares / squares.sum(axis=1, keepdims=True)).min(axis=0)
-        stages.append((np.sign(run.states).sum(axis=0) / len(run.states), np.abs(run.states).min(axis=0)))
-        i = _holder(stages[-DOUBLINGS - 1:], begin) if len(stages) > DOUBLINGS else None
-        if i is None and share.max() > SHARE and np.abs(here).max() > FASTER * begin:
-            i = int(share.argmax())
-        if i is not None and abs(stages[-1][0][i]) == 1:
-            words = f"it alone keeps its sense and grows; least rate in the last half of the run {stages[-1][1][i]:.4g}"
-            return Growth(i + 1, int(stages[-1][0][i]), t, words, steps)
-        span = min(t, t_max - t)
-    return Growth(0, 0, t, "no axis holds the spin", steps)
-
-
-def _holder(stages, begin):
-    """The one axis that keeps its sense through the stages while its least rate grows, past `begin`; None where it is not one."""
-    senses, least = (np.array(column) for column in zip(*stages))
-    held = (np.abs(senses.sum(axis=0)) == len(stages)) & (least[1:] > GROWTH * least[:-1]).all(axis=0) & (least[-1] > begin)
-    return int(held.argmax()) if held.sum() == 1 else None
-
-
+__all__ = ["extremes", "fates", "motion", "periods"]
 NO_SHEETS = "not known: the torque is off the principal axes, and no separatrix is known there"
+PATIENCE = 200_000  # steps for which a motion is followed where nobody says how long: about a second
+ENDLESS = 10**9     # steps where the caller names a time
+REASON = {"undecided": Reason.OFF_AXIS, "certified": Reason.CERTIFIED, "proved": Reason.CERTIFIED, "exact": Reason.CLOSED_FORM}
+NO_SPAN = ("not known without a certificate of spin-up: give span=T ({unit}), or a span in the case's [motion], to search them over a time span, "
+           "or follow=T to look for the certificate longer")
 
 
-def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
-    """See `answers.motion`; what is seen over the span is told as evidence."""
+def motion(scene, state, span=None, exact=None, brief: bool = False, follow: float | None = None, tell=None) -> Motion:
+    """See `answers.motion`. Extremes over the span where one is given, else bounds for all times where spin-up is certified."""
     state = three_floats(state)
-    decided = OneFate(Fate.UNDECIDED, Reason.OFF_AXIS, math.nan)
     if rests(scene.quadratic(), exact or state):
-        decided = at_rest(scene, decided)
+        decided = at_rest(scene, OneFate(Fate.UNDECIDED, Reason.OFF_AXIS, math.nan))
         return Motion(**judged(state, decided), margin_energy=finite(decided.margin), extremes=tuple((v, v) for v in state), velocity_because=NO_SHEETS)
-    fields = {**judged(state, decided), "velocity_because": NO_SHEETS}
-    if span is not None:
-        fields |= seen_over(scene, state, span)
-        fields["because"] = decided.because + "; over the span its size went " + _size_words(fields["evidence"])
-    return Motion(**fields)
+    found = spin_up(scene, state, **_limits(follow), tell=tell)
+    decided = OneFate(found.fate, REASON[found.level], math.nan, found.axis, found.sense)
+    bounds = bounds_for_ever(scene, state, found)
+    fields = {**judged(state, decided), "velocity_because": NO_SHEETS, "level": found.level, "cause": found.cause, "bounds": bounds,
+              "extremes": bounds, "extremes_over": "all time, as bounds" if bounds else NO_SPAN.format(unit=scene.time_unit)}
+    fields["because"] = f"{decided.because}; {found.cause}"
+    known = {"t_certificate" if found.fate == Fate.SPIN_UP else "followed_until": found.t, "steps_followed": found.steps,
+             "small_change_grew": found.condition}
+    seen = {} if span is None else seen_over(scene, state, span)
+    if seen and found.fate == Fate.UNDECIDED:
+        fields["because"] += "; over the span its size went " + size_words(seen["evidence"])
+    return Motion(**fields | seen | {"evidence": {**seen.get("evidence", {}), **known}})
 
 
-def fates(scene, states, fast: bool | None = None) -> FateResult:
-    """Fates of states (n, 3): nothing is known but which of them are at rest."""
-    def label(rows, out):
-        for index in range(len(rows)):
-            write_row(out, index, Fate.UNDECIDED, Reason.OFF_AXIS, math.nan)
-        mark_rest(scene, rows, out)
-        return 0
-    return in_chunks(label, states)
+def _limits(follow) -> dict:
+    """How far a motion is followed: to a time, or for PATIENCE steps."""
+    if follow is None:
+        return {"budget": PATIENCE}
+    return {"t_max": float(follow), "budget": ENDLESS}
 
 
-def extremes(scene, states, span=None, fast: bool | None = None):
-    """(n, 3, 2) over the span [0, span] (InputError without it)."""
+def bounds_for_ever(scene, state, found: SpinUp) -> tuple | None:
+    """((low, high),) * 3 of the rates at all t >= 0 of a motion that spins up: those of the trap from found.t on, and the extremes of the run
+    until then; None where they are not known."""
+    if found.fate != Fate.SPIN_UP or found.trap is None:
+        return None
+    later = found.trap.bounds()
+    if not found.t:
+        return later
+    run = roots_of_rates(scene, state, found.t)
+    if run.reason:
+        return None
+    return tuple((min(a, c), max(b, d)) for (a, b), (c, d) in zip(later, pairs(run.extremes())))
+
+
+@dataclass(frozen=True)
+class Followed:
+    """What is known of each state of an array: `row(n)`, None where state n is at rest."""
+
+    found: SpinUps
+    place: np.ndarray
+
+    def row(self, number: int) -> SpinUp | None:
+        """All that following state `number` showed: trap, cause, time."""
+        return None if self.place[number] < 0 else self.found.row(int(self.place[number]))
+
+
+def fates(scene, states, fast: bool | None = None, follow: float | None = None, tell=None) -> FateResult:
+    """Fates of states (n, 3), followed in batches until each is certified."""
     rest = equilibrium_mask(scene, states)
-    if span is None and not rest.all():
-        raise span_needed(scene)
-    return np.array([np.stack([s, s], axis=1) if still else evidence(scene, s, span).extremes for s, still in zip(states, rest)]).reshape(-1, 3, 2)
+    moving = np.flatnonzero(~rest)
+    found = spin_up_many(scene, states[moving], **_limits(follow), tell=tell)
+    out = empty_columns(len(states)) | {"margins": np.full(len(states), np.nan)}
+    out["labels"][:], out["reasons"][:] = Fate.EQUILIBRIUM, Reason.AT_REST
+    for name, values in (("labels", found.fate), ("axis", found.axis), ("sense", found.sense)):
+        out[name][moving] = values
+    out["reasons"][moving] = np.array([REASON[word] for word in LEVELS], np.int8)[found.level]
+    place = np.full(len(states), -1)
+    place[moving] = np.arange(len(moving))
+    blank = FateResult(**out, followed=Followed(found, place))
+    if rest.any():
+        resting = at_rest(scene, OneFate(Fate.UNDECIDED, Reason.OFF_AXIS, math.nan))
+        blank = replace(blank, margins=np.where(rest, resting.margin, blank.margins))
+    return blank
 
 
-def span_needed(scene) -> InputError:
-    """What is said to whoever asks for extremes that are not known for all time, and names no span."""
-    return InputError("this scene has no reduction, so its extremes are searched over a time span: give span=T "
-                      f"({scene.time_unit}), or a span in the case's [motion]")
-
-
-def periods(scene, states, fast: bool | None = None):
-    """(n,): 0 at an equilibrium, inf elsewhere: no motion is known to repeat."""
-    return np.where(equilibrium_mask(scene, states), 0.0, np.inf)
-
-
-def seen_over(scene, state, span) -> dict:
-    """The fields of a Motion that a run over the span fills."""
-    seen = evidence(scene, state, (0.0, length_of(span)))
-    return {"extremes": pairs(seen.extremes), "extremes_over": seen.extremes_over,
-            "evidence": {"span": seen.span, "size_start": seen.size[0], "size_end": seen.size[1],
-                         "size_largest": seen.size[2], "energy_start": seen.energy[0], "energy_end": seen.energy[1],
-                         "energy_trend": seen.trend, "steps": seen.steps,
-                         "invariant_drift": max(seen.drift.values(), default=0.0)}}
-
-
-def _size_words(evidence) -> str:
-    return (f"from {evidence['size_start']:.6g} to {evidence['size_end']:.6g} (largest {evidence['size_largest']:.6g}), "
-            f"and its energy {evidence['energy_trend']}")
-
-
-def length_of(span) -> float | None:
-    """The end of a span that starts at 0; None without one."""
-    return None if span is None else float(span[1])
+def extremes(scene, states, span=None, fast: bool | None = None, follow: float | None = None, tell=None):
+    """(n, 3, 2) over the span [0, span]; without it bounds for all t >= 0 of the motions whose spin-up is certified, NaN for the others
+    (InputError where there is nothing else)."""
+    rest = equilibrium_mask(scene, states)
+    still = np.stack([states, states], axis=2)
+    if span is not None:
+        return np.array([one if at else evidence(scene, s, span).extremes for s, one, at in zip(states, still, rest)]).reshape(-1, 3, 2)
+    moving = np.flatnonzero(~rest)
+    found = spin_up_many(scene, states[moving], **_limits(follow), tell=tell)
+    if len(moving) and not (found.fate == Fate.SPIN_UP).any():
+        raise InputError(f"extremes: {NO_SPAN.format(unit=scene.time_unit)}")
+    for n, row in enumerate(moving):
+        still[row] = bounds_for_ever(scene, states[row].tolist(), found.row(n)) or np.nan
+    return still

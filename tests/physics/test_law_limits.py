@@ -216,7 +216,7 @@ def test_csv_of_extremes_stays_a_table_and_the_law_is_told_beside_it(tmp_path):
 
 
 def test_strict_of_fate_is_three_for_an_undecided_motion(stabilab):
-    assert stabilab("fate", CASES / "off-axis-two.toml", "--strict")[0] == 3
+    assert stabilab("fate", CASES / "off-axis-two.toml", "--strict", "--follow", "1")[0] == 3
     assert stabilab("fate", CASES / "minor-axis-100.toml", "--strict")[0] == 0
 
 

@@ -1,15 +1,18 @@
-"""Roots of rates, evidence off the axes, and the period of free motion."""
+"""Roots of rates, evidence and certified spin-up off the axes, and the period of free motion."""
 import sys
 
 import mpmath as mp
 import numpy as np
 import pytest
 
-from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene, fate, trajectory
+import stabilab
+from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene, fate, motion, trajectory
 from stabilab.errors import InputError
 from stabilab.integrate.extrema import roots_of_rates
+from stabilab.unreduced.evidence import evidence
 from stabilab.unreduced.free_gyrostat import extremes_over_period
-from stabilab.unreduced.off_axis import evidence
+
+from .spin_up.scenes import rates_of, run
 
 BODY = Body((2000, 1500, 1000))
 OFF = Scene(BODY, Gyrostat((100, 20, 0)), ConstantTorque((10, 0, 20)))
@@ -127,9 +130,73 @@ def test_a_rate_that_never_changes_has_no_roots_and_disturbs_no_other(either):
     assert roots.component.tolist() == [1, 0, 1, 0]
 
 
+TILTED = Scene(Body((12, 9, 5)), Gyrostat(("0.8", 0, 0)), ConstantTorque(("0.001", 0, "0.02")))  # the satellite of the README, its thruster tilted
+ISLAND = Scene(Body((1.2412, .3937, 1.3650)), Gyrostat((-.5224, .8309, .1914)), ConstantTorque((.0987, .8450, .5255)))
+IN_ISLAND = (-1.572, .657, .738)  # bounded over 1e6 natural units: an elliptic orbit between two saddle-foci
+
+
+def dop853(scene, state, times):
+    """States by SciPy's DOP853 from Euler's equations written anew: no code shared with what is tested."""
+    return run(rates_of(scene), state, np.asarray(times, float))
+
+
+def test_tilted_thruster_spins_up_and_a_long_run_stays_within_the_bounds_told():
+    found = motion(TILTED, (0.1, 0.05, 0.9))
+    assert (found.fate, found.level, found.axis, found.sense) == (Fate.SPIN_UP, "certified", 3, 1)
+    assert "certified" in found.because and found.margin_energy is None and found.margin_velocity is None
+    states = dop853(TILTED, (0.1, 0.05, 0.9), np.linspace(0, 600, 3001))
+    low, high = np.array(found.bounds).T
+    assert (states >= low - 1e-9).all() and (states <= high + 1e-9).all() and high[2] == np.inf
+    assert states[-1, 2] > 2  # rad/s
+
+
+def test_arrays_are_told_what_one_state_is_told():
+    states = np.random.default_rng(7).normal(size=(12, 3))
+    states[3] = 0.1, 0.05, 0.9
+    many, bounds = fate(TILTED, states), stabilab.extremes(TILTED, states)
+    for n in (0, 3, 8):
+        one = motion(TILTED, states[n])
+        assert (one.fate, one.axis, one.sense, one.level) == (many.labels[n], many.axis[n], many.sense[n], many.levels[n])
+        assert one.because == many.because[n]
+        assert np.allclose(bounds[n], one.bounds, rtol=1e-9)
+    assert np.isnan(many.margins).all() and np.isnan(many.velocity_margins).all()
+
+
+def test_bounds_hold_before_the_certificate_fires_too():
+    scene, state = Scene(BODY, Gyrostat((100, 20, 0)), ConstantTorque((10, 0, 20))), (0.5, 2.6, 0.06)
+    found = motion(scene, state)
+    assert found.fate == Fate.SPIN_UP and found.evidence["t_certificate"] > 0
+    states = dop853(scene, state, np.linspace(0, 2 * found.evidence["t_certificate"] + 50, 4001))
+    low, high = np.array(found.bounds).T
+    assert (states >= low - 1e-8).all() and (states <= high + 1e-8).all()
+
+
+def test_undecided_says_how_long_it_was_followed_and_why():
+    found = motion(ISLAND, IN_ISLAND, follow=40)
+    assert found.fate == Fate.UNDECIDED and found.level == "undecided" and found.bounds is None and found.extremes is None
+    assert "followed for 40" in found.because and "island" in found.cause and "give span" in found.extremes_over
+    result = fate(ISLAND, np.array([IN_ISLAND]), follow=40)
+    assert result.levels[0] == "undecided" and np.isnan(result.margins[0]) and "followed for 40" in result.because[0]
+    with pytest.raises(InputError, match="span"):
+        stabilab.extremes(ISLAND, [IN_ISLAND], follow=40)
+
+
+def test_following_tells_how_far_it_is():
+    heard = []
+    motion(ISLAND, IN_ISLAND, follow=40, tell=lambda t, steps, left: heard.append((t, steps, left)))
+    times = [t for t, *_ in heard]
+    assert times == sorted(times) and 20 < times[-1] <= 40 and {left for *_, left in heard} == {1}
+
+
+@pytest.mark.parametrize("follow", [-1, float("nan"), "1 s", float("inf")])
+def test_a_time_to_follow_that_is_none_is_refused(follow):
+    with pytest.raises(InputError, match="follow"):
+        motion(TILTED, (0.1, 0.05, 0.9), follow=follow)
+
+
 def test_a_fate_that_is_undecided_has_no_margin():
     """A filter `margins > 0` must not count it as safe; an equilibrium off the axes has none either, as no barrier is known."""
-    result = fate(ScaledGyrostat("0.2", "0.4", (1, 1, 1)), np.ones((2, 3)))
+    result = fate(ScaledGyrostat("0.2", "0.4", (1, 1, 1)), np.ones((2, 3)), follow=0.1)
     assert (result.labels == Fate.UNDECIDED).all() and np.isnan(result.margins).all() and np.isnan(result.velocity_margins).all()
     at_rest = fate(ScaledGyrostat(1, 3, (-1, 1, 1)), (-2, -1, -1))  # x2 x3 = 1, (x1 + 1) = -1, (x1 + 3) = 1: by hand
     assert at_rest.labels == Fate.EQUILIBRIUM and np.isnan(at_rest.margins)

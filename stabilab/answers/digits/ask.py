@@ -229,7 +229,7 @@ def _by_small_loop(question, form, values, digits, state) -> Told:
 
 
 def _over_span(scene, state, span, known, digits, exact, slack) -> Told:
-    if known.extremes is None:
+    if known.extremes is None or span is None and known.bounds:
         return nothing("extremes", digits, known.extremes_over)
     if scene.variables != "scaled":  # a force at the centre of mass does not turn the body
         scene = Scene(scene.body, *(e for e in scene.effects if e.name != "body_force"))

@@ -18,7 +18,7 @@ from ..kinds import kind_of
 from .box import Box
 from .branch_and_bound import Family, Proof, prove
 from .orbit import orbit_of, reduction_over
-from .result import Over, Witness, bracketed, by_trial
+from .result import Over, Witness, bracketed, by_sample, by_trial
 from .search import UNKNOWN, confirmed, nearest_change
 
 UNBOUNDED = "unbounded"
@@ -30,16 +30,16 @@ def fate_over(box: Box) -> Over | None:
     if "state" not in box.middle:
         return None
     answer = partial(verdict_at, box)
-    here = answer(np.zeros(len(box.places)))
     numbers = _root(box)
     form = box.rates(numbers)
     acting = [i for i in range(3) if _there(form.m[i])]
+    here = answer(np.zeros(len(box.places)))
     if not acting:
         return Over("holds", here, REASONS[Reason.TORQUE_FREE], proved=np.inf)
     if len(acting) > 1:
         axes = " and ".join(str(i + 1) for i in acting)
-        return Over("undecided", here, f"the torque may act about axes {axes} together: off the principal axes there is no "
-                    "reduction to one degree of freedom, and no law is known that bounds the motion or lets it go")
+        return by_sample(box, here, answer, f"the torque may act about axes {axes} together, off the principal axes, where motions are "
+                                            "followed one by one: the middle's answer is no proof for the box")
     reduction = reduction_over(form, acting[0])
     if reduction is None:
         return _under_law(box, here, answer, numbers, form, acting[0])

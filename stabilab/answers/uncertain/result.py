@@ -6,11 +6,13 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ...orbit.result import Fate
 from .search import MOST, Change, confirmed
 
 PARTS, FEWER = 60_000, 2_500  # of the box: for the question asked, and for each try to prove more
 NEARER = (0.5, 0.75, 0.9, 0.99, 0.999)  # shares of a change that is there, tried as proved stretches until one fails
 SMALLER = (0.3, 0.15, 0.05, 0.01, 0.001)  # tried where even the first of these fails
+SAMPLE, SEED = 64, 20261122  # points of the box drawn at random where motions can only be followed one by one
 FARTHER = (2.0, 5.0, 10.0, 30.0, MOST)
 
 
@@ -106,3 +108,19 @@ def by_trial(box, here: str, answer: Callable, because: str) -> Over:
                 return Over("depends", here, because, changes_at=float(np.abs(point).max()), witnesses=sides)
     tried = len(trial) * len(stretches)
     return Over("undecided", here, f"{because}; {tried} other points of the box, tried one by one, do as the middle does")
+
+
+def by_sample(box, here: str, answer: Callable, because: str) -> Over:
+    """Where no proof is at hand and answers cost a run: what points of the box drawn at random say, by the ordinary code."""
+    counts, places = {}, {}
+    for point in np.random.default_rng(SEED).uniform(-1, 1, (SAMPLE, len(box.places))):
+        if word := answer(point):
+            counts[word] = counts.get(word, 0) + 1
+            places.setdefault(word, point)
+    told = [f"{'all' if len(counts) == 1 else count}: {word}" for word, count in sorted(counts.items(), key=lambda pair: -pair[1])]
+    because = f"{because}; of {sum(counts.values())} sampled motions {', '.join(told)}"
+    other = next((word for word in places if word not in (here, Fate.UNDECIDED.word)), None)
+    if other is None or here == Fate.UNDECIDED.word:
+        return Over("undecided", here, because)
+    sides = (Witness(here, box.values(np.zeros(len(box.places)))), Witness(other, box.values(places[other])))
+    return Over("depends", here, because, changes_at=float(np.abs(places[other]).max()), witnesses=sides)

@@ -20,6 +20,8 @@ class Reason(IntEnum):
     UNBOUNDED_LAW = 10
     OFF_AXIS = 11
     TURN_ROUNDS = 12
+    CERTIFIED = 13
+    CLOSED_FORM = 14
 
 
 REASONS = {
@@ -34,9 +36,11 @@ REASONS = {
     Reason.AT_REST: "every rate vanishes at the state, exactly",
     Reason.TORQUE_FREE: "no torque: the kinetic energy is constant, and it is positive definite",
     Reason.UNBOUNDED_LAW: "|H|^2/2 - D_i T grows steadily at the rate lambda_i M_i: no motion is bounded",
-    Reason.OFF_AXIS: "the torque is off the principal axes: no integral of motion bounds or releases it, and none is known",
+    Reason.OFF_AXIS: "the torque is off the principal axes, where no integral of motion is known, and no certificate of spin-up was met",
     Reason.TURN_ROUNDS: "the energy is within 1e-36 of a barrier's, and the turn that puts the torque on an axis has irrational numbers, "
                         "carried to 240 bits",
+    Reason.CERTIFIED: "the torque is off the principal axes, and the motion meets an inequality that stays true for ever",
+    Reason.CLOSED_FORM: "the torque is off the principal axes, and equal moments leave a closed solution",
 }
 
 

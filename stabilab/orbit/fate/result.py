@@ -35,6 +35,7 @@ class FateResult:
     sense: np.ndarray
     reasons: np.ndarray
     precise: int = 0
+    followed: object = field(default=None, repr=False, compare=False)  # of motions that were followed: `row(n)` has all that is known of state n, or None
     scene: object = field(default=None, repr=False, compare=False)
     states: np.ndarray = field(default=None, repr=False, compare=False)
     given: object = field(default=None, repr=False, compare=False)  # the scene asked for, of which `scene` is the twin
@@ -46,6 +47,8 @@ class FateResult:
     def because(self):
         """The reason in words: a string for one state, an object array otherwise."""
         words = np.array([_told(*one) for one in zip(*map(np.ravel, (self.reasons, self.labels, self.margins)))], dtype=object)
+        if self.followed is not None:
+            words = np.array([one + _cause(self.followed.row(n)) for n, one in enumerate(words)], dtype=object)
         return words[0] if self.reasons.ndim == 0 else words.reshape(self.reasons.shape)
 
     @cached_property
@@ -54,6 +57,13 @@ class FateResult:
         known, where the label is undecided, for free gyrostats whose moment has no zero component, and for torques off the axes."""
         known = np.where(self.labels == Fate.SEPARATRIX, 0.0, separatrix_distance(self.scene, self.states))
         return np.where(self.labels == Fate.UNDECIDED, np.nan, known)[()]
+
+    @property
+    def levels(self):
+        """How well each label is known: "exact" (by a law or a closed solution), "certified" (an inequality met by a run of machine
+        precision) or "undecided": a string for one state, an object array otherwise."""
+        words = np.where(self.labels == Fate.UNDECIDED, "undecided", np.where(self.reasons == Reason.CERTIFIED, "certified", "exact")).astype(object)
+        return words[()]
 
     @cached_property
     def validity(self):
@@ -66,8 +76,12 @@ class FateResult:
         return validity(self.given, rows, "along a spin-up, or at the start")
 
 
+def _cause(row) -> str:
+    return "" if row is None else f"; {row.cause}"
+
+
 def _told(reason, label, margin) -> str:
-    known = margin == margin or reason in (Reason.OFF_AXIS, Reason.TURN_ROUNDS) or label == Fate.EQUILIBRIUM
+    known = margin == margin or reason in (Reason.OFF_AXIS, Reason.TURN_ROUNDS, Reason.CERTIFIED, Reason.CLOSED_FORM) or label == Fate.EQUILIBRIUM
     return REASONS[Reason(reason)] + ("" if known else f"; the margin in energy is {BEYOND}")
 
 

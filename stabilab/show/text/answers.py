@@ -61,7 +61,16 @@ def _motion(m) -> dict:
             "margin": {"energy": m.margin_energy, "angular_velocity": m.margin_velocity, "bounds": m.velocity_bounds,
                        "witness": m.velocity_witness, "because": m.velocity_because or None},
             "period": m.period, "extremes": m.extremes, "invariants": m.invariants,
-            "sense": m.sense or None, "extremes_over": m.extremes_over, "evidence": m.evidence}
+            "sense": m.sense or None, "extremes_over": m.extremes_over, "evidence": m.evidence} | followed(m)
+
+
+def followed(m) -> dict:
+    """How well a fate is known; of a motion that was followed also when its certificate held (null: it did not), what was seen on the way,
+    and the bounds of the rates for all times (null in them: unbounded)."""
+    known = {"level": m.level}
+    if m.cause:
+        known |= {"t": m.evidence.get("t_certificate"), "cause": m.cause, "bounds": m.bounds}
+    return known
 
 
 def undecided(equilibria, motion) -> bool:
@@ -75,7 +84,7 @@ def extremes(case, motion) -> dict:
     """One object of `stabilab extremes --json`; null where a component is unbounded or unknown (see fate)."""
     return {"schema": "stabilab.extremes/1", "case": case.name, "variables": case.variables, "at": motion.at,
             "fate": motion.fate.word, "components": case.scene.components, "extremes": motion.extremes,
-            "over": motion.extremes_over} | frame.key(case)
+            "over": motion.extremes_over} | followed(motion) | frame.key(case)
 
 
 def simulation(case, run) -> dict:
@@ -137,16 +146,35 @@ def _curve_lines(c) -> list[str]:
 def _motion_lines(case, m) -> list[str]:
     rate, time, energy = UNITS[case.variables]
     spin = f" about axis {m.axis}, sense {m.sense:+d}" if m.axis else ""
+    head = f"{verb(m)}{spin}{known_as(m)}"
     rows = [("margin, energy", _known(m.margin_energy), energy), ("margin, rate", _distance(m), rate),
             ("period", _known(m.period), time)]
-    lines = [f"motion from {_triple(m.at)}: {m.fate.word}{spin}", f"  {m.because}"]
+    lines = [f"motion from {_triple(m.at)}: {head}", f"  {m.because}"]
     lines += [f"  {name:<24}{words} {unit}".rstrip() for name, words, unit in rows if words]
     if m.velocity_because:
         lines.append(f"  {'' if m.velocity_bounds else 'margin, rate unknown: '}{m.velocity_because}")
     lines += [f"  {_spaced(name):<24}{_number(value)}" for name, value in m.invariants.items()]
     lines += [f"  {_spaced(name):<24}{_number(value) if isinstance(value, float) else value}"
               for name, value in m.evidence.items() if value is not None]
-    return lines + ([f"  least and greatest over {m.extremes_over}:"] + _extreme_lines(case, m.extremes) if m.extremes is not None else [])
+    lines += [f"  least and greatest over {m.extremes_over}:"] + _extreme_lines(case, m.extremes) if m.extremes is not None else []
+    return lines + bound_lines(case, m)
+
+
+def verb(m) -> str:
+    """The fate as the first words of an answer: a spin-up that was found by following the motion is the news itself."""
+    return "SPINS UP" if m.cause and m.fate.word == "spin-up" else m.fate.word
+
+
+def known_as(m) -> str:
+    """How well a fate is known, where that is not a matter of course."""
+    return f" ({m.level})" if m.cause and m.fate.word != "undecided" else ""
+
+
+def bound_lines(case, m) -> list[str]:
+    """The bounds of the rates for all times, where they are not the extremes told already."""
+    if m.bounds is None or m.bounds == m.extremes:
+        return []
+    return ["  bounds for all times:", *_extreme_lines(case, m.bounds)]
 
 
 def _known(value) -> str:

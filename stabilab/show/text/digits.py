@@ -31,11 +31,11 @@ def extremes_csv(answered) -> str:
 
 def extremes_text(case, motion, told, say: bool) -> str:
     """Case, a line per component, and, where `say`, the digits."""
-    lines = [f"{case.name}: {motion.fate.word}, extremes over {motion.extremes_over}"]
+    lines = [f"{case.name}: {motion.fate.word}, extremes over {motion.extremes_over}{answers.known_as(motion)}"]
     unit, wide = answers.UNITS[case.variables][0], max(24, told.asked + 8)
     pairs = told.decimals or [[_number(v, told.asked) for v in pair] for pair in (_with(motion, told).extremes or ((None, None),) * 3)]
     lines += [f"  {name:<8}{_word(low):>{wide}}{_word(high):>{wide}}  {unit}".rstrip() for name, (low, high) in zip(case.scene.components, pairs)]
-    return "\n".join(lines + frame.note(case) + [_said(told)] * say)
+    return "\n".join(lines + answers.bound_lines(case, motion) + frame.note(case) + [_said(told)] * say)
 
 
 def _word(text) -> str:
@@ -59,7 +59,7 @@ def fate(case, motion, told) -> dict:
     margin = motion.margin_energy if told.values is None else told.values
     return {"schema": "stabilab.fate/1", "case": case.name, "variables": case.variables, "at": motion.at, "fate": motion.fate.word,
             "axis": motion.axis or None, "sense": motion.sense or None, "because": motion.because, "margin": margin,
-            "digits": as_dict(told)} | frame.key(case)
+            "digits": as_dict(told)} | answers.followed(motion) | frame.key(case)
 
 
 def fate_text(case, motion, told, say: bool) -> str:
@@ -67,7 +67,9 @@ def fate_text(case, motion, told, say: bool) -> str:
     spin = f" about axis {motion.axis}, {'positive' if motion.sense > 0 else 'negative'} sense" if motion.axis else ""
     unit = answers.UNITS[case.variables][2]
     margin = [] if told.values is None else [f"  margin, energy  {told.decimals or _number(told.values, told.asked)} {unit}".rstrip()]
-    return "\n".join([f"{case.name}: {motion.fate.word}{spin}", f"  {motion.because}", *margin, *frame.note(case), *([_said(told)] * say)])
+    bounds = answers.bound_lines(case, replace(motion, extremes=None))
+    return "\n".join([f"{case.name}: {answers.verb(motion)}{spin}{answers.known_as(motion)}", f"  {motion.because}", *margin, *bounds,
+                      *frame.note(case), *([_said(told)] * say)])
 
 
 def period(case, motion, told) -> dict:

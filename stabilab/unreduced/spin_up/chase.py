@@ -33,9 +33,9 @@ class Chased:
     constants: np.ndarray
 
 
-def chase(scene, tests: Tests, starts, t_max: float, budget: int, after: float = 0.0) -> Chased:
+def chase(scene, tests: Tests, starts, t_max: float, budget: int, after: float = 0.0, tell=None) -> Chased:
     """Follow the motions from starts (n, 3) of a scene in natural units, each until a test fires at a time no earlier than `after`,
-    t_max, or `budget` steps."""
+    t_max, or `budget` steps. tell(least time, steps, motions left): called after every stage."""
     n = len(starts)
     runs = _with_twins(scene, starts)
     out = Chased(tests, np.full(n, -1), np.zeros(n), np.zeros(n, int), np.ones(n), np.array(starts, float), np.full((6, n), np.nan))
@@ -53,6 +53,8 @@ def chase(scene, tests: Tests, starts, t_max: float, budget: int, after: float =
         if open_.size:
             steps = int(min(max(3, runs.steps_done * (STAGE - 1)), MOST, budget - runs.steps_done))
             runs.advance(_paired(open_, n), steps, t_max, after)
+            if tell:
+                tell(float(out.t[open_].min()), runs.steps_done, open_.size)
         stage += 1
     return out
 

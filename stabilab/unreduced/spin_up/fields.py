@@ -4,6 +4,8 @@ from __future__ import annotations
 import math
 from functools import lru_cache
 
+import numpy as np
+
 from ...physics.motion_units import in_unit
 from .certificate import HIGH_ORDERS, ORDERS, Certifier
 from .fixed_centre import FixedCentre
@@ -58,7 +60,8 @@ class Tests:
         """The test itself."""
         key = id(field), orders
         if key not in self.made:
-            self.made[key] = Certifier(field, orders)
+            with np.errstate(all="ignore"):  # what overflows is not finite, and certifies nothing
+                self.made[key] = Certifier(field, orders)
         return self.made[key]
 
 

@@ -18,14 +18,15 @@ from .symmetric import exactly
 NATURAL_TIMES, BUDGET = 2e4, 600_000
 
 
-def spin_up(scene, state, t_max: float | None = None, budget: int | None = None, after: float = 0.0, proof: bool = False) -> SpinUp:
+def spin_up(scene, state, t_max: float | None = None, budget: int | None = None, after: float = 0.0, proof: bool = False,
+            tell=None) -> SpinUp:
     """Whether and how the motion from a state spins up, decided by a certificate (`certificate`, `symmetric`) or not at all.
 
     scene: gyrostat and constant torque, physical or scaled. state: three rates at t = 0, taken at their word. t_max: how long the motion
     is followed, in the scene's time (None: 2e4 natural units, of the root of mean moment over torque); budget: in how many steps
     (None: 600,000). after: the inequality is to hold for a state at this time or later: bounds and clocks of a later trap are narrower.
     proof: enclose the way to the inequality, so that nothing rests on a run in machine precision: level "proved" where that succeeds. A state
-    of Fractions or of decimals in strings is then taken exactly.
+    of Fractions or of decimals in strings is then taken exactly. tell(time, steps, motions left): called on the way.
     Raises InputError for scenes with other effects than turn the body as wheel and torque do, and for states that are none.
     """
     given, scene, state = state, effective(checked_scene(scene)), three_floats(state)
@@ -36,7 +37,8 @@ def spin_up(scene, state, t_max: float | None = None, budget: int | None = None,
     tests = tests_of(own)
     if not tests:
         return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, 0.0, state, 0, seen(scene, state), 1.0)
-    found = chase(own, tests, np.array([state]) / unit, NATURAL_TIMES if t_max is None else t_max * unit, BUDGET if budget is None else budget, after * unit)
+    found = chase(own, tests, np.array([state]) / unit, NATURAL_TIMES if t_max is None else t_max * unit, BUDGET if budget is None else budget, after * unit,
+                  tell and (lambda t, steps, left: tell(t / unit, steps, left)))
     answer = answer_of(scene, unit, found, 0)
     return proved(scene, given if isinstance(given, (list, tuple)) else state, answer) if proof else answer
 

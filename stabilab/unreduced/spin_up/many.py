@@ -40,7 +40,7 @@ class SpinUps:
         return self.exact[number] if self.chased is None else answer_of(self.scene, self.unit, self.chased, number)
 
 
-def spin_up_many(scene, states, t_max: float | None = None, budget: int | None = None) -> SpinUps:
+def spin_up_many(scene, states, t_max: float | None = None, budget: int | None = None, tell=None) -> SpinUps:
     """`follow.spin_up` for states (n, 3), in batches; every motion leaves its batch as soon as it is decided. Limits as there."""
     states = checked_states(states).reshape(-1, 3)
     own, unit = natural(scene)
@@ -48,7 +48,8 @@ def spin_up_many(scene, states, t_max: float | None = None, budget: int | None =
     first = spin_up(scene, states[0].tolist(), t_max=0.0, budget=0) if len(states) else None
     if first is not None and (first.level == "exact" or not tests):  # closed solutions: of all states of the scene or of none
         return _one_by_one(scene, states)
-    found = chase(own, tests, states / unit, NATURAL_TIMES if t_max is None else t_max * unit, BUDGET if budget is None else budget)
+    found = chase(own, tests, states / unit, NATURAL_TIMES if t_max is None else t_max * unit, BUDGET if budget is None else budget,
+                  tell=tell and (lambda t, steps, left: tell(t / unit, steps, left)))
     good = found.fired >= 0
     axes = np.array([0 if field.axis is None else field.axis + 1 for field, _ in tests.last] + [0])
     senses = np.array([field.sense for field, _ in tests.last] + [0])

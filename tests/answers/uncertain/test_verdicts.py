@@ -238,6 +238,7 @@ def test_a_wheel_along_the_torque_leaves_nothing_bounded_and_may_not_vanish(tmp_
 def test_off_the_axes_the_fate_stays_undecided_and_says_why(tmp_path):
     over = uncertain(case_of(tmp_path, torque='0, "0 +- 0.1", 1', state="0, 0, 1"))
     assert over.fate.answer == "undecided" and "off the principal axes" in over.fate.because
+    assert "no proof for the box; of 64 sampled motions all: spin-up about axis 3, positive sense" in over.fate.because
     assert over.fate.verdict == "spin-up about axis 3, positive sense"
 
 

@@ -1,0 +1,155 @@
+"""What a run over a span shows of a motion, labelled so: extremes, size, energy, and the axis that holds a growing spin. It proves nothing."""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..errors import InputError
+from ..integrate.extrema import roots_of_rates
+from ..integrate.trajectory import integrated
+from ..orbit.result import Fate, pairs
+from ..physics.states import equilibrium_mask, three_numbers
+from ..physics.to_numpy import equations_of, to_numpy
+
+# A run that has not shown what is asked after this many steps (seconds of work) gives up and says so.
+STEP_BUDGET = 1_000_000
+# An axis is called the spin-up's when in this many doublings of the run in a row it keeps its sense and its least rate
+# grows by this factor, and no other axis does (a spin like the square root of time gives 1.41, a steady spin-up 2); in the last
+# it exceeds the whole spin of the beginning, which a temporary capture, however slowly its swing dies out, never does.
+DOUBLINGS, GROWTH = 3, 1.2
+# Or when it keeps its sense through the last doubling, ends ten times faster than the whole spin began, and holds this
+# share of the squared spin throughout.
+SHARE, FASTER = 0.9, 10.0
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """What a run over a span shows; it proves nothing beyond it.
+
+    span: its length, s (tau when scaled); extremes: (3, 2) over it, ends included, as roots of the rates; size: |omega|
+    (or |x|) at the start, at the end, and its largest value at those roots; energy: kinetic energy at start and end; trend:
+    "rises", "falls", "oscillates"; drift: relative departure from the balance laws.
+    """
+
+    fate: Fate
+    reason: str
+    span: float
+    extremes: np.ndarray
+    extremes_over: str
+    size: tuple[float, float, float]
+    energy: tuple[float, float]
+    trend: str
+    drift: dict[str, float]
+    steps: int
+
+
+@dataclass(frozen=True)
+class Growth:
+    """Axis (1, 2, 3; 0 where unclear) and sense of the growing spin at the end of a run of length `span`."""
+
+    axis: int
+    sense: int
+    span: float
+    words: str
+    steps: int
+
+
+def evidence(scene, state, span) -> Evidence:
+    """The evidence of one run: `state` (three numbers) at its start; span: its length, or its two ends."""
+    state = three_numbers(state)
+    start, end = (0.0, span) if np.ndim(span) == 0 else span
+    length = float(end) - float(start)
+    if not math.isfinite(length) or length == 0:
+        raise InputError(f"span: expected a finite length other than 0, got {span!r}")
+    roots = roots_of_rates(scene, state, length)
+    run = integrated(scene, state, np.linspace(0, roots.t_reached, 65)[1:] if roots.t_reached else [0.0])
+    points = np.vstack([state, run.states])
+    energy = _energy(scene, points)
+    sizes = np.linalg.norm(np.vstack([points, roots.states]), axis=1)
+    unit = scene.time_unit
+    over = f"{unit} in [{float(start):g}, {float(start) + roots.t_reached:g}]"
+    return Evidence(Fate.UNDECIDED, _why_undecided(scene) + (f"; {roots.reason}" if roots.reason else ""), roots.t_reached,
+                    roots.extremes(), over, (float(sizes[0]), float(sizes[len(points) - 1]), float(sizes.max())),
+                    (float(energy[0]), float(energy[-1])), _trend(energy), run.invariant_drift, roots.steps)
+
+
+def _why_undecided(scene):
+    torque = [f"axis {i + 1}" for i, m in enumerate(scene.quadratic().m) if m]
+    if len(torque) > 1:
+        return (f"the torque is off the principal axes (components on {' and '.join(torque)}): no invariant is known that decides "
+                "boundedness; a run over a span cannot")
+    return "boundedness was not decided; the run shows this span alone"
+
+
+def _energy(scene, points):
+    return np.asarray(to_numpy(equations_of(scene)).invariants(points)["energy"])
+
+
+def _trend(energy):
+    """Whether the energy of the last quarter of the run lies wholly above or below that of the first."""
+    quarter = max(1, len(energy) // 4)
+    first, last = energy[:quarter], energy[-quarter:]
+    return "rises" if last.min() > first.max() else "falls" if last.max() < first.min() else "oscillates"
+
+
+def growth(scene, state, t_max: float) -> Growth:
+    """Run in doubling spans, up to t_max or the step budget, until one axis clearly holds the growing spin."""
+    here, t, steps, stages = three_numbers(state), 0.0, 0, []
+    begin = np.linalg.norm(here) + math.sqrt(max(abs(float(v)) for v in scene.quadratic().m))
+    span = min(10 / math.sqrt(max(abs(float(v)) for v in scene.quadratic().m)), t_max)
+    while t < t_max and steps < STEP_BUDGET:
+        run = integrated(scene, here, np.linspace(0, span, 257)[1:])
+        if run.status == "stopped":
+            return Growth(0, 0, t, run.reason, steps)
+        t, here, steps = t + span, run.states[-1], steps + run.counters["steps"]
+        squares = run.states**2
+        share = (squares / squares.sum(axis=1, keepdims=True)).min(axis=0)
+        stages.append((np.sign(run.states).sum(axis=0) / len(run.states), np.abs(run.states).min(axis=0)))
+        i = _holder(stages[-DOUBLINGS - 1:], begin) if len(stages) > DOUBLINGS else None
+        if i is None and share.max() > SHARE and np.abs(here).max() > FASTER * begin:
+            i = int(share.argmax())
+        if i is not None and abs(stages[-1][0][i]) == 1:
+            words = f"it alone keeps its sense and grows; least rate in the last half of the run {stages[-1][1][i]:.4g}"
+            return Growth(i + 1, int(stages[-1][0][i]), t, words, steps)
+        span = min(t, t_max - t)
+    return Growth(0, 0, t, "no axis holds the spin", steps)
+
+
+def _holder(stages, begin):
+    """The one axis that keeps its sense through the stages while its least rate grows, past `begin`; None where it is not one."""
+    senses, least = (np.array(column) for column in zip(*stages))
+    held = (np.abs(senses.sum(axis=0)) == len(stages)) & (least[1:] > GROWTH * least[:-1]).all(axis=0) & (least[-1] > begin)
+    return int(held.argmax()) if held.sum() == 1 else None
+
+
+def span_needed(scene) -> InputError:
+    """What is said to whoever asks for extremes that are not known for all time, and names no span."""
+    return InputError("this scene has no reduction, so its extremes are searched over a time span: give span=T "
+                      f"({scene.time_unit}), or a span in the case's [motion]")
+
+
+def periods(scene, states, fast: bool | None = None):
+    """(n,): 0 at an equilibrium, inf elsewhere: no motion is known to repeat."""
+    return np.where(equilibrium_mask(scene, states), 0.0, np.inf)
+
+
+def seen_over(scene, state, span) -> dict:
+    """The fields of a Motion that a run over the span fills."""
+    seen = evidence(scene, state, (0.0, length_of(span)))
+    return {"extremes": pairs(seen.extremes), "extremes_over": seen.extremes_over,
+            "evidence": {"span": seen.span, "size_start": seen.size[0], "size_end": seen.size[1],
+                         "size_largest": seen.size[2], "energy_start": seen.energy[0], "energy_end": seen.energy[1],
+                         "energy_trend": seen.trend, "steps": seen.steps,
+                         "invariant_drift": max(seen.drift.values(), default=0.0)}}
+
+
+def size_words(evidence) -> str:
+    return (f"from {evidence['size_start']:.6g} to {evidence['size_end']:.6g} (largest {evidence['size_largest']:.6g}), "
+            f"and its energy {evidence['energy_trend']}")
+
+
+def length_of(span) -> float | None:
+    """The end of a span that starts at 0; None without one."""
+    return None if span is None else float(span[1])
