@@ -130,8 +130,7 @@ def _motion(scene, state, uncertified):
         return claims | {"fate": Fate.EQUILIBRIUM.word}
     reduction = reduce(scene)
     if reduction is None:
-        uncertified.append("motion: the scene has no reduction to one degree of freedom")
-        return None
+        return _without_reduction(scene, state, claims, uncertified)
     orbit = Orbit(reduction, state)
     found = fate_of(scene, orbit)
     label = Fate(found.label)
@@ -140,6 +139,15 @@ def _motion(scene, state, uncertified):
         return None
     return claims | {"fate": label.word, "axis": found.axis, "sense": found.sense,
                      "extremes": _extremes(orbit, label), "period": _period(orbit, label)}
+
+
+def _without_reduction(scene, state, claims, uncertified):
+    from .certified_spin_up import certified_spin_up
+    found, why = certified_spin_up(scene, state)
+    if found is None:
+        uncertified.append(f"motion: the scene has no reduction to one degree of freedom; {why}")
+        return None
+    return claims | {"fate": Fate.SPIN_UP.word, "axis": found["axis"], "sense": found["sense"], "spin_up": found}
 
 
 def _extremes(orbit, label):

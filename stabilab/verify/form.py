@@ -15,7 +15,8 @@ KEYS = {
         "kind": None, "points": [dict.fromkeys(("box", "linear", "verdict"))],
         "curves": [{"numerators": None, "denominator": None, "segments": [PIECE], "folds": [PIECE]}],
         "planes": [{**dict.fromkeys(("base", "directions", "linear", "verdict")), "centre": dict.fromkeys(("at", "verdict"))}]},
-    "motion": dict.fromkeys(("state", "fate", "axis", "sense", "extremes", "period"))}
+    "motion": {**dict.fromkeys(("state", "fate", "axis", "sense", "extremes", "period")),
+               "spin_up": {**dict.fromkeys(("axis", "sense", "orders", "t", "cone", "least", "gain")), "way": [dict.fromkeys(("t", "box"))]}}}
 SCENES = {"physical": ("variables", "inertia", "momentum", "torque"), "scaled": ("variables", "a", "b", "mu")}
 
 

@@ -10,6 +10,7 @@ from .numbers import Malformed, ball, bracket, exact_sign, field, numbers, shown
 from .orbit import Orbit
 from .period import period_of, round_once
 from .precision import working
+from .spin_up.claims import SpinUpClaims, check_spin_up, spin_up_of
 from .zeros import Open, Spent, above, below
 
 BITS, MOST_BITS = 192, 6144
@@ -28,6 +29,7 @@ class Claims:
     sense: int | None
     extremes: list | None
     period: tuple[Fraction, Fraction] | None
+    spin_up: SpinUpClaims | None
 
     @property
     def words(self) -> str:
@@ -38,10 +40,11 @@ class Claims:
 
 def motion_of(table) -> Claims:
     """The claims on a motion. Raises `Malformed` before anything is worked out."""
-    extremes, period = (table.get(key) if isinstance(table, dict) else None for key in ("extremes", "period"))
+    extremes, period, spin_up = (table.get(key) if isinstance(table, dict) else None for key in ("extremes", "period", "spin_up"))
     return Claims(numbers(field(table, "state", "motion"), "motion.state", 3), word(table, "fate", "motion", FATES),
                   _whole(table, "axis", range(4)), _whole(table, "sense", range(-1, 2)),
-                  None if extremes is None else _pairs(extremes), None if period is None else bracket(period, "motion.period"))
+                  None if extremes is None else _pairs(extremes), None if period is None else bracket(period, "motion.period"),
+                  None if spin_up is None else spin_up_of(spin_up))
 
 
 def _whole(table, key, known):
@@ -67,6 +70,9 @@ def check_motion(rates, claims, note):
     if claims.fate == "equilibrium":
         note(claims.words, "refuted", "the rates do not vanish exactly at the state")
         return
+    if claims.spin_up:
+        _check_trapped(rates, claims, note)
+        return
     orbit = _orbit(rates, claims.state)
     proof = orbit and _Proof(orbit)
     found = proof and at_rising_precision(proof.facts)
@@ -87,6 +93,21 @@ def _check_rest(claims, note):
         note(claim, "proved" if right else "refuted", "the state does not change")
     if claims.period is not None:
         note("period", "refuted", "an equilibrium has no period")
+    if claims.spin_up:
+        note("spin-up", "refuted", "the state does not change")
+
+
+def _check_trapped(rates, claims, note):
+    """A motion that an inequality traps in spin-up."""
+    status, reason = check_spin_up(rates, claims.state, claims.spin_up, note)
+    if status == "proved":
+        _check_words(claims, "spin-up", claims.spin_up.axis, claims.spin_up.sense, reason, note)
+    else:
+        note(claims.words, "not checked", reason)
+    for claim, *_ in _named(claims.extremes, [(None, None)] * 3):
+        note(claim, "not checked", "the inequality says nothing of the time before")
+    if claims.period is not None:
+        note("period", "refuted" if status == "proved" else "not checked", "a motion that spins up does not repeat")
 
 
 def _check_words(claims, fate, axis, sense, reason, note):

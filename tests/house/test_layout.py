@@ -23,6 +23,7 @@ FILES_IN_A_FOLDER = 16  # a list that fits the eye
 ROOMIER = {"stabilab/verify": 20}  # one subject, read as a whole by whoever trusts it; wings would hide its steps from each other
 # Imports inside functions, besides those of the commands: (importing module, imported module) -> why it waits
 DOORS = {
+    ("stabilab.answers.certificate", "stabilab.answers.certified_spin_up"): "loads numpy",
     ("stabilab.answers.digits.run", "stabilab.physics.law_limits"): "loaded for approximate laws alone",
     ("stabilab.answers.equilibria", "stabilab.physics.law_limits"): "loaded for approximate laws alone",
     ("stabilab.answers.motion", "stabilab.physics.law_limits"): "loaded for approximate laws alone",

@@ -1,0 +1,218 @@
+"""Where a motion surely is at given times: Taylor series in python-flint's balls, with enough bits instead of a guess.
+
+x_i' = kappa_i x_j x_k + rho_i x_k + sigma_i x_j + m_i from an exact start. The set that holds the state is c + P E: c and the matrix P
+exact, E a box. A step takes c along by its Taylor polynomial, P by the derivative J of the motion (entries as balls over the whole set; the
+mean value theorem), and adds what both err by to E, through the inverse of P. P follows the stretching of the true motion alone, so its
+inverse needs no more bits than that stretching takes.
+
+The tail of a series. With alpha_n = |a_n| h^n, n <= N, P their sum and T the sum of all later ones, the recursion (n + 1) a_(n+1) = ...
+summed from n = N on says
+
+    T_i <= D_i + h/(N + 1) [|kappa| (P_j T_k + T_j P_k + T_j T_k) + |rho| T_k + |sigma| T_j],
+    D_i  = h/(N + 1) [|kappa| sum over m + n >= N of alpha_j,m alpha_k,n + |rho| alpha_k,N + |sigma| alpha_j,N]
+
+for each partial sum in terms of the one before. So any T with which the right side is at most T bounds the tail, by induction. The series
+of J likewise, linear in its own tail.
+"""
+from __future__ import annotations
+
+from fractions import Fraction
+from operator import mul
+
+from ..numbers import ball, brief
+from ..precision import working
+
+AHEAD = ((1, 2), (2, 0), (0, 1))
+LINEAR_BITS = 96  # of J: what it errs by multiplies the width of the set
+
+
+class Lost(Exception):
+    """The motion could not be followed: why."""
+
+
+class Way:
+    """The set along the motion from three exact numbers, at the time t (exact). bits: of the centre; allowed: steps."""
+
+    def __init__(self, rates, state, bits: int, allowed: int):
+        self.allowed = allowed
+        self.bits, self.order, self.t, self.steps = bits, bits // 5 + 12, Fraction(0), 0
+        self.linear_order = max(20, 2 * self.order // 3)
+        with working(bits):
+            self.numbers = _in_balls(rates)
+            start = [ball(v) for v in state]
+            self.centre = [v.mid() for v in start]
+            self.box = [v.rad() for v in start]
+            one, zero = ball(1), ball(0)
+            self.P = [[one if i == j else zero for j in range(3)] for i in range(3)]
+        with working(LINEAR_BITS):
+            self.coarse = _in_balls(rates)
+
+    def to(self, t: Fraction):
+        """The state at a later time, as three balls."""
+        with working(self.bits):
+            while self.t < t:
+                if self.steps >= self.allowed:
+                    raise Lost(f"not followed beyond {self.steps} steps, t = {brief(self.t)}")
+                self._step(t)
+            return [c + r for c, r in zip(self.centre, self._reach())]
+
+    def _reach(self):
+        """c + P E less c: balls about zero."""
+        return [sum((self.P[i][j] * _about_zero(self.box[j]) for j in range(3)), ball(0)) for i in range(3)]
+
+    def _step(self, t):
+        a = _series(self.numbers, self.centre, self.order)
+        around = [c + r for c, r in zip(self.centre, self._reach())]
+        with working(LINEAR_BITS):
+            wide = _series(self.coarse, around, self.linear_order)
+            columns = [_linear(self.coarse, wide, j, self.linear_order) for j in range(3)]
+        h = min(self._length(a), t - self.t)
+        for _ in range(40):
+            tail = _tail(self.numbers, a, h)
+            with working(LINEAR_BITS):
+                wide_tail = _tail(self.coarse, wide, h)
+                ends = wide_tail and [_linear_end(self.coarse, wide, wide_tail, column, h) for column in columns]
+            if tail and ends and None not in ends:
+                break
+            h /= 2
+        else:
+            raise Lost(f"no step closes at t = {brief(self.t)}: the set is too wide")
+        end = [_value(row, h) + _about_zero(bound) for row, bound in zip(a, tail[1])]
+        self._carry(end, [[ends[j][i] for j in range(3)] for i in range(3)])
+        self.t, self.steps = self.t + h, self.steps + 1
+
+    def _carry(self, end, J):
+        """The set at the end of a step: its centre a ball, J the derivative over the set."""
+        product = [[sum((J[i][k] * self.P[k][j] for k in range(3)), ball(0)) for j in range(3)] for i in range(3)]
+        self.centre, self.P = [v.mid() for v in end], [[v.mid() for v in row] for row in product]
+        E = [_about_zero(v) for v in self.box]
+        left = [v - v.mid() + sum(((product[i][j] - self.P[i][j]) * E[j] for j in range(3)), ball(0)) for i, v in enumerate(end)]
+        inverse = _inverse(self.P)
+        self.box = [(E[i] + sum((inverse[i][j] * left[j] for j in range(3)), ball(0))).abs_upper() for i in range(3)]
+        if not all(v.is_finite() for v in (*self.box, *self.centre)):
+            raise Lost(f"the set has no bounds any more at t = {brief(self.t)}")
+
+    def _length(self, a) -> Fraction:
+        """A step after which the last terms are some 2^-bits of the state: 24 binary digits of it."""
+        size = max((abs(row[0]).abs_upper() for row in a), key=float)
+        size = size if size > 0 else max((abs(row[1]).abs_upper() for row in a), key=float)
+        lengths = []
+        for n in (self.order - 1, self.order):
+            top = max((abs(row[n]).abs_upper() for row in a), key=lambda v: v)
+            if top > 0:
+                lengths.append((size / top * ball(Fraction(1, 2**self.bits))).root(n))
+        length = float(min(lengths)) if lengths else 1.0
+        if not 1e-300 < length < 1e300:
+            raise Lost(f"no step is found at t = {brief(self.t)}")
+        exponent = 0
+        while length < 2**23:
+            length, exponent = length * 2, exponent + 1
+        while length >= 2**24:
+            length, exponent = length / 2, exponent - 1
+        return Fraction(int(length)) / Fraction(2) ** exponent
+
+
+def _in_balls(rates):
+    return [[ball(v) for v in row] for row in (rates.kappa, rates.rho, rates.sigma, rates.m)]
+
+
+def _about_zero(reach):
+    """The ball of all numbers within `reach`."""
+    from flint import arb
+    return arb(0, reach.abs_upper())
+
+
+def _series(numbers, start, order):
+    """Taylor coefficients of the three components, as balls."""
+    kappa, rho, sigma, m = numbers
+    rows = [[v] for v in start]
+    for n in range(order):
+        backward = [row[::-1] for row in rows]
+        new = [kappa[i] * sum(map(mul, rows[j], backward[k])) + rho[i] * rows[k][n] + sigma[i] * rows[j][n] for i, (j, k) in enumerate(AHEAD)]
+        for i, row in enumerate(rows):
+            row.append(((new[i] + m[i]) if n == 0 else new[i]) / (n + 1))
+    return rows
+
+
+def _linear(numbers, x, column, order):
+    """Taylor coefficients of one column of the derivative along the series x."""
+    kappa, rho, sigma, _ = numbers
+    V = [[ball(int(i == column))] for i in range(3)]
+    for n in range(order):
+        back = [row[n::-1] for row in x]
+        new = [kappa[i] * (sum(map(mul, V[k], back[j])) + sum(map(mul, V[j], back[k]))) + rho[i] * V[k][n] + sigma[i] * V[j][n]
+               for i, (j, k) in enumerate(AHEAD)]
+        for i, row in enumerate(V):
+            row.append(new[i] / (n + 1))
+    return V
+
+
+def _sizes(rows, h):
+    """|c_n| h^n, upper bounds, and their sums."""
+    powers, h = [ball(1)], ball(h)
+    for _ in rows[0][1:]:
+        powers.append(powers[-1] * h)
+    sizes = [[(c * p).abs_upper() for c, p in zip(row, powers)] for row in rows]
+    return sizes, [sum(row).abs_upper() for row in sizes]
+
+
+def _beyond(one, other):
+    """Sum of one_m other_n over m + n >= N, both up to N."""
+    tails, total = [], ball(0)
+    for value in reversed(other):
+        total = total + value
+        tails.append(total)  # tails[m]: the sum of other_n over n >= N - m
+    return sum(map(mul, one, tails), ball(0))
+
+
+def _tail(numbers, rows, h):
+    """(sums, tails) of a series at h; None where no tail is found."""
+    sizes, sums = _sizes(rows, h)
+    kappa, rho, sigma, _ = [[abs(v) for v in row] for row in numbers]
+    share = ball(h) / len(rows[0])
+    known = [share * (kappa[i] * _beyond(sizes[j], sizes[k]) + rho[i] * sizes[k][-1] + sigma[i] * sizes[j][-1]) for i, (j, k) in enumerate(AHEAD)]
+    return _closed(known, lambda T: [share * (kappa[i] * (sums[j] * T[k] + T[j] * sums[k] + T[j] * T[k]) + rho[i] * T[k] + sigma[i] * T[j])
+                                     for i, (j, k) in enumerate(AHEAD)], sums)
+
+
+def _closed(known, more, sums):
+    """(sums, T) with known + more(T) <= T, tried at twice what goes in; None where that does not close."""
+    floor = max((v.abs_upper() for v in known), key=float)
+    T = [2 * (v.abs_upper() + floor) for v in known]
+    for _ in range(3):
+        right = [(a + b).abs_upper() for a, b in zip(known, more(T))]
+        if all(a <= b for a, b in zip(right, T)):
+            return sums, T
+        T = [2 * max(a, b) for a, b in zip(right, T)]
+    return None
+
+
+def _linear_end(numbers, x, known_tail, V, h):
+    """The values at h of a column of the derivative, as balls; None where no tail is found."""
+    (sizes, _), (v, vsum) = _sizes(x, h), _sizes(V, h)
+    sums, T = known_tail
+    kappa, rho, sigma, _ = [[abs(c) for c in row] for row in numbers]
+    share = ball(h) / len(V[0])
+    known = [share * (kappa[i] * (_beyond(sizes[j], v[k]) + _beyond(sizes[k], v[j]) + T[j] * vsum[k] + T[k] * vsum[j])
+                      + rho[i] * v[k][-1] + sigma[i] * v[j][-1]) for i, (j, k) in enumerate(AHEAD)]
+    whole = [a + b for a, b in zip(sums, T)]
+    closed = _closed(known, lambda U: [share * (kappa[i] * (whole[j] * U[k] + whole[k] * U[j]) + rho[i] * U[k] + sigma[i] * U[j])
+                                       for i, (j, k) in enumerate(AHEAD)], vsum)
+    return closed and [_value(row, h) + _about_zero(u) for row, u in zip(V, closed[1])]
+
+
+def _value(row, h):
+    """The polynomial at h, by Horner's rule."""
+    total, h = row[-1], ball(h)
+    for c in row[-2::-1]:
+        total = total * h + c
+    return total
+
+
+def _inverse(P):
+    """The inverse of an exact 3 x 3 matrix, entries as balls."""
+    minor = lambda i, j: (P[(i + 1) % 3][(j + 1) % 3] * P[(i + 2) % 3][(j + 2) % 3] - P[(i + 1) % 3][(j + 2) % 3] * P[(i + 2) % 3][(j + 1) % 3])
+    determinant = sum((P[0][j] * minor(0, j) for j in range(3)), ball(0))
+    if 0 in determinant:
+        raise Lost("the set's directions have become parallel")
+    return [[minor(j, i) / determinant for j in range(3)] for i in range(3)]

@@ -1,0 +1,177 @@
+"""The checker's own way, normal form and inequality, each against another code; certificates of spin-up that it proves and leaves open."""
+import json
+import random
+from fractions import Fraction as F
+
+import mpmath
+import pytest
+
+from stabilab import Body, ConstantTorque, ScaledGyrostat, Scene
+from stabilab.answers.certificate import certificate
+from stabilab.verify import verify
+from stabilab.verify.numbers import Malformed, ball
+from stabilab.verify.precision import working
+from stabilab.verify.rates import Rates
+from stabilab.verify.spin_up.claims import spin_up_of
+from stabilab.verify.spin_up.inequality import Inequality
+from stabilab.verify.spin_up.normal_form import form_about
+from stabilab.verify.spin_up.way import Lost, Way
+from stabilab.verify.zeros import above, below
+from tests.unreduced.enclosure.taylor import run
+from tests.unreduced.spin_up.scenes import EXAMPLE, random_scene, sphere
+from tests.verify.trapped import says_what_happens
+
+STATE = (F(1, 10), F(1), F(2))
+
+
+def rates_of(scene):
+    if scene.variables == "scaled":
+        return Rates.of_scaled(*scene.exact_ab, list(scene.exact_mu))
+    return Rates.of_body(*map(list, (scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque"))))
+
+
+def drawn(rng):
+    """A random scene, scaled or not, and its rates."""
+    scene = ScaledGyrostat(F(rng.uniform(-1, 1)), F(rng.uniform(-1, 1)), tuple(map(F, sphere(rng)))) if rng.random() < .3 else random_scene(rng)
+    return scene, rates_of(scene)
+
+
+def rows(rates):
+    return rates.kappa, rates.rho, rates.sigma, rates.m
+
+
+@pytest.mark.parametrize("n", range(6))
+def test_the_way_holds_the_motion(n):
+    rng = random.Random(n)
+    _, rates = drawn(rng)
+    start, end = [F(v) for v in sphere(rng, rng.choice((.1, 1, 4)))], F(3, 2)
+    way = Way(rates, start, 96, 500)
+    for t in (end / 3, end):
+        state, true = way.to(t), run(rows(rates), start, [t])[0]  # a run in 50 digits
+        with mpmath.workdps(50):
+            for v, x in zip(state, true):
+                low, high = (mpmath.mpf(e.numerator) / e.denominator for e in (below(v), above(v)))
+                assert low <= x <= high and high - low < 1e-20
+
+
+def test_a_way_without_enough_bits_gets_lost_or_wide():
+    way = Way(rates_of(EXAMPLE), STATE, 20, 2000)
+    with pytest.raises(Lost):
+        way.to(F(60))
+
+
+@pytest.mark.parametrize("n", range(8))
+def test_the_normal_form_says_what_the_rates_say(n):
+    rng, seen = random.Random(20 + n), 0
+    _, rates = drawn(rng)
+    for axis in range(3):
+        for sense in (1, -1):
+            with working(200):
+                form = form_about(rates, axis, sense)
+                if form is None:
+                    continue
+                seen += 1
+                state = [ball(F(v)) for v in sphere(rng, 3)]
+                X, zeta = form.place(state)
+                fast = rates.at(state)
+                X1, zeta1 = form.place(fast)  # affine: the rates less the place of zero
+                X0, zeta0 = form.place([ball(0)] * 3)
+                star = type(zeta)(zeta.real, -zeta.imag)
+                i = type(zeta)(0, 1)
+                assert (X1 - X0).overlaps(ball(form.M) + form.g * (zeta * zeta).imag + (type(zeta)(form.kap.real, -form.kap.imag) * zeta).real)
+                assert abs(zeta1 - zeta0 - (i * form.om * X * zeta + i * form.h * star + form.mu)) < 1e-50  # from the rates themselves
+    assert seen >= 2
+
+
+@pytest.mark.parametrize("orders", [(0, 1), (0, 2), (4, 6)])
+def test_corrected_energy_and_amplitude_change_at_the_rates_that_are_written_down(orders):
+    """Differences along a run in 50 digits against the ledger."""
+    rates = rates_of(EXAMPLE)
+    start, h = [F(6), F(1), F(-1)], F(1, 10**9)
+    with working(200):
+        made = Inequality(form_about(rates, 0, 1), orders)
+        states = [start, *run(rows(rates), start, [h, 2 * h])]
+        states = [[ball(v) if isinstance(v, F) else ball(F(*mpmath.libmp.to_rational(v._mpf_))) for v in state] for state in states]
+        def values(state):
+            X, zeta = made.form.place(state)
+            star = type(zeta)(zeta.real, -zeta.imag)
+            total = lambda terms: sum((c * zeta**j * star**k / X**n for (j, k, n), c in terms.items()), zeta * 0).real
+            size = (zeta * star).real
+            return (X * X / 2 + total(made.energy.added), size * (1 + made.m / (made.M * X)) + total(made.amplitude.added),
+                    made.M * X + made.m + total(made.energy.left), total(made.amplitude.left))
+        before, middle, after = map(values, states)
+        for n in (0, 1):
+            assert abs((after[n] - before[n]) / (2 * ball(h)) - middle[n + 2]) < 1e-14
+
+
+def test_the_worked_example_holds_with_its_printed_constants():
+    """off-axis torque D = (1.4, 1, 0.6), M = (0.5, 0.6, 0.62), l = (0.2, 0.1, -0.3): A = 1.193, z = 6.276 and a gain of 0.468/1.4 were worked out by hand."""
+    rates = rates_of(EXAMPLE)
+    with working(128):
+        faults, gain = Inequality(form_about(rates, 0, 1), (0, 2)).faults([ball(F(v)) for v in (6, 1, -1)], F("1.193") / F(0.4**.5), F("6.276"))
+        assert not faults and gain > ball(F(468, 1400))
+        for state, A, z in (((6, 1, -1), F(1), F("6.276")), ((6, 1, -1), F("1.9"), F("6.4")), ((-6, 1, -1), F("1.9"), F(6)), ((2, 1, -1), F("1.9"), F("1.5"))):
+            faults, _ = Inequality(form_about(rates, 0, 1), (0, 2)).faults([ball(F(v)) for v in state], A, z)
+            assert faults and any(surely for _, surely in faults)
+
+
+def certified(scene, state):
+    made = json.loads(json.dumps(certificate(scene, state)))
+    return made, verify(made)
+
+
+def test_spin_up_of_random_motions_is_certified_and_checked():
+    rng, proved = random.Random(31), 0
+    for _ in range(4):
+        scene = random_scene(rng, rng.choice((0, .1)))
+        made, found = certified(scene, [F(v) for v in sphere(rng, rng.choice((.1, 3)))])
+        assert found.status == "proved"
+        if made["motion"]:
+            proved += 1
+            assert any("trap at t" in f.claim for f in found.findings) and says_what_happens(made)  # SciPy
+        else:
+            assert "about the fixed centre" in made["uncertified"][0]
+    assert proved >= 3
+
+
+def test_a_start_that_is_trapped_needs_no_way():
+    made, found = certified(EXAMPLE, (F(6), F(1), F(-1)))
+    assert found.status == "proved" and made["motion"]["spin_up"]["t"] == "0" and made["motion"]["spin_up"]["way"] == []
+
+
+def test_a_motion_that_is_not_decided_has_no_certificate_and_says_why():
+    made, found = certified(Scene(Body((3, 2, 1)), ConstantTorque((0, 1, F(1, 10**9)))), (0, -1, 0))  # it lies near the middle axis for long
+    assert made["motion"] is None and "undecided" in made["uncertified"][0] and found.status == "proved"
+
+
+def changed(made, **to):
+    return made | {"equilibria": None, "uncertified": [], "motion": made["motion"] | {"spin_up": made["motion"]["spin_up"] | to}}
+
+
+def test_brackets_narrower_than_is_known_and_constants_out_of_reach_stay_unproved():
+    made, _ = certified(EXAMPLE, STATE)
+    said = made["motion"]["spin_up"]
+    point = said["way"][1]
+    middle = str(sum(map(F, point["box"][0])) / 2)
+    narrow = verify(changed(made, way=[point | {"box": [[middle, middle], *point["box"][1:]]}]))
+    assert narrow.status in ("partly", "refuted")
+    assert verify(changed(made, gain=str(F(said["gain"]) * 2))).status == "refuted"
+    assert verify(changed(made, cone=str(F(said["cone"]) / 2))).status == "refuted"
+    assert verify(changed(made, least=str(F(said["least"]) * 2))).status == "refuted"
+    assert verify(changed(made, t="1/1000", way=[])).status == "refuted"
+    assert verify(changed(made, axis=1)).status == "refuted" and verify(changed(made, axis=2)).status == "refuted"
+    assert verify(changed(made, sense=-1)).status == "refuted"
+
+
+def test_a_way_too_long_to_follow_is_not_checked(monkeypatch):
+    made, _ = certified(EXAMPLE, STATE)
+    monkeypatch.setattr("stabilab.verify.spin_up.claims.MOST_STEPS", 5)
+    found = verify(changed(made))
+    assert found.status == "partly" and all("not followed beyond 5 steps" in f.reason for f in found.findings)
+
+
+@pytest.mark.parametrize("bad", [[], "x", {}, {"t": "1"}])
+def test_what_is_no_spin_up_is_malformed(bad):
+    with pytest.raises(Malformed):
+        spin_up_of(bad)
+

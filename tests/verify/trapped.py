@@ -1,0 +1,47 @@
+"""What a certificate says of a spin-up, against a long run by SciPy: the formulas of the normal form written out for a body, and for the scaled gyrostat."""
+import math
+from fractions import Fraction as F
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+LATER = 40  # natural units of time after the trap
+
+
+def rates_of(scene):
+    """(kappa, rho, sigma, m), three floats each, from the numbers of a certificate's scene."""
+    if scene["variables"] == "scaled":
+        a, b, mu = float(F(scene["a"])), float(F(scene["b"])), [float(F(v)) for v in scene["mu"]]
+        return [1, -1, 1], [0, 0, b], [0, -a, 0], mu
+    D, l, M = ([float(F(v)) for v in scene[key]] for key in ("inertia", "momentum", "torque"))
+    turn = [((i + 1) % 3, (i + 2) % 3) for i in range(3)]
+    return ([(D[j] - D[k]) / D[i] for i, (j, k) in enumerate(turn)], [l[j] / D[i] for i, (j, k) in enumerate(turn)],
+            [-l[k] / D[i] for i, (j, k) in enumerate(turn)], [M[i] / D[i] for i in range(3)])
+
+
+def says_what_happens(claims) -> bool:
+    """Whether no claim of motion.spin_up is against the run, with room for the run's own error."""
+    said, scene, state = claims["motion"]["spin_up"], claims["scene"], [float(F(v)) for v in claims["motion"]["state"]]
+    kappa, rho, sigma, m = rates_of(scene)
+    f = lambda _, x: [kappa[i] * x[(i + 1) % 3] * x[(i + 2) % 3] + rho[i] * x[(i + 2) % 3] + sigma[i] * x[(i + 1) % 3] + m[i] for i in range(3)]
+    t = float(F(said["t"]))
+    end = t + LATER / math.sqrt(max(map(abs, m)))
+    run = solve_ivp(f, (0, end), state, "DOP853", rtol=1e-12, atol=1e-12, dense_output=True)
+    for entry in said.get("way") or ():
+        x = run.sol(float(F(entry["t"]))) if F(entry["t"]) else state
+        if any(not float(F(low)) - 1e-6 <= v <= float(F(high)) + 1e-6 for v, (low, high) in zip(x, entry["box"])):
+            return False
+    times = np.linspace(t, end, 4000)
+    X, amplitude = placed(run.sol(times), (kappa, rho, sigma), said["axis"] - 1, said["sense"])
+    cone, least, gain = (float(F(said[key])) for key in ("cone", "least", "gain"))
+    return bool((amplitude < cone * (1 + 1e-6)).all() and (X > least + gain * (times - t) - 1e-6 * X).all())
+
+
+def placed(x, rates, i, sense):
+    """(X, |zeta|) of states (3, n): X = x_i + shift along the sense, zeta = U + i q V, U and V the rates about the two other axes from their centres."""
+    (kappa, rho, sigma), j, k = rates, (i + 1) % 3, (i + 2) % 3
+    U, V = x[j] + sigma[k] / kappa[k], x[k] + rho[j] / kappa[j]  # the coefficients of x_i in their rates vanish there, and so they do turned by half a turn
+    square = -kappa[j] / kappa[k]
+    q = math.sqrt(square) * (1 if kappa[j] < 0 else -1)
+    shift = sense * (q * rho[k] - sigma[j] / q) / (2 * math.sqrt(-kappa[j] * kappa[k]))
+    return sense * x[i] + shift, np.sqrt(U**2 + square * V**2)
