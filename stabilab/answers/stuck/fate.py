@@ -3,15 +3,18 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from fractions import Fraction
 
 from ...orbit.result import Fate
 from ...physics.quadratic import rests
+from ...unreduced.enclosure.proof import proved
 from ...unreduced.spin_up.follow import spin_up
 from ..kinds import kind_of, one
-from .reach import Reached, reach
+from ..passage.limit import Limit
+from ..time_to import of_one
+from .reach import largest_rate
 
-BUDGET = 300_000  # steps of a run to the limit
-LONG = 1e5  # in natural units of time: how far a run goes that nothing else ends
+BUDGET = 100_000  # steps of a run that looks for the largest rate
 TURN = 1.001  # of a period: a motion that repeats is followed for so long
 EXACT = ("axis", "law")  # certificates of growth that are closed solutions
 
@@ -20,8 +23,9 @@ EXACT = ("axis", "law")  # certificates of growth that are closed solutions
 class Found:
     """fate, level, axis (1, 2, 3 of the scene or 0), sense, direction (scene's axes) and because as in `SpinUp`.
 
-    motion: of a scene with an orbit or a law, None elsewhere; kind: of the scene; time: (low, high) of the limit or None; never: the limit
-    is known never to be reached; largest: |omega| up to then, rad/s, None where unbounded or unknown.
+    motion: of a scene with an orbit or a law, None elsewhere; kind: of the scene; time: (low, high) of the limit, None where it is never
+    within what is known, and time_level how it is known; never: it is known never to be reached; largest: |omega| up to then, or for
+    ever, rad/s, None where unbounded or unknown; followed: s, up to where the limit is known not to be reached.
     """
 
     fate: Fate
@@ -45,9 +49,7 @@ def found(scenario, torque, wheel=None) -> Found:
     kind = kind_of(scene)
     if rests(scene.quadratic(), scenario.state):
         return _at_rest(scenario, kind)
-    if kind == "off axis":
-        return _off_axis(scenario, scene)
-    return _by_law(scenario, scene, kind)
+    return _off_axis(scenario, scene) if kind == "off axis" else _by_law(scenario, scene, kind)
 
 
 def _at_rest(scenario, kind):
@@ -56,49 +58,74 @@ def _at_rest(scenario, kind):
 
 
 def _off_axis(scenario, scene):
-    state = scenario.start
-    seen = spin_up(scene, state)
-    trap, until = seen.trap, seen.t
-    if seen.fate == Fate.SPIN_UP:
-        until = _latest(scenario, trap) if trap else _long(scene)
-    elif seen.fate == Fate.BOUNDED:
-        until = _long(scene)
-    run = _reach(scenario, scene, until)
-    time, level, followed = run.time, "run", max(run.followed, seen.t)
-    if time is None and seen.fate == Fate.SPIN_UP and trap and isinstance(scenario.limit, float):
-        time, level = _by_trap(scenario.limit, trap), seen.level
+    seen = proved(scene, scenario.state, spin_up(scene, scenario.start))
     spins = seen.fate == Fate.SPIN_UP
-    known = run.largest if run.time or not spins else None
-    words = seen.cause + (f"; {run.unsure}" if run.unsure else "")
     about = (seen.axis, seen.sense, seen.direction) if spins else (0, 0, None)
-    return Found(seen.fate, "run" if seen.level == "undecided" else seen.level, *about, words, "off axis", None, time, level, False, known, followed)
+    when = _when(scenario, scene, None if spins or seen.fate == Fate.BOUNDED else seen.t)
+    largest = _largest(scenario, scene, when, None if spins else seen.t)
+    return Found(seen.fate, "run" if seen.level == "undecided" else seen.level, *about, f"{seen.cause}{when.unsure}", "off axis", None, when.time, when.level,
+                 when.never, largest, when.followed)
 
 
 def _by_law(scenario, scene, kind):
-    state = scenario.start
-    motion = one(scene).motion(scene, state, None, scenario.state)
+    motion = one(scene).motion(scene, scenario.start, None, scenario.state)
     spins = motion.fate == Fate.SPIN_UP
-    repeats = not spins and motion.period is not None
-    run = _reach(scenario, scene, TURN * motion.period if repeats else _long(scene))
-    bound = _bound(motion)
-    never = not spins and run.time is None and not run.unsure and (repeats or (isinstance(scenario.limit, float) and bound < scenario.limit))
-    largest = run.largest if run.time or repeats else bound if math.isfinite(bound) else None
-    if scenario.limit is None and spins:
-        largest = None
-    direction = _direction(scene, motion) if spins else None
-    because = motion.because + (f"; {run.unsure}" if run.unsure else "")
-    return Found(motion.fate, _level(kind, motion), motion.axis, motion.sense, direction, because, kind, motion, run.time, "run", never, largest,
-                 math.inf if repeats else run.followed)
+    when = _when(scenario, scene, None)
+    repeats = None if spins or motion.period is None else TURN * motion.period
+    largest = _largest(scenario, scene, when, repeats)
+    if largest is None and not spins and math.isfinite(bound := _bound(motion)):
+        largest = bound
+    return Found(motion.fate, _level(kind, motion), motion.axis, motion.sense, _direction(scene, motion) if spins else None, f"{motion.because}{when.unsure}",
+                 kind, motion, when.time, when.level, when.never, largest, math.inf if repeats else when.followed)
 
 
-def _reach(scenario, scene, until) -> Reached:
-    return reach(scene, scenario.start, scenario.limit, scenario.rows, until, BUDGET)
+@dataclass(frozen=True)
+class _When:
+    time: tuple[float, float] | None
+    level: str
+    never: bool
+    followed: float
+    unsure: str = ""
+
+
+def _when(scenario, scene, t_max) -> _When:
+    """When the limit is reached, by `time_to`; t_max: how far an undecided motion was followed, s."""
+    if scenario.limit is None:
+        return _When(None, "run", False, 0.0 if t_max is None else t_max)
+    seen = of_one(scene, scenario.start, scenario.state, _limit(scenario), None if t_max is None else Fraction(t_max))
+    if math.isinf(seen.low):
+        return _When(None, seen.level, True, math.inf)
+    if math.isfinite(seen.high):
+        return _When((seen.low, seen.high), seen.level, False, seen.high)
+    return _When(None, seen.level, False, seen.low, f"; {seen.words}")
+
+
+def _limit(scenario) -> Limit:
+    """The limit of the case along the scene's axes, exactly."""
+    limits = scenario.case.limits
+    if limits.rate is not None:
+        parts = ((tuple((Fraction(1), tuple(Fraction(i == j) for j in range(3))) for i in range(3)), limits.rate**2),)
+        return Limit("rate", parts, f"|omega| = {float(limits.rate):.10g} rad/s")
+    rows = scenario.axes.rows
+    parts = tuple((((Fraction(1), tuple(rows[i][n] for i in range(3))),), most**2) for n, most in enumerate(limits.rates))
+    return Limit("component", parts, "components in the frame of the file")
+
+
+def _largest(scenario, scene, when, otherwise) -> float | None:
+    """|omega| at the most until the limit is reached, or until another time (None: not told)."""
+    if when.time is not None and isinstance(scenario.limit, float) and when.time[1] > 0:
+        return scenario.limit
+    until = when.time[1] if when.time is not None else otherwise
+    if until is None:
+        return None
+    largest, reached = largest_rate(scene, scenario.start, until, BUDGET)
+    return largest if reached >= until * (1 - 1e-12) else None
 
 
 def _level(kind, motion) -> str:
-    if kind != "growth" or motion.fate not in (Fate.SPIN_UP,):
-        return "exact" if motion.fate != Fate.UNDECIDED else "run"
-    certificate = motion.evidence.get("certificate")
+    if motion.fate == Fate.UNDECIDED:
+        return "run"
+    certificate = motion.evidence.get("certificate") if kind == "growth" else "law"
     return "exact" if certificate in EXACT else "run" if certificate in ("evidence", "none") else "certified"
 
 
@@ -118,31 +145,3 @@ def _bound(motion) -> float:
     if motion.extremes is None or motion.extremes_over != "all time":
         return math.inf
     return math.hypot(*(max(map(abs, pair)) for pair in motion.extremes))
-
-
-def _long(scene) -> float:
-    weight, torque = sum(scene.body.inertia) / 3, max(abs(float(m)) for m in scene.vector("constant_torque"))
-    if not torque:
-        wheel = max(abs(float(v)) for v in scene.vector("gyrostat"))
-        return LONG if not wheel else LONG * weight / wheel
-    return LONG * math.sqrt(weight / torque)
-
-
-def _latest(scenario, trap) -> float:
-    """A time by which a trapped motion has surely passed its limit."""
-    limits = scenario.limit if isinstance(scenario.limit, tuple) else (scenario.limit,)
-    if scenario.limit is None:
-        return trap.t
-    sides = [max(abs(v) for v in pair) for pair in trap.bounds()]
-    across = math.hypot(*(v for v in sides if math.isfinite(v)))
-    return 1.01 * trap.clock(2 * (max(limits) + across))[1]
-
-
-def _by_trap(limit, trap) -> tuple[float, float] | None:
-    """When |omega| reaches the limit, by the trap's clock: the other two rates are bounded for ever."""
-    sides = [max(abs(v) for v in pair) for pair in trap.bounds()]
-    across = math.hypot(*(v for v in sides if math.isfinite(v)))
-    if sum(map(math.isinf, sides)) != 1 or not across < limit:
-        return None
-    low = trap.clock(math.sqrt(limit * limit - across * across))[0]
-    return (low, trap.clock(limit)[1]) if low > trap.t else None

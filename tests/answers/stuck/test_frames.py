@@ -32,15 +32,19 @@ def a_rotation(numbers) -> np.ndarray:
 @pytest.mark.parametrize("name", ["upper-stage", "cubesat-3u"])
 def test_ten_frames_give_one_answer(tmp_path, name):
     """A rotation of the whole file changes no moment, no fate, no time and no rate; vectors turn with it."""
-    text = (ROOT / "cases" / f"{name}.toml").read_text()
-    craft, given = Craft(text), stabilab.stuck(stabilab.load(ROOT / "cases" / f"{name}.toml"))
-    row, axes, numbers = given.rows[0], np.array(given.principal.axes), random.Random(13)
-    for n in range(10):
-        R = a_rotation(numbers)
-        path = tmp_path / f"turned-{n}.toml"
-        path.write_text(TURNED.format(J=(R @ craft.J @ R.T).tolist(), M=(R @ craft.torque()).tolist(), l=(R @ craft.l).tolist(), limit=craft.limit,
+    craft = Craft((ROOT / "cases" / f"{name}.toml").read_text())
+    limit = min(craft.limit, 0.3)
+
+    def asked(R):
+        path = tmp_path / "turned.toml"
+        path.write_text(TURNED.format(J=(R @ craft.J @ R.T).tolist(), M=(R @ craft.torque()).tolist(), l=(R @ craft.l).tolist(), limit=limit,
                                       start=(R @ craft.start).tolist()))
-        found = stabilab.stuck(stabilab.load(path))
+        return stabilab.stuck(stabilab.load(path))
+    given, numbers = asked(np.eye(3)), random.Random(13)
+    row, axes = given.rows[0], np.array(given.principal.axes)
+    for _ in range(10):
+        R = a_rotation(numbers)
+        found = asked(R)
         other = found.rows[0]
         assert (other.fate, other.level, other.axis) == (row.fate, row.level, row.axis)
         assert found.principal.moments == pytest.approx(given.principal.moments, rel=1e-12)

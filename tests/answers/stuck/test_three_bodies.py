@@ -31,7 +31,7 @@ def test_axis_and_sense_are_those_of_a_run_continued_far(answered):
     row = found.rows[0]
     assert row.fate == "spin-up" and row.level in ("certified", "proved")
     axis = row.sense * np.array(found.principal.axes[row.axis - 1])
-    _, end, _ = craft.run(1.5 * max(row.followed, row.time_to_limit[1]), limit=False, rtol=1e-7)
+    _, end, _ = craft.run(6 * min(row.time_to_limit[1], 100), limit=False, rtol=1e-7)
     assert end @ axis > 0.95 * np.linalg.norm(end) > 2 * np.linalg.norm(craft.start)
     assert row.direction == pytest.approx(axis)
 
@@ -100,11 +100,11 @@ def test_csv_has_a_line_a_row_in_si(stabilab):
 def test_the_picture_is_written_whole_and_the_same_twice(stabilab, tmp_path, ending):
     files = [tmp_path / f"{n}.{ending}" for n in "ab"]
     for file in files:
-        code, out, err = stabilab("stuck", BODIES["upper-stage"], "--out", file)
-        assert code == 0 and out.startswith("upper-stage: SPINS UP") and err == f"written: {file}\n"
+        code, out, err = stabilab("stuck", BODIES["geostationary-22n"], "--out", file)
+        assert code == 0 and out.startswith("geostationary-22n: SPINS UP") and err == f"written: {file}\n"
     assert files[0].read_bytes() == files[1].read_bytes() and files[0].stat().st_size > 5000
 
 
 def test_a_picture_of_another_ending_is_refused_before_the_work(stabilab, tmp_path):
-    code, out, err = stabilab("stuck", BODIES["upper-stage"], "--out", tmp_path / "a.csv")
+    code, out, err = stabilab("stuck", BODIES["geostationary-22n"], "--out", tmp_path / "a.csv")
     assert code == 2 and not out and "expected a name that ends in .png, .svg or .pdf" in err
