@@ -46,6 +46,7 @@ ROW_KEYS = {
     "verdict",
     "figure",
     "units",
+    "repair",
 }
 
 

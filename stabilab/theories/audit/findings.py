@@ -96,7 +96,7 @@ def _formula(paper, row, search):
     correction, corrected_residual = _corrected(paper, row, system, domain)
     method = decision.method + (f"; {how} under the condition" if condition else "") + ("; correction passes the same check" if correction else "")
     method += f"; one edit makes it hold{under}" if fixes else ""
-    verdict = "only-if" if condition and not fixes else "wrong"
+    verdict = "only-if" if condition and not fixes and not fault else "wrong"
     return Finding(row, verdict, condition, correction or (*fixes, "")[0], method, decision.residual, corrected_residual, fixes, fault)
 
 
@@ -116,6 +116,8 @@ def _fixes(paper, row, printed, system, bound, domain, condition):
 
     Under a condition they are looked for only where no single one helps the printed formula.
     """
+    if row.options.get("repair") is False:
+        return (), ""
     fixes = repairs(paper, row, printed, system, bound, domain)
     if fixes or (condition and " and " not in condition):
         return fixes, ""

@@ -13,7 +13,7 @@ from ...errors import InputError
 from .checks import pairs as pairs_of
 from .claims import Paper, Row
 from .decide import decide, residual
-from .values import points
+from .values import Evaluator, Undefined, points, settled
 
 MOST_EDITS = 900
 KEEP = 3
@@ -65,6 +65,8 @@ class _Trial:
         import mpmath
 
         try:
+            if self.row.kind == "holds" and not self._near(printed):
+                return False
             pairs = pairs_of(self.paper, self.row, printed, self.system, self.bound)
             if all(left == right for left, right in pairs):
                 return False  # an edit that leaves nothing to be said
@@ -76,12 +78,27 @@ class _Trial:
         return decide(pairs, self.bound, self.system, self.row.equation, self.domain, self.fixed, symbolic=False).holds is True
 
 
+    def _near(self, printed):
+        """Whether doubles leave it open that the formulas hold, without any work on symbols."""
+        import mpmath
+        try:
+            for point in self.points:
+                value = Evaluator(mpmath.fp, settled(mpmath.fp, point, self.fixed, self.bound, self.system), self.bound, self.system)
+                for left, right in printed:
+                    a, b = value(left), value(right)
+                    if not abs(a - b) <= 1e-7 * max(1, abs(a), abs(b)):
+                        return False
+        except Undefined:
+            return False
+        return True
+
+
 def _edits_of_sides(paper, row, left, right, fixed):
     import sympy as sp
 
     seen = {(left, right)}
     own = [s for s in sorted(left.free_symbols | right.free_symbols, key=lambda s: s.name) if s.name not in (fixed or {})]
-    targets = [(right, lambda e: (left, e))]
+    targets = [] if left.func.__name__ == "diff" else [(right, lambda e: (left, e))]
     if row.kind not in ("solves", "equilibrium") and (right.is_Number or left.has(sp.Function)):
         targets.append((left, lambda e: (e, right)))
     for factors in (False, True):  # the likelier edits first
@@ -151,7 +168,7 @@ def _with_factors(node, own, top):
         for n, term in enumerate(node.args):
             rest = node.args[:n] + node.args[n + 1 :]
             yield from (sp.Add(*rest, changed) for factor in factors for changed in (term * factor, term / factor))
-    elif top or node.is_Mul:
+    if top or node.is_Mul:
         yield from (changed for factor in factors for changed in (node * factor, node / factor))
 
 

@@ -8,6 +8,7 @@ import zlib
 from fractions import Fraction
 
 from ...errors import InputError
+from .duals import Dual, DualNumbers, parts
 
 FUNCTION_NAMES = {"Abs": "fabs", "conjugate": "conj", "log": "ln"}
 MEAN_POINTS = 48  # equally spaced angles: exact for harmonics below 48
@@ -34,7 +35,7 @@ class Evaluator:
             value = self._value(expression)
         except (ZeroDivisionError, ValueError, OverflowError):
             raise Undefined(str(expression)) from None
-        if value != value:
+        if parts(value)[0] != parts(value)[0]:
             raise Undefined(str(expression))
         self.known[expression] = value
         return value
@@ -97,22 +98,42 @@ def _operators():
 
 
 def _rate_of(evaluator, f):
-    expression = evaluator.plain(f.args[0])
+    if evaluator.system is None:
+        raise InputError("rate(...) needs a system: name one in the row")
+    own = {name: e for name, e in evaluator.bound.items() if name not in {x.name for x in evaluator.system.state}}
+    expression = Evaluator(None, {}, own, evaluator.system).plain(f.args[0])  # the state moves by the system, whatever stands for it in the row
     for _ in range(int(f.args[1]) if len(f.args) > 1 else 1):
-        if evaluator.system is None:
-            raise InputError("rate(...) needs a system: name one in the row")
         expression = evaluator.system.rate(expression)
     return expression
 
 
-def _rate(evaluator, *arguments):
+def _rate(evaluator, f, n=1):
+    """By a derivative carried along where that is enough, else by symbols."""
     import sympy as sp
-
-    return evaluator(_rate_of(evaluator, sp.Function("rate")(*arguments)))
+    if n != 1 or f.has(sp.Function("rate")) or isinstance(evaluator.numbers, DualNumbers):
+        return evaluator(_rate_of(evaluator, sp.Function("rate")(f, n)))
+    if evaluator.system is None:
+        raise InputError("rate(...) needs a system: name one in the row")
+    state = {x.name: x for x in evaluator.system.state}
+    values = {name: evaluator(x) for name, x in state.items()}
+    slopes = dict(zip(state, map(evaluator, evaluator.system.rates)))
+    return _slope(evaluator, f, {name: e for name, e in evaluator.bound.items() if name not in state}, values, slopes)
 
 
 def _diff(evaluator, f, s, n=1):
-    return evaluator(evaluator.plain(f).diff(s, int(n)))
+    if n != 1 or isinstance(evaluator.numbers, DualNumbers) or _nested(f):
+        return evaluator(evaluator.plain(f).diff(s, int(n)))
+    return _slope(evaluator, f, evaluator.bound, {s.name: evaluator(s)}, {s.name: evaluator.numbers.mpf(1)})
+
+
+def _nested(f):
+    return f.has(*_operators())
+
+
+def _slope(evaluator, f, bound, values, slopes):
+    """Derivative of f where the symbols of `slopes` change at those rates."""
+    point = evaluator.point | {name: Dual(value, slopes[name]) for name, value in values.items()}
+    return parts(Evaluator(DualNumbers(evaluator.numbers), point, bound, evaluator.system)(f))[1]
 
 
 def _at(evaluator, f, s, value):
