@@ -111,7 +111,7 @@ def _edits_of_sides(paper, row, left, right, fixed):
 
 
 def edits(tree, own, declared, factors):
-    """Every tree one edit away. own: symbols of the formula; declared: symbols by name, for indices; factors: those with a factor more or less, or the others."""
+    """Every tree one edit away. own: symbols of the formula; declared: by name, for indices; factors: those with a factor more or less, else the others."""
     if not factors:
         yield -tree
     for place, node in _nodes(tree):
