@@ -68,7 +68,7 @@ def classify(cases: CaseFiles, json: Json = False, strict: Annotated[bool, typer
         certification.checked(out)
         if len(cases) != 1:
             raise InputError(f"--certify: expected one case, got {len(cases)}; certify them one by one")
-    answered = [(case, _equilibria(case), _motion(case, follow=follow) if case.state else None) for case in loaded]
+    answered = [(case, _equilibria(case), _motion(case, follow=follow, proof=certify) if case.state else None) for case in loaded]
     boxes, shown = _over_boxes(loaded, "equilibria", "fate")
     laws = [law.worst(found.validity, motion and motion.validity) for _, found, motion in answered]
     if json:
@@ -565,14 +565,14 @@ def _certified(case, out) -> bool:
     return not made["uncertified"]
 
 
-def _motion(case, brief=False, follow=None):
+def _motion(case, brief=False, follow=None, proof=False):
     from .answers.motion import motion
     from .case.read import blamed_on
     from .streams import Progress
     long = _time(follow, case)
     with blamed_on(case), Progress() as progress:
         words = lambda t, steps, left: progress(f"{printable(case.name)}: followed to {t:.4g} {case.scene.time_unit}, {steps} steps")
-        return motion(case.scene, case.start, case.span, brief, case.exact_state, long, words if progress.wanted else None)
+        return motion(case.scene, case.start, case.span, brief, case.exact_state, long, words if progress.wanted else None, proof)
 
 
 def _time(text: str | None, case) -> float | None:

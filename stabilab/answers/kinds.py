@@ -57,11 +57,11 @@ def many(scene):
     return _module(KINDS[kind_of(scene)].many)
 
 
-def following(scene, follow: float | None = None, tell=None) -> dict:
+def following(scene, follow: float | None = None, tell=None, proof: bool = False) -> dict:
     """The options of a kind whose motions are followed; none for the others, whose answers need no run."""
     if follow is not None and not (isinstance(follow, (int, float)) and math.isfinite(follow) and follow >= 0):
         raise InputError(f"follow: expected a time of at least 0, got {follow!r:.80}")
-    return {"follow": follow, "tell": tell} if KINDS[kind_of(scene)].follows else {}
+    return {"follow": follow, "tell": tell} | ({"proof": True} if proof else {}) if KINDS[kind_of(scene)].follows else {}
 
 
 def _module(place: str):

@@ -11,26 +11,27 @@ from ..physics.state import split
 from .kinds import following, one
 
 
-def motion(scene, state, span=None, brief=False, exact=None, follow: float | None = None, tell=None) -> Motion:
+def motion(scene, state, span=None, brief=False, exact=None, follow: float | None = None, tell=None, proof: bool = False) -> Motion:
     """All that is known of the motion from `state` (three numbers in the scene's variables) at time 0.
 
     Where gamma is part of the state: six numbers (omega, gamma), or a dict of blocks. span: (from, to), the times over
     which extremes are searched where the motion is not integrable. brief: fate and extremes will do; what else costs
     time (period, margin_velocity, invariants) may be left out. exact: the three rates as they were given (Fractions), of
-    which `state` is the rounding: where the motion has a reduction the answer is theirs. follow, tell: as of `fate`. Raises InputError as `fate` does.
+    which `state` is the rounding: where the motion has a reduction the answer is theirs. follow, tell: as of `fate`.
+    proof: enclose the way of a motion that is followed, so that its fate is proved where it can be. Raises InputError as `fate` does.
     """
-    found = _found(checked_scene(scene), state, checked_span(span), brief, exact, follow, tell)
+    found = _found(checked_scene(scene), state, checked_span(span), brief, exact, follow, tell, proof)
     if not scene.approximate or found.validity is not None:
         return found
     from ..physics.law_limits import of_motion
     return replace(found, validity=of_motion(scene, found))
 
 
-def _found(scene, state, span, brief, exact, follow, tell) -> Motion:
+def _found(scene, state, span, brief, exact, follow, tell, proof) -> Motion:
     parts = None if scene.plain else content(scene)
     with in_range():
         if parts is None or parts.kind != "gyrostat":
-            return one(scene).motion(scene, state, span, exact, brief, **following(scene, follow, tell))
+            return one(scene).motion(scene, state, span, exact, brief, **following(scene, follow, tell, proof))
         twin = gyrostat_scene(parts)
-        found = one(twin).motion(twin, split(parts, state)[0], span, exact, **following(twin, follow, tell))
+        found = one(twin).motion(twin, split(parts, state)[0], span, exact, **following(twin, follow, tell, proof))
     return replace(found, because=f"{found.because}; {parts.note}") if parts.note else found

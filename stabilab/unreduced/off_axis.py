@@ -19,6 +19,7 @@ from ..orbit.result import Fate, Motion, finite, judged, pairs
 from ..physics.quadratic import rests
 from ..physics.state import three_floats
 from ..physics.states import equilibrium_mask
+from .enclosure.ranges import ranges_until
 from .evidence import evidence, periods, seen_over, size_words
 from .spin_up.follow import spin_up
 from .spin_up.many import LEVELS, SpinUps, spin_up_many
@@ -33,15 +34,16 @@ NO_SPAN = ("not known without a certificate of spin-up: give span=T ({unit}), or
            "or follow=T to look for the certificate longer")
 
 
-def motion(scene, state, span=None, exact=None, brief: bool = False, follow: float | None = None, tell=None) -> Motion:
+def motion(scene, state, span=None, exact=None, brief: bool = False, follow: float | None = None, tell=None, proof: bool = False) -> Motion:
     """See `answers.motion`. Extremes over the span where one is given, else bounds for all times where spin-up is certified."""
     state = three_floats(state)
     if rests(scene.quadratic(), exact or state):
         decided = at_rest(scene, OneFate(Fate.UNDECIDED, Reason.OFF_AXIS, math.nan))
         return Motion(**judged(state, decided), margin_energy=finite(decided.margin), extremes=tuple((v, v) for v in state), velocity_because=NO_SHEETS)
-    found = spin_up(scene, state, **_limits(follow), tell=tell)
+    start = list(exact or state) if proof else state
+    found = spin_up(scene, start, **_limits(follow), tell=tell, proof=proof)
     decided = OneFate(found.fate, REASON[found.level], math.nan, found.axis, found.sense)
-    bounds = bounds_for_ever(scene, state, found)
+    bounds = bounds_for_ever(scene, start, found)
     fields = {**judged(state, decided), "velocity_because": NO_SHEETS, "level": found.level, "cause": found.cause, "bounds": bounds,
               "extremes": bounds, "extremes_over": "all time, as bounds" if bounds else NO_SPAN.format(unit=scene.time_unit)}
     fields["because"] = f"{decided.because}; {found.cause}"
@@ -62,16 +64,21 @@ def _limits(follow) -> dict:
 
 def bounds_for_ever(scene, state, found: SpinUp) -> tuple | None:
     """((low, high),) * 3 of the rates at all t >= 0 of a motion that spins up: those of the trap from found.t on, and the extremes of the run
-    until then; None where they are not known."""
+    until then (where the spin-up is proved: what the enclosure of the way cannot leave); None where they are not known."""
     if found.fate != Fate.SPIN_UP or found.trap is None:
         return None
     later = found.trap.bounds()
     if not found.t:
         return later
-    run = roots_of_rates(scene, state, found.t)
-    if run.reason:
-        return None
-    return tuple((min(a, c), max(b, d)) for (a, b), (c, d) in zip(later, pairs(run.extremes())))
+    before = _extremes_until(scene, state, found)
+    return before and tuple((min(a, c), max(b, d)) for (a, b), (c, d) in zip(later, before))
+
+
+def _extremes_until(scene, state, found: SpinUp) -> tuple | None:
+    if found.level == "proved" and (sure := ranges_until(scene, state, found.t)) is not None:
+        return pairs(sure)
+    run = roots_of_rates(scene, three_floats(state), found.t)
+    return None if run.reason else pairs(run.extremes())
 
 
 @dataclass(frozen=True)
