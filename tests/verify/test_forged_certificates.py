@@ -353,6 +353,14 @@ def test_what_a_machine_forges_is_never_proved(name):
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("name", ["torque in no axis", "torque in no axis, scaled"])
+def test_every_claim_on_a_spin_up_is_forged_in_many_ways(name):
+    claims = proved(*MOTIONS[name]) | {"equilibria": None, "uncertified": []}
+    made, wrong = forge_all(claims, name, 8)
+    assert made > 5000 and not wrong, wrong[:3]
+
+
+@pytest.mark.slow
 @pytest.mark.long  # some twenty minutes in all; a sample of each kind is in the default suite
 @pytest.mark.parametrize("name", [*KINDS, *FILES])
 def test_three_hundred_forgeries_of_every_claim_are_never_proved(name):

@@ -10,6 +10,7 @@ from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
 from stabilab.errors import InputError
 from stabilab.numbers.numba_door import installed
 from stabilab.unreduced.enclosure import kernel
+from stabilab.unreduced.enclosure.door import functions
 from stabilab.unreduced.enclosure.run import Course, enclose
 
 from ..spin_up.scenes import EXAMPLE, random_scene, sphere
@@ -139,3 +140,13 @@ def test_what_is_no_start_or_time_is_refused():
     for state, t in (((1, 2), 1.), ((1, 2, "x"), 1.), ((1, 2, 3), 0.), ((1, 2, 3), float("inf")), ((1, 2, 3), float("nan"))):
         with pytest.raises(InputError):
             enclose(EXAMPLE, state, t)
+
+
+def test_without_a_compiler_the_steps_are_those_of_many_bits(monkeypatch):
+    monkeypatch.setattr("stabilab.unreduced.enclosure.door.installed", lambda: False)
+    functions.cache_clear()
+    try:
+        worst, found = holds(EXAMPLE, (.1, 1, 2), 1.0, random.Random(2))
+    finally:
+        functions.cache_clear()
+    assert worst <= 1 and found.bits == 128  # a run in 50 digits

@@ -1,0 +1,111 @@
+"""When a rate, or a sum of squares of rates, first reaches a limit: enclosed, however long the way.
+
+During each step the quantity lies within a radius of a polynomial, which lies between its least and greatest Bernstein coefficient. A step that stays below
+the limit is passed; the first that may reach it is halved, left half first, until a piece too short to halve cannot be told from one that reaches
+it: there the time begins. It ends at the first of some points beyond at which the limit is surely reached. Halving takes means of coefficients
+(de Casteljau), so what rounding adds in all is less than HALVINGS (2 N + 1) 2^-53 < 2^-40 of the greatest of them.
+"""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from ...errors import InputError
+from ..spin_up.fields import natural
+from . import kernel
+from .run import STEPS, WHY, Course
+
+HALVINGS = 40  # of a step
+FAR = 2.0**24  # natural units of time: beyond what any number of steps reaches
+BLUR = 2.0**-40
+POINTS = 16  # of a step beyond the one in which the limit may first be reached
+
+
+@dataclass(frozen=True)
+class Crossing:
+    """low, high: between these times, in the scene's unit, the limit is first reached; high is inf where that was not seen, and surely it
+    is not reached before low.
+
+    because: what ended the search. steps: validated ones.
+   
+    """
+
+    low: float
+    high: float
+    because: str
+    steps: int
+
+
+def first_crossing(scene, state, limit: float, weights=None, component: int | None = None, t_max: float | None = None, steps: int = STEPS) -> Crossing:
+    """The first time at which the root of the sum of weights_i omega_i^2 (None: of ones, so |omega|), or |omega_component| (0, 1, 2), reaches `limit`.
+
+    scene, state: as of `run.Course`. t_max: how far to look (None: as far as so many steps reach). Raises InputError for a limit that is not above 0.
+    """
+    if not (isinstance(limit, (int, float)) and 0 < limit < math.inf):
+        raise InputError(f"limit: expected a number above 0, got {limit!r:.80}")
+    chosen = [float(i == component) for i in range(3)] if component is not None else [1.0] * 3 if weights is None else list(weights)
+    end = t_max if t_max is not None else FAR / natural(scene)[1]
+    course, search = Course(scene, state, end), _Search(float(limit) ** 2, chosen)
+    while course.status == kernel.GOING and course.steps < steps:
+        band = course.advance(end, steps - course.steps, band=True)
+        if band is not None and search.found_in(band):
+            return Crossing(search.low, search.high, "it is reached between these times", course.steps)
+    words = "it stays below" if search.low is None else "it comes nearer than is known, and is not surely reached"
+    ended = "" if course.status == kernel.DONE else f" ({WHY[course.status]})"
+    return Crossing(course.t if search.low is None else search.low, math.inf, f"{words} up to t = {course.t:.6g}{ended}", course.steps)
+
+
+class _Search:
+    """Looks for the first time in bands one after another."""
+
+    def __init__(self, level, weights):
+        self.below, self.above, self.weights = level * (1 - 2.0**-52), level * (1 + 2.0**-52), weights
+        self.low = self.high = None
+
+    def found_in(self, band) -> bool:
+        """Whether the limit is surely reached in this band, or was before."""
+        rows, radii = band.form(self.weights)
+        values = rows @ _bernstein(rows.shape[1] - 1).T
+        radii = radii + BLUR * np.abs(rows).sum(axis=1)
+        for i in np.flatnonzero((values.max(axis=1) + radii >= self.below) | (self.low is not None)):
+            begin, end = band.times[i:i + 2].tolist()
+            points = np.arange(1, POINTS + 1) / POINTS
+            if self.low is None:
+                x = _first_open(values[i], radii[i] - self.below, 0.0, 1.0)
+                if x is None:
+                    continue
+                self.low = max(0.0, _at(begin, end, x) * (1 - 2.0**-50))
+                points = np.minimum(x + 2.0 ** np.arange(-HALVINGS, 1.0), 1.0)
+            reached = np.flatnonzero(np.polynomial.polynomial.polyval(points, rows[i]) - radii[i] >= self.above)
+            if reached.size:
+                self.high = _at(begin, end, float(points[reached[0]])) * (1 + 2.0**-50)
+                return True
+        return False
+
+
+def _at(begin, end, x):
+    return begin + x * (end - begin)
+
+
+@lru_cache(maxsize=4)
+def _bernstein(degree: int):
+    """(degree + 1, degree + 1): from coefficients of powers of x on [0, 1] to those of Bernstein."""
+    return np.array([[math.comb(i, k) / math.comb(degree, k) if k <= i else 0.0 for k in range(degree + 1)] for i in range(degree + 1)])
+
+
+def _first_open(values, over, a, b):
+    """Where the first piece of [a, b] begins that is too short to halve and has a coefficient above -over; None where there is none."""
+    if values.max() + over < 0:
+        return None
+    if b - a <= 2.0**-HALVINGS:
+        return a
+    middle, row, left, right = (a + b) / 2, values, [values[0]], [values[-1]]
+    while len(row) > 1:
+        row = (row[1:] + row[:-1]) / 2
+        left.append(row[0])
+        right.append(row[-1])
+    found = _first_open(np.array(left), over, a, middle)
+    return _first_open(np.array(right[::-1]), over, middle, b) if found is None else found
