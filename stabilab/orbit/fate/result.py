@@ -8,7 +8,7 @@ import numpy as np
 
 from ..far_states import BEYOND
 from ..result import Fate
-from ..separatrix.distance import separatrix_distance
+from ..separatrix.distance.ask import separatrix_distance
 from .reasons import REASONS, Reason
 
 CHUNK = 16384  # states at a time: a dozen arrays of so many doubles stay in the processor's caches

@@ -16,7 +16,7 @@ from stabilab.orbit.ball_orbit import Orbit
 from stabilab.orbit.fate.balls import decide
 from stabilab.orbit.reduction import reduce
 from stabilab.orbit.result import Fate
-from stabilab.orbit.separatrix.distance import distance_of
+from stabilab.orbit.separatrix.distance.ask import distance_of
 
 SCENES = {
     "circle": ScaledGyrostat("0.2", "0.4", (0, 0, 1)),

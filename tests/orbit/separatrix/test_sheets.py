@@ -12,7 +12,7 @@ from stabilab import Body, ConstantTorque, Fate, Gyrostat, Scene
 from stabilab.answers.motion import motion
 from stabilab.errors import InputError
 from stabilab.orbit.reduction import reduce
-from stabilab.orbit.separatrix.distance import distance_of
+from stabilab.orbit.separatrix.distance.ask import distance_of
 from tests.oracles import energy
 from tests.oracles.pairs import PAPER_BODY, WORDS, physical, scaled
 from tests.shared import SCALED_MINOR

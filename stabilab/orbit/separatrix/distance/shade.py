@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 
-from .circle_kernel import moved, others, rise, slope
+from ..circle_kernel import moved, others, rise, slope
 
 
 class Shade:

@@ -1,4 +1,4 @@
-"""The sheets of a separatrix seen from a state: rounding bounds of the charts, brackets where two moments are nearly equal."""
+"""The distance from the separatrix: charts err by less than their bounds, lower bound and witness meet where that is hard."""
 from __future__ import annotations
 
 import mpmath
@@ -8,8 +8,10 @@ import pytest
 import stabilab
 from stabilab.orbit.conic import Conic
 from stabilab.orbit.reduction import reduce
-from stabilab.orbit.separatrix.distance import distance_of
-from stabilab.orbit.separatrix.sheet_chart import Chart, Hyperbola, Seen
+from stabilab.orbit.separatrix.distance.ask import distance_of
+from stabilab.orbit.separatrix.distance.curves import Hyperbola
+from stabilab.orbit.separatrix.distance.loop_chart import Chart
+from stabilab.orbit.separatrix.distance.point import Seen
 from tests.oracles.pairs import physical
 
 
@@ -77,3 +79,30 @@ def test_bound_and_witness_meet_at_the_tips_of_cones_and_beside_the_folds_of_far
     """There W grows like a root, and halving boxes by the slopes of smooth bounds used to leave brackets of 2e-8 to 4e-6."""
     found = distance_of(reduce(physical(inertia, wheel, torque)[0]), state)
     assert found.settled and np.linalg.norm(np.array(found.witness) - state) == pytest.approx(found.upper, rel=1e-9)
+
+
+@pytest.mark.parametrize("inertia, wheel, torque, state", [
+    ((1.5637603579889892, 1.9618001934913478, 1.0286388451871102), (0, 0.1298210205682596, -0.2809807005880112), (0, 0, 0),
+     (3.574180856662026, 8.536803480006071, 5.307671798974504)),
+    ((1.1617853181353837, 1.5412202312016956, 1.0769660944416684), (0, -0.2532265090143425, -1.9717684404796492), (0.8474919665936105, 0, 0),
+     (11.26726403504404, 18.488724448197452, 12.682158756064094)),
+    ((1.2429607089343842, 1.2429618285607196, 1.0774172052746194), (0, 0, -300680.3833442784), (0.05248724485989692, 0, 0),
+     (5.00238728361977, -0.21685189881815653, -0.11852856533633595)),
+    ((1.3577243346918109, 1.2641610423199228, 1.3577243023289156), (0.0013684417647415105, -988.3521929006432, 0), (0, 0, -0.9165233236148685),
+     (1.157434860394527, 4.03197807466792, -2.4550689216984347))])
+def test_bound_and_witness_meet_where_loops_run_far_along_an_invariant_plane(inertia, wheel, torque, state):
+    """Told by their saddles, such loops move by e^y: brackets were 8e-9 to 60 % wide, or no point was found at all."""
+    found = distance_of(reduce(physical(inertia, wheel, torque)[0]), state)
+    assert found.settled and np.linalg.norm(np.array(found.witness) - state) == pytest.approx(found.upper, rel=1e-9)
+
+
+def test_a_branch_that_ends_beside_a_plane_is_not_taken_to_reach_it():
+    """Its fold lies 1e-7 from the plane of loops of 1e6: the sheet ends there, and the plane, 880 away, is none of it. Without code
+    in common: on the way the margin in energy stays above zero; at the witness, on the edge of the sheet, it vanishes with the barrier."""
+    inertia, wheel = (1.8290967274280594, 1.8290962446652763, 1.5191332376501885), (0.1741448013106836, 0.0, -426.0248717963907)
+    scene = physical(inertia, wheel, (0.0, -1.0941156527864675e-07, 0.0))[0]
+    state = np.array([-0.1880791489812675, 0.018586251832376544, 0.034107800405773304])
+    found = distance_of(reduce(scene), state.tolist())
+    way = (np.array(found.witness) - state) / found.upper
+    margins = stabilab.fate(scene, state + way * found.upper * np.array([[0.7], [1 - 1e-6], [1 - 1e-9], [1 + 1e-6]])).margins
+    assert found.settled and margins[0] > 0 and 0 < margins[2] < 2e-3 * margins[1] and margins[3] == np.inf

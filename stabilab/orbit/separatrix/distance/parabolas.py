@@ -11,9 +11,14 @@ the fold |a| |N|^3 = K^2. With D_j = D_i instead the two components change roles
 from __future__ import annotations
 
 import math
+from fractions import Fraction
 
-from .sheet_chart import EPS, ROUNDINGS, Chart, Point
-from .spans import Span
+from .bends import Span
+from .loop_chart import Chart
+from .point import UNIT, Point, gap_of, seen_as, square_of
+from .result import NO_SEPARATRIX, Apart
+from .search import nearest
+from .sharp import parabola_place
 
 
 class ParabolaChart(Chart):
@@ -30,19 +35,12 @@ class ParabolaChart(Chart):
     def misses(self, t, dt, y, dy, upper):
         return False
 
-    def rates(self, reduction, state, t, y):
-        """The three rates there, with omega_i + s of the sign of the state's."""
-        g, r = self.here, reduction
-        N, s = self._saddle(t)
-        half = 0.5 * g["kappa"] * g["a"] * y
-        first, second = s + 2 * half, N - g["kappa"] * y * (s + half)
-        if r.p:
-            first, second = second, first
-        w = math.sqrt(max(self.point(t, y).phi, 0.0))
-        out = [0.0] * 3
-        out[r.j], out[r.k] = (first - float(r.rho)) / g["kappa"], (second - float(r.sigma)) / g["kappa"]
-        out[r.axis] = (w if state[r.axis] + r.s >= 0 else -w) - float(r.s)
-        return tuple(out)
+    def place(self, t, y):
+        """(first, second) rate less the state's, and |omega_i + s|."""
+        p, (N, s) = self.here, self._saddle(t)
+        half = 0.5 * p["kappa"] * p["a"] * y
+        u, v = s + 2 * half - p["u"], N - p["kappa"] * y * (s + half) - p["v"]
+        return u / p["kappa"], v / p["kappa"], math.sqrt(max(self.point(t, y).phi, 0.0))
 
     def point(self, t, y) -> Point:
         g = self.here
@@ -54,15 +52,23 @@ class ParabolaChart(Chart):
         phi_t, phi_y = y * y * (a * N + 2 * lift * s), 2 * y * (a * N - lift * lift) - y * y * kappa * a * lift
         u_t, u_y, v_t, v_y = -s, kappa * a, N + kappa * y * s, -kappa * (s + 2 * half)
         k2 = kappa * kappa
-        unit = ROUNDINGS * EPS
-        off_phi = unit * y * y * (abs(a * N) + (abs(s) + abs(half)) ** 2)
-        off_u, off_v = unit * (abs(s) + abs(half) + abs(g["u"])), unit * (abs(N) + abs(kappa * y) * (abs(s) + abs(half)) + abs(g["v"]))
-        apart = (u * u + v * v) / k2
-        off = (off_u * (2 * abs(u) + off_u) + off_v * (2 * abs(v) + off_v)) / k2 + 8 * EPS * apart
-        w = math.sqrt(phi) if phi > 0 else 0.0
-        off_w = min(off_phi / (w + 1e-300), math.sqrt(off_phi)) + 4 * EPS * (w + g["w"])
-        return Point(apart, 2 * (u * u_t + v * v_t) / k2, 2 * (u * u_y + v * v_y) / k2, phi, phi_t, phi_y, w - g["w"],
-                     (off, off_phi, off_w))
+        tall, wide, long = abs(a * N) + (abs(s) + abs(half)) ** 2, abs(s) + abs(half), abs(kappa * y)
+        off_phi = UNIT * y * y * tall
+        mN = abs(N) + long * wide
+        off_u, off_v = UNIT * (wide + abs(g["u"])), UNIT * (mN + abs(g["v"]))
+        apart, off = square_of(u, v, off_u, off_v, 1 / k2, 1 / k2)
+        gap, off_w = gap_of(phi, off_phi, g["w"])
+        rough = (4 * (off_u * abs(s) + abs(u) * UNIT * abs(s) + off_v * mN + abs(v) * UNIT * mN) / k2,
+                 4 * (off_u * abs(kappa * a) + abs(u) * UNIT * abs(kappa * a) + (off_v + abs(v) * UNIT) * abs(kappa) * 2 * wide) / k2,
+                 4 * UNIT * y * y * tall, 8 * UNIT * (abs(y) * tall + y * y * abs(kappa * a) * wide))
+        return Point(apart, 2 * (u * u_t + v * v_t) / k2, 2 * (u * u_y + v * v_y) / k2, phi, phi_t, phi_y, gap, (off, off_phi, off_w), rough)
+
+    def sharp(self, numbers, g, t, y):
+        return parabola_place(g, t, y)
+
+    @staticmethod
+    def metric(g):
+        return 1, 1
 
     def bends(self, t, dt, y, dy):
         g = self.here
@@ -85,8 +91,7 @@ class ParabolaChart(Chart):
 
 
 def parabola_seen(reduction, state):
-    """The constants of a `ParabolaChart` for a state (three floats or Fractions), None where no orbit has a barrier."""
-    from fractions import Fraction
+    """The reduction seen from a state (three floats or Fractions), None where no orbit has a barrier."""
     r = reduction
     u, v = (Fraction(state[axis]) for axis in (r.j, r.k))
     p0, rho, sigma = r.p0, r.rho, r.sigma
@@ -96,7 +101,7 @@ def parabola_seen(reduction, state):
         return None
     exact = {"kappa": r.kappa, "a": p0, "K": sigma * rho - r.kappa * r.m, "u": r.kappa * u + rho, "v": r.kappa * v + sigma,
              "w": abs(Fraction(state[r.axis]) + r.s)}
-    return exact, {name: float(value) for name, value in exact.items()}
+    return seen_as(0, exact)
 
 
 def rectangle(g, upper):
@@ -115,3 +120,31 @@ def rectangle(g, upper):
     span = (max(abs(q_low), abs(q_high)) + s_most) / abs(kappa * a)
     reach = min(reach, span) * (1 + 1e-9)
     return (math.log(least), math.log(most)), (-reach, reach)
+
+
+def on_parabolas(reduction, state) -> Apart:
+    """The distance of a state of a body with two equal moments, whose orbits are parabolas."""
+    seen = parabola_seen(reduction, state)
+    if seen is None:
+        return NO_SEPARATRIX
+    g = seen.plain
+    fold = (g["K"] ** 2 / abs(g["a"])) ** (1 / 3) or abs(g["v"]) or abs(g["a"])
+    upper = math.inf
+    for n in range(-8, 60):
+        N = math.copysign(fold * 2 ** (n / 4 if n > 0 else n if not g["K"] else 0), g["a"])
+        upper = min(upper, math.sqrt(((g["K"] / N - g["u"]) ** 2 + (N - g["v"]) ** 2) / g["kappa"] ** 2 + g["w"] ** 2))
+    t, y = rectangle(g, upper)
+    found = nearest([ParabolaChart(seen, t, y)], g["w"], upper * (1 + 1e-12))
+    witness = None if found.chart is None else _rates(reduction, found.chart.place(found.t, found.y), state)
+    return Apart(found.lower, found.upper, witness, "", found.boxes)
+
+
+def _rates(reduction, place, state):
+    """The three rates at a place, with omega_i + s of the sign of the state's."""
+    r, (first, second, w) = reduction, place
+    if r.p:
+        first, second = second, first
+    out = [0.0] * 3
+    out[r.j], out[r.k] = float(state[r.j] + Fraction(first)), float(state[r.k] + Fraction(second))
+    out[r.axis] = float((1 if state[r.axis] + r.s >= 0 else -1) * Fraction(w) - r.s)
+    return tuple(out)

@@ -1,0 +1,1 @@
+"""How far a state is from the separatrix: charts of its sheets, a branch and bound over them, a lower bound and a witness."""

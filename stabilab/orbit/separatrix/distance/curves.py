@@ -1,0 +1,184 @@
+"""Branches of saddles: curves on the conic of equilibria, with places told from the state.
+
+A branch has a parameter t whose zero is at or near the saddle nearest to the state, and the places there, and how far they are from
+the state, are differences of exact numbers.
+"""
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+from typing import NamedTuple
+
+from .point import EPS
+
+INF = math.inf
+ROUNDING = 16 * EPS
+
+
+class Spot(NamedTuple):
+    """A saddle: its place, slopes, the sizes of the terms of x and z; (u, v) from the state, with the sizes of their terms; the
+    parts (p, r) = (G x + c, G z + d) of the force, with theirs."""
+
+    x: float
+    z: float
+    xt: float
+    zt: float
+    sx: float
+    sz: float
+    u: float
+    v: float
+    su: float
+    sv: float
+    p: float
+    r: float
+    sp: float
+    sr: float
+
+
+class Hyperbola:
+    """Saddles X = (K/h - c)/G, Z = h - shift for h = h0 exp(t), |h| within [inner, outer].
+
+    h0 is, of the ends of the branch and the saddles level with the state, the one nearest to the state; the places there, and how far they
+    are from the state, are differences of exact numbers. So doubles resolve the branch next to the state, however far from the
+    centre both are: with two moments equal to a share g, the saddles near the state have h alike to that share.
+    """
+
+    def __init__(self, seen, inner, outer, sign):
+        g = seen.exact
+        self.seen, self.sign = seen, sign
+        self.K, self.shift = g["c"] * g["d"] / g["G"] - g["mu"], g["d"] / g["G"]
+        self.plain = tuple(map(float, (self.K, g["c"], g["G"], self.shift)))
+        self.h0 = self._anchor(inner, outer)
+        k0 = self.K / (self.h0 * g["G"])
+        x, z = k0 - g["c"] / g["G"], self.h0 - self.shift
+        self.first = tuple(map(float, (self.h0, k0, x, z, x - g["X"], z - g["Z"])))
+        self.low, self.high, self.ends = self.to(inner), self.to(outer), (inner, outer)
+
+    def _anchor(self, inner, outer):
+        g = self.seen.exact
+        pull = g["G"] * g["X"] + g["c"]
+        level = [self.sign * (self.shift + g["Z"]), self.sign * self.K / pull if pull else None]
+        found = [short(h) for h in (inner, outer, *level) if h and 0 < h < INF and inner <= h <= outer]
+
+        def apart(h):
+            h = self.sign * h
+            return g["a"] * ((self.K / h - g["c"]) / g["G"] - g["X"]) ** 2 + g["b"] * (h - self.shift - g["Z"]) ** 2
+        return self.sign * min(found, key=apart, default=short(Fraction(math.sqrt(abs(self.K)) or 1.0)))
+
+    def to(self, size):
+        """t of the saddle with |h| = size."""
+        if not 0 < size < INF:
+            return INF if size else -INF
+        more = Fraction(size) / abs(self.h0) - 1
+        return math.log1p(more) if abs(more) < 0.5 else math.log((more + 1).numerator) - math.log((more + 1).denominator)
+
+    def at(self, t) -> Spot:
+        K, c, G, shift = self.plain
+        h0, k0, x0, z0, u0, v0 = self.first
+        up, down = math.expm1(t), math.expm1(-t)
+        h, k, dh, dk = h0 + h0 * up, k0 + k0 * down, h0 * up, k0 * down
+        if abs(t) > 1:
+            h, k = h0 * math.exp(t), k0 * math.exp(-t)
+        p, r = G * k, G * h
+        return Spot(x0 + dk, z0 + dh, -k, h, abs(x0) + abs(dk), abs(z0) + abs(dh), u0 + dk, v0 + dh,
+                    abs(u0) + abs(dk), abs(v0) + abs(dh), p, r, abs(p), abs(r))
+
+    def exact(self, t):
+        """(x, z) of a saddle at t, or beside it, as Fractions; at the ends of the branch those of the ends."""
+        h = self.ends[0] if t == self.low else self.ends[1] if t == self.high else short(abs(self.h0) * Fraction(math.exp(t)))
+        g, h = self.seen.exact, self.sign * Fraction(h)
+        return (self.K / h - g["c"]) / g["G"], h - self.shift
+
+    def sharp(self, numbers, g, t):
+        """x, z, x_t, z_t as balls."""
+        h = numbers.ball(self.h0) * t.exp()
+        k = numbers.ball(self.K) / (h * g["G"])
+        return k - g["c"] / g["G"], h - numbers.ball(self.shift), -k, h
+
+    def window(self, reach):
+        """t of the saddles within `reach` of the centre; the first above the second where there is none."""
+        g, reach = self.seen.exact, Fraction(reach) * (1 + Fraction(1, 10**12))
+        low, high = (self.sign * self.shift + side * reach for side in (-1, 1))
+        side = 1 if self.sign * self.K > 0 else -1
+        least, most = (side * g["c"] + n * abs(g["G"]) * reach for n in (-1, 1))
+        if high <= 0 or most <= 0:
+            return INF, -INF
+        low = max(low, abs(self.K) / most)
+        return self.to(low), self.to(min(high, abs(self.K) / least) if least > 0 else high)
+
+    def over(self, t, dt):
+        """Middles and radii of x, z, x_t, z_t, x_tt, z_tt over [t - dt, t + dt]; what x and z are there less the state's, and the
+        sizes of the terms of these."""
+        s = self.at(t)
+        half, r = math.sinh(0.5 * dt), math.sinh(dt)
+        more, m = 2 * half * half, math.cosh(dt)
+        km, kr, hm, hr = -s.xt * m, abs(s.xt) * r, s.zt * m, abs(s.zt) * r
+        return (s.x - s.xt * more, kr + ROUNDING * s.sx, s.z + s.zt * more, hr + ROUNDING * s.sz,
+                -km, kr, hm, hr, km, kr, hm, hr, s.u - s.xt * more, s.v + s.zt * more, s.su + kr, s.sv + hr)
+
+
+class Straight:
+    """Saddles on one of the lines that the conic degenerates to, at a point of it plus t times its direction.
+
+    The point is the foot of the orbits, where a cone may have its tip, or the place nearest to the state where the state is much
+    nearer to that. knots: t of the foot and of where two lines cross; between them all of the line are saddles or none.
+    """
+
+    def __init__(self, seen, fixed):
+        """fixed: "x" or "z" for the line on which it is constant, None for c Z + d X + mu = 0."""
+        g, self.seen, self.here = seen.exact, seen, seen.plain
+        G, c, d = g["G"], g["c"], g["d"]
+        base, way = {"x": ((-c / G, 0), (0, 1)), "z": ((0, -d / G), (1, 0))}[fixed] if fixed else (
+            (-g["mu"] * d / (c * c + d * d), -g["mu"] * c / (c * c + d * d)), (-c, d))
+        cross = {"x": -d / G, "z": -c / G}[fixed] if fixed else None
+        square = way[1] ** 2 - seen.e * way[0] ** 2
+        foot = -(base[1] * way[1] - seen.e * base[0] * way[0]) / square if square else Fraction(0)
+        level = self._level(g, base, way)
+        start = short(level) if 1000**2 * self._apart(g, base, way, level) < self._apart(g, base, way, foot) else foot
+        self.base, self.way = tuple(b + start * w for b, w in zip(base, way)), tuple(map(Fraction, way))
+        self.knots = sorted({float(t - start) for t in (foot, cross) if t is not None})
+        x, z = self.base
+        self.plain = tuple(map(float, (x, z, *self.way, x - g["X"], z - g["Z"])))
+
+    @staticmethod
+    def _level(g, base, way):
+        """The t nearest to the state."""
+        over = g["a"] * way[0] * (g["X"] - base[0]) + g["b"] * way[1] * (g["Z"] - base[1])
+        return over / (g["a"] * way[0] ** 2 + g["b"] * way[1] ** 2)
+
+    @staticmethod
+    def _apart(g, base, way, t):
+        return g["a"] * (base[0] + t * way[0] - g["X"]) ** 2 + g["b"] * (base[1] + t * way[1] - g["Z"]) ** 2
+
+    def at(self, t) -> Spot:
+        x0, z0, dx, dz, u0, v0 = self.plain
+        g, tx, tz = self.here, t * dx, t * dz
+        x, z, sx, sz = x0 + tx, z0 + tz, abs(x0) + abs(tx), abs(z0) + abs(tz)
+        return Spot(x, z, dx, dz, sx, sz, u0 + tx, v0 + tz, abs(u0) + abs(tx), abs(v0) + abs(tz), g["G"] * x + g["c"],
+                    g["G"] * z + g["d"], abs(g["G"]) * sx + abs(g["c"]), abs(g["G"]) * sz + abs(g["d"]))
+
+    def over(self, t, dt):
+        s = self.at(t)
+        return (s.x, abs(s.xt) * dt + ROUNDING * s.sx, s.z, abs(s.zt) * dt + ROUNDING * s.sz, s.xt, 0.0, s.zt, 0.0,
+                0.0, 0.0, 0.0, 0.0, s.u, s.v, s.su, s.sv)
+
+    def exact(self, t):
+        return tuple(b + Fraction(t) * w for b, w in zip(self.base, self.way))
+
+    def sharp(self, numbers, g, t):
+        (x, z), (dx, dz) = (tuple(map(numbers.ball, pair)) for pair in (self.base, self.way))
+        return x + t * dx, z + t * dz, dx, dz
+
+    def window(self, reach):
+        x0, z0, dx, dz = self.plain[:4]
+        far = (reach + math.hypot(x0, z0)) / math.hypot(dx, dz) * (1 + 1e-12)
+        return -far, far
+
+
+def short(number):
+    """A Fraction near another, with 160 bits."""
+    number = Fraction(number)
+    if not number:
+        return number
+    bits = 160 - abs(number.numerator).bit_length() + number.denominator.bit_length()
+    return Fraction(round(number * Fraction(2) ** bits)) / Fraction(2) ** bits

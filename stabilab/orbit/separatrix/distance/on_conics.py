@@ -1,0 +1,159 @@
+"""The distance from the separatrix of a scene whose orbits are circles or hyperbolas: its branches of saddles and their charts.
+
+Without a torque the states of an invariant plane whose energy exceeds that of the resting centre tend to a rotation about the
+axis and are on the separatrix too: a flat piece, bounded by the loops' limit n^2 W^2/2 = u(xi, eta). Its distance is that of
+the plane where the foot of the perpendicular has the energy; else the nearest point is on that limit, where the sheets end.
+With a torque no point of the planes is a limit of sheets but the curve of each saddle on them: a sheet beside a plane keeps
+eta = eta* exp(-(n^2 W^2/2 + ...)/mu) > 0 at every rate W.
+"""
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+from itertools import pairwise
+from typing import NamedTuple
+
+from ....numbers.balls import DOUBLE_BITS
+from ...conic import Conic
+from ...fate.balls import decide
+from .curves import Hyperbola, Straight
+from .long_loops import loops_of, planes_met
+from .loop_chart import Chart
+from .point import UNIT, Seen
+from .result import NO_SEPARATRIX, Apart
+from .search import nearest
+from .shade import Shade
+
+INF = math.inf
+
+
+def on_conic(reduction, state, orbit) -> Apart:
+    """The distance of a state whose orbit is a circle or a hyperbola."""
+    seen, conic = Seen.of(reduction, state), Conic(reduction)
+    arcs = list(_arcs(conic, seen))
+    if not arcs and not (seen.e > 0 and reduction.sense == 0):
+        return NO_SEPARATRIX
+    shade = _shade(orbit, arcs)
+    flat = _flat_pieces(seen, reduction.sense)
+    if seen.e > 0:
+        flat += [place for arc in arcs for place in planes_met(seen, arc.curve, arc.low, arc.high)]
+    start = min([_first(seen, arc, shade) for arc in arcs] + flat, key=lambda one: one[0], default=None)
+    if start is None:
+        return NO_SEPARATRIX
+    charts = [chart for arc in arcs for chart in arc.charts(seen, reduction.sense, start[0])]
+    found = nearest(charts, seen.plain["w"], start[0] * (1 + 1e-14) + 1e-300, genuine=shade, start=_on_chart(charts, *start[2:]))
+    place = start[1] if found.chart is None else found.chart.place(found.t, found.y)
+    return Apart(found.lower, found.upper, _rates(reduction, seen, place, state), "", found.boxes)
+
+
+def _on_chart(charts, saddle=None):
+    """(chart, t, y) of a saddle (branch, t)."""
+    on = [chart for chart in charts if saddle and chart.curve is saddle[0] and chart.t[0] <= saddle[1] <= chart.t[1] and chart.y[0] <= 0 <= chart.y[1]]
+    return (on[0], saddle[1], 0.0) if on else None
+
+
+class _Arc(NamedTuple):
+    """A branch of saddles: t from low to high (inf: open) along a curve."""
+
+    curve: object
+    low: float
+    high: float
+
+    def window(self, seen, upper):
+        """The part of [low, high] whose saddles' orbits come within `upper` of the state."""
+        g = seen.plain
+        reach = math.hypot(g["X"], g["Z"]) + upper * (1 + 1e-9) / math.sqrt(min(g["a"], g["b"]))
+        if seen.e > 0:
+            return self.low, self.high  # the saddles of a hyperbola lie within a circle
+        low, high = self.curve.window(reach)
+        return max(self.low, low), min(self.high, high)
+
+    def charts(self, seen, sense, upper):
+        t = self.window(seen, upper)
+        if not t[0] <= t[1]:
+            return
+        if seen.e > 0:
+            yield from loops_of(seen, self.curve, *t, upper)
+        else:
+            yield Chart(seen, self.curve, t, (-2 * math.pi, 0.0) if sense else (-math.pi, math.pi))
+
+
+def _arcs(conic, seen):
+    """The branches of saddles."""
+    for piece in conic.pieces:
+        if piece.barrier:
+            curve = Hyperbola(seen, *conic.sharp_ends(piece), piece.sign)
+            yield _Arc(curve, curve.low, curve.high)
+    for line in conic.lines:
+        curve = Straight(seen, ("x" if line.dz else "z") if conic.G else None)
+        for low, high in pairwise((-INF, *curve.knots, INF)):
+            if _slope(seen, *curve.at(_between(low, high))[:2]) > 0:
+                yield _Arc(curve, low, high)
+
+
+def _between(low, high):
+    if low == -INF:
+        return high - 1 - abs(high) if high < INF else 0.0
+    return low + 1 + abs(low) if high == INF else 0.5 * (low + high)
+
+
+def _slope(seen, x, z):
+    g, e = seen.plain, seen.e
+    return g["G"] * (z * z + e * x * x) + e * g["c"] * x + g["d"] * z
+
+
+def _shade(orbit, arcs):
+    """What may shade a sheet: only a state that a barrier holds sees the difference, and only where there are two barriers."""
+    reduction = orbit.reduction
+    if reduction.e > 0 or not reduction.sense or len(arcs) < 2:
+        return None
+    if decide(orbit, DOUBLE_BITS).sign < 0:
+        return None
+    g = reduction.constants
+    return Shade((g["G"], g["c"], g["d"], g["mu"]))
+
+
+def _first(seen, arc, shade):
+    """(distance, (X, Z, W), (branch, t)) of the nearest of some saddles of a branch that count."""
+    g = seen.plain
+    size = math.hypot(g["X"], g["Z"])
+    places = [0.0] if isinstance(arc.curve, Hyperbola) and arc.low <= 0 <= arc.high else []
+    ends = [t for t in (arc.low, arc.high) if math.isfinite(t)]
+    near = arc.curve.window(2 * size + 1e-300)
+    for low, high in ((arc.low, arc.high), near, (ends[0] - 1, ends[-1] + 1) if ends else near):
+        low, high = max(low, arc.low), min(high, arc.high)
+        if math.isfinite(low) and math.isfinite(high) and low <= high:
+            places += [low + (high - low) * n / 8 for n in range(9)]
+    best = INF, None, None
+    for t in places:
+        at = arc.curve.at(t)
+        u, v = abs(at.u) + UNIT * at.su, abs(at.v) + UNIT * at.sv
+        distance = math.sqrt(g["a"] * u * u + g["b"] * v * v + g["w"] ** 2)
+        if distance < best[0] and (shade is None or shade(Chart(seen, arc.curve, (t, t), (0.0, 0.0)), t, 0.0)):
+            best = distance, (at.u, at.v, 0.0), (arc.curve, t)
+    return best
+
+
+def _flat_pieces(seen, sense):
+    """[(distance, foot)] of the planes of a hyperbola without torque, where the foot of the perpendicular is on the separatrix."""
+    if seen.e < 0 or sense:
+        return []
+    g, found = seen.plain, []
+    for flip in (1.0, -1.0):  # Z = flip X
+        x = (g["a"] * g["X"] + flip * g["b"] * g["Z"]) / (g["a"] + g["b"])
+        energy = 0.5 * g["n2"] * g["w"] ** 2 - x * (0.5 * g["G"] * x + g["c"] + flip * g["d"])
+        if energy >= 0:
+            apart = abs(g["X"] - flip * g["Z"]) * math.sqrt(g["a"] * g["b"] / (g["a"] + g["b"]))
+            found.append((apart, (x - g["X"], flip * x - g["Z"], g["w"])))
+    return found
+
+
+def _rates(reduction, seen, place, state):
+    """The three rates at (X, Z, |W|/n), X and Z less the state's, with W of the sign of the state's."""
+    x, z, w = place
+    r, g = reduction, reduction.constants
+    out = [0.0] * 3
+    out[r.j], out[r.k] = float(state[r.j]) + g["flip"] * g["rx"] * x, float(state[r.k]) + g["rz"] * z
+    sign = 1.0 if Fraction(state[r.axis]) + r.s >= 0 else -1.0
+    out[r.axis] = sign * w - float(r.s)
+    return tuple(out)

@@ -1,0 +1,120 @@
+"""A point of a sheet in balls of many digits, where the rounding of doubles would decide how near it is.
+
+Each chart gives the place of (t, y) less the state's, (u, v), and phi = W^2 with their slopes; t and y are exact: doubles, or
+Fractions beside a point that doubles do not resolve. The formulas are the plain ones: what cancels costs bits, not digits.
+"""
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from ....numbers.balls import working
+from .point import EPS, Point
+
+BITS, MOST_BITS = 256, 4096
+TIGHT = 2.0**-60  # relative: a ball as narrow is a double
+
+
+class Place(NamedTuple):
+    """(u, v) and phi with their slopes in t and y; balls."""
+
+    u: object
+    v: object
+    ut: object
+    uy: object
+    vt: object
+    vy: object
+    phi: object
+    phi_t: object
+    phi_y: object
+
+
+def sharp_point(chart, t, y) -> Point:
+    """The point of a chart with values to double accuracy, or as near as MOST_BITS bring it."""
+    bits = BITS
+    while True:
+        with working(bits) as numbers:
+            g = chart.seen.balls.at(numbers)
+            found = _point(chart.sharp(numbers, g, numbers.ball(t), numbers.ball(y)), *chart.metric(g), g["w"])
+        if bits >= MOST_BITS or _tight(found):
+            return found
+        bits *= 4
+
+
+def sharp_place(chart, t, y):
+    """(u, v, W) as doubles."""
+    with working(4 * BITS) as numbers:
+        found = chart.sharp(numbers, chart.seen.balls.at(numbers), numbers.ball(t), numbers.ball(y))
+        return float(found.u.mid()), float(found.v.mid()), float(found.phi.mid())**0.5 if found.phi > 0 else 0.0
+
+
+def _tight(p):
+    return p.off[0] <= 8 * EPS * p.apart and p.off[1] <= 8 * EPS * abs(p.phi) and p.off[2] <= 8 * EPS * abs(p.gap)
+
+
+def _point(s, a, b, w0):
+    apart, apart_t, apart_y = a * s.u * s.u + b * s.v * s.v, 2 * (a * s.u * s.ut + b * s.v * s.vt), 2 * (a * s.u * s.uy + b * s.v * s.vy)
+    root = s.phi.sqrt() if s.phi > 0 else s.phi * 0
+    gap = root - w0
+    values = [_double(n) for n in (apart, apart_t, apart_y, s.phi, s.phi_t, s.phi_y, gap)]
+    off = [e for _, e in values]
+    if not s.phi > 0 and not s.phi < 0:
+        off[6] += math.sqrt(abs(values[3][0]) + off[3]) * (1 + 4 * EPS)
+    return Point(*(v for v, _ in values), (off[0], off[3], off[6]), (off[1], off[2], off[4], off[5]))
+
+
+def _double(ball):
+    """(the nearest double, a bound of its error)."""
+    value = float(ball.mid())
+    if not math.isfinite(value):
+        raise OverflowError
+    return value, (float(ball.rad()) + EPS * abs(value)) * (1 + 4 * EPS)
+
+
+def loop_place(g, e, saddle, y) -> Place:
+    """On a circle or hyperbola, from a saddle (x, z, x_t, z_t)."""
+    x, z, xt, zt = saddle
+    C, S = (y.cos(), y.sin()) if e < 0 else (y.cosh(), y.sinh())
+    X, Z, Xt, Zt = x * C + z * S, z * C + e * x * S, xt * C + zt * S, zt * C + e * xt * S
+    G, c, d, mu, k = g["G"], g["c"], g["d"], g["mu"], 2 / g["n2"]
+    phi = k * (mu * y + G * (X * X - x * x) / 2 + c * (X - x) + e * d * (Z - z))
+    phi_t = k * (G * (X * Xt - x * xt) + c * (Xt - xt) + e * d * (Zt - zt))
+    return Place(X - g["X"], Z - g["Z"], Xt, Z, Zt, e * X, phi, phi_t, k * (mu + G * X * Z + c * Z + d * X))
+
+
+def far_place(numbers, g, reach, flip, t, y) -> Place:
+    """On a hyperbola's loops in xi and y."""
+    G, mu, d, k = g["G"], flip * g["mu"], flip * g["d"], 2 / g["n2"]
+    e1, e2 = (g["c"] + d) / 2, (d - g["c"]) / 2
+    xi, less = g["X"] + flip * g["Z"] + t, (-y).exp()
+    r = xi * less
+    r0, E0 = (numbers.ball(v) for v in reach.exact[:2])
+    if reach.line is not None:
+        E1 = numbers.ball(reach.exact[2])
+        E = E0 + E1 * (r - r0)
+    else:
+        rate0 = G * E0 / 2 - e2
+        lift = (r - r0) * (G * (r + r0) / 4 + e1)
+        square = rate0 * rate0 + G * lift
+        rate = square.sqrt() if rate0 > 0 else -square.sqrt()
+        E, E1 = E0 + 2 * lift / (rate + rate0), (G * r / 2 + e1) / rate
+    eta = E * less
+    eta_t, eta_y = E1 * less * less, -(E + r * E1) * less
+    own = G * r / 4 + e1 + E1 * (G * E / 4 - e2)
+    pull_xi, pull_eta = G * xi / 4 + e1, G * eta / 4 - e2
+    phi = k * (mu * y + xi * (G * xi / 8 + e1) + eta * (G * eta / 8 - e2) - r * (G * r / 8 + e1) - E * (G * E / 8 - e2))
+    gap = eta - (g["X"] - flip * g["Z"])
+    return Place((t + gap) / 2, flip * (t - gap) / 2, (1 + eta_t) / 2, eta_y / 2, flip * (1 - eta_t) / 2, -flip * eta_y / 2,
+                 phi, k * (pull_xi + pull_eta * eta_t - own * less), k * (mu + pull_eta * eta_y + own * r))
+
+
+def parabola_place(g, t, y) -> Place:
+    """On the loops of a parabola."""
+    kappa, a = g["kappa"], g["a"]
+    N = t.exp() if a > 0 else -t.exp()
+    s, half = g["K"] / N, kappa * a * y / 2
+    lift = s + half
+    phi = y * y * (a * N - lift * lift)
+    phi_t, phi_y = y * y * (a * N + 2 * lift * s), 2 * y * (a * N - lift * lift) - y * y * kappa * a * lift
+    u, v = s + 2 * half - g["u"], N - kappa * y * lift - g["v"]
+    return Place(u / kappa, v / kappa, -s / kappa, a, (N + kappa * y * s) / kappa, -(s + 2 * half), phi, phi_t, phi_y)
