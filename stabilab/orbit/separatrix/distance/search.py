@@ -109,10 +109,12 @@ class _Search:
         if not chart.holds(t, y):
             return False
         p = chart.point(t, y)
+        if p.phi < -p.off[1] or p.apart - p.off[0] > self.goal:
+            return False
         if p.off[0] + p.off_square(self.w) > 0.05 * CLOSE * self.goal and not chart.sharpest:  # rounding would tell how near it is
             p = chart.exact_point(t, y)
-        if p.phi < -p.off[1]:
-            return False
+            if p.phi < -p.off[1]:
+                return False
         distance = math.sqrt(p.apart + p.off[0] + p.gap * p.gap + p.off_square(self.w)) * (1 + 4e-16)
         if not distance < self.upper or (self.genuine and not self.genuine(*chart.on_sheet(t, y))):
             return False
