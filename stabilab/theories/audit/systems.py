@@ -24,8 +24,8 @@ EFFECTS = {
     "charge": ("charge", "Charge", (2, 3, 5, "1/2")),
     "gravity": ("gravity", "Gravity", None),
     "newtonian_field": ("newtonian_field", "NewtonianField", None),
-    "liquid_cavity": ("liquid_cavity", "LiquidCavity", None),
-    "resistance": ("resistance", "Resistance", None),
+    "liquid_cavity": ("liquid_cavity", "LiquidCavity", (2, 3, 5)),
+    "resistance": ("resistance", "Resistance", (2,)),
 }
 
 
