@@ -14,10 +14,11 @@ ROOM ?=
 test: $(STAMP)
 	$(BIN)/python -m pytest -n 2 -m "not slow" $(if $(ROOM),tests/$(ROOM))
 
-# Ruff's rules, and who may import whom
+# Ruff's rules, types, and who may import whom
 check: $(STAMP)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e ".[check]"
 	$(BIN)/python -m ruff check
+	$(BIN)/python -m mypy
 	$(BIN)/python -m pytest tests/house/test_layout.py -k "not loads"
 
 test-slow: $(STAMP)

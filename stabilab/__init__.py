@@ -2,6 +2,41 @@
 from __future__ import annotations
 
 from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type checkers
+    from .answers.equilibria import equilibria as equilibria
+    from .answers.extremes import extremes as extremes
+    from .answers.extremes import period as period
+    from .answers.fate import fate as fate
+    from .answers.fate_grid import fate_grid as fate_grid
+    from .answers.motion import motion as motion
+    from .answers.passage.result import TimeTo as TimeTo
+    from .answers.simulate import simulate as simulate
+    from .answers.stuck.ask import stuck as stuck
+    from .answers.time_to import time_to as time_to
+    from .answers.trajectory import trajectory as trajectory
+    from .case.read import Case as Case
+    from .case.read import load as load
+    from .integrate.ensemble import ensemble as ensemble
+    from .orbit.result import Fate as Fate
+    from .orbit.separatrix.sheets import separatrix as separatrix
+    from .physics.body import Body as Body
+    from .physics.effects.body_force import BodyForce as BodyForce
+    from .physics.effects.charge import Charge as Charge
+    from .physics.effects.constant_torque import ConstantTorque as ConstantTorque
+    from .physics.effects.gravity import Gravity as Gravity
+    from .physics.effects.gyrostat import Gyrostat as Gyrostat
+    from .physics.effects.liquid_cavity import LiquidCavity as LiquidCavity
+    from .physics.effects.newtonian_field import NewtonianField as NewtonianField
+    from .physics.effects.resistance import Resistance as Resistance
+    from .physics.equations import derive as derive
+    from .physics.law_limits import validity as validity
+    from .physics.scene import ScaledGyrostat as ScaledGyrostat
+    from .physics.scene import Scene as Scene
+    from .theories.comparison import compare as compare
+    from .theories.theory import theory as theory
+    from .unreduced.spin_up.follow import spin_up as spin_up
 
 __version__ = "0.1.0"
 
@@ -25,11 +60,11 @@ _HOME = {
 __all__ = [*_HOME, "__version__"]
 
 
-def __getattr__(name: str):
+def __getattr__(name: str) -> Any:
     if name in _HOME:
         return getattr(import_module(f"{__name__}.{_HOME[name]}"), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
-def __dir__():
+def __dir__() -> list[str]:
     return sorted(__all__)

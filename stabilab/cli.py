@@ -204,7 +204,7 @@ def simulate(case: CaseFile,
     if json:
         _print_json(loaded, [_run_as_dict(*followed) for followed in runs])
     elif not out:
-        _print("\n\n".join(_run_as_text(*followed, digits) for followed in runs))
+        _print("\n\n".join(_run_as_text(*followed, digits) for followed in runs))  # type: ignore[call-arg]  # three and the digits
     else:
         _say_laws(run.validity for _, run, _ in runs)
         _say_digits(runs)
@@ -276,7 +276,7 @@ def precision(case: CaseFile, json: Json = False,
 
 
 @app.command()
-def surface(case: CaseFile, out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the files.")] = ...,
+def surface(case: CaseFile, out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the files.")] = ...,  # type: ignore[assignment]  # typer: must be given
             strict: Strict = False):
     """Write the separatrix surfaces as meshes and a picture.
 
@@ -410,7 +410,7 @@ def stuck(case: CaseFile,
 
 
 @app.command()
-def tables(out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the files.")] = ...):
+def tables(out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the files.")] = ...):  # type: ignore[assignment]  # typer: must be given
     """Write Tables 1-4 of the constant-torque paper.
 
     Formats: text, CSV, Markdown, LaTeX, HTML.

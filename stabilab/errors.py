@@ -49,9 +49,11 @@ class CaseError(InputError):
 
 
 class RenderingUnavailable(StabilabError):
-    """Pictures cannot be drawn on this machine; meshes and data were still written."""
+    """Pictures cannot be drawn on this machine; meshes and data were still written, as `summaries` (or `summary`, of one) tells."""
 
     exit_code = NO_RENDERING
+    summaries: list[dict]
+    summary: dict
 
 
 class ToleranceNotMet(StabilabError):

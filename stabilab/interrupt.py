@@ -8,11 +8,12 @@ from __future__ import annotations
 import os
 import signal
 from contextlib import contextmanager
+from typing import Any
 
 from .errors import INTERRUPTED
 
 PATIENCE = 0.3  # s that the main thread has to answer the signal itself; compiled code may keep it busy for hours
-_undo = []      # what to undo on the way out, last first
+_undo: list[Any] = []   # what to undo on the way out, last first
 
 
 def arm():

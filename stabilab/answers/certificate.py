@@ -6,6 +6,7 @@ a rounded guess. What cannot be certified is left out and named in `uncertified`
 from __future__ import annotations
 
 from fractions import Fraction
+from typing import Any
 
 from stabilab import __version__
 
@@ -33,7 +34,8 @@ def certificate(scene, state=None) -> dict:
 
     Returns the object of `stabilab.certificate/1`. Raises InputError as `equilibria` does for effects it does not know.
     """
-    out = {"schema": SCHEMA, "program": f"stabilab {__version__}", "scene": None, "equilibria": None, "motion": None, "uncertified": []}
+    out: dict[str, Any] = {"schema": SCHEMA, "program": f"stabilab {__version__}", "scene": None, "equilibria": None, "motion": None,
+                           "uncertified": []}
     if not scene.plain:
         out["uncertified"].append("effects beyond the gyrostat and a constant torque: there is no certificate for their equilibria "
                                   "and motions")

@@ -35,10 +35,10 @@ def certified_spin_up(scene, state) -> tuple[dict | None, str]:
     end = found.t * LATER[-1]
     times = [found.t * later for later in LATER] if found.t else [0.0]
     course = Course(scene, state, end) if end else None
-    for t in times:
-        box = _box(course, t, state)
+    for later in times:
+        box = _box(course, later, state)
         if box is None:
-            return None, f"{found.fate.word}: {found.cause}; its way was not enclosed up to t = {t:.6g} in {STEPS} validated steps"
+            return None, f"{found.fate.word}: {found.cause}; its way was not enclosed up to t = {later:.6g} in {STEPS} validated steps"
         inequality = _holding(tests_of(own), field, box, unit)
         if inequality:
             t = Fraction(course.t) if course else Fraction(0)

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -9,6 +10,9 @@ from ..physics.attitude import angles, beyond, body_momentum, to_space, unwrappe
 from ..physics.states import equations_and_start, start_of
 from ..physics.to_numpy import to_numpy
 from .trajectory import trajectory
+
+if TYPE_CHECKING:
+    from ..physics.law_limits import Validity
 
 STIFF = 1e6  # fastest decay times duration beyond which an explicit method would only shorten its steps
 TURNING = 700  # decays per radian of turn below which an attitude or gamma, which turn on, cost Radau more (measured)
@@ -37,7 +41,7 @@ class Simulation:
     counters: dict = field(default_factory=dict)
     status: str = "reached"
     reason: str = ""
-    validity: object = None
+    validity: Validity | None = None
 
 
 def simulate(scene, omega, times, blocks=None, method: str | None = None, rtol: float | None = None) -> Simulation:

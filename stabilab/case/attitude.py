@@ -3,17 +3,18 @@ from __future__ import annotations
 
 import math
 
+from ..numbers.vectors import Float3
 from ..physics.blocks import ordered
 
 SLACK = 1e-6  # of a component: a direction given to six decimals is consistent
 
 
-def vertical_of(psi, phi, theta=0.0) -> tuple[float, float, float]:
+def vertical_of(psi, phi, theta=0.0) -> Float3:
     """Inertial axis 3 in the body frame at 3-1-2 angles, rad: the third row of R = Rz(theta) Rx(psi) Ry(phi)."""
     return (-math.cos(psi) * math.sin(phi), math.sin(psi), math.cos(psi) * math.cos(phi))
 
 
-def attitude_of(vertical) -> tuple[float, float, float]:
+def attitude_of(vertical) -> Float3:
     """The angles psi, phi, theta = 0 at which inertial axis 3 is `vertical`, a unit vector, body frame."""
     x, y, z = vertical
     return math.atan2(y, math.hypot(x, z)), math.atan2(-x, z), 0.0

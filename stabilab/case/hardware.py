@@ -6,12 +6,12 @@ from fractions import Fraction
 
 from ..errors import InputError
 from ..numbers.exact import exact, sqrt_fraction
-from ..numbers.vectors import cross, dot
+from ..numbers.vectors import Exact3, cross, dot
 from .table import Table, described
 from .uncertainty import plus_minus, states_uncertainty
 from .units import FORCE, pi
 
-Exact3 = tuple[Fraction, Fraction, Fraction]
+Exact3 = Exact3
 ZERO3 = (Fraction(0),) * 3
 THRUSTER = ("name", "position", "direction", "force", "misalignment", "force_tolerance", "stuck")
 WHEEL = ("name", "axis", "momentum", "inertia", "speed")

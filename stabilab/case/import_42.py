@@ -6,7 +6,7 @@ own; a thruster without a place cannot be used and is listed.
 from __future__ import annotations
 
 import re
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from ..errors import InputError
 from .imported import Craft
@@ -134,7 +134,7 @@ def _warnings(entries) -> list[str]:
 
 def _left(entries) -> list[str]:
     """What was not used, a line a section."""
-    sections = {}
+    sections: dict[str, Any] = {}
     for e in entries:
         if not e.label.lower().startswith((*USED, "number of")) and e.value not in ("0", "NONE"):
             sections.setdefault(e.section or "head", []).append(e.label.split("(")[0].split(",")[0].strip())

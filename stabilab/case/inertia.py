@@ -5,6 +5,7 @@ from fractions import Fraction
 
 from ..errors import InputError
 from ..numbers.principal import IDENTITY, PrincipalAxes, fault_of, principal_axes
+from ..numbers.vectors import Exact3
 from ..physics.body import Body
 from .table import Faults, Table, described
 
@@ -32,7 +33,7 @@ def body_of(top: Table) -> tuple[Body | None, PrincipalAxes | None]:
         return None, None
 
 
-def centre_of_mass(top: Table) -> tuple[Fraction, Fraction, Fraction] | None:
+def centre_of_mass(top: Table) -> Exact3 | None:
     """Where the centre of mass is in the structural frame, m; None where the file does not say. Faults are noted by `body_of`."""
     body = top.data.get("body")
     if not isinstance(body, dict) or "centre_of_mass" not in body:

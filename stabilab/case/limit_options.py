@@ -39,7 +39,7 @@ def stated_limit(case: Case, rate: str | None = None, component: str | None = No
     else:
         (name, text), = given.items()
         found = {"rate": _rate, "component": _component, "energy": _energy, "tilt": _tilt}[name](case, text, NONE if scaled else RATE)
-    return StatedLimit(*found, until=end)
+    return StatedLimit(*found, until=end)  # type: ignore[misc]  # all but the last
 
 
 def _of_case(case):

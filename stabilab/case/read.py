@@ -12,6 +12,7 @@ from typing import NamedTuple
 from ..errors import CaseError, InputError, printable
 from ..numbers.exact import floats
 from ..numbers.principal import PrincipalAxes
+from ..numbers.vectors import Exact3, Float3
 from ..physics.body import Body
 from ..physics.effects import REGISTRY, effect_class
 from ..physics.scaling import Scaling, to_scaled, torque_from_mu
@@ -60,15 +61,15 @@ class Case:
     variables: str
     physical: Scene | None = None
     scaling: Scaling | None = None
-    state: tuple[float, float, float] | None = None
-    span: tuple[float, float] | None = None
+    state: Float3 | None = None
+    span: tuple[float, ...] | None = None
     expect: dict = field(default_factory=dict)
     blocks: dict = field(default_factory=dict)
     text: str = field(default="", repr=False)
     variant: str = ""
     uncertain: tuple[Uncertain, ...] = ()
     mu: tuple | None = None
-    decimals: tuple[Fraction, Fraction, Fraction] | None = None
+    decimals: Exact3 | None = None
     frame: PrincipalAxes | None = None
     thrusters: tuple[Thruster, ...] = ()
     wheels: tuple[Wheel, ...] = ()
@@ -77,7 +78,7 @@ class Case:
     notes: tuple[str, ...] = ()
 
     @property
-    def exact_state(self) -> tuple[Fraction, Fraction, Fraction] | None:
+    def exact_state(self) -> Exact3 | None:
         """The state exactly: its decimals as they were written, or, where it was replaced since, the new numbers themselves."""
         if self.state is None:
             return None
@@ -363,7 +364,7 @@ def _too_large(effect, body) -> bool:
         return True
 
 
-def _span(motion: _Motion, variables: str, scaling: Scaling | None) -> tuple[float, float] | None:
+def _span(motion: _Motion, variables: str, scaling: Scaling | None) -> tuple[float, ...] | None:
     """The span in the case's time: s, or tau = t/scaling.time."""
     given, wanted = motion.span_key, "tau" if variables == "scaled" else "span"
     if motion.span is None or given == wanted:

@@ -11,6 +11,7 @@ from unicodedata import category
 
 from ..errors import InputError, Problem, printable
 from ..numbers.exact import exact
+from ..numbers.vectors import Exact3
 from .lines import KeyLines
 from .uncertainty import plus_minus, states_uncertainty
 from .units import dimension_of, quantity
@@ -149,7 +150,7 @@ class Table:
         read = [[self._exact(item, key, i, j) for j, item in enumerate(row)] for i, row in enumerate(value)]
         return None if any(None in row for row in read) else tuple(map(tuple, read))
 
-    def vector(self, key: str) -> tuple[Fraction, Fraction, Fraction] | None:
+    def vector(self, key: str) -> Exact3 | None:
         """Three exact numbers."""
         return self.numbers(key, 3)
 

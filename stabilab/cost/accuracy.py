@@ -10,6 +10,7 @@ import math
 import time
 from dataclasses import dataclass, field, replace
 from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -93,7 +94,7 @@ class Precision:
     (seeded) change in the last place shows it, None where not known. left_out: (method, value, why).
     """
 
-    case: object
+    case: Any
     task: Problem = field(repr=False)
     times: np.ndarray
     reference: Reference = field(repr=False)
@@ -164,7 +165,8 @@ def precision(case, effort: str = "full", until: float | None = None, progress=N
     tell("reference")
     period = known_period(task)
     exact = reference(case.scene, task.start, task.times, task.equations.blocks, period is not None, most.work)
-    points, left_out = [], []
+    points: list[Point] = []
+    left_out: list[Any] = []
     for method in (m for m in methods(task, most.every) if m.name not in most.without) if len(exact.t) else ():
         tell(method.name)
         _states(task, method, exact, most, points, left_out)

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -17,6 +18,7 @@ from ..integrate.to_heyoka import TAYLOR_TOLERANCE, heyoka_available, heyoka_for
 from ..integrate.trajectory import ATOL_SHARE, SCIPY_METHODS
 from ..physics.attitude import quaternion
 from ..physics.blocks import slices
+from ..physics.equations import Equations
 from ..physics.states import equations_and_start, start_of
 from ..physics.to_numpy import form, to_numpy
 from ..theories.follow import follow, models_of
@@ -33,8 +35,8 @@ IMPLICIT = ("Radau", "BDF", "LSODA")
 class Problem:
     """A case's motion as numbers: start (N,) at time 0 (taken as exact), times (n,) away from 0."""
 
-    case: object
-    equations: object
+    case: Any
+    equations: Equations
     start: np.ndarray
     times: np.ndarray
 

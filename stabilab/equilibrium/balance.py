@@ -30,7 +30,7 @@ class Pencil(NamedTuple):
     scaled: bool
 
     @property
-    def names(self) -> tuple[str, str, str]:
+    def names(self) -> tuple[str, ...]:
         """Names of the three components of the state."""
         return tuple(f"{self.form.symbol}{i}" for i in (1, 2, 3))
 

@@ -128,7 +128,7 @@ class _Plane:
         left = " ".join(shifted(n, c) for n, c in zip(self.names, self.centre))
         return RationalCurve("equilibrium hyperbola", f"{self.plane_text()}, {left} = {decimal(K)}",
                              ", ".join([self.plane_text(), *(f"{n} = {v}" for n, v in zip(self.names, text))]),
-                             self.state(*parts, bottom=T), WELL, T, (ZERO,), {}, sqrt_fraction(abs(K), 60))
+                             self.state(*parts, bottom=T), WELL, T, (ZERO,), {}, sqrt_fraction(abs(K), 60))  # type: ignore[misc]
 
     def crossing_lines(self) -> list[RationalCurve]:
         """The two lines u = u0 and v = v0 of a conic through its own centre."""

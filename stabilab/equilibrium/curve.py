@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from ..errors import InputError
 from ..numbers.polynomial import Poly
+from ..numbers.vectors import Exact3, Float3
 
 T = Poly((0, 1))
 ONE_POLY = Poly((1,))
@@ -31,19 +32,19 @@ class RationalCurve:
     name: str
     equation: str
     parametrisation: str
-    numerators: tuple[Poly, Poly, Poly]
+    numerators: tuple[Poly, ...]
     grounds: Grounds
     denominator: Poly = ONE_POLY
     poles: tuple[Fraction, ...] = ()
     crossings: dict[Fraction, Verdict] = field(default_factory=dict)
     scale: Fraction = Fraction(1)
 
-    def exact_point(self, t: Fraction) -> tuple[Fraction, Fraction, Fraction]:
+    def exact_point(self, t: Fraction) -> Exact3:
         """The equilibrium at a rational t that is not a pole."""
         bottom = self.denominator(t)
         return tuple(n(t) / bottom for n in self.numerators)
 
-    def float_point(self) -> Callable[[float], tuple[float, float, float]]:
+    def float_point(self) -> Callable[[float], Float3]:
         """point(t) for a float t, each coordinate rounded once; InputError at a pole or a t that is not finite."""
         def point(t: float):
             try:
@@ -53,7 +54,7 @@ class RationalCurve:
         return point
 
 
-def straight_line(start, direction) -> tuple[Poly, Poly, Poly]:
+def straight_line(start, direction) -> tuple[Poly, ...]:
     """start + t direction as polynomials."""
     return tuple(Poly((s, d)) for s, d in zip(start, direction))
 

@@ -34,9 +34,9 @@ def gyrostat_equilibria(scene) -> Equilibria:
     missing = balance_fails(p)
     if missing:
         return Equilibria("none", missing)
-    curves = tuple(curve_with_verdicts(p.form, c) for c in conic_curves(p))
+    conic = tuple(curve_with_verdicts(p.form, c) for c in conic_curves(p))
     return Equilibria("curves", "the torque is along an eigenvector of D with no gyrostatic moment along it: the two balance "
-                                "conditions are one plane, and in it one conic remains", curves=curves)
+                                "conditions are one plane, and in it one conic remains", curves=conic)
 
 
 def _torque_free(p: Pencil) -> Equilibria:

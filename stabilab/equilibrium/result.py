@@ -5,6 +5,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from ..numbers.vectors import Float3
+
 if TYPE_CHECKING:
     from ..physics.law_limits import Validity
 
@@ -18,8 +20,8 @@ class EquilibriumPoint:
     for the full nonlinear motion), because: its proof in words.
     """
 
-    at: tuple[float, float, float]
-    eigenvalues: tuple[complex, complex, complex]
+    at: Float3
+    eigenvalues: tuple[complex, ...]
     linear: str
     verdict: str
     because: str
@@ -46,9 +48,9 @@ class EquilibriumCurve:
     name: str
     equation: str
     parametrisation: str
-    point: Callable[[float], tuple[float, float, float]] = field(repr=False, compare=False)
+    point: Callable[[float], Float3] = field(repr=False, compare=False)
     segments: tuple[CurveSegment, ...] = ()
-    folds: tuple[tuple[float, float, float], ...] = ()
+    folds: tuple[Float3, ...] = ()
     samples: tuple[EquilibriumPoint, ...] = ()
 
 

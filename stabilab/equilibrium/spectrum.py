@@ -22,7 +22,7 @@ def invariants(form, x, w=1):
     return m, n
 
 
-def eigenvalues(m: Fraction, n: Fraction) -> tuple[complex, complex, complex]:
+def eigenvalues(m: Fraction, n: Fraction) -> tuple[complex, ...]:
     """Roots of z^3 + m z + n, each part correct to rounding, sums of real parts zero by structure.
 
     n = 0 gives an exact 0 and an exactly real or exactly imaginary pair; a complex pair is exactly conjugate.

@@ -22,7 +22,7 @@ class TorqueRow:
     """One sign pattern of the torque. kind as in Equilibria.kind (every kind that magnitudes allow); counts: the
     possible numbers of isolated equilibria (empty for curves); the rest is text in the symbols of the scaled system."""
 
-    mu: tuple[str, str, str]
+    mu: tuple[str, ...]
     gyrostat: str
     kinds: tuple[str, ...]
     counts: tuple[int, ...]

@@ -41,7 +41,9 @@ class Search:
     """
 
     def __init__(self, threshold: Threshold, exactly: bool = True):
-        self.threshold, self.exactly, self.low, self.high = threshold, exactly, None, None
+        self.threshold, self.exactly = threshold, exactly
+        self.low: Fraction | None = None
+        self.high: Fraction | None = None
 
     def take(self, piece: Piece) -> bool:
         """Look at the next piece; whether the crossing is known from both sides."""

@@ -15,6 +15,7 @@ import numpy as np
 from ..errors import InputError
 from ..physics.blocks import slices
 from ..physics.motion_units import in_unit, own_unit
+from ..physics.scene import AnyScene
 from ..physics.states import checked_rtol, checked_starts, checked_times
 from ..physics.to_numpy import equations_of, form, to_numpy
 from .to_heyoka import TAYLOR_TOLERANCE, borrowed_taylor, heyoka_available
@@ -42,7 +43,7 @@ class Ensemble:
     method: str
     rtol: float
     counters: dict[str, int] = field(default_factory=dict)
-    scene: object = field(default=None, repr=False, compare=False)
+    scene: AnyScene | None = field(default=None, repr=False, compare=False)
 
     @property
     def validity(self):

@@ -11,6 +11,7 @@ from fractions import Fraction
 from operator import mul
 
 from ..errors import InputError
+from ..numbers.vectors import Number
 
 RETURNED = 1e-12  # a passage through the starting plane within this share of the orbit's size is a return
 PIECES = 6  # of a step, each searched for one root
@@ -73,8 +74,8 @@ class Recursion:
 class Step:
     """The series about time `start` (a ball), good up to `length` later; forward or backward by its sign."""
 
-    start: object
-    length: object
+    start: Number
+    length: Number
     rows: list
 
     def at(self, s, derivative=0):

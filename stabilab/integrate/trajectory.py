@@ -6,6 +6,7 @@ steps (feathered, see `to_heyoka`), so a law with a non-zero rate is as good a w
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,6 +15,9 @@ from ..physics.motion_units import in_unit, mass_unit, own_unit
 from ..physics.states import checked_rtol, checked_times, equations_and_start
 from ..physics.to_numpy import form, to_numpy
 from .to_heyoka import FEATHER, TAYLOR_TOLERANCE, borrowed_taylor, heyoka_available
+
+if TYPE_CHECKING:
+    from ..physics.law_limits import Validity
 
 SCIPY_METHODS = ("RK45", "RK23", "DOP853", "Radau", "BDF", "LSODA")
 # SciPy's own default is 1e-3, too coarse to judge a motion by; 1e-10 is within reach of every method in the list.
@@ -48,25 +52,26 @@ def integrated(scene, state, times, method: str = "taylor", rtol: float | None =
             return _in_unit(scene, state, times, rtol, steps, laws, unit, mass)
     if method == "taylor":
         rtol = TAYLOR_TOLERANCE if rtol is None else max(rtol, TAYLOR_TOLERANCE)
-        run = _Taylor(system, rtol, laws)
+        run: _Taylor | _SciPy = _Taylor(system, rtol, laws)
     else:
         rtol = SCIPY_RTOL if rtol is None else rtol
         run = _SciPy(system, method, rtol, landing)
     watch = watcher(scene, equations, state)
     still = (times == 0).sum()
-    reached, states, drift, failures = [np.zeros(still)], [np.repeat(state[None], still, axis=0)], {}, []
+    times_of, states_of, failures = [np.zeros(still)], [np.repeat(state[None], still, axis=0)], []
+    drift: dict[str, float] = {}
     for chosen, sense in ((times < 0, -1), (times > 0, 1)):
         grid = np.sort(times[chosen] * sense) * sense
         if grid.size:
             points, failure = run.run(state, grid, steps, watch)
-            reached.append(grid[:len(points)])
-            states.append(points[:, :state.size])
+            times_of.append(grid[:len(points)])
+            states_of.append(points[:, :state.size])
             failures += [failure] if failure else []
             for row in points if watch else ():
                 watch.note(row[:state.size])
             for name, departure in departures(system, state, points).items() if laws else ():
                 drift[name] = max(drift.get(name, 0.0), departure)
-    reached, states = np.concatenate(reached), np.concatenate(states)
+    reached, states = np.concatenate(times_of), np.concatenate(states_of)
     order = np.argsort(reached)[::1 if times.size < 2 or times[1] > times[0] else -1]
     return Trajectory(reached[order], states[order], method, rtol, drift,
                       run.counters, "stopped" if failures else "reached", "; ".join(failures) or reason,
@@ -85,10 +90,10 @@ def watcher(scene, equations, state):
 
 def _in_unit(scene, state, times, rtol, steps, laws, unit, mass) -> Trajectory:
     """The same in the motion's own units of time and mass: exact, as they are powers of two."""
-    passed = None if steps is None else []
+    passed: list[float] | None = None if steps is None else []
     run = integrated(in_unit(scene, unit, mass), state / unit, times * unit, "taylor", rtol, passed, laws)
     if steps is not None:
-        steps += [t / unit for t in passed]
+        steps += [t / unit for t in passed or ()]
     return replace(run, t=times[np.isin(times * unit, run.t)], states=run.states * unit)
 
 
@@ -242,8 +247,8 @@ class Trajectory:
     approximate law (`stabilab.physics.law_limits`), its largest value at any step of the run; None where all laws are exact.
     """
 
-    t: object
-    states: object
+    t: np.ndarray
+    states: np.ndarray
     method: str
     rtol: float
     invariant_drift: dict[str, float]
@@ -251,7 +256,7 @@ class Trajectory:
     status: str
     reason: str
     blocks: dict = field(default_factory=lambda: {"omega": slice(0, 3)})
-    validity: object = None
+    validity: Validity | None = None
 
     def block(self, name: str):
         """(n, m) states of one block."""

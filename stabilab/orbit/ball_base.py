@@ -6,18 +6,20 @@ parabola, `ball_geometry` says.
 """
 from __future__ import annotations
 
+from collections.abc import Callable
 from fractions import Fraction
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from ..numbers.balls import sign
 from ..numbers.double_ball import Unclear
+from ..numbers.vectors import Number
 
 
 class Spot(NamedTuple):
     """An equilibrium on the orbit at offset y. kind: +1 a maximum of V (barrier), -1 a minimum (well), 0 neither."""
 
-    y: object
+    y: Number
     kind: int
 
 
@@ -29,7 +31,12 @@ class BallOrbit:
     and `swept`.
     """
 
-    on_plane = False  # on an invariant plane of a hyperbola
+    place: Callable[..., Any]
+    components: Callable[..., Any]
+    height: Callable[..., Any]
+    force: Callable[..., Any]
+    slope: Callable[..., Any]
+    on_plane: bool = False  # on an invariant plane of a hyperbola
     spins_purely = False  # whether nothing but the rate about the axis changes as it spins up
 
     def __init__(self, reduction, state, numbers):
@@ -49,7 +56,7 @@ class BallOrbit:
         """omega_i where theta' = w."""
         return w * self.flip / self.n - self.numbers.ball(self.r.s)
 
-    def doubles_at(self, y) -> tuple[float, float]:
+    def doubles_at(self, y) -> tuple[float, ...]:
         """The place at offset y as floats, in the form that `potential` takes."""
         return tuple(map(float, self.place(y)))
 

@@ -107,7 +107,7 @@ class BallHyperbola(BallConic):
         xi, eta = self._at(y)
         return (xi + eta) / 2, (xi - eta) / 2
 
-    def doubles_at(self, y) -> tuple[float, float]:
+    def doubles_at(self, y) -> tuple[float, ...]:
         """(xi, eta) at offset y as floats, in the form that `potential` takes."""
         return tuple(map(float, self._at(y)))
 
@@ -124,7 +124,7 @@ class BallHyperbola(BallConic):
         return [s for s in self.spots if s.kind > 0 and not (self.on_plane and s.y < 0)]
 
     @property
-    def spins_purely(self) -> bool:
+    def spins_purely(self) -> bool:  # type: ignore[override]  # a constant of the others
         return sign(self.xi) == sign(self.eta) == 0
 
     def tops(self) -> list:

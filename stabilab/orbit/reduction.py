@@ -22,7 +22,7 @@ from fractions import Fraction
 from functools import cached_property
 
 from ..numbers.exact import sqrt_fraction
-from ..numbers.vectors import CYCLE
+from ..numbers.vectors import CYCLE, Exact3
 from ..physics.quadratic import QuadraticForm
 
 
@@ -122,9 +122,10 @@ class Reduction:
     @cached_property
     def shift_remainders(self) -> tuple[float, float]:
         """What the doubles of sj and sk leave of them."""
-        return tuple(float(self.exact_constants[name] - Fraction(self.constants[name])) for name in ("sj", "sk"))
+        j, k = (float(self.exact_constants[name] - Fraction(self.constants[name])) for name in ("sj", "sk"))
+        return j, k
 
-    def canonical_exact(self, state) -> tuple[Fraction, Fraction, Fraction]:
+    def canonical_exact(self, state) -> Exact3:
         """(X, Z, W) of one state of floats, with the 240-bit constants: no cancellation in the shifts."""
         g = self.exact_constants
         u, v, w = (Fraction(float(state[a])) for a in (self.j, self.k, self.axis))

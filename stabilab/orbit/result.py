@@ -6,6 +6,8 @@ from dataclasses import dataclass, field
 from enum import IntEnum
 from typing import TYPE_CHECKING
 
+from ..numbers.vectors import Float3
+
 if TYPE_CHECKING:  # a scene of exact laws does not load it
     from ..physics.law_limits import Validity
 
@@ -44,7 +46,7 @@ class Motion:
     all t >= 0, wider than the extremes, +-inf where unbounded (None where not known).
     """
 
-    at: tuple[float, float, float]
+    at: Float3
     fate: Fate
     because: str
     axis: int = 0
@@ -52,7 +54,7 @@ class Motion:
     margin_energy: float | None = None
     margin_velocity: float | None = None
     velocity_bounds: tuple[float, float] | None = None
-    velocity_witness: tuple[float, float, float] | None = None
+    velocity_witness: Float3 | None = None
     velocity_because: str = ""
     period: float | None = None
     extremes: tuple | None = None

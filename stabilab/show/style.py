@@ -122,7 +122,7 @@ def name_space(ax, zoom=0.92, order=(1, 2, 3)):
     ax.set_box_aspect(None, zoom=zoom)
 
 
-def axis_labels(scene) -> tuple[str, str, str]:
+def axis_labels(scene) -> tuple[str, ...]:
     """Labels with units of the three components of the scene's state."""
     if scene.variables == "scaled":
         return ("$x_1$", "$x_2$", "$x_3$")

@@ -57,7 +57,7 @@ def compare(case, times=None, order: int | None = None) -> Comparison:
     """
     if order is not None and "lindstedt" not in models_of(case.scene):
         raise InputError(f"order: belongs to the model \"lindstedt\"; this scene has {', '.join(models_of(case.scene))}")
-    times = np.linspace(*case.span, GRID) if times is None else np.asarray(times, float)
+    times = np.linspace(case.span[0], case.span[1], GRID) if times is None else np.asarray(times, float)
     runs, refused = side_by_side(case, times, order)
     exact, found = runs["exact"], []
     for name, run in list(runs.items())[1:]:

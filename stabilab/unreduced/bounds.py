@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 from math import hypot, sqrt
+from typing import Any
 
 from ..equilibrium.damped.liquid_and_torque import trap
 from ..equilibrium.damped.medium import GLOBAL, energy_bound, resisted_equilibria
@@ -31,7 +32,7 @@ def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
     at = omega + (gamma or ())
     seen = {} if span is None else _over_span(scene, omega, gamma, span)
     if at_rest(parts, exact or omega, gamma):
-        fields = {"fate": Fate.EQUILIBRIUM, "because": REASONS[Reason.AT_REST],
+        fields: dict[str, Any] = {"fate": Fate.EQUILIBRIUM, "because": REASONS[Reason.AT_REST],
                   "extremes": tuple((w, w) for w in omega)}
     else:
         fate, because, bounds = judged(parts, omega, gamma)

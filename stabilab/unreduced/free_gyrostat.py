@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 
@@ -167,7 +168,7 @@ def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
     state = three_floats(state)
     given = exact or state
     decided = free_fate(scene, given)
-    fields = {"velocity_because": NOT_SHEETS}
+    fields: dict[str, Any] = {"velocity_because": NOT_SHEETS}
     if decided.label == Fate.SEPARATRIX:
         fields = {"margin_velocity": 0.0, "velocity_bounds": (0.0, 0.0), "velocity_witness": state}
     elif has_no_saddle(scene):

@@ -10,7 +10,7 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction
 
-from ..numbers.vectors import CYCLE
+from ..numbers.vectors import CYCLE, Float3
 
 
 @dataclass(frozen=True)
@@ -19,7 +19,7 @@ class StandardForm:
 
     c: float
     axes: tuple[int, int, int]
-    rates: tuple[float, float, float]
+    rates: Float3
     shift: Fraction
     time: float
 

@@ -105,7 +105,7 @@ def fates(scene, states, fast: bool | None = None, follow: float | None = None, 
     out["reasons"][moving] = np.array([REASON[word] for word in LEVELS], np.int8)[found.level]
     place = np.full(len(states), -1)
     place[moving] = np.arange(len(moving))
-    blank = FateResult(**out, followed=Followed(found, place))
+    blank = FateResult(**out, followed=Followed(found, place))  # type: ignore[arg-type]  # the columns alone
     if rest.any():
         resting = at_rest(scene, OneFate(Fate.UNDECIDED, Reason.OFF_AXIS, math.nan))
         blank = replace(blank, margins=np.where(rest, resting.margin, blank.margins))

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any
 
 from .numbers import Malformed, fraction
 from .precision import working
@@ -15,12 +16,12 @@ START_BITS, MOST_BITS = 64, 1 << 15
 class Zero:
     """A real zero of an irreducible factor: order in the polynomial, low <= zero <= high (equal where it is rational)."""
 
-    factor: object
+    factor: Any
     order: int
     low: Fraction
     high: Fraction
 
-    def within(self, low: Fraction, high: Fraction) -> bool:
+    def within(self, low: Fraction, high: Fraction) -> bool:  # type: ignore[return]  # the loop ends in an answer
         """Whether the zero lies in [low, high]; irrational zeros are enclosed more closely until it is plain."""
         for zero in self._closer():
             if zero.high < low or high < zero.low:
@@ -28,7 +29,7 @@ class Zero:
             if low <= zero.low and zero.high <= high:
                 return True
 
-    def before(self, other: Zero) -> bool:
+    def before(self, other: Zero) -> bool:  # type: ignore[return]  # the loop ends in an answer
         """Whether it is less than a zero of another irreducible factor."""
         for one, two in zip(self._closer(), other._closer()):
             if one.high < two.low or two.high < one.low:

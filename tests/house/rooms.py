@@ -50,10 +50,18 @@ def imports(name: str, path: Path, known) -> list[Import]:
     functions = (node for node in ast.walk(tree) if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)))
     deep = {id(inner) for function in functions for inner in ast.walk(function)}
     found = []
+    told = {id(inner) for node in ast.walk(tree) if name == "stabilab" and for_types(node) for inner in ast.walk(node)}
     for node in ast.walk(tree):
+        if id(node) in told:  # the public table names every room, and loads none
+            continue
         for target, imported in _names(node, name, path.name == "__init__.py", known):
             found.append(Import(name, target, imported, node.lineno, id(node) in deep))
     return found
+
+
+def for_types(node) -> bool:
+    """Whether it is a block that type checkers alone read."""
+    return isinstance(node, ast.If) and isinstance(node.test, ast.Name) and node.test.id == "TYPE_CHECKING"
 
 
 def _names(node, name, is_room, known):

@@ -89,6 +89,13 @@ def test_no_private_name_crosses_a_module():
     assert not crossing
 
 
+def test_type_checkers_see_the_public_names_where_they_are_loaded_from():
+    table = ast.parse((PACKAGE / "__init__.py").read_text(encoding="utf-8"))
+    (block,) = (node for node in table.body if rooms.for_types(node))
+    seen = {alias.asname: node.module for node in block.body for alias in node.names}
+    assert seen == stabilab._HOME
+
+
 def test_no_module_of_the_package_bears_a_public_name():
     assert not {name.split(".")[1] for name in modules() if name.count(".") == 1} & set(stabilab.__all__)
 

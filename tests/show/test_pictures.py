@@ -346,7 +346,7 @@ def test_surface_points_lie_on_the_level_of_their_saddle(tmp_path):
 
 def test_objects_of_a_turntable_are_named_by_their_order_rather_than_their_address():
     def described(first, second):
-        return {"id": first, "calls": [["setInputData", [f"instance:${{{second}-dataset}}"]]], "dependencies": [{"id": second, "parent": first}], "hash": "a" * 32,
-                "at": 0.9510565162951535}
+        return {"id": first, "calls": [["setInputData", [f"instance:${{{second}-dataset}}"]]], "dependencies": [{"id": second, "parent": first}],
+                "hash": "a" * 32, "at": 0.9510565162951535}
     one, two = described("0000556554f34750", "0000556554f37240"), described("00005634e0519930", "00005634d98976a0")
     assert surface.in_order(one) == surface.in_order(two) == described("0000000000000001", "0000000000000002")

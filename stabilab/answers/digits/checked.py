@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 from ...errors import InputError, ToleranceNotMet
 
@@ -20,12 +21,12 @@ class Told:
     barrier); because: how they were checked, or why there are none."""
 
     question: str
-    values: object
+    values: Any
     asked: int
     digits: float | None
     method: str
     because: str
-    decimals: object = None
+    decimals: Any = None
 
     @property
     def enough(self) -> bool:

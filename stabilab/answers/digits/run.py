@@ -215,9 +215,9 @@ def _many_digits(case, times, asked) -> Reached | None:
     equations, start = equations_and_start(case.scene, case.state if scaled else start_of(case.scene, case.state, case.blocks))
     if times.min() < 0 < times.max():
         return None
-    start = [*(case.exact_state or start[:3]), *start[3:]]  # the decimals as they were written
+    written = [*(case.exact_state or start[:3]), *start[3:]]  # the decimals
     order = np.argsort(np.abs(times), kind="stable")
-    found = reference(case.scene, start, times[order], equations.blocks)
+    found = reference(case.scene, written, times[order], equations.blocks)
     if found.status != "agrees":
         return None
     states = np.empty_like(found.states)

@@ -4,6 +4,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
+from ...numbers.vectors import Float3
 from .result import Principal
 
 IDENTITY = tuple(tuple(Fraction(i == j) for j in range(3)) for i in range(3))
@@ -16,8 +17,8 @@ class Axes:
     """order[n]: which axis of the scene is number n + 1 of the answer; sign[n]: +-1, along it or against it. rows: the scene's axes,
     unit vectors (exact) in the frame of the file."""
 
-    order: tuple[int, int, int]
-    sign: tuple[int, int, int]
+    order: tuple[int, ...]
+    sign: tuple[int, ...]
     rows: tuple
     moments: tuple
 
@@ -27,7 +28,7 @@ class Axes:
         return Principal(tuple(float(self.moments[i]) for i in self.order),
                          tuple(tuple(float(s * v) + 0.0 for v in self.rows[i]) for i, s in zip(self.order, self.sign)))
 
-    def counted(self, vector) -> tuple[float, float, float]:
+    def counted(self, vector) -> Float3:
         """Components along the answer's axes of a vector along the scene's."""
         return tuple(float(s * vector[i]) + 0.0 for i, s in zip(self.order, self.sign))
 
@@ -38,7 +39,7 @@ class Axes:
         place = self.order.index(axis - 1)
         return place + 1, sense * self.sign[place] if sense else None
 
-    def back(self, vector) -> tuple[float, float, float]:
+    def back(self, vector) -> Float3:
         """A vector along the scene's axes in the frame of the file."""
         exact = [Fraction(v) for v in vector]
         found = [sum(self.rows[i][j] * exact[i] for i in range(3)) for j in range(3)]

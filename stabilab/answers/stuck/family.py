@@ -10,7 +10,8 @@ from ...orbit.ball_orbit import Orbit
 from ...orbit.fate.one_state import fate_of
 from ...orbit.reduction import Reduction, reduce
 from ...orbit.result import Fate
-from ...physics.alignment import aligned
+from ...physics.alignment import Turn, aligned
+from ...physics.body import Body
 from ...physics.effects.constant_torque import ConstantTorque
 from ...physics.effects.gyrostat import Gyrostat
 from ...physics.scene import Scene
@@ -25,12 +26,12 @@ class Family:
     """A torque along principal axis `axis` (0-based) of a body, and a start; exact, along the axes of the body or, where the torque lies between
     two equal moments, of the body turned so that it does. back(vector): along the scene's own axes; turned(vector): from them."""
 
-    body: object
+    body: Body
     axis: int
     torque: Fraction
     wheel: tuple
     state: tuple
-    turn: object = None
+    turn: Turn | None = None
 
     def scene(self, wheel=None, torque=None) -> Scene:
         """With this wheel momentum, and this torque about the axis."""

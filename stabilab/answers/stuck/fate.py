@@ -4,6 +4,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any
 
 from ...orbit.result import Fate
 from ...physics.quadratic import rests
@@ -35,7 +36,7 @@ class Found:
     direction: tuple | None
     because: str
     kind: str
-    motion: object
+    motion: Any
     time: tuple[float, float] | None
     time_level: str
     never: bool
@@ -104,7 +105,7 @@ def _limit(scenario) -> Limit:
     """The limit of the case along the scene's axes, exactly."""
     limits = scenario.case.limits
     if limits.rate is not None:
-        parts = ((tuple((Fraction(1), tuple(Fraction(i == j) for j in range(3))) for i in range(3)), limits.rate**2),)
+        parts: tuple[Any, ...] = ((tuple((Fraction(1), tuple(Fraction(i == j) for j in range(3))) for i in range(3)), limits.rate**2),)
         return Limit("rate", parts, f"|omega| = {float(limits.rate):.10g} rad/s")
     rows = scenario.axes.rows
     parts = tuple((((Fraction(1), tuple(rows[i][n] for i in range(3))),), most**2) for n, most in enumerate(limits.rates))

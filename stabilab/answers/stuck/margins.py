@@ -167,7 +167,7 @@ class _Rise:
         for n in family.across:
             place.append(tuple(w + unit * (m == n) for m, w in enumerate(family.wheel)))
         rows = [_numbers(family.reduction(wheel), family.state) for wheel in place]
-        (X, Z, c, d), G, mu, E = rows[0][0], *rows[0][1]
+        (X, Z, c, d), G, mu, E = rows[0][0], *rows[0][1]  # type: ignore[misc]
         j, k = family.across
         self.centre = _towards_point(family, j, k)
         slopes = [tuple(b - a for a, b in zip(rows[0][0], row[0])) for row in rows[1:]]

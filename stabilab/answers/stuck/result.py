@@ -4,12 +4,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from ...numbers.vectors import Float3
+
 
 class Principal(NamedTuple):
     """Principal moments (kg m^2, descending) and axes: rows, unit vectors in the frame of the file, right-handed."""
 
-    moments: tuple[float, float, float]
-    axes: tuple[tuple[float, float, float], ...]
+    moments: Float3
+    axes: tuple[Float3, ...]
 
 
 @dataclass(frozen=True)
@@ -20,7 +22,7 @@ class Margin:
     """
 
     size: float | None = None
-    direction: tuple[float, float, float] | None = None
+    direction: Float3 | None = None
     because: str = ""
 
 
@@ -34,7 +36,7 @@ class WheelAnswer:
     """
 
     wheel: str
-    axis: tuple[float, float, float]
+    axis: Float3
     now: float
     keeps_bounded: tuple[tuple[float, float], ...]
     because: str
@@ -73,14 +75,14 @@ class Row:
     """
 
     thrusters: tuple[str, ...]
-    torque: tuple[float, float, float]
-    torque_principal: tuple[float, float, float]
+    torque: Float3
+    torque_principal: Float3
     fate: str
     level: str
     axis: int | None
     sense: int | None
-    direction: tuple[float, float, float] | None
-    limit: float | tuple[float, float, float] | None
+    direction: Float3 | None
+    limit: float | Float3 | None
     time_to_limit: tuple[float, float] | None
     time_level: str
     never: bool

@@ -3,8 +3,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any
 
 from ...errors import InputError
+from ...numbers.vectors import Float3
+from ...physics.body import Body
 from ...physics.effects.constant_torque import ConstantTorque
 from ...physics.effects.gyrostat import Gyrostat
 from ...physics.scene import Scene
@@ -19,13 +22,13 @@ class Scenario:
     thrusters, wheels: as the case holds them, in the frame of the file.
     """
 
-    case: object
-    body: object
+    case: Any
+    body: Body
     axes: Axes
     state: tuple
     base: tuple
     wheel: tuple
-    limit: float | tuple[float, float, float] | None
+    limit: float | Float3 | None
 
     def scene(self, torque, wheel=None) -> Scene:
         """The scene under a torque (N m), with another wheel momentum (N m s) where one is given."""
@@ -35,14 +38,14 @@ class Scenario:
         """The whole torque while these thrusters fire, along the scene's axes."""
         return tuple(map(sum, zip(self.base, *(self.axes.turned(t.torque) for t in thrusters))))
 
-    def torque_in_file(self, thrusters) -> tuple[float, float, float]:
+    def torque_in_file(self, thrusters) -> Float3:
         """The same in the frame of the file; what a thruster alone gives is rounded once."""
         whole = [sum(column) for column in zip(*(t.torque for t in thrusters))] if thrusters else [Fraction(0)] * 3
         base = self.axes.back(self.base) if any(self.base) else (0.0,) * 3
         return tuple(float(a) + b for a, b in zip(whole, base))
 
     @property
-    def start(self) -> tuple[float, float, float]:
+    def start(self) -> Float3:
         """The state in doubles."""
         return tuple(map(float, self.state))
 

@@ -82,13 +82,13 @@ class Box:
             out[name][i] = Affine(c, g, 8 * EPS * (abs(middle) + np.abs(half * centres[:, k]) + g[:, k]) + LEAST)
         return {name: tuple(numbers) for name, numbers in out.items()}
 
-    def impossible(self, numbers) -> np.ndarray:
+    def impossible(self, numbers) -> np.ndarray | np.bool_:
         """True for each sub-box that surely holds no body: a moment of inertia not positive, or the triangle inequality broken
         (for a body in scaled variables: moments not in falling order)."""
         if not self.bodily:
             return np.bool_(False)
         D = numbers["inertia"]
-        wrong = np.bool_(False)
+        wrong: np.ndarray | np.bool_ = np.bool_(False)
         for i in range(3):
             wrong = wrong | (sign_over(D[i]) < 0) | (sign_over(D[(i + 1) % 3] + D[(i + 2) % 3] - D[i]) < 0)
         if self.variables == "scaled" or "mu" in self.middle:

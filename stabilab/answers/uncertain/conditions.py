@@ -15,7 +15,7 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from ...numbers.affine import Affine, squared
-from ...numbers.vectors import CYCLE
+from ...numbers.vectors import CYCLE, Number
 from .orbit import reduction_over
 
 
@@ -23,7 +23,7 @@ class Condition(NamedTuple):
     """value: keeps its sign where nothing changes; what: what happens where it vanishes. passes: True where the answer is the
     same on both sides of that surface, and only on the surface itself another."""
 
-    value: object
+    value: Number
     what: str
     passes: bool = False
 

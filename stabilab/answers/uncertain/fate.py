@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -62,8 +63,8 @@ def verdict_at(box: Box, point) -> str | None:
     if kind_of(scene) == "growth":
         return UNBOUNDED  # about which axis is a question for a run, not for the law
     if reduction is None:
-        found = fate(scene, np.array(state))
-        return words(Fate(int(found.labels)), int(found.axis), int(found.sense))
+        one = fate(scene, np.array(state))
+        return words(Fate(int(one.labels)), int(one.axis), int(one.sense))
     found = fate_of(scene, Orbit(reduction, state))
     return words(found.label, found.axis, found.sense)
 
@@ -121,7 +122,8 @@ def _on_circles(box, here, answer, family: Family) -> Over:
 
 def _tie(box, here, answer, corners) -> Over:
     """The middle lies on the separatrix (or at rest on a saddle): what lies on either side."""
-    because, n, sides = "the middle lies on the separatrix itself", len(box.places), {}
+    because, n = "the middle lies on the separatrix itself", len(box.places)
+    sides: dict[str, Any] = {}
     for stretch in TIE_STRETCHES:
         for direction in (*corners, *np.eye(n), *-np.eye(n)):
             word = answer(direction * stretch)

@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...numbers.affine import Affine, lifted, root, squared
+from ...numbers.vectors import Number
 from ...orbit.reduction import Reduction, reduction_about
 
 TURN = 2 * np.pi
@@ -24,13 +25,13 @@ POLISH = 7  # Newton steps from there
 class Orbit(NamedTuple):
     """X, Z, W at time 0 and the potential's coefficients, as in `reduction`."""
 
-    x: object
-    z: object
-    w: object
-    G: object
-    c: object
-    d: object
-    mu: object
+    x: Number
+    z: Number
+    w: Number
+    G: Number
+    c: Number
+    d: Number
+    mu: Number
 
     def turned(self, sense: int) -> Orbit:
         """Seen so that the torque of this sign points ahead (the reflection of theta)."""

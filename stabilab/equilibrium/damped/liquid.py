@@ -58,7 +58,7 @@ def _reason(parts: Content) -> str:
 def validity(parts: Content) -> Fraction:
     """|omega| below which |kappa D^-1 L| < 1 for sure: |L a| <= ((2 d + 1) |omega| + |Lambda|/Dmin) |a|, d = Dmax/Dmin."""
     least, most = min(parts.D), max(parts.D)
-    moment = sqrt_fraction(sum(v * v for v in parts.Lambda))
+    moment = sqrt_fraction(sum((v * v for v in parts.Lambda), Fraction(0)))
     return (least / parts.kappa - moment / least) / (2 * most / least + 1)
 
 
@@ -79,7 +79,7 @@ def coefficients(J):
     return c2, c1
 
 
-def roots(c2: Fraction, c1: Fraction) -> tuple[complex, complex, complex]:
+def roots(c2: Fraction, c1: Fraction) -> tuple[complex, ...]:
     """0 and the roots of z^2 + c2 z + c1, each part rounded once."""
     half, square = -c2 / 2, c2 * c2 / 4 - c1
     gap = sqrt_fraction(abs(square))

@@ -121,7 +121,7 @@ def _point(parts, form, numerators, q, P, t) -> EquilibriumPoint:
     if verdict == "asymptotically stable" and draws_all(parts, omega):
         because += ("; " + GLOBAL + "V = delta . D delta/2, delta the departure, has V' = -2 c V + omega* . (delta x D delta), a "
                     "negative definite form")
-    return EquilibriumPoint(tuple(float(v) for v in omega), damped(*numbers, c), linear, verdict, because)
+    return EquilibriumPoint(tuple(float(v) for v in omega), damped(*numbers, c), linear, verdict, because)  # type: ignore[call-arg]
 
 
 def _verdict(p0, hurwitz, side, P, t):

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from ...numbers.balls import BITS, rational, working
+from ...numbers.vectors import Number
 from .spectrum import Field
 
 
@@ -12,7 +13,7 @@ from .spectrum import Field
 class Rotation:
     """One solution at one Omega: mu and gamma as balls; circle: it stands for all its turns about axis 3 (or its own)."""
 
-    mu: object
+    mu: Number
     gamma: tuple
     circle: tuple = ()
 

@@ -6,6 +6,7 @@ Omega with exact coefficients, whose real roots python-flint isolates.
 from __future__ import annotations
 
 from fractions import Fraction
+from typing import Any
 
 from .balance import groups_at, secular
 from .spectrum import Field, coefficients
@@ -87,7 +88,7 @@ def _fraction(ball) -> Fraction:
 
 def separated(cuts) -> list[Fraction]:
     """The cuts rising, each once: a root that two polynomials share comes out the same within 2**-200."""
-    out = []
+    out: list[Any] = []
     for value in sorted(cuts):
         if not out or value - out[-1] > SHARED * max(abs(value), abs(out[-1])):
             out.append(value)

@@ -46,7 +46,7 @@ def _crossings(field: Field, parts: Content):
             if axes[0] != group[0] or len(axes) == len(group) or any(parts.s[i] or parts.Lambda[i] for i in axes):
                 continue
             gamma = [arb(-b[i] / (S[i] - S[axes[0]])) if i in others else arb(0) for i in range(3)]
-            rest = 1 - sum(g * g for g in gamma)
+            rest = 1 - sum((g * g for g in gamma), arb(0))
             if rest > 0:
                 gamma[axes[0]] = rest.sqrt()
                 yield Omega, Rotation(arb(S[axes[0]]), tuple(gamma), tuple(axes))

@@ -13,6 +13,7 @@ are complete, and a verdict in the middle of an interval holds all over it.
 from __future__ import annotations
 
 from fractions import Fraction
+from typing import Any
 
 from ...errors import InputError
 from ...numbers.balls import many_digits
@@ -73,7 +74,7 @@ def _matching(before, after) -> dict[int, int]:
             apart = max(abs(float((x - y).mid())) for x, y in zip(u.gamma, v.gamma))
             if apart < SAME and bool(u.circle) == bool(v.circle):
                 pairs.append((apart, i, j))
-    out = {}
+    out: dict[int, int] = {}
     for _, i, j in sorted(pairs):
         if i not in out and j not in out.values():
             out[i] = j
@@ -88,7 +89,7 @@ def _curve(field, number, branch, cuts) -> EquilibriumCurve:
     """Segments of one verdict, changes of verdict and samples of one branch."""
     size = max(map(abs, cuts), default=Fraction(1)) or Fraction(1)
     pieces = [(lo, hi, index, _sample(field, values_inside(lo, hi, size), index)) for lo, hi, index in branch]
-    runs = []
+    runs: list[list[Any]] = []
     for piece in pieces:
         same = runs and _words(runs[-1][-1][3]) == _words(piece[3])
         runs[-1].append(piece) if same else runs.append([piece])
@@ -100,7 +101,7 @@ def _curve(field, number, branch, cuts) -> EquilibriumCurve:
         samples += [_at(field, branch, t) for t in _chosen(lo, hi, size, cuts)]
         if run is not runs[-1]:
             changes.append(_at(field, branch, hi - step_at(cuts, hi)).at)
-    circle = rotations_at(field, values_inside(*branch[0][:2], size))[branch[0][2]].circle
+    circle = rotations_at(field, values_inside(*branch[0][:2], size))[branch[0][2]].circle  # type: ignore[call-arg]
     name = f"branch {number}" + (f", a circle about axis {6 - sum(i + 1 for i in circle)}" if circle else "")
     first, last = segments[0].t[0], segments[-1].t[1]
     return EquilibriumCurve(

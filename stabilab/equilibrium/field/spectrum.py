@@ -16,7 +16,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ...numbers.balls import rational
-from ...numbers.vectors import cross, dot
+from ...numbers.vectors import Number, cross, dot
 from ...physics.coefficients import linear_rates
 
 
@@ -27,8 +27,8 @@ class Field:
     D: tuple
     Lambda: tuple
     s: tuple
-    N: object
-    E: object
+    N: Number
+    E: Number
 
     @classmethod
     def of(cls, parts):

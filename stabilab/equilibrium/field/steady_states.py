@@ -153,8 +153,8 @@ def _curve(parts, plane: Plane, lo, hi, side) -> EquilibriumCurve:
     j, k = CYCLE[plane.i]
     ends = _angle(lo, -1), _angle(hi, 1)
     with many_digits():
-        samples = [_point(parts, plane, tau, side) for tau in _chosen(lo, hi)]
-    samples = tuple(s for s in samples if s is not None)
+        found = [_point(parts, plane, tau, side) for tau in _chosen(lo, hi)]
+    samples = tuple(s for s in found if s is not None)
     words = {(s.linear, s.verdict, s.because) for s in samples}
     shared = words.pop() if len(words) == 1 else (
         "degenerate", "undecided", "the verdict changes along this piece, or was decided at the samples only: see them")

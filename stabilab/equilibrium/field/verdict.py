@@ -74,8 +74,8 @@ def spectrum(a, b) -> tuple[complex, ...]:
     a, b = arb(a), arb(b)
     gap = a * a - 4 * b
     if gap < 0:
-        z = ((acb(-a) + acb(gap).sqrt()) / 2).sqrt()
-        z = complex(float(z.real.mid()), float(z.imag.mid()))
+        ball = ((acb(-a) + acb(gap).sqrt()) / 2).sqrt()
+        z = complex(float(ball.real.mid()), float(ball.imag.mid()))
         return (0j, 0j, z, -z, z.conjugate(), -z.conjugate())
     root = arb(max(float(gap.mid()), 0.0)).sqrt() if not gap > 0 else gap.sqrt()
     far = -(a + root) / 2 if a >= 0 else (root - a) / 2

@@ -30,7 +30,7 @@ def extremes_of_chunk(land: Landscape, states, decided, start, span=None):
     trapped, rotating = rows & (labels == Fate.BOUNDED), ~rows & (labels == Fate.BOUNDED)
     into(out, rotating, _rotating(land, *picked(place, w, rotating)))
     span = None if span is None else span.take(trapped[rows])
-    values, found = _trapped(land, *picked(place, w, trapped), span)
+    values, found = _trapped(land, *picked(place, w, trapped), span)  # type: ignore[call-arg]
     into(out, trapped, values)
     precise[np.nonzero(trapped)[0][~found]] = True
     spinning = labels == Fate.SPIN_UP

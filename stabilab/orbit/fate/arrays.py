@@ -51,7 +51,7 @@ def fates(scene, states, fast=None) -> FateResult:
     for index in np.nonzero(far)[0]:
         state = states[index].tolist()
         write_row(out, index, *far_fate(scene, Orbit(reduction, state), far_exponent(scene, state)))
-    return FateResult(**out, precise=near.precise + int(far.sum()))
+    return FateResult(**out, precise=near.precise + int(far.sum()))  # type: ignore[arg-type]  # the columns alone
 
 
 def _ordinary(scene, states, fast) -> FateResult:
@@ -63,7 +63,7 @@ def _ordinary(scene, states, fast) -> FateResult:
     open_ones = in_chunks(label, states[rest])
     for name, column in out.items():
         column[rest] = getattr(open_ones, name)
-    return FateResult(**out, precise=open_ones.precise)
+    return FateResult(**out, precise=open_ones.precise)  # type: ignore[arg-type]  # the columns alone
 
 
 def labeller(scene):

@@ -31,6 +31,7 @@ from ...numbers.balls import DOUBLE_BITS, START_BITS, settled, sign
 from ...numbers.double_ball import Unclear
 from ...numbers.flint_polynomial import polynomial, shares_root
 from ...numbers.polynomial import Poly
+from ...numbers.vectors import Number
 
 EQUAL_BITS = 512  # two distances in energy that agree to so many bits count as equal
 SHARE = 1e-12  # of the margin: with less certainty balls of doubles do not settle it
@@ -51,7 +52,7 @@ class FreeMargin(NamedTuple):
     """Energy of the saddle nearest in energy on the momentum sphere, minus the state's; of two as near the one above. ball: None
     where the sphere has no saddle; tie: the two are equal, by algebra."""
 
-    ball: object
+    ball: Number
     tie: bool
 
     def __float__(self):

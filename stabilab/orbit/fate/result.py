@@ -3,9 +3,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
+from ...physics.scene import AnyScene
 from ..far_states import BEYOND
 from ..result import Fate
 from ..separatrix.distance.ask import separatrix_distance
@@ -35,10 +37,10 @@ class FateResult:
     sense: np.ndarray
     reasons: np.ndarray
     precise: int = 0
-    followed: object = field(default=None, repr=False, compare=False)  # of motions that were followed: `row(n)` has all that is known of state n, or None
-    scene: object = field(default=None, repr=False, compare=False)
+    followed: Any = field(default=None, repr=False, compare=False)  # of motions that were followed: `row(n)` has all that is known of state n, or None
+    scene: AnyScene | None = field(default=None, repr=False, compare=False)
     states: np.ndarray = field(default=None, repr=False, compare=False)
-    given: object = field(default=None, repr=False, compare=False)  # the scene asked for, of which `scene` is the twin
+    given: AnyScene | None = field(default=None, repr=False, compare=False)  # the scene asked for, of which `scene` is the twin
 
     def __iter__(self):
         return iter((self.labels, self.margins))
@@ -97,7 +99,7 @@ def in_chunks(label, states) -> FateResult:
     for start in range(0, len(states), CHUNK):
         part = slice(start, start + CHUNK)
         precise += label(states[part], {name: column[part] for name, column in out.items()})
-    return FateResult(**out, precise=precise)
+    return FateResult(**out, precise=precise)  # type: ignore[arg-type]  # the columns alone
 
 
 def write_row(out, index, label, reason, margin, axis=0, sense=0) -> None:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
+from collections.abc import Callable
 from functools import cached_property
 
 import numpy as np
@@ -101,6 +102,8 @@ class Motion:
     period: inf where it does not repeat; evaluations: of the integrand, in all."""
 
     evaluations = 0
+    period: float
+    follow: Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
 
     def states(self, times):
         """(n, 3)."""

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -112,6 +113,10 @@ class Spot:
         out[j], out[k] = self.components(y, f)
         out[i] = self.spin[0] * w - self.spin[1]
         return out
+
+    # of the geometry, in its class
+    terms: ClassVar[Any]
+    bend: ClassVar[Any]
 
     @property
     def blur(self) -> float:

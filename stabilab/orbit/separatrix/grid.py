@@ -53,7 +53,7 @@ def grid(land, strips, shape=None, accuracy=None) -> Grid:
     for _ in range(ROUNDS):
         s = _even_steps(rows, trial, shape[0])
         made, edge = _measured_loops(land, strips, s, _even_steps(columns, np.broadcast_to(even, trial.shape), shape[1]))
-        strays = np.maximum(_stray(*_second_forms(land, made), np.array([1, -1])[:, None, None, None]), edge)
+        strays = np.maximum(_stray(*_second_forms(land, made), np.array([1, -1])[:, None, None, None]), edge)  # type: ignore[call-arg]
         best = int(np.argmin(strays.max(axis=1)))
         worst = strays[best].max()
         if accuracy is None or worst <= accuracy or min(shape) == MOST:

@@ -2,6 +2,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import numpy as np
 
 
 @dataclass(frozen=True)
@@ -18,11 +22,11 @@ class Sheet:
     """
 
     name: str
-    points: object
-    residual: object
-    saddle: object
-    centre: object
-    invariant: object
+    points: np.ndarray
+    residual: np.ndarray
+    saddle: np.ndarray
+    centre: np.ndarray
+    invariant: np.ndarray
     error: float | None = None
     cut: int = 1
 

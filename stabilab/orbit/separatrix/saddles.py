@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from ...numbers.double_ball import real_roots_of
 
@@ -18,8 +18,8 @@ class Branch(NamedTuple):
     """Saddles for s in [0, 1], s = 0 at the fold (on a line at its inner end), in h along a piece of the hyperbola or in t
     along a line. far: what the branch ends in at s = 1, the limit (OPEN), another FOLD or an invariant PLANE Q = 0."""
 
-    conic: object
-    line: object  # None on the hyperbola
+    conic: Any
+    line: Any  # None on the hyperbola
     start: float
     end: float
     far: str

@@ -11,7 +11,7 @@ from .figure import Figure, listed
 
 PAPER = "Galal, Amer, Elneklawy, El-Kafly 2023, charged rigid body with a viscous liquid"
 SPAN, POINTS = 20.0, 2001
-FAMILIES = {  # family -> (symbol, unit, value -> case file)
+FAMILIES: dict[str, tuple[str, str, dict[float, str]]] = {  # family -> (symbol, unit, value -> case file)
     "small": (r"\lambda_3", r"kg m$^2$/s", {0.1: "liquid-base", 0.15: "liquid-lambda3-0_15", 0.2: "liquid-lambda3-0_2"}),
     "large": (r"\lambda_3", r"kg m$^2$/s", {15: "liquid-lambda3-15", 20: "liquid-lambda3-20", 25: "liquid-lambda3-25"}),
     "zeta": (r"\zeta", r"s$^{-1}$", {1.5: "liquid-zeta-1_5", 2: "liquid-base", 2.5: "liquid-zeta-2_5"}),

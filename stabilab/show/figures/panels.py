@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
@@ -38,7 +39,7 @@ class Row:
 
     xlabel: str
     ylabel: str
-    pick: object
+    pick: Any
     equal: bool = False
     limits: tuple | None = None
 

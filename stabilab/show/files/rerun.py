@@ -41,8 +41,8 @@ def rerun(path, out=None) -> list[str]:
             word = _compared(row, made)
             differ += word not in ("identical", TIMED)
             lines.append(f"  {row['path']}: {word}")
-        known = {row["path"] for run in runs for row in run["outputs"]}
-        lines += [f"  {new}: new" for new in made if new not in known]
+        paths = {row["path"] for run in runs for row in run["outputs"]}
+        lines += [f"  {new}: new" for new in made if new not in paths]
     count = sum(len(run["outputs"]) for run in runs)
     if differ:
         raise ToleranceNotMet("\n".join([*lines, f"{differ} of {count} files differ"]))

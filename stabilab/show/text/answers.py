@@ -97,7 +97,8 @@ def simulation(case, run) -> dict:
 def columns(run) -> tuple[list[str], list[list[float]]]:
     """Names and rows of everything a run has, time left out."""
     import numpy as np
-    names, parts = [], []
+    names: list[str] = []
+    parts: list[np.ndarray] = []
     for name, values in run.state.items():
         values = np.asarray(values, float)
         names += PARTS[name].components

@@ -24,7 +24,7 @@ def bracket(low, high) -> tuple[str, str]:
     most = max(0, 5 - math.floor(math.log10(high)))
     decimals = most if not high > low else min(most, max(0, 1 - math.floor(math.log10(high - low))))
     step = Decimal(1).scaleb(-decimals)
-    return tuple(str(Decimal(v).quantize(step, way)) for v, way in ((low, ROUND_FLOOR), (high, ROUND_CEILING)))
+    return str(Decimal(low).quantize(step, ROUND_FLOOR)), str(Decimal(high).quantize(step, ROUND_CEILING))
 
 
 def number(value, digits=4) -> str:

@@ -44,12 +44,12 @@ def number(paper: Paper, row: Row) -> tuple:
         value = Evaluator(mpmath.mp, {}, bound, system_of(paper, row.system, row.place))(parse(row.options["value"], paper.symbols))
     try:
         text = row.printed[0].replace("\u2212", "-")
-        printed, step = Decimal(text), Decimal(1).scaleb(Decimal(text).as_tuple().exponent)
+        printed, step = Decimal(text), Decimal(1).scaleb(Decimal(text).as_tuple().exponent)  # type: ignore[arg-type]  # finite, so its exponent is a number
     except (InvalidOperation, IndexError):
         raise InputError(f"{row.place}: expected a printed number, got {row.printed}") from None
     error = abs(float(value.real) - float(printed))
     holds = error <= 0.5 * float(step) * (1 + 1e-9) and abs(float(value.imag)) < 1e-12
-    digits = max(0, -printed.as_tuple().exponent) + 2
+    digits = max(0, -printed.as_tuple().exponent) + 2  # type: ignore[operator]
     correction = "" if holds else f"{float(value.real):.{digits}f}"
     return "holds" if holds else "wrong", "", correction, f"value of {row.options['value']} with 40 digits", error, float("nan") if holds else 0.0
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
@@ -36,11 +37,11 @@ class AveragedMotion:
     "reached", or "stopped" with t up to where the run came; reason: why; horizon: in words, how far to trust it.
     """
 
-    t: object
-    amplitude: object
-    spin: object
-    phase: object
-    omega: object
+    t: np.ndarray
+    amplitude: np.ndarray
+    spin: np.ndarray
+    phase: np.ndarray
+    omega: np.ndarray
     order: int
     eps: float
     status: str
@@ -66,7 +67,8 @@ def averaged(scene, state, times, order: int = 1, eps: float | None = None) -> A
     small.refuse()
     model = _Model(scene, numbers, omega, order)
     start = model.inward(omega)
-    w0, rows, failures = complex(start[0], -start[1]), {}, []
+    w0, failures = complex(start[0], -start[1]), []
+    rows: dict[Any, Any] = {}
     for sense in (-1, 1):
         grid = np.unique(times[times * sense > 0] * sense)
         if grid.size:

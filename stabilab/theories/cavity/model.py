@@ -5,9 +5,9 @@ import numpy as np
 
 from ...answers.simulate import Simulation
 from ...errors import InputError
-from .averaged import averaged
+from .averaged import AveragedMotion, averaged
 from .normal_form import check
-from .printed import printed
+from .printed import PrintedMotion, printed
 
 MODELS = ("averaged1", "averaged2", "printed")
 
@@ -25,11 +25,12 @@ def applies(scene) -> bool:
 
 def follow(model, case, times, order=None) -> Simulation:
     """The case's motion by an averaged model, or by the paper's polynomials."""
+    run: PrintedMotion | AveragedMotion
     if model == "printed":
         run = printed(case.scene, case.state, times, compare=False)
         how, reason = "Galal et al. (24)-(26)", run.reason
     else:
-        run = averaged(case.scene, case.state, times, order=int(model[-1]))
-        how, reason = f"averaged equations of order {run.order}, eps = {run.eps:.6g}", f"{run.reason}; {run.horizon}"
+        found = run = averaged(case.scene, case.state, times, order=int(model[-1]))
+        how, reason = f"averaged equations of order {found.order}, eps = {found.eps:.6g}", f"{found.reason}; {found.horizon}"
     state = {"omega": run.omega, "amplitude": run.amplitude, "spin": run.spin, "phase": run.phase}
     return Simulation(np.asarray(run.t), state, model, how, None, status=run.status, reason=reason)

@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from ...errors import InputError
+from ...numbers.vectors import Number
 from ...physics.equations import derive
 
 ORDERS = 3  # X0, X1, X2
@@ -34,7 +35,7 @@ class NormalForm:
 
     variables: tuple
     symbols: tuple
-    frequency: object
+    frequency: Number
     turn: tuple
     spin: tuple
     kept: tuple
@@ -164,8 +165,8 @@ def _conjugate(f, Z, Zc):
 class _Split:
     """One order: mean turn and spin, kept harmonics, and the change of variables that removes the others."""
 
-    turn: object
-    spin: object
+    turn: Number
+    spin: Number
     kept: tuple
     near: tuple
 

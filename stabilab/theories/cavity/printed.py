@@ -39,11 +39,11 @@ class PrintedMotion:
     size of the quantity so far; of the phase it is 0.01 and 0.1 of a turn. status: "reached" or "stopped"; reason: why.
     """
 
-    t: object
-    amplitude: object
-    spin: object
-    phase: object
-    omega: object
+    t: np.ndarray
+    amplitude: np.ndarray
+    spin: np.ndarray
+    phase: np.ndarray
+    omega: np.ndarray
     stops: dict = field(default_factory=dict)
     status: str = "reached"
     reason: str = "all times reached"

@@ -50,7 +50,7 @@ def pointing(body: ChargedBody) -> Pointing:
     across, along = -1j * f3 * turn * parts.coning, f3 - f1 * parts.steady.imag + f2 * parts.steady.real
     ratio = np.where(along == 0, 0, across / np.where(along == 0, 1.0, along))
     values = (mean, np.arctan2(np.abs(mean), H3), np.abs(swing), ratio)
-    return Pointing(*(np.where(exists, v, np.inf) for v in values), *_verdict(exists))
+    return Pointing(*(np.where(exists, v, np.inf) for v in values), *_verdict(exists))  # type: ignore[arg-type]  # four
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,7 +84,7 @@ def spin_drift(body: ChargedBody) -> SpinDrift:
     # the integral of pq = Im(Pi^2)/2 from 0 swings about a mean of its own
     spun = asymmetry * (2 * z.rate * (z.plus - z.minus) + (z.plus**2 - z.minus**2) / 2).real / (2 * w)
     acceleration = asymmetry * (z.rate**2 + 2 * z.plus * z.minus).imag / 2
-    return SpinDrift(*(np.where(exists, v, np.inf) for v in (tilting - with_rate + spun, acceleration)), *_verdict(exists))
+    return SpinDrift(*(np.where(exists, v, np.inf) for v in (tilting - with_rate + spun, acceleration)), *_verdict(exists))  # type: ignore[arg-type]  # two
 
 
 def _verdict(exists):

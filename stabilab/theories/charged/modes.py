@@ -13,12 +13,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Any, TypeAlias
 
 import numpy as np
 
 from ...errors import InputError
 from ...numbers.double_double import Twofold, twofold
 
+Batch: TypeAlias = Any  # a number or an array of them, with leading batch axes
 FIELDS = {"inertia": 3, "spin": 0, "gyrostat": 0, "charge_moment": 0, "torque": 2, "rates": 2, "attitude": 3,
           "force": 3, "mass": 0, "velocity": 3, "position": 3}
 
@@ -35,17 +37,17 @@ class ChargedBody:
     the triangle inequality.
     """
 
-    inertia: object
-    spin: object
-    gyrostat: object = 0.0
-    charge_moment: object = 0.0
-    torque: object = (0.0, 0.0)
-    rates: object = (0.0, 0.0)
-    attitude: object = (0.0, 0.0, 0.0)
-    force: object = (0.0, 0.0, 0.0)
-    mass: object = None
-    velocity: object = (0.0, 0.0, 0.0)
-    position: object = (0.0, 0.0, 0.0)
+    inertia: Batch
+    spin: Batch
+    gyrostat: Batch = 0.0
+    charge_moment: Batch = 0.0
+    torque: Batch = (0.0, 0.0)
+    rates: Batch = (0.0, 0.0)
+    attitude: Batch = (0.0, 0.0, 0.0)
+    force: Batch = (0.0, 0.0, 0.0)
+    mass: Batch | None = None
+    velocity: Batch = (0.0, 0.0, 0.0)
+    position: Batch = (0.0, 0.0, 0.0)
 
     def __post_init__(self):
         for name, components in FIELDS.items():

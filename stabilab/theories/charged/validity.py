@@ -94,4 +94,4 @@ def tilt_parts(body: ChargedBody) -> TiltParts:
     steady = np.where(r0 == 0, 0, rate / (1j * one(r0)))
     coning = body.attitude[..., 0] + 1j * body.attitude[..., 1] + 1j * (L0 + 1j * M / one(r0)) / one(X)
     values = (np.where(regular, z, 0) for z in (steady, coning, B, C, rate, plus, minus, root))
-    return TiltParts(*values, regular, (Pi0 == 0) & (M == 0) & np.ones_like(regular))
+    return TiltParts(*values, regular, (Pi0 == 0) & (M == 0) & np.ones_like(regular))  # type: ignore[call-arg]

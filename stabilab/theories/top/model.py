@@ -2,8 +2,8 @@
 from __future__ import annotations
 
 from ...answers.simulate import Simulation
-from .lindstedt import lindstedt
-from .printed import printed
+from .lindstedt import LindstedtMotion, lindstedt
+from .printed import PrintedMotion, printed
 
 MODELS = ("lindstedt", "printed")
 ORDER = 4
@@ -24,11 +24,12 @@ def state_of(case) -> dict:
 def follow(model, case, times, order=None) -> Simulation:
     """The case's motion by the expansion (order 4 unless asked for otherwise), or as printed."""
     state = state_of(case)
+    run: PrintedMotion | LindstedtMotion
     if model == "printed":
         run = printed(case.scene, state, times)
         how, reason = "Amer et al. 2023, first order", run.reason
     else:
-        run = lindstedt(case.scene, state, times, ORDER if order is None else order)
-        how, reason = f"expansion of order {run.order}", f"{run.status}: {run.reason}"
+        found = run = lindstedt(case.scene, state, times, ORDER if order is None else order)
+        how, reason = f"expansion of order {found.order}", f"{found.status}: {found.reason}"
     reached = "reached" if len(run.t) == len(times) else "stopped"
     return Simulation(run.t, {"omega": run.omega, "gamma": run.gamma}, model, how, None, status=reached, reason=reason)

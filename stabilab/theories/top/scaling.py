@@ -10,6 +10,7 @@ from fractions import Fraction
 
 from ...errors import InputError
 from ...numbers.exact import exact
+from ...numbers.vectors import Exact3
 
 COVERED = ("gravity", "newtonian_field", "gyrostat")
 UNIT_SLACK = 1e-6  # a vertical given to six decimals counts as a unit vector
@@ -26,12 +27,12 @@ class FastTop:
     r0: Fraction
     a: Fraction
     b: Fraction
-    force: tuple[Fraction, Fraction, Fraction]
+    force: Exact3
     field: Fraction
     tilt: tuple[Fraction, Fraction]
     wheel: Fraction
-    omega: tuple[Fraction, Fraction, Fraction]
-    gamma: tuple[Fraction, Fraction, Fraction]
+    omega: Exact3
+    gamma: Exact3
 
     @property
     def spin(self) -> Fraction:

@@ -66,7 +66,7 @@ def expand(top, order: int) -> Expansion:
 
 def _nearly_upright(top) -> bool:
     rest = [float(y / d) if d else 0.0 for y, d in zip(top.tilt, (top.b * top.beta, top.a * top.alpha))]
-    return float(np.hypot(*map(float, top.gamma[:2]))) < min(SMALL_TILT, top.size + abs(rest[0]) + abs(rest[1]))
+    return float(np.hypot(float(top.gamma[0]), float(top.gamma[1]))) < min(SMALL_TILT, top.size + abs(rest[0]) + abs(rest[1]))
 
 
 class _Solver:

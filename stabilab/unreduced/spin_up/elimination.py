@@ -21,6 +21,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...numbers.vectors import Number
 from .form import NormalForm
 from .terms import Terms, gathered, packed, product, terms_of
 
@@ -35,7 +36,7 @@ class Algebra:
     x_rate: terms of x'; rest, carried: terms of zeta'; weights: what p and q count in the level, 0 for a q that is constant.
     """
 
-    lift: object
+    lift: Number
     turn: tuple
     fall: tuple
     x_rate: Terms

@@ -53,7 +53,7 @@ def answer_of(scene, unit: float, found: Chased, row: int) -> SpinUp:
             words += ": more than a run in doubles can tell"
         return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, t, state, steps, words, condition)
     field, orders = found.tests.last[found.fired[row]]
-    trap = Trap(field, field.name, orders, *map(float, found.constants[:, row]), unit, t)
+    trap = Trap(field, field.name, orders, *map(float, found.constants[:, row]), unit, t)  # type: ignore[call-arg]  # six constants
     direction = tuple(field.basis[0].tolist())
     axis, sense = (0, 1) if field.axis is None else (field.axis + 1, field.sense)
     where = "in the equator, across the axis of symmetry" if not axis else f"about axis {axis}"

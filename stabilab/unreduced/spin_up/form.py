@@ -26,6 +26,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any
+
+from ...numbers.vectors import Number
 
 HALF_TURN = (-1, 1, -1)  # about axis 2: a rotation of the body, so every vector takes part
 
@@ -49,18 +52,18 @@ class NormalForm:
     axis: int
     sense: int
     order: tuple
-    D1: object
-    M1: object
-    om: object
-    gam: object
-    h: object
-    mu: object
-    kap: object
-    shift: object
+    D1: Number
+    M1: Number
+    om: Number
+    gam: Number
+    h: Number
+    mu: Number
+    kap: Number
+    shift: Number
     centre: tuple
     scale: tuple
-    drag: object  # m* = -Im(kap* mu)/om = l2 M2/d2 + l3 M3/d3, exact before it is rounded
-    kind: type = Floats
+    drag: Number  # m* = -Im(kap* mu)/om = l2 M2/d2 + l3 M3/d3, exact before it is rounded
+    kind: Any = Floats
 
     @property
     def turn(self) -> tuple:
@@ -129,7 +132,7 @@ def scaled_normal_form(a, b, mu, axis: int, kind=Floats) -> NormalForm | None:
 def forms_of(scene, kind=Floats) -> list[NormalForm]:
     """The normal forms of a scene (gyrostat and constant torque): one for each extremal axis that bears a torque."""
     if scene.variables == "scaled":
-        forms = [scaled_normal_form(*scene.exact_ab, scene.exact_mu, i, kind) for i in range(3)]
+        forms = [scaled_normal_form(*scene.exact_ab, scene.exact_mu, i, kind) for i in range(3)]  # type: ignore[call-arg]
     else:
         forms = [normal_form(scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque"), i, kind) for i in range(3)]
     return [form for form in forms if form]

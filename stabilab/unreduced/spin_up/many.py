@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ...orbit.result import Fate
+from ...physics.scene import AnyScene
 from ...physics.states import checked_states
 from .chase import Chased, chase
 from .fields import natural, tests_of
@@ -30,7 +31,7 @@ class SpinUps:
     steps: np.ndarray
     condition: np.ndarray
     states: np.ndarray
-    scene: object = field(repr=False)
+    scene: AnyScene = field(repr=False)
     unit: float = field(repr=False)
     chased: Chased | None = field(repr=False)
     exact: tuple = field(repr=False)

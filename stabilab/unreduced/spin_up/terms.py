@@ -66,7 +66,7 @@ def terms_of(table: dict, majorant: dict | None = None) -> Terms:
 
 def gathered(*parts: Terms) -> Terms:
     """The sum of sums of terms."""
-    parts = [part for part in parts if len(part.keys)]
+    parts = tuple(part for part in parts if len(part.keys))
     if not parts:
         return terms_of({})
     keys, c, m = (np.concatenate([getattr(part, name) for part in parts]) for name in ("keys", "c", "m"))

@@ -10,7 +10,8 @@ and the right-hand side is smooth in (t, y), where W = 0 too; with k = 1 - w0/sq
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from collections.abc import Sequence
+from typing import Any, NamedTuple
 
 
 class Form(NamedTuple):
@@ -19,7 +20,7 @@ class Form(NamedTuple):
     value: float
     t: float
     y: float
-    bends: list
+    bends: Sequence[Any]
     off: float
 
     def least(self, dt, dy):
@@ -38,7 +39,7 @@ class Box(NamedTuple):
     y: float
     dt: float
     dy: float
-    p: object
+    p: Any
     r: tuple
     f: tuple
     swing: float

@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from fractions import Fraction
 from itertools import pairwise
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from ....numbers.balls import DOUBLE_BITS
 from ...conic import Conic
@@ -55,7 +55,7 @@ def _on_chart(charts, saddle=None):
 class _Arc(NamedTuple):
     """A branch of saddles: t from low to high (inf: open) along a curve."""
 
-    curve: object
+    curve: Any
     low: float
     high: float
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import heapq
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from .beside import Beside
 from .forms import Box
@@ -26,7 +26,7 @@ class Nearest(NamedTuple):
 
     lower: float
     upper: float
-    chart: object
+    chart: Any
     t: float
     y: float
     boxes: int
