@@ -15,7 +15,7 @@ from ..unreduced.enclosure.run import Course
 from ..unreduced.spin_up.fields import natural, tests_of
 from ..unreduced.spin_up.follow import spin_up
 
-BUDGET, STEPS = 60_000, 1_500  # of the run that finds the time, and validated ones: a checker takes some seconds for so many
+BUDGET, STEPS = 60_000, 2_500  # of the run that finds the time, and validated ones: a checker takes some seconds for so many
 ORDERS = ((0, 2), (4, 6), (12, 14), (16, 18))  # lowest first: the check of high ones takes longest
 LATER = (1.0, 1.0625, 1.25, 1.5, 2.0, 3.0, 5.0, 8.0)  # times, over that of the first certificate, at which the inequality is asked
 CHECKPOINTS = 4

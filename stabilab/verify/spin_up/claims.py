@@ -12,7 +12,7 @@ from .normal_form import form_about
 from .way import Lost, Way
 
 BITS = (96, 192, 384)  # of the way: more where fewer leave something open
-MOST_STEPS = 6_000  # of all ways together: some twenty seconds
+MOST_STEPS = 10_000  # of all ways together: some half a minute
 
 
 @dataclass(frozen=True)

@@ -23,6 +23,7 @@ from ..numbers import ball, brief
 from ..precision import working
 
 AHEAD = ((1, 2), (2, 0), (0, 1))
+PATIENCE = 20  # times the present step that later ones may be, in the mean
 LINEAR_BITS = 96  # of J: what it errs by multiplies the width of the set
 
 
@@ -62,11 +63,14 @@ class Way:
 
     def _step(self, t):
         a = _series(self.numbers, self.centre, self.order)
+        h = self._length(a)
+        if t - self.t > PATIENCE * h * (self.allowed - self.steps):
+            raise Lost(f"not followed beyond t = {brief(self.t)}: at this pace {self.allowed} steps do not reach {brief(t)}")
         around = [c + r for c, r in zip(self.centre, self._reach())]
         with working(LINEAR_BITS):
             wide = _series(self.coarse, around, self.linear_order)
             columns = [_linear(self.coarse, wide, j, self.linear_order) for j in range(3)]
-        h = min(self._length(a), t - self.t)
+        h = min(h, t - self.t)
         for _ in range(40):
             tail = _tail(self.numbers, a, h)
             with working(LINEAR_BITS):
