@@ -9,6 +9,7 @@ Floats are exact numbers; C = 0 and A = 0 are decided in rational arithmetic.
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import lru_cache, wraps
 
 import mpmath as mp
 
@@ -121,6 +122,23 @@ def reduction_axis(model: Model):
     return None
 
 
+def kept(method):
+    """A method whose answers an object keeps, each at its precision: label, extremes and period ask for the same ones."""
+    @wraps(method)
+    def asked(self, *arguments):
+        key = method.__name__, arguments, mp.mp.prec
+        if key not in self.known:
+            self.known[key] = method(self, *arguments)
+        return self.known[key]
+    return asked
+
+
+@lru_cache(maxsize=256)
+def motion_of(model: Model, state, digits: int, axis: int | None) -> Reduced:
+    """The motion of one state (a tuple), the same object for every question about it."""
+    return Reduced(model, state, digits, axis)
+
+
 class Reduced:
     """The one-degree-of-freedom motion of one state; every method runs at `digits` digits."""
 
@@ -128,7 +146,7 @@ class Reduced:
         found = reduction_axis(model) if axis is None else (axis, Fraction(0))
         if found is None:
             raise ValueError("no reduction: torque off the principal axes, or gyrostatic moment along it")
-        self.model, self.digits = model, digits
+        self.model, self.digits, self.known = model, digits, {}
         self.i, self.h = found
         self.j, self.k = CYCLE[self.i]
         x = [Fraction(v) for v in state]
@@ -227,6 +245,7 @@ class Reduced:
     def turn(self):
         return 2 * mp.pi / self.k0 if self.kind == "elliptic" else mp.inf
 
+    @kept
     def stationary(self):
         """[(alpha, kind)] of the equilibria on this conic in rising order, kind "saddle", "centre" or "fold";
         elliptic: those of one turn, -turn/2 < alpha <= turn/2."""
@@ -265,6 +284,7 @@ class Reduced:
         return self.ka * (self.p * V * V + self.q * U * U) + self.cu * self.p * V + self.cv * self.q * U
 
     # -- where the motion goes
+    @kept
     def _ahead(self, direction):
         """Equilibria met in the direction +1/-1 from alpha = 0 (excluded), for the elliptic case the turns that matter."""
         marks = [(a, kind) for a, kind in self.stationary()]
@@ -282,6 +302,7 @@ class Reduced:
             ahead = [m for m in ahead if abs(m[0]) <= self.turn]
         return ahead, first
 
+    @kept
     def end(self, direction):
         """("turn", alpha) turning point, ("limit", alpha) saddle approached for ever, ("open", inf) none; from
         alpha = 0 in the given direction."""
@@ -344,7 +365,7 @@ def _at(digits):
 @_at(DIGITS)
 def label(model, state, digits=DIGITS, axis=None):
     """"bounded", "spin-up", "separatrix" (exact tie) or "equilibrium" (exact)."""
-    motion = Reduced(model, state, digits, axis)
+    motion = motion_of(model, tuple(state), digits, axis)
     if motion.still:
         return "equilibrium"
     (right, _), (left, _) = motion.end(+1), motion.end(-1)
@@ -359,7 +380,7 @@ def label(model, state, digits=DIGITS, axis=None):
 def margin(model, state, digits=DIGITS, axis=None):
     """Barrier minus energy, in the energy unit of the model; None without any saddle on the state's conic. Elliptic:
     the highest barrier within one turn in the torque's direction; else the saddle (unique wherever it is asked for)."""
-    motion = Reduced(model, state, digits, axis)
+    motion = motion_of(model, tuple(state), digits, axis)
     if motion.at_centre:
         return None
     if motion.kind == "elliptic" and motion.tilt != 0:
@@ -372,7 +393,7 @@ def margin(model, state, digits=DIGITS, axis=None):
 @_at(DIGITS)
 def extremes(model, state, digits=DIGITS, axis=None):
     """3 x 2 list of [min, max] over t >= 0, mpf; infinite where the component grows without bound."""
-    motion = Reduced(model, state, digits, axis)
+    motion = motion_of(model, tuple(state), digits, axis)
     out = [None] * 3
     if motion.still:
         for n, value in zip((motion.i, motion.j, motion.k), (motion.w0 - num(motion.h), motion.u0, motion.v0)):
@@ -475,7 +496,7 @@ def period(model, state, digits=60, nodes=20):
     Gauss-Legendre on panels that shrink geometrically towards both ends and every saddle inside, where the integrand
     may be steep. `nodes` per panel; a second call with more nodes bounds the error.
     """
-    motion = Reduced(model, state, digits)
+    motion = motion_of(model, tuple(state), digits, None)
     if motion.still:
         return mp.mpf(0)
     (right, hi), (left, lo) = motion.end(+1), motion.end(-1)

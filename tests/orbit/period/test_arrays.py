@@ -1,0 +1,37 @@
+"""Periods of arrays where doubles hardly know the well: in minute wells beside folds, and where rounding leaves no depth at all."""
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import stabilab
+from stabilab.orbit.extremes_and_periods import extremes_and_periods
+from tests.oracles import energy
+from tests.oracles.pairs import physical
+from tests.shared import PARABOLIC
+
+FOLD = (0.0, -1.1710078746600967, 1.1786044041487267)  # two equilibria of its parabola are 5e-8 apart: exactly, not in doubles
+PERIOD_SHOWN = 2e-11  # ten to the minus eleven is promised
+
+
+@pytest.mark.parametrize("off", [(0, 0, 0), (0, -3e-15, 2e-16), (3e-9, 0, 1.5e-8), (0, 0, 1.7e-7), (0, -4.9e-7, 0), (-1.4e-7, -1e-8, 0), (1e-4, -1e-3, 0)])
+def test_margins_and_periods_beside_the_fold_of_a_parabola(off):
+    """Arrays lost the barrier (margin +inf), or said it and the period to a few digits; the potential in 100 digits shares no code."""
+    scene, _ = PARABOLIC["first axis"]
+    model = physical((2, 2, 1), (0, "0.25", "0.5"), ("0.5", 0, 0))[1]
+    state = tuple(np.add(FOLD, off).tolist())
+    margin, period = energy.margin(model, state), energy.period(model, state)
+    assert float(stabilab.fate(scene, state).margins) == pytest.approx(float(margin), rel=1e-9, abs=1e-12 * state[0] ** 2)
+    for found in (stabilab.period(scene, [state])[0], stabilab.motion(scene, state).period):
+        assert found == pytest.approx(float(period), rel=PERIOD_SHOWN)
+    assert stabilab.extremes(scene, [state])[0] == pytest.approx(np.array(energy.extremes(model, state), float), rel=1e-11)
+
+
+def test_a_well_that_rounding_leaves_no_depth_is_settled_in_balls():
+    """Moments equal to 1e-15: the shift of the circle is 1e17 times the state. Any warning is an error here."""
+    inertia, momentum = (1.6984403698883008, 1.4612860086384374, 1.6984403698882993), (268.9361171372486, 0.0, -550.4652889135042)
+    scene, _ = physical(inertia, momentum, (0.0, 880.9962960879154, 0.0))
+    states = np.array([[-4.491959245734427e17, 0.0, -5.7603753584755046e17], [-0.0, -0.0, 0.18497229041996346], [0.0, 0.0, 0.0]])
+    periods = [extremes_and_periods(scene, states, fast=fast)[1] for fast in (False, None)]
+    ones = [stabilab.motion(scene, state).period or np.inf for state in states.tolist()]
+    assert periods[0] == pytest.approx(ones, rel=PERIOD_SHOWN) and periods[1] == pytest.approx(ones, rel=PERIOD_SHOWN)
