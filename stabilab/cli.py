@@ -22,6 +22,8 @@ Digits = Annotated[int | None, typer.Option(metavar="N", help="Reach N digits (1
                                                                  "exit 5 where they are not reached. Without it 10 are the aim.")]
 Follow = Annotated[str | None, typer.Option(metavar="T", help="How long to follow a motion that only a run with a certificate decides (torque "
                                                              "off the principal axes), with a unit or in the time of the case. Default: a second of work.")]
+Tilt = Annotated[str | None, typer.Option(metavar="ANGLE", help="What a tilt of the torque by up to so much, \"1 deg\", does to a motion that a torque on an "
+                                                               "axis keeps bounded. By itself where the case states a misalignment or [limits].")]
 Strict = Annotated[bool, typer.Option("--strict", help="Exit with 3 where a fate is undecided or an approximate law does not hold "
                                                        "along the motion.")]
 
@@ -57,7 +59,7 @@ def classify(cases: CaseFiles, json: Json = False, strict: Annotated[bool, typer
              certify: Annotated[bool, typer.Option("--certify", help="Prove the answer in exact numbers and balls, and write it as a "
                                                                      "certificate that `stabilab verify` checks.")] = False,
              out: Annotated[Path, typer.Option(metavar="FILE.json", help="Where the certificate goes.")] = Path("certificate.json"),
-             follow: Follow = None):
+             follow: Follow = None, tilt: Tilt = None):
     """Find the equilibria, their stability, and the motion's fate.
 
     Example: stabilab classify cases/minor-axis-100.toml --json
@@ -68,7 +70,7 @@ def classify(cases: CaseFiles, json: Json = False, strict: Annotated[bool, typer
         certification.checked(out)
         if len(cases) != 1:
             raise InputError(f"--certify: expected one case, got {len(cases)}; certify them one by one")
-    answered = [(case, _equilibria(case), _motion(case, follow=follow, proof=certify) if case.state else None) for case in loaded]
+    answered = [(case, _equilibria(case), _tilted(case, _motion(case, follow=follow, proof=certify), tilt) if case.state else None) for case in loaded]
     boxes, shown = _over_boxes(loaded, "equilibria", "fate")
     laws = [law.worst(found.validity, motion and motion.validity) for _, found, motion in answered]
     if json:
@@ -151,14 +153,14 @@ def extremes(cases: CaseFiles, json: Json = False,
 
 
 @app.command()
-def fate(cases: CaseFiles, json: Json = False, digits: Digits = None, strict: Strict = False, follow: Follow = None):
+def fate(cases: CaseFiles, json: Json = False, digits: Digits = None, strict: Strict = False, follow: Follow = None, tilt: Tilt = None):
     """Say what becomes of each motion, and by how much.
 
     Digits are those of the margin in energy; the label itself is certain.
 
     Example: stabilab fate cases/minor-axis-100.toml --digits 30
     """
-    _tell("fate", cases, digits, json, strict, follow=follow)
+    _tell("fate", cases, digits, json, strict, follow=follow, tilt=tilt)
 
 
 @app.command()
@@ -575,6 +577,18 @@ def _motion(case, brief=False, follow=None, proof=False):
         return motion(case.scene, case.start, case.span, brief, case.exact_state, long, words if progress.wanted else None, proof)
 
 
+def _tilted(case, motion, angle: str | None):
+    """The motion with what a tilt of its torque does, where that is asked for or the case states what it takes: a second of work otherwise saved."""
+    stated = case.limits is not None or any(thruster.stuck and thruster.misalignment for thruster in case.thrusters)
+    if angle is None and not stated:
+        return motion
+    from .answers.tilt import with_tilt
+    from .case.limit_options import stated_angle
+    from .case.read import blamed_on
+    with blamed_on(case):
+        return with_tilt(case, motion, None if angle is None else stated_angle(angle, "tilt"))
+
+
 def _time(text: str | None, case) -> float | None:
     """A time of the command line: a number in the time of the case, or one with a unit where that is s."""
     if text is None:
@@ -617,12 +631,13 @@ def _say_laws(validities):
             _say(validity.words)
 
 
-def _tell(question, paths, digits, json, strict, csv=False, follow=None):
+def _tell(question, paths, digits, json, strict, csv=False, follow=None, tilt=None):
     """Answer a question for every case and say how many digits of it are known."""
     from .show.text import answers, law
     from .show.text import digits as shown
     answered = [(case, found, _told(question, case, found, digits)) for case in _load(paths, motion=True)
-                for found in [_motion(case, brief=question == "extremes", follow=follow)]]
+                for plain in [_motion(case, brief=question == "extremes", follow=follow)]
+                for found in [_tilted(case, plain, tilt) if question == "fate" else plain]]
     boxes, over = _over_boxes([case for case, *_ in answered], *(["fate"] if question == "fate" else []))
     if json:
         _print(answers.as_json([getattr(shown, question)(*answer) | law.key(answer[1].validity) | over.as_dict(box)

@@ -22,7 +22,7 @@ SAME = Fraction(1, 10**6)  # relative: momentum and inertia x speed given to six
 class Thruster:
     """position: m, structural frame; direction: unit vector of the force on the body, input frame; force: N; misalignment: half-angle
     of the cone that the true direction lies in, rad, or None; force_tolerance: half-width, N, or None; stuck: whether it fires for
-    ever; torque: about the centre of mass, N m, input frame, of the force as stated."""
+    ever; torque: about the centre of mass, N m, input frame, of the force as stated; arm: from there to its position, m."""
 
     name: str
     position: Exact3
@@ -32,6 +32,7 @@ class Thruster:
     force_tolerance: Fraction | None
     stuck: bool
     torque: Exact3
+    arm: Exact3 = ZERO3
 
 
 @dataclass(frozen=True)
@@ -136,7 +137,7 @@ def _thruster(table: Table, otherwise: str, centre: Exact3) -> Thruster | None:
     raw, length = direction
     arm = tuple(p - c for p, c in zip(position, centre))
     torque = tuple(force * t / length for t in cross(arm, raw))
-    return Thruster(name, position, tuple(v / length for v in raw), force, angle, tolerance, stuck, torque)
+    return Thruster(name, position, tuple(v / length for v in raw), force, angle, tolerance, stuck, torque, arm)
 
 
 def _force(table: Table):

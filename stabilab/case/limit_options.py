@@ -1,6 +1,7 @@
 """A limit as a command line or [limits] states it: "30 deg/s", "z = 30 deg/s", "5 J", "3 = 20 deg"; exact numbers in SI, along the scene's axes."""
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
@@ -40,6 +41,14 @@ def stated_limit(case: Case, rate: str | None = None, component: str | None = No
         (name, text), = given.items()
         found = {"rate": _rate, "component": _component, "energy": _energy, "tilt": _tilt}[name](case, text, NONE if scaled else RATE)
     return StatedLimit(*found, until=end)  # type: ignore[misc]  # all but the last
+
+
+def stated_angle(text: str, option: str) -> float:
+    """An angle of the command line, rad: below a quarter turn. Raises InputError that names the option."""
+    angle = float(_number(text, ANGLE, option))
+    if not angle < math.pi / 2:
+        raise InputError(f'--{option}: expected an angle below 90 deg, got "{text[:60]}"; a number alone is in rad')
+    return angle
 
 
 def _of_case(case):

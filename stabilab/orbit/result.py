@@ -40,7 +40,8 @@ class Motion:
     distance of velocity_witness), velocity_witness: a state on the separatrix as near as that; velocity_because: why the two
     bounds are apart. period: None where the motion does not repeat. extremes: ((min, max),) * 3 over t >= 0, entries +-inf where
     unbounded, None where unknown; extremes_over: "all time" or the span they were searched over. validity: of an approximate
-    law (`stabilab.physics.law_limits`), with its largest value along the motion; None where all laws are exact. level: of the
+    law (`stabilab.physics.law_limits`), with its largest value along the motion; None where all laws are exact. tilt: what a tilt of its
+    torque off the axis does to a bounded motion (`answers.tilt`), where that was asked. level: of the
     fate, "exact", "certified" (a theorem applied to a run of machine precision) or "undecided". Of motions that were followed until a
     certificate held, or as long as was asked: cause: what was found on the way, in words; bounds: ((low, high),) * 3 of the rates at
     all t >= 0, wider than the extremes, +-inf where unbounded (None where not known).
@@ -66,6 +67,7 @@ class Motion:
     cause: str = ""
     bounds: tuple | None = None
     validity: Validity | None = None
+    tilt: object = None
 
 
 def judged(state, decided) -> dict:

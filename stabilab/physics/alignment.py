@@ -70,3 +70,9 @@ def _turned(scene: Scene, vectors: Mapping[str, Sequence[Fraction]]) -> Scene:
     """The scene with these vectors in place of those of its wheel and torque."""
     kinds: dict[str, Any] = {effect.name: type(effect) for effect in scene.effects}
     return Scene(scene.body, *(kind(tuple(vectors[name])) for name, kind in kinds.items()))
+
+
+def torque_axis(scene: AnyScene) -> int:
+    """The principal axis, 1 to 3, that the whole torque of a scene is along; 0 where there is none, or other effects act."""
+    acting = [n for n, m in enumerate(scene.quadratic().m, 1) if m] if scene.plain else []
+    return acting[0] if len(acting) == 1 else 0

@@ -37,6 +37,12 @@ def by_run(scene, start, limit, t_max: float = math.inf, steps: int = STEPS) -> 
     return Found(max(0.0, one.t - blur) / unit, (one.t + blur) / unit, "run", f"{words}, the error from a second one")
 
 
+def run_once(scene, start, limit, t_max: float = math.inf, steps: int = STEPS):
+    """(`FirstRoot` of one run, in the motion's own time; that time's unit): no word on its error."""
+    equations, state, unit, expressions = _asked(scene, start, limit)
+    return first_root(equations, state, expressions, t_max * unit if math.isfinite(t_max) else 1e300, steps), unit
+
+
 def _less(t):
     return t * (1 - ROUNDING)
 

@@ -5,7 +5,7 @@ import math
 
 from ...physics.blocks import PARTS
 from ..files import comma
-from . import frame
+from . import frame, when
 
 UNITS = {"physical": ("rad/s", "s", "J"), "scaled": ("", "tau", "")}
 
@@ -61,7 +61,7 @@ def _motion(m) -> dict:
             "margin": {"energy": m.margin_energy, "angular_velocity": m.margin_velocity, "bounds": m.velocity_bounds,
                        "witness": m.velocity_witness, "because": m.velocity_because or None},
             "period": m.period, "extremes": m.extremes, "invariants": m.invariants,
-            "sense": m.sense or None, "extremes_over": m.extremes_over, "evidence": m.evidence} | followed(m)
+            "sense": m.sense or None, "extremes_over": m.extremes_over, "evidence": m.evidence, "tilt": when.tilt_dict(m.tilt)} | followed(m)
 
 
 def followed(m) -> dict:
@@ -147,7 +147,7 @@ def _curve_lines(c) -> list[str]:
 def _motion_lines(case, m) -> list[str]:
     rate, time, energy = UNITS[case.variables]
     spin = f" about axis {m.axis}, sense {m.sense:+d}" if m.axis else ""
-    head = f"{verb(m)}{spin}{known_as(m)}"
+    head = f"{verb(m)}{spin}{known_as(m)}{when.while_on_axis(case, m)}"
     rows = [("margin, energy", _known(m.margin_energy), energy), ("margin, rate", _distance(m), rate),
             ("period", _known(m.period), time)]
     lines = [f"motion from {_triple(m.at)}: {head}", f"  {m.because}"]
@@ -158,7 +158,7 @@ def _motion_lines(case, m) -> list[str]:
     lines += [f"  {_spaced(name):<24}{_number(value) if isinstance(value, float) else value}"
               for name, value in m.evidence.items() if value is not None]
     lines += [f"  least and greatest over {m.extremes_over}:"] + _extreme_lines(case, m.extremes) if m.extremes is not None else []
-    return lines + bound_lines(case, m)
+    return lines + bound_lines(case, m) + when.tilt_lines(case, m)
 
 
 def verb(m) -> str:

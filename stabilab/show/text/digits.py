@@ -4,7 +4,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from . import answers, frame
+from . import answers, frame, when
 
 SHOWN = 12  # digits of a number in text where no more were asked for
 
@@ -59,7 +59,7 @@ def fate(case, motion, told) -> dict:
     margin = motion.margin_energy if told.values is None else told.values
     return {"schema": "stabilab.fate/1", "case": case.name, "variables": case.variables, "at": motion.at, "fate": motion.fate.word,
             "axis": motion.axis or None, "sense": motion.sense or None, "because": motion.because, "margin": margin,
-            "digits": as_dict(told)} | answers.followed(motion) | frame.key(case)
+            "digits": as_dict(told), "tilt": when.tilt_dict(motion.tilt)} | answers.followed(motion) | frame.key(case)
 
 
 def fate_text(case, motion, told, say: bool) -> str:
@@ -68,7 +68,9 @@ def fate_text(case, motion, told, say: bool) -> str:
     unit = answers.UNITS[case.variables][2]
     margin = [] if told.values is None else [f"  margin, energy  {told.decimals or _number(told.values, told.asked)} {unit}".rstrip()]
     bounds = answers.bound_lines(case, replace(motion, extremes=None))
-    return "\n".join([f"{case.name}: {answers.verb(motion)}{spin}{answers.known_as(motion)}", f"  {motion.because}", *margin, *bounds,
+    head = f"{case.name}: {answers.verb(motion)}{spin}{answers.known_as(motion)}{when.while_on_axis(case, motion)}"
+    return "\n".join([head, f"  {motion.because}", *margin, *bounds,
+                      *(when.tilt_lines(case, motion) if motion.tilt else ()),
                       *frame.note(case), *([_said(told)] * say)])
 
 

@@ -1,9 +1,10 @@
-"""When a limit is reached, in words, JSON and CSV: the answer first, in the units of engineers."""
+"""When a limit is reached, in words, JSON and CSV: the answer first, in the units of engineers; what a tilt of the torque does to a bounded motion."""
 from __future__ import annotations
 
 import math
 
 from ...errors import printable
+from ...physics.alignment import torque_axis
 from ..files import comma
 from . import frame
 from .engineering import ENGINEERING, SI, bracket, number
@@ -63,3 +64,47 @@ def _answer(case, limit, found, low, high, units):
 def _asked(case, limit, units):
     unit, one = {"energy": ("J", 1.0), "tilt": units.angle}.get(limit.kind, ("", 1.0) if case.variables == "scaled" else units.rate)
     return " or ".join(f"{name} = {number(most * one, 6)} {unit}".rstrip() for name, most in zip(limit.names, limit.limits))
+
+
+def while_on_axis(case, motion) -> str:
+    """What the word "bounded" rests on under a torque along an axis, and what is known of a tilt; empty for other motions."""
+    axis = torque_axis(case.scene) if motion.fate.word == "bounded" else 0
+    if not axis:
+        return ""
+    words, found = f"while {'mu' if case.variables == 'scaled' else 'the torque'} is exactly along axis {axis}", motion.tilt
+    if found is None:
+        return f" {words}"
+    if found.untilted:
+        return f" {words}, and even so it reaches {number(found.limit, 6)} rad/s after {number(found.untilted[0], 6)} s"
+    if found.ends:
+        return f" only {words}: tilted by {_degrees(found.angle)} it reaches {number(found.limit, 6)} rad/s after {number(found.low, 6)} s"
+    return f" {words}; tilted by {_degrees(found.angle)} it was not found to reach {number(found.limit, 6)} rad/s within {number(found.followed)} s"
+
+
+def tilt_lines(case, motion) -> list[str]:
+    """The tilt in full, or how to ask for it."""
+    found = motion.tilt
+    if found is None:
+        asked = case.variables != "scaled" and while_on_axis(case, motion)
+        return ['  off that axis           any tilt of the torque may end this: --tilt "1 deg" says how soon'] if asked else []
+    limit = f"|omega| = {number(found.limit, 9)} rad/s{'' if found.stated else ', twice the largest of this motion (no limit is stated)'}"
+    lines = [f"  tilted by {_degrees(found.angle)}: {printable(found.of)}, to {limit}"]
+    if found.ends:
+        lines.append(f"    shortest time found   {found.low:.12g} to {found.high:.12g} s ({found.level}), at azimuth {_degrees(found.azimuth)}, torque "
+                     f"({', '.join(f'{v:.9g}' for v in found.torque)}) N m")
+    else:
+        lines.append(f"    shortest time found   none: {len(found.times)} azimuths were followed for {number(found.followed, 6)} s or more")
+    return [*lines, f"    not before            {found.not_before:.9g} s, whatever the azimuth and for any smaller tilt (proved)"]
+
+
+def tilt_dict(found) -> dict | None:
+    """The key "tilt" of a motion in JSON: SI units."""
+    if found is None:
+        return None
+    return {"angle": found.angle, "of": found.of, "limit": found.limit, "limit_stated": found.stated, "not_before": found.not_before,
+            "time": [found.low, found.high] if found.ends else None, "level": found.level if found.ends else None, "azimuth": found.azimuth,
+            "torque": found.torque, "azimuths": found.azimuths, "times": found.times, "untilted": found.untilted}
+
+
+def _degrees(angle) -> str:
+    return f"{number(math.degrees(angle), 6)} deg"

@@ -1,0 +1,176 @@
+"""What a tilt of the torque does to a bounded motion: bounds and times against brute force in long doubles, which shares no code."""
+from __future__ import annotations
+
+import json
+import math
+
+import numpy as np
+import pytest
+
+import stabilab as package
+from stabilab.answers.passage.cone import cone_of
+from stabilab.answers.passage.drift import stays_below
+from stabilab.answers.tilt import tilt
+from stabilab.errors import InputError
+from tests.oracles.first_crossing import REAL, first_crossing
+
+BODY, WHEEL, STATE = package.Body((12, 9, 5)), package.Gyrostat(("0.8", 0, 0)), [0.1, 0.05, 0.02]
+ON_AXIS = package.Scene(BODY, WHEEL, package.ConstantTorque((0, 0, "0.02")))  # the satellite of README.md
+CASE = """
+[body]
+inertia = [12.0, 9.0, 5.0]
+[effects.gyrostat]
+momentum = [0.8, 0.0, 0.0]
+[effects.constant_torque]
+torque = [0.0, 0.0, 0.02]
+[motion]
+angular_velocity = [0.10, 0.05, 0.02]
+"""
+
+
+def true_time(scene, torque, state, rate, t_max):
+    """Of |omega| = rate, by the oracle."""
+    limit = np.ones(3), np.zeros(3), REAL(rate) ** 2
+    return first_crossing(scene.body.inertia, np.array(scene.vector("gyrostat"), float), torque, state, limit, t_max)
+
+
+def bounded_motion(rng):
+    """(scene, state, size of the torque) of a bounded motion under a torque on the major or the minor axis."""
+    while True:
+        moments = rng.dirichlet((1.0, 1.0, 1.0)) + 0.02
+        D, axis = moments.sum() - moments, 0
+        axis = int(rng.choice([np.argmax(D), np.argmin(D)]))
+        wheel = rng.normal(size=3) * rng.choice([0.0, 0.3, 1.0])
+        wheel[axis] = 0
+        torque = np.eye(3)[axis] * rng.choice([-1, 1]) * rng.choice([0.1, 1.0])
+        state = rng.normal(size=3)
+        scene = package.Scene(package.Body(tuple(D)), package.Gyrostat(tuple(wheel)), package.ConstantTorque(tuple(torque)))
+        if package.Fate(package.fate(scene, state).labels).word == "bounded":
+            return scene, state, torque
+
+
+def held(rng):
+    """Whether a bound that says something is kept by a random torque of its cone; the bound over the time found."""
+    scene, state, torque = bounded_motion(rng)
+    angle = rng.choice([0.003, 0.03, 0.2])
+    rate = float(np.linalg.norm(np.abs(package.extremes(scene, state)).max(axis=-1)) * rng.uniform(1.1, 3))
+    size, axis = np.abs(torque).max(), int(np.argmax(np.abs(torque)))
+    bound = stays_below(scene, state, rate, size * math.sin(angle), tuple(sorted((torque[axis], torque[axis] * math.cos(angle)))))
+    tilted, azimuth = angle * rng.choice([1.0, 1.0, 0.5]), rng.uniform(0, 2 * math.pi)
+    across = [n for n in range(3) if n != axis]
+    actual = torque * math.cos(tilted)
+    actual[across] = size * math.sin(tilted) * np.array([math.cos(azimuth), math.sin(azimuth)])
+    true = true_time(scene, actual, state, rate, 12 * bound + 50)
+    assert true is None or true > bound
+    return bound, true
+
+
+def test_no_torque_of_the_cone_reaches_the_limit_before_the_bound():
+    pytest.importorskip("heyoka")
+    rng = np.random.default_rng(3)
+    rows = [held(rng) for _ in range(16)]
+    assert sum(true is not None for _, true in rows) > 2
+    assert sum(bound > 0 for bound, _ in rows) > 12  # 0 where the smallest drift could use up the margin
+
+
+@pytest.mark.slow
+def test_no_torque_of_many_cones_reaches_the_limit_before_the_bound():
+    pytest.importorskip("heyoka")
+    rng = np.random.default_rng(4)
+    assert sum(true is not None for _, true in (held(rng) for _ in range(1500))) > 200
+
+
+def test_the_bound_grows_as_one_over_the_tilt():
+    bounds = [stays_below(ON_AXIS, STATE, 2.0, 0.02 * math.sin(a), (0.02 * math.cos(a), 0.02)) for a in (1e-4, 1e-3, 1e-2)]
+    assert np.allclose(np.array(bounds) * [1e-4, 1e-3, 1e-2] / bounds[0] / 1e-4, 1, rtol=0.05)
+
+
+def test_a_tilt_of_one_degree_ends_the_bounded_motion_of_the_readme():
+    pytest.importorskip("heyoka")
+    found = tilt(ON_AXIS, STATE, math.radians(1), rate=2)
+    true = true_time(ON_AXIS, found.torque, STATE, 2, 10000)
+    assert found.ends and found.low <= true <= found.high
+    assert 0.15 * found.low < found.not_before < found.low == pytest.approx(found.times.min(), rel=1e-9)
+    assert found.untilted is None and abs(math.hypot(*found.torque) - 0.02) < 1e-15  # turned, not longer
+    assert math.degrees(math.atan2(math.hypot(*found.torque[:2]), found.torque[2])) == pytest.approx(1)
+
+
+def test_a_limit_that_the_bounded_motion_reaches_by_itself_is_told_so():
+    found = tilt(ON_AXIS, STATE, rate="0.13")
+    assert found.untilted[0] == package.time_to(ON_AXIS, STATE, rate="0.13").low and found.not_before <= found.untilted[0]
+
+
+@pytest.mark.parametrize("scene, state, words", [
+    (package.Scene(BODY, WHEEL, package.ConstantTorque(("0.001", 0, "0.02"))), STATE, "a torque along one of its principal axes"),
+    (ON_AXIS, [0.1, 0.05, 0.9], "not bounded"),
+    (package.ScaledGyrostat("0.2", "0.4", (0, 0, 1)), [0.1, 0.2, 0.1], "expected a body"),
+])
+def test_what_no_tilt_can_be_asked_of_is_refused(scene, state, words):
+    with pytest.raises(InputError, match=words):
+        tilt(scene, state)
+
+
+THRUSTER = """
+[body]
+inertia = [12.0, 9.0, 5.0]
+centre_of_mass = [0.1, 0.0, 0.25]
+[[thrusters]]
+name = "A1"
+position = [0.6, 0.0, 0.25]
+direction = [0, 1, 0]
+force = "0.04 N"
+misalignment = "2 deg"
+stuck = true
+[[wheels]]
+name = "W"
+axis = [1, 0, 0]
+momentum = 0.8
+[motion]
+angular_velocity = [0.10, 0.05, 0.02]
+"""
+
+
+def test_the_cone_of_a_thruster_is_that_of_its_force(tmp_path):
+    path = tmp_path / "thruster.toml"
+    path.write_text(THRUSTER)
+    case = package.load(path)
+    cone, arm, force = cone_of(case.scene, case), np.array([0.5, 0, 0]), np.array([0, 0.04, 0])
+    side, (low, high) = cone.reach()
+    assert np.allclose(cone.torque, [0, 0, 0.02]) and cone.words == "the force of A1"
+    for azimuth in np.linspace(0, 6, 7):
+        torque = cone.at(azimuth)
+        # arm x F' = torque has the solutions F' = (torque x arm)/arm^2 + c arm; the one in the cone has |F'| = |F|
+        across = np.cross(torque, arm) / (arm @ arm)
+        along = math.sqrt(max(0.0, force @ force - across @ across))
+        assert abs(torque @ arm) < 1e-17
+        assert min(abs((across + sign * along * arm / 0.5) @ force / (force @ force) - math.cos(math.radians(2))) for sign in (1, -1)) < 1e-12
+        assert math.hypot(*torque[:2]) <= side and low <= torque[2] <= high
+
+
+@pytest.mark.parametrize("command", ["classify", "fate"])
+def test_the_headline_says_what_the_word_bounded_rests_on(stabilab, tmp_path, command):
+    path = tmp_path / "plain.toml"
+    path.write_text(CASE)
+    code, out, _ = stabilab(command, path)
+    assert code == 0 and "bounded while the torque is exactly along axis 3\n" in out
+    assert json.loads(stabilab(command, path, "--json")[1])[0].get("motion", {"tilt": None})["tilt"] is None
+
+
+def test_a_stated_limit_or_misalignment_brings_the_tilt_by_itself(stabilab, tmp_path):
+    path = tmp_path / "limit.toml"
+    path.write_text(CASE + '[limits]\nrate = "2 rad/s"\n')
+    code, out, _ = stabilab("fate", path)
+    assert code == 0 and "bounded only while the torque is exactly along axis 3: tilted by 1 deg it reaches 2 rad/s after 6" in out.splitlines()[0]
+    row = json.loads(stabilab("fate", path, "--json")[1])[0]["tilt"]
+    assert row["limit"] == 2 and row["limit_stated"] and row["time"][0] <= row["time"][1] and 0 < row["not_before"] < row["time"][0]
+    path.write_text(THRUSTER)
+    out = stabilab("fate", path)[1]
+    assert "bounded only while" in out.splitlines()[0] and "tilted by 2 deg: the force of A1" in out and "no limit is stated" in out
+
+
+def test_a_tilt_may_be_asked_for(stabilab, tmp_path):
+    path = tmp_path / "plain.toml"
+    path.write_text(CASE)
+    assert "tilted by 0.5 deg it reaches" in stabilab("classify", path, "--tilt", "0.5 deg")[1]
+    code, _, err = stabilab("classify", path, "--tilt", "95 deg")
+    assert code == 2 and "--tilt: expected an angle below 90 deg" in err
