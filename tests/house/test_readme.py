@@ -137,6 +137,12 @@ def test_readme_report_is_written(readme):
     assert "<html" in (folder / "my-report/index.html").read_text()[:500]
 
 
+@pytest.mark.parametrize("wanted", ["stuck bias", pytest.param("stuck", marks=pytest.mark.slow)])
+def test_the_page_of_stuck_thrusters_prints_what_it_shows(tmp_path, wanted):
+    text, folder = prepared((ROOT / "docs/stuck.md").read_text(), tmp_path)
+    assert follow(text, folder, lambda command: command.startswith(f"stabilab {wanted}"))
+
+
 def test_readme_session_in_python_gives_what_it_shows(readme, monkeypatch):
     text, folder = readme
     monkeypatch.chdir(folder)

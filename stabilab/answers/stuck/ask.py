@@ -41,14 +41,14 @@ def _chosen(case, scenario, all_thrusters):
     """The combinations of thrusters that are asked about, a tuple each."""
     if all_thrusters:
         if not case.thrusters:
-            raise InputError(f"{case.place}: the case has no thruster: describe each in a table [[thrusters]]")
+            raise InputError("the case has no thruster: describe each in a table [[thrusters]]")
         return [(t,) for t in case.thrusters]
     marked = tuple(t for t in case.thrusters if t.stuck)
     if not marked and not any(scenario.base):
         names = ", ".join(t.name for t in case.thrusters)
         cure = (f"mark one of {names} with stuck = true, or ask with --all-thrusters" if names else
                 "describe one in a table [[thrusters]] with stuck = true, or give a torque")
-        raise InputError(f"{case.place}: no thruster is stuck and no torque acts: {cure}")
+        raise InputError(f"no thruster is stuck and no torque acts: {cure}")
     return [marked] + ([(t,) for t in marked] if len(marked) > 1 else [])
 
 

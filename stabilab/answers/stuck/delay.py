@@ -9,21 +9,22 @@ import numpy as np
 from .fate import found
 from .reach import first_time
 
-RANGE = 2  # times the momentum that the wheel has now, either way
+RANGE = 2  # times the momentum that the wheel has now, either way; one at rest is tried up to the body's own
 PLACES, CLOSER = 41, 24  # momenta that are tried over the range, and nearer and nearer to the best of them
 PATIENCE = 100  # times the time without a change: a limit that is not reached by then counts as never
 BUDGET = 20_000  # steps of each run
 
 
 def delayed(scenario, torque, axis, now, time):
-    """(best momentum, N m s, bracket of its time or None, gain in s or None, the range searched), or None where there is nothing to search.
+    """(best momentum, N m s, bracket of its time or None, gain in s or None, the range searched), or None where there is nothing to search, or nothing
+    better was found.
 
     axis: exact unit vector of the wheel, scene's axes; now: its momentum; time: bracket of the limit as things are.
     """
-    if scenario.limit is None or time is None or not now or time[0] <= 0:
+    if scenario.limit is None or time is None or time[0] <= 0:
         return None
     others = [w - now * a for w, a in zip(scenario.wheel, axis)]
-    reach = RANGE * abs(float(now))
+    reach = RANGE * abs(float(now)) or _own(scenario, torque)
 
     def until(s):
         wheel = [w + Fraction(float(s)) * a for w, a in zip(others, axis)]
@@ -36,7 +37,15 @@ def delayed(scenario, torque, axis, now, time):
         s = _closer(until, places[max(best - 1, 0)], places[min(best + 1, PLACES - 1)], s, times[best])
     told = found(scenario, torque, [w + Fraction(s) * a for w, a in zip(others, axis)])
     gain = None if told.time is None else told.time[0] - time[0]
+    if gain is not None and gain <= 0:
+        return None
     return s, told.time, gain, (-reach, reach)
+
+
+def _own(scenario, torque) -> float:
+    """For a wheel at rest: the momentum of the body itself, and of what its torque makes of it."""
+    weight = max(scenario.body.inertia)
+    return weight * max(math.hypot(*scenario.start), math.sqrt(math.hypot(*map(float, torque)) / weight))
 
 
 def _closer(until, low, high, s, time) -> float:

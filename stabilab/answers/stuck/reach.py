@@ -15,7 +15,8 @@ CHUNK = 256  # steps between two looks at what was found
 
 
 def first_time(scene, state, limit, rows, t_max: float, budget: int) -> float:
-    """The time at which a run first comes to its limit, s; inf where not until t_max or in `budget` steps. It has no bracket.
+    """The time at which a run first comes to its limit, s, without a bracket; inf where not until t_max, and where the `budget` of steps ends before
+    that, the time it got to.
 
     state: three floats, scene's axes; limit: rad/s, of |omega|, or three of the components along rows (3, 3).
     """
@@ -24,8 +25,8 @@ def first_time(scene, state, limit, rows, t_max: float, budget: int) -> float:
     start = [v / unit for v in state]
     if _passed(start, limits, rows):
         return 0.0
-    found = _run(own, start, limits, rows, t_max * unit, budget)[0]
-    return math.inf if found is None else found / unit
+    found, _, end = _run(own, start, limits, rows, t_max * unit, budget)
+    return found / unit if found is not None else math.inf if end >= t_max * unit else end / unit
 
 
 def largest_rate(scene, state, until: float, budget: int) -> tuple[float, float]:

@@ -79,8 +79,8 @@ def _across(family, start, step):
     found = candidates(Circle(at_0, at_1, family.state))
     if found is None:
         return (), "not known: the balls did not isolate the momenta at which the start lies on a separatrix"
-    return _pieces(family, start, step, sorted(set(found))), ("bounded between the momenta at which the start lies on a separatrix: "
-                                                             f"{len(found)} of them, isolated as roots")
+    return _pieces(family, start, step, sorted(set(found))), ("the ends are momenta at which the start lies on a separatrix: "
+                                                             f"of {len(found)} candidates, isolated as roots, those where the exact fate changes")
 
 
 def _pieces(family, start, step, cuts):

@@ -8,7 +8,7 @@ from .engineering import ENGINEERING, SI
 from .engineering import bracket as _bracket
 from .engineering import number as _number
 
-AXIS = {1: "major", 2: "middle", 3: "minor"}
+WORD = {1: "major", 2: "middle", 3: "minor"}
 CSV = ("case,thrusters,torque_x,torque_y,torque_z,torque_1,torque_2,torque_3,fate,level,axis,sense,limit,time_low,time_high,largest_rate,"
        "margin_rate,margin_wheel,margin_torque")
 WORDS = {"rate": "rate", "wheel": "wheel momentum", "torque": "torque"}
@@ -54,22 +54,29 @@ def csv(answers) -> str:
 def text(case, found, si: bool = False) -> str:
     """The answer in five lines at most, then the details."""
     units = SI if si else ENGINEERING
-    head = _ranking(found, units) if found.ranked else _first(found.rows[0], units)
+    axes = axis_words(found.principal)
+    head = _ranking(found, units, axes) if found.ranked else _first(found.rows[0], units, axes)
     lines = [f"{printable(case.name)}: {head[0]}", *head[1:FIRST]]
     for row in found.rows:
         lines += ["", *_details(row, units)]
     return "\n".join([*lines, "", *_axes(found.principal)])
 
 
-def _ranking(found, units):
+def axis_words(principal) -> dict:
+    """Number of an axis -> which one it is, told by its moment."""
+    moments = principal.moments
+    return {n: WORD[n] if moments.count(moments[n - 1]) == 1 else f"one of {'two' if len(set(moments)) == 2 else 'three'} equal moments" for n in WORD}
+
+
+def _ranking(found, units, axes):
     """A line a thruster, the worst first; what the first lines have no place for stands in the details."""
-    told = [f"{printable(row_name(row))} {answer_line(row, units)}" for row in found.rows]
+    told = [f"{printable(row_name(row))} {answer_line(row, units, axes)}" for row in found.rows]
     return told if len(told) <= FIRST else [*told[:FIRST - 1], f"and {len(told) - FIRST + 1} more below, none of them sooner"]
 
 
-def _first(row, units):
+def _first(row, units, axes):
     wheel = next((w for w in row.wheels if w.keeps_bounded), next((w for w in row.wheels if w.best is not None), None))
-    return [answer_line(row, units), f"  {_torque(row, units)}", *(f"  {line}" for line in (_margins(row, units), wheel and _wheel(wheel, units),
+    return [answer_line(row, units, axes), f"  {_torque(row, units)}", *(f"  {line}" for line in (_margins(row, units), wheel and _wheel(wheel, units),
                                                                                       row.helpers and _helper(row.helpers[0], units)) if line)]
 
 
@@ -78,15 +85,15 @@ def row_name(row) -> str:
     return " and ".join(row.thrusters) or "torque"
 
 
-def answer_line(row, units) -> str:
+def answer_line(row, units, axes=WORD) -> str:
     """What becomes of the motion, in one line."""
     when = _when(row, units)
     if row.fate == "spin-up":
-        return f"SPINS UP {_about(row)}{', ' + when if when else ''}{_known(row)}"
+        return f"SPINS UP {_about(row, axes)}{', ' + when if when else ''}{_known(row)}"
     if row.fate == "undecided":
         return f"UNDECIDED{', but ' + when if when else ': ' + _so_far(row, units)}"
     words = {"bounded": "STAYS BOUNDED", "equilibrium": "AT REST in the body's frame: every rate stays as it is", "separatrix": "ON THE SEPARATRIX"}[row.fate]
-    while_ = _while(row)
+    while_ = _while(row, axes)
     if when:
         return f"{words}{while_}, but {when}{_known(row)}"
     largest = "" if row.largest_rate is None else f", rate at most {_number(row.largest_rate * units.rate[1])} {units.rate[0]}"
@@ -94,19 +101,19 @@ def answer_line(row, units) -> str:
     return f"{words}{while_}{largest}{below}{_known(row)}"
 
 
-def _while(row):
+def _while(row, axes):
     """On what a bound rests: a torque on an axis is one direction of many."""
     acting = [n for n, v in enumerate(row.torque_principal, 1) if v]
-    return f" while the torque is exactly along axis {acting[0]} ({AXIS[acting[0]]})" if row.fate == "bounded" and len(acting) == 1 else ""
+    return f" while the torque is exactly along axis {acting[0]} ({axes[acting[0]]})" if row.fate == "bounded" and len(acting) == 1 else ""
 
 
 def _known(row):
     return f" ({row.level})" if row.time_to_limit is None else ""
 
 
-def _about(row) -> str:
+def _about(row, axes) -> str:
     if row.axis:
-        return f"about axis {row.axis} ({AXIS[row.axis]}), {'along' if row.sense > 0 else 'against'} it"
+        return f"about axis {row.axis} ({axes[row.axis]}), {'along' if row.sense > 0 else 'against'} it"
     if row.direction:
         return f"about the direction {_vector(row.direction)} of the file's frame"
     return "without bound"
@@ -133,8 +140,8 @@ def _limit(limit, units) -> str:
 
 def _so_far(row, units) -> str:
     if row.limit is None:
-        return "no limit was given; " + row.because
-    return f"below {_limit(row.limit, units)} for {_number(row.followed * units.time[1])} {units.time[0]} of a run; " + row.because
+        return f"followed for {_number(row.followed * units.time[1])} {units.time[0]}"
+    return f"not at {_limit(row.limit, units)} before {_number(row.followed * units.time[1])} {units.time[0]} ({row.time_level})"
 
 
 def _torque(row, units) -> str:
@@ -147,7 +154,7 @@ def _torque(row, units) -> str:
 def _margins(row, units) -> str:
     known = {name: m for name, m in row.margins.items() if m.size is not None}
     if not known:
-        because = next((m.because for m in row.margins.values() if m.because), "")
+        because = next((row.margins[name].because for name in ("wheel", "rate", "torque") if name in row.margins), "")
         return f"margin: none: {because}" if because else ""
     return "the fate changes with " + " or ".join(f"{_amount(name, m.size, units)} of {WORDS[name]}" for name, m in known.items())
 
@@ -206,8 +213,9 @@ def _details(row, units) -> list[str]:
 
 
 def _axes(principal) -> list[str]:
+    words = axis_words(principal)
     return ["principal axes, unit vectors in the frame of the file:"] + [
-        f"  axis {n} ({AXIS[n]})  moment {_number(moment, 9)} kg m^2  {_vector(axis, 9)}"
+        f"  axis {n} ({words[n]})  moment {_number(moment, 9)} kg m^2  {_vector(axis, 9)}"
         for n, (moment, axis) in enumerate(zip(principal.moments, principal.axes), 1)]
 
 
