@@ -25,7 +25,7 @@ from ..orbit.fate.balls import precise_margin
 from ..orbit.landscape import landscape
 from ..orbit.period.arrays import inverse_speed
 from ..orbit.period.balls import period_ball, precise_period
-from ..orbit.period.modes import Modes
+from ..orbit.period.modes import modes_of
 from ..orbit.result import Fate
 from .accuracy import precision
 
@@ -207,7 +207,7 @@ def nodes_needed(scene, state) -> int | None:
     exact = precise_period(Orbit(land.reduction, state), Fate.BOUNDED)
     place, w, _ = land.start(np.asarray(state, float)[None])
     span = interval(land, place, w)
-    modes, nodes = Modes(land, span.middle), 4
+    modes, nodes = modes_of(land, span.middle), 4
     while nodes <= MOST_NODES:
         phi = (np.arange(nodes) + 0.5) * (np.pi / nodes)
         total = float(inverse_speed(modes, span.half, np.sin(0.5 * phi) ** 2, np.cos(0.5 * phi) ** 2).sum()) * 2 * np.pi / nodes

@@ -14,13 +14,12 @@ class BallConic(BallOrbit):
         r, ball = self.r, self.numbers.ball
         ap, aq, sp = abs(r.p), abs(r.q), 1 if r.p > 0 else -1
         rp, rq = ball(ap).sqrt(), ball(aq).sqrt()
-        self.sj, self.sk = r.q0 / r.q, r.p0 / r.p
-        torque = r.m + r.kappa * self.sj * self.sk - r.rho * self.sk - r.sigma * self.sj
+        (self.sj, self.sk), (across_j, across_k), torque = r.centre, r.across, r.torque
         flip = self.flip = -1 if torque < 0 else 1
         self.n, self.rx, self.rz = rp * rq, flip * rp, sp * rq
         self.G = ball(r.kappa * sp * ap * aq)
-        self.c = flip * sp * ball((r.rho - r.kappa * self.sj) * aq) * rp
-        self.d = ball((r.sigma - r.kappa * self.sk) * ap) * rq
+        self.c = flip * sp * ball(across_j * aq) * rp
+        self.d = ball(across_k * ap) * rq
         self.mu = flip * self.n * ball(torque)
         self.w = flip * self.n * ball(speed)
         self.shift_j, self.shift_k = ball(self.sj), ball(self.sk)
@@ -79,8 +78,7 @@ class BallConic(BallOrbit):
         r, ball = self.r, self.numbers.ball
         ap, aq = abs(r.p), abs(r.q)
         # in U = omega_j + s_j, V = omega_k + s_k:  F = kappa U V + rho_ V + sigma_ U + m_
-        rho, sigma = r.rho - r.kappa * self.sj, r.sigma - r.kappa * self.sk
-        m = r.m + r.kappa * self.sj * self.sk - r.rho * self.sk - r.sigma * self.sj
+        (rho, sigma), m = r.across, r.torque
         if r.kappa and r.kappa * m == rho * sigma:
             yield from self._on_two_lines(-rho / r.kappa, -sigma / r.kappa)
         elif r.kappa or sigma:  # U = -(rho V + m)/(kappa V + sigma) in V^2/aq - e U^2/ap = Q

@@ -260,6 +260,5 @@ def _shorten(value: Fraction, bits: int = 300) -> Fraction:
 def _conic_degenerates(reduction) -> bool:
     """True iff c d = G mu exactly: with cj = rho - kappa sj, ck = sigma - kappa sk, torque T this is cj ck = kappa T."""
     r = reduction
-    sj, sk = r.q0 / r.q, r.p0 / r.p
-    torque = r.m + r.kappa * sj * sk - r.rho * sk - r.sigma * sj
-    return (r.rho - r.kappa * sj) * (r.sigma - r.kappa * sk) == r.kappa * torque
+    across_j, across_k = r.across
+    return across_j * across_k == r.kappa * r.torque

@@ -1,4 +1,4 @@
-"""Barriers and wells along the orbits of many states at once."""
+"""Barriers and wells along the orbits of many states at once, on circles, hyperbolas and parabolas."""
 from __future__ import annotations
 
 from functools import lru_cache
@@ -6,12 +6,11 @@ from functools import lru_cache
 import numpy as np
 
 from ..numbers.constants import TURN
-from .conic import Conic
-from .potential import Hyperbolic, potential
+from .landscape_base import EPS, LOST, ConicLandscape, Landscape
 from .reduction import reduce
 
-ONE_STEP, MOST_STEPS = 3e-9, 8  # a Newton step as small leaves its square; from half a radian five are enough, but at a fold
-LOST = 1e-3  # of the terms: a sum that is smaller than this share has lost more than three digits
+DOUBLE_ROOT = 1e-10  # share of a cubic's discriminant: eigenvalues tell two roots 1e-7 apart, whose discriminant is 1e-14 and more
+ROUNDINGS = 64  # units of rounding allowed for in the error bound of a margin: some thirty operations, each counted twice
 CENTRE = 1e-10  # of the asymptotes' distance from a hyperbola's centre: nearer to it the conic's doubles place no equilibrium
 
 
@@ -20,116 +19,74 @@ def angle_between(place, spot):
     return np.arctan2(spot[0] * place[1] - spot[1] * place[0], spot[0] * place[0] + spot[1] * place[1])
 
 
-@lru_cache(maxsize=64)
-def landscape(scene) -> Landscape | None:
-    """The landscape of a scene's reduction (cached), or None where the scene has none."""
-    reduction = reduce(scene)
-    return None if reduction is None else Landscape(reduction)
+class CircleLandscape(ConicLandscape):
+    """place = (X, Z)."""
 
+    turn = TURN
 
-class Landscape:
-    """A reduction with its potential and its curve of equilibria.
+    @property
+    def may_rotate(self) -> bool:
+        """Without a torque a motion over all barriers goes round for ever."""
+        return self.sense == 0
 
-    start(states) gives places (arrays), W and the size of rounding in the place; critical(place) the equilibria on
-    each orbit: offsets theta_c - theta_0 (n, m), places (n, m) and which are barriers; missing ones have offset nan.
-    """
-
-    def __init__(self, reduction):
-        self.reduction, self.e = reduction, reduction.e
-        self.potential = potential(reduction)
-        self.conic = Conic(reduction) if self.e else None
-        self.sense = reduction.sense
-
-    def start(self, states):
-        """(place, W, size): place a pair of arrays, size a pair with the magnitudes whose rounding limits the place."""
-        r = self.reduction
-        if self.e == 0:
-            place = states[..., r.j], states[..., r.k]
-            return place, states[..., r.axis] + float(r.s), tuple(np.abs(v) for v in place)
-        x, z, w = r.canonical(states)
-        g = r.constants
-        size = np.abs(x) + abs(g["sj"] / g["rx"]), np.abs(z) + abs(g["sk"] / g["rz"])
-        return (self._circle if self.e < 0 else self._light_cone)(x, z, size[0] + size[1], states), w, size
-
-    def _circle(self, x, z, size, states):
-        """(X, Z): from exact arithmetic next to the circle's centre, where the shift leaves a few digits of the angle."""
+    def _exact_place(self, x, z, size, states):
         return self._exactly(np.hypot(x, z) < LOST * size, states, (x, z), lambda ex, ez: (ex, ez))
 
-    def _light_cone(self, x, z, size, states):
-        """(xi, eta) = (X + Z, X - Z) with full relative accuracy: from exact arithmetic near a plane or the centre."""
+    def invariant(self, place):
+        return place[0] ** 2 + place[1] ** 2
+
+    def located(self, place, Q, x, z, exists):
+        with np.errstate(all="ignore"):
+            scale = np.sqrt(Q / (x * x + z * z))
+            spot = np.where(exists, x * scale, place[0]), np.where(exists, z * scale, place[1])
+            spot = self.polished(spot)
+            offset = angle_between(place, spot)
+        return np.where(offset > 0, offset, offset + TURN), spot, exists
+
+    def unrolled(self, place, offset, spot):
+        # a turn more would cost the energy over a well just behind its digits
+        return np.where(offset > np.pi, angle_between((place[0][:, None], place[1][:, None]), spot), offset)
+
+    def repeated(self, offset, spot, energy, barrier):
+        behind, fall = offset <= 0, TURN * self.potential.mu  # one turn earlier the tilt has lifted the potential by 2 pi mu
+        offset = np.concatenate([offset - TURN * ~behind, offset + TURN * behind], axis=1)
+        energy = np.concatenate([energy - fall * ~behind, energy + fall * behind], axis=1)
+        return offset, np.concatenate([spot, spot], axis=2), energy, np.concatenate([barrier, barrier], axis=1)
+
+    def stationary(self, place, left, right):
+        """+-A of X and Z where the interval contains the angle."""
+        radius, angle = np.hypot(*place), np.arctan2(*place)
+        for row, value, at in ((0, 1, np.pi / 2), (0, -1, -np.pi / 2), (1, 1, 0.0), (1, -1, np.pi)):
+            first = np.ceil((angle + left - at) / TURN) * TURN + at  # the first such angle not before the left end
+            yield row, value * radius, first <= angle + right
+
+    def _speed(self, place, other):
+        return np.abs(place[other])
+
+
+class HyperbolaLandscape(ConicLandscape):
+    """place = (xi, eta) = (X + Z, X - Z)."""
+
+    def _exact_place(self, x, z, size, states):
         xi, eta = x + z, x - z
         close = np.minimum(np.abs(xi), np.abs(eta)) < LOST * size
         return self._exactly(close, states, (xi, eta), lambda ex, ez: (ex + ez, ex - ez))
 
-    def _exactly(self, close, states, place, of):
-        """The place with the rows of `close` formed anew by `of` from exact (X, Z)."""
-        if not close.any():
-            return place
-        first, second = (np.array(v) for v in place)
-        for index in zip(*np.nonzero(close)):
-            ex, ez, _ = self.reduction.canonical_exact(states[index])
-            first[index], second[index] = map(float, of(ex, ez))
-            if self.e > 0 and self.reduction.exact_invariant_sign(states[index]) == 0:
-                # exactly on a plane: 240-bit roots may leave a remainder where there is none
-                small = first if abs(first[index]) < abs(second[index]) else second
-                small[index] = 0.0
-        return first, second
+    def _settle_plane(self, first, second, index, state):
+        if self.reduction.exact_invariant_sign(state) == 0:  # 240-bit roots may leave a remainder where there is none
+            small = first if abs(first[index]) < abs(second[index]) else second
+            small[index] = 0.0
+
+    def xz(self, place):
+        return 0.5 * (place[0] + place[1]), 0.5 * (place[0] - place[1])
+
+    def place(self, x, z):
+        return x + z, x - z
 
     def invariant(self, place):
-        """Q of each place; elliptic and hyperbolic."""
-        return place[0] ** 2 + place[1] ** 2 if self.e < 0 else -place[0] * place[1]
+        return -place[0] * place[1]
 
-    def components(self, place, w):
-        """States (..., 3) at places with rate W."""
-        r = self.reduction
-        out = np.empty(np.shape(w) + (3,))
-        if self.e == 0:
-            out[..., r.j], out[..., r.k], out[..., r.axis] = place[0], place[1], w - float(r.s)
-            return out
-        x, z = place if self.e < 0 else (0.5 * (place[0] + place[1]), 0.5 * (place[0] - place[1]))
-        out[..., r.j], out[..., r.k] = r.component_j(x), r.component_k(z)
-        out[..., r.axis] = r.component_i(w)
-        return out
-
-    def critical(self, place, barriers_only=False):
-        """Equilibria on the orbits of places (n,): (offsets (n, m), place (2, n, m), barrier (n, m) bool).
-
-        Elliptic offsets lie in (0, 2 pi]; the same equilibrium recurs every turn.
-        """
-        if self.e == 0:
-            return self._critical_parabolic(place)
-        Q = self.invariant(place)
-        hits = self.conic.critical_places(Q, True if barriers_only else None)
-        n, m = Q.size, len(hits)
-        offsets, places, barrier = np.full((n, m), np.nan), np.zeros((2, n, m)), np.zeros((n, m), bool)
-        locate = self._locate_circle if self.e < 0 else self._locate_hyperbola
-        for column, (x, z, exists, is_barrier) in enumerate(hits):
-            offset, spot, exists = locate(place, Q, x, z, exists)
-            offsets[:, column] = np.where(exists, offset, np.nan)
-            places[:, :, column] = spot
-            barrier[:, column] = (self.potential.slope(spot) > 0 if is_barrier is None else is_barrier) & exists
-        return offsets, places, barrier
-
-    def beside_centre(self, place):
-        """(n,) True where an equilibrium may stand so near the centre of a place's hyperbola that the conic, which is known by its
-        distance from its asymptotes, loses or invents it."""
-        if self.e <= 0 or not self.conic.pieces:
-            return np.zeros(np.shape(place[0]), bool)
-        c, d, G = (abs(getattr(self.conic, name)) for name in ("c", "d", "G"))
-        near = CENTRE * (c + d) / G  # the force of the wheel there is at most (c + d) times as much
-        if not self.conic.mu <= (c + d) * near:
-            return np.zeros(np.shape(place[0]), bool)
-        return np.sqrt(np.abs(place[0])) * np.sqrt(np.abs(place[1])) <= near
-
-    def _locate_circle(self, place, Q, x, z, exists):
-        with np.errstate(all="ignore"):
-            scale = np.sqrt(Q / (x * x + z * z))
-            spot = np.where(exists, x * scale, place[0]), np.where(exists, z * scale, place[1])
-            spot = self._polish(spot)
-            offset = angle_between(place, spot)
-        return np.where(offset > 0, offset, offset + TURN), spot, exists
-
-    def _locate_hyperbola(self, place, Q, x, z, exists):
+    def located(self, place, Q, x, z, exists):
         xi, eta = x + z, x - z
         big = np.abs(xi) >= np.abs(eta)
         with np.errstate(all="ignore"):
@@ -137,32 +94,71 @@ class Landscape:
             eta = np.where(big, -Q / xi, eta)
             exists = exists & (np.sign(xi) == np.sign(place[0])) & (np.sign(eta) == np.sign(place[1]))  # both 0 on a plane
             spot = np.where(exists, xi, place[0]), np.where(exists, eta, place[1])
-            spot = self._polish(spot)
+            spot = self.polished(spot)
             offset = np.where(big, np.log(spot[0] / place[0]), -np.log(spot[1] / place[1]))
         return offset, spot, exists
 
-    def _polish(self, spot):
-        """Newton steps along the orbit: whatever the conic lost, the force regains. Most need one tiny step."""
-        first, second = spot
-        step = self._newton_step(spot)
-        first, second = self.potential.nudge(spot, np.where(np.abs(step) < ONE_STEP, step, 0.0))
-        far = np.abs(step) >= ONE_STEP
-        if far.any():
-            one = tuple(v[far] for v in spot)
-            for _ in range(MOST_STEPS):
-                step = self._newton_step(one)
-                one = self.potential.move(one, step)
-                if (np.abs(step) < ONE_STEP).all():
-                    break
-            first[far], second[far] = one
-        return first, second
-
-    def _newton_step(self, spot):
+    def stationary(self, place, left, right):
+        """X is stationary where Z = 0 (xi = eta), Z where X = 0 (xi = -eta)."""
+        xi, eta = place
         with np.errstate(all="ignore"):
-            step = -self.potential.force(spot) / self.potential.slope(spot)
-            return np.where(np.abs(step) < 0.5, step, 0.0)  # false for nan too
+            product = xi * eta
+            at = 0.5 * np.log(np.abs(eta / xi))
+            inside = np.isfinite(at) & (at >= left) & (at <= right)
+            size = np.sqrt(np.abs(xi)) * np.sqrt(np.abs(eta))
+        yield 0, np.sign(xi) * size, inside & (product > 0)
+        yield 1, np.sign(xi) * size, inside & (product < 0)
 
-    def _critical_parabolic(self, place):
+    def _speed(self, place, other):
+        return 0.5 * (np.abs(place[0]) + np.abs(place[1]))
+
+    def beside_fold(self, place):
+        """(n,) True where rounding of the place may make or unmake a pair of equilibria of its orbit."""
+        Q, beside = self.invariant(place), np.zeros(np.shape(place[0]), bool)
+        for edge in self.conic.fold_invariants + self.conic.tangents:
+            beside |= np.abs(Q - edge) <= ROUNDINGS * EPS * (np.abs(Q) + abs(edge))
+        return beside
+
+    def roughness(self, size):
+        """Magnitude of the potential's terms, whose rounding limits a height."""
+        pot, s = self.potential, size[0] + size[1]
+        return np.abs(pot.G) * s * s + pot.slopes * s + pot.mu
+
+    def beside_centre(self, place):
+        """(n,) True where an equilibrium may stand so near the centre of a place's hyperbola that the conic, which is known by its
+        distance from its asymptotes, loses or invents it."""
+        if not self.conic.pieces:
+            return np.zeros(np.shape(place[0]), bool)
+        c, d, G = (abs(getattr(self.conic, name)) for name in ("c", "d", "G"))
+        near = CENTRE * (c + d) / G  # the force of the wheel there is at most (c + d) times as much
+        if not self.conic.mu <= (c + d) * near:
+            return np.zeros(np.shape(place[0]), bool)
+        return np.sqrt(np.abs(place[0])) * np.sqrt(np.abs(place[1])) <= near
+
+
+class ParabolaLandscape(Landscape):
+    """place = (omega_j, omega_k)."""
+
+    def start(self, states):
+        """(place, W, size): place a pair of arrays, size a pair with the magnitudes whose rounding limits the place."""
+        r = self.reduction
+        place = states[..., r.j], states[..., r.k]
+        return place, states[..., r.axis] + float(r.s), tuple(np.abs(v) for v in place)
+
+    def pair(self, place):
+        return place
+
+    def rate(self, w):
+        return w - float(self.reduction.s)
+
+    def energy_terms(self, place, w):
+        return 0.5 * w * w
+
+    def farther(self, reach):
+        return 2 * reach  # a parabola's walls may stand at any distance
+
+    def critical(self, place, barriers_only=False):
+        """Equilibria on the orbits of places (n,): (offsets (n, m), place (2, n, m), barrier (n, m) bool)."""
         force = self.potential.force(place)
         first, second, third = self.potential.derivatives(place)
         n = np.size(force)
@@ -188,6 +184,52 @@ class Landscape:
         barrier = (self.potential.slope(tuple(spot)) > 0) & ~np.isnan(roots)
         return roots, spot, barrier
 
-    @property
-    def is_hyperbolic(self) -> bool:
-        return isinstance(self.potential, Hyperbolic)
+    def stationary(self, place, left, right):
+        """The vertex of whichever component is quadratic."""
+        pot = self.potential
+        u, v = place
+        a, b = pot.p * v + pot.p0, pot.q * u + pot.q0
+        for row, speed, bend in ((0, a, pot.p * b), (1, b, pot.q * a)):
+            with np.errstate(all="ignore"):
+                at = -speed / bend
+            inside = np.isfinite(at) & (at >= left) & (at <= right)
+            yield row, (u, v)[row] + 0.5 * speed * np.where(inside, at, 0.0), inside
+
+    def errors(self, ends, blur):
+        pot, error = self.potential, 0.0
+        for (u, v), off in zip(ends, blur):
+            speed = np.abs(np.array([pot.p * v + pot.p0, pot.q * u + pot.q0]))
+            error = np.maximum(error, speed * off + 8 * EPS * (np.abs([u, v]) + speed))
+        return error
+
+    def beside_fold(self, place):
+        """(n,) True where rounding of the place may make or unmake a pair of equilibria of its orbit."""
+        first, second, third = self.potential.derivatives(place)
+        a, b, c, d = third / 6, second / 2, first, self.potential.force(place)
+        terms = [18 * a * b * c * d, -4 * b**3 * d, b**2 * c**2, -4 * a * c**3, -27 * a**2 * d**2]
+        size = sum(map(np.abs, terms))
+        return (np.abs(sum(terms)) <= DOUBLE_ROOT * size) & (size > 0)
+
+    def roughness(self, size):
+        """Magnitude of the potential's terms, whose rounding limits a height."""
+        pot, s = self.potential, size[0] + size[1]
+        return np.abs(pot.kappa) * s * s + (abs(pot.rho) + abs(pot.sigma)) * s + abs(pot.m)
+
+    def nearly_flat(self, states, place=None):
+        if not self.sense:
+            return super().nearly_flat(states)
+        place = self.start(states)[0] if place is None else place
+        first, _, third = self.potential.derivatives(place)
+        size = abs(self.potential.kappa) + abs(self.potential.rho) + abs(self.potential.sigma)
+        small = 1e-5 * size * (1 + np.abs(place[0]) + np.abs(place[1])) ** 2  # far above rounding: exact arithmetic tells the rest
+        return (np.abs(first) <= small) & (np.abs(third) <= small)
+
+
+GEOMETRIES = {-1: CircleLandscape, 1: HyperbolaLandscape, 0: ParabolaLandscape}
+
+
+@lru_cache(maxsize=64)
+def landscape(scene) -> Landscape | None:
+    """The landscape of a scene's reduction (cached), or None where the scene has none."""
+    reduction = reduce(scene)
+    return None if reduction is None else GEOMETRIES[reduction.e](reduction)

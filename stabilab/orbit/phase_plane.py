@@ -6,34 +6,37 @@ from functools import cached_property
 
 import numpy as np
 
-from .conic import Conic
-from .potential import potential
-from .reduction import Reduction, reduce
+from .landscape import Landscape, landscape
 
 
 @dataclass(frozen=True)
 class PhasePlane:
     """The orbit of one state, unrolled: y is the canonical angle from the state on, W = dy/ds, V(0) = 0.
 
-    reduction, place (where the state lies on its circle, hyperbola or parabola), W0: rate of the state.
+    place: where the state lies on its circle, hyperbola or parabola; W0: rate of the state.
     """
 
-    reduction: Reduction
+    land: Landscape
     place: tuple
     W0: float
-    Q: float
 
-    @cached_property
+    @property
     def potential(self):
-        return potential(self.reduction)
+        return self.land.potential
 
-    @cached_property
+    @property
+    def reduction(self):
+        return self.land.reduction
+
+    @property
+    def Q(self) -> float:
+        """The invariant of a circle or hyperbola."""
+        return float(self.land.invariant(self.place))
+
+    @property
     def unit(self) -> float:
         """Turn angle about the axis (rad for a body) per canonical angle; its sign is that of the reflection."""
-        if self.reduction.e == 0:
-            return 1.0
-        g = self.reduction.constants
-        return g["flip"] / g["n"]
+        return self.land.unit
 
     def height(self, y, origin=0.0):
         """V(y) - V(origin), free of cancellation near an equilibrium at `origin`."""
@@ -44,51 +47,21 @@ class PhasePlane:
 
     def rate(self, W):
         """omega_i (or x_i) of canonical W."""
-        if self.reduction.e == 0:
-            return np.asarray(W) - float(self.reduction.s)
-        return self.reduction.component_i(np.asarray(W))
+        return self.land.rate(np.asarray(W))
 
     def components(self, y):
         """omega_j, omega_k along the orbit."""
-        moved = self.potential.move(self.place, np.asarray(y, float))
-        if self.reduction.e == 0:
-            return moved
-        x, z = moved if self.reduction.e < 0 else ((moved[0] + moved[1]) / 2, (moved[0] - moved[1]) / 2)
-        return self.reduction.component_j(x), self.reduction.component_k(z)
+        return self.land.pair(self.potential.move(self.place, np.asarray(y, float)))
 
     def states(self, y, W):
         """States (..., 3) at canonical (y, W)."""
-        out = np.empty((*np.shape(y), 3))
-        out[..., self.reduction.j], out[..., self.reduction.k] = self.components(y)
-        out[..., self.reduction.axis] = self.rate(W)
-        return out
+        return self.land.components(self.potential.move(self.place, np.asarray(y, float)), W)
 
     @cached_property
     def _critical(self):
         """[(y, is a saddle)] on the orbit; for a circle within one turn of the state."""
-        found = []
-        if self.reduction.e == 0:
-            first, second, third = self.potential.derivatives(self.place)
-            force = self.potential.force(self.place)
-            for root in np.roots(np.trim_zeros([third / 6, second / 2, first, force], "f")):
-                if abs(root.imag) < 1e-9 * (1 + abs(root)):
-                    found.append(float(root.real))
-        else:
-            for x, z, exists, _ in Conic(self.reduction).critical_places(np.array([self.Q])):
-                if exists[0]:
-                    found += self._angle_to(float(x[0]), float(z[0]))
-        return [(y, bool(self.potential.slope(self.potential.move(self.place, np.float64(y))) > 0)) for y in sorted(found)]
-
-    def _angle_to(self, x, z):
-        if self.reduction.e < 0:
-            here = np.arctan2(*self.place)
-            return [float((np.arctan2(x, z) - here + np.pi) % (2 * np.pi) - np.pi)]
-        ratio = (x + z) / self.place[0] if self.place[0] else np.inf
-        other = self.place[1] / (x - z) if x != z else np.inf
-        for value in (ratio, other):
-            if 0 < value < np.inf and np.sign(x - z) in (0, np.sign(self.place[1])):
-                return [float(np.log(value))]
-        return []
+        found = sorted(GEOMETRIES[self.land.e](self))
+        return [(y, bool(self.potential.slope(self.potential.move(self.place, np.float64(y))) > 0)) for y in found]
 
     @property
     def saddles(self) -> list[float]:
@@ -100,9 +73,9 @@ class PhasePlane:
 
     def repeated(self, ys, low, high) -> list[float]:
         """The places in [low, high]: a circle repeats them every turn."""
-        if self.reduction.e >= 0:
+        turn = self.land.turn
+        if np.isinf(turn):
             return [y for y in ys if low <= y <= high]
-        turn = 2 * np.pi
         return sorted(y + turn * n for y in ys for n in range(int(np.floor((low - y) / turn)), int(np.ceil((high - y) / turn)) + 1)
                       if low <= y + turn * n <= high)
 
@@ -138,22 +111,16 @@ class PhasePlane:
 
 def phase_plane(scene, state) -> PhasePlane | None:
     """The phase plane of the motion from `state`; None where the scene does not reduce."""
-    reduction = reduce(scene)
-    if reduction is None:
+    land = landscape(scene)
+    if land is None:
         return None
-    state = np.asarray(state, float)
-    if reduction.e == 0:
-        place = (state[reduction.j], state[reduction.k])
-        return PhasePlane(reduction, place, float(state[reduction.axis] + float(reduction.s)), 0.0)
-    x, z, w = (float(v) for v in reduction.canonical(state))
-    if reduction.e < 0:
-        return PhasePlane(reduction, (x, z), w, z * z + x * x)
-    return PhasePlane(reduction, (x + z, x - z), w, (z - x) * (z + x))
+    place, w, _ = land.start(np.asarray(state, float))
+    return PhasePlane(land, tuple(float(v) for v in place), float(w))
 
 
 def window(plane: PhasePlane) -> tuple[float, float]:
     """The range of y worth drawing: a turn and a half of a circle; between high walls of a hyperbola or parabola."""
-    if plane.reduction.e < 0:
+    if np.isfinite(plane.land.turn):
         marks = plane.saddles + plane.centres
         middle = float(np.mean(marks)) if marks else 0.0
         return middle - 1.35 * np.pi, middle + 1.35 * np.pi
@@ -190,3 +157,34 @@ def motion_curve(plane: PhasePlane, low, high, points=4001):
     phase = np.linspace(-np.pi / 2, np.pi / 2, 801)
     y = (ends[0] + ends[1]) / 2 + (ends[1] - ends[0]) / 2 * np.sin(phase)
     return y, np.sqrt(2 * np.maximum(plane.W0**2 / 2 - plane.height(y), 0.0))
+
+
+# --- the equilibria on an orbit, told by their offsets
+def _on_circle(plane):
+    here = np.arctan2(*plane.place)
+    return [float((np.arctan2(x, z) - here + np.pi) % (2 * np.pi) - np.pi) for x, z in _on_conic(plane)]
+
+
+def _on_hyperbola(plane):
+    xi, eta = plane.place
+    for x, z in _on_conic(plane):
+        ratio = (x + z) / xi if xi else np.inf
+        other = eta / (x - z) if x != z else np.inf
+        for value in (ratio, other):
+            if 0 < value < np.inf and np.sign(x - z) in (0, np.sign(eta)):
+                yield float(np.log(value))
+                break
+
+
+def _on_conic(plane):
+    """(X, Z) of the equilibria with the invariant of the orbit."""
+    return [(float(x[0]), float(z[0])) for x, z, exists, _ in plane.land.conic.critical_places(np.array([plane.Q])) if exists[0]]
+
+
+def _on_parabola(plane):
+    first, second, third = plane.potential.derivatives(plane.place)
+    roots = np.roots(np.trim_zeros([third / 6, second / 2, first, plane.potential.force(plane.place)], "f"))
+    return [float(root.real) for root in roots if abs(root.imag) < 1e-9 * (1 + abs(root))]
+
+
+GEOMETRIES = {-1: _on_circle, 1: _on_hyperbola, 0: _on_parabola}

@@ -60,11 +60,12 @@ def exp_minus_two_terms(t):
     return np.where(np.abs(t) < 0.7, 0.5 * t * t * (1 + series), np.expm1(t) - t)
 
 
-class Elliptic:
-    """Circle: place = (X, Z)."""
+class Circle:
+    """place = (X, Z)."""
 
     def __init__(self, constants: dict):
         self.G, self.c, self.d, self.mu = (constants[name] for name in ("G", "c", "d", "mu"))
+        self.slopes = abs(self.c) + abs(self.d)
 
     def force(self, place):
         x, z = place
@@ -121,13 +122,14 @@ class Elliptic:
         return height, EPS * unsure
 
 
-class Hyperbolic:
-    """Hyperbola: place = (xi, eta) = (X + Z, X - Z), growing and decaying like exp(+-theta)."""
+class Hyperbola:
+    """place = (xi, eta) = (X + Z, X - Z), growing and decaying like exp(+-theta)."""
 
     def __init__(self, constants: dict):
         self.G, self.mu = constants["G"], constants["mu"]
         self.e1 = 0.5 * (constants["c"] + constants["d"])
         self.e2 = 0.5 * (constants["d"] - constants["c"])
+        self.slopes = abs(self.e1) + abs(self.e2)
 
     def force(self, place):
         xi, eta = place
@@ -162,8 +164,8 @@ class Hyperbolic:
         return EPS * (4 * terms + abs(self.force(place)) * blur) + abs(self.force(spot) * y)
 
 
-class Parabolic:
-    """Parabola (two equal moments): place = (omega_j, omega_k); the potential is a polynomial of degree 4 or less."""
+class Parabola:
+    """Two equal moments: place = (omega_j, omega_k); the potential is a polynomial of degree 4 or less."""
 
     def __init__(self, reduction):
         names = ("p", "p0", "q", "q0", "kappa", "rho", "sigma", "m")
@@ -195,7 +197,7 @@ class Parabolic:
         return -y * (force + y * (first / 2 + y * (second / 6 + y * third / 24)))
 
     def rounding(self, y, spot, place, size):
-        """As of `Hyperbolic`; the way from the place is a root of a cubic."""
+        """As of `Hyperbola`; the way from the place is a root of a cubic."""
         first, second, third = (abs(v) for v in self.derivatives(spot))
         at, bend, curl = (abs(v) for v in self.derivatives(place))
         way = abs(y)
@@ -206,7 +208,7 @@ class Parabolic:
 
 def derivatives_on_parabola(r, u, v):
     """F', F'', F''' along a parabola at (omega_j, omega_k) = (u, v), where p q = 0 and F is a cubic. r: its reduction or
-    its `Parabolic`; floats, arrays, fractions or intervals."""
+    its `Parabola`; floats, arrays, fractions or intervals."""
     a, b = r.p * v + r.p0, r.q * u + r.q0
     first = r.kappa * (a * v + u * b) + r.rho * b + r.sigma * a
     second = r.kappa * (2 * a * b + r.p * b * v + u * r.q * a) + r.rho * r.q * a + r.sigma * r.p * b
@@ -215,6 +217,7 @@ def derivatives_on_parabola(r, u, v):
 
 def potential(reduction):
     """The potential of a reduction."""
-    if reduction.e == 0:
-        return Parabolic(reduction)
-    return (Elliptic if reduction.e < 0 else Hyperbolic)(reduction.constants)
+    return GEOMETRIES[reduction.e](reduction)
+
+
+GEOMETRIES = {-1: lambda r: Circle(r.constants), 1: lambda r: Hyperbola(r.constants), 0: Parabola}

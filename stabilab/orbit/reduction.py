@@ -67,7 +67,26 @@ class Reduction:
 
     @property
     def kind(self) -> str:
-        return {-1: "elliptic", 1: "hyperbolic", 0: "parabolic"}[self.e]
+        return ("parabolic", "hyperbolic", "elliptic")[self.e]
+
+    @cached_property
+    def centre(self) -> tuple:
+        """(sj, sk): the conic is centred at (omega_j, omega_k) = (-sj, -sk); elliptic and hyperbolic only."""
+        return self.q0 / self.q, self.p0 / self.p
+
+    @cached_property
+    def across(self) -> tuple:
+        """rho and sigma of the rate of omega_i in components told from the centre."""
+        sj, sk = self.centre
+        return self.rho - self.kappa * sj, self.sigma - self.kappa * sk
+
+    @cached_property
+    def torque(self):
+        """m of that rate (the last three terms cancel for a body); on a parabola m itself."""
+        if self.e == 0:
+            return self.m
+        sj, sk = self.centre
+        return self.m + self.kappa * sj * sk - self.rho * sk - self.sigma * sj
 
     @cached_property
     def exact_constants(self) -> dict[str, Fraction]:
@@ -75,17 +94,15 @@ class Reduction:
 
         Elliptic and hyperbolic only. Roots are kept to 240 bits, so these are "exact" for every later rounding.
         """
-        sj, sk = self.q0 / self.q, self.p0 / self.p
+        (sj, sk), (across_j, across_k), torque = self.centre, self.across, self.torque
         ap, aq = abs(self.p), abs(self.q)
         rp, rq, n = sqrt_fraction(ap), sqrt_fraction(aq), sqrt_fraction(ap * aq)
         sp = _sign(self.p)
-        # the torque in shifted coordinates: m + kappa sj sk - rho sk - sigma sj (the last three cancel for a body)
-        torque = self.m + self.kappa * sj * sk - self.rho * sk - self.sigma * sj
         flip = -1 if torque < 0 else 1
         return {
             "G": self.kappa * sp * ap * aq,
-            "c": flip * sp * (self.rho - self.kappa * sj) * aq * rp,
-            "d": (self.sigma - self.kappa * sk) * ap * rq,
+            "c": flip * sp * across_j * aq * rp,
+            "d": across_k * ap * rq,
             "mu": flip * n * torque, "n": n, "sj": sj, "sk": sk, "rx": rp, "rz": sp * rq, "flip": Fraction(flip)}
 
     @cached_property
@@ -96,9 +113,7 @@ class Reduction:
     @cached_property
     def sense(self) -> int:
         """Sign of the constant torque about the axis (0 without one): the direction of any spin-up."""
-        if self.e == 0:
-            return _sign(self.m)
-        return 0 if self.exact_constants["mu"] == 0 else int(self.exact_constants["flip"])
+        return _sign(self.torque)
 
     @property
     def exact_energy_unit(self) -> Fraction:
@@ -149,8 +164,8 @@ class Reduction:
     def exact_invariant_sign(self, state) -> int:
         """Sign of Q = Z^2 - e X^2 at a state of floats, exactly (rational arithmetic)."""
         u, v = Fraction(float(state[self.j])), Fraction(float(state[self.k]))
-        x2 = (u + self.q0 / self.q) ** 2 / abs(self.p)
-        z2 = (v + self.p0 / self.p) ** 2 / abs(self.q)
+        sj, sk = self.centre
+        x2, z2 = (u + sj) ** 2 / abs(self.p), (v + sk) ** 2 / abs(self.q)
         return _sign(z2 - self.e * x2)
 
     @property

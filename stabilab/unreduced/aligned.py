@@ -13,7 +13,7 @@ from ..errors import InputError
 from ..numbers.constants import EPS
 from ..orbit import many
 from ..orbit.ball_orbit import Orbit
-from ..orbit.fate.arrays import at_rest, nearly_flat
+from ..orbit.fate.arrays import at_rest
 from ..orbit.fate.arrays import fates as fates_on_orbit
 from ..orbit.fate.one_state import OneFate, fate_of
 from ..orbit.fate.one_state import at_rest as rest_of
@@ -108,7 +108,7 @@ def _label(scene, states, out) -> int:
             moved = turned.copy()
             moved[:, i] += step
             change += np.abs(np.nan_to_num(_twin_fates(turn.twin, moved).margins - result.margins, nan=0.0, posinf=np.inf, neginf=np.inf))
-    doubtful = (np.abs(result.margins) <= 2 * change) | nearly_flat(land, turned)
+    doubtful = (np.abs(result.margins) <= 2 * change) | land.nearly_flat(turned)
     for index in np.nonzero(doubtful)[0]:
         state = states[index].tolist()
         write_row(out, index, *turned_fate(turn, state, twin_orbit(turn, state)))

@@ -179,7 +179,8 @@ def _between_walls(box, here, answer, r, numbers, signs) -> Over:
 
 
 def _shifted(r, state):
-    return state[r.j] + r.q0 / r.q, state[r.k] + r.p0 / r.p
+    sj, sk = r.centre
+    return state[r.j] + sj, state[r.k] + sk
 
 
 def _spins(r, state) -> bool:

@@ -52,10 +52,10 @@ def orbit_of(r: Reduction, state, signs) -> Orbit:
     sp, sq = signs
     ap, aq = sp * r.p, sq * r.q
     rp, rq = root(ap), root(aq)
-    sj, sk = r.q0 / r.q, r.p0 / r.p
-    # torque m: the three other terms of `Reduction.exact_constants` cancel for a body and for the scaled system
+    (sj, sk), (across_j, across_k) = r.centre, r.across
+    # torque m: the three other terms of `Reduction.torque` cancel for a body and for the scaled system
     return Orbit(x=(state[r.j] + sj) / rp, z=(state[r.k] + sk) / (sp * rq), w=rp * rq * (state[r.axis] + r.s),
-                 G=sp * r.kappa * ap * aq, c=sp * (r.rho - r.kappa * sj) * aq * rp, d=(r.sigma - r.kappa * sk) * ap * rq,
+                 G=sp * r.kappa * ap * aq, c=sp * across_j * aq * rp, d=across_k * ap * rq,
                  mu=rp * rq * r.m)
 
 

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...numbers.constants import EPS, TURN
 from ...numbers.roots import bracketed_newton
 from ..ball_orbit import Orbit
 from ..landscape import Landscape
@@ -67,75 +66,18 @@ def _sharp(land, span, values):
     with np.errstate(all="ignore"):
         size = np.abs(values).max(axis=2)
         good = span.haze <= DIGITS * 2 * span.fastest
-        if land.e == 0:
-            return good & (_parabola_error(land, ends, blur) <= DIGITS * size[:, (r.j, r.k)].T).all(axis=0)
-        g = r.constants
-        for axis, scale, shift, other in ((r.j, g["rx"], g["sj"], 1), (r.k, g["rz"], g["sk"], 0)):
-            error = 0.0
-            for end, off in zip(ends, blur):
-                a, b = np.abs(end[0]), np.abs(end[1])
-                both, rate = a + b, (np.abs(end[other]) if land.e < 0 else 0.5 * (a + b))
-                error = np.maximum(error, EPS * both + rate * off)
-            good &= abs(scale) * error + EPS * abs(shift) <= DIGITS * size[:, axis]
+        good &= (land.errors(ends, blur) <= DIGITS * size[:, (r.j, r.k)].T).all(axis=0)
     return good
-
-
-def _parabola_error(land, ends, blur):
-    """(2, n) rounding error of omega_j and omega_k at the ends."""
-    pot, error = land.potential, 0.0
-    for (u, v), off in zip(ends, blur):
-        speed = np.abs(np.array([pot.p * v + pot.p0, pot.q * u + pot.q0]))
-        error = np.maximum(error, speed * off + 8 * EPS * (np.abs([u, v]) + speed))
-    return error
 
 
 def _place_range(land, place, left, right, left_place, right_place):
     """Canonical (X, Z) or (omega_j, omega_k) ranges over [left, right]: ends, and interior stationary points."""
-    if land.e > 0:
-        as_xz = lambda p: np.array([0.5 * (p[0] + p[1]), 0.5 * (p[0] - p[1])])
-    else:
-        as_xz = np.array
-    ends = as_xz(left_place), as_xz(right_place)
+    ends = np.array(land.xz(left_place)), np.array(land.xz(right_place))
     low, high = np.minimum(*ends), np.maximum(*ends)
-    interior = {-1: _circle_tops, 1: _hyperbola_tops, 0: _parabola_tops}[land.e]
-    for row, value, inside in interior(land, place, left, right):
+    for row, value, inside in land.stationary(place, left, right):
         low[row] = np.where(inside, np.minimum(low[row], value), low[row])
         high[row] = np.where(inside, np.maximum(high[row], value), high[row])
-    if land.e > 0:  # back to light-cone places
-        low, high = (low[0] + low[1], low[0] - low[1]), (high[0] + high[1], high[0] - high[1])
-    return low, high
-
-
-def _circle_tops(land, place, left, right):
-    """+-A of X and Z where the interval contains the angle."""
-    radius, angle = np.hypot(*place), np.arctan2(*place)
-    for row, value, at in ((0, 1, np.pi / 2), (0, -1, -np.pi / 2), (1, 1, 0.0), (1, -1, np.pi)):
-        first = np.ceil((angle + left - at) / TURN) * TURN + at  # the first such angle not before the left end
-        yield row, value * radius, first <= angle + right
-
-
-def _hyperbola_tops(land, place, left, right):
-    """X is stationary where Z = 0 (xi = eta), Z where X = 0 (xi = -eta)."""
-    xi, eta = place
-    with np.errstate(all="ignore"):
-        product = xi * eta
-        at = 0.5 * np.log(np.abs(eta / xi))
-        inside = np.isfinite(at) & (at >= left) & (at <= right)
-        size = np.sqrt(np.abs(xi)) * np.sqrt(np.abs(eta))
-    yield 0, np.sign(xi) * size, inside & (product > 0)
-    yield 1, np.sign(xi) * size, inside & (product < 0)
-
-
-def _parabola_tops(land, place, left, right):
-    """The vertex of whichever component is quadratic."""
-    pot = land.potential
-    u, v = place
-    a, b = pot.p * v + pot.p0, pot.q * u + pot.q0
-    for row, speed, bend in ((0, a, pot.p * b), (1, b, pot.q * a)):
-        with np.errstate(all="ignore"):
-            at = -speed / bend
-        inside = np.isfinite(at) & (at >= left) & (at <= right)
-        yield row, (u, v)[row] + 0.5 * speed * np.where(inside, at, 0.0), inside
+    return land.place(*low), land.place(*high)
 
 
 def _rotating(land, place, w):
@@ -157,14 +99,19 @@ def _spinning(land, place, w):
     n = len(w)
     if not n:
         return np.empty((0, 3, 2))
-    if land.e < 0:
-        slowest = _slowest_ahead(land, place, w)
-        radius = np.hypot(*place)
-        return _components(land, (-radius, -radius), (radius, radius), slowest, np.full(n, np.inf))
-    if land.e > 0:
-        return _spinning_on_plane(land, place, w)
-    sense = land.sense
-    start = land.components(place, w)
+    return SPINNING[land.e](land, place, w)
+
+
+def _spinning_round(land, place, w):
+    """On a circle: all of it, from the slowest rate on."""
+    slowest = _slowest_ahead(land, place, w)
+    radius = np.hypot(*place)
+    return _components(land, (-radius, -radius), (radius, radius), slowest, np.full(len(w), np.inf))
+
+
+def _spinning_purely(land, place, w):
+    """Along a parabola whose force does not change: both other rates stay."""
+    sense, start = land.sense, land.components(place, w)
     return np.stack([np.where(np.arange(3) == land.reduction.axis, np.where(sense > 0, start, -np.inf), start),
                      np.where(np.arange(3) == land.reduction.axis, np.where(sense > 0, np.inf, start), start)], axis=2)
 
@@ -236,3 +183,6 @@ def _turn_back(land, place, w):
     passed = spots.there & (spots.offset < 0) & (spots.offset > offset[:, None])
     fastest = np.where(passed, spots.energy, -np.inf).max(axis=1, initial=-np.inf)
     return offset, np.maximum(fastest, 0.5 * w * w)
+
+
+SPINNING = {-1: _spinning_round, 1: _spinning_on_plane, 0: _spinning_purely}

@@ -16,7 +16,7 @@ SHIFT_LIMIT = 1e4  # canonical variables lose this factor of accuracy to the shi
 def trapped_rows(land, decided):
     """(n,) True for motions between two turning points."""
     trapped = decided.labels == Fate.BOUNDED
-    return trapped & (decided.margins >= 0) if land.e < 0 and land.sense == 0 else trapped
+    return trapped & (decided.margins >= 0) if land.may_rotate else trapped
 
 
 def needs_digits(land: Landscape, states):
@@ -39,22 +39,12 @@ def on_top(land: Landscape, place):
 def near_separatrix(land, place, w, decided, share):
     """(n,) True where the margin is below `share` of the energy's terms: turning points and periods magnify the
     margin's rounding there, so ball arithmetic takes over."""
-    return np.abs(decided.margins) <= share * land.reduction.energy_unit * energy_terms(land, place, w)
+    return np.abs(decided.margins) <= share * land.reduction.energy_unit * land.energy_terms(place, w)
 
 
 def clear_of_barriers(land, place, w, span, share):
     """(n,) False where the energy of a motion between turning points is so near a barrier's, the highest or not."""
-    return span.closest > share * energy_terms(land, place, w)
-
-
-def energy_terms(land, place, w):
-    """(n,) size of the energy's terms, canonical."""
-    if land.e == 0:
-        return 0.5 * w * w
-    size = np.hypot(*place)
-    pot = land.potential
-    slopes = abs(pot.c) + abs(pot.d) if land.e < 0 else abs(pot.e1) + abs(pot.e2)
-    return 0.5 * w * w + abs(pot.mu) + np.abs(pot.G) * size**2 + slopes * size
+    return span.closest > share * land.energy_terms(place, w)
 
 
 def picked(place, w, mask):

@@ -5,9 +5,9 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from ...numbers.constants import EPS, TURN
+from ...numbers.constants import EPS
 from ...numbers.roots import bracketed_newton
-from ..landscape import Landscape, angle_between
+from ..landscape import Landscape
 from .circle_kernel import way_of_cosine
 
 
@@ -53,15 +53,10 @@ def spots_along(land: Landscape, place, w) -> Spots:
     energy = np.full(offset.shape, np.nan)
     kinetic = 0.5 * w * w
     with np.errstate(all="ignore"):
-        if land.e < 0:  # a turn more would cost the energy over a well just behind its digits
-            offset = np.where(offset > np.pi, angle_between((place[0][:, None], place[1][:, None]), spot), offset)
+        offset = land.unrolled(place, offset, spot)
         for column in range(offset.shape[1]):
             energy[:, column] = kinetic + land.potential.rise(-offset[:, column], spot[:, :, column])
-        if land.e < 0:  # one turn earlier the tilt has lifted the potential by 2 pi mu
-            behind, fall = offset <= 0, TURN * land.potential.mu
-            offset = np.concatenate([offset - TURN * ~behind, offset + TURN * behind], axis=1)
-            energy = np.concatenate([energy - fall * ~behind, energy + fall * behind], axis=1)
-            spot, barrier = np.concatenate([spot, spot], axis=2), np.concatenate([barrier, barrier], axis=1)
+        offset, spot, energy, barrier = land.repeated(offset, spot, energy, barrier)
     order = np.argsort(np.where(np.isnan(offset), np.inf, offset), axis=1, kind="stable")
     take = lambda a: np.take_along_axis(a, order, axis=1)
     offset = take(offset)
@@ -114,8 +109,7 @@ def turning_point(land, spots, place, w, side):
     with np.errstate(invalid="ignore"):
         gap = np.abs(spots.offset[rows, b] - spots.offset[rows, well])
     gap = np.where(has_barrier & has_well, gap, np.where(ok, np.inf, 1.0))
-    if land.e < 0:
-        gap = np.minimum(gap, TURN)
+    gap = np.minimum(gap, land.turn)
     towards = np.where(anchored_at_barrier, -side, side)
     reach = _reach(land, spot, level, gap, towards)
     curvature = np.maximum(np.abs(land.potential.slope(tuple(spot))), 1e-300)
@@ -166,6 +160,5 @@ def _reach(land, spot, level, gap, towards):
             short = open_ & np.where(level < 0, rise > level, rise < level)
             if not short.any():
                 break
-            # on a hyperbola in steps of 64 e-foldings, for exp would overflow; a parabola's walls may stand at any distance
-            reach = np.where(short, 2 * reach if land.e == 0 else np.minimum(2 * reach, reach + 64), reach)
+            reach = np.where(short, land.farther(reach), reach)
     return reach

@@ -7,8 +7,10 @@ of the invariant planes Q = 0. Inputs are taken as exact; what doubles cannot de
 """
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
+from typing import NamedTuple
 
 import numpy as np
 
@@ -16,7 +18,7 @@ from ...numbers.constants import EPS, TURN
 from ...physics.states import equilibrium_mask
 from ..ball_orbit import Orbit
 from ..far_states import far_exponent, far_fate, far_rows
-from ..landscape import Landscape, landscape
+from ..landscape import ROUNDINGS, Landscape, landscape
 from ..potential import derivatives_on_parabola
 from ..reduction import reduce
 from ..result import Fate
@@ -31,8 +33,6 @@ from .table_numba import compiled_loops
 
 TABLE_FROM = 5000  # a table costs some ten milliseconds to build, as much as the general formula needs for these
 MARGIN_SHARE = 5e-13  # of the kinetic energy and the barrier's height: half of the rounding that `fate` admits
-DOUBLE_ROOT = 1e-10  # share of a cubic's discriminant: eigenvalues tell two roots 1e-7 apart, whose discriminant is 1e-14 and more
-ROUNDINGS = 64  # units of rounding allowed for in the error bound of a margin: some thirty operations, each counted twice
 
 
 def fates(scene, states, fast=None) -> FateResult:
@@ -71,8 +71,7 @@ def labeller(scene):
     if is_free(scene):
         return _at_rest_too(scene, lambda states, out: label_free(scene, states, out))
     land = landscape(scene)
-    by_geometry = {-1: _label_circle, 1: _label_hyperbola, 0: _label_parabola}[land.e]
-    return _at_rest_too(scene, lambda states, out: by_geometry(land, states, out))
+    return _at_rest_too(scene, lambda states, out: _by_geometry(land).label(land, states, out))
 
 
 def _at_rest_too(scene, label):
@@ -99,12 +98,7 @@ def fate_on_orbit(scene, land, states) -> FateResult:
     found = fates(scene, states)
     if land.sense or not len(states):
         return found
-    place, w, size = land.start(states)
-    if land.e < 0:
-        margins = _settled_circle(land, states, place, w, size)[0]
-    else:
-        margins = _valley_margins(land, states, place, w, size)[0]
-        margins[((place[0] == 0) | (place[1] == 0)) & (land.e > 0)] = 0.0
+    margins = _by_geometry(land).margins(land, states, *land.start(states))[0]
     return replace(found, margins=margins * land.reduction.energy_unit)
 
 
@@ -190,7 +184,7 @@ def _valley_margins(land, states, place, w, size):
     """Margins to the barrier nearest in height; +inf where the orbit has none. Both sides of it are bounded."""
     n = len(w)
     margins, signs = np.full(n, np.inf), np.ones(n)
-    if land.e > 0 and not any(p.barrier for p in land.conic.pieces) and not land.conic.lines:
+    if not land.may_have_barriers():
         return margins, signs, 0
     pot, energy = land.potential, 0.5 * w * w
     offsets, spots, barrier = land.critical(place, barriers_only=True)
@@ -204,11 +198,11 @@ def _valley_margins(land, states, place, w, size):
             nearer = np.abs(margin) < np.abs(margins)
             margins = np.where(nearer, margin, margins)
             force, slope = np.abs(pot.force(place)), np.abs(pot.slope(place))
-            scale = energy + np.abs(rise) + force * np.abs(offset) + slope * offset**2 + _roughness(land, place, size)
+            scale = energy + np.abs(rise) + force * np.abs(offset) + slope * offset**2 + land.roughness(size)
             doubtful |= nearer & (vague | (np.abs(margin) <= ROUNDINGS * EPS * scale))
             # rounding has led to another equilibrium than was sought, or tilts the way to it
             doubtful |= barrier[:, column] & (~(pot.slope(spot) > 0) | _tilted(pot, spot, offset, -rise - energy, energy))
-        doubtful |= _beside_fold(land, place) | land.beside_centre(place)
+        doubtful |= land.beside_fold(place) | land.beside_centre(place)
     signs = np.sign(margins)
     for index in np.nonzero(doubtful)[0]:
         tie = decide(Orbit(land.reduction, states[index]))
@@ -219,28 +213,6 @@ def _valley_margins(land, states, place, w, size):
 def _tilted(pot, spot, offset, margin, energy):
     """(n,) True where the force that rounding leaves at an equilibrium costs a margin its twelve digits over the way to it."""
     return 2 * EPS * pot.terms(tuple(spot)) * np.abs(offset) > MARGIN_SHARE * (np.abs(margin + energy) + energy)
-
-
-def _beside_fold(land, place):
-    """(n,) True where rounding of the place may make or unmake a pair of equilibria of its orbit."""
-    if land.e > 0:
-        Q, beside = land.invariant(place), np.zeros(np.shape(place[0]), bool)
-        for edge in land.conic.fold_invariants + land.conic.tangents:
-            beside |= np.abs(Q - edge) <= ROUNDINGS * EPS * (np.abs(Q) + abs(edge))
-        return beside
-    first, second, third = land.potential.derivatives(place)
-    a, b, c, d = third / 6, second / 2, first, land.potential.force(place)
-    terms = [18 * a * b * c * d, -4 * b**3 * d, b**2 * c**2, -4 * a * c**3, -27 * a**2 * d**2]
-    size = sum(map(np.abs, terms))
-    return (np.abs(sum(terms)) <= DOUBLE_ROOT * size) & (size > 0)
-
-
-def _roughness(land, place, size):
-    """Magnitude of the potential's terms, whose rounding limits a height."""
-    pot, s = land.potential, size[0] + size[1]
-    if land.e > 0:
-        return np.abs(pot.G) * s * s + (abs(pot.e1) + abs(pot.e2)) * s + pot.mu
-    return np.abs(pot.kappa) * s * s + (abs(pot.rho) + abs(pot.sigma)) * s + abs(pot.m)
 
 
 def _label_plane(land, state, place, out, index):
@@ -263,6 +235,13 @@ def _label_plane(land, state, place, out, index):
         write_row(out, index, Fate.SPIN_UP, Reason.PLANE_ESCAPES, margin, axis, land.sense)
 
 
+def _plane_margins(land, states, place, w, size):
+    """Of hyperbolas: 0 on an invariant plane."""
+    margins, *rest = _valley_margins(land, states, place, w, size)
+    margins[(place[0] == 0) | (place[1] == 0)] = 0.0
+    return margins, *rest
+
+
 def _label_parabola(land: Landscape, states, out) -> int:
     place, w, size = land.start(states)
     out["labels"][:], out["reasons"][:] = Fate.BOUNDED, Reason.WALLS
@@ -274,20 +253,9 @@ def _label_parabola(land: Landscape, states, out) -> int:
     return precise
 
 
-def nearly_flat(land, states, place=None):
-    """(n,) True where the force along a parabola may not change at all; False on other reductions."""
-    if land.e or not land.sense:
-        return np.zeros(len(states), bool)
-    place = land.start(states)[0] if place is None else place
-    first, _, third = land.potential.derivatives(place)
-    size = abs(land.potential.kappa) + abs(land.potential.rho) + abs(land.potential.sigma)
-    small = 1e-5 * size * (1 + np.abs(place[0]) + np.abs(place[1])) ** 2  # far above rounding: exact arithmetic tells the rest
-    return (np.abs(first) <= small) & (np.abs(third) <= small)
-
-
 def flat_mask(land, states, place):
     """(n,) True where the force does not change along the parabola at all (exactly): nothing holds the spin back."""
-    small = nearly_flat(land, states, place)
+    small = land.nearly_flat(states, place)
     for index in np.nonzero(small)[0]:
         small[index] = _is_flat(land.reduction, states[index])
     return small
@@ -295,3 +263,17 @@ def flat_mask(land, states, place):
 
 def _is_flat(r, state) -> bool:
     return not any(derivatives_on_parabola(r, *(Fraction(float(state[a])) for a in (r.j, r.k))))
+
+
+class _Ways(NamedTuple):
+    """Of a geometry: how a chunk is labelled, and the margins of its orbits."""
+
+    label: Callable
+    margins: Callable
+
+
+_WAYS = {-1: _Ways(_label_circle, _settled_circle), 1: _Ways(_label_hyperbola, _plane_margins), 0: _Ways(_label_parabola, _valley_margins)}
+
+
+def _by_geometry(land) -> _Ways:
+    return _WAYS[land.e]

@@ -89,7 +89,8 @@ def _on_circle(orbit) -> OneFate:
 def _shifted(orbit) -> tuple[Fraction, Fraction]:
     """(omega_j + s_j, omega_k + s_k), exactly."""
     r, state = orbit.reduction, orbit.state
-    return Fraction(state[r.j]) + r.q0 / r.q, Fraction(state[r.k]) + r.p0 / r.p
+    sj, sk = r.centre
+    return Fraction(state[r.j]) + sj, Fraction(state[r.k]) + sk
 
 
 def _valley(orbit) -> OneFate:

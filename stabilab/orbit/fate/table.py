@@ -55,7 +55,7 @@ def barrier_table(scene) -> BarrierTable | None:
     """The table of a scene (cached); None without a torque that has a reduction to circles or hyperbolas, and where the
     equilibria lie on straight lines."""
     land = landscape(scene)
-    if land is None or land.e == 0 or land.sense == 0 or land.conic.lines or not land.conic.pieces:
+    if land is None or land.sense == 0 or land.conic is None or land.conic.lines or not land.conic.pieces:
         return None
     spans = list(_spans(land))
     if any(span is None for span in spans):
@@ -72,7 +72,8 @@ def barrier_table(scene) -> BarrierTable | None:
 def _spans(land: Landscape):
     """(piece, low, high, origin, side, bend, width) of every stretch of a barrier branch with one fold at its end."""
     conic = land.conic
-    sizes = np.sqrt(conic.fold_invariants) if land.e < 0 else conic.fold_invariants
+    kind = _curve_of(land)
+    sizes = kind.sizes(conic.fold_invariants)
     for piece in conic.pieces:
         if not piece.barrier:
             continue
@@ -82,7 +83,7 @@ def _spans(land: Landscape):
             middle = 0.5 * (ends[0] + ends[1])
             yield piece, ends[0], middle, ends[0], 1.0, 0.0, np.sqrt(middle - ends[0])
             yield piece, middle, ends[1], ends[1], -1.0, 0.0, np.sqrt(ends[1] - middle)
-        elif len(ends) == 1 and land.e < 0:
+        elif len(ends) == 1 and kind.reaches_out:
             yield piece, ends[0], np.inf, ends[0], 1.0, 1.0, np.sqrt(ends[0])
         else:
             yield None
@@ -106,7 +107,7 @@ def _stretch(land, span, count):
     t = np.concatenate([nodes, CHECKS])
     v = (np.arange(count)[:, None] + 0.5 * (1 + t)) / count
     size = origin + side * (width * v / (1 - bend * v)) ** 2
-    curve = (_Circle if land.e < 0 else _Hyperbola)(land, piece, np.isinf(high))
+    curve = _curve_of(land)(land, piece, np.isinf(high))
     height, turns, scale = curve.values(size)
     at, between = slice(None, DEGREE + 1), slice(DEGREE + 1, None)
     coefficients = _fit(nodes, height[:, at], DEGREE), _fit(nodes, turns[:, at], 1)
@@ -136,6 +137,8 @@ class _Circle:
     """Height and angle of a barrier branch over the radius, without what grows like A^2 or A."""
 
     lead_sign_steep_bulk = (0.0, 0.0, 0.0, 0.0)
+    reaches_out = True  # an open end is tabulated too
+    sizes = np.sqrt  # an orbit's size of its invariant
 
     def __init__(self, land, piece, is_open):
         self.land, self.piece, self.is_open, self.growth = land, piece, is_open, 0.0
@@ -147,7 +150,7 @@ class _Circle:
         if thin.any():
             x[thin], z[thin], exists[thin] = self._on_line(flat[thin] ** 2)
         start = np.zeros(flat.shape), flat
-        offset, (x, z), exists = self.land._locate_circle(start, flat * flat, x, z, exists)
+        offset, (x, z), exists = self.land.located(start, flat * flat, x, z, exists)
         offset[~exists] = np.nan
         offset[exists] = np.unwrap(offset[exists])
         middle = 0.5 * (np.nanmin(offset) + np.nanmax(offset)) if exists.any() else 0.0
@@ -180,6 +183,8 @@ class _Hyperbola:
     """Height of a barrier branch over the invariant, tilt measured by the logarithm of the coordinate that keeps its sign."""
 
     growth = 0.0
+    reaches_out = False
+    sizes = np.asarray
 
     def __init__(self, land, piece, is_open):
         self.land, self.piece = land, piece
@@ -188,7 +193,7 @@ class _Hyperbola:
         pot, g, flat = self.land.potential, self.land.reduction.constants, size.ravel()
         x, z, exists = self.land.conic._meet_piece(self.piece, flat)
         start = x + z, x - z
-        _, (xi, eta), exists = self.land._locate_hyperbola(start, flat, x, z, exists)
+        _, (xi, eta), exists = self.land.located(start, flat, x, z, exists)
         xi, eta = (np.where(exists, v, np.nan) for v in (xi, eta))
         lead = 1.0 if np.nanmin(np.abs(xi)) / np.nanmax(np.abs(xi)) > np.nanmin(np.abs(eta)) / np.nanmax(np.abs(eta)) else -1.0
         place = xi if lead > 0 else eta
@@ -200,3 +205,8 @@ class _Hyperbola:
         sign = float(np.sign(np.nanmedian(place)))
         self.lead_sign_steep_bulk = (lead, sign, float(np.nanmax(steep)), float(np.nanmax(scale)))
         return tuple(v.reshape(size.shape) for v in (height, np.zeros(flat.shape), scale))
+
+
+def _curve_of(land):
+    """How a branch of barriers is tabulated on the geometry of a landscape."""
+    return {-1: _Circle, 1: _Hyperbola}[land.e]

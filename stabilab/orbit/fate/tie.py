@@ -41,9 +41,7 @@ def _on_conic(orbit, spot) -> bool:
     if r.sense:
         return False
     ap, aq, sp = abs(r.p), abs(r.q), 1 if r.p > 0 else -1
-    sj, sk = orbit.sj, orbit.sk
-    rho, sigma = r.rho - r.kappa * sj, r.sigma - r.kappa * sk
-    m = r.m + r.kappa * sj * sk - r.rho * sk - r.sigma * sj
+    (sj, sk), (rho, sigma), m = r.centre, r.across, r.torque
     u0, v0, speed = orbit.u + sj, orbit.v + sk, Fraction(orbit.state[r.axis]) + r.s
     at_u, at_v = orbit.components(spot.y)
     U, V = at_u + orbit.shift_j, at_v + orbit.shift_k

@@ -66,22 +66,23 @@ class Here:
     def share(self, a, d, f):
         """(V(a) - V(a + d))/d."""
         k, half = self.k, 0.5 * d
-        middle = a + half
-        if k.e < 0:
-            sine, cosine, s, c = f.sin(half), f.cos(half), f.sin(middle), f.cos(middle)
-            x, z = self.x * c + self.z * s, self.z * c - self.x * s
-        else:
-            sine, cosine, s, c = f.sinh(half), f.cosh(half), f.sinh(middle), f.cosh(middle)
-            x, z = self.x * c + self.z * s, self.z * c + self.x * s
+        sine, cosine, x, z = self._midway(half, a + half, f)
         return k.mu + f.over(sine, half) * ((k.G * x * cosine + k.c) * z + k.d * x)
+
+    def _midway(self, half, middle, f):
+        """(sin, cos of half the way, or sinh and cosh; X, Z in the middle of it)."""
+        raise NotImplementedError
+
+    def _swing(self, y, f):
+        """(sin y, cos y - 1), or (sinh y, cosh y - 1)."""
+        raise NotImplementedError
 
     def energy(self, y, f):
         return self.kinetic + y * self.share(0.0, y, f)
 
     def state(self, y, w, f):
         k, out = self.k, [None] * 3
-        half = f.sin(0.5 * y) if k.e < 0 else f.sinh(0.5 * y)
-        s, b = (f.sin(y), -2 * half * half) if k.e < 0 else (f.sinh(y), 2 * half * half)
+        s, b = self._swing(y, f)
         i, j, l = k.axes
         out[j] = self.base[0] + k.jx * (self.z * s + self.x * b)
         out[l] = self.base[1] + k.kz * (b * self.z - k.e * -s * self.x)
@@ -92,26 +93,20 @@ class Here:
     def _look(self, y):
         """(kinetic energy, force, its slope, bound of that within `REACH`, size of the energy's terms) at offset y."""
         k, x0, z0 = self.k, self.x, self.z
-        if k.e < 0:
-            s, c = math.sin(y), math.cos(y)
-            x, z, span = x0 * c + z0 * s, z0 * c - x0 * s, self.size
-            steep = abs(k.G) * span + k.slopes
-            bound, slope = steep * span, k.G * (z * z - x * x) - k.c * x + k.d * z
-        else:
-            s, c = math.sinh(y), math.cosh(y)
-            x, z, span = x0 * c + z0 * s, z0 * c + x0 * s, self.size * (abs(s) + c)
-            near = 2 * (abs(x) + abs(z))
-            steep = abs(k.G) * 0.5 * near + k.slopes  # what rounding of the place costs in energy
-            bound, slope = (abs(k.G) * near + k.slopes) * near, k.G * (z * z + x * x) + k.c * x + k.d * z
+        x, z, span, steep, bound, slope = self._bent(y)
         value = self.kinetic + k.mu * y + (x - x0) * (0.5 * k.G * (x + x0) + k.c) + k.e * k.d * (z - z0)
         terms = self.kinetic + k.mu * (1 + abs(y)) + steep * span
         return value, k.mu + (k.G * x + k.c) * z + k.d * x, slope, bound, terms
+
+    def _bent(self, y):
+        """(X, Z, their size, steepness of the potential, bound of the force's slope within `REACH`, that slope) at offset y."""
+        raise NotImplementedError
 
     def turning(self, sense, reach=math.inf):
         """(offset of the first turning point on the side `sense`, slope of the kinetic energy there), or (`reach`, least
         kinetic energy seen on the way) where none comes before it, and the energy's terms; None where doubles may lose
         digits."""
-        y, longest, least = 0.0, math.inf if self.k.e < 0 else REACH, math.inf
+        y, longest, least = 0.0, self.longest, math.inf
         for _ in range(STEPS):
             value, force, slope, bound, terms = self._look(sense * y)
             force *= sense
@@ -136,6 +131,50 @@ class Here:
         return None
 
 
+class OnCircle(Here):
+    """A state on a circle."""
+
+    longest, turn = math.inf, TURN
+
+    def _midway(self, half, middle, f):
+        s, c = f.sin(middle), f.cos(middle)
+        return f.sin(half), f.cos(half), self.x * c + self.z * s, self.z * c - self.x * s
+
+    def _swing(self, y, f):
+        half = f.sin(0.5 * y)
+        return f.sin(y), -2 * half * half
+
+    def _bent(self, y):
+        k, s, c = self.k, math.sin(y), math.cos(y)
+        x, z, span = self.x * c + self.z * s, self.z * c - self.x * s, self.size
+        steep = abs(k.G) * span + k.slopes
+        return x, z, span, steep, steep * span, k.G * (z * z - x * x) - k.c * x + k.d * z
+
+
+class OnHyperbola(Here):
+    """A state on a hyperbola."""
+
+    longest, turn = REACH, math.inf
+
+    def _midway(self, half, middle, f):
+        s, c = f.sinh(middle), f.cosh(middle)
+        return f.sinh(half), f.cosh(half), self.x * c + self.z * s, self.z * c + self.x * s
+
+    def _swing(self, y, f):
+        half = f.sinh(0.5 * y)
+        return f.sinh(y), 2 * half * half
+
+    def _bent(self, y):
+        k, s, c = self.k, math.sinh(y), math.cosh(y)
+        x, z, span = self.x * c + self.z * s, self.z * c + self.x * s, self.size * (abs(s) + c)
+        near = 2 * (abs(x) + abs(z))
+        steep = abs(k.G) * 0.5 * near + k.slopes  # what rounding of the place costs in energy
+        return x, z, span, steep, (abs(k.G) * near + k.slopes) * near, k.G * (z * z + x * x) + k.c * x + k.d * z
+
+
+GEOMETRIES = {-1: OnCircle, 1: OnHyperbola}
+
+
 def ordinary(k: Constants, state, nodes=None, backwards=False):
     """The motion from a state (three floats), as of `reduced_motion`; None where doubles may lose digits."""
     try:
@@ -145,10 +184,10 @@ def ordinary(k: Constants, state, nodes=None, backwards=False):
 
 
 def _ordinary(k, state, nodes, backwards):
-    here = Here(k, state)
+    here = GEOMETRIES[k.e](k, state)
     if not k.shift <= LOST * here.size or not here.size:
         return None
-    ahead = here.turning(1, TURN if k.e < 0 else math.inf)
+    ahead = here.turning(1, here.turn)
     if ahead is None:
         return None
     if ahead[0] == TURN:

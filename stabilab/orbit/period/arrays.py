@@ -17,7 +17,7 @@ from ..extremes.turning_points import interval
 from ..landscape import Landscape
 from ..result import Fate
 from .balls import precise_period
-from .modes import Modes
+from .modes import modes_of
 
 PERIOD_SHARE = 1e-5  # closer to the separatrix than this share of the energy terms, rounding costs the period 1e-11
 DIGITS = 1e-11  # rounding that leaves less than this goes to ball arithmetic
@@ -53,8 +53,8 @@ def libration_period(land: Landscape, place, w, span=None):
         return np.empty(0), np.empty(0, bool)
     span = interval(land, place, w) if span is None else span
     half = np.maximum(span.half, 1e-300)
-    modes = Modes(land, span.middle)
-    values = _circle_periods(modes, half) if land.e < 0 else _midpoint(modes, half)
+    modes = modes_of(land, span.middle)
+    values = (_circle_periods if modes.mirrored else _midpoint)(modes, half)
     clear = span.ok & clear_of_barriers(land, place, w, span, PERIOD_SHARE)
     return values, clear & np.isfinite(values) & _sharp(modes, half)
 

@@ -3,59 +3,89 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..landscape import Landscape
+
 
 class Modes:
-    """V around the middle of an interval as a sum of modes, for exact second divided differences.
+    """V around the middle of an interval as a sum of modes, for exact second divided differences; data: (k, n) their coefficients."""
 
-    Circle, hyperbola: V = -mu y + sum_k P_k C(k y) + Q_k S(k y) with (cos, sin) or (cosh, sinh), k = 1, 2.
-    Parabola: V = sum_n v_n y^n, n = 2, 3, 4.
-    """
+    mirrored = False  # whether sums over mirrored pairs of nodes serve
 
-    def __init__(self, land, middle):
-        self.e = land.e
-        pot = land.potential
-        if land.e == 0:
-            first, second, third = pot.derivatives(tuple(middle))
-            self.data = np.array([-first / 2, -second / 6, -third / 24 * np.ones_like(first)])
-        elif land.e < 0:
-            x, z = middle
-            self.data = np.array([-pot.c * x + pot.d * z, -pot.c * z - pot.d * x,
-                                  -0.25 * pot.G * (x - z) * (x + z), -0.5 * pot.G * x * z])
-        else:
-            xi, eta = middle
-            quarter = -0.125 * pot.G
-            # coefficients of exp(y), exp(-y), exp(2y), exp(-2y)
-            self.data = np.array([-pot.e1 * xi, pot.e2 * eta, quarter * xi * xi, quarter * eta * eta])
+    def __init__(self, data):
+        self.data = data
 
-    def take(self, rows):
+    def take(self, rows) -> Modes:
         """The modes of some of the states."""
-        other = object.__new__(Modes)
-        other.e, other.data = self.e, self.data[:, rows]
-        return other
+        return type(self)(self.data[:, rows])
 
     def terms(self, rho, left, right):
         """Size of the terms of H."""
-        if self.e < 0:
-            return sum(weight * np.abs(row) for weight, row in zip((1, 1, 4, 4), self.data))
-        if self.e == 0:
-            return np.abs(self.data[0]) + np.abs(self.data[1]) * rho + np.abs(self.data[2]) * 2 * rho * rho
-        sizes = object.__new__(Modes)
-        sizes.e, sizes.data = self.e, np.abs(self.data)
-        return sizes.second_difference(rho, left, right)
+        return type(self)(np.abs(self.data)).second_difference(rho, left, right)
 
     def second_difference(self, rho, left, right):
         """V[l, r, theta] with theta - l = 2 rho left, r - theta = 2 rho right."""
+        raise NotImplementedError
+
+
+class CircleModes(Modes):
+    """V = -mu y + sum_k P_k cos(k y) + Q_k sin(k y), k = 1, 2."""
+
+    mirrored = True
+
+    @classmethod
+    def about(cls, pot, x, z) -> Modes:
+        """Those about the place (X, Z)."""
+        return cls(np.array([-pot.c * x + pot.d * z, -pot.c * z - pot.d * x, -0.25 * pot.G * (x - z) * (x + z), -0.5 * pot.G * x * z]))
+
+    def terms(self, rho, left, right):
+        return sum(weight * np.abs(row) for weight, row in zip((1, 1, 4, 4), self.data))
+
+    def second_difference(self, rho, left, right):
         y = rho * (left - right)
-        if self.e == 0:
-            two, three, four = self.data
-            return two + three * y + four * (y * y + rho * rho)
-        if self.e < 0:
-            p1, q1, p2, q2 = self.data
-            return sum(p * _cos_difference(k, rho, left, right) + q * _sin_difference(k, rho, y, left, right)
-                       for k, p, q in ((1, p1, q1), (2, p2, q2)))
+        p1, q1, p2, q2 = self.data
+        return sum(p * _cos_difference(k, rho, left, right) + q * _sin_difference(k, rho, y, left, right)
+                   for k, p, q in ((1, p1, q1), (2, p2, q2)))
+
+
+class HyperbolaModes(Modes):
+    """V = -mu y + a sum of exp(y), exp(-y), exp(2 y), exp(-2 y)."""
+
+    @classmethod
+    def about(cls, pot, xi, eta) -> Modes:
+        """Those about the place (xi, eta)."""
+        quarter = -0.125 * pot.G
+        return cls(np.array([-pot.e1 * xi, pot.e2 * eta, quarter * xi * xi, quarter * eta * eta]))
+
+    def second_difference(self, rho, left, right):
         up1, down1, up2, down2 = self.data
         return (up1 * _exp_difference(rho, left, right) + down1 * _exp_difference(rho, right, left)
                 + up2 * 4 * _exp_difference(2 * rho, left, right) + down2 * 4 * _exp_difference(2 * rho, right, left))
+
+
+class ParabolaModes(Modes):
+    """V = sum_n v_n y^n, n = 2, 3, 4, besides its slope."""
+
+    @classmethod
+    def about(cls, pot, u, v) -> Modes:
+        """Those about the place (omega_j, omega_k)."""
+        first, second, third = pot.derivatives((u, v))
+        return cls(np.array([-first / 2, -second / 6, -third / 24 * np.ones_like(first)]))
+
+    def terms(self, rho, left, right):
+        return np.abs(self.data[0]) + np.abs(self.data[1]) * rho + np.abs(self.data[2]) * 2 * rho * rho
+
+    def second_difference(self, rho, left, right):
+        y = rho * (left - right)
+        two, three, four = self.data
+        return two + three * y + four * (y * y + rho * rho)
+
+
+GEOMETRIES = {-1: CircleModes, 1: HyperbolaModes, 0: ParabolaModes}
+
+
+def modes_of(land: Landscape, middle) -> Modes:
+    """The modes of the potential about places, the middles of intervals."""
+    return GEOMETRIES[land.e].about(land.potential, *middle)
 
 
 def _sinc(t):

@@ -17,7 +17,7 @@ from .homoclinic import loop_end
 
 def polished(land, saddle, s):
     """The conic's points moved along their orbits to where the force vanishes (all but the fold itself)."""
-    moved = land._polish(saddle)
+    moved = land.polished(saddle)
     return tuple(np.where(s > 0, m, v) for m, v in zip(moved, saddle))
 
 
@@ -30,7 +30,7 @@ def loop_ends(land, saddle, side):
         found = loop_end(pot, land.e, land.sense, place, side)
         if found:
             ends[row], centres[row], kind[row] = found
-    return side * ends, np.array(land._polish(pot.move(saddle, side * centres))), kind != NONE, kind == SHARED
+    return side * ends, np.array(land.polished(pot.move(saddle, side * centres))), kind != NONE, kind == SHARED
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from stabilab.integrate.reference import reference, relative_errors
 from stabilab.integrate.to_heyoka import heyoka_available
 from stabilab.orbit.ball_orbit import Orbit
 from stabilab.orbit.flow.flow import _motion, reduced_motion
-from stabilab.orbit.flow.in_doubles import Here, constants, ordinary
+from stabilab.orbit.flow.in_doubles import OnCircle, constants, ordinary
 from stabilab.orbit.flow.periodic import ByPanels, BySeries
 from stabilab.orbit.flow.profile import Arrays, relief
 from stabilab.orbit.flow.spin_up import SpinUp
@@ -241,7 +241,7 @@ def test_search_for_turning_points_skips_none():
     """Against a fine grid of energies, many wells and hills wide."""
     plain, rng, met = constants(MINOR)[1], np.random.default_rng(20261123), 0
     for state in rng.uniform([-5, -5, -6], [5, 5, 6], (60, 3)).tolist():
-        here = Here(plain, state)
+        here = OnCircle(plain, state)
         grid = np.linspace(0.0, 2 * math.pi, 40_001)[1:]
         for sense in (1, -1):
             energy = here.energy(sense * grid, Arrays)

@@ -44,7 +44,7 @@ def test_the_curvature_of_an_interval_is_that_of_the_potential_between_its_ends(
     """(E - V)/((theta - l)(r - theta)) from rises alone, at places where nothing cancels much."""
     land = landscape(ALL[name][0])
     middle, _, _ = land.start(np.random.default_rng(3).normal(size=(5, 3)))
-    modes, force = period_modes.Modes(land, np.array(middle)), land.potential.force(middle)
+    modes, force = period_modes.modes_of(land, np.array(middle)), land.potential.force(middle)
     rise = lambda y: land.potential.rise(np.full(5, y), middle, force)
     for left in (0.2, 0.5, 0.9):
         y = rho * (2 * left - 1)
@@ -65,7 +65,7 @@ def test_the_trapezoidal_and_the_double_exponential_rule_give_the_same_periods(n
     states = states[stabilab.fate(scene, states).labels == 0][:8]
     place, w, _ = land.start(states)
     span = interval(land, place, w)
-    modes = period_modes.Modes(land, span.middle)
+    modes = period_modes.modes_of(land, span.middle)
     plain, peaked = quadrature._midpoint(modes, span.half), quadrature._double_exponential(modes, span.half)
     values, found = quadrature.libration_period(land, place, w)
     assert found.all()

@@ -1,0 +1,197 @@
+"""Barriers and wells along the orbits of many states at once: what the three geometries have in common, and circle and hyperbola."""
+from __future__ import annotations
+
+import numpy as np
+
+from .conic import Conic
+from .potential import potential
+
+EPS = 2.0**-52
+ONE_STEP, MOST_STEPS = 3e-9, 8  # a Newton step as small leaves its square; from half a radian five are enough, but at a fold
+LOST = 1e-3  # of the terms: a sum that is smaller than this share has lost more than three digits
+
+
+class Landscape:
+    """A reduction with its potential and its curve of equilibria, on one of the three geometries.
+
+    start(states) gives places (arrays), W and the size of rounding in the place; critical(place) the equilibria on
+    each orbit: offsets theta_c - theta_0 (n, m), places (n, m) and which are barriers; missing ones have offset nan.
+    Places are (X, Z) on a circle, (X + Z, X - Z) on a hyperbola, (omega_j, omega_k) on a parabola.
+    """
+
+    conic: Conic | None = None
+    unit = 1.0  # turn about the axis per theta, signed as the reflection
+    turn = np.inf  # after so much theta an orbit comes to the same place again
+    may_rotate = False  # whether a motion may pass over all barriers and stay bounded
+
+    def __init__(self, reduction):
+        self.reduction, self.e = reduction, reduction.e
+        self.potential = potential(reduction)
+        self.sense = reduction.sense
+
+    def components(self, place, w):
+        """States (..., 3) at places with rate W."""
+        r = self.reduction
+        out = np.empty(np.shape(w) + (3,))
+        out[..., r.j], out[..., r.k] = self.pair(place)
+        out[..., r.axis] = self.rate(w)
+        return out
+
+    def pair(self, place):
+        """(omega_j, omega_k) at places."""
+        raise NotImplementedError
+
+    def rate(self, w):
+        """omega_i of canonical W."""
+        raise NotImplementedError
+
+    def xz(self, place):
+        """The two coordinates at places whose ranges are those of the components."""
+        return place
+
+    def place(self, x, z):
+        """The place of these two coordinates."""
+        return x, z
+
+    def stationary(self, place, left, right):
+        """[(which coordinate, its value where it is stationary, whether that lies in [left, right])], arrays (n,)."""
+        raise NotImplementedError
+
+    def errors(self, ends, blur):
+        """(2, n) rounding error of omega_j and omega_k at places whose offsets are off by `blur`."""
+        raise NotImplementedError
+
+    def energy_terms(self, place, w):
+        """(n,) size of the energy's terms, canonical."""
+        raise NotImplementedError
+
+    def unrolled(self, place, offset, spot):
+        """Offsets of equilibria as near to the state as a turn allows; (n, m)."""
+        return offset
+
+    def repeated(self, offset, spot, energy, barrier):
+        """Equilibria along the orbit, on a circle those of one turn behind and of one ahead."""
+        return offset, spot, energy, barrier
+
+    def farther(self, reach):
+        """A longer way, in the search for a wall."""
+        return np.minimum(2 * reach, reach + 64)  # on a hyperbola in steps of 64 e-foldings, for exp would overflow
+
+    def may_have_barriers(self) -> bool:
+        """False where no orbit has a barrier."""
+        return True
+
+    def nearly_flat(self, states, place=None):
+        """(n,) True where the force along a parabola may not change at all; False on other reductions."""
+        return np.zeros(len(states), bool)
+
+    def beside_centre(self, place):
+        """(n,) True where the doubles do not hold the orbit's own size."""
+        return np.zeros(np.shape(place[0]), bool)
+
+    def polished(self, spot):
+        """Newton steps along the orbit: whatever the conic lost, the force regains. Most need one tiny step."""
+        first, second = spot
+        step = self._newton_step(spot)
+        first, second = self.potential.nudge(spot, np.where(np.abs(step) < ONE_STEP, step, 0.0))
+        far = np.abs(step) >= ONE_STEP
+        if far.any():
+            one = tuple(v[far] for v in spot)
+            for _ in range(MOST_STEPS):
+                step = self._newton_step(one)
+                one = self.potential.move(one, step)
+                if (np.abs(step) < ONE_STEP).all():
+                    break
+            first[far], second[far] = one
+        return first, second
+
+    def _newton_step(self, spot):
+        with np.errstate(all="ignore"):
+            step = -self.potential.force(spot) / self.potential.slope(spot)
+            return np.where(np.abs(step) < 0.5, step, 0.0)  # false for nan too
+
+
+class ConicLandscape(Landscape):
+    """Circle or hyperbola: orbits of the canonical plane, and a conic of equilibria in it."""
+
+    def __init__(self, reduction):
+        super().__init__(reduction)
+        self.conic = Conic(reduction)
+        self.unit = reduction.constants["flip"] / reduction.constants["n"]
+
+    def start(self, states):
+        """(place, W, size): place a pair of arrays, size a pair with the magnitudes whose rounding limits the place."""
+        g = self.reduction.constants
+        x, z, w = self.reduction.canonical(states)
+        size = np.abs(x) + abs(g["sj"] / g["rx"]), np.abs(z) + abs(g["sk"] / g["rz"])
+        return self._exact_place(x, z, size[0] + size[1], states), w, size
+
+    def _exact_place(self, x, z, size, states):
+        """The place of (X, Z), from exact arithmetic where the shift leaves a few digits of it."""
+        raise NotImplementedError
+
+    def _exactly(self, close, states, place, of):
+        """The place with the rows of `close` formed anew by `of` from exact (X, Z)."""
+        if not close.any():
+            return place
+        first, second = (np.array(v) for v in place)
+        for index in zip(*np.nonzero(close)):
+            ex, ez, _ = self.reduction.canonical_exact(states[index])
+            first[index], second[index] = map(float, of(ex, ez))
+            self._settle_plane(first, second, index, states[index])
+        return first, second
+
+    def _settle_plane(self, first, second, index, state):
+        """What is exactly on an invariant plane gets exactly there."""
+
+    def pair(self, place):
+        x, z = self.xz(place)
+        return self.reduction.component_j(x), self.reduction.component_k(z)
+
+    def rate(self, w):
+        return self.reduction.component_i(w)
+
+    def invariant(self, place):
+        """Q of each place."""
+        raise NotImplementedError
+
+    def critical(self, place, barriers_only=False):
+        """Equilibria on the orbits of places (n,): (offsets (n, m), place (2, n, m), barrier (n, m) bool).
+
+        Offsets on a circle lie in (0, 2 pi]; the same equilibrium recurs every turn.
+        """
+        Q = self.invariant(place)
+        hits = self.conic.critical_places(Q, True if barriers_only else None)
+        n, m = Q.size, len(hits)
+        offsets, places, barrier = np.full((n, m), np.nan), np.zeros((2, n, m)), np.zeros((n, m), bool)
+        for column, (x, z, exists, is_barrier) in enumerate(hits):
+            offset, spot, exists = self.located(place, Q, x, z, exists)
+            offsets[:, column] = np.where(exists, offset, np.nan)
+            places[:, :, column] = spot
+            barrier[:, column] = (self.potential.slope(spot) > 0 if is_barrier is None else is_barrier) & exists
+        return offsets, places, barrier
+
+    def located(self, place, Q, x, z, exists):
+        """(offset, place, exists) of equilibria at (X, Z) on the orbits Q of places."""
+        raise NotImplementedError
+
+    def may_have_barriers(self) -> bool:
+        return any(p.barrier for p in self.conic.pieces) or bool(self.conic.lines)
+
+    def energy_terms(self, place, w):
+        pot, size = self.potential, np.hypot(*place)
+        return 0.5 * w * w + abs(pot.mu) + np.abs(pot.G) * size**2 + pot.slopes * size
+
+    def errors(self, ends, blur):
+        g, out = self.reduction.constants, []
+        for scale, shift, other in ((g["rx"], g["sj"], 1), (g["rz"], g["sk"], 0)):
+            error = 0.0
+            for end, off in zip(ends, blur):
+                both = np.abs(end[0]) + np.abs(end[1])
+                error = np.maximum(error, EPS * both + self._speed(end, other) * off)
+            out.append(abs(scale) * error + EPS * abs(shift))
+        return np.array(out)
+
+    def _speed(self, place, other):
+        """Size of the derivative of X (other: 1) or Z (0) along the orbit."""
+        raise NotImplementedError
