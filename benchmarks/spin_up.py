@@ -1,5 +1,6 @@
 """Spin-up under torques of any direction: how much is decided, by when and at what cost; none against a run of another kind.
 
+python -m benchmarks.spin_up pace SEED SCENES STATES: many states of a scene beside heyoka's own batches run to the times at which the certificates fire.
 python -m benchmarks.spin_up SEED SCENES [TIMES STEPS SECONDS CONTINUED]: random bodies (half generic, the rest flat, rods, nearly
 equal moments), the torque uniform on the sphere, wheels of 0, 0.1, 1, 10 and states of 0.1 to 30 natural units.
 """
@@ -117,6 +118,47 @@ def main(seed=1, scenes=100, times=2000.0, steps=60_000, seconds=170.0, continue
     return rows
 
 
+def pace(seed=1, scenes=10, states=1000, times=2000.0, steps=20_000):
+    """Prints, by scene, what deciding a state costs beside its raw integration by heyoka's batches up to the same time; returns (ours, raw), s."""
+    import numpy as np
+
+    from stabilab.unreduced.spin_up.many import spin_up_many
+    rng, total, ratios = random.Random(seed), np.zeros(2), []
+    print(f"{'':>8}{'wheel':>6}{'undecided':>10}{'steps':>9}{'ours us':>9}{'raw us':>9}{'ratio':>7}")
+    for number in range(scenes + 1):
+        scene, _, kind, wheel = random_scene(rng)
+        starts = np.array([_sphere(rng, rng.choice(RATES)) for _ in range(states)])
+        at = time.process_time()
+        found = spin_up_many(scene, starts, times, steps)
+        ours = time.process_time() - at
+        raw = _raw(scene, starts, found.t)
+        if number:  # the first one compiles
+            total += ours, raw
+            ratios.append(ours / raw)
+            left = int((found.level == 0).sum())
+            print(f"{kind:>8}{wheel:6}{left:10d}{found.steps.mean():9.0f}{1e6 * ours / states:9.1f}{1e6 * raw / states:9.1f}{ours / raw:7.2f}")
+    print(f"all together: {total[0] / total[1]:.2f} times the raw integration; median of the scenes {sorted(ratios)[len(ratios) // 2]:.2f}")
+    return tuple(total)
+
+
+def _raw(scene, starts, times):
+    """Processor time of heyoka's batch integrator for the same starts and times, eight lanes of like times together."""
+    import heyoka
+    import numpy as np
+    D, l, M = ([float(v) for v in vector] for vector in (scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque")))
+    x = heyoka.make_vars("x", "y", "z")
+    rates = [(M[i] + (D[j] - D[k]) * x[j] * x[k] + l[j] * x[k] - l[k] * x[j]) / D[i] for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1))]
+    ta = heyoka.taylor_adaptive_batch(list(zip(x, rates)), np.zeros((3, 8)), tol=2.0**-53)
+    order = np.argsort(times)
+    order = np.append(order, np.repeat(order[-1:], -len(order) % 8)).reshape(-1, 8)
+    at = time.process_time()
+    for group in order:
+        ta.set_time(0.0)
+        ta.state[:] = starts[group].T
+        ta.propagate_until(times[group])
+    return time.process_time() - at
+
+
 def _table(rows, continued):
     print(f"{'':>12}{'scenes':>7}{'t<10':>7}{'<100':>7}{'<1e3':>7}{'<5e3':>7}{'all':>7}{'1e3 st':>8}{'1e4':>7}{'1e5':>7}{'med t':>8}{'steps':>7}{'ms':>7}")
     groups = [(f"wheel {w}", [r for r in rows if r[1] == w]) for w in WHEELS] + [(k, [r for r in rows if r[0] == k]) for k in KINDS]
@@ -146,5 +188,8 @@ def _line(group):
 
 
 if __name__ == "__main__":
-    kinds = (int, int, float, lambda v: int(float(v)), float, float)
-    main(*(kind(v) for kind, v in zip(kinds, sys.argv[1:])))
+    if sys.argv[1:2] == ["pace"]:
+        pace(*map(int, sys.argv[2:]))
+    else:
+        kinds = (int, int, float, lambda v: int(float(v)), float, float)
+        main(*(kind(v) for kind, v in zip(kinds, sys.argv[1:])))

@@ -97,7 +97,7 @@ def fates(scene, states, fast: bool | None = None, follow: float | None = None, 
     """Fates of states (n, 3), followed in batches until each is certified."""
     rest = equilibrium_mask(scene, states)
     moving = np.flatnonzero(~rest)
-    found = spin_up_many(scene, states[moving], **_limits(follow), tell=tell)
+    found = spin_up_many(scene, states[moving], **_limits(follow), tell=tell, fast=fast)
     out = empty_columns(len(states)) | {"margins": np.full(len(states), np.nan)}
     out["labels"][:], out["reasons"][:] = Fate.EQUILIBRIUM, Reason.AT_REST
     for name, values in (("labels", found.fate), ("axis", found.axis), ("sense", found.sense)):
@@ -120,7 +120,7 @@ def extremes(scene, states, span=None, fast: bool | None = None, follow: float |
     if span is not None:
         return np.array([one if at else evidence(scene, s, span).extremes for s, one, at in zip(states, still, rest)]).reshape(-1, 3, 2)
     moving = np.flatnonzero(~rest)
-    found = spin_up_many(scene, states[moving], **_limits(follow), tell=tell)
+    found = spin_up_many(scene, states[moving], **_limits(follow), tell=tell, fast=fast)
     if len(moving) and not (found.fate == Fate.SPIN_UP).any():
         raise InputError(f"extremes: {NO_SPAN.format(unit=scene.time_unit)}")
     for n, row in enumerate(moving):

@@ -2,18 +2,19 @@
 from __future__ import annotations
 
 import math
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 
 from ...physics.motion_units import in_unit
 from .certificate import HIGH_ORDERS, ORDERS, Certifier
+from .compiled.door import fast_certifier
 from .fixed_centre import FixedCentre
 from .form import forms_of
 from .moving_centre import moving_centre
 from .symmetric import equatorial
 
-MOVING_ORDERS = ((2, 4), (4, 6))
+MOVING_ORDERS = ((4, 6),)
 LAST_ORDERS = (8, 10)  # about the moving centre, asked last and seldom: making it takes a tenth of a second
 EQUATORIAL_ORDERS = ((2, 4), (4, 6))
 
@@ -37,31 +38,42 @@ def _log2(value):
 
 class Tests:
     """The certificates of a scene (in natural units), each made when it is first asked for. often: those of low order; high: with high orders about the
-    fixed centre; all: with the moving centre; last: with those that take long to make. Each is a prefix of the next."""
+    fixed centre; all: with the moving centre, where a wheel takes it elsewhere; last: with those that take long to make. Each is a prefix of the next."""
 
     def __init__(self, scene):
-        forms = forms_of(scene)
-        self.fixed = [FixedCentre(form) for form in forms]
-        self.moving = [moving for moving in (moving_centre(form, scene) for form in forms) if moving]
-        round_ = equatorial(scene)
+        self.scene, self.forms, round_ = scene, forms_of(scene), equatorial(scene)
+        self.fixed = [FixedCentre(form) for form in self.forms]
         self.equatorial = [round_] if round_ else []
-        self.made = {}
+        self.made, self.asked = {}, []
         low = [(field, orders) for field in self.fixed for orders in ORDERS]
         self.often = low + [(field, EQUATORIAL_ORDERS[0]) for field in self.equatorial]
         self.high = self.often + [(field, orders) for field in self.fixed for orders in HIGH_ORDERS]
-        self.all = (self.high + [(field, orders) for field in self.moving for orders in MOVING_ORDERS] +
-                    [(field, EQUATORIAL_ORDERS[1]) for field in self.equatorial])
-        self.last = self.all + [(field, LAST_ORDERS) for field in self.moving]
+
+    @cached_property
+    def moving(self):
+        found = (moving_centre(form, self.scene) for form in self.forms)
+        return [moving for moving in found if moving and moving.wheeled]
+
+    @cached_property
+    def all(self):
+        return (self.high + [(field, orders) for field in self.moving for orders in MOVING_ORDERS] +
+                [(field, EQUATORIAL_ORDERS[1]) for field in self.equatorial])
+
+    @cached_property
+    def last(self):
+        return self.all + [(field, LAST_ORDERS) for field in self.moving]
 
     def __bool__(self):
-        return bool(self.all)
+        return bool(self.often)
 
-    def certifier(self, field, orders) -> Certifier:
-        """The test itself."""
-        key = id(field), orders
+    def certifier(self, field, orders, fast: bool = False):
+        """The test itself; fast: by compiled loops."""
+        key = id(field), orders, fast
         if key not in self.made:
             with np.errstate(all="ignore"):  # what overflows is not finite, and certifies nothing
-                self.made[key] = Certifier(field, orders)
+                self.made[key] = (fast_certifier if fast else Certifier)(field, orders)
+            if (field, orders) not in self.asked:
+                self.asked.append((field, orders))
         return self.made[key]
 
 

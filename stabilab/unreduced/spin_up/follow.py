@@ -1,15 +1,18 @@
 """One motion under a torque of any direction, followed until its spin-up is certified."""
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from ...asked import checked_scene
+from ...numbers.numba_door import wanted
 from ...orbit.result import Fate
 from ...physics.coefficients import effective
 from ...physics.state import three_floats
 from ..enclosure.proof import proved
 from .cause import seen
-from .chase import APART, LOST, Chased, chase
+from .chase import Chased, chase
 from .clock import Trap
 from .fields import natural, tests_of
 from .result import SpinUp
@@ -19,14 +22,15 @@ NATURAL_TIMES, BUDGET = 2e4, 600_000
 
 
 def spin_up(scene, state, t_max: float | None = None, budget: int | None = None, after: float = 0.0, proof: bool = False,
-            tell=None) -> SpinUp:
+            tell=None, fast: bool | None = None) -> SpinUp:
     """Whether and how the motion from a state spins up, decided by a certificate (`certificate`, `symmetric`) or not at all.
 
     scene: gyrostat and constant torque, physical or scaled. state: three rates at t = 0, taken at their word. t_max: how long the motion
     is followed, in the scene's time (None: 2e4 natural units, of the root of mean moment over torque); budget: in how many steps
     (None: 600,000). after: the inequality is to hold for a state at this time or later: bounds and clocks of a later trap are narrower.
     proof: enclose the way to the inequality, so that nothing rests on a run in machine precision: level "proved" where that succeeds. A state
-    of Fractions or of decimals in strings is then taken exactly. tell(time, steps, motions left): called on the way.
+    of Fractions or of decimals in strings is then taken exactly. tell(time, steps, motions left): called on the way. fast: True for
+    tests compiled by numba (the extra `fast`); loading it costs a second, so without it NumPy serves. The two agree to rounding.
     Raises InputError for scenes with other effects than turn the body as wheel and torque do, and for states that are none.
     """
     given, scene, state = state, effective(checked_scene(scene)), three_floats(state)
@@ -38,7 +42,7 @@ def spin_up(scene, state, t_max: float | None = None, budget: int | None = None,
     if not tests:
         return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, 0.0, state, 0, seen(scene, state), 1.0)
     found = chase(own, tests, np.array([state]) / unit, NATURAL_TIMES if t_max is None else t_max * unit, BUDGET if budget is None else budget, after * unit,
-                  tell and (lambda t, steps, left: tell(t / unit, steps, left)))
+                  tell and (lambda t, steps, left: tell(t / unit, steps, left)), wanted(1, fast, False, 2, 2))
     answer = answer_of(scene, unit, found, 0)
     return proved(scene, given if isinstance(given, (list, tuple)) else state, answer) if proof else answer
 
@@ -49,10 +53,10 @@ def answer_of(scene, unit: float, found: Chased, row: int) -> SpinUp:
     steps, condition = int(found.steps[row]), float(found.condition[row])
     if found.fired[row] < 0:
         words = seen(scene, state) + f"; followed for {t:.6g} {scene.time_unit}, {steps} steps, over which a small change grew {condition:.3g} times"
-        if condition * APART > LOST:
+        if not math.isfinite(condition):
             words += ": more than a run in doubles can tell"
         return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, t, state, steps, words, condition)
-    field, orders = found.tests.last[found.fired[row]]
+    field, orders = found.tests.asked[found.fired[row]]
     trap = Trap(field, field.name, orders, *map(float, found.constants[:, row]), unit, t)  # type: ignore[call-arg]  # six constants
     direction = tuple(field.basis[0].tolist())
     axis, sense = (0, 1) if field.axis is None else (field.axis + 1, field.sense)

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ...numbers.numba_door import wanted
 from ...orbit.result import Fate
 from ...physics.scene import AnyScene
 from ...physics.states import checked_states
@@ -13,6 +14,7 @@ from .fields import natural, tests_of
 from .follow import BUDGET, NATURAL_TIMES, answer_of, spin_up
 from .result import SpinUp
 
+COLD = 256  # states from which on numba is loaded unasked, where it is installed
 LEVELS = ("undecided", "certified", "exact")
 
 
@@ -41,19 +43,20 @@ class SpinUps:
         return self.exact[number] if self.chased is None else answer_of(self.scene, self.unit, self.chased, number)
 
 
-def spin_up_many(scene, states, t_max: float | None = None, budget: int | None = None, tell=None) -> SpinUps:
-    """`follow.spin_up` for states (n, 3), in batches; every motion leaves its batch as soon as it is decided. Limits as there."""
+def spin_up_many(scene, states, t_max: float | None = None, budget: int | None = None, tell=None, fast: bool | None = None) -> SpinUps:
+    """`follow.spin_up` for states (n, 3), in batches; every motion leaves its batch as soon as it is decided. Limits as there.
+    fast: as there, None for numba from COLD states on."""
     states = checked_states(states).reshape(-1, 3)
     own, unit = natural(scene)
     tests = tests_of(own)
-    first = spin_up(scene, states[0].tolist(), t_max=0.0, budget=0) if len(states) else None
+    first = spin_up(scene, states[0].tolist(), t_max=0.0, budget=0, fast=fast) if len(states) else None
     if first is not None and (first.level == "exact" or not tests):  # closed solutions: of all states of the scene or of none
         return _one_by_one(scene, states)
     found = chase(own, tests, states / unit, NATURAL_TIMES if t_max is None else t_max * unit, BUDGET if budget is None else budget,
-                  tell=tell and (lambda t, steps, left: tell(t / unit, steps, left)))
+                  tell=tell and (lambda t, steps, left: tell(t / unit, steps, left)), fast=wanted(len(states), fast, False, COLD, COLD))
     good = found.fired >= 0
-    axes = np.array([0 if field.axis is None else field.axis + 1 for field, _ in tests.last] + [0])
-    senses = np.array([field.sense for field, _ in tests.last] + [0])
+    axes = np.array([0 if field.axis is None else field.axis + 1 for field, _ in tests.asked] + [0])
+    senses = np.array([field.sense for field, _ in tests.asked] + [0])
     return SpinUps(np.where(good, Fate.SPIN_UP, Fate.UNDECIDED).astype(np.int8), axes[found.fired].astype(np.int8), senses[found.fired].astype(np.int8),
                    good.astype(np.int8), found.t / unit, found.steps, found.condition, found.states * unit, scene, unit, found, ())
 

@@ -44,6 +44,7 @@ class MovingCentre:
         d2, d3 = D1 - D2, D1 - D3
         self.basis, self.s, self.axis, self.sense = np.array(basis, float), s, axis, sense
         self.limits = (float(l2 / d2) if d2 else 0.0, float(l3 / d3))  # of w2*, w3* for great spins
+        self.wheeled = any((l1, l2, l3))
         self.D1, self.M1, self.roots = float(D1), float(M1), (float(D2) ** 0.5, float(D3) ** 0.5)
         self.a2, self.a3, self.c = float(s * d2), float(s * d3), float(s * l1)
         self.wheel, self.torque = (float(l2), float(l3)), (float(M2), float(M3))

@@ -1,4 +1,4 @@
-"""Many motions of one scene, each by its own steps: heyoka's batches, or SciPy row by row where heyoka is not installed."""
+"""Many motions of one scene, each by its own steps, and how much a small change of each has grown: heyoka's batches, or SciPy row by row."""
 from __future__ import annotations
 
 from functools import lru_cache
@@ -6,23 +6,31 @@ from functools import lru_cache
 import numpy as np
 
 from ...integrate.ensemble import LANES
-from ...integrate.to_heyoka import borrowed_taylor, heyoka_available
+from ...integrate.to_heyoka import TAYLOR_TOLERANCE, borrowed_taylor, heyoka_available
 from ...integrate.trajectory import ATOL_SHARE, FALLBACK_RTOL
 from ...numbers.vectors import CYCLE
 from ...physics.to_numpy import Form
+
+WIDE = 32  # lanes where there are so many rows: the calls, not the steps, are what short advances cost
+# A twin starts so far from its motion, relative to the state or to the natural rate, anew at every advance. It only tells a growth, and takes
+# steps of 1e-8: over the two thousand of an advance they move it by a tenth of that. Farther apart than FAR it tells none.
+APART, LOOSE, FAR = 2.0**-12, 1e-8, 2.0**-3
 
 
 class Runs:
     """States (n, 3) and times (n,) of motions that `advance` carries on; rows that cannot go on are not finite any more.
 
-    The rows advance by steps, not to common times: no step is cut short, and no lane waits for another.
+    The rows advance by steps, not to common times: no step is cut short, and no lane waits for another. growth (n,): by how much a
+    small change of the start has grown, along the direction that it turned to; inf where it could not be told any more.
     """
 
     def __init__(self, scene, states):
         self.quadratic = scene.quadratic()
         self.coefficients = [np.array(row) for row in self.quadratic.coefficients]
         self.states, self.times = np.array(states, float), np.zeros(len(states))
+        self.growth, self.ahead = np.ones(len(states)), np.tile([1.0, -1.0, 1.0], (len(states), 1))  # direction of the change, largest entry 1
         self.taylor = heyoka_available()
+        self.form = _form(self.quadratic)
         self.steps_done = 0  # of each row
         if not self.taylor:
             self.solvers = [None] * len(states)
@@ -35,40 +43,62 @@ class Runs:
     def advance(self, rows, steps: int, t_max: float, pause: float = 0.0):
         """Carry the given rows (indices) on by so many steps, or to t_max; a row that has not passed the time `pause` stops there."""
         self.steps_done += steps
+        times, states = self.times[rows], self.states[rows]
+        apart = APART * np.maximum(np.abs(states).max(axis=1, initial=0.0), 1.0)[:, None]
+        twins = states + apart * self.ahead[rows]
         if self.taylor:
-            self._batches(rows, steps, t_max, pause)
+            ends = np.where(times < pause, min(pause, t_max), t_max)
+            self.states[rows], self.times[rows] = self._batches(states, times, ends, steps, TAYLOR_TOLERANCE)
+            twins, _ = self._batches(twins, times, self.times[rows], 8 * steps, LOOSE)
         else:
-            for row in rows:
+            for n, row in enumerate(rows):
                 self._alone(row, steps, t_max)
+                twins[n] = self._twin_alone(twins[n], times[n], self.times[row])
+        with np.errstate(all="ignore"):
+            change = twins - self.states[rows]
+            size = np.abs(change).max(axis=1)
+            size[~(size < FAR / APART * apart[:, 0])] = np.inf
+            self.growth[rows] *= size / apart[:, 0]
+            self.ahead[rows] = np.where(np.isfinite(size) & (size > 0), change.T / size, self.ahead[rows].T).T
 
-    def rates(self, rows):
-        """The rates of the given rows now, (m, 3)."""
-        (kappa, rho, sigma, m), x = self.coefficients, self.states[rows]
-        j, k = x[:, [1, 2, 0]], x[:, [2, 0, 1]]
-        return kappa * j * k + rho * k + sigma * j + m
-
-    def _batches(self, rows, steps, t_max, pause):
-        filled = np.append(rows, np.repeat(rows[-1:], -len(rows) % LANES)).reshape(-1, LANES)
-        with borrowed_taylor(_form(self.quadratic), lanes=LANES) as ta, np.errstate(all="ignore"):
-            for group in filled:
-                times = self.times[group]
-                ta.set_time(times)
-                ta.state[:] = self.states[group].T
-                ta.propagate_until(np.where(times < pause, min(pause, t_max), t_max), max_steps=steps)
-                self.states[group], self.times[group] = ta.state.T, ta.time
+    def _batches(self, states, times, ends, steps, tolerance):
+        """(states, times) after so many steps, or at the ends (n,)."""
+        out, reached, n = np.empty_like(states), np.empty_like(times), len(states)
+        wide = n - n % WIDE if n >= WIDE else 0
+        for lanes, part in ((WIDE, np.arange(wide)), (LANES, np.arange(wide, n))):
+            if not part.size:
+                continue
+            filled = np.append(part, np.repeat(part[-1:], -len(part) % lanes)).reshape(-1, lanes)
+            with borrowed_taylor(self.form, tolerance, lanes) as ta, np.errstate(all="ignore"):
+                for group in filled:
+                    ta.set_time(times[group])
+                    ta.state[:] = states[group].T
+                    ta.propagate_until(ends[group], max_steps=steps)
+                    out[group], reached[group] = ta.state.T, ta.time
+        return out, reached
 
     def _alone(self, row, steps, t_max):
-        from scipy.integrate import DOP853
         if self.solvers[row] is None:
-            size = np.abs(self.states[row]).max() or 1.0
-            self.solvers[row] = DOP853(lambda _, y: np.array(self.quadratic.rate(y.tolist())), 0.0, self.states[row], t_max,
-                                       rtol=FALLBACK_RTOL, atol=FALLBACK_RTOL * ATOL_SHARE * size)
+            self.solvers[row] = self._solver(self.states[row], 0.0, t_max, FALLBACK_RTOL)
         solver = self.solvers[row]
         for _ in range(steps):
             if solver.status == "running":
                 solver.step()
         self.states[row] = solver.y if solver.status != "failed" else np.nan
         self.times[row] = solver.t
+
+    def _twin_alone(self, state, start, end):
+        if not (end > start and np.isfinite(state).all()):
+            return state
+        solver = self._solver(state, start, end, LOOSE)
+        while solver.status == "running":
+            solver.step()
+        return solver.y if solver.status == "finished" else np.full(3, np.nan)
+
+    def _solver(self, state, start, end, rtol):
+        from scipy.integrate import DOP853
+        size = np.abs(state).max() or 1.0
+        return DOP853(lambda _, y: np.array(self.quadratic.rate(y.tolist())), start, state, end, rtol=rtol, atol=rtol * ATOL_SHARE * size)
 
 
 def _form(quadratic) -> Form:

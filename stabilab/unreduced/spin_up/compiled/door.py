@@ -1,0 +1,96 @@
+"""The tests by compiled loops: the door of numba (the extra `fast`)."""
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+
+from ....numbers.numba_door import compiled
+from ..certificate import Certifier, Found
+from . import kernel, moving_kernel
+
+INLINED = {kernel: {"put"}, moving_kernel: {"greatest"}}
+
+
+@lru_cache(maxsize=2)
+def functions(module) -> dict:
+    """A kernel's functions by name, compiled; kept on disk where there is a place for it."""
+    try:
+        return compiled(module, INLINED[module], cache=True)
+    except RuntimeError:  # numba found no folder that it may write to
+        return compiled(module, INLINED[module], cache=False)
+
+
+def fast_certifier(field, orders: tuple[int, int]):
+    """The test in a field by compiled loops."""
+    return (FixedCertifier if field.sharp else MovingCertifier)(field, orders)
+
+
+class FixedCertifier:
+    """`certificate.Certifier` in a field about the fixed centre: the same test, its tables and its search by the kernel's functions."""
+
+    def __init__(self, field, orders: tuple[int, int], table: dict | None = None):
+        f, self.field, self.orders = field.form, field, orders
+        self.kernel = functions(kernel) if table is None else table
+        top, powers = max(orders) + 8, max(orders) + 5
+        made = [np.zeros((top, top, powers), kind) for _ in range(4) for kind in (complex, float)]
+        added_e, most_e, rate_e, rise_e, added_b, most_b, rate_b, rise_b = made
+        self.kernel["tables"](np.array(orders), f.om, f.drag, np.array([f.D1, f.M1, f.gam, f.h]), np.array([f.mu, f.kap], complex), *made)
+        self.tables = (*self._parts(added_e), *self._parts(added_b), *(self._gathered(c, m, by_size) for c, m, by_size in (
+            (added_e, most_e, True), (added_e, most_e, False), (added_b, most_b, True), (added_b, most_b, False), (rate_b, rise_b, True),
+            (rate_e, rise_e, True))))
+        self.work = np.zeros(top, complex), np.zeros(powers), np.zeros(6)
+
+    def _parts(self, c):
+        top, _, powers = c.shape
+        m = top * (top + 1) // 2
+        made = np.zeros((2, m), np.int64), np.zeros((m, powers)), np.zeros((m, powers))
+        m = self.kernel["parts"](c, *made)
+        return np.ascontiguousarray(made[0][:, :m]), made[1][:m], made[2][:m]
+
+    def _gathered(self, c, m, by_size):
+        out = np.zeros((2 * c.shape[0], c.shape[2]))
+        self.kernel["gather"](c, m, by_size, out)
+        degrees = np.flatnonzero(out.any(axis=1))
+        return np.ascontiguousarray(out[:1 + (degrees[-1] if degrees.size else 0)])
+
+    def __call__(self, states, near=0.0) -> Found:
+        """See `certificate.Certifier`."""
+        n, f = len(states), self.field.form
+        good, out = np.zeros(n, bool), np.full((6, n), np.nan)
+        with np.errstate(all="ignore"):
+            x, zeta, dx, dz = self.field.place(np.asarray(states, float), near)
+        dx, dz = np.broadcast_to(dx, n).copy(), np.broadcast_to(dz, n).copy()
+        self.kernel["search_all"](x, zeta, dx, dz, f.D1, f.M1, f.drag, *self.tables, *self.work, good, out)
+        return Found(good, *out)
+
+
+class MovingCertifier:
+    """`certificate.Certifier` in a field about the moving centre: its tables, and the kernel's search."""
+
+    def __init__(self, field, orders: tuple[int, int], table: dict | None = None):
+        plain, self.field, self.orders = Certifier(field, orders), field, orders
+        self.kernel = functions(moving_kernel) if table is None else table
+        pairs = lambda sums: np.array([sums.a, sums.b]).astype(np.int64)
+        e, b, r, k = plain.e, plain.b, plain.r, plain.k
+        values = (part for v in (plain.energy_added, plain.amplitude_added) for part in (v.table, np.array([v.j, v.k])))
+        reach = 1 + max(int(np.abs(s.a).max(initial=0) + np.abs(s.b).max(initial=0)) for s in (e, b, r, k)) + 4
+        drive = np.array([(a, b, c) for (_, _, a, b), c in field.G0.items()], float).reshape(-1, 3).T
+        degrees = 1 + max(int(v.j.max(initial=0)) for v in (plain.energy_added, plain.amplitude_added))
+        self.serves = reach < moving_kernel.MIDDLE and all(part.size for part in (e.table, b.table, r.table, k.table))
+        self.plain = plain
+        self.numbers = (field.D1, field.M1, field.a2, field.a3, field.c, reach, np.ascontiguousarray(drive))
+        self.tables = (*values, pairs(e), e.table, plain.energy_majorant.table, pairs(b), b.table, plain.amplitude_majorant.table,
+                       pairs(r), r.table, pairs(k), k.table)
+        self.work = np.zeros((4, 2 * moving_kernel.MIDDLE + 1)), np.zeros(degrees, complex), np.zeros(6)
+
+    def __call__(self, states, near=0.0) -> Found:
+        """See `certificate.Certifier`."""
+        if not self.serves:
+            return self.plain(states, near)
+        n = len(states)
+        good, out = np.zeros(n, bool), np.full((6, n), np.nan)
+        x, zeta, dx, dz = self.field.place(np.asarray(states, float), near)
+        dx, dz = np.broadcast_to(dx, n).copy(), np.broadcast_to(dz, n).copy()
+        self.kernel["search_all"](x, zeta, dx, dz, *self.numbers, *self.tables, *self.work, good, out)
+        return Found(good, *out)

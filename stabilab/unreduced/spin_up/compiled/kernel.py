@@ -1,0 +1,219 @@
+"""The certificate about the fixed centre in straight loops: elimination over dense tables, and the search for A and z of one state.
+
+The same formulas as `elimination` and `certificate`, where they are derived; here c[j, k, n] is the coefficient of zeta^j zeta*^k X^(1 - n) and
+beside it stands its majorant m[j, k, n]. Index n = 1 + power of 1/X. All in one file: numba's cache on disk watches no other.
+"""
+from __future__ import annotations
+
+import math
+
+ROUNDING = 2.0**-32     # of coefficients over their majorants: `elimination.ROUNDING`
+COEFFICIENT = 2.0**-36  # `certificate.COEFFICIENT`, SLACK, GROWTH, PASSES and `fixed_centre.BLUR`: the tests hold them equal
+SLACK, GROWTH, PASSES, BLUR = 2.0**-30, 1 + 1e-7, 25, 2.0**-50
+
+
+def put(c, m, j, k, n, value, size):
+    """Add a term to a table."""
+    c[j, k, n] += value
+    m[j, k, n] += size
+
+
+def price(c, m, j, k, n, value, size, numbers, rest):
+    """Add to the table of a rate what the rest of d/dt makes of a term: all but the turning.
+
+    numbers: (D1, M1, gam, h); rest: (mu, kap), complex. X' = (M1 + gam Im zeta^2 + Re(kap* zeta))/D1, zeta' = i h zeta* + mu.
+    """
+    D1, M1, gam, h = numbers[0], numbers[1], numbers[2], numbers[3]
+    mu, kap = rest[0], rest[1]
+    fall = n - 1.0
+    if fall != 0:
+        f, s = -fall * value / D1, abs(fall) * size / D1
+        put(c, m, j, k, n + 1, f * M1, s * abs(M1))
+        put(c, m, j + 2, k, n + 1, f * (-0.5j * gam), s * abs(0.5 * gam))
+        put(c, m, j, k + 2, n + 1, f * (0.5j * gam), s * abs(0.5 * gam))
+        put(c, m, j + 1, k, n + 1, f * (0.5 * kap.conjugate()), s * abs(0.5 * kap))
+        put(c, m, j, k + 1, n + 1, f * (0.5 * kap), s * abs(0.5 * kap))
+    if j:
+        put(c, m, j - 1, k + 1, n, j * value * (1j * h), j * size * abs(h))
+        put(c, m, j - 1, k, n, j * value * mu, j * size * abs(mu))
+    if k:
+        put(c, m, j + 1, k - 1, n, k * value * (-1j * h), k * size * abs(h))
+        put(c, m, j, k - 1, n, k * value * mu.conjugate(), k * size * abs(mu))
+
+
+def eliminate(c, m, added, most, order, om, numbers, rest):
+    """Take everything oscillating up to X^-order out of the rate (c, m); what is added to the quantity goes to (added, most)."""
+    top = c.shape[0]
+    lift = 1j / om
+    for n in range(order + 2):
+        for degree in range(2 * top - 1):
+            for j in range(max(0, degree - top + 1), min(degree, top - 1) + 1):
+                k = degree - j
+                if j == k or m[j, k, n] == 0:
+                    continue
+                value, size = c[j, k, n] * lift / (j - k), m[j, k, n] * abs(lift) / abs(j - k)
+                c[j, k, n], m[j, k, n] = 0, 0
+                put(added, most, j, k, n + 1, value, size)
+                price(c, m, j, k, n + 1, value, size, numbers, rest)
+
+
+def tables(orders, om, drag, numbers, rest, added_e, most_e, rate_e, rise_e, added_b, most_b, rate_b, rise_b):
+    """Corrected energy and amplitude of orders (2,): each is (added terms, their majorants, terms of the rate, theirs), zeros at the start."""
+    D1, M1, gam, h = numbers[0], numbers[1], numbers[2], numbers[3]
+    mu, kap = rest[0], rest[1]
+    put(rate_e, rise_e, 2, 0, 0, -0.5j * gam, abs(0.5 * gam))  # X (G - M1)
+    put(rate_e, rise_e, 0, 2, 0, 0.5j * gam, abs(0.5 * gam))
+    put(rate_e, rise_e, 1, 0, 0, 0.5 * kap.conjugate(), abs(0.5 * kap))
+    put(rate_e, rise_e, 0, 1, 0, 0.5 * kap, abs(0.5 * kap))
+    eliminate(rate_e, rise_e, added_e, most_e, orders[0], om, numbers, rest)
+    rate_e[0, 0, 1], rise_e[0, 0, 1] = 0, 0  # m*, the drive's
+    for j, k, value in ((2, 0, 0.5 * h / om + 0j), (0, 2, 0.5 * h / om + 0j), (1, 0, 1j * mu.conjugate() / om), (0, 1, -1j * mu / om)):
+        size = abs(value)
+        put(added_b, most_b, j, k, 2, value, size)  # R/(om X)
+        f, s = -value / D1, size / D1               # its rate is -X' R/(om X^2)
+        put(rate_b, rise_b, j, k, 3, f * M1, s * abs(M1))
+        put(rate_b, rise_b, j + 2, k, 3, f * (-0.5j * gam), s * abs(0.5 * gam))
+        put(rate_b, rise_b, j, k + 2, 3, f * (0.5j * gam), s * abs(0.5 * gam))
+        put(rate_b, rise_b, j + 1, k, 3, f * (0.5 * kap.conjugate()), s * abs(0.5 * kap))
+        put(rate_b, rise_b, j, k + 1, 3, f * (0.5 * kap), s * abs(0.5 * kap))
+    if drag != 0:
+        price(rate_b, rise_b, 1, 1, 2, drag / M1 + 0j, abs(drag / M1), numbers, rest)
+    eliminate(rate_b, rise_b, added_b, most_b, orders[1], om, numbers, rest)
+
+
+def gather(c, m, by_size, out):
+    """Sums over the terms of a degree: |c| + ROUNDING m (by_size) or m, into out[degree, n]."""
+    top, powers = c.shape[0], c.shape[2]
+    for j in range(top):
+        for k in range(top):
+            for n in range(powers):
+                if m[j, k, n] != 0:
+                    out[j + k, n] += abs(c[j, k, n]) + ROUNDING * m[j, k, n] if by_size else m[j, k, n]
+
+
+def columns(table, A, row):
+    """Sum of table[d, n] A^d over d, into row[n]: along rows, as memory lies."""
+    row[:] = 0.0
+    power = 1.0
+    for d in range(table.shape[0]):
+        for n in range(table.shape[1]):
+            row[n] += power * table[d, n]
+        power *= A
+
+
+def total(table, A, z, shift, row):
+    """Sum of table[d, n] A^d z^(1 - n - shift)."""
+    columns(table, A, row)
+    return falling(row, z, z ** (1.0 - shift))
+
+
+def falling(row, z, power):
+    """Sum of row[n] power z^-n."""
+    result = 0.0
+    for n in range(row.size - 1, -1, -1):
+        result = result / z + row[n]
+    return result * power
+
+
+def tails(table, A, z, row):
+    """As `total`, of the integrals of the factors over all greater z."""
+    columns(table, A, row)
+    if row[0] != 0 or row[1] != 0 or row[2] != 0:
+        return math.inf
+    for n in range(3, row.size):
+        row[n] /= n - 2.0
+    return falling(row, z, z * z)
+
+
+def value_of(weights, real, imaginary, zeta, x, powers, row):
+    """The value of a quantity whose terms come with their conjugates: (real + i imaginary)[m, n] of zeta^j zeta*^k, weights (2, m): j, k."""
+    powers[0] = 1
+    for j in range(1, powers.size):
+        powers[j] = powers[j - 1] * zeta
+    row[:] = 0.0
+    for m in range(real.shape[0]):
+        factor = powers[weights[0, m]] * powers[weights[1, m]].conjugate()
+        u, v = factor.real, factor.imag
+        for n in range(row.size):
+            row[n] += u * real[m, n] - v * imaginary[m, n]
+    return falling(row, x, x)
+
+
+def blurred(weights, real, imaginary, sums, majorant, zeta, size, x, low, dx, powers, row):
+    """(value, blur) of a quantity at a place known within dx and within size - |zeta|."""
+    value = value_of(weights, real, imaginary, zeta, x, powers, row)
+    inner = total(sums, abs(zeta), low, 0.0, row)
+    wide = total(sums, size, low, 0.0, row)
+    for n in range(row.size):
+        row[n] *= abs(n - 1.0)
+    moved = falling(row, low, low) / low * dx
+    return value, (wide - inner) + moved * (1 + SLACK) + SLACK * wide + COEFFICIENT * total(majorant, size, low, 0.0, row)
+
+
+def parts(c, weights, real, imaginary):
+    """The terms with j >= k, doubled for their conjugates, one pair (j, k) that occurs to a row; returns how many."""
+    m = 0
+    for j in range(c.shape[0]):
+        for k in range(j + 1):
+            if (c[j, k] != 0).any():
+                weights[0, m], weights[1, m] = j, k
+                times = 1.0 if j == k else 2.0
+                for n in range(c.shape[2]):
+                    real[m, n], imaginary[m, n] = times * c[j, k, n].real, times * c[j, k, n].imag
+                m += 1
+    return m
+
+
+def search(x, zeta, dx, dz, D1, M1, drag, weights_e, real_e, imaginary_e, weights_b, real_b, imaginary_b, e_sums, e_most, b_sums,
+           b_most, r_sums, k_sums, powers, row, out):
+    """Whether the inequality holds at one place, and its constants A, z, eta, z_up, eta_up, k in out (6,): `certificate.Certifier`."""
+    low, top = x - dx, x + dx
+    if not (low > 0 and dx < x / 8):
+        return False
+    size = abs(zeta) * (1 + SLACK) + dz
+    if not total(k_sums, size, low, 1.0, row) < M1 + min(0.0, drag) / low:
+        return False  # necessary, for k grows with A and as z falls: nothing else need be looked at
+    value, blur = blurred(weights_e, real_e, imaginary_e, e_sums, e_most, zeta, size, x, low, dx, powers, row)
+    energy, energy_up = value - blur, value + blur
+    value, blur = blurred(weights_b, real_b, imaginary_b, b_sums, b_most, zeta, size, x, low, dx, powers, row)
+    mean = drag / M1
+    weight = 1 + mean / x + abs(mean) * (dx / (low * low) + BLUR / x) + BLUR
+    amplitude = weight * size * size * (1 + SLACK) + value + blur
+    A, z, growth = size * GROWTH, low / GROWTH, 1e-6
+    for _ in range(PASSES):
+        step = min(1e-2, growth)
+        growth *= 4
+        for _ in range(2):
+            need = max(total(e_sums, A, z, 0.0, row) - energy, 0.0) * (GROWTH + step) + 1e-7 * low * low
+            z = low - 2 * need / (D1 * (low + (z if z > 0 else low)))
+            if not z > 0:
+                z = low
+        if not z < low:
+            return False
+        k = total(k_sums, A, z, 1.0, row)
+        eta = M1 + min(0.0, drag) / z - k - SLACK * (M1 + k)
+        least = 1 + min(0.0, drag) / (M1 * z) - SLACK
+        if not (eta > 0 and least > 0):
+            return False
+        F = (amplitude + total(b_sums, A, z, 0.0, row) + tails(r_sums, A, z, row) * D1 / eta) / least
+        if not F < 1e100:
+            return False
+        e = total(e_sums, A, z, 0.0, row)
+        gained = D1 * (low - z) * (low + z) / 2
+        if gained * (1 - SLACK) - SLACK * D1 * low * low * 2.0**-8 > e - energy and F * (1 + SLACK) < A * A and size < A:
+            out[0], out[1], out[2], out[5] = A, z * (1 - SLACK), eta, k
+            out[3] = top + (e + energy_up) / (D1 * low) * (1 + SLACK) + SLACK * top
+            out[4] = (M1 + max(0.0, drag) / z + k) * (1 + SLACK)
+            return True
+        A = max(A, math.sqrt(max(F, 0.0))) * (1 + step)
+    return False
+
+
+def search_all(x, zeta, dx, dz, D1, M1, drag, weights_e, real_e, imaginary_e, weights_b, real_b, imaginary_b, e_sums, e_most, b_sums, b_most, r_sums,
+               k_sums, powers, row, constants, good, out):
+    """`search` for places (n,): good (n,), out (6, n)."""
+    for n in range(x.size):
+        if search(x[n], zeta[n], dx[n], dz[n], D1, M1, drag, weights_e, real_e, imaginary_e, weights_b, real_b, imaginary_b, e_sums, e_most, b_sums,
+                  b_most, r_sums, k_sums, powers, row, constants):
+            good[n] = True
+            out[:, n] = constants
