@@ -90,7 +90,9 @@ def _formula(paper, row, search):
         method = decision.method + (f"; units differ: {fault}" if fault else "")
         return Finding(row, "wrong" if fault else "holds", "", "", method, decision.residual, float("nan"), unit_fault=fault)
     (condition, how), (fixes, under) = ("", ""), ((), "")
-    if search and row.kind != "order":
+    if search and row.kind == "order":
+        condition, how = _order_condition(paper, row, pairs_of(paper, row, printed, system, bound), system, bound, domain)
+    elif search:
         condition, how = condition_of(paper, row, pairs_of(paper, row, printed, system, bound), bound, system, domain)
         fixes, under = _fixes(paper, row, printed, system, bound, domain, condition)
     correction, corrected_residual = _corrected(paper, row, system, domain)
@@ -98,6 +100,15 @@ def _formula(paper, row, search):
     method += f"; one edit makes it hold{under}" if fixes else ""
     verdict = "only-if" if condition and not fixes and not fault else "wrong"
     return Finding(row, verdict, condition, correction or (*fixes, "")[0], method, decision.residual, corrected_residual, fixes, fault)
+
+
+def _order_condition(paper, row, pairs, system, bound, domain):
+    """The first single condition under which the remainder is of the claimed order."""
+    for words, fixed in singles(paper, row, pairs, bound, system, domain):
+        decision = order(paper, row, pairs, bound | fixed, system)
+        if row.options["small"] not in fixed and decision.holds:
+            return words, decision.method
+    return "", ""
 
 
 def _corrected(paper, row, system, domain):

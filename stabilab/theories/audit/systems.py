@@ -22,8 +22,8 @@ EFFECTS = {
     "gyrostat": ("gyrostat", "Gyrostat", ((2, 3, 5),)),
     "constant_torque": ("constant_torque", "ConstantTorque", ((2, 3, 5),)),
     "charge": ("charge", "Charge", (2, 3, 5, "1/2")),
-    "gravity": ("gravity", "Gravity", None),
-    "newtonian_field": ("newtonian_field", "NewtonianField", None),
+    "gravity": ("gravity", "Gravity", (7, (2, 3, 5))),
+    "newtonian_field": ("newtonian_field", "NewtonianField", (3,)),
     "liquid_cavity": ("liquid_cavity", "LiquidCavity", (2, 3, 5)),
     "resistance": ("resistance", "Resistance", (2,)),
 }
@@ -100,8 +100,8 @@ def _scene(data, place):
         return getattr(import_module(f".special.{module}", __package__), function)()
     effects = []
     for effect in data["effects"]:
-        if effect not in EFFECTS or EFFECTS[effect][2] is None:
-            raise InputError(f"{place}: unknown effect {effect!r}; known are {', '.join(e for e, row in EFFECTS.items() if row[2])}")
+        if effect not in EFFECTS:
+            raise InputError(f"{place}: unknown effect {effect!r}; known are {', '.join(EFFECTS)}")
         module, kind, arguments = EFFECTS[effect]
         effects.append(getattr(import_module(f"...physics.effects.{module}", __package__), kind)(*arguments))
     return Scene(Body((7, 6, 4)), *effects)

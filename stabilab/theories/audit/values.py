@@ -137,7 +137,8 @@ def _slope(evaluator, f, bound, values, slopes):
 
 
 def _at(evaluator, f, s, value):
-    return evaluator(evaluator.plain(f).subs(s, value))
+    f = evaluator.plain(f).replace(lambda e: e.func.__name__ == "diff", lambda e: evaluator.plain(e.args[0]).diff(*e.args[1:]))
+    return evaluator(f.subs(s, value))
 
 
 def _moved(evaluator, f, s):
