@@ -65,7 +65,7 @@ class DigitSteps:
         rows = self._series(unit)
         a = np.array([[float(v) for v in row] for row in rows])
         V = self._variations(unit, a)
-        judged, turned, end_of_variations, longest = helpers()
+        judged, taken_along, turned, end_of_variations, longest = helpers()
         error, spread, moved, P, E, M = np.zeros(3), np.zeros(3), np.zeros(3), np.zeros(3), np.zeros((3, 3)), np.empty((3, 3))
         h = longest(a, self.fine * 16) * unit
         for _ in range(HALVINGS):
@@ -82,7 +82,9 @@ class DigitSteps:
         x = h / unit
         end_of_variations(V, x, M)
         self.centre = [_value(row, x) for row in rows]
-        turned(M, moved + E @ self.rad * WIDER, self.rad, self.B)
+        moved = moved + E @ self.rad * WIDER
+        if not taken_along(M, moved, self.rad, self.B):
+            turned(M, moved, self.rad, self.B)
         if len(radii):
             polynomials[number] = a * x ** np.arange(ORDER + 1)
             radii[number] = (error + spread + COARSE * P) * WIDER

@@ -28,4 +28,4 @@ def advance():
 def helpers():
     """What the steps in many digits take from the kernel."""
     table = functions()
-    return tuple(table[name] for name in ("judged", "turned", "end_of_variations", "longest"))
+    return tuple(table[name] for name in ("judged", "taken_along", "turned", "end_of_variations", "longest"))

@@ -1,8 +1,8 @@
 """Validated steps of a gyrostat under a constant torque, as straight lines of floats that numba compiles.
 
 The motion w' = f(w), f_i = kappa_i w_j w_k + rho_i w_k + sigma_i w_j + m_i (cyclic), from every start of the set c + B r, |r_i| <= rad_i, is enclosed one
-step h further by a set of the same kind (Lohner: B is orthogonal but for rounding, and follows the directions in which the motion stretches). The centre c is
-a sum of two doubles.
+step h further by a set of the same kind: B goes along with the derivative of the motion, and where its columns become too nearly parallel it is made orthogonal
+(Lohner). The centre c is a sum of two doubles.
 
 A step. p = sum of a_n s^n, n <= N, is the Taylor polynomial of the motion w of the centre as it is computed; its residue is d = p' - f(p).
 Below degree N the residue is rounding alone: the computed coefficients obey the recursion but for FINE times the sum of the sizes of what
@@ -45,6 +45,7 @@ ORDER = 36
 FINE, COARSE, WIDER, TINY = 2.0**-92, 2.0**-44, 1.0 + 2.0**-30, 1e-200
 SPLITTER = 134217729.0  # 2^27 + 1
 MARGIN = 2.0**-12
+PARALLEL = 2.0**12  # of directions that are kept: sizes in the product of their matrix with its inverse
 LEAST, MOST = 1e-30, 1e30  # sizes of rates in natural units that are followed
 HALVINGS = 12
 DONE, GOING, LOST, ENDLESS = 0, 1, 2, 3  # at its time; out of steps; the set is too wide; steps below the time's grain
@@ -266,6 +267,49 @@ def judged(numbers, energy, fine, a, V, B, rad, h, x, error, spread, moved, E, P
     return True
 
 
+def taken_along(M, rest, rad, B):
+    """The set {M r + rest}, |r| <= rad, |rest_i| <= rest, with M's own columns, of length 1, as directions B: nothing is wrapped but `rest`. False, and B
+    and rad as they were, where these are too nearly parallel."""
+    N, Y, new = np.empty((3, 3)), np.empty((3, 3)), np.empty(3)
+    for c in range(3):
+        length = sqrt(M[0, c] ** 2 + M[1, c] ** 2 + M[2, c] ** 2) + TINY
+        for i in range(3):
+            N[i, c] = M[i, c] / length
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        for c in range(3):
+            d, e = (c + 1) % 3, (c + 2) % 3
+            Y[c, i] = N[j, d] * N[k, e] - N[j, e] * N[k, d]
+    volume = N[0, 0] * Y[0, 0] + N[1, 0] * Y[0, 1] + N[2, 0] * Y[0, 2]
+    if not abs(volume) * PARALLEL > 1.0:
+        return False
+    slip, parallel = 0.0, 0.0
+    for i in range(3):
+        for j in range(3):
+            Y[i, j] /= volume
+    for i in range(3):
+        for c in range(3):
+            x, y, z = Y[i, 0] * N[0, c], Y[i, 1] * N[1, c], Y[i, 2] * N[2, c]
+            slip = max(slip, abs(x + y + z - (1.0 if i == c else 0.0)))
+            parallel = max(parallel, abs(x) + abs(y) + abs(z))
+    slip += 2.0**-48 * parallel
+    if not parallel < PARALLEL or not slip < 1e-6:
+        return False
+    widest = 0.0
+    for i in range(3):
+        total = 0.0
+        for c in range(3):
+            x, y, z = Y[i, 0] * M[0, c], Y[i, 1] * M[1, c], Y[i, 2] * M[2, c]
+            total += (abs(x + y + z) + 2.0**-48 * (abs(x) + abs(y) + abs(z))) * rad[c]
+        new[i] = total + abs(Y[i, 0]) * rest[0] + abs(Y[i, 1]) * rest[1] + abs(Y[i, 2]) * rest[2]
+        widest = max(widest, new[i])
+    for i in range(3):  # Y is the inverse of B but for the slip: y = Y x + (1 - Y B) y
+        rad[i] = (new[i] + 3.0 * slip / (1.0 - 3.0 * slip) * widest) * WIDER
+        for c in range(3):
+            B[i, c] = N[i, c]
+    return True
+
+
 def turned(M, rest, rad, B):
     """New directions B and radii rad of the set {M r + rest}, |r| <= rad, |rest_i| <= rest: orthogonal, the longest edge first (Lohner)."""
     edges = np.empty(3)
@@ -275,7 +319,7 @@ def turned(M, rest, rad, B):
     one, two = (first + 1) % 3, (first + 2) % 3
     second = one if edges[one] >= edges[two] else two
     q, r, s = np.empty(3), np.empty(3), np.empty(3)
-    length = sqrt(M[0, first] ** 2 + M[1, first] ** 2 + M[2, first] ** 2)
+    length = sqrt(M[0, first] ** 2 + M[1, first] ** 2 + M[2, first] ** 2) + TINY
     for i in range(3):
         q[i] = M[i, first] / length
         r[i] = M[i, second]
@@ -283,7 +327,7 @@ def turned(M, rest, rad, B):
         along = q[0] * r[0] + q[1] * r[1] + q[2] * r[2]
         for i in range(3):
             r[i] -= along * q[i]
-        length = sqrt(r[0] ** 2 + r[1] ** 2 + r[2] ** 2)
+        length = sqrt(r[0] ** 2 + r[1] ** 2 + r[2] ** 2) + TINY
         for i in range(3):
             r[i] /= length
     s[0], s[1], s[2] = q[1] * r[2] - q[2] * r[1], q[2] * r[0] - q[0] * r[2], q[0] * r[1] - q[1] * r[0]
@@ -383,7 +427,8 @@ def advance(numbers, low_numbers, energy, tolerance, t, t_end, grain, steps, cen
         at_end(a, low, x, centre, low_centre)
         for i in range(3):
             moved[i] += (E[i, 0] * rad[0] + E[i, 1] * rad[1] + E[i, 2] * rad[2]) * WIDER
-        turned(M, moved, rad, B)
+        if not taken_along(M, moved, rad, B):
+            turned(M, moved, rad, B)
         t = t + h
         if dense:
             times[number] = t

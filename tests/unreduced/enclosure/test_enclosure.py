@@ -95,6 +95,14 @@ def test_a_thousand_turns_keep_ten_digits_beyond_those_of_a_double():
     assert found.status == "enclosed" and found.radius.max() < 1e-16 and found.steps > 5000
 
 
+@pytest.mark.skipif(not installed(), reason="hundreds of steps take the compiled kernel")
+def test_a_fast_wheel_widens_the_set_by_no_more_than_its_turns():
+    """Beside a strong wheel the rates go round on an ellipse: directions made orthogonal at each step would widen the set at each by a third."""
+    scene = Scene(Body((3.46, 3.46 + 1e-10, .51)), Gyrostat((2e4, -8.7e4, 0)), ConstantTorque((0, -2.4, -178)))
+    found = enclose(scene, (38, 0, -.2), .01)
+    assert found.steps > 400 and found.radius.max() < 1e-20
+
+
 def test_a_fraction_and_a_decimal_in_a_string_are_taken_exactly():
     end = 0.5
     one, two = enclose(EXAMPLE, ("0.1", "1/3", "2"), end), enclose(EXAMPLE, (Fraction(1, 10), Fraction(1, 3), 2), end)

@@ -37,6 +37,7 @@ def test_the_compiler_fuses_and_rearranges_nothing():
     made = both("judged", lambda: [numbers, np.ones(4), kernel.FINE, a[3], V, B, rad, 0.0625, 0.25, *out()], 9, 10, 11, 12, 13)
     assert made[9].max() > 0
     M = both("end_of_variations", lambda: [V, 0.25, np.zeros((3, 3))], 2)[2]
+    both("taken_along", lambda: [M, made[11], rad.copy(), B.copy()], 2, 3)
     both("turned", lambda: [M, made[11], rad.copy(), B.copy()], 2, 3)
     both("at_end", lambda: [a[3], a[4], 0.25, np.zeros(3), np.zeros(3)], 3, 4)
 
@@ -52,15 +53,19 @@ def test_the_bound_of_a_flow_is_one():
             assert all(true[i, j] <= G[i, j] <= true[i, j] * (1 + 1e-6) + 1e-8 for i in range(3) for j in range(3))  # mpmath's
 
 
-def test_a_set_in_new_directions_holds_the_old_one():
-    rng = random.Random(5)
+@pytest.mark.parametrize("name", ["turned", "taken_along"])
+def test_a_set_in_new_directions_holds_the_old_one(name):
+    rng, taken = random.Random(5), 0
     for n in range(40):
         M = np.array([[rng.gauss(0, 1) for _ in range(3)] for _ in range(3)])
         if n % 4 == 0:
             M[:, 1] = M[:, 0] * (1 + 1e-9 * rng.random())  # edges nearly along each other
         old, rest = [10.0 ** rng.uniform(-20, -5) for _ in range(3)], [10.0 ** rng.uniform(-25, -8) for _ in range(3)]
         rad, B = np.array(old), np.empty((3, 3))
-        kernel.turned(M, np.array(rest), rad, B)
+        if getattr(kernel, name)(M, np.array(rest), rad, B) is False:
+            assert rad.tolist() == old  # nothing is changed
+            continue
+        taken += 1
         with mpmath.workdps(60):
             inverse = mpmath.matrix(B.tolist()) ** -1
             for _ in range(8):
@@ -68,6 +73,7 @@ def test_a_set_in_new_directions_holds_the_old_one():
                 corner = mpmath.matrix([sum(mpmath.mpf(float(M[i, c])) * edge[c] for c in range(3)) + beside[i] for i in range(3)])
                 r = inverse * corner
                 assert all(abs(r[i]) <= rad[i] for i in range(3))  # exact arithmetic to 60 digits
+    assert taken >= 29
 
 
 def test_numbers_are_kept_to_more_than_a_hundred_bits():
