@@ -6,6 +6,7 @@ import os
 import re
 import subprocess
 import sys
+from functools import cache
 
 import pytest
 
@@ -111,10 +112,16 @@ def test_the_drawing_of_the_rooms_is_that_of_the_imports():
     assert rooms.drawing() in PAGE.read_text(encoding="utf-8")
 
 
+@cache
+def tree_of(path):
+    """The syntax tree of a file."""
+    return ast.parse(path.read_text(encoding="utf-8"))
+
+
 def imports(path):
     """(line, module as a dotted name) of every import of a file, inside functions too, relative ones made absolute."""
     package = ["stabilab", *path.relative_to(PACKAGE).parent.parts]
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    for node in ast.walk(tree_of(path)):
         if isinstance(node, ast.Import):
             yield from ((node.lineno, alias.name, node.col_offset) for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
@@ -126,23 +133,18 @@ def imports(path):
                 yield node.lineno, ".".join(whole if inside else stem), node.col_offset
 
 
-@pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(PACKAGE)))
-def test_nothing_rests_on_an_assert(path):
+def test_nothing_rests_on_an_assert():
     # `python -O` leaves asserts out: a step of a proof would be gone
-    found = [node.lineno for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))) if isinstance(node, ast.Assert)]
-    assert not found
+    assert not [f"{path}:{node.lineno}" for path in MODULES for node in ast.walk(tree_of(path)) if isinstance(node, ast.Assert)]
 
 
-@pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(PACKAGE)))
-def test_heavy_packages_are_imported_inside_functions_only(path):
-    at_top = [(line, name) for line, name, column in imports(path) if column == 0 and name.split(".")[0] in HEAVY]
-    assert not at_top
+def test_heavy_packages_are_imported_inside_functions_only():
+    assert not [f"{path}:{line} {name}" for path in MODULES for line, name, column in imports(path) if column == 0 and name.split(".")[0] in HEAVY]
 
 
-@pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(PACKAGE)))
-def test_only_show_draws_and_writes_files_of_pictures(path):
-    if path.relative_to(PACKAGE).parts[0] != "show":
-        assert not [(line, name) for line, name, _ in imports(path) if name.split(".")[0] in DRAWING]
+def test_only_show_draws_and_writes_files_of_pictures():
+    assert not [f"{path}:{line} {name}" for path in MODULES if path.relative_to(PACKAGE).parts[0] != "show"
+                for line, name, _ in imports(path) if name.split(".")[0] in DRAWING]
 
 
 def loaded_by(*arguments) -> set[str]:

@@ -1,12 +1,14 @@
 """The same problem twice: as stabilab's scene and as an oracle's model. (The only file here that imports stabilab.)"""
 from __future__ import annotations
 
+from functools import lru_cache
+
 import mpmath as mp
 import numpy as np
 
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
 from tests.oracles import model
-from tests.oracles.energy import Reduced
+from tests.oracles.energy import motion_of
 
 WORDS = {"bounded": 0, "spin-up": 1, "separatrix": 2, "equilibrium": 3, "undecided": 4}
 PAPER_BODY = (2000.0, 1500.0, 1000.0)  # Amer et al. 2024, section "Numerical results"
@@ -38,16 +40,21 @@ def brink(problem, perpendicular, distance, sense=1, digits=60):
     state = [0.0, 0.0, 0.0]
     state[(axis + 1) % 3], state[(axis + 2) % 3] = perpendicular
     with mp.workdps(digits):
-        motion = Reduced(problem, state, digits)
-        forward = 1 if motion.tilt > 0 else -1
-        if motion.kind == "elliptic":
-            heights = [-motion.W(t) for t, kind in motion._ahead(forward)[0] if kind == "saddle"]
-        else:
-            heights = [-motion.W(t) for t, kind in motion.stationary() if kind == "saddle"]
-        if not heights or max(heights) <= 0:
+        height = barrier_ahead(problem, tuple(map(float, state)), digits)
+        if height is None:
             return None
-        state[axis] = float(sense * mp.sqrt(2 * max(heights)) * (1 + mp.mpf(distance)))
+        state[axis] = float(sense * mp.sqrt(2 * height) * (1 + mp.mpf(distance)))
     return tuple(state)
+
+
+@lru_cache(maxsize=512)
+def barrier_ahead(problem, state, digits):
+    """Height over a state without spin of the barrier in the torque's direction; None where none stands higher."""
+    motion = motion_of(problem, state, digits, None)
+    forward = 1 if motion.tilt > 0 else -1
+    marks = motion._ahead(forward)[0] if motion.kind == "elliptic" else motion.stationary()
+    heights = [-motion.W(t) for t, kind in marks if kind == "saddle"]
+    return max(heights) if heights and max(heights) > 0 else None
 
 
 def as_floats(rows):
