@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 
@@ -87,7 +88,7 @@ def tilt(scene, state, angle: float | None = None, rate=None, case=None, exact: 
     exactly = time_to(scene, state, **question, exact=exact, work=WORK)
     not_before = stays_below(scene, state, least, *cone.reach())
     azimuths, times, followed = _search(scene, state, limit, cone)
-    found = {"low": None, "high": None, "level": "run", "azimuth": None, "torque": None}
+    found: dict[str, Any] = {"low": None, "high": None, "level": "run", "azimuth": None, "torque": None}
     if np.isfinite(times).any():
         azimuth = float(azimuths[np.argmin(times)])
         torque = cone.at(azimuth)

@@ -25,7 +25,7 @@ class CircleLandscape(ConicLandscape):
     turn = TURN
 
     @property
-    def may_rotate(self) -> bool:
+    def may_rotate(self) -> bool:  # type: ignore[override]  # a constant of the other geometries
         """Without a torque a motion over all barriers goes round for ever."""
         return self.sense == 0
 

@@ -1,6 +1,9 @@
 """Barriers and wells along the orbits of many states at once: what the three geometries have in common, and circle and hyperbola."""
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 
 from .conic import Conic
@@ -19,6 +22,9 @@ class Landscape:
     Places are (X, Z) on a circle, (X + Z, X - Z) on a hyperbola, (omega_j, omega_k) on a parabola.
     """
 
+    start: Callable[..., Any]  # what a geometry says of itself
+    critical: Callable[..., Any]
+    invariant: Callable[..., Any]
     conic: Conic | None = None
     unit = 1.0  # turn about the axis per theta, signed as the reflection
     turn = np.inf  # after so much theta an orbit comes to the same place again

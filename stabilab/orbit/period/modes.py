@@ -1,6 +1,8 @@
 """Second divided differences of the potential, mode by mode, without cancellation."""
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from ..landscape import Landscape
@@ -9,6 +11,7 @@ from ..landscape import Landscape
 class Modes:
     """V around the middle of an interval as a sum of modes, for exact second divided differences; data: (k, n) their coefficients."""
 
+    about: Callable[..., Modes]  # of each geometry: the modes about the middles of intervals
     mirrored = False  # whether sums over mirrored pairs of nodes serve
 
     def __init__(self, data):
