@@ -22,6 +22,8 @@ Digits = Annotated[int | None, typer.Option(metavar="N", help="Reach N digits (1
                                                                  "exit 5 where they are not reached. Without it 10 are the aim.")]
 Follow = Annotated[str | None, typer.Option(metavar="T", help="How long to follow a motion that only a run with a certificate decides (torque "
                                                              "off the principal axes), with a unit or in the time of the case. Default: a second of work.")]
+Prove = Annotated[bool, typer.Option("--certify", help="Enclose the way of a motion that has to be followed, so that its fate is proved; classify --certify "
+                                                        "writes the proof down.")]
 Tilt = Annotated[str | None, typer.Option(metavar="ANGLE", help="What a tilt of the torque by up to so much, \"1 deg\", does to a motion that a torque on an "
                                                                "axis keeps bounded. By itself where the case states a misalignment or [limits].")]
 Strict = Annotated[bool, typer.Option("--strict", help="Exit with 3 where a fate is undecided or an approximate law does not hold "
@@ -153,14 +155,15 @@ def extremes(cases: CaseFiles, json: Json = False,
 
 
 @app.command()
-def fate(cases: CaseFiles, json: Json = False, digits: Digits = None, strict: Strict = False, follow: Follow = None, tilt: Tilt = None):
+def fate(cases: CaseFiles, json: Json = False, digits: Digits = None, strict: Strict = False, follow: Follow = None, tilt: Tilt = None,
+         certify: Prove = False):
     """Say what becomes of each motion, and by how much.
 
     Digits are those of the margin in energy; the label itself is certain.
 
     Example: stabilab fate cases/minor-axis-100.toml --digits 30
     """
-    _tell("fate", cases, digits, json, strict, follow=follow, tilt=tilt)
+    _tell("fate", cases, digits, json, strict, follow=follow, tilt=tilt, proof=certify)
 
 
 @app.command()
@@ -631,12 +634,12 @@ def _say_laws(validities):
             _say(validity.words)
 
 
-def _tell(question, paths, digits, json, strict, csv=False, follow=None, tilt=None):
+def _tell(question, paths, digits, json, strict, csv=False, follow=None, tilt=None, proof=False):
     """Answer a question for every case and say how many digits of it are known."""
     from .show.text import answers, law
     from .show.text import digits as shown
     answered = [(case, found, _told(question, case, found, digits)) for case in _load(paths, motion=True)
-                for plain in [_motion(case, brief=question == "extremes", follow=follow)]
+                for plain in [_motion(case, brief=question == "extremes", follow=follow, proof=proof)]
                 for found in [_tilted(case, plain, tilt) if question == "fate" else plain]]
     boxes, over = _over_boxes([case for case, *_ in answered], *(["fate"] if question == "fate" else []))
     if json:

@@ -160,6 +160,16 @@ def test_spin_up_off_the_axes_is_the_first_line_with_its_certificate(stabilab):
     assert "bounds for all times" in stabilab("extremes", OFF_AXIS)[1]
 
 
+def test_spin_up_off_the_axes_is_proved_where_that_is_asked_for(stabilab, tmp_path):
+    code, out, err = stabilab("fate", OFF_AXIS, "--certify")
+    assert code == 0 and not err and out.startswith("off-axis-two: SPINS UP about axis 3, positive sense (proved)\n")
+    path = tmp_path / "c.json"
+    code, out, _ = stabilab("classify", OFF_AXIS, "--certify", "--out", path)
+    assert code == 0 and "SPINS UP about axis 3, sense +1 (proved)" in out
+    code, out, _ = stabilab("verify", path, "--case", OFF_AXIS, "--strict")
+    assert code == 0 and "the spin grows for ever" in out and out.rstrip().endswith("proved")
+
+
 @pytest.mark.parametrize("time", ["-1", "x", "3 kg"])
 def test_a_time_to_follow_that_is_none_is_bad_input(stabilab, time):
     code, out, err = stabilab("fate", OFF_AXIS, "--follow", time)

@@ -4,10 +4,14 @@ import random
 from fractions import Fraction as F
 
 import mpmath
+import numpy as np
 import pytest
 
 from stabilab import Body, ConstantTorque, ScaledGyrostat, Scene
 from stabilab.answers.certificate import certificate
+from stabilab.unreduced.spin_up.certificate import Certifier
+from stabilab.unreduced.spin_up.fixed_centre import FixedCentre
+from stabilab.unreduced.spin_up.form import forms_of
 from stabilab.verify import verify
 from stabilab.verify.numbers import Malformed, ball
 from stabilab.verify.precision import working
@@ -178,3 +182,23 @@ def test_what_is_no_spin_up_is_malformed(bad):
     with pytest.raises(Malformed):
         spin_up_of(bad)
 
+
+
+@pytest.mark.parametrize("orders", [(4, 6), (12, 14), (16, 18)])
+def test_what_the_test_in_doubles_finds_holds_in_balls(orders):
+    """Constants found by the analysis' test, whose rounding is bounded beforehand, put into the checker's inequality, in balls."""
+    rng, seen = random.Random(50), 0
+    while seen < 6:
+        scene = random_scene(rng, rng.choice((0, .1, 1)))
+        for form in forms_of(scene):
+            state = np.array(sphere(rng, 2))
+            state[form.axis] = form.sense * rng.choice((3, 6, 12))
+            found = Certifier(FixedCentre(form), orders)(state[None])
+            if not found.good[0]:
+                continue
+            seen += 1
+            with working(128):
+                made = Inequality(form_about(rates_of(scene), form.axis, form.sense), orders)
+                cone, least, gain = (F(float(v[0])) for v in (found.A, found.z, found.eta))
+                faults, true = made.faults([ball(F(v)) for v in state.tolist()], cone / abs(F(form.scale[0])), least)
+                assert not faults and true >= ball(gain / F(form.D1) * (1 - F(1, 10**12)))
