@@ -5,6 +5,7 @@ changes on the step's own interpolant, sixteen to a step.
 """
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,6 +16,7 @@ from .to_heyoka import TAYLOR_TOLERANCE, heyoka_available, taylor_events
 from .trajectory import ATOL_SHARE, FALLBACK_RTOL
 
 TOGETHER = 400  # steps between looks at what was found
+LONGEST = 1e6  # natural times a step may take: a motion that is a polynomial of time has steps without end, whose powers overflow
 
 
 @dataclass(frozen=True)
@@ -39,8 +41,9 @@ def _by_taylor(equations, forms, state, t_max, steps, tolerance):
     with taylor_events(forms, tolerance) as (integrator, found), np.errstate(all="ignore"):
         integrator.time, done = 0.0, 0
         integrator.state[:] = state
+        longest = _longest(equations, state)
         while True:
-            outcome, _, _, taken, *_ = integrator.propagate_until(t_max, max_steps=min(TOGETHER, steps - done))
+            outcome, _, _, taken, *_ = integrator.propagate_until(t_max, max_steps=min(TOGETHER, steps - done), max_delta_t=longest)
             done += taken
             hits = [t for t, *_ in found if t > 0]
             if hits:
@@ -48,6 +51,14 @@ def _by_taylor(equations, forms, state, t_max, steps, tolerance):
             alive = np.isfinite(integrator.state).all()
             if outcome.name != "step_limit" or done >= steps or not alive:
                 return FirstRoot(None, float(integrator.time) if alive else 0.0, outcome.name == "time_limit" and bool(alive))
+
+
+def _longest(equations, state) -> float:
+    """The longest step, by the rates of the start and the roots of their changes."""
+    with np.errstate(all="ignore"):
+        changes = np.abs(np.asarray(to_numpy(equations)(state), float)[:3])
+    size = max(float(np.abs(state[:3]).max()), math.sqrt(float(changes.max())) if np.isfinite(changes).all() else 1.0)
+    return LONGEST / size if size > 0 else math.inf
 
 
 def _by_scipy(equations, forms, state, t_max, steps, tolerance):

@@ -72,7 +72,10 @@ class _Attempt:
                 return self._answer(until, False)
             if proving and flow.error.bit_length() > flow.bits - KEPT:
                 proving, searches = False, [Search(one, exactly=False) for one in self.thresholds]
-            piece = flow.step()
+            try:
+                piece = flow.step()
+            except OverflowError:  # the error of one step is beyond doubles: what was proved before stays
+                return self._answer(until, False)
             hit = [search.take(piece) for search in searches]
             now = flow.now
             if proving:

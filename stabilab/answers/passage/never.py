@@ -27,12 +27,18 @@ def never(scene, state, exact, limit) -> tuple[Found | None, float | None]:
     if kind not in REDUCED:
         return None, None
     row = np.array(state, float)
+    if kind == "aligned" and not _repeats(scene, row):
+        return None, None  # its extremes over all time are not known
     if limit.beyond(extremes(scene, row).tolist(), SLACK):
         return Found(math.inf, math.inf, "exact", f"{limit.words}: never, the extremes over all time stay below it"), None
     if fate(scene, row).labels != Fate.BOUNDED:
         return None, None
     repeats = float(period(scene, row)) if kind == "orbit" else math.inf
     return None, repeats * (1 + SLACK) if 0 < repeats < math.inf else None
+
+
+def _repeats(scene, row) -> bool:
+    return bool(fate(scene, row).labels == Fate.BOUNDED) and math.isfinite(float(period(scene, row)))
 
 
 def after_a_period(limit) -> Found:

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
+from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal, localcontext
 
 
 @dataclass(frozen=True)
@@ -24,7 +24,9 @@ def bracket(low, high) -> tuple[str, str]:
     most = max(0, 5 - math.floor(math.log10(high)))
     decimals = most if not high > low else min(most, max(0, 1 - math.floor(math.log10(high - low))))
     step = Decimal(1).scaleb(-decimals)
-    return str(Decimal(low).quantize(step, ROUND_FLOOR)), str(Decimal(high).quantize(step, ROUND_CEILING))
+    with localcontext() as context:
+        context.prec = 800  # of any double
+        return str(Decimal(low).quantize(step, ROUND_FLOOR)), str(Decimal(high).quantize(step, ROUND_CEILING))
 
 
 def number(value, digits=4) -> str:

@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 import stabilab
 from stabilab.errors import InputError
@@ -208,3 +209,25 @@ def test_limits_that_are_none_are_refused(question, words):
     with pytest.raises(InputError) as raised:
         stabilab.time_to(TILTED, [0.1, 0.05, 0.9], **question)
     assert words in str(raised.value)
+
+
+def test_a_pure_spin_far_from_its_limit_reaches_it_when_the_torque_has_turned_it():
+    """omega2 = omega2(0) + M2 t/D2 and nothing else: |omega2| = 100 at t = (100 + 1.2) D2/|M2|, by hand. A series of two terms has no end of its own."""
+    scene = stabilab.Scene(stabilab.Body((5, "14.25", 14)), stabilab.ConstantTorque((0, -1, 0)))
+    for work in (0, 10**6):
+        found = stabilab.time_to(scene, [0, 1.2, 0], rate=100, work=work)
+        assert found.low <= 101.2 * 14.25 <= found.high < found.low * (1 + 1e-9)
+
+
+def test_a_torque_between_equal_moments_that_spins_up_is_followed():
+    """A wheel along the torque: no extremes over all time, and yet a first time."""
+    scene = stabilab.Scene(stabilab.Body((5, 9, 9)), stabilab.Gyrostat((0, 1, 0)), stabilab.ConstantTorque((0, -1, 1)))
+    found = stabilab.time_to(scene, [0.3, 1.2, 0], rate=2)
+    run = solve_ivp(lambda t, w: euler((5, 9, 9), (0, 1, 0), (0, -1, 1), w), (0, found.high * 1.01), [0.3, 1.2, 0], "DOP853", rtol=1e-12, atol=1e-14,
+                    dense_output=True)
+    assert found.low < np.inf and np.linalg.norm(run.sol(found.low)) == pytest.approx(2, rel=1e-8)
+
+
+def euler(D, l, M, w):
+    h = np.multiply(D, w) + l
+    return (np.asarray(M) - np.cross(w, h)) / D
