@@ -1,8 +1,8 @@
 """Validated steps of a gyrostat under a constant torque, as straight lines of floats that numba compiles.
 
-The motion w' = f(w), f_i = kappa_i w_j w_k + rho_i w_k + sigma_i w_j + m_i (cyclic), from every start of the set c + B r, |r_i| <= rad_i, is enclosed one
-step h further by a set of the same kind: B goes along with the derivative of the motion, and where its columns become too nearly parallel it is made orthogonal
-(Lohner). The centre c is a sum of two doubles.
+The motion w' = f(w), f_i = kappa_i w_j w_k + rho_i w_k + sigma_i w_j + m_i (cyclic), from every start of the set c + B r, |r_i| <= rad_i,
+is enclosed one step h further by a set of the same kind: B goes along with the derivative of the motion, and where its columns become too
+nearly parallel it is made orthogonal (Lohner). The centre c is a sum of two doubles.
 
 A step. p = sum of a_n s^n, n <= N, is the Taylor polynomial of the motion w of the centre as it is computed; its residue is d = p' - f(p).
 Below degree N the residue is rounding alone: the computed coefficients obey the recursion but for FINE times the sum of the sizes of what

@@ -19,13 +19,13 @@ from ...physics.coefficients import effective
 from ..spin_up.clock import Trap
 from ..spin_up.fields import natural, tests_of
 from ..spin_up.result import SpinUp
-from .run import STEPS, Course
+from .run import Course, allowed
 
 LATER = (1.0, 1.0625, 1.25, 1.5, 2.0)  # times, over that of the certified run, at which the inequality is asked again
 WIDER = 1 + 2.0**-40
 
 
-def proved(scene, state, found: SpinUp, steps: int = STEPS, bits: int | None = None) -> SpinUp:
+def proved(scene, state, found: SpinUp, steps: int | None = None, bits: int | None = None) -> SpinUp:
     """The answer of `spin_up` for the motion from a state (three exact numbers: floats at their word, Fractions, decimals in strings), with
     level "proved" where its way can be enclosed in so many validated steps and the inequality holds for the whole set there; else as it was
     found, its cause told what hindered. bits: as of `enclosure.run.Course`."""
@@ -65,7 +65,7 @@ class _Way:
         if self.course is None:
             middle = np.array([float(v) for v in self.start])
             return middle, _up([abs(v - Fraction(m)) for v, m in zip(self.start, middle.tolist())])
-        self.course.advance(t, steps - self.course.steps)
+        self.course.advance(t, (allowed(self.course.bits) if steps is None else steps) - self.course.steps)
         now = self.course.now
         self.t, self.steps, self.why = now.t, now.steps, now.reason
         return (now.middle, _up(now.radius + np.abs(now.rest))) if now.status == "enclosed" else None

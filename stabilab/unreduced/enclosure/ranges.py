@@ -11,7 +11,7 @@ from functools import lru_cache
 import numpy as np
 
 from . import kernel
-from .run import STEPS, Band, Course
+from .run import Band, Course, allowed
 
 PIECES = 8
 
@@ -35,9 +35,10 @@ def ranges(band: Band) -> np.ndarray:
     return np.stack([(values.min(axis=2) - blur).min(axis=0), (values.max(axis=2) + blur).max(axis=0)], axis=1)
 
 
-def ranges_until(scene, state, t: float, steps: int = STEPS) -> np.ndarray | None:
+def ranges_until(scene, state, t: float, steps: int | None = None) -> np.ndarray | None:
     """(3, 2) bounds of each rate over [0, t]; None where the steps do not reach. Arguments as of `run.enclose`."""
     course, out = Course(scene, state, t), np.array([[math.inf, -math.inf]] * 3)
+    steps = allowed(course.bits) if steps is None else steps
     while course.status == kernel.GOING and course.steps < steps:
         band = course.advance(t, steps - course.steps, band=True)
         if band is not None:

@@ -22,7 +22,7 @@ from .digits import DigitSteps
 from .door import advance
 from .scene import energy_of, rows_of, twofold
 
-STEPS = 200_000  # at most, unless more are asked for: some six seconds compiled
+STEPS, SLOW_STEPS = 200_000, 2_000  # at most, unless others are asked for: compiled some three seconds, else some ten
 CHUNK = 512  # steps kept at a time between which the band is asked for
 TOLERANCE = 2.0**-88  # of a step's tail, beside the state: as small as the rounding of its coefficients
 BITS = 104  # of the compiled steps
@@ -120,12 +120,13 @@ class Course:
         self._grain = math.ulp(self._end)
         self._work = Doubles(own, start, self.unit) if bits is None and advance() else DigitSteps(own, start, self.unit, bits or 128)
 
-    def advance(self, t: float, steps: int = STEPS, band: bool = False) -> Band | None:
+    def advance(self, t: float, steps: int | None = None, band: bool = False) -> Band | None:
         """Carry the motion on to the time t (taken down to the grain of time), by at most so many steps, at most CHUNK where the band is asked for.
 
-        Returns the band where it is asked for and a step was made."""
+        steps: None for as many as take some seconds, those made already counted. Returns the band where it is asked for and a step was made."""
         t = min(t * self.unit, self._end)
         t = float(int(t / self._grain)) * self._grain
+        steps = max(0, allowed(self.bits) - self.steps) if steps is None else steps
         size = min(steps, CHUNK) if band else 0
         times, polynomials, radii = np.empty(size), np.empty((size, 3, kernel.ORDER + 1)), np.empty((size, 3))
         begun = self.t * self.unit
@@ -140,7 +141,17 @@ class Course:
         """Where the motion is."""
         middle, rest, radius = self._work.box()
         status = "enclosed" if self.status == kernel.DONE else "stopped"
-        return Enclosed(self.t, middle * self.unit, rest * self.unit, radius * self.unit, self.steps, status, WHY[self.status], self._work.bits)
+        return Enclosed(self.t, middle * self.unit, rest * self.unit, radius * self.unit, self.steps, status, WHY[self.status], self.bits)
+
+    @property
+    def bits(self) -> int:
+        """Of the centre."""
+        return self._work.bits
+
+
+def allowed(bits: int) -> int:
+    """How many steps take some seconds, with a centre of so many bits."""
+    return STEPS if bits == BITS else SLOW_STEPS
 
 
 class Doubles:
@@ -162,12 +173,15 @@ class Doubles:
         return self.centre.copy(), self.low_centre.copy(), np.abs(self.B) @ self.rad * kernel.WIDER
 
 
-def enclose(scene, state, t: float, bits: int | None = None, steps: int = STEPS, band: bool = False) -> Enclosed:
-    """The motion from a state enclosed at the time t > 0, by at most so many steps. Arguments as of `Course`. band: keep what holds it between the times too.
+def enclose(scene, state, t: float, bits: int | None = None, steps: int | None = None, band: bool = False) -> Enclosed:
+    """The motion from a state enclosed at the time t > 0, by at most so many steps (None: as many as take some seconds). Arguments as of
+    `Course`. band: keep what holds it between the times too.
 
     Raises InputError for scenes with other effects than wheel and constant torque, and for states and times that are none.
+   
     """
     course, bands = Course(scene, state, t, bits), []
+    steps = allowed(course.bits) if steps is None else steps
     while course.status == kernel.GOING and course.steps < steps:
         bands.append(course.advance(t, steps - course.steps, band))
     found = course.now
