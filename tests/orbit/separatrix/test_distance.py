@@ -10,8 +10,11 @@ from stabilab.orbit.conic import Conic
 from stabilab.orbit.reduction import reduce
 from stabilab.orbit.separatrix.distance.ask import distance_of
 from stabilab.orbit.separatrix.distance.curves import Hyperbola
+from stabilab.orbit.separatrix.distance.far_chart import FarChart
+from stabilab.orbit.separatrix.distance.long_loops import loops_of
 from stabilab.orbit.separatrix.distance.loop_chart import Chart
 from stabilab.orbit.separatrix.distance.point import Seen
+from stabilab.orbit.separatrix.distance.turn_chart import TurnChart
 from tests.oracles.pairs import physical
 
 
@@ -37,6 +40,30 @@ def test_the_chart_beside_a_state_errs_by_less_than_its_bounds_however_alike_two
                     assert abs(p.apart - apart) <= p.off[0] and abs(p.phi - phi) <= p.off[1]
                     seen_charts += 1
     assert seen_charts > 200
+
+
+def test_charts_of_long_loops_err_by_less_than_their_bounds():
+    """Values and slopes in doubles against the place and the potential in 256 bits, which are other formulas."""
+    rng, seen_points = np.random.default_rng(12), {FarChart: 0, TurnChart: 0}
+    while min(seen_points.values()) < 100:
+        moments, wheel, state = rng.uniform(1, 2, 3), rng.normal(size=3), rng.normal(size=3) * 0.1
+        axis = int(np.argsort(moments)[1])
+        wheel[axis] = 0
+        reduction = reduce(physical(moments, wheel, [rng.normal() * (n == axis and rng.random() < 0.5) for n in range(3)])[0])
+        if reduction is None or reduction.e < 0:
+            continue
+        seen, conic = Seen.of(reduction, state.tolist()), Conic(reduction)
+        curves = [Hyperbola(seen, *conic.sharp_ends(piece), piece.sign) for piece in conic.pieces if piece.barrier]
+        for chart in (chart for curve in curves for chart in loops_of(seen, curve, curve.low, curve.high, 100.0)):
+            for _ in range(10 * (type(chart) in seen_points)):
+                t, y = (float(rng.uniform(low, min(high, 30))) for low, high in (chart.t, chart.y))
+                if not chart.holds(t, y) or chart.folded(t, 0.0, y, 0.0):
+                    continue
+                p, exact = chart.point(t, y), chart.exact_point(t, y)
+                assert abs(p.apart - exact.apart) <= p.off[0] and abs(p.phi - exact.phi) <= p.off[1]
+                slopes = [(p.apart_t, exact.apart_t), (p.apart_y, exact.apart_y), (p.phi_t, exact.phi_t), (p.phi_y, exact.phi_y)]
+                assert all(abs(a - b) <= off for (a, b), off in zip(slopes, p.rough)), (chart, t, y)
+                seen_points[type(chart)] += 1
 
 
 def exact_point(mp, curve, t, y):
@@ -89,11 +116,21 @@ def test_bound_and_witness_meet_at_the_tips_of_cones_and_beside_the_folds_of_far
     ((1.2429607089343842, 1.2429618285607196, 1.0774172052746194), (0, 0, -300680.3833442784), (0.05248724485989692, 0, 0),
      (5.00238728361977, -0.21685189881815653, -0.11852856533633595)),
     ((1.3577243346918109, 1.2641610423199228, 1.3577243023289156), (0.0013684417647415105, -988.3521929006432, 0), (0, 0, -0.9165233236148685),
-     (1.157434860394527, 4.03197807466792, -2.4550689216984347))])
+     (1.157434860394527, 4.03197807466792, -2.4550689216984347)),
+    ((1.9947841924869367, 1.663839618515029, 1.8797443467606212), (0.7974582055588898, -2.1079932791879634, 0), (0, 0, 0),
+     (0.002589834840908386, -0.0100443715920583, 0.009826799926438293))])
 def test_bound_and_witness_meet_where_loops_run_far_along_an_invariant_plane(inertia, wheel, torque, state):
     """Told by their saddles, such loops move by e^y: brackets were 8e-9 to 60 % wide, or no point was found at all."""
     found = distance_of(reduce(physical(inertia, wheel, torque)[0]), state)
     assert found.settled and np.linalg.norm(np.array(found.witness) - state) == pytest.approx(found.upper, rel=1e-9)
+
+
+def test_newtons_method_that_leaves_a_branch_is_no_end_of_the_search():
+    """Its steps used to leave the saddles of the branch, and the distance was told as unknown; that of the image was 1.292."""
+    scene = physical((1.2958441810930759, 1.7178832789325895, 1.3916007488529667), (0.5618419444540199, -0.47551310516025364, 0),
+                     (0, 0, 0.3575622571421843))[0]
+    found = distance_of(reduce(scene), (-1.631349547138242, -0.6426082392398669, -7.664385358239262))
+    assert found.settled and found.upper == pytest.approx(1.29215665158, rel=1.1e-9)  # of the image under (1, 3, -2)
 
 
 def test_a_branch_that_ends_beside_a_plane_is_not_taken_to_reach_it():

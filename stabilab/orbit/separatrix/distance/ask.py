@@ -14,9 +14,9 @@ from ....numbers.double_ball import Unclear
 from ....physics.alignment import aligned
 from ...ball_orbit import Orbit
 from ...reduction import reduce
+from ..result import ENDED, NO_SEPARATRIX, UNKNOWN, Apart
 from .on_conics import on_conic
 from .parabolas import on_parabolas
-from .result import ENDED, NO_SEPARATRIX, UNKNOWN, Apart
 
 INF = math.inf
 

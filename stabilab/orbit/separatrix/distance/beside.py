@@ -12,7 +12,7 @@ FAR = 8.0  # squared distances at the edge of the neighbourhood, in units of the
 class Beside:
     """Offsets from the exact place (t, y) of a chart, within its rectangle."""
 
-    sharpest = True
+    sharpest, from_saddle = True, False
 
     def __init__(self, chart, t, y, dt, dy):
         self.chart, self.t0, self.y0, self.seen = chart, t, y, chart.seen

@@ -37,6 +37,8 @@ class Reach(NamedTuple):
 class FarChart(Chart):
     """xi (less the state's) and y over a rectangle, for the saddles of a reach; flip: -1 in the mirror image."""
 
+    from_saddle = False
+
     def __init__(self, seen, reach, t, y, flip):
         super().__init__(seen, None, t, y)
         g, exact = self.here, seen.exact

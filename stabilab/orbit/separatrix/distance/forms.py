@@ -33,8 +33,8 @@ class Form(NamedTuple):
 
 
 class Box(NamedTuple):
-    """A box |t - middle| <= dt, |y - middle| <= dy of a chart: its middle y, the point there, bounds of the second derivatives of R and
-    phi, and the least and greatest W = sqrt(phi) of it; swing: how far phi goes from the middle's."""
+    """A box |t - middle| <= dt, |y - middle| <= dy of a chart: its middle y (0 where no saddle stands at y = 0), the point
+    there, bounds of the second derivatives of R and phi, and the least and greatest W = sqrt(phi) of it; swing: how far phi goes from the middle's."""
 
     y: float
     dt: float

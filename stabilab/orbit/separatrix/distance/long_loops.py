@@ -10,6 +10,7 @@ import math
 from .curves import Hyperbola
 from .far_chart import FarChart, Reach
 from .loop_chart import Chart
+from .turn_chart import TurnChart
 
 NEAR = 1.0  # the way along loops up to which the place on the branch is a good parameter
 SHORT = 3.0  # loops that reach no farther need no other
@@ -59,13 +60,24 @@ class _Side:
         for a, b, turning in self.pieces(low, high):
             way = self.way(a, b)
             if way > NEAR and turning:
-                way = min(way, max(math.log(self.most / NOWHERE), SHORT))
-                yield Chart(self.seen, self.curve, (a, b), (-way, -NEAR) if self.flip < 0 else (NEAR, way))
+                yield from self._beside_turn(a, b, way)
             elif way > NEAR:
                 reach = self._reach(a, b)
                 end = NO_END if self.on_plane(a, b, turning) else self._end(reach, way)
                 if end > NEAR:
                     yield FarChart(self.seen, reach, (-self.wide, self.wide), (NEAR, end), self.flip)
+
+    def _beside_turn(self, a, b, way):
+        low, high = self._values(a, b, self.flip)
+        if not isinstance(self.curve, Hyperbola) or not low * high > 0:
+            way = min(way, max(math.log(self.most / NOWHERE), SHORT))
+            yield Chart(self.seen, self.curve, (a, b), (-way, -NEAR) if self.flip < 0 else (NEAR, way))
+            return
+        chart = TurnChart(self.seen, self.curve, self.flip, (a, b))
+        least = min(abs(low), abs(high)) * math.exp(NEAR) * (1 - 1e-9)
+        ends = (max(chart.xi0 - self.wide, least), chart.xi0 + self.wide) if low > 0 else (chart.xi0 - self.wide, min(chart.xi0 + self.wide, -least))
+        if ends[0] < ends[1]:
+            yield chart.over(*ends)
 
     def pieces(self, low, high):
         """(a, b, turning): the branch cut beside places where xi is stationary."""

@@ -22,7 +22,8 @@ from .sharp import loop_place, sharp_place, sharp_point
 class Chart:
     """One sheet over a rectangle of (t, y)."""
 
-    sharpest = False
+    sharpest = False  # whether its points are exact in any case
+    from_saddle = True  # whether y = 0 is the saddle, where phi and its slope vanish
 
     def __init__(self, seen, curve, t, y):
         self.seen, self.curve, self.t, self.y, self.here = seen, curve, t, y, seen.plain
@@ -54,6 +55,10 @@ class Chart:
     def folded(self, t, dt, y, dy):
         """Whether the parameters may turn back over a box, so that no bound is known."""
         return False
+
+    def steep(self, t, dt, y, dy):
+        """Whether a box of which no bound is known is better halved in t."""
+        return dt >= dy
 
     def on_sheet(self, t, y):
         return self, t, y

@@ -35,6 +35,8 @@ def descent(chart, t, y, w0, steps=30, exact=False):
         t, y = min(max(t + step_of(share * step[0]), t0), t1), min(max(y + step_of(share * step[1]), y0), y1)
         gap, k = gap + share * step[2], k + share * step[3]
         gap = gap if w0 + gap >= 0 else -2 * w0 - gap
+        if chart.folded(float(t), 0.0, float(y), 0.0):
+            return
         p = point(t, y)
         if not all(map(math.isfinite, (gap, k, p.apart, p.phi))):
             return

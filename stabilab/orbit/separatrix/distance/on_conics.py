@@ -16,11 +16,11 @@ from typing import Any, NamedTuple
 from ....numbers.balls import DOUBLE_BITS
 from ...conic import Conic
 from ...fate.balls import decide
+from ..result import NO_SEPARATRIX, Apart
 from .curves import Hyperbola, Straight
 from .long_loops import loops_of, planes_met
 from .loop_chart import Chart
 from .point import UNIT, Seen
-from .result import NO_SEPARATRIX, Apart
 from .search import nearest
 from .shade import Shade
 

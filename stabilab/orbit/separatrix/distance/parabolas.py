@@ -13,10 +13,10 @@ from __future__ import annotations
 import math
 from fractions import Fraction
 
+from ..result import NO_SEPARATRIX, Apart
 from .bends import Span
 from .loop_chart import Chart
 from .point import UNIT, Point, gap_of, seen_as, square_of
-from .result import NO_SEPARATRIX, Apart
 from .search import nearest
 from .sharp import parabola_place
 

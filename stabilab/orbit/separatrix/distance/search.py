@@ -132,6 +132,8 @@ class _Search:
         if p.phi > 0 and p.apart + p.gap * p.gap < self.goal:
             self.better(chart, t, y)
         bends = chart.bends(t, dt, y, dy)
+        if not math.isfinite(sum(abs(middle) + radius for middle, radius in bends)):  # beyond the doubles nothing is known but D >= 0
+            return 0.0, 0 if chart.steep(t, dt, y, dy) else 1
         low, way, rough = self._bound(chart, t, dt, y, dy, p, bends)
         if low < self.goal and rough and not chart.sharpest:
             low, way, _ = self._bound(chart, t, dt, y, dy, chart.exact_point(t, y), bends)
@@ -144,7 +146,7 @@ class _Search:
         high = p.phi + swing
         if high < 0:
             return INF, 0, False
-        box = Box(y, dt, dy, p, r, f, swing, math.sqrt(max(p.phi - swing, 0.0)), math.sqrt(high))
+        box = Box(y if chart.from_saddle else 0.0, dt, dy, p, r, f, swing, math.sqrt(max(p.phi - swing, 0.0)), math.sqrt(high))
         form = first = box.flat(w0)
         best = form.least(dt, dy)
         if best < self.goal:

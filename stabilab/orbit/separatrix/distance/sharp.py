@@ -108,6 +108,19 @@ def far_place(numbers, g, reach, flip, t, y) -> Place:
                  phi, k * (pull_xi + pull_eta * eta_t - own * less), k * (mu + pull_eta * eta_y + own * r))
 
 
+def turn_place(g, flip, saddle, t) -> Place:
+    """On a hyperbola's loops by xi and the saddle (x, z, x_t, z_t)."""
+    G, mu, d, k = g["G"], flip * g["mu"], flip * g["d"], 2 / g["n2"]
+    e1, e2, xi = (g["c"] + d) / 2, (d - g["c"]) / 2, g["X"] + flip * g["Z"] + t
+    x, z, x1, z1 = saddle
+    r, E, r1, E1 = x + flip * z, x - flip * z, x1 + flip * z1, x1 - flip * z1
+    eta, eta_t, eta_y = r * E / xi, -r * E / (xi * xi), (r1 * E + r * E1) / xi
+    gap, pull = eta - (g["X"] - flip * g["Z"]), G * eta / 4 - e2
+    phi = k * (mu * (xi / r).log() + xi * (G * xi / 8 + e1) + eta * (G * eta / 8 - e2) - r * (G * r / 8 + e1) - E * (G * E / 8 - e2))
+    return Place((t + gap) / 2, flip * (t - gap) / 2, (1 + eta_t) / 2, eta_y / 2, flip * (1 - eta_t) / 2, -flip * eta_y / 2, phi,
+                 k * (mu / xi + G * xi / 4 + e1 + pull * eta_t), k * (pull * eta_y - mu * r1 / r - (G * r / 4 + e1) * r1 - (G * E / 4 - e2) * E1))
+
+
 def parabola_place(g, t, y) -> Place:
     """On the loops of a parabola."""
     kappa, a = g["kappa"], g["a"]
