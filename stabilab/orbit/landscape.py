@@ -19,6 +19,11 @@ def angle_between(place, spot):
     return np.arctan2(spot[0] * place[1] - spot[1] * place[0], spot[0] * place[0] + spot[1] * place[1])
 
 
+def _discriminant(a, b, c, d):
+    """The terms of the discriminant of a cubic, highest power first."""
+    return 18 * a * b * c * d, -4 * b**3 * d, b**2 * c**2, -4 * a * c**3, -27 * a**2 * d**2
+
+
 class CircleLandscape(ConicLandscape):
     """place = (X, Z)."""
 
@@ -204,11 +209,13 @@ class ParabolaLandscape(Landscape):
 
     def beside_fold(self, place):
         """(n,) True where rounding of the place may make or unmake a pair of equilibria of its orbit."""
-        first, second, third = self.potential.derivatives(place)
-        a, b, c, d = third / 6, second / 2, first, self.potential.force(place)
-        terms = [18 * a * b * c * d, -4 * b**3 * d, b**2 * c**2, -4 * a * c**3, -27 * a**2 * d**2]
+        pot, (first, second, third) = self.potential, self.potential.derivatives(place)
+        steep, bent, _ = pot.derivative_terms(place)
+        cubic = third / 6, second / 2, first, pot.force(place)
+        blurred = cubic[0], *(np.abs(v) + ROUNDINGS * EPS * size for v, size in zip(cubic[1:], (bent / 2, steep, pot.terms(place))))
+        terms, most = _discriminant(*cubic), sum(map(np.abs, _discriminant(*blurred)))
         size = sum(map(np.abs, terms))
-        return (np.abs(sum(terms)) <= DOUBLE_ROOT * size) & (size > 0)
+        return (np.abs(sum(terms)) <= DOUBLE_ROOT * size + (most - size)) & (most > 0)
 
     def roughness(self, size):
         """Magnitude of the potential's terms, whose rounding limits a height."""

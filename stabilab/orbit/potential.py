@@ -8,6 +8,7 @@ digits next to a separatrix. The formulas serve arrays and Python floats alike; 
 from __future__ import annotations
 
 import math
+from types import SimpleNamespace
 
 EPS = 2.0**-52
 
@@ -183,6 +184,11 @@ class Parabola:
     def derivatives(self, place):
         """F', F'', F''' along the orbit."""
         return derivatives_on_parabola(self, *place)
+
+    def derivative_terms(self, place):
+        """Sizes of the terms of F', F'', F''': times the unit of rounding, their errors."""
+        sizes = SimpleNamespace(**{name: abs(value) for name, value in vars(self).items()})
+        return derivatives_on_parabola(sizes, abs(place[0]), abs(place[1]))
 
     def slope(self, place):
         return self.derivatives(place)[0]

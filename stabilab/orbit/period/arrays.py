@@ -56,7 +56,14 @@ def libration_period(land: Landscape, place, w, span=None):
     modes = modes_of(land, span.middle)
     values = (_circle_periods if modes.mirrored else _midpoint)(modes, half)
     clear = span.ok & clear_of_barriers(land, place, w, span, PERIOD_SHARE)
-    return values, clear & np.isfinite(values) & _sharp(modes, half)
+    return values, clear & np.isfinite(values) & _sharp(modes, half) & _well_placed(modes, half, span.blur)
+
+
+def _well_placed(modes, rho, blur):
+    """(n,) True where the rounding of both ends' offsets moves H, as far as it changes along the interval, by little."""
+    with np.errstate(all="ignore"):
+        values = np.array([modes.second_difference(rho, left, 1 - left) for left in (0.0, 0.5, 1.0)])
+        return blur.sum(axis=0) * np.ptp(values, axis=0) <= DIGITS * rho * values.min(axis=0)
 
 
 def _sharp(modes, rho):
@@ -66,7 +73,7 @@ def _sharp(modes, rho):
         good = True
         for left, power in ((0.0, 1), (1.0, 1), (0.5, 2)):
             value, terms = modes.second_difference(rho, left, 1 - left), modes.terms(rho, left, 1 - left)
-            good &= EPS * terms**power <= DIGITS * value**power
+            good &= (EPS * terms**power <= DIGITS * value**power) & (EPS * modes.rounding(rho, left, 1 - left) <= DIGITS * value)
         return good
 
 
@@ -123,7 +130,8 @@ def _pair_sums(modes, half, rows, narrow):
         size, first = size * 2 if first else size, last
         now = total * (TURN / size)
         if before is not None:
-            done = np.abs(now - before) <= ENOUGH * now
+            with np.errstate(invalid="ignore"):  # both infinite where rounding leaves no depth to the well: not settled here
+                done = np.abs(now - before) <= ENOUGH * now
             values[live[done]] = now[done]
             if done.all():
                 return values

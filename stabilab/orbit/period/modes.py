@@ -9,21 +9,27 @@ from ..landscape import Landscape
 
 
 class Modes:
-    """V around the middle of an interval as a sum of modes, for exact second divided differences; data: (k, n) their coefficients."""
+    """V around the middle of an interval as a sum of modes, for exact second divided differences.
+
+    data: (k, n) their coefficients; sizes: (k, n) those of the terms that these are the sums of."""
 
     about: Callable[..., Modes]  # of each geometry: the modes about the middles of intervals
     mirrored = False  # whether sums over mirrored pairs of nodes serve
 
-    def __init__(self, data):
-        self.data = data
+    def __init__(self, data, sizes=None):
+        self.data, self.sizes = data, np.abs(data) if sizes is None else sizes
 
     def take(self, rows) -> Modes:
         """The modes of some of the states."""
-        return type(self)(self.data[:, rows])
+        return type(self)(self.data[:, rows], self.sizes[:, rows])
 
     def terms(self, rho, left, right):
         """Size of the terms of H."""
         return type(self)(np.abs(self.data)).second_difference(rho, left, right)
+
+    def rounding(self, rho, left, right):
+        """Size of what the terms of H are the sums of: times the unit of rounding, the error of H."""
+        return type(self)(self.sizes).terms(rho, left, right)
 
     def second_difference(self, rho, left, right):
         """V[l, r, theta] with theta - l = 2 rho left, r - theta = 2 rho right."""
@@ -38,7 +44,9 @@ class CircleModes(Modes):
     @classmethod
     def about(cls, pot, x, z) -> Modes:
         """Those about the place (X, Z)."""
-        return cls(np.array([-pot.c * x + pot.d * z, -pot.c * z - pot.d * x, -0.25 * pot.G * (x - z) * (x + z), -0.5 * pot.G * x * z]))
+        data = np.array([-pot.c * x + pot.d * z, -pot.c * z - pot.d * x, -0.25 * pot.G * (x - z) * (x + z), -0.5 * pot.G * x * z])
+        c, d = np.abs([pot.c * x, pot.c * z]), np.abs([pot.d * z, pot.d * x])
+        return cls(data, np.array([*(c + d), *np.abs(data[2:])]))
 
     def terms(self, rho, left, right):
         return sum(weight * np.abs(row) for weight, row in zip((1, 1, 4, 4), self.data))
@@ -72,7 +80,8 @@ class ParabolaModes(Modes):
     def about(cls, pot, u, v) -> Modes:
         """Those about the place (omega_j, omega_k)."""
         first, second, third = pot.derivatives((u, v))
-        return cls(np.array([-first / 2, -second / 6, -third / 24 * np.ones_like(first)]))
+        sizes = zip(pot.derivative_terms((u, v)), (2, 6, 24))
+        return cls(np.array([-first / 2, -second / 6, -third / 24 * np.ones_like(first)]), np.array([size / n * np.ones_like(first) for size, n in sizes]))
 
     def terms(self, rho, left, right):
         return np.abs(self.data[0]) + np.abs(self.data[1]) * rho + np.abs(self.data[2]) * 2 * rho * rho
