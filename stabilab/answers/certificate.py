@@ -5,6 +5,7 @@ a rounded guess. What cannot be certified is left out and named in `uncertified`
 """
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
@@ -21,6 +22,7 @@ from ..orbit.fate.one_state import fate_of
 from ..orbit.period.balls import period_ball
 from ..orbit.reduction import reduce
 from ..orbit.result import Fate
+from ..physics.scene import AnyScene
 
 SCHEMA = "stabilab.certificate/1"
 ROOT_BITS = 150  # roots are known to 160 bits and more (`polynomials.real_roots`, `Surd.fraction`)
@@ -29,7 +31,7 @@ TINY = Fraction(1, 2**1074)  # the least double: a decaying plane's end is only 
 DIGITS, PERIOD_DIGITS = 20, 11  # of the brackets: another's verified quadrature must have room in the period's
 
 
-def certificate(scene, state=None) -> dict:
+def certificate(scene: AnyScene, state: Sequence[Any] | None = None) -> dict[str, Any]:
     """The certificate of a scene and, if given, of the motion from a state (three numbers, taken exactly).
 
     Returns the object of `stabilab.certificate/1`. Raises InputError as `equilibria` does for effects it does not know.
@@ -47,14 +49,14 @@ def certificate(scene, state=None) -> dict:
     return out
 
 
-def subject(scene, state=None) -> dict:
+def subject(scene: AnyScene, state: Sequence[Any] | None = None) -> dict[str, Any]:
     """What the certificate of this scene and state is about, as `verify.about` tells it; empty for a scene that has none."""
     if not scene.plain:
         return {}
     return _scene(scene) | ({} if state is None else {"state": [_text(v) for v in state]})
 
 
-def _text(value) -> str:
+def _text(value: Fraction) -> str:
     return str(Fraction(value))
 
 
@@ -62,7 +64,7 @@ def _bracket(value: Fraction, reach: Fraction) -> list[str]:
     return [_text(value - reach), _text(value + reach)]
 
 
-def _scene(scene) -> dict:
+def _scene(scene: AnyScene) -> dict[str, Any]:
     if scene.variables == "scaled":
         a, b = scene.exact_ab
         return {"variables": "scaled", "a": _text(a), "b": _text(b), "mu": list(map(_text, scene.exact_mu))}
@@ -73,7 +75,7 @@ def _scene(scene) -> dict:
 # -- equilibria
 
 
-def _equilibria(scene) -> dict:
+def _equilibria(scene: AnyScene) -> dict[str, Any]:
     p = pencil(scene)
     kind, states, curves = _exact_equilibria(p)
     return {"kind": kind, "points": sorted((_point(p.form, x) for x in states), key=lambda e: Fraction(e["box"][0][0])),
@@ -81,7 +83,7 @@ def _equilibria(scene) -> dict:
             "planes": [_plane(p, d) for d in ([] if any(p.M) else plane_moments(p))]}
 
 
-def _exact_equilibria(p):
+def _exact_equilibria(p: Any) -> tuple[str, list[Any], list[Any]]:
     """(kind, isolated states as surds, exact curves), by the cases of `equilibria`; planes come on their own."""
     if not any(p.M):
         if not any(p.lam) and len(set(p.D)) == 1:
@@ -93,14 +95,14 @@ def _exact_equilibria(p):
     return ("none", [], []) if balance_fails(p) else ("curves", [], conic_curves(p))
 
 
-def _point(form, x) -> dict:
+def _point(form: Any, x: Any) -> dict[str, Any]:
     point, middle = isolated_point(form, x), [v.fraction() for v in x]
     exact = not any(v.d for v in x)
     reach = Fraction(0) if exact else (max(map(abs, middle)) or Fraction(1)) / 2**BOX_BITS
     return {"box": [_bracket(v, reach) for v in middle], "linear": point.linear, "verdict": point.verdict}
 
 
-def _curve(form, curve) -> dict:
+def _curve(form: Any, curve: Any) -> dict[str, Any]:
     found, cuts = curve_with_verdicts(form, curve), cuts_of(form, curve)
     exact = {*curve.poles, *curve.crossings}
     marks = [_bracket(t, Fraction(0) if t in exact else abs(t) / 2**ROOT_BITS) for t in cuts]
@@ -114,7 +116,7 @@ def _curve(form, curve) -> dict:
                       for (_, mark), place in zip(folds, found.folds)]}
 
 
-def _plane(p, d) -> dict:
+def _plane(p: Any, d: Any) -> dict[str, Any]:
     i, j, k, centre = plane_of_equal_moments(p, d)
     unit = lambda axis: [str(int(n == axis)) for n in range(3)]
     at = list(map(_text, centre))
@@ -125,7 +127,7 @@ def _plane(p, d) -> dict:
 # -- the motion
 
 
-def _motion(scene, state, uncertified):
+def _motion(scene: AnyScene, state: tuple[Fraction, ...], uncertified: list[str]) -> dict[str, Any] | None:
     rates = scene.quadratic().rate(state)
     claims = {"state": list(map(_text, state)), "axis": 0, "sense": 0, "extremes": None, "period": None}
     if not any(rates):
@@ -143,7 +145,7 @@ def _motion(scene, state, uncertified):
                      "extremes": _extremes(orbit, label), "period": _period(orbit, label)}
 
 
-def _without_reduction(scene, state, claims, uncertified):
+def _without_reduction(scene: AnyScene, state: tuple[Fraction, ...], claims: dict[str, Any], uncertified: list[str]) -> dict[str, Any] | None:
     from .certified_spin_up import certified_spin_up
     found, why = certified_spin_up(scene, state)
     if found is None:
@@ -152,16 +154,16 @@ def _without_reduction(scene, state, claims, uncertified):
     return claims | {"fate": Fate.SPIN_UP.word, "axis": found["axis"], "sense": found["sense"], "spin_up": found}
 
 
-def _extremes(orbit, label):
+def _extremes(orbit: Any, label: Fate) -> list[list[Any]]:
     balls = extreme_balls(orbit, label, certain=int(DIGITS * 3.33))
     return [[_ends(v) for v in pair] for pair in balls]
 
 
-def _period(orbit, label):
+def _period(orbit: Any, label: Fate) -> Any:
     return _ends(period_ball(orbit), PERIOD_DIGITS) if label == Fate.BOUNDED else None
 
 
-def _ends(value, digits: int = DIGITS):
+def _ends(value: Any, digits: int = DIGITS) -> Any:
     """A bracket round a ball, twice as wide so that another's ball has room in it; None for what is not finite."""
     if isinstance(value, float) or not value.is_finite():
         return None
@@ -172,6 +174,6 @@ def _ends(value, digits: int = DIGITS):
     return _bracket(middle, room)
 
 
-def _exact(value) -> Fraction:
+def _exact(value: Any) -> Fraction:
     mantissa, exponent = (int(v) for v in value.man_exp())
     return Fraction(mantissa) * Fraction(2) ** exponent

@@ -5,11 +5,14 @@ checker can work it out from the rates alone. docs/certificate.md has the form.
 """
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 
 from ..orbit.result import Fate
+from ..physics.scene import AnyScene
 from ..unreduced.enclosure import kernel
 from ..unreduced.enclosure.run import Course
 from ..unreduced.spin_up.fields import natural, tests_of
@@ -23,7 +26,7 @@ DIGITS = 22  # of the checkpoints' brackets, relative to the greatest rate; wide
 SURE = Fraction(1 << 20, (1 << 20) + 1)  # what is told of the gain is less by this: the inequality's own rounding
 
 
-def certified_spin_up(scene, state) -> tuple[dict | None, str]:
+def certified_spin_up(scene: AnyScene, state: Sequence[Any]) -> tuple[dict[str, Any] | None, str]:
     """(claims, "") of the spin-up from a state (three Fractions), or (None, why there are none)."""
     found = spin_up(scene, state, budget=BUDGET)
     if found.fate is not Fate.SPIN_UP or found.level == "exact":
@@ -46,7 +49,7 @@ def certified_spin_up(scene, state) -> tuple[dict | None, str]:
     return None, f"{found.fate.word}: {found.cause}; the inequality about the fixed centre, which a checker knows, does not hold up to t = {times[-1]:.6g}"
 
 
-def _box(course, t, state):
+def _box(course: Course | None, t: float, state: Sequence[Any]) -> Any:
     """(middle (3,), radius) of a ball that holds the motion at a time; None where the steps do not reach."""
     if course is None:
         middle = np.array([float(v) for v in state])
@@ -56,7 +59,7 @@ def _box(course, t, state):
     return (now.middle, float(np.abs(now.rest).sum() + now.radius.sum()) * (1 + 2.0**-40)) if course.status == kernel.DONE else None
 
 
-def _holding(tests, field, box, unit):
+def _holding(tests: Any, field: Any, box: Any, unit: float) -> dict[str, Any] | None:
     """Orders and constants of the first inequality that holds for the ball, in the scene's units; None where none does."""
     middle, near = box
     for orders in ORDERS:
@@ -75,7 +78,7 @@ def _decimal(value: Fraction, digits: int) -> str:
     return str(Fraction(int(value * Fraction(10) ** exponent)) / Fraction(10) ** exponent)
 
 
-def _checkpoints(scene, state, course, t):
+def _checkpoints(scene: AnyScene, state: Sequence[Any], course: Course | None, t: Fraction) -> list[dict[str, Any]]:
     """Brackets of the rates at some times up to t, for whoever reads and for whoever checks."""
     if not t:
         return []

@@ -8,6 +8,7 @@ from ..asked import checked_scene
 from ..equilibrium.gyrostat import gyrostat_equilibria
 from ..equilibrium.result import Equilibria
 from ..physics.coefficients import content
+from ..physics.scene import AnyScene
 
 # kind of a scene's torques -> (module of `equilibrium`, its function of their coefficients); one that no scene names is not loaded
 BY_KIND = {
@@ -18,7 +19,7 @@ BY_KIND = {
 }
 
 
-def equilibria(scene) -> Equilibria:
+def equilibria(scene: AnyScene) -> Equilibria:
     """Every equilibrium of a Scene (body, gyrostat, constant torque) or ScaledGyrostat, each with its stability.
 
     States are in the scene's variables: rad/s in the principal axes, or the dimensionless x. kind is "none" (the reason
@@ -35,12 +36,12 @@ def equilibria(scene) -> Equilibria:
     return replace(found, validity=at_equilibria(scene, found))
 
 
-def _found(scene) -> Equilibria:
+def _found(scene: AnyScene) -> Equilibria:
     found = None if scene.plain else other_equilibria(scene)
     return gyrostat_equilibria(scene) if found is None else found
 
 
-def other_equilibria(scene) -> Equilibria | None:
+def other_equilibria(scene: AnyScene) -> Equilibria | None:
     """The equilibria of a scene of known effects; None where it has one that is not known here.
 
     A constant charge and a force at the centre of mass leave the gyrostat's own analysis; a liquid or resistance:

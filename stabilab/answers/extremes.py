@@ -1,16 +1,23 @@
 """Extremes and periods of every state of an array, whatever the scene."""
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
 
 from ..asked import checked_span
 from ..physics.coefficients import effective
+from ..physics.scene import AnyScene
 from ..physics.states import checked_states
 from .digits.ask import ask_all
 from .kinds import following, many
 
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
-def extremes(scene, states, span=None, digits: int | None = None, fast: bool | None = None, follow: float | None = None):
+
+def extremes(scene: AnyScene, states: ArrayLike, span: Any = None, digits: int | None = None, fast: bool | None = None,
+             follow: float | None = None) -> np.ndarray:
     """Smallest and largest value of each component over all t >= 0: array (..., 3, 2) in the scene's variables.
 
     +-inf where a component grows without bound; at an equilibrium both are the state. Scenes without a reduction need
@@ -28,13 +35,13 @@ def extremes(scene, states, span=None, digits: int | None = None, fast: bool | N
     return many(scene).extremes(scene, rows, span, fast, **following(scene, follow)).reshape(array.shape + (2,))
 
 
-def _length(span):
+def _length(span: Any) -> float | None:
     """The length of a span; None where none is given."""
     ends = checked_span(span)
     return None if ends is None else ends[1] - ends[0]
 
 
-def period(scene, states, digits: int | None = None, fast: bool | None = None):
+def period(scene: AnyScene, states: ArrayLike, digits: int | None = None, fast: bool | None = None) -> np.ndarray:
     """Period of each motion, (...,) in the scene's time: inf where the motion does not repeat, 0 at an equilibrium.
 
     digits, fast: as of `extremes`. Raises InputError as `fate` does, and for scenes without a known period (torque off

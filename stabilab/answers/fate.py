@@ -1,18 +1,25 @@
 """The fate of every state of an array, whatever the scene: bounded, spin-up, on the separatrix, at rest, or undecided."""
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..orbit.fate.result import FateResult
 from ..physics.coefficients import effective
+from ..physics.scene import AnyScene
 from ..physics.states import checked_states
 from .digits.ask import ask_all
 from .kinds import following, many
 
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
-def fate(scene, states, fast=None, digits: int | None = None, follow: float | None = None, tell=None) -> FateResult:
+
+def fate(scene: AnyScene, states: ArrayLike, fast: bool | None = None, digits: int | None = None, follow: float | None = None,
+         tell: Callable[..., Any] | None = None) -> FateResult:
     """The fate of every state of an array (..., 3) in the scene's variables (rad/s, or x when scaled).
 
     scene: Scene or ScaledGyrostat. fast: True for numba's compiled loops (the extra `fast`), False for NumPy alone, None

@@ -6,6 +6,9 @@ fold or an invariant plane, are answered state by state by `fate`.
 """
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
 
 from ..errors import InputError
@@ -14,13 +17,17 @@ from ..orbit.fate.table import barrier_table
 from ..orbit.fate.table_kernel import SIGN_BOUND
 from ..orbit.result import Fate
 from ..physics.coefficients import effective
+from ..physics.scene import AnyScene
 from .fate import fate
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
 TOGETHER = 1024  # lines whose states are handed to `fate` at once
 LINES = 8192  # lines worked on together: enough for NumPy, few enough for a core's cache
 
 
-def fate_grid(scene, axes) -> np.ndarray:
+def fate_grid(scene: AnyScene, axes: Sequence[ArrayLike]) -> np.ndarray:
     """Labels (n1, n2, n3), int8 of `Fate`, of the states (axes[0][a], axes[1][b], axes[2][c]); the same as `fate` gives.
 
     scene: Scene or ScaledGyrostat. axes: three arrays of rates (rad/s, or x when scaled), in any order. Raises
@@ -47,7 +54,7 @@ def fate_grid(scene, axes) -> np.ndarray:
     return labels
 
 
-def _checked_axes(axes):
+def _checked_axes(axes: Sequence[ArrayLike]) -> list[np.ndarray]:
     try:
         arrays = [np.asarray(a, dtype=float) for a in axes]
     except (TypeError, ValueError):
@@ -59,7 +66,7 @@ def _checked_axes(axes):
     return arrays
 
 
-def _one_by_one(scene, axes, labels):
+def _one_by_one(scene: AnyScene, axes: list[np.ndarray], labels: np.ndarray) -> np.ndarray:
     for index, first in enumerate(axes[0]):
         plane = np.empty(labels.shape[1:] + (3,))
         plane[..., 0], plane[..., 1], plane[..., 2] = first, axes[1][:, None], axes[2]
@@ -67,7 +74,7 @@ def _one_by_one(scene, axes, labels):
     return labels
 
 
-def _label_lines(table, lines, energies, ranked, labels):
+def _label_lines(table: Any, lines: np.ndarray, energies: np.ndarray, ranked: np.ndarray, labels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Fill labels (rows, m, rates) of the lines through the states `lines` (rows m, 3) by comparison; returns (doubtful,
     clear) of (rows m,): an energy is too near to the height, and it is certain which height that is."""
     x, z, _ = canonical(table, lines)
@@ -83,7 +90,7 @@ def _label_lines(table, lines, energies, ranked, labels):
     return (following <= height + doubt) & np.isfinite(height), clear
 
 
-def _settle(scene, table, axes, along, lines):
+def _settle(scene: AnyScene, table: Any, axes: list[np.ndarray], along: np.ndarray, lines: np.ndarray) -> None:
     """Ask `fate` for every state of some lines ((a, b) pairs of indices across the torque's axis)."""
     i = table.axes[0]
     first, second = (n for n in range(3) if n != i)

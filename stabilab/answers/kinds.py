@@ -9,11 +9,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from importlib import import_module
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from ..errors import InputError
 from ..orbit.reduction import reduce
 from ..physics.alignment import aligned
+from ..physics.scene import AnyScene
 
 
 class Kind(NamedTuple):
@@ -26,7 +27,7 @@ class Kind(NamedTuple):
     follows: bool = False
 
 
-def _acting(scene) -> int:
+def _acting(scene: AnyScene) -> int:
     """About how many axes a torque acts."""
     return sum(m != 0 for m in scene.quadratic().m)
 
@@ -42,27 +43,27 @@ KINDS = {
 }
 
 
-def kind_of(scene) -> str:
+def kind_of(scene: AnyScene) -> str:
     """The kind of a scene, a key of KINDS; `physics.coefficients.effective` first, where other effects may turn as a wheel does."""
     return next(name for name, kind in KINDS.items() if kind.holds(scene))
 
 
-def one(scene):
+def one(scene: AnyScene) -> Any:
     """The module that answers for one state of this scene."""
     return _module(KINDS[kind_of(scene)].one)
 
 
-def many(scene):
+def many(scene: AnyScene) -> Any:
     """The module that answers for many states of this scene."""
     return _module(KINDS[kind_of(scene)].many)
 
 
-def following(scene, follow: float | None = None, tell=None, proof: bool = False) -> dict:
+def following(scene: AnyScene, follow: float | None = None, tell: Callable[..., Any] | None = None, proof: bool = False) -> dict[str, Any]:
     """The options of a kind whose motions are followed; none for the others, whose answers need no run."""
     if follow is not None and not (isinstance(follow, (int, float)) and math.isfinite(follow) and follow >= 0):
         raise InputError(f"follow: expected a time of at least 0, got {follow!r:.80}")
     return {"follow": follow, "tell": tell} | ({"proof": True} if proof else {}) if KINDS[kind_of(scene)].follows else {}
 
 
-def _module(place: str):
+def _module(place: str) -> Any:
     return import_module(f"..{place}", __package__)

@@ -1,17 +1,22 @@
 """Everything about the motion from one state: fate, margins, period, extremes, invariants."""
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from fractions import Fraction
+from typing import Any
 
 from ..asked import checked_scene, checked_span
 from ..orbit.far_states import in_range
 from ..orbit.result import Motion
 from ..physics.coefficients import content, gyrostat_scene
+from ..physics.scene import AnyScene
 from ..physics.state import split
 from .kinds import following, one
 
 
-def motion(scene, state, span=None, brief=False, exact=None, follow: float | None = None, tell=None, proof: bool = False) -> Motion:
+def motion(scene: AnyScene, state: Any, span: Any = None, brief: bool = False, exact: Sequence[Fraction] | None = None,
+           follow: float | None = None, tell: Callable[..., Any] | None = None, proof: bool = False) -> Motion:
     """All that is known of the motion from `state` (three numbers in the scene's variables) at time 0.
 
     Where gamma is part of the state: six numbers (omega, gamma), or a dict of blocks. span: (from, to), the times over
@@ -27,7 +32,8 @@ def motion(scene, state, span=None, brief=False, exact=None, follow: float | Non
     return replace(found, validity=of_motion(scene, found))
 
 
-def _found(scene, state, span, brief, exact, follow, tell, proof) -> Motion:
+def _found(scene: AnyScene, state: Any, span: tuple[float, float] | None, brief: bool, exact: Sequence[Fraction] | None,
+           follow: float | None, tell: Callable[..., Any] | None, proof: bool) -> Motion:
     parts = None if scene.plain else content(scene)
     with in_range():
         if parts is None or parts.kind != "gyrostat":

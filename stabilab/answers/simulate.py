@@ -1,17 +1,22 @@
 """The exact motion of a case, block by block: rates, direction of the vertical, attitude angles, momentum, place."""
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..integrate.trajectory import Trajectory
 from ..physics.attitude import angles, beyond, body_momentum, to_space, unwrapped
+from ..physics.scene import AnyScene, Scene
 from ..physics.states import equations_and_start, start_of
 from ..physics.to_numpy import to_numpy
 from .trajectory import trajectory
 
 if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
     from ..physics.law_limits import Validity
 
 STIFF = 1e6  # fastest decay times duration beyond which an explicit method would only shorten its steps
@@ -33,18 +38,19 @@ class Simulation:
     """
 
     t: np.ndarray
-    state: dict
+    state: dict[str, np.ndarray]
     model: str
     method: str
     rtol: float | None
-    invariant_drift: dict = field(default_factory=dict)
-    counters: dict = field(default_factory=dict)
+    invariant_drift: dict[str, float] = field(default_factory=dict)
+    counters: dict[str, int] = field(default_factory=dict)
     status: str = "reached"
     reason: str = ""
     validity: Validity | None = None
 
 
-def simulate(scene, omega, times, blocks=None, method: str | None = None, rtol: float | None = None) -> Simulation:
+def simulate(scene: AnyScene, omega: Sequence[float], times: ArrayLike, blocks: Mapping[str, Sequence[float]] | None = None,
+             method: str | None = None, rtol: float | None = None) -> Simulation:
     """The exact motion of a scene from angular velocity `omega` at the given times.
 
     blocks: the rest of the state at time 0 ("gamma", "velocity", "position": three numbers, "attitude": psi, phi,
@@ -67,18 +73,18 @@ def simulate(scene, omega, times, blocks=None, method: str | None = None, rtol: 
     return _with_attitude(scene, start, (blocks or {}).get("attitude", (0.0, 0.0, 0.0)), times, method, rtol, why)
 
 
-def _simulation(run, state, why=""):
+def _simulation(run: Trajectory, state: dict[str, np.ndarray], why: str = "") -> Simulation:
     return Simulation(run.t, state, "exact", run.method, run.rtol, run.invariant_drift, run.counters, run.status, _reason(run, why),
                       run.validity)
 
 
-def _reason(run, *why):
+def _reason(run: Trajectory, *why: str) -> str:
     """Why it stopped, if it did, and what is to be said of the method; else that all times were reached."""
     told = "; ".join(filter(None, (run.reason if run.status != "reached" else "", *why)))
     return told or run.reason
 
 
-def _chosen(scene, start, times, method, rtol):
+def _chosen(scene: AnyScene, start: Mapping[str, Sequence[float]], times: np.ndarray, method: str | None, rtol: float | None) -> tuple[str, float | None, str]:
     """(method, rtol, why) with the stiff method where nothing was asked for and the decay is too fast."""
     if method is not None or not any(not e.keeps_volume for e in scene.effects):
         return method or "taylor", rtol, ""
@@ -92,7 +98,7 @@ def _chosen(scene, start, times, method, rtol):
                                               f"over the span, so the implicit method {STIFF_METHOD} was taken")
 
 
-def _with_attitude(scene, start, first, times, method, rtol, why):
+def _with_attitude(scene: Scene, start: Any, first: Any, times: np.ndarray, method: str, rtol: float | None, why: str) -> Simulation:
     """The run with angles unwrapped over a grid fine enough that no turn is missed."""
     inner, first, doubtful = _grid(scene, start, times, method, rtol), np.asarray(first, float), ""
     for _ in range(ROUNDS):
@@ -120,10 +126,11 @@ def _with_attitude(scene, start, first, times, method, rtol, why):
                       _reason(run, why, doubtful), run.validity)
 
 
-def _grid(scene, start, times, method, rtol):
+def _grid(scene: Scene, start: Any, times: np.ndarray, method: str, rtol: float | None) -> np.ndarray:
     """The asked-for times, zero, and the method's own steps with points inside each: between the points of a step the
     body turns by less than a radian or so, however it hurries between the asked-for times."""
-    base, steps = np.unique(np.concatenate([[0.0], times])), []
+    base = np.unique(np.concatenate([[0.0], times]))
+    steps: list[float] = []
     trajectory(scene, start, base, method, rtol, steps)
     ends = np.unique(np.concatenate([base, steps]))
     inside = max(1, min(INSIDE, POINTS // len(ends)))

@@ -18,6 +18,7 @@ from ..errors import InputError
 from ..numbers.vectors import Exact3
 from ..orbit.result import Fate, Motion
 from ..physics.alignment import torque_axis
+from ..physics.scene import AnyScene
 from ..physics.state import three_floats
 from .extremes import extremes
 from .fate import fate
@@ -52,7 +53,7 @@ class Tilt:
     high: float | None
     level: str
     azimuth: float | None
-    torque: tuple | None
+    torque: tuple[float, ...] | None
     followed: float
     azimuths: np.ndarray
     times: np.ndarray
@@ -64,7 +65,7 @@ class Tilt:
         return self.high is not None
 
 
-def tilt(scene, state, angle: float | None = None, rate=None, case=None, exact: Exact3 | None = None) -> Tilt:
+def tilt(scene: AnyScene, state: Any, angle: float | None = None, rate: Any = None, case: Any = None, exact: Exact3 | None = None) -> Tilt:
     """What a tilt of the torque does to a bounded motion under a torque on a principal axis.
 
     scene: of a body; state: three rates; angle: rad, the half-angle of the cone of torques (None: what the stuck thrusters of `case` state as
@@ -99,14 +100,14 @@ def tilt(scene, state, angle: float | None = None, rate=None, case=None, exact: 
                 untilted=(float(exactly.low), float(exactly.high)) if exactly.high < math.inf else None)
 
 
-def with_tilt(case, motion: Motion, angle: float | None = None) -> Motion:
+def with_tilt(case: Any, motion: Motion, angle: float | None = None) -> Motion:
     """The motion of a case with what a tilt of its torque does to it; as it is where no torque on an axis keeps it bounded."""
     if motion.fate != Fate.BOUNDED or case.scene.variables == "scaled" or not torque_axis(case.scene) or kind_of(case.scene) != "orbit":
         return motion
     return replace(motion, tilt=tilt(case.scene, case.state, angle, None, case, case.exact_state))
 
 
-def _question(scene, state, rate, case):
+def _question(scene: AnyScene, state: Any, rate: Any, case: Any) -> Any:
     """(the limit as `time_to` takes it, whether it is stated)."""
     if rate is not None:
         return {"rate": rate}, True
@@ -119,7 +120,7 @@ def _question(scene, state, rate, case):
     return {"rate": TWICE * float(np.linalg.norm(largest))}, False
 
 
-def _search(scene, state, limit: Limit, cone: Cone):
+def _search(scene: AnyScene, state: Any, limit: Limit, cone: Cone) -> Any:
     """(azimuths, times, how long the shortest run without a crossing went) round the cone, and closer about the best."""
     azimuths = [2 * math.pi * n / AZIMUTHS for n in range(AZIMUTHS)]
     times, followed = [], math.inf
@@ -138,6 +139,6 @@ def _search(scene, state, limit: Limit, cone: Cone):
     return np.array(azimuths)[order], np.array(times)[order], followed
 
 
-def _time(scene, state, limit, cone, azimuth):
+def _time(scene: AnyScene, state: Any, limit: Limit, cone: Cone, azimuth: float) -> Any:
     found, unit = run_once(tilted(scene, cone.at(azimuth)), state, limit, math.inf, STEPS)
     return (math.inf, found.until / unit) if found.t is None else (found.t / unit, math.inf)

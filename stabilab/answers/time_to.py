@@ -2,7 +2,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 
@@ -10,6 +12,7 @@ from ..asked import checked_scene
 from ..errors import InputError
 from ..numbers.exact import exact_vector
 from ..physics.coefficients import effective
+from ..physics.scene import AnyScene
 from ..physics.states import checked_states, equations_and_start, start_of
 from .passage.clock import by_clock
 from .passage.enclosed import WORK, enclosed
@@ -19,7 +22,8 @@ from .passage.result import Found, TimeTo
 from .passage.run import by_run
 
 
-def time_to(scene, states, rate=None, component=None, energy=None, tilt=None, t_max: float | None = None, exact=None, work: int = WORK) -> TimeTo:
+def time_to(scene: AnyScene, states: Any, rate: Any = None, component: Any = None, energy: Any = None, tilt: Any = None,
+            t_max: float | Fraction | None = None, exact: Sequence[Fraction] | None = None, work: int = WORK) -> TimeTo:
     """The first time t >= 0 at which each motion reaches a limit, between a lower and an upper bound.
 
     scene: Scene or ScaledGyrostat. states: (..., 3) at t = 0 in the scene's variables, taken at their word; for scenes whose effects need more of
@@ -50,14 +54,14 @@ def time_to(scene, states, rate=None, component=None, energy=None, tilt=None, t_
     return TimeTo(column("low", float), column("high", float), column("level", object), column("words", object), limit.words, given, array)
 
 
-def time_of_case(case, ask: dict, t_max=None) -> TimeTo:
+def time_of_case(case: Any, ask: dict[str, Any], t_max: float | Fraction | None = None) -> TimeTo:
     """The answer for the motion of a case; ask: the one limit, by its name as of `time_to`."""
     if case.scene.plain:
         return time_to(case.scene, case.state, **ask, t_max=t_max, exact=case.exact_state)
     return time_to(case.scene, start_of(case.scene, case.state, case.blocks), **ask, t_max=t_max)
 
 
-def _rows(states):
+def _rows(states: Any) -> Any:
     """(one start for each motion, shape of the answer) of a scene whose state may be more than three rates."""
     if isinstance(states, dict):
         return [states], ()
@@ -68,7 +72,7 @@ def _rows(states):
     return list(array.reshape(-1, array.shape[-1])) if array.ndim else [array], array.shape[:-1]
 
 
-def _end(t_max):
+def _end(t_max: float | Fraction | None) -> Fraction | None:
     if t_max is None:
         return None
     try:
@@ -79,7 +83,7 @@ def _end(t_max):
     raise InputError(f"t_max: expected a positive time, got {t_max!r:.80}")
 
 
-def of_one(scene, state, start, limit: Limit, end: Fraction | None, work: int = WORK) -> Found:
+def of_one(scene: AnyScene, state: Any, start: Any, limit: Limit, end: Fraction | None, work: int = WORK) -> Found:
     """The answer for one motion of a plain scene: three floats, and the three rationals that they round."""
     if limit.reached_by(start):
         return Found(0.0, 0.0, "exact", f"{limit.words}: reached already at the start")
@@ -95,7 +99,7 @@ def of_one(scene, state, start, limit: Limit, end: Fraction | None, work: int = 
     return _beyond_proof(scene, state, limit, end, proof)
 
 
-def _at_the_end(proof, limit, whole, unit) -> Found:
+def _at_the_end(proof: Any, limit: Limit, whole: Any, unit: Any) -> Found:
     """The search reached its end, and no crossing is sure."""
     if proof.low is not None:
         return Found(_down(proof.low), math.nan, "proved", f"{limit.words}: touched at t = {float(proof.low):.10g} {unit} as closely as {2.0**-50:.0e}: "
@@ -105,7 +109,7 @@ def _at_the_end(proof, limit, whole, unit) -> Found:
     return Found(_down(proof.until), math.nan, "proved", f"{limit.words}: not reached by t_max, the motion enclosed")
 
 
-def _beyond_proof(scene, state, limit, end, proof) -> Found:
+def _beyond_proof(scene: AnyScene, state: Any, limit: Limit, end: Fraction | None, proof: Any) -> Found:
     """The work allowed for a proof is done: a run, and where that is too long the clock."""
     run = by_run(scene, state, limit, math.inf if end is None else float(end))
     if run.high == run.high:
@@ -117,7 +121,7 @@ def _beyond_proof(scene, state, limit, end, proof) -> Found:
     return run if run.low > known else Found(known, math.nan, "proved", f"{limit.words}: proved not to be reached before low; {run.words}")
 
 
-def _of_any(scene, state, limit, end) -> Found:
+def _of_any(scene: AnyScene, state: Any, limit: Limit, end: Fraction | None) -> Found:
     """The answer for one motion of any scene."""
     start = equations_and_start(scene, state)[1]
     if limit.reached_by([Fraction(v) for v in start[:3].tolist()]):
@@ -125,11 +129,11 @@ def _of_any(scene, state, limit, end) -> Found:
     return never_bounded(scene, state, limit) or by_run(scene, state, limit, math.inf if end is None else float(end))
 
 
-def _down(value) -> float:
+def _down(value: Any) -> float:
     near = float(value)
     return near if near <= value else math.nextafter(near, -math.inf)
 
 
-def _up(value) -> float:
+def _up(value: Any) -> float:
     near = float(value)
     return near if near >= value else math.nextafter(near, math.inf)

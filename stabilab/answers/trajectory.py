@@ -2,20 +2,26 @@
 from __future__ import annotations
 
 import difflib
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..errors import InputError
 from ..integrate.trajectory import SCIPY_METHODS, Trajectory, departures, integrated, watcher
 from ..orbit.flow.flow import axis_way, reduced_motion
+from ..physics.equations import Equations
+from ..physics.scene import AnyScene
 from ..physics.states import checked_rtol, checked_times, equations_and_start
 from ..physics.to_numpy import to_numpy
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
 METHODS = ("taylor", *SCIPY_METHODS)
 REDUCED = "reduced"  # follows nothing: see `orbit.flow`
 
 
-def trajectory(scene, state, times, method: str = "taylor", rtol: float | None = None, steps: list | None = None,
+def trajectory(scene: AnyScene, state: Any, times: ArrayLike, method: str = "taylor", rtol: float | None = None, steps: list[float] | None = None,
                laws: bool = True) -> Trajectory:
     """States of a scene at the given times, the motion being at `state` at t = 0.
 
@@ -48,7 +54,7 @@ def _method(name: str) -> str:
     raise InputError(f"method: there is no {name!r}; choose one of {', '.join(known.values())}{hint}")
 
 
-def _by_quadrature(scene, equations, state, times, rtol):
+def _by_quadrature(scene: AnyScene, equations: Equations, state: np.ndarray, times: np.ndarray, rtol: float | None) -> Trajectory:
     if equations.blocks != ("omega",):
         raise InputError(f"method reduced: it gives the rates alone, and the state has the blocks {', '.join(equations.blocks)}; take "
                          "method taylor")

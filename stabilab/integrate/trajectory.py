@@ -250,7 +250,7 @@ class Trajectory:
     t: np.ndarray
     states: np.ndarray
     method: str
-    rtol: float
+    rtol: float | None
     invariant_drift: dict[str, float]
     counters: dict[str, int]
     status: str
