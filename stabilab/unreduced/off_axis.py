@@ -27,7 +27,7 @@ from .spin_up.result import SpinUp
 
 __all__ = ["extremes", "fates", "motion", "periods"]
 NO_SHEETS = "not known: the torque is off the principal axes, and no separatrix is known there"
-PATIENCE = 200_000  # steps for which a motion is followed where nobody says how long: about a second
+PATIENCE = 600_000  # steps for which a motion is followed where nobody says how long: about a second
 ENDLESS = 10**9     # steps where the caller names a time
 REASON = {"undecided": Reason.OFF_AXIS, "certified": Reason.CERTIFIED, "proved": Reason.CERTIFIED, "exact": Reason.CLOSED_FORM}
 NO_SPAN = ("not known without a certificate of spin-up: give span=T ({unit}), or a span in the case's [motion], to search them over a time span, "

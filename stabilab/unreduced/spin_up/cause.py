@@ -10,13 +10,14 @@ PARKED = 0.3  # relative distance from the saddle-focus, in spin and in cone, th
 WIDE = 2.0    # transverse motion over spin beyond which the motion is not about the axis at all
 
 
-def seen(scene, state) -> str:
-    """The cause why spin-up about neither axis is certified at a state on its way, strongest first."""
+def seen(scene, state, recurrence: str = "") -> str:
+    """The cause why spin-up about neither axis is certified at a state on its way, strongest first. recurrence: what is
+    said of a motion that recurs (`island`), where it does."""
     forms = forms_of(scene)
     if not forms:
         return _no_form(scene)
     causes = [words for rank, words in sorted(_look(form, state, scene.time_unit) for form in forms) if words]
-    island = _between(scene, state)
+    island = _between(scene, state, recurrence)
     small = _small(scene, forms)
     return "; ".join(filter(None, [causes[0] if causes else "slow: the torque has not yet gathered the spin about an axis", small, island]))
 
@@ -54,7 +55,7 @@ def _small(scene, forms):
     return ", ".join(words)
 
 
-def _between(scene, state):
+def _between(scene, state, recurrence):
     """A pointer to bounded islands: with a wheel and two equilibria, the state no faster than thrice the farther of them."""
     ends = _equilibria(scene)
     if not ends:
@@ -62,7 +63,7 @@ def _between(scene, state):
     size = math.hypot(*state)
     if size > 3 * max(math.hypot(*end) for end in ends):
         return ""
-    return "between two equilibria, saddle-foci as a rule, where a bounded island may exist"
+    return recurrence or "between two equilibria, saddle-foci as a rule, where a bounded island may exist"
 
 
 def _equilibria(scene):

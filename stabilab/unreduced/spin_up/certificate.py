@@ -39,7 +39,7 @@ from .elimination import sizes
 from .terms import Terms
 
 ORDERS = ((4, 6),)                  # of energy and amplitude: tested always; what (0, 2) decides it decides as well
-HIGH_ORDERS = ((12, 14), (16, 18))  # sparsely; the series is asymptotic, higher ones gain nothing
+HIGH_ORDERS, HIGHEST_ORDERS = ((12, 14),), ((16, 18),)  # sparsely; the series is asymptotic, higher ones gain nothing
 PASSES = 25  # of the search for A and z: it is monotone and settles in ten or never
 GROWTH = 1 + 1e-7  # of A between passes: strict inequalities need room
 SLACK = 2.0**-30

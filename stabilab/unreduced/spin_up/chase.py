@@ -20,7 +20,8 @@ PLAN = ((1, 0, "often"), (3, 6, "high"), (4, 100, "all"), (16, LAST, "last"))
 
 @dataclass
 class Chased:
-    """Columns (n,): which test fired (-1 none) as index into `tests.asked`, time, steps, condition, state there; constants (6, n) of it."""
+    """Columns (n,): which test fired (-1 none) as index into `tests.asked`, time, steps, condition, state there; constants (6, n) of it; largest and
+    least (n, 48) size of the state at the stages of each doubling of the steps."""
 
     tests: Tests
     fired: np.ndarray
@@ -29,6 +30,8 @@ class Chased:
     condition: np.ndarray
     states: np.ndarray
     constants: np.ndarray
+    largest: np.ndarray
+    least: np.ndarray
 
 
 def chase(scene, tests: Tests, starts, t_max: float, budget: int, after: float = 0.0, tell=None, fast: bool = False) -> Chased:
@@ -36,7 +39,8 @@ def chase(scene, tests: Tests, starts, t_max: float, budget: int, after: float =
     t_max, or `budget` steps. tell(least time, steps, motions left): called after every stage. fast: compiled tests."""
     n = len(starts)
     runs = Runs(scene, starts)
-    out = Chased(tests, np.full(n, -1), np.zeros(n), np.zeros(n, int), np.ones(n), np.array(starts, float), np.full((6, n), np.nan))
+    out = Chased(tests, np.full(n, -1), np.zeros(n), np.zeros(n, int), np.ones(n), np.array(starts, float), np.full((6, n), np.nan),
+                  np.zeros((n, 48)), np.full((n, 48), np.inf))
     open_, stage = np.arange(n), 0
     while open_.size:
         _measure(out, runs, open_)
@@ -61,26 +65,34 @@ def chase(scene, tests: Tests, starts, t_max: float, budget: int, after: float =
 def _measure(out, runs, rows):
     out.condition[rows] = np.fmax(out.condition[rows], runs.growth[rows])
     out.t[rows], out.states[rows], out.steps[rows] = runs.times[rows], runs.states[rows], runs.steps_done
+    doubling = (1 + runs.steps_done).bit_length() - 1
+    with np.errstate(all="ignore"):
+        size = np.sqrt((out.states[rows] ** 2).sum(axis=1))
+    out.largest[rows, doubling] = np.fmax(out.largest[rows, doubling], size)
+    out.least[rows, doubling] = np.fmin(out.least[rows, doubling], size)
 
 
 def _tested(out, runs, rows, which, fast):
     """The rows that no test decides; the others are written down."""
+    ahead = {}
     for field, orders in which:
         if not rows.size:
             break
-        rows = _test(out, runs, rows, field, orders, fast)
+        if id(field) not in ahead:  # rows that spin in the sense of the form
+            with np.errstate(all="ignore"):
+                ahead[id(field)] = rows[field.place(out.states[rows])[0] > 0]
+        candidates = ahead[id(field)][out.fired[ahead[id(field)]] < 0]
+        if candidates.size:
+            _test(out, runs, candidates, field, orders, fast)
+            rows = rows[out.fired[rows] < 0]
     return rows
 
 
-def _test(out, runs, rows, field, orders, fast):
+def _test(out, runs, candidates, field, orders, fast):
     with np.errstate(all="ignore"):
-        candidates = rows[field.place(out.states[rows])[0] > 0]
-        if not candidates.size:
-            return rows
         size = np.maximum(np.abs(out.states[candidates]).max(axis=1), 1.0)
         near = runs.step_error * (1 + runs.steps_done) * out.condition[candidates] * size if runs.steps_done else np.zeros(len(candidates))
     found = out.tests.certifier(field, orders, fast)(out.states[candidates], near)
     done = candidates[found.good]
     out.fired[done] = out.tests.asked.index((field, orders))
     out.constants[:, done] = np.array([found.A, found.z, found.eta, found.z_up, found.eta_up, found.k])[:, found.good]
-    return rows[out.fired[rows] < 0]

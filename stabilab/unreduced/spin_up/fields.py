@@ -7,7 +7,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from ...physics.motion_units import in_unit
-from .certificate import HIGH_ORDERS, ORDERS, Certifier
+from .certificate import HIGH_ORDERS, HIGHEST_ORDERS, ORDERS, Certifier
 from .compiled.door import fast_certifier
 from .fixed_centre import FixedCentre
 from .form import forms_of
@@ -37,8 +37,11 @@ def _log2(value):
 
 
 class Tests:
-    """The certificates of a scene (in natural units), each made when it is first asked for. often: those of low order; high: with high orders about the
-    fixed centre; all: with the moving centre, where a wheel takes it elsewhere; last: with those that take long to make. Each is a prefix of the next."""
+    """The certificates of a scene (in natural units), each made when it is first asked for.
+
+    often: those of low order; high: with high orders about the fixed centre; all: with the highest, and the moving centre where a wheel takes
+    it elsewhere; last: with those that take long to make. Each is a prefix of the next. asked: those that were.
+    """
 
     def __init__(self, scene):
         self.scene, self.forms, round_ = scene, forms_of(scene), equatorial(scene)
@@ -56,7 +59,8 @@ class Tests:
 
     @cached_property
     def all(self):
-        return (self.high + [(field, orders) for field in self.moving for orders in MOVING_ORDERS] +
+        return (self.high + [(field, orders) for fields, all_ in ((self.fixed, HIGHEST_ORDERS), (self.moving, MOVING_ORDERS))
+                             for field in fields for orders in all_] +
                 [(field, EQUATORIAL_ORDERS[1]) for field in self.equatorial])
 
     @cached_property

@@ -1,8 +1,6 @@
 """One motion under a torque of any direction, followed until its spin-up is certified."""
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from ...asked import checked_scene
@@ -15,6 +13,8 @@ from .cause import seen
 from .chase import Chased, chase
 from .clock import Trap
 from .fields import natural, tests_of
+from .island import recurs
+from .island import words as island_words
 from .result import SpinUp
 from .symmetric import exactly
 
@@ -52,8 +52,10 @@ def answer_of(scene, unit: float, found: Chased, row: int) -> SpinUp:
     t, state = float(found.t[row]) / unit, tuple((found.states[row] * unit).tolist())
     steps, condition = int(found.steps[row]), float(found.condition[row])
     if found.fired[row] < 0:
-        words = seen(scene, state) + f"; followed for {t:.6g} {scene.time_unit}, {steps} steps, over which a small change grew {condition:.3g} times"
-        if not math.isfinite(condition):
+        recurrent = recurs(found.largest[row].tolist(), found.least[row].tolist(), steps)
+        words = (f"{seen(scene, state, recurrent and island_words(scene, t))}; followed for {t:.6g} {scene.time_unit}, {steps} steps, over which a "
+                 f"small change grew {condition:.3g} times")
+        if not condition * (1 + steps) * 2.0**-52 < 1 / 16:
             words += ": more than a run in doubles can tell"
         return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, t, state, steps, words, condition)
     field, orders = found.tests.asked[found.fired[row]]

@@ -60,7 +60,6 @@ class FixedCertifier:
         good, out = np.zeros(n, bool), np.full((6, n), np.nan)
         with np.errstate(all="ignore"):
             x, zeta, dx, dz = self.field.place(np.asarray(states, float), near)
-        dx, dz = np.broadcast_to(dx, n).copy(), np.broadcast_to(dz, n).copy()
         self.kernel["search_all"](x, zeta, dx, dz, f.D1, f.M1, f.drag, *self.tables, *self.work, good, out)
         return Found(good, *out)
 
@@ -91,6 +90,5 @@ class MovingCertifier:
         n = len(states)
         good, out = np.zeros(n, bool), np.full((6, n), np.nan)
         x, zeta, dx, dz = self.field.place(np.asarray(states, float), near)
-        dx, dz = np.broadcast_to(dx, n).copy(), np.broadcast_to(dz, n).copy()
         self.kernel["search_all"](x, zeta, dx, dz, *self.numbers, *self.tables, *self.work, good, out)
         return Found(good, *out)
