@@ -2,12 +2,13 @@
 import json
 import random
 from fractions import Fraction as F
+from pathlib import Path
 
 import mpmath
 import numpy as np
 import pytest
 
-from stabilab import Body, ConstantTorque, ScaledGyrostat, Scene
+from stabilab import Body, ConstantTorque, ScaledGyrostat, Scene, load
 from stabilab.answers.certificate import certificate
 from stabilab.unreduced.spin_up.certificate import Certifier
 from stabilab.unreduced.spin_up.fixed_centre import FixedCentre
@@ -146,6 +147,14 @@ def test_a_start_that_is_trapped_needs_no_way():
 def test_a_motion_that_is_not_decided_has_no_certificate_and_says_why():
     made, found = certified(Scene(Body((3, 2, 1)), ConstantTorque((0, 1, F(1, 10**9)))), (0, -1, 0))  # it lies near the middle axis for long
     assert made["motion"] is None and "undecided" in made["uncertified"][0] and found.status == "proved"
+
+
+@pytest.mark.parametrize("name", ["geostationary-22n", "upper-stage"])
+def test_a_spacecraft_in_a_frame_that_is_not_principal_is_certified_and_checked(name):
+    """Its numbers along principal axes are irrational: the certificate is of their 240 bits, which it states."""
+    case = load(Path(__file__).parents[2] / "cases" / f"{name}.toml")
+    made, found = certified(case.scene, case.exact_state)
+    assert found.status == "proved" and made["motion"]["fate"] == "spin-up"
 
 
 def changed(made, **to):

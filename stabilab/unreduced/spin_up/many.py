@@ -1,7 +1,7 @@
 """Many motions of one scene under a torque of any direction: their spin-up as columns."""
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -9,13 +9,14 @@ from ...numbers.numba_door import wanted
 from ...orbit.result import Fate
 from ...physics.scene import AnyScene
 from ...physics.states import checked_states
+from ..enclosure.proof import proved
 from .chase import Chased, chase
 from .fields import natural, tests_of
 from .follow import BUDGET, NATURAL_TIMES, answer_of, spin_up
 from .result import SpinUp
 
 COLD = 256  # states from which on numba is loaded unasked, where it is installed
-LEVELS = ("undecided", "certified", "exact")
+LEVELS = ("undecided", "certified", "exact", "proved")
 
 
 @dataclass(frozen=True)
@@ -43,9 +44,10 @@ class SpinUps:
         return self.exact[number] if self.chased is None else answer_of(self.scene, self.unit, self.chased, number)
 
 
-def spin_up_many(scene, states, t_max: float | None = None, budget: int | None = None, tell=None, fast: bool | None = None) -> SpinUps:
+def spin_up_many(scene, states, t_max: float | None = None, budget: int | None = None, tell=None, fast: bool | None = None,
+                 proof: bool = False) -> SpinUps:
     """`follow.spin_up` for states (n, 3), in batches; every motion leaves its batch as soon as it is decided. Limits as there.
-    fast: as there, None for numba from COLD states on."""
+    fast: as there, None for numba from COLD states on. proof: enclose the way of each that is certified, one after another."""
     states = checked_states(states).reshape(-1, 3)
     own, unit = natural(scene)
     tests = tests_of(own)
@@ -57,8 +59,16 @@ def spin_up_many(scene, states, t_max: float | None = None, budget: int | None =
     good = found.fired >= 0
     axes = np.array([0 if field.axis is None else field.axis + 1 for field, _ in tests.asked] + [0])
     senses = np.array([field.sense for field, _ in tests.asked] + [0])
-    return SpinUps(np.where(good, Fate.SPIN_UP, Fate.UNDECIDED).astype(np.int8), axes[found.fired].astype(np.int8), senses[found.fired].astype(np.int8),
-                   good.astype(np.int8), found.t / unit, found.steps, found.condition, found.states * unit, scene, unit, found, ())
+    out = SpinUps(np.where(good, Fate.SPIN_UP, Fate.UNDECIDED).astype(np.int8), axes[found.fired].astype(np.int8), senses[found.fired].astype(np.int8),
+                  good.astype(np.int8), found.t / unit, found.steps, found.condition, found.states * unit, scene, unit, found, ())
+    return _proved(scene, states, out) if proof else out
+
+
+def _proved(scene, states, found: SpinUps) -> SpinUps:
+    rows = tuple(proved(scene, state, found.row(number)) for number, state in enumerate(states.tolist()))
+    columns = {name: np.array([getattr(row, name) for row in rows]) for name in ("t", "state")}
+    return replace(found, level=np.array([LEVELS.index(row.level) for row in rows], np.int8), t=columns["t"], states=columns["state"].reshape(-1, 3),
+                   chased=None, exact=rows)
 
 
 def _one_by_one(scene, states):

@@ -10,6 +10,7 @@ from stabilab.numbers.numba_door import installed
 from stabilab.unreduced.enclosure.proof import proved
 from stabilab.unreduced.spin_up.certificate import Certifier
 from stabilab.unreduced.spin_up.follow import spin_up
+from stabilab.unreduced.spin_up.many import LEVELS, spin_up_many
 
 from ..spin_up import scenes
 from ..spin_up.scenes import EXAMPLE, random_scene, rates_of, sphere
@@ -80,3 +81,13 @@ def test_motions_without_a_wheel_are_proved_and_nearly_all_others():
 def test_what_is_certified_is_proved():
     some, certified = share_of(12, .1, 13, t_max=200, budget=4000)
     assert some == certified >= 10
+
+
+def test_many_are_proved_as_one_by_one():
+    states = [sphere(random.Random(n), 2) for n in range(4)] + [(-9, 1, 1)]
+    many = spin_up_many(EXAMPLE, states, t_max=12, proof=True)
+    for number, state in enumerate(states):
+        one, row = spin_up(EXAMPLE, state, t_max=12, proof=True), many.row(number)
+        assert LEVELS[many.level[number]] == one.level == row.level and row.axis == one.axis == many.axis[number]
+    assert set(many.level.tolist()) == {LEVELS.index("proved"), LEVELS.index("undecided")}
+    assert len(spin_up_many(EXAMPLE, np.empty((0, 3)), proof=True).level) == 0
