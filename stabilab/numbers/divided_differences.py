@@ -26,15 +26,6 @@ LARGEST_EXPONENT = 700.0  # exp(709.78) is the largest double; the rest is room 
 MOST_TERMS = 100  # reached by no cluster narrower than 30
 
 
-def divided_difference(nodes: Sequence[ArrayLike], t: ArrayLike, low: Sequence[ArrayLike] | None = None) -> np.ndarray:
-    """D[x0 ... xn](t), complex, for one list of nodes (n at most 9); see `divided_differences`.
-
-    nodes: sequence of n + 1 complex numbers or arrays (1/s), equal ones allowed; t: s, broadcast against them.
-    """
-    low = [0.0] * len(nodes) if low is None else low
-    return divided_differences(nodes, [(1,) * len(nodes)], t, low)[(1,) * len(nodes)]
-
-
 def divided_differences(nodes: Sequence[ArrayLike], counts: Iterable[Counts], t: ArrayLike, low: Sequence[ArrayLike] | None = None) -> dict[Counts, np.ndarray]:
     """D over several multisets of the same nodes, sharing their parts.
 

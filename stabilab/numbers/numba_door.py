@@ -1,7 +1,7 @@
 """When the extra `fast` (numba) is to answer: asked for, or so many states that loading it pays."""
 from __future__ import annotations
 
-from collections.abc import Container
+from collections.abc import Callable, Container
 from functools import lru_cache
 from importlib.util import find_spec
 from types import FunctionType, ModuleType
@@ -28,8 +28,26 @@ def wanted(n: int, fast: bool | None, loaded: bool, cold: int, warm: int) -> boo
     return bool(fast)
 
 
-def compiled(module: ModuleType, inlined: Container[str], cache: bool) -> dict[str, Any]:
-    """The names of a module of straight-line kernels with all its functions compiled."""
+def compiled(module: ModuleType, inlined: Container[str]) -> dict[str, Any]:
+    """The names of a module of straight-line kernels with all its functions compiled; kept on disk where there is a place for it."""
+    return _kept(lambda cache: _compiled(module, inlined, cache))
+
+
+def compiled_function(function: FunctionType) -> Any:
+    """One function compiled, kept on disk where there is a place for it."""
+    from numba import njit
+    return _kept(lambda cache: njit(cache=cache, error_model="numpy")(function))
+
+
+def _kept(make: Callable[[bool], Any]) -> Any:
+    """make(True), or make(False) where numba finds no folder that it may write to: then each process compiles anew."""
+    try:
+        return make(True)
+    except RuntimeError:
+        return make(False)
+
+
+def _compiled(module: ModuleType, inlined: Container[str], cache: bool) -> dict[str, Any]:
     from numba import njit
     names = dict(vars(module))
     for name, function in list(names.items()):

@@ -145,7 +145,6 @@ class ParabolaLandscape(Landscape):
     """place = (omega_j, omega_k)."""
 
     def start(self, states):
-        """(place, W, size): place a pair of arrays, size a pair with the magnitudes whose rounding limits the place."""
         r = self.reduction
         place = states[..., r.j], states[..., r.k]
         return place, states[..., r.axis] + float(r.s), tuple(np.abs(v) for v in place)
@@ -163,7 +162,6 @@ class ParabolaLandscape(Landscape):
         return 2 * reach  # a parabola's walls may stand at any distance
 
     def critical(self, place, barriers_only=False):
-        """Equilibria on the orbits of places (n,): (offsets (n, m), place (2, n, m), barrier (n, m) bool)."""
         force = self.potential.force(place)
         first, second, third = self.potential.derivatives(place)
         n = np.size(force)

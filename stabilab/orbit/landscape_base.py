@@ -1,9 +1,6 @@
 """Barriers and wells along the orbits of many states at once: what the three geometries have in common, and circle and hyperbola."""
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
 import numpy as np
 
 from .conic import Conic
@@ -22,18 +19,34 @@ class Landscape:
     Places are (X, Z) on a circle, (X + Z, X - Z) on a hyperbola, (omega_j, omega_k) on a parabola.
     """
 
-    start: Callable[..., Any]  # what a geometry says of itself
-    critical: Callable[..., Any]
-    invariant: Callable[..., Any]
     conic: Conic | None = None
     unit = 1.0  # turn about the axis per theta, signed as the reflection
     turn = np.inf  # after so much theta an orbit comes to the same place again
-    may_rotate = False  # whether a motion may pass over all barriers and stay bounded
 
     def __init__(self, reduction):
         self.reduction, self.e = reduction, reduction.e
         self.potential = potential(reduction)
         self.sense = reduction.sense
+
+    @property
+    def may_rotate(self) -> bool:
+        """Whether a motion may pass over all barriers and stay bounded."""
+        return False
+
+    def start(self, states):
+        """(place, W, size): place a pair of arrays, size a pair with the magnitudes whose rounding limits the place."""
+        raise NotImplementedError
+
+    def critical(self, place, barriers_only=False):
+        """Equilibria on the orbits of places (n,): (offsets (n, m), place (2, n, m), barrier (n, m) bool).
+
+        Offsets on a circle lie in (0, 2 pi]; the same equilibrium recurs every turn.
+        """
+        raise NotImplementedError
+
+    def invariant(self, place):
+        """Q of each place; of circles and hyperbolas."""
+        raise NotImplementedError
 
     def components(self, place, w):
         """States (..., 3) at places with rate W."""
@@ -126,7 +139,6 @@ class ConicLandscape(Landscape):
         self.unit = reduction.constants["flip"] / reduction.constants["n"]
 
     def start(self, states):
-        """(place, W, size): place a pair of arrays, size a pair with the magnitudes whose rounding limits the place."""
         g = self.reduction.constants
         x, z, w = self.reduction.canonical(states)
         size = np.abs(x) + abs(g["sj"] / g["rx"]), np.abs(z) + abs(g["sk"] / g["rz"])
@@ -157,15 +169,7 @@ class ConicLandscape(Landscape):
     def rate(self, w):
         return self.reduction.component_i(w)
 
-    def invariant(self, place):
-        """Q of each place."""
-        raise NotImplementedError
-
     def critical(self, place, barriers_only=False):
-        """Equilibria on the orbits of places (n,): (offsets (n, m), place (2, n, m), barrier (n, m) bool).
-
-        Offsets on a circle lie in (0, 2 pi]; the same equilibrium recurs every turn.
-        """
         Q = self.invariant(place)
         hits = self.conic.critical_places(Q, True if barriers_only else None)
         n, m = Q.size, len(hits)

@@ -8,8 +8,6 @@ from ..errors import InputError
 from ..numbers.exact import exact, exact_vector, floats
 from ..numbers.vectors import Exact3, Given
 
-AXIS_WORDS = ("minor", "middle", "major")
-
 
 @dataclass(frozen=True)
 class Body:
@@ -42,10 +40,3 @@ class Body:
             object.__setattr__(self, "mass", float(mass))
         object.__setattr__(self, "exact", moments)
         object.__setattr__(self, "inertia", floats(moments))
-
-    def axis_word(self, axis: int) -> str:
-        """"minor", "middle", "major" for axis 0, 1, 2 of a body with three different moments, "repeated-moment"
-        where the moment equals another one."""
-        if self.exact.count(self.exact[axis]) > 1:
-            return "repeated-moment"
-        return AXIS_WORDS[sorted(self.exact).index(self.exact[axis])]

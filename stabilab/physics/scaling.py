@@ -17,7 +17,6 @@ from ..errors import InputError
 from ..numbers.exact import exact_vector, sqrt_fraction
 from ..numbers.vectors import Exact3, Float3, Number
 from .body import Body
-from .effects import effect_class
 from .scene import ScaledGyrostat, Scene
 
 
@@ -32,10 +31,6 @@ class Scaling:
     def to_scaled(self, omega: Iterable[float]) -> Float3:
         """omega (rad/s), a sequence of three floats -> x."""
         return tuple(float(Fraction(w) / r) for w, r in zip(map(float, omega), self.rate))
-
-    def to_physical(self, x: Iterable[float]) -> Float3:
-        """x, a sequence of three floats -> omega (rad/s)."""
-        return tuple(float(Fraction(v) * r) for v, r in zip(map(float, x), self.rate))
 
 
 def shape_factors(body: Body) -> tuple[Fraction, Fraction, Fraction]:
@@ -90,17 +85,3 @@ def to_scaled(scene: Scene, mu: Sequence[Number] | None = None) -> tuple[ScaledG
         mu = tuple(m / (d * u * sqrt_fraction(k * kj)) for m, d, kj in zip(torque, scene.body.exact, (k1, k2, k3)))
     root = sqrt_fraction(u * k1)
     return ScaledGyrostat(lam[0] / ((d1 - d3) * root), lam[0] / ((d1 - d2) * root), tuple(mu)), change
-
-
-def to_physical(scaled: ScaledGyrostat, body: Body, u: Number = Fraction(1)) -> tuple[Scene, Scaling]:
-    """The physical twin on `body` of a scaled system: needs b/a = (D1-D3)/(D1-D2) to hold to rounding."""
-    k1, _, _ = shape_factors(body)
-    d1, d2, d3 = body.exact
-    a, b = scaled.exact_ab
-    root = sqrt_fraction(u * k1)
-    la, lb = a * (d1 - d3) * root, b * (d1 - d2) * root
-    if abs(la - lb) > Fraction(1, 10**14) * max(abs(la), abs(lb)):
-        raise InputError(f"no gyrostatic moment of this body gives a = {scaled.a:.17g} and b = {scaled.b:.17g}: "
-                         f"b/a must be (D1-D3)/(D1-D2) = {float((d1 - d3) / (d1 - d2)):.17g}")
-    vectors = {"gyrostat": (la, 0, 0), "constant_torque": torque_from_mu(body, scaled.exact_mu, Fraction(u))}
-    return Scene(body, *(effect_class(name)(v) for name, v in vectors.items() if any(v))), scaling(body, Fraction(u))

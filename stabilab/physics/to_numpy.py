@@ -34,11 +34,6 @@ class Form:
     symbols: tuple[Symbolic, ...]
     numbers: tuple[float, ...]
 
-    @property
-    def varying(self) -> tuple[bool, ...]:
-        """Which of the expressions depend on the state."""
-        return tuple(bool(e.free_symbols & set(self.state)) for e in self.expressions)
-
 
 def form(equations: Equations, expressions: Iterable[Symbolic], drop_constants: bool = False) -> Form:
     """Expressions with one numbered coefficient per monomial; monomials whose coefficient is exactly 0 vanish."""

@@ -7,18 +7,20 @@ from collections.abc import Iterator
 from tests.house.rooms import PACKAGE
 
 
-def is_sign(node) -> bool:
-    """Whether an expression is the sign e of p q: a name `e`, or an attribute `.e`."""
-    return isinstance(node, ast.Name) and node.id == "e" or isinstance(node, ast.Attribute) and node.attr == "e"
+def is_sign(node, beside=()) -> bool:
+    """Whether an expression is the sign e of p q: an attribute `.e`, or a name `e` that is not compared with anything but 0."""
+    if isinstance(node, ast.Name) and node.id == "e":
+        return all(isinstance(other, ast.Constant) and other.value == 0 for other in beside if other is not node)
+    return isinstance(node, ast.Attribute) and node.attr == "e"
 
 
-def asks(tree) -> Iterator[int]:
-    """The lines that test it: a comparison, the truth of it, or a table that it opens."""
+def asks(tree, names=True) -> Iterator[int]:
+    """The lines that test it: a comparison, the truth of it, or a table that it opens. names: the name `e` counts too."""
     caught = {id(n) for h in ast.walk(tree) if isinstance(h, ast.ExceptHandler) and h.name == "e" for n in ast.walk(h)}
     for node in ast.walk(tree):
-        tested = []
+        tested, beside = [], []
         if isinstance(node, ast.Compare):
-            tested = [node.left, *node.comparators]
+            tested = beside = [node.left, *node.comparators]
         elif isinstance(node, (ast.If, ast.IfExp, ast.While, ast.Assert)):
             tested = [node.test]
         elif isinstance(node, ast.comprehension):
@@ -29,16 +31,18 @@ def asks(tree) -> Iterator[int]:
             tested = [node.operand]
         elif isinstance(node, ast.Subscript):
             tested = [node.slice]
-        yield from (one.lineno for one in tested if is_sign(one) and id(one) not in caught)
+        yield from (one.lineno for one in tested if (names or isinstance(one, ast.Attribute)) and is_sign(one, beside) and id(one) not in caught)
 
 
 def places() -> list[str]:
-    """file:line of every test in the package but the checker's, whose geometry is its own."""
+    """file:line of every test in the package: of attributes anywhere, of names in `orbit`, for elsewhere an e is an effect or an entry. The
+    checker's geometry is its own."""
     found = []
     for path in sorted(PACKAGE.rglob("*.py")):
         file = path.relative_to(PACKAGE).as_posix()
         if not file.startswith("verify/"):
-            found += [f"{file}:{line}" for line in asks(ast.parse(path.read_text(encoding="utf-8")))]
+            tree = ast.parse(path.read_text(encoding="utf-8"))
+            found += [f"{file}:{line}" for line in asks(tree, names=file.startswith("orbit/"))]
     return found
 
 

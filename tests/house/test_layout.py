@@ -11,7 +11,7 @@ from functools import cache
 import pytest
 
 import stabilab
-from tests.house import rooms
+from tests.house import geometry, rooms
 from tests.house.rooms import GROUND, MAY, PACKAGE, PAGE, ROOT, all_imports, circles, modules, room
 
 HEAVY = {"sympy", "scipy", "matplotlib", "pyvista", "vtk", "vtkmodules", "heyoka", "xarray", "pandas", "mpmath", "flint",
@@ -22,6 +22,8 @@ MODULES = sorted(PACKAGE.rglob("*.py"))
 IMPORTS = all_imports()
 FILES_IN_A_FOLDER = 16  # a list that fits the eye
 ROOMIER = {"stabilab/verify": 20}  # one subject, read as a whole by whoever trusts it; wings would hide its steps from each other
+SIGNS = 60  # tests of the sign of p q, of 139 once; a fourth of them in the distance from a separatrix, whose sheets are told by charts
+SIGNS_OUTSIDE = {"answers/fate_grid.py", "answers/stuck/margins.py", "answers/stuck/wheel.py"}  # they say in words what the sign means
 # Imports inside functions, besides those of the commands: (importing module, imported module) -> why it waits
 DOORS = {
     ("stabilab.answers.certificate", "stabilab.answers.certified_spin_up"): "loads numpy",
@@ -105,6 +107,23 @@ def test_no_module_of_the_package_bears_a_public_name():
 def test_a_folder_holds_at_most_sixteen_files(folder):
     most = ROOMIER.get(folder.relative_to(ROOT).as_posix(), FILES_IN_A_FOLDER)
     assert len([path for path in folder.glob("*.py") if path.name != "__init__.py"]) <= most
+
+
+def test_no_file_stands_beside_a_folder_of_its_name():
+    """Python would import the folder, and nobody would read the file."""
+    assert not [path for path in PACKAGE.rglob("*.py") if path.with_suffix("").is_dir()]
+
+
+def test_few_places_ask_for_the_sign_of_the_geometry():
+    """Circle, hyperbola and parabola are classes in `orbit`; a wing opens one table of them."""
+    found = geometry.places()
+    assert len(found) <= SIGNS, found
+    assert {place.split(":")[0] for place in found if not place.startswith("orbit/")} <= SIGNS_OUTSIDE
+
+
+def test_a_test_of_the_sign_is_found():
+    asked = "if r.e < 0: pass\nx = 1 if not land.e else 2\ntable[land.e]\nif e == 0: pass\nif e > most: pass\ny = r.e * 2\n"
+    assert sorted(geometry.asks(ast.parse(asked))) == [1, 2, 3, 4]
 
 
 def test_the_drawing_of_the_rooms_is_that_of_the_imports():

@@ -5,12 +5,18 @@ import numpy as np
 import pytest
 
 from stabilab.errors import InputError
-from stabilab.numbers.divided_differences import divided_difference, divided_differences
+from stabilab.numbers.divided_differences import divided_differences
 from stabilab.numbers.double_double import Twofold, twofold
 
 flint = pytest.importorskip("flint")
 BITS = 400
 ALLOWED = 20  # times the effect of half a unit in the last place of the nodes, of t and of the answer
+
+
+def divided_difference(nodes, t, low=None):
+    """D[x0 ... xn](t) of one list of nodes."""
+    once = (1,) * len(nodes)
+    return divided_differences(nodes, [once], t, [0.0] * len(nodes) if low is None else low)[once]
 
 
 def opitz(nodes, t):

@@ -65,11 +65,8 @@ def _open_piece(conic, piece):
 
 @lru_cache(maxsize=1)
 def kernel():
-    """`circle_kernel.orbits`, compiled; kept on disk where there is a place for it."""
-    try:
-        return compiled(circle_kernel, INLINED, cache=True)["orbits"]
-    except RuntimeError:  # numba found no folder that it may write to
-        return compiled(circle_kernel, INLINED, cache=False)["orbits"]
+    """`circle_kernel.orbits`, compiled."""
+    return compiled(circle_kernel, INLINED)["orbits"]
 
 
 def run_kernel(orbits, land, states, wanted, boxes, periods):

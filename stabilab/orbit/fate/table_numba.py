@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from functools import lru_cache
 
-from ...numbers.numba_door import wanted
+from ...numbers.numba_door import compiled_function, wanted
 from . import table_kernel as arithmetic
 
 HELPERS = ("angle", "logarithm", "cell_position", "height_polynomial", "angle_polynomial", "circle_height",
@@ -31,13 +31,4 @@ def _loops():
         return lambda condition, yes, no: yes if condition else no
     for name in HELPERS:
         register_jitable(getattr(arithmetic, name))
-    return {-1: _compiled(arithmetic.circle_loop), 1: _compiled(arithmetic.hyperbola_loop)}
-
-
-def _compiled(function):
-    """numba's function, cached on disk where some folder can be written."""
-    from numba import njit
-    try:
-        return njit(cache=True, error_model="numpy")(function)
-    except RuntimeError:  # no place to keep the machine code: compile anew in each process
-        return njit(error_model="numpy")(function)
+    return {-1: compiled_function(arithmetic.circle_loop), 1: compiled_function(arithmetic.hyperbola_loop)}

@@ -24,11 +24,8 @@ def serves(land, strips) -> bool:
 
 @lru_cache(maxsize=1)
 def kernel():
-    """The compiled names of `circle_loops`; kept on disk where there is a place for it."""
-    try:
-        return compiled(circle_loops, {"force", "slope", "moved", "y_minus_sin", "rise", "stray"}, cache=True)
-    except RuntimeError:  # numba found no folder that it may write to
-        return compiled(circle_loops, (), cache=False)
+    """The compiled names of `circle_loops`."""
+    return compiled(circle_loops, {"force", "slope", "moved", "y_minus_sin", "rise", "stray"})
 
 
 @lru_cache(maxsize=64)

@@ -13,19 +13,6 @@ from .circle_kernel import loop_end as _end_on_circle
 FAR = 700.0       # beside an open plane there is no wall as near as this
 
 
-def settled_on(pot, place):
-    """The place moved along its orbit to where the force vanishes, if that is near."""
-    for _ in range(3):
-        slope = pot.slope(place)
-        step = -pot.force(place) / slope if slope else 0.0
-        if not abs(step) < 0.5:
-            return place
-        place = pot.move(place, step)
-        if abs(step) < 1e-12:
-            break
-    return place
-
-
 def loop_end(pot, e, sense, saddle, side):
     """(distance along the orbit from the saddle to the far end of its loop on one side (-1, +1), distance to the deepest well
     inside, ENDS or SHARED); None where no loop closes. SHARED: the far end is a saddle as high.

@@ -11,13 +11,8 @@ INLINED = {"exact_sum", "high_part", "exact_product"}
 
 @lru_cache(maxsize=1)
 def functions() -> dict:
-    """The kernel's functions by name, compiled where numba is installed (kept on disk where there is a place for it), else as they are."""
-    if not installed():
-        return vars(kernel)
-    try:
-        return compiled(kernel, INLINED, cache=True)
-    except RuntimeError:  # numba found no folder that it may write to
-        return compiled(kernel, INLINED, cache=False)
+    """The kernel's functions by name, compiled where numba is installed, else as they are."""
+    return compiled(kernel, INLINED) if installed() else vars(kernel)
 
 
 def advance():

@@ -242,21 +242,6 @@ def test_the_compiled_kernel_equals_its_plain_python():
         np.testing.assert_allclose(compiled[1][:30][known], periods[known], rtol=1e-12)
 
 
-def test_where_no_folder_is_writable_the_kernel_compiles_without_a_cache(monkeypatch):
-    pytest.importorskip("numba")
-    asked = []
-
-    def compiled(module, inlined, cache):
-        asked.append(cache)
-        if cache:
-            raise RuntimeError("cannot cache function: no locator available")
-        return {"orbits": "kernel"}
-    monkeypatch.setattr(fast_extremes, "compiled", compiled)
-    fast_extremes.kernel.cache_clear()
-    assert fast_extremes.kernel() == "kernel" and asked == [True, False]
-    fast_extremes.kernel.cache_clear()
-
-
 def test_equilibria_between_two_folds_have_no_kernel_and_the_same_extremes():
     from stabilab.orbit.extremes.circle_numba import kernel_input
     from stabilab.orbit.landscape import landscape

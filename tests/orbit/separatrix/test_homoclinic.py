@@ -9,7 +9,6 @@ import pytest
 from stabilab.orbit.landscape import landscape
 from stabilab.orbit.separatrix.circle_kernel import force, moved, real_cubic
 from stabilab.orbit.separatrix.circle_kernel import settled as settled_on_circle
-from stabilab.orbit.separatrix.homoclinic import settled_on
 from tests.shared import SCALED_MINOR
 
 
@@ -35,7 +34,5 @@ def test_a_place_near_an_equilibrium_moves_onto_it_and_no_other(off):
     found = settled_on_circle(g, *start)
     assert abs(force(g, *found)) < 1e-9 and math.hypot(*found) == pytest.approx(math.hypot(x, z), rel=1e-12)
     np.testing.assert_allclose(found, (x, z), atol=1e-8)
-    np.testing.assert_allclose(settled_on(pot, start), (x, z), atol=1e-8)
     flat = (0.05, 0.05)  # A^2 < 2: no equilibrium on this circle
     np.testing.assert_allclose(math.hypot(*settled_on_circle(g, *flat)), math.hypot(*flat), rtol=1e-9)
-    assert settled_on(pot, flat) == flat
