@@ -2,8 +2,12 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 from ...errors import InputError
+from ...orbit.result import Fate
+from ...physics.alignment import torque_axis
+from ..tilt import Tilt, tilt
 from .delay import delayed
 from .family import STEADY
 from .fate import found
@@ -62,10 +66,20 @@ def _row(scenario, thrusters) -> Row:
     seen = found(scenario, torque)
     axis, sense = axes.number(seen.axis, seen.sense)
     others = [t for t in scenario.case.thrusters if t not in thrusters]
+    scene = scenario.scene(torque)
     return Row(tuple(t.name for t in thrusters), scenario.torque_in_file(thrusters), axes.counted(torque), seen.fate.word, seen.level,
                axis, sense, seen.direction and axes.back(seen.direction), scenario.limit, seen.time, seen.time_level, seen.never, seen.largest, seen.followed,
-               seen.because, margins(scenario, scenario.scene(torque), seen), tuple(_wheel(scenario, torque, seen, wheel) for wheel in scenario.case.wheels),
-               helpers(scenario, torque, others) if seen.fate not in STEADY else ())
+               seen.because, margins(scenario, scene, seen), tuple(_wheel(scenario, torque, seen, wheel) for wheel in scenario.case.wheels),
+               helpers(scenario, torque, others) if seen.fate not in STEADY else (), _tilted(scenario, thrusters, scene, seen))
+
+
+def _tilted(scenario, thrusters, scene, seen) -> Tilt | None:
+    """What a tilt of an axis torque does to a bounded motion: by the misalignment of the thrusters that fire, else by one degree."""
+    stated = scenario.limit is not None or any(t.misalignment for t in thrusters)
+    if not stated or seen.fate != Fate.BOUNDED or seen.kind != "orbit" or not torque_axis(scene):
+        return None
+    case = replace(scenario.case, thrusters=tuple(replace(t, stuck=t in thrusters) for t in scenario.case.thrusters))
+    return tilt(scene, scenario.start, None, None, case, scenario.state)
 
 
 def _wheel(scenario, torque, seen, wheel) -> WheelAnswer:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from ...numbers.vectors import Float3
+from ..tilt import Tilt
 
 
 class Principal(NamedTuple):
@@ -71,7 +72,8 @@ class Row:
     direction: unit vector along which the rate grows, frame of the file, or None. limit: rad/s, of |omega|, or three numbers of its components
     in the frame of the file, or None. time_to_limit: (low, high), s, of the first time at the limit; None where it is never within what
     is known. never: whether it is known never to be reached. largest_rate: of |omega|, rad/s, up to that time or for ever.
-    followed: s, how long a run followed the motion.
+    followed: s, up to where the limit is known not to be reached. tilt: what becomes of a bounded motion when the torque is a little off its axis
+    (`answers.tilt`), where a limit or a misalignment is stated.
     """
 
     thrusters: tuple[str, ...]
@@ -92,6 +94,7 @@ class Row:
     margins: dict[str, Margin]
     wheels: tuple[WheelAnswer, ...] = ()
     helpers: tuple[Helper, ...] = ()
+    tilt: Tilt | None = None
 
 
 @dataclass(frozen=True)

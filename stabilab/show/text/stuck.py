@@ -7,6 +7,7 @@ from ...errors import printable
 from .engineering import ENGINEERING, SI
 from .engineering import bracket as _bracket
 from .engineering import number as _number
+from .when import tilt_dict
 
 WORD = {1: "major", 2: "middle", 3: "minor"}
 CSV = ("case,thrusters,torque_x,torque_y,torque_z,torque_1,torque_2,torque_3,fate,level,axis,sense,limit,time_low,time_high,largest_rate,"
@@ -27,7 +28,7 @@ def _row(row) -> dict:
             "margin": {name: row.margins[name].size if name in row.margins else None for name in ("rate", "wheel", "torque")},
             "wheel_intervals": [{"wheel": w.wheel, "keeps_bounded": w.keeps_bounded, "now": w.now, "axis": w.axis, "best": w.best, "best_time": w.best_time,
                                  "gain": w.gain, "searched": w.searched, "because": w.because} for w in row.wheels],
-            "because": row.because, "direction": row.direction, "never": row.never, "time_level": row.time_level,
+            "because": row.because, "tilt": tilt_dict(row.tilt), "direction": row.direction, "never": row.never, "time_level": row.time_level,
             "margin_direction": {name: margin.direction for name, margin in row.margins.items()},
             "margin_because": {name: margin.because for name, margin in row.margins.items()},
             "helpers": [{"thrusters": list(h.thrusters), "duty": h.duty, "effect": h.effect, "torque_left": h.torque_left, "fate": h.fate,
@@ -93,18 +94,29 @@ def answer_line(row, units, axes=WORD) -> str:
     if row.fate == "undecided":
         return f"UNDECIDED{', but ' + when if when else ': ' + _so_far(row, units)}"
     words = {"bounded": "STAYS BOUNDED", "equilibrium": "AT REST in the body's frame: every rate stays as it is", "separatrix": "ON THE SEPARATRIX"}[row.fate]
-    while_ = _while(row, axes)
+    while_ = _while(row, axes, units)
     if when:
         return f"{words}{while_}, but {when}{_known(row)}"
     largest = "" if row.largest_rate is None else f", rate at most {_number(row.largest_rate * units.rate[1])} {units.rate[0]}"
     below = ", never at its limit" if row.never and row.limit is not None else ""
-    return f"{words}{while_}{largest}{below}{_known(row)}"
+    if row.tilt is None:
+        return f"{words}{while_}{largest}{below}{_known(row)}"
+    return f"{words}{largest}{below}{_known(row)},{while_}"
 
 
-def _while(row, axes):
+def _while(row, axes, units):
     """On what a bound rests: a torque on an axis is one direction of many."""
     acting = [n for n, v in enumerate(row.torque_principal, 1) if v]
-    return f" while the torque is exactly along axis {acting[0]} ({axes[acting[0]]})" if row.fate == "bounded" and len(acting) == 1 else ""
+    if row.fate != "bounded" or len(acting) != 1:
+        return ""
+    words, tilt = f"while the torque is exactly along axis {acting[0]} ({axes[acting[0]]})", row.tilt
+    if tilt is None or tilt.untilted:
+        return f" {words}"
+    angle = f"tilted by {_number(math.degrees(tilt.angle))} deg it"
+    limit, time = f"{_number(tilt.limit * units.rate[1])} {units.rate[0]}", units.time
+    if tilt.ends:
+        return f" only {words}: {angle} reaches {limit} in {_number(tilt.low * time[1])} {time[0]}"
+    return f" {words}; {angle} was not found to reach {limit} within {_number(tilt.followed * time[1])} {time[0]}"
 
 
 def _known(row):
@@ -208,7 +220,10 @@ def _details(row, units) -> list[str]:
         if margin.size is not None:
             told = f"{_amount(name, margin.size, units, 9)} along {_vector(margin.direction)}" + (f": {told}" if told else "")
         lines.append(f"  {'margin, ' + name:<24} {told}")
-    lines += [f"  {_wheel(w, units)}" + (f" ({w.because})" if w.keeps_bounded or w.best is not None else "") for w in row.wheels]
+    if row.tilt is not None:
+        early = f"{_number(row.tilt.not_before * units.time[1], 9)} {units.time[0]}"
+        lines.append(f"  {'tilted, not before':<24} {early}, whatever the azimuth and for any smaller tilt (proved)")
+    lines += [f"  {_wheel(w, units)}{f' ({w.because})' if w.keeps_bounded or w.best is not None else ''}" for w in row.wheels]
     return lines + [f"  {_helper(h, units)}" for h in row.helpers]
 
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import stabilab
+from stabilab import load, stuck
 from tests.answers.stuck.brute import Craft
 
 CASE = """title = "On an axis"
@@ -136,3 +137,33 @@ def test_several_stuck_thrusters_are_answered_together_and_then_each_alone(asked
     assert [row.thrusters for row in found.rows] == [("A", "C"), ("A",), ("C",)]
     assert found.rows[0].torque == pytest.approx(np.add(found.rows[1].torque, found.rows[2].torque))
     assert Fraction(found.rows[2].torque[0]) == Fraction(0.015)
+
+
+def test_the_headline_of_a_bounded_motion_says_what_a_tilt_does(asked, stabilab, tmp_path):
+    """The tilted torque that is told, followed by brute force in the frame of the file, reaches the limit when it is told to."""
+    text = CASE.replace('force = "20 mN"\n', 'force = "20 mN"\nmisalignment = "5 deg"\n').replace("60 deg/s", "12 deg/s")
+    row = asked(text, "0.02").rows[0]
+    assert row.fate == "bounded" and row.tilt.angle == pytest.approx(math.radians(5)) and row.tilt.of == "the force of A"
+    t, _, _ = Craft(text.replace("{spin}", "0.02")).run(2 * row.tilt.high, torque=np.array(row.tilt.torque))
+    assert row.tilt.low * (1 - 1e-8) < t < row.tilt.high * (1 + 1e-8) and 0 <= row.tilt.not_before <= row.tilt.low
+    code, out, _ = stabilab("stuck", tmp_path / "own.toml")
+    first = out.splitlines()[0]
+    assert code == 0 and "only while the torque is exactly along axis 3 (minor): tilted by 5 deg it reaches 12 deg/s in " in first
+    assert asked(CASE.replace('[limits]\nrate = "60 deg/s"\n', ""), "0.02").rows[0].tilt is None
+
+
+def test_a_terminal_is_told_what_is_being_asked_and_a_pipe_is_not(stabilab, tmp_path, monkeypatch):
+    import sys
+
+    from stabilab.show import progress
+    path = tmp_path / "own.toml"
+    path.write_text(CASE.replace("{spin}", "0.02").replace('[limits]\nrate = "60 deg/s"\n', ""))
+    assert stabilab("stuck", path)[2] == ""
+    with progress.told() as tell:
+        assert tell is None
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
+    words = []
+    monkeypatch.setattr(sys.stderr, "write", words.append)
+    with progress.told() as tell:
+        stuck(load(path), progress=tell)
+    assert any("own: A ..." in word for word in words) and words[-1].endswith("\x1b[K")
