@@ -10,6 +10,7 @@ if TYPE_CHECKING:
 
 AGREE = 1e-9  # relative: nearer than that, lower bound and witness are one number
 
+
 @dataclass(frozen=True)
 class Sheet:
     """One sheet of the separatrix as a parametric grid.
@@ -55,12 +56,12 @@ class Apart(NamedTuple):
 
     @property
     def value(self) -> float:
-        """The distance where it is known to AGREE, else what it certainly is not below."""
-        return self.upper if self.settled else self.lower
+        """The distance where it is known to AGREE, else what it certainly is not below; NaN where nothing is known of it."""
+        return self.upper if self.settled else self.lower if self.upper < math.inf else math.nan
 
     @property
     def settled(self) -> bool:
-        return self.upper == self.lower or self.upper - self.lower <= AGREE * self.upper
+        return self.upper == self.lower or self.upper - self.lower <= AGREE * self.upper < math.inf
 
 
 NO_SEPARATRIX = Apart(math.inf, math.inf, None)

@@ -1,6 +1,8 @@
 """The distance from the separatrix: charts err by less than their bounds, lower bound and witness meet where that is hard."""
 from __future__ import annotations
 
+from fractions import Fraction
+
 import mpmath
 import numpy as np
 import pytest
@@ -15,6 +17,7 @@ from stabilab.orbit.separatrix.distance.long_loops import loops_of
 from stabilab.orbit.separatrix.distance.loop_chart import Chart
 from stabilab.orbit.separatrix.distance.point import Seen
 from stabilab.orbit.separatrix.distance.turn_chart import TurnChart
+from stabilab.orbit.separatrix.result import NO_SEPARATRIX, UNKNOWN
 from tests.oracles.pairs import physical
 
 
@@ -143,3 +146,18 @@ def test_a_branch_that_ends_beside_a_plane_is_not_taken_to_reach_it():
     way = (np.array(found.witness) - state) / found.upper
     margins = stabilab.fate(scene, state + way * found.upper * np.array([[0.7], [1 - 1e-6], [1 - 1e-9], [1 + 1e-6]])).margins
     assert found.settled and margins[0] > 0 and 0 < margins[2] < 2e-3 * margins[1] and margins[3] == np.inf
+
+
+def test_an_unknown_distance_is_no_number_and_none_is_infinite():
+    """Infinite would say that no separatrix is near: the unsafe side."""
+    assert np.isnan(UNKNOWN.value) and not UNKNOWN.settled and NO_SEPARATRIX.value == np.inf and NO_SEPARATRIX.settled
+
+
+@pytest.mark.parametrize("part", [1e-9, 1e-12, 1e-15])
+def test_states_far_nearer_than_doubles_of_the_search_tell_have_a_settled_distance(part):
+    """On the perpendicular of a nearest point, at a distance that is known but for the rounding of that point to doubles."""
+    scene, state = physical((3.0, 2.0, 1.5), (0, 0.8, 0), (0.2, 0, 0))[0], (0.3, 0.5, 0.4)
+    still = distance_of(reduce(scene), state)
+    beside = [Fraction(w) + Fraction(part / still.upper) * (Fraction(v) - Fraction(w)) for v, w in zip(state, still.witness)]
+    found = distance_of(reduce(scene), beside)
+    assert found.settled and found.boxes < 3000 and abs(found.upper - part) < 1e-9 * part + 1e-15

@@ -14,8 +14,8 @@ class Beside:
 
     sharpest, from_saddle = True, False
 
-    def __init__(self, chart, t, y, dt, dy):
-        self.chart, self.t0, self.y0, self.seen = chart, t, y, chart.seen
+    def __init__(self, chart, t, y, dt, dy, inner):
+        self.chart, self.t0, self.y0, self.seen, self.inner = chart, t, y, chart.seen, inner
         self.near = float(t), float(y)
         self.t, self.y = _within(t, dt, *chart.t), _within(y, dy, *chart.y)
 
@@ -27,13 +27,30 @@ class Beside:
         (tt, _), _, (yy, _), (f_tt, _), _, (f_yy, _) = chart.bends(float(t), 0.0, float(y), 0.0)
         k = p.gap / w if w > 0 else 0.0
         sizes = [math.sqrt(2 * FAR * goal / bend) if bend > 0 else math.inf for bend in (tt + k * f_tt, yy + k * f_yy)]
+        inner = sizes
         sizes = [min(max(size, COARSE * (abs(at) + high - low)), high - low)
                  for size, at, (low, high) in zip(sizes, (float(t), float(y)), (chart.t, chart.y))]
-        return Beside(chart, t, y, *sizes) if min(sizes) > 0 and all(map(math.isfinite, sizes)) else None
+        return Beside(chart, t, y, *sizes, inner) if min(sizes) > 0 and all(map(math.isfinite, sizes)) else None
 
     def boxes(self):
-        (t0, t1), (y0, y1) = self.t, self.y
-        yield self, 0.5 * (t0 + t1), 0.5 * (t1 - t0), 0.5 * (y0 + y1), 0.5 * (y1 - y0)
+        """The box about the place where squared distances are some times the least, and frames about it, each sixteen times as wide: a
+        box that reaches far beyond would lose the least distance to rounding."""
+        (t, y), last = self.inner, None
+        while True:
+            (t0, t1), (y0, y1) = ((max(-size, low), min(size, high)) for size, (low, high) in zip((t, y), (self.t, self.y)))
+            if last is None:
+                yield self._of(t0, t1, y0, y1)
+            else:
+                (a0, a1), (b0, b1) = last
+                for sides in ((t0, a0, y0, y1), (a1, t1, y0, y1), (a0, a1, y0, b0), (a0, a1, b1, y1)):
+                    if sides[0] < sides[1] and sides[2] < sides[3]:
+                        yield self._of(*sides)
+            if (t0, t1) == self.t and (y0, y1) == self.y:
+                return
+            last, t, y = ((t0, t1), (y0, y1)), 16 * t, 16 * y
+
+    def _of(self, t0, t1, y0, y1):
+        return self, 0.5 * (t0 + t1), 0.5 * (t1 - t0), 0.5 * (y0 + y1), 0.5 * (y1 - y0)
 
     def covers(self, chart, t, dt, y, dy):
         """Whether a box of the chart lies in the neighbourhood."""

@@ -64,7 +64,8 @@ class Box(NamedTuple):
         """That of the multiplier k with its least at W = s = w0 + part."""
         p, s = self.p, w0 + part
         over = (p.gap - part) * (2 * w0 + p.gap + part) if p.phi > 0 else p.phi - s * s  # phi - s^2 without cancellation
-        off = (self._off_r() + abs(k) * (p.off[1] + p.rough[2] * self.dt + p.rough[3] * self.dy)
+        off_over = min(p.off[1], p.off[2] * (2 * w0 + 2 * abs(p.gap) + abs(part) + p.off[2])) if p.phi > 0 else p.off[1]
+        off = (self._off_r() + abs(k) * (off_over + p.rough[2] * self.dt + p.rough[3] * self.dy)
                + 2e-15 * (part * part + abs(k * over)) + (4e-16 * abs(k) * s * s if not p.phi > 0 else 0.0))
         bends = [(a[0] + k * b[0], a[1] + abs(k) * b[1]) for a, b in zip(self.r, self.f)]
         if touch and w0 > 0:  # the root is concave: its curvature over the box bends D upward
