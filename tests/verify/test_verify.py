@@ -152,6 +152,6 @@ def test_the_checker_shares_only_flint():
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if isinstance(node, ast.ImportFrom):
                 assert node.level == 1 or node.module in ("flint", "fractions", "contextlib", "dataclasses", "functools", "math", "threading",
-                                                          "types", "__future__"), (path, node.module)
+                                                          "types", "typing", "__future__"), (path, node.module)
             elif isinstance(node, ast.Import):
                 assert [a.name for a in node.names] in (["flint"], ["json"], ["re"], ["reprlib"]), path
