@@ -9,10 +9,10 @@ STAMP := $(VENV)/.installed
 report: $(STAMP)
 	$(BIN)/stabilab report cases/*.toml --out report
 
-# ROOM=orbit/fate: the tests of one room or wing alone
+# ROOM=orbit/fate: the tests of one room or wing alone. A file stays with one of the two workers, which computes once what its tests share
 ROOM ?=
 test: $(STAMP)
-	$(BIN)/python -m pytest -n 2 -m "not slow" $(if $(ROOM),tests/$(ROOM))
+	$(BIN)/python -m pytest -n 2 --dist loadfile -m "not slow" $(if $(ROOM),tests/$(ROOM))
 
 # Ruff's rules, types, and who may import whom
 check: $(STAMP)
@@ -59,7 +59,7 @@ hunt: $(STAMP)
 # Which lines and branches of the analysis the default suite runs; fails below 95 %
 coverage: $(STAMP)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e ".[strength]"
-	$(BIN)/python -m pytest -n 2 -m "not slow" --cov --cov-report=term:skip-covered tests
+	$(BIN)/python -m pytest -n 2 --dist loadfile -m "not slow" --cov --cov-report=term:skip-covered tests
 
 # How many small faults in the analysis the tests see (docs/strength.md); 0 faults a subject means all
 MUTANTS ?= 60

@@ -98,7 +98,7 @@ def test_case_4_a_near_b_and_gyrostats_of_any_size_and_sign(a, b, mu):
     agrees(scaled(a, b, mu), rng.normal(size=(4, 3)) * 2 + centre)
 
 
-@pytest.mark.parametrize("decade", [-12, -9, -6, -3, 3, 6, 9, 12])
+@pytest.mark.parametrize("decade", [-12, -6, 6, 12, *(pytest.param(d, marks=pytest.mark.slow) for d in (-9, -3, 3, 9))])
 @pytest.mark.parametrize("axis", [0, 1, 2])
 @pytest.mark.parametrize("sign", [1, -1])
 def test_case_4_torques_tiny_and_huge_against_the_gyrostat(decade, axis, sign):

