@@ -14,12 +14,16 @@ from ..numbers.exact import exact_vector
 from ..physics.coefficients import effective
 from ..physics.scene import AnyScene
 from ..physics.states import checked_states, equations_and_start, start_of
+from .passage.banded import STEPS as BAND_STEPS
+from .passage.banded import banded
 from .passage.clock import by_clock
 from .passage.enclosed import WORK, enclosed
 from .passage.limit import Limit, asked
 from .passage.never import after_a_period, never, never_bounded
 from .passage.result import Found, TimeTo
-from .passage.run import by_run
+from .passage.run import by_run, by_run_of
+
+LATER = 1e-6  # of the time that a run finds: the enclosure goes on for so long after it
 
 
 def time_to(scene: AnyScene, states: Any, rate: Any = None, component: Any = None, energy: Any = None, tilt: Any = None,
@@ -34,8 +38,8 @@ def time_to(scene: AnyScene, states: Any, rate: Any = None, component: Any = Non
     ends; None: when its work is done. exact: three exact numbers of which a single state is the rounding. work: multiplications that the proof
     for a motion may take; 0: no proof.
 
-    Torque and wheel: the motion is enclosed and its crossing proved where the work reaches; beyond that roots along a run, then the clock of the
-    spin-up. Other effects: roots along a run. Raises InputError for scenes, states and limits that are none.
+    Torque and wheel: the motion is enclosed and its crossing proved where the work reaches; beyond that by compiled steps (with numba), roots
+    along a run, the clock of the spin-up. Other effects: roots along a run. Raises InputError for scenes, states and limits that are none.
     """
     given, scene = scene, effective(checked_scene(scene))
     limit, end = asked(scene, rate, component, energy, tilt), _end(t_max)
@@ -96,7 +100,7 @@ def of_one(scene: AnyScene, state: Any, start: Any, limit: Limit, end: Fraction 
         return Found(_down(proof.low), _up(proof.high), "proved", f"{limit.words}: the motion enclosed, its first crossing by roots")
     if proof.done:
         return _at_the_end(proof, limit, last is not end, scene.time_unit)
-    return _beyond_proof(scene, state, limit, end, proof)
+    return _beyond_integers(scene, state, start, limit, end, proof, work)
 
 
 def _at_the_end(proof: Any, limit: Limit, whole: Any, unit: Any) -> Found:
@@ -109,16 +113,23 @@ def _at_the_end(proof: Any, limit: Limit, whole: Any, unit: Any) -> Found:
     return Found(_down(proof.until), math.nan, "proved", f"{limit.words}: not reached by t_max, the motion enclosed")
 
 
-def _beyond_proof(scene: AnyScene, state: Any, limit: Limit, end: Fraction | None, proof: Any) -> Found:
-    """The work allowed for a proof is done: a run, and where that is too long the clock."""
-    run = by_run(scene, state, limit, math.inf if end is None else float(end))
+def _beyond_integers(scene: AnyScene, state: Any, start: Any, limit: Limit, end: Fraction | None, proof: Any, work: int) -> Found:
+    """The work allowed in integers is done: a run follows longer ways, which compiled steps enclose, and the clock tells of the longest."""
+    known, last = _down(proof.until), math.inf if end is None else float(end)
+    run, steps = by_run_of(scene, state, limit, last)
+    if work and steps <= BAND_STEPS and (run.high == run.high or run.low >= last * (1 - LATER)):
+        band = banded(scene, start, limit, run.high * (1 + LATER) if run.high == run.high else last)
+        if band is not None and band.high < math.inf:
+            return Found(band.low, band.high, "proved", f"{limit.words}: the motion enclosed in {band.steps} compiled steps")
+        known = max(known, band.low) if band is not None else known
     if run.high == run.high:
         return run
     clock = by_clock(scene, state, limit, run.low) if end is None else None
     if clock is not None:
         return clock
-    known = _down(proof.until)
-    return run if run.low > known else Found(known, math.nan, "proved", f"{limit.words}: proved not to be reached before low; {run.words}")
+    if run.low > known:
+        return run
+    return Found(known, math.nan, "proved", f"{limit.words}: proved not to be reached before low; {run.words}")
 
 
 def _of_any(scene: AnyScene, state: Any, limit: Limit, end: Fraction | None) -> Found:

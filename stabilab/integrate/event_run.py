@@ -21,11 +21,12 @@ LONGEST = 1e6  # natural times a step may take: a motion that is a polynomial of
 
 @dataclass(frozen=True)
 class FirstRoot:
-    """t: the first root, None where none was found; until: the time that the run reached; ended: whether that is the time asked for."""
+    """t: the first root, None where none was found; until: the time that the run reached; ended: whether that is the time asked for; steps: taken."""
 
     t: float | None
     until: float
     ended: bool
+    steps: int
 
 
 def first_root(equations, state, expressions, t_max: float, steps: int, tolerance: float = TAYLOR_TOLERANCE) -> FirstRoot:
@@ -47,10 +48,10 @@ def _by_taylor(equations, forms, state, t_max, steps, tolerance):
             done += taken
             hits = [t for t, *_ in found if t > 0]
             if hits:
-                return FirstRoot(min(hits), float(integrator.time), True)
+                return FirstRoot(min(hits), float(integrator.time), True, done)
             alive = np.isfinite(integrator.state).all()
             if outcome.name != "step_limit" or done >= steps or not alive:
-                return FirstRoot(None, float(integrator.time) if alive else 0.0, outcome.name == "time_limit" and bool(alive))
+                return FirstRoot(None, float(integrator.time) if alive else 0.0, outcome.name == "time_limit" and bool(alive), done)
 
 
 def _longest(equations, state) -> float:
@@ -67,16 +68,16 @@ def _by_scipy(equations, forms, state, t_max, steps, tolerance):
     values = _compiled(forms, count)
     rtol = max(tolerance, FALLBACK_RTOL)
     solver = DOP853(lambda _, x: np.array(system.rate(x.tolist())), 0.0, state, t_max, rtol=rtol, atol=rtol * ATOL_SHARE * (np.abs(state).max() or 1.0))
-    for _ in range(steps):
+    for done in range(steps):
         if solver.status != "running":
             break
         with np.errstate(all="ignore"):
             solver.step()
         if solver.status == "failed" or not np.isfinite(solver.y).all():
-            return FirstRoot(None, float(solver.t_old or 0.0), False)
+            return FirstRoot(None, float(solver.t_old or 0.0), False, done)
         if roots := _of_step(values, solver.dense_output(), solver.t_old, solver.t):
-            return FirstRoot(float(min(roots)), float(solver.t), True)
-    return FirstRoot(None, float(solver.t), solver.status == "finished")
+            return FirstRoot(float(min(roots)), float(solver.t), True, done)
+    return FirstRoot(None, float(solver.t), solver.status == "finished", steps)
 
 
 def _of_step(values, dense, begin, end):

@@ -13,6 +13,7 @@ from stabilab.answers.passage.drift import stays_below
 from stabilab.answers.tilt import tilt
 from stabilab.errors import InputError
 from tests.oracles.first_crossing import REAL, first_crossing
+from tests.shared import CASES
 
 BODY, WHEEL, STATE = package.Body((12, 9, 5)), package.Gyrostat(("0.8", 0, 0)), [0.1, 0.05, 0.02]
 ON_AXIS = package.Scene(BODY, WHEEL, package.ConstantTorque((0, 0, "0.02")))  # the satellite of README.md
@@ -108,6 +109,40 @@ def test_a_limit_that_the_bounded_motion_reaches_by_itself_is_told_so():
 def test_what_no_tilt_can_be_asked_of_is_refused(scene, state, words):
     with pytest.raises(InputError, match=words):
         tilt(scene, state)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("degrees", [0.1, 0.5, 1, 5])
+def test_the_times_of_tilted_torques_in_the_documentation_are_those_of_brute_force(degrees):
+    """docs/spacecraft.md has these times in minutes, and what no torque of the cone does before."""
+    pytest.importorskip("heyoka")
+    pytest.importorskip("numba")
+    told = {row[0]: row[1:] for row in _table()}
+    angle, column = math.radians(degrees), [0.1, 0.5, 1, 5].index(degrees)
+    bound = stays_below(ON_AXIS, STATE, 2, 0.02 * math.sin(angle), (0.02 * math.cos(angle), 0.02))
+    assert float(told["any, not before"][column]) == pytest.approx(bound / 60, abs=0.005) and float(told["any, not before"][column]) <= bound / 60
+    proved = 0
+    for azimuth in range(0, 360, 30):
+        phi = math.radians(azimuth)
+        torque = 0.02 * np.array([math.sin(angle) * math.cos(phi), math.sin(angle) * math.sin(phi), math.cos(angle)])
+        found = package.time_to(package.Scene(BODY, WHEEL, package.ConstantTorque(tuple(torque))), STATE, rate=2)
+        assert found.low > bound
+        proved += found.level == "proved"
+        word = told[f"{azimuth} deg"][column]
+        if word.startswith(">"):
+            assert found.low / 60 >= float(word.removeprefix(">"))
+            continue
+        true = true_time(ON_AXIS, torque, STATE, 2, 1.1 * found.high)
+        assert found.low - 1e-13 * true <= true <= found.high + 1e-13 * true  # what the oracle may be off by
+        assert float(word) == pytest.approx(true / 60, abs=0.006)
+    assert proved >= 5
+
+
+def _table():
+    """The rows of the table of tilted torques."""
+    text = (CASES.parent / "docs" / "spacecraft.md").read_text(encoding="utf-8")
+    lines = text[text.index("| azimuth |"):].split("\n\n")[0].splitlines()[2:]
+    return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
 
 
 THRUSTER = """

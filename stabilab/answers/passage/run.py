@@ -22,19 +22,24 @@ ROUNDING = 2.0**-50  # relative, of a time that both find alike
 
 def by_run(scene, start, limit, t_max: float = math.inf, steps: int = STEPS) -> Found:
     """The first crossing of the motion of any scene. start: numbers or blocks, as `trajectory` takes them; t_max: the scene's time."""
+    return by_run_of(scene, start, limit, t_max, steps)[0]
+
+
+def by_run_of(scene, start, limit, t_max: float = math.inf, steps: int = STEPS) -> tuple[Found, int]:
+    """The same, and the steps that the first run took."""
     equations, state, unit, expressions = _asked(scene, start, limit)
     end = t_max * unit if math.isfinite(t_max) else 1e300
     one = first_root(equations, state, expressions, end, steps)
     words = f"{limit.words}: roots along a run in machine precision"
     if one.t is None:
         far = "t_max" if one.ended else f"{steps} steps"
-        return Found(_less(one.until) / unit, math.nan, "run", f"{words}: not reached by t = {one.until / unit:.6g} {scene.time_unit} ({far})")
+        return Found(_less(one.until) / unit, math.nan, "run", f"{words}: not reached by t = {one.until / unit:.6g} {scene.time_unit} ({far})"), one.steps
     two = first_root(equations, moved_row(state, MOVED), expressions, end, 2 * steps, 4 * TAYLOR_TOLERANCE)
     if two.t is None:
         return Found(0.0, math.nan, "undecided", f"{words} find it at {one.t / unit:.6g} {scene.time_unit}, a second run from a start moved in its "
-                                                 "last place does not: more than a run in doubles can tell")
+                                                 "last place does not: more than a run in doubles can tell"), one.steps
     blur = WIDER * abs(one.t - two.t) + ROUNDING * one.t
-    return Found(max(0.0, one.t - blur) / unit, (one.t + blur) / unit, "run", f"{words}, the error from a second one")
+    return Found(max(0.0, one.t - blur) / unit, (one.t + blur) / unit, "run", f"{words}, the error from a second one"), one.steps
 
 
 def run_once(scene, start, limit, t_max: float = math.inf, steps: int = STEPS):

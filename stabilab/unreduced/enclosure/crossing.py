@@ -21,6 +21,7 @@ from .run import WHY, Course, allowed
 HALVINGS = 40  # of a step
 FAR = 2.0**24  # natural units of time: beyond what any number of steps reaches
 BLUR = 2.0**-40
+ROOT = 2.0**-50  # of the limit's square: the limit may itself be a rounded root
 POINTS = 16  # of a step beyond the one in which the limit may first be reached
 
 
@@ -65,7 +66,7 @@ class _Search:
     """Looks for the first time in bands one after another."""
 
     def __init__(self, level, weights):
-        self.below, self.above, self.weights = level * (1 - 2.0**-52), level * (1 + 2.0**-52), weights
+        self.below, self.above, self.weights = level * (1 - ROOT), level * (1 + ROOT), weights
         self.low = self.high = None
 
     def found_in(self, band) -> bool:

@@ -231,3 +231,21 @@ def test_a_torque_between_equal_moments_that_spins_up_is_followed():
 def euler(D, l, M, w):
     h = np.multiply(D, w) + l
     return (np.asarray(M) - np.cross(w, h)) / D
+
+
+def test_a_way_too_long_for_integers_is_enclosed_by_compiled_steps():
+    pytest.importorskip("numba")
+    a = math.radians(1)
+    torque = (-0.02 * math.sin(a), 0.0, 0.02 * math.cos(a))  # the satellite of README.md, its thruster tilted by a degree
+    scene = stabilab.Scene(BODY, WHEEL, stabilab.ConstantTorque(torque))
+    found = stabilab.time_to(scene, [0.1, 0.05, 0.02], rate=2, work=1_000_000)
+    true = first_crossing((12, 9, 5), (REAL("0.8"), 0, 0), torque, [0.1, 0.05, 0.02], (np.ones(3), np.zeros(3), REAL(4)), 1e4)
+    assert found.level == "proved" and found.low <= true <= found.high < found.low * (1 + 1e-9)
+
+
+def test_three_components_are_enclosed_by_compiled_steps_too():
+    pytest.importorskip("numba")
+    found, far = (stabilab.time_to(TILTED, [0.1, 0.05, 0.9], rate=("0.5", "0.5", most), work=1) for most in ("1.5", 5))
+    one = stabilab.time_to(TILTED, [0.1, 0.05, 0.9], component=(3, "1.5"))
+    assert found.level == far.level == "proved" and found.low <= one.high and one.low <= found.high
+    assert far.low > found.high
