@@ -17,7 +17,7 @@ from ...physics.effects.gyrostat import Gyrostat
 from ...physics.scene import Scene
 
 STEADY = (Fate.BOUNDED, Fate.EQUILIBRIUM)
-FINE = Fraction(1, 1 << 54)  # of an end, or of the size of the whole: an end is known to this
+FINE = Fraction(1, 1 << 51)  # of an end, or of the size of the whole: an end is known to this
 TRIES = 400  # halvings or doublings at most: doubles have 2,098 binary orders, these bodies a few
 
 
@@ -40,9 +40,23 @@ class Family:
 
     def fate(self, wheel=None, torque=None) -> Fate:
         """The fate of the start, decided exactly; SPIN_UP where a wheel along the torque lets no motion be bounded."""
+        return self._decided(wheel, torque)[0]
+
+    def _decided(self, wheel, torque):
+        """(fate, margin in energy)."""
         scene = self.scene(wheel, torque)
         reduction = reduce(scene)
-        return Fate.SPIN_UP if reduction is None else fate_of(scene, Orbit(reduction, self.state)).label
+        if reduction is None:
+            return Fate.SPIN_UP, math.nan
+        found = fate_of(scene, Orbit(reduction, self.state))
+        return found.label, found.margin
+
+    def clearly(self, wanted: bool = True, wheel=None, torque=None) -> tuple[bool, float]:
+        """(whether the start stays bounded, or with wanted=False does not; how clearly: the margin in energy, positive where so, NaN where it tells not)."""
+        label, margin = self._decided(wheel, torque)
+        steady = label in STEADY
+        holds, sign = steady == wanted, 1 if wanted else -1
+        return holds, sign * margin if math.isfinite(margin) and (sign * margin > 0) == holds and label != Fate.EQUILIBRIUM else math.nan
 
     def steady(self, wheel=None, torque=None) -> bool:
         """Whether the start stays bounded."""
@@ -93,19 +107,37 @@ def family_of(scene, state) -> Family | None:
     return Family(scene.body, acting[0], torque[acting[0]], scene.vector("gyrostat"), tuple(map(Fraction, state)), turn)
 
 
-def change_between(holds, inside: Fraction, outside: Fraction, scale: Fraction) -> tuple[Fraction, Fraction]:
-    """(last number known to hold, first known not to) between one that holds and one that does not, as near as `FINE` of their size or of scale."""
-    for _ in range(TRIES):
-        if abs(outside - inside) <= FINE * max(abs(inside), abs(outside), scale * FINE):
+def change_between(answer, inside: Fraction, outside: Fraction, scale: Fraction) -> tuple[Fraction, Fraction]:
+    """(last number known to hold, first known not to) between one that holds and one that does not, as near as `FINE` of their size or of scale.
+
+    answer(number): (whether it holds, a margin that is positive exactly where it does, or NaN). Where both ends have margins the next number is
+    where the line through them vanishes, at least the resolution away from either end, the margin of an end that stays halved (the Illinois rule);
+    every fourth time it is the middle.
+    """
+    margins, last = [answer(end)[1] for end in (inside, outside)], None
+    for n in range(TRIES):
+        least = FINE * max(abs(inside), abs(outside), scale * FINE)
+        if abs(outside - inside) <= least:
             break
-        middle = _short((inside + outside) / 2)
+        middle = _short(_next(inside, outside, margins, least) if n % 4 < 3 else (inside + outside) / 2)
         if not min(inside, outside) < middle < max(inside, outside):
-            break
-        if holds(middle):
-            inside = middle
-        else:
-            outside = middle
+            middle = _short((inside + outside) / 2)
+            if not min(inside, outside) < middle < max(inside, outside):
+                break
+        holds, margin = answer(middle)
+        inside, outside = (middle, outside) if holds else (inside, middle)
+        margins = [margin, margins[1] / (2 if last is True else 1)] if holds else [margins[0] / (2 if last is False else 1), margin]
+        last = holds
     return inside, outside
+
+
+def _next(inside, outside, margins, least):
+    a, b = margins
+    if not (a > 0 > b and math.isfinite(a - b)):
+        return (inside + outside) / 2
+    share = Fraction(min(max(a / (a - b), 0.0), 1.0))
+    edge = min(Fraction(1, 2), least / abs(outside - inside))
+    return inside + min(max(share, edge), 1 - edge) * (outside - inside)
 
 
 def _short(value: Fraction) -> Fraction:

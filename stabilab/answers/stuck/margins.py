@@ -61,7 +61,7 @@ def _torque(scenario, family, steady) -> Margin:
     size = abs(family.torque)
     now = 1 if family.torque > 0 else -1
     if not steady:
-        ends = [change_between(lambda m: not family.steady(torque=now * m), size, Fraction(0), size)[1]]
+        ends = [change_between(lambda m: family.clearly(False, torque=now * m), size, Fraction(0), size)[1]]
         changes = [now * ends[0] - family.torque]
     else:
         changes = [sign * end - family.torque for sign in (now, -now) if (end := _least_torque(family, sign, size)) is not None]
@@ -77,7 +77,7 @@ def _least_torque(family, sign, size) -> Fraction | None:
     steady = Fraction(0)
     for _ in range(TRIES):
         if family.fate(torque=sign * size) == Fate.SPIN_UP:
-            return change_between(lambda m: family.steady(torque=sign * m), steady, size, size)[1]
+            return change_between(lambda m: family.clearly(torque=sign * m), steady, size, size)[1]
         steady, size = size, 2 * size
     return None
 
@@ -107,7 +107,7 @@ def _to_pure_spin(family):
     whole = sqrt_fraction(sum(v * v for v in step))
     if not whole:
         return None, None
-    return change_between(lambda s: family.steady(family.along(family.wheel, step, s)), Fraction(0), Fraction(1), Fraction(1))[1] * whole, step
+    return change_between(lambda s: family.clearly(wheel=family.along(family.wheel, step, s)), Fraction(0), Fraction(1), Fraction(1))[1] * whole, step
 
 
 def _pure_spin(family, n) -> Fraction:
@@ -124,7 +124,7 @@ def _exactly(family, step, size, steady) -> Fraction | None:
     for _ in range(12):
         low, high = size * max(Fraction(0), 1 - share), size * (1 + share)
         if same(low) and not same(high):
-            return change_between(same, low, high, size)[1]
+            return change_between(lambda s: family.clearly(steady, family.along(family.wheel, step, s)), low, high, size)[1]
         share *= 3
     return None
 

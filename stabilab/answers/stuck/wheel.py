@@ -101,7 +101,7 @@ def _pieces(family, start, step, cuts):
         near = cut + (1 if inside > cut else -1) * NEAR * unit, cut - (1 if inside > cut else -1) * NEAR * unit
         if holds(near[0]) and not holds(near[1]):
             inside, outside = near
-        end = float(change_between(holds, inside, outside, unit)[0])
+        end = float(change_between(lambda s: family.clearly(wheel=family.along(start, step, s)), inside, outside, unit)[0])
         if steady[n]:
             out.append((low, end))
             low = None
