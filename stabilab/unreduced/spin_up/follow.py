@@ -53,7 +53,7 @@ def answer_of(scene, unit: float, found: Chased, row: int) -> SpinUp:
     steps, condition = int(found.steps[row]), float(found.condition[row])
     if found.fired[row] < 0:
         recurrent = recurs(found.largest[row].tolist(), found.least[row].tolist(), steps)
-        words = (f"{seen(scene, state, recurrent and island_words(scene, t))}; followed for {t:.6g} {scene.time_unit}, {steps} steps, over which a "
+        words = (f"{seen(scene, state, island_words(scene, t) if recurrent else '')}; followed for {t:.6g} {scene.time_unit}, {steps} steps, over which a "
                  f"small change grew {condition:.3g} times")
         if not condition * (1 + steps) * 2.0**-52 < 1 / 16:
             words += ": more than a run in doubles can tell"
