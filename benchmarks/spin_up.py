@@ -16,6 +16,8 @@ from functools import lru_cache
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.unreduced.spin_up.follow import spin_up
 
+from .rows import numba_available
+
 WHEELS, SHARES, RATES = (0, .1, 1, 10), (40, 20, 25, 15), (.1, 1, 3, 10, 30)
 KINDS = ("generic", "flat", "rod", "near")
 
@@ -108,7 +110,7 @@ def main(seed=1, scenes=100, times=2000.0, steps=60_000, seconds=170.0, continue
     for _ in range(scenes):
         scene, state, kind, wheel = random_scene(rng)
         at = time.perf_counter()
-        answer = spin_up(scene, state, times, steps)
+        answer = spin_up(scene, state, times, steps, fast=numba_available())
         took = 1e3 * (time.perf_counter() - at)
         wrong = violations(scene, answer, continued) if continued and answer.level == "certified" else []
         rows.append((kind, wheel, answer, took, wrong))
