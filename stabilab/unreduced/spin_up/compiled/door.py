@@ -15,10 +15,7 @@ INLINED = {kernel: {"put"}, moving_kernel: {"greatest"}}
 @lru_cache(maxsize=2)
 def functions(module) -> dict:
     """A kernel's functions by name, compiled; kept on disk where there is a place for it."""
-    try:
-        return compiled(module, INLINED[module], cache=True)
-    except RuntimeError:  # numba found no folder that it may write to
-        return compiled(module, INLINED[module], cache=False)
+    return compiled(module, INLINED[module])
 
 
 def fast_certifier(field, orders: tuple[int, int]):
