@@ -16,7 +16,8 @@ MOST = 1000  # of the body's own momentum: changes of the wheel as great are not
 BESIDE = 2 * math.pi * np.geomspace(1e-4, 1e-2, 5)  # of a turn: directions beside that of a circle that is a point
 FEW = 5  # nearest places that are looked at in exact numbers
 DIRECTIONS = 180  # of a change of wheel momentum, at first
-CLOSE = Fraction(1, 10**4)  # of a change: how near to it, as doubles saw it, the exact change is looked for
+TURNS = (0.0, 1e-5, -1e-5, 1e-4, -1e-4, 1e-3, -1e-3)  # rad: the nearest place may be the tip where two separatrices meet, with nothing straight behind it
+CLOSE = Fraction(1, 10**6)  # of a change: how near to it, as doubles saw it, the exact change is looked for
 
 
 def margins(scenario, scene, seen) -> dict[str, Margin]:
@@ -89,14 +90,17 @@ def _wheel(scenario, family, steady) -> Margin:
     for angle, size in _nearest(rise, steady):
         if not size < MOST * family.momentum_unit or (best is not None and size > best):
             continue
-        towards = [Fraction(0)] * 3
-        towards[j], towards[k] = Fraction(math.cos(angle)), Fraction(math.sin(angle))
-        found = _exactly(family, towards, Fraction(size), steady)
-        if found is not None and (best is None or found < best):
-            best, step = found, towards
+        for turn in TURNS:
+            towards = [Fraction(0)] * 3
+            towards[j], towards[k] = Fraction(math.cos(angle + turn)), Fraction(math.sin(angle + turn))
+            near = rise.first_change(angle + turn, steady) if turn else size
+            found = _exactly(family, towards, Fraction(near), steady) if near < 2 * size else None
+            if found is not None:
+                best, step = (found, towards) if best is None or found < best else (best, step)
+                break
     if best is None:
         return Margin(because="no wheel momentum across the torque is known to change the fate, up to a thousand times the body's own")
-    return Margin(float(best), _direction(scenario, family, {j: step[j], k: step[k]}), "of a wheel momentum that stays across the torque")
+    return Margin(float(best), _direction(scenario, family, {j: step[j], k: step[k]}), "of a wheel momentum that stays across the torque, the least found over its directions")
 
 
 def _to_pure_spin(family):
@@ -121,7 +125,7 @@ def _exactly(family, step, size, steady) -> Fraction | None:
     def same(s):
         return family.steady(family.along(family.wheel, step, s)) == steady
     share = CLOSE
-    for _ in range(12):
+    for _ in range(14):
         low, high = size * max(Fraction(0), 1 - share), size * (1 + share)
         if same(low) and not same(high):
             return change_between(lambda s: family.clearly(steady, family.along(family.wheel, step, s)), low, high, size)[1]

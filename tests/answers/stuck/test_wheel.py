@@ -127,3 +127,24 @@ def test_off_the_axes_only_an_equilibrium_is_kept():
     found, _ = intervals(given, (Fraction(1), Fraction(2), Fraction(3)), (Fraction(0), Fraction(0), Fraction(1)))
     assert found == ((7.0, 7.0),)
     assert intervals(given, (Fraction(1), Fraction(2), Fraction(2)), (Fraction(0), Fraction(0), Fraction(1)))[0] == ()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(12))
+def test_no_change_of_the_wheel_smaller_than_the_margin_changes_the_fate(seed, tmp_path):
+    """Exact fates all round the circle just inside the margin, in the plane across the torque; and just beyond it along the direction told."""
+    import stabilab
+    moments, wheel, torque, start, _ = a_scene(random.Random(100 + seed))
+    path = tmp_path / "own.toml"
+    path.write_text("[body]\ninertia = {}\n[effects.constant_torque]\ntorque = {}\n[effects.gyrostat]\nmomentum = {}\n[motion]\nangular_velocity = {}\n"
+                    .format(*([str(v) for v in vector] for vector in (moments, torque, wheel, start))))
+    margin = stabilab.stuck(stabilab.load(path)).rows[0].margins["wheel"]
+    family = family_of(scene(moments, wheel, torque), start)
+    steady = family.steady()
+    j, k = family.across
+    for n in range(72):
+        step = [Fraction(0)] * 3
+        step[j], step[k] = Fraction(math.cos(n * math.pi / 36)), Fraction(math.sin(n * math.pi / 36))
+        assert family.steady(family.along(wheel, step, Fraction(margin.size) * Fraction(998, 1000))) == steady
+    told = [Fraction(v) if m != family.axis else Fraction(0) for m, v in enumerate(margin.direction)]
+    assert family.steady(family.along(wheel, told, Fraction(margin.size) * (1 + Fraction(1, 10**7)))) != steady
