@@ -122,12 +122,12 @@ def _beyond_integers(scene: AnyScene, state: Any, start: Any, limit: Limit, end:
         if band is not None and band.high < math.inf:
             return Found(band.low, band.high, "proved", f"{limit.words}: the motion enclosed in {band.steps} compiled steps")
         known = max(known, band.low) if band is not None else known
-    if run.high == run.high:
+    if run.high >= known:  # a run that the enclosure contradicts is worth nothing
         return run
-    clock = by_clock(scene, state, limit, run.low) if end is None else None
+    clock = by_clock(scene, state, limit, max(run.low, known)) if end is None else None
     if clock is not None:
         return clock
-    if run.low > known:
+    if run.low > known and run.high != run.high:
         return run
     return Found(known, math.nan, "proved", f"{limit.words}: proved not to be reached before low; {run.words}")
 

@@ -120,7 +120,7 @@ def test_the_times_of_tilted_torques_in_the_documentation_are_those_of_brute_for
     told = {row[0]: row[1:] for row in _table()}
     angle, column = math.radians(degrees), [0.1, 0.5, 1, 5].index(degrees)
     bound = stays_below(ON_AXIS, STATE, 2, 0.02 * math.sin(angle), (0.02 * math.cos(angle), 0.02))
-    assert float(told["any, not before"][column]) == pytest.approx(bound / 60, abs=0.005) and float(told["any, not before"][column]) <= bound / 60
+    assert float(told["any, not before"][column]) == pytest.approx(bound / 60, abs=0.01) and float(told["any, not before"][column]) <= bound / 60
     proved = 0
     for azimuth in range(0, 360, 30):
         phi = math.radians(azimuth)
