@@ -15,7 +15,7 @@ from .runs import Runs
 FIRST, EARLY, SHARES, MOST = 4, 200, (0.25, 0.1), 2000  # steps between tests: a share of those before (early, later), at least and at most so many
 # Which tests a stage asks: (every so many stages, from so many steps on, name in `Tests`), the last that applies. What costs more comes later.
 LAST = 5000
-PLAN = ((1, 0, "often"), (3, 6, "high"), (4, 100, "all"), (16, LAST, "last"))
+PLAN = ((1, 0, "often"), (3, 6, "high"), (4, 100, "all"), (8, LAST, "last"))
 
 
 @dataclass

@@ -55,17 +55,19 @@ class Tests:
     @cached_property
     def moving(self):
         found = (moving_centre(form, self.scene) for form in self.forms)
-        return [moving for moving in found if moving and moving.wheeled]
+        return [moving for moving in found if moving]
 
     @cached_property
     def all(self):
-        return (self.high + [(field, orders) for fields, all_ in ((self.fixed, HIGHEST_ORDERS), (self.moving, MOVING_ORDERS))
+        wheeled = [field for field in self.moving if field.wheeled]  # the centre moves far where there is a wheel
+        return (self.high + [(field, orders) for fields, all_ in ((self.fixed, HIGHEST_ORDERS), (wheeled, MOVING_ORDERS))
                              for field in fields for orders in all_] +
                 [(field, EQUATORIAL_ORDERS[1]) for field in self.equatorial])
 
     @cached_property
     def last(self):
-        return self.all + [(field, LAST_ORDERS) for field in self.moving]
+        still = [(field, orders) for field in self.moving if not field.wheeled for orders in MOVING_ORDERS]
+        return self.all + still + [(field, LAST_ORDERS) for field in self.moving]
 
     def __bool__(self):
         return bool(self.often)
