@@ -100,7 +100,8 @@ def _wheel(scenario, family, steady) -> Margin:
                 break
     if best is None:
         return Margin(because="no wheel momentum across the torque is known to change the fate, up to a thousand times the body's own")
-    return Margin(float(best), _direction(scenario, family, {j: step[j], k: step[k]}), "of a wheel momentum that stays across the torque, the least found over its directions")
+    words = "of a wheel momentum that stays across the torque, the least found over its directions"
+    return Margin(float(best), _direction(scenario, family, {j: step[j], k: step[k]}), words)
 
 
 def _to_pure_spin(family):
