@@ -138,6 +138,8 @@ def disagreements(scene, states, fast, with_table, with_digits):
         yield from _against_table(scene, array, many, fast)
     if with_digits:
         n = int(with_digits) % len(states)
+        if times:
+            yield from _periods_apart(scene, states, times[fast[0]][1])
         yield from (([v.hex() for v in states[n]], wrong) for wrong in _against_digits(scene, states[n], ones[n], free))
 
 
@@ -158,6 +160,13 @@ def _against_boxes(one, times, n):
     first, *rest = (periods[n] for _, periods in times.values())
     if any(times_part(first, other) for other in rest):
         yield f"periods by the two ways: {first!r}, {rest}"
+
+
+def _periods_apart(scene, states, periods):
+    for state, many in zip(states, periods):
+        one = stabilab.motion(scene, state).period
+        if one is not None and times_part(one, many):
+            yield [v.hex() for v in state], f"period of one state {one!r}, of arrays {float(many)!r}"
 
 
 def _against_table(scene, array, few, fast):

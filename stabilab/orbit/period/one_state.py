@@ -19,6 +19,7 @@ from .balls import precise_period
 
 NODES = (16, 32, 64, 128, 256, 512)
 AGREE = 1e-11  # two rules agree to this: the error of a geometric rule is squared by doubling its nodes
+ENDS = 1e-11  # change of the force over the rounding of an end, as far as it tells on the period: next to a barrier it is the energy's
 SHARP = 1e-11  # relative error that rounding may leave in E - V, as for the periods of arrays
 
 
@@ -58,6 +59,10 @@ def _libration(orbit, left, right) -> float:
     one, other = kinetic(half, 0), kinetic(half, 1)
     if abs(one - other) > SHARP * one:
         raise Unclear
+    for end, place, force in zip((left, right), ends, forces):
+        bent = min(1.0, abs(2 * one / (abs(force) * half) - 1))  # 0 in a parabolic well, whose period does not hang on its ends
+        if bent * float(end.rad()) * abs(pot.slope(place)) > ENDS * abs(force):
+            raise Unclear
 
     def integrand(phi):
         side = phi > 0.5 * math.pi

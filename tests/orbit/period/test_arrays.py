@@ -35,3 +35,15 @@ def test_a_well_that_rounding_leaves_no_depth_is_settled_in_balls():
     periods = [extremes_and_periods(scene, states, fast=fast)[1] for fast in (False, None)]
     ones = [stabilab.motion(scene, state).period or np.inf for state in states.tolist()]
     assert periods[0] == pytest.approx(ones, rel=PERIOD_SHOWN) and periods[1] == pytest.approx(ones, rel=PERIOD_SHOWN)
+
+
+@pytest.mark.parametrize("inertia, momentum, torque, state", [
+    ((1.8630519156591676, 1.696851499662686, 1.3168816818404938), (-18.420251076478365, 3.3235404450054e-08, 0.0), (0.0, 0.0, 3.828110809581424e-07),
+     (1.1978771698013784, 1.4316424324405161, 78.79880355241279)),
+    ((1.9448459693920048, 3.362679349489744e-05, 1.9448459693920048), (0.10440655412040076, -1481.25684162023, 0.0), (0.0, 0.0, -0.001375579918299128),
+     (-0.12218204125060778, 0.7680234656860417, 93.78097982492297))])
+def test_one_state_has_its_period_to_eleven_digits_where_rounding_comes_in_by_several_ways(inertia, momentum, torque, state):
+    scene, model = physical(inertia, momentum, torque)
+    true = float(energy.period(model, state))
+    assert stabilab.motion(scene, state).period == pytest.approx(true, rel=1e-11)
+    assert stabilab.period(scene, [state])[0] == pytest.approx(true, rel=1e-11)
