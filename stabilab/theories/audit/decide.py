@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ...errors import InputError
-from .values import Evaluator, Undefined, points, settled
+from .values import Evaluator, Undefined, points, precise, settled
 
 DIGITS = (50, 80)  # a claim "holds" by values only if its residual shrinks with the digits
 POINTS = 5
@@ -24,7 +24,6 @@ class Decision:
 
 def decide(pairs, bound: dict, system, seed: str, domain=(), fixed=None, symbolic=True) -> Decision:
     """Whether left equals right in every pair, for all values of the free symbols at which `domain` is positive. fixed: name -> expression (a condition)."""
-    import mpmath
 
     if symbolic and not fixed and all(_same_in_symbols(left, right, bound, system) for left, right in pairs):
         return Decision(True, 0.0, "symbols")
@@ -35,8 +34,8 @@ def decide(pairs, bound: dict, system, seed: str, domain=(), fixed=None, symboli
         return Decision(None, float("nan"), str(error))
     worst, seen = {}, 0
     for digits in DIGITS:
-        with mpmath.workdps(digits):
-            found = [residual(pairs, mpmath.mp, point, bound, system, fixed) for point in chosen]
+        numbers = precise(digits)
+        found = [residual(pairs, numbers, point, bound, system, fixed) for point in chosen]
         found = [r for r in found if r is not None]
         seen, worst[digits] = len(found), max(found, default=None)
         if found and worst[digits] > 10.0 ** -(DIGITS[0] - SLACK):

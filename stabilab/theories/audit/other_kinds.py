@@ -9,39 +9,35 @@ from .claims import Paper, Row
 from .decide import Decision, free
 from .formulas import parse
 from .systems import system_of
-from .values import Evaluator, Undefined, points, settled
+from .values import Evaluator, Undefined, points, precise, settled
 
 TEST_BOUND = 1e-12  # residuals of named tests: 30 digits or exact counts
 
 
 def order(paper: Paper, row: Row, pairs, bound, system) -> Decision:
     """Whether left - right falls like the stated power of the small symbol: halved thrice, watched."""
-    import mpmath
     small, claimed = row.options["small"], row.options["order"]
     symbols = [s for s in free(pairs, (), bound, system) if s.name != small]
-    least = float("inf")
-    with mpmath.workdps(60):
-        for point in points(symbols, row.equation, 3, [parse(t, paper.symbols) for t in row.domain if small not in t], bound, system):
-            sizes = []
-            for halvings in (14, 16, 18):
-                ready = settled(mpmath.mp, point, None, bound, system) | {small: mpmath.mpf(2) ** -halvings}
-                value = Evaluator(mpmath.mp, ready, bound, system)
-                try:
-                    sizes.append(max(abs(value(left) - value(right)) for left, right in pairs))
-                except Undefined:
-                    return Decision(None, float("nan"), f"no value at a small {small}")
-            for first, second in zip(sizes, sizes[1:]):
-                if second:
-                    least = min(least, float(mpmath.log(first / second, 4)))
+    least, numbers = float("inf"), precise(60)
+    for point in points(symbols, row.equation, 3, [parse(t, paper.symbols) for t in row.domain if small not in t], bound, system):
+        sizes = []
+        for halvings in (14, 16, 18):
+            ready = settled(numbers, point, None, bound, system) | {small: numbers.mpf(2) ** -halvings}
+            value = Evaluator(numbers, ready, bound, system)
+            try:
+                sizes.append(max(abs(value(left) - value(right)) for left, right in pairs))
+            except Undefined:
+                return Decision(None, float("nan"), f"no value at a small {small}")
+        for first, second in zip(sizes, sizes[1:]):
+            if second:
+                least = min(least, float(numbers.log(first / second, 4)))
     return Decision(least > claimed - 0.1, least, f"observed order {least:.3g} in {small}, claimed {claimed}")
 
 
 def number(paper: Paper, row: Row) -> tuple:
     """(verdict, condition, correction, method, residual, corrected residual) of printed digits held against the value of an expression."""
-    import mpmath
     bound = bound_of(paper, row)
-    with mpmath.workdps(40):
-        value = Evaluator(mpmath.mp, {}, bound, system_of(paper, row.system, row.place))(parse(row.options["value"], paper.symbols))
+    value = Evaluator(precise(40), {}, bound, system_of(paper, row.system, row.place))(parse(row.options["value"], paper.symbols))
     try:
         text = row.printed[0].replace("\u2212", "-")
         printed, step = Decimal(text), Decimal(1).scaleb(Decimal(text).as_tuple().exponent)  # type: ignore[arg-type]  # finite, so its exponent is a number

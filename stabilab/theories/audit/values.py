@@ -14,6 +14,14 @@ FUNCTION_NAMES = {"Abs": "fabs", "conjugate": "conj", "log": "ln"}
 MEAN_POINTS = 48  # equally spaced angles: exact for harmonics below 48
 
 
+def precise(digits: int):
+    """An mpmath context of its own with so many digits: mpmath's common one has its precision for the whole process."""
+    import mpmath
+    numbers = mpmath.MPContext()
+    numbers.dps = digits
+    return numbers
+
+
 class Undefined(Exception):
     """The formula has no value at the point: division by zero, a logarithm of it."""
 
