@@ -142,6 +142,27 @@ def audit(paper: Annotated[str | None, typer.Argument(metavar="[PAPER]", help="A
 
 
 @app.command()
+def validate(source: Annotated[str | None, typer.Argument(metavar="[SOURCE]", help="nesc, basilisk, orekit or 42; default: all.", show_default=False)] = None,
+             json: Json = False,
+             out: Annotated[Path | None, typer.Option("--html", metavar="FILE.html", help="Write a page with the table.")] = None):
+    """Hold other tools' published numbers against ours.
+
+    Ours with proved digits, theirs, the difference, and its cause. Exits with 5 where a difference is not explained.
+
+    Example: stabilab validate nesc
+    """
+    from .show.outside import validation as shown
+    from .show.text import answers
+    from .theories.validation import validated
+    found = validated(source)
+    if out is not None:
+        _say(f"written: {shown.page(found, out)}")
+    _print(answers.as_json(shown.as_dict(found)) if json else shown.text(found))
+    if apart := shown.unexplained(found):
+        raise ToleranceNotMet("\n".join(apart))
+
+
+@app.command()
 def extremes(cases: CaseFiles, json: Json = False,
              csv: Annotated[bool, typer.Option("--csv", help="CSV on stdout instead of text.")] = False, digits: Digits = None,
              strict: Strict = False, follow: Follow = None):

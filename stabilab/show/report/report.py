@@ -22,10 +22,12 @@ from ...physics.equations import derive
 from ...physics.laws import invariants
 from ...physics.notation import latex, lines
 from ...theories.audit import audited
+from ...theories.validation import validated
 from .. import style
 from ..figures import catalogue as figures
 from ..figures import paper
 from ..files import manifest
+from ..outside import validation
 from ..plane import plot
 from ..surface import write as surface
 from ..surface.render_probe import probe
@@ -93,7 +95,8 @@ def _make(cases, folder, tell, named, others):
     told, pages = others(tell), _pages(cases, folder, tell)  # the chapters' process is done, so that times are disturbed least
     page = html.render(
         "index.html", title="Bounded motion and spin-up of a gyrostat under constant torque", paper=paper.PAPER, rendering_note=note,
-        cases=sections, chapters=told, pages=pages, tables=tables, surfaces=surfaces, audit=_audit(folder), versions=_versions(),
+        cases=sections, chapters=told, pages=pages, tables=tables, surfaces=surfaces, audit=_audit(folder), validation=_validation(folder),
+        versions=_versions(),
         figures=[{**vars(row), "caption": row.caption, "tolerance": row.tolerance, "file": f"figures/{path.name}",
                   "command": row.command, "size": chapters.size(path)}
                  for row, path in zip(figures.FIGURES, drawn)],
@@ -106,6 +109,13 @@ def _audit(folder):
     findings = audited()
     audit_page.page(findings, folder / "audit.html")
     return [{"title": paper.title, "name": paper.name, "count": audit_page.count(group)} for paper, group in findings]
+
+
+def _validation(folder):
+    """Counts of verdicts a source; the values stand on a page of their own."""
+    found = validated()
+    validation.page(found, folder / "validation.html")
+    return [{"source": source, "count": validation.counts(rows)} for source, rows in found]
 
 
 def _precision(cases, folder, tell):

@@ -1,0 +1,87 @@
+"""Findings of the validation as text, JSON and an HTML page."""
+from __future__ import annotations
+
+from collections import Counter
+from pathlib import Path
+
+from ...theories.validation.findings import VERDICTS
+from ..report import html
+
+SCHEMA = "stabilab.validate/1"
+
+
+def as_dict(validated) -> dict:
+    """{"schema", "sources"} of (source, findings) pairs."""
+    return {"schema": SCHEMA, "sources": [_source(source) | {"values": [_value(source, one) for one in found]} for source, found in validated]}
+
+
+def _source(source):
+    return {"source": source.name, "title": source.title, "repository": source.repository, "commit": source.commit, "licence": source.licence,
+            "about": source.about}
+
+
+def _value(source, one):
+    return {"tool": one.printed.tool, "file": one.printed.file, "url": source.url(one.printed.file), "motion": one.printed.motion.id, "time_s": one.time,
+            "quantity": one.component, "unit": one.unit, "ours": one.ours, "ours_within": one.bound, "theirs": one.theirs, "difference": one.difference,
+            "tolerance": one.tolerance, "tolerance_is": one.printed.tolerance_is, "verdict": one.verdict, "cause": one.cause, "left": one.left}
+
+
+def counts(found) -> str:
+    """How many values have which verdict, in words."""
+    number = Counter(one.verdict for one in found)
+    return ", ".join(f"{number[verdict]} {verdict}" for verdict in VERDICTS if number[verdict]) or "no values"
+
+
+def text(validated) -> str:
+    """A table a source: a row a value, and what explains a tool's differences below its rows."""
+    return "\n\n".join("\n".join(_lines(source, found)) for source, found in validated)
+
+
+def _lines(source, found):
+    yield f"{source.name}: {source.title}"
+    yield f"  {source.repository} at {source.commit[:12]}, {source.licence}; {source.about}"
+    yield f"  {counts(found)}"
+    for group in grouped(found):
+        printed = group[0].printed
+        yield f"  {printed.tool} ({printed.file.rsplit('/', 1)[-1]}; tolerance {_tolerance(printed)}: {printed.tolerance_is})"
+        for one in group:
+            yield (f"    t = {one.time:>4} s  {one.component:<11}{one.ours:>26}  theirs {one.theirs:>21}  differs by {one.difference:.1e} {one.unit:<6} "
+                   f"{one.verdict}").rstrip()
+        if words := cause(group):
+            yield f"    cause: {words}"
+
+
+def _tolerance(printed):
+    return f"{float(printed.tolerance):.2g}{' relative' * printed.relative}"
+
+
+def unexplained(validated) -> list[str]:
+    """A line for each value that is farther off than its tolerance without a cause."""
+    return [f"{source.name}: {one.printed.tool}: {one.component} at {one.time} s differs by {one.difference:.1e}, tolerance {one.tolerance:.1e}"
+            for source, found in validated for one in found if one.verdict == "differs"]
+
+
+def grouped(found) -> list[list]:
+    """The findings of each set of printed values."""
+    groups: dict = {}
+    for one in found:
+        groups.setdefault(id(one.printed), []).append(one)
+    return list(groups.values())
+
+
+def cause(group) -> str:
+    """What explains the values of a set that are farther off than their tolerance: its worst remainder; empty where there is none."""
+    explained = [one for one in group if one.verdict == "explained"]
+    return max(explained, key=lambda one: one.left).cause if explained else ""
+
+
+def page(validated, path) -> Path:
+    """The page of (source, findings) pairs as a file."""
+    sources = [{"source": source, "count": counts(found), "groups": [_group(source, group) for group in grouped(found)]} for source, found in validated]
+    return html.write(Path(path), "validation.html", title="Numbers of other tools beside ours", sources=sources)
+
+
+def _group(source, group):
+    printed = group[0].printed
+    return {"printed": printed, "url": source.url(printed.file), "tolerance": _tolerance(printed),
+            "rows": group, "cause": cause(group)}
