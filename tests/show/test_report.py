@@ -13,6 +13,7 @@ import stabilab
 from stabilab.show.figures import catalogue as figures
 from stabilab.show.report import chapters, report
 from stabilab.show.surface import render_probe
+from stabilab.theories.audit import audited
 
 CASES = Path(__file__).parents[2] / "cases"
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
@@ -58,6 +59,7 @@ def light(tmp_path_factory):
     patch.setattr(chapters, "CHAPTERS", ())
     patch.setattr(report, "PAGES", (("What it costs <b>", "in time", _small_page), ("Nothing", "here", lambda cases, folder, tell: None)))
     patch.setattr(report, "SURFACE_SHAPE", (10, 21))
+    patch.setattr(report, "audited", lambda: audited("charged-axisymmetric", "13"))
     folder = tmp_path_factory.mktemp("light")
     text = (CASES / "minor-axis-100.toml").read_text(encoding="utf-8")
     hostile = folder / "hostile.toml"

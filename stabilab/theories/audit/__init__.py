@@ -5,6 +5,9 @@ Published claims are data (`papers/*.toml`, format in docs/audit.md); `findings`
 
 from __future__ import annotations
 
+import multiprocessing
+import os
+from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
 from ...errors import InputError
@@ -29,8 +32,15 @@ def paper(name: str) -> Paper:
 
 
 def audited(name: str | None = None, equation: str | None = None) -> tuple[tuple[Paper, tuple[Finding, ...]], ...]:
-    """(paper, findings, rows in order) of one paper or of all on record. InputError for an unknown paper or equation."""
+    """(paper, findings, rows in order) of one paper, or of all on record by a process a paper. InputError for an unknown paper or equation."""
     if name is None and equation is not None:
         raise InputError(f"equation {equation}: name its paper as well: {', '.join(papers())}")
-    chosen = [paper(one) for one in ([name] if name else papers())]
-    return tuple((one, tuple(sorted(audit(one, equation), key=lambda f: key(f.row.equation)))) for one in chosen)
+    if name is not None:
+        return (_audited(name, equation),)
+    with ProcessPoolExecutor(min(len(papers()), os.cpu_count() or 1), multiprocessing.get_context("spawn")) as pool:
+        return tuple(pool.map(_audited, papers()))
+
+
+def _audited(name, equation=None):
+    one = paper(name)
+    return one, tuple(sorted(audit(one, equation), key=lambda f: key(f.row.equation)))
