@@ -79,7 +79,9 @@ def test_the_report_is_well_formed_and_every_link_leads_to_a_file(light):
         if link.startswith("#"):
             assert link[1:] in page.ids
         elif not link.startswith("data:"):
-            assert (light.parent / link).is_file(), link
+            file, _, place = link.partition("#")
+            assert (light.parent / file).is_file(), link
+            assert not place or place in Page((light.parent / file).read_text(encoding="utf-8")).ids, link
 
 
 def test_a_hostile_title_is_text(light):
