@@ -239,6 +239,34 @@ def simulate(case: CaseFile,
 
 
 @app.command()
+def reference(case: CaseFile,
+              at: Annotated[str | None, typer.Option(metavar="T1,T2,...", help="Times from 0 on. Default: 201 times over the span of the case.")] = None,
+              digits: Annotated[int, typer.Option(metavar="N", help="Digits (1 to 50) of every state.")] = 30,
+              out: Annotated[Path | None, typer.Option(metavar="FILE.csv|.json", help="Write to a file.")] = None, json: Json = False):
+    """Write a motion with guaranteed digits, to test integrators.
+
+    States, zeros and extremes, period, with versions, case and command: CSV, or JSON. Exits with 5 where digits are not reached.
+
+    Example: stabilab reference cases/minor-axis-100.toml --digits 30 --out minor-axis-100.csv
+    """
+    from .case.read import blamed_on
+    from .show.outside import reference as shown
+    from .show.text import answers
+    loaded, made = _load([case], motion=True), []
+    if out:
+        shown.checked(out)
+    for one in loaded:
+        with blamed_on(one):
+            made.append((one, *shown.as_dict(one, _exact_times(one, at), digits, sys.argv[1:])))
+    if out:
+        _write_each(out, [(one, partial(shown.write, found)) for one, found, _ in made])
+    else:
+        _print(answers.as_json([found for _, found, _ in made] if len(made) > 1 else made[0][1]) if json
+               else "".join(shown.csv(found) for _, found, _ in made).rstrip("\n"))
+    _all_reached(short for one in made for short in shown.missing(*one))
+
+
+@app.command()
 def compare(case: CaseFile,
             order: Annotated[int | None, typer.Option(min=1, help="Order of the lindstedt expansion.")] = None,
             out: Annotated[Path | None, typer.Option(metavar="FILE.csv", help="Write the errors over time.")] = None,
@@ -787,6 +815,16 @@ def _times(case, at: str | None) -> list[float]:
         return sorted({float(exact(word.strip())) for word in at.split(",")})
     except InputError as error:
         raise InputError(f"--at: {error}") from None
+
+
+def _exact_times(case, at: str | None) -> list:
+    """The times asked for as rationals, as they are written; without any, 201 over the span of the case."""
+    from fractions import Fraction
+    if at is None and case.span is not None:
+        start, end = (Fraction(repr(t)) for t in case.span)
+        return [start + (end - start) * i / 200 for i in range(201)]
+    _times(case, at)  # says what is wrong with them
+    return sorted({Fraction("".join(word.split())) for word in (at or "").split(",")})
 
 
 def _print(text: str):

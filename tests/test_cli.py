@@ -432,7 +432,8 @@ def test_every_command_has_help_with_an_example(stabilab):
     code, out, _ = stabilab("--help")
     commands = [line.split()[0] for line in out.split("Commands:")[1].splitlines() if line.startswith("  ")]
     assert code == 0 and set(commands) == {"audit", "show", "classify", "extremes", "simulate", "compare", "precision", "surface", "plot",
-                                        "tables", "figures", "report", "doctor", "fate", "import", "period", "rerun", "stuck", "validate", "verify", "when"}
+                                        "tables", "figures", "report", "doctor", "fate", "import", "period", "reference",
+                                        "rerun", "stuck", "validate", "verify", "when"}
     assert "--install-completion" in out and "..." not in out.split("Commands:")[1]
     for command in commands:
         code, out, _ = stabilab(command, "--help")

@@ -1,0 +1,116 @@
+"""States and events of a motion to so many digits: enclosed where a wheel and a torque are all there is, else by Taylor series in two precisions."""
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Any
+
+from ...errors import InputError
+from ...integrate.integer_flow import IntegerFlow
+from ...integrate.reference import GUARD, one_run
+from ...integrate.taylor_digits import Recursion
+from ...numbers.balls import working
+from ...physics.coefficients import effective
+from ...physics.states import equations_and_start
+from ..digits.checked import MOST_DECIMALS, checked_digits
+from ..passage.enclosed import own_unit
+from .events import events_of
+from .result import PROVED, TWICE, Tabulated
+
+SPARE, MOST_BITS = 12, 900  # bits beyond the digits; most of a run, for its bound of the error is formed in doubles
+WORK = 40_000_000  # multiplications of a run
+MORE_DIGITS = 14  # of the second run of two
+
+
+def tabulated(scene: Any, start: Sequence[Any], exact: Sequence[Fraction], times: Sequence[Fraction], digits: int = 30,
+              work: int | None = None, events: bool = True) -> Tabulated:
+    """The motion at increasing times from 0 on. start: all of the state; exact: its first three components, as they are meant; work: multiplications of
+    a run at most; events: look for them."""
+    work = work or WORK
+    checked_digits(digits, MOST_DECIMALS)
+    if not times or times[0] < 0:
+        raise InputError("times: expected times from 0 on, at least one")
+    twin = effective(scene)
+    if twin.plain:
+        return _enclosed(twin, list(map(Fraction, exact)), times, digits, work, events)
+    return _twice(scene, start, exact, times, digits, work)
+
+
+def _enclosed(scene, start, times, digits, work, asked) -> Tabulated:
+    need = int(digits * 3.33) + SPARE
+    bits, best = need + 40, None
+    while True:
+        now = _attempt(scene, start, times, digits, bits, work)
+        best = now if best is None or now[0] >= best[0] else best
+        if now[0] == len(times) or bits >= MOST_BITS or now[3] == "work":
+            break
+        bits = min(MOST_BITS, max(bits + 60, now[4] + need))
+    count, states, pieces, why, _ = best
+    reached = count == len(times)
+    with working(MOST_BITS):
+        events, words = events_of(scene, pieces, times[count - 1] if count else Fraction(0)) if asked else ((), "not asked for")
+    because = "Taylor series in integers with a proved bound of their error" if reached else (
+        f"proved up to {float(times[count - 1]) if count else 0:.6g} {scene.time_unit}: "
+        + ("the work allowed goes no further" if why == "work" else f"beyond, the motion is too sensitive for {MOST_BITS} bits"))
+    return Tabulated(tuple(times[:count]), tuple(states[:count]), tuple(scene.components), digits, PROVED, because, reached, events, words)
+
+
+def _attempt(scene, start, times, digits, bits, work):
+    """(how many times were reached to the digits, states, pieces with their unit, why it ended, bits that the error grew by)."""
+    from flint import arb
+    unit = own_unit(scene, start)
+    weights = (Fraction(1), Fraction(2), Fraction(1)) if scene.variables == "scaled" else scene.body.exact
+    flow = IntegerFlow(scene.quadratic(), list(map(Fraction, weights)), start, bits, unit)
+    states, pieces, why = [], [], ""
+    with working(bits + 64) as numbers:
+        small = arb(10) ** -digits
+        while len(states) < len(times) and not why:
+            piece = flow.step()
+            row = Polynomials(piece, unit, numbers)
+            pieces.append(row)
+            while len(states) < len(times) and times[len(states)] * unit <= flow.now:
+                values = row.at(numbers.ball((times[len(states)] * unit - piece.start) / piece.length))
+                if any(numbers.ball(0) + v.rad() > small * max(map(abs, values), key=lambda v: v.mid()) for v in values):
+                    why = "bits"
+                    break
+                states.append(tuple(values))
+            why = why or ("work" if flow.work > work else "bits" if flow.error.bit_length() > bits - 8 else "")
+    return len(states), states, pieces, why, flow.error.bit_length()
+
+
+class Polynomials:
+    """A piece as polynomials in s from 0 to 1, in the scene's own variables: start and length in the scene's time, exact; rows with
+    their radii; unit: the size of the motion's rates."""
+
+    def __init__(self, piece, unit, numbers):
+        from flint import arb, arb_poly
+        scale = numbers.ball(unit) * arb(2) ** -piece.bits
+        self.start, self.length, self.unit = piece.start / unit, piece.length / unit, unit
+        self.rows = [arb_poly([arb(c) * scale for c in row]) for row in piece.rows]
+        self.radii = [arb(0, radius) * scale for radius in piece.radii]
+
+    def at(self, s) -> list:
+        """The components at s, a ball of numbers from 0 to 1."""
+        return [row(s) + radius for row, radius in zip(self.rows, self.radii)]
+
+
+def _twice(scene, start, exact, times, digits, work) -> Tabulated:
+    equations, row = equations_and_start(scene, start)
+    begin = [*exact, *map(float, row[3:])]
+    recursion, budget = Recursion(equations), [work]
+    runs = [one_run(recursion, begin, times, digits + more, budget)[0] for more in (GUARD, GUARD + MORE_DIGITS)]
+    components = tuple(map(str, equations.state))
+    with working(int((digits + GUARD + MORE_DIGITS) * 3.33)) as numbers:
+        states: list = []
+        for low, high in zip(*runs):
+            size = max(map(abs, high), key=lambda v: v.mid())
+            gap = max((abs(a - b) for a, b in zip(low, high)), key=lambda v: v.mid())
+            if not gap < size * numbers.ball(10) ** -digits:
+                break
+            states.append(tuple(numbers.around(v, gap) for v in high))
+    reached = len(states) == len(times)
+    because = f"Taylor series in {digits + GUARD} and {digits + GUARD + MORE_DIGITS} digits agree; no bound is proved"
+    if not reached:
+        because += f"; only up to {float(times[len(states) - 1]) if states else 0:.6g} {scene.time_unit}"
+    return Tabulated(tuple(times[:len(states)]), tuple(states), components, digits, TWICE, because, reached, (),
+                     "events are found where a wheel and a constant torque are all that acts, as their enclosure needs")
