@@ -135,6 +135,7 @@ def _integrator(state, symbols, expressions, tolerance, lanes=0):
 @lru_cache(maxsize=64)
 def _event_integrator(state, symbols, expressions, tolerance):
     import heyoka
+    heyoka.set_logger_level_error()  # its warnings go to stdout, among the answers
     n, recorder = len(state), _Recorder()
     variables, everything = heyoka_form(state, symbols, expressions)
     events = [heyoka.nt_event(e, _Note(i, recorder, n)) for i, e in enumerate(everything[n:])

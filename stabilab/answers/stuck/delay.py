@@ -6,7 +6,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from .fate import found
+from .fate import time_under
 from .reach import first_time
 
 RANGE = 2  # times the momentum that the wheel has now, either way; one at rest is tried up to the body's own
@@ -35,11 +35,11 @@ def delayed(scenario, torque, axis, now, time):
     s = float(places[best])
     if math.isfinite(times[best]):
         s = _closer(until, places[max(best - 1, 0)], places[min(best + 1, PLACES - 1)], s, times[best])
-    told = found(scenario, torque, [w + Fraction(s) * a for w, a in zip(others, axis)])
-    gain = None if told.time is None else told.time[0] - time[0]
+    told = time_under(scenario, torque, [w + Fraction(s) * a for w, a in zip(others, axis)])
+    gain = None if told is None else told[0] - time[0]
     if gain is not None and gain <= 0:
         return None
-    return s, told.time, gain, (-reach, reach)
+    return s, told, gain, (-reach, reach)
 
 
 def _own(scenario, torque) -> float:

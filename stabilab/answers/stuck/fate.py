@@ -53,6 +53,11 @@ def found(scenario, torque, wheel=None) -> Found:
     return _off_axis(scenario, scene) if kind == "off axis" else _by_law(scenario, scene, kind)
 
 
+def time_under(scenario, torque, wheel):
+    """The bracket of the time to the limit under a torque and a wheel momentum, s; None where it is never within what is known."""
+    return _when(scenario, scenario.scene(torque, wheel), None).time
+
+
 def _at_rest(scenario, kind):
     size = math.hypot(*scenario.start)
     return Found(Fate.EQUILIBRIUM, "exact", 0, 0, None, "every rate vanishes at the state, exactly", kind, None, None, "exact", True, size, math.inf)

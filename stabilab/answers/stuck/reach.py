@@ -8,8 +8,8 @@ import numpy as np
 
 from ...integrate.to_heyoka import heyoka_available, taylor_events
 from ...numbers.vectors import CYCLE
+from ...physics.motion_units import in_unit, mass_unit, own_unit
 from ...physics.to_numpy import Form
-from ...unreduced.spin_up.fields import natural
 
 CHUNK = 256  # steps between two looks at what was found
 
@@ -20,7 +20,7 @@ def first_time(scene, state, limit, rows, t_max: float, budget: int) -> float:
 
     state: three floats, scene's axes; limit: rad/s, of |omega|, or three of the components along rows (3, 3).
     """
-    own, unit = natural(scene)
+    own, unit = _in_its_own(scene, state)
     limits = tuple(v / unit for v in (limit if isinstance(limit, tuple) else (limit,)))
     start = [v / unit for v in state]
     if _passed(start, limits, rows):
@@ -31,9 +31,15 @@ def first_time(scene, state, limit, rows, t_max: float, budget: int) -> float:
 
 def largest_rate(scene, state, until: float, budget: int) -> tuple[float, float]:
     """(largest |omega| from 0 to `until`, rad/s; the time that the run reached, s): at its ends and where it is stationary."""
-    own, unit = natural(scene)
+    own, unit = _in_its_own(scene, state)
     _, largest, end = _run(own, [v / unit for v in state], None, None, until * unit, budget)
     return largest * unit, end / unit
+
+
+def _in_its_own(scene, state):
+    """(the scene in the motion's own unit of rates, that unit): that of a feeble torque alone would make numbers whose events are not found."""
+    unit = own_unit(scene, state, scene.quadratic().rate(list(state)))
+    return in_unit(scene, unit, mass_unit(scene)), unit
 
 
 def _passed(state, limits, rows) -> bool:
@@ -48,16 +54,16 @@ def _run(scene, start, limits, rows, t_max, budget):
 
 
 def _taylor(scene, start, limits, rows, t_max, budget):
-    components = limits is not None and len(limits) == 3
-    numbers = [*sum(zip(*scene.quadratic().coefficients), ()), *_event_numbers(limits, rows, components)]
-    state, symbols, expressions = _structure(components)
+    asked = "turning" if limits is None else "components" if len(limits) == 3 else "rate"
+    numbers = [*sum(zip(*scene.quadratic().coefficients), ()), *_event_numbers(limits, rows)]
+    state, symbols, expressions = _structure(asked)
     largest, steps = math.hypot(*start), 0
     with taylor_events(Form(state, expressions, symbols, tuple(numbers))) as (ta, found), np.errstate(all="ignore"):
         ta.time, ta.state[:] = 0.0, start
         while steps < budget and ta.time < t_max and np.isfinite(ta.state).all():
             outcome, _, _, done, *_ = ta.propagate_until(t_max, max_steps=min(CHUNK, budget - steps))
             steps += max(done, 1)
-            t = min((h[0] for h in found if h[1] > 0 and h[0] > 0 and limits is not None), default=None)
+            t = min((h[0] for h in found if h[0] > 0 and limits is not None), default=None)
             passed = [h for h in found if (t is None or h[0] <= t) and np.isfinite(h[2]).all()]
             largest = max([largest, *(float(np.linalg.norm(h[2])) for h in passed)])
             if t is not None:
@@ -67,26 +73,28 @@ def _taylor(scene, start, limits, rows, t_max, budget):
         return None, max(largest, end) if math.isfinite(end) else largest, float(ta.time)
 
 
-def _event_numbers(limits, rows, components):
+def _event_numbers(limits, rows):
     if limits is None:
-        return [-1.0]  # |omega|^2 + 1 has no root
+        return []
     squares = [v * v for v in limits]
-    return [*(v for row in rows for v in row), *squares] if components else squares
+    return [*(v for row in rows for v in row), *squares] if len(limits) == 3 else squares
 
 
-@lru_cache(maxsize=2)
-def _structure(components):
-    """State, coefficients, and rates followed by events: where |omega| is stationary, and where it (or a component) is at its limit. All scenes have the
-    same twelve coefficients, so that it is compiled once."""
+@lru_cache(maxsize=3)
+def _structure(asked):
+    """State, coefficients, and rates followed by events: where |omega| is stationary ("turning"), or where it ("rate") or one of its components is at
+    its limit. All scenes have the same twelve coefficients, so that it is compiled once."""
     from sympy import symbols
-    x, c, extra = symbols("x1:4", real=True), symbols("c0:12", real=True), symbols(f"e0:{12 if components else 1}", real=True)
+    more = {"turning": 0, "rate": 1, "components": 12}[asked]
+    x, c, extra = symbols("x1:4", real=True), symbols("c0:12", real=True), symbols(f"e0:{more}", real=True) if more else ()
     rates = [c[4 * i] * x[j] * x[k] + c[4 * i + 1] * x[k] + c[4 * i + 2] * x[j] + c[4 * i + 3] for i, (j, k) in enumerate(CYCLE)]
-    turning = sum(v * rate for v, rate in zip(x, rates))
-    if components:
+    if asked == "turning":
+        events = [sum(v * rate for v, rate in zip(x, rates))]
+    elif asked == "components":
         events = [sum(extra[3 * n + i] * x[i] for i in range(3)) ** 2 - extra[9 + n] for n in range(3)]
     else:
         events = [sum(v * v for v in x) - extra[0]]
-    return x, (*c, *extra), (*rates, turning, *events)
+    return x, (*c, *extra), (*rates, *events)
 
 
 def _scipy(scene, start, limits, rows, t_max, budget):
