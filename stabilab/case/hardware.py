@@ -91,17 +91,16 @@ def judge_limits(top: Table, limits: Limits | None, state: Exact3 | None):
         return
     table, degrees = Table(("limits",), top.data["limits"], top.faults), 180 / pi()
     if limits.rate is not None and dot(state, state) > limits.rate**2:
-        now = sqrt_fraction(dot(state, state))
-        table.fault(f"the limit, {_rate(limits.rate, degrees)}, is below the rate that the motion starts with, {_rate(now, degrees)}: "
-                    "raise it or start slower", "rate")
+        _too_low(table, "", limits.rate, sqrt_fraction(dot(state, state)), degrees, "rate")
     for index, (most, now) in enumerate(zip(limits.rates or (), state)):
         if abs(now) > most:
-            table.fault(f"number {index + 1}: the limit, {_rate(most, degrees)}, is below the rate that the motion starts with, "
-                        f"{_rate(abs(now), degrees)}: raise it or start slower", "rate", index)
+            _too_low(table, f"number {index + 1}: ", most, abs(now), degrees, "rate", index)
 
 
-def _rate(value, degrees) -> str:
-    return f"{float(value):.6g} rad/s ({float(value * degrees):.6g} deg/s)"
+def _too_low(table: Table, which: str, limit, now, degrees, *place):
+    digits = 6 if f"{float(limit):.6g}" != f"{float(now):.6g}" else 17
+    told = [f"{float(rate):.{digits}g} rad/s ({float(rate * degrees):.{digits}g} deg/s)" for rate in (limit, now)]
+    table.fault(f"{which}the limit, {told[0]}, is below the rate that the motion starts with, {told[1]}: raise it or start slower", *place)
 
 
 def _told_apart(top: Table, key: str, allowed):
@@ -125,7 +124,8 @@ def _name(table: Table, otherwise: str) -> str:
 
 def _thruster(table: Table, otherwise: str, centre: Exact3) -> Thruster | None:
     name, stuck = _name(table, otherwise), table.truth("stuck")
-    complete = table.required("position", "direction", "force")
+    complete = table.required("position", "direction", "force", position="add where it is, three numbers in m in the structural frame",
+                              direction="add that of its force on the body, three numbers, any length", force='add its size, such as force = "1 N"')
     position, direction = table.vector("position"), _direction(table, "direction")
     force, tolerance = _force(table)
     angle = table.positive("misalignment", zero=True)
@@ -157,6 +157,10 @@ def _force(table: Table):
     if force is not None and force <= 0:
         table.fault(f"expected a positive force, got {float(force):.6g} N; turn the direction round for a force the other way", "force")
         return None, None
+    if force is not None and tolerance is not None and tolerance >= force:
+        table.fault(f"expected a tolerance below the force, {float(force):.6g} N, got {float(tolerance):.6g} N: the force would have no sure direction",
+                    "force_tolerance" if "force_tolerance" in table else "force")
+        return None, None
     return force, tolerance
 
 
@@ -187,7 +191,7 @@ def _direction(table: Table, key: str):
 
 
 def _wheel(table: Table, otherwise: str) -> Wheel | None:
-    name, complete = _name(table, otherwise), table.required("axis")
+    name, complete = _name(table, otherwise), table.required("axis", axis="add the direction of its momentum, three numbers, frame of the file, any length")
     axis, momentum = _direction(table, "axis"), _momentum(table)
     if not complete or axis is None or momentum is None:
         return None

@@ -154,11 +154,11 @@ class Table:
         """Three exact numbers."""
         return self.numbers(key, 3)
 
-    def required(self, *keys: str) -> bool:
-        """Note every key that is missing; True where none is."""
+    def required(self, *keys: str, **cures: str) -> bool:
+        """Note every key that is missing, with what to add where `cures` tells; True where none is."""
         missing = [key for key in keys if key not in self.data]
         for key in missing:
-            self.fault(f"{key} is missing")
+            self.fault(f"{key} is missing" + (f": {cures[key]}" if key in cures else ""))
         return not missing
 
     def _exact(self, value, *keys) -> Fraction | None:
