@@ -17,6 +17,7 @@ BESIDE = 2 * math.pi * np.geomspace(1e-4, 1e-2, 5)  # of a turn: directions besi
 FEW = 5  # nearest places that are looked at in exact numbers
 DIRECTIONS = 180  # of a change of wheel momentum, at first
 TURNS = (0.0, 1e-5, -1e-5, 1e-4, -1e-4, 1e-3, -1e-3)  # rad: the nearest place may be the tip where two separatrices meet, with nothing straight behind it
+ALONE = "to the separatrix, where alone the fate is another: beyond it the motion is bounded again"
 CLOSE = Fraction(1, 10**6)  # of a change: how near to it, as doubles saw it, the exact change is looked for
 
 
@@ -28,15 +29,24 @@ def margins(scenario, scene, seen) -> dict[str, Margin]:
     if seen.motion is None or (family is None and any(scene.vector("constant_torque"))):
         why = "the torque is off the principal axes: no separatrix is known"
         return {name: Margin(because=why) for name in ("rate", "wheel", "torque")}
-    return {"rate": _rate(scenario, seen.motion), **_parameters(scenario, family)}
+    return {"rate": _rate(scenario, seen.motion, family), **_parameters(scenario, family)}
 
 
-def _rate(scenario, motion) -> Margin:
+def _rate(scenario, motion, family) -> Margin:
     if motion.margin_velocity is None or motion.velocity_witness is None:
         return Margin(because=motion.velocity_because or "no separatrix stands near it")
     change = [b - a for a, b in zip(scenario.start, motion.velocity_witness)]
     size = math.hypot(*change)
-    return Margin(motion.margin_velocity, _unit(scenario.axes.back(change)) if size else None, motion.velocity_because)
+    direction, because = _unit(scenario.axes.back(change)) if size else None, motion.velocity_because
+    if _walled(family):
+        return Margin(motion.margin_velocity, direction, f"{because}; {ALONE}".removeprefix("; "), False)
+    return Margin(motion.margin_velocity, direction, because)
+
+
+def _walled(family) -> bool:
+    """Whether every motion but those on a separatrix is bounded."""
+    reduction = None if family is None else family.reduction(family.wheel)
+    return reduction is not None and reduction.e >= 0
 
 
 def _parameters(scenario, family) -> dict:
@@ -54,7 +64,7 @@ def _no_barrier(family) -> str:
     reduction = family.reduction(family.wheel)
     if reduction is None:
         return "the wheel has momentum along the torque: no motion is bounded, and no separatrix divides them"
-    return "" if reduction.e < 0 else "every motion is bounded but for a set of measure zero: the fate does not change"
+    return "" if not _walled(family) else "every motion is bounded but for a set of measure zero: the fate does not change"
 
 
 def _torque(scenario, family, steady) -> Margin:

@@ -19,12 +19,14 @@ class Principal(NamedTuple):
 class Margin:
     """The smallest change that changes the fate: its size, its direction (unit vector, frame of the file); None where none is known.
 
-    because: why it is not known, or what it holds for.
+    because: why it is not known, or what it holds for. beyond: whether a greater change along the direction changes the fate too; False
+    where the fate is another at this size alone, on the separatrix itself.
     """
 
     size: float | None = None
     direction: Float3 | None = None
     because: str = ""
+    beyond: bool = True
 
 
 @dataclass(frozen=True)

@@ -168,7 +168,8 @@ def _margins(row, units) -> str:
     if not known:
         because = next((row.margins[name].because for name in ("wheel", "rate", "torque") if name in row.margins), "")
         return f"margin: none: {because}" if because else ""
-    return "the fate changes with " + " or ".join(f"{_amount(name, m.size, units)} of {WORDS[name]}" for name, m in known.items())
+    told = [" or ".join(f"{_amount(name, m.size, units)} of {WORDS[name]}" for name, m in known.items() if m.beyond == beyond) for beyond in (True, False)]
+    return "; ".join(words + sizes for words, sizes in zip(("the fate changes with ", "only on a separatrix the fate is another, nearest "), told) if sizes)
 
 
 def _amount(name, size, units, digits=4) -> str:

@@ -86,6 +86,19 @@ def test_no_smaller_change_of_the_wheel_across_the_torque_changes_the_fate(asked
         assert stabilab.motion(scene, (0.1, 0.05, 0.9)).fate.word == "spin-up"
 
 
+def test_about_the_middle_axis_no_change_of_rate_is_said_to_change_the_fate(asked, stabilab, tmp_path):
+    """By brute force: from 1 % beyond the margin it turns no faster in a second run as long as the first."""
+    text = CASE.replace("[12.0, 9.0, 5.0]", "[12.0, 5.0, 9.0]").replace("[0.1, 0.05, {spin}]", "[0.02, -0.1, 0.01]")
+    row, craft = asked(text).rows[0], Craft(text)
+    margin = row.margins["rate"]
+    assert row.fate == "bounded" and margin.size and not margin.beyond and "beyond it the motion is bounded again" in margin.because
+    craft.start = craft.start + 1.01 * margin.size * np.array(margin.direction)
+    _, craft.start, first = craft.run(200.0, limit=False, rtol=1e-8)
+    assert craft.run(200.0, limit=False, rtol=1e-8)[2] < 1.01 * first
+    code, out, _ = stabilab("stuck", tmp_path / "own.toml")
+    assert code == 0 and "only on a separatrix the fate is another, nearest " in out and "the fate changes with" not in out
+
+
 def test_off_the_axes_no_margin_is_told(asked):
     row = asked(OFF).rows[0]
     assert all(margin.size is None and "no separatrix" in margin.because for margin in row.margins.values()) and len(row.margins) == 3
