@@ -7,7 +7,7 @@ import tomllib
 import numpy as np
 from scipy.integrate import solve_ivp
 
-UNITS = {"N": 1.0, "mN": 1e-3, "lbf": 4.4482216152605, "m": 1.0, "cm": 1e-2, "mm": 1e-3, "deg/s": np.pi / 180, "rpm": np.pi / 30, "kg m^2": 1.0,
+UNITS = {"N": 1.0, "mN": 1e-3, "lbf": 4.4482216152605, "m": 1.0, "cm": 1e-2, "mm": 1e-3, "deg/s": np.pi / 180, "rpm": np.pi / 30, "rad/s": 1.0, "kg m^2": 1.0,
          "N m s": 1.0, "kg": 1.0, "min": 60.0}
 
 
@@ -45,6 +45,7 @@ class Craft:
             self.torques[t["name"]] = np.cross(vector(t["position"]) - centre, number(t["force"]) * e / np.linalg.norm(e))
         self.stuck = [t["name"] for t in data.get("thrusters", []) if t.get("stuck")]
         self.l = np.zeros(3)
+        self.wheels = len(data.get("wheels", []))
         for w in data.get("wheels", []):
             axis = vector(w["axis"])
             size = number(w["momentum"]) if "momentum" in w else number(w["inertia"]) * number(w["speed"])
