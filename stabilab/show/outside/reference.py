@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import math
 import shlex
+from fractions import Fraction
 from pathlib import Path
 
 from ...answers.certificate import subject
@@ -11,6 +12,7 @@ from ...answers.motion import motion
 from ...answers.tabulated.ask import tabulated
 from ...answers.tabulated.result import Tabulated
 from ...files import whole_file
+from ...numbers.balls import working
 from ...physics.coefficients import effective
 from ..files import comma, endings, manifest
 from ..text import answers
@@ -18,6 +20,7 @@ from ..text import answers
 SCHEMA = "stabilab.reference/1"
 VERSIONS = ("python", "python-flint")
 KINDS = (".csv", ".json")
+BITS = 1100  # more than any run has
 
 
 def as_dict(case, times, digits: int, arguments=()) -> tuple[dict, Tabulated]:
@@ -28,8 +31,8 @@ def as_dict(case, times, digits: int, arguments=()) -> tuple[dict, Tabulated]:
     return {"schema": SCHEMA, "case": case.name, "title": case.title, "variables": case.variables, "time": case.scene.time_unit, "digits": digits,
             "provenance": _provenance(case, arguments), "subject": subject(effective(case.scene), case.exact_state),
             "trajectory": {"level": run.level, "because": run.because, "components": list(run.components),
-                           "rows": [{"t": decimal(t), "values": [written(v, digits) for v in row], "within": _within(row)}
-                                    for t, row in zip(run.t, run.states)]},
+                           "rows": [{"t": decimal(t), "values": texts, "within": within(row, texts)}
+                                    for t, row in zip(run.t, run.states) for texts in [[written(v, digits) for v in row]]]},
             "events": {"because": run.events_because, "list": [_event(one, run, digits) for one in run.events]},
             "period": _told(told["period"]), "extremes": _told(told["extremes"]) | {"over": known.extremes_over}}, run
 
@@ -55,16 +58,20 @@ def decimal(t) -> str:
 
 def written(ball, digits) -> str:
     """The digits of a ball that are right, some more than were asked for at most; 0 where it holds zero."""
-    return "0" if 0 in ball else ball.str(digits + 4, radius=False)
+    with working(BITS):
+        return "0" if 0 in ball else ball.str(digits + 4, radius=False)
 
 
-def _within(balls) -> float:
-    return max(math.nextafter(float(ball.rad()), math.inf) for ball in balls)
+def within(balls, texts) -> float:
+    """How far the written numbers are from the true ones at most."""
+    with working(BITS) as numbers:
+        return max(math.nextafter(float((ball - numbers.ball(Fraction(text))).abs_upper()), math.inf) for ball, text in zip(balls, texts))
 
 
 def _event(one, run, digits):
-    return {"kind": one.kind, "component": run.components[one.component], "t": written(one.t, digits), "t_within": _within([one.t]),
-            "value": written(one.value, digits), "value_within": _within([one.value])}
+    t, value = written(one.t, digits), written(one.value, digits)
+    return {"kind": one.kind, "component": run.components[one.component], "t": t, "t_within": within([one.t], [t]),
+            "value": value, "value_within": within([one.value], [value])}
 
 
 def _told(told) -> dict:

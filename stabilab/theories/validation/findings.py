@@ -20,7 +20,7 @@ UNITS = {"sigma": "", "angle3": "rad", "off_linear": "rad", "momentum_turn": "ra
 
 @dataclass(frozen=True)
 class Finding:
-    """One value. ours: every digit written is right (to one unit of the last), bound: how far it is off at most; theirs: as printed. difference: ours
+    """One value. ours: every digit written is right (to one unit of the last); bound: how far that is off at most; theirs: as printed. difference: ours
     from theirs, at most; tolerance: absolute. verdict: "agrees", "explained" (the method named in `cause`, run here, gives theirs within the
     tolerance: `left` is what remains), or "differs"."""
 
@@ -68,5 +68,6 @@ def _judged(printed, time, component, ball, theirs, again, numbers):
     verdict = "agrees" if difference <= tolerance else "explained" if left is not None and left <= tolerance else "differs"
     cause = f"{WORDS[printed.cause['method']].format(**printed.cause)} gives theirs to {left:.1e}" if verdict == "explained" else ""
     ours = "0" if 0 in ball else ball.str(SHOWN, radius=False)
-    return Finding(printed, time, component, UNITS.get(printed.quantity, printed.motion.unit), ours, float(ball.rad()), theirs, difference, tolerance,
+    return Finding(printed, time, component, UNITS.get(printed.quantity, printed.motion.unit), ours,
+                   float(numbers.upper(ball - numbers.ball(Fraction(ours)))), theirs, difference, tolerance,
                    verdict, cause, left if verdict == "explained" else None)

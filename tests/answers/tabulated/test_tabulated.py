@@ -17,7 +17,8 @@ from stabilab.answers.tabulated.ask import tabulated
 from stabilab.answers.tabulated.result import PROVED, TWICE
 from stabilab.case.read import load
 from stabilab.errors import InputError
-from stabilab.show.outside.reference import decimal
+from stabilab.numbers.balls import working
+from stabilab.show.outside.reference import decimal, within, written
 from tests.oracles import taylor
 from tests.oracles.pairs import physical
 
@@ -108,6 +109,15 @@ def test_reference_writes_csv_and_json_of_the_same_numbers(stabilab, tmp_path):
     # two ways to the least x2 of all time: an event of the enclosed motion, and ball arithmetic on the orbit
     least = next(row["value"] for row in rows if row["kind"] == "least" and row["quantity"] == "x2")
     assert least.startswith(made["extremes"]["value"][1][0][:29])
+
+
+def test_what_is_written_is_within_its_bound():
+    # the ball holds a sixth; six digits of it are off by 3.3e-7
+    with working(300) as numbers:
+        sixth = numbers.ball(Fraction(1, 6))
+        text = written(sixth, 2)
+        bound = within([sixth], [text])
+    assert text == "0.166667" and 0 <= bound - float(Fraction(text) - Fraction(1, 6)) < 1e-20
 
 
 def test_reference_says_what_is_missing_and_ends_with_5(stabilab, monkeypatch):
