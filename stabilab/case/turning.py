@@ -4,7 +4,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ..numbers.exact import floats
-from ..numbers.principal import PrincipalAxes
+from ..numbers.principal import PrincipalAxes, without_trace
 from ..physics.effects import effect_class
 from .table import Table
 
@@ -45,7 +45,15 @@ def turned_effects(top: Table, effects: list, frame: PrincipalAxes | None) -> li
         if found is None:
             top.fault(f"{OBLIQUE} {effect.name.replace('_', ' ')} is known along principal axes alone: give principal moments, and "
                       "the rest of the case along them", "effects", effect.name)
-    return [effect for effect in turned if effect is not None]
+    return _at_right_angles([effect for effect in turned if effect is not None])
+
+
+def _at_right_angles(effects: list) -> list:
+    """Momentum across the torque in the input frame is across it along irrational axes too: whether it is decides what becomes of a motion."""
+    torque = next((e.exact for e in effects if e.name == "constant_torque"), None)
+    if torque is None:
+        return effects
+    return [type(e)(without_trace(e.exact, torque)) if e.name == "gyrostat" else e for e in effects]
 
 
 def judge_oblique(top: Table, frame: PrincipalAxes | None):

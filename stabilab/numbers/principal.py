@@ -22,6 +22,7 @@ Moment: TypeAlias = tuple[Fraction, bool]  # and whether it is exact
 BITS = 240  # of the numbers that cannot be rational
 IDENTITY = tuple(tuple(Fraction(i == j) for j in range(3)) for i in range(3))
 NAMES = "xyz"
+NOTHING = Fraction(1, 1 << 200)  # of a vector: a component as small is what irrational axes, good to BITS, leave of zero
 
 
 @dataclass(frozen=True)
@@ -49,6 +50,14 @@ class PrincipalAxes:
     def back(self, vector: Sequence[Number]) -> Triple:
         """The components in the input frame of a vector given along the principal axes."""
         return tuple(vector) if self.as_given else tuple(sum(self.axes[i][j] * vector[i] for i in range(3)) for j in range(3))
+
+
+def without_trace(vector: Exact3, other: Exact3) -> Exact3:
+    """A vector that was turned to principal axes, without the trace along another one that irrational axes leave where the two are at right angles."""
+    level, size = dot(vector, other), dot(other, other)
+    if not level or level * level > NOTHING * NOTHING * size * dot(vector, vector):
+        return vector
+    return tuple(v - level / size * o for v, o in zip(vector, other))
 
 
 def principal_axes(tensor: Sequence[Sequence[Number]]) -> PrincipalAxes:

@@ -5,6 +5,7 @@ import math
 from dataclasses import replace
 
 from ...errors import InputError
+from ...numbers.principal import NOTHING, without_trace
 from ...orbit.result import Fate
 from ...physics.alignment import torque_axis
 from ..tilt import Tilt, tilt
@@ -84,8 +85,9 @@ def _tilted(scenario, thrusters, scene, seen) -> Tilt | None:
 
 def _wheel(scenario, torque, seen, wheel) -> WheelAnswer:
     """What one wheel of the case can do, the others left as they are."""
-    axis = scenario.axes.turned(wheel.axis)
-    others = tuple(w - wheel.momentum * a for w, a in zip(scenario.wheel, axis))
+    axis = without_trace(scenario.axes.turned(wheel.axis), torque)
+    least = NOTHING * max(map(abs, scenario.wheel))
+    others = tuple(v if abs(v) > least else v * 0 for w, a in zip(scenario.wheel, axis) for v in [w - wheel.momentum * a])
     kept, because = intervals(scenario.scene(torque, others), scenario.state, axis)
     told = tuple(map(float, wheel.axis)), float(wheel.momentum), kept, because
     later = None if kept or seen.fate in STEADY else delayed(scenario, torque, axis, wheel.momentum, seen.time)

@@ -4,12 +4,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
+from ...numbers.principal import NOTHING
 from ...numbers.vectors import Float3
 from .result import Principal
 
 IDENTITY = tuple(tuple(Fraction(i == j) for j in range(3)) for i in range(3))
-
-NOTHING = Fraction(1, 1 << 200)  # of a vector: a component as small is what irrational axes, good to 240 bits, leave of zero
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,7 @@ from fractions import Fraction
 from typing import Any
 
 from ...errors import InputError
+from ...numbers.principal import without_trace
 from ...numbers.vectors import Float3
 from ...physics.body import Body
 from ...physics.effects.constant_torque import ConstantTorque
@@ -32,7 +33,8 @@ class Scenario:
 
     def scene(self, torque, wheel=None) -> Scene:
         """The scene under a torque (N m), with another wheel momentum (N m s) where one is given."""
-        return Scene(self.body, Gyrostat(tuple(self.wheel if wheel is None else wheel)), ConstantTorque(tuple(torque)))
+        wheel = without_trace(tuple(self.wheel if wheel is None else wheel), torque)
+        return Scene(self.body, Gyrostat(wheel), ConstantTorque(tuple(torque)))
 
     def torque(self, thrusters) -> tuple:
         """The whole torque while these thrusters fire, along the scene's axes."""

@@ -6,12 +6,13 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from stabilab import Body, ConstantTorque, Gyrostat, Scene
+from stabilab import Body, ConstantTorque, Gyrostat, Scene, load, stuck
 from stabilab.answers.stuck.family import family_of
 from stabilab.answers.stuck.wheel import intervals
 from stabilab.answers.stuck.wheel_roots import Circle, candidates, quadratics, resultant
 from stabilab.numbers.balls import working
 from stabilab.orbit.ball_geometry import ball_orbit
+from tests.answers.stuck.brute import Craft
 from tests.oracles import brute
 from tests.oracles.model import physical
 
@@ -148,3 +149,32 @@ def test_no_change_of_the_wheel_smaller_than_the_margin_changes_the_fate(seed, t
         assert family.steady(family.along(wheel, step, Fraction(margin.size) * Fraction(998, 1000))) == steady
     told = [Fraction(v) if m != family.axis else Fraction(0) for m, v in enumerate(margin.direction)]
     assert family.steady(family.along(wheel, told, Fraction(margin.size) * (1 + Fraction(1, 10**7)))) != steady
+
+
+def test_a_wheel_across_a_torque_between_two_equal_moments_is_across_it_along_irrational_axes_too(tmp_path):
+    """M . l = 0.4912 0.012666 - 0.3684 0.016888 = 0 in the frame of the file, by hand; DOP853 turns no faster in a second time as long as the first."""
+    text = """[body]
+inertia = [[97.394176, -1.954368, 4.34304], [-1.954368, 98.534224, 3.25728], [4.34304, 3.25728, 92.7616]]
+centre_of_mass = [0.06, -0.01, 0.18]
+[[thrusters]]
+name = "A"
+stuck = true
+position = [-0.42, -0.37, 0.98]
+direction = [-0.64, -0.48, -0.6]
+force = 0.02111
+[[wheels]]
+name = "W"
+axis = [0.4912, 0.3684, 0.848]
+momentum = 1
+[motion]
+angular_velocity = [0.006743, 0.004293, 0.007586]
+"""
+    path = tmp_path / "own.toml"
+    path.write_text(text)
+    case = load(path)
+    assert not case.frame.exact and sum(m * v for m, v in zip(case.scene.vector("constant_torque"), case.scene.vector("gyrostat"))) == 0
+    (row,) = stuck(case).rows
+    assert row.fate == "bounded" and row.wheels[0].keeps_bounded == ((-math.inf, math.inf),)
+    craft = Craft(text)
+    _, craft.start, first = craft.run(12000.0, limit=False, rtol=1e-9)
+    assert craft.run(12000.0, limit=False, rtol=1e-9)[2] < 1.2 * first
