@@ -158,5 +158,7 @@ def turned_periods(scene, states, labels):
     turn = aligned(scene)
     if reduce(turn.twin) is None:
         return np.where(labels == Fate.EQUILIBRIUM, 0.0, np.inf)
-    found = many.periods(turn.twin, states @ turn.matrix.T)  # turned in doubles: what is at rest hardly moves there
-    return np.where(labels == Fate.EQUILIBRIUM, 0.0, np.where(labels == Fate.BOUNDED, found, np.inf))
+    out, bounded = np.where(labels == Fate.EQUILIBRIUM, 0.0, np.inf), labels == Fate.BOUNDED
+    if bounded.any():  # a state at rest, turned in doubles, hardly moves: a period that no number of bits finds
+        out[bounded] = many.periods(turn.twin, states[bounded] @ turn.matrix.T)
+    return out
