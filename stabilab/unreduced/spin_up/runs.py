@@ -49,7 +49,9 @@ class Runs:
         if self.taylor:
             ends = np.where(times < pause, min(pause, t_max), t_max)
             self.states[rows], self.times[rows] = self._batches(states, times, ends, steps, TAYLOR_TOLERANCE)
-            twins, _ = self._batches(twins, times, self.times[rows], 8 * steps, LOOSE)
+            known = np.isfinite(self.times[rows])  # rates beyond doubles leave a motion without a time, and its twin with nothing to reach
+            twins[known], _ = self._batches(twins[known], times[known], self.times[rows][known], 8 * steps, LOOSE)
+            twins[~known] = np.nan
         else:
             for n, row in enumerate(rows):
                 self._alone(row, steps, t_max)
