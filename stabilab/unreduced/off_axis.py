@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from decimal import ROUND_CEILING, ROUND_FLOOR, Context
 
 import numpy as np
 
@@ -29,6 +30,7 @@ __all__ = ["extremes", "fates", "motion", "periods"]
 NO_SHEETS = "not known: the torque is off the principal axes, and no separatrix is known there"
 PATIENCE = 600_000  # steps for which a motion is followed where nobody says how long: about a second
 ENDLESS = 10**9     # steps where the caller names a time
+BOUND_DIGITS = 10  # decimals of a bound for all times
 REASON = {"undecided": Reason.OFF_AXIS, "certified": Reason.CERTIFIED, "proved": Reason.CERTIFIED, "exact": Reason.CLOSED_FORM}
 NO_SPAN = ("not known without a certificate of spin-up: give span=T ({unit}), or a span in the case's [motion], to search them over a time span, "
            "or follow=T to look for the certificate longer")
@@ -67,11 +69,20 @@ def bounds_for_ever(scene, state, found: SpinUp) -> tuple | None:
     until then (where the spin-up is proved: what the enclosure of the way cannot leave); None where they are not known."""
     if found.fate != Fate.SPIN_UP or found.trap is None:
         return None
-    later = found.trap.bounds()
+    later = tuple((outward(a, ROUND_FLOOR), outward(b, ROUND_CEILING)) for a, b in found.trap.bounds())
     if not found.t:
         return later
     before = _extremes_until(scene, state, found)
     return before and tuple((min(a, c), max(b, d)) for (a, b), (c, d) in zip(later, before))
+
+
+def outward(bound: float, towards: str) -> float:
+    """A bound to BOUND_DIGITS decimals, rounded to its safe side: the trap's last places differ from processor to processor."""
+    if not bound or not math.isfinite(bound):
+        return bound
+    told = float(Context(prec=BOUND_DIGITS, rounding=towards).create_decimal_from_float(bound))
+    side = math.inf if towards == ROUND_CEILING else -math.inf
+    return told if told == bound or (told > bound) == (side > 0) else math.nextafter(told, side)  # the double next to the decimal
 
 
 def _extremes_until(scene, state, found: SpinUp) -> tuple | None:
