@@ -153,7 +153,7 @@ class ConicLandscape(Landscape):
         if not close.any():
             return place
         first, second = (np.array(v) for v in place)
-        for index in zip(*np.nonzero(close)):
+        for index in map(tuple, np.argwhere(close)):  # () where one state is asked for
             ex, ez, _ = self.reduction.canonical_exact(states[index])
             first[index], second[index] = map(float, of(ex, ez))
             self._settle_plane(first, second, index, states[index])
