@@ -1,21 +1,31 @@
-"""Claims of the charged body's figures, by the printed (8) and (11) with the paper's data."""
+"""Claims of the charged body's figures: by the printed (8) and (11), by (35), and by the linear model that the paper solves, with the paper's data."""
 from __future__ import annotations
 
-import cmath
 import math
 
-DATA = {"D": (8.7, 8.6, 11.1), "wheel": 1.3, "charge": 0.003, "torque": 4.0, "field": 100.0, "arm": 1.02, "sigma": 0.37, "spin": 2.7 * 2 * math.pi / 60}
+from ...charged.closed_form import solution
+from ...charged.modes import ChargedBody
+from ...charged.printed import circle
+
+FIELD = 100.0 * 1.02**2 * math.cos(0.37)  # H l^2 cos(sigma)
 STEPS = {"wheel": (1.3, 1.6, 1.9), "charge": (0.001, 0.003, 0.005), "torque": (4.0, 4.5, 5.0)}
+OTHERS = {"wheel": 1.3, "charge": 0.003, "torque": 4.0}
+END = 50.0  # s, of the paper's figures
+ROUNDING = 1e-12  # a smaller relative change is none
+
+
+def _body(**changed) -> ChargedBody:
+    data = OTHERS | changed
+    return ChargedBody((8.7, 8.6, 11.1), 2.7 * 2 * math.pi / 60, data["wheel"], data["charge"] * FIELD, (data["torque"], 0.0), force=(0, 0, 3), mass=10.0)
 
 
 def _wave(**changed):
     """(amplitude of p, wavelength) by (11), from rest: p1 + i q1 = (i A/W)(1 - e^(i W t))."""
-    data = DATA | changed
-    (D1, D2, D3), r0 = data["D"], data["spin"]
+    body = _body(**changed)
+    D1, D2, D3 = body.inertia
     zeta1, zeta2 = (D3 - D2) / D1, (D3 - D1) / D2
-    moment = data["wheel"] - data["charge"] * data["field"] * data["arm"] ** 2 * math.cos(data["sigma"])
-    W = math.sqrt(zeta1 * zeta2) * (r0 + moment / (zeta1 * D1))
-    return data["torque"] * math.sqrt(zeta2) / D1 / abs(W) / math.sqrt(zeta2), 2 * math.pi / abs(W)
+    W = math.sqrt(zeta1 * zeta2) * (body.spin + (body.gyrostat - body.charge_moment) / (zeta1 * D1))
+    return body.torque[0] / D1 / abs(W), 2 * math.pi / abs(W)
 
 
 def _steps(name, good):
@@ -29,14 +39,33 @@ def _proportion():
     return last / first - 1.25
 
 
-def _radius(torque):
-    return abs(cmath.rect(torque / DATA["spin"], 0))
+def _circle():
+    """Change of the largest |G1 + i G2| of (35) between M1 = 4 and 5; its departure from proportionality."""
+    import numpy as np
+
+    period = 2 * math.pi / _body().spin
+    widths = [float(np.hypot(*circle(_body(torque=M1), np.array(period / 2)))) for M1 in (4.0, 5.0)]
+    return widths[1] / widths[0] - 1, widths[1] / widths[0] - 1.25
+
+
+def _axial(names, good):
+    """Of the linear model at the end: how many steps of the parameters do not change axial velocity and way as `good` says; the largest relative change."""
+    missed, largest = 0, 0.0
+    for name in names:
+        runs = [solution(_body(**{name: value}), END) for value in STEPS[name]]
+        ends = [(float(run.velocity[..., 2]), float(run.position[..., 2])) for run in runs]
+        for before, after in zip(ends, ends[1:]):
+            changes = [b / a - 1 for a, b in zip(before, after)]
+            missed += not all(map(good, changes))
+            largest = max(largest, *map(abs, changes))
+    return missed, largest
 
 
 TESTS = {
     "wheel lowers": lambda: (_steps("wheel", lambda amplitude, wavelength: amplitude < 0 and wavelength < 0), 0),
     "charge wavelength": lambda: (_steps("charge", lambda amplitude, wavelength: wavelength < 0), _steps("charge", lambda a, w: a > 0 and w > 0)),
     "torque amplitude": lambda: (_steps("torque", lambda amplitude, wavelength: amplitude < 0), _proportion()),
-    "circle": lambda: ((_radius(5) - _radius(4)) / _radius(4), _radius(5) / _radius(4) - 1.25),
-    "axial": lambda: (1, 0),
+    "circle": _circle,
+    "axial by wheel": lambda: _axial(("wheel",), lambda change: change < -ROUNDING),
+    "axial by charge and torque": lambda: _axial(("charge", "torque"), lambda change: change > ROUNDING),
 }
