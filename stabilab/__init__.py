@@ -34,6 +34,7 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
     from .physics.law_limits import validity as validity
     from .physics.scene import ScaledGyrostat as ScaledGyrostat
     from .physics.scene import Scene as Scene
+    from .show import plot as plot
     from .theories.comparison import compare as compare
     from .theories.theory import theory as theory
     from .unreduced.spin_up.follow import spin_up as spin_up
@@ -56,13 +57,15 @@ _HOME = {
     "Charge": "physics.effects.charge", "Resistance": "physics.effects.resistance", "LiquidCavity": "physics.effects.liquid_cavity",
     "NewtonianField": "physics.effects.newtonian_field", "Gravity": "physics.effects.gravity", "BodyForce": "physics.effects.body_force",
     "derive": "physics.equations", "validity": "physics.law_limits",
+    "plot": "show",
 }
 __all__ = [*_HOME, "__version__"]
 
 
 def __getattr__(name: str) -> Any:
     if name in _HOME:
-        return getattr(import_module(f"{__name__}.{_HOME[name]}"), name)
+        home = import_module(f"{__name__}.{_HOME[name]}")
+        return getattr(home, name) if hasattr(home, name) else import_module(f"{home.__name__}.{name}")  # a room of its own: plot
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 

@@ -359,22 +359,31 @@ def surface(case: CaseFile, out: Annotated[Path, typer.Option(metavar="DIR", hel
 
 
 @app.command()
-def plot(case: CaseFile, out: Annotated[Path | None, typer.Option(
-        metavar="FILE.png|.svg|.pdf", help="Picture to write; default: CASE.png in the current folder.")] = None,
-         strict: Strict = False):
-    """Draw the motion of a case in its phase plane.
+def plot(case: CaseFile,
+         kind: Annotated[str | None, typer.Option(metavar="KIND", help="time, phase, budget or state. "
+                                                                       "Default: the one that says most of the case.")] = None,
+         out: Annotated[Path | None, typer.Option(metavar="FILE.png|.svg|.pdf", help="Picture to write; default: CASE.png in the current "
+                                                  "folder.")] = None,
+         size: Annotated[str | None, typer.Option(metavar="WxH", help='Width and height in inches: "8x5".')] = None,
+         dpi: Annotated[float | None, typer.Option(metavar="N", help="Dots an inch of a .png; default: 110.")] = None,
+         until: Annotated[str | None, typer.Option(metavar="TIME", help='Draw up to this time: "10 min".')] = None,
+         units: Annotated[str, typer.Option(metavar="deg|si", help="deg/s and min, or rad/s and s.")] = "deg", strict: Strict = False):
+    """Draw a case: rates over time, phase plane, separatrix and more.
 
-    Example: stabilab plot cases/middle-axis-double-well.toml --out double-well.png
+    The same case gives the same bytes. What a case has no plot of is refused, with the kinds that it has.
+
+    Example: stabilab plot cases/middle-axis-double-well.toml --kind time --out double-well.svg
     """
     from .case.read import blamed_on
     from .show.files import endings
-    from .show.plane import plot as draw
+    from .show.plot.to_file import default_name, inches, write
     from .show.text import law
-    loaded, drawn = _load([case], motion=True), []
-    target = endings.file(out or f"{printable(case.stem)}.png", endings.PICTURES)
+    loaded, drawn = _load([case], motion=kind != "equilibria"), []
+    target = out or Path(default_name(printable(case.stem), kind))
     for one in loaded:
         with blamed_on(one):
-            drawn.append(draw(one, endings.labelled(target, one)))
+            end = _time(until, one, "until")
+            drawn.append(write(one, endings.labelled(target, one), kind, inches(size), dpi, units, end))
     laws = [law.of_case(one) for one in loaded]
     _print("\n".join(law.first(held, str(path)) for held, path in zip(laws, drawn)))
     _strictly(strict, laws)
@@ -641,7 +650,7 @@ def _tilted(case, motion, angle: str | None):
         return with_tilt(case, motion, None if angle is None else stated_angle(angle, "tilt"))
 
 
-def _time(text: str | None, case) -> float | None:
+def _time(text: str | None, case, option: str = "follow") -> float | None:
     """A time of the command line: a number in the time of the case, or one with a unit where that is s."""
     if text is None:
         return None
@@ -649,7 +658,7 @@ def _time(text: str | None, case) -> float | None:
     try:
         return float(quantity(text, NONE if case.variables == "scaled" else TIME)[0])
     except InputError as error:
-        raise InputError(f"--follow: {error}") from None
+        raise InputError(f"--{option}: {error}") from None
 
 
 def _about_one_of(cases, told, certificate):

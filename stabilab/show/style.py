@@ -38,7 +38,7 @@ SERIES = (BLUE, ORANGE, GREEN, PURPLE, VERMILION)               # one curve each
 
 PACKAGES = ("matplotlib", "PIL")  # of every picture
 DPI = 110
-_RC = {
+RC = {  # of Matplotlib
     "figure.dpi": DPI, "savefig.dpi": DPI, "figure.facecolor": "white", "axes.facecolor": "white",
     "font.family": "DejaVu Sans", "font.size": 10, "axes.titlesize": 10.5, "axes.labelsize": 10.5,
     "legend.fontsize": 8.5, "xtick.labelsize": 9, "ytick.labelsize": 9, "axes.linewidth": 0.8,
@@ -55,7 +55,7 @@ def drawing():
     matplotlib.use("Agg", force=False)
     import matplotlib.pyplot as plt
     before = set(plt.get_fignums())
-    with matplotlib.rc_context(_RC):
+    with matplotlib.rc_context(RC):
         try:
             yield plt
         finally:
@@ -68,14 +68,14 @@ _UNDATED = {".png": {"Software": None}, ".svg": {"Date": None, "Creator": None},
             ".pdf": {"CreationDate": None, "Creator": None, "Producer": None}}
 
 
-def save(figure, path) -> Path:
+def save(figure, path, dpi: float | None = None) -> Path:
     """Write a picture in the format of its ending (.png, .svg, .pdf), whole or not at all, with no date or version inside: the
-    same picture gives the same bytes. Raises InputError for other endings."""
+    same picture gives the same bytes. dpi: dots an inch, None for those of the house. Raises InputError for other endings."""
     import io
     path = endings.file(path, endings.PICTURES)
     kind = endings.ending(path)
     buffer = io.BytesIO()
-    figure.savefig(buffer, format=kind[1:], dpi=DPI, metadata=_UNDATED[kind])
+    figure.savefig(buffer, format=kind[1:], dpi=dpi or DPI, metadata=_UNDATED[kind])
     if kind == ".png":
         from PIL import Image
         write_small(Image.open(buffer), path)

@@ -13,9 +13,10 @@ import pytest
 from stabilab import errors
 from stabilab.orbit import phase_plane as phase
 from stabilab.orbit.separatrix.result import Sheet
-from stabilab.show import plane, style
+from stabilab.show import style
 from stabilab.show.figures import catalogue as figures
 from stabilab.show.figures import paper
+from stabilab.show.plot import to_file as plane
 from stabilab.show.surface import mesh, render_probe
 from stabilab.show.surface import write as surface
 from stabilab.show.text import table
@@ -149,14 +150,16 @@ def test_the_motion_of_a_middle_axis_case_closes():
 @pytest.mark.parametrize("name", ["minor-axis-100", "middle-axis-300", "major-axis-500"])
 def test_plot_writes_a_picture_of_any_case(name, tmp_path):
     import stabilab
-    path = plane.plot(stabilab.load(CASES / f"{name}.toml"), tmp_path / "picture.png")
+    path = plane.write(stabilab.load(CASES / f"{name}.toml"), tmp_path / "picture.png")
     assert path.read_bytes()[:8] == b"\x89PNG\r\n\x1a\n" and path.stat().st_size < 200_000
 
 
 def test_a_picture_needs_a_motion(tmp_path):
-    from types import SimpleNamespace
+    import stabilab
+    path = tmp_path / "still.toml"
+    path.write_text("[body]\ninertia = [3, 2, 1]\n")
     with pytest.raises(errors.InputError, match="angular_velocity"):
-        plane.plot(SimpleNamespace(state=None, path="x.toml"), tmp_path / "x.png")
+        plane.write(stabilab.load(path), tmp_path / "x.png", "time")
 
 
 def test_the_same_figure_gives_the_same_bytes(tmp_path):
@@ -288,7 +291,7 @@ BEGINS = {".png": b"\x89PNG\r\n\x1a\n", ".svg": b"<?xml", ".pdf": b"%PDF-"}
 def test_a_picture_is_what_its_ending_says_and_the_same_bytes_again(name, tmp_path):
     import stabilab
     case = stabilab.load(CASES / "minor-axis-100.toml")
-    first, second = (plane.plot(case, tmp_path / side / name) for side in ("a", "b"))
+    first, second = (plane.write(case, tmp_path / side / name) for side in ("a", "b"))
     assert first.read_bytes().startswith(BEGINS[first.suffix.lower()])
     assert first.read_bytes() == second.read_bytes()
 
@@ -297,7 +300,7 @@ def test_what_is_not_a_picture_is_refused_before_anything_is_drawn(tmp_path):
     import stabilab
     for name in ("plane.jpg", "plane", "plane.png.gz", ".png"):
         with pytest.raises(errors.InputError, match=r"expected a name that ends in \.png, \.svg or \.pdf, got"):
-            plane.plot(stabilab.load(CASES / "minor-axis-100.toml"), tmp_path / name)
+            plane.write(stabilab.load(CASES / "minor-axis-100.toml"), tmp_path / name)
     assert not list(tmp_path.iterdir())
 
 

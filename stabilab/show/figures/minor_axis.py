@@ -9,7 +9,7 @@ from ...answers.trajectory import trajectory
 from ...orbit.phase_plane import motion_curve, phase_plane
 from ...orbit.separatrix.sheets import separatrix
 from .. import style
-from ..plane import draw
+from ..plot.phase_plane import draw
 from . import paper
 from .figure import listed
 

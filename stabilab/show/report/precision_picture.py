@@ -34,12 +34,10 @@ def picture(plt, found):
     rows = -(-len(questions) // columns)
     figure, axes = plt.subplots(rows, columns, figsize=(5.6 * columns, 4.0 * rows + (1.3 if columns == 2 else 2.1)), layout="constrained", squeeze=False)
     for ax, question in zip(axes.flat, questions):
-        _panel(ax, found, question)
+        panel(ax, found, question)
     for ax in axes.flat[len(questions):]:
         ax.set_visible(False)
-    shown = [m for m in LOOKS if any(p.method == m for p in found.points)]
-    style.legend(figure, [(_legend(found, m), LOOKS[m]) for m in shown] + [("front: none is both faster and better", FRONT)],
-                 columns=4 if columns == 2 else 2)
+    style.legend(figure, meanings(found), columns=4 if columns == 2 else 2)
     figure.suptitle(f"{found.case.name}: what accuracy costs", fontsize=11, parse_math=False)
     note = f"Reference error {found.reference.error.max():.0e}. {caption()}"
     width = 150 if columns == 2 else 84
@@ -51,13 +49,20 @@ def picture(plt, found):
 FRONT = {"color": "#CDD5DA", "linewidth": 7, "marker": "o", "markersize": 11, "markeredgewidth": 0, "solid_joinstyle": "round"}
 
 
+def meanings(found, questions=None) -> list[tuple[str, dict]]:
+    """Rows (name, look) of the legend: the methods that were measured, of some questions or of all, and the front."""
+    asked = [p.method for p in found.points if questions is None or p.question in questions]
+    return [*((_legend(found, m), LOOKS[m]) for m in LOOKS if m in asked), ("front: none is both faster and better", FRONT)]
+
+
 def _legend(found, method) -> str:
     factor = next((f for q in found.questions if (f := digit_price(found.of(q, method))) is not None), None)
     name = f"{method} (a motion of {found.of('span', method)[0].lanes})" if method == "taylor-batch" else method
     return name if factor is None else f"{name}: {price(factor)} a digit"
 
 
-def _panel(ax, found, question):
+def panel(ax, found, question):
+    """One question of a measurement on given axes: a line a method, the front as a grey band."""
     ax.set(xscale="log", yscale="log", xlabel="largest relative error", ylabel="time (s)", title=title(found, question))
     front = found.front(question)
     ax.plot([_clipped(p.error) for p in front], [p.seconds for p in front], zorder=1, **FRONT)

@@ -28,7 +28,7 @@ from ..figures import catalogue as figures
 from ..figures import paper
 from ..files import manifest
 from ..outside import validation
-from ..plane import plot
+from ..plot.to_file import write as plot
 from ..surface import write as surface
 from ..surface.render_probe import probe
 from ..text import frame, table

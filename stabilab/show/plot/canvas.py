@@ -1,0 +1,67 @@
+"""Where a plot goes: onto axes that the caller gives, or into a figure of its own in the style of the house."""
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from ...errors import InputError
+from ...packages import demand
+from .. import style
+
+SIZE = (7.6, 4.8)  # inches
+SQUARE = (7.0, 6.4)
+LETTER, KEY = 0.078, 0.62  # inches that a letter of a legend, and its key with the gap, take
+
+
+@contextmanager
+def on(ax: Any, size: tuple[float, float] | None = None, space: bool = False) -> Iterator[Any]:
+    """The axes to draw on: `ax` itself, checked, or those of a new figure of so many inches. space: three-dimensional ones."""
+    demand(*style.PACKAGES)
+    if ax is not None:
+        yield _checked(ax, space)
+        return
+    import matplotlib
+    import matplotlib.pyplot as plt
+    with matplotlib.rc_context(style.RC):
+        figure = plt.figure(figsize=size or (SQUARE if space else SIZE), layout="constrained")
+        yield figure.add_subplot(projection="3d" if space else None)
+
+
+def _checked(ax: Any, space: bool) -> Any:
+    if not hasattr(ax, "plot") or not hasattr(ax, "figure"):
+        raise InputError(f"ax: expected Matplotlib axes, got {ax!r:.80}")
+    if space != (getattr(ax, "name", "") == "3d"):
+        wanted = 'three-dimensional axes: plt.subplots(subplot_kw={"projection": "3d"})' if space else "plane axes: plt.subplots()"
+        raise InputError(f"ax: expected {wanted}")
+    return ax
+
+
+def legend(ax: Any, rows: list[tuple[str, dict[str, Any]]], own: bool) -> None:
+    """What the looks mean, rows of (name, look): below a figure of its own, inside axes that were given."""
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Patch
+    if not rows:
+        return
+    handles = [Patch(**look) if "facecolor" in look else Line2D([], [], **look) for _, look in rows]
+    names = [name for name, _ in rows]
+    if not own:
+        ax.legend(handles, names, loc="best", fontsize="small")
+        return
+    ax.figure.legend(handles, names, loc="outside lower center", ncols=_columns(names, ax.figure.get_figwidth() - 0.3))
+
+
+def _columns(names: list[str], room: float) -> int:
+    """The most columns of a legend that fit into so many inches; it is filled column by column."""
+    widths = [KEY + LETTER * len(re.sub(r"[$_\\]|\\\w+", "", name)) for name in names]
+    for columns in range(len(names), 1, -1):
+        rows = -(-len(names) // columns)
+        if sum(max(widths[n:n + rows]) for n in range(0, len(names), rows)) <= room:
+            return columns
+    return 1
+
+
+def title(ax: Any, *lines: str) -> None:
+    """The lines that are not empty, above the axes."""
+    ax.set_title("\n".join(filter(None, lines)), wrap=True, parse_math=False)

@@ -1,0 +1,44 @@
+"""The units of the axes of a plot: name and factor of rates, times and angles, and the names of components."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ...errors import InputError
+from ..text.engineering import ENGINEERING, SI
+from .subject import Subject
+
+UNITS = {"deg": ENGINEERING, "si": SI}
+LONG_MINUTE, LONG_HOUR = 180.0, 5 * 3600.0  # s: from here on minutes, hours read better
+
+
+@dataclass(frozen=True)
+class Measures:
+    """rate, angle: (name, how many make one of the scene's); names: of the three components, in TeX; size: of |omega|, empty when scaled."""
+
+    rate: tuple[str, float]
+    angle: tuple[str, float]
+    names: tuple[str, ...]
+    size: str
+    minutes: bool
+
+    def time(self, longest: float) -> tuple[str, float]:
+        """(name, factor) of the times of a plot that goes so far."""
+        if not self.size:
+            return r"$\tau$", 1.0
+        if not self.minutes or longest < LONG_MINUTE:
+            return "s", 1.0
+        return ("min", 1 / 60) if longest < LONG_HOUR else ("h", 1 / 3600)
+
+    def label(self, words: str, unit: str) -> str:
+        """A label of an axis with its unit, where it has one."""
+        return f"{words} ({unit})" if unit else words
+
+
+def measures(one: Subject, units: str = "deg") -> Measures:
+    """Those of a subject: units "deg" (deg/s, deg; seconds, minutes or hours) or "si" (rad/s, rad, s); none when scaled."""
+    if units not in UNITS:
+        raise InputError(f"units: expected one of {', '.join(UNITS)}, got {units!r:.40}")
+    if not one.physical:
+        return Measures(("", 1.0), ("", 1.0), ("$x_1$", "$x_2$", "$x_3$"), "", False)
+    found = UNITS[units]
+    return Measures(found.rate, found.angle, (r"$\omega_1$", r"$\omega_2$", r"$\omega_3$"), r"$|\omega|$", units == "deg")

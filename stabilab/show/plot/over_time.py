@@ -1,0 +1,148 @@
+"""The rates of a motion over time: components and size, with limits, extremes and period marked."""
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...answers.time_to import time_of_case
+from ...case.limit_options import stated_limit
+from .. import style
+from . import canvas, which
+from .measures import measures
+from .path import SOLID, band, path, turning
+from .subject import DEFAULT_SPAN, Subject, subject
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+COMPONENTS = ({"color": style.BLUE, "linewidth": 1.3}, {"color": style.ORANGE, "linewidth": 1.3}, {"color": style.GREEN, "linewidth": 1.3})
+SIZE_LOOK = {"color": style.BLACK, "linewidth": 2.2}
+EXTREME = {"linestyle": (0, (1, 2)), "linewidth": 1.1}
+LIMIT = {"color": style.VERMILION, "linestyle": "--", "linewidth": 1.5}
+REACHED = {"marker": "o", "color": style.VERMILION, "markersize": 6.5, "linestyle": "none"}
+PERIOD = {"color": style.GREY, "linestyle": "-", "linewidth": 0.8}
+PERIODS = 10  # a motion that repeats is shown for so many at most, unless a span is asked for
+BEYOND = 1.25  # of the time to the limit: how far the picture goes at least
+
+
+def time(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None, units: str = "deg", size: tuple[float, float] | None = None,
+         legend: bool = True) -> Axes:
+    """Draw the rates of a motion over time, and return the axes.
+
+    case: a Case, or a scene with `state`, three rates (or a dict of blocks). The three components along the principal axes and |omega| in deg/s,
+    over seconds, minutes or hours (units="si": rad/s and s; scaled scenes have x and tau). Dotted: least and greatest value of each component over
+    all time, where they are known. Grey: the ends of the periods. Dashed: the limits of the case, and a point where one is reached first. Of
+    limits about axes of a file that are not the principal ones, the components along those axes are drawn instead. span: (from, to) or the end;
+    None: the case's own, at most ten periods, and past the time at which a limit is reached.
+    """
+    one = subject(case, state, span)
+    which.check("time", one)
+    scale, reached = measures(one, units), _reached(one)
+    low, high = _span(one, span is not None, reached)
+    t, omega = path(one, low, high)
+    turned = _file_axes(one)
+    omega = omega if turned is None else omega @ turned.T
+    (time_unit, per_time), (rate_unit, per_rate) = scale.time(high - low), scale.rate
+    names = scale.names if turned is None else tuple(rf"$\omega_{axis}$" for axis in "xyz")
+    with canvas.on(ax, size) as target:
+        rows = list(zip(names, COMPONENTS))
+        if scale.size:
+            rows.insert(0, (scale.size, SIZE_LOOK))
+            _curve(target, t * per_time, np.linalg.norm(omega, axis=1) * per_rate, SIZE_LOOK)
+        for values, look in zip(omega.T, COMPONENTS):
+            _curve(target, t * per_time, values * per_rate, look)
+        rows += _extremes(target, one, per_rate) if turned is None else []
+        rows += _periods(target, one, low, high, per_time, time_unit)
+        rows += _limits(target, one, reached, t, omega, (time_unit, per_time), scale.rate)
+        target.set_xlim(t[0] * per_time, t[-1] * per_time)
+        target.margins(y=0.06)
+        target.set_xlabel(scale.label("time", time_unit) if scale.size else time_unit)
+        target.set_ylabel(scale.label("rate" + (", axes of the file" if turned is not None else ""), rate_unit) if scale.size else "$x$")
+        canvas.title(target, one.heading)
+        if legend:
+            canvas.legend(target, rows, ax is None)
+    return target
+
+
+def _curve(ax, t, values, look):
+    if turning(values) <= SOLID:
+        ax.plot(t, values, **look)
+        return
+    ax.fill_between(*band(t, values), color=look["color"], alpha=0.45, linewidth=0.3)
+
+
+def _span(one: Subject, asked: bool, reached) -> tuple[float, float]:
+    """(from, to): what was asked for, else what is worth seeing."""
+    low, high = one.span or DEFAULT_SPAN
+    if asked:
+        return low, high
+    if reached is not None and math.isfinite(reached.high) and reached.high > 0:
+        return min(low, 0.0), max(BEYOND * float(reached.high), min(high, 4 * float(reached.high)))
+    period = one.motion.period
+    if one.span is None and period:
+        return 0.0, 3 * period
+    return low, min(high, low + PERIODS * period) if period else high
+
+
+def _extremes(ax, one, per_rate):
+    """Dotted lines at the least and greatest value of each component; the row of the legend."""
+    found = one.motion.extremes
+    if found is None or one.motion.extremes_over != "all time":
+        return []
+    drawn = [(value, look) for pair, look in zip(found, COMPONENTS) for value in set(pair) if value is not None and math.isfinite(value)]
+    for value, look in drawn:
+        ax.axhline(value * per_rate, color=look["color"], zorder=1.5, **EXTREME)
+    return [("least and greatest for ever", {"color": style.GREY, **EXTREME})] if drawn else []
+
+
+def _periods(ax, one, low, high, per_time, unit):
+    period = one.motion.period
+    if not period or high - low < period:
+        return []
+    ends = np.arange(math.ceil(low / period), math.floor(high / period) + 1) * period
+    if len(ends) > 3 * PERIODS:
+        return [(f"period {period * per_time:.5g} {unit}", {"linestyle": "none"})]
+    for end in ends:
+        ax.axvline(end * per_time, zorder=1, **PERIOD)
+    return [(f"period {period * per_time:.5g} {unit}", PERIOD)]
+
+
+def _reached(one: Subject):
+    """When the limit of the case is first reached (`TimeTo`); None without a limit."""
+    if one.case is None or one.case.limits is None:
+        return None
+    limit = stated_limit(one.case)
+    return time_of_case(one.case, limit.ask, limit.until)
+
+
+def _file_axes(one: Subject):
+    """Rows that turn rates to the axes of the file, where limits are about those and they are not the principal ones."""
+    case = one.case
+    if case is None or case.limits is None or case.limits.rate is not None or case.frame is None or case.frame.as_given:
+        return None
+    return np.array([[float(v) for v in axis] for axis in case.frame.axes]).T
+
+
+def _limits(ax, one, reached, t, omega, time_unit, rate_unit):
+    """Dashed lines at the limits, a point where one is reached first; the rows of the legend."""
+    if reached is None:
+        return []
+    (second, per_time), (name, per_rate) = time_unit, rate_unit
+    rate, rates = one.case.limits.rate, [float(v) for v in one.case.limits.rates or ()]
+    same = len(set(rates)) == 1
+    if rate is not None:
+        ax.axhline(float(rate) * per_rate, **LIMIT)
+    for most, look in zip(rates, COMPONENTS):
+        for sign in (1, -1):
+            ax.axhline(sign * most * per_rate, **LIMIT | ({} if same else {"color": look["color"]}))
+    of, most = ("|ω|", float(rate)) if rate is not None else ("each", rates[0])
+    rows = [(f"limit of {of}, {most * per_rate:.4g} {name}" if rate is not None or same else "limits", LIMIT)]
+    when = float(reached.low + reached.high) / 2
+    if not t[0] <= when <= t[-1]:
+        return rows
+    values = np.array([np.interp(when, t, column) for column in omega.T])
+    at = np.linalg.norm(values) if rate is not None else values[np.argmax(np.abs(values) / np.array(rates))]
+    ax.plot([when * per_time], [at * per_rate], zorder=5, **REACHED)
+    return [*rows, (f"reached after {when * per_time:.4g} {second}", REACHED)]

@@ -1,0 +1,61 @@
+"""The rates of a motion at times close enough to be drawn as a line."""
+from __future__ import annotations
+
+import numpy as np
+
+from ...answers.simulate import simulate
+from ...answers.trajectory import trajectory
+from ...errors import InputError
+from .subject import Subject
+
+EVEN = 2001  # times at least
+INSIDE = 16  # times inside a step: a Taylor step to the last digit turns the body by up to three radians
+MOST = 60_000
+BINS, SOLID = 700, 500  # a curve with more turning points than this is drawn as a band of so many pieces
+
+
+def path(one: Subject, start: float, end: float) -> tuple[np.ndarray, np.ndarray]:
+    """(times (n,), rates (n, 3)) of the motion from `start` to `end`; fewer where the run stops. InputError where it does not begin."""
+    even = np.linspace(start, end, EVEN)
+    times = _beside(even, _steps(one, even))
+    if one.scene.plain:
+        run = trajectory(one.scene, one.start, times, laws=False)
+        t, states = run.t, run.states
+    else:
+        found = simulate(one.scene, one.state, times, one.blocks)
+        t, states = found.t, found.state["omega"]
+    if len(t) < 2:
+        raise InputError("plot: the motion cannot be followed: the run stopped at its start")
+    return np.asarray(t), np.asarray(states)
+
+
+def _steps(one, even):
+    """The ends of the steps of a run; none of a longer state, which may need a method whose steps are another's."""
+    steps: list[float] = []
+    if one.scene.plain:
+        trajectory(one.scene, one.start, even[[0, -1]] if even[0] else even[-1:], steps=steps, laws=False)
+    return np.sort([t for t in steps if even[0] < t < even[-1]])
+
+
+def _beside(even, steps):
+    """The even times, and so many inside every step."""
+    if not len(steps):
+        return np.linspace(even[0], even[-1], 8 * EVEN)
+    ends = np.unique(np.concatenate([even[[0, -1]], steps]))
+    inside = max(1, min(INSIDE, MOST // len(ends)))
+    fine = (ends[:-1, None] + np.diff(ends)[:, None] * np.arange(inside) / inside).ravel()
+    return np.unique(np.concatenate([even, fine]))
+
+
+def turning(values: np.ndarray) -> int:
+    """How often a curve turns."""
+    steps = np.sign(np.diff(values))
+    steps = steps[steps != 0]
+    return int((steps[1:] != steps[:-1]).sum())
+
+
+def band(t: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """(times, least, greatest) in pieces of the curve, for one that turns more often than a picture has columns."""
+    edges = np.linspace(t[0], t[-1], BINS + 1)
+    first = np.clip(np.searchsorted(t, edges[:-1]), 0, len(t) - 1)
+    return 0.5 * (edges[:-1] + edges[1:]), np.minimum.reduceat(values, first), np.maximum.reduceat(values, first)

@@ -1,0 +1,100 @@
+"""The phase plane of a motion that reduces to one degree of freedom."""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...orbit.phase_plane import PhasePlane, motion_curve, phase_plane, window
+from .. import style
+from . import canvas, which
+from .measures import measures
+from .subject import subject
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
+def phase(case: Any, state: Any = None, ax: Axes | None = None, units: str = "deg", size: tuple[float, float] | None = None,
+          legend: bool = True) -> Axes:
+    """Draw the phase plane of a motion, and return the axes.
+
+    case: a Case, or a scene with `state`. Across: the turn about the axis of the torque since the start; up: the rate about it. The reduced
+    potential decides all lines: this motion, the separatrices through the saddles, and the motions of other energies at the same value of the
+    invariant. units: "deg" or "si". Raises InputError where the motion has no such plane; it names the kinds of plot that there are.
+    """
+    one = subject(case, state)
+    which.check("phase", one)
+    scale, plane = measures(one, units), phase_plane(one.twin, one.state)
+    i = plane.reduction.axis
+    with canvas.on(ax, size) as target:
+        factors = {"scale": plane.unit * scale.angle[1], "rate_scale": scale.rate[1]}
+        draw(target, plane, **factors)
+        _enlarged(target, plane, factors)
+        target.set_xlabel(scale.label(rf"turn $\alpha_{i + 1}$ about axis {i + 1} from the start", scale.angle[0]))
+        target.set_ylabel(scale.label(scale.names[i], scale.rate[0]))
+        canvas.title(target, one.heading)
+        if legend:
+            present = {"separatrix": bool(plane.saddles), "saddle (unstable)": bool(plane.saddles), "centre (stable)": bool(plane.centres)}
+            canvas.legend(target, [row for row in ROWS if present.get(row[0], True)], ax is None)
+    return target
+
+
+SMALL, AROUND = 0.07, 1.6  # of the picture's height: a motion below it is shown enlarged, in a window so much larger than itself
+
+
+def _enlarged(ax, plane, factors):
+    """A window with this motion alone, where it is too small to be seen beside its separatrix."""
+    ys, Ws = motion_curve(plane, *window(plane))
+    height = 2 * float(np.abs(factors["rate_scale"] * (plane.rate(Ws) - plane.rate(np.zeros(1)))).max())
+    low, high = ax.get_ylim()
+    if not 0 < height < SMALL * (high - low) or Ws[[0, -1]].max() > 1e-6 * Ws.max():
+        return
+    right = plane.unit * (ys[0] + ys[-1]) < plane.unit * sum(window(plane))  # the emptier side
+    inset = ax.inset_axes((0.64 if right else 0.07, 0.62, 0.34, 0.34))
+    middle, half = (ys[0] + ys[-1]) / 2, AROUND * (ys[-1] - ys[0]) / 2
+    draw(inset, plane, span=(middle - half, middle + half), levels=14, **factors)
+    rest = factors["rate_scale"] * float(plane.rate(np.zeros(1))[0])
+    inset.set_ylim(rest - AROUND * height / 2, rest + AROUND * height / 2)
+    inset.tick_params(labelsize=7)
+    ax.indicate_inset_zoom(inset, edgecolor=style.BLACK)
+
+
+ROWS: list[tuple[str, dict]] = [
+    ("this motion", style.MEANING["this motion"]), ("start", style.MARKER["start"]), ("separatrix", style.MEANING["separatrix"]),
+    ("other energies", style.MEANING["level"]), ("centre (stable)", style.MARKER["centre"]), ("saddle (unstable)", style.MARKER["saddle"])]
+
+
+def draw(ax, plane: PhasePlane, scale=1.0, offset=0.0, rate_scale=1.0, span=None, levels=22, motion=True):
+    """Draw level curves, separatrices, equilibria and the motion on `ax`; x axis: offset + scale*y."""
+    low, high = span or window(plane)
+    y = np.linspace(low, high, 700)
+    heights = plane.height(y)
+    tops = [float(plane.height(s)) for s in plane.repeated(plane.saddles, low, high)]
+    lift = max(plane.W0**2 / 2, *(tops or [0.0])) - float(np.min(heights))
+    top = np.sqrt(2 * lift) * 1.12 + 1e-12
+    W = np.linspace(-top, top, 500)
+    energy = W[:, None] ** 2 / 2 + heights[None, :]
+    limits = np.linspace(energy.min(), np.quantile(energy, 0.93), levels + 1)[1:]
+    ax.contour(offset + scale * y, rate_scale * plane.rate(W), energy, levels=limits, colors=style.MEANING["level"]["color"],
+               linewidths=0.5, linestyles="solid")
+    for saddle in plane.repeated(plane.saddles, low, high):
+        ys, Ws = plane.separatrix(saddle, low, high)
+        for sign in (1, -1):
+            ax.plot(offset + scale * ys, rate_scale * plane.rate(sign * Ws), **style.MEANING["separatrix"])
+    if motion:
+        ys, Ws = motion_curve(plane, low, high)
+        for sign in _ways(plane, Ws):
+            ax.plot(offset + scale * ys, rate_scale * plane.rate(sign * Ws), **style.MEANING["this motion"])
+        ax.plot([offset], [rate_scale * plane.rate(plane.W0)], zorder=5, **style.MARKER["start"])
+    for kind, places in (("centre", plane.centres), ("saddle", plane.saddles)):
+        shown = np.array(plane.repeated(places, low, high))
+        ax.plot(offset + scale * shown, rate_scale * plane.rate(np.zeros(shown.shape)), zorder=5, clip_on=False, **style.MARKER[kind])
+    ax.set_xlim(*sorted((offset + scale * low, offset + scale * high)))
+    ends = rate_scale * plane.rate(np.array([-top, top]))
+    ax.set_ylim(min(ends), max(ends))
+
+
+def _ways(plane, W):
+    """Signs of the rate that a motion has: one where it goes right round without a torque and never turns."""
+    return (float(np.sign(plane.W0)),) if plane.land.may_rotate and W.min() > 0 else (1, -1)

@@ -1,0 +1,80 @@
+"""A plot of a case as a file: which kind, how large, in the format of its ending."""
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from ...errors import InputError
+from ...packages import demand
+from .. import style
+from ..files import endings
+from . import which
+from .cost import whole as budget
+from .over_time import time
+from .phase_plane import phase
+from .subject import Subject, subject
+from .whole_state import state
+
+LEAST, MOST, SHARP = 1.0, 60.0, 1200  # inches of a side, dots an inch
+PIXELS = 20_000  # of a side: what Matplotlib draws
+
+# kind -> figure(subject, units, size, plt)
+DRAWN: dict[str, Callable[..., Any]] = {
+    "time": lambda one, units, size, plt: time(one, units=units, size=size).figure,
+    "phase": lambda one, units, size, plt: phase(one, units=units, size=size).figure,
+    "budget": lambda one, units, size, plt: budget(one, plt),
+    "state": lambda one, units, size, plt: state(one),
+}
+
+
+def write(case: Any, path: str | Path, kind: str | None = None, size: tuple[float, float] | None = None, dpi: float | None = None, units: str = "deg",
+          span: Any = None) -> Path:
+    """Draw a case (or a Subject) and write the picture to `path` (.png, .svg, .pdf), whole or not at all; returns the path.
+
+    kind: one of `which.KINDS`; None: the one that says most of the case. size: (width, height) in inches; dpi: dots an inch of a .png. units: "deg"
+    or "si". span: in place of the case's own. The same input gives the same bytes (but for "budget", whose times are measured). Raises
+    InputError for another ending, and where the case has no such plot: it names those that there are.
+    """
+    one = subject(case, span=span)
+    chosen = checked(path, one, kind)
+    demand(*style.PACKAGES)
+    _check_size(size, dpi)
+    with style.drawing() as plt:
+        figure = DRAWN[chosen](one, units, size, plt)
+        if size is not None:
+            figure.set_size_inches(*size)
+        return style.save(figure, path, dpi)
+
+
+def checked(path: str | Path, one: Subject, kind: str | None) -> str:
+    """The kind of a plot, if it can be drawn and written to such a path: before anything is computed."""
+    endings.file(path, endings.PICTURES)
+    chosen = which.default(one) if kind is None else kind
+    which.check(chosen, one)
+    return chosen
+
+
+def _check_size(size, dpi):
+    if size is not None and not (len(size) == 2 and all(LEAST <= side <= MOST for side in size)):
+        raise InputError(f"size: expected a width and a height of {LEAST:g} to {MOST:g} inches, got {size!r:.60}")
+    if dpi is not None and not 10 <= dpi <= SHARP:
+        raise InputError(f"dpi: expected 10 to {SHARP} dots an inch, got {dpi!r:.40}")
+    if dpi is not None and max(size or (0,)) * dpi > PIXELS:
+        raise InputError(f"size, dpi: expected at most {PIXELS} dots a side, got {max(size) * dpi:.0f}")
+
+
+def inches(text: str | None) -> tuple[float, float] | None:
+    """Width and height of a command line, "8x5"."""
+    if text is None:
+        return None
+    try:
+        width, height = (float(side) for side in text.lower().split("x"))
+    except ValueError:
+        raise InputError(f'--size: expected a width and a height in inches, as in "8x5", got "{text[:40]}"') from None
+    return width, height
+
+
+def default_name(stem: str, kind: str | None) -> str:
+    """The name of the file where none is given."""
+    return f"{stem}{'.html' if kind == 'attitude' else '.png'}"

@@ -1,0 +1,173 @@
+"""Plots of cases: what is drawn, of what there is no plot, and files that are what their names say."""
+import math
+from fractions import Fraction
+
+import matplotlib
+import numpy as np
+import pytest
+
+import stabilab
+from stabilab import errors
+from stabilab.show.plot import path, subject, to_file, which
+
+matplotlib.use("Agg")
+from matplotlib import pyplot as plt  # after the back end is chosen
+
+CASES = __file__.rsplit("/tests/", 1)[0] + "/cases"
+
+
+@pytest.fixture(autouse=True)
+def closed():
+    yield
+    plt.close("all")
+
+
+def load(name):
+    return stabilab.load(f"{CASES}/{name}.toml")
+
+
+def case_of(tmp_path, text):
+    file = tmp_path / "case.toml"
+    file.write_text(text)
+    return stabilab.load(file)
+
+
+SMALL = "[body]\ninertia = [12, 9, 5]\n[effects.gyrostat]\nmomentum = [0.8, 0, 0]\n[effects.constant_torque]\ntorque = [0, 0, 0.02]\n"
+MOVING = SMALL + "[motion]\nangular_velocity = [0.1, 0.05, 0.02]\nspan = [0, 100]\n"
+
+
+def lines(ax):
+    return [line for line in ax.get_lines() if len(line.get_xdata()) > 100]
+
+
+def test_a_plot_returns_the_axes_it_was_given():
+    _, ax = plt.subplots()
+    assert stabilab.plot.time(load("minor-axis-100"), ax=ax) is ax
+    _, ax = plt.subplots()
+    assert stabilab.plot.phase(load("minor-axis-100"), ax=ax) is ax
+
+
+def test_rates_are_drawn_in_degrees_and_components_make_the_size(tmp_path):
+    case = case_of(tmp_path, MOVING)
+    size, *parts = (line.get_ydata() for line in lines(stabilab.plot.time(case)))
+    assert [part[0] for part in parts] == pytest.approx([math.degrees(v) for v in (0.1, 0.05, 0.02)])
+    assert size == pytest.approx(np.linalg.norm(parts, axis=0))
+    _, si, *_ = (line.get_ydata() for line in lines(stabilab.plot.time(case, units="si")))
+    assert si[0] == pytest.approx(0.1)
+
+
+def test_drawn_rates_are_those_of_the_motion(tmp_path):
+    """Oracle: SciPy's DOP853 on Euler's equations written by hand."""
+    from scipy.integrate import solve_ivp
+    t, rates = path.path(subject.subject(case_of(tmp_path, MOVING)), 0.0, 100.0)
+    D, wheel, torque = np.array([12.0, 9.0, 5.0]), np.array([0.8, 0, 0]), np.array([0, 0, 0.02])
+    euler = lambda _, w: (np.cross(D * w + wheel, w) + torque) / D
+    run = solve_ivp(euler, (0, 100), (0.1, 0.05, 0.02), method="DOP853", t_eval=t[::50], rtol=1e-11, atol=1e-13)
+    assert np.abs(run.y.T - rates[::50]).max() < 1e-8
+
+
+def test_dotted_lines_stand_at_the_extremes_and_grey_ones_a_period_apart(tmp_path):
+    case = case_of(tmp_path, MOVING)
+    ax = stabilab.plot.time(case)
+    found = stabilab.motion(case.scene, case.state)
+    level = {round(float(line.get_ydata()[0]), 9) for line in ax.get_lines() if len(line.get_xdata()) == 2 and line.get_ydata()[0] == line.get_ydata()[1]}
+    assert {round(math.degrees(v), 9) for pair in found.extremes for v in pair} <= level
+    upright = [line.get_xdata()[0] for line in ax.get_lines() if len(line.get_xdata()) == 2 and line.get_xdata()[0] == line.get_xdata()[1]]
+    assert np.diff(upright) == pytest.approx(found.period) and len(upright) > 1
+
+
+def test_the_limit_of_a_case_is_marked_where_the_size_of_the_rate_first_reaches_it():
+    """cubesat-3u: 60 deg/s of |omega|; the crossing is judged by the drawn curve itself."""
+    ax = stabilab.plot.time(load("cubesat-3u"))
+    (when,), (level,) = next(line.get_data() for line in ax.get_lines() if line.get_marker() == "o")
+    t, size = lines(ax)[0].get_data()
+    assert level == pytest.approx(60, abs=1e-3) and when == pytest.approx(t[np.argmax(size >= 60)], abs=0.05)
+
+
+def test_limits_about_axes_of_the_file_are_drawn_beside_the_rates_about_those():
+    """geostationary-22n states its limits about axes that are not principal; at t = 0 the rates are as the file gives them."""
+    case = load("geostationary-22n")
+    ax = stabilab.plot.time(case)
+    start = np.array([line.get_ydata()[0] for line in lines(ax)[1:4]])
+    back = case.frame.back([Fraction(v) for v in case.state])
+    assert start == pytest.approx([math.degrees(float(v)) for v in back], abs=1e-9) and "axes of the file" in ax.get_ylabel()
+
+
+def test_a_curve_with_more_turns_than_columns_becomes_a_band_that_holds_it():
+    t = np.linspace(0, 1000, 40001)
+    values = np.sin(2 * np.pi * t)
+    _, low, high = path.band(t, values)
+    assert path.turning(values) == 2000 and low.max() < -0.99 and high.min() > 0.99
+
+
+def test_a_motion_that_never_turns_has_one_branch_in_its_plane():
+    """torque-free-body goes right round axis 1 (H^2 > 2 T D2), so omega1 keeps its sign; one in a well has both."""
+    def signs(name):
+        ax = stabilab.plot.phase(load(name))
+        return sorted(float(np.sign(line.get_ydata()[len(line.get_ydata()) // 2])) for line in ax.get_lines() if line.get_color() == "#E69F00")
+    assert signs("torque-free-body") == [1.0] and signs("minor-axis-100") == [-1.0, 1.0]
+
+
+def test_a_motion_too_small_to_be_seen_beside_its_separatrix_is_shown_enlarged():
+    """thruster-stuck-major-axis moves by a degree a second in a well of a hundred."""
+    assert len(stabilab.plot.phase(load("thruster-stuck-major-axis")).child_axes) == 1
+    assert not stabilab.plot.phase(load("minor-axis-100")).child_axes
+
+
+KINDS = {"minor-axis-100": {"time", "phase", "budget"}, "off-axis-two": {"time", "budget"},
+         "torque-free-gyrostat": {"time", "phase", "budget"}, "liquid-base": {"time", "budget", "state"},
+         "charged-body": {"time", "phase", "budget", "state"}, "top-fast": {"time", "budget", "state"}}
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_every_kind_of_scene_knows_its_kinds_of_plot(name):
+    one = subject.subject(load(name))
+    assert set(which.offered(one)) == KINDS[name]
+    for kind in set(which.KINDS) - KINDS[name]:
+        with pytest.raises(errors.InputError, match="this one has time"):
+            which.check(kind, one)
+
+
+@pytest.mark.parametrize("ending", ["png", "svg", "pdf"])
+def test_the_same_case_gives_the_same_bytes_in_every_format(ending, tmp_path):
+    case = load("middle-axis-100")
+    one, two = (to_file.write(case, tmp_path / f"{n}.{ending}", "time", size=(5, 3)).read_bytes() for n in (1, 2))
+    assert one == two and one[:5] in (b"\x89PNG\r", b"<?xml", b"%PDF-")
+
+
+def test_a_picture_has_the_size_and_the_dots_asked_for(tmp_path):
+    from PIL import Image
+    with Image.open(to_file.write(load("middle-axis-100"), tmp_path / "a.png", "phase", size=(5, 3), dpi=200)) as image:
+        assert image.size == (1000, 600)
+
+
+@pytest.mark.parametrize("options, words", [
+    ({"kind": "nope"}, "expected one of time, phase"), ({"size": (0, 3)}, "1 to 60 inches"), ({"dpi": 3}, "10 to 1200 dots"),
+    ({"kind": "time", "units": "rpm"}, "expected one of deg, si")])
+def test_what_cannot_be_drawn_is_refused_and_nothing_is_written(options, words, tmp_path):
+    with pytest.raises(errors.InputError, match=words):
+        to_file.write(load("middle-axis-100"), tmp_path / "a.png", **options)
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("given, words", [((3,), "expected a case"), ((None,), "expected a case")])
+def test_what_is_no_case_is_refused(given, words):
+    with pytest.raises(errors.InputError, match=words):
+        stabilab.plot.time(*given)
+
+
+def test_a_scene_is_drawn_with_a_state_and_refused_without():
+    scene = load("off-axis-two").scene
+    assert lines(stabilab.plot.time(scene, (0.1, 0.2, 0.3), span=20))
+    with pytest.raises(errors.InputError, match="it needs a state"):
+        stabilab.plot.time(scene)
+    with pytest.raises(errors.InputError, match="of one motion"):
+        stabilab.plot.time(scene, [[0.1, 0.2, 0.3]])
+
+
+def test_axes_of_another_kind_are_refused():
+    _, ax = plt.subplots(subplot_kw={"projection": "3d"})
+    with pytest.raises(errors.InputError, match="expected plane axes"):
+        stabilab.plot.time(load("middle-axis-100"), ax=ax)
+    with pytest.raises(errors.InputError, match="expected Matplotlib axes"):
+        stabilab.plot.time(load("middle-axis-100"), ax=3)
