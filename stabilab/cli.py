@@ -12,8 +12,13 @@ import typer
 from .errors import BAD_INPUT, BUG, INTERRUPTED, OK, UNDECIDED, InputError, RenderingUnavailable, StabilabError, ToleranceNotMet, printable
 from .streams import LOST, OutputLost, guarded
 
-# Plain help: rich costs more time than the rest of `stabilab --help`.
-app = typer.Typer(name="stabilab", no_args_is_help=True, rich_markup_mode=None, pretty_exceptions_enable=False)
+
+def _without_commands() -> typer.Typer:
+    """A program with plain help: rich costs more time than the rest of `stabilab --help`."""
+    return typer.Typer(name="stabilab", no_args_is_help=True, rich_markup_mode=None, pretty_exceptions_enable=False)
+
+
+app = _without_commands()
 
 CaseFile = Annotated[Path, typer.Argument(metavar="CASE", help="A case file (TOML).", show_default=False)]
 CaseFiles = Annotated[list[Path], typer.Argument(metavar="CASE...", help="Case files (TOML).", show_default=False)]
@@ -864,6 +869,25 @@ def _say(text: str):
     print(text, file=sys.stderr)
 
 
+def asked_for(words) -> typer.Typer:
+    """The commands as far as a line asks for them: those it names as they are, of all others the name and the help.
+
+    Typer evaluates and inspects every option of every command that it is given, which takes longer than to import typer. A shell that
+    completes a line names no command in it, and gets them all.
+    """
+    if any(name.startswith("_") and name.endswith("_COMPLETE") for name in os.environ):
+        return app
+    needed = _without_commands()
+    needed.registered_callback = app.registered_callback
+    for command in app.registered_commands:
+        name = command.name or command.callback.__name__
+        if name in words:
+            needed.registered_commands.append(command)
+        else:
+            needed.command(name, help=command.callback.__doc__)(lambda: None)
+    return needed
+
+
 def main() -> None:
     """Run a command and end the process with its exit code."""
     if hasattr(sys.stdout, "reconfigure"):
@@ -874,7 +898,7 @@ def main() -> None:
 
 def _run() -> int:
     try:
-        app()
+        asked_for(sys.argv[1:])()
         return OK
     except StabilabError as error:
         return _reported(error)

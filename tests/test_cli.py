@@ -440,6 +440,26 @@ def test_every_command_has_help_with_an_example(stabilab):
         assert code == 0 and f"Example: stabilab {command}" in out
 
 
+def test_a_line_reads_the_options_of_its_own_command_alone_and_prints_what_all_commands_together_print(stabilab, monkeypatch):
+    """Typer's building of all commands is the other way; reading the options of every one of them costs more than to import typer."""
+    from typer.main import get_command
+    names = list(get_command(cli.app).commands)
+    lines = [[], ["--help"], ["clasify"], ["classify"], ["--version"], ["--versio"], ["classify", "--nosuch"], ["stuck", "classify", "--help"],
+             *([name, "--help"] for name in names)]
+    for words in lines:
+        built = get_command(cli.asked_for(words)).commands
+        assert list(built) == names and {name for name, command in built.items() if command.params} == set(words) & set(names) - {"doctor"}
+        printed = stabilab(*words)
+        with monkeypatch.context() as context:
+            context.setattr(cli, "asked_for", lambda words: cli.app)
+            assert stabilab(*words) == printed, words
+
+
+def test_a_shell_that_completes_a_line_is_given_every_command(monkeypatch):
+    monkeypatch.setenv("_STABILAB_COMPLETE", "complete_bash")
+    assert cli.asked_for([]) is cli.app
+
+
 def test_wrong_command_is_a_usage_error(stabilab):
     code, out, err = stabilab("clasify")
     assert code == 2 and not out and "classify" in err
