@@ -4,7 +4,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from tests.house.rooms import PACKAGE
+from tests.house.rooms import PACKAGE, tree_of
 
 
 def is_sign(node, beside=()) -> bool:
@@ -16,8 +16,9 @@ def is_sign(node, beside=()) -> bool:
 
 def asks(tree, names=True) -> Iterator[int]:
     """The lines that test it: a comparison, the truth of it, or a table that it opens. names: the name `e` counts too."""
-    caught = {id(n) for h in ast.walk(tree) if isinstance(h, ast.ExceptHandler) and h.name == "e" for n in ast.walk(h)}
-    for node in ast.walk(tree):
+    nodes = list(ast.walk(tree))
+    caught = {id(n) for h in nodes if isinstance(h, ast.ExceptHandler) and h.name == "e" for n in ast.walk(h)}
+    for node in nodes:
         tested, beside = [], []
         if isinstance(node, ast.Compare):
             tested = beside = [node.left, *node.comparators]
@@ -41,8 +42,7 @@ def places() -> list[str]:
     for path in sorted(PACKAGE.rglob("*.py")):
         file = path.relative_to(PACKAGE).as_posix()
         if not file.startswith("verify/"):
-            tree = ast.parse(path.read_text(encoding="utf-8"))
-            found += [f"{file}:{line}" for line in asks(tree, names=file.startswith("orbit/"))]
+            found += [f"{file}:{line}" for line in asks(tree_of(path), names=file.startswith("orbit/"))]
     return found
 
 

@@ -6,20 +6,18 @@ import os
 import re
 import subprocess
 import sys
-from functools import cache
 
 import pytest
 
 import stabilab
 from tests.house import geometry, rooms
-from tests.house.rooms import GROUND, MAY, PACKAGE, PAGE, ROOT, all_imports, circles, modules, room
+from tests.house.rooms import GROUND, MAY, PACKAGE, PAGE, ROOT, all_imports, circles, modules, room, statements, tree_of
 
 HEAVY = {"sympy", "scipy", "matplotlib", "pyvista", "vtk", "vtkmodules", "heyoka", "xarray", "pandas", "mpmath", "flint",
          "rich", "jinja2", "pydantic", "numba", "trame", "h5netcdf", "hypothesis", "pytest"}
 # The one door of each package that draws or writes: no other room than show may open it.
 DRAWING = {"matplotlib", "pyvista", "vtk", "vtkmodules", "trame", "jinja2", "xarray", "rich"}
 MODULES = sorted(PACKAGE.rglob("*.py"))
-IMPORTS = all_imports()
 FILES_IN_A_FOLDER = 16  # a list that fits the eye
 ROOMIER = {"stabilab/verify": 20}  # one subject, read as a whole by whoever trusts it; wings would hide its steps from each other
 SIGNS = 60  # tests of the sign of p q, of 139 once; a fourth of them in the distance from a separatrix, whose sheets are told by charts
@@ -58,7 +56,7 @@ DOORS = {
 
 
 def test_rooms_import_only_what_they_may():
-    wrong = [f"{one.source}:{one.line} imports {one.target}" for one in IMPORTS if not _allowed(room(one.source), room(one.target))]
+    wrong = [f"{one.source}:{one.line} imports {one.target}" for one in all_imports() if not _allowed(room(one.source), room(one.target))]
     assert not wrong
 
 
@@ -74,7 +72,7 @@ def _allowed(source: str, target: str) -> bool:
 
 
 def test_no_circle_of_files():
-    assert circles((one.source, one.target) for one in IMPORTS) == []
+    assert circles((one.source, one.target) for one in all_imports()) == []
 
 
 def test_a_circle_is_found():
@@ -82,13 +80,13 @@ def test_a_circle_is_found():
 
 
 def test_imports_inside_functions_are_doors():
-    inside = {(one.source, one.target) for one in IMPORTS if one.inside and room(one.source) not in ("cli", "__main__", "stabilab")}
+    inside = {(one.source, one.target) for one in all_imports() if one.inside and room(one.source) not in ("cli", "__main__", "stabilab")}
     assert inside - set(DOORS) == set()
     assert set(DOORS) - inside == set(), "a door that nobody uses any more"
 
 
 def test_no_private_name_crosses_a_module():
-    crossing = [f"{one.source}:{one.line} {one.target}.{one.name}" for one in IMPORTS if one.name and re.match(r"_(?!_)", one.name)]
+    crossing = [f"{one.source}:{one.line} {one.target}.{one.name}" for one in all_imports() if one.name and re.match(r"_(?!_)", one.name)]
     assert not crossing
 
 
@@ -103,7 +101,7 @@ def test_no_module_of_the_package_bears_a_public_name():
     assert not {name.split(".")[1] for name in modules() if name.count(".") == 1} & set(stabilab.__all__)
 
 
-@pytest.mark.parametrize("folder", sorted({path.parent for path in modules().values()}), ids=lambda p: str(p.relative_to(ROOT)))
+@pytest.mark.parametrize("folder", sorted({path.parent for path in MODULES}), ids=lambda p: str(p.relative_to(ROOT)))
 def test_a_folder_holds_at_most_sixteen_files(folder):
     most = ROOMIER.get(folder.relative_to(ROOT).as_posix(), FILES_IN_A_FOLDER)
     assert len([path for path in folder.glob("*.py") if path.name != "__init__.py"]) <= most
@@ -131,16 +129,10 @@ def test_the_drawing_of_the_rooms_is_that_of_the_imports():
     assert rooms.drawing() in PAGE.read_text(encoding="utf-8")
 
 
-@cache
-def tree_of(path):
-    """The syntax tree of a file."""
-    return ast.parse(path.read_text(encoding="utf-8"))
-
-
 def imports(path):
     """(line, module as a dotted name) of every import of a file, inside functions too, relative ones made absolute."""
     package = ["stabilab", *path.relative_to(PACKAGE).parent.parts]
-    for node in ast.walk(tree_of(path)):
+    for node, _ in statements(tree_of(path)):
         if isinstance(node, ast.Import):
             yield from ((node.lineno, alias.name, node.col_offset) for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
@@ -154,7 +146,7 @@ def imports(path):
 
 def test_nothing_rests_on_an_assert():
     # `python -O` leaves asserts out: a step of a proof would be gone
-    assert not [f"{path}:{node.lineno}" for path in MODULES for node in ast.walk(tree_of(path)) if isinstance(node, ast.Assert)]
+    assert not [f"{path}:{node.lineno}" for path in MODULES for node, _ in statements(tree_of(path)) if isinstance(node, ast.Assert)]
 
 
 def test_heavy_packages_are_imported_inside_functions_only():
