@@ -90,6 +90,9 @@ def _fixed(claims, path, old):
         yield from (("false", other) for other in range(*((0, 4) if key == "axis" else (-1, 2))) if other != old)
         yield from (("junk", bad) for bad in (float(old), str(old), -7, 4, 10**40, [old], {"axis": old}))
     if isinstance(old, list) and old and not is_bracket(old) and key not in PROSE:
+        if key == "orders":
+            yield from ((_orders(to), to) for to in (old[:1], old[1:], old * 2, old[::-1]))
+            return
         listed = key in ("points", "curves", "planes", "segments", "folds")
         yield from ((("false" if listed else "open"), old[:i] + old[i + 1:]) for i in range(len(old)))
         yield from ((("false" if listed else "open"), old[:i] + [e] + old[i:]) for i, e in enumerate(old))
@@ -104,6 +107,8 @@ def _without(claims, path, old):
         return "weaker"
     if "spin_up" in path and isinstance(path[-1], str):
         return "true" if path[-1] == "way" else "junk"
+    if "orders" in path:
+        return "junk"
     if path[-1] in OPTIONAL or path[:-1] == ("uncertified",):
         return "true"
     if isinstance(path[-1], int):
@@ -115,9 +120,7 @@ def _without(claims, path, old):
 
 def _null(path, old):
     """What is known of null in its place."""
-    if path[-1] in ("scene", "schema"):
-        return "junk"
-    if path[-1] in PROSE:
+    if path[-1] in ("scene", "schema") or path[-1] in PROSE or "orders" in path:
         return "junk"
     if path[:1] == ("motion",) and len(path) == 4:  # one side of the extremes: unbounded
         return "false"
@@ -136,7 +139,7 @@ def _junk(path, old, bad):
     if key == "program" or path[:-1] == ("uncertified",):
         return "open" if isinstance(bad, str) else "junk"
     if "orders" in path:
-        return "open"
+        return _orders(bad if key == "orders" else [bad, 0])
     if key == "uncertified":
         return "open" if isinstance(bad, list) and all(isinstance(v, str) for v in bad) else "junk"
     if key in ("axis", "sense"):
@@ -150,10 +153,22 @@ def _junk(path, old, bad):
     return "junk" if isinstance(bad, (bool, int, float)) or (isinstance(bad, str) and bad not in ("0", "1", "2")) or isinstance(old, dict) else "open"
 
 
+def _orders(value):
+    """What is known of orders of the inequality: two whole numbers up to 18 may hold as well as those that were written; nothing else is a pair of orders."""
+    return "open" if isinstance(value, list) and len(value) == 2 and all(type(n) is int and 0 <= n <= 18 for n in value) else "junk"
+
+
+def _some_orders(rng):
+    """Mostly a pair of whole numbers, in range or just beyond; else something else in one place, or one number more."""
+    drawn = [rng.randrange(-1, 20) for _ in range(rng.choice((2, 2, 2, 3)))]
+    return drawn if rng.randrange(3) else [rng.choice([2.5, "3", True, None]), *drawn[1:]]
+
+
 def _drawn(claims, path, old, rng):
     """(what is known, new value) drawn by chance; (None, None) where the claim has no values to draw."""
-    if "orders" in path and isinstance(old, int):
-        return "open", rng.randrange(-2, 20)
+    if "orders" in path:
+        to = rng.randrange(-2, 21) if isinstance(old, int) else _some_orders(rng)
+        return _orders([to, 0] if isinstance(old, int) else to), to
     if old is None or (is_bracket(old) and _bracketed(path)):
         return _bracket(claims, path, old, rng)
     if path[:-1] == ("uncertified",):

@@ -18,6 +18,7 @@ from stabilab.errors import InputError
 from stabilab.show.text import certification
 from stabilab.verify import orbit, verify, verify_file
 from stabilab.verify.numbers import Malformed
+from stabilab.verify.spin_up.claims import spin_up_of
 from stabilab.verify.zeros import Purse
 from tests.equilibrium.test_random_scenes import disagreements
 from tests.oracles import elimination as by_hand
@@ -350,6 +351,33 @@ def test_what_a_machine_forges_is_never_proved(name):
     claims = case_proved(name) if name in FILES else proved(*KINDS[name])
     made, wrong = forge_all(claims, name, 2, paths=4)
     assert made > 300 and not wrong, wrong[:3]
+
+
+@pytest.mark.parametrize("path", [("motion", "spin_up", "orders"), ("motion", "spin_up", "orders", 1)], ids=["both", "one"])
+def test_orders_are_refused_unless_they_are_two_whole_numbers_in_range(path):
+    # other orders than the written ones are no junk: (0, 5) proves what (0, 2) does, wherever its inequality holds as well
+    orders = {"axis": 1, "sense": 1, "orders": [0, 2], "t": "1", "cone": "1", "least": "1", "gain": "1", "way": []}
+    seen, rng = {"open": [], "junk": []}, random.Random(5)
+    for known, to in forge.changes({"motion": {"spin_up": orders}}, path, rng, 400):
+        if to is forge.GONE or to is None:
+            assert known == "junk"
+            continue
+        seen[known].append(to)
+        claimed = forge.forged({"motion": {"spin_up": orders}}, path, to)["motion"]["spin_up"]
+        if known == "open":
+            assert spin_up_of(claimed).orders == tuple(claimed["orders"])
+        else:
+            with pytest.raises(Malformed):
+                spin_up_of(claimed)
+    assert min(map(len, seen.values())) > 50
+
+
+def test_other_orders_are_proved_only_where_the_run_shows_what_they_claim():
+    claims = proved(*MOTIONS["torque in no axis"]) | {"equilibria": None, "uncertified": []}
+    status = {orders: status_of(forge.forged(claims, ("motion", "spin_up", "orders"), list(orders))) for orders in ((0, 5), (3, 2), (0, 0))}
+    assert status == {(0, 5): "proved", (3, 2): "refuted", (0, 0): "partly"} and says_what_happens(claims)
+    weaker = forge.forged(claims, ("motion", "spin_up", "cone"), str(F(claims["motion"]["spin_up"]["cone"]) / 9))
+    assert status_of(forge.forged(weaker, ("motion", "spin_up", "orders"), [0, 5])) != "proved" and not says_what_happens(weaker)
 
 
 @pytest.mark.slow
