@@ -25,15 +25,20 @@ START_BITS = 128
 
 
 @contextmanager
-def working(bits: int) -> Iterator[Digits]:
-    """Context in which python-flint works with so many bits, for this thread alone; gives the kind of number, `Digits`.
+def working(bits: int, terms: int = 10) -> Iterator[Digits]:
+    """Context in which python-flint works with so many bits, for this thread alone; gives the kind of number, `Digits`. terms: of a power series, at
+    the most; flint leaves out what lies beyond without a word.
 
     flint's precision belongs to the process: whoever forms balls from inexact ones holds the one lock that goes with it. It
     stands on the library itself, where the checker of certificates, which imports nothing from here, finds it too.
     """
     import flint
     with vars(flint).setdefault("stabilab_lock", RLock()), flint.ctx.workprec(bits):
-        yield Digits(bits)
+        before, flint.ctx.cap = flint.ctx.cap, terms
+        try:
+            yield Digits(bits)
+        finally:
+            flint.ctx.cap = before
 
 
 @dataclass(frozen=True)

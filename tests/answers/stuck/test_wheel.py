@@ -9,9 +9,10 @@ import pytest
 from stabilab import Body, ConstantTorque, Gyrostat, Scene, load, stuck
 from stabilab.answers.stuck.family import family_of
 from stabilab.answers.stuck.wheel import intervals
-from stabilab.answers.stuck.wheel_roots import Circle, candidates, quadratics, resultant
+from stabilab.answers.stuck.wheel_roots import Circle, candidates, expansion, quadratics, resultant
 from stabilab.numbers.balls import working
 from stabilab.orbit.ball_geometry import ball_orbit
+from tests.answers.stuck import energy
 from tests.answers.stuck.brute import Craft
 from tests.oracles import brute
 from tests.oracles.model import physical
@@ -178,3 +179,56 @@ angular_velocity = [0.006743, 0.004293, 0.007586]
     craft = Craft(text)
     _, craft.start, first = craft.run(12000.0, limit=False, rtol=1e-9)
     assert craft.run(12000.0, limit=False, rtol=1e-9)[2] < 1.2 * first
+
+
+NEAR = """[body]
+inertia = [1.655, 1.857, 1.658]
+centre_of_mass = [0, 0, 0]
+[[thrusters]]
+name = "A"
+position = [0, 1, 0]
+direction = [0, 0, 1]
+force = 0.11
+stuck = true
+[[wheels]]
+name = "W"
+axis = [0, 0.659, 1]
+momentum = -0.99
+[[wheels]]
+name = "V"
+axis = [0, 0.31652340799234546, 0.9485846995355297]
+momentum = 0
+[motion]
+angular_velocity = [-0.991, 0.737, -0.926]
+"""
+
+
+def test_the_momenta_of_a_nearly_symmetric_body_are_found_however_close_together(tmp_path):
+    """Two separatrices three millionths apart, by the balance of energy (`energy.fate`); the balls of whole cells saw nothing there but what cancels."""
+    path, craft = tmp_path / "own.toml", Craft(NEAR)
+    path.write_text(NEAR)
+    wheel = stuck(load(path)).rows[0].wheels[1]
+    (_, low), (high, _) = wheel.keeps_bounded
+    assert 1 + 1e-6 < high / low < 1 + 1e-5
+    for s in (-3.0, 0.0, low * (1 - 1e-8), low * (1 + 1e-8), math.sqrt(low * high), high * (1 - 1e-8), high * (1 + 1e-8), 2.0, 5.0):
+        l = craft.l + s * np.array(wheel.axis)
+        assert energy.fate(craft.J, craft.torque(), l, craft.start)[0] == ("spin-up" if low < s < high else "bounded")
+
+
+def test_the_expansion_over_a_cell_holds_the_resultant_and_nearly_nothing_else():
+    """Against the resultant at points of the cell, without any series."""
+    from flint import arb
+    given = scene(("1.655", "1.857", "1.658"), (0, "0.3", "-0.9"), ("0.11", 0, 0))
+    family = family_of(given, (Fraction("-0.991"), Fraction("0.737"), Fraction("-0.926")))
+    circle = Circle(family.reduction(family.wheel), family.reduction(family.along(family.wheel, (0, Fraction("0.3"), Fraction("0.9")), 1)), family.state)
+    numbers = random.Random(3)
+    for _ in range(20):
+        middle, half = numbers.uniform(0, 3), 10 ** numbers.uniform(-4, -1)
+        with working(128, 13) as kind:
+            known = circle.balls(kind.ball)
+            told = expansion(known, middle, half)
+            sizes = [abs(c) * arb(half) ** n for n, c in enumerate(told)]
+            assert len(told) == 13 and told[12].rad() > 0 and sizes[12] < 1e-3 * max(sizes, key=float)
+            for share in (-1, -0.7, 0.3, 0.99):
+                t = arb(half) * arb(share)
+                assert resultant(*quadratics(known, arb(middle) + t)).overlaps(sum((c * t**n for n, c in enumerate(told)), arb(0)))
