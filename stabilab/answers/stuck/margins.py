@@ -10,6 +10,7 @@ from ...numbers.exact import sqrt_fraction
 from ...orbit.result import Fate
 from .family import STEADY, TRIES, change_between, family_of
 from .result import Margin
+from .wheel import across
 
 TURN = 2000  # places on the turn at which the rise of the potential is looked at, to find a direction
 MOST = 1000  # of the body's own momentum: changes of the wheel as great are not told
@@ -36,10 +37,9 @@ def _rate(scenario, motion, family) -> Margin:
     if motion.margin_velocity is None or motion.velocity_witness is None:
         return Margin(because=motion.velocity_because or "no separatrix stands near it")
     change = [b - a for a, b in zip(scenario.start, motion.velocity_witness)]
-    size = math.hypot(*change)
-    direction, because = _unit(scenario.axes.back(change)) if size else None, motion.velocity_because
+    direction, because = _unit(scenario.axes.back(change)) if any(change) else None, motion.velocity_because
     if _walled(family):
-        return Margin(motion.margin_velocity, direction, f"{because}; {ALONE}".removeprefix("; "), False)
+        return Margin(motion.margin_velocity, direction, f"{because}; {ALONE}".removeprefix("; "), motion.margin_velocity)
     return Margin(motion.margin_velocity, direction, because)
 
 
@@ -80,7 +80,7 @@ def _torque(scenario, family, steady) -> Margin:
     if change is None:
         return Margin(because="no torque along this axis changes the fate")
     words = "of a torque that stays on its axis" if family.torque + change else "to no torque at all: along this axis any torque spins it up"
-    return Margin(float(abs(change)), _direction(scenario, family, {family.axis: 1 if change > 0 else -1}), words)
+    return Margin(float(abs(change)), _direction(scenario, family, {family.axis: 1 if change > 0 else -1}), words, math.inf)
 
 
 def _least_torque(family, sign, size) -> Fraction | None:
@@ -111,18 +111,36 @@ def _wheel(scenario, family, steady) -> Margin:
     if best is None:
         return Margin(because="no wheel momentum across the torque is known to change the fate, up to a thousand times the body's own")
     words = "of a wheel momentum that stays across the torque, the least found over its directions"
-    return Margin(float(best), _direction(scenario, family, {j: step[j], k: step[k]}), words)
+    best, until = _along(family, step, best, steady)
+    if until is not None and until < math.inf:
+        words += f"; from {until:.10g} N m s on along its own it {'is bounded' if steady else 'spins up'} again"
+    return Margin(float(best), _direction(scenario, family, {j: step[j], k: step[k]}), words, until)
+
+
+def _along(family, step, size, steady) -> tuple[Fraction, float | None]:
+    """(the least change along a unit vector at which the fate changes, the greater one from which on it is again what it was), by all the changes of
+    fate along it: one nearer than `size` or a way back may be too narrow for the places that doubles looked at."""
+    kept, _ = across(family, family.wheel, step)
+    ends = [(Fraction(end), side) for pair in kept for side, end in zip((-1, 1), pair) if 0 < end < math.inf]  # -1: bounded from there on, 1: up to there
+    leaves = [end for end, side in ends if side == (1 if steady else -1)]
+    first = min(leaves, key=lambda end: abs(end - size), default=None)
+    if first is None or abs(first - size) > CLOSE * size:
+        return size, None
+    first = min(leaves)
+    returns = [float(end) for end, side in ends if side == (-1 if steady else 1) and end > first]
+    return (first if first < size * (1 - CLOSE) else size), min(returns, default=math.inf)
 
 
 def _to_pure_spin(family):
-    """(size, step) of the change on the way to the momentum at which the orbit's circle is a point and nothing stands in the way of a spin-up."""
+    """(size, unit vector) of the change on the way to the momentum at which the orbit's circle is a point and nothing stands in the way of a spin-up."""
     step = [Fraction(0)] * 3
     for n in family.across:
         step[n] = _pure_spin(family, n) - family.wheel[n]
     whole = sqrt_fraction(sum(v * v for v in step))
     if not whole:
         return None, None
-    return change_between(lambda s: family.clearly(wheel=family.along(family.wheel, step, s)), Fraction(0), Fraction(1), Fraction(1))[1] * whole, step
+    step = [v / whole for v in step]
+    return change_between(lambda s: family.clearly(wheel=family.along(family.wheel, step, s)), Fraction(0), whole, whole)[1], step
 
 
 def _pure_spin(family, n) -> Fraction:

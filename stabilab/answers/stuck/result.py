@@ -19,14 +19,19 @@ class Principal(NamedTuple):
 class Margin:
     """The smallest change that changes the fate: its size, its direction (unit vector, frame of the file); None where none is known.
 
-    because: why it is not known, or what it holds for. beyond: whether a greater change along the direction changes the fate too; False
-    where the fate is another at this size alone, on the separatrix itself.
+    because: why it is not known, or what it holds for. until: the greater change along the direction from which on the fate is again what it
+    was: the size itself where it is another on the separatrix alone, inf where no greater change leads back, None where that is not known.
     """
 
     size: float | None = None
     direction: Float3 | None = None
     because: str = ""
-    beyond: bool = True
+    until: float | None = None
+
+    @property
+    def beyond(self) -> bool:
+        """Whether a somewhat greater change along the direction changes the fate too."""
+        return self.until is None or self.size is None or self.until > self.size
 
 
 @dataclass(frozen=True)

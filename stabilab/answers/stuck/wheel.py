@@ -35,7 +35,7 @@ def intervals(scene, state, axis):
         return _one_momentum(family, start, step, -start[i] / step[i])
     if start[i]:
         return (), "momentum of the others lies along the torque: |H|^2/2 - D T then grows for ever, whatever this wheel does"
-    return _across(family, start, tuple(step))
+    return across(family, start, tuple(step))
 
 
 def _sphere(torque, wheel, axis):
@@ -71,7 +71,8 @@ def _one_momentum(family, start, step, s):
     return (((float(s),) * 2,) if family.fate(wheel) in STEADY else ()), words
 
 
-def _across(family, start, step):
+def across(family, start, step):
+    """The intervals, and because, of momenta start + s step that have no part along the torque."""
     at_0, at_1 = (family.reduction(family.along(start, step, s)) for s in (0, 1))
     if at_0.e >= 0:
         where = "the middle axis" if at_0.e > 0 else "an axis between two equal moments"

@@ -4,6 +4,7 @@ from __future__ import annotations
 import math
 
 from ...errors import printable
+from .answers import Endless
 from .engineering import ENGINEERING, SI
 from .engineering import bracket as _bracket
 from .engineering import number as _number
@@ -14,6 +15,7 @@ CSV = ("case,thrusters,torque_x,torque_y,torque_z,torque_1,torque_2,torque_3,fat
        "margin_rate,margin_wheel,margin_torque")
 WORDS = {"rate": "rate", "wheel": "wheel momentum", "torque": "torque"}
 FIRST = 5  # lines of the answer at most
+SOON = 2  # times a margin: the fate is back before a change as great
 
 
 def as_dict(found) -> dict:
@@ -26,10 +28,11 @@ def _row(row) -> dict:
     return {"thrusters": list(row.thrusters), "torque": row.torque, "torque_principal": row.torque_principal, "fate": row.fate, "level": row.level,
             "axis": row.axis, "sense": row.sense, "limit": row.limit, "time_to_limit": row.time_to_limit, "largest_rate": row.largest_rate,
             "margin": {name: row.margins[name].size if name in row.margins else None for name in ("rate", "wheel", "torque")},
-            "wheel_intervals": [{"wheel": w.wheel, "keeps_bounded": w.keeps_bounded, "now": w.now, "axis": w.axis, "best": w.best, "best_time": w.best_time,
-                                 "gain": w.gain, "searched": w.searched, "because": w.because} for w in row.wheels],
+            "wheel_intervals": [{"wheel": w.wheel, "keeps_bounded": [list(map(Endless, pair)) for pair in w.keeps_bounded], "now": w.now, "axis": w.axis,
+                                 "best": w.best, "best_time": w.best_time, "gain": w.gain, "searched": w.searched, "because": w.because} for w in row.wheels],
             "because": row.because, "tilt": tilt_dict(row.tilt), "direction": row.direction, "never": row.never, "time_level": row.time_level,
             "margin_direction": {name: margin.direction for name, margin in row.margins.items()},
+            "margin_until": {name: margin.until if margin.until is None else Endless(margin.until) for name, margin in row.margins.items()},
             "margin_because": {name: margin.because for name, margin in row.margins.items()},
             "helpers": [{"thrusters": list(h.thrusters), "duty": h.duty, "effect": h.effect, "torque_left": h.torque_left, "fate": h.fate,
                          "time_to_limit": h.time_to_limit} for h in row.helpers]}
@@ -168,13 +171,26 @@ def _margins(row, units) -> str:
     if not known:
         because = next((row.margins[name].because for name in ("wheel", "rate", "torque") if name in row.margins), "")
         return f"margin: none: {because}" if because else ""
-    told = [" or ".join(f"{_amount(name, m.size, units)} of {WORDS[name]}" for name, m in known.items() if m.beyond == beyond) for beyond in (True, False)]
+    told = [" or ".join(f"{_span(name, m, units)} of {WORDS[name]}" for name, m in known.items() if m.beyond == beyond) for beyond in (True, False)]
     return "; ".join(words + sizes for words, sizes in zip(("the fate changes with ", "only on a separatrix the fate is another, nearest "), told) if sizes)
 
 
+def _span(name, margin, units) -> str:
+    """The size of a margin; with the size at which the fate turns back, where that is soon."""
+    if margin.until is None or not margin.size < margin.until < SOON * margin.size:
+        return _amount(name, margin.size, units)
+    unit, one = _unit(name, units)
+    low, high = _bracket(margin.size * one, margin.until * one)
+    return f"{low} to {high} {unit}, and no more,"
+
+
 def _amount(name, size, units, digits=4) -> str:
-    unit, one = {"rate": units.rate, "wheel": ("N m s", 1.0), "torque": ("N m", 1.0)}[name]
+    unit, one = _unit(name, units)
     return f"{_number(size * one, digits)} {unit}"
+
+
+def _unit(name, units):
+    return {"rate": units.rate, "wheel": ("N m s", 1.0), "torque": ("N m", 1.0)}[name]
 
 
 def _wheel(wheel, units) -> str:

@@ -64,19 +64,21 @@ def anywhere(rng, n) -> str:
     return "\n".join([*lines, "[limits]", f"rate = {limit}", "[motion]", f"angular_velocity = {written(start / RATES[unit], unit)}", ""])
 
 
-def on_an_axis(rng, axis) -> str:
-    """A case whose stuck thruster's torque is exactly along principal axis number `axis` (0 the first drawn) and whose one wheel is across it."""
+def on_an_axis(rng, axis, across=True) -> str:
+    """A case whose stuck thruster's torque is exactly along principal axis number `axis` (0 the major) and whose one wheel is across it, or is not."""
     R = rotation([Fraction(v) for v in QUATERNIONS[rng.integers(len(QUATERNIONS))]])
     column = [[row[i] for row in R] for i in range(3)]
     some = lambda low, high: Fraction(int(rng.integers(round(low * 1000), round(high * 1000))), 1000)
     a, b, c = (some(0.1, 1) for _ in range(3))
     D = sorted((b + c, a + c, a + b), reverse=True)
     J = [[sum(R[i][m] * D[m] * R[j][m] for m in range(3)) for j in range(3)] for i in range(3)]
-    j, k = column[(axis + 1) % 3], column[(axis + 2) % 3]
+    i, j, k = (column[(axis + n) % 3] for n in range(3))
+    along, beside = 0 if across else some(0.1, 1), some(-1, 1)
+    wheel = [along * x + beside * y + z for x, y, z in zip(i, j, k)]
     return "\n".join(["[body]", f"inertia = [{', '.join(map(decimals, J))}]", "centre_of_mass = [0.3, -0.2, 0.1]", "[[thrusters]]", 'name = "A"',
                       f"position = {decimals(p + v for p, v in zip((Fraction(3, 10), Fraction(-1, 5), Fraction(1, 10)), j))}", f"direction = {decimals(k)}",
                       f"force = {float(some(0.02, 0.4))!r}", "stuck = true", "[[wheels]]", 'name = "W"',
-                      f"axis = {decimals(some(-1, 1) * u + v for u, v in zip(j, k))}", f"momentum = {float(some(-1, 1))!r}",
+                      f"axis = {decimals(wheel)}", f"momentum = {float(some(-1, 1))!r}",
                       "[motion]", f"angular_velocity = {decimals(some(-1, 1) for _ in range(3))}", ""])
 
 

@@ -1,4 +1,5 @@
 """Margins, other thrusters, and wheels that only delay: what is told is checked by changing just that."""
+import json
 import math
 from fractions import Fraction
 
@@ -8,6 +9,7 @@ import pytest
 import stabilab
 from stabilab import load, stuck
 from tests.answers.stuck.brute import Craft
+from tests.answers.stuck.energy import fate as energy_fate
 
 CASE = """title = "On an axis"
 [body]
@@ -184,3 +186,44 @@ def test_a_terminal_is_told_what_is_being_asked_and_a_pipe_is_not(stabilab, tmp_
     with progress.told() as tell:
         stuck(load(path), progress=tell)
     assert any("own: A ..." in word for word in words) and words[-1].endswith("\x1b[K")
+
+
+def test_a_margin_into_a_narrow_gap_between_two_separatrices_says_where_the_fate_is_back(stabilab, tmp_path):
+    """Beside the tip of a wedge of spin-up: by the balance of energy, whose least value ahead of the start has the sign of the fate."""
+    text = """[body]
+inertia = [[0.74352, 0, 0.14064], [0, 0.887, 0], [0.14064, 0, 0.66148]]
+centre_of_mass = [0.3, -0.2, 0.1]
+[[thrusters]]
+name = "A"
+position = [1.1, -0.2, 0.7]
+direction = [0.6, 0, -0.8]
+force = 0.166
+stuck = true
+[[wheels]]
+name = "W"
+axis = [1.092, 0, -0.62]
+momentum = 0.643
+[motion]
+angular_velocity = [-0.137, 0.305, -0.346]
+"""
+    (tmp_path / "own.toml").write_text(text)
+    craft, margin = Craft(text), stuck(load(tmp_path / "own.toml")).rows[0].margins["wheel"]
+    assert 1 < margin.until / margin.size < 1.0001 and "it is bounded again" in margin.because
+    middle = math.sqrt(margin.size * margin.until)
+    for size, fate in ((margin.size * (1 - 1e-9), "bounded"), (middle, "spin-up"), (margin.until * (1 + 1e-9), "bounded"), (1.01 * margin.size, "bounded")):
+        l = craft.l + size * np.array(margin.direction)
+        assert energy_fate(craft.J, craft.torque(), l, craft.start)[0] == fate == craft.fate(l=l)
+    code, out, _ = stabilab("stuck", tmp_path / "own.toml")
+    assert code == 0 and " or 0.350597 to 0.350601 N m s, and no more, of wheel momentum or " in out
+
+
+
+def test_an_end_at_infinity_is_a_number_in_json_and_null_is_what_is_not_known(stabilab, tmp_path):
+    """RFC 8259 has numbers of any exponent; IEEE 754 rounds 1e999 to infinity."""
+    (tmp_path / "own.toml").write_text(CASE.replace("{spin}", "0.9"))
+    code, out, _ = stabilab("stuck", tmp_path / "own.toml", "--json")
+    (row,) = json.loads(out, parse_constant=lambda word: pytest.fail(f"{word} is no JSON"))["rows"]
+    (wheel,) = row["wheel_intervals"]
+    (first, _), (_, last) = wheel["keeps_bounded"]
+    assert code == 0 and first == -math.inf and last == math.inf and out.count(" -1e999") == 1
+    assert row["margin_until"] == {"rate": None, "wheel": math.inf, "torque": math.inf}
