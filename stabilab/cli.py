@@ -365,7 +365,7 @@ def surface(case: CaseFile, out: Annotated[Path, typer.Option(metavar="DIR", hel
 
 @app.command()
 def plot(case: CaseFile,
-         kind: Annotated[str | None, typer.Option(metavar="KIND", help="time, phase, budget or state. "
+         kind: Annotated[str | None, typer.Option(metavar="KIND", help="time, phase, sphere, space, equilibria, budget or state. "
                                                                        "Default: the one that says most of the case.")] = None,
          out: Annotated[Path | None, typer.Option(metavar="FILE.png|.svg|.pdf", help="Picture to write; default: CASE.png in the current "
                                                   "folder.")] = None,

@@ -27,6 +27,7 @@ def _discriminant(a, b, c, d):
 class CircleLandscape(ConicLandscape):
     """place = (X, Z)."""
 
+    base = "circle"
     turn = TURN
 
     @property
@@ -71,6 +72,8 @@ class CircleLandscape(ConicLandscape):
 
 class HyperbolaLandscape(ConicLandscape):
     """place = (xi, eta) = (X + Z, X - Z)."""
+
+    base = "hyperbola"
 
     def _exact_place(self, x, z, size, states):
         xi, eta = x + z, x - z

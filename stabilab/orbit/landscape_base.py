@@ -20,6 +20,7 @@ class Landscape:
     """
 
     conic: Conic | None = None
+    base = "parabola"  # the curve that the two rates across the axis stay on
     unit = 1.0  # turn about the axis per theta, signed as the reflection
     turn = np.inf  # after so much theta an orbit comes to the same place again
 

@@ -114,9 +114,11 @@ def test_a_motion_too_small_to_be_seen_beside_its_separatrix_is_shown_enlarged()
     assert not stabilab.plot.phase(load("minor-axis-100")).child_axes
 
 
-KINDS = {"minor-axis-100": {"time", "phase", "budget"}, "off-axis-two": {"time", "budget"},
-         "torque-free-gyrostat": {"time", "phase", "budget"}, "liquid-base": {"time", "budget", "state"},
-         "charged-body": {"time", "phase", "budget", "state"}, "top-fast": {"time", "budget", "state"}}
+EVERYWHERE = {"time", "space", "budget"}
+KINDS = {"minor-axis-100": EVERYWHERE | {"phase", "sphere", "equilibria"}, "off-axis-two": EVERYWHERE | {"equilibria"},
+         "major-axis-100": EVERYWHERE, "torque-free-gyrostat": EVERYWHERE | {"phase", "sphere", "equilibria"},
+         "liquid-base": EVERYWHERE | {"state", "equilibria"}, "charged-body": EVERYWHERE | {"phase", "sphere", "state", "equilibria"},
+         "top-fast": EVERYWHERE | {"state", "equilibria"}}
 
 
 @pytest.mark.parametrize("name", KINDS)
@@ -171,3 +173,99 @@ def test_axes_of_another_kind_are_refused():
         stabilab.plot.time(load("middle-axis-100"), ax=ax)
     with pytest.raises(errors.InputError, match="expected Matplotlib axes"):
         stabilab.plot.time(load("middle-axis-100"), ax=3)
+
+
+# -- in space --
+
+
+def spatial(ax, colour):
+    """The lines (n, 3) of a colour on three-dimensional axes."""
+    return [np.array(line.get_data_3d()).T for line in ax.get_lines() if line.get_color() == colour]
+
+
+ORANGE, BLACK, BLUE, VERMILION = "#E69F00", "#000000", "#0072B2", "#D55E00"
+
+
+def of_free_body(H, D, wheel=(0, 0, 0)):
+    return (((H - np.array(wheel)) ** 2) / (2 * np.array(D))).sum(axis=-1)
+
+
+def test_on_the_momentum_sphere_the_motion_keeps_its_energy_and_the_separatrix_that_of_the_middle_axis():
+    """Euler: T = H^2 / (2 D2) on the separatrix of a free body; 3, 2, 1 kg m^2."""
+    ax = stabilab.plot.sphere(load("torque-free-body"))
+    motion, separatrix = (np.concatenate([line[np.isfinite(line).all(axis=1)] for line in spatial(ax, colour) if len(line) > 2])
+                          for colour in (ORANGE, BLACK))
+    size = np.linalg.norm(motion, axis=1)
+    assert np.ptp(size) < 1e-9 * size[0]
+    start = np.array([3, 2, 1]) * (0.2, 0.4, 0.3)
+    drawn = size[0] / np.linalg.norm(start)
+    assert drawn == pytest.approx(1.002) and of_free_body(motion, (3, 2, 1)) == pytest.approx(drawn**2 * of_free_body(start, (3, 2, 1)))
+    assert of_free_body(separatrix, (3, 2, 1)) == pytest.approx(size[0] ** 2 / 4, rel=2e-4)  # of a grid of half a degree
+
+
+def test_under_a_torque_on_the_minor_axis_all_lines_stay_on_the_circle_of_the_paper():
+    """Amer et al. 2024: (x1 + a)^2 + x2^2 is constant for a torque on axis 3."""
+    case = load("minor-axis-100")
+    ax = stabilab.plot.sphere(case)
+    radius = math.hypot(case.state[0] + case.scene.a, case.state[1])
+    lines = [line for line in spatial(ax, ORANGE) + spatial(ax, BLACK) if len(line) > 10]
+    assert len(lines) >= 4
+    for line in lines:
+        assert np.hypot(line[:, 0] + case.scene.a, line[:, 1])[np.isfinite(line[:, 0])] == pytest.approx(radius)
+
+
+@pytest.mark.parametrize("name", ["thruster-stuck-major-axis", "minor-axis-100", "wheel-and-thruster", "torque-free-gyrostat", "off-axis-two", "liquid-base"])
+def test_the_box_of_the_space_of_rates_is_scaled_to_the_motion(name):
+    """Not to a surface that reaches a hundred times as far."""
+    ax = stabilab.plot.space(load(name))
+    motion = np.concatenate(spatial(ax, ORANGE))
+    span = np.nanmax(motion, axis=0) - np.nanmin(motion, axis=0)
+    box = np.array([np.ptp(ax.get_xlim()), np.ptp(ax.get_ylim()), np.ptp(ax.get_zlim())])
+    assert np.isfinite(motion).all() and span.max() < box.max() < 4.5 * span.max()
+
+
+def test_a_separatrix_outside_of_the_picture_is_told_in_words():
+    """thruster-stuck-major-axis: classify gives the distance, 1.29853 rad/s = 74.40 deg/s."""
+    ax = stabilab.plot.space(load("thruster-stuck-major-axis"))
+    assert "74.4 deg/s away" in ax.get_title() and not ax.collections
+
+
+def test_triangles_cut_by_a_box_keep_the_area_inside():
+    """A square of side 4 in the plane z = 0 across a box of side 2 about the origin leaves 4 of its area."""
+    from stabilab.show.plot.solid.in_space import Box
+    corners = np.array([[-2, -2, 0], [2, -2, 0], [2, 2, 0], [-2, 2, 0]], float)
+    inside = Box.of(np.full(3, -1.0), np.full(3, 1.0)).clipped(corners[[[0, 1, 2], [0, 2, 3]]])
+    area = np.linalg.norm(np.cross(inside[:, 1] - inside[:, 0], inside[:, 2] - inside[:, 0]), axis=1).sum() / 2
+    assert area == pytest.approx(4) and np.abs(inside).max() <= 1 + 1e-12
+
+
+def test_stable_and_unstable_equilibria_differ_in_form_and_colour():
+    """minor-axis-100: the hyperbola x3 = 0, x2 (x1 + b) = -1, two stable and two unstable pieces."""
+    case = load("minor-axis-100")
+    ax = stabilab.plot.equilibria(case)
+    curves = [line for line in ax.get_lines() if len(line.get_xdata()) > 100]
+    looks = {(line.get_color(), line.get_linestyle()) for line in curves}
+    assert looks == {(BLUE, "-"), (VERMILION, "--")} and len(curves) == 4
+    for line in curves:
+        x, y = (v[np.isfinite(v)] for v in line.get_data())
+        assert y * (x + case.scene.b) == pytest.approx(-1)
+
+
+def test_equilibria_are_drawn_without_a_motion_and_refused_where_there_are_none(tmp_path):
+    assert stabilab.plot.equilibria(case_of(tmp_path, SMALL)).get_lines()
+    with pytest.raises(errors.InputError, match="there is nothing to draw: an equilibrium needs"):
+        stabilab.plot.equilibria(load("major-axis-100"))
+
+
+def test_given_axes_decide_whether_equilibria_are_drawn_in_space():
+    _, ax = plt.subplots(subplot_kw={"projection": "3d"})
+    assert stabilab.plot.equilibria(load("minor-axis-100"), ax=ax) is ax
+    _, flat = plt.subplots()
+    with pytest.raises(errors.InputError, match="three-dimensional"):
+        stabilab.plot.equilibria(load("torque-free-gyrostat"), ax=flat)
+
+
+@pytest.mark.parametrize("kind", ["sphere", "space", "equilibria"])
+def test_pictures_in_space_have_the_same_bytes_again(kind, tmp_path):
+    one, two = (to_file.write(load("torque-free-body"), tmp_path / f"{n}.svg", kind).read_bytes() for n in (1, 2))
+    assert one == two and len(one) < 3_000_000

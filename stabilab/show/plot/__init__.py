@@ -1,8 +1,11 @@
 """Plots of a case or a scene: each takes Matplotlib axes and returns them; `write` makes a file."""
+from .all_equilibria import equilibria as equilibria
 from .cost import budget as budget
+from .momentum_surface import sphere as sphere
 from .over_time import time as time
 from .phase_plane import phase as phase
+from .rate_space import space as space
 from .to_file import write as write
 from .whole_state import state as state
 
-__all__ = ["budget", "phase", "state", "time", "write"]
+__all__ = ["budget", "equilibria", "phase", "space", "sphere", "state", "time", "write"]

@@ -12,7 +12,7 @@ from .. import style
 
 SIZE = (7.6, 4.8)  # inches
 SQUARE = (7.0, 6.4)
-LETTER, KEY = 0.078, 0.62  # inches that a letter of a legend, and its key with the gap, take
+LETTER, KEY = 0.08, 0.7  # inches that a letter of a legend, and its key with the gap, take
 
 
 @contextmanager
@@ -56,8 +56,9 @@ def _columns(names: list[str], room: float) -> int:
     """The most columns of a legend that fit into so many inches; it is filled column by column."""
     widths = [KEY + LETTER * len(re.sub(r"[$_\\]|\\\w+", "", name)) for name in names]
     for columns in range(len(names), 1, -1):
-        rows = -(-len(names) // columns)
-        if sum(max(widths[n:n + rows]) for n in range(0, len(names), rows)) <= room:
+        rows, longer = divmod(len(names), columns)  # the first columns take one more
+        ends = [n * rows + min(n, longer) for n in range(columns + 1)]
+        if sum(max(widths[low:high]) for low, high in zip(ends, ends[1:])) <= room:
             return columns
     return 1
 

@@ -29,6 +29,10 @@ class Measures:
             return "s", 1.0
         return ("min", 1 / 60) if longest < LONG_HOUR else ("h", 1 / 3600)
 
+    def plain(self, axis: int) -> str:
+        """The name of a component for text that is not typeset."""
+        return ("ω" if self.size else "x") + "₁₂₃"[axis]
+
     def label(self, words: str, unit: str) -> str:
         """A label of an axis with its unit, where it has one."""
         return f"{words} ({unit})" if unit else words

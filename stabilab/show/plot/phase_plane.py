@@ -69,10 +69,7 @@ def draw(ax, plane: PhasePlane, scale=1.0, offset=0.0, rate_scale=1.0, span=None
     """Draw level curves, separatrices, equilibria and the motion on `ax`; x axis: offset + scale*y."""
     low, high = span or window(plane)
     y = np.linspace(low, high, 700)
-    heights = plane.height(y)
-    tops = [float(plane.height(s)) for s in plane.repeated(plane.saddles, low, high)]
-    lift = max(plane.W0**2 / 2, *(tops or [0.0])) - float(np.min(heights))
-    top = np.sqrt(2 * lift) * 1.12 + 1e-12
+    heights, top = plane.height(y), highest(plane, low, high)
     W = np.linspace(-top, top, 500)
     energy = W[:, None] ** 2 / 2 + heights[None, :]
     limits = np.linspace(energy.min(), np.quantile(energy, 0.93), levels + 1)[1:]
@@ -84,7 +81,7 @@ def draw(ax, plane: PhasePlane, scale=1.0, offset=0.0, rate_scale=1.0, span=None
             ax.plot(offset + scale * ys, rate_scale * plane.rate(sign * Ws), **style.MEANING["separatrix"])
     if motion:
         ys, Ws = motion_curve(plane, low, high)
-        for sign in _ways(plane, Ws):
+        for sign in ways(plane, Ws):
             ax.plot(offset + scale * ys, rate_scale * plane.rate(sign * Ws), **style.MEANING["this motion"])
         ax.plot([offset], [rate_scale * plane.rate(plane.W0)], zorder=5, **style.MARKER["start"])
     for kind, places in (("centre", plane.centres), ("saddle", plane.saddles)):
@@ -95,6 +92,13 @@ def draw(ax, plane: PhasePlane, scale=1.0, offset=0.0, rate_scale=1.0, span=None
     ax.set_ylim(min(ends), max(ends))
 
 
-def _ways(plane, W):
+def highest(plane: PhasePlane, low: float, high: float) -> float:
+    """The largest W worth drawing between two places: above this motion and all separatrices."""
+    tops = [float(plane.height(s)) for s in plane.repeated(plane.saddles, low, high)]
+    lift = max(plane.W0**2 / 2, *(tops or [0.0])) - float(np.min(plane.height(np.linspace(low, high, 700))))
+    return float(np.sqrt(2 * lift) * 1.12 + 1e-12)
+
+
+def ways(plane: PhasePlane, W: np.ndarray) -> tuple[float, ...]:
     """Signs of the rate that a motion has: one where it goes right round without a torque and never turns."""
     return (float(np.sign(plane.W0)),) if plane.land.may_rotate and W.min() > 0 else (1, -1)

@@ -10,9 +10,12 @@ from ...packages import demand
 from .. import style
 from ..files import endings
 from . import which
+from .all_equilibria import equilibria
 from .cost import whole as budget
+from .momentum_surface import sphere
 from .over_time import time
 from .phase_plane import phase
+from .rate_space import space
 from .subject import Subject, subject
 from .whole_state import state
 
@@ -23,6 +26,9 @@ PIXELS = 20_000  # of a side: what Matplotlib draws
 DRAWN: dict[str, Callable[..., Any]] = {
     "time": lambda one, units, size, plt: time(one, units=units, size=size).figure,
     "phase": lambda one, units, size, plt: phase(one, units=units, size=size).figure,
+    "sphere": lambda one, units, size, plt: sphere(one, units=units, size=size).figure,
+    "space": lambda one, units, size, plt: space(one, units=units, size=size).figure,
+    "equilibria": lambda one, units, size, plt: equilibria(one, units=units, size=size).figure,
     "budget": lambda one, units, size, plt: budget(one, plt),
     "state": lambda one, units, size, plt: state(one),
 }

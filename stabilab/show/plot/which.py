@@ -1,6 +1,7 @@
 """Which kinds of plot a scene has, and why it has not the others."""
 from __future__ import annotations
 
+from ...answers.equilibria import equilibria
 from ...errors import InputError, printable
 from ...orbit.far_states import far_exponent
 from ...orbit.reduction import reduce
@@ -10,6 +11,9 @@ from .subject import Subject
 KINDS = {
     "time": "the rates over time, with limits, extremes and period",
     "phase": "the plane of the reduced motion: turn about the torque's axis and its rate",
+    "sphere": "the surface on which the motion stays, with the other motions on it",
+    "space": "the motion in the space of rates, beside the separatrix",
+    "equilibria": "all equilibria, stable and unstable",
     "budget": "what accuracy costs in time",
     "state": "every part of the state over time, the analytic models beside the exact motion",
 }
@@ -21,7 +25,7 @@ def why_not(kind: str, one: Subject) -> str:
     if kind not in KINDS:
         return f"there is no such kind; expected one of {', '.join(KINDS)}"
     if kind == "equilibria":
-        return ""
+        return _equilibria(one)
     if one.state is None:
         return "it needs a motion: add [motion] with angular_velocity or x" if one.case is not None else "it needs a state: three rates at t = 0"
     return _REASONS.get(kind, lambda one: "")(one)
@@ -45,6 +49,11 @@ def offered(one: Subject) -> tuple[str, ...]:
 def default(one: Subject) -> str:
     """The kind that says most of a subject: its plane where it reduces, all parts of a longer state, else the rates over time."""
     return next(kind for kind in ("phase", "state", "time", "equilibria") if not why_not(kind, one))
+
+
+def _equilibria(one: Subject) -> str:
+    found = equilibria(one.scene) if one.twin.plain else None  # there always are some with other effects, and they take longer
+    return f"there is none: {found.reason}" if found is not None and not found.points and not found.curves else ""
 
 
 def _far(one: Subject) -> str:
