@@ -94,5 +94,5 @@ def _state(scene: AnyScene, state: Any) -> dict[str, Any]:
     if row.shape != (3,):
         raise InputError(f"state: a plot is of one motion: expected three rates, got an array of shape {row.shape}")
     if isinstance(scene, Scene):
-        start_of(scene, row, blocks)  # says what is wrong with the rest
+        start_of(scene, row.tolist(), blocks)  # says what is wrong with the rest
     return {"state": tuple(row.tolist()), "blocks": blocks}

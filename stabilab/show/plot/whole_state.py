@@ -19,7 +19,8 @@ def state(case: Any, start: Any = None, span: Any = None) -> Any:
     from matplotlib import pyplot as plt
     one = subject(case, start, span)
     which.check("state", one)
-    runs, _ = side_by_side(one, np.linspace(*(one.span or DEFAULT_SPAN), POINTS))
+    begin, end = one.span or DEFAULT_SPAN
+    runs, _ = side_by_side(one, np.linspace(begin, end, POINTS))
     parts = [name for name in comparison.NAMES if name in runs["exact"].state]
     figure, law = comparison.picture(plt, one, runs, parts), runs["exact"].validity
     if law is not None and not law.held:
