@@ -77,7 +77,7 @@ def draw(ax, plane: PhasePlane, scale=1.0, offset=0.0, rate_scale=1.0, span=None
                linewidths=0.5, linestyles="solid")
     for saddle in plane.repeated(plane.saddles, low, high):
         ys, Ws = plane.separatrix(saddle, low, high)
-        for sign in (1, -1):
+        for sign in (1.0, -1.0):
             ax.plot(offset + scale * ys, rate_scale * plane.rate(sign * Ws), **style.MEANING["separatrix"])
     if motion:
         ys, Ws = motion_curve(plane, low, high)

@@ -1,6 +1,8 @@
 """The sphere of the angular momentum of a body that no torque acts on, its polhodes and separatrices."""
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from ....answers.equilibria import equilibria
@@ -20,8 +22,9 @@ SAME = 1e-9  # of the energies: those of one saddle, found twice
 
 def momentum_sphere(one: Subject) -> SurfaceLines:
     """All that a plot shows, in kg m^2/s; H = D omega + wheel, |H| constant, and the energy sum((H - wheel)^2 / 2 D) tells the polhodes apart."""
-    D = np.array([float(v) for v in one.twin.body.exact])
-    wheel = np.array([float(v) for v in one.twin.vector("gyrostat")])
+    scene: Any = one.twin  # physical: `which` refuses the others
+    D = np.array([float(v) for v in scene.body.exact])
+    wheel = np.array([float(v) for v in scene.vector("gyrostat")])
     period = one.motion.period
     _, omega = path(one, 0.0, period or (max(one.span, key=abs) if one.span else 15.0))
     way = omega * D + wheel

@@ -58,5 +58,5 @@ def grid_triangles(points: np.ndarray) -> np.ndarray:
 def levels(x: np.ndarray, y: np.ndarray, height: np.ndarray, values: Any) -> list[np.ndarray]:
     """The lines (n, 2) in (x, y) on which a function, height (y, x), has one of the values."""
     from contourpy import contour_generator
-    contours = contour_generator(x, y, height)
+    contours: Any = contour_generator(x, y, height)
     return [line for value in values for line in contours.lines(float(value)) if len(line) > 1]
