@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..errors import InputError
-from ..orbit.fate.by_table import canonical, circle_heights, hyperbola_heights
+from ..orbit.fate.by_table import canonical, way_of
 from ..orbit.fate.table import barrier_table
 from ..orbit.fate.table_kernel import SIGN_BOUND
 from ..orbit.result import Fate
@@ -79,10 +79,10 @@ def _label_lines(table: Any, lines: np.ndarray, energies: np.ndarray, ranked: np
     clear) of (rows m,): an energy is too near to the height, and it is certain which height that is."""
     x, z, _ = canonical(table, lines)
     with np.errstate(all="ignore"):
-        height, scale, clear = (circle_heights if table.e < 0 else hyperbola_heights)(table, x, z)
+        height, scale, clear = way_of(table).heights(table, x, z)
         # an energy further from the height than this is beyond the bound of rounding, which grows with it too
         doubt = np.where(np.isfinite(height), 1.5 * SIGN_BOUND * (scale + np.abs(height)), 0.0)
-    if table.e < 0:
+    if way_of(table).spins_up:
         np.greater_equal(energies, height.reshape(labels.shape[:2] + (1,)), out=labels.view(bool))
     else:
         labels[:] = Fate.BOUNDED

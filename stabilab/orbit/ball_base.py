@@ -37,6 +37,7 @@ class BallOrbit:
     force: Callable[..., Any]
     slope: Callable[..., Any]
     on_plane: bool = False  # on an invariant plane of a hyperbola
+    closed = False  # whether it comes to the same place again
     spins_purely = False  # whether nothing but the rate about the axis changes as it spins up
 
     def __init__(self, reduction, state, numbers):
@@ -91,6 +92,10 @@ class BallOrbit:
         return self.spots
 
     # --- what a geometry may say otherwise
+    def fall(self):
+        """What the potential falls by over a turn of a circle; nothing on the others."""
+        return self.w * 0
+
     def barriers(self) -> list[Spot]:
         """The barriers that the fate depends on: on a circle those ahead within one turn, on an invariant plane those ahead,
         else all."""

@@ -15,6 +15,8 @@ FAR = 1 << 13  # exp(-FAR) is nothing against any double: an offset that stands 
 class BallCircle(BallConic):
     """A circle: what is ahead comes again every turn, lower by the torque's tilt."""
 
+    closed = True
+
     def _swing(self, y):
         half = (y / 2).sin()
         return y.sin(), -2 * half * half
@@ -59,6 +61,9 @@ class BallCircle(BallConic):
 
     def wall(self, inner, side):
         return None
+
+    def fall(self):
+        return 2 * self.numbers.pi() * self.mu
 
     def tops(self) -> list:
         """Offsets where X or Z is stationary."""

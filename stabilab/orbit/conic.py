@@ -34,10 +34,12 @@ class Line(NamedTuple):
 
 
 class Conic:
-    """The equilibria of a reduction with e = -1 or +1 and their pieces. exact constants decide degeneracy."""
+    """The equilibria of a reduction with circles or hyperbolas, and their pieces. Exact constants decide degeneracy."""
+
+    e: int  # of the invariant Z^2 - e X^2
+    planes: tuple[float, ...] = ()  # invariants at which an orbit falls apart
 
     def __init__(self, reduction):
-        self.e = reduction.e
         g = reduction.exact_constants
         self.G, self.c, self.d, self.mu = (reduction.constants[n] for n in ("G", "c", "d", "mu"))
         self.pieces: tuple[Piece, ...] = ()
@@ -82,8 +84,23 @@ class Conic:
         return (self.K / h - self.c) / self.G, h - self.shift
 
     def invariant(self, h):
-        x, z = self.at(h)
-        return (z - x) * (z + x) if self.e > 0 else z * z + x * x
+        return self.invariant_at(*self.at(h))
+
+    def invariant_at(self, x, z):
+        """Q of (X, Z), free of cancellation."""
+        raise NotImplementedError
+
+    def place(self, x, z):
+        """(X, Z) as the potential takes it."""
+        return x, z
+
+    def within(self, limit) -> tuple[float, ...]:
+        """The invariants of size `limit`."""
+        raise NotImplementedError
+
+    def sides(self, sense) -> tuple[tuple[int, str], ...]:
+        """Which way loops leave a saddle under a torque of this sense (0: none), and the word for it."""
+        return (-1, ", left loop"), (1, ", right loop")
 
     def _pieces(self, exact_at, G, c, d):
         """The pieces by exact signs: of two almost equal moments the terms of the slope cancel to the last digit."""
@@ -111,12 +128,9 @@ class Conic:
         return found
 
     def _nearly_straight(self, Q):
-        """(n,) True where, inside the circle, the conic differs so little from a line that the line is the better guess
-        (two moments equal to many digits): X = (K/h - c)/G would lose all digits. The caller polishes along the orbit."""
+        """(n,) True where the conic differs so little from a line that the line is the better guess."""
         import numpy as np
-        if self.e > 0 or not self.pieces or self.limit is None:
-            return np.zeros(Q.shape, bool)
-        return abs(self.G) * np.sqrt(Q) < 1e-6 * np.hypot(self.c, self.d)
+        return np.zeros(Q.shape, bool)
 
     def _meet_piece(self, piece, Q):
         """The point of a piece where the invariant is Q."""
@@ -151,10 +165,81 @@ class Conic:
         return size
 
     def _solve_fast(self, piece, Q, steps):
-        """(|h|, converged) by Newton's method from the asymptote of an open-ended piece of a circle's conic."""
+        """(|h|, converged) by a quicker way, where there is one."""
         import numpy as np
-        if self.e > 0 or (piece.inner > 0) == np.isfinite(piece.outer):
-            return np.empty(Q.shape), np.zeros(Q.shape, bool)
+        return np.empty(Q.shape), np.zeros(Q.shape, bool)
+
+    def _solve_safely(self, piece, Q):
+        """|h| by bracketed Newton in log|h|, in which both ends of an open-ended piece are powers."""
+        import numpy as np
+        sign, K, c, G, s = piece.sign, self.K, self.c, self.G, self.shift
+        root = np.sqrt(np.abs(Q))
+        # bounds that no solution exceeds: |Z| and |X| are bounded by Q and by the other one's asymptote
+        reach = root + abs(c / G) + abs(s) + np.sqrt(abs(K / G)) + 1e-300
+        hi = np.minimum(piece.outer, 4 * reach)
+        lo = np.maximum(piece.inner, abs(K) / (4 * reach * abs(G)))
+        lo, hi = np.minimum(lo, hi), np.maximum(lo, hi)
+        if np.isinf(piece.outer):
+            start = np.clip(root + abs(s), lo, hi)
+        elif piece.inner == 0:
+            start = np.clip(abs(K) / (abs(G) * root + abs(c) + 1e-300), lo, hi)
+        else:
+            start = 0.5 * (lo + hi)
+
+        def fun(t, Q):
+            h = sign * np.exp(t)
+            x, z = (K / h - c) / G, h - s
+            return self.invariant_at(x, z) - Q, 2 * (z * h + self.e * x * K / (h * G))
+        t = bracketed_newton(fun, np.log(lo), np.log(hi), np.log(start), (Q,), rising=piece.rising)
+        return np.exp(t)
+
+    def _meet_line(self, line, Q):
+        """Both points of a line where the invariant is Q: a quadratic in t."""
+        import numpy as np
+        e = self.e
+        a = line.dz**2 - e * line.dx**2
+        b = line.z0 * line.dz - e * line.x0 * line.dx
+        k = line.z0**2 - e * line.x0**2 - Q
+        if a == 0:
+            t = -k / (2 * b) if b else np.zeros(Q.shape)
+            yield line.x0 + t * line.dx, line.z0 + t * line.dz, np.full(Q.shape, bool(b))
+            return
+        disc = b * b - a * k
+        exists = disc > 0
+        root = np.sqrt(np.where(exists, disc, 0))
+        for side in (-1, 1):
+            t = (-b + side * root) / a
+            yield line.x0 + t * line.dx, line.z0 + t * line.dz, exists
+
+
+class CircleConic(Conic):
+    """The equilibria on circles."""
+
+    e = -1
+
+    def invariant_at(self, x, z):
+        return z * z + x * x
+
+    def within(self, limit):
+        return (limit,)
+
+    def sides(self, sense):
+        """On a tilted circle against the torque alone."""
+        return ((-1, ""),) if sense else super().sides(sense)
+
+    def _nearly_straight(self, Q):
+        """(n,) True where, inside the circle, the conic differs so little from a line that the line is the better guess
+        (two moments equal to many digits): X = (K/h - c)/G would lose all digits. The caller polishes along the orbit."""
+        import numpy as np
+        if not self.pieces or self.limit is None:
+            return super()._nearly_straight(Q)
+        return abs(self.G) * np.sqrt(Q) < 1e-6 * np.hypot(self.c, self.d)
+
+    def _solve_fast(self, piece, Q, steps):
+        """(|h|, converged) by Newton's method from the asymptote of an open-ended piece."""
+        import numpy as np
+        if (piece.inner > 0) == np.isfinite(piece.outer):
+            return super()._solve_fast(piece, Q, steps)
         K, c, G, s = self.K, self.c, self.G, self.shift
         root = np.sqrt(Q)
         with np.errstate(all="ignore"):
@@ -180,48 +265,28 @@ class Conic:
             # a last step of 1e-9 leaves 1e-18 where convergence is quadratic, as it is away from the fold
             return size, (last < 1e-9) & (size > piece.inner * (1 + 1e-4)) & (size < piece.outer * (1 - 1e-4))
 
-    def _solve_safely(self, piece, Q):
-        """|h| by bracketed Newton in log|h|, in which both ends of an open-ended piece are powers."""
-        import numpy as np
-        sign, K, c, G, s = piece.sign, self.K, self.c, self.G, self.shift
-        root = np.sqrt(np.abs(Q))
-        # bounds that no solution exceeds: |Z| and |X| are bounded by Q and by the other one's asymptote
-        reach = root + abs(c / G) + abs(s) + np.sqrt(abs(K / G)) + 1e-300
-        hi = np.minimum(piece.outer, 4 * reach)
-        lo = np.maximum(piece.inner, abs(K) / (4 * reach * abs(G)))
-        lo, hi = np.minimum(lo, hi), np.maximum(lo, hi)
-        if np.isinf(piece.outer):
-            start = np.clip(root + abs(s), lo, hi)
-        elif piece.inner == 0:
-            start = np.clip(abs(K) / (abs(G) * root + abs(c) + 1e-300), lo, hi)
-        else:
-            start = 0.5 * (lo + hi)
 
-        def fun(t, Q):
-            h = sign * np.exp(t)
-            x, z = (K / h - c) / G, h - s
-            value = ((z - x) * (z + x) if self.e > 0 else z * z + x * x) - Q
-            return value, 2 * (z * h + self.e * x * K / (h * G))
-        t = bracketed_newton(fun, np.log(lo), np.log(hi), np.log(start), (Q,), rising=piece.rising)
-        return np.exp(t)
+class HyperbolaConic(Conic):
+    """The equilibria on hyperbolas."""
 
-    def _meet_line(self, line, Q):
-        """Both points of a line where the invariant is Q: a quadratic in t."""
-        import numpy as np
-        e = self.e
-        a = line.dz**2 - e * line.dx**2
-        b = line.z0 * line.dz - e * line.x0 * line.dx
-        k = line.z0**2 - e * line.x0**2 - Q
-        if a == 0:
-            t = -k / (2 * b) if b else np.zeros(Q.shape)
-            yield line.x0 + t * line.dx, line.z0 + t * line.dz, np.full(Q.shape, bool(b))
-            return
-        disc = b * b - a * k
-        exists = disc > 0
-        root = np.sqrt(np.where(exists, disc, 0))
-        for side in (-1, 1):
-            t = (-b + side * root) / a
-            yield line.x0 + t * line.dx, line.z0 + t * line.dz, exists
+    e, planes = 1, (0.0,)
+
+    def invariant_at(self, x, z):
+        return (z - x) * (z + x)
+
+    def place(self, x, z):
+        return x + z, x - z
+
+    def within(self, limit):
+        return limit, -limit
+
+
+GEOMETRIES = {-1: CircleConic, 1: HyperbolaConic}
+
+
+def conic_of(reduction) -> Conic:
+    """The equilibria of a reduction with circles or hyperbolas."""
+    return GEOMETRIES[reduction.e](reduction)
 
 
 def _inside(inner, outer):

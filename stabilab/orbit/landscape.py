@@ -49,6 +49,10 @@ class CircleLandscape(ConicLandscape):
             offset = angle_between(place, spot)
         return np.where(offset > 0, offset, offset + TURN), spot, exists
 
+    def way(self, spot, place, near):
+        angle = angle_between(spot, place)
+        return angle + TURN * np.round((near - angle) / TURN)
+
     def unrolled(self, place, offset, spot):
         # a turn more would cost the energy over a well just behind its digits
         return np.where(offset > np.pi, angle_between((place[0][:, None], place[1][:, None]), spot), offset)
@@ -105,6 +109,15 @@ class HyperbolaLandscape(ConicLandscape):
             spot = self.polished(spot)
             offset = np.where(big, np.log(spot[0] / place[0]), -np.log(spot[1] / place[1]))
         return offset, spot, exists
+
+    def way(self, spot, place, near):
+        big = np.abs(place[0]) >= np.abs(place[1])
+        return np.where(big, np.log(np.abs(place[0] / spot[0])), -np.log(np.abs(place[1] / spot[1])))
+
+    def blurred(self, spot, place, size):
+        wide, largest = size[0] + size[1], np.maximum(np.abs(place[0]), np.abs(place[1]))
+        beside = np.abs(place[0] * place[1] - spot[0] * spot[1]) / ((np.abs(place[0]) + np.abs(place[1])) * wide)
+        return self.potential.mu * wide / largest, beside  # the tilt falls by mu times the logarithm of the place
 
     def stationary(self, place, left, right):
         """X is stationary where Z = 0 (xi = eta), Z where X = 0 (xi = -eta)."""

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .conic import Conic
+from .conic import Conic, conic_of
 from .potential import potential
 
 EPS = 2.0**-52
@@ -136,7 +136,7 @@ class ConicLandscape(Landscape):
 
     def __init__(self, reduction):
         super().__init__(reduction)
-        self.conic = Conic(reduction)
+        self.conic = conic_of(reduction)
         self.unit = reduction.constants["flip"] / reduction.constants["n"]
 
     def start(self, states):
@@ -185,6 +185,14 @@ class ConicLandscape(Landscape):
     def located(self, place, Q, x, z, exists):
         """(offset, place, exists) of equilibria at (X, Z) on the orbits Q of places."""
         raise NotImplementedError
+
+    def way(self, spot, place, near):
+        """theta from a place to another on its orbit, which is rounded; on a circle the turn is that of `near`."""
+        raise NotImplementedError
+
+    def blurred(self, spot, place, size):
+        """(what rounding of a place, of that size of terms, may cost in energy besides; how far, of its size, it lies off the orbit of a spot)."""
+        return 0.0, 0.0
 
     def may_have_barriers(self) -> bool:
         return any(p.barrier for p in self.conic.pieces) or bool(self.conic.lines)

@@ -1,6 +1,7 @@
 """The reduced potential: differences of height and force along an orbit, free of cancellation.
 
-Each class is one geometry of the reduction (circle, hyperbola, parabola) with the same small interface. A *place* is a
+Each class is one geometry of the reduction (circle, hyperbola, parabola) with the same small interface, and what the geometry says
+of every motion. A *place* is a
 pair of arrays that moves along the orbit with the coordinate theta; `rise(y, place, force)` is V(theta + y) - V(theta).
 At an equilibrium (force 0) the first-order terms drop out analytically, so barriers and turning points keep their
 digits next to a separatrix. The formulas serve arrays and Python floats alike; floats load no NumPy.
@@ -48,6 +49,12 @@ def _odd_series(t):
     return t * t2 / 6 * (1 - t2 / 20 * (1 - t2 / 42 * (1 - t2 / 72 * (1 - t2 / 110 * (1 - t2 / 156)))))
 
 
+def _less_sinh(y):
+    """y - sinh y for |y| <= 0.3."""
+    t = y * y
+    return -y * t / 6 * (1 + t / 20 * (1 + t / 42 * (1 + t / 72 * (1 + t / 110))))
+
+
 def exp_minus_two_terms(t):
     """exp(t) - 1 - t without cancellation."""
     if type(t) is float and abs(t) >= 0.7:
@@ -64,9 +71,42 @@ def exp_minus_two_terms(t):
 class Circle:
     """place = (X, Z)."""
 
+    e = -1  # sign of p q
+    kind = "elliptic"
+    where = "the major or the minor axis"
+    rank = 0  # of a scene's reductions the least is taken: a circle is compact
+    centred = True  # whether orbits have a common centre, and canonical variables told from it
+    walled = False  # whether the potential has walls on both sides of every orbit but for a set of measure zero
+
+    @classmethod
+    def of(cls, reduction):
+        """The potential of a reduction with this geometry."""
+        return cls(reduction.constants)
+
     def __init__(self, constants: dict):
         self.G, self.c, self.d, self.mu = (constants[name] for name in ("G", "c", "d", "mu"))
         self.slopes = abs(self.c) + abs(self.d)
+
+    @staticmethod
+    def turn(y: float) -> tuple[float, float]:
+        """(sin y, sin(y/2))."""
+        return math.sin(y), math.sin(0.5 * y)
+
+    @staticmethod
+    def lag(y: float, s: float) -> float:
+        """y - sin y, without cancellation; s: sin y."""
+        return y_minus_sin(y)
+
+    @staticmethod
+    def turned(y):
+        """(cos y, sin y) of a ball."""
+        return y.cos(), y.sin()
+
+    @staticmethod
+    def turns(y: float, dy: float):
+        """(sin y, cos y, sin(y/2), what sine and cosine change by at most within dy)."""
+        s, q = math.sin(y), math.cos(y)
+        return s, q, math.sin(0.5 * y), dy * min(1.0, abs(q) + dy), dy * min(1.0, abs(s) + dy)
 
     def force(self, place):
         x, z = place
@@ -126,11 +166,43 @@ class Circle:
 class Hyperbola:
     """place = (xi, eta) = (X + Z, X - Z), growing and decaying like exp(+-theta)."""
 
+    e = 1
+    kind = "hyperbolic"
+    where = "the middle axis"
+    rank = 1
+    centred = walled = True
+
+    @classmethod
+    def of(cls, reduction):
+        """As of `Circle`."""
+        return cls(reduction.constants)
+
     def __init__(self, constants: dict):
         self.G, self.mu = constants["G"], constants["mu"]
         self.e1 = 0.5 * (constants["c"] + constants["d"])
         self.e2 = 0.5 * (constants["d"] - constants["c"])
         self.slopes = abs(self.e1) + abs(self.e2)
+
+    @staticmethod
+    def turn(y: float) -> tuple[float, float]:
+        """(sinh y, sinh(y/2))."""
+        return math.sinh(y), math.sinh(0.5 * y)
+
+    @staticmethod
+    def lag(y: float, s: float) -> float:
+        """y - sinh y, without cancellation; s: sinh y."""
+        return y - s if abs(y) > 0.3 else _less_sinh(y)
+
+    @staticmethod
+    def turned(y):
+        """(cosh y, sinh y) of a ball."""
+        return y.cosh(), y.sinh()
+
+    @staticmethod
+    def turns(y: float, dy: float):
+        """As of `Circle`, of sinh and cosh."""
+        s, q = math.sinh(y), math.cosh(y)
+        return s, q, math.sinh(0.5 * y), dy * math.cosh(abs(y) + dy), dy * math.sinh(abs(y) + dy)
 
     def force(self, place):
         xi, eta = place
@@ -167,6 +239,17 @@ class Hyperbola:
 
 class Parabola:
     """Two equal moments: place = (omega_j, omega_k); the potential is a polynomial of degree 4 or less."""
+
+    e = 0
+    kind = "parabolic"
+    where = "an axis between two equal moments"
+    rank = 2
+    centred, walled = False, True
+
+    @classmethod
+    def of(cls, reduction):
+        """As of `Circle`, in the components themselves."""
+        return cls(reduction)
 
     def __init__(self, reduction):
         names = ("p", "p0", "q", "q0", "kappa", "rho", "sigma", "m")
@@ -223,7 +306,8 @@ def derivatives_on_parabola(r, u, v):
 
 def potential(reduction):
     """The potential of a reduction."""
-    return GEOMETRIES[reduction.e](reduction)
+    return reduction.geometry.of(reduction)
 
 
-GEOMETRIES = {-1: lambda r: Circle(r.constants), 1: lambda r: Hyperbola(r.constants), 0: Parabola}
+Geometry = type[Circle] | type[Hyperbola] | type[Parabola]
+GEOMETRIES: dict[int, Geometry] = {-1: Circle, 1: Hyperbola, 0: Parabola}

@@ -24,6 +24,7 @@ from functools import cached_property
 from ..numbers.exact import sqrt_fraction
 from ..numbers.vectors import CYCLE, Exact3
 from ..physics.quadratic import QuadraticForm
+from .potential import GEOMETRIES, Geometry
 
 
 def _sign(value) -> int:
@@ -66,8 +67,14 @@ class Reduction:
         return _sign(self.p * self.q)
 
     @property
+    def geometry(self) -> Geometry:
+        """Circle, hyperbola or parabola: a class of `potential`."""
+        return GEOMETRIES[self.e]
+
+    @property
     def kind(self) -> str:
-        return ("parabolic", "hyperbolic", "elliptic")[self.e]
+        """elliptic, hyperbolic or parabolic."""
+        return self.geometry.kind
 
     @cached_property
     def centre(self) -> tuple:
@@ -83,7 +90,7 @@ class Reduction:
     @cached_property
     def torque(self):
         """m of that rate (the last three terms cancel for a body); on a parabola m itself."""
-        if self.e == 0:
+        if not self.geometry.centred:
             return self.m
         sj, sk = self.centre
         return self.m + self.kappa * sj * sk - self.rho * sk - self.sigma * sj
@@ -172,7 +179,7 @@ class Reduction:
     def parabolic_shift_size(self) -> float:
         """How far the centre of the conic is from the origin, in units of the components: large for nearly equal
         moments, where the canonical variables cancel and the precise path takes over."""
-        if self.e == 0:
+        if not self.geometry.centred:
             return 0.0
         return max(abs(self.constants["sj"]), abs(self.constants["sk"]))
 
@@ -216,4 +223,4 @@ def reduce(scene) -> Reduction | None:
     found = [r for i in (axes or range(3)) if (r := reduction_about(form, i, weights[i]))]
     if not found:
         return None
-    return min(found, key=lambda r: (r.e if r.e else 2, math.hypot(float(r.s), r.parabolic_shift_size)))
+    return min(found, key=lambda r: (r.geometry.rank, math.hypot(float(r.s), r.parabolic_shift_size)))

@@ -46,7 +46,7 @@ def _rate(scenario, motion, family) -> Margin:
 def _walled(family) -> bool:
     """Whether every motion but those on a separatrix is bounded."""
     reduction = None if family is None else family.reduction(family.wheel)
-    return reduction is not None and reduction.e >= 0
+    return reduction is not None and reduction.geometry.walled
 
 
 def _parameters(scenario, family) -> dict:

@@ -74,9 +74,8 @@ def _one_momentum(family, start, step, s):
 def across(family, start, step):
     """The intervals, and because, of momenta start + s step that have no part along the torque."""
     at_0, at_1 = (family.reduction(family.along(start, step, s)) for s in (0, 1))
-    if at_0.e >= 0:
-        where = "the middle axis" if at_0.e > 0 else "an axis between two equal moments"
-        return EVERY, f"the torque is on {where}: the potential has walls on both sides, so every motion is bounded but for a set of measure zero"
+    if at_0.geometry.walled:
+        return EVERY, f"the torque is on {at_0.geometry.where}: the potential has walls on both sides, so every motion is bounded but for a set of measure zero"
     found = candidates(Circle(at_0, at_1, family.state))
     if found is None:
         return (), "not known: the balls did not isolate the momenta at which the start lies on a separatrix"

@@ -36,7 +36,7 @@ def by_kernel(land: Landscape, states, boxes, periods, fast=None):
 @lru_cache(maxsize=64)
 def kernel_input(land: Landscape):
     """(numbers, axes, pieces, folds) of a landscape for the kernel; None where it has no kernel."""
-    if land.e >= 0:
+    if land.turn == np.inf:
         return None
     conic, r, g = land.conic, land.reduction, land.reduction.constants
     pieces = [_open_piece(conic, piece) for piece in conic.pieces]

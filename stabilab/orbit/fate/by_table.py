@@ -1,6 +1,9 @@
 """Fates of many states from the table of barriers: NumPy in chunks, or the compiled loops of the extra `fast`."""
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import NamedTuple
+
 import numpy as np
 
 from ...numbers.constants import TURN
@@ -26,7 +29,7 @@ def label_by_table(table: BarrierTable, states, out, compiled=None) -> np.ndarra
         columns["reasons"][:] = WALLS
         columns["labels"][:] = 0
         found = (_compiled(table, states[part], columns, compiled) if compiled
-                 else (_circles if table.e < 0 else _hyperbolas)(table, states[part], columns))
+                 else way_of(table).labelled(table, states[part], columns))
         columns["axis"][:] = columns["labels"] * np.int8(table.axis)
         columns["sense"][:] = columns["labels"] * np.int8(table.sense)
         unsure.append(np.nonzero(found)[0] + start)
@@ -121,3 +124,19 @@ def hyperbola_heights(table, x, z):
         height[inside] = here + ((0.5 * G * u + c) * u + d * v)
         scale[inside] = arithmetic.hyperbola_scale(scale[inside], tilt, rounding[inside], place, mu, r[STEEP], r[BULK])
     return height, scale, clear
+
+
+class _Way(NamedTuple):
+    """Of a geometry: heights over places, how a chunk is labelled, and whether a state above its height spins up."""
+
+    heights: Callable
+    labelled: Callable
+    spins_up: bool
+
+
+GEOMETRIES = {-1: _Way(circle_heights, _circles, True), 1: _Way(hyperbola_heights, _hyperbolas, False)}
+
+
+def way_of(table: BarrierTable) -> _Way:
+    """How the states of a table are answered."""
+    return GEOMETRIES[table.e]

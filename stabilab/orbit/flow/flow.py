@@ -62,7 +62,7 @@ def _motion(ground: Relief, state, nodes, backwards):
     if ground.turn and not any(s.kind > 0 and s.at > 0 and s.kinetic < 0 for s in ground.spots):
         _refuse_ties(ground, ground.spots)
         return SpinUp(ground, nodes or POINTS, backwards)
-    if ground.e < 0 and not any(s.kind > 0 and s.kinetic < 0 for s in ground.spots):
+    if ground.closed and not any(s.kind > 0 and s.kinetic < 0 for s in ground.spots):
         _refuse_ties(ground, ground.spots)
         return _rotation(ground, nodes)
     return _libration(ground, nodes)

@@ -46,7 +46,7 @@ class Constants:
 def constants(scene):
     """(the scene's reduction or None, its `Constants` or None on a parabola)."""
     reduction = reduce(effective(scene))
-    return reduction, Constants(reduction) if reduction is not None and reduction.e else None
+    return reduction, Constants(reduction) if reduction is not None and reduction.geometry.centred else None
 
 
 class Here:

@@ -200,13 +200,13 @@ class OnParabola(Spot):
 
 @dataclass(frozen=True)
 class Relief:
-    """spots in ascending order, on a circle those of one turn behind and of one ahead; w: rate of the state; e: geometry;
-    turn: what the potential falls by over a turn of a circle, behind: by how many whole turns each spot of the turn ahead lies
+    """spots in ascending order, on a circle those of one turn behind and of one ahead; w: rate of the state; closed:
+    whether the orbit is a circle; turn: what the potential falls by over a turn of a circle, behind: by how many whole turns each spot of the turn ahead lies
     above the place where the motion came from rest."""
 
     spots: tuple
     w: float
-    e: int
+    closed: bool
     turn: float
     here: Spot
     drops: tuple
@@ -220,18 +220,18 @@ def relief(orbit: Orbit) -> Relief:
 def _relief(orbit) -> Relief:
     zero, bits = orbit.w * 0, orbit.numbers.bits
     kinetic = [orbit.energy - orbit.height(s.y) for s in orbit.spots]
-    turn = 2 * orbit.numbers.pi() * orbit.mu if orbit.r.e < 0 else zero
+    turn = orbit.fall()
     spots = [_spot(orbit, s.y, s.kind, value, bits) for s, value in zip(orbit.spots, kinetic)]
     drops = ()
     here = _spot(orbit, zero, 0, orbit.energy, bits, force=orbit.numbers.ball(orbit.force_here) * orbit.n * orbit.flip)
-    if orbit.r.e < 0:
+    if orbit.closed:
         behind = [replace(spot, at=_offset(one.y), kinetic=_rounded(value - turn, bits))
                   for spot, value, one in zip(spots, kinetic, orbit.all_spots)]
         if orbit.mu != 0:
             rows = [(s, v) for s, v in zip(spots, kinetic) if s.kind > 0] or [(here, orbit.energy)]
             drops = tuple(_drop(spot, value, turn, bits) for spot, value in rows)
         spots = behind + spots
-    return Relief(tuple(spots), _rounded(orbit.w, bits), orbit.r.e, float(turn.mid()), here, drops)
+    return Relief(tuple(spots), _rounded(orbit.w, bits), orbit.closed, float(turn.mid()), here, drops)
 
 
 def _drop(spot, kinetic, turn, bits):

@@ -21,7 +21,7 @@ EVEN = np.linspace(0, 1, TRIAL)
 def serves(land, strips) -> bool:
     """Whether the kernel draws a landscape's sheets: circles with a torque, where each saddle has one loop, a point at the
     fold."""
-    return land.e < 0 and land.sense != 0 and all(shrinks(land, *strip) for strip in strips)
+    return len(land.conic.sides(land.sense)) == 1 and all(shrinks(land, *strip) for strip in strips)
 
 
 @lru_cache(maxsize=1)

@@ -13,15 +13,21 @@ from .circle_kernel import loop_end as _end_on_circle
 FAR = 700.0       # beside an open plane there is no wall as near as this
 
 
-def loop_end(pot, e, sense, saddle, side):
+def loop_end(pot, sense, saddle, side):
     """(distance along the orbit from the saddle to the far end of its loop on one side (-1, +1), distance to the deepest well
     inside, ENDS or SHARED); None where no loop closes. SHARED: the far end is a saddle as high.
 
     sense: 0 without torque, where on a circle a loop may end at a barrier as high, or at the saddle itself, one turn on.
     """
-    if e < 0:
-        found = _end_on_circle((pot.G, pot.c, pot.d, pot.mu), sense, *saddle, side)
-        return None if found[2] == NONE else found
+    return GEOMETRIES[pot.e](pot, sense, saddle, side)
+
+
+def _on_circle(pot, sense, saddle, side):
+    found = _end_on_circle((pot.G, pot.c, pot.d, pot.mu), sense, *saddle, side)
+    return None if found[2] == NONE else found
+
+
+def _on_hyperbola(pot, sense, saddle, side):
     low = high = centre = None
     deepest = 0.0
     for t in _others(pot, saddle, side):
@@ -84,3 +90,6 @@ def _crossing(pot, saddle, side, low, high):
                 return new
         t = new
     return t
+
+
+GEOMETRIES = {-1: _on_circle, 1: _on_hyperbola}

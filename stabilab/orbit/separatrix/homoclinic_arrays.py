@@ -9,8 +9,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...numbers.constants import TURN
-from ..landscape import angle_between
 from .circle_kernel import NONE, SHARED, SHARPEST
 from .homoclinic import loop_end
 
@@ -27,7 +25,7 @@ def loop_ends(land, saddle, side):
     pot, n = land.potential, len(saddle[0])
     ends, centres, kind = np.zeros(n), np.zeros(n), np.zeros(n, int)
     for row, place in enumerate(zip(*(v.tolist() for v in saddle))):
-        found = loop_end(pot, land.e, land.sense, place, side)
+        found = loop_end(pot, land.sense, place, side)
         if found:
             ends[row], centres[row], kind[row] = found
     return side * ends, np.array(land.polished(pot.move(saddle, side * centres))), kind != NONE, kind == SHARED
@@ -111,18 +109,7 @@ def residual(land, loops):
     spot = tuple(v[:, :, None] for v in loops.saddle)
     pot = land.potential
     with np.errstate(all="ignore"):
-        if land.e < 0:
-            angle = angle_between(spot, place)
-            seen, slopes = angle + TURN * np.round((loops.offset - angle) / TURN), abs(pot.c) + abs(pot.d)
-            shaken = 0.0
-        else:
-            big = np.abs(place[0]) >= np.abs(place[1])
-            seen = np.where(big, np.log(np.abs(place[0] / spot[0])), -np.log(np.abs(place[1] / spot[1])))
-            slopes = abs(pot.e1) + abs(pot.e2)
-            wide, largest = size[0] + size[1], np.maximum(np.abs(place[0]), np.abs(place[1]))
-            beside = np.abs(place[0] * place[1] - spot[0] * spot[1]) / ((np.abs(place[0]) + np.abs(place[1])) * wide)
-            shaken = pot.mu * wide / largest  # the tilt falls by mu times the logarithm of the place
-        departure = np.abs(0.5 * w * w + pot.rise(seen, spot))
-        scale = 0.5 * w * w + np.abs(pot.G) * (size[0] ** 2 + size[1] ** 2) + slopes * (size[0] + size[1]) + pot.mu + shaken
-        along = np.where(departure > 0, departure / scale, 0.0)
-        return along if land.e < 0 else np.fmax(along, beside)
+        departure = np.abs(0.5 * w * w + pot.rise(land.way(spot, place, loops.offset), spot))
+        shaken, beside = land.blurred(spot, place, size)
+        scale = 0.5 * w * w + np.abs(pot.G) * (size[0] ** 2 + size[1] ** 2) + pot.slopes * (size[0] + size[1]) + pot.mu + shaken
+        return np.fmax(np.where(departure > 0, departure / scale, 0.0), beside)

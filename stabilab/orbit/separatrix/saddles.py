@@ -31,14 +31,7 @@ class Branch(NamedTuple):
 
     def place(self, s):
         """The same as a place of the reduced potential."""
-        return as_place(self.conic.e, *self.at(s))
-
-
-def sides(e, sense):
-    """Which way loops leave a saddle, and the word for it: against the torque on a tilted circle, both ways otherwise."""
-    if e < 0 and sense:
-        return ((-1, ""),)
-    return ((-1, ", left loop"), (1, ", right loop"))
+        return self.conic.place(*self.at(s))
 
 
 def limit_of(conic, reach) -> float:
@@ -59,11 +52,6 @@ def saddle_branches(conic, pot, limit) -> tuple[Branch, ...]:
     return tuple(found)
 
 
-def as_place(e, x, z):
-    """(X, Z) as the potential takes it: on a hyperbola (X + Z, X - Z)."""
-    return (x, z) if e < 0 else (x + z, x - z)
-
-
 def on_line(line, t):
     return line.x0 + t * line.dx, line.z0 + t * line.dz
 
@@ -76,16 +64,16 @@ def foot(conic, line) -> float:
 
 def _on_piece(conic, piece, limit):
     """Branches of a piece inside the limit on |Q|, starting at a fold, cut where Q = 0 (a plane)."""
-    ends = [h for q in ((limit,) if conic.e < 0 else (limit, -limit)) for h in _meet(conic, piece, q)]
+    ends = [h for q in conic.within(limit) for h in _meet(conic, piece, q)]
     inner = piece.inner or min(ends, default=None)
     outer = piece.outer if math.isfinite(piece.outer) else max(ends, default=None)
     if inner is None or outer is None or not inner < outer:
         return
-    cuts = [inner, *(h for h in (_meet(conic, piece, 0.0) if conic.e > 0 else ()) if inner < h < outer), outer]
+    cuts = [inner, *(h for q in conic.planes for h in _meet(conic, piece, q) if inner < h < outer), outer]
     folds = {piece.inner, piece.outer}
     for low, high in zip(cuts, cuts[1:]):
         start, end = (high, low) if high == piece.outer else (low, high)
-        on_plane = conic.e > 0 and abs(conic.invariant(piece.sign * end)) < ON_PLANE * abs(conic.invariant(piece.sign * start))
+        on_plane = conic.planes and abs(conic.invariant(piece.sign * end)) < ON_PLANE * abs(conic.invariant(piece.sign * start))
         yield Branch(conic, None, piece.sign * start, piece.sign * end,
                      PLANE if on_plane else FOLD if end in folds else OPEN)
 
@@ -106,5 +94,5 @@ def _on_line(conic, pot, line, limit):
     far = (2 * math.sqrt(limit) + abs(line.x0) + abs(line.z0)) / math.hypot(line.dx, line.dz) + max(map(abs, knots))
     knots = sorted({-far, *knots, far})
     for low, high in zip(knots, knots[1:]):
-        if pot.slope(as_place(conic.e, *on_line(line, 0.5 * (low + high)))) > 0:
+        if pot.slope(conic.place(*on_line(line, 0.5 * (low + high)))) > 0:
             yield (low, high) if abs(low) < abs(high) else (high, low)

@@ -20,7 +20,7 @@ from .circle_numba import serves, sheets_by_kernel
 from .grid import grid
 from .homoclinic_arrays import residual
 from .result import Separatrix, Sheet
-from .saddles import limit_of, saddle_branches, sides
+from .saddles import limit_of, saddle_branches
 
 SHAPE = (96, 129)  # fine enough for pictures
 
@@ -44,13 +44,13 @@ def separatrix(scene, reach: float | None = None, shape: tuple[int, int] | None 
     land = landscape(effective(scene))
     if land is None:
         return Separatrix((), "no reduction to one degree of freedom: the separatrix of this scene is not known in closed form")
-    if land.e == 0:
+    if land.conic is None:
         return Separatrix((), "parabolic reduction (two equal moments): all motions are bounded by walls on both sides, "
                               "except pure spin about the torque; no sheet bounds a spin-up")
     branches = saddle_branches(land.conic, land.potential, limit_of(land.conic, reach or 4.0))
     if not branches:
         return Separatrix((), _why_none(land))
-    strips = [(branch, side) for branch in branches for side, _ in sides(land.e, land.sense)]
+    strips = [(branch, side) for branch in branches for side, _ in land.conic.sides(land.sense)]
     rows, columns = shape or SHAPE
     half = None if accuracy else (rows, columns // 2 + 1)
     made = _by_kernel(land, strips, half, accuracy) if _goes_fast(land, strips, fast) else _by_arrays(land, strips, half, accuracy)
@@ -99,7 +99,7 @@ def _sheets(land, strips, points, off, saddles, centres, found, cut, error):
     still = np.zeros(found.shape)
     saddle, centre = (land.components(place, still) for place in (saddles, centres))
     invariant = land.invariant(saddles)
-    words = [word for _, word in sides(land.e, land.sense)]
+    words = [word for _, word in land.conic.sides(land.sense)]
     per = len(words)
     for first in range(0, len(strips), per):
         kept = [strip for strip in range(first, first + per) if np.count_nonzero(found[strip]) > 1]
@@ -111,7 +111,7 @@ def _sheets(land, strips, points, off, saddles, centres, found, cut, error):
 
 
 def _what_it_parts(land) -> str:
-    if land.e > 0:
+    if land.potential.walled:
         return "both sides of each sheet are bounded: it parts oscillations about one centre from those around two"
     if land.sense == 0:
         return ("both sides of each sheet are bounded: inside motions oscillate about a centre, outside about more of "

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import stabilab
-from stabilab.orbit.conic import Conic
+from stabilab.orbit.conic import conic_of
 from stabilab.orbit.reduction import reduce
 from stabilab.orbit.separatrix.distance.ask import distance_of
 from stabilab.orbit.separatrix.distance.curves import Hyperbola
@@ -31,7 +31,7 @@ def test_the_chart_beside_a_state_errs_by_less_than_its_bounds_however_alike_two
             moments[pair[1]] = moments[pair[0]] * (1 + gap)
             wheel, torque, state = rng.normal(size=3), (0, 0, float(rng.normal())), rng.normal(size=3).tolist()
             reduction = reduce(physical(tuple(moments), (*wheel[:2], 0), torque)[0])
-            seen, conic = Seen.of(reduction, state), Conic(reduction)
+            seen, conic = Seen.of(reduction, state), conic_of(reduction)
             for piece in conic.pieces:
                 if not piece.barrier:
                     continue
@@ -55,7 +55,7 @@ def test_charts_of_long_loops_err_by_less_than_their_bounds():
         reduction = reduce(physical(moments, wheel, [rng.normal() * (n == axis and rng.random() < 0.5) for n in range(3)])[0])
         if reduction is None or reduction.e < 0:
             continue
-        seen, conic = Seen.of(reduction, state.tolist()), Conic(reduction)
+        seen, conic = Seen.of(reduction, state.tolist()), conic_of(reduction)
         curves = [Hyperbola(seen, *conic.sharp_ends(piece), piece.sign) for piece in conic.pieces if piece.barrier]
         for chart in (chart for curve in curves for chart in loops_of(seen, curve, curve.low, curve.high, 100.0)):
             for _ in range(10 * (type(chart) in seen_points)):

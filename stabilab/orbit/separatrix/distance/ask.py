@@ -63,7 +63,7 @@ def distance_of(reduction, state, orbit: Orbit | None = None) -> Apart:
         return NO_SEPARATRIX
     state = tuple(v if isinstance(v, Fraction) else float(v) for v in state)
     try:
-        found = on_conic(reduction, state, orbit or Orbit(reduction, state)) if reduction.e else on_parabolas(reduction, state)
+        found = on_conic(reduction, state, orbit or Orbit(reduction, state)) if reduction.geometry.centred else on_parabolas(reduction, state)
     except (Unclear, ArithmeticError, ValueError):  # a logarithm of what has vanished in doubles is a ValueError
         return UNKNOWN
     if found.upper != found.upper or found.lower != found.lower:

@@ -4,8 +4,6 @@ Those of a loop chart are written out, as sums of sizes without differences of n
 """
 from __future__ import annotations
 
-import math
-
 from .curves import ROUNDING
 
 MORE = 2.0**-40  # of a middle: what the rounding of a dozen operations stays far below
@@ -60,12 +58,7 @@ def loop_bends(seen, curve, t, dt, y, dy):
     e, g = seen.e, seen.plain
     G, c, d, n2, a, b2 = g["G"], g["c"], g["d"], g["n2"], g["a"], g["b"]
     x, rx, z, rz, x1, rx1, z1, rz1, x2, rx2, z2, rz2, u, v, su, sv = curve.over(t, dt)
-    if e < 0:
-        s, q = math.sin(y), math.cos(y)
-        rs, rq, half = dy * min(1.0, abs(q) + dy), dy * min(1.0, abs(s) + dy), math.sin(0.5 * y)
-    else:
-        s, q, half = math.sinh(y), math.cosh(y), math.sinh(0.5 * y)
-        rs, rq = dy * math.cosh(abs(y) + dy), dy * math.sinh(abs(y) + dy)
+    s, q, half, rs, rq = seen.geometry.turns(y, dy)
     less = 2 * e * half * half
     ms, mq = abs(s) + rs, abs(q) + rq
 

@@ -9,7 +9,7 @@ import math
 
 from .curves import Hyperbola
 from .far_chart import FarChart, Reach
-from .loop_chart import Chart
+from .loop_chart import OpenChart
 from .turn_chart import TurnChart
 
 NEAR = 1.0  # the way along loops up to which the place on the branch is a good parameter
@@ -36,7 +36,7 @@ def loops_of(seen, curve, low, high, upper):
         ends.append(way if way <= SHORT else NEAR)
         if way > SHORT:
             far += side.charts(low, high)
-    yield Chart(seen, curve, (low, high), (-ends[0], ends[1]))
+    yield OpenChart(seen, curve, (low, high), (-ends[0], ends[1]))
     yield from far
 
 
@@ -71,7 +71,7 @@ class _Side:
         low, high = self._values(a, b, self.flip)
         if not isinstance(self.curve, Hyperbola) or not low * high > 0:
             way = min(way, max(math.log(self.most / NOWHERE), SHORT))
-            yield Chart(self.seen, self.curve, (a, b), (-way, -NEAR) if self.flip < 0 else (NEAR, way))
+            yield OpenChart(self.seen, self.curve, (a, b), (-way, -NEAR) if self.flip < 0 else (NEAR, way))
             return
         chart = TurnChart(self.seen, self.curve, self.flip, (a, b))
         least = min(abs(low), abs(high)) * math.exp(NEAR) * (1 - 1e-9)

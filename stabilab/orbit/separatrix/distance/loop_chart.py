@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import math
 
-from ...potential import y_minus_sin
 from .bends import loop_bends
 from .point import UNIT, Point, gap_of, square_of
 from .sharp import loop_place, sharp_place, sharp_point
@@ -37,16 +36,8 @@ class Chart:
                 yield self, 0.5 * (t0 + t1), 0.5 * (t1 - t0), low + half if high else -half, half
 
     def misses(self, t, dt, y, dy, upper):
-        """Whether a box of a hyperbola's sheet is farther than `upper` for certain, by the ranges of X + Z and X - Z alone:
-        they grow and shrink like e^y, and a Taylor polynomial over a long way tells nothing."""
-        if self.seen.e < 0:
-            return False
-        g = self.here
-        wide = upper * (1 / math.sqrt(g["a"]) + 1 / math.sqrt(g["b"])) * (1 + 1e-9)
-        x, rx, z, rz = self.curve.over(t, dt)[:4]
-        low, high = math.exp(y - dy), math.exp(y + dy)
-        return (outside(x + z, rx + rz, low, high, g["X"] + g["Z"], wide)
-                or outside(x - z, rx + rz, 1 / high, 1 / low, g["X"] - g["Z"], wide))
+        """Whether a box is farther than `upper` for certain, by a quicker look than a Taylor polynomial."""
+        return False
 
     def holds(self, t, y):
         """Whether the point belongs to the sheet."""
@@ -70,7 +61,7 @@ class Chart:
     def place(self, t, y):
         """(X, Z, W/n) in floats, X and Z less the state's."""
         at = self.curve.at(t)
-        s, half = (math.sin(y), math.sin(0.5 * y)) if self.seen.e < 0 else (math.sinh(y), math.sinh(0.5 * y))
+        s, half = self.seen.geometry.turn(y)
         b = 2 * self.seen.e * half * half
         return at.u + at.x * b + at.z * s, at.v + at.z * b + self.seen.e * at.x * s, math.sqrt(max(self.point(t, y).phi, 0.0))
 
@@ -78,12 +69,8 @@ class Chart:
         e, g = self.seen.e, self.here
         G, c, d, mu, n2, a, b2 = g["G"], g["c"], g["d"], g["mu"], g["n2"], g["a"], g["b"]
         x, z, xt, zt, sx, sz, u, v, su, sv, p, r, sp, sr = self.curve.at(t)
-        if e < 0:
-            s, half = math.sin(y), math.sin(0.5 * y)
-            b, lag = -2 * half * half, y_minus_sin(y)
-        else:
-            s, half = math.sinh(y), math.sinh(0.5 * y)
-            b, lag = 2 * half * half, y - s if abs(y) > 0.3 else _less_sinh(y)
+        s, half = self.seen.geometry.turn(y)
+        b, lag = 2 * e * half * half, self.seen.geometry.lag(y, s)
         q = 1 + b
         X, Z, Xt, Zt = x * q + z * s, z * q + e * x * s, xt * q + zt * s, zt * q + e * xt * s
         big_s, big_b = abs(s), abs(b)
@@ -116,7 +103,7 @@ class Chart:
         return sharp_place(self, t, y)
 
     def sharp(self, numbers, g, t, y):
-        return loop_place(g, self.seen.e, self.curve.sharp(numbers, g, t), y)
+        return loop_place(g, self.seen.geometry, self.curve.sharp(numbers, g, t), y)
 
     @staticmethod
     def metric(g):
@@ -127,15 +114,22 @@ class Chart:
         return loop_bends(self.seen, self.curve, t, dt, y, dy)
 
 
+class OpenChart(Chart):
+    """A sheet whose loops are hyperbolas."""
+
+    def misses(self, t, dt, y, dy, upper):
+        """By the ranges of X + Z and X - Z alone: they grow and shrink like e^y, and a Taylor polynomial over a long way tells nothing."""
+        g = self.here
+        wide = upper * (1 / math.sqrt(g["a"]) + 1 / math.sqrt(g["b"])) * (1 + 1e-9)
+        x, rx, z, rz = self.curve.over(t, dt)[:4]
+        low, high = math.exp(y - dy), math.exp(y + dy)
+        return (outside(x + z, rx + rz, low, high, g["X"] + g["Z"], wide)
+                or outside(x - z, rx + rz, 1 / high, 1 / low, g["X"] - g["Z"], wide))
+
+
 def outside(middle, radius, low, high, place, wide):
     """Whether all products of a number within the radius and a factor in [low, high] are farther than `wide` from the place."""
     least, most = middle - radius, middle + radius
     least, most = least * (low if least > 0 else high), most * (high if most > 0 else low)
     slack = 1e-12 * (abs(least) + abs(most) + abs(place))
     return least - slack > place + wide or most + slack < place - wide
-
-
-def _less_sinh(y):
-    """y - sinh y for |y| <= 0.3."""
-    t = y * y
-    return -y * t / 6 * (1 + t / 20 * (1 + t / 42 * (1 + t / 72 * (1 + t / 110))))

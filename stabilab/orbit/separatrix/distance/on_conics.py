@@ -14,7 +14,7 @@ from itertools import pairwise
 from typing import Any, NamedTuple
 
 from ....numbers.balls import DOUBLE_BITS
-from ...conic import Conic
+from ...conic import conic_of
 from ...fate.balls import decide
 from ..result import NO_SEPARATRIX, Apart
 from .curves import Hyperbola, Straight
@@ -29,15 +29,10 @@ INF = math.inf
 
 def on_conic(reduction, state, orbit) -> Apart:
     """The distance of a state whose orbit is a circle or a hyperbola."""
-    seen, conic = Seen.of(reduction, state), Conic(reduction)
-    arcs = list(_arcs(conic, seen))
-    if not arcs and not (seen.e > 0 and reduction.sense == 0):
-        return NO_SEPARATRIX
-    shade = _shade(orbit, arcs)
-    flat = _flat_pieces(seen, reduction.sense)
-    if seen.e > 0:
-        flat += [place for arc in arcs for place in planes_met(seen, arc.curve, arc.low, arc.high)]
-    start = min([_first(seen, arc, shade) for arc in arcs] + flat, key=lambda one: one[0], default=None)
+    seen, way = Seen.of(reduction, state), GEOMETRIES[reduction.e]
+    arcs = list(_arcs(way, conic_of(reduction), seen))
+    shade = way.shade(orbit, arcs)
+    start = min([_first(seen, arc, shade) for arc in arcs] + way.flat(seen, reduction.sense, arcs), key=lambda one: one[0], default=None)
     if start is None:
         return NO_SEPARATRIX
     charts = [chart for arc in arcs for chart in arc.charts(seen, reduction.sense, start[0])]
@@ -59,36 +54,64 @@ class _Arc(NamedTuple):
     low: float
     high: float
 
-    def window(self, seen, upper):
-        """The part of [low, high] whose saddles' orbits come within `upper` of the state."""
-        g = seen.plain
-        reach = math.hypot(g["X"], g["Z"]) + upper * (1 + 1e-9) / math.sqrt(min(g["a"], g["b"]))
-        if seen.e > 0:
-            return self.low, self.high  # the saddles of a hyperbola lie within a circle
-        low, high = self.curve.window(reach)
-        return max(self.low, low), min(self.high, high)
+
+class _OnCircles(_Arc):
+    """Of circles."""
 
     def charts(self, seen, sense, upper):
-        t = self.window(seen, upper)
-        if not t[0] <= t[1]:
-            return
-        if seen.e > 0:
-            yield from loops_of(seen, self.curve, *t, upper)
-        else:
+        """Charts of the loops that come within `upper` of the state."""
+        g = seen.plain
+        reach = math.hypot(g["X"], g["Z"]) + upper * (1 + 1e-9) / math.sqrt(min(g["a"], g["b"]))
+        low, high = self.curve.window(reach)
+        t = max(self.low, low), min(self.high, high)
+        if t[0] <= t[1]:
             yield Chart(seen, self.curve, t, (-2 * math.pi, 0.0) if sense else (-math.pi, math.pi))
 
+    @staticmethod
+    def flat(seen, sense, arcs):
+        """[(distance, foot)] of what belongs to the separatrix besides the loops."""
+        return []
 
-def _arcs(conic, seen):
+    @staticmethod
+    def shade(orbit, arcs):
+        """What may shade a sheet: only a state that a barrier holds sees the difference, and only where there are two barriers."""
+        reduction = orbit.reduction
+        if not reduction.sense or len(arcs) < 2 or decide(orbit, DOUBLE_BITS).sign < 0:
+            return None
+        g = reduction.constants
+        return Shade((g["G"], g["c"], g["d"], g["mu"]))
+
+
+class _OnHyperbolas(_Arc):
+    """Of hyperbolas, whose saddles lie within a circle."""
+
+    def charts(self, seen, sense, upper):
+        if self.low <= self.high:
+            yield from loops_of(seen, self.curve, self.low, self.high, upper)
+
+    @staticmethod
+    def flat(seen, sense, arcs):
+        return ([] if sense else _flat_pieces(seen)) + [place for arc in arcs for place in planes_met(seen, arc.curve, arc.low, arc.high)]
+
+    @staticmethod
+    def shade(orbit, arcs):
+        return None
+
+
+GEOMETRIES: dict[int, type[_OnCircles] | type[_OnHyperbolas]] = {-1: _OnCircles, 1: _OnHyperbolas}
+
+
+def _arcs(way, conic, seen):
     """The branches of saddles."""
     for piece in conic.pieces:
         if piece.barrier:
             curve = Hyperbola(seen, *conic.sharp_ends(piece), piece.sign)
-            yield _Arc(curve, curve.low, curve.high)
+            yield way(curve, curve.low, curve.high)
     for line in conic.lines:
         curve = Straight(seen, ("x" if line.dz else "z") if conic.G else None)
         for low, high in pairwise((-INF, *curve.knots, INF)):
             if _slope(seen, *curve.at(_between(low, high))[:2]) > 0:
-                yield _Arc(curve, low, high)
+                yield way(curve, low, high)
 
 
 def _between(low, high):
@@ -100,17 +123,6 @@ def _between(low, high):
 def _slope(seen, x, z):
     g, e = seen.plain, seen.e
     return g["G"] * (z * z + e * x * x) + e * g["c"] * x + g["d"] * z
-
-
-def _shade(orbit, arcs):
-    """What may shade a sheet: only a state that a barrier holds sees the difference, and only where there are two barriers."""
-    reduction = orbit.reduction
-    if reduction.e > 0 or not reduction.sense or len(arcs) < 2:
-        return None
-    if decide(orbit, DOUBLE_BITS).sign < 0:
-        return None
-    g = reduction.constants
-    return Shade((g["G"], g["c"], g["d"], g["mu"]))
 
 
 def _first(seen, arc, shade):
@@ -134,10 +146,8 @@ def _first(seen, arc, shade):
     return best
 
 
-def _flat_pieces(seen, sense):
+def _flat_pieces(seen):
     """[(distance, foot)] of the planes of a hyperbola without torque, where the foot of the perpendicular is on the separatrix."""
-    if seen.e < 0 or sense:
-        return []
     g, found = seen.plain, []
     for flip in (1.0, -1.0):  # Z = flip X
         x = (g["a"] * g["X"] + flip * g["b"] * g["Z"]) / (g["a"] + g["b"])

@@ -13,6 +13,7 @@ from __future__ import annotations
 import math
 from fractions import Fraction
 
+from ...potential import Parabola
 from ..result import NO_SEPARATRIX, Apart
 from .bends import Span
 from .loop_chart import Chart
@@ -101,7 +102,7 @@ def parabola_seen(reduction, state):
         return None
     exact = {"kappa": r.kappa, "a": p0, "K": sigma * rho - r.kappa * r.m, "u": r.kappa * u + rho, "v": r.kappa * v + sigma,
              "w": abs(Fraction(state[r.axis]) + r.s)}
-    return seen_as(0, exact)
+    return seen_as(Parabola, exact)
 
 
 def rectangle(g, upper):

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 EPS = 2.0**-52
 ROUNDINGS = 48  # units in the last place of the largest terms that a value at a point is off by at most
@@ -45,22 +45,27 @@ class Constants:
 class Seen(NamedTuple):
     """A reduction seen from a state: constants of the force and the metric, the state's place; exact, as balls and as doubles."""
 
-    e: int
+    geometry: Any  # a class of `potential`
     exact: dict
     balls: Constants
     plain: dict
+
+    @property
+    def e(self) -> int:
+        """The sign of p q."""
+        return self.geometry.e
 
     @staticmethod
     def of(reduction, state):
         g, r = reduction.exact_constants, reduction
         u, v, speed = (Fraction(state[axis]) for axis in (r.j, r.k, r.axis))
         x, z, w = g["flip"] * (u + g["sj"]) / g["rx"], (v + g["sk"]) / g["rz"], g["n"] * (speed + r.s)
-        return seen_as(reduction.e, {"G": g["G"], "c": g["c"], "d": g["d"], "mu": g["mu"], "n2": g["n"] ** 2, "a": g["rx"] ** 2,
-                                     "b": g["rz"] ** 2, "X": x, "Z": z, "w": abs(w) / g["n"]})
+        return seen_as(reduction.geometry, {"G": g["G"], "c": g["c"], "d": g["d"], "mu": g["mu"], "n2": g["n"] ** 2, "a": g["rx"] ** 2,
+                                            "b": g["rz"] ** 2, "X": x, "Z": z, "w": abs(w) / g["n"]})
 
 
-def seen_as(e, exact) -> Seen:
-    return Seen(e, exact, Constants(exact), {name: float(value) for name, value in exact.items()})
+def seen_as(geometry, exact) -> Seen:
+    return Seen(geometry, exact, Constants(exact), {name: float(value) for name, value in exact.items()})
 
 
 def gap_of(phi, off_phi, w0):

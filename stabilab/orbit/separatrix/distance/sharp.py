@@ -71,10 +71,10 @@ def _double(ball):
     return value, (float(ball.rad()) + EPS * abs(value)) * (1 + 4 * EPS)
 
 
-def loop_place(g, e, saddle, y) -> Place:
+def loop_place(g, geometry, saddle, y) -> Place:
     """On a circle or hyperbola, from a saddle (x, z, x_t, z_t)."""
     x, z, xt, zt = saddle
-    C, S = (y.cos(), y.sin()) if e < 0 else (y.cosh(), y.sinh())
+    e, (C, S) = geometry.e, geometry.turned(y)
     X, Z, Xt, Zt = x * C + z * S, z * C + e * x * S, xt * C + zt * S, zt * C + e * xt * S
     G, c, d, mu, k = g["G"], g["c"], g["d"], g["mu"], 2 / g["n2"]
     phi = k * (mu * y + G * (X * X - x * x) / 2 + c * (X - x) + e * d * (Z - z))
