@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 
-from .roots import between
+from .roots import held_newton
 from .vectors import Number
 
 EPS = 2.0**-52  # a whole unit in the last place: twice what one rounding costs, so the bounds' own rounding is paid for
@@ -288,19 +288,11 @@ def real_roots_of(c: Sequence[float]) -> list[float]:
 def _crossing(c: Sequence[float], low: float, high: float) -> float:
     """The root between low and high, where the signs differ."""
     slopes, rising = _derivative(c), _value_and_size(c, high)[0] > 0
-    x = between(low, high)
-    for _ in range(2200):  # bisection alone takes no more, over all doubles
-        value, slope = _value_and_size(c, x)[0], _value_and_size(slopes, x)[0]
-        if value == 0:
-            return x
-        low, high = (low, x) if (value > 0) == rising else (x, high)
-        new = x - value / slope if slope else low
-        if not low < new < high or abs(new - x) > 0.5 * (high - low):
-            new = between(low, high)
-        if abs(new - x) <= EPS * abs(x) or not low < new < high:
-            return new
-        x = new
-    raise Unclear
+
+    def look(x: float) -> tuple[float, float, bool | None]:
+        value = _value_and_size(c, x)[0]
+        return value, _value_and_size(slopes, x)[0], (value > 0) == rising if value else None
+    return held_newton(look, low, high, 0.5, EPS)
 
 
 def _root_ball(c: Sequence[float], slopes: Sequence[float], t: float) -> Ball:

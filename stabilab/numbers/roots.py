@@ -1,4 +1,4 @@
-"""Vectorised root finding: Newton's method held inside a bracket."""
+"""Root finding: Newton's method held inside a bracket, for arrays and for floats; the golden section."""
 from __future__ import annotations
 
 import math
@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     import numpy as np
 
 EPS = 2.0**-52
+MOST_STEPS = 4000  # bisection alone takes no more than 2200, over all doubles
 TINY = 1e-290  # so small a sum of products may have lost some to underflow
 
 
@@ -62,6 +63,23 @@ def bracketed_newton(fun: Callable[..., tuple[np.ndarray, np.ndarray]], lo: np.n
     return out
 
 
+def golden_section(size_of: Callable[[float], float], low: float, high: float, steps: int) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Two places close together, each with its size, after so many steps towards the least size between low and high."""
+    golden = (math.sqrt(5) - 1) / 2
+    a, b = high - golden * (high - low), low + golden * (high - low)
+    at_a, at_b = size_of(a), size_of(b)
+    for _ in range(steps):
+        if at_a < at_b:
+            high, b, at_b = b, a, at_a
+            a = high - golden * (high - low)
+            at_a = size_of(a)
+        else:
+            low, a, at_a = a, b, at_b
+            b = low + golden * (high - low)
+            at_b = size_of(b)
+    return (a, at_a), (b, at_b)
+
+
 def real_polynomial_roots(coefficients: Sequence[Fraction]) -> list[float]:
     """Real roots, ascending, of a polynomial with exact (Fraction) coefficients, highest first.
 
@@ -108,28 +126,37 @@ def _bisect_newton(value: Callable[[Number], Number], left: Fraction, right: Fra
     """The root in (left, right), to the nearest double or its neighbour: floats guide, exact signs decide."""
     unit = Fraction(2) ** -max(_log2(a) for a in coefficients if a)  # coefficients of any size would overflow
     slopes = [float(a * unit) for a in coefficients]
-    lo, hi, sign = float(left), float(right), fl > 0
-    x = between(lo, hi)
-    for _ in range(4000):
+
+
+    def look(x: float) -> tuple[float, float, bool | None]:
         f, df, size = 0.0, 0.0, 0.0
         for a in slopes:
             df = df * x + f
             f = f * x + a
             size = size * abs(x) + abs(a)
-        positive = f > 0
-        if not TINY < size < math.inf or abs(f) < 1e-10 * size:  # the sign must be exact
-            exact = value(Fraction(x)) * unit
-            if exact == 0:
-                return x
-            positive, f = exact > 0, float(exact) if _log2(exact) < 1000 else math.inf
-        if positive == sign:
-            lo = x
-        else:
-            hi = x
-        new = x - f / df if f and df and math.isfinite(df) else between(lo, hi)
-        if not lo < new < hi or abs(new - x) > 0.9 * (hi - lo):
-            new = between(lo, hi)
-        if not lo < new < hi or abs(new - x) <= 1e-17 * abs(x):
+        if TINY < size < math.inf and not abs(f) < 1e-10 * size:
+            return f, df, (f > 0) != (fl > 0)
+        exact = value(Fraction(x)) * unit  # the sign must be exact
+        return float(exact) if _log2(exact) < 1000 else math.inf, df, (exact > 0) != (fl > 0) if exact else None
+    return held_newton(look, float(left), float(right), 0.9, 1e-17)
+
+
+def held_newton(look: Callable[[float], tuple[float, float, bool | None]], low: float, high: float, share: float, enough: float) -> float:
+    """The root between two floats, to a double or its neighbour: Newton's method held in a bracket.
+
+    look(x) -> (value, slope, whether x lies beyond the root; None where it is the root). share: of the bracket, the longest step that
+    is taken; enough: the last step, relative.
+    """
+    x = between(low, high)
+    for _ in range(MOST_STEPS):
+        value, slope, beyond = look(x)
+        if beyond is None:
+            break
+        low, high = (low, x) if beyond else (x, high)
+        new = x - value / slope if slope else low
+        if not low < new < high or abs(new - x) > share * (high - low):
+            new = between(low, high)
+        if not low < new < high or abs(new - x) <= enough * abs(x):
             return new
         x = new
     return x

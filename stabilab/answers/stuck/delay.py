@@ -6,6 +6,7 @@ from fractions import Fraction
 
 import numpy as np
 
+from ...numbers.roots import golden_section
 from .fate import time_under
 from .reach import first_time
 
@@ -34,7 +35,8 @@ def delayed(scenario, torque, axis, now, time):
     best = int(np.argmax(times))
     s = float(places[best])
     if math.isfinite(times[best]):
-        s = _closer(until, places[max(best - 1, 0)], places[min(best + 1, PLACES - 1)], s, times[best])
+        closer = golden_section(lambda s: -until(s), places[max(best - 1, 0)], places[min(best + 1, PLACES - 1)], CLOSER)
+        s = float(min((s, -times[best]), *closer, key=lambda one: one[1])[0])
     told = time_under(scenario, torque, [w + Fraction(s) * a for w, a in zip(others, axis)])
     gain = None if told is None else told[0] - time[0]
     if gain is not None and gain <= 0:
@@ -46,20 +48,3 @@ def _own(scenario, torque) -> float:
     """For a wheel at rest: the momentum of the body itself, and of what its torque makes of it."""
     weight = max(scenario.body.inertia)
     return weight * max(math.hypot(*scenario.start), math.sqrt(math.hypot(*map(float, torque)) / weight))
-
-
-def _closer(until, low, high, s, time) -> float:
-    """The best momentum between two of them, by the golden section."""
-    golden = (math.sqrt(5) - 1) / 2
-    a, b = high - golden * (high - low), low + golden * (high - low)
-    at_a, at_b = until(a), until(b)
-    for _ in range(CLOSER):
-        if at_a > at_b:
-            high, b, at_b = b, a, at_a
-            a = high - golden * (high - low)
-            at_a = until(a)
-        else:
-            low, a, at_a = a, b, at_b
-            b = low + golden * (high - low)
-            at_b = until(b)
-    return max(((s, time), (float(a), at_a), (float(b), at_b)), key=lambda one: one[1])[0]

@@ -7,6 +7,7 @@ from fractions import Fraction
 import numpy as np
 
 from ...numbers.exact import sqrt_fraction
+from ...numbers.roots import golden_section
 from ...orbit.result import Fate
 from .family import STEADY, TRIES, change_between, family_of
 from .result import Margin
@@ -16,7 +17,7 @@ TURN = 2000  # places on the turn at which the rise of the potential is looked a
 MOST = 1000  # of the body's own momentum: changes of the wheel as great are not told
 BESIDE = 2 * math.pi * np.geomspace(1e-4, 1e-2, 5)  # of a turn: directions beside that of a circle that is a point
 FEW = 5  # nearest places that are looked at in exact numbers
-DIRECTIONS = 180  # of a change of wheel momentum, at first
+DIRECTIONS, CLOSER = 180, 26  # of a change of wheel momentum, at first; steps nearer and nearer to the best of them
 TURNS = (0.0, 1e-5, -1e-5, 1e-4, -1e-4, 1e-3, -1e-3)  # rad: the nearest place may be the tip where two separatrices meet, with nothing straight behind it
 ALONE = "to the separatrix, where alone the fate is another: beyond it the motion is bounded again"
 CLOSE = Fraction(1, 10**6)  # of a change: how near to it, as doubles saw it, the exact change is looked for
@@ -169,25 +170,12 @@ def _nearest(rise, steady) -> list[tuple[float, float]]:
     sizes = np.array([rise.first_change(a, steady) for a in angles])
     least = [n for n in range(len(angles)) if sizes[n] <= min(sizes[n - 1], sizes[(n + 1) % len(angles)]) and math.isfinite(sizes[n])]
     least = sorted(least, key=lambda n: sizes[n])[:FEW]
-    return [_golden(lambda a: rise.first_change(a, steady), angles[n - 1] - 2 * math.pi * (n == 0), angles[n], angles[(n + 1) % len(angles)]
-                    + 2 * math.pi * (n + 1 == len(angles)), sizes[n]) for n in least]
-
-
-def _golden(size_of, low, middle, high, size):
-    """(angle, size) near the least size between two angles, by the golden section."""
-    golden = (math.sqrt(5) - 1) / 2
-    a, b = high - golden * (high - low), low + golden * (high - low)
-    at_a, at_b = size_of(a), size_of(b)
-    for _ in range(26):
-        if at_a < at_b:
-            high, b, at_b = b, a, at_a
-            a = high - golden * (high - low)
-            at_a = size_of(a)
-        else:
-            low, a, at_a = a, b, at_b
-            b = low + golden * (high - low)
-            at_b = size_of(b)
-    return min(((a, at_a), (b, at_b), (middle, size)), key=lambda one: one[1])
+    found = []
+    for n in least:
+        low, high = angles[n - 1] - 2 * math.pi * (n == 0), angles[(n + 1) % len(angles)] + 2 * math.pi * (n + 1 == len(angles))
+        closer = golden_section(lambda a: rise.first_change(a, steady), low, high, CLOSER)
+        found.append(min(*closer, (angles[n], sizes[n]), key=lambda one: one[1]))
+    return found
 
 
 class _Rise:
