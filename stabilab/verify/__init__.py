@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .equilibria import check_equilibria, equilibria_of
+from .equilibria.claims import check_equilibria, equilibria_of
 from .form import SCHEMA, check_frame, read, strangers
 from .motion import check_motion, motion_of
 from .precision import working

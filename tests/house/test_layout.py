@@ -19,7 +19,6 @@ HEAVY = {"sympy", "scipy", "matplotlib", "pyvista", "vtk", "vtkmodules", "heyoka
 DRAWING = {"matplotlib", "pyvista", "vtk", "vtkmodules", "trame", "jinja2", "xarray", "rich"}
 MODULES = sorted(PACKAGE.rglob("*.py"))
 FILES_IN_A_FOLDER = 16  # a list that fits the eye
-ROOMIER = {"stabilab/verify": 20}  # one subject, read as a whole by whoever trusts it; wings would hide its steps from each other
 SIGNS = 25  # tests of the sign of p q, of 139 once
 # Imports inside functions, besides those of the commands: (importing module, imported module) -> why it waits
 DOORS = {
@@ -102,8 +101,7 @@ def test_no_module_of_the_package_bears_a_public_name():
 
 @pytest.mark.parametrize("folder", sorted({path.parent for path in MODULES}), ids=lambda p: str(p.relative_to(ROOT)))
 def test_a_folder_holds_at_most_sixteen_files(folder):
-    most = ROOMIER.get(folder.relative_to(ROOT).as_posix(), FILES_IN_A_FOLDER)
-    assert len([path for path in folder.glob("*.py") if path.name != "__init__.py"]) <= most
+    assert len([path for path in folder.glob("*.py") if path.name != "__init__.py"]) <= FILES_IN_A_FOLDER
 
 
 def test_no_file_stands_beside_a_folder_of_its_name():

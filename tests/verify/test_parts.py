@@ -7,8 +7,9 @@ import pytest
 
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
 from stabilab.answers.certificate import certificate
-from stabilab.verify import complete, degenerate, motion, period, verify
-from stabilab.verify.curves import curve_of, judged
+from stabilab.verify import motion, period, verify
+from stabilab.verify.equilibria import complete, degenerate
+from stabilab.verify.equilibria.curves import curve_of, judged
 from stabilab.verify.facts import _single
 from stabilab.verify.numbers import Malformed, ball, hull
 from stabilab.verify.rates import Rates

@@ -6,8 +6,8 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from .numbers import exact_sign, fraction, q
-from .rates import AHEAD
+from ..numbers import exact_sign, fraction, q
+from ..rates import AHEAD
 
 
 def dot(a, b):

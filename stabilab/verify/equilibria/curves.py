@@ -3,10 +3,10 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+from ..numbers import LINEAR, VERDICT, Malformed, bracket, brief, entries, exact_sign, field, fraction, numbers, q, word
+from ..rates import AHEAD, characteristic
+from ..roots import real_zeros
 from .degenerate import drift, leaves_fold, on_common_level, on_own_orbit, reducing_direction
-from .numbers import LINEAR, VERDICT, Malformed, bracket, brief, entries, exact_sign, field, fraction, numbers, q, word
-from .rates import AHEAD, characteristic
-from .roots import real_zeros
 
 PAIRS = ((0, 1), (0, 2), (1, 2))
 

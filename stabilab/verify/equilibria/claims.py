@@ -3,14 +3,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ..krawczyk import excluded, only_zero
+from ..numbers import LINEAR, VERDICT, Malformed, bracket, brief, entries, exact_sign, field, word
+from ..rates import characteristic
 from .complete import whole_conic, whole_torque_free
 from .curves import check_curve, curve_of, identically_zero, judged
 from .degenerate import leaves_double_root
-from .krawczyk import excluded, only_zero
 from .line import contradictory, line_of, whole_line
-from .numbers import LINEAR, VERDICT, Malformed, bracket, brief, entries, exact_sign, field, word
 from .planes import check_plane, plane_of
-from .rates import characteristic
 
 KINDS = ("none", "points", "curves", "all")
 BITS = (128, 512, 2048, 8192)  # of the boxes about an exact zero, where the box claimed is too wide for Krawczyk's test

@@ -1,10 +1,10 @@
 """Planes of equilibria: a body with two equal moments and no torque, its gyrostatic moment along the axis of symmetry."""
 from __future__ import annotations
 
+from ..numbers import LINEAR, VERDICT, Malformed, brief, field, numbers, word
+from ..rates import AHEAD, characteristic
 from .curves import judged
 from .degenerate import cross, turned
-from .numbers import LINEAR, VERDICT, Malformed, brief, field, numbers, word
-from .rates import AHEAD, characteristic
 
 
 class Plane:

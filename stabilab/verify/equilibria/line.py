@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import isqrt
 
-from .numbers import exact_sign, q
+from ..numbers import exact_sign, q
 
 
 @dataclass(frozen=True)

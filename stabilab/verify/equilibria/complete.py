@@ -5,8 +5,8 @@ from __future__ import annotations
 from fractions import Fraction
 from functools import partial
 
+from ..numbers import q
 from .curves import Curve
-from .numbers import q
 from .planes import Plane
 
 
