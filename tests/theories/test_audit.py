@@ -17,6 +17,9 @@ from stabilab.theories.audit.findings import domain_of, examine, prove_systems
 from stabilab.theories.audit.formulas import FormulaError, parse, sides
 from stabilab.theories.audit.repair import edits, repairs
 from stabilab.theories.audit.systems import system_of
+from stabilab.theories.cavity import printed as cavity
+from stabilab.theories.charged import printed as charged
+from stabilab.theories.top import printed as top
 
 PAPERS = {name: audit.paper(name) for name in audit.papers()}
 ROWS = [(name, row.equation) for name, paper in PAPERS.items() for row in paper.rows]
@@ -227,3 +230,27 @@ def test_a_constant_is_read_exactly():
 def test_read_names_a_missing_file(tmp_path):
     with pytest.raises(InputError, match="cannot read"):
         read(tmp_path / "none.toml")
+
+
+@pytest.mark.parametrize("name, function", [
+    ("charged-axisymmetric", charged.formulas), ("newtonian-field-top", top.formulas), ("liquid-cavity", cavity.formulas)])
+def test_the_printed_models_evaluate_the_formulas_that_the_audit_tries(name, function):
+    paper, formula = PAPERS[name], function()
+    tried = " ".join(text for row in paper.rows if row.kind not in ("definition", "not-checkable") for text in (*row.printed, *row.where.values()))
+    untried = {key for key, text in paper.formulas.items() if text not in tried and not any(text in other for o, other in paper.formulas.items() if o != key)}
+    second_order = {"theta2_43", "psi2_43", "psi3_43", "phi3_43", "psi_43", "phi_43"}  # (43) is tried to first order, in the nutation
+    assert formula.formulas == paper.formulas and untried <= second_order
+
+
+def test_the_misprints_that_the_charged_model_tells_are_those_of_the_audit():
+    wrong = {row.equation for row in PAPERS["charged-axisymmetric"].rows if row.corrected and row.equation.isdigit()}
+    told = {n for key, (_, words, _) in charged.MISPRINTS.items() if words for n in re.findall(r"\((\d+)\)", key)}
+    assert wrong - told == {"9"}  # (8) again
+    assert told - wrong == {"64"}  # it leaves zeta3 and zeta4 undefined
+
+
+def test_a_formula_named_as_a_symbol_is_refused(tmp_path):
+    path = tmp_path / "own.toml"
+    path.write_text('[symbols]\n"x1" = "1"\n[formulas]\nx1 = "2"\n')
+    with pytest.raises(InputError, match="own.toml, formulas: 'x1' is a symbol already"):
+        read(path)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -44,10 +45,15 @@ ROW_KEYS = {
     "conditions",
     "residual",
     "verdict",
-    "figure",
+    "figures",
     "units",
     "repair",
 }
+
+
+KEYS = dict.fromkeys(("name", "title", "source", "figures", "symbols", "formulas", "definitions", "systems", "conditions", "domain", "row"))
+WORDS = {"equation", "kind", "says", "note", "because", "defines", "residual", "test", "system"}  # of a row: no formulas
+NAME = re.compile(r"[A-Za-z_]\w*")
 
 
 @dataclass(frozen=True)
@@ -81,32 +87,20 @@ class Paper:
     symbols: dict = field(repr=False)  # name -> SymPy symbol
     units: dict = field(repr=False)  # name -> words
     definitions: dict = field(repr=False)  # name -> text
+    formulas: dict = field(repr=False)  # name -> text as printed, which stands wherever a row names it; `model = "printed"` evaluates it
     systems: dict = field(repr=False)
     conditions: tuple[str, ...] = field(repr=False)
     domain: tuple[str, ...] = field(repr=False)  # expressions that are positive wherever their symbols stand
     rows: tuple[Row, ...] = field(repr=False)
     source: str = ""
+    figures: str = ""  # the short name under which `stabilab figures` draws the paper's figures
 
 
 def read(path: Path) -> Paper:
     """The paper of a file. InputError with file, row and position for what cannot be read."""
-    path = Path(path)
-    try:
-        data = tomllib.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(f"cannot read {path}: {error.strerror}") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise InputError(f"{path.name}: no TOML: {error}") from None
-    unknown = set(data) - {"name", "title", "symbols", "definitions", "systems", "conditions", "domain", "row", "source"}
-    if unknown:
-        raise InputError(
-            f"{path.name}: unknown keys {', '.join(sorted(unknown))}; known are name, title, source, symbols, definitions, systems, conditions, domain, row"
-        )
-    symbols, units = _symbols(data.get("symbols", {}), path.name)
-    definitions = data.get("definitions", {})
-    for name in definitions:
-        symbols.setdefault(name, _symbol(name, ""))
-    rows = tuple(_row(row, n, path.name, symbols) for n, row in enumerate(data.get("row", ()), 1))
+    path, data = Path(path), _data(path)
+    symbols, units, formulas, definitions = _vocabulary(data, path.name)
+    rows = tuple(_row(_expanded(row, formulas), n, path.name, symbols) for n, row in enumerate(data.get("row", ()), 1))
     seen: dict = {}
     for row in rows:
         if row.equation in seen:
@@ -118,17 +112,41 @@ def read(path: Path) -> Paper:
         symbols,
         units,
         definitions,
+        formulas,
         data.get("systems", {}),
         tuple(data.get("conditions", ())),
         _tuple(data.get("domain", ())),
         rows,
         data.get("source", ""),
+        data.get("figures", ""),
     )
-    for name, text in definitions.items():
-        _located(f"{path.name}, definitions.{name}", parse, text, symbols)
+    for table, texts in (("formulas", formulas), ("definitions", definitions)):
+        for name, text in texts.items():
+            _located(f"{path.name}, {table}.{name}", parse, text, symbols)
     for text in paper.domain:
         _located(f"{path.name}, domain", parse, text, symbols)
     return paper
+
+
+def _formulas(table, symbols, file) -> dict:
+    """Name -> text with every formula named before it put in."""
+    out: dict = {}
+    for name, text in table.items():
+        if not name.isidentifier() or name in symbols:
+            raise InputError(f"{file}, formulas: {name!r} is {'a symbol already' if name in symbols else 'no name (letters, digits, _)'}")
+        out[name] = _expanded(text, out)
+    return out
+
+
+def _expanded(value, formulas):
+    """Texts of a row, or of what it holds, with named formulas put in, in brackets."""
+    if isinstance(value, dict):
+        return {key: inner if key in WORDS else _expanded(inner, formulas) for key, inner in value.items()}
+    if isinstance(value, list):
+        return [_expanded(inner, formulas) for inner in value]
+    if not isinstance(value, str) or not formulas:
+        return value
+    return NAME.sub(lambda found: f"({formulas[found[0]]})" if found[0] in formulas else found[0], value)
 
 
 def _symbol(name, words):
@@ -137,6 +155,34 @@ def _symbol(name, words):
     if "complex" in words:
         return sp.Symbol(name)
     return sp.Symbol(name, positive=True) if "positive" in words else sp.Symbol(name, real=True)
+
+
+def vocabulary(path: Path) -> tuple[dict, dict, dict]:
+    """(name -> symbol, name -> formula, name -> definition), texts, of a paper's file without its rows. Errors as of `read`."""
+    symbols, _, formulas, definitions = _vocabulary(_data(path), Path(path).name)
+    return symbols, formulas, definitions
+
+
+def _data(path):
+    path = Path(path)
+    try:
+        data = tomllib.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(f"cannot read {path}: {error.strerror}") from None
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise InputError(f"{path.name}: no TOML: {error}") from None
+    if unknown := set(data) - KEYS.keys():
+        raise InputError(f"{path.name}: unknown keys {', '.join(sorted(unknown))}; known are {', '.join(KEYS)}")
+    return data
+
+
+def _vocabulary(data, file):
+    symbols, units = _symbols(data.get("symbols", {}), file)
+    formulas = _formulas(data.get("formulas", {}), symbols, file)
+    definitions = _expanded(data.get("definitions", {}), formulas)
+    for name in definitions:
+        symbols.setdefault(name, _symbol(name, ""))
+    return symbols, units, formulas, definitions
 
 
 def _symbols(table, place):

@@ -1,7 +1,9 @@
 """The printed Taylor polynomials of the body with a liquid, and the time at which they stop being true.
 
 Galal, Amer, Elneklawy, El-Kafly, "Studying the influence of a gyrostatic moment on the motion of a charged rigid body
-containing a viscous incompressible liquid", eqs (13), (14), (24)-(29). What is wrong in print, and how it is read here:
+containing a viscous incompressible liquid", eqs (13), (14), (24)-(29). The formulas are
+those of the audit's file on the paper (`theories/audit/papers/liquid-cavity.toml`), which holds each against the equations of motion.
+What is wrong in print, and how it is read here:
 - (20), (24), (27): the term of (D1' - D2')/4 lacks the factor a^2/2 that averaging (18) gives: kept as printed (its dimension is wrong).
 - (20)-(22), (24)-(28): the liquid torque is that of a body without rotor and charge, the average of a frequency that
   contains both; terms of the same order are missing: kept as printed.
@@ -22,6 +24,7 @@ import numpy as np
 
 from ...answers.trajectory import trajectory
 from ...errors import InputError
+from ..audit.evaluate import printed_formulas
 from .averaged import omega_of, times_row
 from .normal_form import check, constants
 
@@ -64,37 +67,35 @@ class Polynomials:
     def of(cls, scene, omega) -> Polynomials:
         check(scene)
         n = {k: float(v) for k, v in constants(scene).items()}
-        J, g, zeta, M3, L = n["J0"], n["Gamma"], n["zeta"], n["M3"], n["kappa"] / n["J0"] ** 3  # (23)
-        exact = scene.body.exact
+        exact, (p, q, r) = scene.body.exact, omega
         d1, d2 = float(exact[0] - exact[2]), float(exact[1] - exact[2])
-        p, q, r = omega
-        x1, x2 = d1 * r - g, d2 * r - g
+        x1, x2 = d1 * r - n["Gamma"], d2 * r - n["Gamma"]
         if not x1 * x2 > 0:
             raise InputError(f"the printed solution does not exist here: it needs (D1'r - g)(D2'r - g) > 0 at the start, got "
                              f"{x1 * x2:.3g}")
-        a, phi = math.hypot(p, q * math.sqrt(x2 / x1)), math.atan2(-q * math.copysign(math.sqrt(x2 / x1), x2), p)  # (13)
-        G, dG = x1 / x2, (d2 - d1) * g / x2**2  # and its derivative in r
-        mean, one, two = J * (d1 + d2) + (d1 - d2) ** 2, J + d1 + 2 * d2, J + 2 * d1 + d2
-        three, four = d2 * (J + 2 * d2 - d1), d1 * (J + 2 * d1 - d2)
-        f1 = L * a * (r**2 / 2 * mean + (d1 - d2) / 4 * (one * G - two)) - zeta * a  # (27)
-        f2 = -L * r * a**2 / 2 * (three * G + four) - (zeta * r - M3 / J)  # (28)
-        shrink = 1 - (d1 + d2) / (2 * J)
-        f3 = math.sqrt(x1 * x2) / J * shrink  # (29)
-        a2 = ((L * f1 * r**2 / 2 + L * a * r * f2) * mean + one * (f1 * G + a * dG * f2) * L * (d1 - d2) / 4
-              - L * f1 * (d1 - d2) / 4 * two - zeta * f1)
-        r2 = (-L * a / 2 * three * ((2 * r * f1 + f2 * a) * G + r * a * dG * f2) - L * a / 2 * four * (2 * r * f1 + f2 * a)
-              - zeta * f2)
-        phi2 = shrink / (2 * J) * (2 * d1 * d2 * r - (d1 + d2) * g) * f2 / math.sqrt(x1 * x2)
-        return cls((a, f1, a2 / 2), (r, f2, r2 / 2), (phi, f3, phi2 / 2), (d1, d2), g, J)
+        formula, om = formulas(), math.sqrt(x1 * x2) / n["J0"]
+        # eps = 1, so that d1, d2 are the differences themselves; lambda of (24) and B' of (25) read as zeta and D2'
+        values = {"ep": 1.0, "J0": n["J0"], "g": n["Gamma"], "zt": n["zeta"], "lam": n["zeta"], "M3": n["M3"], "d1": d1, "d2": d2, "d3": d2, "r": r,
+                  "Lam": n["kappa"] / n["J0"] ** 3}  # (23)
+        a, phi = formula("a_13", values, p0=p, q0=x2 / n["J0"] * q, om=om), math.atan2(-q * math.copysign(math.sqrt(x2 / x1), x2), p)  # (13)
+        f1, f2 = formula("f1_27", values, a=a), formula("f2_28", values, a=a)
+        second = [formula(name, values, a=a, f1=f1, f2=f2) for name in ("a2_24", "r2_26", "phi2_25")]
+        return cls((a, formula("a1_24", values, a=a), second[0] / 2), (r, f2, second[1] / 2), (phi, formula("f3_29", values), second[2] / 2), (d1, d2),
+                   n["Gamma"], n["J0"])
 
     def at(self, t):
         """(a, r, phi, omega) at the times t (n,); rows of omega are NaN where (14) has no real value."""
         a, r, phi = (np.polyval(c[::-1], t) for c in (self.a, self.r, self.phi))
         x1, x2 = (d * r - self.gamma for d in self.d)
         with np.errstate(all="ignore"):
-            ratio = np.where(x1 * x2 > 0, x1 / x2, np.nan)
-        q = -a * np.sign(x2) * np.sqrt(ratio) * np.sin(phi)  # (14)
+            om = np.sqrt(np.where(x1 * x2 > 0, x1 * x2, np.nan)) / self.J0
+            q = formulas()("q_13", {"J0": self.J0, "a": a, "om": om, "ph": phi, "d2": self.d[1], "r0": r, "g": self.gamma})  # (14)
         return a, r, phi, np.stack([a * np.cos(phi), q, r], axis=-1)
+
+
+def formulas():
+    """The paper's formulas; SymPy is imported with the first of them."""
+    return printed_formulas("liquid-cavity")
 
 
 def printed(scene, state, times, compare: bool = True) -> PrintedMotion:

@@ -1,6 +1,7 @@
 """The fast top's first approximation as Amer et al. 2023 (fast top) print it: eqs. (4), (10), (41), (42), (43).
 
-For comparison only. What is wrong in it:
+For comparison only. The formulas are those of the audit's file on the paper (`theories/audit/papers/newtonian-field-top.toml`), which
+holds each against the equations of motion. What is wrong in it:
 
 - (18), (22), (23): the generating solution has the permanent tilt P0 = y1 C/(C* - A) in p1; (22), (23) and (41) drop it, so
   for l_x != 0 p is wrong at its leading order, gamma1, gamma1', gamma1'' at their first;
@@ -21,6 +22,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...errors import InputError
+from ..audit.evaluate import printed_formulas
 from .lindstedt import times_row
 from .scaling import fast_top
 
@@ -86,15 +88,28 @@ def paper_numbers(scene, state) -> PaperNumbers:
     c = math.sqrt(length) * abs(r0)
     k = float(top.field) * r0**2 * gamma0 / c**2
     A1, B1, C1 = float((1 - top.b) / top.a), float((top.a - 1) / top.b), float(top.b - top.a)
-    # l_z/(A r0) = lz/a and l_z/(B r0) = lz/b
-    X = (1 - lz / (a * A1)) / A1
-    Omega2 = -A1 * B1 + (A1 / b - B1 / a) * lz
-    lambda1 = (z * (A1 / b - 1 / a) + k * (A1 + A1 * B1) + (z / b + k * B1) * lz / a) / (1 - Omega2)
     share = c * math.sqrt(gamma0) / r0
     M3 = math.sqrt(max(0.0, 1 - gamma0**2)) / gamma0
     h = (math.atan2(float(top.gamma[0]), float(top.gamma[1])) - math.pi / 2) / r0
-    return PaperNumbers(r0, c, gamma0, share, x, y, z, k, a, b, A1, B1, C1, X, Omega2, x * (A1 + lz / a) / (b * Omega2),
-                        lambda1, lambda1 + z / a - k * A1, float(top.tilt[0]) / share, lz / share, M3, h)
+    # in units of C and 1/r0: C = 1, s/r0 = eps, and l_z/r0 = lz
+    formula = formulas()
+    values = {"A": a, "B": b, "a": a, "b": b, "A1": A1, "B1": B1, "om": -A1 * B1, "xs": x, "zs": z, "k": k, "ep": share, "s": share, "lz": lz}
+    X, Omega2 = formula("X_10", values), formula("Om_10", values)
+    lambda_, lambda1 = formula("lam_10", values, Om=Omega2), formula("lam1_10", values, Om=Omega2)
+    lambda2 = formula("lam2_10", values, lam1=lambda1)
+    return PaperNumbers(r0, c, gamma0, share, x, y, z, k, a, b, A1, B1, C1, X, Omega2, lambda_, lambda1, lambda2,
+                        float(top.tilt[0]) / share, lz / share, M3, h)
+
+
+def formulas():
+    """The paper's formulas; SymPy is imported with the first of them."""
+    return printed_formulas("newtonian-field-top")
+
+
+def symbols_of(n: PaperNumbers) -> dict:
+    """The numbers under the names that the formulas have for them."""
+    return {"ep": n.epsilon, "r0": n.r0, "t0": n.h, "c": n.c, "xs": n.x, "ys": n.y, "k": n.k, "a": n.a, "b": n.b, "A1": n.A1, "C1": n.C1, "Xs": n.X,
+            "Om": n.Omega2, "lam": n.lambda_, "lam1": n.lambda1, "lam2": n.lambda2, "y1": n.y1, "y3": n.y3, "M3": n.M3, "th": math.atan(n.M3)}
 
 
 def printed(scene, state, times) -> PrintedMotion:
@@ -107,54 +122,25 @@ def printed(scene, state, times) -> PrintedMotion:
         empty = np.empty(0)
         return PrintedMotion(empty, np.empty((0, 3)), np.empty((0, 3)), empty, empty, empty, top.epsilon, "pole",
                              "C = B, Omega = 0 or Omega = 1: the printed solution divides by 0")
-    e, tau = n.epsilon, n.r0 * (times + n.h)
-    omega, gamma = _solution(n, e, np.cos(tau), np.sin(tau), np.cos(2 * tau))
-    psi, theta, phi = _angles(n, times)
+    formula, values = formulas(), symbols_of(n)
+    omega, gamma = ([np.broadcast_to(formula(f"{name}_41", values, tau=n.r0 * (times + n.h)), times.shape) for name in names]
+                    for names in (("p1", "q1", "r1"), ("g1", "g2", "g3")))
+    psi, theta, phi = _angles(n, values, times)
     scale = n.c * math.sqrt(n.gamma0)
     return PrintedMotion(times, np.stack([scale * omega[0], scale * omega[1], n.r0 * omega[2]], -1), n.gamma0 * np.stack(gamma, -1),
-                         psi, theta, phi, e, "as printed", "eqs. (10), (41) and (43) as they stand in print, misprints and all")
+                         psi, theta, phi, n.epsilon, "as printed", "eqs. (10), (41) and (43) as they stand in print, misprints and all")
 
 
-def _solution(n, e, cos, sin, cos2):
-    """Eq. (41): (p1, q1, r1), (gamma1, gamma1', gamma1'')."""
-    S11 = -2 * n.M3 * (n.x * (1 - cos) + n.y * sin) - n.k * n.M3**2 * n.C1 * (1 - cos2) / 2
-    p1 = e * (n.lambda_ + n.lambda1 * n.M3 * cos)
-    q1 = (e * n.X * (n.y / n.a + n.lambda2 * n.M3 * sin)
-          + e**2 * n.X * (n.y / n.a - n.k * n.A1 * n.M3 * sin) * n.M3 * n.y1 * (1 - cos))
-    r1 = 1 + e**2 * S11 / 2
-    gamma1 = n.M3 * cos
-    gamma2 = -n.M3 * sin + e**2 * (n.X * (n.y / n.a + n.lambda2 * n.M3 * sin) + n.M3 * sin * S11 / 2)
-    gamma3 = (1 + e * n.M3 * n.y1 * (1 - cos)
-              + e**2 * (n.a * n.lambda_ * n.M3 * (1 - cos) + n.M3**2 * (1 - cos2) * (n.a * n.lambda1 + n.b * n.X * n.lambda2) / 2
-                        + n.b * n.X * n.y / n.a * n.M3 * sin - n.M3 * n.y1 * n.y3 * (1 - cos)
-                        + n.M3 * (n.x * (1 - cos) + n.y * sin) + n.k * n.M3**2 * n.C1 * (1 - cos2) / 4))
-    return (p1, q1, r1), (gamma1, gamma2, gamma3)
-
-
-def _angles(n, t):
-    """Eq. (43), csc(eps theta0) and all: psi (0 at t = 0), theta, phi."""
-    theta0, e = math.atan(n.M3), n.epsilon
-    difference = [_terms(n, t + n.h)[i] - _terms(n, np.array([n.h]))[i] for i in range(5)]
-    theta1, theta2, psi2, psi3, phi3 = difference
-    theta = theta0 - e * theta1 - e**2 * theta2
-    if theta0 == 0:
+def _angles(n, values, t):
+    """Eq. (43), csc(eps theta0) and all: psi (0 at t = 0), theta, phi. psi1 = phi1 = 0, phi2 = psi2, phi4 = psi3 as printed."""
+    if values["th"] == 0:
         raise InputError("the printed angles divide by sin(theta0), which is 0 for this start")
-    root = n.c * math.sqrt(math.cos(theta0))
-    psi = root / math.sin(e * theta0) * (e * psi2 + e**2 * psi3)
-    phi = (math.pi / 2 + n.r0 * n.h + n.r0 * t - root / math.tan(theta0) * e * psi2
-           - e**2 * (n.M3 * phi3 + root / math.tan(theta0) * psi3))
-    return psi, theta, phi
+    formula = formulas()
 
+    def gained(name):
+        """What a term has more than at the start."""
+        at = lambda t: formula(f"{name}_43", values, t=t + n.h, tau=n.r0 * (t + n.h))
+        return at(t) - at(0.0)
 
-def _terms(n, t):
-    """theta1, theta2, psi2, psi3, phi3 of (43); psi1 = phi1 = 0, phi2 = psi2, phi4 = psi3 as printed."""
-    s, r0 = n.r0 * t, n.r0
-    cos, sin, cos2, sin2 = np.cos(s), np.sin(s), np.cos(2 * s), np.sin(2 * s)
-    theta2 = ((n.y1 * n.y3 - n.a * n.lambda_ - n.x) * cos - (n.b * n.X / n.a + 1) * n.y * sin
-              - n.M3 * (n.a * n.lambda1 + n.b * n.X * n.lambda2 + n.k * n.C1 / 2) * cos2 / 2)
-    psi2 = ((n.x * n.A1 / (n.b * n.Omega2) * sin - n.y / (n.A1 * n.a) * cos) / r0
-            + n.M3 / 4 * (n.lambda1 * (2 * t + sin2 / r0) + n.lambda2 * (sin2 / (r0 * n.A1) - 2 * n.X * t)))
-    psi3 = n.X * n.y1 * n.M3 / 4 * (n.y / n.a * (2 * cos - cos2 / r0)
-                                    - n.k * n.A1 * n.M3 * (2 * t - (cos2 - 4 * sin**3) / r0))
-    phi3 = n.x * (s - sin) - n.y * cos + n.k * n.C1 * n.M3 * (2 * s - sin2) / 8
-    return -n.y1 * cos, theta2, psi2, psi3, phi3
+    terms = {"dth1": gained("theta1"), "dth2": gained("theta2"), "dps2": gained("psi2"), "dps3": gained("psi3"), "dph3": gained("phi3")}
+    return tuple(formula(f"{angle}_43", values, t=t, **terms) for angle in ("psi", "theta", "phi"))

@@ -10,7 +10,7 @@ from stabilab.theories.charged.corrected import corrected
 from stabilab.theories.charged.mean_pointing import pointing, spin_drift
 from stabilab.theories.charged.modes import ChargedBody, modes, resonances
 from stabilab.theories.charged.partial_fractions import fractions
-from stabilab.theories.charged.printed import MISPRINTS, Typed, circle, printed
+from stabilab.theories.charged.printed import MISPRINTS, circle, formulas, printed
 from stabilab.theories.charged.validity import horizon, largest_tilt, tilt_parts
 
 flint = pytest.importorskip("flint")
@@ -200,13 +200,14 @@ def test_the_printed_translation_is_what_the_paper_prints():
 
 
 @pytest.mark.parametrize("number, integral, integrand, back", [
-    ("(45)", "I1_omega", "I1_Gamma", False), ("(46)", "I2_omega", "I2_Gamma", False), ("(50), (51)", "I4_omega", "I1_Gamma", True),
-    ("(50), (51)", "I5_omega", "I2_Gamma", True), ("(60)", "I1_eta", "I1_omega", False), ("(61)", "I2_eta", "I2_omega", False)])
+    ("(45)", "I1w_45", "I1G_24", False), ("(46)", "I2w_46", "I2G_25", False), ("(50), (51)", "I4w_50", "I1G_24", True),
+    ("(50), (51)", "I5w_51", "I2G_25", True), ("(60)", "I1e_60", "I1w_45", False), ("(61)", "I2e_61", "I2w_46", False)])
 def test_a_typed_integral_differs_from_what_it_integrates_exactly_if_listed_as_misprinted(number, integral, integrand, back):
-    r0, W, h = 0.28, 0.19, 1e-4
-    at = lambda t: Typed(None, np.array(t), r0, W, r0 - 0.9 * W, (1.0, 1.0), 0.1 + 0.2j, 0.3 - 0.1j)
-    slope = (getattr(at(2 + h), integral)() - getattr(at(2 - h), integral)()) / (2 * h)
-    meant = getattr(at(2.0), integrand)() * (np.exp(-2j * r0) if back else 1)
+    r0, h = 0.28, 1e-4
+    values = {"r0": r0, "zeta1": 0.8, "zeta2": 0.9, "D1": 2.0, "Lam": -0.15, "P10": 0.1 + 0.2j, "A": 0.3 - 0.1j}
+    at = lambda name, t: formulas()(name, values, t=t)
+    slope = (at(integral, 2 + h) - at(integral, 2 - h)) / (2 * h)
+    meant = at(integrand, 2.0) * (np.exp(-2j * r0) if back else 1)
     assert (abs(slope - meant) > 1e-3) == (number in MISPRINTS), (slope, meant)
 
 
