@@ -75,19 +75,14 @@ def mathml(left, right):
 
 
 def _readable(expression):
-    """rate(f) as a derivative by time, the other operators by their names."""
+    """rate(f) as the operator D_t before f; the other operators stand by their names."""
     import sympy as sp
 
-    t = sp.Symbol("t")
-    return expression.replace(sp.Function("rate"), lambda f, n=1: sp.Derivative(sp.Function("f")(t), t).func(f, (t, int(n))) if f.has(t) else _Rate(f, n))
-
-
-def _Rate(f, n):
-    import sympy as sp
-
-    return sp.Mul(sp.Symbol("D_t" if int(n) == 1 else f"D_t^{n}"), f, evaluate=False)
+    operator = lambda f, n=1: sp.Mul(sp.Symbol("D_t") if n == 1 else sp.Pow(sp.Symbol("D_t"), n), f, evaluate=False)
+    return expression.replace(sp.Function("rate"), operator)
 
 
 def _name(name):
-    stem, index = re.fullmatch(r"([A-Za-z]+?)_?(\d*|[a-z]?)", name).groups() if re.fullmatch(r"([A-Za-z]+?)_?(\d*|[a-z]?)", name) else (name, "")
+    found = re.fullmatch(r"([A-Za-z]+?)_?(\d*|[a-z]?)", name)
+    stem, index = found.groups() if found else (name, "")
     return f"{GREEK.get(stem, stem)}_{index}" if index else GREEK.get(stem, stem)

@@ -24,8 +24,7 @@ def raw(paper: Paper, formulas) -> list:
 def bound_of(paper: Paper, row: Row, corrected=False) -> dict:
     """Symbol name -> what it stands for in this row."""
     where = row.where | row.corrected_where if corrected else row.where
-    texts = {name: text for name, text in paper.definitions.items() if name not in row.options.get("free", ())} | where
-    return {name: parse(text, paper.symbols) for name, text in texts.items() if text != name}
+    return {name: parse(text, paper.symbols) for name, text in (paper.definitions | where).items() if text != name}
 
 
 def _holds(paper, row, printed, system, bound):
@@ -37,12 +36,14 @@ def _solves(paper, row, printed, system, bound):
     if system is None:
         raise InputError(f"{row.place}: a row of kind solves needs a system")
     variable, speed = parse(row.options["variable"], paper.symbols), parse(row.options.get("speed", "1"), paper.symbols)
+    rates = dict(zip(system.state, system.rates))
     plain = Evaluator(None, {}, bound, system).plain
     solution = {left: plain(right) for left, right in printed}
     out = []
     for left, right in solution.items():
-        rate = plain(dict(zip(system.state, system.rates)).get(left) if left in system.state else parse(row.options["rates"][left.name], paper.symbols))
-        out.append((right.diff(variable) * plain(speed).xreplace(solution), rate.xreplace(solution)))
+        if left not in rates:
+            raise InputError(f"{row.place}: {left} is no state of the system {row.system}: its states are {', '.join(map(str, rates))}")
+        out.append((right.diff(variable) * plain(speed).xreplace(solution), plain(rates[left]).xreplace(solution)))
         start = row.options.get("start", {}).get(left.name)
         if start is not None:
             out.append((right.subs(variable, 0), parse(start, paper.symbols)))

@@ -11,7 +11,7 @@ from .formulas import parse
 from .values import points
 
 
-def candidates(paper: Paper, row: Row, pairs, bound, system) -> list[tuple[str, dict]]:
+def candidates(paper: Paper, row: Row) -> list[tuple[str, dict]]:
     """(words, {name: expression}) of every condition to try: the row's own, then the paper's."""
     out = []
     for text in dict.fromkeys((*row.options.get("conditions", ()), *paper.conditions)):
@@ -24,11 +24,9 @@ def condition_of(paper: Paper, row: Row, pairs, bound, system, domain) -> tuple[
     """(condition, method) under which the pairs agree; ("", "") where none of the candidates helps. Singles are tried before pairs."""
     import mpmath
 
-    single = candidates(paper, row, pairs, bound, system)
+    single = singles(paper, row, pairs, bound, system, domain)
     double = [(f"{a} and {b}", first | second) for (a, first), (b, second) in combinations(single, 2) if first.keys() != second.keys()]
-    standing = {s.name for s in free(pairs, domain, bound, system)}
-    single, double = ([(words, fixed) for words, fixed in rows if _speaks(fixed, standing)] for rows in (single, double))
-    for words, fixed in single + double:
+    for words, fixed in [*single, *((words, fixed) for words, fixed in double if _plain(fixed))]:
         if not _quick(mpmath.fp, pairs, bound, system, words, domain, fixed):
             continue
         decision = decide(pairs, bound, system, row.equation + words, domain, fixed)
@@ -40,11 +38,12 @@ def condition_of(paper: Paper, row: Row, pairs, bound, system, domain) -> tuple[
 def singles(paper: Paper, row: Row, pairs, bound, system, domain) -> list[tuple[str, dict]]:
     """(words, {name: expression}) of the single conditions that speak of symbols of the pairs."""
     standing = {s.name for s in free(pairs, domain, bound, system)}
-    return [(words, fixed) for words, fixed in candidates(paper, row, pairs, bound, system) if _speaks(fixed, standing)]
+    return [(words, fixed) for words, fixed in candidates(paper, row) if fixed.keys() <= standing and _plain(fixed)]
 
 
-def _speaks(fixed, standing):
-    return fixed.keys() <= standing and not any(s.name in fixed for value in fixed.values() for s in value.free_symbols)
+def _plain(fixed):
+    """Whether no fixed symbol stands in what another is fixed to."""
+    return not any(s.name in fixed for value in fixed.values() for s in value.free_symbols)
 
 
 def _quick(numbers, pairs, bound, system, seed, domain, fixed):
