@@ -15,6 +15,7 @@ from . import middle_axis as middle
 from . import minor_axis as minor
 from . import paper
 from . import top as figures_top
+from .difference import words
 from .figure import Figure
 
 _LEVEL = "curves: level sets of the exact potential, in doubles"
@@ -118,8 +119,8 @@ def _write(row, out, progress):
         progress(f"figure {row.number}{f' ({row.paper})' if row.paper else ''}")
     with style.drawing() as plt:
         path = style.save(row.draw(plt), out / row.file)
+    apart = [f"printed curve against exact motion, largest difference at equal times: {line}" for line in words(row)]
     with style.whole_file(path.with_suffix(".txt")) as waiting:
-        waiting.write_text(f"Figure {row.number} of {PAPERS[row.paper or FIRST]}: {row.title}\n\n{row.caption}\n\nmade by: "
-            f"{row.command}\n"
-                           f"stabilab {__version__}\ntolerance: {row.tolerance}\n", encoding="utf-8")
+        waiting.write_text("\n".join([f"Figure {row.number} of {PAPERS[row.paper or FIRST]}: {row.title}\n\n{row.caption}\n", f"made by: {row.command}",
+                                      f"stabilab {__version__}", f"tolerance: {row.tolerance}", *apart, ""]), encoding="utf-8")
     return path

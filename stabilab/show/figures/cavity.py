@@ -38,10 +38,15 @@ SLOW = (panels.Row(panels.TIME, "$a$ (rad/s)", _slow("amplitude")), panels.Row(p
         panels.Row(panels.TIME, r"$\varphi$ (rad)", _slow("phase")))
 
 
-def _family(plt, family, rows, title, own=False):
+def _lines(family, rows):
+    """(row, columns) of every row of the figure."""
     symbol, unit, files = FAMILIES[family]
     columns = [panels.Column(rf"${symbol}={value:g}$ {unit}", panels.motions(name, "", SPAN, POINTS, crowd=2)) for value, name in files.items()]
-    return panels.draw(plt, f"{title}: {DATA[family]}, $M_1=M_2=0$", columns, rows, own=own)
+    return [(row, columns) for row in rows]
+
+
+def _family(plt, family, rows, title, own=False):
+    return panels.draw_lines(plt, f"{title}: {DATA[family]}, $M_1=M_2=0$", _lines(family, rows), own=own)
 
 
 # -- captions, with their numbers ------------------------------------------------------------------------------------------
@@ -138,7 +143,7 @@ def _figures():
             (13, "e", partial(planes, own=True), "Phase planes", _charge)):
         more = "; rates by central differences" if title == "Phase planes" else ""
         yield Figure(n, f"{title}: {NAMES[family]}", partial(words, family), partial(draw, family=family, title=title),
-                     partial(_exactness, family, more), "cavity")
+                     partial(_exactness, family, more), "cavity", partial(_lines, family, draw.keywords["rows"]))
 
 
 NAMES = {"small": "lambda3 = 0.1 to 0.2", "large": "lambda3 = 15 to 25", "zeta": "family of zeta", "M3": "family of M3", "e": "family of e"}

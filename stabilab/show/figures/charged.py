@@ -38,16 +38,21 @@ def _columns(family, end=SPAN, horizon=True):
         yield panels.Column(rf"${symbol}={value:g}$ {unit}", panels.motions(SWEEP, name, end, POINTS), mark)
 
 
-def _family(plt, family, rows, title, circle=False):
+def _lines(family, rows, circle=False):
+    """(row, columns) of every row of the figure."""
     columns = list(_columns(family))
     if rows not in (VELOCITY, PLACE):  # ahead of the misprinted integrals the corrected motion is the printed one
         columns = [_without(c, "corrected") for c in columns]
     if circle:
         columns = [replace(c, runs={name: _by_35(family, i, run) if name == "printed" else run for name, run in c.runs.items()})
                    for i, c in enumerate(columns, 1)]
+    return [(row, columns) for row in rows]
+
+
+def _family(plt, family, rows, title, circle=False):
     words = {"printed": "as printed: (35)" if circle else "as printed: (33)"} if rows is MOMENTUM else {}
-    return panels.draw(plt, f"{title}, {OTHERS[family]}", columns, rows, words=words, mark_words="tilt reaches 0.1 rad",
-                       width=4.1 if rows in (VELOCITY, PLACE) else 3.5)  # room for the words on three cuts
+    return panels.draw_lines(plt, f"{title}, {OTHERS[family]}", _lines(family, rows, circle), words=words, mark_words="tilt reaches 0.1 rad",
+                             width=4.1 if rows in (VELOCITY, PLACE) else 3.5)  # room for the words on three cuts
 
 
 def _without(column, model):
@@ -60,22 +65,29 @@ def _by_35(family, i, run):
     return replace(run, state=run.state | {"momentum": np.hstack([across, np.asarray(run.state["momentum"])[:, 2:]])})
 
 
-def circle(plt):
-    """Fig. 11: the momentum across the axis, by (35) and in truth, over three spans of time."""
+def _circle_lines():
     parts = []
     for end in (2.0, 10.0, SPAN):
         c = _without(next(iter(_columns("M1", end, horizon=False))), "corrected")
         parts.append(replace(c, heading=f"0 to {end:g} s", runs={n: _by_35("M1", 1, r) if n == "printed" else r
                                                                  for n, r in c.runs.items()}))
-    return panels.draw(plt, rf"Angular momentum across the axis $z_1$: {OTHERS['M1']}, $M_1=4$ N m", parts, MOMENTUM[2:], height=3.4,
-                       words={"printed": "as printed: (35), a circle"}, own=True)
+    return [(row, parts) for row in MOMENTUM[2:]]
+
+
+def circle(plt):
+    """Fig. 11: the momentum across the axis, by (35) and in truth, over three spans of time."""
+    return panels.draw_lines(plt, rf"Angular momentum across the axis $z_1$: {OTHERS['M1']}, $M_1=4$ N m", _circle_lines(), height=3.4,
+                             words={"printed": "as printed: (35), a circle"}, own=True)
+
+
+def _pointing_lines():
+    row = panels.Row(r"$\omega_1/\omega_3$", r"$\omega_2/\omega_3$", _direction, limits=((-4.5, 8.5), (-4.5, 8.5)))
+    return [(row, list(_columns(family, horizon=False))) for family in FAMILIES]
 
 
 def pointing(plt):
     """Fig. 21: direction of the velocity; a line per family."""
-    row = panels.Row(r"$\omega_1/\omega_3$", r"$\omega_2/\omega_3$", _direction, limits=((-4.5, 8.5), (-4.5, 8.5)))
-    return panels.draw_lines(plt, "Direction of the velocity in inertial space",
-                             [(row, list(_columns(family, horizon=False))) for family in FAMILIES], height=2.6)
+    return panels.draw_lines(plt, "Direction of the velocity in inertial space", _pointing_lines(), height=2.6)
 
 
 def _direction(run):
@@ -203,10 +215,11 @@ def _figures():
             (24, "M1", way, "Displacement", partial(_way, more="So M1 does matter to eta3. "))):
         more = "; rates by central differences" if draw is planes else ""
         yield Figure(n, f"{title}: {NAMES[family]}", partial(words, family) if callable(words) else words,
-                     partial(draw, family=family, title=title), partial(_exactness, (family,), more), "charged")
+                     partial(draw, family=family, title=title), partial(_exactness, (family,), more), "charged",
+                     partial(_lines, family, draw.keywords["rows"], draw.keywords.get("circle", False)))
     yield Figure(11, "Angular momentum across z1", partial(_circle, "lambda3", "The print draws the small circle of a body that hardly "
-                                                           "tilts."), circle, partial(_exactness, ("M1",)), "charged")
-    yield Figure(21, "Direction of the velocity", _pointing, pointing, _exactness, "charged")
+                                                           "tilts."), circle, partial(_exactness, ("M1",)), "charged", _circle_lines)
+    yield Figure(21, "Direction of the velocity", _pointing, pointing, _exactness, "charged", _pointing_lines)
 
 
 NAMES = {"lambda3": "family of lambda3", "e": "family of e", "M1": "family of M1"}

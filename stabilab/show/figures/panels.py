@@ -77,11 +77,6 @@ def exactness(runs) -> str:
     return f"exact motion: Taylor integration, relative tolerance 1.1e-16; its laws drift by {drift:.1e} at most"
 
 
-def draw(plt, title, columns, rows, **options):
-    """The figure of every row over the same columns; options as of `draw_lines`."""
-    return draw_lines(plt, title, [(row, list(columns)) for row in rows], **options)
-
-
 def draw_lines(plt, title, lines, width=3.5, height=2.05, words=None, mark_words="", own=False):
     """The figure of lines (Row, [Column, ...]). A line shares its limits, unless each panel has its own; then no column of
     printed curves is made, whose limits are shared."""

@@ -44,10 +44,16 @@ def _with_angles(name):
     return found
 
 
+def _lines(family, rows):
+    """(row, columns) of every row of the figure."""
+    columns = list(_columns(family, rows is ANGLES))
+    return [(row, columns) for row in rows]
+
+
 def _family(plt, family, rows, title):
     other = r"$\ell_z=30$" if family == "lx" else r"$\ell_x=30$"
-    return panels.draw(plt, f"{title}, {other} kg m$^2$/s", list(_columns(family, rows is ANGLES)), rows, width=3.1, height=1.38,
-                       words={"lindstedt": "corrected expansion, order 2"})
+    return panels.draw_lines(plt, f"{title}, {other} kg m$^2$/s", _lines(family, rows), width=3.1, height=1.38,
+                             words={"lindstedt": "corrected expansion, order 2"})
 
 
 def _runs(family):
@@ -98,7 +104,7 @@ def _figures():
         name = "l_x = 30, 60, 90" if family == "lx" else "l_z = 30, 60, 90"
         more = "; rates by central differences" if rows is PLANES else ""
         yield Figure(n, f"{title}: {name}", partial(words, family), partial(_family, family=family, rows=rows, title=title),
-                     partial(_exactness, family, more), "top")
+                     partial(_exactness, family, more), "top", partial(_lines, family, rows))
 
 
 FIGURES = tuple(_figures())

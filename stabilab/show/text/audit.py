@@ -32,6 +32,7 @@ def _row(paper, finding):
         "repairs": list(finding.repairs),
         "unit_fault": finding.unit_fault,
         "note": row.options.get("note", ""),
+        "figures": list(row.options.get("figures", ())),
     }
 
 
@@ -45,11 +46,17 @@ def text(findings, width: int = 100) -> str:
     for paper, group in findings:
         count = Counter(f.verdict for f in group)
         parts.append(f"{paper.title}\n" + ", ".join(f"{count[v]} {v}" for v in VERDICTS if count[v]) + f"; {len(group)} rows\n")
-        parts += [_paragraph(finding, width) for finding in group]
+        parts += [_paragraph(finding, width, paper.figures) for finding in group]
     return "\n".join(parts)
 
 
-def _paragraph(finding, width):
+def figures_changed(row, paper: str) -> str:
+    """The command that draws the figures which a wrong formula changes, as printed and in truth; "" where it changes none."""
+    numbers = " ".join(map(str, row.options.get("figures", ())))
+    return f"stabilab figures --paper {paper} {numbers}" if numbers and paper else ""
+
+
+def _paragraph(finding, width, paper=""):
     row = finding.row
     head = f"{row.equation:<12} {finding.verdict.upper() if finding.verdict == 'wrong' else finding.verdict}"
     head += f" {finding.condition}" if finding.verdict == "only-if" else ""
@@ -61,5 +68,7 @@ def _paragraph(finding, width):
     lines.append(finding.method + (f", residual {finding.residual:.2g}" if finding.verdict in ("wrong", "only-if") else ""))
     if finding.unit_fault and finding.verdict != "wrong":
         lines.append(f"units: {finding.unit_fault}")
+    if command := figures_changed(row, paper):
+        lines.append(f"changes figures, drawn both ways with the size of the difference by: {command}")
     wrapped = [textwrap.fill(line, width, subsequent_indent=" " * 15, initial_indent=" " * (13 if n else 0)) for n, line in enumerate(lines)]
     return "\n".join(wrapped)
