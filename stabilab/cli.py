@@ -365,10 +365,10 @@ def surface(case: CaseFile, out: Annotated[Path, typer.Option(metavar="DIR", hel
 
 @app.command()
 def plot(case: CaseFile,
-         kind: Annotated[str | None, typer.Option(metavar="KIND", help="time, phase, sphere, space, equilibria, budget or state. "
+         kind: Annotated[str | None, typer.Option(metavar="KIND", help="time, phase, sphere, space, equilibria, budget, state or attitude (moves). "
                                                                        "Default: the one that says most of the case.")] = None,
          out: Annotated[Path | None, typer.Option(metavar="FILE.png|.svg|.pdf", help="Picture to write; default: CASE.png in the current "
-                                                  "folder.")] = None,
+                                                  "folder. Of an attitude .html, .gif or .mp4.")] = None,
          size: Annotated[str | None, typer.Option(metavar="WxH", help='Width and height in inches: "8x5".')] = None,
          dpi: Annotated[float | None, typer.Option(metavar="N", help="Dots an inch of a .png; default: 110.")] = None,
          until: Annotated[str | None, typer.Option(metavar="TIME", help='Draw up to this time: "10 min".')] = None,

@@ -124,8 +124,9 @@ KINDS = {"minor-axis-100": EVERYWHERE | {"phase", "sphere", "equilibria"}, "off-
 @pytest.mark.parametrize("name", KINDS)
 def test_every_kind_of_scene_knows_its_kinds_of_plot(name):
     one = subject.subject(load(name))
-    assert set(which.offered(one)) == KINDS[name]
-    for kind in set(which.KINDS) - KINDS[name]:
+    known = KINDS[name] | ({"attitude"} if one.physical else set())  # a body to turn
+    assert set(which.offered(one)) == known
+    for kind in set(which.KINDS) - known:
         with pytest.raises(errors.InputError, match="this one has time"):
             which.check(kind, one)
 
@@ -269,3 +270,46 @@ def test_given_axes_decide_whether_equilibria_are_drawn_in_space():
 def test_pictures_in_space_have_the_same_bytes_again(kind, tmp_path):
     one, two = (to_file.write(load("torque-free-body"), tmp_path / f"{n}.svg", kind).read_bytes() for n in (1, 2))
     assert one == two and len(one) < 3_000_000
+
+
+# -- attitude --
+
+
+def test_the_box_turns_as_a_body_that_keeps_its_momentum_in_space():
+    """Without a torque R (D omega) is constant; the box of 3, 2, 1 kg m^2: edges as sqrt(2 + 1 - 3), sqrt(3 + 1 - 2), sqrt(3 + 2 - 1)."""
+    from stabilab.show.plot.turning.turn import THINNEST, turn
+    found = turn(subject.subject(load("torque-free-body")), 150)
+    momentum = np.einsum("nij,nj->ni", found.rotations, found.omega * (3, 2, 1))
+    assert np.abs(momentum - momentum[0]).max() < 1e-12 and found.whole
+    assert found.edges == pytest.approx([THINNEST, math.sqrt(0.5), 1.0])
+
+
+def test_a_film_shows_no_step_in_which_the_eye_would_see_the_body_turn_backwards():
+    from stabilab.show.plot.turning.turn import turn
+    found = turn(subject.subject(load("cubesat-3u")), 40)
+    steps = np.einsum("nij,nik->njk", found.rotations[:-1], found.rotations[1:])
+    angles = np.arccos(np.clip((np.trace(steps, axis1=1, axis2=2) - 1) / 2, -1, 1))
+    assert math.degrees(angles.max()) < 16 and not found.whole
+
+
+def test_the_page_of_an_attitude_needs_nothing_else_and_no_title_ends_its_script(tmp_path):
+    case = case_of(tmp_path, 'title = "</script><b>x"\n' + MOVING)
+    one, two = (to_file.write(case, tmp_path / name).read_bytes() for name in ("a.html", "b.html"))
+    page = one.decode()
+    assert one == two and "http" not in page.replace("http-equiv", "") and page.count("</script>") == 1 and "default-src 'none'" in page
+
+
+def test_a_film_is_a_gif_and_what_cannot_be_written_names_what_is_missing(tmp_path, monkeypatch):
+    from PIL import Image
+
+    from stabilab.show.plot.turning import animation
+    monkeypatch.setattr(animation, "PICTURES", 3)
+    case = case_of(tmp_path, MOVING)
+    with Image.open(to_file.write(case, tmp_path / "a.gif", size=(2, 2), dpi=50)) as image:
+        assert image.format == "GIF" and image.n_frames == 3 and image.size == (100, 100)
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(errors.RenderingUnavailable, match="apt install ffmpeg"):
+        to_file.write(case, tmp_path / "a.mp4")
+    with pytest.raises(errors.InputError, match=r"ends in .html, .gif or .mp4, got .png"):
+        to_file.write(case, tmp_path / "a.png", "attitude")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.gif", "case.toml"]

@@ -6,6 +6,7 @@ from .over_time import time as time
 from .phase_plane import phase as phase
 from .rate_space import space as space
 from .to_file import write as write
+from .turning.animation import attitude as attitude
 from .whole_state import state as state
 
-__all__ = ["budget", "equilibria", "phase", "space", "sphere", "state", "time", "write"]
+__all__ = ["attitude", "budget", "equilibria", "phase", "space", "sphere", "state", "time", "write"]

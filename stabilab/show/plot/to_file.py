@@ -17,6 +17,7 @@ from .over_time import time
 from .phase_plane import phase
 from .rate_space import space
 from .subject import Subject, subject
+from .turning.animation import ENDINGS, film
 from .whole_state import state
 
 LEAST, MOST, SHARP = 1.0, 60.0, 1200  # inches of a side, dots an inch
@@ -36,7 +37,8 @@ DRAWN: dict[str, Callable[..., Any]] = {
 
 def write(case: Any, path: str | Path, kind: str | None = None, size: tuple[float, float] | None = None, dpi: float | None = None, units: str = "deg",
           span: Any = None) -> Path:
-    """Draw a case (or a Subject) and write the picture to `path` (.png, .svg, .pdf), whole or not at all; returns the path.
+    """Draw a case (or a Subject) and write the picture to `path` (.png, .svg, .pdf; of an attitude .html, .gif, .mp4), whole or not at all; returns the
+    path.
 
     kind: one of `which.KINDS`; None: the one that says most of the case. size: (width, height) in inches; dpi: dots an inch of a .png. units: "deg"
     or "si". span: in place of the case's own. The same input gives the same bytes (but for "budget", whose times are measured). Raises
@@ -47,6 +49,8 @@ def write(case: Any, path: str | Path, kind: str | None = None, size: tuple[floa
     demand(*style.PACKAGES)
     _check_size(size, dpi)
     with style.drawing() as plt:
+        if chosen == "attitude":
+            return film(one, Path(path), units, size, dpi)
         figure = DRAWN[chosen](one, units, size, plt)
         if size is not None:
             figure.set_size_inches(*size)
@@ -55,9 +59,10 @@ def write(case: Any, path: str | Path, kind: str | None = None, size: tuple[floa
 
 def checked(path: str | Path, one: Subject, kind: str | None) -> str:
     """The kind of a plot, if it can be drawn and written to such a path: before anything is computed."""
-    endings.file(path, endings.PICTURES)
-    chosen = which.default(one) if kind is None else kind
+    moving = endings.ending(path) in ENDINGS
+    chosen = kind or ("attitude" if moving else which.default(one))
     which.check(chosen, one)
+    endings.file(path, ENDINGS if chosen == "attitude" else endings.PICTURES)
     return chosen
 
 

@@ -16,6 +16,7 @@ KINDS = {
     "equilibria": "all equilibria, stable and unstable",
     "budget": "what accuracy costs in time",
     "state": "every part of the state over time, the analytic models beside the exact motion",
+    "attitude": "the body as it turns, as an animation",
 }
 FAR = "rates, torque or wheel are so large or so small that their squares leave the range of doubles: choose other units"
 

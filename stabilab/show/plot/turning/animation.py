@@ -1,0 +1,113 @@
+"""The body's box as it turns, as an animation of Matplotlib."""
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ....errors import RenderingUnavailable
+from ....files import whole_file
+from ... import style
+from ...files import endings
+from .. import canvas, which
+from ..measures import measures
+from ..solid import in_space
+from ..subject import subject
+from .page import SMOOTH, page
+from .turn import CORNERS, FACES, FRAMES, Turn, turn
+
+if TYPE_CHECKING:
+    from matplotlib.animation import FuncAnimation
+
+ENDINGS = (".html", ".gif", ".mp4")
+SIZE = (5.2, 5.2)
+PER_SECOND, PICTURES = 20, 100  # of a film
+DPI = 80
+COLOURS = (style.VERMILION, style.GREEN, style.BLUE)  # faces across axes 1, 2, 3, and these axes
+FAR = 1.75  # half the picture, in half edges
+OUT = 1.5  # length of the body's axes
+
+
+def attitude(case: Any, state: Any = None, ax: Any = None, span: Any = None, frames: int = FRAMES, units: str = "deg",
+             size: tuple[float, float] | None = None) -> FuncAnimation:
+    """The body turning in space, as an animation of Matplotlib (keep it, or nothing moves).
+
+    The box is the even one with the body's moments of inertia; its faces and axes have the colours of the principal axes 1, 2 and 3, and the line
+    is the way of the tip of the axis about which the body turns most at the start. The start has the attitude of the case, else body and space
+    are aligned. Where the span would need more pictures than `frames` at 15 degrees each, its first part is shown. Raises InputError for
+    scaled variables.
+    """
+    from matplotlib.animation import FuncAnimation
+    one = subject(case, state, span)
+    which.check("attitude", one)
+    found, scale = turn(one, frames), measures(one, units)
+    with canvas.on(ax, size or SIZE, space=True) as target:
+        draw = _stage(target, found, one.heading, scale)
+        if ax is None:  # laid out once, not for every picture
+            target.figure.draw_without_rendering()
+            target.figure.set_layout_engine("none")
+        return FuncAnimation(target.figure, draw, frames=len(found.t), interval=1000 / PER_SECOND, blit=False)
+
+
+def film(one: Any, path: Path, units: str = "deg", size: tuple[float, float] | None = None, dpi: float | None = None) -> Path:
+    """The animation as a file: .html, a page that needs nothing else; .gif; .mp4, where ffmpeg is installed."""
+    import matplotlib.animation
+    kind = endings.ending(endings.file(path, ENDINGS))
+    if kind == ".html":
+        return page(one, turn(one, SMOOTH), measures(one, units), path)
+    if kind == ".mp4" and not matplotlib.animation.writers.is_available("ffmpeg"):
+        raise RenderingUnavailable("no .mp4 can be written: ffmpeg is not installed: apt install ffmpeg; .gif and .html need nothing more")
+    moving = attitude(one, frames=PICTURES, units=units, size=size)
+    writer = (matplotlib.animation.PillowWriter(fps=PER_SECOND) if kind == ".gif" else matplotlib.animation.FFMpegWriter(
+        fps=PER_SECOND, extra_args=["-fflags", "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1", "-pix_fmt", "yuv420p", "-f", "mp4"]))
+    with whole_file(path) as waiting:
+        beside = waiting.with_name(f"{waiting.name}{kind}")  # the writers know formats by their endings
+        try:
+            moving.save(beside, writer=writer, dpi=dpi or DPI)
+            beside.replace(waiting)
+        finally:
+            beside.unlink(missing_ok=True)
+    return Path(path)
+
+
+def _stage(ax, found: Turn, heading: str, scale):
+    """The scene of the animation; draw(frame) moves it."""
+    from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+    box = Poly3DCollection(_faces(found, 0), facecolors=[in_space.pale(COLOURS[n // 2]) for n in range(6)], edgecolors=style.BLACK, linewidths=0.8)
+    ax.add_collection3d(box)
+    ax.computed_zorder = True
+    axes = [ax.plot([], [], [], color=colour, linewidth=2.2)[0] for colour in COLOURS]
+    names = [ax.text(0, 0, 0, str(n), color=colour, fontsize=11, weight="bold") for n, colour in enumerate(COLOURS, 1)]
+    now = ax.text2D(0.5, 0.97, "", transform=ax.transAxes, ha="center")
+    canvas.title(ax, heading)
+    way, = ax.plot([], [], [], color=style.GREY, linewidth=0.9)
+    tips = found.rotations[:, :, int(np.argmax(np.abs(found.omega[0])))] * OUT
+    for setter in (ax.set_xlim, ax.set_ylim, ax.set_zlim):
+        setter(-FAR, FAR)
+    for setter, letter in zip((ax.set_xlabel, ax.set_ylabel, ax.set_zlabel), "XYZ"):
+        setter(f"{letter} (space)", labelpad=-12)
+    for setter in (ax.set_xticklabels, ax.set_yticklabels, ax.set_zticklabels):
+        setter([])
+    ax.set_box_aspect((1, 1, 1), zoom=1.1)
+    ax.view_init(*in_space.VIEW)
+    unit, per = scale.time(float(np.abs(found.t).max()))
+    rates = np.linalg.norm(found.omega, axis=1) * scale.rate[1]
+
+    def draw(frame):
+        box.set_verts(_faces(found, frame))
+        for n, (line, name) in enumerate(zip(axes, names)):
+            tip = found.rotations[frame][:, n] * OUT
+            line.set_data_3d(*zip(tip * found.edges[n] / OUT, tip))  # from its face on
+            name.set_position_3d(tip * 1.1)
+        way.set_data_3d(*tips[:frame + 1].T)
+        now.set_text(f"{found.t[frame] * per:.4g} {unit}, |ω| = {rates[frame]:.4g} {scale.rate[0]}")
+        return [box, *axes, *names, way, now]
+
+    draw(0)
+    return draw
+
+
+def _faces(found: Turn, frame: int) -> list[np.ndarray]:
+    corners = (CORNERS * found.edges) @ found.rotations[frame].T
+    return [corners[list(face)] for face in FACES]
