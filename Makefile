@@ -7,7 +7,7 @@ STAMP := $(VENV)/.installed
 .PHONY: report test check test-slow test-long floors figures bench fuzz hunt coverage mutate clean
 
 report: $(STAMP)
-	$(BIN)/stabilab report cases/*.toml --out report
+	$(BIN)/stabilab report cases/*.toml --papers --precision --out report
 
 # ROOM=orbit/fate: the tests of one room or wing alone. A file stays with one of the two workers, which computes once what its tests share
 ROOM ?=

@@ -515,21 +515,25 @@ def figures(numbers: Annotated[list[int] | None, typer.Argument(
 
 @app.command()
 def report(cases: Annotated[list[Path] | None, typer.Argument(
-               metavar="[CASE...]", help="Case files; none: those of the papers, which stabilab brings.", show_default=False)] = None,
+               metavar="[CASE...]", help="Case files; none: everything that stabilab brings.", show_default=False)] = None,
            out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the report.")] = Path("report"),
+           papers: Annotated[bool, typer.Option("--papers", help="The papers' tables and figures, the audit of their formulas and other "
+                                                                 "tools' numbers as well: minutes.")] = False,
+           precision: Annotated[bool, typer.Option("--precision", help="What accuracy costs, too.")] = False,
+           certify: Annotated[bool, typer.Option("--certify", help="A certificate of each case, checked, too.")] = False,
+           workers: Annotated[int | None, typer.Option(metavar="N", min=1, help="Processes that share the work; default: one a core.")] = None,
            strict: Strict = False):
-    """Write tables, figures and surfaces as one web page.
+    """Write a report on your cases: web pages.
 
-    The folder needs no network: open its index.html.
+    Verdict, margins, rates over time, phase plane, separatrix, equilibria, what would change the fate, equations. The folder needs
+    no network: open its index.html.
 
-    Example: stabilab report --out report
+    Example: stabilab report cases/minor-axis-100.toml --out report
     """
-    from .show.report.report import of_all, write
-    from .show.text import law
-    loaded = _load(cases or [])
-    made = write(loaded, out, arguments=sys.argv[1:])
-    beyond = law.of_cases(of_all(loaded))
-    _print("\n".join(filter(None, (beyond, str(made)))))
+    from .show.report.report import write
+    beyond: list[str] = []
+    made = write(_load(cases or []), out, arguments=sys.argv[1:], papers=papers, precision=precision, certify=certify, workers=workers, beyond=beyond)
+    _print("\n".join([*beyond, str(made)]))
     if strict and beyond:
         raise typer.Exit(UNDECIDED)
 

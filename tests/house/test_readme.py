@@ -72,7 +72,7 @@ def make_knows(target):
 
 # Commands that are not run here, for they install or take minutes, and how each is checked instead.
 NOT_RUN = {
-    "make report": lambda: "-m venv .venv" in make_knows("report") and "stabilab report cases/*.toml --out report" in make_knows("report"),
+    "make report": lambda: "-m venv .venv" in make_knows("report") and "stabilab report cases/*.toml --papers --precision --out report" in make_knows("report"),
     "make test": lambda: "-m venv .venv" in make_knows("test") and "-m pytest" in make_knows("test"),
     "pip install -e .": lambda: 'readme = "README.md"' in (ROOT / "pyproject.toml").read_text() and README.exists(),
     "apt install libegl1 libgl1-mesa-dri": lambda: CURE == "apt install libegl1 libgl1-mesa-dri",

@@ -217,11 +217,11 @@ def test_ci_runs_the_lowest_versions():
 # -- installed, away from the repository -------------------------------------------------------------------------------
 
 # A report with one figure and no chapters: what is left reads the papers' cases as all of it does.
-LIGHT_REPORT = ("from stabilab.show.report import chapters, report\n"
+LIGHT_REPORT = ("from stabilab.show.report import chapters, report, whole\n"
                 "from stabilab.show.figures import catalogue as figures\nfrom stabilab.show.text import table\n"
                 "figures.FIGURES = (figures.figure(9),)\n"
-                "figures.NUMBERS = (9,)\nchapters.CHAPTERS = report.PAGES = ()\nreal = table.case_files\n"
-                "report.table.case_files = lambda stems=('minor-axis-100',): real(stems)\nprint(report.write(out='report'))\n")
+                "figures.NUMBERS = (9,)\nchapters.CHAPTERS = whole.COSTS = ()\nreal = table.case_files\n"
+                "report.table.case_files = lambda stems=('minor-axis-100',): real(stems)\nprint(report.write(out='report', workers=1))\n")
 
 
 def installed(folder, made):
@@ -265,7 +265,10 @@ def test_an_installed_wheel_makes_tables_figures_and_reports_anywhere(tmp_path):
     shutil.rmtree(copy)
     away.mkdir()
     run = installed(away, tmp_path / "made")
-    assert run("-c", LIGHT_REPORT).strip() == "report/index.html" and "minor-axis-100" in (away / "report/index.html").read_text(encoding="utf-8")
+    assert run("-c", LIGHT_REPORT).strip() == "report/index.html" and "minor-axis-100" in (away / "report/cases.html").read_text(encoding="utf-8")
+    (away / "own.toml").write_bytes(MINOR.read_bytes())
+    run("-m", "stabilab", "report", "own.toml", "--out", "mine")
+    assert "BOUNDED" in (away / "mine/index.html").read_text(encoding="utf-8")
 
 
 def test_a_case_that_is_not_here_but_comes_with_the_package_is_named(tmp_path, stabilab, monkeypatch):

@@ -229,6 +229,6 @@ def test_surface_carries_it_in_its_summary(stabilab, tmp_path, monkeypatch):
 
 def test_section_of_a_report_says_it_first(tmp_path):
     from stabilab.case.read import load
-    from stabilab.show.report.report import _section
-    section = _section(load(water(tmp_path, "1e-6")), tmp_path, lambda words: None)
-    assert section["motion"][0][0] == "law" and section["motion"][0][1].startswith("BEYOND THE LAW")
+    from stabilab.show.report.one_case.page import sections
+    page = sections(load(water(tmp_path, "1e-6")), tmp_path, "water")
+    assert page["law"].startswith("BEYOND THE LAW")  # the page has it below its verdict, before anything else

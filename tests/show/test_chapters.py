@@ -12,7 +12,7 @@ from stabilab.show.figures import cavity as figures_cavity
 from stabilab.show.figures import charged as figures_charged
 from stabilab.show.figures import panels
 from stabilab.show.figures import top as figures_top
-from stabilab.show.report import chapters, claims, report
+from stabilab.show.report import chapters, claims, html
 
 FOLDER = Path(__file__).parents[2] / "figures"
 OTHERS = [row for name in ("charged", "cavity", "top") for row in figures.of_paper(name)]
@@ -137,19 +137,17 @@ def test_a_chapter_whose_case_is_missing_says_so_in_words(tmp_path, monkeypatch)
     monkeypatch.setattr(figures, "of_paper", lambda *_: ())
     from dataclasses import replace
     broken = replace(chapters.CHAPTERS[2], compared=(("top-that-is-not-there", ""),))
-    section = chapters._section(broken, tmp_path, lambda words: None)
+    monkeypatch.setattr(chapters, "CHAPTERS", (broken,))
+    section = chapters.section("top", tmp_path)
     assert "top-that-is-not-there.toml" in section["problem"] and section["sensible"] is None
 
 
 def test_a_chapter_stands_in_the_report_with_claims_errors_and_variant(tmp_path, monkeypatch):
-    from jinja2 import Environment, FileSystemLoader, StrictUndefined
     row = figures_top.FIGURES[4]
     monkeypatch.setattr(figures_top, "FIGURES", (row,))
-    section = chapters._section(chapters.CHAPTERS[2], tmp_path, lambda words: None)
+    section = chapters.section("top", tmp_path)
     assert section["problem"] == "" and (tmp_path / section["sensible"]["file"]).is_file()
-    environment = Environment(loader=FileSystemLoader(Path(report.__file__).parents[1] / "templates"), autoescape=True,
-                              undefined=StrictUndefined)
-    page = environment.get_template("chapters.html").render(chapters=[section])
+    page = html.render("chapter.html", chapter=section, title=section["title"])
     for words in ("A fast top in a Newtonian field", "10 % from", "top-sensible.png", "figures/top-06.png", "not so"):
         assert words in page, words
 

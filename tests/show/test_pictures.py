@@ -3,7 +3,6 @@ import csv
 import io
 import json
 import math
-import re
 import struct
 from pathlib import Path
 
@@ -304,27 +303,6 @@ def test_what_is_not_a_picture_is_refused_before_anything_is_drawn(tmp_path):
     assert not list(tmp_path.iterdir())
 
 
-FETCHED = re.compile(r"""(?:\b(?:src|href|action|data|poster)\s*=\s*|url\(\s*|@import\s+|\b(?:fetch|open|importScripts|Worker|WebSocket)\(\s*|"""
-                     r"""setAttribute\(\s*["'](?:src|href)["']\s*,\s*)["'`]?(?:https?:|wss?:)?//[\w-]+\.""", re.I)
-
-
-def test_the_viewer_of_a_surface_asks_the_network_for_nothing():
-    """The viewer that trame-vtk brings names icons on a web site; the page that is written names none, and forbids the rest."""
-    from trame_vtk.tools.vtksz2html import HTML_VIEWER_PATH
-    page = HTML_VIEWER_PATH.read_text(encoding="utf-8")
-    written = surface.offline(page)
-    assert FETCHED.search('e.setAttribute("href",`https://kitware.github.io/icon.png`)') and FETCHED.search("url(//a.b/c.png)")
-    assert not FETCHED.search(written) and written.index("Content-Security-Policy") < written.index("<script")
-    assert "default-src 'none'" in surface.POLICY and "http" not in surface.POLICY and "*" not in surface.POLICY
-    assert abs(len(written) - len(page)) < 1000 and 'new URL(t,"http://any")' in written or "http://any" not in page
-
-
-def test_an_address_in_the_viewer_becomes_an_empty_icon_and_a_vocabulary_stays():
-    text = "<head>`https://a.b/${t}x${t}.png` 'http://c.d' \"http://www.w3.org/2000/svg\" \"http://any\" 'see http://e.f/g for more'"
-    assert surface.offline(text).split("/>")[-1].strip() == ("`data:,` 'data:,' \"http://www.w3.org/2000/svg\" \"http://any\" "
-                                                           "'see http://e.f/g for more'")
-
-
 def test_the_summary_counts_what_the_mesh_holds(tmp_path):
     import pyvista
     summary = surface.write(paper.scene("minor", 300), tmp_path, shape=(20, 41), picture=False)
@@ -345,11 +323,3 @@ def test_surface_points_lie_on_the_level_of_their_saddle(tmp_path):
         energy = x3**2 / 2 - theta - X**2 / 2 - (scene.b - scene.a) * X
         scale = 1 + np.abs(X).max() ** 2
         assert np.ptp(energy, axis=1).max() < 1e-11 * scale
-
-
-def test_objects_of_a_turntable_are_named_by_their_order_rather_than_their_address():
-    def described(first, second):
-        return {"id": first, "calls": [["setInputData", [f"instance:${{{second}-dataset}}"]]], "dependencies": [{"id": second, "parent": first}],
-                "hash": "a" * 32, "at": 0.9510565162951535}
-    one, two = described("0000556554f34750", "0000556554f37240"), described("00005634e0519930", "00005634d98976a0")
-    assert surface.in_order(one) == surface.in_order(two) == described("0000000000000001", "0000000000000002")

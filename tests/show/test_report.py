@@ -2,7 +2,6 @@
 import re
 import shutil
 import subprocess
-import sys
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -11,28 +10,42 @@ import pytest
 
 import stabilab
 from stabilab.show.figures import catalogue as figures
-from stabilab.show.report import chapters, report
+from stabilab.show.files import manifest
+from stabilab.show.report import chapters, own, report, surfaces, whole
 from stabilab.show.surface import render_probe
-from stabilab.theories.audit import audited
+from stabilab.theories.audit import findings_of
 
 CASES = Path(__file__).parents[2] / "cases"
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 HOSTILE = '<script>alert("title")</script> & "more"'
 VOID = {"meta", "link", "img", "br", "hr", "input"}
+SWEEP = """
+title = "two torques"
+[body]
+inertia = [3, 2, 1]
+[effects.constant_torque]
+torque = [0, 0, 0.1]
+[motion]
+angular_velocity = [0.1, 0.2, 0.3]
+span = [0, 5]
+[sweep]
+"effects.constant_torque.torque" = [[0, 0, 0.1], [0, 0, 0.2], [0.1, 0, 0]]
+"""
 
 
 class Page(HTMLParser):
-    """Collects tags, checks nesting, and lists what the page loads."""
+    """Collects tags, checks nesting, and lists what the page loads and where it leads."""
 
     def __init__(self, text):
         super().__init__()
-        self.open, self.faults, self.links, self.scripts, self.ids = [], [], [], 0, []
+        self.open, self.faults, self.links, self.loads, self.scripts, self.ids = [], [], [], [], 0, []
         self.feed(text)
         self.faults += [f"never closed: {tag}" for tag in self.open]
 
     def handle_starttag(self, tag, attrs):
-        self.scripts += tag == "script"
-        self.links += [v for k, v in attrs if k in ("src", "href", "data-scene")]
+        self.scripts += tag == "script" and ("type", "application/json") not in attrs
+        self.links += [v for k, v in attrs if k in ("src", "href")]
+        self.loads += [v for k, v in attrs if k in ("src", "data", "poster", "action") or k == "href" and tag != "a"]
         self.ids += [v for k, v in attrs if k == "id"]
         if tag not in VOID:
             self.open.append(tag)
@@ -48,69 +61,193 @@ def _small_page(cases, folder, tell):
     return path
 
 
-@pytest.fixture(scope="module")
-def light(tmp_path_factory):
-    """A report on one hostile case with one figure, on a machine that cannot draw in 3-D."""
-    patch = pytest.MonkeyPatch()
+def _no_gl(patch):
     render_probe.probe.cache_clear()
     patch.setattr(render_probe, "_CHILD", "raise SystemExit(3)")
-    patch.setattr(figures, "FIGURES", (figures.figure(9),))
-    patch.setattr(figures, "NUMBERS", (9,))
-    patch.setattr(chapters, "CHAPTERS", ())
-    patch.setattr(report, "PAGES", (("What it costs <b>", "in time", _small_page), ("Nothing", "here", lambda cases, folder, tell: None)))
-    patch.setattr(report, "SURFACE_SHAPE", (10, 21))
-    patch.setattr(report, "audited", lambda: audited("charged-axisymmetric", "13"))
-    folder = tmp_path_factory.mktemp("light")
+    patch.setattr(surfaces, "SHAPE", (10, 21))
+
+
+@pytest.fixture(scope="module")
+def hostile(tmp_path_factory):
+    """A case whose title would be a script."""
     text = (CASES / "minor-axis-100.toml").read_text(encoding="utf-8")
-    hostile = folder / "hostile.toml"
-    hostile.write_text(re.sub(r'(?m)^title = .*$', lambda m: f"title = '{HOSTILE}'", text), encoding="utf-8")
+    path = tmp_path_factory.mktemp("hostile") / "hostile.toml"
+    path.write_text(re.sub(r'(?m)^title = .*$', lambda m: f"title = '{HOSTILE}'", text), encoding="utf-8")
+    return path
+
+
+def _written(tmp_path_factory, name, *arguments, **options):
+    patch = pytest.MonkeyPatch()
+    _no_gl(patch)
     try:
-        return report.write([hostile], folder / "report")
+        return report.write(*arguments, out=tmp_path_factory.mktemp(name) / "report", **options)
     finally:
         patch.undo()
         render_probe.probe.cache_clear()
 
 
-def test_the_report_is_well_formed_and_every_link_leads_to_a_file(light):
-    page = Page(light.read_text(encoding="utf-8"))
-    assert page.faults == [] and len(page.ids) == len(set(page.ids))
-    for link in page.links:
-        assert not re.match(r"(https?:)?//", link), link
-        if link.startswith("#"):
-            assert link[1:] in page.ids
-        elif not link.startswith("data:"):
+@pytest.fixture(scope="module")
+def alone(tmp_path_factory, hostile):
+    """A report on one hostile case, with its certificate, on a machine that cannot draw in 3-D."""
+    return _written(tmp_path_factory, "alone", [hostile], certify=True, workers=1)
+
+
+@pytest.fixture(scope="module")
+def several(tmp_path_factory, hostile):
+    """A report on two cases and a sweep, by two processes."""
+    sweep = tmp_path_factory.mktemp("sweep") / "torques.toml"
+    sweep.write_text(SWEEP)
+    return _written(tmp_path_factory, "several", [hostile, CASES / "symmetric-body.toml", sweep], workers=2), [hostile, CASES / "symmetric-body.toml", sweep]
+
+
+@pytest.fixture(scope="module")
+def everything(tmp_path_factory, hostile):
+    """The whole with one figure of one paper, and one equation in the audit."""
+    patch = pytest.MonkeyPatch()
+    patch.setattr(figures, "FIGURES", (figures.figure(9),))
+    patch.setattr(figures, "NUMBERS", (9,))
+    patch.setattr(chapters, "CHAPTERS", ())
+    patch.setattr(whole, "COSTS", (("What it costs <b>", "in time", _small_page), ("Nothing", "here", lambda cases, folder, tell: None)))
+    patch.setattr(whole, "audited_papers", lambda: ("charged-axisymmetric",))
+    patch.setattr(whole, "findings_of", lambda name: findings_of(name, "13"))
+    try:
+        return _written(tmp_path_factory, "everything", [hostile], papers=True, precision=True, workers=1)
+    finally:
+        patch.undo()
+
+
+def _pages(index):
+    made = sorted(page for page in index.parent.rglob("*.html") if page.name != "small.html" and page.parent.name != "tables")
+    return {page: page.read_text(encoding="utf-8") for page in made}
+
+
+@pytest.fixture(scope="module")
+def pages(alone, several, everything):
+    """Every page of all three."""
+    return _pages(alone) | _pages(several[0]) | _pages(everything)
+
+
+def test_every_page_is_well_formed_and_every_link_leads_to_a_file(pages):
+    assert len(pages) >= 12
+    for path, text in pages.items():
+        page = Page(text)
+        assert page.faults == [] and len(page.ids) == len(set(page.ids)), path
+        for link in page.links:
             file, _, place = link.partition("#")
-            assert (light.parent / file).is_file(), link
-            assert not place or place in Page((light.parent / file).read_text(encoding="utf-8")).ids, link
+            if link.startswith("#"):
+                assert link[1:] in page.ids, (path, link)
+            elif not re.match(r"data:|https://github\.com/", link):
+                assert (path.parent / file).is_file(), (path, link)
+                assert not place or place in Page((path.parent / file).read_text(encoding="utf-8")).ids, (path, link)
 
 
-def test_a_hostile_title_is_text(light):
-    text = light.read_text(encoding="utf-8")
-    assert Page(text).scripts == 1 and "<script>alert" not in text and "&lt;script&gt;alert(" in text
+def test_no_page_loads_anything_from_a_network(pages):
+    """What a page loads is a file beside it; its scripts hold no address at all."""
+    for path, text in pages.items():
+        assert not [one for one in Page(text).loads if re.match(r"(https?:|wss?:)?//", one)], path
+        scripts = "".join(re.findall(r"(?s)<script.*?</script>|<style.*?</style>", text))
+        assert not re.search(r"https?:|wss?:|url\(|@import|fetch\(|XMLHttpRequest", scripts), path
 
 
-def test_pages_that_were_made_are_linked_and_the_others_left_out(light):
-    html = light.read_text(encoding="utf-8")
-    assert '<a href="small.html">What it costs &lt;b&gt;</a>: in time.' in html and "Nothing" not in html
-    assert (light.parent / "small.html").read_text(encoding="utf-8").endswith("<title>1</title>")
-    assert [title for title, _, _ in report.PAGES] == ["What accuracy costs", "How cost grows", "What each effect costs"]
+def test_a_page_is_small(pages):
+    """A page opens in a second: half a megabyte at most, pictures come as they are scrolled to."""
+    assert all(len(text) < 500_000 for text in pages.values())
 
 
-def test_without_gl_the_report_says_so_and_has_the_meshes(light):
-    text = light.read_text(encoding="utf-8")
-    assert "apt install libegl1 libgl1-mesa-dri" in text
-    assert {p.suffix for p in (light.parent / "surfaces").iterdir()} == {".vtp", ".glb", ".stl"}
+def test_a_hostile_title_is_text(pages):
+    for path, text in pages.items():
+        assert "<script>alert" not in text, path
+        assert Page(text).scripts == ("space-data" in text), path  # that which draws the space of the rates
+    assert any("&lt;script&gt;alert(" in text for text in pages.values())
 
 
-def test_the_report_names_fate_equations_audit_and_versions(light):
-    text = light.read_text(encoding="utf-8")
-    for words in ("bounded", "x1&#39; = ", "Printed formulas", stabilab.__version__, "Table 4", "stabilab classify"):
+def test_the_verdict_is_the_first_line_below_the_title(alone):
+    text = alone.read_text(encoding="utf-8")
+    below = text[text.index("</h1>") + 5:].strip()
+    assert below.startswith('<p class="verdict-line bounded">BOUNDED for ever; largest rate ')
+
+
+def test_the_page_of_a_case_has_all_that_applies_to_it(alone):
+    text = alone.read_text(encoding="utf-8")
+    for words in ("Rates over time", "Phase plane", "Separatrix, equilibria and motion in space", "Equilibria and their stability",
+                  "What would change the fate", "Equations of motion", "<math display", "Certificate", "How it was made", stabilab.__version__):
         assert words in text, words
-    assert "(not confirmed)" not in text
+    assert "in scaled variables: a stuck thruster is asked of a body" in text  # and what does not
 
 
-def test_nothing_is_left_beside_the_report(light):
-    assert {p.name for p in light.parent.parent.iterdir()} == {"report", "hostile.toml"}
+def test_the_certificate_of_a_page_is_proved_by_the_other_code(alone):
+    from stabilab.verify import verify_file
+    assert verify_file(alone.parent / "cases/hostile-certificate.json").status == "proved"
+    assert "<b>proved</b>" in alone.read_text(encoding="utf-8")
+
+
+def test_the_pages_of_costs_that_were_made_are_linked_and_the_others_left_out(everything):
+    html = (everything.parent / "cost.html").read_text(encoding="utf-8")
+    assert '<a href="small.html">What it costs &lt;b&gt;</a><br>in time.' in html and "Nothing" not in html
+    assert (everything.parent / "small.html").read_text(encoding="utf-8").endswith("<title>1</title>")
+    assert [title for title, _, _ in whole.COSTS] == ["What accuracy costs", "How cost grows", "What each effect costs"]
+
+
+def test_the_start_page_leads_to_every_other_and_every_page_back(everything):
+    folder = everything.parent
+    start = Page(everything.read_text(encoding="utf-8")).links
+    for name in ("constant-torque", "cases", "audit", "validation", "cost"):
+        assert f"{name}.html" in start and "index.html" in Page((folder / f"{name}.html").read_text(encoding="utf-8")).links
+    assert "../cases.html" in Page((folder / "cases/hostile.html").read_text(encoding="utf-8")).links
+    assert "Table 4" in (folder / "constant-torque.html").read_text(encoding="utf-8")
+
+
+def test_a_report_on_cases_alone_reads_none_of_the_papers(alone, several, hostile):
+    (run,) = manifest.read(alone.parent)
+    assert [row["path"] for row in run["inputs"]] == [str(hostile)]
+    assert not any(page.name in ("audit.html", "constant-torque.html") for page in several[0].parent.iterdir())
+
+
+def test_a_sweep_is_one_table_with_a_column_for_its_key(several):
+    text = (several[0].parent / "cases/torques.html").read_text(encoding="utf-8")
+    rows = re.findall(r"(?s)<tr>(.*?)</tr>", text)
+    assert "<th>constant torque torque</th><th>fate</th>" in rows[0] and len(rows) == 4
+    assert "3 combinations: " in text and text.count("<img") == 1
+    assert [label for label in ("(0, 0, 0.1)", "(0, 0, 0.2)", "(0.1, 0, 0)") if label in text] == ["(0, 0, 0.1)", "(0, 0, 0.2)", "(0.1, 0, 0)"]
+
+
+def test_any_number_of_workers_gives_the_same_bytes(several, tmp_path_factory):
+    made, cases = several
+    again = _written(tmp_path_factory, "again", cases, workers=1)
+    first, second = ({row["path"]: row["sha256"] for row in manifest.read(index.parent)[0]["outputs"]} for index in (made, again))
+    assert first == second and len(first) > 10
+
+
+def test_cases_of_one_name_have_pages_of_their_own(tmp_path):
+    (tmp_path / "a").mkdir()
+    (tmp_path / "b").mkdir()
+    for folder in "ab":
+        shutil.copy(CASES / "symmetric-body.toml", tmp_path / folder / "one.toml")
+    cases = report.of_all([tmp_path / "a/one.toml", tmp_path / "b/one.toml"])
+    assert [stem for stem, _ in own.entries(cases)] == ["one", "one_2"]
+
+
+@pytest.mark.parametrize("name, title", [
+    ("minor-axis-100", "Constant torque along a principal axis"), ("off-axis-two", "Constant torque in another direction"), ("torque-free-body", "No torque"),
+    ("upper-stage", "Spacecraft with thrusters"), ("charged-body", "A charge in a magnetic field"), ("liquid-base", "A cavity of viscous liquid"),
+    ("top-fast", "Weight and field: tops")])
+def test_cases_stand_in_groups_by_their_effects(name, title):
+    assert whole.group(stabilab.load(CASES / f"{name}.toml")) == title
+
+
+def test_constant_torque_comes_first():
+    assert [title for title, _ in whole.GROUPS][:2] == ["Constant torque along a principal axis", "Constant torque in another direction"]
+
+
+def test_without_gl_the_report_says_so_and_has_the_meshes(alone):
+    text = alone.read_text(encoding="utf-8")
+    assert "apt install libegl1 libgl1-mesa-dri" in text
+    assert {p.suffix for p in (alone.parent / "cases").iterdir()} == {".vtp", ".glb", ".stl", ".png", ".json"}
+
+
+def test_nothing_is_left_beside_the_report(alone):
+    assert {p.name for p in alone.parent.parent.iterdir()} == {"report"}
+    assert {p.name for p in alone.parent.iterdir()} == {"cases", "index.html", "manifest.json"}
 
 
 def test_a_fault_in_a_case_writes_nothing(tmp_path):
@@ -121,59 +258,37 @@ def test_a_fault_in_a_case_writes_nothing(tmp_path):
     assert {p.name for p in tmp_path.iterdir()} == {"bad.toml"}
 
 
-def test_without_the_viewers_package_the_report_has_its_pictures_and_names_it(tmp_path, monkeypatch):
-    from stabilab.show.surface import write as surface
-    monkeypatch.setitem(sys.modules, "trame_vtk", None)
-    monkeypatch.setattr(render_probe, "probe", lambda: render_probe.Renderer(True, "a renderer"))
-    monkeypatch.setattr(surface, "draw", lambda scene, found, meshes, path: path)
-    monkeypatch.setattr(report, "SURFACE_SHAPE", (10, 21))
-    (entry,), note = report._surfaces([stabilab.load(CASES / "minor-axis-100.toml")], tmp_path, lambda words: None)
-    assert entry["still"] and entry["scene"] is None and "pip install trame-pyvista" in note
-
-
-def _visit(page: Path, shot: Path):
+def _visit(page: Path, shot: Path, width=900):
     """Open a page in headless Chromium with its software renderer; returns the console's lines."""
     run = subprocess.run(
         [CHROMIUM, "--headless", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-         "--allow-file-access-from-files", "--window-size=900,700", "--virtual-time-budget=20000", "--enable-logging=stderr",
+         "--allow-file-access-from-files", f"--window-size={width},5000", "--virtual-time-budget=20000", "--enable-logging=stderr",
          f"--user-data-dir={shot.parent / 'profile'}", f"--screenshot={shot}", page.as_uri()],
         capture_output=True, text=True, timeout=240)
     return [line for line in run.stderr.splitlines() if "CONSOLE" in line]
 
 
-def _troubles(console):
-    return [line for line in console if re.search(r"error|exception|refused|failed|not found", line, re.I)]
+@pytest.mark.slow
+@pytest.mark.skipif(CHROMIUM is None, reason="Chromium is not installed")
+def test_the_space_of_the_rates_draws_in_a_browser(tmp_path):
+    from PIL import Image
+    index = report.write([CASES / "minor-axis-100.toml"], tmp_path / "report")
+    assert _visit(index, tmp_path / "page.png") == []
+    pixels = np.asarray(Image.open(tmp_path / "page.png").convert("RGB")).reshape(-1, 3).astype(int)
+    sky = np.array([0x56, 0xB4, 0xE9])  # of the first sheet, in some light
+    share = pixels @ sky / (np.linalg.norm(pixels, axis=1) * np.linalg.norm(sky) + 1e-9)
+    coloured = (share > 0.997) & (np.ptp(pixels, axis=1) > 40)
+    assert coloured.mean() > 0.01
 
 
 @pytest.mark.slow
 @pytest.mark.skipif(CHROMIUM is None, reason="Chromium is not installed")
-def test_the_report_opens_in_a_browser_and_its_scene_draws(tmp_path, monkeypatch):
-    from PIL import Image
-    if not render_probe.probe().available:
-        pytest.skip("no renderer on this machine")
-
-    monkeypatch.setattr(figures, "FIGURES", (figures.figure(9),))
-    monkeypatch.setattr(figures, "NUMBERS", (9,))
-    monkeypatch.setattr(chapters, "CHAPTERS", ())
-    monkeypatch.setattr(report, "PAGES", ())
-    def no_network(*_):
-        raise AssertionError("the report reached for the network")
-    for call in ("connect", "bind"):
-        monkeypatch.setattr(f"socket.socket.{call}", no_network)
-    index = report.write([CASES / "minor-axis-100.toml"], tmp_path / "report")
-    assert _troubles(_visit(index, tmp_path / "index.png")) == []
-    scene = index.parent / "surfaces" / "minor-axis-100.html"
-    assert _troubles(_visit(scene, tmp_path / "scene.png")) == []
-    text = scene.read_text(encoding="utf-8")
-    assert "Content-Security-Policy" in text and not re.search(r"""["'`]https?://(?!www\.w3\.org/)[\w-]+\.""", text)
-    pixels = np.asarray(Image.open(tmp_path / "scene.png").convert("RGB")).reshape(-1, 3)
-    coloured = np.ptp(pixels.astype(int), axis=1) > 40  # the sheets are coloured, the ground is white
-    assert 0.02 < coloured.mean() < 0.9
-
-
-def test_a_top_has_its_fate_and_no_problem_in_the_report(tmp_path):
-    """Its state has the vertical too: bounded by the energy (|gamma| = 1 bounds the potential)."""
-    from stabilab.case.read import load
-    from stabilab.show.report.report import _section
-    section = _section(load(CASES / "top-fast.toml"), tmp_path, lambda words: None)
-    assert section["fate"] == "bounded" and not section["problem"] and (tmp_path / section["picture"]["file"]).exists()
+def test_no_page_is_wider_than_a_telephone(several, everything, tmp_path):
+    """The browser tells, after its layout, how wide each page is: a frame of 400 pixels that does not scroll sideways."""
+    for number, page in enumerate([*_pages(several[0]), *_pages(everything)]):
+        frame = tmp_path / f"frame-{number}.html"
+        frame.write_text(f'<iframe src="{page.as_uri()}" style="width:400px;height:800px;border:0" onload="const d = this.contentDocument.documentElement; '
+                         f'console.log(`wide ${{d.scrollWidth}} ${{d.clientWidth}}`)"></iframe>', encoding="utf-8")
+        (line,) = [line for line in _visit(frame, tmp_path / "shot.png") if "wide " in line]
+        scroll, client = map(int, re.search(r"wide (\d+) (\d+)", line).groups())
+        assert scroll <= client == 400, page

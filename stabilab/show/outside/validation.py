@@ -75,10 +75,10 @@ def cause(group) -> str:
     return max(explained, key=lambda one: one.left).cause if explained else ""
 
 
-def page(validated, path) -> Path:
-    """The page of (source, findings) pairs as a file."""
+def page(validated, path, **around) -> Path:
+    """The page of (source, findings) pairs as a file; around: of the pages beside it (`html.render`)."""
     sources = [{"source": source, "count": counts(found), "groups": [_group(source, group) for group in grouped(found)]} for source, found in validated]
-    return html.write(Path(path), "validation.html", title="Numbers of other tools beside ours", sources=sources)
+    return html.write(Path(path), "validation.html", title="Numbers of other tools beside ours", sources=sources, **around)
 
 
 def _group(source, group):

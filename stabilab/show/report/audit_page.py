@@ -14,12 +14,12 @@ from . import html
 GREEK = {"al": "alpha", "th": "theta", "gam": "gamma", "om": "omega", "lam": "lambda", "Om": "Omega", "eps": "varepsilon", "ep": "varepsilon"}
 
 
-def page(findings, path) -> Path:
-    """The page of (paper, findings) pairs as a file."""
+def page(findings, path, **around) -> Path:
+    """The page of (paper, findings) pairs as a file; around: of the pages beside it (`html.render`)."""
     papers = [
         {"name": paper.name, "title": paper.title, "count": count(group), "rows": [_row(paper, finding) for finding in group]} for paper, group in findings
     ]
-    return html.write(Path(path), "audit.html", title="Published formulas, held against the equations of motion", papers=papers, verdicts=VERDICTS)
+    return html.write(Path(path), "audit.html", title="Published formulas, held against the equations of motion", papers=papers, verdicts=VERDICTS, **around)
 
 
 def count(group) -> list[tuple[str, int]]:

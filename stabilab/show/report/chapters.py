@@ -5,18 +5,13 @@ own cases, and the times of the first 1 % and 10 % error come from `analysis.com
 """
 from __future__ import annotations
 
-import json
-import subprocess
-import sys
 from collections.abc import Callable
-from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from ...errors import StabilabError
-from ...interrupt import end_with_parent, undoing
 from ...physics.equations import derive
 from ...theories.comparison import compare, side_by_side
 from .. import style
@@ -31,7 +26,7 @@ class Chapter:
     """paper: short name as of `figures`; about: what the paper does and where it stands; compared: (case file, variant) of the
     motions whose errors are listed; end: s; claims() -> rows (the text says, it is so, True where the text is right);
     sensible: case file of the variant; sensible_end: s; why: what makes it sensible; parts: of the state to draw, over
-    `window`, s."""
+    `window`, s; short: name in the navigation; weight: s of one core."""
 
     paper: str
     title: str
@@ -44,6 +39,8 @@ class Chapter:
     why: str
     parts: tuple
     window: float
+    short: str
+    weight: float
 
 
 POINTS = 401  # times at which models are set beside the exact motion
@@ -55,7 +52,8 @@ CHAPTERS = (
             "psi and phi. Euler's "
             "equations give two different rates a and b; equation (8) keeps one. The corrected closed form keeps both.",
             tuple((_SWEEP, v) for v in ("-1-2-1", "-3-2-1", "-1-3-1", "-1-2-3")), 50.0, claims.charged,
-            "charged-body-small-torque", 50.0, "the torque is so small that the tilt stays small for ever", ("omega", "angles", "position"), 50.0),
+            "charged-body-small-torque", 50.0, "the torque is so small that the tilt stays small for ever", ("omega", "angles", "position"), 50.0,
+            "Charged body", 30.0),
     Chapter("cavity", "A body with a cavity of viscous liquid",
             "A nearly spherical body with a gyrostatic moment, a charge, a resisting medium, a constant torque and a liquid "
             "so viscous that it follows the body at once. The paper averages over the turn about axis 3 and takes the first "
@@ -66,80 +64,35 @@ CHAPTERS = (
             tuple((f"liquid-{name}", "") for name in ("base", "lambda3-0_2", "lambda3-15", "lambda3-25", "zeta-2_5", "torque-9",
                                                       "charge-1e3", "charge-1e4")), 20.0, claims.cavity,
             "liquid-sensible", 20000.0, "the cavity fits into the body, and the liquid is slow and viscous enough for its "
-            "law", ("omega",), 3000.0),
+            "law", ("omega",), 3000.0, "Liquid cavity", 30.0),
     Chapter("top", "A fast top in a Newtonian field",
             "A body about a fixed point, nearly Lagrange's top, under its weight, the gradient of a Newtonian field and a "
             "gyrostatic moment (l_x, 0, l_z), expanded in 1/r0 for a fast spin. The corrected expansion keeps C* = C + "
             "l_z/r0, the permanent "
             "tilt by l_x and the frequency.",
             tuple((f"top-lx{a}-lz{b}", "") for a, b in ((30, 30), (90, 30), (30, 90))), 1.3, claims.top,
-            "top-fast", 2.0, "it spins fast, delta1 and delta2 are of order one, and gamma0'' is not near 0", ("omega", "gamma"), 0.15),
+            "top-fast", 2.0, "it spins fast, delta1 and delta2 are of order one, and gamma0'' is not near 0", ("omega", "gamma"), 0.15, "Fast top", 10.0),
 )
 
 
-MADE = "chapters.json"  # what the second process leaves in the folder
-
-
-@contextmanager
-def beside(folder):
-    """Make the chapters in a second process while the block runs: they share nothing with the rest of a report and take as
-    long. Gives collect(tell) -> what the template says of every chapter; pictures go to `folder`/figures."""
-    if not CHAPTERS:
-        yield lambda tell: []
-        return
-    child = subprocess.Popen([sys.executable, "-m", __name__, str(folder)], stdin=subprocess.PIPE,  # it ends with this process
-                             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-
-    def stop():
-        child.kill()
-        child.wait()
-        child.stdin.close()
-    with undoing(stop):
-        try:
-            yield lambda tell: _collect(child, folder, tell)
-        finally:
-            stop()
-
-
-def _collect(child, folder, tell):
-    tell("chapters")
-    made = Path(folder) / MADE
-    if child.wait() or not made.is_file():
-        return sections(folder, tell)  # here, so that whatever went wrong is reported
-    found = json.loads(made.read_text(encoding="utf-8"))
-    made.unlink()
-    return found
-
-
-def sections(folder, tell=lambda words: None) -> list[dict]:
-    """The chapters, made in this process; plain data. tell(words) is called before each step."""
-    return [_section(chapter, Path(folder), tell) for chapter in CHAPTERS]
-
-
-def main(folder):
-    """What the second process does."""
-    end_with_parent()
-    found = sections(folder)
-    (Path(folder) / MADE).write_text(json.dumps(found), encoding="utf-8")
-
-
-def _section(chapter, folder, tell) -> dict:
-    tell(f"chapter {chapter.paper}")
+def section(name: str, folder: Path, tell=lambda words: None) -> dict:
+    """The chapter on a paper: plain data, its figures drawn into `folder`/figures. tell(words) is called before each step."""
+    chapter = next(chapter for chapter in CHAPTERS if chapter.paper == name)
     rows = figures.of_paper(chapter.paper)
     drawn = figures.write(None, folder / "figures", tell, chapter.paper)
-    section = {"id": chapter.paper, "title": chapter.title, "paper": figures.PAPERS[chapter.paper], "about": chapter.about, "problem": "",
+    made = {"id": chapter.paper, "title": chapter.title, "paper": figures.PAPERS[chapter.paper], "about": chapter.about, "problem": "",
                "claims": [], "compared": [], "sensible": None, "parameters": "", "end": chapter.end,
                "figures": [{"number": row.number, "title": row.title, "caption": row.caption, "tolerance": row.tolerance,
                             "command": row.command, "file": f"figures/{path.name}", "size": size(path)} for row, path in zip(rows, drawn)]}
     try:
         tell(f"chapter {chapter.paper}: comparisons")
-        section["parameters"] = _parameters(panels.sweep(chapter.compared[0][0])[chapter.compared[0][1]])
-        section["claims"] = chapter.claims()
-        section["compared"] = [row for name, variant in chapter.compared for row in _errors(panels.sweep(name)[variant], chapter.end)]
-        section["sensible"] = _sensible(chapter, folder)
+        made["parameters"] = _parameters(panels.sweep(chapter.compared[0][0])[chapter.compared[0][1]])
+        made["claims"] = chapter.claims()
+        made["compared"] = [row for name, variant in chapter.compared for row in _errors(panels.sweep(name)[variant], chapter.end)]
+        made["sensible"] = _sensible(chapter, folder)
     except StabilabError as error:  # a case that is not there yet, or a motion that cannot be run: the chapter says so
-        section["problem"] = str(error)
-    return section
+        made["problem"] = str(error)
+    return made
 
 
 def _parameters(case):
@@ -179,6 +132,3 @@ def size(path) -> list[int]:
     with Image.open(path) as image:
         return list(image.size)
 
-
-if __name__ == "__main__":
-    main(sys.argv[1])

@@ -1,9 +1,7 @@
-"""The separatrix as files: meshes of every sheet, a summary, a picture and a scene to turn round."""
+"""The separatrix as files: meshes of every sheet, a summary and a picture."""
 from __future__ import annotations
 
-import io
 import json
-import re
 from contextlib import nullcontext
 from pathlib import Path
 
@@ -11,7 +9,7 @@ import numpy as np
 
 from ...answers.equilibria import equilibria
 from ...case.read import blamed_on
-from ...errors import RenderingUnavailable, StabilabError
+from ...errors import RenderingUnavailable
 from ...orbit.separatrix.sheets import separatrix
 from ...packages import present
 from .. import style
@@ -154,7 +152,7 @@ def polydata(meshes):
 # -- pictures ----------------------------------------------------------------------------------------------------------
 
 
-def equilibrium_lines(scene, found, size):
+def equilibrium_lines(scene, size):
     """[("stable" | "unstable" | "degenerate", points (n, 3))] of the equilibrium curves within `size` of the origin."""
     lines = []
     for curve in equilibria(scene).curves:
@@ -166,7 +164,7 @@ def equilibrium_lines(scene, found, size):
     return lines
 
 
-def _spread(low, high, number=600):
+def _spread(low, high, number=240):
     """Parameters inside (low, high), dense at both ends, geometric towards an infinite end and towards zero."""
     if np.isfinite(low) and np.isfinite(high):
         t = low + (high - low) * (1 - np.cos(np.linspace(1e-3, np.pi - 1e-3, number))) / 2
@@ -179,7 +177,7 @@ def _spread(low, high, number=600):
     return np.concatenate([-half[::-1], half])
 
 
-def plotter(scene, found, meshes, still=True):
+def plotter(scene, found, meshes):
     """A pyvista plotter with the sheets, the equilibrium curves and the three axes; the caller closes it."""
     use()
     import pyvista
@@ -193,7 +191,7 @@ def plotter(scene, found, meshes, still=True):
             stage.add_mesh(surface, color=style.SHEETS[number % len(style.SHEETS)], smooth_shading=False, ambient=0.35,
                            diffuse=0.7, specular=0.1, name=f"sheet {number}")
     size = 1.15 * max([np.abs(m.points).max(initial=0.0) for m in meshes] or [0.0]) or 5.0
-    for number, (kind, points) in enumerate(equilibrium_lines(scene, found, size)):
+    for number, (kind, points) in enumerate(equilibrium_lines(scene, size)):
         stage.add_mesh(pyvista.lines_from_points(points).tube(radius=size * 0.008), color=_colour(kind), name=f"line {number}")
     for axis, colour in enumerate((style.VERMILION, style.GREEN, style.BLUE)):
         ends = np.zeros((2, 3))
@@ -203,8 +201,7 @@ def plotter(scene, found, meshes, still=True):
         tip[axis] = size
         cone = pyvista.Cone(center=tip, direction=np.eye(3)[axis], height=size * 0.06, radius=size * 0.02)
         stage.add_mesh(cone, color=colour, name=f"tip {axis}")
-    if still:
-        _name_axes(stage, scene, size)
+    _name_axes(stage, scene, size)
     stage.camera_position = [(2.6 * size, -3.4 * size, 2.0 * size), (0, 0, 0), (0, 0, 1)]
     stage.reset_camera()
     stage.camera.zoom(1.45)
@@ -225,13 +222,13 @@ def _colour(kind):
     return style.MEANING["fold" if kind == "degenerate" else kind]["color"]
 
 
-def _write_legend(image, scene, found, meshes):
+def _write_legend(image, scene, meshes):
     """Into the lower corners of a picture: what the colours stand for, and the unit of the axes."""
     from matplotlib import get_data_path
     from PIL import ImageDraw, ImageFont
     font = ImageFont.truetype(str(Path(get_data_path()) / "fonts/ttf/DejaVuSans.ttf"), 16)
     pen, (width, height) = ImageDraw.Draw(image), image.size
-    kinds = {kind for kind, _ in equilibrium_lines(scene, found, np.inf)}
+    kinds = {segment.linear for curve in equilibria(scene).curves for segment in curve.segments}
     rows = [(mesh.name, style.SHEETS[number % len(style.SHEETS)]) for number, mesh in enumerate(meshes)]
     rows += [(f"{kind} equilibria", _colour(kind)) for kind in sorted(kinds)]
     left = width - 44 - max((pen.textlength(words, font) for words, _ in rows), default=0)
@@ -256,72 +253,6 @@ def draw(scene, found, meshes, path) -> Path:
     finally:
         stage.close()
     image = Image.fromarray(pixels)
-    _write_legend(image, scene, found, meshes)
+    _write_legend(image, scene, meshes)
     style.write_small(image, path)
     return Path(path)
-
-
-def turntable(scene, found, meshes, path) -> Path:
-    """One self-contained HTML file in which the surfaces can be turned; needs a renderer that the probe approved."""
-    from trame_vtk.tools.vtksz2html import write_html
-    stage = plotter(scene, found, meshes, still=False)
-    try:
-        stage.render()
-        data = _scene_archive(stage.render_window)
-    finally:
-        stage.close()
-    page = io.StringIO()
-    write_html(data, page)
-    with style.whole_file(Path(path)) as waiting:
-        waiting.write_text(offline(page.getvalue()), encoding="utf-8")
-    return Path(path)
-
-
-# A text in the viewer's program that is the address of something to fetch (its icons); names of XML vocabularies are no such.
-ADDRESS = re.compile(r"""(["'`])https?://(?!www\.w3\.org/)[\w-]+(?:\.[\w-]+)+(?::\d+)?(?:/[^"'`\s<>]*)?\1""")
-# What is not in the file itself is not fetched, whatever else the viewer may come to ask for.
-POLICY = ("default-src 'none'; script-src 'unsafe-inline' 'unsafe-eval' blob: data:; style-src 'unsafe-inline'; img-src data: blob:; "
-          "font-src data:; connect-src data: blob:; worker-src data: blob:")
-
-
-def offline(page: str) -> str:
-    """An HTML page that asks for nothing from the network: addresses in its program become an empty icon, and a policy in its
-    head forbids the browser the rest."""
-    page, number = re.subn(r"<head>", lambda m: f'<head>\n    <meta http-equiv="Content-Security-Policy" content="{POLICY}" />\n'
-                           '    <link rel="icon" href="data:," />', page, count=1)
-    if number != 1:
-        raise StabilabError("the viewer's page has no <head>: this version of trame-vtk is not known")
-    return ADDRESS.sub(lambda m: f"{m[1]}data:,{m[1]}", page)
-
-
-def _scene_archive(window) -> bytes:
-    """The render window as the viewer's zip archive.
-
-    pyvista's own export_html starts a local web server, and one of its modules then fetches files from the network;
-    the serialisation underneath needs neither.
-    """
-    import zipfile
-
-    from trame_vtk.modules.vtk.serializers import SynchronizationContext, extract_array_hash, initialize_serializers, reference_id, serialize
-    initialize_serializers()
-    context = SynchronizationContext()
-    context.set_ignore_last_dependencies(True)
-    camera = window.GetRenderers().GetFirstRenderer().GetActiveCamera()
-    description = serialize(None, window, reference_id(window), context, 1)
-    description["extra"] = {"vtkRefId": reference_id(window), "centerOfRotation": camera.GetFocalPoint(),
-                            "camera": reference_id(camera)}
-    arrays = {entry["hash"]: {**entry, "content": context.get_cached_data_array(entry["hash"], False)}
-              for entry in extract_array_hash(description)}
-    buffer = io.BytesIO()
-    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
-        archive.writestr(zipfile.ZipInfo("index.json"), json.dumps({"hashes": arrays, "scene": in_order(description)}),
-                         compress_type=zipfile.ZIP_DEFLATED)
-    return buffer.getvalue()
-
-
-def in_order(description: dict) -> dict:
-    """The same description with its objects named by the order in which they come, not by their addresses in this process: the same
-    surface gives the same bytes."""
-    names: dict[str, str] = {}
-    text = re.sub(r'(?<=["{])[0-9a-f]{16}(?=["}-])', lambda m: names.setdefault(m[0], f"{len(names) + 1:016x}"), json.dumps(description))
-    return json.loads(text)

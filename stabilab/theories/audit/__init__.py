@@ -36,11 +36,12 @@ def audited(name: str | None = None, equation: str | None = None) -> tuple[tuple
     if name is None and equation is not None:
         raise InputError(f"equation {equation}: name its paper as well: {', '.join(papers())}")
     if name is not None:
-        return (_audited(name, equation),)
+        return (findings_of(name, equation),)
     with ProcessPoolExecutor(min(len(papers()), os.cpu_count() or 1), multiprocessing.get_context("spawn")) as pool:
-        return tuple(pool.map(_audited, papers()))
+        return tuple(pool.map(findings_of, papers()))
 
 
-def _audited(name, equation=None):
+def findings_of(name: str, equation: str | None = None) -> tuple[Paper, tuple[Finding, ...]]:
+    """(paper, its findings, rows in order), in this process."""
     one = paper(name)
     return one, tuple(sorted(audit(one, equation), key=lambda f: key(f.row.equation)))

@@ -1,0 +1,25 @@
+"""The equations of motion and the laws of a case, typeset."""
+from __future__ import annotations
+
+from ....physics.equations import derive
+from ....physics.laws import invariants
+from ....physics.notation import latex
+from .. import typeset
+from .measures import spoken, told
+
+UNITS = (("lambda", "N m s"), ("D", "kg m²"), ("M", "N m"), ("mass", "kg"), ("f", "N"))
+
+
+def equations(case) -> dict:
+    """Equations, parameters and laws for the template."""
+    made = derive(case.scene)
+    laws = invariants(case.scene)
+    return {"equations": typeset.equations_of_motion(made), "latex": latex(made),
+            "parameters": [(typeset.symbol(name), told(float(value), _unit(case, name), 6)) for name, value in made.parameters.items()],
+            "laws": [(spoken(law.words), typeset.law(law)) for law in laws]}
+
+
+def _unit(case, name):
+    if case.variables != "physical":
+        return ""
+    return next((unit for stem, unit in UNITS if name == stem or name.removeprefix(stem).isdigit()), "")

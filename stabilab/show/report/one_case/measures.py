@@ -1,0 +1,67 @@
+"""Numbers of a case as a person reads them: six digits at most, with their unit; deg/s and minutes for a body, plain numbers where it is scaled."""
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+
+from ...text.engineering import ENGINEERING
+
+DIGITS = 5
+LETTERS = {"alpha": "α", "omega": "ω", "lambda": "λ", "gamma": "γ", "sigma": "σ"}
+MINUTES = 120.0  # s from which on a time is told in minutes
+
+
+@dataclass(frozen=True)
+class Measures:
+    """The units in which a page tells rates and times of a scene: those of engineers, or none where the variables are scaled."""
+
+    variables: str
+
+    @property
+    def rate_unit(self) -> tuple[str, float]:
+        """(name, how many of it make one in the case's own variables)."""
+        return ENGINEERING.rate if self.variables == "physical" else ("", 1.0)
+
+    def time_unit(self, longest: float) -> tuple[str, float]:
+        """(name, how many of it make one) for times up to the longest."""
+        if self.variables != "physical":
+            return "τ", 1.0
+        return ENGINEERING.time if abs(longest) >= MINUTES else ("s", 1.0)
+
+    def rate(self, value) -> str:
+        """A rate with its unit."""
+        unit, one = self.rate_unit
+        return told(value * one, unit)
+
+    def time(self, value) -> str:
+        """A time with its unit."""
+        unit, one = self.time_unit(value)
+        return told(value * one, "of τ" if unit == "τ" else unit)
+
+    def energy(self, value) -> str:
+        """An energy with its unit."""
+        return told(value, "J" if self.variables == "physical" else "")
+
+
+def told(value, unit: str = "", digits: int = DIGITS) -> str:
+    """A number and its unit."""
+    if value is None:
+        return "unknown"
+    if math.isinf(value):
+        return "no end" if value > 0 else "no end downwards"
+    number = re.sub(r"e([+-])0*", lambda sign: "e" + sign[1].strip("+"), f"{float(value) + 0.0:.{digits}g}")
+    return f"{number} {unit}".rstrip().replace("-", "−")
+
+
+def vector(values, digits: int = DIGITS) -> str:
+    """Numbers in parentheses."""
+    return f"({', '.join(told(v, digits=digits) for v in values)})"
+
+
+def spoken(name: str) -> str:
+    """Words with Greek letters in place of their names (ω1, λ3, γ2), with no number of more than six digits, and spans as one says them."""
+    for plain, letter in LETTERS.items():
+        name = re.sub(rf"\b{plain}(?=\d|_|\b)", letter, name)
+    name = re.sub(r"\b(s|tau) in \[([^],]+), ([^]]+)\]", lambda span: f"{span[2]} to {span[3]} {'s' if span[1] == 's' else 'of τ'}", name)
+    return re.sub(r"(?<![\w.])\d+\.\d{6,}(?:e[+-]?\d+)?", lambda number: f"{float(number[0]):.6g}", name)

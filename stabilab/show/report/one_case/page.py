@@ -1,0 +1,63 @@
+"""One case as a page: every section with what applies to it, and in words what does not."""
+from __future__ import annotations
+
+from pathlib import Path
+
+from ....answers.equilibria import equilibria
+from ....answers.uncertain.verdicts import uncertain
+from ....errors import StabilabError
+from ...plot import which
+from ...plot.subject import subject
+from ...text import uncertain as shown
+from . import certified, verdict
+from .equations import equations
+from .equilibria import table
+from .measures import Measures, spoken
+from .pictures import SHOWN, pictures
+from .sensitivity import sensitivity
+from .space import space
+
+
+def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = False) -> dict:
+    """Everything that the template says of a case; pictures go into the folder, their names begin with the stem.
+
+    deep: also what takes seconds (a tilt of the torque). certify: write a certificate and check it. What the analysis cannot answer stands
+    under "absent" with its reason; nothing of it raises.
+    """
+    measures, absent, one = Measures(case.variables), [], subject(case)
+    found = _tried(absent, "Equilibria", lambda: equilibria(case.scene))
+    moved = None if case.state is None else _tried(absent, "Motion", lambda: one.motion)
+    if case.state is None:
+        absent.append(("Motion", "the case states none: no fate, margins and pictures of it"))
+    page = {"name": case.name, "title": case.heading, "source": case.source, "path": case.path, "text": case.text,
+            "headline": verdict.headline(case, moved, found, measures), "law": verdict.law(moved), "fate": "" if moved is None else moved.fate.word,
+            "facts": [], "extremes": [], "invariants": [], "over": "", "pictures": [], "sensitivity": None, "certificate": None,
+            "equilibria": found and table(found, measures), "equations": _tried(absent, "Equations", lambda: equations(case))}
+    if moved is not None:
+        over = "for all times" if moved.extremes_over == "all time" else f"over {spoken(moved.extremes_over)}"
+        page |= {"facts": verdict.rows(case, moved, measures), "extremes": verdict.extremes(case, moved, measures), "over": over,
+                 "invariants": verdict.invariants(moved, measures)}
+        page["pictures"] = _tried(absent, "Pictures", lambda: pictures(one, folder, stem)) or []
+        absent += [(title, why) for kind, (title, _) in SHOWN.items() if (why := which.why_not(kind, one))]
+        page["sensitivity"] = _tried(absent, "Sensitivity", lambda: sensitivity(case, moved, measures, deep))
+    page["space"] = _tried(absent, "Space of the rates", lambda: space(case, moved, found, measures))
+    page["uncertain"] = _uncertain(case, absent)
+    if certify:
+        page["certificate"] = _tried(absent, "Certificate", lambda: certified.certificate_of(case, folder, stem))
+    return page | {"absent": absent}
+
+
+def _tried(absent, what, made):
+    """What a function makes; None where the analysis cannot answer, with the reason among the absent."""
+    try:
+        return made()
+    except StabilabError as error:
+        absent.append((what, str(error)))
+        return None
+
+
+def _uncertain(case, absent) -> str:
+    """What uncertain numbers do to the verdicts, in words; empty where all are certain."""
+    if not case.uncertain:
+        return ""
+    return _tried(absent, "Uncertain numbers", lambda: shown.text(uncertain(case, ("equilibria", "fate") if case.state else ("equilibria",)))) or ""

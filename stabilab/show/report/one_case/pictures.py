@@ -1,0 +1,52 @@
+"""The pictures of one motion on its page: the plots that a user can ask for, of each kind that the case has."""
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+from ...plot import to_file, which
+
+# kind -> (title, caption)
+SHOWN = {
+    "time": ("Rates over time", "The rates along the principal axes."),
+    "phase": ("Phase plane", "Turn about the axis of the torque since the start, and the rate about it. A motion stays on its curve; black curves part "
+                             "motions of different fate."),
+    "state": ("Analytic models beside the exact motion", "Each part of the state over time; stabilab compare tells when a model is off by 1 % and 10 %.")}
+PERIODS = 5.0    # of a motion that repeats, where the span of the case would crowd a picture of several motions
+CROWDED = 25.0
+NATURAL = 15.0   # units of the motion's own time, where the case gives no span
+
+
+def pictures(one, folder: Path, stem: str) -> list[dict]:
+    """Draw every plot of a subject (`plot.subject`) that a page shows; file, size in pixels, title and caption of each, in order."""
+    found = []
+    for kind in which.offered(one):
+        if kind in SHOWN:
+            title, caption = SHOWN[kind]
+            made = to_file.write(one, folder / f"{stem}-{kind}.png", kind)
+            found.append(described(made, caption) | {"kind": kind, "title": title, "command": f"stabilab plot {one.path} --kind {kind}"})
+    return found
+
+
+def length(one, motion) -> float:
+    """How far to follow a motion that is drawn with others, in its own time."""
+    span = None if one.span is None else one.span[1] if one.span[1] > 0 else -one.span[0]
+    if motion.period and (span is None or span > CROWDED * motion.period):
+        return PERIODS * motion.period
+    return span or natural(one.scene, one.state)
+
+
+def natural(scene, state) -> float:
+    """Some units of the time in which a torque or the rotation itself moves the body."""
+    if scene.variables == "scaled":
+        return NATURAL
+    torque = math.hypot(*(float(v) for v in scene.vector("constant_torque"))) if scene.plain else 0.0
+    rate = math.hypot(*state[:3])
+    return NATURAL * (math.sqrt(sum(scene.body.inertia) / 3 / torque) if torque else 1.0 / (rate or 1.0))
+
+
+def described(path: Path, caption: str) -> dict:
+    """What a page says of a picture."""
+    from PIL import Image
+    with Image.open(path) as image:
+        return {"file": path.name, "size": list(image.size), "caption": caption}

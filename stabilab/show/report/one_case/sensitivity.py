@@ -1,0 +1,99 @@
+"""What little change of state, wheel, torque or its direction gives the motion another fate."""
+from __future__ import annotations
+
+import math
+
+from ....answers.stuck.ask import stuck
+from ....answers.tilt import with_tilt
+from ....errors import InputError
+from ....orbit.result import Fate
+from ....physics.alignment import torque_axis
+from .measures import told, vector
+
+UNITS = {"wheel": "N m s", "torque": "N m"}
+OF = {"rate": "rates at the start", "wheel": "wheel momentum", "torque": "torque"}
+
+
+def sensitivity(case, motion, measures, deep: bool) -> dict:
+    """Rows (what changes, by how much, in which direction, what is to be said) and sentences on wheels, thrusters and a tilt of the torque.
+
+    deep: whether a tilt is searched for too (seconds); without it the command that does so is named. An empty table comes with the reason.
+    """
+    found = {"rows": [], "words": [], "reason": ""}
+    try:
+        answer = stuck(case)
+    except InputError as error:
+        found["rows"] = _of_motion(motion, measures)
+        found["reason"] = f"No margin of wheel or torque: {error}."
+        return found
+    row = answer.rows[0]
+    known = {name: margin for name, margin in row.margins.items() if margin.size is not None}
+    found["rows"] = [_margin(name, margin, measures) for name, margin in known.items()]
+    why: dict[str, list] = {}
+    for name, margin in row.margins.items():
+        if name not in known:
+            why.setdefault(margin.because, []).append(OF[name])
+    found["reason"] = " ".join(f"No margin in {' and '.join(names)}: {because}." for because, names in why.items())
+    found["words"] = [_wheel(wheel) for wheel in row.wheels] + [_helper(helper, measures) for helper in row.helpers]
+    if row.time_to_limit:
+        found["words"].insert(0, f"The limit of the case is reached after {_between_times(row.time_to_limit, measures)} ({row.time_level}).")
+    found["words"] += _tilt(case, motion, measures, row.tilt, deep)
+    return found
+
+
+def _between_times(pair, measures):
+    low, high = map(measures.time, pair)
+    return low if low == high else f"{low} to {high}"
+
+
+def _of_motion(motion, measures):
+    """The margin that the motion itself has, where nothing more can be asked."""
+    if motion.margin_velocity is None or motion.velocity_witness is None:
+        return []
+    change = [b - a for a, b in zip(motion.at[:3], motion.velocity_witness)]
+    size = math.hypot(*change)
+    return [{"what": OF["rate"], "size": measures.rate(motion.margin_velocity), "direction": vector([v / size for v in change]) if size else "",
+             "because": motion.velocity_because}]
+
+
+def _margin(name, margin, measures):
+    size = "" if margin.size is None else measures.rate(margin.size) if name == "rate" else told(margin.size, UNITS[name])
+    return {"what": OF[name], "size": size, "direction": vector(margin.direction) if margin.direction else "", "because": margin.because}
+
+
+def _wheel(wheel):
+    now = f"Wheel {wheel.wheel} has {told(wheel.now, 'N m s')}"
+    if not wheel.keeps_bounded:
+        return f"{now}: no momentum of it is known to keep the motion bounded ({wheel.because})."
+    return f"{now}; the motion is bounded for a momentum {' or '.join(map(_between, wheel.keeps_bounded))} ({wheel.because})."
+
+
+def _between(ends):
+    low, high = ends
+    if math.isinf(low) and math.isinf(high):
+        return "of any size"
+    if math.isinf(low) or math.isinf(high):
+        return f"up to {told(high, 'N m s')}" if math.isinf(low) else f"from {told(low, 'N m s')} on"
+    return f"of {told(low)} to {told(high, 'N m s')}"
+
+
+def _helper(helper, measures):
+    share = " and ".join(f"{name} for {told(100 * duty, digits=3)} % of the time" for name, duty in zip(helper.thrusters, helper.duty))
+    left = "no torque" if helper.effect == "zero" else told(helper.torque_left, "N m")
+    time = f"; the limit then comes at {measures.time(helper.time_to_limit[0])}" if helper.time_to_limit else ""
+    return f"With {share}, {left} is left in the mean: {helper.fate}{time}."
+
+
+def _tilt(case, motion, measures, found, deep):
+    """What a torque a little off its axis does to a bounded motion."""
+    if found is None and deep:
+        found = with_tilt(case, motion).tilt
+    if found is None:
+        asked = motion.fate == Fate.BOUNDED and torque_axis(case.scene)
+        return ["This holds while the torque is exactly on its axis; `stabilab fate CASE --tilt \"1 deg\"` says what a tilt does."] if asked else []
+    angle, limit = f"{told(math.degrees(found.angle), digits=4)}°", measures.rate(found.limit)
+    until = f"No torque tilted by up to {angle} reaches {limit} before {measures.time(found.not_before)} (proved)."
+    if found.ends:
+        return [f"Bounded only while the torque is exactly on its axis: tilted by {angle} it reaches {limit} after {measures.time(found.low)} "
+                f"({found.level}). {until}"]
+    return [f"Tilted by up to {angle} it was not found to reach {limit} within {measures.time(found.followed)}. {until}"]

@@ -1,0 +1,107 @@
+"""A file with [sweep] as one page: a row a combination, a column a swept key, and one picture of all motions."""
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+
+import numpy as np
+
+from ....answers.equilibria import equilibria
+from ....answers.motion import motion
+from ....answers.simulate import simulate
+from ....case.sweep import keys_and_values
+from ....errors import StabilabError
+from ... import style
+from . import pictures, verdict
+from .equations import equations
+from .measures import Measures, told
+
+STYLES = ("-", "--", ":", "-.")
+WIDTHS = (1.0, 1.8, 2.6)
+POINTS = 801
+
+
+def sections(cases, folder: Path, stem: str) -> dict:
+    """What the template says of the combinations of one file; the picture goes into the folder."""
+    measures, first = Measures(cases[0].variables), cases[0]
+    keys = keys_and_values(tomllib.loads(first.text))
+    answered = [(case, *_answer(case)) for case in cases]
+    rows = [_row(case, found, why, keys, measures) for case, found, why in answered]
+    moved = [(case, found) for case, found, _ in answered if found is not None]
+    return {"name": stem, "title": first.title or stem, "source": first.source, "path": first.path, "text": first.text, "rows": rows,
+            "keys": [_short(key) for key, _ in keys], "picture": _picture(moved, keys, measures, folder / f"{stem}-sweep.png") if moved else None,
+            "equations": _equations(first), "headline": headline(rows),
+            "law": next((row["law"] for row in rows if row["law"]), "")}
+
+
+def headline(rows) -> str:
+    """How many combinations have which fate."""
+    words = [row["fate"] for row in rows]
+    told = ", ".join(f"{words.count(word)} {word or 'without a motion'}" for word in dict.fromkeys(words))
+    return f"{len(rows)} combinations: {told}"
+
+
+def _answer(case):
+    """(the motion or None, why there is none)."""
+    try:
+        return (None, "no motion is given") if case.state is None else (motion(case.scene, case.start, case.span, True, case.exact_state), "")
+    except StabilabError as error:
+        return None, str(error)
+
+
+def _row(case, found, why, keys, measures):
+    return {"name": case.name, "values": [_value(values[at]) for (_, values), at in zip(keys, _places(case))],
+            "fate": "" if found is None else found.fate.word, "css": "" if found is None else verdict.css(found.fate.word),
+            "law": verdict.law(found),
+            "told": [why, "", ""] if found is None else [of(found, measures) for of in (verdict.largest, verdict.margin, verdict.period)]}
+
+
+def _places(case):
+    """Which value of each key a combination has."""
+    return [int(word) - 1 for word in case.variant.split("-")[1:]]
+
+
+def _value(value):
+    if isinstance(value, list):
+        return f"({', '.join(map(_value, value))})"
+    return value if isinstance(value, str) else told(float(value), digits=6)
+
+
+def _short(key):
+    """effects.gyrostat.momentum as "gyrostat momentum"."""
+    return " ".join(key.split(".")[-2:]).replace("_", " ")
+
+
+def _equations(case):
+    try:
+        return equations(case) | {"kind": equilibria(case.scene).kind}
+    except StabilabError:
+        return None
+
+
+def _picture(moved, keys, measures, path):
+    """The size of the rates against time, all combinations in one panel: colour, dashes and width tell the values of the first three keys."""
+    until = max(pictures.length(case, found) for case, found in moved)
+    (unit, one), (clock, per) = measures.rate_unit, measures.time_unit(until)
+    letter = "ω" if unit else "x"
+    with style.drawing() as plt:
+        figure, ax = plt.subplots(figsize=(9.0, 4.8), layout="constrained")
+        for case, found in moved:
+            run = simulate(case.scene, case.state, np.linspace(0.0, pictures.length(case, found), POINTS), case.blocks)
+            ax.plot(np.asarray(run.t) * per, np.linalg.norm(next(iter(run.state.values())), axis=1) * one, **_look(_places(case)))
+        ax.set(xlim=(0.0, until * per), xlabel=f"time ({clock})" if unit else "τ", ylabel=f"|{letter}| ({unit})" if unit else f"|{letter}|")
+        style.legend(figure, list(_legend(keys)), columns=3)
+        return pictures.described(style.save(figure, path), f"The size of the rates, |{letter}|, of every combination.")
+
+
+def _look(places):
+    first, second, third = (*places, 0, 0, 0)[:3]
+    return {"color": style.SERIES[first % len(style.SERIES)], "linestyle": STYLES[second % len(STYLES)], "linewidth": WIDTHS[third % len(WIDTHS)]}
+
+
+def _legend(keys):
+    """A row a value of each of the first three keys."""
+    for number, (key, values) in enumerate(keys[:3]):
+        for at, value in enumerate(values):
+            look = _look([at if n == number else 0 for n in range(3)])
+            yield f"{_short(key)} = {_value(value)}", look if number == 0 else look | {"color": style.GREY}

@@ -1,0 +1,128 @@
+"""The first line of a page, and the table of what is known of the motion."""
+from __future__ import annotations
+
+import math
+
+from ....orbit.result import Fate
+from ...text import frame
+from .measures import spoken, told, vector
+
+WORDS = {Fate.BOUNDED: "BOUNDED", Fate.SPIN_UP: "SPINS UP", Fate.SEPARATRIX: "ON THE SEPARATRIX",
+         Fate.EQUILIBRIUM: "AT REST in the frame of the body", Fate.UNDECIDED: "UNDECIDED"}
+
+
+def headline(case, motion, equilibria, measures) -> str:
+    """The answer in one line: the fate, how large the rates become, how far it is from another fate, the period."""
+    if motion is None:
+        return f"No motion is given. Equilibria: {equilibria.kind if equilibria else 'not known'}"
+    parts = [f"{WORDS[motion.fate]}{_about(motion)}{_known(motion)}"]
+    told = (("largest rate", largest(motion, measures)), ("margin", margin(motion, measures)), ("period", period(motion, measures)))
+    return "; ".join(parts + [f"{name} {value}" for name, value in told if value])
+
+
+def period(motion, measures) -> str:
+    """The period of a motion that repeats."""
+    return "" if motion.period is None else measures.time(motion.period)
+
+
+def law(motion) -> str:
+    """What is to be said before the verdict where an approximate law does not hold along the motion."""
+    return "" if motion is None or motion.validity is None or motion.validity.held else spoken(motion.validity.words)
+
+
+def css(fate: str) -> str:
+    """The class by which a page colours a fate or a verdict."""
+    return {"stable": "bounded", "asymptotically stable": "bounded", "unstable": "spin-up"}.get(fate, fate)
+
+
+def _about(motion):
+    if motion.fate == Fate.SPIN_UP:
+        return f" about axis {motion.axis}, {'positive' if motion.sense > 0 else 'negative'} sense" if motion.axis else ""
+    return " for ever" if motion.fate == Fate.BOUNDED and motion.extremes_over == "all time" else ""
+
+
+def _known(motion):
+    return f" ({motion.level})" if motion.cause and motion.fate != Fate.UNDECIDED else ""
+
+
+def largest(motion, measures) -> str:
+    """The largest rate and its axis, where it has an end."""
+    if motion.extremes is None or motion.fate in (Fate.EQUILIBRIUM, Fate.UNDECIDED):
+        return ""
+    sizes = [max(abs(low), abs(high)) for low, high in motion.extremes]
+    most = max(sizes)
+    return "" if math.isinf(most) else f"{measures.rate(most)} about axis {sizes.index(most) + 1}"
+
+
+def margin(motion, measures) -> str:
+    """The distance from the separatrix, with that in energy in parentheses."""
+    energy = "" if motion.margin_energy is None else measures.energy(abs(motion.margin_energy))
+    if motion.margin_velocity is None:
+        return energy if measures.variables == "physical" else ""
+    return measures.rate(motion.margin_velocity) + (f" ({energy})" if energy and measures.variables == "physical" else "")
+
+
+def rows(case, motion, measures) -> list[tuple[str, str]]:
+    """(what, its value) of everything known of the motion, in the order in which one asks."""
+    found = [] if motion.validity is None or not motion.validity.held else [("law", spoken(motion.validity.words))]
+    found += [("start", f"{_rates(motion.at[:3], measures)} at t = 0")]
+    found += [("vertical at t = 0", vector(motion.at[3:]))] if len(motion.at) > 3 else []
+    found += [("because", spoken(motion.because))]
+    if motion.margin_energy is not None:
+        found.append(("margin in energy", f"{measures.energy(motion.margin_energy)} below the barrier ahead"
+                      if motion.margin_energy >= 0 else f"{measures.energy(-motion.margin_energy)} above the barrier ahead"))
+    if motion.margin_velocity is not None:
+        found.append(("margin in rate", _distance(motion, measures)))
+    elif motion.velocity_because:
+        found.append(("margin in rate", spoken(motion.velocity_because)))
+    if motion.period is not None:
+        found.append(("period", period(motion, measures)))
+    found += [(f"frame, {n}" if n else "frame", spoken(line.strip().removeprefix("frame: "))) for n, line in enumerate(frame.lines(case))]
+    return found + [_evidence(name, value, measures) for name, value in motion.evidence.items() if value is not None]
+
+
+def _rates(values, measures):
+    unit, one = measures.rate_unit
+    return f"{vector([v * one for v in values])} {unit}".rstrip()
+
+
+def _distance(motion, measures):
+    if motion.velocity_because and motion.velocity_bounds:
+        low, high = motion.velocity_bounds
+        return f"between {measures.rate(low)} and {measures.rate(high)}: {spoken(motion.velocity_because)}"
+    return f"{measures.rate(motion.margin_velocity)}: the smallest change of the rates that reaches the separatrix"
+
+
+EVIDENCE = {  # key of what a run showed -> (words, what it is)
+    "span": ("followed for", "time"), "size_start": ("|ω| at the start", "rate"), "size_end": ("|ω| at the end", "rate"),
+    "size_largest": ("largest |ω| seen", "rate"), "energy_start": ("energy at the start", "energy"), "energy_end": ("energy at the end", "energy"),
+    "energy_change": ("change of energy", "energy"), "t_certificate": ("certificate holds from", "time"), "rate_end": ("rates at the end", "rates")}
+
+
+def _evidence(name, value, measures):
+    words, kind = EVIDENCE.get(name, (name.replace("_", " "), ""))
+    if kind == "rates":
+        return words, _rates(value, measures)
+    if kind:
+        return words, getattr(measures, kind)(value)
+    if isinstance(value, (list, tuple)) or hasattr(value, "tolist"):
+        return words, vector(value, 6) if all(isinstance(v, float) for v in value) else ", ".join(map(str, value))
+    return words, told(value, digits=6) if isinstance(value, float) else str(value)
+
+
+def extremes(case, motion, measures) -> list[dict]:
+    """A row a component: least and greatest rate, and the bounds for all times where these are others."""
+    if motion.extremes is None:
+        return []
+    unit, one = measures.rate_unit
+    bounds = motion.bounds if motion.bounds is not None and motion.bounds != motion.extremes else [None] * 3
+    return [{"name": spoken(name), "least": told(low * one, unit), "greatest": told(high * one, unit),
+             "within": "" if pair is None else f"{told(pair[0] * one, unit)} to {told(pair[1] * one, unit)}"}
+            for name, (low, high), pair in zip(case.scene.components, motion.extremes, bounds)]
+
+
+def invariants(motion, measures) -> list[tuple[str, str]]:
+    """(name, value with its unit where it is known what it is) of the constants of this motion."""
+    known = {"energy": measures.energy, "rate_bound": measures.rate, "late_rate_bound": measures.rate}
+    words = {"rate_bound": "|ω| never exceeds", "late_rate_bound": "|ω| in the end at most"}
+    return [(words.get(name, name.replace("_", " ")), known.get(name, lambda v: told(v, digits=6))(value)) for name, value in motion.invariants.items()]

@@ -1,0 +1,88 @@
+"""The report on cases of one's own: a page a case, a page a sweep, and, where there are several, a first page that lists them."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..text import law
+from . import html, surfaces
+from .one_case import page, sweep, verdict
+from .workers import Task, done
+
+FOLDER = "cases"  # inside that of the report: pages of many cases, pictures and meshes of all
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What a report holds besides the cases: the papers, what accuracy costs, certificates; deep: what takes seconds a case."""
+
+    papers: bool = False
+    precision: bool = False
+    certify: bool = False
+    deep: bool = True
+
+
+def entries(cases) -> list[tuple[str, list]]:
+    """(stem of its files, its cases) of every case and every file with [sweep]; stems differ even where names do not."""
+    grouped: dict = {}
+    for number, case in enumerate(cases):
+        grouped.setdefault(case.path if case.variant else number, []).append(case)
+    taken: dict[str, int] = {}
+    rows = []
+    for group in grouped.values():
+        name = group[0].name.removesuffix(group[0].variant) if group[0].variant else group[0].name
+        taken[name] = taken.get(name, 0) + 1
+        rows.append((name if taken[name] == 1 else f"{name}_{taken[name]}", group))
+    return rows
+
+
+def section(stem, cases, folder, wanted, drawn) -> dict:
+    """Everything that a page says of one entry, its pictures and meshes written; done by whichever process is free."""
+    if cases[0].variant:
+        return {"sweep": sweep.sections(cases, folder, stem), "surface": None, "beyond": law.of_cases(cases)}
+    (case,) = cases
+    made = page.sections(case, folder, stem, wanted.deep, wanted.certify)
+    return {"case": made, "surface": surfaces.surface_of(case, stem, folder, drawn), "beyond": law.of_cases([case])}
+
+
+def tasks(cases, folder: Path, wanted: Wanted, renderer) -> list[Task]:
+    """A task an entry."""
+    place = folder / FOLDER
+    place.mkdir()
+    return [Task(f"case {stem}", "own:section", (stem, group, place, wanted, renderer.available), 3.0 + 0.3 * len(group)) for stem, group in entries(cases)]
+
+
+def write(made, place: Path, prefix: str, **around) -> Path:
+    """The page of one entry. prefix: how the page reaches its pictures; around: what every page says of the folder it is in."""
+    if "sweep" in made:
+        return html.write(place, "sweep.html", sweep=made["sweep"], pictures=prefix, **around)
+    surface = made["surface"] and made["surface"] | {"files": [prefix + name for name in made["surface"]["files"]],
+                                                     "still": made["surface"]["still"] and prefix + made["surface"]["still"]}
+    return html.write(place, "case.html", case=made["case"], surface=surface, pictures=prefix, **around)
+
+
+def of_one(made, around) -> dict:
+    """What a page among others says of how it was made: the command that makes it alone."""
+    return around | {"extra": (), "command": f"stabilab report {(made.get('sweep') or made['case'])['path']}"}
+
+
+def listed(stem, made) -> dict:
+    """The row of an entry in a list of pages."""
+    found = made.get("sweep") or made["case"]
+    return {"file": f"{stem}.html", "name": stem, "title": found["title"], "headline": found["headline"], "css": verdict.css(found.get("fate", ""))}
+
+
+def pages(cases, folder: Path, tell, wanted: Wanted, renderer, workers=None, **around) -> list[str]:
+    """All pages of a report on these cases alone; index.html is the page of the one case, or the list of several. A line for each law left."""
+    rows = entries(cases)
+    found = done(tasks(cases, folder, wanted, renderer), folder, tell, workers)
+    if len(rows) == 1:
+        write(found[0], folder / "index.html", f"{FOLDER}/", rendering_note=surfaces.note(renderer), **around)
+        return [found[0]["beyond"]]
+    nav = [{"file": "index.html", "title": "All cases"}]
+    for (stem, _), made in zip(rows, found):
+        write(made, folder / FOLDER / f"{stem}.html", "", rendering_note="", nav=nav, up="../", **of_one(made, around))
+    listing = [row | {"file": f"{FOLDER}/{row['file']}"} for (stem, _), made in zip(rows, found) for row in [listed(stem, made)]]
+    html.write(folder / "index.html", "list.html", title=f"{len(rows)} cases", groups=[{"title": "", "rows": listing}], rendering_note=surfaces.note(renderer),
+               **around)
+    return [made["beyond"] for made in found]

@@ -1,0 +1,149 @@
+"use strict";
+(() => {
+  const data = JSON.parse(document.getElementById("space-data").textContent), canvas = document.querySelector(".space canvas");
+  const layer = document.createElement("canvas"), gl = layer.getContext("webgl2", {antialias: true, preserveDrawingBuffer: true}), pen = canvas.getContext("2d");
+  const places = text => Float32Array.from(new Int16Array(Uint8Array.from(atob(text), c => c.charCodeAt(0)).buffer), v => v / 4095);
+  const rgb = hex => [1, 3, 5].map(i => parseInt(hex.slice(i, i + 2), 16) / 255);
+  if (!gl) { pen.font = "24px sans-serif"; pen.fillText("This browser draws no WebGL 2.", 40, 60); return; }
+
+  const build = (kind, source) => { const s = gl.createShader(kind); gl.shaderSource(s, source); gl.compileShader(s); return s; };
+  const program = gl.createProgram();
+  gl.attachShader(program, build(gl.VERTEX_SHADER, `#version 300 es
+    in vec3 at; in vec3 normal; uniform mat4 view; out vec3 place; out vec3 up;
+    void main() { place = at; up = normal; gl_Position = view * vec4(at, 1.0); }`));
+  gl.attachShader(program, build(gl.FRAGMENT_SHADER, `#version 300 es
+    precision highp float; in vec3 place; in vec3 up; uniform vec3 colour; uniform vec3 eye; uniform float flatly; out vec4 pixel;
+    void main() {
+      if (any(greaterThan(abs(place), vec3(1.0005)))) discard;
+      vec3 n = normalize(up), e = normalize(eye);
+      float light = mix(0.45 + 0.55 * abs(dot(n, normalize(e + vec3(0.25, 0.1, 0.5)))), 1.0, flatly);
+      pixel = vec4(colour * light, 1.0); }`));
+  gl.linkProgram(program); gl.useProgram(program);
+  const where = name => gl.getUniformLocation(program, name), parts = [];
+
+  function add(points, triangles, colour, flatly) {
+    const normals = new Float32Array(points.length);
+    for (let i = 0; i < triangles.length; i += 3) {
+      const [a, b, c] = [0, 1, 2].map(k => 3 * triangles[i + k]), u = [0, 1, 2].map(k => points[b + k] - points[a + k]), v = [0, 1, 2].map(k => points[c + k] - points[a + k]);
+      const n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+      for (const at of [a, b, c]) for (let k = 0; k < 3; k++) normals[at + k] += n[k];
+    }
+    const vertices = gl.createVertexArray(); gl.bindVertexArray(vertices);
+    for (const [name, values] of [["at", points], ["normal", normals]]) {
+      const place = gl.getAttribLocation(program, name), buffer = gl.createBuffer();
+      gl.bindBuffer(gl.ARRAY_BUFFER, buffer); gl.bufferData(gl.ARRAY_BUFFER, values, gl.STATIC_DRAW);
+      if (place >= 0) { gl.enableVertexAttribArray(place); gl.vertexAttribPointer(place, 3, gl.FLOAT, false, 0, 0); }
+    }
+    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer()); gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, new Uint32Array(triangles), gl.STATIC_DRAW);
+    parts.push({vertices, count: triangles.length, colour: rgb(colour), flatly});
+  }
+
+  function sheet({at, rows, columns, colour}) {
+    const triangles = [];
+    for (let r = 0; r + 1 < rows; r++) for (let c = 0; c + 1 < columns; c++) {
+      const a = r * columns + c, b = a + columns;
+      triangles.push(a, b, a + 1, a + 1, b, b + 1);
+    }
+    add(places(at), triangles, colour, 0);
+  }
+
+  function tube(points, radius, colour) {
+    const sides = 6, ring = [], triangles = [], count = points.length / 3;
+    for (let i = 0; i < count; i++) {
+      const p = k => [0, 1, 2].map(j => points[3 * Math.min(Math.max(k, 0), count - 1) + j]), a = p(i - 1), b = p(i + 1);
+      let t = [0, 1, 2].map(j => b[j] - a[j]); const size = Math.hypot(...t) || 1; t = t.map(v => v / size);
+      const least = t.map(Math.abs).indexOf(Math.min(...t.map(Math.abs))), e = [0, 1, 2].map(j => +(j === least));
+      const cross = (x, y) => [x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]];
+      let u = cross(t, e); const us = Math.hypot(...u) || 1; u = u.map(v => v / us); const w = cross(t, u);
+      for (let s = 0; s < sides; s++) for (let j = 0; j < 3; j++)
+        ring.push(points[3 * i + j] + radius * (Math.cos(2 * Math.PI * s / sides) * u[j] + Math.sin(2 * Math.PI * s / sides) * w[j]));
+      if (i) for (let s = 0; s < sides; s++) {
+        const x = (i - 1) * sides + s, y = (i - 1) * sides + (s + 1) % sides;
+        triangles.push(x, y, x + sides, y, y + sides, x + sides);
+      }
+    }
+    if (count > 1) add(new Float32Array(ring), triangles, colour, 0.25);
+  }
+
+  function ball([x, y, z], radius, colour) {
+    const n = 10, m = 16, points = [], triangles = [];
+    for (let i = 0; i <= n; i++) for (let j = 0; j <= m; j++) {
+      const a = Math.PI * i / n, b = 2 * Math.PI * j / m;
+      points.push(x + radius * Math.sin(a) * Math.cos(b), y + radius * Math.sin(a) * Math.sin(b), z + radius * Math.cos(a));
+      if (i < n && j < m) { const k = i * (m + 1) + j; triangles.push(k, k + 1, k + m + 1, k + 1, k + m + 2, k + m + 1); }
+    }
+    add(new Float32Array(points), triangles, colour, 0.2);
+  }
+
+  data.sheets.forEach(sheet);
+  data.curves.forEach(c => tube(places(c.at), c.kind === "this motion" ? 0.013 : 0.011, c.colour));
+  data.points.forEach(p => ball(p.at, 0.03, p.colour));
+  const corner = [[-1, -1, -1], [1, -1, -1], [1, 1, -1], [-1, 1, -1], [-1, -1, 1], [1, -1, 1], [1, 1, 1], [-1, 1, 1]];
+  for (const [a, b] of [[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 7], [7, 4], [0, 4], [1, 5], [2, 6], [3, 7]]) tube([...corner[a], ...corner[b]], 0.0025, "#999999");
+
+  const first = {turn: -0.95, lift: 0.42, near: 1}; let now = {...first};
+  function step(half) {  // a round number that divides the box into some four parts
+    const rough = half / 2.2, ten = 10 ** Math.floor(Math.log10(rough)); return ten * [1, 2, 5, 10].find(k => k * ten >= rough);
+  }
+  function look() {
+    const {turn, lift, near} = now, ct = Math.cos(turn), st = Math.sin(turn), cl = Math.cos(lift), sl = Math.sin(lift);
+    const right = [-st, ct, 0], up = [-sl * ct, -sl * st, cl], eye = [cl * ct, cl * st, sl], away = 9;
+    const across = 5.2 * near, ratio = canvas.width / canvas.height, wide = Math.min(1, ratio / 1.15);
+    return {eye, of: p => {
+      const dot = v => v[0] * p[0] + v[1] * p[1] + v[2] * p[2], w = away - dot(eye);
+      return [across * wide * dot(right) / ratio, across * wide * dot(up), 0, w];
+    }, matrix: (() => {
+      const a = across * wide / ratio, b = across * wide;
+      return new Float32Array([0, 1, 2].flatMap(k => [a * right[k], b * up[k], -1.2 * eye[k], -eye[k]]).concat([0, 0, 0, away]));
+    })()};
+  }
+  function draw() {
+    const sharp = Math.min(window.devicePixelRatio || 1, 2), width = Math.round(canvas.clientWidth * sharp) || 1000, height = Math.round(width * (canvas.clientWidth < 500 ? 0.95 : 0.7));
+    if (canvas.width !== width || canvas.height !== height) { canvas.width = layer.width = width; canvas.height = layer.height = height; }
+    const seen = look();
+    gl.viewport(0, 0, width, height); gl.clearColor(1, 1, 1, 1); gl.enable(gl.DEPTH_TEST); gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    gl.uniformMatrix4fv(where("view"), false, seen.matrix); gl.uniform3fv(where("eye"), seen.eye);
+    for (const part of parts) {
+      gl.uniform3fv(where("colour"), part.colour); gl.uniform1f(where("flatly"), part.flatly); gl.bindVertexArray(part.vertices);
+      gl.drawElements(gl.TRIANGLES, part.count, gl.UNSIGNED_INT, 0);
+    }
+    pen.drawImage(layer, 0, 0); words(seen, sharp);
+  }
+  function words(seen, sharp) {
+    const small = 13 * sharp, at = p => { const [x, y, , w] = seen.of(p); return [canvas.width * (0.5 + x / w / 2), canvas.height * (0.5 - y / w / 2)]; };
+    pen.textAlign = "center"; pen.textBaseline = "middle";
+    const middle = at([0, 0, 0]);
+    for (let k = 0; k < 3; k++) {  // along each axis the edge of the box that is seen outermost
+      const others = [0, 1, 2].filter(j => j !== k), edges = [[-1, -1], [-1, 1], [1, -1], [1, 1]].map(([a, b]) => s => { const p = [0, 0, 0]; p[k] = s; p[others[0]] = a; p[others[1]] = b; return p; });
+      const out = e => { const [x, y] = at(e(0)); return k === 2 ? -x : y + 0.25 * Math.abs(x - middle[0]); };
+      const edge = edges.reduce((a, b) => out(b) > out(a) ? b : a), [mx, my] = at(edge(0));
+      const size = Math.hypot(mx - middle[0], my - middle[1]) || 1, away = [(mx - middle[0]) / size, (my - middle[1]) / size];
+      const every = step(data.half), low = data.middle[k] - data.half, high = data.middle[k] + data.half;
+      pen.fillStyle = "#333"; pen.font = `${small}px sans-serif`;
+      for (let v = Math.ceil(low / every) * every; v <= high; v += every) {
+        if (Math.abs(v - data.middle[k]) > 0.93 * data.half) continue;  // the corners are crowded
+        const [x, y] = at(edge((v - data.middle[k]) / data.half));
+        pen.fillText(String(+v.toPrecision(6) || 0).replace("-", "\u2212"), x + 20 * sharp * away[0], y + 16 * sharp * away[1]);
+      }
+      pen.fillStyle = "#000"; pen.font = `600 ${small * 1.1}px sans-serif`;
+      const [tx, ty] = [mx + (k === 2 ? 78 : 60) * sharp * away[0], my + 44 * sharp * away[1]];
+      const half = pen.measureText(data.names[k]).width / 2 + 4;
+      pen.fillText(data.names[k], Math.min(Math.max(tx, half), canvas.width - half), Math.min(Math.max(ty, small), canvas.height - small));
+    }
+  }
+  const held = new Map(); let apart = 0;
+  canvas.addEventListener("pointerdown", e => { held.set(e.pointerId, e); canvas.setPointerCapture(e.pointerId); apart = 0; });
+  for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, e => { held.delete(e.pointerId); apart = 0; });
+  canvas.addEventListener("pointermove", e => {
+    const before = held.get(e.pointerId); if (!before) return;
+    held.set(e.pointerId, e);
+    if (held.size === 2) {
+      const [a, b] = [...held.values()], far = Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY);
+      if (apart) now.near = Math.min(8, Math.max(0.4, now.near * far / apart)); apart = far;
+    } else { now.turn -= (e.clientX - before.clientX) / 180; now.lift = Math.min(1.55, Math.max(-1.55, now.lift + (e.clientY - before.clientY) / 180)); }
+    draw();
+  });
+  canvas.addEventListener("wheel", e => { if (!e.ctrlKey && !held.size && document.activeElement !== canvas) return; e.preventDefault(); now.near = Math.min(8, Math.max(0.4, now.near * Math.exp(-e.deltaY / 500))); draw(); }, {passive: false});
+  canvas.tabIndex = 0; canvas.addEventListener("dblclick", () => { now = {...first}; draw(); });
+  window.addEventListener("resize", draw); draw();
+})();

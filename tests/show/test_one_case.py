@@ -1,0 +1,100 @@
+"""The sections of a case's page: what applies is there, what does not is said."""
+import base64
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import stabilab
+from stabilab.answers.equilibria import equilibria
+from stabilab.answers.motion import motion
+from stabilab.case.read import load, read_text
+from stabilab.show.report.one_case import measures, space
+from stabilab.show.report.one_case.page import sections
+
+CASES = Path(__file__).parents[2] / "cases"
+MINOR = CASES / "minor-axis-100.toml"
+
+
+def _sections(name, tmp_path):
+    return sections(load(CASES / f"{name}.toml"), tmp_path, name, deep=False)
+
+
+def _space(case):
+    moved = motion(case.scene, case.start, case.span, exact=case.exact_state)
+    return moved, space.space(case, moved, equilibria(case.scene), measures.Measures(case.variables), (12, 25))
+
+
+def _places(packed):
+    return np.frombuffer(base64.b64decode(packed), "<i2").reshape(-1, 3) / 4095.0
+
+
+def test_a_top_has_its_fate_and_says_that_it_has_no_phase_plane(tmp_path):
+    """Its state has the vertical too: bounded by the energy (|gamma| = 1 bounds the potential)."""
+    page = _sections("top-fast", tmp_path)
+    assert page["fate"] == "bounded" and [picture["title"] for picture in page["pictures"]] == ["Rates over time", "Analytic models beside the exact motion"]
+    assert all((tmp_path / picture["file"]).exists() for picture in page["pictures"]) and [what for what, _ in page["absent"]] == ["Phase plane"]
+    assert page["space"]["reason"].startswith("no separatrix: ")
+
+
+def test_a_torque_off_the_axes_is_certified_and_has_no_margins(tmp_path):
+    page = _sections("off-axis-two", tmp_path)
+    assert page["headline"].startswith("SPINS UP about axis 3, positive sense (certified)") and [one["kind"] for one in page["pictures"]] == ["time"]
+    assert page["sensitivity"]["rows"] == [] and "no separatrix is known" in page["sensitivity"]["reason"]
+    assert "no end" in page["extremes"][2]["within"]
+
+
+def test_a_case_without_a_motion_has_its_equilibria_alone(tmp_path):
+    case = read_text("still.toml", "[body]\ninertia = [3, 2, 1]\n[effects.constant_torque]\ntorque = [0, 0, 0.1]\n")
+    page = sections(case, tmp_path, "still")
+    assert page["headline"].startswith("No motion is given") and page["equilibria"] and page["space"]
+    assert [what for what, _ in page["absent"]] == ["Motion"] and list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", [
+    "upper-stage", "cubesat-3u", "liquid-base", "charged-body", "charged-body-attitude", "torque-free-gyrostat", "torque-free-body", "sphere-wheel",
+    "symmetric-spin-up", "uncertain-separatrix", "middle-axis-double-well", "geostationary-22n"])
+def test_every_kind_of_case_has_its_page(name, tmp_path):
+    page = _sections(name, tmp_path)
+    assert page["headline"] and page["pictures"] and page["space"] and page["equations"] and page["equilibria"]
+
+
+def test_numbers_are_told_in_engineers_units_with_six_digits_at_most():
+    """By hand: 1 rad/s is 180/pi deg/s; 600 s are 10 min."""
+    body, scaled = measures.Measures("physical"), measures.Measures("scaled")
+    assert body.rate(1.0) == "57.296 deg/s" and body.time(600.0) == "10 min" and body.time(90.0) == "90 s"
+    assert scaled.rate(1.5) == "1.5" and scaled.time(2.0) == "2 of τ" and body.rate(-math.inf) == "no end downwards"
+    assert measures.told(1.23456789e-12) == "1.2346e−12" and measures.told(5e20) == "5e20"
+
+
+def test_words_have_their_greek_letters():
+    assert measures.spoken("omega1 lambda3 |gamma| alpha_i over s in [0, 30]: 0.26666666666666666") == "ω1 λ3 |γ| α_i over 0 to 30 s: 0.266667"
+    assert measures.spoken("gammas omegaX") == "gammas omegaX"
+
+
+def test_the_box_of_the_space_holds_the_motion_and_what_is_nearest_of_the_separatrix():
+    case = stabilab.load(MINOR)
+    moved, found = _space(case)
+    drawn = found["drawn"]
+    (curve,) = [c for c in drawn["curves"] if c["kind"] == "this motion"]
+    places = _places(curve["at"]) * drawn["half"] + drawn["middle"]
+    for axis, (low, high) in enumerate(moved.extremes):
+        assert abs(places[:, axis].min() - low) < 2e-3 * drawn["half"] and abs(places[:, axis].max() - high) < 2e-3 * drawn["half"]
+    assert {"start", "nearest point of the separatrix"} <= {p["kind"] for p in drawn["points"]}
+
+
+def test_the_sheets_of_the_space_are_those_of_the_separatrix():
+    """Oracle: the energy of the minor axis derived by hand, x3^2/2 - theta - X^2/2 - c X, is that of its saddle all along each loop."""
+    case = stabilab.load(MINOR)
+    _, found = _space(case)
+    drawn, scene = found["drawn"], case.scene
+    assert drawn["sheets"]
+    for sheet in drawn["sheets"]:
+        places = _places(sheet["at"])
+        p = (places * drawn["half"] + drawn["middle"]).reshape(sheet["rows"], sheet["columns"], 3)
+        inside = (np.abs(places) < 8).all(axis=1).reshape(p.shape[:2]).all(axis=1)  # rows of which nothing was moved in
+        X, x2, x3 = p[inside, :, 0] + scene.a, p[inside, :, 1], p[inside, :, 2]
+        energy = x3**2 / 2 - np.unwrap(np.arctan2(X, x2), axis=1) - X**2 / 2 - (scene.b - scene.a) * X
+        assert inside.any() and np.ptp(energy[2:], axis=1).max() < 2e-3 * (1 + np.abs(X).max() ** 2)  # places are rounded to 1/4095 of the box
