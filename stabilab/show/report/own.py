@@ -36,28 +36,27 @@ def entries(cases) -> list[tuple[str, list]]:
     return rows
 
 
-def section(stem, cases, folder, wanted, drawn) -> dict:
+def section(stem, cases, folder, wanted) -> dict:
     """Everything that a page says of one entry, its pictures and meshes written; done by whichever process is free."""
     if cases[0].variant:
         return {"sweep": sweep.sections(cases, folder, stem), "surface": None, "beyond": law.of_cases(cases)}
     (case,) = cases
     made = page.sections(case, folder, stem, wanted.deep, wanted.certify)
-    return {"case": made, "surface": surfaces.surface_of(case, stem, folder, drawn), "beyond": law.of_cases([case])}
+    return {"case": made, "surface": surfaces.surface_of(case, stem, folder), "beyond": law.of_cases([case])}
 
 
-def tasks(cases, folder: Path, wanted: Wanted, renderer) -> list[Task]:
+def tasks(cases, folder: Path, wanted: Wanted) -> list[Task]:
     """A task an entry."""
     place = folder / FOLDER
     place.mkdir()
-    return [Task(f"case {stem}", "own:section", (stem, group, place, wanted, renderer.available), 3.0 + 0.3 * len(group)) for stem, group in entries(cases)]
+    return [Task(f"case {stem}", "own:section", (stem, group, place, wanted), 3.0 + 0.3 * len(group)) for stem, group in entries(cases)]
 
 
 def write(made, place: Path, prefix: str, **around) -> Path:
     """The page of one entry. prefix: how the page reaches its pictures; around: what every page says of the folder it is in."""
     if "sweep" in made:
         return html.write(place, "sweep.html", sweep=made["sweep"], pictures=prefix, **around)
-    surface = made["surface"] and made["surface"] | {"files": [prefix + name for name in made["surface"]["files"]],
-                                                     "still": made["surface"]["still"] and prefix + made["surface"]["still"]}
+    surface = made["surface"] and made["surface"] | {"files": [prefix + name for name in made["surface"]["files"]]}
     return html.write(place, "case.html", case=made["case"], surface=surface, pictures=prefix, **around)
 
 
@@ -72,17 +71,16 @@ def listed(stem, made) -> dict:
     return {"file": f"{stem}.html", "name": stem, "title": found["title"], "headline": found["headline"], "css": verdict.css(found.get("fate", ""))}
 
 
-def pages(cases, folder: Path, tell, wanted: Wanted, renderer, workers=None, **around) -> list[str]:
+def pages(cases, folder: Path, tell, wanted: Wanted, workers=None, **around) -> list[str]:
     """All pages of a report on these cases alone; index.html is the page of the one case, or the list of several. A line for each law left."""
     rows = entries(cases)
-    found = done(tasks(cases, folder, wanted, renderer), folder, tell, workers)
+    found = done(tasks(cases, folder, wanted), folder, tell, workers)
     if len(rows) == 1:
-        write(found[0], folder / "index.html", f"{FOLDER}/", rendering_note=surfaces.note(renderer), **around)
+        write(found[0], folder / "index.html", f"{FOLDER}/", **around)
         return [found[0]["beyond"]]
     nav = [{"file": "index.html", "title": "All cases"}]
     for (stem, _), made in zip(rows, found):
-        write(made, folder / FOLDER / f"{stem}.html", "", rendering_note="", nav=nav, up="../", **of_one(made, around))
+        write(made, folder / FOLDER / f"{stem}.html", "", nav=nav, up="../", **of_one(made, around))
     listing = [row | {"file": f"{FOLDER}/{row['file']}"} for (stem, _), made in zip(rows, found) for row in [listed(stem, made)]]
-    html.write(folder / "index.html", "list.html", title=f"{len(rows)} cases", groups=[{"title": "", "rows": listing}], rendering_note=surfaces.note(renderer),
-               **around)
+    html.write(folder / "index.html", "list.html", title=f"{len(rows)} cases", groups=[{"title": "", "rows": listing}], **around)
     return [made["beyond"] for made in found]

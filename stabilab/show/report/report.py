@@ -13,7 +13,6 @@ from ...interrupt import undoing
 from ...packages import demand
 from .. import style
 from ..files import manifest
-from ..surface.render_probe import probe
 from ..text import table
 from . import own, precision_page, whole
 
@@ -30,10 +29,10 @@ def write(cases=None, out="report", progress=None, arguments=None, papers=False,
 
     papers: the papers' tables and figures, the audit and other tools' numbers as well; precision: what accuracy costs; certify: a certificate of each
     case, checked. workers: processes that share the work (None: one a core); the pages are the same for any number. Everything is made
-    in a temporary folder inside `out` and renamed into place, index.html and manifest.json last. Where pictures of surfaces cannot be drawn
-    the report says so. progress(words) is called before every step; by default a line on stderr where that is a terminal. arguments: of the
-    command line, for the manifest. beyond: a list, which gets a line for every
-    approximate law that a motion leaves. Returns the path of index.html; raises CaseError for a case file with faults, before anything is written.
+    in a temporary folder inside `out` and renamed into place, index.html and manifest.json last; no renderer is needed. progress(words) is
+    called before every step; by default a line on stderr where that is a terminal. arguments: of the command line, for the manifest. beyond: a list,
+    which gets a line for every approximate law that a motion leaves. Returns the path of index.html; raises CaseError for a case file with
+    faults, before anything is written.
     """
     out = Path(out)
     demand("jinja2", *style.PACKAGES, "scipy", "sympy", "flint")  # what a report cannot do without, before its minutes of work
@@ -42,13 +41,11 @@ def write(cases=None, out="report", progress=None, arguments=None, papers=False,
     inputs = dict.fromkeys([*(case.path for case in loaded), *(table.case_files() if wanted.papers else ())])  # the papers' figures read their cases
     around = {"command": command(loaded if cases else (), papers, precision, certify), "versions": versions(), "extra": ()}
     with _progress(progress) as tell, manifest.written(out, arguments, inputs, TOLERANCES) as folder:
-        tell("renderer")
-        renderer = probe()
         if wanted.papers:
-            left = whole.pages(loaded, folder, tell, wanted, renderer, workers, **around)
+            left = whole.pages(loaded, folder, tell, wanted, workers, **around)
         else:
             around["extra"] = _precision(loaded, folder, tell) if wanted.precision else ()
-            left = own.pages(loaded, folder, tell, wanted, renderer, workers, **around)
+            left = own.pages(loaded, folder, tell, wanted, workers, **around)
     if beyond is not None:
         beyond += filter(None, left)
     return out / "index.html"

@@ -11,7 +11,7 @@ from ..figures import catalogue as figures
 from ..figures import paper
 from ..outside import validation
 from ..text import table
-from . import audit_page, chapters, cost_growth, effect_cost, html, own, precision_page, surfaces
+from . import audit_page, chapters, cost_growth, effect_cost, html, own, precision_page
 from .workers import Task, done
 
 TITLE = "Bounded motion and spin-up of a gyrostat under constant torque"
@@ -63,9 +63,9 @@ def others() -> tuple:
 # -- the pages ---------------------------------------------------------------------------------------------------------------
 
 
-def pages(cases, folder: Path, tell, wanted: own.Wanted, renderer, workers=None, **around) -> list[str]:
+def pages(cases, folder: Path, tell, wanted: own.Wanted, workers=None, **around) -> list[str]:
     """Everything: tasks first, by all processes, then what measures times, alone, then the pages. A line for each law that a motion leaves."""
-    work = [Task("tables", "whole:tables", (folder,), 0.5), *own.tasks(cases, folder, wanted, renderer)]
+    work = [Task("tables", "whole:tables", (folder,), 0.5), *own.tasks(cases, folder, wanted)]
     work += [Task(f"figure {row.number}", "whole:figure", (row.number, folder), 1.2) for row in figures.FIGURES]
     work += [Task(f"chapter {one.paper}", "whole:chapter", (one.paper, folder), one.weight) for one in chapters.CHAPTERS]
     work += [Task(f"audit of {name}", "whole:audited", (name,), AUDIT_TAKES.get(name, 10.0)) for name in audited_papers()]
@@ -74,11 +74,11 @@ def pages(cases, folder: Path, tell, wanted: own.Wanted, renderer, workers=None,
     cost = _costs(cases, folder, tell) if wanted.precision else []
     nav = _nav(cost)
     _papers(folder, found, nav)
-    groups = _cases(cases, folder, found, nav, renderer, around)
+    groups = _cases(cases, folder, found, nav, around)
     audit, tools = _audit(folder, found, nav), _validation(folder, found, nav)
     if cost:
         html.write(folder / "cost.html", "cost.html", title="What answers cost", pages=cost, nav=nav, here="cost.html")
-    _start(folder, found, nav, groups, audit, tools, cost, renderer, around)
+    _start(folder, found, nav, groups, audit, tools, cost, around)
     return [made["beyond"] for name, made in found.items() if name.startswith("case ")]
 
 
@@ -122,16 +122,16 @@ def group(case) -> str:
     return next(title for title, belongs in GROUPS if belongs(case))
 
 
-def _cases(cases, folder, found, nav, renderer, around):
+def _cases(cases, folder, found, nav, around):
     """A page a case, and the page that lists them in groups; (title, number) of the groups."""
     rows: dict[str, list] = {title: [] for title, _ in GROUPS}
     for stem, members in own.entries(cases):
         made = found[f"case {stem}"]
-        own.write(made, folder / own.FOLDER / f"{stem}.html", "", nav=nav, up="../", here="", rendering_note="", **own.of_one(made, around))
+        own.write(made, folder / own.FOLDER / f"{stem}.html", "", nav=nav, up="../", here="", **own.of_one(made, around))
         row = own.listed(stem, made)
         rows[group(members[0])].append(row | {"file": f"{own.FOLDER}/{row['file']}"})
     groups = [{"title": title, "rows": listed} for title, listed in rows.items() if listed]
-    html.write(folder / "cases.html", "list.html", title="Cases", groups=groups, nav=nav, here="cases.html", rendering_note=surfaces.note(renderer), **around)
+    html.write(folder / "cases.html", "list.html", title="Cases", groups=groups, nav=nav, here="cases.html", **around)
     return [(one["title"], len(one["rows"])) for one in groups]
 
 
@@ -179,7 +179,7 @@ def _costs(cases, folder, tell):
     return [{"title": title, "words": words, "file": path.name} for title, words, path in made if path]
 
 
-def _start(folder, found, nav, groups, audit, tools, cost, renderer, around):
+def _start(folder, found, nav, groups, audit, tools, cost, around):
     """The first page: the finest picture, and what is inside."""
     words = {"constant-torque.html": f"{paper.PAPER}: {len(found['tables'])} tables, {len(figures.FIGURES)} figures, recomputed and corrected",
              "cases.html": "; ".join(f"{title[0].lower()}{title[1:]}: {number}" for title, number in groups),
@@ -188,5 +188,4 @@ def _start(folder, found, nav, groups, audit, tools, cost, renderer, around):
     words |= {f"{one.paper}.html": f"{one.title}: {figures.PAPERS[one.paper]}" for one in chapters.CHAPTERS}
     cards = [page | {"words": words[page["file"]]} for page in nav if page["file"] != "index.html"]
     picture = found.get(f"figure {FINEST}") or found[f"figure {figures.FIGURES[0].number}"]
-    html.write(folder / "index.html", "start.html", title=TITLE, picture=picture, cards=cards, nav=nav, here="index.html",
-               rendering_note=surfaces.note(renderer), **around)
+    html.write(folder / "index.html", "start.html", title=TITLE, picture=picture, cards=cards, nav=nav, here="index.html", **around)

@@ -37,7 +37,7 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
         over = "for all times" if moved.extremes_over == "all time" else f"over {spoken(moved.extremes_over)}"
         page |= {"facts": verdict.rows(case, moved, measures), "extremes": verdict.extremes(case, moved, measures), "over": over,
                  "invariants": verdict.invariants(moved, measures)}
-        page["pictures"] = _tried(absent, "Pictures", lambda: pictures(one, folder, stem)) or []
+        page["pictures"] = _tried(absent, "Pictures", lambda: pictures(one, folder, stem, deep)) or []
         absent += [(title, why) for kind, (title, _) in SHOWN.items() if (why := which.why_not(kind, one))]
         page["sensitivity"] = _tried(absent, "Sensitivity", lambda: sensitivity(case, moved, measures, deep))
     page["space"] = _tried(absent, "Space of the rates", lambda: space(case, moved, found, measures))

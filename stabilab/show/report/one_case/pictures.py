@@ -11,17 +11,21 @@ SHOWN = {
     "time": ("Rates over time", "The rates along the principal axes."),
     "phase": ("Phase plane", "Turn about the axis of the torque since the start, and the rate about it. A motion stays on its curve; black curves part "
                              "motions of different fate."),
+    "sphere": ("The surface on which the motion stays", "With the other motions on it."),
+    "equilibria": ("All equilibria", "Stable and unstable ones in the space of the rates."),
     "state": ("Analytic models beside the exact motion", "Each part of the state over time; stabilab compare tells when a model is off by 1 % and 10 %.")}
+BRIEF = ("time", "phase", "state")  # on a page among many
 PERIODS = 5.0    # of a motion that repeats, where the span of the case would crowd a picture of several motions
 CROWDED = 25.0
 NATURAL = 15.0   # units of the motion's own time, where the case gives no span
 
 
-def pictures(one, folder: Path, stem: str) -> list[dict]:
-    """Draw every plot of a subject (`plot.subject`) that a page shows; file, size in pixels, title and caption of each, in order."""
+def pictures(one, folder: Path, stem: str, deep: bool) -> list[dict]:
+    """Draw every plot of a subject (`plot.subject`) that a page shows; file, size in pixels, title and caption of each, in order. deep: all
+    kinds, not only those of the motion itself."""
     found = []
     for kind in which.offered(one):
-        if kind in SHOWN:
+        if kind in (SHOWN if deep else BRIEF):
             title, caption = SHOWN[kind]
             made = to_file.write(one, folder / f"{stem}-{kind}.png", kind)
             found.append(described(made, caption) | {"kind": kind, "title": title, "command": f"stabilab plot {one.path} --kind {kind}"})
