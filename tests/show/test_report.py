@@ -55,7 +55,7 @@ class Page(HTMLParser):
             self.faults.append(f"stray </{tag}> at {self.getpos()}")
 
 
-def _small_page(cases, folder, tell):
+def _small_page(cases, folder):
     path = folder / "small.html"
     path.write_text(f"<!DOCTYPE html><title>{len(cases)}</title>", encoding="utf-8")
     return path
@@ -107,7 +107,7 @@ def everything(tmp_path_factory, hostile):
     patch.setattr(figures, "FIGURES", (figures.figure(9),))
     patch.setattr(figures, "NUMBERS", (9,))
     patch.setattr(chapters, "CHAPTERS", ())
-    patch.setattr(whole, "COSTS", (("What it costs <b>", "in time", _small_page), ("Nothing", "here", lambda cases, folder, tell: None)))
+    patch.setattr(whole, "COSTS", (("What it costs <b>", "in time", _small_page), ("Nothing", "here", lambda cases, folder: None)))
     patch.setattr(whole, "audited_papers", lambda: ("charged-axisymmetric",))
     patch.setattr(whole, "findings_of", lambda name: findings_of(name, "13"))
     try:

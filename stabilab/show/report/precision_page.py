@@ -13,28 +13,28 @@ from . import html
 PRICED = (3, 6, 9, 12)  # digits of the table over all cases
 
 
-def page(cases, folder, tell=None) -> Path:
+def page(cases, folder, tell=None, passed=()) -> Path:
     """Measure every case that has a motion and a span and write precision.html with its pictures and points (in precision/)
     into the folder; returns its path. The first case of every kind (the same equations, the same axis of the torque) is measured with
-    every method and drawn; the others, with the methods that are likely to be best, are told in words."""
-    folder, tell, sections, passed, seen = Path(folder), tell or (lambda words: None), [], [], set()
+    every method and drawn; the others, with the methods that are likely to be best, are told in words. passed: lines on cases that are left out."""
+    folder, tell, sections, passed, seen = Path(folder), tell or (lambda words: None), [], list(passed), set()
     for case in cases:
         if case.state is None or case.span is None:
             passed.append(f"{case.name}: no motion with a span")
             continue
         tell(f"precision of {case.name}")
-        kind = _kind(case)
-        section, why = _section(case, folder, "glance" if kind in seen else "brief")
+        of = kind(case)
+        section, why = _section(case, folder, "glance" if of in seen else "brief")
         if section is None:
             passed.append(f"{case.name}: {why}")
             continue
-        seen.add(kind)
+        seen.add(of)
         sections.append(section)
     return html.write(folder / "precision.html", "precision.html", cases=sections, passed=passed, machine=caption(), priced=PRICED)
 
 
-def _kind(case):
-    """Cases of one kind obey the same equations with other numbers, the torque along the same axes."""
+def kind(case) -> tuple:
+    """What cases have in common that are measured alike: cases of one kind obey the same equations with other numbers, the torque along the same axes."""
     equations = derive(case.scene, case.blocks)
     acting = tuple(m != 0 for m in case.scene.quadratic().m) if case.scene.plain else ()
     return equations.blocks, tuple(map(str, equations.rhs)), acting

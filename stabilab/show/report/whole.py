@@ -64,14 +64,15 @@ def others() -> tuple:
 
 
 def pages(cases, folder: Path, tell, wanted: own.Wanted, workers=None, **around) -> list[str]:
-    """Everything: tasks first, by all processes, then what measures times, alone, then the pages. A line for each law that a motion leaves."""
+    """Everything: tasks first, by all processes, then the pages. A line for each law that a motion leaves."""
     work = [Task("tables", "whole:tables", (folder,), 0.5), *own.tasks(cases, folder, wanted)]
     work += [Task(f"figure {row.number}", "whole:figure", (row.number, folder), 1.2) for row in figures.FIGURES]
     work += [Task(f"chapter {one.paper}", "whole:chapter", (one.paper, folder), one.weight) for one in chapters.CHAPTERS]
     work += [Task(f"audit of {name}", "whole:audited", (name,), AUDIT_TAKES.get(name, 10.0)) for name in audited_papers()]
     work += [Task("numbers of other tools", "whole:others", (), 10.0)]
+    work += [Task("what answers cost", "whole:costs", (cases, folder), 90.0)] if wanted.precision else []
     found = dict(zip([task.words for task in work], done(work, folder, tell, workers)))
-    cost = _costs(cases, folder, tell) if wanted.precision else []
+    cost = found.get("what answers cost", [])
     nav = _nav(cost)
     _papers(folder, found, nav)
     groups = _cases(cases, folder, found, nav, around)
@@ -155,33 +156,41 @@ def _validation(folder, found, nav):
 # -- what measures times -----------------------------------------------------------------------------------------------------
 
 
-def _precision(cases, folder, tell):
-    return precision_page.page([members[0] for _, members in own.entries(cases)], folder, tell)
+def _precision(cases, folder):
+    """The first case of every kind: the others of a kind obey the same equations with other numbers."""
+    firsts: dict = {}
+    for case in cases:
+        if case.state is not None and case.span is not None:
+            firsts.setdefault(precision_page.kind(case), case)
+    left = len(own.entries(cases)) - len(firsts)
+    return precision_page.page(firsts.values(), folder, passed=(f"{left} other cases, with the equations of one of these and other numbers",) if left else ())
 
 
-def _growth(cases, folder, tell):
+def _growth(cases, folder):
     case = next((case for case in cases if case.name == GROWING), None)
-    return case and cost_growth.page(case, folder, tell)
+    return case and cost_growth.page(case, folder)
 
 
-def _effects(cases, folder, tell):
-    return effect_cost.page(folder, tell)
+def _effects(cases, folder):
+    return effect_cost.page(folder)
 
 
-# (title, what it says, page(cases, folder, tell) -> its path, or None where the cases do not call for it)
+# (title, what it says, page(cases, folder) -> its path, or None where the cases do not call for it)
 COSTS = (("What accuracy costs", "every way to follow each motion: error against time, and the cheapest way to each digit", _precision),
          ("How cost grows", "with the number of states, the digits, and closeness to the separatrix", _growth),
          ("What each effect costs", "state, equations and time as effects are added one at a time", _effects))
 
 
-def _costs(cases, folder, tell):
-    made = [(title, words, page(cases, folder, tell)) for title, words, page in COSTS]
+def costs(cases, folder: Path) -> list[dict]:
+    """The pages that hold measured times, one after the other by one process: never two measurements at once."""
+    made = [(title, words, page(cases, folder)) for title, words, page in COSTS]
     return [{"title": title, "words": words, "file": path.name} for title, words, path in made if path]
 
 
 def _start(folder, found, nav, groups, audit, tools, cost, around):
     """The first page: the finest picture, and what is inside."""
-    words = {"constant-torque.html": f"{paper.PAPER}: {len(found['tables'])} tables, {len(figures.FIGURES)} figures, recomputed and corrected",
+    first, last = figures.FIGURES[0].number, figures.FIGURES[-1].number
+    words = {"constant-torque.html": f"{paper.PAPER}: tables 1 to {len(found['tables'])}, figures {first} to {last}, recomputed and corrected",
              "cases.html": "; ".join(f"{title[0].lower()}{title[1:]}: {number}" for title, number in groups),
              "audit.html": f"every numbered equation of five papers, tried: {audit}", "validation.html": tools,
              "cost.html": "accuracy, growth, effects: measured"}
