@@ -5,18 +5,22 @@ Conventions of those pages. A block ```toml or ```python whose first line is a c
 and "..." inside a line for any text. Every command must end with 0, unless "$ echo $?" follows it. Lines of a ```sh block are
 commands too.
 """
+import contextlib
 import doctest
 import importlib.util
+import io
 import os
 import re
+import shlex
 import shutil
 import subprocess
 import sys
 from pathlib import Path
+from unittest import mock
 
 import pytest
 
-from stabilab import errors
+from stabilab import cli, errors
 from stabilab.show.surface.render_probe import CURE, probe
 
 ROOT = Path(__file__).parents[2]
@@ -93,11 +97,22 @@ def run(command, folder):
     return done.stdout, done.returncode
 
 
+def run_here(command, folder):
+    """The same in this process, which has imported what a process of its own imports first."""
+    screen = io.TextIOWrapper(io.BytesIO(), encoding="utf-8", write_through=True)
+    with (contextlib.chdir(folder), mock.patch.object(sys, "argv", shlex.split(command)), contextlib.redirect_stdout(screen),
+          contextlib.redirect_stderr(screen), pytest.raises(SystemExit) as left):
+        cli.main()
+    return screen.buffer.getvalue().decode("utf-8"), left.value.code or errors.OK
+
+
 def follow(text, folder, wanted):
-    """Run the commands of a page that `wanted` picks, in order; assert exit codes and outputs; the commands run."""
+    """Run the commands of a page that `wanted` picks, in order; assert exit codes and outputs; the commands run. The first is run by a shell, as
+    a reader does, and all of a page that changes the program."""
     followed = [item for item in commands(text) if item[0] not in NOT_RUN and wanted(item[0])]
-    for command, shown, stated in followed:
-        output, code = run(command, folder)
+    for n, (command, shown, stated) in enumerate(followed):
+        by_shell = n == 0 or (folder / "stabilab").is_dir() or not command.startswith("stabilab ")
+        output, code = (run if by_shell else run_here)(command, folder)
         if command.startswith("stabilab surface") and not probe().available:
             assert code == errors.NO_RENDERING and CURE in output, output
         else:
