@@ -5,6 +5,7 @@ from fractions import Fraction
 
 from ..numbers.polynomial import Poly
 from .ball_base import BallOrbit
+from .potential import force_at, rise_at, slope_at
 
 
 class BallConic(BallOrbit):
@@ -12,16 +13,12 @@ class BallConic(BallOrbit):
 
     def _set_up(self, speed):
         r, ball = self.r, self.numbers.ball
-        ap, aq, sp = abs(r.p), abs(r.q), 1 if r.p > 0 else -1
+        (self.sj, self.sk), ap, aq = r.centre, abs(r.p), abs(r.q)
         rp, rq = ball(ap).sqrt(), ball(aq).sqrt()
-        (self.sj, self.sk), (across_j, across_k), torque = r.centre, r.across, r.torque
-        flip = self.flip = -1 if torque < 0 else 1
-        self.n, self.rx, self.rz = rp * rq, flip * rp, sp * rq
-        self.G = ball(r.kappa * sp * ap * aq)
-        self.c = flip * sp * ball(across_j * aq) * rp
-        self.d = ball(across_k * ap) * rq
-        self.mu = flip * self.n * ball(torque)
-        self.w = flip * self.n * ball(speed)
+        k = r.constants_in(ball, rp, rq, rp * rq)
+        self.flip, self.n, self.rx, self.rz = k.flip, k.n, k.flip * k.rx, k.rz
+        self.G, self.c, self.d, self.mu = k.G, k.c, k.d, k.mu
+        self.w = k.flip * k.n * ball(speed)
         self.shift_j, self.shift_k = ball(self.sj), ball(self.sk)
         self.x, self.z = self._canonical(ball(self.u + self.sj), ball(self.v + self.sk))
         # the invariant Q = Z^2 - e X^2, exactly
@@ -54,20 +51,15 @@ class BallConic(BallOrbit):
 
     def _height_nearby(self, y):
         """The same with the exact force at the state taken out, so that a short way keeps its digits."""
-        s, b = self._swing(y)
-        dx = self.z * s + self.x * b
-        force = self.flip * self.n * self.numbers.ball(self.force_here)
-        return (-self.mu * (y - s) - force * s - b * (self.G * self.x * self.x + self.c * self.x + self.r.e * self.d * self.z)
-                - self.G * dx * dx / 2)
+        swing, force = self._swing(y), self.flip * self.n * self.numbers.ball(self.force_here)
+        return rise_at(self.G, self.c, self.d, self.mu, self.r.e, (self.x, self.z), swing, y - swing[0], force)
 
     def force(self, y):
-        x, z = self.place(y)
-        return self.mu + self.G * x * z + self.c * z + self.d * x
+        return force_at(self.G, self.c, self.d, self.mu, *self.place(y))
 
     def slope(self, y):
         """dF/dtheta."""
-        x, z = self.place(y)
-        return self.G * (z * z + self.r.e * x * x) + self.r.e * self.c * x + self.d * z
+        return slope_at(self.G, self.c, self.d, self.r.e, *self.place(y))
 
     # --- its equilibria
     def _found(self):

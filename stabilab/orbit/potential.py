@@ -68,6 +68,26 @@ def exp_minus_two_terms(t):
     return np.where(np.abs(t) < 0.7, 0.5 * t * t * (1 + series), np.expm1(t) - t)
 
 
+def force_at(G, c, d, mu, x, z):
+    """F at (X, Z) of a circle or hyperbola; numbers of any kind."""
+    return mu + G * x * z + c * z + d * x
+
+
+def slope_at(G, c, d, e, x, z):
+    """dF/dtheta there, e the sign of p q; numbers of one state (arrays form the squares' difference as a product)."""
+    return G * (z * z + e * x * x) + e * c * x + d * z
+
+
+def rise_at(G, c, d, mu, e, place, swing, lag, force):
+    """V(theta + y) - V(theta) from (X, Z), free of cancellation; numbers of any kind.
+
+    swing: (sin y, cos y - 1), or of sinh and cosh; lag: y less the first of them; force: that at the place, exactly.
+    """
+    (x, z), (s, b) = place, swing
+    dx = z * s + x * b
+    return -mu * lag - force * s - b * (G * x * x + c * x + e * d * z) - G / 2 * dx * dx
+
+
 class Circle:
     """place = (X, Z)."""
 
@@ -109,8 +129,7 @@ class Circle:
         return s, q, math.sin(0.5 * y), dy * min(1.0, abs(q) + dy), dy * min(1.0, abs(s) + dy)
 
     def force(self, place):
-        x, z = place
-        return self.mu + self.G * x * z + self.c * z + self.d * x
+        return force_at(self.G, self.c, self.d, self.mu, *place)
 
     def terms(self, place):
         """Size of the terms of the force: times the unit of rounding, its error."""
@@ -135,12 +154,8 @@ class Circle:
         return x + (z * y + x * b), z + (z * b - x * y)
 
     def rise(self, y, place, force=0.0):
-        x, z = place
         half = sin(0.5 * y)
-        s, b = sin(y), -2 * half * half
-        dx = z * s + x * b
-        return (-self.mu * y_minus_sin(y) - force * s - b * (self.G * x * x + self.c * x - self.d * z)
-                - 0.5 * self.G * dx * dx)
+        return rise_at(self.G, self.c, self.d, self.mu, -1, place, (sin(y), -2 * half * half), y_minus_sin(y), force)
 
     def height_over(self, place, spot, offset):
         """(V at an equilibrium `spot`, `offset` ahead of a place of its circle, above V at the place; its rounding), arrays.

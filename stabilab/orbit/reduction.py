@@ -20,6 +20,7 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from typing import Any, NamedTuple
 
 from ..numbers.exact import sqrt_fraction
 from ..numbers.vectors import CYCLE, Exact3
@@ -29,6 +30,19 @@ from .potential import GEOMETRIES, Geometry
 
 def _sign(value) -> int:
     return (value > 0) - (value < 0)
+
+
+class Constants(NamedTuple):
+    """Of the canonical variables, in any kind of number."""
+
+    G: Any
+    c: Any
+    d: Any
+    mu: Any
+    n: Any
+    rx: Any
+    rz: Any
+    flip: int
 
 
 @dataclass(frozen=True)
@@ -101,16 +115,17 @@ class Reduction:
 
         Elliptic and hyperbolic only. Roots are kept to 240 bits, so these are "exact" for every later rounding.
         """
-        (sj, sk), (across_j, across_k), torque = self.centre, self.across, self.torque
         ap, aq = abs(self.p), abs(self.q)
-        rp, rq, n = sqrt_fraction(ap), sqrt_fraction(aq), sqrt_fraction(ap * aq)
-        sp = _sign(self.p)
-        flip = -1 if torque < 0 else 1
-        return {
-            "G": self.kappa * sp * ap * aq,
-            "c": flip * sp * across_j * aq * rp,
-            "d": across_k * ap * rq,
-            "mu": flip * n * torque, "n": n, "sj": sj, "sk": sk, "rx": rp, "rz": sp * rq, "flip": Fraction(flip)}
+        found = self.constants_in(Fraction, sqrt_fraction(ap), sqrt_fraction(aq), sqrt_fraction(ap * aq))
+        sj, sk = self.centre
+        return {**found._asdict(), "sj": sj, "sk": sk, "flip": Fraction(found.flip)}
+
+    def constants_in(self, number, rp, rq, n) -> Constants:
+        """The constants in a kind of number: number makes one of a Fraction; rp, rq, n: the roots of |p|, |q| and |p q| in it."""
+        (across_j, across_k), torque = self.across, self.torque
+        ap, aq, sp, flip = abs(self.p), abs(self.q), _sign(self.p), -1 if self.torque < 0 else 1
+        return Constants(number(self.kappa * sp * ap * aq), flip * sp * number(across_j * aq) * rp, number(across_k * ap) * rq,
+                         flip * n * number(torque), n, rp, sp * rq, flip)
 
     @cached_property
     def constants(self) -> dict[str, float]:

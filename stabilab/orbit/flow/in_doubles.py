@@ -15,6 +15,7 @@ from functools import lru_cache
 
 from ...errors import InputError
 from ...physics.coefficients import effective
+from ..potential import slope_at
 from ..reduction import reduce
 from .panels import POINTS
 from .periodic import ROTATION_SAMPLES, SAMPLES, Around, Between, BySeries, Rotation, by_samples
@@ -148,7 +149,7 @@ class OnCircle(Here):
         k, s, c = self.k, math.sin(y), math.cos(y)
         x, z, span = self.x * c + self.z * s, self.z * c - self.x * s, self.size
         steep = abs(k.G) * span + k.slopes
-        return x, z, span, steep, steep * span, k.G * (z * z - x * x) - k.c * x + k.d * z
+        return x, z, span, steep, steep * span, slope_at(k.G, k.c, k.d, -1, x, z)
 
 
 class OnHyperbola(Here):
@@ -169,7 +170,7 @@ class OnHyperbola(Here):
         x, z, span = self.x * c + self.z * s, self.z * c + self.x * s, self.size * (abs(s) + c)
         near = 2 * (abs(x) + abs(z))
         steep = abs(k.G) * 0.5 * near + k.slopes  # what rounding of the place costs in energy
-        return x, z, span, steep, (abs(k.G) * near + k.slopes) * near, k.G * (z * z + x * x) + k.c * x + k.d * z
+        return x, z, span, steep, (abs(k.G) * near + k.slopes) * near, slope_at(k.G, k.c, k.d, 1, x, z)
 
 
 GEOMETRIES = {-1: OnCircle, 1: OnHyperbola}

@@ -4,6 +4,7 @@ Those of a loop chart are written out, as sums of sizes without differences of n
 """
 from __future__ import annotations
 
+from ...potential import slope_at
 from .curves import ROUNDING
 
 MORE = 2.0**-40  # of a middle: what the rounding of a dozen operations stays far below
@@ -95,6 +96,6 @@ def loop_bends(seen, curve, t, dt, y, dy):
     rptt += k * dy * (2 * abs(G) * mX1 * mZ1 + (abs(G * Z + d) + abs(G) * rZ) * mX2 + (abs(pull) + rpull) * mZ2)
     pty = k * ((G * Z + d) * X1 + pull * Z1)
     rpty = k * (abs(G) * rZ * mX1 + abs(G * Z + d) * rX1 + rpull * mZ1 + abs(pull) * rZ1)
-    pyy = k * (G * (Z * Z + e * X * X) + e * c * X + d * Z)
+    pyy = k * slope_at(G, c, d, e, X, Z)
     rpyy = k * (abs(G) * (rZ * (mZ + abs(Z)) + rX * (mX + abs(X))) + abs(c) * rX + abs(d) * rZ)
     return tuple((m, r * OUTWARD + 1e-9 * abs(m)) for m, r in ((tt, rtt), (ty, rty), (yy, ryy), (ptt, rptt), (pty, rpty), (pyy, rpyy)))

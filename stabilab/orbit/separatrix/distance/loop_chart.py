@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import math
 
+from ...potential import force_at
 from .bends import loop_bends
 from .point import UNIT, Point, gap_of, square_of
 from .sharp import loop_place, sharp_place, sharp_point
@@ -78,7 +79,7 @@ class Chart:
         u, v = u + dx, v + dz
         # the squares of dx, with s^2 = e b (b + 2), are put to the terms in b: these are then as small as their sum
         phi = 2 * (mu * lag + b * (x * p + e * z * r) + 0.5 * G * b * b * (x * x + e * z * z) + G * b * s * x * z) / n2
-        force = mu + G * X * Z + c * Z + d * X
+        force = force_at(G, c, d, mu, X, Z)
         phi_t = 2 * (b * ((p + G * x) * xt + e * d * zt) + G * dx * dxt) / n2  # p z_t + r x_t is zero
         off_phi = 2 * UNIT * (abs(mu * lag) + big_b * (sx * sp + sz * sr) + 0.5 * abs(G) * big_b * big_b * (sx * sx + sz * sz)
                               + abs(G) * big_b * big_s * sx * sz) / n2

@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 from ....numbers.balls import DOUBLE_BITS
 from ...conic import conic_of
 from ...fate.balls import decide
+from ...potential import slope_at
 from ..result import NO_SEPARATRIX, Apart
 from .curves import Hyperbola, Straight
 from .long_loops import loops_of, planes_met
@@ -110,7 +111,7 @@ def _arcs(way, conic, seen):
     for line in conic.lines:
         curve = Straight(seen, ("x" if line.dz else "z") if conic.G else None)
         for low, high in pairwise((-INF, *curve.knots, INF)):
-            if _slope(seen, *curve.at(_between(low, high))[:2]) > 0:
+            if slope_at(*(seen.plain[n] for n in ("G", "c", "d")), seen.e, *curve.at(_between(low, high))[:2]) > 0:
                 yield way(curve, low, high)
 
 
@@ -118,11 +119,6 @@ def _between(low, high):
     if low == -INF:
         return high - 1 - abs(high) if high < INF else 0.0
     return low + 1 + abs(low) if high == INF else 0.5 * (low + high)
-
-
-def _slope(seen, x, z):
-    g, e = seen.plain, seen.e
-    return g["G"] * (z * z + e * x * x) + e * g["c"] * x + g["d"] * z
 
 
 def _first(seen, arc, shade):

@@ -9,6 +9,7 @@ import math
 from typing import NamedTuple
 
 from ....numbers.balls import working
+from ...potential import force_at
 from .point import EPS, Point
 
 BITS, MOST_BITS = 256, 4096
@@ -79,7 +80,7 @@ def loop_place(g, geometry, saddle, y) -> Place:
     G, c, d, mu, k = g["G"], g["c"], g["d"], g["mu"], 2 / g["n2"]
     phi = k * (mu * y + G * (X * X - x * x) / 2 + c * (X - x) + e * d * (Z - z))
     phi_t = k * (G * (X * Xt - x * xt) + c * (Xt - xt) + e * d * (Zt - zt))
-    return Place(X - g["X"], Z - g["Z"], Xt, Z, Zt, e * X, phi, phi_t, k * (mu + G * X * Z + c * Z + d * X))
+    return Place(X - g["X"], Z - g["Z"], Xt, Z, Zt, e * X, phi, phi_t, k * force_at(G, c, d, mu, X, Z))
 
 
 def far_place(numbers, g, reach, flip, t, y) -> Place:
