@@ -12,8 +12,9 @@ import numpy as np
 
 from ..physics.to_numpy import form, lambdified, to_numpy
 from .extrema import SUBSAMPLES
+from .stand_in import root_between, sign_changes, stand_in
 from .to_heyoka import TAYLOR_TOLERANCE, heyoka_available, taylor_events
-from .trajectory import ATOL_SHARE, FALLBACK_RTOL
+from .trajectory import FALLBACK_RTOL
 
 TOGETHER = 400  # steps between looks at what was found
 LONGEST = 1e6  # natural times a step may take: a motion that is a polynomial of time has steps without end, whose powers overflow
@@ -63,11 +64,9 @@ def _longest(equations, state) -> float:
 
 
 def _by_scipy(equations, forms, state, t_max, steps, tolerance):
-    from scipy.integrate import DOP853
     system, count = to_numpy(equations), len(equations.rhs)
     values = _compiled(forms, count)
-    rtol = max(tolerance, FALLBACK_RTOL)
-    solver = DOP853(lambda _, x: np.array(system.rate(x.tolist())), 0.0, state, t_max, rtol=rtol, atol=rtol * ATOL_SHARE * (np.abs(state).max() or 1.0))
+    solver = stand_in(system.rate, state, t_max, rtol=max(tolerance, FALLBACK_RTOL))
     for done in range(steps):
         if solver.status != "running":
             break
@@ -82,11 +81,10 @@ def _by_scipy(equations, forms, state, t_max, steps, tolerance):
 
 def _of_step(values, dense, begin, end):
     """The first sign change of each expression within one step."""
-    from scipy.optimize import brentq
     times, roots = np.linspace(begin, end, SUBSAMPLES + 1), []
     for n, row in enumerate(np.array([values(dense(t)) for t in times]).T):
-        for left in np.nonzero(np.sign(row[:-1]) * np.sign(row[1:]) < 0)[0][:1]:
-            roots.append(brentq(lambda s, n=n: values(dense(s))[n], times[left], times[left + 1], xtol=1e-300, rtol=1e-15))
+        for left in sign_changes(row)[:1]:
+            roots.append(root_between(lambda y, n=n: values(y)[n], dense, times[left], times[left + 1]))
     return roots
 
 

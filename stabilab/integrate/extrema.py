@@ -12,8 +12,9 @@ import numpy as np
 from ..physics.motion_units import in_unit, mass_unit, own_unit
 from ..physics.states import equations_and_start
 from ..physics.to_numpy import form, to_numpy
+from .stand_in import floor, root_between, sign_changes, stand_in
 from .to_heyoka import TAYLOR_TOLERANCE, heyoka_available, taylor_events
-from .trajectory import ATOL_SHARE, FALLBACK_RTOL, STEP_LIMIT
+from .trajectory import FALLBACK_RTOL, STEP_LIMIT
 
 SUBSAMPLES = 16
 
@@ -94,13 +95,10 @@ def _sorted(hits, start, end, t_reached, method, steps, reason):
 
 
 def _scipy_roots(equations, state, t_end, tolerance):
-    from scipy.integrate import DOP853
-    system = to_numpy(equations)
-    rtol = max(tolerance, FALLBACK_RTOL)
-    floor = rtol * ATOL_SHARE * (np.abs(state).max() or 1.0)
+    system, rtol = to_numpy(equations), max(tolerance, FALLBACK_RTOL)
 
     def run(t, y, end):
-        return DOP853(lambda _, x: np.array(system.rate(x.tolist())), t, y, end, rtol=rtol, atol=floor)
+        return stand_in(system.rate, y, end, t, rtol, floor(state, rtol))
 
     if t_end == 0:
         return _sorted([], state, state, 0.0, "DOP853", 0, "")
@@ -119,13 +117,12 @@ def _scipy_roots(equations, state, t_end, tolerance):
 
 def _step_roots(system, solver, before, run):
     """Sign changes of the rates within one step, each polished on the motion itself."""
-    from scipy.optimize import brentq
     dense, hits = solver.dense_output(), []
     times = np.linspace(solver.t_old, solver.t, SUBSAMPLES + 1)
     rates = system(dense(times).T)
     for i in range(3):
-        for left in np.nonzero(np.sign(rates[:-1, i]) * np.sign(rates[1:, i]) < 0)[0]:
-            t = brentq(lambda s, i=i: system.rate(dense(s).tolist())[i], times[left], times[left + 1], xtol=1e-300, rtol=1e-15)
+        for left in sign_changes(rates[:, i]):
+            t = root_between(lambda y, i=i: system.rate(y.tolist())[i], dense, times[left], times[left + 1])
             hits.append((t, i, _land(run, solver.t_old, before, t)))
         hits += [(times[n], i, dense(times[n])) for n in np.nonzero(rates[1:, i] == 0)[0] + 1
                  if np.abs(rates[:, i]).max() > 0]

@@ -72,9 +72,9 @@ def _taylor_runner(equations, forms, y):
 
 def _scipy_runner(equations, forms, y):
     import numpy as np
-    from scipy.integrate import DOP853
     from scipy.optimize import brentq
 
+    from ..integrate.stand_in import stand_in
     from ..integrate.trajectory import ATOL_SHARE, FALLBACK_RTOL
     from ..physics.to_numpy import to_numpy
     system, at = to_numpy(equations), [0.0, np.array(y)]
@@ -84,8 +84,7 @@ def _scipy_runner(equations, forms, y):
         return x[1] * rate[2] - x[2] * rate[1]
 
     def run(t, limit):
-        solver = DOP853(lambda _, x: np.array(system.rate(x.tolist())), at[0], at[1], t, rtol=FALLBACK_RTOL,
-                        atol=FALLBACK_RTOL * ATOL_SHARE)
+        solver = stand_in(system.rate, at[1], t, at[0], atol=FALLBACK_RTOL * ATOL_SHARE)
         steps, last = 0, None
         while solver.status == "running" and steps < limit:
             solver.step()

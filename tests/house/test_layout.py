@@ -45,6 +45,7 @@ DOORS = {
     ("stabilab.unreduced.bounds", "stabilab.physics.law_limits"): "loaded for approximate laws alone",
     ("stabilab.unreduced.bounds", "stabilab.physics.states"): "loads numpy",
     ("stabilab.unreduced.bounds", "stabilab.physics.to_numpy"): "loads numpy",
+    ("stabilab.unreduced.growth_run", "stabilab.integrate.stand_in"): "loads numpy",
     ("stabilab.unreduced.growth_run", "stabilab.integrate.to_heyoka"): "loads numpy",
     ("stabilab.unreduced.growth_run", "stabilab.integrate.trajectory"): "loads numpy",
     ("stabilab.unreduced.growth_run", "stabilab.physics.to_numpy"): "loads numpy",

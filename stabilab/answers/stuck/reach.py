@@ -6,6 +6,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from ...integrate.stand_in import root_between, stand_in
 from ...integrate.to_heyoka import heyoka_available, taylor_events
 from ...numbers.vectors import CYCLE
 from ...physics.motion_units import in_unit, mass_unit, own_unit
@@ -99,10 +100,7 @@ def _structure(asked):
 
 def _scipy(scene, start, limits, rows, t_max, budget):
     """Where heyoka is not installed: sign changes on SciPy's interpolant."""
-    from scipy.integrate import DOP853
-    from scipy.optimize import brentq
-    rate = scene.quadratic().rate
-    solver = DOP853(lambda t, y: np.array(rate(y.tolist())), 0.0, np.array(start, float), t_max, rtol=3e-14, atol=1e-16)
+    solver = stand_in(scene.quadratic().rate, np.array(start, float), t_max, rtol=3e-14, atol=1e-16)
     largest = math.hypot(*start)
 
     def over(y):
@@ -122,7 +120,7 @@ def _scipy(scene, start, limits, rows, t_max, budget):
             beyond = np.array([over(y) for y in states]) >= 0
             if beyond.any():
                 n = max(int(np.argmax(beyond)), 1)
-                t = brentq(lambda s, dense=dense: over(dense(s)), times[n - 1], times[n], xtol=1e-300, rtol=1e-15)
+                t = root_between(over, dense, times[n - 1], times[n])
                 return float(t), max(largest, float(np.linalg.norm(dense(t)))), float(t)
         largest = max(largest, float(np.linalg.norm(states, axis=1).max()))
     return None, largest, float(solver.t)

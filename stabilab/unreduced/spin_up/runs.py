@@ -6,8 +6,9 @@ from functools import lru_cache
 import numpy as np
 
 from ...integrate.ensemble import LANES
+from ...integrate.stand_in import stand_in
 from ...integrate.to_heyoka import TAYLOR_TOLERANCE, borrowed_taylor, heyoka_available
-from ...integrate.trajectory import ATOL_SHARE, FALLBACK_RTOL
+from ...integrate.trajectory import FALLBACK_RTOL
 from ...numbers.vectors import CYCLE
 from ...physics.to_numpy import Form
 
@@ -98,9 +99,7 @@ class Runs:
         return solver.y if solver.status == "finished" else np.full(3, np.nan)
 
     def _solver(self, state, start, end, rtol):
-        from scipy.integrate import DOP853
-        size = np.abs(state).max() or 1.0
-        return DOP853(lambda _, y: np.array(self.quadratic.rate(y.tolist())), start, state, end, rtol=rtol, atol=rtol * ATOL_SHARE * size)
+        return stand_in(self.quadratic.rate, state, end, start, rtol)
 
 
 def _form(quadratic) -> Form:
