@@ -18,7 +18,8 @@ from ..integrate.reference import WORK, one_run, pairs, relative_errors
 from ..integrate.taylor_digits import Recursion
 from ..numbers.balls import sign, working
 from ..numbers.double_ball import Unclear
-from ..orbit.ball_orbit import Orbit, ball_orbit
+from ..orbit.ball_geometry import ball_orbit
+from ..orbit.ball_orbit import Orbit
 from ..orbit.extremes.balls import extreme_balls
 from ..orbit.extremes.turning_points import interval
 from ..orbit.fate.balls import precise_margin

@@ -9,11 +9,13 @@ So the equilibria of both are those of one Euler balance, with exact coefficient
 """
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 from typing import NamedTuple
 
-from ..numbers.vectors import CYCLE, Exact3, cross, dot
+from ..numbers.vectors import CYCLE, Exact3, Number, Triple, cross, dot
 from ..physics.quadratic import QuadraticForm
+from ..physics.scene import AnyScene
 
 ONE, ZERO = Fraction(1), Fraction(0)
 
@@ -34,11 +36,11 @@ class Pencil(NamedTuple):
         """Names of the three components of the state."""
         return tuple(f"{self.form.symbol}{i}" for i in (1, 2, 3))
 
-    def turned(self, y) -> Exact3:
+    def turned(self, y: Sequence[Number]) -> Exact3:
         """D y."""
         return tuple(d * v for d, v in zip(self.D, y))
 
-    def state(self, y):
+    def state(self, y: Sequence[Number]) -> Triple:
         """x from y; entries of any exact type."""
         return tuple((v + -u) * (1 / a) for v, u, a in zip(y, self.u, self.A))
 
@@ -48,7 +50,7 @@ class Pencil(NamedTuple):
         return moments.pop() if len(moments) == 1 else None
 
 
-def pencil(scene) -> Pencil:
+def pencil(scene: AnyScene) -> Pencil:
     """The balance of a Scene or ScaledGyrostat. Raises InputError for effects outside gyrostat and constant torque."""
     form = scene.quadratic()
     if scene.variables == "scaled":
@@ -62,6 +64,6 @@ def pencil(scene) -> Pencil:
 __all__ = ["CYCLE", "ONE", "ZERO", "Pencil", "cross", "dot", "pencil"]
 
 
-def unit(i: int):
+def unit(i: int) -> Exact3:
     """Unit vector of axis i."""
     return tuple(ONE if n == i else ZERO for n in range(3))

@@ -18,7 +18,8 @@ from fractions import Fraction
 
 from ..numbers.exact import sqrt_fraction
 from ..numbers.polynomial import Poly
-from ..numbers.vectors import CYCLE, cross, dot
+from ..numbers.vectors import CYCLE, Exact3, Number, Triple, cross, dot
+from ..physics.quadratic import QuadraticForm
 from .balance import ONE, ZERO, Pencil, unit
 from .curve import Grounds, RationalCurve, T, Verdict, size_of, straight_line
 from .curve_text import decimal, line_text, shifted, sum_of
@@ -50,7 +51,7 @@ def balance_fails(p: Pencil) -> str | None:
     return None
 
 
-def plane_basis(p: Pencil):
+def plane_basis(p: Pencil) -> tuple[tuple[Exact3, Fraction], tuple[Exact3, Fraction], Fraction]:
     """((P, d_P), (Q, d_Q), w) with P x Q = w M, D P = d_P P and D Q = d_Q Q, all exact."""
     support = [i for i in range(3) if p.M[i]]
     if len(support) == 1:
@@ -87,7 +88,7 @@ def _single_line(p: Pencil) -> RationalCurve:
 class _Plane:
     """The plane across the torque, in coordinates (u, v) of the state: components along P and Q."""
 
-    def __init__(self, p: Pencil, P, Q, alpha0, beta0):
+    def __init__(self, p: Pencil, P: Exact3, Q: Exact3, alpha0: Fraction, beta0: Fraction) -> None:
         self.p, self.P, self.Q = p, P, Q
         self.oblique = sum(map(bool, P)) > 1
         jp, jq = P.index(max(P, key=abs)), Q.index(max(Q, key=abs))
@@ -98,7 +99,7 @@ class _Plane:
         # the parameter is the component that theory and paper use: the second axis if it lies in the plane
         self.leading = 1 if self.oblique or jq == 1 or (jp != 1 and jq == 2) else 0
 
-    def state(self, u, v, bottom=WHOLE):
+    def state(self, u: Number, v: Number, bottom: Number = WHOLE) -> Triple:
         """Polynomials (or numbers over bottom = 1) of the state from its two plane components over `bottom`."""
         a, b = u * self.stretch[0], v * self.stretch[1]
         if not self.oblique:
@@ -119,16 +120,16 @@ class _Plane:
         """(u - u0)(v - v0) = K with t the distance of one component from its centre."""
         K = power / (self.stretch[0] * self.stretch[1])
         lead, other = self.leading, 1 - self.leading
-        parts = [None, None]
-        parts[lead] = T * T + T * self.centre[lead]
-        parts[other] = T * self.centre[other] + K
+        parts = [T * T + T * self.centre[lead], T * self.centre[other] + K]
+        if lead:
+            parts.reverse()
         text = ["", ""]
         text[lead] = sum_of(self.centre[lead], "t")
         text[other] = sum_of(self.centre[other], f"{decimal(K)}/t")
         left = " ".join(shifted(n, c) for n, c in zip(self.names, self.centre))
         return RationalCurve("equilibrium hyperbola", f"{self.plane_text()}, {left} = {decimal(K)}",
                              ", ".join([self.plane_text(), *(f"{n} = {v}" for n, v in zip(self.names, text))]),
-                             self.state(*parts, bottom=T), WELL, T, (ZERO,), {}, sqrt_fraction(abs(K), 60))  # type: ignore[misc]
+                             self.state(parts[0], parts[1], T), WELL, T, (ZERO,), {}, sqrt_fraction(abs(K), 60))
 
     def crossing_lines(self) -> list[RationalCurve]:
         """The two lines u = u0 and v = v0 of a conic through its own centre."""
@@ -146,7 +147,7 @@ class _Plane:
         return lines
 
 
-def crossing_verdict(form, x, e) -> Verdict:
+def crossing_verdict(form: QuadraticForm, x: Exact3, e: Exact3) -> Verdict:
     """The verdict where two lines of equilibria cross (m = 0): by the first non-zero derivative of the reduced potential
     along its own curve dx/dalpha = J(x) e, U' = -e.x' (a power series with exact coefficients)."""
     for power, slope in enumerate(_potential_slope(form, x, e, 8)):
@@ -158,7 +159,7 @@ def crossing_verdict(form, x, e) -> Verdict:
     return "undecided", "crossing of two lines of equilibria; the reduced potential is flat to the eighth order"
 
 
-def _potential_slope(form, x, e, terms: int) -> list[Fraction]:
+def _potential_slope(form: QuadraticForm, x: Exact3, e: Exact3, terms: int) -> list[Fraction]:
     """Coefficients of U'(alpha), times a positive constant."""
     series = [tuple(x)]
     for n in range(terms):
@@ -169,7 +170,7 @@ def _potential_slope(form, x, e, terms: int) -> list[Fraction]:
     slope = []
     for n in range(terms):
         pairs = [(series[a], series[n - a]) for a in range(n + 1)]
-        slope.append(-sum(e[i] * (form.kappa[i] * sum(a[j] * b[k] for a, b in pairs) + form.rho[i] * series[n][k]
-                                  + form.sigma[i] * series[n][j] + (form.m[i] if n == 0 else 0))
-                          for i, (j, k) in enumerate(CYCLE)))
+        slope.append(-sum((e[i] * (form.kappa[i] * sum(a[j] * b[k] for a, b in pairs) + form.rho[i] * series[n][k]
+                                   + form.sigma[i] * series[n][j] + (form.m[i] if n == 0 else 0))
+                           for i, (j, k) in enumerate(CYCLE)), Fraction(0)))
     return slope

@@ -1,7 +1,7 @@
 """A curve of equilibria in exact form: rational in its parameter, cut where stability changes."""
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import NamedTuple
@@ -46,7 +46,7 @@ class RationalCurve:
 
     def float_point(self) -> Callable[[float], Float3]:
         """point(t) for a float t, each coordinate rounded once; InputError at a pole or a t that is not finite."""
-        def point(t: float):
+        def point(t: float) -> Float3:
             try:
                 return tuple(float(v) for v in self.exact_point(Fraction(t)))
             except (ZeroDivisionError, OverflowError, ValueError):
@@ -54,32 +54,30 @@ class RationalCurve:
         return point
 
 
-def straight_line(start, direction) -> tuple[Poly, ...]:
+def straight_line(start: Sequence[Fraction], direction: Sequence[Fraction]) -> tuple[Poly, ...]:
     """start + t direction as polynomials."""
     return tuple(Poly((s, d)) for s, d in zip(start, direction))
 
 
-def size_of(*vectors) -> Fraction:
+def size_of(*vectors: Sequence[Fraction]) -> Fraction:
     """The largest entry in size, 1 where all vanish: a scale for the parameter of a line."""
     return max((abs(v) for vector in vectors for v in vector), default=Fraction(0)) or Fraction(1)
 
 
-def values_inside(lo, hi, scale) -> Fraction:
-    if lo is None and hi is None:
-        return Fraction(0)
+def values_inside(lo: Fraction | None, hi: Fraction | None, scale: Fraction) -> Fraction:
     if lo is None:
-        return hi - (abs(hi) or scale)
+        return Fraction(0) if hi is None else hi - (abs(hi) or scale)
     return lo + (abs(lo) or scale) if hi is None else (lo + hi) / 2
 
 
-def sample_parameters(lo, hi, scale) -> list[Fraction]:
+def sample_parameters(lo: Fraction | None, hi: Fraction | None, scale: Fraction) -> list[Fraction]:
     """Doubles (as fractions) inside the open interval, spread over it and log-spaced towards its infinite ends."""
-    if lo is None and hi is None:
+    if lo is None:
+        if hi is not None:
+            return [-t for t in reversed(sample_parameters(-hi, None, scale))]
         raw = [f * scale for f in (-100, -1, 0, 1, 100)]
     elif hi is None:
         raw = [lo + (abs(lo) or scale) * f for f in (Fraction(1, 100), 1, 100, 10000)]
-    elif lo is None:
-        return [-t for t in reversed(sample_parameters(-hi, None, scale))]
     elif lo == 0 or 0 < lo and hi > 100 * lo:
         ratio = float(hi / lo) if lo else 1e4
         raw = [hi / Fraction(ratio ** f) for f in (0.95, 0.7, 0.4, 0.1, 0.01)]

@@ -1,10 +1,13 @@
 """Words about curves of equilibria."""
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 
+from ..numbers.vectors import Number
 
-def decimal(value) -> str:
+
+def decimal(value: Number) -> str:
     """A number for the user's eye: the shortest decimal that reads back as the same double; six digits beyond the doubles."""
     try:
         number = float(value)
@@ -22,7 +25,7 @@ def shifted(name: str, centre: Fraction) -> str:
     return name if not centre else f"({name} {'-' if centre > 0 else '+'} {decimal(abs(centre))})"
 
 
-def sum_of(*terms) -> str:
+def sum_of(*terms: Number | str) -> str:
     """A readable sum of numbers and strings such as "2 + t", without zero terms."""
     out = ""
     for term in terms:
@@ -32,7 +35,7 @@ def sum_of(*terms) -> str:
     return out or "0"
 
 
-def line_text(names, start, direction) -> tuple[str, str]:
+def line_text(names: Sequence[str], start: Sequence[Fraction], direction: Sequence[Fraction]) -> tuple[str, str]:
     """(equation, parametrisation) of start + t direction."""
     fixed = [f"{n} = {decimal(s)}" for n, s, d in zip(names, start, direction) if not d]
     free = [n for n, d in zip(names, direction) if d]

@@ -8,6 +8,7 @@ Source: derived here; Amer et al. 2024 treats lambda along axis 1 and torques on
 from __future__ import annotations
 
 from ..physics.coefficients import Content, gyrostat_scene
+from ..physics.scene import AnyScene
 from .balance import Pencil, pencil
 from .conics import balance_fails, conic_curves
 from .isolated import off_axis_equilibria
@@ -21,7 +22,7 @@ def twin_equilibria(parts: Content) -> Equilibria:
     return gyrostat_equilibria(gyrostat_scene(parts))
 
 
-def gyrostat_equilibria(scene) -> Equilibria:
+def gyrostat_equilibria(scene: AnyScene) -> Equilibria:
     """Every equilibrium of a Scene (body, gyrostat, constant torque) or ScaledGyrostat, each with its stability, as `answers.equilibria`
     tells them. Raises InputError for other effects."""
     p = pencil(scene)

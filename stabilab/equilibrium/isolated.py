@@ -13,7 +13,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 from ..numbers.surd import Surd
-from ..numbers.vectors import cross, dot
+from ..numbers.vectors import Exact3, cross, dot
 from .balance import Pencil, unit
 from .curve import Grounds, RationalCurve, size_of, straight_line
 from .curve_text import decimal, line_text
@@ -72,7 +72,7 @@ def isolated_states(p: Pencil) -> tuple[str, list[tuple[Surd, Surd, Surd]], list
     return lead + why, [p.state(tuple(r * d + s for s, d in zip(start, v))) for r in roots], []
 
 
-def meeting_line(p: Pencil):
+def meeting_line(p: Pencil) -> tuple[Exact3, Exact3]:
     """(y0, v): the foot in span(M, D M) and the direction M x D M of the line where the two planes meet."""
     M, DM = p.M, p.turned(p.M)
     v = cross(M, DM)
@@ -81,7 +81,7 @@ def meeting_line(p: Pencil):
     return tuple(first * a + second * b for a, b in zip(M, DM)), v
 
 
-def quadratic_on_line(p: Pencil, start, v):
+def quadratic_on_line(p: Pencil, start: Exact3, v: Exact3) -> tuple[Fraction, Fraction, Fraction]:
     """(q2, q1, q0) of the one condition left on the line."""
     Dv, H = p.turned(v), tuple(a + b for a, b in zip(p.turned(start), p.lam))
     normal = dot(p.M, p.M)
@@ -89,7 +89,7 @@ def quadratic_on_line(p: Pencil, start, v):
     return triple(Dv, v), triple(Dv, start) + triple(H, v), triple(H, start) + 1
 
 
-def _whole_line(p: Pencil, start, v) -> RationalCurve:
+def _whole_line(p: Pencil, start: Exact3, v: Exact3) -> RationalCurve:
     along = [i for i in range(3) if v[i]]
     x = p.state(start)
     if len(along) == 1:

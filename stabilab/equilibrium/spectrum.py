@@ -1,14 +1,17 @@
 """The three eigenvalues of a traceless Jacobian, from z^3 + m z + n = 0 with exact m and n."""
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 
 from ..numbers.exact import sqrt_fraction
+from ..numbers.vectors import Number
+from ..physics.quadratic import QuadraticForm
 
 BITS = 220  # working precision; far above double, so that each printed part is rounded once
 
 
-def invariants(form, x, w=1):
+def invariants(form: QuadraticForm, x: Sequence[Number], w: Number = 1) -> tuple[Number, Number]:
     """(m, n) of the characteristic polynomial z^3 + m z + n of the Jacobian at x / w, times w^2 and w^3.
 
     form: QuadraticForm. x, w: rationals, surds of one root, or polynomials (a rational curve, w its denominator).

@@ -21,6 +21,7 @@ from fractions import Fraction
 from ..errors import InputError
 from ..numbers.polynomial import real_roots
 from ..numbers.surd import Surd
+from ..physics.quadratic import QuadraticForm
 from .curve import RationalCurve, Verdict, sample_parameters, values_inside
 from .result import CurveSegment, EquilibriumCurve, EquilibriumPoint
 from .spectrum import eigenvalues, invariants
@@ -62,7 +63,7 @@ def isolated_verdict(m_sign: int, n_sign: int) -> Verdict:
                         "with weights 3, 4, 5 it has a motion z ~ -60/(a t^3) that comes out of the point")
 
 
-def isolated_point(form, x: tuple[Surd, Surd, Surd]) -> EquilibriumPoint:
+def isolated_point(form: QuadraticForm, x: tuple[Surd, Surd, Surd]) -> EquilibriumPoint:
     """An isolated equilibrium (exact surds) with spectrum and verdicts."""
     m, n = invariants(form, x)
     verdict, because = isolated_verdict(m.sign, n.sign)
@@ -74,7 +75,7 @@ def isolated_point(form, x: tuple[Surd, Surd, Surd]) -> EquilibriumPoint:
     return EquilibriumPoint(at, spectrum, linear_word(m.sign, n.sign), verdict, because)
 
 
-def curve_with_verdicts(form, curve: RationalCurve) -> EquilibriumCurve:
+def curve_with_verdicts(form: QuadraticForm, curve: RationalCurve) -> EquilibriumCurve:
     """Folds, segments and samples of a curve of equilibria (n = 0 along it)."""
     cuts = cuts_of(form, curve)
     ends = [None, *cuts, None]
@@ -90,7 +91,7 @@ def curve_with_verdicts(form, curve: RationalCurve) -> EquilibriumCurve:
                             tuple(s for s, _ in pieces), tuple(folds), tuple(samples))
 
 
-def cuts_of(form, curve: RationalCurve) -> list[Fraction]:
+def cuts_of(form: QuadraticForm, curve: RationalCurve) -> list[Fraction]:
     """The parameters, rising, where stability may change: poles and crossings exactly, zeros of m to 160 bits."""
     m, _ = invariants(form, curve.numerators, curve.denominator)
     for t in (*curve.poles, *curve.crossings):
@@ -98,7 +99,7 @@ def cuts_of(form, curve: RationalCurve) -> list[Fraction]:
     return sorted({*curve.poles, *curve.crossings, *(real_roots(m) if m.degree > 0 else ())})
 
 
-def _segment(form, curve: RationalCurve, lo, hi):
+def _segment(form: QuadraticForm, curve: RationalCurve, lo: Fraction | None, hi: Fraction | None) -> tuple[CurveSegment, list[EquilibriumPoint]]:
     """The segment between two neighbouring cuts (None: infinite) and its samples."""
     middle = values_inside(lo, hi, curve.scale)
     m_sign = _sign(_m_at(form, curve, middle))
@@ -135,9 +136,9 @@ def _fold(curve: RationalCurve, t: Fraction, before: CurveSegment, after: CurveS
     return EquilibriumPoint(at, (0j, 0j, 0j), "degenerate", verdict, because)
 
 
-def _m_at(form, curve: RationalCurve, t: Fraction) -> Fraction:
+def _m_at(form: QuadraticForm, curve: RationalCurve, t: Fraction) -> Fraction:
     return invariants(form, curve.exact_point(t))[0]
 
 
-def _sign(value) -> int:
+def _sign(value: Fraction) -> int:
     return (value > 0) - (value < 0)

@@ -15,7 +15,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 from ..numbers.polynomial import Poly
-from ..numbers.vectors import CYCLE
+from ..numbers.vectors import CYCLE, Exact3
 from .balance import ONE, ZERO, Pencil, unit
 from .curve import Grounds, RationalCurve, T, Verdict, sample_parameters, size_of, straight_line
 from .curve_text import decimal, line_text
@@ -52,7 +52,7 @@ def _projection(p: Pencil, d: Fraction) -> bool:
     return any(l for l, m in zip(p.lam, p.D) if m == d)
 
 
-def _sign(value) -> int:
+def _sign(value: Fraction) -> int:
     return (value > 0) - (value < 0)
 
 
@@ -97,7 +97,7 @@ def _main_curve(p: Pencil) -> RationalCurve:
         tops, CASIMIR, bottom, poles, crossings, size_of(tuple(1 / (d - p.D[lead]) for d in p.D if d != p.D[lead])))
 
 
-def _along_lambda(p: Pencil, support) -> RationalCurve:
+def _along_lambda(p: Pencil, support: list[int]) -> RationalCurve:
     """lambda in one eigenspace (moment d): the line through rest along lambda."""
     d, lead = p.D[support[0]], support[0]
     direction = unit(lead) if len(support) == 1 else p.lam
@@ -118,7 +118,7 @@ def plane_moments(p: Pencil) -> list[Fraction]:
     return [d for d in sorted(set(p.D)) if p.D.count(d) == 2 and not _projection(p, d)]
 
 
-def plane_of_equal_moments(p: Pencil, d: Fraction):
+def plane_of_equal_moments(p: Pencil, d: Fraction) -> tuple[int, int, int, Exact3]:
     """(i, j, k, centre): axes i and j span the plane of equilibria, k is the axis of symmetry, through the exact centre."""
     i, j = (n for n in range(3) if p.D[n] == d)
     k = 3 - i - j

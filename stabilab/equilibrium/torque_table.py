@@ -7,10 +7,13 @@ for a = b only, and whose stability conditions on the minor axis are not those o
 """
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import product
+from typing import Any
 
 from ..numbers.exact import exact
+from ..numbers.vectors import Given
 
 SIGN = {-1: "-", 0: "0", 1: "+"}
 WELL = "stable: minimum of the reduced potential; unstable elsewhere, folds included"
@@ -35,7 +38,7 @@ class TorqueRow:
     nonlinear: str
 
 
-def torque_table(a, b) -> tuple[TorqueRow, ...]:
+def torque_table(a: Given, b: Given) -> tuple[TorqueRow, ...]:
     """The 27 rows for one gyrostat: only whether a = b, and whether both vanish, matters. a, b: numbers or exact strings."""
     a, b = exact(a), exact(b)
     gyrostat = "a != b" if a != b else "a = b = 0" if not a else "a = b"
@@ -43,7 +46,7 @@ def torque_table(a, b) -> tuple[TorqueRow, ...]:
     return tuple(_row(signs, gyrostat) for signs in order)
 
 
-def _row(signs, gyrostat: str) -> TorqueRow:
+def _row(signs: Sequence[int], gyrostat: str) -> TorqueRow:
     same = gyrostat != "a != b"
     acting = [i for i in range(3) if signs[i]]
     facts = (_no_torque, _one_torque, _two_torques, _three_torques)[len(acting)](signs, acting, same)
@@ -57,18 +60,18 @@ def _without_shift(text: str) -> str:
     return text.replace("(x1 + a)", "x1").replace("x1 = -a", "x1 = 0").replace("(-a, ", "(0, ")
 
 
-def _none(why: str) -> dict:
+def _none(why: str) -> dict[str, Any]:
     return dict(kinds=("none",), counts=(0,), number="none", form="-", condition=why, polynomial="-", spectrum="-",
                 linear="-", nonlinear="-")
 
 
-def _curve(form, condition, m, linear, nonlinear, number="a curve") -> dict:
+def _curve(form: str, condition: str, m: str, linear: str, nonlinear: str, number: str = "a curve") -> dict[str, Any]:
     return dict(kinds=("curves",), counts=(), number=number, form=form, condition=condition,
                 polynomial=f"z^3 + m z, m = {m}", spectrum="0, +-i sqrt(m) for m > 0; 0, +-sqrt(-m) for m < 0; 0, 0, 0 at folds",
                 linear=linear, nonlinear=nonlinear)
 
 
-def _no_torque(signs, acting, same) -> dict:
+def _no_torque(signs: Sequence[int], acting: Sequence[int], same: bool) -> dict[str, Any]:
     """x2 x3 = x3 X = x2 Y = 0: three lines; X and Y vanish together if a = b."""
     if same:
         return _curve("(x1, 0, 0), (-a, x2, 0), (-a, 0, x3)", "always", "(x1 + a)^2 - x2^2 + x3^2",
@@ -80,7 +83,7 @@ def _no_torque(signs, acting, same) -> dict:
                   "stable at centres and at (-a, 0, 0) (energy-Casimir), unstable elsewhere and at (-b, 0, 0)", "three lines")
 
 
-def _one_torque(signs, acting, same) -> dict:
+def _one_torque(signs: Sequence[int], acting: Sequence[int], same: bool) -> dict[str, Any]:
     """The two linear conditions are one plane; one rate is left in it."""
     axis = acting[0]
     if axis == 0:
@@ -101,7 +104,7 @@ def _one_torque(signs, acting, same) -> dict:
                   "centre iff (x1 + a)(x1 + b) > x2^2, that is x2^4 < (b-a) mu3 x2 + mu3^2; one fold on each branch", WELL)
 
 
-def _two_torques(signs, acting, same) -> dict:
+def _two_torques(signs: Sequence[int], acting: Sequence[int], same: bool) -> dict[str, Any]:
     """One component is fixed by each condition; the rate across them gives the last, where c = b - a lets it."""
     if 0 not in acting:
         return _none("mu1 = 0 leaves mu2 x2 = 0 and mu3 x3 = 0, so x2 = x3 = 0, where x2' = mu2 and x3' = mu3 do not vanish")
@@ -117,7 +120,7 @@ def _two_torques(signs, acting, same) -> dict:
                 linear="unstable (n != 0)", nonlinear=UNSTABLE)
 
 
-def _three_torques(signs, acting, same) -> dict:
+def _three_torques(signs: Sequence[int], acting: Sequence[int], same: bool) -> dict[str, Any]:
     """X Y = p = mu2 mu3/mu1, so X^2 + c X - p = 0, x2 = -mu3/Y, x3 = mu2/X, n = -+mu1 sqrt(c^2 + 4 p)."""
     positive = signs[0] * signs[1] * signs[2] > 0
     product_text = "mu2 mu3/mu1"

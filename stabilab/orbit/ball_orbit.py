@@ -1,9 +1,14 @@
 """The orbit of one state, built once in each kind of number that its questions ask for."""
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
+from typing import Any
+
 from ..numbers.balls import START_BITS, settled
+from ..numbers.vectors import Number
 from .ball_base import BallOrbit
 from .ball_geometry import ball_orbit
+from .reduction import Reduction
 
 MOST_BITS = 1 << 17  # where balls end
 TIE_BITS = 4096  # with so many the extremes of a motion on the separatrix are worked out
@@ -12,14 +17,15 @@ TIE_BITS = 4096  # with so many the extremes of a motion on the separatrix are w
 class Orbit:
     """The orbit of one state (three doubles or Fractions, taken exactly), built once in each kind of number that a question asks for."""
 
-    def __init__(self, reduction, state):
-        self.reduction, self.state, self._built = reduction, state, {}
+    def __init__(self, reduction: Reduction, state: Sequence[Number]) -> None:
+        self.reduction, self.state = reduction, state
+        self._built: dict[Any, BallOrbit] = {}
 
-    def settled(self, question, bits: int = START_BITS, most: int = MOST_BITS):
+    def settled(self, question: Callable[[BallOrbit], Any], bits: int = START_BITS, most: int = MOST_BITS) -> Any:
         """question(orbit) of its `BallOrbit`, as `balls.settled` asks: with more bits as long as it is `Unclear`."""
         return settled(lambda numbers: question(self._in(numbers)), bits, most)
 
-    def _in(self, numbers) -> BallOrbit:
+    def _in(self, numbers: Any) -> BallOrbit:
         if numbers not in self._built:
             self._built[numbers] = ball_orbit(self.reduction, self.state, numbers)
         return self._built[numbers]

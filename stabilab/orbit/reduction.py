@@ -17,18 +17,20 @@ A reflection of theta makes mu >= 0. Coefficients are formed exactly from the ra
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from typing import Any, NamedTuple
 
 from ..numbers.exact import sqrt_fraction
-from ..numbers.vectors import CYCLE, Exact3
+from ..numbers.vectors import CYCLE, Exact3, Number, Triple
 from ..physics.quadratic import QuadraticForm
+from ..physics.scene import AnyScene
 from .potential import GEOMETRIES, Geometry
 
 
-def _sign(value) -> int:
+def _sign(value: Fraction) -> int:
     return (value > 0) - (value < 0)
 
 
@@ -91,18 +93,18 @@ class Reduction:
         return self.geometry.kind
 
     @cached_property
-    def centre(self) -> tuple:
+    def centre(self) -> tuple[Fraction, Fraction]:
         """(sj, sk): the conic is centred at (omega_j, omega_k) = (-sj, -sk); elliptic and hyperbolic only."""
         return self.q0 / self.q, self.p0 / self.p
 
     @cached_property
-    def across(self) -> tuple:
+    def across(self) -> tuple[Fraction, Fraction]:
         """rho and sigma of the rate of omega_i in components told from the centre."""
         sj, sk = self.centre
         return self.rho - self.kappa * sj, self.sigma - self.kappa * sk
 
     @cached_property
-    def torque(self):
+    def torque(self) -> Fraction:
         """m of that rate (the last three terms cancel for a body); on a parabola m itself."""
         if not self.geometry.centred:
             return self.m
@@ -120,7 +122,7 @@ class Reduction:
         sj, sk = self.centre
         return {**found._asdict(), "sj": sj, "sk": sk, "flip": Fraction(found.flip)}
 
-    def constants_in(self, number, rp, rq, n) -> Constants:
+    def constants_in(self, number: Callable[[Fraction], Number], rp: Number, rq: Number, n: Number) -> Constants:
         """The constants in a kind of number: number makes one of a Fraction; rp, rq, n: the roots of |p|, |q| and |p q| in it."""
         (across_j, across_k), torque = self.across, self.torque
         ap, aq, sp, flip = abs(self.p), abs(self.q), _sign(self.p), -1 if self.torque < 0 else 1
@@ -147,7 +149,7 @@ class Reduction:
         """The same, rounded."""
         return float(self.exact_energy_unit)
 
-    def canonical(self, states):
+    def canonical(self, states: Number) -> Triple:
         """(X, Z, W) of states (..., 3), each an array (...,); elliptic and hyperbolic."""
         from .extremes.circle_kernel import shifted  # one state is answered without arrays
         g, low = self.constants, self.shift_remainders
@@ -162,28 +164,28 @@ class Reduction:
         j, k = (float(self.exact_constants[name] - Fraction(self.constants[name])) for name in ("sj", "sk"))
         return j, k
 
-    def canonical_exact(self, state) -> Exact3:
+    def canonical_exact(self, state: Sequence[float]) -> Exact3:
         """(X, Z, W) of one state of floats, with the 240-bit constants: no cancellation in the shifts."""
         g = self.exact_constants
         u, v, w = (Fraction(float(state[a])) for a in (self.j, self.k, self.axis))
         return (g["flip"] * (u + g["sj"]) / g["rx"], (v + g["sk"]) / g["rz"], g["flip"] * g["n"] * (w + self.s))
 
-    def component_j(self, x):
+    def component_j(self, x: Number) -> Number:
         """omega_j of canonical X (floats, arrays)."""
         g = self.constants
         return g["flip"] * g["rx"] * x - g["sj"]
 
-    def component_k(self, z):
+    def component_k(self, z: Number) -> Number:
         """omega_k of canonical Z."""
         g = self.constants
         return g["rz"] * z - g["sk"]
 
-    def component_i(self, w):
+    def component_i(self, w: Number) -> Number:
         """omega_i of canonical W."""
         g = self.constants
         return g["flip"] * w / g["n"] - float(self.s)
 
-    def exact_invariant_sign(self, state) -> int:
+    def exact_invariant_sign(self, state: Sequence[float]) -> int:
         """Sign of Q = Z^2 - e X^2 at a state of floats, exactly (rational arithmetic)."""
         u, v = Fraction(float(state[self.j])), Fraction(float(state[self.k]))
         sj, sk = self.centre
@@ -199,7 +201,7 @@ class Reduction:
         return max(abs(self.constants["sj"]), abs(self.constants["sk"]))
 
 
-def reduction_about(form: QuadraticForm, axis: int, weight=Fraction(1)) -> Reduction | None:
+def reduction_about(form: QuadraticForm, axis: int, weight: Fraction = Fraction(1)) -> Reduction | None:
     """The reduction about principal axis `axis`, or None where the scene has none.
 
     It exists iff the torque has no component along the other axes and both their rates share a factor (omega_i + s).
@@ -227,7 +229,7 @@ def _common_shift(form: QuadraticForm, j: int, k: int) -> Fraction | None:
     return s
 
 
-def reduce(scene) -> Reduction | None:
+def reduce(scene: AnyScene) -> Reduction | None:
     """The reduction that serves `scene`: about the torque's axis, or, without torque, about any axis that allows one
     (elliptic preferred: its circle is compact). None where there is none."""
     form = scene.quadratic()

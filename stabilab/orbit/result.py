@@ -2,11 +2,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from enum import IntEnum
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from ..numbers.vectors import Float3
+from ..numbers.vectors import Float3, Number
 
 if TYPE_CHECKING:  # a scene of exact laws does not load it
     from ..physics.law_limits import Validity
@@ -58,19 +59,19 @@ class Motion:
     velocity_witness: Float3 | None = None
     velocity_because: str = ""
     period: float | None = None
-    extremes: tuple | None = None
+    extremes: tuple[tuple[float, float], ...] | None = None
     extremes_over: str = "all time"
     invariants: dict[str, float] = field(default_factory=dict)
-    evidence: dict = field(default_factory=dict)
+    evidence: dict[str, Any] = field(default_factory=dict)
     tolerance: float | None = None
     level: str = "exact"
     cause: str = ""
-    bounds: tuple | None = None
+    bounds: tuple[tuple[float, float], ...] | None = None
     validity: Validity | None = None
     tilt: object = None
 
 
-def judged(state, decided) -> dict:
+def judged(state: Float3, decided: Any) -> dict[str, Any]:
     """The fields of a Motion that its decided fate fills: label, reason in words, axis and sense."""
     because = decided.because
     if decided.label == Fate.SPIN_UP and (decided.axis or decided.sense):
@@ -79,16 +80,16 @@ def judged(state, decided) -> dict:
     return {"at": state, "fate": decided.label, "because": because, "axis": decided.axis, "sense": decided.sense, "level": level}
 
 
-def finite(value) -> float | None:
+def finite(value: Number) -> float | None:
     """The number as a float; None where it is infinite or no number."""
     return float(value) if math.isfinite(value) else None
 
 
-def repeats(time) -> float | None:
+def repeats(time: float) -> float | None:
     """The period; None where there is none (at rest, or a motion that does not repeat)."""
     return time if 0 < time < math.inf else None
 
 
-def pairs(array) -> tuple:
+def pairs(array: Iterable[Sequence[Number]]) -> tuple[tuple[float, float], ...]:
     """((least, greatest), ...) in plain floats."""
     return tuple((float(low), float(high)) for low, high in array)
