@@ -18,6 +18,7 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
     from .answers.trajectory import trajectory as trajectory
     from .case.read import Case as Case
     from .case.read import load as load
+    from .errors import InputError as InputError
     from .integrate.ensemble import ensemble as ensemble
     from .orbit.result import Fate as Fate
     from .orbit.separatrix.sheets import separatrix as separatrix
@@ -57,7 +58,7 @@ _HOME = {
     "Charge": "physics.effects.charge", "Resistance": "physics.effects.resistance", "LiquidCavity": "physics.effects.liquid_cavity",
     "NewtonianField": "physics.effects.newtonian_field", "Gravity": "physics.effects.gravity", "BodyForce": "physics.effects.body_force",
     "derive": "physics.equations", "validity": "physics.law_limits",
-    "plot": "show",
+    "plot": "show", "InputError": "errors",
 }
 __all__ = [*_HOME, "__version__"]
 

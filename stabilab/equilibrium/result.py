@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from ..numbers.vectors import Float3
+from ..shown import Shown
 
 if TYPE_CHECKING:
     from ..physics.law_limits import Validity
@@ -54,8 +55,8 @@ class EquilibriumCurve:
     samples: tuple[EquilibriumPoint, ...] = ()
 
 
-@dataclass(frozen=True)
-class Equilibria:
+@dataclass(frozen=True, repr=False)
+class Equilibria(Shown):
     """All equilibria of a scene. kind: "none", "points", "curves" (curves, possibly with points) or "all" (every
     state is one); reason: why these and no others. validity: of an approximate law (`stabilab.physics.law_limits`), at the points; None where
     all laws are exact."""

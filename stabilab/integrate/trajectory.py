@@ -14,6 +14,7 @@ from ..physics.blocks import slices
 from ..physics.motion_units import in_unit, mass_unit, own_unit
 from ..physics.states import checked_rtol, checked_times, equations_and_start
 from ..physics.to_numpy import form, to_numpy
+from ..shown import Shown
 from .to_heyoka import FEATHER, TAYLOR_TOLERANCE, borrowed_taylor, heyoka_available
 
 if TYPE_CHECKING:
@@ -238,8 +239,8 @@ def _stopped(points, grid, why):
     return f"the run stopped after {last}: {why}"
 
 
-@dataclass(frozen=True)
-class Trajectory:
+@dataclass(frozen=True, repr=False)
+class Trajectory(Shown):
     """States at the asked-for times.
 
     t: (n,) times; states: (n, N), blocks: where each block of the state stands in the N columns; invariant_drift: law name -> largest relative

@@ -8,6 +8,7 @@ from enum import IntEnum
 from typing import TYPE_CHECKING, Any
 
 from ..numbers.vectors import Float3, Number
+from ..shown import Shown
 
 if TYPE_CHECKING:  # a scene of exact laws does not load it
     from ..physics.law_limits import Validity
@@ -28,8 +29,8 @@ class Fate(IntEnum):
         return ("bounded", "spin-up", "separatrix", "equilibrium", "undecided")[self]
 
 
-@dataclass(frozen=True)
-class Motion:
+@dataclass(frozen=True, repr=False)
+class Motion(Shown):
     """Everything known about the motion from one state.
 
     axis: 1, 2, 3 of the spin-up, 0 otherwise; sense: +1 or -1 of the spin-up, 0 otherwise.

@@ -76,7 +76,7 @@ told = {"file": stabilab.__file__, "kinds": [kind_of(sphere), kind_of(satellite)
 if "swing" in stabilab.__all__:
     told["swing"] = [stabilab.swing(sphere, state), stabilab.swing(satellite, state)]
 told["many"] = [stabilab.fate(sphere, [state]).labels.tolist(), stabilab.extremes(sphere, [state]).tolist(), stabilab.period(sphere, [state]).tolist()]
-told["satellite"] = repr(stabilab.motion(satellite, state))
+told["satellite"] = repr(vars(stabilab.motion(satellite, state)))
 print(json.dumps(told))
 """
 

@@ -6,9 +6,11 @@ from functools import cached_property
 
 import numpy as np
 
+from ...shown import Shown
 
-@dataclass(frozen=True)
-class TimeTo:
+
+@dataclass(frozen=True, repr=False)
+class TimeTo(Shown):
     """The first times (...,) at which states (..., 3) reach a limit, in the scene's time: each is between low and high.
 
     Both inf: never. high NaN: not known; then the limit is not reached before low. level (...,), texts: "exact" (a law, or all extremes), "proved"

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ...physics.scene import AnyScene
+from ...shown import Shown
 from ..far_states import BEYOND
 from ..result import Fate
 from ..separatrix.distance.ask import separatrix_distance
@@ -16,8 +17,8 @@ from .reasons import REASONS, Reason
 CHUNK = 16384  # states at a time: a dozen arrays of so many doubles stay in the processor's caches
 
 
-@dataclass(frozen=True)
-class FateResult:
+@dataclass(frozen=True, repr=False)
+class FateResult(Shown):
     """Labels and margins of states (..., 3).
 
     labels: (...,) int8 of `Fate`. margins: (...,) barrier minus energy in the scene's energy (J; or x_i^2/2 + U when

@@ -5,6 +5,8 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
+from ...shown import Shown
+
 if TYPE_CHECKING:
     import numpy as np
 
@@ -34,8 +36,8 @@ class Sheet:
     cut: int = 1
 
 
-@dataclass(frozen=True)
-class Separatrix:
+@dataclass(frozen=True, repr=False)
+class Separatrix(Shown):
     """Every sheet of the separatrix inside the asked-for range; reason says why there is none or what bounds it."""
 
     sheets: tuple[Sheet, ...]

@@ -7,7 +7,7 @@ from stabilab import __version__
 
 from ...files import whole_file
 from ...packages import demand
-from ...physics.blocks import PARTS
+from ..results.variables import of_parts
 from ..text.answers import columns
 from . import comma, endings
 
@@ -34,13 +34,10 @@ def _csv(case, run, path):
 
 
 def _netcdf(case, run, path):
-    import numpy as np
     import xarray
     time = "t" if case.variables == "physical" else "tau"
-    parts = {name: ((time, "axis")[:np.ndim(values)], values, {"units": PARTS[name].unit or "1", "long_name": PARTS[name].words})
-             for name, values in run.state.items()}
     data = xarray.Dataset(
-        parts, {time: ((time,), run.t, {"units": "s" if case.variables == "physical" else "1"}), "axis": [1, 2, 3]},
+        of_parts(run.state, time), {time: ((time,), run.t, {"units": "s" if case.variables == "physical" else "1"}), "axis": [1, 2, 3]},
         {"title": case.title, "source": case.source, "case": case.text, "program": f"stabilab {__version__}",
          "model": run.model, "method": run.method, **({"rtol": run.rtol} if run.rtol else {}), "status": run.status,
          **{f"departure_from_{name}": value for name, value in run.invariant_drift.items()}})

@@ -1,0 +1,69 @@
+"""A result in one line."""
+from __future__ import annotations
+
+import math
+from collections import Counter
+from typing import Any
+
+from ...orbit.result import Fate
+
+
+def short(result: Any) -> str:
+    """The line of a result: its kind, and what it answers in a few words."""
+    name = type(result).__name__
+    return f"{name}({SHORT[name](result)})"
+
+
+def _motion(m):
+    spin = f" about axis {m.axis}, sense {m.sense:+d}" if m.axis else ""
+    parts = [m.fate.word + spin + ("" if m.level in ("exact", "undecided") else f", {m.level}"), _named("margin in energy", m.margin_energy),
+             _named("in rate", m.margin_velocity), _named("period", m.period),
+             "" if m.extremes is None else f"extremes over {m.extremes_over}"]
+    return "; ".join(filter(None, parts))
+
+
+def _named(words, value):
+    return "" if value is None else f"{words} {value:.6g}"
+
+
+def _equilibria(found):
+    pieces = [segment.verdict for curve in found.curves for segment in curve.segments]
+    told = [f"{_counted(len(found.points), 'point')} ({_shares(p.verdict for p in found.points)})" if found.points else "",
+            f"{_counted(len(found.curves), 'curve')}, their pieces: {_shares(pieces)}" if found.curves else ""]
+    return "; ".join([found.kind, *filter(None, told)])
+
+
+def _counted(number, word):
+    return f"{number} {word}" + ("" if number == 1 else "s")
+
+
+def _shares(words):
+    return ", ".join(f"{number} {word}" for word, number in Counter(words).items())
+
+
+def _fates(found):
+    words = [Fate(int(label)).word for label in found.labels.reshape(-1)]
+    return f"{words[0]}: {found.because}" if found.labels.ndim == 0 else f"{_counted(len(words), 'state')}: {_shares(words)}"
+
+
+def _run(t, parts, method, status, reason):
+    span = f", {t[0]:.6g} to {t[-1]:.6g}" if len(t) else ""
+    return f"{_counted(len(t), 'time')}{span}; {', '.join(parts)}; {method}, {status if status == 'reached' else reason}"
+
+
+def _time_to(found):
+    low, high = found.low, found.high
+    if getattr(low, "ndim", 0):
+        return f"{found.quantity}: {_counted(low.size, 'state')}, {_shares(map(str, found.level.reshape(-1)))}"
+    when = "never" if low == math.inf else f"not before {low:.6g}" if math.isnan(high) else f"{low:.9g} to {high:.9g}"
+    return f"{found.quantity}: {when}, {found.level}"
+
+
+def _separatrix(found):
+    return "; ".join(f"{s.name}, {s.points.shape[0]} x {s.points.shape[1]} points" for s in found.sheets) or f"no sheets: {found.reason}"
+
+
+SHORT = {
+    "Motion": _motion, "Equilibria": _equilibria, "FateResult": _fates, "TimeTo": _time_to, "Separatrix": _separatrix,
+    "Trajectory": lambda run: _run(run.t, run.blocks, run.method, run.status, run.reason),
+    "Simulation": lambda run: _run(run.t, run.state, f"{run.model}, {run.method}" if run.model != "exact" else run.method, run.status, run.reason)}
