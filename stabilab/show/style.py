@@ -94,7 +94,8 @@ def write_small(image, path) -> None:
     ours = [[int(c[i:i + 2], 16) for i in (1, 3, 5)] for c in (BLACK, "#FFFFFF", *SHEETS, GREY)]
     common = np.reshape(image.quantize(256 - len(ours), dither=Image.Dither.NONE).getpalette(), (-1, 3))
     palette = np.vstack([ours, common])[:256].astype(np.int32)
-    pixels = np.asarray(image).astype(np.int32) @ [1 << 16, 1 << 8, 1]  # a number a colour: rows take ten times as long to sort
+    parts = np.asarray(image).astype(np.int64)
+    pixels = parts[..., 0] << 16 | parts[..., 1] << 8 | parts[..., 2]  # a number a colour: rows take ten times as long to sort
     numbers, where = np.unique(pixels.ravel(), return_inverse=True)
     colours = np.stack([numbers >> 16, numbers >> 8 & 255, numbers & 255], axis=1)
     # Pillow's own nearest-colour search is coarse (white comes out as 252): search exactly, in chunks

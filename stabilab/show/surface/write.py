@@ -152,19 +152,19 @@ def polydata(meshes):
 # -- pictures ----------------------------------------------------------------------------------------------------------
 
 
-def equilibrium_lines(scene, size):
+def equilibrium_lines(curves, size, number=240):
     """[("stable" | "unstable" | "degenerate", points (n, 3))] of the equilibrium curves within `size` of the origin."""
     lines = []
-    for curve in equilibria(scene).curves:
+    for curve in curves:
         for segment in curve.segments:
-            points = np.array([curve.point(float(t)) for t in _spread(*segment.t)], float)
+            points = np.array([curve.point(float(t)) for t in _spread(*segment.t, number)], float)
             points = points[np.all(np.isfinite(points), axis=1) & (np.linalg.norm(points, axis=1) < size)]
             if len(points) > 1:
                 lines.append((segment.linear, points))
     return lines
 
 
-def _spread(low, high, number=240):
+def _spread(low, high, number):
     """Parameters inside (low, high), dense at both ends, geometric towards an infinite end and towards zero."""
     if np.isfinite(low) and np.isfinite(high):
         t = low + (high - low) * (1 - np.cos(np.linspace(1e-3, np.pi - 1e-3, number))) / 2
@@ -191,7 +191,7 @@ def plotter(scene, found, meshes):
             stage.add_mesh(surface, color=style.SHEETS[number % len(style.SHEETS)], smooth_shading=False, ambient=0.35,
                            diffuse=0.7, specular=0.1, name=f"sheet {number}")
     size = 1.15 * max([np.abs(m.points).max(initial=0.0) for m in meshes] or [0.0]) or 5.0
-    for number, (kind, points) in enumerate(equilibrium_lines(scene, size)):
+    for number, (kind, points) in enumerate(equilibrium_lines(equilibria(scene).curves, size)):
         stage.add_mesh(pyvista.lines_from_points(points).tube(radius=size * 0.008), color=_colour(kind), name=f"line {number}")
     for axis, colour in enumerate((style.VERMILION, style.GREEN, style.BLUE)):
         ends = np.zeros((2, 3))

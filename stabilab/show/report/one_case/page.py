@@ -4,6 +4,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from ....answers.equilibria import equilibria
+from ....answers.tilt import with_tilt
 from ....answers.uncertain.verdicts import uncertain
 from ....errors import StabilabError
 from ...plot import which
@@ -27,6 +28,8 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
     measures, absent, one = Measures(case.variables), [], subject(case)
     found = _tried(absent, "Equilibria", lambda: equilibria(case.scene))
     moved = None if case.state is None else _tried(absent, "Motion", lambda: one.motion)
+    if deep and moved is not None:
+        moved = _tried(absent, "Tilt of the torque", lambda: with_tilt(case, moved)) or moved
     if case.state is None:
         absent.append(("Motion", "the case states none: no fate, margins and pictures of it"))
     page = {"name": case.name, "title": case.heading, "source": case.source, "path": case.path, "text": case.text,
@@ -39,7 +42,7 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
                  "invariants": verdict.invariants(moved, measures)}
         page["pictures"] = _tried(absent, "Pictures", lambda: pictures(one, folder, stem, deep)) or []
         absent += [(title, why) for kind, (title, _) in SHOWN.items() if (why := which.why_not(kind, one))]
-        page["sensitivity"] = _tried(absent, "Sensitivity", lambda: sensitivity(case, moved, measures, deep))
+        page["sensitivity"] = _tried(absent, "Sensitivity", lambda: sensitivity(case, moved, measures))
     page["space"] = _tried(absent, "Space of the rates", lambda: space(case, moved, found, measures))
     page["uncertain"] = _uncertain(case, absent)
     if certify:

@@ -4,7 +4,6 @@ from __future__ import annotations
 import math
 
 from ....answers.stuck.ask import stuck
-from ....answers.tilt import with_tilt
 from ....errors import InputError
 from ....orbit.result import Fate
 from ....physics.alignment import torque_axis
@@ -14,12 +13,12 @@ UNITS = {"wheel": "N m s", "torque": "N m"}
 OF = {"rate": "rates at the start", "wheel": "wheel momentum", "torque": "torque"}
 
 
-def sensitivity(case, motion, measures, deep: bool) -> dict:
+def sensitivity(case, motion, measures) -> dict:
     """Rows (what changes, by how much, in which direction, what is to be said) and sentences on wheels, thrusters and a tilt of the torque.
 
-    deep: whether a tilt is searched for too (seconds); without it the command that does so is named. An empty table comes with the reason.
+    A tilt is that which the motion has been asked with; where it has not, the command that does so is named. An empty table comes with the reason.
     """
-    found = {"rows": [], "words": [], "reason": ""}
+    found: dict = {"rows": [], "words": [], "reason": ""}
     try:
         answer = stuck(case)
     except InputError as error:
@@ -37,7 +36,7 @@ def sensitivity(case, motion, measures, deep: bool) -> dict:
     found["words"] = [_wheel(wheel) for wheel in row.wheels] + [_helper(helper, measures) for helper in row.helpers]
     if row.time_to_limit:
         found["words"].insert(0, f"The limit of the case is reached after {_between_times(row.time_to_limit, measures)} ({row.time_level}).")
-    found["words"] += _tilt(case, motion, measures, row.tilt, deep)
+    found["words"] += _tilt(case, motion, measures, motion.tilt or row.tilt)
     return found
 
 
@@ -84,10 +83,8 @@ def _helper(helper, measures):
     return f"With {share}, {left} is left in the mean: {helper.fate}{time}."
 
 
-def _tilt(case, motion, measures, found, deep):
+def _tilt(case, motion, measures, found):
     """What a torque a little off its axis does to a bounded motion."""
-    if found is None and deep:
-        found = with_tilt(case, motion).tilt
     if found is None:
         asked = motion.fate == Fate.BOUNDED and torque_axis(case.scene)
         return ["This holds while the torque is exactly on its axis; `stabilab fate CASE --tilt \"1 deg\"` says what a tilt does."] if asked else []

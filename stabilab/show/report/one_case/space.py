@@ -23,6 +23,7 @@ ROOM = 1.9           # half of the box, of the farthest point of the motion from
 WHOLE = 2.5          # boxes that a surface may fill at most to be shown whole
 BEYOND = 8.0         # boxes: what is farther off is moved in, outside what is drawn
 STEPS = 900          # points of the motion
+LINES, FEWEST = 1600, 60  # points of all curves of equilibria, of each at least
 LATEST = 3.0         # times its first size, up to which a motion that spins up is drawn
 SHEETS = (style.SKY, style.GREEN, style.PURPLE, style.YELLOW)  # orange is the motion's
 KINDS = {"stable": "stable equilibria", "unstable": "unstable equilibria", "degenerate": "equilibria of a fold"}
@@ -37,10 +38,11 @@ def space(case, motion, found_equilibria, measures, shape=SHAPE) -> dict:
     reaching = _reaching(case.scene, sheets, box, shape)
     sheets = [sheet for sheet in reaching if _seen(sheet.points, box)]
     unit, one = measures.rate_unit
+    curves = found_equilibria.curves if found_equilibria is not None else ()
     drawn = {"names": [f"{spoken(name)}{f' ({unit})' if unit else ''}" for name in case.scene.components],
              "middle": [v * one for v in box[0]], "half": box[1] * one,
              "sheets": [_sheet(sheet, SHEETS[n % len(SHEETS)], box) for n, sheet in enumerate(sheets)],
-             "curves": _curves(case.scene, curve, box), "points": [m | {"at": _share(m["at"], box)} for m in marks if _inside(m["at"], box)]}
+             "curves": _curves(curves, curve, box), "points": [m | {"at": _share(m["at"], box)} for m in marks if _inside(m["at"], box)]}
     return {"drawn": drawn, "legend": _legend(drawn), "reason": reason, "clipped": any(_outside(s.points, box) for s in reaching)}
 
 
@@ -114,17 +116,11 @@ def _about(points, room):
     return ((low + high) / 2).tolist(), half or float(np.abs(high).max()) or 1.0
 
 
-def _curves(scene, curve, box):
+def _curves(curves, curve, box):
     size = float(np.abs(np.asarray(box[0])).max()) + 2 * box[1]
-    rows = [{"kind": KINDS.get(kind, kind), "colour": _colour(kind), "at": packed(points, box)} for kind, points in _lines(scene, size)]
+    lines = equilibrium_lines(curves, size, max(FEWEST, LINES // (1 + sum(len(one.segments) for one in curves))))
+    rows = [{"kind": KINDS.get(kind, kind), "colour": _colour(kind), "at": packed(points[:, :3], box)} for kind, points in lines]  # a field adds the vertical
     return rows + ([] if curve is None else [{"kind": "this motion", "colour": style.MEANING["this motion"]["color"], "at": packed(curve, box)}])
-
-
-def _lines(scene, size):
-    try:
-        return [(kind, points[:, :3]) for kind, points in equilibrium_lines(scene, size)]  # a field adds the vertical
-    except StabilabError:
-        return []
 
 
 def _colour(kind):
