@@ -10,18 +10,21 @@ from typing import Annotated  # typer reads the annotations at run time
 import typer
 
 from .errors import BAD_INPUT, BUG, INTERRUPTED, OK, UNDECIDED, InputError, RenderingUnavailable, StabilabError, ToleranceNotMet, printable
+from .show.terminal import completion
+from .show.terminal.groups import Grouped
 from .streams import LOST, OutputLost, guarded
 
 
 def _without_commands() -> typer.Typer:
     """A program with plain help: rich costs more time than the rest of `stabilab --help`."""
-    return typer.Typer(name="stabilab", no_args_is_help=True, rich_markup_mode=None, pretty_exceptions_enable=False)
+    return typer.Typer(name="stabilab", cls=Grouped, no_args_is_help=True, rich_markup_mode=None, pretty_exceptions_enable=False,
+                       context_settings={"help_option_names": ["-h", "--help"]})
 
 
 app = _without_commands()
 
-CaseFile = Annotated[Path, typer.Argument(metavar="CASE", help="A case file (TOML).", show_default=False)]
-CaseFiles = Annotated[list[Path], typer.Argument(metavar="CASE...", help="Case files (TOML).", show_default=False)]
+CaseFile = Annotated[Path, typer.Argument(metavar="CASE", help="A case file (TOML).", show_default=False, autocompletion=completion.cases)]
+CaseFiles = Annotated[list[Path], typer.Argument(metavar="CASE...", help="Case files (TOML).", show_default=False, autocompletion=completion.cases)]
 Json = Annotated[bool, typer.Option("--json", help="JSON on stdout instead of text.")]
 Digits = Annotated[int | None, typer.Option(metavar="N", help="Reach N digits (1 to 50) the cheapest way and check them; "
                                                                  "exit 5 where they are not reached. Without it 10 are the aim.")]
@@ -31,6 +34,10 @@ Prove = Annotated[bool, typer.Option("--certify", help="Enclose the way of a mot
                                                         "writes the proof down.")]
 Tilt = Annotated[str | None, typer.Option(metavar="ANGLE", help="What a tilt of the torque by up to so much, \"1 deg\", does to a motion that a torque on an "
                                                                "axis keeps bounded. By itself where the case states a misalignment or [limits].")]
+UnitsOption = Annotated[str | None, typer.Option("--units", metavar="deg|si", autocompletion=completion.units,
+                                                 help="deg/s and min, or rad/s and s, in text. Default: [output] units of the case, else deg.")]
+Si = Annotated[bool, typer.Option("--si", hidden=True, help="The same as --units si.")]
+Why = Annotated[bool, typer.Option("--why", "-v", help="With proofs, derivations and algebra.")]
 Strict = Annotated[bool, typer.Option("--strict", help="Exit with 3 where a fate is undecided or an approximate law does not hold "
                                                        "along the motion.")]
 
@@ -57,7 +64,7 @@ def show(case: CaseFile):
     Example: stabilab show cases/minor-axis-100.toml
     """
     from .show.text.scene_text import text
-    _print("\n\n".join(text(one) for one in _load([case])))
+    _show("\n\n".join(text(one) for one in _load([case])))
 
 
 @app.command()
@@ -66,13 +73,14 @@ def classify(cases: CaseFiles, json: Json = False, strict: Annotated[bool, typer
              certify: Annotated[bool, typer.Option("--certify", help="Prove the answer in exact numbers and balls, and write it as a "
                                                                      "certificate that `stabilab verify` checks.")] = False,
              out: Annotated[Path, typer.Option(metavar="FILE.json", help="Where the certificate goes.")] = Path("certificate.json"),
-             follow: Follow = None, tilt: Tilt = None):
+             follow: Follow = None, tilt: Tilt = None, units: UnitsOption = None, why: Why = False):
     """Find the equilibria, their stability, and the motion's fate.
 
     Example: stabilab classify cases/minor-axis-100.toml --json
     """
     from .show.text import answers, certification, law
     loaded = _load(cases)
+    systems = _systems(loaded, units)
     if certify:
         certification.checked(out)
         if len(cases) != 1:
@@ -84,8 +92,9 @@ def classify(cases: CaseFiles, json: Json = False, strict: Annotated[bool, typer
         _print(answers.as_json([answers.classification(*answer) | law.key(held) | shown.as_dict(box)
                                 for answer, held, box in zip(answered, laws, boxes)]))
     else:
-        _print("\n\n".join(law.first(held, answers.classification_text(*answer)) + shown.text(box)
-                           for answer, held, box in zip(answered, laws, boxes)))
+        from .show.terminal import classification
+        texts = [lambda n=n: classification.text(*answered[n], systems[n], why) for n in range(len(answered))]
+        _tell_all(loaded, texts, laws, [shown.text(box) for box in boxes], why, "\n\n", _swept_motions([m for *_, m in answered], systems))
     certified = all([_certified(case, out) for case in loaded]) if certify else True
     undecided = any(answers.undecided(found, motion) for _, found, motion in answered) or any(map(shown.undecided, boxes))
     if strict and (not certified or undecided or law.beyond(*laws)):
@@ -94,7 +103,7 @@ def classify(cases: CaseFiles, json: Json = False, strict: Annotated[bool, typer
 
 @app.command()
 def verify(certificate: Annotated[Path, typer.Argument(metavar="CERTIFICATE", help="A certificate.json of classify --certify.",
-                                                       show_default=False)],
+                                                       show_default=False, autocompletion=completion.certificates)],
            case: Annotated[Path | None, typer.Option(metavar="CASE.toml", help="The case it must be of: exit with 5 where scene or "
                                                         "state differ.")] = None, json: Json = False,
            strict: Annotated[bool, typer.Option("--strict", help="Exit with 3 where a claim could not be checked.")] = False):
@@ -116,7 +125,7 @@ def verify(certificate: Annotated[Path, typer.Argument(metavar="CERTIFICATE", he
     except (Malformed, UnicodeDecodeError) as error:
         raise InputError(f"{certificate}: {error}; expected a certificate of stabilab classify --certify") from None
     told = about(claims)
-    _print(answers.as_json(certification.as_dict(found, told)) if json else certification.text(found, line(told)))
+    _either(json, lambda: answers.as_json(certification.as_dict(found, told)), lambda: certification.text(found, line(told)))
     if found.status == "refuted":
         raise ToleranceNotMet(f"{certificate}: a claim is wrong")
     if cases:
@@ -127,7 +136,7 @@ def verify(certificate: Annotated[Path, typer.Argument(metavar="CERTIFICATE", he
 
 @app.command()
 def audit(paper: Annotated[str | None, typer.Argument(metavar="[PAPER]", help="A paper on record or a file of claims, .toml; default: all papers.",
-                                                      show_default=False)] = None,
+                                                      show_default=False, autocompletion=completion.audited)] = None,
           equation: Annotated[str | None, typer.Option(metavar="N", help="One equation or claim, as 17 or text-8a.")] = None, json: Json = False,
           out: Annotated[Path | None, typer.Option("--html", metavar="FILE.html", help="Write a page with the formulas typeset.")] = None):
     """Hold published formulas against the equations of motion.
@@ -143,11 +152,12 @@ def audit(paper: Annotated[str | None, typer.Argument(metavar="[PAPER]", help="A
     if out is not None:
         from .show.report.audit_page import page
         _say(f"written: {page(findings, out)}")
-    _print(answers.as_json(shown.as_dict(findings)) if json else shown.text(findings))
+    _either(json, lambda: answers.as_json(shown.as_dict(findings)), lambda: shown.text(findings))
 
 
 @app.command()
-def validate(source: Annotated[str | None, typer.Argument(metavar="[SOURCE]", help="nesc, basilisk, orekit or 42; default: all.", show_default=False)] = None,
+def validate(source: Annotated[str | None, typer.Argument(metavar="[SOURCE]", help="nesc, basilisk, orekit or 42; default: all.", show_default=False,
+                                                      autocompletion=completion.sources)] = None,
              json: Json = False,
              out: Annotated[Path | None, typer.Option("--html", metavar="FILE.html", help="Write a page with the table.")] = None):
     """Hold other tools' published numbers against ours.
@@ -162,7 +172,7 @@ def validate(source: Annotated[str | None, typer.Argument(metavar="[SOURCE]", he
     found = validated(source)
     if out is not None:
         _say(f"written: {shown.page(found, out)}")
-    _print(answers.as_json(shown.as_dict(found)) if json else shown.text(found))
+    _either(json, lambda: answers.as_json(shown.as_dict(found)), lambda: shown.text(found))
     if apart := shown.unexplained(found):
         raise ToleranceNotMet("\n".join(apart))
 
@@ -170,45 +180,46 @@ def validate(source: Annotated[str | None, typer.Argument(metavar="[SOURCE]", he
 @app.command()
 def extremes(cases: CaseFiles, json: Json = False,
              csv: Annotated[bool, typer.Option("--csv", help="CSV on stdout instead of text.")] = False, digits: Digits = None,
-             strict: Strict = False, follow: Follow = None):
+             strict: Strict = False, follow: Follow = None, units: UnitsOption = None, why: Why = False):
     """Find the least and greatest rates of each motion.
 
     Example: stabilab extremes cases/minor-axis-*.toml --csv
     """
     if json and csv:
         raise typer.BadParameter("choose one of --json and --csv")
-    _tell("extremes", cases, digits, json, strict, csv, follow)
+    _tell("extremes", cases, digits, json, strict, csv, follow, units=units, why=why)
 
 
 @app.command()
 def fate(cases: CaseFiles, json: Json = False, digits: Digits = None, strict: Strict = False, follow: Follow = None, tilt: Tilt = None,
-         certify: Prove = False):
+         certify: Prove = False, units: UnitsOption = None, why: Why = False):
     """Say what becomes of each motion, and by how much.
 
     Digits are those of the margin in energy; the label itself is certain.
 
     Example: stabilab fate cases/minor-axis-100.toml --digits 30
     """
-    _tell("fate", cases, digits, json, strict, follow=follow, tilt=tilt, proof=certify)
+    _tell("fate", cases, digits, json, strict, follow=follow, tilt=tilt, proof=certify, units=units, why=why)
 
 
 @app.command()
-def period(cases: CaseFiles, json: Json = False, digits: Digits = None, strict: Strict = False):
+def period(cases: CaseFiles, json: Json = False, digits: Digits = None, strict: Strict = False, units: UnitsOption = None, why: Why = False):
     """Find the period of each motion that repeats.
 
     Example: stabilab period cases/minor-axis-100.toml --digits 30
     """
-    _tell("period", cases, digits, json, strict)
+    _tell("period", cases, digits, json, strict, units=units, why=why)
 
 
 @app.command()
 def simulate(case: CaseFile,
              at: Annotated[str | None, typer.Option(metavar="T1,T2,...", help="Times; the state is at 0. "
                                                        "Default: 201 times over the span of the case.")] = None,
-             model: Annotated[str, typer.Option(help="exact, or an analytic solution that applies: linear, corrected, printed, "
+             model: Annotated[str, typer.Option(autocompletion=completion.models,
+                                                help="exact, or an analytic solution that applies: linear, corrected, printed, "
                                                      "averaged1, averaged2, lindstedt.")] = "exact",
              order: Annotated[int | None, typer.Option(min=1, help="Order of the lindstedt expansion.")] = None,
-             method: Annotated[str | None, typer.Option(help="taylor (default), a method of SciPy's solve_ivp by name, or "
+             method: Annotated[str | None, typer.Option(autocompletion=completion.methods, help="taylor (default), a method of SciPy's solve_ivp by name, or "
                                                                 "reduced (any time at one cost); for the exact model.")] = None,
              rtol: Annotated[float | None, typer.Option(help="Relative tolerance; default: the method's own.")] = None,
              digits: Annotated[int | None, typer.Option(metavar="N", help="Reach N digits (1 to 15) the cheapest way, check "
@@ -216,7 +227,7 @@ def simulate(case: CaseFile,
                                                            "--model, --method or --rtol is given.")] = None,
              angles: Annotated[bool, typer.Option("--angles", help="Euler angles psi, theta, phi of the vertical, too.")] = False,
              out: Annotated[Path | None, typer.Option(metavar="FILE.nc|.csv", help="Write the states to a file.")] = None,
-             json: Json = False, strict: Strict = False):
+             json: Json = False, strict: Strict = False, units: UnitsOption = None):
     """Follow a motion in time.
 
     Says how far the run departs from the laws of motion; with --model also what the theory says of the motion.
@@ -225,6 +236,7 @@ def simulate(case: CaseFile,
     """
     from .show.files import trajectory_files
     loaded = _load([case], motion=True)
+    systems = _systems(loaded, units)
     if out:
         trajectory_files.checked(out)
     runs = [(one, *_followed(one, _times(one, at), model, method, rtol, order, digits)) for one in loaded]
@@ -235,7 +247,8 @@ def simulate(case: CaseFile,
     if json:
         _print_json(loaded, [_run_as_dict(*followed) for followed in runs])
     elif not out:
-        _print("\n\n".join(_run_as_text(*followed, digits) for followed in runs))  # type: ignore[call-arg]  # three and the digits
+        from .show.terminal import page
+        page.tell("\n\n".join(_run_as_text(*followed, digits, system, page.width()) for followed, system in zip(runs, systems)))
     else:
         _say_laws(run.validity for _, run, _ in runs)
         _say_digits(runs)
@@ -292,7 +305,7 @@ def compare(case: CaseFile,
     if json:
         _print_json(loaded, [comparison.as_dict(one, found) | law.key(found.validity) for one, found in compared])
     else:
-        _print("\n\n".join(law.first(found.validity, comparison.text(one, found)) for one, found in compared))
+        _show("\n\n".join(law.first(found.validity, comparison.text(one, found)) for one, found in compared))
     _strictly(strict, (found.validity for _, found in compared))
 
 
@@ -329,7 +342,7 @@ def precision(case: CaseFile, json: Json = False,
         _say_laws(found.validity for found in measured)
         _print(shown.csv(*measured))
     else:
-        _print("\n\n".join(law.first(found.validity, shown.text(found)) for found in measured))
+        _show("\n\n".join(law.first(found.validity, shown.text(found)) for found in measured))
     _all_reached((found.case, found.reference.reason) for found in measured if not found.questions)
     _strictly(strict, (found.validity for found in measured))
 
@@ -365,14 +378,15 @@ def surface(case: CaseFile, out: Annotated[Path, typer.Option(metavar="DIR", hel
 
 @app.command()
 def plot(case: CaseFile,
-         kind: Annotated[str | None, typer.Option(metavar="KIND", help="time, phase, sphere, space, equilibria, budget, state or attitude (moves). "
+         kind: Annotated[str | None, typer.Option(metavar="KIND", autocompletion=completion.kinds,
+                                                  help="time, phase, sphere, space, equilibria, budget, state or attitude (moves). "
                                                                        "Default: the one that says most of the case.")] = None,
          out: Annotated[Path | None, typer.Option(metavar="FILE.png|.svg|.pdf", help="Picture to write; default: CASE.png in the current "
                                                   "folder. Of an attitude .html, .gif or .mp4.")] = None,
          size: Annotated[str | None, typer.Option(metavar="WxH", help='Width and height in inches: "8x5".')] = None,
          dpi: Annotated[float | None, typer.Option(metavar="N", help="Dots an inch of a .png; default: 110.")] = None,
          until: Annotated[str | None, typer.Option(metavar="TIME", help='Draw up to this time: "10 min".')] = None,
-         units: Annotated[str, typer.Option(metavar="deg|si", help="deg/s and min, or rad/s and s.")] = "deg", strict: Strict = False):
+         units: UnitsOption = None, strict: Strict = False):
     """Draw a case: rates over time, phase plane, separatrix and more.
 
     The same case gives the same bytes. What a case has no plot of is refused, with the kinds that it has.
@@ -384,13 +398,14 @@ def plot(case: CaseFile,
     from .show.plot.to_file import default_name, inches, write
     from .show.text import law
     loaded, drawn = _load([case], motion=kind != "equilibria"), []
+    systems = ["deg" if system.scaled else system.name for system in _systems(loaded, units)]
     target = out or Path(default_name(printable(case.stem), kind))
-    for one in loaded:
+    for one, system in zip(loaded, systems):
         with blamed_on(one):
             end = _time(until, one, "until")
-            drawn.append(write(one, endings.labelled(target, one), kind, inches(size), dpi, units, end))
+            drawn.append(write(one, endings.labelled(target, one), kind, inches(size), dpi, system, end))
     laws = [law.of_case(one) for one in loaded]
-    _print("\n".join(law.first(held, str(path)) for held, path in zip(laws, drawn)))
+    _print("\n".join(words for held, path in zip(laws, drawn) for words in (held and held.words, str(path)) if words))
     _strictly(strict, laws)
 
 
@@ -403,7 +418,7 @@ def when(cases: CaseFiles,
          tilt: Annotated[str | None, typer.Option(metavar="AXIS=ANGLE", help='Of the angle between a body axis and its direction at the start: '
                                                                              '"z = 20 deg".')] = None,
          until: Annotated[str | None, typer.Option(metavar="TIME", help='Search no further than this: "10 min".')] = None,
-         si: Annotated[bool, typer.Option("--si", help="rad/s and s in the text instead of deg/s and min.")] = False,
+         units: UnitsOption = None, si: Si = False,
          json: Json = False, csv: Annotated[bool, typer.Option("--csv", help="CSV on stdout instead of text.")] = False,
          strict: Annotated[bool, typer.Option("--strict", help="Exit with 3 where the time is not known or an approximate law does not hold.")] = False):
     """Say when each motion first reaches a limit.
@@ -419,8 +434,9 @@ def when(cases: CaseFiles,
     from .case.read import blamed_on
     from .show.text import answers, law
     from .show.text import when as shown
-    answered = []
-    for case in _load(cases, motion=True):
+    loaded, answered = _load(cases, motion=True), []
+    systems = _systems(loaded, "si" if si else units)
+    for case in loaded:
         limit = stated_limit(case, rate, component, energy, tilt, until)
         with blamed_on(case):
             answered.append((case, limit, time_of_case(case, limit.ask, limit.until)))
@@ -430,7 +446,9 @@ def when(cases: CaseFiles,
         _say_laws(found.validity for *_, found in answered)
         _print(shown.csv(answered))
     else:
-        _print("\n".join(law.first(one[2].validity, shown.text(*one, si)) for one in answered))
+        texts = [lambda n=n: shown.text(*answered[n], systems[n]) for n in range(len(answered))]
+        _tell_all(loaded, texts, [found.validity for *_, found in answered], [""] * len(loaded), False, "\n",
+                  lambda of: shown.swept([answered[n] for n in of], systems[of[0]]))
     if strict and any(shown.unknown(found) for *_, found in answered):
         raise typer.Exit(UNDECIDED)
     _strictly(strict, (found.validity for *_, found in answered))
@@ -440,7 +458,7 @@ def when(cases: CaseFiles,
 def stuck(case: CaseFile,
           all_thrusters: Annotated[bool, typer.Option("--all-thrusters", help="Each thruster alone, stuck or not; the one that reaches "
                                                                               "the limit first in front.")] = False,
-          si: Annotated[bool, typer.Option("--si", help="rad/s and s in the text instead of deg/s and min.")] = False,
+          units: UnitsOption = None, si: Si = False, why: Why = False,
           out: Annotated[Path | None, typer.Option(metavar="FILE.png|.svg|.pdf", help="Draw the rates against time.")] = None,
           json: Json = False, csv: Annotated[bool, typer.Option("--csv", help="CSV on stdout instead of text.")] = False,
           strict: Annotated[bool, typer.Option("--strict", help="Exit with 3 where a fate is undecided.")] = False):
@@ -457,6 +475,7 @@ def stuck(case: CaseFile,
     from .show.progress import told
     from .show.text import stuck as shown
     loaded, answers = _load([case], motion=True), []
+    systems = _systems(loaded, "si" if si else units)
     if out:
         from .show.files import endings
         endings.file(out, endings.PICTURES)
@@ -466,13 +485,15 @@ def stuck(case: CaseFile,
                 answers.append(ask(one, all_thrusters, tell))
     if out:
         from .show.stuck_picture import draw
-        _write_each(out, [(one, partial(draw, one, found, si=si)) for one, found in zip(loaded, answers)])
+        _write_each(out, [(one, partial(draw, one, found, units=system)) for one, found, system in zip(loaded, answers, systems)])
     if json:
         _print_json(loaded, list(map(shown.as_dict, answers)))
     elif csv:
         _print(shown.csv(answers))
     else:
-        _print("\n\n".join(shown.text(one, found, si) for one, found in zip(loaded, answers)))
+        texts = [lambda n=n: shown.text(loaded[n], answers[n], systems[n]) for n in range(len(loaded))]
+        _tell_all(loaded, texts, [None] * len(loaded), [""] * len(loaded), all_thrusters or why, "\n\n",
+                  lambda of: shown.swept([answers[n] for n in of], systems[of[0]]))
     if strict and any(row.fate == "undecided" for found in answers for row in found.rows):
         raise typer.Exit(UNDECIDED)
 
@@ -495,7 +516,8 @@ def tables(out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the
 @app.command()
 def figures(numbers: Annotated[list[int] | None, typer.Argument(
                 metavar="[N...]", help="Figure numbers of one paper; none: all.", show_default=False)] = None,
-            paper: Annotated[str | None, typer.Option(metavar="NAME", help="constant-torque, charged, cavity or top. Default: "
+            paper: Annotated[str | None, typer.Option(metavar="NAME", autocompletion=completion.papers,
+                                                      help="constant-torque, charged, cavity or top. Default: "
                                                          "constant-torque where numbers are given, else all.")] = None,
             out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the pictures.")] = Path("figures")):
     """Draw the figures of the papers.
@@ -515,7 +537,8 @@ def figures(numbers: Annotated[list[int] | None, typer.Argument(
 
 @app.command()
 def report(cases: Annotated[list[Path] | None, typer.Argument(
-               metavar="[CASE...]", help="Case files; none: everything that stabilab brings.", show_default=False)] = None,
+               metavar="[CASE...]", help="Case files; none: everything that stabilab brings.", show_default=False,
+               autocompletion=completion.cases)] = None,
            out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the report.")] = Path("report"),
            papers: Annotated[bool, typer.Option("--papers", help="The papers' tables and figures, the audit of their formulas and other "
                                                                  "tools' numbers as well: minutes.")] = False,
@@ -540,7 +563,7 @@ def report(cases: Annotated[list[Path] | None, typer.Argument(
 
 @app.command()
 def rerun(manifest: Annotated[Path, typer.Argument(metavar="MANIFEST", help="A manifest.json, or the folder that holds it.",
-                                                   show_default=False)],
+                                                   show_default=False, autocompletion=completion.certificates)],
           out: Annotated[Path | None, typer.Option(metavar="DIR", help="Keep the new files in an empty folder.")] = None):
     """Repeat what made a folder and compare every byte.
 
@@ -549,7 +572,7 @@ def rerun(manifest: Annotated[Path, typer.Argument(metavar="MANIFEST", help="A m
     Example: stabilab rerun report/manifest.json
     """
     from .show.files.rerun import rerun as repeat
-    _print("\n".join(repeat(manifest, out)))
+    _show("\n".join(repeat(manifest, out)))
 
 
 @app.command(name="import")
@@ -590,7 +613,7 @@ def doctor():
     Example: stabilab doctor
     """
     from .show.text.doctor import text
-    _print(text())
+    _show(text())
 
 
 def _load(paths, motion: bool = False) -> list:
@@ -701,11 +724,13 @@ def _say_laws(validities):
             _say(validity.words)
 
 
-def _tell(question, paths, digits, json, strict, csv=False, follow=None, tilt=None, proof=False):
+def _tell(question, paths, digits, json, strict, csv=False, follow=None, tilt=None, proof=False, units=None, why=False):
     """Answer a question for every case and say how many digits of it are known."""
     from .show.text import answers, law
     from .show.text import digits as shown
-    answered = [(case, found, _told(question, case, found, digits)) for case in _load(paths, motion=True)
+    loaded = _load(paths, motion=True)
+    systems = _systems(loaded, units)
+    answered = [(case, found, _told(question, case, found, digits)) for case in loaded
                 for plain in [_motion(case, brief=question == "extremes", follow=follow, proof=proof)]
                 for found in [_tilted(case, plain, tilt) if question == "fate" else plain]]
     boxes, over = _over_boxes([case for case, *_ in answered], *(["fate"] if question == "fate" else []))
@@ -716,8 +741,13 @@ def _tell(question, paths, digits, json, strict, csv=False, follow=None, tilt=No
         _say_laws(motion.validity for _, motion, _ in answered)
         _print(shown.extremes_csv(answered))
     else:
-        _print("\n".join(law.first(answer[1].validity, getattr(shown, f"{question}_text")(*answer, digits is not None or not answer[2].enough)) + over.text(box)
-                         for answer, box in zip(answered, boxes)))
+        from .show.terminal import questions
+        told = getattr(questions, question)
+        texts = [lambda n=n: told(*answered[n], systems[n], digits is not None, digits is not None or not answered[n][2].enough, why)
+                 for n in range(len(answered))]
+        motions = [motion for _, motion, _ in answered]
+        table = _swept_extremes(loaded, motions, systems) if question == "extremes" else _swept_motions(motions, systems)
+        _tell_all(loaded, texts, [m.validity for m in motions], [over.text(box) for box in boxes], why or digits is not None, "\n", table)
     missing = [(case, told) for case, _, told in answered if not told.enough and digits is not None]
     if missing:
         from .answers.digits.checked import short
@@ -767,13 +797,13 @@ def _run_as_dict(case, run, reached) -> dict:
     return answers.simulation(case, run) | {"digits": told} | {"theory": _theory(case, run)} | law.key(run.validity)
 
 
-def _run_as_text(case, run, reached, digits) -> str:
-    from .show.text import answers, law
-    first = f"# {case.name}\n" if case.variant else ""
+def _run_as_text(case, run, reached, digits, units, width) -> str:
+    from .show.terminal.run import text
+    from .show.text import law
     checked = "checked to " if digits is None else ""
     last = f"\n# {checked}{reached.digits:.1f} digits: {reached.because}" if reached else ""
     told = "".join(f"\n# {line}" for line in _theory(case, run, words=True))
-    return law.first(run.validity, first + answers.simulation_text(case, run) + last + told)
+    return law.first(run.validity, text(case, run, units, digits is not None, width) + last + told)
 
 
 def _theory(case, run, words=False):
@@ -845,10 +875,68 @@ def _exact_times(case, at: str | None) -> list:
     return sorted({Fraction("".join(word.split())) for word in (at or "").split(",")})
 
 
+def _systems(cases, asked: str | None) -> list:
+    """The units in which each case is told."""
+    from .show.units import units_of
+    return [units_of(case, asked) for case in cases]
+
+
+def _tell_all(cases, texts, laws, boxes, full, between, swept):
+    """Text of every case to stdout; the combinations of a [sweep] as one table, unless all is asked for in full. texts: functions, a case each;
+    swept(indices): (answer in a line, columns, rows) of a table."""
+    from .show.terminal import page
+    from .show.text import law
+    if full or not any(case.variant for case in cases):
+        page.tell(between.join(law.first(held, text()) + box for text, held, box in zip(texts, laws, boxes)))
+        return
+    from .show.terminal import sweep
+    told = []
+    for of in sweep.groups(cases):
+        words = sweep.text([cases[n] for n in of], *swept(of)) if cases[of[0]].variant else texts[of[0]]()
+        told.append(law.first(law.worst(*(laws[n] for n in of)), words) + "".join(boxes[n] for n in of))
+    page.tell("\n\n".join(told))
+
+
+def _swept_motions(motions, systems):
+    """How `_tell_all` tells the motions of a sweep."""
+    from .show.terminal import sweep
+
+    def table(of):
+        chosen = [motions[n] for n in of]
+        if None in chosen:
+            return f"{sum(m is None for m in chosen)} of them state no motion", [], [[] for _ in of]
+        return sweep.fates(chosen, systems[of[0]]), *sweep.of_motions(chosen, systems[of[0]])
+    return table
+
+
+def _swept_extremes(cases, motions, systems):
+    """How `_tell_all` tells the extremes of a sweep."""
+    from .show.terminal import sweep
+
+    def table(of):
+        chosen = [motions[n] for n in of]
+        return sweep.fates(chosen, systems[of[0]]), *sweep.of_extremes(chosen, cases[of[0]].scene.components, systems[of[0]])
+    return table
+
+
 def _print(text: str):
     """Text to stdout."""
     sys.stdout.write(text.rstrip("\n") + "\n")
     sys.stdout.flush()
+
+
+def _show(text: str):
+    """Text for people to stdout."""
+    from .show.terminal.page import tell
+    tell(text)
+
+
+def _either(json: bool, data, words):
+    """JSON to stdout, or text for people."""
+    if json:
+        _print(data())
+    else:
+        _show(words())
 
 
 def _print_json(cases, rows):

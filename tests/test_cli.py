@@ -1,5 +1,6 @@
 """The commands: what goes to stdout, what to stderr, and which exit code."""
 import csv
+import itertools
 import json
 import math
 import os
@@ -7,6 +8,7 @@ import signal
 import subprocess
 import sys
 import time
+import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -119,6 +121,12 @@ def _liquid(cavity, D, wheel, w):
     return torque, kappa * (spin / D.min()) ** 2 * np.linalg.norm(w) * np.ones(3)
 
 
+def test_every_invariant_and_number_of_a_run_has_its_unit_in_text(classified):
+    from stabilab.show.terminal.motion import QUANTITIES
+    motions = [answer["motion"] for answer in classified.values()]
+    assert {name for motion in motions for part in ("invariants", "evidence") for name in motion[part]} <= set(QUANTITIES)
+
+
 def test_numbers_in_json_are_doubles_to_the_last_digit(stabilab):
     code, out, _ = stabilab("classify", MINOR, "--json")
     assert code == 0 and strict_json(out)[0]["motion"]["at"] == [2.5, 4.0, 0.1]
@@ -140,7 +148,7 @@ def test_case_without_a_motion_has_null_for_it(stabilab, tmp_path):
 def test_text_of_classify_names_fate_and_curve(stabilab):
     code, out, err = stabilab("classify", MINOR, OFF_AXIS)
     assert code == 0 and not err
-    assert "minor-axis-100" in out and "bounded" in out and "off-axis-two" in out and "unstable" in out
+    assert "minor-axis-100: BOUNDED" in out and "off-axis-two: SPINS UP" in out and "unstable" in out
 
 
 def test_strict_turns_an_undecided_fate_into_exit_code_3(stabilab):
@@ -153,7 +161,7 @@ def test_strict_turns_an_undecided_fate_into_exit_code_3(stabilab):
 
 def test_spin_up_off_the_axes_is_the_first_line_with_its_certificate(stabilab):
     code, out, err = stabilab("fate", OFF_AXIS, "--strict")
-    assert code == 0 and not err and out.startswith("off-axis-two: SPINS UP about axis 3, positive sense (certified)\n")
+    assert code == 0 and not err and out.startswith("off-axis-two: SPINS UP about axis 3, positive sense (certified); ")
     told = strict_json(stabilab("fate", OFF_AXIS, "--json")[1])[0]
     assert (told["fate"], told["level"], told["axis"], told["sense"]) == ("spin-up", "certified", 3, 1)
     assert told["t"] > 0 and "certified" in told["cause"] and told["bounds"][2][1] is None and None not in told["bounds"][0]
@@ -162,10 +170,10 @@ def test_spin_up_off_the_axes_is_the_first_line_with_its_certificate(stabilab):
 
 def test_spin_up_off_the_axes_is_proved_where_that_is_asked_for(stabilab, tmp_path):
     code, out, err = stabilab("fate", OFF_AXIS, "--certify")
-    assert code == 0 and not err and out.startswith("off-axis-two: SPINS UP about axis 3, positive sense (proved)\n")
+    assert code == 0 and not err and out.startswith("off-axis-two: SPINS UP about axis 3, positive sense (proved); ")
     path = tmp_path / "c.json"
     code, out, _ = stabilab("classify", OFF_AXIS, "--certify", "--out", path)
-    assert code == 0 and "SPINS UP about axis 3, sense +1 (proved)" in out
+    assert code == 0 and "SPINS UP about axis 3, positive sense (proved)" in out
     code, out, _ = stabilab("verify", path, "--case", OFF_AXIS, "--strict")
     assert code == 0 and "the spin grows for ever" in out and out.rstrip().endswith("proved")
 
@@ -267,7 +275,7 @@ def test_motion_is_asked_for_where_it_is_needed(stabilab, tmp_path):
 
 def test_show_prints_equations_and_laws(stabilab):
     code, out, _ = stabilab("show", ROOT / "cases/wheel-and-thruster.toml")
-    assert code == 0 and "D1 omega1' =" in out and "\\dot{\\omega_{1}}" in out and "Laws of this scene" in out
+    assert code == 0 and "D1 ω1' =" in out and "\\dot{\\omega_{1}}" in out and "Laws of this scene" in out
 
 
 def test_show_names_no_symbol_of_an_effect_that_is_not_there(stabilab):
@@ -330,10 +338,23 @@ def test_every_combination_of_a_sweep_has_its_row_in_json(stabilab, swept, comma
     assert [row["case"] for row in strict_json(out)] == [f"six{label}" for label in LABELS]
 
 
-@pytest.mark.parametrize("command", [["show"], ["classify"], ["extremes"], ["fate"], ["period"], ["simulate", "--at", "0,1"], ["compare"]])
-def test_every_combination_of_a_sweep_is_named_in_text(stabilab, swept, command):
+@pytest.mark.parametrize("command", [["show"], ["classify", "--why"], ["fate", "--digits", "6"], ["simulate", "--at", "0,1"], ["compare"]])
+def test_every_combination_of_a_sweep_that_is_told_in_full_is_named(stabilab, swept, command):
     code, out, err = stabilab(command[0], "six.toml", *command[1:])
     assert code == 0 and all(f"six{label}" in out for label in LABELS), err
+
+
+@pytest.mark.parametrize("command", ["classify", "extremes", "fate", "period"])
+def test_a_sweep_is_one_table_with_a_column_for_each_swept_key(stabilab, swept, command):
+    """The answer, two lines of heads, and a row a combination that begins with what varies, as the file has it; no line is wider than a terminal."""
+    code, out, err = stabilab(command, "six.toml")
+    lines = out.splitlines()
+    keys = tomllib.loads(SWEPT)["sweep"]
+    moving = {key: [i for i in range(3) if len({row[i] for row in rows}) > 1] for key, rows in keys.items()}
+    expected = [[str(value[i]) for key, value in zip(keys, one) for i in moving[key]] for one in itertools.product(*keys.values())]
+    assert code == 0 and not err and len(lines) == 9 and lines[0].startswith("six: 6 combinations: each BOUNDED for ever")
+    assert [line.split()[:len(expected[0])] for line in lines[3:]] == expected
+    assert lines[1].split()[:3] == ["ω[1]", "ω[3]", "momentum[3]"] and (command == "extremes" or max(map(len, lines[1:])) <= 80)
 
 
 def test_a_combination_of_a_sweep_is_followed_from_its_own_start(stabilab, swept):
@@ -430,11 +451,12 @@ def test_an_intact_certificate_of_another_case_does_not_pass_for_this_one(stabil
 
 def test_every_command_has_help_with_an_example(stabilab):
     code, out, _ = stabilab("--help")
-    commands = [line.split()[0] for line in out.split("Commands:")[1].splitlines() if line.startswith("  ")]
+    groups = out.split("-h, --help")[1].partition("\n")[2]
+    commands = [line.split()[0] for line in groups.splitlines() if line.startswith("  ")]
     assert code == 0 and set(commands) == {"audit", "show", "classify", "extremes", "simulate", "compare", "precision", "surface", "plot",
                                         "tables", "figures", "report", "doctor", "fate", "import", "period", "reference",
                                         "rerun", "stuck", "validate", "verify", "when"}
-    assert "--install-completion" in out and "..." not in out.split("Commands:")[1]
+    assert "--install-completion" in out and "..." not in groups
     for command in commands:
         code, out, _ = stabilab(command, "--help")
         assert code == 0 and f"Example: stabilab {command}" in out

@@ -4,10 +4,10 @@ from __future__ import annotations
 import math
 import os
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from ..errors import CaseError, InputError, printable
 from ..numbers.exact import floats
@@ -25,10 +25,11 @@ from .inertia import body_of, centre_of_mass
 from .lines import key_lines
 from .source import parsed, source_text
 from .sweep import combinations, place, swept
-from .table import Faults, Table, Uncertain, did_you_mean, dotted
+from .table import Faults, Table, Uncertain, described, did_you_mean, dotted
 from .turning import added, judge_oblique, turned_effects, turned_motion
 
-TABLES = ("title", "source", "body", "effects", "thrusters", "wheels", "limits", "scaled", "motion", "expect", "sweep")
+TABLES = ("title", "source", "body", "effects", "thrusters", "wheels", "limits", "scaled", "motion", "output", "expect", "sweep")
+SYSTEMS = ("deg", "si")  # of units in which text is printed
 STATES, SPANS = ("angular_velocity", "x"), ("span", "tau")
 BLOCKS = {"attitude": "attitude", "vertical": "gamma", "velocity": "velocity", "position": "position"}  # key: block
 UNIT_SLACK = 1e-6  # a direction given to six decimals counts as a unit vector; the laws show |gamma| as it is
@@ -51,7 +52,8 @@ class Case:
     A file gives vectors in its own frame; scene, state and vertical are along the principal axes, which `frame` tells (None where
     the file gives [scaled]); where the tensor is diagonal the two frames are one. thrusters, wheels, limits: as stated, in the frame
     of the file; torques of the stuck ones and momenta of the wheels are in the scene. inexact: the keys whose unit holds pi, good to
-    240 bits. notes: what was taken for granted, in words.
+    240 bits. notes: what was taken for granted, in words. units: "deg" or "si", in which people want to read answers ("" where the file does not
+    say); swept: (key, value as written) of every key of [sweep].
     """
 
     path: str
@@ -76,6 +78,8 @@ class Case:
     limits: Limits | None = None
     inexact: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
+    units: str = ""
+    swept: tuple[tuple[str, Any], ...] = ()
 
     @property
     def exact_state(self) -> Exact3 | None:
@@ -145,7 +149,12 @@ def load_all(path) -> list[Case]:
     if not found:
         return [base]
     moved = {place(data, key): ("sweep", key) for key in data["sweep"]}
-    return [_built(path, text, values, Faults(faults.lines, moved), suffix) for suffix, values in found]
+    return [replace(_built(path, text, values, Faults(faults.lines, moved), suffix), swept=_swept(data["sweep"], suffix)) for suffix, values in found]
+
+
+def _swept(sweep, suffix) -> tuple:
+    """(key, value) of a combination: "-2-1" is the second value of the first key and the first of the second."""
+    return tuple((key, values[int(n) - 1]) for (key, values), n in zip(sweep.items(), suffix.split("-")[1:]))
 
 
 def read_text(path, text: str) -> Case:
@@ -173,6 +182,7 @@ def _built(path, text, data, faults, variant="") -> Case:
     judge_limits(top, craft.limits, motion.exact if motion.state_key == "angular_velocity" else None)
     motion = turned_motion(motion, frame)
     expect = expected(top.table("expect"))
+    units = _units(top.table("output"))
     scene, variables, scaling = _variables(top, motion, physical, scaled, mu)
     _judge_blocks(motion, scene)
     span = _span(motion, variables, scaling)
@@ -180,7 +190,18 @@ def _built(path, text, data, faults, variant="") -> Case:
         raise CaseError(path, sorted(faults.problems, key=lambda p: p.line or 0))
     return Case(path, title, source, scene, variables, physical, scaling, motion.state, span, expect, motion.blocks, text,
                 variant, tuple(faults.uncertain.values()), mu, motion.exact, frame if physical else None, craft.thrusters, craft.wheels,
-                craft.limits, tuple(dict.fromkeys(map(dotted, sorted(faults.inexact, key=str)))), craft.notes)
+                craft.limits, tuple(dict.fromkeys(map(dotted, sorted(faults.inexact, key=str)))), craft.notes, units)
+
+
+def _units(output: Table | None) -> str:
+    """The units of [output]; "" where the file does not say."""
+    if output is None:
+        return ""
+    output.known(("units",))
+    wanted = output.text("units")
+    if wanted and wanted not in SYSTEMS:
+        output.fault(f"expected {' or '.join(SYSTEMS)} (deg/s and min, or rad/s and s), got {described(wanted)}", "units")
+    return wanted
 
 
 class _Craft(NamedTuple):

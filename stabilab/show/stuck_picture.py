@@ -11,7 +11,8 @@ from ..answers.trajectory import trajectory
 from ..packages import demand
 from . import style
 from .files import endings
-from .text.stuck import ENGINEERING, SI, answer_line, axis_words, row_name
+from .text.stuck import answer_line, axis_words, row_name
+from .units import Units
 
 BEYOND = 1.25  # of the time to the limit: how far the picture goes
 POINTS = 3001
@@ -19,11 +20,11 @@ NATURAL = 15  # units of the motion's own time, where nothing else says how far
 MOST_PANELS = 4
 
 
-def draw(case, found, path, si: bool = False) -> Path:
+def draw(case, found, path, units: Units) -> Path:
     """Write the picture of an answer (`answers.stuck`) to a file (.png, .svg or .pdf): a panel a row, the first four of them."""
     endings.file(path, endings.PICTURES)
     demand(*style.PACKAGES)
-    scenario, units = scenario_of(case), SI if si else ENGINEERING
+    scenario = scenario_of(case)
     rows = found.rows[:MOST_PANELS]
     with style.drawing() as plt:
         figure, axes = plt.subplots(len(rows), 1, figsize=(7.6, 1.0 + 3.4 * len(rows)), layout="constrained", squeeze=False)
@@ -46,10 +47,12 @@ def _meanings(rows):
 
 
 def _panel(ax, scenario, row, units, words):
-    (rate, per_rate), (time, per_time) = units.rate, units.time
+    rate, per_rate = units.rates
     chosen = [t for t in scenario.case.thrusters if t.name in row.thrusters]
     scene = scenario.scene(scenario.torque(chosen))
-    t = np.linspace(0.0, _until(scenario, row, scene), POINTS)
+    until = _until(scenario, row, scene)
+    time, per_time = units.times(until)
+    t = np.linspace(0.0, until, POINTS)
     omega = np.asarray(trajectory(scene, scenario.start, t).states) @ np.array(scenario.rows).T
     size = np.linalg.norm(omega, axis=1)
     for values, (_, look) in zip((size, *omega.T), LOOKS):

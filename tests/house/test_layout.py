@@ -36,6 +36,7 @@ DOORS = {
     ("stabilab.physics.state", "stabilab.physics.states"): "loads numpy",
     ("stabilab.show.figures.panels", "stabilab.case.read"): "loads tomllib",
     ("stabilab.show.report.cost_growth", "stabilab.case.read"): "loads tomllib",
+    ("stabilab.show.terminal.completion", "stabilab.show.plot.which"): "loads numpy",
     ("stabilab.show.text.law", "stabilab.answers.simulate"): "loads numpy",
     ("stabilab.show.text.law", "stabilab.physics.law_limits"): "loaded for approximate laws alone",
     ("stabilab.show.text.table", "stabilab.case.read"): "loads tomllib",

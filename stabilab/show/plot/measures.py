@@ -4,10 +4,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ...errors import InputError
-from ..text.engineering import ENGINEERING, SI
+from ..units import SYSTEMS
 from .subject import Subject
 
-UNITS = {"deg": ENGINEERING, "si": SI}
 LONG_MINUTE, LONG_HOUR = 180.0, 5 * 3600.0  # s: from here on minutes, hours read better
 
 
@@ -40,9 +39,9 @@ class Measures:
 
 def measures(one: Subject, units: str = "deg") -> Measures:
     """Those of a subject: units "deg" (deg/s, deg; seconds, minutes or hours) or "si" (rad/s, rad, s); none when scaled."""
-    if units not in UNITS:
-        raise InputError(f"units: expected one of {', '.join(UNITS)}, got {units!r:.40}")
+    if units not in SYSTEMS:
+        raise InputError(f"units: expected one of {', '.join(SYSTEMS)}, got {units!r:.40}")
     if not one.physical:
         return Measures(("", 1.0), ("", 1.0), ("$x_1$", "$x_2$", "$x_3$"), "", False)
-    found = UNITS[units]
-    return Measures(found.rate, found.angle, (r"$\omega_1$", r"$\omega_2$", r"$\omega_3$"), r"$|\omega|$", units == "deg")
+    found = SYSTEMS[units]
+    return Measures(found.rates, found.angles, (r"$\omega_1$", r"$\omega_2$", r"$\omega_3$"), r"$|\omega|$", units == "deg")

@@ -1,4 +1,4 @@
-"""Answers as JSON, CSV and plain text: equilibria, fates, extremes, trajectories."""
+"""Answers as JSON and CSV: equilibria, fates, extremes, trajectories; every digit of a double."""
 from __future__ import annotations
 
 import math
@@ -6,9 +6,6 @@ import math
 from ...physics.blocks import PARTS
 from ..files import comma
 from . import frame, when
-
-UNITS = {"physical": ("rad/s", "s", "J"), "scaled": ("", "tau", "")}
-
 
 ENDLESS = {math.inf: "1e999", -math.inf: "-1e999"}  # numbers by JSON's grammar, beyond all doubles: Python, JavaScript and MATLAB read them as infinite
 MARK = "\0 endless "  # before such a number in the text until its quotes are taken off
@@ -129,108 +126,3 @@ def extremes_csv(answered) -> str:
 def _pairs(extremes):
     """Least and greatest of every component, None where unknown."""
     return ((None, None),) * 3 if extremes is None else extremes
-
-
-def _extreme_lines(case, pairs) -> list[str]:
-    unit = UNITS[case.variables][0]
-    return [f"  {name:<8}{_number(low):>24}{_number(high):>24}  {unit}".rstrip()
-            for name, (low, high) in zip(case.scene.components, _pairs(pairs))]
-
-
-def classification_text(case, equilibria, motion) -> str:
-    """What `stabilab classify` prints for one case."""
-    head = [f"{case.name}: {case.title}" if case.title else case.name, f"variables: {case.variables}",
-            *frame.lines(case), f"equilibria: {equilibria.kind}", f"  {equilibria.reason}"]
-    points = [line for p in equilibria.points for line in _point_lines(p)]
-    curves = [line for c in equilibria.curves for line in _curve_lines(c)]
-    return "\n".join(head + points + curves + ([] if motion is None else _motion_lines(case, motion)))
-
-
-def _point_lines(p) -> list[str]:
-    roots = ", ".join(_complex(z) for z in p.eigenvalues)
-    return [f"  at {_triple(p.at)}: {p.verdict} (linear: {p.linear}; eigenvalues {roots})", f"    {p.because}"]
-
-
-def _curve_lines(c) -> list[str]:
-    lines = [f"  {c.name}: {c.equation}", f"    {c.parametrisation}"]
-    for s in c.segments:
-        lines += [f"    t from {_number(s.t[0])} to {_number(s.t[1])}: {s.verdict} (linear: {s.linear})", f"      {s.because}"]
-    return lines + [f"    fold at {_triple(f)}" for f in c.folds]
-
-
-def _motion_lines(case, m) -> list[str]:
-    rate, time, energy = UNITS[case.variables]
-    spin = f" about axis {m.axis}, sense {m.sense:+d}" if m.axis else ""
-    head = f"{verb(m)}{spin}{known_as(m)}{when.while_on_axis(case, m)}"
-    rows = [("margin, energy", _known(m.margin_energy), energy), ("margin, rate", _distance(m), rate),
-            ("period", _known(m.period), time)]
-    lines = [f"motion from {_triple(m.at)}: {head}", f"  {m.because}"]
-    lines += [f"  {name:<24}{words} {unit}".rstrip() for name, words, unit in rows if words]
-    if m.velocity_because:
-        lines.append(f"  {'' if m.velocity_bounds else 'margin, rate unknown: '}{m.velocity_because}")
-    lines += [f"  {_spaced(name):<24}{_number(value)}" for name, value in m.invariants.items()]
-    lines += [f"  {_spaced(name):<24}{_number(value) if isinstance(value, float) else value}"
-              for name, value in m.evidence.items() if value is not None]
-    lines += [f"  least and greatest over {m.extremes_over}:"] + _extreme_lines(case, m.extremes) if m.extremes is not None else []
-    return lines + bound_lines(case, m) + when.tilt_lines(case, m)
-
-
-def verb(m) -> str:
-    """The fate as the first words of an answer: a spin-up that was found by following the motion is the news itself."""
-    return "SPINS UP" if m.cause and m.fate.word == "spin-up" else m.fate.word
-
-
-def known_as(m) -> str:
-    """How well a fate is known, where that is not a matter of course."""
-    return f" ({m.level})" if m.cause and m.fate.word != "undecided" else ""
-
-
-def bound_lines(case, m) -> list[str]:
-    """The bounds of the rates for all times, where they are not the extremes told already."""
-    if m.bounds is None or m.bounds == m.extremes:
-        return []
-    return ["  bounds for all times:", *_extreme_lines(case, m.bounds)]
-
-
-def _known(value) -> str:
-    return "" if value is None else _number(value)
-
-
-def _distance(m) -> str:
-    """The distance from the separatrix: a number where it is one to 1e-9, else its bounds."""
-    if m.velocity_because and m.velocity_bounds:
-        low, high = m.velocity_bounds
-        return f"between {_number(low)} and {_number(high)}"
-    return _known(m.margin_velocity)
-
-
-def simulation_text(case, run) -> str:
-    """Times and states in columns, then the departures from the laws of motion."""
-    names, rows = columns(run)
-    head = "".join(f"{name:>25}" for name in (case.scene.time_unit, *names))
-    lines = ["".join(f"{v:>25.16g}" for v in (t, *row)) for t, row in zip(run.t, rows)]
-    laws = [f"# {name}: largest relative departure {value:.3g}" for name, value in run.invariant_drift.items()]
-    how = f"# {run.method}, rtol {run.rtol:.3g}" if run.rtol else f"# {run.model}: {run.method}"
-    notes = [f"# {run.reason}"] if run.reason and run.reason != "all times reached" else []
-    return "\n".join([head, *lines, how, *laws, *notes, *(f"# {line.strip()}" for line in frame.note(case))])
-
-
-def _number(value) -> str:
-    if value is None:
-        return "unknown"
-    return "unbounded" if math.isinf(value) else f"{float(value) + 0.0:.12g}"
-
-
-def _spaced(name: str) -> str:
-    return name.replace("_", " ")
-
-
-def _triple(at) -> str:
-    return "(" + ", ".join(f"{float(v) + 0.0:.12g}" for v in at) + ")"
-
-
-def _complex(z) -> str:
-    z = complex(z)
-    if z.imag == 0:
-        return f"{z.real + 0.0:.6g}"
-    return f"{z.imag:+.6g}i" if z.real == 0 else f"{z.real:.6g}{z.imag:+.6g}i"

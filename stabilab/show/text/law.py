@@ -5,8 +5,13 @@ from ...errors import printable
 
 
 def first(validity, text: str) -> str:
-    """The text, headed by what is to be said of its law; as it is where all laws are exact."""
-    return text if validity is None else f"{printable(validity.words)}\n{text}"
+    """The text with what is to be said of its law in its first line: behind the answer where the law holds, before it where it does not, as
+    what follows is then no motion of such a body. The text as it is where all laws are exact."""
+    if validity is None:
+        return text
+    answer, *rest = text.split("\n")
+    words = printable(validity.words)
+    return "\n".join([f"{answer}; {words}" if validity.held else f"{words}; by that law: {answer}", *rest])
 
 
 def key(validity) -> dict:

@@ -2,18 +2,21 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 
 from ...errors import printable
+from ..units import DIGITS, SHORT, Units
+from ..units import bracket as _bracket
+from ..units import number as _number
 from .answers import Endless
-from .engineering import ENGINEERING, SI
-from .engineering import bracket as _bracket
-from .engineering import number as _number
 from .when import tilt_dict
 
 WORD = {1: "major", 2: "middle", 3: "minor"}
 CSV = ("case,thrusters,torque_x,torque_y,torque_z,torque_1,torque_2,torque_3,fate,level,axis,sense,limit,time_low,time_high,largest_rate,"
        "margin_rate,margin_wheel,margin_torque")
 WORDS = {"rate": "rate", "wheel": "wheel momentum", "torque": "torque"}
+FATES = {"bounded": "STAYS BOUNDED", "spin-up": "SPINS UP", "equilibrium": "AT REST in the body's frame", "separatrix": "ON THE SEPARATRIX",
+         "undecided": "UNDECIDED"}
 FIRST = 5  # lines of the answer at most
 SOON = 2  # times a margin: the fate is back before a change as great
 
@@ -55,15 +58,26 @@ def csv(answers) -> str:
     return out.getvalue()
 
 
-def text(case, found, si: bool = False) -> str:
+def text(case, found, units: Units) -> str:
     """The answer in five lines at most, then the details."""
-    units = SI if si else ENGINEERING
     axes = axis_words(found.principal)
     head = _ranking(found, units, axes) if found.ranked else _first(found.rows[0], units, axes)
     lines = [f"{printable(case.name)}: {head[0]}", *head[1:FIRST]]
     for row in found.rows:
         lines += ["", *_details(row, units)]
     return "\n".join([*lines, "", *_axes(found.principal)])
+
+
+def swept(answers, units: Units):
+    """(the answer in a line, columns, rows) of a sweep: what becomes of each, about which axis, and when the limit is reached."""
+    rows = [found.rows[0] for found in answers]
+    fates = Counter(row.fate for row in rows)
+    counts = "; ".join(f"{FATES[fate]}: {n}" if len(fates) > 1 else f"each {FATES[fate]}" for fate, n in fates.most_common())
+    ends = [row.time_to_limit[1] for row in rows if row.time_to_limit]
+    name, one = units.times(max(ends, default=0.0))
+    cells = [[row.fate, f"{'+' if row.sense > 0 else '-'}{row.axis}" if row.axis else "",
+              _number(row.time_to_limit[1] * one, DIGITS) if row.time_to_limit else ""] for row in rows]
+    return counts + (f"; the first limit is reached in {units.time(min(ends), SHORT)}" if ends else ""), [("fate", ""), ("axis", ""), ("limit in", name)], cells
 
 
 def axis_words(principal) -> dict:
@@ -96,11 +110,11 @@ def answer_line(row, units, axes=WORD) -> str:
         return f"SPINS UP {_about(row, axes)}{', ' + when if when else ''}{_known(row)}"
     if row.fate == "undecided":
         return f"UNDECIDED{', but ' + when if when else ': ' + _so_far(row, units)}"
-    words = {"bounded": "STAYS BOUNDED", "equilibrium": "AT REST in the body's frame: every rate stays as it is", "separatrix": "ON THE SEPARATRIX"}[row.fate]
+    words = FATES[row.fate] + (": every rate stays as it is" if row.fate == "equilibrium" else "")
     while_ = _while(row, axes, units)
     if when:
         return f"{words}{while_}, but {when}{_known(row)}"
-    largest = "" if row.largest_rate is None else f", rate at most {_number(row.largest_rate * units.rate[1])} {units.rate[0]}"
+    largest = "" if row.largest_rate is None else f", rate at most {units.rate(row.largest_rate, SHORT)}"
     below = ", never at its limit" if row.never and row.limit is not None else ""
     if row.tilt is None:
         return f"{words}{while_}{largest}{below}{_known(row)}"
@@ -116,10 +130,10 @@ def _while(row, axes, units):
     if tilt is None or tilt.untilted:
         return f" {words}"
     angle = f"tilted by {_number(math.degrees(tilt.angle))} deg it"
-    limit, time = f"{_number(tilt.limit * units.rate[1])} {units.rate[0]}", units.time
+    limit = units.rate(tilt.limit, SHORT)
     if tilt.ends:
-        return f" only {words}: {angle} reaches {limit} in {_number(tilt.low * time[1])} {time[0]}"
-    return f" {words}; {angle} was not found to reach {limit} within {_number(tilt.followed * time[1])} {time[0]}"
+        return f" only {words}: {angle} reaches {limit} in {units.time(tilt.low, SHORT)}"
+    return f" {words}; {angle} was not found to reach {limit} within {units.time(tilt.followed, SHORT)}"
 
 
 def _known(row):
@@ -137,15 +151,16 @@ def _about(row, axes) -> str:
 def _when(row, units) -> str:
     if row.time_to_limit is None:
         return ""
-    low, high = (t * units.time[1] for t in row.time_to_limit)
+    name, one = units.times(row.time_to_limit[1])
+    low, high = (t * one for t in row.time_to_limit)
     if high == 0:
         return f"starts at its limit, {_limit(row.limit, units)}"
     a, b = _bracket(low, high)
-    return f"reaches {_limit(row.limit, units)} in {_number((low + high) / 2)} {units.time[0]} ({row.time_level} {a} to {b})"
+    return f"reaches {_limit(row.limit, units)} in {_number((low + high) / 2)} {name} ({row.time_level} {a} to {b})"
 
 
 def _limit(limit, units) -> str:
-    name, one = units.rate
+    name, one = units.rates
     if isinstance(limit, tuple):
         if len(set(limit)) == 1:
             return f"{_number(limit[0] * one)} {name} in a component"
@@ -155,14 +170,13 @@ def _limit(limit, units) -> str:
 
 def _so_far(row, units) -> str:
     if row.limit is None:
-        return f"followed for {_number(row.followed * units.time[1])} {units.time[0]}"
-    return f"not at {_limit(row.limit, units)} before {_number(row.followed * units.time[1])} {units.time[0]} ({row.time_level})"
+        return f"followed for {units.time(row.followed, SHORT)}"
+    return f"not at {_limit(row.limit, units)} before {units.time(row.followed, SHORT)} ({row.time_level})"
 
 
 def _torque(row, units) -> str:
-    name, one = units.rate
     known = row.largest_rate is not None and row.fate == "spin-up"
-    largest = f"; largest rate until then {_number(row.largest_rate * one)} {name}" if known else ""
+    largest = f"; largest rate until then {units.rate(row.largest_rate, SHORT)}" if known else ""
     return f"torque {_number(math.hypot(*row.torque))} N m, {_vector(row.torque)} in the frame of the file{largest}"
 
 
@@ -190,7 +204,7 @@ def _amount(name, size, units, digits=4) -> str:
 
 
 def _unit(name, units):
-    return {"rate": units.rate, "wheel": ("N m s", 1.0), "torque": ("N m", 1.0)}[name]
+    return {"rate": units.rates, "wheel": ("N m s", 1.0), "torque": ("N m", 1.0)}[name]
 
 
 def _wheel(wheel, units) -> str:
@@ -199,8 +213,8 @@ def _wheel(wheel, units) -> str:
         return f"wheel {name}, now {_number(wheel.now)} N m s, keeps it bounded at {' or '.join(map(_interval, wheel.keeps_bounded))}"
     if wheel.best is None:
         return f"wheel {name}: no momentum is known to keep it bounded: {wheel.because}"
-    later = "not reached while followed" if wheel.best_time is None else f"{_number(wheel.best_time[0] * units.time[1])} {units.time[0]}"
-    gain = "" if wheel.gain is None else f", {_number(wheel.gain * units.time[1])} {units.time[0]} later"
+    later = "not reached while followed" if wheel.best_time is None else f"{units.time(wheel.best_time[0], SHORT)}"
+    gain = "" if wheel.gain is None else f", {units.time(wheel.gain, SHORT)} later"
     low, high = wheel.searched
     return (f"wheel {name}, now {_number(wheel.now)} N m s: {_number(wheel.best)} N m s delays the limit most of all within {_number(low)} to "
             f"{_number(high)}: {later}{gain}")
@@ -222,7 +236,7 @@ def _helper(helper, units) -> str:
     rest = f"{_number(helper.torque_left)} N m is left"
     left = {"zero": "no torque is left", "bounded": f"{rest}, and the motion stays bounded while that is exactly on its axis", "slower": rest}[helper.effect]
     known = helper.effect == "slower" and helper.time_to_limit is not None
-    then = f", and the limit comes in {_number(helper.time_to_limit[0] * units.time[1])} {units.time[0]}" if known else ""
+    then = f", and the limit comes in {units.time(helper.time_to_limit[0], SHORT)}" if known else ""
     return f"with {fired}, in the mean, {left}{then}"
 
 
@@ -235,10 +249,10 @@ def _details(row, units) -> list[str]:
     for name, margin in row.margins.items():
         told = margin.because
         if margin.size is not None:
-            told = f"{_amount(name, margin.size, units, 9)} along {_vector(margin.direction)}" + (f": {told}" if told else "")
+            told = f"{_amount(name, margin.size, units, DIGITS)} along {_vector(margin.direction)}" + (f": {told}" if told else "")
         lines.append(f"  {'margin, ' + name:<24} {told}")
     if row.tilt is not None:
-        early = f"{_number(row.tilt.not_before * units.time[1], 9)} {units.time[0]}"
+        early = f"{units.time(row.tilt.not_before)}"
         lines.append(f"  {'tilted, not before':<24} {early}, whatever the azimuth and for any smaller tilt (proved)")
     lines += [f"  {_wheel(w, units)}{f' ({w.because})' if w.keeps_bounded or w.best is not None else ''}" for w in row.wheels]
     return lines + [f"  {_helper(h, units)}" for h in row.helpers]
@@ -247,9 +261,9 @@ def _details(row, units) -> list[str]:
 def _axes(principal) -> list[str]:
     words = axis_words(principal)
     return ["principal axes, unit vectors in the frame of the file:"] + [
-        f"  axis {n} ({words[n]})  moment {_number(moment, 9)} kg m^2  {_vector(axis, 9)}"
+        f"  axis {n} ({words[n]})  moment {_number(moment, DIGITS)} kg m^2  {_vector(axis)}"
         for n, (moment, axis) in enumerate(zip(principal.moments, principal.axes), 1)]
 
 
-def _vector(vector, digits=6) -> str:
+def _vector(vector, digits=DIGITS) -> str:
     return f"({', '.join(_number(v, digits) for v in vector)})"

@@ -4,11 +4,11 @@ from __future__ import annotations
 import math
 
 from ...errors import printable
-from ...physics.alignment import torque_axis
 from ..files import comma
+from ..units import DIGITS, Units, bracket, number
 from . import frame
-from .engineering import ENGINEERING, SI, bracket, number
 
+WORDS = {"yes": "reached by", "never": "NEVER by", "unknown": "NOT KNOWN of"}
 CSV = ("case", "quantity", "limit", "time_low", "time_high", "level")
 
 
@@ -29,14 +29,24 @@ def csv(answers) -> str:
     return comma.lines([CSV, *rows])[:-1]
 
 
-def text(case, limit, found, si: bool = False) -> str:
+def text(case, limit, found, units: Units) -> str:
     """The answer in one line, then its two ends with all digits and the reason."""
-    units = SI if si else ENGINEERING
     low, high, unit = float(found.low), float(found.high), case.scene.time_unit
-    lines = [f"{printable(case.name)}: {_answer(case, limit, found, low, high, units)}"]
-    if math.isfinite(high):
+    lines = [f"{printable(case.name)}: {_answer(limit, found, low, high, units)}"]
+    if math.isfinite(high) and high > 0:
         lines += [f"  between   {low!r} {unit}", f"      and   {high!r} {unit}"]
     return "\n".join([*lines, f"  {found.words}"])
+
+
+def swept(answers, units: Units):
+    """(the answer in a line, columns, rows) of a sweep: whether, when and how well known."""
+    kinds = [_reached(float(found.low), float(found.high)) for *_, found in answers]
+    counts = "; ".join(f"{words} {kinds.count(kind)}" for kind, words in WORDS.items() if kind in kinds)
+    ends = [float(found.high) for *_, found in answers if math.isfinite(found.high)]
+    name, one = units.times(max(ends, default=0.0))
+    told = f"{_asked(answers[0][1], units)}: {counts}" + (f"; first in {units.time(min(ends), 4)}" if ends else "")
+    rows = [[kind, number(float(found.high) * one, DIGITS) if kind == "yes" else "", str(found.level)] for kind, (*_, found) in zip(kinds, answers)]
+    return told, [("reached", ""), ("time", name), ("level", "")], rows
 
 
 def unknown(found) -> bool:
@@ -48,53 +58,22 @@ def _reached(low, high):
     return "yes" if math.isfinite(high) else "never" if math.isinf(low) else "unknown"
 
 
-def _answer(case, limit, found, low, high, units):
-    asked = _asked(case, limit, units)
+def _answer(limit, found, low, high, units):
+    asked = _asked(limit, units)
     if math.isinf(low):
         return f"NEVER reaches {asked} ({found.level})"
-    name, one = ("tau", 1.0) if case.variables == "scaled" else units.time
     if math.isnan(high):
-        return f"NOT KNOWN when it reaches {asked}: not before {number(low * one, 6)} {name} ({found.level})"
+        return f"NOT KNOWN when it reaches {asked}: not before {units.time(low)} ({found.level})"
     if high == 0:
         return f"starts at or beyond {asked}"
+    name, one = units.times(high)
     a, b = bracket(low * one, high * one)
     return f"reaches {asked} in {number((low + high) / 2 * one)} {name} ({found.level} {a} to {b})"
 
 
-def _asked(case, limit, units):
-    unit, one = {"energy": ("J", 1.0), "tilt": units.angle}.get(limit.kind, ("", 1.0) if case.variables == "scaled" else units.rate)
-    return " or ".join(f"{name} = {number(most * one, 6)} {unit}".rstrip() for name, most in zip(limit.names, limit.limits))
-
-
-def while_on_axis(case, motion) -> str:
-    """What the word "bounded" rests on under a torque along an axis, and what is known of a tilt; empty for other motions."""
-    axis = torque_axis(case.scene) if motion.fate.word == "bounded" else 0
-    if not axis:
-        return ""
-    words, found = f"while {'mu' if case.variables == 'scaled' else 'the torque'} is exactly along axis {axis}", motion.tilt
-    if found is None:
-        return f" {words}"
-    if found.untilted:
-        return f" {words}, and even so it reaches {number(found.limit, 6)} rad/s after {number(found.untilted[0], 6)} s"
-    if found.ends:
-        return f" only {words}: tilted by {_degrees(found.angle)} it reaches {number(found.limit, 6)} rad/s after {number(found.low, 6)} s"
-    return f" {words}; tilted by {_degrees(found.angle)} it was not found to reach {number(found.limit, 6)} rad/s within {number(found.followed)} s"
-
-
-def tilt_lines(case, motion) -> list[str]:
-    """The tilt in full, or how to ask for it."""
-    found = motion.tilt
-    if found is None:
-        asked = case.variables != "scaled" and while_on_axis(case, motion)
-        return ['  off that axis           any tilt of the torque may end this: --tilt "1 deg" says how soon'] if asked else []
-    limit = f"|omega| = {number(found.limit, 9)} rad/s{'' if found.stated else ', twice the largest of this motion (no limit is stated)'}"
-    lines = [f"  tilted by {_degrees(found.angle)}: {printable(found.of)}, to {limit}"]
-    if found.ends:
-        lines.append(f"    shortest time found   {found.low:.12g} to {found.high:.12g} s ({found.level}), at azimuth {_degrees(found.azimuth)}, torque "
-                     f"({', '.join(f'{v:.9g}' for v in found.torque)}) N m")
-    else:
-        lines.append(f"    shortest time found   none: {len(found.times)} azimuths were followed for {number(found.followed, 6)} s or more")
-    return [*lines, f"    not before            {found.not_before:.9g} s, whatever the azimuth and for any smaller tilt (proved)"]
+def _asked(limit, units):
+    unit = {"energy": units.plain("J"), "tilt": units.angles}.get(limit.kind, units.rates)
+    return " or ".join(f"{name} = {units.told(most, unit, DIGITS)}" for name, most in zip(limit.names, limit.limits))
 
 
 def tilt_dict(found) -> dict | None:
@@ -104,7 +83,3 @@ def tilt_dict(found) -> dict | None:
     return {"angle": found.angle, "of": found.of, "limit": found.limit, "limit_stated": found.stated, "not_before": found.not_before,
             "time": [found.low, found.high] if found.ends else None, "level": found.level if found.ends else None, "azimuth": found.azimuth,
             "torque": found.torque, "azimuths": found.azimuths, "times": found.times, "untilted": found.untilted}
-
-
-def _degrees(angle) -> str:
-    return f"{number(math.degrees(angle), 6)} deg"

@@ -26,7 +26,9 @@ from stabilab.physics.effects.liquid_cavity import LiquidCavity
 from stabilab.physics.effects.resistance import Resistance
 from stabilab.physics.equations import derive
 from stabilab.physics.to_numpy import to_numpy
+from stabilab.show.terminal import classification
 from stabilab.show.text import answers
+from stabilab.show.units import units_of
 
 ROOT = Path(__file__).parents[3]
 BODY = Body((9, 8, 5))
@@ -303,4 +305,4 @@ def test_classification_of_a_case_is_complete_json(name):
     found, told = equilibria(case.scene), motion(case.scene, (*case.state, *vertical), case.span)
     text = answers.as_json(answers.classification(case, found, told))
     assert "NaN" not in text and told.because and told.extremes is not None
-    assert answers.classification_text(case, found, told)
+    assert classification.text(case, found, told, units_of(case), proofs=True)

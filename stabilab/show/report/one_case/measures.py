@@ -5,11 +5,10 @@ import math
 import re
 from dataclasses import dataclass
 
-from ...text.engineering import ENGINEERING
+from ...units import DEG
 
 DIGITS = 5
 LETTERS = {"alpha": "α", "omega": "ω", "lambda": "λ", "gamma": "γ", "sigma": "σ"}
-MINUTES = 120.0  # s from which on a time is told in minutes
 
 
 @dataclass(frozen=True)
@@ -21,13 +20,13 @@ class Measures:
     @property
     def rate_unit(self) -> tuple[str, float]:
         """(name, how many of it make one in the case's own variables)."""
-        return ENGINEERING.rate if self.variables == "physical" else ("", 1.0)
+        return DEG.rates if self.variables == "physical" else ("", 1.0)
 
     def time_unit(self, longest: float) -> tuple[str, float]:
         """(name, how many of it make one) for times up to the longest."""
         if self.variables != "physical":
             return "τ", 1.0
-        return ENGINEERING.time if abs(longest) >= MINUTES else ("s", 1.0)
+        return DEG.times(longest)
 
     def rate(self, value) -> str:
         """A rate with its unit."""

@@ -1,0 +1,120 @@
+"""A motion in words: where it starts, how far its rates go, its margins and period, and why; every number with its unit."""
+from __future__ import annotations
+
+from ..text import frame
+from ..text.headline import rate_margin, span_words, while_on_axis
+from ..units import DEG, DIGITS, Units, bracket, number
+from .letters import greek
+
+WIDE = 24  # columns of a name
+QUANTITIES = {  # of invariants and of what a run showed: which number of `Units` it is; "" for a plain number
+    "Q": "Q", "energy": "energy", "momentum": "momentum", "rate_bound": "rate", "late_rate_bound": "rate", "span": "time", "size_start": "rate",
+    "size_end": "rate", "size_largest": "rate", "energy_start": "energy", "energy_end": "energy", "energy_change": "energy", "t_certificate": "time",
+    "followed_until": "time", "release_time": "time", "release_estimate": "time", "rate_end": "rates", "J": "(N m s)^2", "J_rate": "(N m s)^2/s",
+    "steps": "", "steps_followed": "", "small_change_grew": "", "invariant_drift": "", "energy_trend": "", "certificate": ""}
+TILTED = 'any tilt of the torque may end this: --tilt "1 deg" says how soon'
+
+
+def row(name: str, words: str) -> str:
+    """A name in its column, then the words."""
+    return f"  {name:<{WIDE}}{words}".rstrip()
+
+
+def table(case, motion, units: Units) -> list[str]:
+    """The start, the extremes, the bounds for all times, margins and period, a line each."""
+    lines = [row("start", state(motion.at, units)), *extreme_lines(case, motion.extremes, motion.extremes_over, units), *bound_lines(case, motion, units)]
+    for name, words in (("margin, rate", rate_margin(motion, units, DIGITS)), ("margin, energy", _told(motion.margin_energy, units.energy)),
+                        ("period", _told(motion.period, units.time))):
+        lines += [row(name, words)] if words else []
+    return lines
+
+
+def state(at, units: Units) -> str:
+    """The rates of a state with their unit; the vertical after them, where it is part of the state."""
+    vertical = f", gamma = {units.vector(at[3:], ('', 1.0))}" if len(at) > 3 else ""
+    return units.vector(at[:3], units.rates) + vertical
+
+
+def _told(value, words) -> str:
+    return "" if value is None else words(value)
+
+
+def extreme_lines(case, pairs, over: str, units: Units) -> list[str]:
+    """Least and greatest of every component under a head that says over which time."""
+    if pairs is None:
+        return []
+    when = over if over == "all time" else span_words(over, units).removeprefix("over ")
+    return [f"  {'over ' + when + ',' if over == 'all time' else when + ',':<{WIDE}}{'least':>12}{'greatest':>14}", *pair_lines(case, pairs, units)]
+
+
+def pair_lines(case, pairs, units: Units) -> list[str]:
+    """A line a component: its name, least, greatest, unit."""
+    name, one = units.rates
+    return [f"    {greek(component):<{WIDE - 2}}{shown(low, one):>12}{shown(high, one):>14}  {name}".rstrip()
+            for component, (low, high) in zip(case.scene.components, pairs)]
+
+
+def shown(value, one: float = 1.0, digits: int = DIGITS) -> str:
+    """A number of a column; a word where it is unbounded or unknown."""
+    return "unknown" if value is None else number(value * one, digits)
+
+
+def bound_lines(case, motion, units: Units) -> list[str]:
+    """The bounds of the rates for all times, where they are not the extremes told already."""
+    if motion.bounds is None or motion.bounds == motion.extremes:
+        return []
+    return [f"  {'bounds for all times,':<{WIDE}}{'least':>12}{'greatest':>14}", *pair_lines(case, motion.bounds, units)]
+
+
+def why(case, motion, units: Units, proofs: bool) -> list[str]:
+    """The reason; with `proofs` also what is not known of the margin, the invariants, and what a run showed."""
+    lines = [f"why: {motion.because}"]
+    if proofs and motion.velocity_because:
+        lines.append(f"  {'' if motion.velocity_bounds else 'margin, rate unknown: '}{motion.velocity_because}")
+    if proofs:
+        lines += [row(name.replace("_", " "), quantity(name, value, units)) for found in (motion.invariants, motion.evidence)
+                  for name, value in found.items() if value is not None]
+    return lines
+
+
+def quantity(name: str, value, units: Units) -> str:
+    """An invariant, or what a run showed, with its unit."""
+    kind = QUANTITIES[name]
+    if kind == "rates":
+        return units.vector(value, units.rates)
+    if not kind or not isinstance(value, float):
+        return number(value, DIGITS) if isinstance(value, float) else str(value)
+    return units.told(value, units.plain(kind), DIGITS) if kind.startswith("(") else getattr(units, kind)(value)
+
+
+def tilt_lines(case, motion, units: Units, proofs: bool = False) -> list[str]:
+    """What a tilt of the torque does, or how to ask for it."""
+    found = motion.tilt
+    if found is None:
+        asked = not units.scaled and while_on_axis(case, motion, units)
+        return [row("off that axis", TILTED)] if asked else []
+    limit = f"|omega| = {units.rate(found.limit)}{'' if found.stated else ', twice the largest of this motion (no limit is stated)'}"
+    lines = [f"  tilted by {_angle(found.angle)}: {found.of}, to {limit}"]
+    if found.ends:
+        lines.append(f"    shortest time found   {clock((found.low, found.high), units)} ({found.level})")
+        if proofs:
+            lines.append(f"    at azimuth            {_angle(found.azimuth)}, torque {units.vector(found.torque, units.plain('N m'))}")
+    else:
+        lines.append(f"    shortest time found   none: {len(found.times)} azimuths were followed for {units.time(found.followed)} or more")
+    return [*lines, f"    not before            {units.time(found.not_before)}, whatever the azimuth and for any smaller tilt (proved)"]
+
+
+def clock(ends, units: Units) -> str:
+    """A time between two bounds, in one unit."""
+    name, one = units.times(ends[1])
+    low, high = bracket(ends[0] * one, ends[1] * one)
+    return f"{low} to {high} {name}"
+
+
+def _angle(value: float) -> str:
+    return DEG.angle(value)
+
+
+def framed(case) -> list[str]:
+    """One line where vectors are along other axes than the file's."""
+    return frame.note(case)

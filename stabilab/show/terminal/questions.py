@@ -1,0 +1,70 @@
+"""What `fate`, `extremes` and `period` print: the answer, its numbers, why, and how many digits were checked."""
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+from ..text.headline import cause, fate_words, headline, largest, rate_margin
+from ..units import DIGITS, Units, number
+from .letters import greek
+from .motion import bound_lines, extreme_lines, framed, row, tilt_lines, why
+
+SHOWN = 12  # digits of a number that is not written out, where more than a table's were asked for
+
+
+def fate(case, motion, told, units: Units, all_digits: bool, say: bool, proofs: bool = False) -> str:
+    """The fate, margins, bounds for all times, what a tilt does, and why."""
+    margin = "" if told.values is None else _energy(told, units, all_digits)
+    rows = [row(name, words) for name, words in (("margin, rate", rate_margin(motion, units, DIGITS)), ("margin, energy", margin)) if words]
+    bounds = bound_lines(case, replace(motion, extremes=None), units)
+    return "\n".join([f"{case.name}: {headline(case, motion, units)}", *rows, *bounds, *tilt_lines(case, motion, units, proofs),
+                      *why(case, motion, units, proofs), *framed(case), *([_said(told)] * say)])
+
+
+def _energy(told, units, all_digits):
+    if not all_digits:
+        return units.energy(told.values)
+    return f"{told.decimals or number(told.values, max(SHOWN, told.asked))} {units.plain('J')[0]}".rstrip()
+
+
+def extremes(case, motion, told, units: Units, all_digits: bool, say: bool, proofs: bool = False) -> str:
+    """The largest rate and the fate, a line a component, and bounds for all times."""
+    shown = motion if told.values is None else replace(motion, extremes=tuple(tuple(map(float, pair)) for pair in told.values))
+    parts = [fate_words(case, shown, units), cause(shown)]
+    parts = [*parts, largest(shown, units)] if motion.fate.word == "spin-up" else [largest(shown, units), *parts]
+    rows = _all_digits(case, shown, told) if all_digits else extreme_lines(
+        case, shown.extremes or ((None, None),) * 3, shown.extremes_over, units)
+    return "\n".join([f"{case.name}: {'; '.join(filter(None, parts))}", *rows, *bound_lines(case, motion, units),
+                      *(why(case, motion, units, proofs) if proofs else ()), *framed(case), *([_said(told)] * say)])
+
+
+def _all_digits(case, motion, told):
+    """A line a component, every digit that was asked for; in rad/s, in which they were checked."""
+    unit = "" if case.variables == "scaled" else "rad/s"
+    pairs = told.decimals or [["unknown" if v is None else number(v, max(SHOWN, told.asked)) for v in pair]
+                              for pair in (motion.extremes or ((None, None),) * 3)]
+    wide = max(24, told.asked + 8)
+    return [f"  over {motion.extremes_over}, least and greatest:", *(f"  {greek(name):<8}{_word(low):>{wide}}{_word(high):>{wide}}  {unit}".rstrip()
+                                                           for name, (low, high) in zip(case.scene.components, pairs))]
+
+
+def _word(decimal) -> str:
+    return "unbounded" if decimal in ("inf", "-inf") else decimal
+
+
+def _said(told) -> str:
+    if told.digits is None:
+        return f"  {told.because}"
+    return f"  exact: {told.because}" if math.isinf(told.digits) else f"  {min(told.digits, 99.0):.1f} digits: {told.because}"
+
+
+def period(case, motion, told, units: Units, all_digits: bool, say: bool, proofs: bool = False) -> str:
+    """The period with its unit."""
+    if told.values is None:
+        value = f"the motion does not repeat ({motion.fate.word})"
+    elif all_digits:
+        value = f"period {told.decimals or number(told.values, max(SHOWN, told.asked))} {case.scene.time_unit}"
+    else:
+        value = f"period {units.time(told.values)}"
+    lines = [f"{case.name}: {value}", *(why(case, motion, units, proofs) if proofs else ())]
+    return "\n".join([*lines, *([_said(told)] * (say and told.values is not None))])

@@ -1,0 +1,66 @@
+"""A run in time, as `simulate` prints it: how far it went, times and states in columns with units, departures from the laws."""
+from __future__ import annotations
+
+from ...physics.blocks import PARTS
+from ..text import answers, frame
+from ..units import DIGITS, SHORT, Units
+from .letters import greek
+
+ALL = 16  # digits of a double
+GAP = 2
+
+
+def text(case, run, units: Units, all_digits: bool = False, width: int | None = None) -> str:
+    """The lines for one run. width: of a terminal, where the columns are told part by part if they do not fit."""
+    digits = ALL if all_digits else DIGITS
+    names, rows = answers.columns(run)
+    factors = _factors(run, units)
+    head, scale = [f"t ({case.scene.time_unit})"], [1.0]
+    head += [f"{greek(name)} ({unit})" if unit else greek(name) for name, (unit, _) in zip(names, factors)]
+    scale += [one for _, one in factors]
+    cells = [[f"{value * one + 0.0:.{digits}g}" for value, one in zip((t, *row), scale)] for t, row in zip(run.t, rows)]
+    laws = [f"# {name}: largest relative departure {value:.3g}" for name, value in run.invariant_drift.items()]
+    how = f"# {run.method}, rtol {run.rtol:.3g}" if run.rtol else f"# {run.model}: {run.method}"
+    notes = [f"# {run.reason}"] if run.reason and run.reason != "all times reached" else []
+    return "\n".join([f"{case.name}: {headline(case, run, units)}", *_columns(head, cells, width, max(digits + 7, 13)), how, *laws, *notes,
+                      *(f"# {line.strip()}" for line in frame.note(case))])
+
+
+def headline(case, run, units: Units) -> str:
+    """How far the motion was followed, its size at both ends, and how well the laws of motion are kept."""
+    if not len(run.t):
+        return f"NOT FOLLOWED: {run.reason}"
+    reached = "followed to" if run.status == "reached" else "STOPPED at"
+    kept = f"; laws of motion kept to {max(run.invariant_drift.values()):.2g}" if run.invariant_drift else ""
+    return f"{reached} {units.time(float(run.t[-1]), SHORT)}{_sizes(run, units)}{kept}"
+
+
+def _sizes(run, units):
+    import math
+    rates = next((run.state[name] for name in ("omega", "x") if name in run.state), None)
+    if rates is None:
+        return ""
+    first, last = (units.rate(math.hypot(*map(float, rates[n])), SHORT) for n in (0, -1))
+    name = "|x|" if units.scaled else "|omega|"
+    return f"; {name} = {last} there" if len(run.t) == 1 else f"; {name} = {first} first, {last} last"
+
+
+def _factors(run, units) -> list[tuple[str, float]]:
+    """(unit, how many of it make one of the run's own) of every column."""
+    found: list[tuple[str, float]] = []
+    for name in run.state:
+        unit = PARTS[name].unit
+        found += [{"rad/s": units.rates, "rad": units.angles}.get(unit, (unit, 1.0))] * len(PARTS[name].components)
+    return found
+
+
+def _columns(head, cells, width, wide):
+    """Lines of right-aligned columns, the time first; in several tables where they are wider than a terminal."""
+    sizes = [max(wide, len(name) + GAP) for name in head]
+    fit = len(head) - 1 if width is None else max(1, (width - sizes[0]) // max(sizes[1:], default=1))
+    lines = []
+    for start in range(1, len(head), fit):
+        chosen = [0, *range(start, min(start + fit, len(head)))]
+        lines += [""] * (start > 1)
+        lines += ["".join(f"{row[i]:>{sizes[i]}}" for i in chosen) for row in (head, *cells)]
+    return lines

@@ -1,0 +1,119 @@
+"""All combinations of a [sweep] as one table: a column for each key that varies, then the answer's numbers."""
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Callable, Sequence
+
+from ...case.units import DIMENSIONS, NAMES
+from ..text.headline import WORDS, known_as, rate_margin
+from ..units import SHORT, Units, number
+from .letters import greek
+from .motion import shown
+
+GAP = 2
+LETTERS = {"angular_velocity": "ω", "mu": "μ"}  # keys with a shorter name
+Column = tuple[str, str, Callable]  # its head, its unit, and what it says of a motion
+
+
+def groups(cases: Sequence) -> list[list[int]]:
+    """Indices of cases that belong together: all combinations of one file, or a case by itself."""
+    found: list[list[int]] = []
+    for n, case in enumerate(cases):
+        if case.variant and found and cases[found[-1][-1]].path == case.path and cases[found[-1][-1]].variant:
+            found[-1].append(n)
+        else:
+            found.append([n])
+    return found
+
+
+def text(cases: Sequence, answer: str, columns: Sequence[tuple[str, str]], rows: Sequence[Sequence[str]]) -> str:
+    """The answer in a line, then the table. columns: (head, unit) of what follows the swept keys; rows: its cells, one for each case."""
+    keys = swept_columns(cases)
+    heads = [name for name, *_ in keys] + [head for head, _ in columns]
+    units = [unit for _, unit, _ in keys] + [unit for _, unit in columns]
+    cells = [[values[n] for *_, values in keys] + list(row) for n, row in enumerate(rows)]
+    sizes = [max(map(len, column)) for column in zip(heads, units, *cells)]
+    lines = ["".join(f"{cell:>{size + GAP}}" for cell, size in zip(row, sizes)).rstrip() for row in (heads, units, *cells)]
+    name = cases[0].name.removesuffix(cases[0].variant)
+    return "\n".join([f"{name}: {len(cases)} combinations: {answer}", *lines])
+
+
+def swept_columns(cases: Sequence) -> list[tuple[str, str, list[str]]]:
+    """(head, unit, a cell a case) of every swept key; of a vector the components that vary. A value with a unit of its own is told as written."""
+    found = []
+    for place, (key, _) in enumerate(cases[0].swept):
+        values = [case.swept[place][1] for case in cases]
+        label = ".".join(LETTERS.get(word, word) for word in key.split(".")[-1 if _alone(key, cases[0].swept) else -2:])
+        if any(isinstance(v, list) and any(isinstance(one, list) for one in v) for v in values):  # a matrix: which of those in the file
+            found.append((label, "", [f"no. {case.variant.split('-')[1 + place]}" for case in cases]))
+        elif all(isinstance(v, list) and len(v) == len(values[0]) for v in values):
+            moving = [i for i in range(len(values[0])) if len({repr(v[i]) for v in values}) > 1] or [0]
+            found += [(f"{label}[{i + 1}]", _unit(key, [v[i] for v in values]), [str(v[i]) for v in values]) for i in moving]
+        else:
+            found.append((label, _unit(key, values), [str(v) for v in values]))
+    return found
+
+
+def _unit(key: str, values) -> str:
+    """The unit of plain numbers of a key; nothing where they bring their own."""
+    path = key.split(".")
+    of = DIMENSIONS.get(".".join([path[0], path[-1]]) if path[0] in ("thrusters", "wheels") else key)
+    if of is None or not all(re.fullmatch(r"[-+.\d_eE/ ]+", str(value)) for value in values):
+        return ""
+    return NAMES[of].partition("(")[2].rstrip(")")
+
+
+def _alone(key, swept) -> bool:
+    return sum(other.split(".")[-1] == key.split(".")[-1] for other, _ in swept) == 1
+
+
+def fates(motions: Sequence, units: Units) -> str:
+    """How many motions have which fate, and the range of their largest rates."""
+    counts = Counter(motion.fate.word for motion in motions)
+    words = ", ".join(f"{WORDS[fate]}: {count}" if len(counts) > 1 else f"each {WORDS[fate]}" for fate, count in counts.most_common())
+    sizes = [size for size in map(_largest, motions) if size is not None]
+    if not sizes:
+        return words
+    low, high = number(min(sizes) * units.rates[1]), units.rate(max(sizes), SHORT)
+    return f"{words}; largest rate " + (high if high.split()[0] == low else f"{low} to {high}")
+
+
+def _largest(motion):
+    pairs = motion.extremes if motion.bounds is None else motion.bounds
+    sizes = [abs(v) for pair in pairs or () for v in pair if v is not None]
+    return max(sizes) if sizes and max(sizes) < float("inf") else None
+
+
+def _axis(motion):
+    return "" if not motion.axis else f"{'+' if motion.sense > 0 else '-'}{motion.axis}"
+
+
+def of_motions(motions: Sequence, units: Units) -> tuple[list[tuple[str, str]], list[list[str]]]:
+    """Columns and rows of fate, axis, largest rate, margins and period; a column that says nothing is left out."""
+    name, one = units.rates
+    longest = max((m.period for m in motions if m.period is not None), default=0.0)
+    time, per_time = units.times(longest)
+    table = [("fate", "", lambda m: m.fate.word + known_as(m)), ("axis", "", _axis),
+             ("largest rate", name, lambda m: "" if _largest(m) is None else number(_largest(m) * one, 6)),
+             ("margin", name, lambda m: rate_margin(m, units, 6).removesuffix(f" {name}") if name else rate_margin(m, units, 6)),
+             ("energy", units.plain("J")[0], lambda m: "" if m.margin_energy is None else shown(m.margin_energy)),
+             ("period", time, lambda m: "" if m.period is None else number(m.period * per_time, 6))]
+    return filled(table, motions)
+
+
+def of_extremes(motions: Sequence, names: Sequence[str], units: Units) -> tuple[list[tuple[str, str]], list[list[str]]]:
+    """Columns and rows of the fate, and of least and greatest of every component."""
+    name, one = units.rates
+    table: list[Column] = [("fate", "", lambda m: m.fate.word + known_as(m))]
+    for i, component in enumerate(names):
+        for end, word in enumerate(("least", "most")):
+            table.append((f"{greek(component)} {word}", name, lambda m, i=i, end=end: "" if m.extremes is None else shown(m.extremes[i][end], one)))
+    return filled(table, motions)
+
+
+def filled(table: Sequence[Column], answers: Sequence) -> tuple[list[tuple[str, str]], list[list[str]]]:
+    """(columns, rows) of those columns that say something of an answer."""
+    rows = [[words(one) for _, _, words in table] for one in answers]
+    kept = [n for n in range(len(table)) if any(row[n] for row in rows)]
+    return [table[n][:2] for n in kept], [[row[n] for n in kept] for row in rows]

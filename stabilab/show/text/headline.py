@@ -1,0 +1,128 @@
+"""The answer in one line: what becomes of a motion, how large its rates grow, how far it is from another fate, and its period."""
+from __future__ import annotations
+
+import math
+import re
+from typing import TYPE_CHECKING, Any, cast
+
+from ...physics.alignment import torque_axis
+from ..units import SHORT, Units, number, units_of
+
+if TYPE_CHECKING:
+    from ...case.read import Case
+    from ...orbit.result import Motion
+
+WORDS = {"bounded": "BOUNDED for ever", "spin-up": "SPINS UP", "separatrix": "ON THE SEPARATRIX", "equilibrium": "AT REST in the body's frame",
+         "undecided": "UNDECIDED"}
+LEVELS = {"run": "by a run alone"}
+CLAUSE = 110  # letters of a cause that the line has room for
+
+
+def headline(case: Case, motion: Motion, units: Units | None = None) -> str:
+    """One line, without the name of the case. units: of the case where None."""
+    units = units or units_of(case)
+    parts = [fate_words(case, motion, units), cause(motion), largest(motion, units), margin(motion, units), period(motion, units)]
+    return "; ".join(part for part in parts if part)
+
+
+def fate_words(case: Case, motion: Motion, units: Units) -> str:
+    """The fate, its axis, how well it is known, and the condition that it rests on."""
+    fate = motion.fate.word
+    words, where = WORDS[fate], while_on_axis(case, motion, units)
+    if where.startswith(" only"):
+        words = "BOUNDED"
+    about = f" about axis {motion.axis}, {'positive' if motion.sense > 0 else 'negative'} sense" if motion.axis else ""
+    return f"{words}{about}{known_as(motion)}{where}"
+
+
+def known_as(motion: Motion) -> str:
+    """How well a fate is known, where that is not a matter of course."""
+    return "" if motion.level == "exact" or motion.fate.word == "undecided" else f" ({LEVELS.get(motion.level, motion.level)})"
+
+
+def cause(motion: Motion) -> str:
+    """Why nothing is decided, or what it means to be on the separatrix or at rest."""
+    fate = motion.fate.word
+    if fate == "undecided":
+        words = motion.because.removeprefix("undecided: ")
+        words = re.split(r"; |: ", motion.cause.removeprefix("undecided: "))[0] if motion.cause and len(words) > CLAUSE else words.split("; ")[0]
+        return words if len(words) <= CLAUSE else words[:CLAUSE].rsplit(" ", 1)[0] + " ..."
+    return {"separatrix": "the smallest change decides what becomes of it", "equilibrium": "every rate stays as it is"}.get(fate, "")
+
+
+def largest(motion: Motion, units: Units) -> str:
+    """The largest rate that is reached; of a spin-up, of the components that stay bounded."""
+    if motion.fate.word == "equilibrium":
+        return f"rates {units.vector(motion.at[:3], units.rates, SHORT)}"
+    pairs, over = _pairs(motion, units)
+    sizes = {n: max(map(abs, pair)) for n, pair in enumerate(pairs or (), 1) if None not in pair}
+    finite = {n: size for n, size in sizes.items() if math.isfinite(size)}
+    if motion.fate.word == "spin-up":
+        finite.pop(motion.axis, None)
+        if not motion.axis or over or len(finite) < 2:
+            return ""
+        return f"about the other axes at most {units.rate(max(finite.values()), SHORT)}"
+    bound = motion.invariants.get("rate_bound")
+    if bound is not None and (over or not finite):
+        return f"{'|x|' if units.scaled else '|omega|'} at most {units.rate(bound, SHORT)}"
+    if not finite or len(finite) < len(sizes):
+        return ""
+    axis = max(finite, key=finite.__getitem__)
+    return f"largest rate {units.rate(finite[axis], SHORT)} about axis {axis}{over}"
+
+
+def _pairs(motion, units):
+    """(least and greatest of each component, over which time in words; nothing where that is all time)."""
+    if motion.bounds is not None and motion.extremes_over != "all time":
+        return motion.bounds, ""
+    return motion.extremes, "" if motion.extremes_over == "all time" else f" {span_words(motion.extremes_over, units)}"
+
+
+def span_words(over: str, units: Units) -> str:
+    """What extremes are known over, with the units of people: "s in [0, 1200]" is "in 0 to 20 min"."""
+    found = re.fullmatch(r"(s|tau) in \[(\S+), (\S+)\]", over)
+    if not found:
+        return f"over {over}"
+    start, end = map(float, found.groups()[1:])
+    name, one = units.times(max(abs(start), abs(end)))
+    return f"within {number(start * one)} to {number(end * one)} {name}"
+
+
+def margin(motion: Motion, units: Units) -> str:
+    """The distance to the separatrix as a rate, and the energy to the barrier."""
+    rate, energy = rate_margin(motion, units, SHORT), motion.margin_energy
+    if not rate and energy is None or motion.fate.word in ("separatrix", "equilibrium", "undecided"):
+        return ""
+    height = "" if energy is None else units.energy(abs(energy), SHORT) + (" above the barrier" if energy < 0 else "")
+    if motion.fate.word == "spin-up":
+        return f"{rate} from the separatrix" + (f" ({height})" if height else "") if rate else height
+    return f"margin {rate} ({height})" if rate and height else f"margin {rate or height}"
+
+
+def rate_margin(motion: Motion, units: Units, digits: int) -> str:
+    """The distance from the separatrix: a number where it is one to 1e-9, else its bounds; empty where unknown."""
+    if motion.velocity_because and motion.velocity_bounds:
+        low, high = motion.velocity_bounds
+        return f"{units.rate(low, digits)} to {units.rate(high, digits)}"
+    return "" if motion.margin_velocity is None else units.rate(motion.margin_velocity, digits)
+
+
+def period(motion: Motion, units: Units) -> str:
+    """The period, where the motion repeats."""
+    return "" if motion.period is None else f"period {units.time(motion.period, SHORT)}"
+
+
+def while_on_axis(case: Case, motion: Motion, units: Units) -> str:
+    """What the word "bounded" rests on under a torque along an axis, and what is known of a tilt; empty for other motions."""
+    axis = torque_axis(case.scene) if motion.fate.word == "bounded" else 0
+    if not axis:
+        return ""
+    words, found = f"while the torque is exactly along axis {axis}", cast(Any, motion.tilt)
+    if found is None:
+        return f" {words}"
+    limit, tilted = units.rate(found.limit, SHORT), f"tilted by {math.degrees(found.angle):.6g} deg it"
+    if found.untilted:
+        return f" {words}, and even so it reaches {limit} after {units.time(found.untilted[0], SHORT)}"
+    if found.ends:
+        return f" only {words}: {tilted} reaches {limit} after {units.time(found.low, SHORT)}"
+    return f" {words}; {tilted} was not found to reach {limit} within {units.time(found.followed, SHORT)}"

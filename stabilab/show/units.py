@@ -1,0 +1,120 @@
+"""The units that people read: deg/s and minutes, or SI; one home for text, pictures and reports."""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal, localcontext
+from typing import TYPE_CHECKING
+
+from ..errors import InputError
+
+if TYPE_CHECKING:
+    from ..case.read import Case
+
+DIGITS = 6  # of a number in a table
+SHORT = 4  # of a number within a sentence
+Unit = tuple[str, float]  # its name, and how many of it make one in SI
+TURN = 180 / math.pi
+
+
+@dataclass(frozen=True)
+class Units:
+    """A system of units: `name` is "deg", "si", or "scaled" for dimensionless variables.
+
+    `rates` and `angles` are units; `ladder` has the units of time, each with the number of seconds from which it is used.
+    The methods turn a value in SI (or in the variables of a scaled case) into text with its unit.
+    """
+
+    name: str
+    rates: Unit
+    angles: Unit
+    ladder: tuple[tuple[float, Unit], ...]
+
+    @property
+    def scaled(self) -> bool:
+        """Whether the numbers have no dimension."""
+        return self.name == "scaled"
+
+    def rate(self, value: float, digits: int = DIGITS) -> str:
+        """An angular velocity, given in rad/s."""
+        return self.told(value, self.rates, digits)
+
+    def angle(self, value: float, digits: int = DIGITS) -> str:
+        """An angle, given in rad."""
+        return self.told(value, self.angles, digits)
+
+    def time(self, value: float, digits: int = DIGITS) -> str:
+        """A time, given in s, in the unit that suits its size."""
+        return self.told(value, self.times(value), digits)
+
+    def momentum(self, value: float, digits: int = DIGITS) -> str:
+        """An angular momentum, given in N m s."""
+        return self.told(value, self.plain("N m s"), digits)
+
+    def torque(self, value: float, digits: int = DIGITS) -> str:
+        """A torque, given in N m."""
+        return self.told(value, self.plain("N m"), digits)
+
+    def energy(self, value: float, digits: int = DIGITS) -> str:
+        """An energy, given in J."""
+        return self.told(value, self.plain("J"), digits)
+
+    def Q(self, value: float, digits: int = DIGITS) -> str:
+        """The invariant of the conic, given in rad^2/s^2."""
+        return self.told(value, self.squares, digits)
+
+    @property
+    def squares(self) -> Unit:
+        """The unit of a squared angular velocity."""
+        name, one = self.rates
+        return (f"({name})^2" if name else "", one * one)
+
+    def plain(self, name: str) -> Unit:
+        """A unit that both systems share; no name where numbers have no dimension."""
+        return ("" if self.scaled else name, 1.0)
+
+    def times(self, longest: float) -> Unit:
+        """The unit of time that suits times up to `longest` seconds."""
+        size = abs(longest)
+        return next((unit for least, unit in self.ladder if size >= least), self.ladder[-1][1])  # the last also of NaN
+
+    def told(self, value: float, unit: Unit, digits: int = DIGITS) -> str:
+        """The number in the unit, with the unit's name."""
+        name, one = unit
+        return f"{number(value * one, digits)} {name}".rstrip()
+
+    def vector(self, values, unit: Unit, digits: int = DIGITS) -> str:
+        """Several numbers in one unit: "(1, 2, 3) deg/s"."""
+        name, one = unit
+        return f"({', '.join(number(float(v) * one, digits) for v in values)}) {name}".rstrip()
+
+
+CLOCK = ((172800.0, ("day", 1 / 86400)), (7200.0, ("h", 1 / 3600)), (120.0, ("min", 1 / 60)), (0.0, ("s", 1.0)))
+DEG = Units("deg", ("deg/s", TURN), ("deg", TURN), CLOCK)
+SI = Units("si", ("rad/s", 1.0), ("rad", 1.0), ((0.0, ("s", 1.0)),))
+SCALED = Units("scaled", ("", 1.0), ("rad", 1.0), ((0.0, ("tau", 1.0)),))
+SYSTEMS = {"deg": DEG, "si": SI}
+
+
+def units_of(case: Case, asked: str | None = None) -> Units:
+    """The units for a case: those asked for, else those of its [output], else degrees. A scaled case has none."""
+    if asked is not None and asked not in SYSTEMS:
+        raise InputError(f"--units: expected {' or '.join(SYSTEMS)}, got {asked!r:.40}")
+    return SCALED if case.variables == "scaled" else SYSTEMS[asked or case.units or "deg"]
+
+
+def number(value: float, digits: int = SHORT) -> str:
+    """So many significant digits at most; a word where it has none."""
+    if math.isinf(value):
+        return "unbounded" if value > 0 else "-unbounded"
+    return f"{value + 0.0:.{digits}g}"
+
+
+def bracket(low: float, high: float) -> tuple[str, str]:
+    """Both ends with as many decimals as tell them apart, six digits at most; the lower rounded down and the upper up."""
+    most = max(0, 5 - math.floor(math.log10(high)))
+    decimals = most if not high > low else min(most, max(0, 1 - math.floor(math.log10(high - low))))
+    step = Decimal(1).scaleb(-decimals)
+    with localcontext() as context:
+        context.prec = 800  # of any double
+        return str(Decimal(low).quantize(step, ROUND_FLOOR)), str(Decimal(high).quantize(step, ROUND_CEILING))

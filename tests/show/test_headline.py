@@ -1,0 +1,112 @@
+"""The first line of an answer: what becomes of the motion, in words and in the units of engineers."""
+import math
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from stabilab import load, motion
+from stabilab.show.text.headline import headline
+from stabilab.show.units import DEG, SI
+
+ROOT = Path(__file__).parents[2]
+CASES = ROOT / "cases"
+BODY, WHEEL, TORQUE, START = np.array([12.0, 9, 5]), np.array([0.8, 0, 0]), np.array([0, 0, 0.02]), [0.1, 0.05, 0.02]
+TEXT = """[body]
+inertia = [12, 9, 5]
+[effects.gyrostat]
+momentum = [0.8, 0, 0]
+[effects.constant_torque]
+torque = [0, 0, 0.02]
+[motion]
+angular_velocity = {start}
+span = [0, 300]
+"""
+
+
+def followed(start, end):
+    """A run of SciPy's DOP853 of Euler's equations written out here: rates at 20,001 times."""
+    run = solve_ivp(lambda t, w: (np.cross(BODY * w + WHEEL, w) + TORQUE) / BODY, (0, end), start, "DOP853", np.linspace(0, end, 20001), rtol=1e-11, atol=1e-13)
+    return run.t, run.y
+
+
+def told(case):
+    return motion(case.scene, case.start, case.span, exact=case.exact_state)
+
+
+@pytest.fixture
+def own(tmp_path):
+    def written(start=(0.1, 0.05, 0.02)):
+        path = tmp_path / "my.toml"
+        path.write_text(TEXT.format(start=list(start)))
+        return load(path)
+    return written
+
+
+def test_a_bounded_motion_is_told_with_the_rate_and_the_period_that_a_run_has(own):
+    case = own()
+    line = headline(case, told(case))
+    found = re.fullmatch(r"BOUNDED for ever while the torque is exactly along axis 3; largest rate (\S+) deg/s about axis (\d); margin (\S+) deg/s "
+                         r"\((\S+) J\); period (\S+) s", line)
+    t, rates = followed(START, 40)
+    largest = np.abs(rates).max(axis=1)
+    assert int(found[2]) == 1 + largest.argmax() and float(found[1]) == pytest.approx(math.degrees(largest.max()), rel=5e-4)
+    back = np.abs(rates - np.array(START)[:, None]).max(axis=0)
+    late = t > 20
+    assert float(found[5]) == pytest.approx(t[late][back[late].argmin()], abs=5e-3)
+
+
+def test_the_margin_as_a_rate_is_where_the_fate_of_a_run_changes(own):
+    """From the state of the motion to the nearest one on the separatrix: 1 % nearer the run stays bounded, 1 % farther it leaves."""
+    found = told(own())
+    margin = float(re.search(r"margin (\S+) deg/s", headline(own(), found))[1])
+    step = np.array(found.velocity_witness) - START
+    assert margin == pytest.approx(math.degrees(np.linalg.norm(step)), rel=5e-4)
+    ends = [np.abs(followed(START + share * step, 400)[1]).max() for share in (0.99, 1.01)]
+    assert ends[0] < 0.6 < 1.0 < ends[1]
+
+
+def test_units_are_those_that_are_asked_for(own):
+    case = own()
+    assert headline(case, told(case), DEG) == headline(case, told(case))
+    assert "largest rate 0.1025 rad/s about axis 1; margin 0.1689 rad/s (0.5089 J); period 32.84 s" in headline(case, told(case), SI)
+
+
+@pytest.mark.parametrize("name, words", [
+    ("minor-axis-100", r"BOUNDED for ever while the torque is exactly along axis 3; largest rate 4.626 about axis 1; margin \S+ \(1.632\); period 1.804 tau"),
+    ("middle-axis-spin-up", r"SPINS UP about axis 2, positive sense; about the other axes at most \S+"),
+    ("off-axis-two", r"SPINS UP about axis 3, positive sense \(certified\); about the other axes at most \S+ deg/s"),
+    ("torque-free-body", r"BOUNDED for ever; largest rate 28.65 deg/s about axis [23]; margin \S+ deg/s \(0.0075 J\); period 33.33 s"),
+    ("liquid-base", r"BOUNDED for ever; \|omega\| at most 82.17 deg/s"),
+    ("top-fast", r"BOUNDED for ever; \|omega\| at most 8627 deg/s"),
+    ("charged-body-attitude", r"UNDECIDED; [^;]+; largest rate \S+ deg/s about axis 2 within 0 to 50 s"),
+    ("upper-stage", r"SPINS UP about axis 3, positive sense \(certified\); about the other axes at most \S+ deg/s"),
+    ("sphere-wheel", r"BOUNDED for ever; largest rate 40.11 deg/s about axis 3; period 3.142 s")])
+def test_every_kind_of_case_is_answered_in_one_line(name, words):
+    case = load(CASES / f"{name}.toml")
+    line = headline(case, told(case))
+    assert re.fullmatch(words, line), line
+
+
+def test_a_state_of_rest_and_one_on_the_separatrix_are_told_as_such(own):
+    # omega3 = 0 and (omega1 + 4/15) omega2 = -0.02/3: at omega1 = -1/15, omega2 = -1/30, by hand
+    case = own(("-1/15", "-1/30", "0"))
+    assert headline(case, told(case)) == "AT REST in the body's frame; every rate stays as it is; rates (-3.82, -1.91, 0) deg/s"
+
+
+@pytest.mark.parametrize("command", ["classify", "fate"])
+def test_commands_begin_with_it(stabilab, tmp_path, command, own):
+    case = own()
+    assert stabilab(command, case.path)[1].splitlines()[0] == f"my: {headline(case, told(case))}"
+    assert "rad/s" not in stabilab(command, case.path)[1] and "deg" not in stabilab(command, case.path, "--units", "si")[1].split("off that axis")[0]
+
+
+def test_proofs_and_algebra_stand_behind_why(stabilab, own):
+    path = own().path
+    short, long = (stabilab("classify", path, *option)[1] for option in ([], ["--why"]))
+    for words in ("(ω1 + 0.26", "eigenvalue", "Q  ", "t from", "fold at"):
+        assert words not in short and words in long
+    assert long == stabilab("classify", path, "-v")[1] and short.splitlines()[0] == long.splitlines()[0]
+    assert "(deg/s)^2" in long and "\n  energy " in long and long.count(" J\n") == 2

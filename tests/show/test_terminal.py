@@ -1,0 +1,129 @@
+"""What a terminal shows: lines as wide as it, colours there alone, letters that its encoding has, groups of commands, completion."""
+import io
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from stabilab import cli
+from stabilab.show.terminal import completion, letters, page
+from stabilab.show.terminal.groups import GROUPS
+
+ROOT = Path(__file__).parents[2]
+MINOR, OFF_AXIS = ROOT / "cases/minor-axis-100.toml", ROOT / "cases/off-axis-two.toml"
+
+
+PROGRAM = "import sys; sys.argv = ['stabilab']; from stabilab.__main__ import main; main()"
+
+
+class Screen(io.StringIO):
+    """A stream that says it is a terminal, or not, with an encoding."""
+
+    def __init__(self, terminal=True, encoding="utf-8"):
+        super().__init__()
+        self.terminal, self.name = terminal, encoding
+
+    encoding = property(lambda self: self.name)
+
+    def isatty(self):
+        return self.terminal
+
+
+@pytest.fixture
+def shown(monkeypatch):
+    """What a command writes to a stream: shown(stream, words of the command, columns)."""
+    def run(screen, *words, columns=80, **environment):
+        for name in ("NO_COLOR", "FORCE_COLOR", "TERM"):
+            monkeypatch.delenv(name, raising=False)
+        for name, value in {"TERM": "xterm-256color", "COLUMNS": str(columns), **environment}.items():
+            monkeypatch.setenv(name, value)
+        monkeypatch.setattr(sys, "stdout", screen)
+        monkeypatch.setattr(sys, "argv", ["stabilab", *map(str, words)])
+        with pytest.raises(SystemExit) as left:
+            cli.main()
+        assert not left.value.code
+        return screen.getvalue()
+    return run
+
+
+def without_colour(text):
+    return re.sub(r"\x1b\[[0-9;]*m", "", text)
+
+
+@pytest.mark.parametrize("columns", [60, 80, 120])
+@pytest.mark.parametrize("words", [("classify", OFF_AXIS), ("fate", MINOR), ("classify", MINOR, "--why")])
+def test_no_line_is_wider_than_the_terminal_and_no_word_is_lost(shown, words, columns):
+    narrow, plain = (shown(Screen(terminal), *words, columns=columns) for terminal in (True, False))
+    assert max(map(len, without_colour(narrow).splitlines())) <= columns
+    assert without_colour(narrow).split() == plain.split()
+
+
+def test_the_answer_is_one_line_in_a_pipe(shown):
+    first = shown(Screen(False), "fate", MINOR, columns=40).splitlines()[0]
+    assert first.startswith("minor-axis-100: BOUNDED") and "; period " in first and len(first) > 100
+
+
+def test_colour_is_on_a_terminal_alone_and_never_where_it_is_not_wanted(shown):
+    assert "\x1b[1;32mBOUNDED" in shown(Screen(), "fate", MINOR) and "\x1b[31munstable" in shown(Screen(), "classify", OFF_AXIS)
+    assert "\x1b" not in shown(Screen(), "fate", MINOR, NO_COLOR="1") and "\x1b" not in shown(Screen(), "fate", MINOR, TERM="dumb")
+    assert "\x1b" not in shown(Screen(False), "fate", MINOR, FORCE_COLOR="1")
+
+
+def test_data_is_not_for_people_wherever_it_goes(shown):
+    for words in (("classify", MINOR, "--json"), ("extremes", MINOR, "--csv")):
+        assert shown(Screen(), *words) == shown(Screen(False), *words)
+
+
+def test_letters_that_an_encoding_lacks_are_written_out(shown):
+    greek, plain = (shown(Screen(False, encoding), "extremes", OFF_AXIS) for encoding in ("utf-8", "ascii"))
+    assert "ω1 " in greek and "omega" not in greek and "omega1 " in plain and plain.isascii()
+
+
+@pytest.mark.parametrize("plain, people", [
+    ("D1 omega1' = -lambda1*omega2 + alpha3/50", "D1 ω1' = -λ1*ω2 + α3/50"), ("|omega| = 3 deg/s", "|ω| = 3 deg/s"), ("alpha_i' = omega_i", "α_i' = ω_i"),
+    ("period 1.8 tau", "period 1.8 τ"), ("torque on axis 3, lambda1 = 100", "torque on axis 3, λ1 = 100"),
+    ("cases/liquid-lambda3-20.toml", "cases/liquid-lambda3-20.toml"), ("liquid-lambda3-0_15: BOUNDED", "liquid-lambda3-0_15: BOUNDED"),
+    ("lambda3.toml", "lambda3.toml"), (r"\dot{\omega_{1}}", r"\dot{\omega_{1}}"), ("omega10 mu12", "omega10 mu12"), ("--tau", "--tau"),
+    ("my_omega1", "my_omega1")])
+def test_names_become_letters_and_files_and_tex_do_not(plain, people):
+    assert letters.greek(plain) == people
+
+
+def test_lines_that_go_on_stand_below_their_words():
+    text = page.wrapped("  off that axis           " + "any tilt of the torque " * 4, 60).split("\n")
+    assert len(text) > 1 and all(line.startswith(" " * 26 + "any") or line.startswith(" " * 26) for line in text[1:])
+    assert [line[:4] for line in page.wrapped("why: " + "because " * 20, 50).split("\n")[1:]] == ["  be"] * 3
+
+
+def test_help_tells_the_commands_in_groups(stabilab):
+    code, out, _ = stabilab("-h")
+    assert code == 0 and stabilab("--help")[1] == out and stabilab("fate", "-h")[1] == stabilab("fate", "--help")[1]
+    heads = [line[:-1] for line in out.splitlines() if line.endswith(":") and not line.startswith((" ", "Options"))]
+    assert heads == [*GROUPS, "Besides"] and max(map(len, out.splitlines())) <= 80
+    named = [line.split()[0] for line in out.split("Options:")[1].split("\n\n", 1)[1].splitlines() if line.startswith("  ")]
+    assert sorted(named) == sorted({command.name or command.callback.__name__ for command in cli.app.registered_commands})
+
+
+def test_a_shell_completes_case_files_and_names(tmp_path):
+    """By the protocol of the shell, in a process of its own."""
+    (tmp_path / "mine.toml").write_text("")
+    (tmp_path / "mine.txt").write_text("")
+    (tmp_path / "more").mkdir()
+    for line, offered in (("stabilab classify m", ["mine.toml", "more/"]), ("stabilab fate mine.toml --units ", ["deg", "si"])):
+        words = line.split(" ")
+        run = subprocess.run([sys.executable, "-c", PROGRAM], capture_output=True, text=True, cwd=tmp_path, env=os.environ | {
+            "_STABILAB_COMPLETE": "complete_bash", "COMP_WORDS": line, "COMP_CWORD": str(len(words) - 1), "PYTHONPATH": str(ROOT)})
+        assert run.stdout.split() == offered, run.stderr
+
+
+def test_names_that_are_offered_are_those_that_are_known():
+    from stabilab.integrate.trajectory import SCIPY_METHODS
+    from stabilab.show.plot.which import KINDS
+    from stabilab.show.units import SYSTEMS
+    from stabilab.theories.follow import MODELS
+    assert completion.units("") == list(SYSTEMS) and completion.kinds("") == list(KINDS)
+    assert set(completion.methods("")) == {"taylor", "reduced", *SCIPY_METHODS} and set(completion.models("")) == set(MODELS)
+    assert {"constant-torque-gyrostat"} <= set(completion.audited("")) and completion.sources("o") == ["orekit"]

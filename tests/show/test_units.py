@@ -1,0 +1,71 @@
+"""The units of people: one home, the definitions of degree, minute and hour, and the decimals that tell two bounds apart."""
+import math
+from fractions import Fraction
+
+import pytest
+
+from stabilab import load
+from stabilab.errors import InputError
+from stabilab.show.units import DEG, SCALED, SI, bracket, number, units_of
+
+CASE = """[body]
+inertia = [12, 9, 5]
+[effects.constant_torque]
+torque = [0, 0, 0.02]
+[motion]
+angular_velocity = [0.1, 0.05, 0.02]
+"""
+
+
+def test_rates_angles_and_their_squares_are_those_of_the_degree():
+    assert DEG.rate(math.pi) == "180 deg/s" and SI.rate(math.pi) == "3.14159 rad/s" and SCALED.rate(math.pi) == "3.14159"  # pi rad are 180 deg
+    assert DEG.angle(math.pi / 6) == "30 deg" and DEG.Q(math.pi**2) == "32400 (deg/s)^2" and SI.Q(0.7) == "0.7 (rad/s)^2"
+    assert DEG.vector((0, math.pi, -math.pi), DEG.rates) == "(0, 180, -180) deg/s"
+
+
+def test_quantities_without_a_turn_are_the_same_in_both_systems():
+    for units in (DEG, SI):
+        assert (units.energy(0.5), units.torque(2.0), units.momentum(3.0)) == ("0.5 J", "2 N m", "3 N m s")
+    assert (SCALED.energy(0.5), SCALED.Q(4.0), SCALED.time(7.0)) == ("0.5", "4", "7 tau")
+
+
+@pytest.mark.parametrize("seconds, words", [(0.25, "0.25 s"), (32.84379, "32.8438 s"), (119.5, "119.5 s"), (120, "2 min"), (5400, "90 min"), (7200, "2 h"),
+                                            (86400, "24 h"), (864000, "10 day"), (0, "0 s"), (-600, "-10 min")])
+def test_a_time_is_told_in_the_unit_that_suits_it(seconds, words):
+    assert DEG.time(seconds) == words and SI.time(seconds).endswith(" s")
+
+
+def test_a_number_that_is_unbounded_is_told_by_a_word_and_zero_has_no_sign():
+    assert number(math.inf) == "unbounded" and number(-math.inf) == "-unbounded" and number(-0.0) == "0" and DEG.rate(math.inf) == "unbounded deg/s"
+
+
+@pytest.mark.parametrize("low, high", [(16.947771205157505, 16.94777120515751), (1.0, 1.0), (0.1, 0.2), (99.99999, 100.00001), (1e-7, 1.5e-7), (1 / 3, 1 / 3)])
+def test_a_bracket_holds_what_it_encloses(low, high):
+    a, b = map(Fraction, bracket(low, high))
+    assert a <= Fraction(low) and Fraction(high) <= b and b - a <= Fraction(high) / 1000 + 2 * (Fraction(high) - Fraction(low))
+
+
+def test_a_case_remembers_its_units_and_an_option_overrides_them(stabilab, tmp_path):
+    path = tmp_path / "own.toml"
+    path.write_text(CASE)
+    assert units_of(load(path)) is DEG and "5.72958, 2.86479, 1.14592) deg/s" in stabilab("classify", path)[1]
+    path.write_text(CASE + '[output]\nunits = "si"\n')
+    assert units_of(load(path)) is SI and "(0.1, 0.05, 0.02) rad/s" in stabilab("classify", path)[1]
+    assert "(5.72958, 2.86479, 1.14592) deg/s" in stabilab("classify", path, "--units", "deg")[1]
+    code, out, err = stabilab("classify", path, "--units", "rpm")
+    assert code == 2 and not out and "--units: expected deg or si, got 'rpm'" in err
+
+
+@pytest.mark.parametrize("line, words", [('units = "rpm"', "expected deg or si"), ("units = 3", "expected a text in quotes"),
+                                         ('unit = "si"', "did you mean units")])
+def test_units_of_a_case_that_are_none_are_a_fault_with_its_line(stabilab, tmp_path, line, words):
+    path = tmp_path / "own.toml"
+    path.write_text(CASE + f"[output]\n{line}\n")
+    code, out, err = stabilab("classify", path)
+    assert code == 2 and not out and f"{path}:8: output.unit" in err and words in err
+
+
+def test_a_scaled_case_has_no_units():
+    with pytest.raises(InputError, match="--units"):
+        units_of(load("cases/minor-axis-100.toml"), "grad")
+    assert units_of(load("cases/minor-axis-100.toml"), "si") is SCALED
