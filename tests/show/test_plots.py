@@ -108,6 +108,14 @@ def test_a_motion_that_never_turns_has_one_branch_in_its_plane():
     assert signs("torque-free-body") == [1.0] and signs("minor-axis-100") == [-1.0, 1.0]
 
 
+def test_a_motion_all_but_at_rest_in_a_single_well_is_drawn_between_its_walls():
+    """The bottom of the well lies 3e-4 from the start, between two points of the grid: the height of the picture was the root of a negative number."""
+    ax = plt.figure().add_subplot()
+    stabilab.plot.phase(load("charged-body-small-torque"), ax=ax)
+    low, high = ax.get_ylim()
+    assert math.isfinite(low) and math.isfinite(high) and high - low > 1e3 * abs(np.ptp(lines(ax)[0].get_ydata()))
+
+
 def test_a_motion_too_small_to_be_seen_beside_its_separatrix_is_shown_enlarged():
     """thruster-stuck-major-axis moves by a degree a second in a well of a hundred."""
     assert len(stabilab.plot.phase(load("thruster-stuck-major-axis")).child_axes) == 1

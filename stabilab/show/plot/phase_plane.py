@@ -40,6 +40,7 @@ def phase(case: Any, state: Any = None, ax: Axes | None = None, units: str = "de
     return target
 
 
+RESTING = 1e-4  # of the walls: a motion below it would be a line, and the grid may miss the bottom of its well
 SMALL, AROUND = 0.07, 1.6  # of the picture's height: a motion below it is shown enlarged, in a window so much larger than itself
 
 
@@ -93,10 +94,12 @@ def draw(ax, plane: PhasePlane, scale=1.0, offset=0.0, rate_scale=1.0, span=None
 
 
 def highest(plane: PhasePlane, low: float, high: float) -> float:
-    """The largest W worth drawing between two places: above this motion and all separatrices."""
+    """The largest W worth drawing between two places: above this motion and all separatrices; about a motion that all but rests in a single well,
+    a third of the way up its walls."""
     tops = [float(plane.height(s)) for s in plane.repeated(plane.saddles, low, high)]
-    lift = max(plane.W0**2 / 2, *(tops or [0.0])) - float(np.min(plane.height(np.linspace(low, high, 700))))
-    return float(np.sqrt(2 * lift) * 1.12 + 1e-12)
+    heights = plane.height(np.linspace(low, high, 700))
+    lift, walls = max(plane.W0**2 / 2, *(tops or [0.0])) - float(np.min(heights)), float(np.ptp(heights))
+    return float(np.sqrt(2 * (lift if lift > RESTING * walls else walls / 3)) * 1.12 + 1e-12)
 
 
 def ways(plane: PhasePlane, W: np.ndarray) -> tuple[float, ...]:
