@@ -12,6 +12,7 @@ from stabilab.answers.motion import motion
 from stabilab.case.read import load, read_text
 from stabilab.show.report.one_case import measures, space
 from stabilab.show.report.one_case.page import sections
+from stabilab.show.units import DEG, SCALED, units_of
 
 CASES = Path(__file__).parents[2] / "cases"
 MINOR = CASES / "minor-axis-100.toml"
@@ -23,7 +24,7 @@ def _sections(name, tmp_path):
 
 def _space(case):
     moved = motion(case.scene, case.start, case.span, exact=case.exact_state)
-    return moved, space.space(case, moved, equilibria(case.scene), measures.Measures(case.variables), (12, 25))
+    return moved, space.space(case, moved, equilibria(case.scene), measures.Measures(units_of(case)), (12, 25))
 
 
 def _places(packed):
@@ -64,7 +65,7 @@ def test_every_kind_of_case_has_its_page(name, tmp_path):
 
 def test_numbers_are_told_in_engineers_units_with_six_digits_at_most():
     """By hand: 1 rad/s is 180/pi deg/s; 600 s are 10 min."""
-    body, scaled = measures.Measures("physical"), measures.Measures("scaled")
+    body, scaled = measures.Measures(DEG), measures.Measures(SCALED)
     assert body.rate(1.0) == "57.296 deg/s" and body.time(600.0) == "10 min" and body.time(90.0) == "90 s"
     assert scaled.rate(1.5) == "1.5" and scaled.time(2.0) == "2 of τ" and body.rate(-math.inf) == "no end downwards"
     assert measures.told(1.23456789e-12) == "1.2346e−12" and measures.told(5e20) == "5e20"

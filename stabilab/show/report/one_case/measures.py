@@ -1,11 +1,11 @@
-"""Numbers of a case as a person reads them: six digits at most, with their unit; deg/s and minutes for a body, plain numbers where it is scaled."""
+"""Numbers of a case as a person reads them: six digits at most, with their unit; plain numbers where the variables are scaled."""
 from __future__ import annotations
 
 import math
 import re
 from dataclasses import dataclass
 
-from ...units import DEG
+from ...units import Units
 
 DIGITS = 5
 LETTERS = {"alpha": "α", "omega": "ω", "lambda": "λ", "gamma": "γ", "sigma": "σ"}
@@ -13,20 +13,23 @@ LETTERS = {"alpha": "α", "omega": "ω", "lambda": "λ", "gamma": "γ", "sigma":
 
 @dataclass(frozen=True)
 class Measures:
-    """The units in which a page tells rates and times of a scene: those of engineers, or none where the variables are scaled."""
+    """The units in which a page tells rates and times of a case: those that the case asks for, none where the variables are scaled."""
 
-    variables: str
+    units: Units
+
+    @property
+    def physical(self) -> bool:
+        """Whether numbers have a dimension."""
+        return not self.units.scaled
 
     @property
     def rate_unit(self) -> tuple[str, float]:
         """(name, how many of it make one in the case's own variables)."""
-        return DEG.rates if self.variables == "physical" else ("", 1.0)
+        return self.units.rates
 
     def time_unit(self, longest: float) -> tuple[str, float]:
         """(name, how many of it make one) for times up to the longest."""
-        if self.variables != "physical":
-            return "τ", 1.0
-        return DEG.times(longest)
+        return self.units.times(longest) if self.physical else ("τ", 1.0)
 
     def rate(self, value) -> str:
         """A rate with its unit."""
@@ -40,7 +43,7 @@ class Measures:
 
     def energy(self, value) -> str:
         """An energy with its unit."""
-        return told(value, "J" if self.variables == "physical" else "")
+        return told(value, "J" if self.physical else "")
 
 
 def told(value, unit: str = "", digits: int = DIGITS) -> str:

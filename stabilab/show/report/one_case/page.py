@@ -10,6 +10,7 @@ from ....errors import StabilabError
 from ...plot import which
 from ...plot.subject import subject
 from ...text import uncertain as shown
+from ...units import units_of
 from . import certified, verdict
 from .equations import equations
 from .equilibria import table
@@ -25,7 +26,8 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
     deep: also what takes seconds (a tilt of the torque). certify: write a certificate and check it. What the analysis cannot answer stands
     under "absent" with its reason; nothing of it raises.
     """
-    measures, absent, one = Measures(case.variables), [], subject(case)
+    units = units_of(case)
+    measures, absent, one = Measures(units), [], subject(case)
     found = _tried(absent, "Equilibria", lambda: equilibria(case.scene))
     moved = None if case.state is None else _tried(absent, "Motion", lambda: one.motion)
     if deep and moved is not None:
@@ -40,7 +42,7 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
         over = "for all times" if moved.extremes_over == "all time" else f"over {spoken(moved.extremes_over)}"
         page |= {"facts": verdict.rows(case, moved, measures), "extremes": verdict.extremes(case, moved, measures), "over": over,
                  "invariants": verdict.invariants(moved, measures)}
-        page["pictures"] = _tried(absent, "Pictures", lambda: pictures(one, folder, stem, deep)) or []
+        page["pictures"] = _tried(absent, "Pictures", lambda: pictures(one, folder, stem, deep, "deg" if units.scaled else units.name)) or []
         absent += [(title, why) for kind, (title, _) in SHOWN.items() if (why := which.why_not(kind, one))]
         page["sensitivity"] = _tried(absent, "Sensitivity", lambda: sensitivity(case, moved, measures))
     page["space"] = _tried(absent, "Space of the rates", lambda: space(case, moved, found, measures))

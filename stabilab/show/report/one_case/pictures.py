@@ -20,14 +20,14 @@ CROWDED = 25.0
 NATURAL = 15.0   # units of the motion's own time, where the case gives no span
 
 
-def pictures(one, folder: Path, stem: str, deep: bool) -> list[dict]:
+def pictures(one, folder: Path, stem: str, deep: bool, units: str = "deg") -> list[dict]:
     """Draw every plot of a subject (`plot.subject`) that a page shows; file, size in pixels, title and caption of each, in order. deep: all
     kinds, not only those of the motion itself."""
     found = []
     for kind in which.offered(one):
         if kind in (SHOWN if deep else BRIEF):
             title, caption = SHOWN[kind]
-            made = to_file.write(one, folder / f"{stem}-{kind}.png", kind)
+            made = to_file.write(one, folder / f"{stem}-{kind}.png", kind, units=units)
             found.append(described(made, caption) | {"kind": kind, "title": title, "command": f"stabilab plot {one.path} --kind {kind}"})
     return found
 

@@ -12,6 +12,7 @@ from ....answers.simulate import simulate
 from ....case.sweep import keys_and_values
 from ....errors import StabilabError
 from ... import style
+from ...units import units_of
 from . import pictures, verdict
 from .equations import equations
 from .measures import Measures, told
@@ -23,7 +24,7 @@ POINTS = 801
 
 def sections(cases, folder: Path, stem: str) -> dict:
     """What the template says of the combinations of one file; the picture goes into the folder."""
-    measures, first = Measures(cases[0].variables), cases[0]
+    measures, first = Measures(units_of(cases[0])), cases[0]
     keys = keys_and_values(tomllib.loads(first.text))
     answered = [(case, *_answer(case)) for case in cases]
     rows = [_row(case, found, why, keys, measures) for case, found, why in answered]

@@ -5,19 +5,15 @@ import math
 
 from ....orbit.result import Fate
 from ...text import frame
+from ...text.headline import headline as answer
 from .measures import spoken, told, vector
-
-WORDS = {Fate.BOUNDED: "BOUNDED", Fate.SPIN_UP: "SPINS UP", Fate.SEPARATRIX: "ON THE SEPARATRIX",
-         Fate.EQUILIBRIUM: "AT REST in the frame of the body", Fate.UNDECIDED: "UNDECIDED"}
 
 
 def headline(case, motion, equilibria, measures) -> str:
-    """The answer in one line: the fate, how large the rates become, how far it is from another fate, the period."""
+    """The answer in one line, in the words and letters of a page; of a case without a motion what its equilibria are."""
     if motion is None:
         return f"No motion is given. Equilibria: {equilibria.kind if equilibria else 'not known'}"
-    parts = [f"{WORDS[motion.fate]}{_about(motion)}{_known(motion)}"]
-    told = (("largest rate", largest(motion, measures)), ("margin", margin(motion, measures)), ("period", period(motion, measures)))
-    return "; ".join(parts + [f"{name} {value}" for name, value in told if value])
+    return spoken(answer(case, motion, measures.units))
 
 
 def period(motion, measures) -> str:
@@ -35,16 +31,6 @@ def css(fate: str) -> str:
     return {"stable": "bounded", "asymptotically stable": "bounded", "unstable": "spin-up"}.get(fate, fate)
 
 
-def _about(motion):
-    if motion.fate == Fate.SPIN_UP:
-        return f" about axis {motion.axis}, {'positive' if motion.sense > 0 else 'negative'} sense" if motion.axis else ""
-    return " for ever" if motion.fate == Fate.BOUNDED and motion.extremes_over == "all time" else ""
-
-
-def _known(motion):
-    return f" ({motion.level})" if motion.cause and motion.fate != Fate.UNDECIDED else ""
-
-
 def largest(motion, measures) -> str:
     """The largest rate and its axis, where it has an end."""
     if motion.extremes is None or motion.fate in (Fate.EQUILIBRIUM, Fate.UNDECIDED):
@@ -58,8 +44,8 @@ def margin(motion, measures) -> str:
     """The distance from the separatrix, with that in energy in parentheses."""
     energy = "" if motion.margin_energy is None else measures.energy(abs(motion.margin_energy))
     if motion.margin_velocity is None:
-        return energy if measures.variables == "physical" else ""
-    return measures.rate(motion.margin_velocity) + (f" ({energy})" if energy and measures.variables == "physical" else "")
+        return energy if measures.physical else ""
+    return measures.rate(motion.margin_velocity) + (f" ({energy})" if energy and measures.physical else "")
 
 
 def rows(case, motion, measures) -> list[tuple[str, str]]:
