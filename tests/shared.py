@@ -21,6 +21,16 @@ def case(name):
 ROUND, LIQUID = Body(("9.5", "9.5", "9")), LiquidCavity(1250, 1000, "1.9")
 
 
+def craft_file(inertia, thruster, wheels, start, centre=(0, 0, 0), **more):
+    """A case file of a spacecraft with one thruster, stuck: (position, direction, force), and what else the file says of it; wheels: (axis, momentum)."""
+    position, direction, force = thruster
+    parts = [("body", {"inertia": inertia, "centre_of_mass": centre}),
+             ("[thrusters]", {"name": "A", "position": position, "direction": direction, "force": force, "stuck": True, **more}),
+             *(("[wheels]", {"name": "WVU"[n], "axis": axis, "momentum": momentum}) for n, (axis, momentum) in enumerate(wheels)),
+             ("motion", {"angular_velocity": start})]
+    return "".join(f"[{name}]\n" + "".join(f"{key} = {json.dumps(value)}\n" for key, value in keys.items()) for name, keys in parts)
+
+
 def written(scene, *state):
     """A certificate as it comes from its file."""
     return json.loads(json.dumps(certificate(scene, *state)))

@@ -13,7 +13,7 @@ from stabilab.answers.passage.drift import stays_below
 from stabilab.answers.tilt import tilt
 from stabilab.errors import InputError
 from tests.oracles.first_crossing import REAL, first_crossing
-from tests.shared import CASES
+from tests.shared import CASES, craft_file
 
 BODY, WHEEL, STATE = package.Body((12, 9, 5)), package.Gyrostat(("0.8", 0, 0)), [0.1, 0.05, 0.02]
 ON_AXIS = package.Scene(BODY, WHEEL, package.ConstantTorque((0, 0, "0.02")))  # the satellite of README.md
@@ -145,24 +145,7 @@ def _table():
     return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
 
 
-THRUSTER = """
-[body]
-inertia = [12.0, 9.0, 5.0]
-centre_of_mass = [0.1, 0.0, 0.25]
-[[thrusters]]
-name = "A1"
-position = [0.6, 0.0, 0.25]
-direction = [0, 1, 0]
-force = "0.04 N"
-misalignment = "2 deg"
-stuck = true
-[[wheels]]
-name = "W"
-axis = [1, 0, 0]
-momentum = 0.8
-[motion]
-angular_velocity = [0.10, 0.05, 0.02]
-"""
+THRUSTER = craft_file([12.0, 9.0, 5.0], ([0.6, 0.0, 0.25], [0, 1, 0], "0.04 N"), [([1, 0, 0], 0.8)], [0.10, 0.05, 0.02], [0.1, 0.0, 0.25], misalignment="2 deg")
 
 
 def test_the_cone_of_a_thruster_is_that_of_its_force(tmp_path):
@@ -171,7 +154,7 @@ def test_the_cone_of_a_thruster_is_that_of_its_force(tmp_path):
     case = package.load(path)
     cone, arm, force = cone_of(case.scene, case), np.array([0.5, 0, 0]), np.array([0, 0.04, 0])
     side, (low, high) = cone.reach()
-    assert np.allclose(cone.torque, [0, 0, 0.02]) and cone.words == "the force of A1"
+    assert np.allclose(cone.torque, [0, 0, 0.02]) and cone.words == "the force of A"
     for azimuth in np.linspace(0, 6, 7):
         torque = cone.at(azimuth)
         # arm x F' = torque has the solutions F' = (torque x arm)/arm^2 + c arm; the one in the cone has |F'| = |F|
@@ -200,7 +183,7 @@ def test_a_stated_limit_or_misalignment_brings_the_tilt_by_itself(stabilab, tmp_
     assert row["limit"] == 2 and row["limit_stated"] and row["time"][0] <= row["time"][1] and 0 < row["not_before"] < row["time"][0]
     path.write_text(THRUSTER)
     out = stabilab("fate", path)[1]
-    assert "BOUNDED only while" in out.splitlines()[0] and "tilted by 2 deg: the force of A1" in out and "no limit is stated" in out
+    assert "BOUNDED only while" in out.splitlines()[0] and "tilted by 2 deg: the force of A" in out and "no limit is stated" in out
 
 
 def test_a_tilt_may_be_asked_for(stabilab, tmp_path):

@@ -10,6 +10,7 @@ import stabilab
 from stabilab import load, stuck
 from tests.answers.stuck.brute import Craft
 from tests.answers.stuck.energy import fate as energy_fate
+from tests.shared import craft_file
 
 CASE = """title = "On an axis"
 [body]
@@ -190,22 +191,8 @@ def test_a_terminal_is_told_what_is_being_asked_and_a_pipe_is_not(stabilab, tmp_
 
 def test_a_margin_into_a_narrow_gap_between_two_separatrices_says_where_the_fate_is_back(stabilab, tmp_path):
     """Beside the tip of a wedge of spin-up: by the balance of energy, whose least value ahead of the start has the sign of the fate."""
-    text = """[body]
-inertia = [[0.74352, 0, 0.14064], [0, 0.887, 0], [0.14064, 0, 0.66148]]
-centre_of_mass = [0.3, -0.2, 0.1]
-[[thrusters]]
-name = "A"
-position = [1.1, -0.2, 0.7]
-direction = [0.6, 0, -0.8]
-force = 0.166
-stuck = true
-[[wheels]]
-name = "W"
-axis = [1.092, 0, -0.62]
-momentum = 0.643
-[motion]
-angular_velocity = [-0.137, 0.305, -0.346]
-"""
+    text = craft_file([[0.74352, 0, 0.14064], [0, 0.887, 0], [0.14064, 0, 0.66148]], ([1.1, -0.2, 0.7], [0.6, 0, -0.8], 0.166), [([1.092, 0, -0.62], 0.643)],
+                      [-0.137, 0.305, -0.346], [0.3, -0.2, 0.1])
     (tmp_path / "own.toml").write_text(text)
     craft, margin = Craft(text), stuck(load(tmp_path / "own.toml")).rows[0].margins["wheel"]
     assert 1 < margin.until / margin.size < 1.0001 and "it is bounded again" in margin.because

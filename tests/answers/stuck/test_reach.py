@@ -6,21 +6,9 @@ import pytest
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.answers.stuck.reach import first_time, largest_rate
 from tests.answers.stuck.brute import Craft
+from tests.shared import craft_file
 
-FEEBLE = """[body]
-inertia = [12, 9, 5]
-[[thrusters]]
-name = "A"
-position = [1, 0, 0.2]
-direction = [0, 1, 0]
-force = 1e-30
-stuck = true
-[[wheels]]
-axis = [1, 0, 0]
-momentum = 0.8
-[motion]
-angular_velocity = [0.1, 0.05, 0.3]
-"""
+FEEBLE = craft_file([12, 9, 5], ([1, 0, 0.2], [0, 1, 0], 1e-30), [([1, 0, 0], 0.8)], [0.1, 0.05, 0.3])
 
 
 def test_a_feeble_torque_leaves_stdout_to_the_answer(capfd):

@@ -16,6 +16,7 @@ from tests.answers.stuck import energy
 from tests.answers.stuck.brute import Craft
 from tests.oracles import brute
 from tests.oracles.model import physical
+from tests.shared import craft_file
 
 INF = math.inf
 D, TORQUE, START = (12, 9, 5), (0, 0, "0.02"), (Fraction("0.1"), Fraction("0.05"), Fraction("0.9"))
@@ -154,22 +155,9 @@ def test_no_change_of_the_wheel_smaller_than_the_margin_changes_the_fate(seed, t
 
 def test_a_wheel_across_a_torque_between_two_equal_moments_is_across_it_along_irrational_axes_too(tmp_path):
     """M . l = 0.4912 0.012666 - 0.3684 0.016888 = 0 in the frame of the file, by hand; DOP853 turns no faster in a second time as long as the first."""
-    text = """[body]
-inertia = [[97.394176, -1.954368, 4.34304], [-1.954368, 98.534224, 3.25728], [4.34304, 3.25728, 92.7616]]
-centre_of_mass = [0.06, -0.01, 0.18]
-[[thrusters]]
-name = "A"
-stuck = true
-position = [-0.42, -0.37, 0.98]
-direction = [-0.64, -0.48, -0.6]
-force = 0.02111
-[[wheels]]
-name = "W"
-axis = [0.4912, 0.3684, 0.848]
-momentum = 1
-[motion]
-angular_velocity = [0.006743, 0.004293, 0.007586]
-"""
+    text = craft_file([[97.394176, -1.954368, 4.34304], [-1.954368, 98.534224, 3.25728], [4.34304, 3.25728, 92.7616]],
+                      ([-0.42, -0.37, 0.98], [-0.64, -0.48, -0.6], 0.02111), [([0.4912, 0.3684, 0.848], 1)],
+                      [0.006743, 0.004293, 0.007586], [0.06, -0.01, 0.18])
     path = tmp_path / "own.toml"
     path.write_text(text)
     case = load(path)
@@ -181,26 +169,8 @@ angular_velocity = [0.006743, 0.004293, 0.007586]
     assert craft.run(12000.0, limit=False, rtol=1e-9)[2] < 1.2 * first
 
 
-NEAR = """[body]
-inertia = [1.655, 1.857, 1.658]
-centre_of_mass = [0, 0, 0]
-[[thrusters]]
-name = "A"
-position = [0, 1, 0]
-direction = [0, 0, 1]
-force = 0.11
-stuck = true
-[[wheels]]
-name = "W"
-axis = [0, 0.659, 1]
-momentum = -0.99
-[[wheels]]
-name = "V"
-axis = [0, 0.31652340799234546, 0.9485846995355297]
-momentum = 0
-[motion]
-angular_velocity = [-0.991, 0.737, -0.926]
-"""
+NEAR = craft_file([1.655, 1.857, 1.658], ([0, 1, 0], [0, 0, 1], 0.11), [([0, 0.659, 1], -0.99), ([0, 0.31652340799234546, 0.9485846995355297], 0)],
+                  [-0.991, 0.737, -0.926])
 
 
 def test_the_momenta_of_a_nearly_symmetric_body_are_found_however_close_together(tmp_path):
