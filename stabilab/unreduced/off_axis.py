@@ -72,7 +72,7 @@ def bounds_for_ever(scene, state, found: SpinUp) -> tuple | None:
     later = tuple((outward(a, ROUND_FLOOR), outward(b, ROUND_CEILING)) for a, b in found.trap.bounds())
     if not found.t:
         return later
-    before = _extremes_until(scene, state, found)
+    before = _extremes_until(scene, state, found) if found.passed <= PATIENCE else _reach(scene, state, found.t)
     return before and tuple((min(a, c), max(b, d)) for (a, b), (c, d) in zip(later, before))
 
 
@@ -90,6 +90,15 @@ def _extremes_until(scene, state, found: SpinUp) -> tuple | None:
         return pairs(sure)
     run = roots_of_rates(scene, three_floats(state), found.t)
     return None if run.reason else pairs(run.extremes())
+
+
+def _reach(scene, state, t: float) -> tuple | None:
+    """((low, high),) * 3 of the rates until t: with W_i = sqrt(D_i) omega_i, D omega' = M - omega x (D omega + l) gives |W|' <= |D^(-1/2) M|."""
+    if scene.variables == "scaled":
+        return None
+    D, M = ([float(v) for v in vector] for vector in (scene.body.exact, scene.vector("constant_torque")))
+    size = math.hypot(*(math.sqrt(d) * float(v) for d, v in zip(D, state))) + t * math.hypot(*(m / math.sqrt(d) for m, d in zip(M, D)))
+    return tuple((outward(-size / math.sqrt(d), ROUND_FLOOR), outward(size / math.sqrt(d), ROUND_CEILING)) for d in D)
 
 
 @dataclass(frozen=True)

@@ -19,8 +19,10 @@ from ...physics.coefficients import effective
 from ..spin_up.clock import Trap
 from ..spin_up.fields import natural, tests_of
 from ..spin_up.result import SpinUp
+from . import kernel
 from .run import Course, allowed
 
+TRIED, HOPELESS = 512, 16  # steps after which a way that would take so many times what is allowed is given up
 LATER = (1.0, 1.0625, 1.25, 1.5, 2.0)  # times, over that of the certified run, at which the inequality is asked again
 WIDER = 1 + 2.0**-40
 
@@ -65,7 +67,13 @@ class _Way:
         if self.course is None:
             middle = np.array([float(v) for v in self.start])
             return middle, _up([abs(v - Fraction(m)) for v, m in zip(self.start, middle.tolist())])
-        self.course.advance(t, (allowed(self.course.bits) if steps is None else steps) - self.course.steps)
+        steps = allowed(self.course.bits) if steps is None else steps
+        if not self.course.steps:
+            self.course.advance(t, min(steps, TRIED))
+            if self.course.status == kernel.GOING and self.course.t * steps < t * self.course.steps / HOPELESS:
+                self.t, self.steps, self.why = self.course.t, self.course.steps, "too long to enclose"
+                return None
+        self.course.advance(t, steps - self.course.steps)
         now = self.course.now
         self.t, self.steps, self.why = now.t, now.steps, now.reason
         return (now.middle, _up(now.radius + np.abs(now.rest))) if now.status == "enclosed" else None

@@ -1,7 +1,8 @@
 """Motions followed until a certificate of spin-up holds: the one loop that serves one state and many.
 
-Beside each motion its twin tells by how much the way magnifies a small change (`runs`), and with it how far the run's rounding may have
-carried the motion from the true one: a certificate counts when it holds for the whole ball of that radius about the state.
+Beside each motion its twin tells by how much the way magnifies a small change across it (`way.twins`), and with it how far the run's rounding may
+have carried the motion from the true one: a certificate counts when it holds for the whole ball of that radius about the state. What rounding
+does along the motion is a delay: it alters the time at which the inequality holds, told as the blur of the clock, and nothing else.
 """
 from __future__ import annotations
 
@@ -10,7 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from .fields import Tests
-from .runs import Runs
+from .way.drift import Leaps
+from .way.runs import Runs
 
 FIRST, EARLY, SHARES, MOST = 4, 200, (0.25, 0.1), 2000  # steps between tests: a share of those before (early, later), at least and at most so many
 # Which tests a stage asks: (every so many stages, from so many steps on, name in `Tests`), the last that applies. What costs more comes later.
@@ -21,7 +23,7 @@ PLAN = ((1, 0, "often"), (3, 6, "high"), (4, 100, "all"), (8, LAST, "last"))
 @dataclass
 class Chased:
     """Columns (n,): which test fired (-1 none) as index into `tests.asked`, time, steps, condition, state there; constants (6, n) of it; largest and
-    least (n, 48) size of the state at the stages of each doubling of the steps."""
+    least (n, 48) size of the state at the stages of each doubling of the steps; passed: steps that the way takes one by one; blur: of the time."""
 
     tests: Tests
     fired: np.ndarray
@@ -32,6 +34,8 @@ class Chased:
     constants: np.ndarray
     largest: np.ndarray
     least: np.ndarray
+    passed: np.ndarray
+    blur: np.ndarray
 
 
 def chase(scene, tests: Tests, starts, t_max: float, budget: int, after: float = 0.0, tell=None, fast: bool = False) -> Chased:
@@ -40,22 +44,28 @@ def chase(scene, tests: Tests, starts, t_max: float, budget: int, after: float =
     n = len(starts)
     runs = Runs(scene, starts)
     out = Chased(tests, np.full(n, -1), np.zeros(n), np.zeros(n, int), np.ones(n), np.array(starts, float), np.full((6, n), np.nan),
-                  np.zeros((n, 48)), np.full((n, 48), np.inf))
-    open_, stage = np.arange(n), 0
+                  np.zeros((n, 48)), np.full((n, 48), np.inf), np.zeros(n), np.zeros(n))
+    open_, stage, leaps = np.arange(n), 0, Leaps(runs)
+    far = np.zeros(n, bool)  # rows that have just leapt: a test costs less than what they passed
     while open_.size:
         _measure(out, runs, open_)
         ready = out.t[open_] >= after
         which = [name for every, since, name in PLAN if stage % every == 0 and runs.steps_done >= since][-1]
-        left = _tested(out, runs, open_[ready], getattr(tests, which), fast)
-        open_ = np.union1d(open_[~ready], left)
-        ended = (out.t[open_] >= t_max) | (runs.steps_done >= budget) | ~np.isfinite(out.states[open_]).all(axis=1)
+        left = [open_[~ready]]
+        for rows, asked in ((open_[ready & ~far[open_]], which), (open_[ready & far[open_]], "last")):
+            left.append(_tested(out, runs, rows, getattr(tests, asked), fast) if rows.size else rows)
+        open_ = np.sort(np.concatenate(left))
+        ended = (out.t[open_] >= t_max) | (runs.steps[open_] >= budget) | ~np.isfinite(out.states[open_]).all(axis=1)
         if ended.any():  # the last word is that of all tests that so much work is worth
             _tested(out, runs, open_[ended & (out.t[open_] >= after)], tests.last if runs.steps_done >= LAST else tests.all, fast)
         open_ = open_[~ended]
         if open_.size:
-            share = SHARES[runs.steps_done >= EARLY]
-            steps = int(min(max(FIRST, runs.steps_done * share), MOST, budget - runs.steps_done))
-            runs.advance(open_, steps, t_max, after)
+            leapt = leaps.advance(open_, t_max, after)
+            far[open_] = np.isin(open_, leapt)
+            rows = open_[~far[open_]]
+            if rows.size:
+                share = SHARES[runs.steps_done >= EARLY]
+                runs.advance(rows, int(min(max(FIRST, runs.steps_done * share), MOST, max(1, budget - runs.steps[rows].min()))), t_max, after)
             if tell:
                 tell(float(out.t[open_].min()), runs.steps_done, open_.size)
         stage += 1
@@ -63,9 +73,10 @@ def chase(scene, tests: Tests, starts, t_max: float, budget: int, after: float =
 
 
 def _measure(out, runs, rows):
-    out.condition[rows] = np.fmax(out.condition[rows], runs.growth[rows])
-    out.t[rows], out.states[rows], out.steps[rows] = runs.times[rows], runs.states[rows], runs.steps_done
-    doubling = (1 + runs.steps_done).bit_length() - 1
+    out.condition[rows] = np.fmax(out.condition[rows], runs.twins.growth[rows])
+    out.t[rows], out.states[rows], out.steps[rows] = runs.times[rows], runs.states[rows], runs.steps[rows]
+    out.passed[rows], out.blur[rows] = runs.rounded[rows], runs.twins.blur[rows]
+    doubling = np.log2(1.0 + runs.steps[rows]).astype(int)
     with np.errstate(all="ignore"):
         size = np.sqrt((out.states[rows] ** 2).sum(axis=1))
     out.largest[rows, doubling] = np.fmax(out.largest[rows, doubling], size)
@@ -91,7 +102,7 @@ def _tested(out, runs, rows, which, fast):
 def _test(out, runs, candidates, field, orders, fast):
     with np.errstate(all="ignore"):
         size = np.maximum(np.abs(out.states[candidates]).max(axis=1), 1.0)
-        near = runs.step_error * (1 + runs.steps_done) * out.condition[candidates] * size if runs.steps_done else np.zeros(len(candidates))
+        near = runs.step_error * (1 + runs.rounded[candidates]) * out.condition[candidates] * size * (runs.rounded[candidates] > 0)
     found = out.tests.certifier(field, orders, fast)(out.states[candidates], near)
     done = candidates[found.good]
     out.fired[done] = out.tests.asked.index((field, orders))

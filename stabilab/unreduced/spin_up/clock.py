@@ -13,7 +13,8 @@ class Trap:
     """The constants of the theorem (`certificate`) for one motion.
 
     field: the form, in the motion's own units; form: its name; orders: of energy and amplitude; A, z, eta, z_up, eta_up, k: of the theorem in
-    these units; unit: one of them in rad/s (or scaled rates; exact, a power of two); t: time of the state that the inequality held for.
+    these units; unit: one of them in rad/s (or scaled rates; exact, a power of two); t: time of the state that the inequality held for, off by `blur` at
+    most (a certified motion may be that much early or late: the rounding of its run).
     """
 
     field: Any
@@ -27,6 +28,7 @@ class Trap:
     k: float
     unit: float
     t: float
+    blur: float = 0.0
 
     def bounds(self):
         """((low, high),) * 3 of the rates about the body's principal axes at all times from `t` on; the spin's far end is infinite.
@@ -45,9 +47,9 @@ class Trap:
 
     def line(self, t: float) -> tuple[float, float]:
         """(least, greatest) spin about its axis, in its sense, at a time t >= self.t."""
-        since = (t - self.t) * self.unit / self.field.D1
-        return (_down((self.z - self._shift + self.eta * since) * self.unit),
-                -_down(-(self.z_up - self._shift + self.eta_up * since) * self.unit))
+        least, most = ((t - self.t + early) * self.unit / self.field.D1 for early in (-self.blur, self.blur))
+        return (_down((self.z - self._shift + self.eta * max(0.0, least)) * self.unit),
+                -_down(-(self.z_up - self._shift + self.eta_up * most) * self.unit))
 
     def clock(self, rate: float) -> tuple[float, float]:
         """(earliest, latest) time at which the spin about its axis, in its sense, first reaches `rate`; t counts from the start.
@@ -56,8 +58,8 @@ class Trap:
         """
         x = rate / self.unit + self._shift
         early, late = (self._sharp if self.field.sharp else self._straight)(x)
-        early = self.t + max(0.0, early) / self.unit if x > self.z_up else 0.0
-        late = self.t + max(0.0, late) / self.unit
+        early = max(0.0, self.t - self.blur + max(0.0, early) / self.unit) if x > self.z_up else 0.0
+        late = self.t + self.blur + max(0.0, late) / self.unit
         return early * (1 - WIDER), late * (1 + WIDER)
 
     def _straight(self, x):

@@ -18,7 +18,7 @@ from .island import words as island_words
 from .result import SpinUp
 from .symmetric import exactly
 
-NATURAL_TIMES, BUDGET = 2e4, 600_000
+NATURAL_TIMES, BUDGET = 1e9, 600_000
 
 
 def spin_up(scene, state, t_max: float | None = None, budget: int | None = None, after: float = 0.0, proof: bool = False,
@@ -26,8 +26,9 @@ def spin_up(scene, state, t_max: float | None = None, budget: int | None = None,
     """Whether and how the motion from a state spins up, decided by a certificate (`certificate`, `symmetric`) or not at all.
 
     scene: gyrostat and constant torque, physical or scaled. state: three rates at t = 0, taken at their word. t_max: how long the motion
-    is followed, in the scene's time (None: 2e4 natural units, of the root of mean moment over torque); budget: in how many steps
-    (None: 600,000). after: the inequality is to hold for a state at this time or later: bounds and clocks of a later trap are narrower.
+    is followed, in the scene's time (None: 1e9 natural units, of the root of mean moment over torque); budget: in how many steps
+    (None: 600,000). Slow drifts are run over many revolutions at once (`way`). after: the inequality is to hold for a state at this
+    time or later: bounds and clocks of a later trap are narrower.
     proof: enclose the way to the inequality, so that nothing rests on a run in machine precision: level "proved" where that succeeds. A state
     of Fractions or of decimals in strings is then taken exactly. tell(time, steps, motions left): called on the way. fast: True for
     tests compiled by numba (the extra `fast`); loading it costs a second, so without it NumPy serves. The two agree to rounding.
@@ -50,18 +51,18 @@ def spin_up(scene, state, t_max: float | None = None, budget: int | None = None,
 def answer_of(scene, unit: float, found: Chased, row: int) -> SpinUp:
     """The answer of one row of what `chase` found."""
     t, state = float(found.t[row]) / unit, tuple((found.states[row] * unit).tolist())
-    steps, condition = int(found.steps[row]), float(found.condition[row])
+    steps, condition, passed = int(found.steps[row]), float(found.condition[row]), float(found.passed[row])
     if found.fired[row] < 0:
         recurrent = recurs(found.largest[row].tolist(), found.least[row].tolist(), steps)
         words = (f"{seen(scene, state, island_words(scene, t) if recurrent else '')}; followed for {t:.6g} {scene.time_unit}, {steps} steps, over which a "
                  f"small change grew {condition:.3g} times")
-        if not condition * (1 + steps) * 2.0**-52 < 1 / 16:
+        if not condition * (1 + passed) * 2.0**-52 < 1 / 16:
             words += ": more than a run in doubles can tell"
-        return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, t, state, steps, words, condition)
+        return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, t, state, steps, words, condition, passed)
     field, orders = found.tests.asked[found.fired[row]]
-    trap = Trap(field, field.name, orders, *map(float, found.constants[:, row]), unit, t)  # type: ignore[call-arg]  # six constants
+    trap = Trap(field, field.name, orders, *map(float, found.constants[:, row]), unit, t, float(found.blur[row]) / unit)  # type: ignore[call-arg]  # six constants
     direction = tuple(field.basis[0].tolist())
     axis, sense = (0, 1) if field.axis is None else (field.axis + 1, field.sense)
     where = "in the equator, across the axis of symmetry" if not axis else f"about axis {axis}"
     words = f"spin-up {where} is certified about the {field.name} at orders {orders[0]} and {orders[1]}: the inequality holds for ever"
-    return SpinUp(Fate.SPIN_UP, axis, sense, direction, "certified", trap, t, state, steps, words, condition)
+    return SpinUp(Fate.SPIN_UP, axis, sense, direction, "certified", trap, t, state, steps, words, condition, passed)

@@ -16,7 +16,8 @@ class SpinUp:
     solution), "certified" (the theorem's inequality holds for the state at time t of a run in machine precision and for a ball about it
     that holds the run's rounding), "proved" (the way to the inequality is enclosed, `enclosure.proof`; t is exact, state the middle of what
     holds it) or "undecided". trap: bounds and clocks. t: when it fired, or how long the motion was followed; state there; steps. cause:
-    words. condition: growth of a small change of the start on the way to t.
+    words. condition: growth of a small change of the start, across the motion, on the way to t. passed: steps that the way to t takes one by one; steps are
+    those computed, fewer where a slow drift is run over many revolutions at once (`way.drift`).
     """
 
     fate: Fate
@@ -30,3 +31,4 @@ class SpinUp:
     steps: int
     cause: str
     condition: float
+    passed: float = 0.0

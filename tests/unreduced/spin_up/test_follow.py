@@ -9,10 +9,10 @@ from benchmarks.spin_up import random_scene as benchmark_scene
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
 from stabilab.errors import InputError
 from stabilab.physics.scaling import to_scaled
-from stabilab.unreduced.spin_up import runs
 from stabilab.unreduced.spin_up.cause import _equilibria, seen
 from stabilab.unreduced.spin_up.follow import spin_up
 from stabilab.unreduced.spin_up.many import spin_up_many
+from stabilab.unreduced.spin_up.way import runs
 
 from .scenes import EXAMPLE, euler, random_scene, rates_of, run, sphere
 
