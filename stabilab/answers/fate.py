@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def fate(scene: AnyScene, states: ArrayLike, fast: bool | None = None, digits: int | None = None, follow: float | None = None,
-         tell: Callable[..., Any] | None = None) -> FateResult:
+         tell: Callable[..., Any] | None = None, proof: bool = False) -> FateResult:
     """The fate of every state of an array (..., 3) in the scene's variables (rad/s, or x when scaled).
 
     scene: Scene or ScaledGyrostat. fast: True for numba's compiled loops (the extra `fast`), False for NumPy alone, None
@@ -28,16 +28,17 @@ def fate(scene: AnyScene, states: ArrayLike, fast: bool | None = None, digits: i
     cover, and for fast=True without numba. digits (1 to 50): give the margins so many, checked, as of `extremes` (the
     labels have no digits to lose); ToleranceNotMet otherwise. follow: how long motions are followed that only a run with a
     certificate decides (a torque off the principal axes), in the scene's time; None for 600,000 steps, about a second. tell(time, steps,
-    motions left) is called on the way.
+    motions left) is called on the way. proof: enclose the way of each of these motions, one after another, some milliseconds each: `levels` then says
+    "proved" where that succeeds.
 
     Arrays of `TABLE_FROM` states or more look the barrier up in a table of the scene; smaller ones, and any state that
     is near a tie, a fold or an equilibrium, solve for it. Labels are the same either way; margins may differ by 1e-12 of
     their terms, the kinetic energy and the barrier's height over the state (without a torque: both kinetic energies).
     """
     if digits is not None:
-        found = fate(scene, states, fast, follow=follow, tell=tell)
+        found = fate(scene, states, fast, follow=follow, tell=tell, proof=proof)
         return replace(found, margins=ask_all("fate", scene, states, digits, found.margins).required().values)
     given, scene, array = scene, effective(scene), checked_states(states)
-    found = many(scene).fates(scene, np.ascontiguousarray(array.reshape(-1, 3)), fast, **following(scene, follow, tell))
+    found = many(scene).fates(scene, np.ascontiguousarray(array.reshape(-1, 3)), fast, **following(scene, follow, tell, proof))
     columns = {name: getattr(found, name).reshape(array.shape[:-1]) for name in ("labels", "margins", "axis", "sense", "reasons")}
     return replace(found, **columns, scene=scene, states=array, given=given)

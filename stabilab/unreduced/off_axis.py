@@ -108,16 +108,22 @@ class Followed:
     found: SpinUps
     place: np.ndarray
 
+    @property
+    def proved(self) -> np.ndarray:
+        """(n,) of which the way is enclosed."""
+        level = np.append(self.found.level, 0)  # the last one for states at rest
+        return level[self.place] == LEVELS.index("proved")
+
     def row(self, number: int) -> SpinUp | None:
         """All that following state `number` showed: trap, cause, time."""
         return None if self.place[number] < 0 else self.found.row(int(self.place[number]))
 
 
-def fates(scene, states, fast: bool | None = None, follow: float | None = None, tell=None) -> FateResult:
-    """Fates of states (n, 3), followed in batches until each is certified."""
+def fates(scene, states, fast: bool | None = None, follow: float | None = None, tell=None, proof: bool = False) -> FateResult:
+    """Fates of states (n, 3), followed in batches until each is certified. proof: then proved, one after another."""
     rest = equilibrium_mask(scene, states)
     moving = np.flatnonzero(~rest)
-    found = spin_up_many(scene, states[moving], **_limits(follow), tell=tell, fast=fast)
+    found = spin_up_many(scene, states[moving], **_limits(follow), tell=tell, fast=fast, proof=proof)
     out = empty_columns(len(states)) | {"margins": np.full(len(states), np.nan)}
     out["labels"][:], out["reasons"][:] = Fate.EQUILIBRIUM, Reason.AT_REST
     for name, values in (("labels", found.fate), ("axis", found.axis), ("sense", found.sense)):

@@ -200,3 +200,12 @@ def test_a_fate_that_is_undecided_has_no_margin():
     assert (result.labels == Fate.UNDECIDED).all() and np.isnan(result.margins).all() and np.isnan(result.velocity_margins).all()
     at_rest = fate(ScaledGyrostat(1, 3, (-1, 1, 1)), (-2, -1, -1))  # x2 x3 = 1, (x1 + 1) = -1, (x1 + 3) = 1: by hand
     assert at_rest.labels == Fate.EQUILIBRIUM and np.isnan(at_rest.margins)
+
+
+def test_fates_of_an_array_are_proved_on_request():
+    """Against the proof of each state alone."""
+    scene = Scene(Body((1.4, 1, 0.6)), Gyrostat((0.2, 0.1, -0.3)), ConstantTorque((0.5, 0.6, 0.62)))
+    states = np.array([[6.0, 1, -1], [0.1, 0.2, 8.0]])
+    asked, plain = fate(scene, states, proof=True), fate(scene, states)
+    assert asked.levels.tolist() == ["proved", "proved"] and plain.levels.tolist() == ["certified", "certified"]
+    assert np.array_equal(asked.axis, plain.axis) and [stabilab.spin_up(scene, state, proof=True).level for state in states.tolist()] == ["proved", "proved"]

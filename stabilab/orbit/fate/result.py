@@ -64,8 +64,11 @@ class FateResult(Shown):
     @property
     def levels(self):
         """How well each label is known: "exact" (by a law or a closed solution), "certified" (an inequality met by a run of machine
-        precision) or "undecided": a string for one state, an object array otherwise."""
+        precision), "proved" (where `fate` was asked for it: the way to the inequality enclosed) or "undecided": a string for one state, an object
+        array otherwise."""
         words = np.where(self.labels == Fate.UNDECIDED, "undecided", np.where(self.reasons == Reason.CERTIFIED, "certified", "exact")).astype(object)
+        if self.followed is not None:
+            words[self.followed.proved.reshape(words.shape)] = "proved"
         return words[()]
 
     @cached_property
