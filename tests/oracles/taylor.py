@@ -24,14 +24,14 @@ def _coefficients(table, x, order):
 
 
 def _step_length(series, order, digits):
-    """The last two coefficients bound the tail: step so that it is 10^-digits of the state's size."""
+    """The last two coefficients bound the tail: step so that it is 10^-digits of the state's size, and a fifth less for the tail's other terms."""
     size = max(1e-300 + abs(row[0]) for row in series)
     lengths = []
     for n in (order - 1, order):
         top = max(abs(row[n]) for row in series)
         if top:
             lengths.append((size * mp.mpf(10) ** (-digits) / top) ** (mp.mpf(1) / n))
-    return min(lengths) / 2 if lengths else mp.inf
+    return min(lengths) * mp.mpf("0.8") if lengths else mp.inf
 
 
 def integrate(model: Model, state, times, digits: int = 40, order: int | None = None):
