@@ -85,7 +85,8 @@ def classify(cases: CaseFiles, json: Json = False, strict: Annotated[bool, typer
         certification.checked(out)
         if len(cases) != 1:
             raise InputError(f"--certify: expected one case, got {len(cases)}; certify them one by one")
-    answered = [(case, _equilibria(case), _tilted(case, _motion(case, follow=follow, proof=certify), tilt) if case.state else None) for case in loaded]
+    answered = [(case, _equilibria(case), _tilted(case, _motion(case, follow=follow, proof=certify), tilt) if case.state else None)
+                for case in _each(loaded)]
     boxes, shown = _over_boxes(loaded, "equilibria", "fate")
     laws = [law.worst(found.validity, motion and motion.validity) for _, found, motion in answered]
     if json:
@@ -239,7 +240,7 @@ def simulate(case: CaseFile,
     systems = _systems(loaded, units)
     if out:
         trajectory_files.checked(out)
-    runs = [(one, *_followed(one, _times(one, at), model, method, rtol, order, digits)) for one in loaded]
+    runs = [(one, *_followed(one, _times(one, at), model, method, rtol, order, digits)) for one in _each(loaded)]
     if angles:
         runs = [(one, _with_angles(one, run, model, order), reached) for one, run, reached in runs]
     if out:
@@ -299,7 +300,7 @@ def compare(case: CaseFile,
     loaded = _load([case], motion=True)
     if out:
         comparison.checked(out)
-    compared = [(one, _compared(one, order)) for one in loaded]
+    compared = [(one, _compared(one, order)) for one in _each(loaded)]
     if out:
         _write_each(out, [(one, partial(comparison.write, one, found)) for one, found in compared])
     if json:
@@ -331,7 +332,7 @@ def precision(case: CaseFile, json: Json = False,
     if out:
         shown.checked(out)
     loaded = _load([case], motion=True)
-    measured = [measure(one, "quick" if quick else "full", until) for one in loaded]
+    measured = [measure(one, "quick" if quick else "full", until) for one in _each(loaded)]
     for found in measured:
         keep(found)
     if out:
@@ -436,7 +437,7 @@ def when(cases: CaseFiles,
     from .show.text import when as shown
     loaded, answered = _load(cases, motion=True), []
     systems = _systems(loaded, "si" if si else units)
-    for case in loaded:
+    for case in _each(loaded):
         limit = stated_limit(case, rate, component, energy, tilt, until)
         with blamed_on(case):
             answered.append((case, limit, time_of_case(case, limit.ask, limit.until)))
@@ -572,7 +573,8 @@ def rerun(manifest: Annotated[Path, typer.Argument(metavar="MANIFEST", help="A m
     Example: stabilab rerun report/manifest.json
     """
     from .show.files.rerun import rerun as repeat
-    _show("\n".join(repeat(manifest, out)))
+    *lines, verdict = repeat(manifest, out)
+    _show("\n".join([verdict, *lines]))
 
 
 @app.command(name="import")
@@ -730,7 +732,7 @@ def _tell(question, paths, digits, json, strict, csv=False, follow=None, tilt=No
     from .show.text import digits as shown
     loaded = _load(paths, motion=True)
     systems = _systems(loaded, units)
-    answered = [(case, found, _told(question, case, found, digits)) for case in loaded
+    answered = [(case, found, _told(question, case, found, digits)) for case in _each(loaded)
                 for plain in [_motion(case, brief=question == "extremes", follow=follow, proof=proof)]
                 for found in [_tilted(case, plain, tilt) if question == "fate" else plain]]
     boxes, over = _over_boxes([case for case, *_ in answered], *(["fate"] if question == "fate" else []))
@@ -873,6 +875,14 @@ def _exact_times(case, at: str | None) -> list:
         return [start + (end - start) * i / 200 for i in range(201)]
     _times(case, at)  # says what is wrong with them
     return sorted({Fraction("".join(word.split())) for word in (at or "").split(",")})
+
+
+def _each(cases):
+    """The cases, told one by one to a terminal where they take their time."""
+    if len(cases) < 2:
+        return cases
+    from .show.progress import each
+    return each(cases, lambda case: printable(case.name))
 
 
 def _systems(cases, asked: str | None) -> list:

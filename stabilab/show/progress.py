@@ -2,7 +2,12 @@
 from __future__ import annotations
 
 import sys
+import time
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
+from typing import Any
+
+from ..streams import Progress
 
 CLEAR = "\r\x1b[K"
 
@@ -22,3 +27,19 @@ def told():
     finally:
         sys.stderr.write(CLEAR)
         sys.stderr.flush()
+
+
+def each(items: Iterable[Any], name: Callable[[Any], str]) -> Iterator[Any]:
+    """The items one by one; where they take longer than a second, a terminal is told which of how many it is, and about how long the rest takes."""
+    rows = list(items)
+    begin = time.monotonic()
+    with Progress() as progress:
+        for done, item in enumerate(rows):
+            if progress.wanted and len(rows) > 1:
+                progress(f"{done + 1} of {len(rows)}{_left(time.monotonic() - begin, done, len(rows))}: {name(item)}")
+            yield item
+
+
+def _left(gone: float, done: int, count: int) -> str:
+    """The time that remains, if the others take as long as those that are done."""
+    return f", about {gone / done * (count - done):.0f} s left" if done else ""

@@ -79,7 +79,7 @@ def test_the_decimals_of_a_case_are_certified_as_they_were_written(tmp_path):
     assert certificate(case.scene, case.exact_state)["motion"]["fate"] == "equilibrium"
 
 
-@pytest.mark.parametrize("name, code, words", [("minor-axis-100", 0, "proved: "), ("symmetric-body", 0, "proved: "), ("charged-body", 3, "no claims")])
+@pytest.mark.parametrize("name, code, words", [("minor-axis-100", 0, "PROVED: "), ("symmetric-body", 0, "PROVED: "), ("charged-body", 3, "no claims")])
 def test_certify_writes_what_verify_proves(name, code, words, tmp_path, capsys, monkeypatch):
     import sys
 

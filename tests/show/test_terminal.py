@@ -4,6 +4,7 @@ import os
 import re
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -127,3 +128,17 @@ def test_names_that_are_offered_are_those_that_are_known():
     assert completion.units("") == list(SYSTEMS) and completion.kinds("") == list(KINDS)
     assert set(completion.methods("")) == {"taylor", "reduced", *SCIPY_METHODS} and set(completion.models("")) == set(MODELS)
     assert {"constant-torque-gyrostat"} <= set(completion.audited("")) and completion.sources("o") == ["orekit"]
+
+
+def test_progress_tells_which_of_how_many_and_the_time_that_is_left_to_a_terminal_alone(monkeypatch):
+    """Four items of two seconds each, by a clock of the test."""
+    from stabilab.show import progress
+    now, told = [0.0], {}
+    monkeypatch.setattr(time, "monotonic", lambda: now[0])
+    for terminal in (True, False):
+        screen = Screen(terminal)
+        monkeypatch.setattr(sys, "stderr", screen)
+        for _ in progress.each("abcd", str.upper):
+            now[0] += 2
+        told[terminal] = [line.strip() for line in screen.getvalue().split("\r") if line.strip()]
+    assert told == {True: ["2 of 4, about 6 s left: B", "3 of 4, about 4 s left: C", "4 of 4, about 2 s left: D"], False: []}

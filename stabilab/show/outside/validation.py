@@ -38,9 +38,8 @@ def text(validated) -> str:
 
 
 def _lines(source, found):
-    yield f"{source.name}: {source.title}"
+    yield f"{source.name}: {counts(found)}: {source.title}"
     yield f"  {source.repository} at {source.commit[:12]}, {source.licence}; {source.about}"
-    yield f"  {counts(found)}"
     for group in grouped(found):
         printed = group[0].printed
         yield f"  {printed.tool} ({printed.file.rsplit('/', 1)[-1]}; tolerance {_tolerance(printed)}: {printed.tolerance_is})"

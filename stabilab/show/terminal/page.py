@@ -8,7 +8,7 @@ import sys
 from .letters import for_people
 
 NARROW = 40  # columns below which nothing is wrapped any narrower
-COLOURS = {r"\bBOUNDED\b|\bNEVER\b|\bAT REST\b": "bold green", r"\bSPINS UP\b|BEYOND THE LAW": "bold red",
+COLOURS = {r"\bBOUNDED\b|\bNEVER\b|\bAT REST\b|\bPROVED\b": "bold green", r"\bSPINS UP\b|BEYOND THE LAW|\bREFUTED\b": "bold red",
            r"\bUNDECIDED\b|ON THE SEPARATRIX|NOT KNOWN": "bold yellow"}
 STABLE = {r"\bunstable\b": "red", r"(?<!un)\b(?:asymptotically )?stable\b": "green", r"\bundecided\b": "yellow"}
 

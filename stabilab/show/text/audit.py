@@ -41,11 +41,11 @@ def _finite(value):
 
 
 def text(findings, width: int = 100) -> str:
-    """A paper's count of verdicts, then a paragraph for each row."""
+    """A paper's count of verdicts in a line, then a paragraph for each row."""
     parts = []
     for paper, group in findings:
         count = Counter(f.verdict for f in group)
-        parts.append(f"{paper.title}\n" + ", ".join(f"{count[v]} {v}" for v in VERDICTS if count[v]) + f"; {len(group)} rows\n")
+        parts.append(f"{paper.title}: " + ", ".join(f"{count[v]} {v}" for v in VERDICTS if count[v]) + f"; {len(group)} rows\n")
         parts += [_paragraph(finding, width, paper.figures) for finding in group]
     return "\n".join(parts)
 

@@ -40,10 +40,10 @@ def summary(certificate: dict) -> str:
 
 
 def text(found, first: str) -> str:
-    """What it is about, one line a claim, then the verdict on the whole."""
-    lines = [first, *(f"{f.status:<12} {f.claim}{f': {f.reason}' if f.reason else ''}" for f in found.findings)]
+    """The verdict on the whole, what it is about, then one line a claim."""
+    lines = [*(f"{f.status:<12} {f.claim}{f': {f.reason}' if f.reason else ''}" for f in found.findings)]
     silent = f"; nothing is claimed of: {', '.join(found.silent)}" if found.silent else ""
-    return "\n".join([*lines, f"{found.status}: {_count(found)}{silent}"])
+    return "\n".join([f"{found.status.upper()}: {_count(found)}{silent}", first, *lines])
 
 
 def _count(found) -> str:

@@ -33,9 +33,10 @@ def as_dict(case, found) -> dict:
 
 
 def text(case, found) -> str:
-    """A line per model and part of the state, then what each model says of itself."""
+    """The closest model, a line per model and part of the state, then what each model says of itself."""
     unit = case.scene.time_unit
-    lines = [f"{case.name}: {', '.join(list(found.runs)[1:]) or 'no model'} against the exact motion, {found.t[0]:g} to {found.t[-1]:g} {unit}",
+    lines = [f"{case.name}: {_closest(found)}; {', '.join(list(found.runs)[1:]) or 'no model'} against the exact motion, {found.t[0]:g} to "
+             f"{found.t[-1]:g} {unit}",
              f"  {'model':<12}{'part':<12}{'largest error':>16}{'of':>14}{'1 % from':>14}{'10 % from':>14}"]
     for d in found.departures:
         first = [f"{time:.4g} {unit}" if time is not None else "never" for time in d.first.values()]
@@ -43,6 +44,15 @@ def text(case, found) -> str:
     notes = [f"  {name}: {run.reason}" for name, run in found.runs.items() if run.reason and run.reason != "all times reached"]
     notes += [f"  {name}: no answer: {why}" for name, why in found.refused.items()]
     return "\n".join(lines + notes + [f"  {line}" for line in told(found.theory)])
+
+
+def _closest(found) -> str:
+    """The model that departs least from the exact rates, and by how much."""
+    rates = [d for d in found.departures if d.part == found.departures[0].part]
+    if not rates:
+        return "no model has an answer"
+    best = min(rates, key=lambda d: d.largest / d.scale)
+    return f"{best.model} is closest, its {best.part} off by {100 * best.largest / best.scale:.3g} % at most"
 
 
 def checked(path) -> Path:

@@ -18,14 +18,16 @@ COLUMNS = ("case", "question", "method", "setting", "value", "error", "digits", 
 
 def text(found) -> str:
     """The table of the terminal, * marking the front, then the words."""
-    lines = [f"{found.case.name}: {found.case.title}" if found.case.title else found.case.name]
+    told = words(found)
+    answer = next((line for line in told if "six digits cost" in line), told[0])
+    lines = [f"{found.case.name}: {answer}", *([found.case.title] if found.case.title else [])]
     for question in found.questions:
         front = set(map(id, found.front(question)))
         lines += ["", title(found, question),
                   f"  {'method':<14}{'setting':<15}{'error':>9}{'digits':>8}{'steps':>9}{'evaluations':>13}{'time':>10}{'slowest':>10}{'compile':>10}"]
         lines += [_line(p, id(p) in front) for p in found.of(question)]
     lines += [f"  left out: {line}" for line in _left_out(found)]
-    return "\n".join([*lines, "", *words(found), "", caption()])
+    return "\n".join([*lines, "", *told, "", caption()])
 
 
 def _left_out(found):

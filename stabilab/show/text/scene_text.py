@@ -15,7 +15,10 @@ def text(case) -> str:
     parts = [_head(case), _parameters(equations), "Equations of motion", *(f"  {line}" for line in lines(equations)), "",
              "In LaTeX", latex(equations), "", "Laws that hold for every value of the parameters"]
     parts += [f"  {law.words}" for law in equations.balances]
-    return "\n".join(parts + ["", "Laws of this scene"] + (_laws(invariants(case.scene)) or ["  none is known"]))
+    own = invariants(case.scene)
+    effects = " and ".join(", ".join(effect.name.replace("_", " ") for effect in case.scene.effects).rsplit(", ", 1)) or "no effect"
+    answer = f"{case.name}: a {'scaled gyrostat' if case.variables == 'scaled' else 'body with ' + effects}; laws known of this scene: {len(own)}"
+    return "\n".join([answer, *parts, "", "Laws of this scene", *(_laws(own) or ["  none is known"])])
 
 
 def _head(case) -> str:
