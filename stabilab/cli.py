@@ -399,12 +399,12 @@ def plot(case: CaseFile,
     from .show.plot.to_file import default_name, inches, write
     from .show.text import law
     loaded, drawn = _load([case], motion=kind != "equilibria"), []
-    systems = ["deg" if system.scaled else system.name for system in _systems(loaded, units)]
+    _systems(loaded, units)  # says what is wrong with them
     target = out or Path(default_name(printable(case.stem), kind))
-    for one, system in zip(loaded, systems):
+    for one in loaded:
         with blamed_on(one):
             end = _time(until, one, "until")
-            drawn.append(write(one, endings.labelled(target, one), kind, inches(size), dpi, system, end))
+            drawn.append(write(one, endings.labelled(target, one), kind, inches(size), dpi, units, end))
     laws = [law.of_case(one) for one in loaded]
     _print("\n".join(words for held, path in zip(laws, drawn) for words in (held and held.words, str(path)) if words))
     _strictly(strict, laws)

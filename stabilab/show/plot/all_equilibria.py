@@ -22,7 +22,7 @@ FLAT = 1e-9  # of the picture: equilibria nearer than this to a plane across an 
 BEYOND = 2.4  # times the farthest fold, or the nearest point of a curve without one: how far a curve is shown
 
 
-def equilibria(case: Any, state: Any = None, ax: Axes | None = None, units: str = "deg", size: tuple[float, float] | None = None,
+def equilibria(case: Any, state: Any = None, ax: Axes | None = None, units: str | None = None, size: tuple[float, float] | None = None,
                legend: bool = True) -> Axes:
     """Draw all equilibria of a scene, and return the axes.
 

@@ -4,10 +4,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ...errors import InputError
-from ..units import SYSTEMS
+from ..units import SYSTEMS, Units
 from .subject import Subject
-
-LONG_MINUTE, LONG_HOUR = 180.0, 5 * 3600.0  # s: from here on minutes, hours read better
 
 
 @dataclass(frozen=True)
@@ -18,15 +16,11 @@ class Measures:
     angle: tuple[str, float]
     names: tuple[str, ...]
     size: str
-    minutes: bool
+    system: Units | None
 
     def time(self, longest: float) -> tuple[str, float]:
         """(name, factor) of the times of a plot that goes so far."""
-        if not self.size:
-            return r"$\tau$", 1.0
-        if not self.minutes or longest < LONG_MINUTE:
-            return "s", 1.0
-        return ("min", 1 / 60) if longest < LONG_HOUR else ("h", 1 / 3600)
+        return (r"$\tau$", 1.0) if self.system is None else self.system.times(longest)
 
     def plain(self, axis: int) -> str:
         """The name of a component for text that is not typeset."""
@@ -37,11 +31,12 @@ class Measures:
         return f"{words} ({unit})" if unit else words
 
 
-def measures(one: Subject, units: str = "deg") -> Measures:
-    """Those of a subject: units "deg" (deg/s, deg; seconds, minutes or hours) or "si" (rad/s, rad, s); none when scaled."""
-    if units not in SYSTEMS:
+def measures(one: Subject, units: str | None = None) -> Measures:
+    """Those of a subject: units "deg" (deg/s, deg; seconds, minutes or hours) or "si" (rad/s, rad, s), None for those of the case, else "deg"; scaled
+    scenes have none."""
+    if units is not None and units not in SYSTEMS:
         raise InputError(f"units: expected one of {', '.join(SYSTEMS)}, got {units!r:.40}")
     if not one.physical:
-        return Measures(("", 1.0), ("", 1.0), ("$x_1$", "$x_2$", "$x_3$"), "", False)
-    found = SYSTEMS[units]
-    return Measures(found.rates, found.angles, (r"$\omega_1$", r"$\omega_2$", r"$\omega_3$"), r"$|\omega|$", units == "deg")
+        return Measures(("", 1.0), ("", 1.0), ("$x_1$", "$x_2$", "$x_3$"), "", None)
+    found = SYSTEMS[units or (one.case is not None and one.case.units) or "deg"]
+    return Measures(found.rates, found.angles, (r"$\omega_1$", r"$\omega_2$", r"$\omega_3$"), r"$|\omega|$", found)

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-def sphere(case: Any, state: Any = None, ax: Axes | None = None, units: str = "deg", size: tuple[float, float] | None = None,
+def sphere(case: Any, state: Any = None, ax: Axes | None = None, units: str | None = None, size: tuple[float, float] | None = None,
            legend: bool = True) -> Axes:
     """Draw the surface on which a motion stays, with the other motions on it, and return the (three-dimensional) axes.
 

@@ -9,6 +9,7 @@ import numpy as np
 from ...answers.time_to import time_of_case
 from ...case.limit_options import stated_limit
 from .. import style
+from ..text.headline import headline
 from . import canvas, which
 from .measures import measures
 from .path import SOLID, band, path, turning
@@ -27,15 +28,15 @@ PERIODS = 10  # a motion that repeats is shown for so many at most, unless a spa
 BEYOND = 1.25  # of the time to the limit: how far the picture goes at least
 
 
-def time(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None, units: str = "deg", size: tuple[float, float] | None = None,
+def time(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None, units: str | None = None, size: tuple[float, float] | None = None,
          legend: bool = True) -> Axes:
     """Draw the rates of a motion over time, and return the axes.
 
     case: a Case, or a scene with `state`, three rates (or a dict of blocks). The three components along the principal axes and |omega| in deg/s,
-    over seconds, minutes or hours (units="si": rad/s and s; scaled scenes have x and tau). Dotted: least and greatest value of each component over
-    all time, where they are known. Grey: the ends of the periods. Dashed: the limits of the case, and a point where one is reached first. Of
-    limits about axes of a file that are not the principal ones, the components along those axes are drawn instead. span: (from, to) or the end;
-    None: the case's own, at most ten periods, and past the time at which a limit is reached.
+    over seconds, minutes or hours (units="si": rad/s and s; scaled scenes have x and tau), under the answer in one line where there is a case.
+    Dotted: least and greatest value of each component over all time, where they are known. Grey: the ends of the periods. Dashed: the limits of
+    the case, and a point where one is reached first. Of limits about axes of a file that are not the principal ones, the components along those
+    axes are drawn instead. span: (from, to) or the end; None: the case's own, at most ten periods, and past the time at which a limit is reached.
     """
     one = subject(case, state, span)
     which.check("time", one)
@@ -54,13 +55,13 @@ def time(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None,
         for values, look in zip(omega.T, COMPONENTS):
             _curve(target, t * per_time, values * per_rate, look)
         rows += _extremes(target, one, per_rate) if turned is None else []
-        rows += _periods(target, one, low, high, per_time, time_unit)
+        rows += _periods(target, one, low, high, per_time, scale)
         rows += _limits(target, one, reached, t, omega, (time_unit, per_time), scale.rate)
         target.set_xlim(t[0] * per_time, t[-1] * per_time)
         target.margins(y=0.06)
         target.set_xlabel(scale.label("time", time_unit) if scale.size else time_unit)
         target.set_ylabel(scale.label("rate" + (", axes of the file" if turned is not None else ""), rate_unit) if scale.size else "$x$")
-        canvas.title(target, one.heading)
+        canvas.title(target, one.heading, "" if one.case is None else headline(one.case, one.motion, scale.system))
         if legend:
             canvas.legend(target, rows, ax is None)
     return target
@@ -97,16 +98,18 @@ def _extremes(ax, one, per_rate):
     return [("least and greatest for ever", {"color": style.GREY, **EXTREME})] if drawn else []
 
 
-def _periods(ax, one, low, high, per_time, unit):
+def _periods(ax, one, low, high, per_time, scale):
     period = one.motion.period
     if not period or high - low < period:
         return []
+    unit, per = scale.time(period)
+    words = f"period {period * per:.5g} {unit}"
     ends = np.arange(math.ceil(low / period), math.floor(high / period) + 1) * period
     if len(ends) > 3 * PERIODS:
-        return [(f"period {period * per_time:.5g} {unit}", {"linestyle": "none"})]
+        return [(words, {"linestyle": "none"})]
     for end in ends:
         ax.axvline(end * per_time, zorder=1, **PERIOD)
-    return [(f"period {period * per_time:.5g} {unit}", PERIOD)]
+    return [(words, PERIOD)]
 
 
 def _reached(one: Subject):

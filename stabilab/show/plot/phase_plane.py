@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-def phase(case: Any, state: Any = None, ax: Axes | None = None, units: str = "deg", size: tuple[float, float] | None = None,
+def phase(case: Any, state: Any = None, ax: Axes | None = None, units: str | None = None, size: tuple[float, float] | None = None,
           legend: bool = True) -> Axes:
     """Draw the phase plane of a motion, and return the axes.
 

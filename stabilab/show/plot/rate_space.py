@@ -31,7 +31,7 @@ COLOURS = (style.SKY, style.GREEN, style.PURPLE, style.YELLOW)  # of sheets; ora
 ROUND = 0.06  # of the motion's size, about a motion that is a point
 
 
-def space(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None, units: str = "deg", size: tuple[float, float] | None = None,
+def space(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None, units: str | None = None, size: tuple[float, float] | None = None,
           legend: bool = True) -> Axes:
     """Draw a motion in the space of rates, and return the (three-dimensional) axes.
 

@@ -18,7 +18,7 @@ AROUND = 2.2  # a small motion is shown in so many times its own size
 ASIDE = 0.6  # of the way over this motion and all equilibria: how far a hyperbola or parabola is shown beyond
 
 
-def cylinder(one: Subject, units: str) -> SurfaceLines:
+def cylinder(one: Subject, units: str | None) -> SurfaceLines:
     """All that a plot shows, in the units of the rates."""
     plane, scale = phase_plane(one.twin, one.state), measures(one, units)
     ys, Ws = motion_curve(plane, *window(plane))

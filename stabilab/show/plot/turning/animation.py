@@ -29,7 +29,7 @@ FAR = 1.75  # half the picture, in half edges
 OUT = 1.5  # length of the body's axes
 
 
-def attitude(case: Any, state: Any = None, ax: Any = None, span: Any = None, frames: int = FRAMES, units: str = "deg",
+def attitude(case: Any, state: Any = None, ax: Any = None, span: Any = None, frames: int = FRAMES, units: str | None = None,
              size: tuple[float, float] | None = None) -> FuncAnimation:
     """The body turning in space, as an animation of Matplotlib (keep it, or nothing moves).
 
@@ -50,7 +50,7 @@ def attitude(case: Any, state: Any = None, ax: Any = None, span: Any = None, fra
         return FuncAnimation(target.figure, draw, frames=len(found.t), interval=1000 / PER_SECOND, blit=False)
 
 
-def film(one: Any, path: Path, units: str = "deg", size: tuple[float, float] | None = None, dpi: float | None = None) -> Path:
+def film(one: Any, path: Path, units: str | None = None, size: tuple[float, float] | None = None, dpi: float | None = None) -> Path:
     """The animation as a file: .html, a page that needs nothing else; .gif; .mp4, where ffmpeg is installed."""
     import matplotlib.animation
     kind = endings.ending(endings.file(path, ENDINGS))
