@@ -14,14 +14,16 @@ from threading import RLock
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from .double_ball import Doubles, Unclear
+from .polynomial import Poly, real_roots
 from .vectors import Number
 
 if TYPE_CHECKING:
-    from flint import arb, fmpq
+    from flint import arb, fmpq, fmpq_poly
 
 T = TypeVar("T")
 DOUBLE_BITS = Doubles.bits
 START_BITS = 128
+APART_BITS = 256  # roots that so many bits do not tell apart would cost flint's iteration a long time
 
 
 @contextmanager
@@ -83,13 +85,8 @@ class Digits:
     @staticmethod
     def real_roots(coefficients: Sequence[Number]) -> list[tuple[arb, int]]:
         """(root, multiplicity) of the real roots of a polynomial with rational coefficients, lowest first; certified."""
-        from flint import arb, fmpq_poly
-        poly = fmpq_poly([rational(Fraction(c)) for c in coefficients])
-        if poly.degree() < 1:
-            return []
-        roots: list[Any] = poly.complex_roots()  # flint's own types leave the multiplicities out
-        found = [(arb(root.real), many) for root, many in roots if root.imag.is_zero()]
-        return sorted(found, key=lambda one: one[0].mid())  # flint lists them multiplicity by multiplicity
+        from flint import fmpq_poly
+        return real_roots_of(fmpq_poly([rational(Fraction(c)) for c in coefficients]))
 
 
 DOUBLES = Doubles()
@@ -122,6 +119,42 @@ def rational(value: Number) -> fmpq:
     """A Fraction, or flint's own rational or integer, as flint's rational."""
     from flint import fmpq
     return fmpq(value.numerator, value.denominator) if isinstance(value, Fraction) else fmpq(value)
+
+
+def real_roots_of(poly: fmpq_poly) -> list[tuple[arb, int]]:
+    """(root, multiplicity) of the real roots of flint's polynomial as balls of the working precision, lowest first; certified.
+
+    flint finds all complex roots at once by an iteration that halves its error a step where roots nearly meet, and starts again
+    with twice the digits until it tells them apart: seconds for a pair 10^-150 apart. Such a polynomial goes to Sturm's theorem.
+    """
+    from flint import arb
+    if poly.degree() < 1:
+        return []
+    if poly.degree() > 1 and not _roots_stand_apart(poly):
+        found = [(ball, many) for factor, many in poly.factor()[1] for ball in _by_sturm(factor)]
+    else:
+        roots: list[Any] = poly.complex_roots()  # flint's own types leave the multiplicities out
+        found = [(arb(root.real), many) for root, many in roots if root.imag.is_zero()]
+    return sorted(found, key=lambda one: one[0].mid())  # multiplicity by multiplicity so far
+
+
+def _roots_stand_apart(poly: fmpq_poly) -> bool:
+    """Whether `APART_BITS` tell all complex roots apart; a multiple root is never told from itself."""
+    from flint import acb_poly, ctx
+    with working(max(ctx.prec, APART_BITS)):
+        try:
+            acb_poly(poly.numer()).roots(maxprec=APART_BITS)
+        except ValueError:
+            return False
+    return True
+
+
+def _by_sturm(factor: fmpq_poly) -> list[arb]:
+    """The real roots of an irreducible polynomial in exact arithmetic, as balls of the working precision."""
+    from flint import arb, ctx
+    bits = ctx.prec
+    middles = real_roots(Poly([Fraction(int(c.p), int(c.q)) for c in factor.coeffs()]), bits)
+    return [arb(at := rational(middle), abs(at) / (1 << bits)) for middle in middles]
 
 
 def sign(number: Number) -> int:

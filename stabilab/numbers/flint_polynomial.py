@@ -2,9 +2,9 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from .balls import rational
+from .balls import rational, real_roots_of
 from .vectors import Number
 
 if TYPE_CHECKING:
@@ -20,5 +20,4 @@ def polynomial(*coefficients: Number) -> fmpq_poly:
 def shares_root(first: fmpq_poly, second: fmpq_poly, root: arb) -> bool:
     """Whether the root (a ball that isolates it among those of `first`) is one of `second` as well; flint's polynomials."""
     common = first.gcd(second)
-    roots: list[Any] = common.complex_roots() if common.degree() > 0 else []  # flint's own types leave the multiplicities out
-    return any(z.imag.is_zero() and z.real.overlaps(root) for z, _ in roots)
+    return any(z.overlaps(root) for z, _ in real_roots_of(common))
