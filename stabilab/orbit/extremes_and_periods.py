@@ -10,8 +10,8 @@ from .extremes.arrays import extremes_of_chunk
 from .extremes.circle_numba import by_kernel
 from .extremes.guards import picked, trapped_rows
 from .extremes.turning_points import interval
-from .far_states import far_numbers, far_rows
-from .fate.arrays import fate_on_orbit
+from .far_states import far_numbers
+from .fate.arrays import fate_on_orbit, rows_beyond_doubles
 from .fate.result import CHUNK
 from .landscape import landscape
 from .period.arrays import period_chunk
@@ -27,7 +27,7 @@ def extremes_and_periods(scene, states, fast: bool | None = None, *, box=True, p
                          " span, or for `period`")
     flat = np.ascontiguousarray(array.reshape(-1, 3))
     boxes, periods = np.empty((len(flat) if box else 0, 3, 2)), np.empty(len(flat) if period else 0)
-    if (far := far_rows(scene, flat)).any():
+    if (far := rows_beyond_doubles(scene, flat)).any():
         _fill_far(scene, flat, boxes, periods, far)
         return boxes.reshape(array.shape + (2,)) if box else None, periods.reshape(array.shape[:-1]) if period else None
     land, left_open = landscape(scene), None

@@ -24,12 +24,12 @@ BEYOND = "beyond the range of doubles"
 
 
 @contextmanager
-def in_range():
+def in_range(what: str = "state"):
     """Context of an answer that has no unit of its own: InputError where its numbers leave the range of doubles."""
     try:
         yield
     except OverflowError:
-        raise InputError(f"state: the squares of rates this large, or of moments, are {BEYOND}: choose other units") from None
+        raise InputError(f"{what}: the squares of rates this large, or of moments, are {BEYOND}: choose other units") from None
 
 
 def scene_exponent(scene) -> int | None:
@@ -115,7 +115,7 @@ def _finite(pairs):
 def far_numbers(scene, state):
     """((3, 2) extremes, period) of one state of a scene with a reduction, as rows of `extremes` and `period` have them; NaN where
     they are no doubles."""
-    orbit, k = Orbit(reduce(scene), state), far_exponent(scene, state)
+    orbit, k = Orbit(reduce(scene), state), far_exponent(scene, state) or 0
     near = own(orbit, k)
     label = fate_of(scene, orbit, near).label
     return extremes_of(near, label, k), powered(period_of(near, label), -k)

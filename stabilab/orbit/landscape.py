@@ -1,6 +1,8 @@
 """Barriers and wells along the orbits of many states at once, on circles, hyperbolas and parabolas."""
 from __future__ import annotations
 
+import itertools
+import math
 from functools import lru_cache
 
 import numpy as np
@@ -247,6 +249,28 @@ class ParabolaLandscape(Landscape):
 
 
 GEOMETRIES = {-1: CircleLandscape, 1: HyperbolaLandscape, 0: ParabolaLandscape}
+
+
+@lru_cache(maxsize=64)
+def in_doubles(scene) -> bool:
+    """Whether the constants of a scene's landscape, and their squares, are doubles; they are not where wheel and torque are hundreds of
+    decades apart. Arrays of such a scene are answered one motion at a time."""
+    try:
+        land = landscape(scene)
+    except OverflowError:
+        return False
+    if land is None or land.conic is None:
+        return True
+    conic = land.conic
+    lines = conic.lines if conic.limit is None else (*conic.lines, conic.limit)
+    return all(v * v < math.inf for v in (conic.K, conic.shift, *itertools.chain(*lines)))
+
+
+def landscape_in_doubles(scene) -> Landscape | None:
+    """`landscape`; raises OverflowError where `in_doubles` says no."""
+    if not in_doubles(scene):
+        raise OverflowError
+    return landscape(scene)
 
 
 @lru_cache(maxsize=64)

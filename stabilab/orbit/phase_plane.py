@@ -6,7 +6,8 @@ from functools import cached_property
 
 import numpy as np
 
-from .landscape import Landscape, landscape
+from .far_states import in_range
+from .landscape import Landscape, landscape_in_doubles
 
 
 @dataclass(frozen=True)
@@ -110,8 +111,9 @@ class PhasePlane:
 
 
 def phase_plane(scene, state) -> PhasePlane | None:
-    """The phase plane of the motion from `state`; None where the scene does not reduce."""
-    land = landscape(scene)
+    """The phase plane of the motion from `state`; None where the scene does not reduce. Raises InputError beyond doubles."""
+    with in_range("phase plane"):
+        land = landscape_in_doubles(scene)
     if land is None:
         return None
     place, w, _ = land.start(np.asarray(state, float))

@@ -10,6 +10,7 @@ import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.answers.motion import motion
 from stabilab.errors import InputError
+from stabilab.orbit.phase_plane import phase_plane
 
 RATES = (0.1, 0.05, 0.2)
 BODIES = {"circle": (Body((12, 9, 5)), (1, 0, 0), (0, 0, 1)), "parabola": (Body((2, 2, 1)), (0, 1, 2), (1, 0, 0)),
@@ -71,3 +72,34 @@ def test_scenes_without_a_reduction_answer_or_refuse_any_rate(effects, power):
             ask(scene, state)
         except InputError as error:
             assert "range of doubles" in str(error) or "largest double" in str(error)
+
+
+@pytest.mark.parametrize("order", [(0, 1, 2), (2, 0, 1), (1, 2, 0)])
+@pytest.mark.parametrize("beside, torque", [(1.0, 1.0), (1e-5, 1e8), (0.0, 1e300)])
+def test_rows_of_a_wheel_as_large_as_doubles_go_round_it(beside, torque, order):
+    """Theory: but for terms of 1e-290 it acts alone beside the torque, D1 w1' = L w3, D3 w3' = M - L w1, w2 constant, L = 1e300."""
+    scene = Scene(Body(tuple((3, 2, 1)[i] for i in order)), Gyrostat(tuple((beside, 1e300, 0)[i] for i in order)),
+                  ConstantTorque(tuple((0, 0, torque)[i] for i in order)))
+    states = np.array([(1.0, 2, 3), (1, 1, 1), (0, 0.5, 0)])
+    many = stabilab.fate(scene, states[:, order])
+    centre = states[:, 0] - torque / 1e300
+    first, third = np.sqrt(centre**2 + states[:, 2] ** 2 / 3), np.sqrt(3 * centre**2 + states[:, 2] ** 2)
+    boxes = np.stack([torque / 1e300 + first * [[-1], [1]], states[:, 1] * [[1], [1]], third * [[-1], [1]]]).transpose(2, 0, 1)
+    assert (many.labels == stabilab.Fate.BOUNDED).all()
+    np.testing.assert_allclose(stabilab.extremes(scene, states[:, order]), boxes[:, order], rtol=1e-11, atol=1e-280)
+    np.testing.assert_allclose(stabilab.period(scene, states[:, order]), 2 * np.pi * np.sqrt(3) / 1e300, rtol=1e-11)
+
+
+@pytest.mark.parametrize("wheel", [1e-263, -1e-290])
+@pytest.mark.parametrize("torque", [1e-13, 1.0, 1e20])
+def test_a_wheel_hundreds_of_decades_below_the_torque_changes_no_row(wheel, torque):
+    """Oracle: the scene without the wheel."""
+    states = np.array([(1.0, 0.3, 2), (1e-3, 4, -1), (2, 0.1, 0.1)])
+    one, other = (Scene(Body((1.7, 1.6, 1.4)), Gyrostat((0, w, 0)), ConstantTorque((torque, 0, 0))) for w in (wheel, 0))
+    for name in ("labels", "margins", "axis", "sense", "reasons"):
+        np.testing.assert_allclose(getattr(stabilab.fate(one, states), name), getattr(stabilab.fate(other, states), name), rtol=1e-12)
+    np.testing.assert_allclose(stabilab.extremes(one, states), stabilab.extremes(other, states), rtol=1e-11)
+    with pytest.raises(InputError, match="separatrix: .* beyond the range of doubles"):
+        stabilab.separatrix(one)
+    with pytest.raises(InputError, match="phase plane: .* beyond the range of doubles"):
+        phase_plane(one, states[0])

@@ -18,7 +18,7 @@ from ...numbers.constants import EPS, TURN
 from ...physics.states import equilibrium_mask
 from ..ball_orbit import Orbit
 from ..far_states import far_exponent, far_fate, far_rows
-from ..landscape import ROUNDINGS, Landscape, landscape
+from ..landscape import ROUNDINGS, Landscape, in_doubles, landscape
 from ..potential import derivatives_on_parabola
 from ..reduction import reduce
 from ..result import Fate
@@ -42,16 +42,26 @@ def fates(scene, states, fast=None) -> FateResult:
     from the general formula. States whose squares may leave the range of doubles are decided one at a time, each in its own unit.
     """
     reduction = reduce(scene)
-    far = far_rows(scene, states) if reduction is not None else np.zeros(len(states), bool)
+    far = rows_beyond_doubles(scene, states) if reduction is not None else np.zeros(len(states), bool)
     if not far.any():
         return _ordinary(scene, states, fast)
-    out, near = empty_columns(len(states)), in_chunks(labeller(scene), states[~far])
-    for name, column in out.items():
-        column[~far] = getattr(near, name)
+    out, precise = empty_columns(len(states)), int(far.sum())
+    if not far.all():
+        near = in_chunks(labeller(scene), states[~far])
+        precise += near.precise
+        for name, column in out.items():
+            column[~far] = getattr(near, name)
     for index in np.nonzero(far)[0]:
         state = states[index].tolist()
-        write_row(out, index, *far_fate(scene, Orbit(reduction, state), far_exponent(scene, state)))
-    return FateResult(**out, precise=near.precise + int(far.sum()))  # type: ignore[arg-type]  # the columns alone
+        write_row(out, index, *far_fate(scene, Orbit(reduction, state), far_exponent(scene, state) or 0))
+    return FateResult(**out, precise=precise)  # type: ignore[arg-type]  # the columns alone
+
+
+def rows_beyond_doubles(scene, states):
+    """(n,) True for the states (n, 3) of a scene with a reduction that are answered one at a time: their squares, or the numbers of
+    the scene's landscape, may leave the range of doubles."""
+    far = far_rows(scene, states)
+    return far if far.all() or in_doubles(scene) else np.ones(len(states), bool)
 
 
 def _ordinary(scene, states, fast) -> FateResult:

@@ -15,7 +15,8 @@ import numpy as np
 from ...errors import InputError
 from ...numbers.numba_door import wanted
 from ...physics.coefficients import effective
-from ..landscape import landscape
+from ..far_states import in_range
+from ..landscape import landscape_in_doubles
 from .circle_numba import serves, sheets_by_kernel
 from .grid import grid
 from .homoclinic_arrays import residual
@@ -41,7 +42,13 @@ def separatrix(scene, reach: float | None = None, shape: tuple[int, int] | None 
     without numba.
     """
     _check(reach, shape, accuracy)
-    land = landscape(effective(scene))
+    scene = effective(scene)
+    with in_range("separatrix"):
+        return _separatrix(scene, reach, shape, accuracy, fast)
+
+
+def _separatrix(scene, reach, shape, accuracy, fast) -> Separatrix:
+    land = landscape_in_doubles(scene)
     if land is None:
         return Separatrix((), "no reduction to one degree of freedom: the separatrix of this scene is not known in closed form")
     if land.conic is None:
