@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 
-.PHONY: report test check test-slow test-long floors figures bench fuzz hunt coverage mutate clean
+.PHONY: report test check test-slow test-long floors figures docs bench fuzz hunt coverage mutate clean
 
 report: $(STAMP)
 	$(BIN)/stabilab report cases/*.toml --papers --precision --out report
@@ -33,7 +33,7 @@ floors:
 	rm -rf $(FLOORS)
 	$(PYTHON) -m venv $(FLOORS)
 	$(PYTHON) -m tests.house.floors > $(FLOORS)/constraints.txt
-	$(FLOORS)/bin/python -m pip install --quiet --disable-pip-version-check -c $(FLOORS)/constraints.txt -e ".[test,fast]"
+	$(FLOORS)/bin/python -m pip install --quiet --disable-pip-version-check -c $(FLOORS)/constraints.txt -e ".[all,test]"
 	$(FLOORS)/bin/python -m pytest -n 2 -m "not slow" -p no:cacheprovider $(FLOOR_TESTS)
 
 test-long: $(STAMP)
@@ -41,6 +41,11 @@ test-long: $(STAMP)
 
 figures: $(STAMP)
 	$(BIN)/stabilab figures --out figures
+
+# The documentation as a site, docs/_site/index.html; a warning ends it
+docs: $(STAMP)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e ".[docs]"
+	$(BIN)/python -m sphinx -q -W --keep-going -d docs/_site/.trees docs docs/_site
 
 bench: $(STAMP)
 	$(BIN)/python -m benchmarks
@@ -74,7 +79,7 @@ hard-cases: $(STAMP)
 # constraints.txt pins what was tested, so that a fresh install gives the same versions
 $(STAMP): pyproject.toml constraints.txt
 	$(PYTHON) -m venv $(VENV)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e ".[test,fast]"
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e ".[all,test]"
 	$(BIN)/python -m compileall -q stabilab
 	touch $@
 

@@ -6,8 +6,9 @@ import sys
 
 from .errors import InputError, RenderingUnavailable, StabilabError
 
-INSTALLED_AS = {"flint": "python-flint", "PIL": "pillow", "vtkmodules": "vtk", "trame_vtk": "trame-pyvista", "trame": "trame-pyvista"}
-DRAWING = ("matplotlib", "pillow", "vtk", "pyvista", "trame-pyvista", "contourpy", "trame-vtk")
+INSTALLED_AS = {"flint": "python-flint", "PIL": "pillow", "vtkmodules": "vtk"}
+EXTRAS = {"heyoka": "fast", "numba": "fast", "xarray": "data", "pandas": "data"}  # package -> extra of pyproject.toml that brings it
+DRAWING = ("matplotlib", "pillow", "vtk", "pyvista", "contourpy")
 
 
 def present(name: str) -> bool:
@@ -20,8 +21,10 @@ def present(name: str) -> bool:
 
 
 def cure(module: str) -> str:
-    """What to type where a module is not there."""
-    return f"pip install {INSTALLED_AS.get(module, module)}"
+    """What to type where a module is not there, and the extra that brings it, if one does."""
+    package = INSTALLED_AS.get(module, module)
+    extra = f" (part of stabilab's extra {EXTRAS[package]}: pip install \"stabilab[{EXTRAS[package]}]\")" if package in EXTRAS else ""
+    return f"pip install {package}{extra}"
 
 
 def demand(*modules: str):

@@ -2,7 +2,9 @@
 
 What was written before stays as it was, no half file bears its final name, and a run after it completes.
 """
+import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -204,9 +206,19 @@ def test_every_package_states_a_lowest_version_and_the_pinned_one_is_not_below_i
     pinned = dict(line.split("==") for line in (ROOT / "constraints.txt").read_text().splitlines())
     pinned = {plain(name): version for name, version in pinned.items()}
     lowest = floors()
-    assert {"numpy", "python-flint", "typer", "pyvista", "trame-pyvista", "pytest"} <= set(lowest)
+    assert {"numpy", "python-flint", "typer", "pyvista", "heyoka", "pytest"} <= set(lowest)
     for name, version in lowest.items():
         assert number(pinned[plain(name)]) >= number(version), name
+
+
+def test_every_package_of_an_extra_is_named_with_its_extra():
+    import tomllib
+
+    from stabilab.packages import EXTRAS, cure
+    extras = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["optional-dependencies"]
+    brought = {re.match(r"[\w-]+", line)[0]: extra for extra in ("fast", "data") for line in extras[extra]}
+    assert extras["all"] == ["stabilab[fast,data]"] and EXTRAS == brought
+    assert cure("xarray") == 'pip install xarray (part of stabilab\'s extra data: pip install "stabilab[data]")'
 
 
 def test_ci_runs_the_lowest_versions():
@@ -270,6 +282,33 @@ def test_an_installed_wheel_makes_tables_figures_and_reports_anywhere(tmp_path):
     (away / "own.toml").write_bytes(MINOR.read_bytes())
     run("-m", "stabilab", "report", "own.toml", "--out", "mine")
     assert "BOUNDED" in (away / "mine/index.html").read_text(encoding="utf-8")
+
+
+@pytest.mark.slow
+def test_wheel_and_sdist_install_without_extras_in_a_bare_environment_and_answer(tmp_path):
+    """What the base installation lacks is what the extras bring; answers, plots and surfaces' meshes do without."""
+    copy, bin_ = tmp_path / "source", tmp_path / "bare/bin"
+    unpacked = lambda folder, names: [n for n in names if n.startswith(".") or Path(folder) == ROOT and n in ("build", "report", "figures")]
+    shutil.copytree(ROOT, copy, symlinks=True, ignore=unpacked)
+    subprocess.run([sys.executable, "-m", "venv", tmp_path / "bare"], check=True)
+    pip = [bin_ / "python", "-m", "pip", "-q", "--disable-pip-version-check"]
+    if subprocess.run([*pip, "install", "build"], capture_output=True).returncode:
+        pytest.skip("no package index can be reached from here")
+    subprocess.run([bin_ / "python", "-m", "build", "--outdir", tmp_path / "made", copy], check=True, capture_output=True)
+    shutil.rmtree(copy)
+    made = {path.suffix: path for path in (tmp_path / "made").iterdir()}
+    for built in (made[".whl"], made[".gz"]):
+        subprocess.run([*pip, "install", "--force-reinstall" if built == made[".gz"] else "--upgrade", "-c", ROOT / "constraints.txt",
+                        *(["--no-deps"] if built == made[".gz"] else []), built], check=True)
+        run = lambda *words: subprocess.run([bin_ / "stabilab", *map(str, words)], capture_output=True, text=True, cwd=tmp_path)
+        answer = run("classify", MINOR, "--json")
+        assert answer.returncode == 0 and json.loads(answer.stdout)[0]["motion"]["fate"] == "bounded", answer.stderr
+        assert run("plot", MINOR, "--out", "p.svg").returncode == 0 and run("surface", MINOR, "--out", "s").returncode in (0, 4)
+        lacking = run("simulate", MINOR, "--out", "r.nc")
+        assert lacking.returncode == 2 and "stabilab[data]" in lacking.stderr
+        assert run("simulate", MINOR, "--at", "0,1").returncode == 0
+        listed = subprocess.run([*pip, "list"], capture_output=True, text=True).stdout.lower()
+        assert not any(package in listed for package in ("heyoka", "numba", "xarray", "pandas", "trame"))
 
 
 def test_a_case_that_is_not_here_but_comes_with_the_package_is_named(tmp_path, stabilab, monkeypatch):
