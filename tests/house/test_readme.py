@@ -20,12 +20,14 @@ from unittest import mock
 
 import pytest
 
+import stabilab
 from stabilab import cli, errors
 from stabilab.show.surface.render_probe import CURE, probe
 
 ROOT = Path(__file__).parents[2]
 README = ROOT / "README.md"
-PAGES = [README, *sorted((ROOT / "docs").glob("*.md"))]
+MADE = {"readme.md", "results.md", "api.md", "gallery.md"}  # by docs/conf.py, from what stands elsewhere
+PAGES = [README, *(page for page in sorted((ROOT / "docs").glob("*.md")) if page.name not in MADE)]
 NAMES = [page.name for page in PAGES]
 SECONDS = 1800  # a command that takes so long hangs: the report takes some four minutes on one core, more where others work beside it
 SLOW = ("stabilab report", "python -m pytest")  # run by the slow test
@@ -78,10 +80,11 @@ def make_knows(target):
 NOT_RUN = {
     "make report": lambda: "-m venv .venv" in make_knows("report") and "stabilab report cases/*.toml --papers --precision --out report" in make_knows("report"),
     "make test": lambda: "-m venv .venv" in make_knows("test") and "-m pytest" in make_knows("test"),
-    "pip install -e .": lambda: 'readme = "README.md"' in (ROOT / "pyproject.toml").read_text() and README.exists(),
+    'pip install -e ".[all]"': lambda: 'readme = "README.md"' in (ROOT / "pyproject.toml").read_text() and README.exists(),
     "apt install libegl1 libgl1-mesa-dri": lambda: CURE == "apt install libegl1 libgl1-mesa-dri",
     "make coverage": lambda: "--cov" in make_knows("coverage") and "fail_under = 95" in (ROOT / "pyproject.toml").read_text(),
     "make mutate": lambda: "-m tests.mutate" in make_knows("mutate"),
+    "make docs": lambda: "-m sphinx" in make_knows("docs"),
     "python -m benchmarks": lambda: importlib.util.find_spec("benchmarks.__main__") and "-m benchmarks" in make_knows("bench"),
 }
 
@@ -260,3 +263,17 @@ def test_an_output_that_differs_is_seen():
     assert as_pattern("...\n").fullmatch("") and as_pattern("a\n...\nb\n").fullmatch("a\nb\n")
     for other in ("a 2\nb 23\n", "a 1\nx\n", "a 1\nb 23\nc\n"):
         assert not as_pattern("a 1\n...\nb ...\n").fullmatch(other)
+
+
+def test_every_page_and_every_public_name_stands_on_the_site():
+    """`make docs` builds it and ends at a warning; what its pages hold is told here without Sphinx."""
+    spec = importlib.util.spec_from_file_location("docs_conf", ROOT / "docs/conf.py")
+    conf = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(conf)
+    index = (ROOT / "docs/index.md").read_text(encoding="utf-8")
+    listed = set(re.findall(r"^(?:.*<)?([\w-]+)>?$", "\n".join(body for _, body in re.findall(r"```{(toctree)}\n(.*?)```", index, re.S)), re.M))
+    made = {"readme", "results", "api", "gallery"}
+    assert listed == {page.stem for page in (ROOT / "docs").glob("*.md")} - {"index"} | made
+    assert all(f"stabilab.{name}\n" in conf.reference() for name in stabilab.__all__ if name not in ("plot", "__version__"))
+    assert all(f"## {path.stem}\n" in conf.gallery() for path in (ROOT / "cases").glob("*.toml"))
+    assert "-m sphinx" in make_knows("docs") and "-W" in make_knows("docs") and "make docs" in (ROOT / ".ci/run").read_text()
