@@ -121,7 +121,7 @@ def main(seed=1, scenes=100, times=2000.0, steps=60_000, seconds=170.0, continue
     return rows
 
 
-def table(seed=7, scenes=500):
+def table(seed=7, scenes=1000):
     """Prints shares decided (per cent) by natural times and by steps, as rows of Markdown."""
     rng, rows = random.Random(seed), []
     for _ in range(scenes):
