@@ -114,10 +114,10 @@ def _turned(case, times) -> float:
     scene = case.scene
     row = np.array([*case.state, *(v for name in scene.blocks[1:] for v in case.blocks.get(name, (0.0,) * 3))])
     if scene.blocks != ("omega",):
-        return float(np.linalg.norm(row[:3]) * np.abs(times).max())
+        return math.hypot(*row[:3]) * float(np.abs(times).max())
     with np.errstate(all="ignore"):
         rates = np.abs(to_numpy(derive(scene))(row)).max()
-    return float(max(np.linalg.norm(row), math.sqrt(rates)) * np.abs(times).max())
+    return max(math.hypot(*row), math.sqrt(rates)) * float(np.abs(times).max())
 
 
 def _resolutions(case, times):

@@ -19,6 +19,7 @@ from .result import SpinUp
 from .symmetric import exactly
 
 NATURAL_TIMES, BUDGET = 1e9, 600_000
+FARTHEST = 1e150  # natural units: a run in doubles holds no squares of larger rates
 
 
 def spin_up(scene, state, t_max: float | None = None, budget: int | None = None, after: float = 0.0, proof: bool = False,
@@ -42,10 +43,18 @@ def spin_up(scene, state, t_max: float | None = None, budget: int | None = None,
     tests = tests_of(own)
     if not tests:
         return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, 0.0, state, 0, seen(scene, state), 1.0)
+    if not follows(state, unit):
+        words = f"a rate exceeds {FARTHEST:g} natural units of {unit:.3g} 1/{scene.time_unit}: no run in doubles holds it"
+        return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, 0.0, state, 0, words, 1.0)
     found = chase(own, tests, np.array([state]) / unit, NATURAL_TIMES if t_max is None else t_max * unit, BUDGET if budget is None else budget, after * unit,
                   tell and (lambda t, steps, left: tell(t / unit, steps, left)), wanted(1, fast, False, 2, 2))
     answer = answer_of(scene, unit, found, 0)
     return proved(scene, given if isinstance(given, (list, tuple)) else state, answer) if proof else answer
+
+
+def follows(state, unit: float) -> bool:
+    """Whether a run in doubles can hold a state; unit: one natural unit of rates in those of the state."""
+    return all(abs(v) / FARTHEST < unit for v in state)
 
 
 def answer_of(scene, unit: float, found: Chased, row: int) -> SpinUp:

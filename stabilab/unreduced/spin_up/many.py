@@ -12,7 +12,7 @@ from ...physics.states import checked_states
 from ..enclosure.proof import proved
 from .chase import Chased, chase
 from .fields import natural, tests_of
-from .follow import BUDGET, NATURAL_TIMES, answer_of, spin_up
+from .follow import BUDGET, FARTHEST, NATURAL_TIMES, answer_of, spin_up
 from .result import SpinUp
 
 COLD = 256  # states from which on numba is loaded unasked, where it is installed
@@ -53,6 +53,8 @@ def spin_up_many(scene, states, t_max: float | None = None, budget: int | None =
     tests = tests_of(own)
     first = spin_up(scene, states[0].tolist(), t_max=0.0, budget=0, fast=fast) if len(states) else None
     if first is not None and (first.level == "exact" or not tests):  # closed solutions: of all states of the scene or of none
+        return _one_by_one(scene, states)
+    if not (np.abs(states) / FARTHEST < unit).all():
         return _one_by_one(scene, states)
     found = chase(own, tests, states / unit, NATURAL_TIMES if t_max is None else t_max * unit, BUDGET if budget is None else budget,
                   tell=tell and (lambda t, steps, left: tell(t / unit, steps, left)), fast=wanted(len(states), fast, False, COLD, COLD))

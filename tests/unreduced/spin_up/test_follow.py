@@ -162,6 +162,14 @@ def test_bad_states_are_refused():
         spin_up_many(EXAMPLE, [[1, 2]])
 
 
+@pytest.mark.parametrize("rate", [1e151, 1e308])
+def test_rates_beyond_what_a_run_in_doubles_holds_are_undecided_with_the_reason(rate):
+    """A warning of overflow would be an error here; the other state of the batch keeps its answer."""
+    one, many = spin_up(EXAMPLE, (rate, 0.0, 0.0)), spin_up_many(EXAMPLE, [(rate, 0.0, 0.0), (0.1, 0.2, 0.3)])
+    assert one.level == "undecided" and "no run in doubles holds it" in one.cause and many.row(0).cause == one.cause
+    assert many.row(1).level == spin_up(EXAMPLE, (0.1, 0.2, 0.3)).level == "certified"
+
+
 def test_nothing_is_followed_beyond_the_limits():
     scene = random_scene(random.Random(26), 10)
     answer = spin_up(scene, (.1, .2, .1), 2.0)
