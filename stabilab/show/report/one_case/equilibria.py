@@ -6,16 +6,17 @@ from .verdict import css
 
 
 def table(found, measures) -> dict:
-    """kind, reason and rows; places in the unit of the page's rates."""
+    """kind, reason and rows; places in the unit of the page's rates, equations of curves and their parameter t in rad/s, or scaled."""
     unit, one = measures.rate_unit
-    rows = [_row(vector([v * one for v in p.at[:3]]), p) for p in found.points]
+    unit = f" {unit}" if unit else ""
+    rows = [_row(vector([v * one for v in p.at[:3]]) + unit, p) for p in found.points]
     for curve in found.curves:
         for segment in curve.segments:
             low, high = (told(t, digits=4) for t in segment.t)
             rows.append(_row(f"{spoken(curve.name)}, t from {low} to {high}", segment))
-        rows += [{"where": f"fold at {vector([v * one for v in fold])}", "linear": "degenerate", "verdict": "", "because": "", "css": ""}
+        rows += [{"where": f"fold at {vector([v * one for v in fold])}{unit}", "linear": "degenerate", "verdict": "", "because": "", "css": ""}
                  for fold in curve.folds]
-    return {"kind": found.kind, "reason": spoken(found.reason), "rows": rows, "unit": unit,
+    return {"kind": found.kind, "reason": spoken(found.reason), "rows": rows, "curve_unit": " (rad/s)" if unit else "",
             "curves": [(curve.name, spoken(curve.equation), spoken(curve.parametrisation)) for curve in found.curves]}
 
 
