@@ -25,9 +25,10 @@ from stabilab import cli, errors
 from stabilab.show.surface.render_probe import CURE, probe
 
 ROOT = Path(__file__).parents[2]
-README = ROOT / "README.md"
+README, GUIDE = ROOT / "README.md", ROOT / "docs/guide.md"
 MADE = {"readme.md", "results.md", "api.md", "gallery.md"}  # by docs/conf.py, from what stands elsewhere
-PAGES = [README, *(page for page in sorted((ROOT / "docs").glob("*.md")) if page.name not in MADE)]
+LISTS = {"index.md"}  # of pages alone, which the last test here looks through
+PAGES = [README, *(page for page in sorted((ROOT / "docs").glob("*.md")) if page.name not in MADE | LISTS)]
 NAMES = [page.name for page in PAGES]
 SECONDS = 1800  # a command that takes so long hangs: the report takes some four minutes on one core, more where others work beside it
 SLOW = ("stabilab report", "python -m pytest")  # run by the slow test
@@ -134,13 +135,48 @@ def prepared(text, folder):
     return text, folder
 
 
+def in_python(text):
+    """Run the sessions of a page one after another, each with the names of those before."""
+    sessions = [body for language, body in blocks(text) if language == "python" and ">>>" in body]
+    assert sessions
+    names: dict = {}
+    for body in sessions:
+        test = doctest.DocTestParser().get_doctest(body, names, "page", "page", 0)
+        report = []
+        result = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS, verbose=False).run(test, out=report.append, clear_globs=False)
+        names.update(test.globs)
+        assert test.examples and result.failed == 0, "".join(report)
+
+
 @pytest.fixture(scope="module")
 def readme(tmp_path_factory):
     return prepared(README.read_text(), tmp_path_factory.mktemp("readme"))
 
 
+@pytest.fixture(scope="module")
+def guide(tmp_path_factory):
+    return prepared(GUIDE.read_text(), tmp_path_factory.mktemp("guide"))
+
+
 def test_readme_commands_print_what_it_shows(readme):
     text, folder = readme
+    done = follow(text, folder, lambda command: not command.startswith(SLOW))
+    assert len(done) >= 4 and (folder / "my.png").stat().st_size > 0
+
+
+def test_the_three_doors_print_what_they_show(tmp_path, monkeypatch):
+    text, folder = prepared((ROOT / "docs/start.md").read_text(), tmp_path)
+    assert len(follow(text, folder, lambda command: True)) == len(commands(text))
+    monkeypatch.chdir(folder)
+    in_python(text)
+
+
+def test_readme_is_not_longer_than_three_screens():
+    assert len(README.read_text().splitlines()) <= 150
+
+
+def test_commands_of_the_guide_print_what_it_shows(guide):
+    text, folder = guide
     done = follow(text, folder, lambda command: not command.startswith(SLOW))
     needed = ("show", "classify", "extremes", "surface", "simulate", "plot", "tables")
     assert all(any(command.startswith(f"stabilab {name} ") for command in done) for name in needed)
@@ -161,16 +197,11 @@ def test_the_page_of_stuck_thrusters_prints_what_it_shows(tmp_path, wanted):
     assert follow(text, folder, lambda command: command.startswith(f"stabilab {wanted}"))
 
 
-def test_readme_session_in_python_gives_what_it_shows(readme, monkeypatch):
-    text, folder = readme
+@pytest.mark.parametrize("page", ["readme", "guide"])
+def test_sessions_in_python_give_what_they_show(page, request, monkeypatch):
+    text, folder = request.getfixturevalue(page)
     monkeypatch.chdir(folder)
-    sessions = [body for language, body in blocks(text) if language == "python" and ">>>" in body]
-    assert sessions
-    for body in sessions:
-        test = doctest.DocTestParser().get_doctest(body, {}, "README.md", "README.md", 0)
-        report = []
-        result = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS, verbose=False).run(test, out=report.append)
-        assert test.examples and result.failed == 0, "".join(report)
+    in_python(text)
 
 
 @pytest.mark.parametrize("page", PAGES, ids=NAMES)
@@ -203,10 +234,10 @@ def test_readme_has_a_picture():
     assert re.search(r"!\[[^]]+\]\(figures/[\w-]+\.png\)", README.read_text())
 
 
-def test_fates_and_exit_codes_in_readme_are_those_of_the_program():
+def test_fates_and_exit_codes_in_the_guide_are_those_of_the_program():
     from stabilab import Fate
     from stabilab.physics.effects import REGISTRY
-    rows = [line.split("|")[1].strip() for line in README.read_text().splitlines() if line.startswith("|")]
+    rows = [line.split("|")[1].strip() for line in GUIDE.read_text().splitlines() if line.startswith("|")]
     fates, effects = rows[rows.index("fate"):], rows[rows.index("effect"):rows.index("fate")]
     assert {row.strip("`") for row in fates if row.startswith("`")} == {fate.word for fate in Fate}
     assert [row[1:].split("`")[0] for row in effects if row.startswith("`")] == list(REGISTRY)
@@ -215,10 +246,10 @@ def test_fates_and_exit_codes_in_readme_are_those_of_the_program():
 
 
 @pytest.mark.skipif(not HEYOKA, reason="counts heyoka's steps")
-def test_cost_table_is_what_simulate_counts(readme):
+def test_cost_table_is_what_simulate_counts(guide):
     """Counters within a tenth (a processor's rounding moves a step), departures within a factor of three."""
     from stabilab import load, trajectory
-    case = load(readme[1] / "my.toml")
+    case = load(guide[1] / "my.toml")
     table = re.findall(r"^\| (\w+) \| (1e-\d+) \| (\d+) \| (?:order )?(\d+) \| (\S+) \|$", (ROOT / "docs/cost.md").read_text(), re.M)
     assert len(table) >= 8
     for method, rtol, steps, other, departure in table:
