@@ -433,7 +433,7 @@ def test_an_intact_certificate_of_another_case_does_not_pass_for_this_one(stabil
     own, proof = write("own"), tmp_path / "certificate.json"
     assert stabilab("classify", own, "--certify", "--out", proof)[0] == 0
     code, out, _ = stabilab("verify", proof, "--case", write("same", "8e-1", "0.10"))  # other decimals of the same numbers
-    assert code == 0 and out.startswith("about: moments 12 9 5, wheel 4/5 0 0, torque 0 0 1/50, state 1/10 1/20 1/50\n")
+    assert code == 0 and out.startswith("PROVED: 16 proved\nabout: moments 12 9 5, wheel 4/5 0 0, torque 0 0 1/50, state 1/10 1/20 1/50\n")
     for other, words, silent in ((write("wheel", momentum="0.8000000000000000001"), "wheel: the certificate's 4/5 0 0, the case's", "state:"),
                                  (write("start", rate="0.11"), "state: the certificate's 1/10 1/20 1/50, the case's 11/100 1/20 1/50", "wheel:")):
         code, out, err = stabilab("verify", proof, "--case", other)

@@ -79,7 +79,7 @@ def test_a_model_that_stays_near_the_exact_motion_is_shown_whole():
 def test_the_panel_says_how_far_a_cut_model_goes():
     from stabilab.show import style
     with style.drawing() as plt:
-        figure = panels.draw(plt, "", [_column(np.sin, np.exp)], [ROW])
+        figure = panels.draw_lines(plt, "", [(ROW, [_column(np.sin, np.exp)])])
         words = [text.get_text() for text in figure.axes[1].texts]
     assert words == [f"cut: reaches {math.exp(10):.0f}"]
 
@@ -87,8 +87,8 @@ def test_the_panel_says_how_far_a_cut_model_goes():
 def test_where_a_printed_curve_leaves_its_panel_it_is_also_shown_whole():
     from stabilab.show import style
     with style.drawing() as plt:
-        cut = panels.draw(plt, "", [_column(np.sin, np.exp)], [ROW])
-        near = panels.draw(plt, "", [_column(np.sin, lambda t: 2 * np.sin(t))], [ROW])
+        cut = panels.draw_lines(plt, "", [(ROW, [_column(np.sin, np.exp)])])
+        near = panels.draw_lines(plt, "", [(ROW, [_column(np.sin, lambda t: 2 * np.sin(t))])])
         (curve,) = cut.axes[0].lines
         assert len(cut.axes) == 2 and len(near.axes) == 1 and "alone" in cut.axes[0].get_title()
         np.testing.assert_array_equal(curve.get_ydata(), np.exp(np.linspace(0, 10, 101)))

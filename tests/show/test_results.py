@@ -85,7 +85,7 @@ def test_results_of_a_top_and_of_a_spin_up_show_themselves():
 @pytest.mark.parametrize("module, method", [("xarray", "to_xarray"), ("pandas", "to_pandas")])
 def test_a_package_that_is_not_there_is_named_in_one_line(results, monkeypatch, module, method):
     monkeypatch.setattr(packages, "present", lambda name: name != module)
-    with pytest.raises(errors.InputError, match=f"^{module} is not installed, .*pip install {module}$") as caught:
+    with pytest.raises(errors.InputError, match=f"^{module} is not installed, .*pip install {module} \\(part of stabilab's extra data: .*\\)$") as caught:
         getattr(results["Motion"], method)()
     assert "\n" not in str(caught.value)
 
