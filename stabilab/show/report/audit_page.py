@@ -9,6 +9,7 @@ from pathlib import Path
 from ...theories.audit.checks import raw
 from ...theories.audit.findings import VERDICTS
 from ...theories.audit.formulas import FormulaError
+from ..text.audit import figures_changed
 from . import html
 
 GREEK = {"al": "alpha", "th": "theta", "gam": "gamma", "om": "omega", "lam": "lambda", "Om": "Omega", "eps": "varepsilon", "ep": "varepsilon"}
@@ -43,6 +44,7 @@ def _row(paper, finding):
         "method": finding.method,
         "unit_fault": finding.unit_fault,
         "residual": f"{finding.residual:.2g}" if finding.verdict in ("wrong", "only-if") else "",
+        "figures": figures_changed(row, paper.figures),
         "note": row.options.get("note", ""),
     }
 

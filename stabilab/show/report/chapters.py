@@ -17,6 +17,7 @@ from ...theories.comparison import compare, side_by_side
 from .. import style
 from ..figures import catalogue as figures
 from ..figures import panels
+from ..figures.difference import words
 from ..text import comparison
 from . import claims
 
@@ -82,7 +83,7 @@ def section(name: str, folder: Path, tell=lambda words: None) -> dict:
     drawn = figures.write(None, folder / "figures", tell, chapter.paper)
     made = {"id": chapter.paper, "title": chapter.title, "paper": figures.PAPERS[chapter.paper], "about": chapter.about, "problem": "",
                "claims": [], "compared": [], "sensible": None, "parameters": "", "end": chapter.end,
-               "figures": [{"number": row.number, "title": row.title, "caption": row.caption, "tolerance": row.tolerance,
+               "figures": [{"number": row.number, "title": row.title, "caption": row.caption, "tolerance": row.tolerance, "differences": words(row),
                             "command": row.command, "file": f"figures/{path.name}", "size": size(path)} for row, path in zip(rows, drawn)]}
     try:
         tell(f"chapter {chapter.paper}: comparisons")
