@@ -4,6 +4,8 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from .version import __version__ as __version__
+
 if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type checkers
     from .answers.equilibria import equilibria as equilibria
     from .answers.extremes import extremes as extremes
@@ -39,8 +41,6 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
     from .theories.comparison import compare as compare
     from .theories.theory import theory as theory
     from .unreduced.spin_up.follow import spin_up as spin_up
-
-__version__ = "0.1.0"
 
 # Public name -> module; loaded on first use so that light commands stay light.
 _HOME = {

@@ -44,7 +44,7 @@ Strict = Annotated[bool, typer.Option("--strict", help="Exit with 3 where a fate
 
 def _version(wanted: bool):
     if wanted:
-        from . import __version__
+        from .version import __version__
         _print(f"stabilab {__version__}")
         raise typer.Exit()
 

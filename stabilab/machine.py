@@ -5,7 +5,7 @@ import os
 import platform
 from pathlib import Path
 
-from stabilab import __version__
+from .version import __version__
 
 
 def machine() -> dict[str, str]:

@@ -9,8 +9,6 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
-from stabilab import __version__
-
 from ..equilibrium.balance import pencil
 from ..equilibrium.conics import balance_fails, conic_curves
 from ..equilibrium.isolated import isolated_states
@@ -23,6 +21,7 @@ from ..orbit.period.balls import period_ball
 from ..orbit.reduction import reduce
 from ..orbit.result import Fate
 from ..physics.scene import AnyScene
+from ..version import __version__
 
 SCHEMA = "stabilab.certificate/1"
 ROOT_BITS = 150  # roots are known to 160 bits and more (`polynomials.real_roots`, `Surd.fraction`)

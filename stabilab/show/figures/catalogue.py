@@ -4,9 +4,8 @@ from __future__ import annotations
 from functools import partial
 from pathlib import Path
 
-from stabilab import __version__
-
 from ...errors import InputError
+from ...version import __version__
 from .. import style
 from . import cavity as figures_cavity
 from . import charged as figures_charged

@@ -10,10 +10,9 @@ import os
 from contextlib import contextmanager
 from pathlib import Path
 
-from stabilab import __version__
-
 from ... import files
 from ...errors import InputError
+from ...version import __version__
 from . import endings
 
 SCHEMA, NAME = "stabilab.manifest/1", "manifest.json"

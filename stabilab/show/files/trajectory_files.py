@@ -3,10 +3,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from stabilab import __version__
-
 from ...files import whole_file
 from ...packages import demand
+from ...version import __version__
 from ..results.variables import of_parts
 from ..text.answers import columns
 from . import comma, endings

@@ -11,9 +11,8 @@ from pathlib import Path
 
 import numpy as np
 
-from stabilab import __version__
-
 from ...cost.drift import EPS, Drift, drifts, growth, spread, starts
+from ...version import __version__
 from .. import style
 from ..files import comma
 

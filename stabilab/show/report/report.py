@@ -6,11 +6,10 @@ import sys
 from contextlib import contextmanager
 from pathlib import Path
 
-from stabilab import __version__
-
 from ...case.read import load_all
 from ...interrupt import undoing
 from ...packages import demand
+from ...version import __version__
 from .. import style
 from ..files import manifest
 from ..text import table
