@@ -7,6 +7,7 @@ import numpy as np
 
 from ...equilibrium.result import Equilibria, EquilibriumCurve
 from .. import style
+from ..sampling import spread
 
 CURVES: dict[str, dict[str, Any]] = {
     "stable": {"color": style.BLUE, "linestyle": "-", "linewidth": 2.0}, "unstable": {"color": style.VERMILION, "linestyle": "--", "linewidth": 1.8},
@@ -54,18 +55,6 @@ def simple(verdict: str) -> str:
 def plane_of(curve: EquilibriumCurve) -> np.ndarray:
     """Two unit vectors that span a plane of equilibria."""
     return np.linalg.svd(np.array([sample.at[:3] for sample in curve.samples], float), full_matrices=False)[2][:2]
-
-
-def spread(low: float, high: float, number: int) -> np.ndarray:
-    """Parameters inside (low, high), dense at both ends, geometric towards an infinite end and towards zero."""
-    if np.isfinite(low) and np.isfinite(high):
-        return low + (high - low) * (1 - np.cos(np.linspace(1e-3, np.pi - 1e-3, number))) / 2
-    if np.isfinite(low):
-        return low + np.geomspace(1e-4, 1e4, number) * max(1.0, abs(low))
-    if np.isfinite(high):
-        return high - np.geomspace(1e-4, 1e4, number)[::-1] * max(1.0, abs(high))
-    half = np.geomspace(1e-4, 1e4, number // 2)
-    return np.concatenate([-half[::-1], half])
 
 
 def disc(spanning: np.ndarray, radius: float) -> np.ndarray:

@@ -14,6 +14,7 @@ from ...orbit.separatrix.sheets import separatrix
 from ...packages import present
 from .. import style
 from ..files import endings, manifest
+from ..sampling import spread
 from .mesh import Mesh, glb, normals, stl, triangulate
 from .render_probe import probe, use
 
@@ -157,24 +158,11 @@ def equilibrium_lines(curves, size, number=240):
     lines = []
     for curve in curves:
         for segment in curve.segments:
-            points = np.array([curve.point(float(t)) for t in _spread(*segment.t, number)], float)
+            points = np.array([curve.point(float(t)) for t in spread(*segment.t, number)], float)
             points = points[np.all(np.isfinite(points), axis=1) & (np.linalg.norm(points, axis=1) < size)]
             if len(points) > 1:
                 lines.append((segment.linear, points))
     return lines
-
-
-def _spread(low, high, number):
-    """Parameters inside (low, high), dense at both ends, geometric towards an infinite end and towards zero."""
-    if np.isfinite(low) and np.isfinite(high):
-        t = low + (high - low) * (1 - np.cos(np.linspace(1e-3, np.pi - 1e-3, number))) / 2
-        return t
-    if np.isfinite(low):
-        return low + np.geomspace(1e-4, 1e4, number) * max(1.0, abs(low))
-    if np.isfinite(high):
-        return high - np.geomspace(1e-4, 1e4, number)[::-1] * max(1.0, abs(high))
-    half = np.geomspace(1e-4, 1e4, number // 2)
-    return np.concatenate([-half[::-1], half])
 
 
 def plotter(scene, found, meshes):
