@@ -6,11 +6,10 @@ from functools import lru_cache
 from pathlib import Path
 
 from ...physics.to_numpy import lambdified
+from . import FOLDER
 from .claims import vocabulary
 from .formulas import parse
 from .values import Evaluator
-
-FOLDER = Path(__file__).parent / "papers"
 
 
 @lru_cache
