@@ -11,7 +11,6 @@ import subprocess
 import sys
 from contextlib import contextmanager
 from dataclasses import dataclass
-from functools import partial
 from importlib import import_module
 from pathlib import Path
 
@@ -97,15 +96,13 @@ def _helpers(place, number):
     helpers = [subprocess.Popen([sys.executable, "-m", __name__, str(place)], stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
                for _ in range(number)]
 
-    def stop(helper):
-        helper.kill()
-        helper.wait()
-        helper.stdin.close()
-
     def stop_all():
         for helper in helpers:
-            stop(helper)
-    with undoing(partial(stop_all)):
+            helper.kill()
+            helper.wait()
+            helper.stdin.close()
+
+    with undoing(stop_all):
         try:
             yield helpers
         finally:
