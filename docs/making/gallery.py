@@ -1,0 +1,108 @@
+"""The gallery: every case of the repository with its picture, its answer in one line, its file and the commands that give these.
+
+The page `gallery.md` has the pictures in groups, those with a constant torque first; a page a group has the rest. Pictures and answers take
+half a minute, so they are kept beside a hash of the case and of the whole program, and made again when either has changed.
+"""
+from __future__ import annotations
+
+import hashlib
+import html
+import json
+from pathlib import Path
+
+from .written import page
+
+ROOT = Path(__file__).parents[2]
+FOLDER = "gallery"
+SHARP = 75  # dots an inch: a picture as wide as the text, some 20 kB
+HEAD = """# Cases
+
+Each picture is a case file of the folder `cases/`: a body, what acts on it, and one motion. A click leads to the answer, the file and the commands.
+
+"""
+
+
+def write(docs: Path, cases: list[Path] | None = None) -> list[str]:
+    """Write gallery.md, gallery/<group>.md and gallery/<case>.png; the names of all cases, in the order of the pages. cases: None for all."""
+    from stabilab.show.report.whole import GROUPS
+    entries = [entry(path, docs / FOLDER) for path in cases or sorted((ROOT / "cases").glob("*.toml"))]
+    grouped = {title: [one for one in entries if one["group"] == title] for title, _ in GROUPS}
+    grouped = {title: rows for title, rows in grouped.items() if rows}
+    page(docs / "gallery.md", overview(grouped))
+    for title, rows in grouped.items():
+        page(docs / FOLDER / f"{slug(title)}.md", f"# {title}\n\n" + "\n".join(map(section, rows)))
+    return [one["name"] for rows in grouped.values() for one in rows]
+
+
+def entry(path: Path, folder: Path) -> dict:
+    """What the pages say of one case; its picture is in the folder then."""
+    text = path.read_text(encoding="utf-8")
+    key, kept = hashlib.sha256((program() + text).encode()).hexdigest(), folder / f"{path.stem}.json"
+    if kept.exists() and (folder / f"{path.stem}.png").exists():
+        known = json.loads(kept.read_text(encoding="utf-8"))
+        if known["key"] == key:
+            return known
+    known = {"key": key, "name": path.stem, "text": text} | made(path, folder)
+    kept.write_text(json.dumps(known, ensure_ascii=False), encoding="utf-8")
+    return known
+
+
+def made(path: Path, folder: Path) -> dict:
+    """Title, source, group, answer and kind of picture of a case, whose picture is drawn. Of a sweep the first combination is drawn."""
+    from stabilab.case.read import load_all
+    from stabilab.show.plot import which, write
+    from stabilab.show.plot.subject import subject
+    from stabilab.show.report.whole import group
+    from stabilab.show.terminal.letters import greek
+    from stabilab.show.text.headline import headline
+    case, *others = load_all(path)
+    one = subject(case)
+    folder.mkdir(parents=True, exist_ok=True)
+    write(one, folder / f"{path.stem}.png", dpi=SHARP)
+    first = f"The first of {1 + len(others)} combinations is drawn: " if others else ""
+    return {"title": greek(case.title), "source": greek(case.source or ""), "group": group(case), "kind": which.default(one),
+            "answer": first + greek(headline(case, one.motion))}
+
+
+def program() -> str:
+    """A hash of everything that a picture or an answer may depend on."""
+    seen = hashlib.sha256(Path(__file__).read_bytes())
+    for path in sorted((ROOT / "stabilab").rglob("*.py")):
+        seen.update(path.read_bytes())
+    return seen.hexdigest()
+
+
+def overview(grouped: dict[str, list[dict]]) -> str:
+    """The page of all pictures."""
+    parts = [HEAD]
+    for title, rows in grouped.items():
+        parts.append(f"## [{title}]({FOLDER}/{slug(title)}.md)\n\n```{{raw}} html\n<div class=\"cases\">")
+        parts += [card(one, slug(title)) for one in rows]
+        parts.append("</div>\n```\n")
+    pages = "\n".join(f"{FOLDER}/{slug(title)}" for title in grouped)
+    return "\n".join(parts) + f"\n```{{toctree}}\n:hidden:\n\n{pages}\n```\n"
+
+
+def card(one: dict, where: str) -> str:
+    """A picture that leads to its case."""
+    alt = html.escape(f"{one['title']}: {one['answer']}", quote=True)
+    return (f'<a href="{FOLDER}/{where}.html#{one["name"].replace("_", "-")}" title="{alt}"><img loading="lazy" src="_images/{one["name"]}.png" alt="{alt}">'
+            f'<span>{one["name"]}</span></a>')
+
+
+def section(one: dict) -> str:
+    """One case on the page of its group."""
+    source = f"\n\n*Source: {plain(one['source'])}.*" if one["source"] else ""
+    name = f"cases/{one['name']}.toml"
+    return (f"## {one['name']}\n\n{plain(one['title'])}. **{plain(one['answer'])}.**{source}\n\n![{plain(one['title'])}]({one['name']}.png)\n\n"
+            f"```sh\nstabilab classify {name}\nstabilab plot {name} --kind {one['kind']} --out {one['name']}.png\n```\n\n```toml\n{one['text']}```\n")
+
+
+def plain(text: str) -> str:
+    """The text with what Markdown takes for markup as letters."""
+    return "".join(f"\\{letter}" if letter in "*_[]<>`|$" else letter for letter in text)
+
+
+def slug(title: str) -> str:
+    """A file name of a title."""
+    return "-".join("".join(letter if letter.isalnum() else " " for letter in title.lower()).split())

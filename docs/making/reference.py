@@ -1,0 +1,40 @@
+"""The reference: an entry of Sphinx's autodoc for every public name, in groups, and what makes plain docstrings readable to it."""
+from __future__ import annotations
+
+import inspect
+import re
+
+GROUPS = {
+    "A case": ("load", "Case", "Body", "Scene", "ScaledGyrostat", "Gyrostat", "ConstantTorque", "Charge", "Resistance", "LiquidCavity", "NewtonianField",
+               "Gravity", "BodyForce"),
+    "Questions about a motion": ("fate", "Fate", "fate_grid", "motion", "extremes", "period", "spin_up", "stuck", "time_to", "TimeTo", "validity"),
+    "Questions about all motions": ("equilibria", "separatrix"),
+    "Motions in time": ("trajectory", "ensemble", "simulate", "compare", "theory", "derive"),
+    "Errors": ("InputError",),
+}
+
+
+def text() -> str:
+    """A heading a group, an entry a public name. A public name that no group has is an error: the page is whole."""
+    import stabilab
+    placed = {name for names in GROUPS.values() for name in names} | {"plot", "__version__"}
+    if missing := set(stabilab.__all__) ^ placed:
+        raise ValueError(f"docs/making/reference.py, GROUPS: {', '.join(sorted(missing))} stand in one of it and stabilab.__all__ only")
+    parts = ["# Reference\n\nEvery public name of `import stabilab`. Arrays have their components in the last place.\n"]
+    for title, names in GROUPS.items():
+        parts.append(f"## {title}\n")
+        parts += [_entry(f"stabilab.{name}", getattr(stabilab, name)) for name in names]
+    return "\n".join(parts)
+
+
+def _entry(name, thing) -> str:
+    kind = "function" if not inspect.isclass(thing) else "exception" if issubclass(thing, Exception) else "class"
+    members = "\n   :members:" if kind == "class" else ""
+    return f"```{{eval-rst}}\n.. auto{kind}:: {name}{members}\n```\n"
+
+
+def as_rst(app, what, name, obj, options, lines):
+    """Docstrings are plain sentences with names in single backticks: as literals, and nothing else as markup."""
+    found = re.sub(r"(?<!`)`([^`\n]+)`(?!`)", r"``\1``", "\n".join(lines))
+    parts = re.split(r"(``[^`]+``)", found)
+    lines[:] = "".join(part if part.startswith("``") else re.sub(r"([*|\\]|_(?=\W|$))", r"\\\1", part) for part in parts).split("\n")

@@ -1,0 +1,68 @@
+"""The site of the documentation: `make docs` builds it and ends at a warning; what its pages hold is told here without Sphinx."""
+import re
+import sys
+
+import pytest
+
+import stabilab
+
+from .test_readme import MADE, ROOT, make_knows
+
+sys.path.insert(0, str(ROOT / "docs"))
+from making import gallery, reference
+
+CASES = sorted((ROOT / "cases").glob("*.toml"))
+STEMS = sorted(path.stem for path in CASES)
+
+
+def pages():
+    """Every page that is written by hand, from docs/."""
+    return {path.relative_to(ROOT / "docs").with_suffix("").as_posix() for path in (ROOT / "docs").rglob("*.md")
+            if not {"_site", gallery.FOLDER} & set(path.relative_to(ROOT / "docs").parts) and path.name not in MADE | {"index.md"}}
+
+
+def test_every_page_stands_in_the_contents_of_the_site():
+    index = (ROOT / "docs/index.md").read_text(encoding="utf-8")
+    listed = set(re.findall(r"^(?:.*<)?([\w/-]+)>?$", "\n".join(re.findall(r"```{toctree}\n(.*?)```", index, re.S)), re.M))
+    assert listed == pages() | {name.removesuffix(".md") for name in MADE}
+    assert "-m sphinx" in make_knows("docs") and "-W" in make_knows("docs") and "make docs" in (ROOT / ".ci/run").read_text()
+
+
+def test_every_public_name_stands_in_the_reference():
+    text = reference.text()
+    assert all(f":: stabilab.{name}\n" in text for name in stabilab.__all__ if name not in ("plot", "__version__"))
+
+
+def test_every_case_stands_in_the_gallery_under_its_group(tmp_path, monkeypatch):
+    from stabilab.show.report.whole import group
+
+    def undrawn(path, folder):
+        folder.mkdir(exist_ok=True)
+        (folder / f"{path.stem}.png").touch()
+        return {"title": path.stem, "source": "", "group": group(stabilab.load(path)), "kind": "time", "answer": "none"}
+
+    monkeypatch.setattr(gallery, "made", undrawn)
+    assert sorted(gallery.write(tmp_path)) == STEMS
+    page = (tmp_path / "gallery.md").read_text(encoding="utf-8")
+    titles = re.findall(r"^## \[(.*)\]\((.*)\)$", page, re.M)
+    assert titles[0][0] == "Constant torque along a principal axis" and len(titles) >= 6
+    held = [name for _, path in titles for name in re.findall(r"^## (.*)$", (tmp_path / path).read_text(encoding="utf-8"), re.M)]
+    assert sorted(held) == STEMS and all(f'src="_images/{name}.png"' in page for name in held)
+
+
+def test_a_case_of_the_gallery_has_picture_answer_file_and_commands_and_is_kept_until_it_changes(tmp_path, monkeypatch):
+    folder = tmp_path / gallery.FOLDER
+    (minor,) = [path for path in CASES if path.stem == "minor-axis-100"]
+    gallery.write(tmp_path, [minor])
+    page = (folder / "constant-torque-along-a-principal-axis.md").read_text(encoding="utf-8")
+    assert "BOUNDED for ever while the torque is exactly along axis 3" in page and minor.read_text(encoding="utf-8") in page
+    assert "stabilab plot cases/minor-axis-100.toml --kind phase" in page and "λ1 = 100" in page
+    assert (folder / "minor-axis-100.png").read_bytes().startswith(b"\x89PNG")
+    with monkeypatch.context() as patch:
+        patch.setattr(gallery, "made", lambda path, folder: pytest.fail("drawn again"))
+        gallery.write(tmp_path, [minor])
+    (changed := tmp_path / minor.name).write_text(minor.read_text(encoding="utf-8") + "# more\n", encoding="utf-8")
+    drawn = []
+    monkeypatch.setattr(gallery, "made", lambda path, folder: drawn.append(path) or {"title": "", "source": "", "group": "No torque", "kind": "", "answer": ""})
+    gallery.write(tmp_path, [changed])
+    assert drawn == [changed]
