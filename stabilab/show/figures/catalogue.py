@@ -12,7 +12,7 @@ from . import charged as figures_charged
 from . import major_axis as major
 from . import middle_axis as middle
 from . import minor_axis as minor
-from . import paper
+from . import minor_map, paper
 from . import top as figures_top
 from .difference import words
 from .figure import Figure
@@ -42,16 +42,16 @@ FIGURES = (
            "upright. Outside the loops every motion comes from the right, turns back and spins up to the right.",
            minor.left_right, _LEVEL),
     Figure(4, "Effect of the momentum wheel on the separatrices", lambda: "True saddles and centres against the positions printed "
-           f"in the text (crosses). With growing λ1 the left saddle moves left (α = {minor.left_saddles()}), not right.",
+           f"in the text (upright strokes). With growing λ1 the left saddle moves left (α = {minor.left_saddles()}), not right.",
            minor.wheel_effect, _LEVEL),
     Figure(5, "Separatrix surfaces, minor axis", "Inside each of the two surfaces every motion is periodic about its "
            "centre; outside it spins up about axis 3. The surfaces open out of a fold, each at its own radius; the paper's "
            "equation (31) holds for λ1 = 0 only.", minor.surfaces, minor.exactness),
     Figure(6, "Contour map of the separatrix surfaces", "The folds lie on two circles of different radius about (−a, 0), "
            "one on either side of the printed √2 about the origin; the curve (x1+a)(x1+b) = x2² parts stable from unstable "
-           "equilibria, not the line x1 + x2 = 0.", minor.contour_map, lambda: minor.exactness(shape=minor.MAP_SHAPE)),
+           "equilibria, not the line x1 + x2 = 0.", minor_map.contour_map, minor_map.exactness),
     Figure(7, "Typical stable motions, minor axis", "Periodic motions on arcs of circles about (−a, 0), 0.6 of the way up "
-           "to the separatrix. The paper says that a motion on the separatrix settles on the equilibrium of the fold; it "
+           "to the separatrix, and the paper's own start. The paper says that a motion on the separatrix settles on the equilibrium of the fold; it "
            "settles on the saddle of its own circle.", minor.stable_motions, minor.runs_exactness),
     Figure(8, "Major axis from (4.5, 1.8, 3.4)", lambda: f"Spin-up about axis 1. {_LAW}. The paper's τ is not in seconds: "
            f"t = {major.second():.4g} τ s.", _run(paper.START_MAJOR), _STARTED),

@@ -17,9 +17,10 @@ FAMILIES: dict[str, tuple[str, str, dict[float, str]]] = {  # family -> (symbol,
     "zeta": (r"\zeta", r"s$^{-1}$", {1.5: "liquid-zeta-1_5", 2: "liquid-base", 2.5: "liquid-zeta-2_5"}),
     "M3": ("M_3", "N m", {-3: "liquid-torque-3", -6: "liquid-base", -9: "liquid-torque-9"}),
     "e": ("e", "C", {0.01: "liquid-base", 1e3: "liquid-charge-1e3", 1e4: "liquid-charge-1e4"})}
-DATA = {"small": r"$\zeta=2$, $M_3=-6$, $e=0.01$", "large": r"$\zeta=2$, $M_3=-6$, $e=0.01$",
-        "zeta": r"$\lambda_3=0.1$, $M_3=-6$, $e=0.01$", "M3": r"$\lambda_3=0.1$, $\zeta=2$, $e=0.01$",
-        "e": r"$\lambda_3=0.1$, $\zeta=2$, $M_3=-6$"}
+LAMBDA, ZETA, TORQUE, CHARGE = r"$\lambda_3=0.1$ kg m$^2$/s", r"$\zeta=2$ s$^{-1}$", r"$M_3=-6$ N m", r"$e=0.01$ C"
+DATA = {name: ", ".join(given) for name, given in {
+    "small": (ZETA, TORQUE, CHARGE), "large": (ZETA, TORQUE, CHARGE), "zeta": (LAMBDA, TORQUE, CHARGE), "M3": (LAMBDA, ZETA, CHARGE),
+    "e": (LAMBDA, ZETA, TORQUE)}.items()}
 RATES = (panels.history("omega", 0, "$p$", "rad/s"), panels.history("omega", 1, "$q$", "rad/s"))
 PLANES = (panels.phase("omega", 0, "$p$", "rad/s"), panels.phase("omega", 1, "$q$", "rad/s"))
 
@@ -41,7 +42,8 @@ SLOW = (panels.Row(panels.TIME, "$a$ (rad/s)", _slow("amplitude")), panels.Row(p
 def _lines(family, rows):
     """(row, columns) of every row of the figure."""
     symbol, unit, files = FAMILIES[family]
-    columns = [panels.Column(rf"${symbol}={value:g}$ {unit}", panels.motions(name, "", SPAN, POINTS, crowd=2)) for value, name in files.items()]
+    columns = [panels.Column(rf"${symbol}={value:g}$ {unit}", panels.motions(name, "", SPAN, POINTS, crowd=2),
+                             refused=panels.refusals(name, "", SPAN, POINTS, crowd=2)) for value, name in files.items()]
     return [(row, columns) for row in rows]
 
 
@@ -146,5 +148,5 @@ def _figures():
                      partial(_exactness, family, more), "cavity", partial(_lines, family, draw.keywords["rows"]))
 
 
-NAMES = {"small": "lambda3 = 0.1 to 0.2", "large": "lambda3 = 15 to 25", "zeta": "family of zeta", "M3": "family of M3", "e": "family of e"}
+NAMES = {"small": "λ3 = 0.1 to 0.2", "large": "λ3 = 15 to 25", "zeta": "family of ζ", "M3": "family of M3", "e": "family of e"}
 FIGURES = tuple(_figures())

@@ -26,7 +26,7 @@ PLANES = (panels.phase("omega", 0, "$p$", "rad/s"), panels.phase("omega", 1, "$q
 ANGLES = tuple(panels.history("angles", i, name, "rad") for i, name in enumerate((r"$\psi$", r"$\phi$", r"$\theta$")))
 MOMENTUM = (panels.history("momentum", 0, "$G_1$", r"kg m$^2$/s"), panels.history("momentum", 1, "$G_2$", r"kg m$^2$/s"),
             panels.plane("momentum", 0, 1, ("$G_1$", "$G_2$"), r"kg m$^2$/s"))
-VELOCITY = tuple(panels.history("velocity", i, rf"$\omega_{i + 1}$", "m/s") for i in range(3))
+VELOCITY = tuple(panels.history("velocity", i, rf"$v_{i + 1}$", "m/s") for i in range(3))
 PLACE = tuple(panels.history("position", i, rf"$\eta_{i + 1}$", "m") for i in range(3))
 
 
@@ -81,7 +81,7 @@ def circle(plt):
 
 
 def _pointing_lines():
-    row = panels.Row(r"$\omega_1/\omega_3$", r"$\omega_2/\omega_3$", _direction, limits=((-4.5, 8.5), (-4.5, 8.5)))
+    row = panels.Row("$v_1/v_3$", "$v_2/v_3$", _direction, limits=((-4.5, 8.5), (-4.5, 8.5)))
     return [(row, list(_columns(family, horizon=False))) for family in FAMILIES]
 
 
@@ -153,7 +153,7 @@ def _misprinted(family, part, unit):
 
 def _speed(family, more=""):
     last, largest = _state(family, "printed", "velocity")[0][-1, 2], max(np.abs(v).max() for v in _state(family, "exact", "velocity"))
-    return (f"Small angles keep the thrust of 3 N along z1: the print has omega3 = 0.3 t, {last:.3g} m/s at 50 s. In truth the thrust "
+    return (f"{_NAMED}Small angles keep the thrust of 3 N along z1: the print has v3 = 0.3 t, {last:.3g} m/s at 50 s. In truth the thrust "
             f"turns with the body; no component passes {largest:.2g} m/s. {more}{_misprinted(family, 'velocity', 'm/s')}{_CUT}")
 
 
@@ -169,11 +169,12 @@ def _pointing():
     body = _bodies("M1")[0]
     M1, r0, D3 = float(body.torque[0]), float(body.spin), float(body.inertia[2])
     held, aim = D3 * r0 + float(body.gyrostat) - float(body.charge_moment), M1 / (D3 * r0**2)
-    return (f"The text has spirals into the point (0, M1/(D3 r0^2)) = (0, {aim:.2g}): a direction {np.degrees(np.arctan(aim)):.0f} degrees off "
+    return (f"{_NAMED}The text has spirals into the point (0, M1/(D3 r0^2)) = (0, {aim:.2g}): a direction {np.degrees(np.arctan(aim)):.0f} degrees off "
             f"the axis, from equations for small angles. It should be M1/(r0 (D3 r0 + Lambda)) = {M1 / (r0 * held):.2g} in the linear model; "
             "the true direction goes nowhere near. Exact curve: where the axial velocity exceeds 0.02 m/s. As printed: by (43) and (47).")
 
 
+_NAMED = "The paper writes omega1, omega2, omega3 for the velocity v1, v2, v3. "
 _CUT = ("Models are drawn to where they leave the exact motion's range; the first column has the printed curves alone, thin those with "
         "corrected integrals where they differ.")
 
@@ -208,8 +209,8 @@ def _figures():
             (15, "e", across, by_35, partial(_circle, more="That the charge has no influence is an artefact.")),
             (17, "M1", across, by_35, partial(_circle, more="The text says that M1 makes no difference.")),
             (18, "lambda3", speed, "Velocity", _speed),
-            (19, "e", speed, "Velocity", partial(_speed, more="The charge does change omega3. ")),
-            (20, "M1", speed, "Velocity", partial(_speed, more="M1 does change omega3. ")),
+            (19, "e", speed, "Velocity", partial(_speed, more="The charge does change v3. ")),
+            (20, "M1", speed, "Velocity", partial(_speed, more="M1 does change v3. ")),
             (22, "lambda3", way, "Displacement", _way),
             (23, "e", way, "Displacement", partial(_way, more="So the charge does matter to eta3. ")),
             (24, "M1", way, "Displacement", partial(_way, more="So M1 does matter to eta3. "))):
@@ -222,5 +223,5 @@ def _figures():
     yield Figure(21, "Direction of the velocity", _pointing, pointing, _exactness, "charged", _pointing_lines)
 
 
-NAMES = {"lambda3": "family of lambda3", "e": "family of e", "M1": "family of M1"}
+NAMES = {"lambda3": "family of λ3", "e": "family of e", "M1": "family of M1"}
 FIGURES = tuple(sorted(_figures(), key=lambda row: row.number))

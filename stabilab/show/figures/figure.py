@@ -4,6 +4,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from ..terminal.letters import written
+
 
 @dataclass(frozen=True)
 class Figure:
@@ -22,7 +24,7 @@ class Figure:
 
     @property
     def caption(self) -> str:
-        return self.words() if callable(self.words) else self.words
+        return written(self.words() if callable(self.words) else self.words)
 
     @property
     def tolerance(self) -> str:

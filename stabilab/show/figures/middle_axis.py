@@ -36,17 +36,22 @@ def _tube(scene, state):
 
 def surfaces(plt):
     """Fig. 16."""
-    figure = plt.figure(figsize=(10.6, 5.2), layout="constrained")
+    figure = plt.figure(figsize=(11.4, 6.0), layout="constrained")
     left = figure.add_subplot(1, 2, 1, projection="3d")
     scene = paper.scene("middle", 100)
     _nested(left, scene)
     left.set_title(rf"$\lambda_1=100$, $c={scene.b - scene.a:g}$: nested closed motions, no separatrix", fontsize=9.5)
     right = figure.add_subplot(1, 2, 2, projection="3d")
-    _figure_eight(right)
+    names = _figure_eight(right)
     right.set_title(rf"$\lambda_1={LAMBDA_BEYOND}$, $c=2.5>{CUSP:.4f}$: figure-eight separatrix", fontsize=9.5)
     style.legend(figure, [("centres (stable)", style.MEANING["stable"]), ("saddles (unstable)", style.MEANING["unstable"]),
-                     ("motion of Table 3", style.MEANING["this motion"]), ("periodic motions", {"color": style.SKY, "linewidth": 1.0})])
+                     ("motion of Table 3", style.MEANING["this motion"]), ("start", style.MARKER["start"]),
+                     ("periodic motions", {"color": style.SKY, "linewidth": 1.0}),
+                     *((f"separatrix, {name}", {"color": colour, "linewidth": 8, "solid_capstyle": "butt"}) for name, colour in zip(names, LOOPS))], columns=3)
     return figure
+
+
+LOOPS = ("#8FBCD4", style.YELLOW, style.GREY, style.PURPLE)  # colours of the parts of the figure-eight
 
 
 UPRIGHT = (1, 3, 2)  # the torque's axis stands upright in the 3-D panels
@@ -72,40 +77,44 @@ def _nested(ax, scene):
 
 
 def _figure_eight(ax):
+    """The four parts of the separatrix; their names."""
     found = sheets(**EIGHT)
-    for number, sheet in enumerate(found.sheets):
-        ax.plot_surface(*_upright(sheet.points), color=style.SHEETS[number % len(style.SHEETS)], alpha=0.55, rstride=4,
-                        cstride=6, linewidth=0.3, edgecolor="#333333")
+    for sheet, colour in zip(found.sheets, LOOPS):
+        ax.plot_surface(*_upright(sheet.points), color=colour, alpha=0.6, rstride=4, cstride=6, linewidth=0.3, edgecolor="#333333", shade=False)
         ax.plot(*_upright(sheet.saddle), **style.MEANING["unstable"])
         ax.plot(*_upright(sheet.centre), **style.MEANING["stable"])
-    style.name_space(ax, order=UPRIGHT)
-    ax.view_init(30, -125)
+    style.name_space(ax, 0.98, order=UPRIGHT)
+    ax.view_init(26, -50)  # across both loops: from other sides one hides the other
+    return [sheet.name for sheet in found.sheets]
 
 
 def projections(plt):
-    """Fig. 17."""
-    figure, axes = plt.subplots(1, 3, figsize=(11.4, 4.6), layout="constrained")
-    for ax, lam in zip(axes, (100, 500, LAMBDA_BEYOND)):
+    """Fig. 17: four values of lambda1 to one scale."""
+    figure, axes = plt.subplots(1, 4, figsize=(14.0, 4.7), layout="constrained", sharey=True)
+    for ax, lam in zip(axes, (*paper.LAMBDAS, LAMBDA_BEYOND)):
         scene = paper.scene("middle", lam)
         _projection(ax, scene, draw_motion=lam != LAMBDA_BEYOND)
         ax.set_title(rf"$\lambda_1={lam}$, $c={scene.b - scene.a:g}$")
+    axes[0].set_ylabel("$x_3$")
     style.legend(figure, [("stable equilibria", style.MEANING["stable"]), ("unstable equilibria", style.MEANING["unstable"]),
                      (r"plane $x_1+b=x_3$ (periodic)", style.MEANING["dividing"]),
                      (r"plane $x_1+b=-x_3$ (spin-up)", style.MEANING["spin-up"]),
-                     ("motion of Table 3", style.MEANING["this motion"]),
+                     ("motion of Table 3", style.MEANING["this motion"]), ("start", style.MARKER["start"]),
                      ("folds", style.MARKER["degenerate"]), (r"printed: $x_1=x_3$", style.MEANING["printed"])])
     return figure
 
 
+VIEW = ((-8.0, 4.5), (-6.25, 6.25))  # of x1 and x3, in every panel of Fig. 17
+
+
 def _projection(ax, scene, draw_motion):
-    a, b, size = scene.a, scene.b, 7.5 if scene.b > 3 else 4.2
+    a, b = scene.a, scene.b
     for x1, x3, stable in _equilibria(a, b):
         for kind, mask in (("stable", stable), ("unstable", ~stable)):
             ax.plot(np.where(mask, x1, np.nan), np.where(mask, x3, np.nan), **style.MEANING[kind])
         folds = np.nonzero(np.diff(stable))[0]
         ax.plot(x1[folds], x3[folds], zorder=5, **style.MARKER["degenerate"])
-    middle = -b / 2 if scene.b > 3 else 0.0
-    ends = np.array([middle - size, middle + size])
+    ends = np.array([-20.0, 20.0])
     ax.plot(ends, ends + b, **style.MEANING["dividing"])
     ax.plot(ends, -ends - b, **style.MEANING["spin-up"])
     ax.plot(ends, ends, **style.MEANING["printed"])
@@ -113,8 +122,4 @@ def _projection(ax, scene, draw_motion):
         states = _tube(scene, paper.START_MIDDLE)
         ax.plot(states[:, 0], states[:, 2], **style.MEANING["this motion"])
         ax.plot(paper.START_MIDDLE[0], paper.START_MIDDLE[2], zorder=6, **style.MARKER["start"])
-    ax.set_xlim(*ends)
-    ax.set_ylim(-size, size)
-    ax.set_aspect("equal")
-    ax.set_xlabel("$x_1$")
-    ax.set_ylabel("$x_3$")
+    ax.set(xlim=VIEW[0], ylim=VIEW[1], aspect="equal", xlabel="$x_1$")

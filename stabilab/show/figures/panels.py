@@ -8,17 +8,25 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import lru_cache
+from textwrap import fill
 from typing import Any
 
 import numpy as np
 
 from ...theories.comparison import side_by_side
 from .. import style
-from ..text.comparison import LOOKS
 from ..text.table import cases_folder
 
 TIME = "t (s)"
-THIN = {"linewidth": 1.0, "antialiased": False}
+# How each model is drawn: the pale ones are broad and lie under the exact motion, the others over it, so that two that agree are both seen.
+LOOKS: dict[str, dict] = {
+    "linear": {"color": "#A9D6F0", "linewidth": 4.6, "zorder": 1.6}, "corrected": {"color": "#E3B5D0", "linewidth": 2.8, "zorder": 1.7},
+    "lindstedt": {"color": style.SKY, "linewidth": 0.6, "antialiased": False, "zorder": 1.6}, "exact": {"color": style.BLACK, "linewidth": 2.0, "zorder": 2.0},
+    "averaged1": {"color": style.GREEN, "linewidth": 1.4, "linestyle": "-.", "zorder": 2.1},
+    "averaged2": {"color": style.SKY, "linewidth": 1.4, "linestyle": "--", "zorder": 2.2},
+    "printed": {"color": style.ORANGE, "linewidth": 1.6, "linestyle": ":", "zorder": 2.3}}
+INK = {name: look["color"] for name, look in LOOKS.items()} | {"linear": style.BLUE, "lindstedt": style.BLUE, "corrected": style.PURPLE}  # of words
+END = {"marker": "X", "markersize": 7, "linestyle": "none", "zorder": 5}
 WIDE = 3.0  # a model may stretch the axis to this many times the exact motion's range; beyond that it is cut
 TALL = 1.45  # a plane of one scale, against a history
 MARGIN = 0.06
@@ -50,11 +58,13 @@ class Row:
 
 @dataclass(frozen=True)
 class Column:
-    """One value of the parameter: heading; runs: model -> run; mark: a time to draw a vertical line at, or None."""
+    """One value of the parameter: heading; runs: model -> run; mark: a time to draw a vertical line at, or None; refused: model -> why
+    it has no curve."""
 
     heading: str
     runs: dict = field(repr=False)
     mark: float | None = None
+    refused: dict = field(default_factory=dict, repr=False)
 
 
 @lru_cache(maxsize=32)
@@ -64,11 +74,20 @@ def sweep(name: str) -> dict:
     return {case.variant: case for case in load_all(cases_folder() / f"{name}.toml")}
 
 
-@lru_cache(maxsize=64)
 def motions(name: str, variant: str, end: float, count: int, order: int | None = None, crowd: int = 1) -> dict:
     """model -> Simulation of a case of the repository at `count` times from 0 to `end`, crowd > 1: closer at the start;
     models that refuse are left out."""
-    return side_by_side(sweep(name)[variant], end * np.linspace(0.0, 1.0, count) ** crowd, order)[0]
+    return _both(name, variant, end, count, order, crowd)[0]
+
+
+def refusals(name: str, variant: str, end: float, count: int, order: int | None = None, crowd: int = 1) -> dict:
+    """model -> why it refuses; arguments as of `motions`."""
+    return _both(name, variant, end, count, order, crowd)[1]
+
+
+@lru_cache(maxsize=64)
+def _both(name, variant, end, count, order, crowd):
+    return side_by_side(sweep(name)[variant], end * np.linspace(0.0, 1.0, count) ** crowd, order)
 
 
 def exactness(runs) -> str:
@@ -95,13 +114,15 @@ def draw_lines(plt, title, lines, width=3.5, height=2.05, words=None, mark_words
             _panel(ax, row, column, _window(row, [column]) if own else shared)
             if headed:
                 ax.set_title(column.heading, pad=14)  # above the words on cuts
+            if not i:
+                _missing(ax, column, words)
             ax.tick_params(labelleft=own or column is columns[0])
         for ax in line:
             if not row.over_time or i + 1 == len(lines) or not lines[i + 1][0].over_time:
                 ax.set_xlabel(row.xlabel)
         for ax in line[:1 + alone]:
             ax.set_ylabel(row.ylabel)
-    figure.get_layout_engine().set(w_pad=0.09)  # numbers at the ends of neighbouring axes
+    figure.get_layout_engine().set(w_pad=0.09, h_pad=0.04 if _headings(lines) < 2 else 0.12)  # numbers at the ends of axes, headings below labels
     figure.suptitle(title, fontsize=11)
     everything = [column for _, columns in lines for column in columns]
     entries = [(words[name], LOOKS[name]) for name in ("exact", *ORDER) if any(name in c.runs for c in everything)]
@@ -112,6 +133,27 @@ def draw_lines(plt, title, lines, width=3.5, height=2.05, words=None, mark_words
         entries += [("alone, thin: corrected integrals", BESIDE[0])] * ("corrected" in lines[0][1][0].runs)
     style.legend(figure, entries)
     return figure
+
+
+def _headings(lines) -> int:
+    """How many lines of panels have headings of their own."""
+    return len(dict.fromkeys(tuple(c.heading for c in columns) for _, columns in lines))
+
+
+def _missing(ax, column, words):
+    """In the panel, where curves leave room: which model has no curve, or ends early, and why."""
+    from matplotlib.lines import Line2D
+    rows = [(f"ends at {run.t[-1]:.3g} s: {run.reason.split(' at t = ')[0]}", END | {"color": LOOKS[name]["color"]})
+            for name, run in column.runs.items() if _stops(run)]
+    why = {reason.split(": ")[0]: [words[m] for m, other in column.refused.items() if other == reason] for reason in column.refused.values()}
+    rows += [(f"no curve, {' nor '.join(models)}: {reason}", {"linestyle": "none"}) for reason, models in why.items()]
+    if rows:
+        ax.legend([Line2D([], [], **look) for _, look in rows], [fill(text, 34) for text, _ in rows], fontsize=7.5, loc="best")
+
+
+def _stops(run) -> bool:
+    """Whether a run ends before the last time that was asked for."""
+    return getattr(run, "status", "reached") != "reached"
 
 
 def _picked(row, columns, model) -> list:
@@ -149,7 +191,9 @@ def _panel(ax, row, column, limits):
         if picked is None:
             continue
         x, y = (np.asarray(v, float) for v in picked)
-        ax.plot(*_clipped(x, y, limits), **LOOKS[name] | (THIN if name == "lindstedt" else {}))
+        ax.plot(*_clipped(x, y, limits), **LOOKS[name])
+        if _stops(column.runs[name]) and len(x):
+            ax.plot(x[-1:], y[-1:], color=LOOKS[name]["color"], **END)
         low, high = (limits[1][0] - np.nanmin(y), np.nanmax(y) - limits[1][1]) if len(y) else (0, 0)
         if max(low, high) > 0:
             far.append((name, np.nanmax(y) if high > low else np.nanmin(y)))
@@ -160,7 +204,7 @@ def _panel(ax, row, column, limits):
     if row.equal:
         ax.set_aspect("equal", adjustable="box")
     for (name, top), (x, y, side, edge) in zip(far, CORNERS):
-        ax.text(x, y, f"cut: reaches {plain(top)}", color=LOOKS[name]["color"], ha=side, va=edge, fontsize=7.2, transform=ax.transAxes)
+        ax.text(x, y, f"cut: reaches {plain(top)}", color=INK[name], ha=side, va=edge, fontsize=7.2, transform=ax.transAxes)
 
 
 def plain(value) -> str:

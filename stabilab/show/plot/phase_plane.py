@@ -66,8 +66,9 @@ ROWS: list[tuple[str, dict]] = [
     ("other energies", style.MEANING["level"]), ("centre (stable)", style.MARKER["centre"]), ("saddle (unstable)", style.MARKER["saddle"])]
 
 
-def draw(ax, plane: PhasePlane, scale=1.0, offset=0.0, rate_scale=1.0, span=None, levels=22, motion=True):
-    """Draw level curves, separatrices, equilibria and the motion on `ax`; x axis: offset + scale*y."""
+def draw(ax, plane: PhasePlane, scale=1.0, offset=0.0, rate_scale=1.0, span=None, levels=22, motion=True, separatrices=True):
+    """Draw level curves, separatrices, equilibria and the motion on `ax`; x axis: offset + scale*y. separatrices: False where the caller
+    draws them himself, each in a look of its own."""
     low, high = span or window(plane)
     y = np.linspace(low, high, 700)
     heights, top = plane.height(y), highest(plane, low, high)
@@ -76,7 +77,7 @@ def draw(ax, plane: PhasePlane, scale=1.0, offset=0.0, rate_scale=1.0, span=None
     limits = np.linspace(energy.min(), np.quantile(energy, 0.93), levels + 1)[1:]
     ax.contour(offset + scale * y, rate_scale * plane.rate(W), energy, levels=limits, colors=style.MEANING["level"]["color"],
                linewidths=0.5, linestyles="solid")
-    for saddle in plane.repeated(plane.saddles, low, high):
+    for saddle in plane.repeated(plane.saddles, low, high) if separatrices else ():
         ys, Ws = plane.separatrix(saddle, low, high)
         for sign in (1.0, -1.0):
             ax.plot(offset + scale * ys, rate_scale * plane.rate(sign * Ws), **style.MEANING["separatrix"])

@@ -18,6 +18,7 @@ from .. import style
 from ..figures import catalogue as figures
 from ..figures import panels
 from ..figures.difference import words
+from ..terminal.letters import written
 from ..text import comparison
 from . import claims
 
@@ -81,14 +82,14 @@ def section(name: str, folder: Path, tell=lambda words: None) -> dict:
     chapter = next(chapter for chapter in CHAPTERS if chapter.paper == name)
     rows = figures.of_paper(chapter.paper)
     drawn = figures.write(None, folder / "figures", tell, chapter.paper)
-    made = {"id": chapter.paper, "title": chapter.title, "paper": figures.PAPERS[chapter.paper], "about": chapter.about, "problem": "",
+    made = {"id": chapter.paper, "title": chapter.title, "paper": figures.PAPERS[chapter.paper], "about": written(chapter.about), "problem": "",
                "claims": [], "compared": [], "sensible": None, "parameters": "", "end": chapter.end,
                "figures": [{"number": row.number, "title": row.title, "caption": row.caption, "tolerance": row.tolerance, "differences": words(row),
                             "command": row.command, "file": f"figures/{path.name}", "size": size(path)} for row, path in zip(rows, drawn)]}
     try:
         tell(f"chapter {chapter.paper}: comparisons")
         made["parameters"] = _parameters(panels.sweep(chapter.compared[0][0])[chapter.compared[0][1]])
-        made["claims"] = chapter.claims()
+        made["claims"] = [row | {"says": written(row["says"]), "is": written(row["is"])} for row in chapter.claims()]
         made["compared"] = [row for name, variant in chapter.compared for row in _errors(panels.sweep(name)[variant], chapter.end)]
         made["sensible"] = _sensible(chapter, folder)
     except StabilabError as error:  # a case that is not there yet, or a motion that cannot be run: the chapter says so
@@ -100,7 +101,7 @@ def _parameters(case):
     """Parameters and start of a case in words."""
     values = ", ".join(f"{name} = {float(value):.6g}" for name, value in derive(case.scene).parameters.items())
     starts = {"omega": case.state, **case.blocks}
-    return f"{values}; at t = 0: " + ", ".join(f"{name} = ({', '.join(f'{v:.6g}' for v in row)})" for name, row in starts.items())
+    return written(f"{values}; at t = 0: " + ", ".join(f"{name} = ({', '.join(f'{v:.6g}' for v in row)})" for name, row in starts.items()))
 
 
 def _errors(case, end, found=None):
@@ -123,7 +124,7 @@ def _sensible(chapter, folder):
     runs, _ = side_by_side(case, np.linspace(0.0, chapter.window, 1001))
     with style.drawing() as plt:
         path = style.save(comparison.picture(plt, case, runs, chapter.parts), folder / "figures" / f"{chapter.paper}-sensible.png")
-    return {"case": case.name, "title": case.title, "why": chapter.why, "end": chapter.sensible_end, "rows": _errors(case, None, found),
+    return {"case": case.name, "title": case.title, "why": written(chapter.why), "end": chapter.sensible_end, "rows": _errors(case, None, found),
             "parameters": _parameters(case), "file": f"figures/{path.name}", "size": size(path), "path": f"cases/{case.name}.toml"}
 
 

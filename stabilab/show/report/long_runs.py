@@ -31,7 +31,7 @@ def picture(plt, rows):
         ax.plot(*spread(rows, name), color=style.BLUE, linewidth=2.2, zorder=3)
         ax.plot(ends, EPS * np.sqrt(a_turn * ends), color=style.BLACK, linestyle="--", linewidth=1.3)
         ax.plot(ends, EPS * a_turn * ends, color=style.VERMILION, linestyle=":", linewidth=1.6)
-        ax.set(xscale="log", yscale="log", xlabel="turns", title=f"{NAMES[name]}: grows as turns^{growth(rows, name):.2f}", ylim=(1e-17, 1e-8))
+        ax.set(xscale="log", yscale="log", xlabel="turns", title=rf"{NAMES[name]}: grows as turns$^{{{growth(rows, name):.2f}}}$", ylim=(1e-17, 1e-8))
     axes[0].set_ylabel("relative drift")
     style.legend(figure, [("root mean square over the motions", {"color": style.BLUE, "linewidth": 2.2}),
                           ("one motion", {"color": style.SKY, "linewidth": 0.8}),
@@ -48,7 +48,7 @@ def write(folder, turns: float = 1e6, others: float = 1e5, motions: int = 6) -> 
         style.save(picture(plt, rows), path)
     with style.whole_file(path.with_suffix(".csv")) as waiting:
         waiting.write_text(comma.lines([[f.name for f in fields(Drift)], *map(astuple, rows)]), encoding="utf-8")
-    words = ", ".join(f"{name} as turns^{growth(rows, name):.2f}" for name in NAMES)
+    words = ", ".join(f"{name} as turns to the power {growth(rows, name):.2f}" for name in NAMES)
     with style.whole_file(path.with_suffix(".txt")) as waiting:
         waiting.write_text(f"Drift of the integrals along bounded motions, Taylor series: {words} (1/2: independent roundings; 1: a bias)\n\n"
                            f"made by: python -m stabilab.show.report.long_runs\nstabilab {__version__}\n"

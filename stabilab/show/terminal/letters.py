@@ -11,6 +11,19 @@ PLAIN = {letter: name for name, letter in GREEK.items()} | {
 NAMES = re.compile(r"(?<![\w./\\])(?<![\w-]-)(omega|lambda|Lambda|mu|gamma|alpha|sigma|zeta)(?=(?:[123]|_[ijk])\b(?!\\|/[A-Za-z]|\.\w))"
                    r"|(?<=\|)(?:omega|gamma)(?= ?[xyz]?\|)|\bgamma(?= = \()|(?<=[\d )=] )tau\b")
 
+# What papers write in captions and formulas, where no key, path or option can stand: every Greek letter, with or without its number, and powers.
+ALPHABET = GREEK | {"beta": "β", "delta": "δ", "eps": "ε", "eta": "η", "theta": "θ", "kappa": "κ", "pi": "π", "phi": "φ", "psi": "ψ", "rho": "ρ",
+                    "Gamma": "Γ", "Delta": "Δ", "Omega": "Ω"}
+LETTER = re.compile(r"(?<![A-Za-z_])(" + "|".join(sorted(ALPHABET, key=len, reverse=True)) + r")(?:_?(?=\d)|(?![\w-]))|(?<![A-Za-z])l_(?=[xyz]\b)")
+POWER = re.compile(r"\^(\d)(?!\d)|sqrt(?=\()")
+RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def written(text: str) -> str:
+    """A caption or a claim as a paper sets it: lambda3 becomes λ3, r0^2 becomes r0², sqrt(x) becomes √(x), l_x becomes lx."""
+    text = LETTER.sub(lambda found: ALPHABET.get(found[1], "l"), text)
+    return POWER.sub(lambda found: found[1].translate(RAISED) if found[1] else "√", text)
+
 
 def greek(text: str) -> str:
     """The text with the names of angular velocities, momenta and torques as letters: omega1 becomes ω1."""

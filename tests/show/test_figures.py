@@ -1,0 +1,93 @@
+"""What the pictures of the papers show: spans that hold what captions claim, scales, letters, and curves that end or are missing."""
+import re
+
+import numpy as np
+import pytest
+
+from stabilab.show import style
+from stabilab.show.figures import catalogue, cavity, major_axis, middle_axis, minor_axis, paper
+from stabilab.show.figures.catalogue import figure
+from stabilab.show.terminal.letters import written
+
+# Names of letters spelt out; a list of its own, so that one left out of the table of letters is seen.
+SPELT = re.compile(r"(?<![A-Za-z])(lambda|omega|psi|phi|theta|eta|zeta|gamma|Gamma|Lambda|Omega|eps|delta|sigma|pi|sqrt)(?![a-z])|\^\d")
+
+
+@pytest.fixture
+def plt():
+    with style.drawing() as found:
+        yield found
+
+
+def test_figures_of_captured_motions_are_drawn_beyond_the_release_they_claim():
+    """Oracle: the reversals of the turn about axis 1 counted along the run itself; none after the mark."""
+    (_, printed), (_, longer) = major_axis._rows(paper.START_CAPTURED)
+    claimed = re.search(r"released at τ = ([\d.]+), ([\d.]+) and ([\d.]+)", figure(12).caption).groups()
+    for (lam, (states, seen, release)), claim in zip(longer.items(), claimed):
+        turn = np.unwrap(np.arctan2(states[:, 2], states[:, 1]))
+        last = np.nonzero(np.diff(np.sign(np.diff(turn))))[0].max() / 400
+        assert abs(last - float(claim)) < 0.06 and abs(release / 400 - last) < 0.01 and len(states) / 400 > last + 5
+        assert np.array_equal(states[:seen], printed[lam][0])
+
+
+def test_no_equilibrium_stands_at_an_edge_of_the_phase_planes():
+    for lam in paper.LAMBDAS:
+        plane, start, span = minor_axis._plane(lam)
+        for place in plane.repeated(plane.centres + plane.saddles, span[0] - 1, span[1] + 1):
+            assert min(abs(start + 2 * place - edge) for edge in minor_axis.WINDOW) > 0.2
+
+
+def test_figure_17_has_every_value_of_the_paper_to_one_scale(plt):
+    panels = middle_axis.projections(plt).axes
+    assert [int(re.search(r"lambda_1=(\d+)", ax.get_title())[1]) for ax in panels[:3]] == list(paper.LAMBDAS)
+    assert len({(ax.get_xlim(), ax.get_ylim()) for ax in panels}) == 1
+
+
+def test_separatrix_surfaces_are_named_as_in_the_phase_plane(plt):
+    """The left loop lies about a centre with x1 + a < 0, where alpha = 2 atan2(x1 + a, x2) is negative."""
+    sides = {minor_axis._side(sheet): sheet for sheet in minor_axis.sheets().sheets}
+    a = paper.scene("minor", 100).a
+    for side, sign in (("left", -1), ("right", 1)):
+        centre = np.asarray(sides[side].centre)[-1]
+        assert np.sign(2 * np.arctan2(centre[0] + a, centre[1])) == sign
+    names = [text.get_text() for text in minor_axis.surfaces(plt).legends[0].get_texts()]
+    assert {"left separatrix surface", "right separatrix surface"} <= set(names)
+
+
+def test_a_curve_that_ends_within_a_panel_is_marked_and_the_panel_says_why(plt):
+    panels = figure(2, "cavity").draw(plt).axes
+    for ax, run in zip(panels, (runs["printed"] for runs in cavity.runs_of("small"))):
+        ends = [line for line in ax.lines if line.get_marker() == "X"]
+        words = " ".join(text.get_text() for text in ax.get_legend().get_texts()) if ax.get_legend() else ""
+        assert [line.get_xdata()[0] for line in ends] == ([run.t[-1]] if run.t[-1] < cavity.SPAN else [])
+        assert bool(ends) == ("no real value" in words.replace("\n", " "))
+
+
+def test_a_panel_without_a_model_says_why(plt):
+    drawn = figure(11, "cavity").draw(plt).axes[2]
+    assert "averaging needs small" in " ".join(text.get_text() for text in drawn.get_legend().get_texts()).replace("\n", " ")
+
+
+def test_every_line_looks_as_the_legend_says(plt):
+    for row in (figure(2, "top"), figure(2, "charged")):
+        drawn = row.draw(plt)
+        legend = {(h.get_color(), h.get_linestyle(), h.get_linewidth()) for h in drawn.legends[0].legend_handles}
+        assert {(line.get_color(), line.get_linestyle(), line.get_linewidth()) for ax in drawn.axes for line in ax.lines} <= legend
+
+
+@pytest.mark.parametrize("plain, letters", [
+    ("lambda3 = 0.1, l_x and r0^2", "λ3 = 0.1, lx and r0²"), ("pi/2, psi, 2 pi/r0; Gamma/eps", "π/2, ψ, 2 π/r0; Γ/ε"), ("sqrt(p^2 + q^2) m^7", "√(p² + q²) m⁷"),
+    ("gamma'' and eta3", "γ'' and η3"), ("a phial, a pistachio, betas; theta-like", "a phial, a pistachio, betas; theta-like")])
+def test_captions_are_set_in_letters(plain, letters):
+    assert written(plain) == letters
+
+
+@pytest.mark.parametrize("row", [figure(2), figure(4), figure(12), figure(8, "charged"), figure(21, "charged"), figure(2, "cavity"), figure(6, "top")],
+                         ids=lambda row: row.file)
+def test_captions_and_titles_spell_no_letter(row):
+    assert not SPELT.search(row.title + " " + row.caption)
+
+
+@pytest.mark.slow
+def test_no_caption_spells_a_letter():
+    assert [row.file for row in catalogue.chosen() if SPELT.search(f"{row.title} {row.caption} {row.tolerance}")] == []
