@@ -1,4 +1,5 @@
 """The documentation as a site: `make docs` writes it to docs/_site. Sphinx, because the reference comes from docstrings and a warning can fail the build."""
+import re
 import sys
 from pathlib import Path
 
@@ -10,7 +11,8 @@ from making import gallery, reference, written  # noqa: E402
 import stabilab  # noqa: E402
 
 project, author, release = "stabilab", "the stabilab developers", stabilab.__version__
-extensions = ["myst_parser", "sphinx.ext.autodoc"]
+extensions = ["myst_parser", "sphinx.ext.autodoc", "making.mathml"]
+myst_enable_extensions, html_math_renderer = ["dollarmath"], "mathml"
 exclude_patterns = ["_site"]
 html_theme, html_title = "furo", "stabilab"
 html_static_path, html_css_files = ["static"], ["site.css"]
@@ -18,6 +20,7 @@ html_show_copyright = False
 myst_heading_anchors = 3
 autodoc_typehints = "none"  # docstrings give shapes and units, which types do not
 autodoc_member_order = "bysource"
+CHECKED = "Evaluated against the program"
 # What stands outside of docs/ has its page here under another name
 ELSEWHERE = {"../README.md": "readme.md", "../benchmarks/RESULTS.md": "results.md"}
 
@@ -42,3 +45,5 @@ def point_inside(app, name, source):
     for outside, inside in ELSEWHERE.items():
         source[0] = source[0].replace(f"]({outside}", f"]({inside}")
     source[0] = source[0].replace("](benchmarks/RESULTS.md", "](results.md")
+    if name.startswith("mathematics/"):  # the formulas first, what checks them at a click
+        source[0] = re.sub(r"^```python\n.*?^```$", rf"<details><summary>{CHECKED}</summary>\n\n\\g<0>\n\n</details>", source[0], flags=re.M | re.S)

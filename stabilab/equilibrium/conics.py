@@ -8,9 +8,8 @@ other otherwise. In the plane, with orthogonal eigenvectors P, Q of D (P x Q = w
 a hyperbola; two crossing lines where it passes through its own centre; one line y = lambda x M/lambda^2 + t lambda, or
 nothing, where d_P = d_Q. A torque oblique in a plane of equal moments is as good as one on a principal axis.
 
-Reduction to one degree of freedom: alpha' = e-component of x (e along M) makes the other two a linear flow in alpha,
-dx/dalpha = J(x) e, along which alpha'' = -U'(alpha). On the conic U' = 0 and U'' = m; J(x) e never vanishes there
-because M != 0, so (alpha, invariant of the flow, x.e) are coordinates near every equilibrium.
+On the conic the reduced potential has U' = 0 and U'' = m, and (alpha, invariant of the flow, rate about M) are coordinates near every
+equilibrium: so its centres are stable (docs/mathematics/equilibria.md, docs/mathematics/stability.md).
 """
 from __future__ import annotations
 

@@ -1,18 +1,14 @@
 """Stability of an equilibrium from the exact structure of its characteristic polynomial z^3 + m z + n.
 
 The trace of the Jacobian is 0, so the three eigenvalues sum to zero.
-  n != 0: the eigenvalues are not all on the imaginary axis (then they would be 0, +-i w and n = 0), and their real
-          parts sum to zero: one real part is positive. Unstable, always.
+  n != 0: one eigenvalue has a positive real part. Unstable, always.
   n = 0, m < 0: the eigenvalue sqrt(-m) > 0. Unstable.
   n = 0, m > 0: a linear centre 0, +-i sqrt(m); the nonlinear verdict comes from the curve the point lies on.
   n = 0, m = 0: degenerate; a higher term decides, where one can be proved to.
 Signs of m and n are those of rationals or of p + q sqrt(d), never of rounded numbers.
 
-A zero of m on a regular curve of equilibria that is the critical set of a one-degree-of-freedom potential V(v; c) (c is
-the invariant): the curve is V_v = 0, and where V_vv = 0 its slope dc/dv vanishes too, so V_v(v; c0) = -V_vc c(v) + ...
-and m = V_vv = -V_vc c'(v) + ... along it. A zero of m of order k makes c ~ v^(k+1) and V ~ v^(k+2) at fixed c0: k odd
-is an inflection (motions released on its downhill side run off a fixed distance: unstable), k even a strict minimum
-(m > 0 on both sides: stable, since the walls V(+-r; c0) > V(0; c0) stand for nearby c as well) or maximum (unstable).
+A zero of m on a regular curve of equilibria that is the critical set of a one-degree-of-freedom potential: one of odd order is
+unstable, one of even order stable where m > 0 on both sides and unstable where m < 0. Proofs: docs/mathematics/stability.md.
 """
 from __future__ import annotations
 
@@ -39,16 +35,7 @@ def linear_word(m_sign: int, n_sign: int) -> str:
 def isolated_verdict(m_sign: int, n_sign: int) -> Verdict:
     """The nonlinear verdict on an isolated equilibrium of a torque off the eigenvectors of D; n = 0 is a fold.
 
-    Fold with m > 0, unstable by Chetaev's theorem: at a double root the reduced equation z' = a z^2 + ... has a != 0
-    (the ideal of the three rates is locally that of the two linear conditions and the quadratic, so its multiplicity is
-    2). Averaging over the rotation by +-i sqrt(m) gives z' = a z^2 + b r^2 + O(3), r' = -a z r + O(3); the factor -a
-    follows from zero divergence, which averaging keeps. With z turned so that a > 0 and V = z^2 - k^2 r^2, k^2 > |b|/a:
-    V' = 2 z (a z^2 + (b + k^2 a) r^2) + O(4) > 0 in the cone z > k r near the point, where V > 0, and V = 0 on its side.
-    Fold with m = 0, unstable by blowing up: one Jordan block (the gradients of the two conditions are rows of J, so its rank is
-    2) and a double root give z' = y, y' = w, w' = a z^2 with a != 0 up to terms of higher weight, (z, y, w) having weights
-    (3, 4, 5). The motion z = -60/(a t^3), t < 0, of the leading terms is a ray along which the blown-up motion (divided by the
-    radius) grows, an equilibrium on the sphere with a positive radial eigenvalue; its unstable manifold in the full motion is
-    not inside the sphere, so motions come out of the point itself.
+    A fold is unstable: with m > 0 by Chetaev's theorem, with m = 0 by blowing up with the weights 3, 4, 5. Proofs: docs/mathematics/stability.md.
     """
     if n_sign:
         where = "a negative real root, so the other two have" if n_sign > 0 else "a real root with"

@@ -4,11 +4,8 @@ Curve: y(s) = lambda/(s - D) between its poles, through y = 0 at s = infinity an
 y_i arbitrary at s = D_i. With s = D_p + 1/t for one axis p that carries lambda the curve is rational and whole: t = 0 is
 rest, and t = infinity is the pole at D_p. lambda = 0: the principal axes, planes for equal moments, everything for a sphere.
 
-Proof of stability (energy-Casimir): two integrals C1, C2 (for a body the energy T and the momentum |H|^2) have parallel
-gradients at an equilibrium, and a combination with zero gradient has a second derivative that is definite along a level
-of C1 exactly where m > 0 (m is its determinant there, times a positive factor). A strict extremum on one level persists
-on the next. Where lambda_i = 0 the line meets the curve in a pitchfork: the reduced function is e_tt a^2/2 + e_j e_k v^4/
-(8 e_tt H^2) with e = 1/D - 1/D_i, definite exactly where m > 0 on the rest of the line.
+Stable exactly where m > 0, by energy and Casimir; where a line meets the curve in a pitchfork, exactly where m > 0 on the rest of the line
+(proofs: docs/mathematics/stability.md).
 """
 from __future__ import annotations
 

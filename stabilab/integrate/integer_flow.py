@@ -1,17 +1,15 @@
 """The motion of a gyrostat under constant torque, enclosed: a Taylor series in integers, and a proved bound of its error.
 
 Numbers are integers in units of 2^-bits. Any polynomial p obeys p' = f(p) + defect, and here the defect is bounded term by term: what
-rounds each coefficient, and what the products have beyond the order. Let e be the difference of two solutions of
+rounds each coefficient, and what the products have beyond the order. The difference e of two solutions of
 
     x_i' = kappa_i x_j x_k + rho_i x_k + sigma_i x_j + m_i        (i, j, k cyclic)
 
-and q weights with sum q_i kappa_i = 0 (the moments of inertia). In d/dt sum q_i e_i^2 / 2 the cubic terms cancel, and a quadratic form
-of e is left, which has off-diagonal entries alone, each affine in one rate of either solution:
+in the norm (sum q_i e_i^2)^(1/2), q weights with sum q_i kappa_i = 0 (the moments of inertia), grows at most by the factor exp(integral of mu),
 
-    2 S_jk = (q_j kappa_j + q_k kappa_k) x_i + q_j sigma_j + q_k rho_k       (in physical variables the wheel drops out).
+    mu = (4/3 sum S_jk^2 / (q_j q_k))^(1/2),    2 S_jk = (q_j kappa_j + q_k kappa_k) x_i + q_j sigma_j + q_k rho_k
 
-So |e| = (sum q_i e_i^2)^(1/2) grows at most by the factor exp(integral of mu), mu = (4/3 sum S_jk^2 / (q_j q_k))^(1/2): the largest
-eigenvalue of a symmetric matrix without trace is at most (2/3)^(1/2) times its Frobenius norm. With bits to spare for that factor the
+(proof: docs/mathematics/numbers.md; in physical variables the wheel drops out). With bits to spare for that factor the
 enclosure is as narrow as wanted, and no set has to be turned. A direction n at rest in space obeys n' = n x omega, and its error
 grows by that of omega alone: |e_n|' <= |n| |e_omega|.
 """

@@ -11,6 +11,7 @@ particle in a potential. In the canonical variables
     dX/dtheta = Z,  dZ/dtheta = e X  (e = sgn(p q)),   Q = Z^2 - e X^2 = const,
     theta'' = F = mu + G X Z + c Z + d X,   V = -mu theta - G X^2/2 - c X - e d Z,   E = W^2/2 + V = const.
 
+Proof, and what the geometries mean for fates: docs/mathematics/reduction.md.
 (Amer et al. 2024 have the special cases lambda along axis 1 with a torque on axis 3 or 2: eqs (13)-(25), (44)-(66).)
 A reflection of theta makes mu >= 0. Coefficients are formed exactly from the rationals of the scene and rounded once.
 """

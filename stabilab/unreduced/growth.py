@@ -1,35 +1,23 @@
 """Endless growth: a torque along a principal axis that carries a gyrostatic component along it, too.
 
-Law (any lambda): (|H|^2/2 - D_i T)' = H.M - D_i omega.M = lambda_i M_i, because D omega . M = D_i omega . M for M on axis
-i. With lambda_i M_i != 0 a quadratic function of the state grows in proportion to time: no equilibrium, no bounded motion.
-What remains to be decided is about which axis the body spins up.
+Law (any lambda): (|H|^2/2 - D_i T)' = lambda_i M_i, so there is no equilibrium and no bounded motion. What remains to be decided is about
+which axis the body spins up.
 
 Standard form (torque on the major or minor axis i, no gyrostatic component across it; `standard_form`):
 
-    u' = y2 y3 + 1,   y2' = -y3 (u - c/2),   y3' = y2 (u + c/2),      J = y2^2 + y3^2 - 2 c u,   J' = -2c.
+    u' = y2 y3 + 1,   y2' = -y3 (u - c/2),   y3' = y2 (u + c/2),      J = y2^2 + y3^2 - 2 c u,   J' = -2c,
 
-With phi = atan2(y3, y2), R^2 = y2^2 + y3^2:  P = phi' = u + (c/2) cos 2phi,  (R^2)' = c R^2 sin 2phi, and, R^2 put in by J,
+and with phi = atan2(y3, y2), P = phi' = u + (c/2) cos 2phi:
 
     P' = -dV/dphi,   V(phi, J) = -phi - (J/2) sin^2 phi + (c^2/8) sin^2 2phi,   E = P^2/2 + V,   E' = c sin^2 phi.
 
-y2 = y3 = 0 stays so: u = u0 + tau, spin-up. c > 0: 2cu = R^2 - J >= -J0 + 2c tau, so u -> +infinity: every motion spins up
-about axis i; only its release from a temporary capture is left to observe.
+y2 = y3 = 0 stays so: spin-up. c > 0: every motion spins up about axis i; only its release from a temporary capture is left to observe.
+Certificate "spin-up" (any c): P > 0 and E + phi + min(J, 0)/2 - c^2/8 > c^2/2; for c > 0 also J < -c^2. Certificate "well" (c < 0):
+phi mod pi inside (pi - phi_b, phi_b) with E < V(phi_b, J) for one phi_b in [pi/2, pi]; the motion then grows about axis 3 of the form, like
+the root of time. Once one holds it holds for ever, so it may be looked for at any later time. Proofs: docs/mathematics/spin-up.md.
 
-Certificate "spin-up" (any c). K = E + phi = P^2/2 - (J/2) sin^2 phi + (c^2/8) sin^2 2phi has K' = P + c sin^2 phi, and
-P^2/2 >= L := K + min(J, 0)/2 - c^2/8. If P > 0 and L > c^2/2, then P > |c|, so K' > 0, and (K + J/2)' = P - c cos^2 phi > 0:
-L grows, P stays above |c|, for ever. L' >= sqrt(2L) - |c| > 0 gives sqrt(2L) ~ tau, P ~ tau; R then converges (integrate
-(ln R^2)' = c sin 2phi by parts in phi), and u = (R^2 - J)/(2c) ~ tau.
-For c > 0 also J < -c^2 suffices: P = 0 needs J = R^2 + c^2 cos 2phi >= -c^2, and J falls.
-
-Certificate "well" (c < 0). Fix phi_b in [pi/2, pi]; p = phi mod pi inside (pi - phi_b, phi_b), E < V(phi_b, J) at p's branch.
-While p stays inside, (V(phi_b, J) - E)' = |c| (sin^2 phi - sin^2 phi_b) >= 0, so phi_b is never reached; nor is pi - phi_b, where
-V is higher by 2 phi_b - pi. So p stays inside for ever, y3 keeps its sign, J -> infinity, R^2 = J + 2cP - c^2 cos 2phi ~ J. With
-e = (P^2/2 + (J/2) cos^2 phi - phi + (c^2/8) sin^2 2phi)/J: e' <= |c| (2 pi - P^2)/J^2, so P^2/J^2 is integrable although J ~ tau:
-the oscillation about phi = pi/2 dies out in angle, y3 ~ +-sqrt(2|c| tau). (phi_b = pi is the weaker certificate with pi - p.)
-
-Both certificates are monotone: once one holds it holds for ever, so it may be looked for at any later time. For c < 0 the end of the
-run that led there decides, and its rounding could carry a motion over the boundary between the two; so six neighbours, as
-far away as that rounding could at most have moved it, must end alike, else the answer is "undecided".
+For c < 0 the end of the run that led there decides, and its rounding could carry a motion over the boundary between the two; so six
+neighbours, as far away as that rounding could at most have moved it, must end alike, else the answer is "undecided".
 """
 from __future__ import annotations
 

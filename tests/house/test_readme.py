@@ -27,8 +27,9 @@ ROOT = Path(__file__).parents[2]
 README, GUIDE = ROOT / "README.md", ROOT / "docs/guide.md"
 MADE = {"readme.md", "results.md", "api.md", "gallery.md"}  # by docs/conf.py, from what stands elsewhere
 LISTS = {"index.md"}  # of pages alone, which the last test here looks through
-PAGES = [README, *(page for page in sorted((ROOT / "docs").glob("*.md")) if page.name not in MADE | LISTS)]
-NAMES = [page.name for page in PAGES]
+CHAPTERS = [page for page in sorted((ROOT / "docs/mathematics").glob("*.md")) if page.name not in LISTS]
+PAGES = [README, *(page for page in sorted((ROOT / "docs").glob("*.md")) if page.name not in MADE | LISTS), *CHAPTERS]
+NAMES = [page.relative_to(ROOT).as_posix() for page in PAGES]
 SECONDS = 1800  # a command that takes so long hangs: the report takes some four minutes on one core, more where others work beside it
 SLOW = ("stabilab report", "python -m pytest")  # run by the slow test
 HEYOKA = importlib.util.find_spec("heyoka") is not None
@@ -201,6 +202,13 @@ def test_sessions_in_python_give_what_they_show(page, request, monkeypatch):
     text, folder = request.getfixturevalue(page)
     monkeypatch.chdir(folder)
     in_python(text)
+
+
+@pytest.mark.parametrize("chapter", CHAPTERS, ids=[page.stem for page in CHAPTERS])
+def test_formulas_of_a_chapter_of_mathematics_are_those_of_the_program(chapter, monkeypatch):
+    """Its sessions compare the formulas with the program, in fractions or by derivatives along the motion."""
+    monkeypatch.chdir(ROOT)
+    in_python(chapter.read_text(encoding="utf-8"))
 
 
 @pytest.mark.parametrize("page", PAGES, ids=NAMES)

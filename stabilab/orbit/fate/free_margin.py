@@ -1,24 +1,16 @@
 """Torque-free motion of a body, with a gyrostatic moment or without: the saddles on its momentum sphere, and the margin in energy.
 
 H = s omega at a permanent rotation. Where no component of lambda vanishes omega_i = lambda_i/(s - D_i), and on the sphere |H| = h the
-speeds s are the roots of
+speeds s are the roots of the sextic
 
-    P(s) = (h(s)^2 - h^2) prod (s - D_i)^2,     h(s)^2 = sum s^2 lambda_i^2/(s - D_i)^2,
+    P(s) = (h(s)^2 - h^2) prod (s - D_i)^2,     h(s)^2 = sum s^2 lambda_i^2/(s - D_i)^2;
 
-a sextic; components that vanish, and the shared factors of equal moments, drop out of both products. The kinetic energy restricted to
-the sphere has the second derivative diag(1/D_i - 1/s) across H, whose determinant has the sign of prod (s - D_i) sum lambda_i^2
-D_i/(s - D_i)^3 (all three i in the product); and (h^2)'/2 = -s sum lambda_i^2 D_i/(s - D_i)^3. So a root is a saddle iff
+components that vanish, and the shared factors of equal moments, drop out of both products. A root is a saddle iff
 s P'(s) prod (s - D_i) > 0, at a multiple root with the sign of P beyond it; one of even multiplicity is a fold. Where lambda_i = 0 there
-are the rotations s = D_i as well, with any omega_i: their determinant has the sign of prod (1/D_j - 1/D_i) over the other two, so they
-are saddles iff D_i lies strictly between the other moments.
+are the rotations s = D_i as well; they are saddles iff D_i lies strictly between the other moments. A state lies on a separatrix iff its
+energy is a saddle's, which a greatest common divisor decides exactly. Proofs: docs/mathematics/separatrix.md.
 
-A state lies on a separatrix iff its energy is a saddle's: the level line of the saddle is a quartic with a node, so either
-rational, and then its real points are the two loops alone, or two conics through two saddles. For the same reason (a smooth quartic of
-this kind has two pieces at most) no saddle's energy stands between a motion and a saddle that borders its region, and the saddle
-nearest in energy is the one by which the motion would leave it. Energies are rational functions of one root, so a greatest
-common divisor decides exactly.
-
-The margin is that saddle's energy minus the motion's, at the same momentum: no choice of axes enters. It is positive where the motion
+The margin is the nearest saddle's energy minus the motion's, at the same momentum: no choice of axes enters. It is positive where the motion
 has less energy than the saddle (without a wheel: turns about the major axis), and negative where it has more.
 """
 from __future__ import annotations

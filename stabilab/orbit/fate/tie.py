@@ -1,9 +1,8 @@
 """Is a state exactly on the separatrix? Algebra says so where precision never could.
 
-With a torque and a circle or hyperbola the answer is no: energy minus barrier is an algebraic number minus a non-zero
-rational multiple of theta/n, where n is algebraic and exp(theta) or exp(i theta) is algebraic at the barrier, so by
-Lindemann's theorem theta is transcendental there (or 0: the equilibrium itself). Without a torque, and on a parabola,
-everything is a rational function of one root of a rational polynomial, and a greatest common divisor decides.
+With a torque and a circle or hyperbola the answer is no, but for the equilibrium itself, by Lindemann's theorem (proof:
+docs/mathematics/separatrix.md). Without a torque, and on a parabola, everything is a rational function of one root of a rational polynomial, and
+a greatest common divisor decides.
 """
 from __future__ import annotations
 

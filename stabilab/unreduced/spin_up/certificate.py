@@ -1,7 +1,7 @@
 """A certificate of spin-up: an inequality between numbers of one state that, once true, stays true for ever.
 
-Theorem. Let x be the spin of a form, D1 x' = V(x) + what oscillates, zeta its amplitude, Om(x) > 0 increasing (the rate of the phase up to
-a constant), V >= drive from z on, and let, by elimination, for all x >= z and |zeta| <= A
+Theorem (proof: docs/mathematics/spin-up.md). Let x be the spin of a form, D1 x' = V(x) + what oscillates, zeta its amplitude, Om(x) > 0
+increasing (the rate of the phase up to a constant), V >= drive from z on, and let, by elimination, for all x >= z and |zeta| <= A
 
     Y  = D1 int Om dx + (added),             Y' = Om V + (left),       |added| <= e,  |left|/Om <= k,
     B  = w(x) |zeta|^2 + (added),            |added| <= b,             int |B'| dx <= r,    w >= w_ > 0.
@@ -11,13 +11,6 @@ a constant), V >= drive from z on, and let, by elimination, for all x >= z and |
     x > z, |zeta| < A;    D1 int_z^x Om + added > e;    eta = drive - k > 0;    F = [B + b + r D1/eta]/w_ < A^2,
 
 then at all later times |zeta| < A and x >= z + eta t/D1, x <= z+ + eta+ t/D1 with D1 int_x^(z+) Om = added + e, eta+ = greatest V + k.
-
-Proof. Let tau be the end of the times up to which |zeta| < A and x > z; it is not 0. Before it Y' >= Om (V - k) >= Om eta > 0, so Y grows and
-D1 int_z^x Om >= Y - e - D1 int^z Om keeps a margin above 0. Let y be defined by D1 int_z^y Om = Y - e - D1 int^z Om: z < y <= x, and D1 Om(y) y' =
-Y' >= Om(x) eta >= Om(y) eta, so x >= y >= z + eta t/D1. Hence int |B'| dt <= sum |c| A^(j+k) int f(x(t)) dt, and where f falls from z on
-the integral is at most (D1/eta) int_z f dx = r D1/eta. (|B'| is bounded by decreasing majorants of its factors.) So w_ |zeta|^2
-<= B + b <= B(0) + b + r D1/eta < w_ A^2, a margin too, and tau has no end. Above: y+ >= x with D1 int^(y+) Om = Y + e has D1 Om(y+) y+' = Y' <=
-Om(x) eta+ <= Om(y+) eta+. QED.
 
 For the fixed centre Om = x, V = M1 + m*/x, and orders (0, 2) without the weight w = 1 + m*/(M1 x) are the classical
 E + Im/X and B + R/(om X) + Psi/(D1 om^2 X^3), with k formed from the sums as they come out. Then also D1 y' >= M1 - c/y with

@@ -1,20 +1,18 @@
 """Bodies with equal moments: what is exact, and the second fate, spin-up in the equatorial plane.
 
-Axis 1 the axis of symmetry, D2 = D3 = D, d = D1 - D, no transverse wheel (l2 = l3 = 0). Then gam = h = kap = 0 (`form`) and D1 omega1' = M1 exactly.
-With X = omega1 + l1/d and xi = omega2 + i omega3 the other two are xi' = i (d/D) X xi + mu, mu = (M2 + i M3)/D.
+Axis 1 the axis of symmetry, D2 = D3 = D, d = D1 - D, no transverse wheel (l2 = l3 = 0): D1 omega1' = M1 exactly, and with X = omega1 + l1/d,
+xi = omega2 + i omega3, mu = (M2 + i M3)/D the other two are xi' = i (d/D) X xi + mu.
 
-* M1 != 0: X = X0 + M1 t/D1, |xi(t)| <= |xi(0)| + |mu| |int exp(i phi)|, phi'' = d M1/(D D1): by van der Corput's lemma the integral is at most
-  8/sqrt(|phi''|) over any interval. Every state spins up about the axis, in the sense of M1; nothing is integrated.
+* M1 != 0: every state spins up about the axis, in the sense of M1, with |xi(t)| <= |xi(0)| + 8 |mu|/sqrt(|d| |M1|/(D D1)); nothing is integrated.
 * M1 = 0: X is constant. X != 0: xi goes round a circle about i mu D/(d X): bounded. X = 0: xi = xi(0) + mu t, it grows along the transverse
   torque (or stands still without one).
 
-Sphere, D omega' = M - omega x l: without a wheel omega grows along M; else its component along l grows as (M.l)/(|l| D) and what is
-across goes round at the rate |l|/D about a fixed point: spin-up along sgn(M.l) l, bounded where M.l = 0.
+Sphere, D omega' = M - omega x l: without a wheel omega grows along M; with one spin-up along sgn(M.l) l, bounded where M.l = 0.
 
 A transverse wheel l_perp (and D2 = D3): besides axis 1 the motion may spin up in the equator, along e = -sgn(D1 - D2) l_perp/|l_perp|, where
-(M_perp.l_perp)(D1 - D2) < 0. Why: in the frame (e, a1 x e, a1) the form about the moving centre has d2 = 0, q = |l_perp|, p = a3 x + |l_perp|, both
-positive for great x = omega.e exactly with that sign of e, and M.e > 0. Large x: the other two rates are an oscillator of the rate sqrt(p q/(D2 D3)),
-growing like the root of x, and D x' -> M.e. Its certificate is the theorem of `certificate`.
+(M_perp.l_perp)(D1 - D2) < 0. In the frame (e, a1 x e, a1) the form about the moving centre has d2 = 0, q = |l_perp|, p = a3 x + |l_perp|, both
+positive for great x = omega.e exactly with that sign of e, and M.e > 0. Its certificate is the theorem of `certificate`.
+Proofs: docs/mathematics/spin-up.md.
 """
 from __future__ import annotations
 
