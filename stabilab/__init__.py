@@ -38,6 +38,7 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
     from .physics.scene import ScaledGyrostat as ScaledGyrostat
     from .physics.scene import Scene as Scene
     from .show import plot as plot
+    from .show.maps.dataset import sweep as sweep
     from .theories.comparison import compare as compare
     from .theories.theory import theory as theory
     from .unreduced.spin_up.follow import spin_up as spin_up
@@ -58,7 +59,7 @@ _HOME = {
     "Charge": "physics.effects.charge", "Resistance": "physics.effects.resistance", "LiquidCavity": "physics.effects.liquid_cavity",
     "NewtonianField": "physics.effects.newtonian_field", "Gravity": "physics.effects.gravity", "BodyForce": "physics.effects.body_force",
     "derive": "physics.equations", "validity": "physics.law_limits",
-    "plot": "show", "InputError": "errors",
+    "plot": "show", "sweep": "show.maps.dataset", "InputError": "errors",
 }
 __all__ = [*_HOME, "__version__"]
 

@@ -411,6 +411,51 @@ def plot(case: CaseFile,
 
 
 @app.command()
+def sweep(case: CaseFile,
+          vary: Annotated[list[str] | None, typer.Option(metavar="KEY=VALUES", help='A number that varies: "torque[3]=0:0.1:101", '
+                                                         '"motion.angular_velocity[1]=-30:30:61 deg/s", "speed=1:1000:31:log rpm", "torque[1]=0, 1, 2". Up to '
+                                                         'four.')] = None,
+          samples: Annotated[int | None, typer.Option(metavar="N", help="Random points over the uncertainties that the case states.")] = None,
+          seed: Annotated[int, typer.Option(metavar="S", help="Of the random points.")] = 1,
+          answer: Annotated[str | None, typer.Option(metavar="A,B,...", help="fate, level, reason, margin, distance, extremes, period, when, equilibria, "
+                                                     "verdict. Default: fate,level,margin.")] = None,
+          out: Annotated[Path | None, typer.Option(metavar="FILE.nc", help="Write NetCDF. What is finished outlives a killed run: the same command goes "
+                                                   "on.")] = None,
+          workers: Annotated[int | None, typer.Option(metavar="N", help="Processes that share the work; default: one a core where that pays.")] = None,
+          rate: Annotated[str | None, typer.Option(metavar="RATE", help="Limits of the answer when, as of stabilab when.")] = None,
+          component: Annotated[str | None, typer.Option(metavar="AXIS=RATE", hidden=True)] = None,
+          energy: Annotated[str | None, typer.Option(metavar="ENERGY", hidden=True)] = None,
+          tilt: Annotated[str | None, typer.Option(metavar="AXIS=ANGLE", hidden=True)] = None,
+          until: Annotated[str | None, typer.Option(metavar="TIME", hidden=True)] = None,
+          csv: Annotated[bool, typer.Option("--csv", help="CSV on stdout: a line for each point.")] = False, json: Json = False,
+          strict: Annotated[bool, typer.Option("--strict", help="Exit with 3 where a fate is undecided.")] = False):
+    """Answer a case over ranges of its numbers.
+
+    A map of fates, margins, extremes, equilibria, by short names of the numbers where these are unique.
+
+    Example: stabilab sweep cases/minor-axis-100.toml --vary "x[1]=-4:4:101" --vary "x[3]=-3:3:101" --out map.nc
+    """
+    if json and csv:
+        raise typer.BadParameter("choose one of --json and --csv")
+    from .maps.plan import planned, split_keys
+    from .maps.run import run
+    from .show.maps import words
+    plan = planned(case, split_keys(vary or []), samples, seed, answer, rate=rate, component=component, energy=energy, tilt=tilt, until=until)
+    if out:
+        from .show.maps import dataset
+        dataset.checked(out)
+    with run(plan, out, workers) as found:
+        if out:
+            _say(f"written: {dataset.write(dataset.dataset(found), out)}")
+    if json or csv:
+        _print(words.json(found) if json else words.csv(found))
+    else:
+        _show(words.text(found))
+    if strict and words.undecided(found):
+        raise typer.Exit(UNDECIDED)
+
+
+@app.command()
 def when(cases: CaseFiles,
          rate: Annotated[str | None, typer.Option(metavar="RATE", help='Of |omega|: "30 deg/s". Default: the limit of [limits].')] = None,
          component: Annotated[str | None, typer.Option(metavar="AXIS=RATE", help='Of one component\'s size: "z = 30 deg/s"; x, y, z of the file, '

@@ -64,9 +64,9 @@ def new_folder(out):
 
 
 @contextmanager
-def alone_in(folder):
-    """While the block runs, no other run that asks for it puts its files into the folder."""
-    with _locked(Path(folder), wait=True):
+def alone_in(folder, wait=True):
+    """While the block runs, no other run that asks for it puts its files into the folder. BlockingIOError where one does, unless it is waited for."""
+    with _locked(Path(folder), wait=wait):
         yield
 
 

@@ -455,7 +455,7 @@ def test_every_command_has_help_with_an_example(stabilab):
     commands = [line.split()[0] for line in groups.splitlines() if line.startswith("  ")]
     assert code == 0 and set(commands) == {"audit", "show", "classify", "extremes", "simulate", "compare", "precision", "surface", "plot",
                                         "tables", "figures", "report", "doctor", "fate", "import", "period", "reference",
-                                        "rerun", "stuck", "validate", "verify", "when"}
+                                        "rerun", "stuck", "sweep", "validate", "verify", "when"}
     assert "--install-completion" in out and "..." not in groups
     for command in commands:
         code, out, _ = stabilab(command, "--help")

@@ -163,6 +163,11 @@ def read_text(path, text: str) -> Case:
     return _built(path, text, *parsed(path, text))
 
 
+def with_data(path, text: str, data: dict) -> Case:
+    """The case in TOML data that is the text's but for numbers that were put in; its faults are told as of the text."""
+    return _built(path, text, data, Faults(key_lines(text)))
+
+
 def _read(path):
     path = os.fspath(path)
     text = source_text(path)

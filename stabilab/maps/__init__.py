@@ -1,0 +1,1 @@
+"""Many cases at once: the questions of `answers` over ranges of a case's numbers."""

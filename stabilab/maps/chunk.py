@@ -1,0 +1,119 @@
+"""The answers for a chunk of points, in rows of one record each."""
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from ..answers.equilibria import equilibria
+from ..answers.extremes import extremes, period
+from ..answers.fate import fate
+from ..answers.kinds import KINDS, kind_of
+from ..answers.motion import motion
+from ..answers.time_to import time_to
+from ..case.read import Case, blamed_on
+from ..errors import CaseError, InputError
+from ..orbit.result import Fate
+from ..physics.coefficients import effective
+from ..physics.states import start_of
+from .columns import ENDLESS, LEVELS, LIMIT_LEVELS, NO_CASE, NONE, OPEN, record
+from .plan import Chunk, Plan
+from .points import case_of, states_of
+
+NO_CASE_VALUES = {"fate": NO_CASE, "reason": -1, "equilibria": NONE}
+
+
+def answered(plan: Plan, number: int) -> np.ndarray:
+    """(points,) of `columns.record`: the answers for a chunk, in the inner order."""
+    chunk = plan.chunks[number]
+    rows = np.zeros(chunk.points, record(plan.answers))
+    size = chunk.high - chunk.low
+    for n, scene in enumerate(range(chunk.first, chunk.last)):
+        _scene(plan, scene, chunk, rows[n * size:(n + 1) * size])
+    return rows
+
+
+def _scene(plan: Plan, scene: int, chunk: Chunk, out: np.ndarray) -> None:
+    try:
+        case = case_of(plan, scene)
+    except CaseError:
+        for name in out.dtype.names:
+            if out.dtype[name].base.kind == "f":
+                out[name] = np.nan
+            elif name in NO_CASE_VALUES:
+                out[name] = NO_CASE_VALUES[name]
+        return
+    out["valid"] = 1
+    with blamed_on(case):
+        if case.state is not None:
+            (_many if effective(case.scene).plain else _single)(plan, case, states_of(plan, case, chunk.low, chunk.high), out)
+        if "equilibria" in plan.answers or "verdict" in plan.answers:
+            _equilibria(case, out)
+
+
+def _many(plan: Plan, case: Case, states: np.ndarray, out: np.ndarray) -> None:
+    """The states of a scene whose answers come in arrays."""
+    asked, scene = plan.answers, case.scene
+    if {"fate", "level", "reason", "margin", "distance"} & set(asked):
+        found = fate(scene, states)
+        columns: dict[str, Callable[[], Any]] = {
+            "fate": lambda: found.labels, "spin_axis": lambda: found.axis * found.sense, "reason": lambda: found.reasons, "margin": lambda: found.margins,
+            "level": lambda: [LEVELS.index(word) for word in found.levels], "distance": lambda: found.velocity_margins}
+        for name, column in columns.items():
+            if name in out.dtype.names:
+                out[name] = column()
+    if "extremes" in asked:
+        box = _extremes(case, states)
+        out["least"], out["greatest"] = box[..., 0], box[..., 1]
+    if "period" in asked:
+        out["period"] = period(scene, states)
+    if "when" in asked:
+        limit = plan.limit_of(case)
+        _times(time_to(scene, states, **limit.ask, t_max=limit.until), out)
+
+
+def _extremes(case: Case, states: np.ndarray) -> np.ndarray:
+    follows = KINDS[kind_of(effective(case.scene))].follows
+    try:
+        return extremes(case.scene, states, case.span)
+    except InputError:
+        if follows:  # no state of this scene has bounds
+            return np.full((*states.shape, 2), np.nan)
+        raise
+
+
+def _times(found, out: np.ndarray) -> None:
+    out["when_low"], out["when_high"] = found.low, found.high
+    out["when_level"] = [LIMIT_LEVELS.index(word) if word in LIMIT_LEVELS else 0 for word in np.ravel(found.level)]
+
+
+def _single(plan: Plan, case: Case, states: np.ndarray, out: np.ndarray) -> None:
+    """States that are answered one by one: liquid, medium, field."""
+    for state, row in zip(states.tolist(), out):
+        here = replace(case, state=tuple(state)) if tuple(state) != case.state else case
+        brief = not {"distance", "period"} & set(plan.answers)
+        found = motion(here.scene, here.start, here.span, brief, here.exact_state)
+        pairs = found.extremes or ((np.nan, np.nan),) * 3
+        known = lambda value: np.nan if value is None else value
+        columns = {"fate": found.fate, "spin_axis": found.axis * found.sense, "level": LEVELS.index(found.level), "reason": -1,
+                   "margin": known(found.margin_energy), "distance": known(found.margin_velocity), "least": [low for low, _ in pairs],
+                   "greatest": [high for _, high in pairs],
+                   "period": (0.0 if found.fate == Fate.EQUILIBRIUM else np.inf) if found.period is None else found.period}
+        for name, value in columns.items():
+            if name in out.dtype.names:
+                row[name] = value
+        if "when" in plan.answers:
+            limit = plan.limit_of(here)
+            _times(time_to(here.scene, start_of(here.scene, here.state, here.blocks), **limit.ask, t_max=limit.until), row)
+
+
+def _equilibria(case: Case, out: np.ndarray) -> None:
+    found = equilibria(case.scene)
+    verdicts = [point.verdict for point in found.points] + [piece.verdict for curve in found.curves for piece in curve.segments]
+    number = {"none": 0, "points": len(found.points), "undecided": OPEN}.get(found.kind, ENDLESS)
+    counts = {"equilibria": number, "stable": verdicts.count("stable"), "unstable": verdicts.count("unstable")}
+    for name, value in (counts | {"open": len(verdicts) - counts["stable"] - counts["unstable"]}).items():
+        if name in out.dtype.names:
+            out[name] = value

@@ -1,0 +1,77 @@
+"""What a sweep may be asked, and the columns that each answer fills."""
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..errors import InputError, printable
+from ..orbit.fate.reasons import Reason
+from ..orbit.result import Fate
+
+LEVELS = ("undecided", "certified", "exact", "proved")
+LIMIT_LEVELS = ("run", "exact", "proved")
+ENDLESS, OPEN, NONE = -1, -2, -3  # equilibria without number; not all of them known; numbers that make no case
+NO_CASE = len(Fate)  # in the place of a fate: the numbers make no case (moments that no body has)
+RATE, ENERGY, TIME = "rate", "energy", "time"  # units that depend on the variables of a case
+
+
+class Column(NamedTuple):
+    """A number for each point. kind: of NumPy; unit: RATE, ENERGY, TIME or "" (a count or a word); words: what it is; flags: words of its values,
+    from 0 on; shape: of one point's numbers; note: what values beside the plain ones mean."""
+
+    name: str
+    kind: str
+    unit: str
+    words: str
+    flags: tuple[str, ...] = ()
+    shape: tuple[int, ...] = ()
+    note: str = ""
+
+
+NOT_KNOWN = "NaN where it is not known"
+# what may be asked -> its columns
+ANSWERS: dict[str, tuple[Column, ...]] = {
+    "fate": (Column("fate", "i1", "", "what becomes of the motion", (*(fate.word for fate in Fate), "no_case")),
+             Column("spin_axis", "i1", "", "axis of a spin-up with its sense as a sign", note="0 where there is none, or it is no principal axis")),
+    "level": (Column("level", "i1", "", "how well the fate is known", LEVELS),),
+    "reason": (Column("reason", "i1", "", "why the fate is known", tuple(reason.name.lower() for reason in Reason),
+                      note="-1 where a motion is answered by itself: stabilab fate tells why"),),
+    "margin": (Column("margin", "f8", ENERGY, "height of the barrier ahead less the energy",
+                      note=f"-inf without a barrier ahead, +inf where none bounds the motion, {NOT_KNOWN}"),),
+    "distance": (Column("distance", "f8", RATE, "smallest change of the rates that reaches the separatrix", note=f"+inf without one, {NOT_KNOWN}"),),
+    "extremes": (Column("least", "f8", RATE, "least rate about each principal axis", shape=(3,), note=f"-inf where unbounded, {NOT_KNOWN}"),
+                 Column("greatest", "f8", RATE, "greatest rate about each principal axis", shape=(3,), note=f"+inf where unbounded, {NOT_KNOWN}")),
+    "period": (Column("period", "f8", TIME, "period of the motion", note="+inf where it does not repeat or is not known to, 0 at rest"),),
+    "when": (Column("when_low", "f8", TIME, "the limit is not reached before", note="+inf: never"),
+             Column("when_high", "f8", TIME, "the limit is reached by", note="+inf: never; NaN where that is not known"),
+             Column("when_level", "i1", "", "how well the time is known", LIMIT_LEVELS)),
+    "equilibria": (Column("equilibria", "i4", "", "number of equilibria",
+                          note=f"{ENDLESS}: curves of them, {OPEN}: not all of them are known, {NONE}: no case"),),
+    "verdict": (Column("stable", "i4", "", "stable equilibria, and stable pieces of curves of them"),
+                Column("unstable", "i4", "", "unstable equilibria, and unstable pieces of curves of them"),
+                Column("open", "i4", "", "equilibria and pieces whose stability is undecided")),
+}
+DEFAULT = ("fate", "level", "margin")
+VALID = Column("valid", "i1", "", "whether the numbers make a case", ("no", "yes"))
+
+
+def asked_answers(asked) -> tuple[str, ...]:
+    """The answers asked for, "fate,margin" or names in a row, in the order of ANSWERS. Raises InputError for others."""
+    names = [word.strip() for word in asked.split(",")] if isinstance(asked, str) else list(asked or DEFAULT)
+    for name in names:
+        if name not in ANSWERS:
+            from difflib import get_close_matches
+            near = get_close_matches(str(name).lower()[:40], ANSWERS, n=1)
+            raise InputError(f"answer {printable(str(name))[:40]!r}: {f'did you mean {near[0]}? ' if near else ''}expected {', '.join(ANSWERS)}")
+    return tuple(name for name in ANSWERS if name in names)
+
+
+def columns_of(answers: tuple[str, ...]) -> tuple[Column, ...]:
+    """The columns of some answers."""
+    return (VALID, *(column for name in answers for column in ANSWERS[name]))
+
+
+def record(answers: tuple[str, ...]) -> np.dtype:
+    """How the columns of one point lie in memory and in part files."""
+    return np.dtype([(column.name, f"<{column.kind}" if column.kind != "i1" else "i1", column.shape) for column in columns_of(answers)])

@@ -1,0 +1,92 @@
+"""What is finished of a sweep: a folder beside its file with a part for every chunk, whole or absent.
+
+A part is the records of a chunk as they lie in memory, with a digest before them. The folder says of which sweep it is; a run that was killed
+leaves it there, and the same sweep goes on from it.
+"""
+from __future__ import annotations
+
+import hashlib
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import InputError
+from ..files import alone_in, whole_file
+from .columns import record
+from .plan import Plan
+
+PLAN = "sweep.json"
+DIGEST = 32  # bytes in front of a part
+
+
+def place_of(out: Path) -> Path:
+    """The folder of the parts of a file."""
+    return out.with_name(f"{out.name}.parts")
+
+
+@contextmanager
+def kept(plan: Plan, folder: Path) -> Iterator[Path]:
+    """The folder for the parts of this sweep alone, made where it is not there. Raises InputError where it holds another sweep, or another run is at it."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with alone_in(folder, wait=False):
+            _claim(plan, folder)
+            yield folder
+    except BlockingIOError:
+        raise InputError(f"{folder}: another run is at work on this sweep: wait for it, or give another --out") from None
+    except OSError as error:
+        if error.filename is None or Path(error.filename) not in (folder, *folder.parents):
+            raise
+        raise InputError(f"{folder}: cannot be written: {error.strerror or error}") from None
+
+
+def _claim(plan: Plan, folder: Path) -> None:
+    claim = folder / PLAN
+    if claim.exists():
+        if plan.digest not in claim.read_text(encoding="utf-8"):
+            raise InputError(f"{folder}: holds what is finished of another sweep (or of another version): run that one again, remove the folder, or give "
+                             "another --out")
+        return
+    with whole_file(claim) as waiting:
+        waiting.write_text(f'{{"digest": "{plan.digest}"}}\n', encoding="utf-8")
+
+
+def write(folder: Path, number: int, rows: bytes) -> None:
+    """Put a part into the folder, whole."""
+    with whole_file(_path(folder, number)) as waiting:
+        waiting.write_bytes(hashlib.sha256(rows).digest() + rows)
+
+
+def read(plan: Plan, folder: Path, number: int) -> np.ndarray | None:
+    """The records of a chunk; None where its part is not there, or is not whole (a power cut)."""
+    try:
+        found = _path(folder, number).read_bytes()
+    except FileNotFoundError:
+        return None
+    rows = found[DIGEST:]
+    whole = len(rows) == plan.chunks[number].points * record(plan.answers).itemsize and hashlib.sha256(rows).digest() == found[:DIGEST]
+    return np.frombuffer(rows, record(plan.answers)) if whole else None
+
+
+def missing(plan: Plan, folder: Path) -> list[int]:
+    """The chunks that are not finished, in order."""
+    return [number for number in range(len(plan.chunks)) if read(plan, folder, number) is None]
+
+
+def whole(plan: Plan, folder: Path) -> np.ndarray:
+    """All records in the user's order, of the shape of the sweep."""
+    rows = np.concatenate([read(plan, folder, number) for number in range(len(plan.chunks))])
+    order = (*plan.outer, *plan.inner)
+    return rows.reshape([plan.shape[n] for n in order]).transpose(np.argsort(order))
+
+
+def remove(folder: Path) -> None:
+    """Remove the parts: the file that they make is there."""
+    shutil.rmtree(folder, ignore_errors=True)
+
+
+def _path(folder: Path, number: int) -> Path:
+    return folder / f"part-{number:07d}"

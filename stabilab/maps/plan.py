@@ -1,0 +1,219 @@
+"""A sweep before it is run: a case, the numbers of it that vary, what is asked, and how the points fall into chunks.
+
+Scenes run in the outer order and states of one scene in the inner one, so that a chunk is one call of a kernel wherever one serves. The order in
+which the user named the axes is restored when the parts are put together. Chunks depend on the sweep alone, never on who computes them.
+"""
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from math import prod
+from typing import Any, NamedTuple
+
+from ..answers.kinds import KINDS, kind_of
+from ..case.limit_options import StatedLimit, stated_limit
+from ..case.read import Case, read_text
+from ..case.source import parsed, source_text
+from ..errors import InputError, printable
+from ..physics.coefficients import effective
+from ..version import __version__
+from .axes import MOST, Axis, axis_of
+from .columns import asked_answers
+from .keys import key_of, keys_of
+from .samples import Samples, samples_of
+
+AXES = 4
+RATES = ("angular_velocity", "x")  # keys of [motion] whose numbers leave the scene as it is
+CHUNK_SECONDS, LARGEST = 2.0, 1 << 17  # of one processor that a chunk takes, roughly; its most points
+# answer -> seconds for a state of a scene with an orbit, for one whose motions are followed; measured, to size chunks alone
+COST = {"fate": (1e-6, 2e-4), "level": (0, 0), "reason": (0, 0), "margin": (0, 0), "distance": (3e-2, 0), "extremes": (1e-5, 2e-2), "period": (1e-5, 0),
+        "when": (0.1, 0.1), "equilibria": (0, 0), "verdict": (0, 0)}
+SCENE_COST = (3e-3, 3e-2)
+LIMITS = ("rate", "component", "energy", "tilt", "until")
+
+
+class Chunk(NamedTuple):
+    """Scenes [first, last) with their states [low, high), scenes outside."""
+
+    first: int
+    last: int
+    low: int
+    high: int
+
+    @property
+    def points(self) -> int:
+        return (self.last - self.first) * (self.high - self.low)
+
+
+@dataclass(frozen=True)
+class Plan:
+    """path, text: of the case; vary: (name, what was asked) in the user's order; samples, seed: of random points, None without; answers: names of
+    `columns.ANSWERS`; limit: options of `when`, by name."""
+
+    path: str
+    text: str = field(repr=False)
+    vary: tuple[tuple[str, Any], ...]
+    samples: int | None
+    seed: int
+    answers: tuple[str, ...]
+    limit: tuple[tuple[str, str], ...] = ()
+
+    @cached_property
+    def data(self) -> dict[str, Any]:
+        """The case's TOML data, without what belongs to the file's own combinations."""
+        found, _ = parsed(self.path, self.text)
+        return {key: value for key, value in found.items() if key not in ("sweep", "expect")}
+
+    @cached_property
+    def case(self) -> Case:
+        """The case with the numbers of the file."""
+        return read_text(self.path, self.text)
+
+    @cached_property
+    def axes(self) -> tuple[Axis, ...]:
+        """The numbers that vary, in the user's order."""
+        return tuple(axis_of(key_of(self.data, name), asked) for name, asked in self.vary)
+
+    @cached_property
+    def sampled(self) -> Samples | None:
+        """The random points, the last dimension."""
+        taken = {path for axis in self.axes for path in axis.key.paths}
+        return samples_of(self.case, keys_of(self.data), taken, self.samples, self.seed)
+
+    @cached_property
+    def shape(self) -> tuple[int, ...]:
+        """Points along every dimension, in the user's order, samples last."""
+        return (*(len(axis.values) for axis in self.axes), *([self.sampled.count] if self.sampled else []))
+
+    @cached_property
+    def inner(self) -> tuple[int, ...]:
+        """The dimensions along which only the state varies."""
+        keys = [(axis.key,) for axis in self.axes] + ([self.sampled.keys] if self.sampled else [])
+        return tuple(n for n, of in enumerate(keys) if all(key.paths[0][0] == "motion" and key.paths[0][1] in RATES for key in of))
+
+    @property
+    def outer(self) -> tuple[int, ...]:
+        """The dimensions along which the scene varies."""
+        return tuple(n for n in range(len(self.shape)) if n not in self.inner)
+
+    @property
+    def scenes(self) -> int:
+        return prod(self.shape[n] for n in self.outer)
+
+    @property
+    def states(self) -> int:
+        """States of each scene."""
+        return prod(self.shape[n] for n in self.inner)
+
+    @property
+    def points(self) -> int:
+        return prod(self.shape)
+
+    @cached_property
+    def stated_limit(self) -> StatedLimit | None:
+        """The limit that `when` asks about."""
+        return self.limit_of(self.case)
+
+    def limit_of(self, case: Case) -> StatedLimit | None:
+        """The same for a point, whose own [limits] may vary."""
+        return stated_limit(case, **dict(self.limit)) if "when" in self.answers else None
+
+    @cached_property
+    def chunks(self) -> tuple[Chunk, ...]:
+        """All points, in order."""
+        most = self._points_of_a_chunk()
+        if self.states >= most:
+            return tuple(Chunk(n, n + 1, low, min(low + most, self.states)) for n in range(self.scenes) for low in range(0, self.states, most))
+        together = max(1, most // self.states)
+        return tuple(Chunk(n, min(n + together, self.scenes), 0, self.states) for n in range(0, self.scenes, together))
+
+    @cached_property
+    def cost(self) -> float:
+        """Seconds of a processor for a point, roughly."""
+        scene = effective(self.case.scene)
+        slow = not scene.plain or KINDS[kind_of(scene)].follows
+        return sum(COST[name][slow] for name in self.answers) + SCENE_COST[slow] / self.states
+
+    def _points_of_a_chunk(self) -> int:
+        return max(1, min(LARGEST, int(CHUNK_SECONDS / self.cost)))
+
+    def as_json(self, brief: bool = False) -> str:
+        """All of the plan, for another process. brief: without the folder of the case, for a file that is to be the same wherever it is made."""
+        return json.dumps({"version": __version__, "path": os.path.basename(self.path) if brief else self.path, "text": self.text,
+                           "vary": self.vary, "samples": self.samples, "seed": self.seed, "answers": self.answers, "limit": self.limit})
+
+    @cached_property
+    def digest(self) -> str:
+        """A name for what is asked: parts of another question are not taken for those of this one."""
+        told = json.loads(self.as_json(brief=True)) | {"chunks": self.chunks}
+        return hashlib.sha256(json.dumps(told).encode()).hexdigest()
+
+    @property
+    def command(self) -> str:
+        """A command that asks the same, without what does not change the answer."""
+        import shlex
+        words = ["stabilab", "sweep", os.path.basename(self.path)]
+        words += [f"--vary={name}={_as_text(asked)}" for name, asked in self.vary]
+        words += [f"--samples={self.samples}", f"--seed={self.seed}"] if self.samples else []
+        words += [f"--answer={','.join(self.answers)}", *(f"--{name}={text}" for name, text in self.limit)]
+        return shlex.join(words)
+
+
+def _as_text(asked: Any) -> str:
+    return asked if isinstance(asked, str) else ",".join(map(repr, asked))
+
+
+def from_json(text: str) -> Plan:
+    """The plan that another process wrote down."""
+    told = json.loads(text)
+    rows = lambda name: tuple((key, value) for key, value in told[name])
+    return Plan(told["path"], told["text"], rows("vary"), told["samples"], told["seed"], tuple(told["answers"]), rows("limit"))
+
+
+def split_keys(words: Sequence[str]) -> list[tuple[str, str]]:
+    """(key, values) of every KEY=VALUES of a command line."""
+    for word in words:
+        if "=" not in word:
+            raise InputError(f'--vary: expected KEY=START:STOP:COUNT or KEY=A,B,C, got "{printable(word)[:60]}"')
+    return [(key.strip(), values.strip()) for key, _, values in (word.partition("=") for word in words)]
+
+
+def planned(case: Case | str | os.PathLike[str], vary: Mapping[str, Any] | Sequence[tuple[str, Any]], samples: int | None = None, seed: int = 1,
+            answer: Any = None, **limit: str | None) -> Plan:
+    """A sweep whose every part is checked. Raises InputError with what is wrong."""
+    path, text = (case.path, case.text) if isinstance(case, Case) else (os.fspath(case), source_text(case))
+    rows = [(name, asked if isinstance(asked, str) else _plain(name, asked)) for name, asked in (vary.items() if isinstance(vary, Mapping) else vary)]
+    plan = Plan(os.fspath(path), text, tuple(rows), samples, seed, asked_answers(answer), tuple((k, v) for k, v in limit.items() if v is not None))
+    _judge(plan)
+    return plan
+
+
+def _plain(name: str, asked: Any) -> list[float]:
+    try:
+        return [float(value) for value in asked]
+    except (TypeError, ValueError):
+        raise InputError(f'vary {printable(name)}: expected a text such as "0:30:31 deg/s" or numbers in a row, got {asked!r:.60}') from None
+
+
+def _judge(plan: Plan) -> None:
+    case = plan.case
+    if not plan.vary and plan.samples is None:
+        raise InputError('nothing varies: give --vary KEY=START:STOP:COUNT, such as --vary "motion.angular_velocity[1]=0:30:31 deg/s", or --samples N')
+    taken: dict[Any, str] = {}
+    for axis in plan.axes:
+        for path in axis.key.paths:
+            if path in taken:
+                raise InputError(f"vary {printable(axis.key.name)}: this number varies already, as {printable(taken[path])}: give it once")
+            taken[path] = axis.key.name
+    if len(plan.shape) > AXES:
+        raise InputError(f"expected at most {AXES} axes, got {len(plan.shape)}")
+    if plan.points > MOST:
+        raise InputError(f"{' x '.join(map(str, plan.shape))} are {plan.points:,} points; at most {MOST:,} are run")
+    moving = [name for name in plan.answers if name not in ("equilibria", "verdict")]
+    if moving and case.state is None:
+        raise InputError(f"{case.place}: motion: expected x or angular_velocity in [motion]; {', '.join(moving)} need a state")
+    plan.limit_of(case)

@@ -1,0 +1,1 @@
+"""Sweeps as data sets, files, tables and pictures."""

@@ -1,0 +1,35 @@
+"""What the dimensions and columns of a sweep are called, and their units."""
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from ...maps.columns import ENERGY, RATE, TIME, Column
+from ...maps.plan import Plan
+
+SAMPLE = "sample"
+
+
+def names(keys: Sequence[str]) -> list[str]:
+    """A short name for each key, in letters, digits and underscores: its last word, or as many of its words as tell it from the others."""
+    parts = [re.split(r"\.", key) for key in keys]
+    for words in range(1, max(map(len, parts), default=0) + 1):
+        found = [_plain("_".join(part[-words:])) for part in parts]
+        if len(set(found)) == len(found) and not set(found) & {SAMPLE, "axis"}:
+            return found
+    return [_plain(f"{key}_{n}") for n, key in enumerate(keys, 1)]
+
+
+def _plain(text: str) -> str:
+    plain = re.sub(r"[^0-9A-Za-z]+", "_", text).strip("_") or "key"
+    return plain if plain[0].isalpha() else f"key_{plain}"
+
+
+def dimensions(plan: Plan) -> list[str]:
+    """The names of the dimensions, in the user's order."""
+    return names([axis.key.name for axis in plan.axes]) + ([SAMPLE] if plan.sampled else [])
+
+
+def unit(plan: Plan, column: Column) -> str:
+    """The unit of a column; "1" where it has none."""
+    return {RATE: "rad/s", ENERGY: "J", TIME: "s"}.get(column.unit, "1") if plan.case.variables == "physical" else "1"

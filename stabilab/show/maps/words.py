@@ -1,0 +1,161 @@
+"""A sweep in words: the answer in a line, what is behind it, a table where it is short; CSV and JSON of every point."""
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from ...errors import printable
+from ...maps.columns import ENDLESS, NO_CASE, NONE, OPEN, Column, columns_of
+from ...maps.run import Swept
+from ...orbit.result import Fate
+from ..files import comma
+from ..text.answers import Endless, as_json
+from .labels import SAMPLE, unit
+
+SCHEMA = "stabilab.sweep/1"
+ROWS = 40  # points of a table
+DOES = {Fate.BOUNDED: "stay bounded", Fate.SPIN_UP: "spin up", Fate.SEPARATRIX: "lie on the separatrix", Fate.EQUILIBRIUM: "are at rest",
+        Fate.UNDECIDED: "are undecided", NO_CASE: "are no case"}
+COUNTS = {ENDLESS: "curves of equilibria", OPEN: "equilibria not all known", NONE: "no case"}
+
+
+def text(found: Swept) -> str:
+    """The answer first; then what else was asked, in ranges; a table of the points where there are few."""
+    plan = found.plan
+    lines = [f"{plan.case.name}: {_answer(found)}", *_details(found)]
+    if found.broken:
+        lines.append(f"  {found.broken:,} points are no case; the first: {printable(found.why)}")
+    if found.records.size <= ROWS:
+        lines += _table(found)
+    return "\n".join(lines)
+
+
+def _answer(found: Swept) -> str:
+    names = found.records.dtype.names
+    if "fate" in names:
+        return _shares(found.records["fate"], lambda value: DOES[value])
+    if "equilibria" in names:
+        return _shares(found.records["equilibria"], lambda value: f"have {_number(value)}")
+    return f"{found.records.size:,} points"
+
+
+def _number(value: int) -> str:
+    return COUNTS.get(value) or ("no equilibrium" if not value else f"{value} equilibri{'um' if value == 1 else 'a'}")
+
+
+def _shares(values: np.ndarray, words: Any) -> str:
+    """"62 % of 10,201 points stay bounded, 38 % spin up"."""
+    kinds, counts = np.unique(values, return_counts=True)
+    order = np.argsort(-counts, kind="stable")
+    parts = [(_share(int(counts[n]), values.size), words(int(kinds[n]))) for n in order]
+    if len(parts) == 1:
+        return f"all {values.size:,} points {parts[0][1]}" if values.size > 1 else f"the one point: {parts[0][1]}"
+    head, *rest = parts
+    return f"{head[0]} of {values.size:,} points {head[1]}" + "".join(f", {share} {what}" for share, what in rest)
+
+
+def _share(count: int, of: int) -> str:
+    """A share in per cent that is 0 or 100 only where it is so; of few points their number."""
+    if of <= 100:
+        return str(count)
+    percent = 100 * count / of
+    told = f"{percent:.0f}" if 1 <= percent <= 99 else f"{percent:.2g}" if percent < 1 else f"{min(percent, 99.99):.2f}"
+    return f"{told} %"
+
+
+def _details(found: Swept) -> list[str]:
+    lines, names = [], found.records.dtype.names
+    if "spin_axis" in names and (found.records["fate"] == Fate.SPIN_UP).any():
+        about = found.records["spin_axis"][found.records["fate"] == Fate.SPIN_UP]
+        lines.append("  spin-up about " + _listed(about, lambda axis: f"{axis:+d}" if axis else "no principal axis"))
+    if "level" in names:
+        flags = next(c.flags for c in columns_of(found.plan.answers) if c.name == "level")
+        lines.append("  the fate is known as " + _listed(found.records["level"], lambda level: flags[level]))
+    for column in columns_of(found.plan.answers):
+        if column.kind == "f8":
+            lines.append(_range(found, column))
+        elif column.kind == "i4":
+            lines.append(f"  {column.words}: " + _listed(found.records[column.name], lambda value: COUNTS.get(value, str(value))))
+    return lines
+
+
+def _listed(values: np.ndarray, words: Any) -> str:
+    kinds, counts = np.unique(values, return_counts=True)
+    return ", ".join(f"{words(int(kind))} ({count:,})" for kind, count in sorted(zip(kinds.tolist(), counts.tolist()), key=lambda pair: -pair[1]))
+
+
+def _range(found: Swept, column: Column) -> str:
+    values, of = found.records[column.name], unit(found.plan, column)
+    finite, name = values[np.isfinite(values)], column.name.replace("_", " ")
+    rest = [f"{words} at {count:,}" for words, count in (("-inf", np.isneginf(values).sum()), ("+inf", np.isposinf(values).sum()),
+                                                         ("not known", np.isnan(values).sum())) if count]
+    told = "no finite value" if not finite.size else f"{finite.min() + 0.0:.6g} to {finite.max() + 0.0:.6g}{'' if of == '1' else f' {of}'}"
+    return f"  {name}: {told}" + (f" ({', '.join(rest)})" if rest else "")
+
+
+def undecided(found: Swept) -> bool:
+    """Whether the fate of a point is."""
+    return "fate" in found.plan.answers and bool((found.records["fate"] == Fate.UNDECIDED).any())
+
+
+def heads(found: Swept) -> list[str]:
+    """What the cells of `rows` are: keys with their units, then columns with theirs."""
+    plan = found.plan
+    told = lambda name, of: name if of == "1" else f"{name} ({of})"
+    keys = [told(axis.key.name, axis.shown_unit) for axis in plan.axes]
+    keys += [SAMPLE, *(told(key.name, plan.sampled.unit(n)) for n, key in enumerate(plan.sampled.keys))] if plan.sampled else []
+    for column in columns_of(plan.answers)[1:]:
+        keys += [told(f"{column.name}{n}", unit(plan, column)) for n in (("1", "2", "3") if column.shape else ("",))]
+    return keys
+
+
+def rows(found: Swept) -> Iterator[list[Any]]:
+    """A row for every point, the last dimension fastest: what varies, then the answers, words for flags."""
+    plan = found.plan
+    sampled = plan.sampled.values(0, plan.sampled.count).tolist() if plan.sampled else []
+    columns = columns_of(plan.answers)[1:]
+    for index in np.ndindex(*plan.shape):
+        row: list[Any] = [axis.values[n] for axis, n in zip(plan.axes, index)]
+        row += [index[-1], *sampled[index[-1]]] if plan.sampled else []
+        for column in columns:
+            value = found.records[column.name][index].tolist()
+            row += value if column.shape else [column.flags[value] if column.flags and value >= 0 else "" if column.flags else value]
+        yield row
+
+
+def csv(found: Swept) -> str:
+    """Every point as a line."""
+    return comma.lines([heads(found), *rows(found)])
+
+
+def json(found: Swept) -> str:
+    """Every point: axes with their values, then each column in one list, the last axis fastest."""
+    plan = found.plan
+    axes = [{"key": axis.key.name, "unit": axis.shown_unit, "values": list(axis.values)} for axis in plan.axes]
+    columns = {column.name: {"unit": unit(plan, column), "long_name": column.words} | ({"flags": list(column.flags)} if column.flags else {})
+               | {"values": _plain(found.records[column.name])} for column in columns_of(plan.answers)[1:]}
+    told: dict[str, Any] = {"schema": SCHEMA, "case": plan.case.name, "variables": plan.case.variables, "command": plan.command,
+                            "shape": list(plan.shape), "axes": axes}
+    if plan.sampled:
+        told["samples"] = {"count": plan.sampled.count, "seed": plan.sampled.seed, "keys": [key.name for key in plan.sampled.keys],
+                           "values": plan.sampled.values(0, plan.sampled.count).tolist()}
+    return as_json(told | {"no_case": {"points": found.broken, "because": found.why}, "columns": columns})
+
+
+def _plain(values: np.ndarray) -> list[Any]:
+    """In one list; of three numbers a point, these beside each other. What is infinite is told as such, where null stands for what is not known."""
+    return [Endless(value) if isinstance(value, float) and math.isinf(value) else value for value in values.ravel().tolist()]
+
+
+def _table(found: Swept) -> list[str]:
+    cells = [[_cell(value) for value in row] for row in rows(found)]
+    titles = heads(found)
+    wide = [max(map(len, column)) for column in zip(titles, *cells)]
+    return ["".join(f"{cell:>{size + 2}}" for cell, size in zip(row, wide)).rstrip() for row in (titles, *cells)]
+
+
+def _cell(value: Any) -> str:
+    return f"{value + 0.0:.6g}" if isinstance(value, float) else str(value)

@@ -1,0 +1,150 @@
+"""A point of a sweep has the answer of the case that has its numbers."""
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+import pytest
+
+import stabilab
+from stabilab.answers.equilibria import equilibria
+from stabilab.answers.motion import motion
+from stabilab.errors import InputError
+from stabilab.maps import parts
+from stabilab.maps.chunk import answered
+from stabilab.maps.plan import from_json, planned
+from stabilab.maps.run import run
+from stabilab.orbit.result import Fate
+from tests.shared import CASES
+
+
+def swept(name, vary, **options):
+    with run(planned(CASES / f"{name}.toml", vary, **options), workers=1) as found:
+        return found
+
+
+def written(tmp_path, name, **replaced):
+    """The same case as a file of its own, with other lines: the oracle never meets the code that puts numbers in."""
+    lines = (CASES / f"{name}.toml").read_text(encoding="utf-8").splitlines()
+    path = tmp_path / "point.toml"
+    path.write_text("\n".join(next((f"{key} = {value}" for key, value in replaced.items() if line.startswith(f"{key} =")), line) for line in lines))
+    return stabilab.load(path)
+
+
+def test_points_have_the_answers_of_cases_written_by_hand(tmp_path):
+    found = swept("minor-axis-100", {"momentum[1]": "-100, 250", "x[3]": "-3:3:5"}, answer="fate,margin,distance,extremes,period")
+    for (i, wheel), (j, rate) in itertools.product(enumerate((-100, 250)), enumerate((-3, -1.5, 0, 1.5, 3))):
+        one = written(tmp_path, "minor-axis-100", momentum=[wheel, 0, 0], x=[2.5, 4.0, rate])
+        expected, row = motion(one.scene, one.start, one.span), found.records[i, j]
+        assert (row["fate"], row["spin_axis"]) == (expected.fate, expected.axis * expected.sense)
+        assert row["margin"] == pytest.approx(-np.inf if expected.margin_energy is None else expected.margin_energy, rel=1e-9, abs=1e-9)
+        assert row["distance"] == pytest.approx(np.inf if expected.margin_velocity is None else expected.margin_velocity, rel=1e-8)
+        assert np.stack([row["least"], row["greatest"]], axis=1) == pytest.approx(np.array(expected.extremes), rel=1e-9, abs=1e-9)
+        assert row["period"] == pytest.approx(expected.period or np.inf, rel=1e-9)
+
+
+def test_the_order_of_the_axes_is_the_users():
+    one = swept("minor-axis-100", [("momentum[1]", "100:300:3"), ("x[3]", "0:3:4")])
+    other = swept("minor-axis-100", [("x[3]", "0:3:4"), ("momentum[1]", "100:300:3")])
+    assert one.records.shape == (3, 4) and (one.records == other.records.T).all()
+
+
+def test_a_state_in_the_frame_of_a_full_tensor_is_turned(tmp_path):
+    found = swept("upper-stage", {"angular_velocity[2]": "-1:1:3 deg/s"}, answer="extremes", until="1 s")
+    for n, rate in enumerate(("-1 deg/s", "0 deg/s", "1 deg/s")):
+        one = written(tmp_path, "upper-stage", angular_velocity=f'["1.5 deg/s", "{rate}", "-0.05 deg/s"]')
+        start = np.array(one.state)
+        assert (found.records["least"][n] <= start + 1e-12).all() and (start <= found.records["greatest"][n] + 1e-12).all()
+        assert found.records["least"][n] == pytest.approx(stabilab.extremes(one.scene, start, one.span)[:, 0], abs=1e-9)
+
+
+def test_equilibria_are_counted_with_their_verdicts(tmp_path):
+    found = swept("off-axis-two", {"torque[3]": "-0.1, 0.1"}, answer="equilibria,verdict")
+    for n, torque in enumerate((-0.1, 0.1)):  # by hand, in the case's own comment: two of them iff M1 M2 M3 > 0
+        one = written(tmp_path, "off-axis-two", torque=[0.1, 0.2, torque])
+        assert found.records["equilibria"][n] == len(equilibria(one.scene).points) == (2 if torque > 0 else 0)
+        assert found.records["unstable"][n] == (2 if torque > 0 else 0) and found.records["stable"][n] == 0
+
+
+def test_a_limit_is_reached_when_the_case_alone_reaches_it():
+    found = swept("cubesat-3u", {"wheels.pitch.speed": "3000 rpm"}, answer="fate,level,when")
+    case = stabilab.load(CASES / "cubesat-3u.toml")
+    alone = stabilab.time_to(case.scene, case.state, rate="1.0471975511965977")  # 60 deg/s
+    assert found.records["when_low"][0] == pytest.approx(alone.low, rel=1e-9) and found.records["fate"][0] == Fate.SPIN_UP
+
+
+def test_scenes_without_arrays_are_answered_one_by_one(tmp_path):
+    found = swept("liquid-base", {"angular_velocity[1]": "0, 0.5"}, answer="fate,extremes,verdict")
+    for n, rate in enumerate(("0", "0.5")):
+        from stabilab.case.read import read_text
+        text = (CASES / "liquid-base.toml").read_text(encoding="utf-8")
+        case = stabilab.load(CASES / "liquid-base.toml")
+        first = next(line for line in text.splitlines() if line.startswith("angular_velocity"))
+        one = read_text("x.toml", text.replace(first, f"angular_velocity = [{rate}, {case.state[1]!r}, {case.state[2]!r}]"))
+        expected = motion(one.scene, one.start, one.span)
+        assert found.records["fate"][n] == expected.fate and found.records["greatest"][n] == pytest.approx([b for _, b in expected.extremes])
+
+
+def test_numbers_that_make_no_case_are_told_and_nothing_else_is_lost():
+    found = swept("minor-axis-100", {"inertia[1]": "2000, 9000"})  # 9000 exceeds 1500 + 1000: no body
+    assert found.records["valid"].tolist() == [1, 0] and found.broken == 1 and "triangle inequality" in found.why
+    with pytest.raises(InputError, match="none of the 1 points makes a case: .*triangle"):
+        swept("minor-axis-100", {"inertia[1]": "9000"})
+
+
+def test_samples_lie_in_the_box_and_the_nth_is_the_same_for_any_number():
+    few, many = (swept("uncertain-minor-axis", {}, samples=n, seed=7) for n in (5, 40))
+    rows = many.plan.sampled.values(0, 40)
+    assert (rows[3:5] == few.plan.sampled.values(3, 5)).all()
+    for column, one in zip(rows.T, many.plan.sampled.numbers):
+        assert (np.abs(column - float(one.middle)) <= float(one.half)).all() and np.ptp(column) > float(one.half)
+    assert (few.records["margin"] == many.records["margin"][:5]).all()
+    assert not (swept("uncertain-minor-axis", {}, samples=5, seed=8).records["margin"] == few.records["margin"]).any()
+
+
+def test_a_number_that_varies_is_not_sampled_as_well():
+    found = swept("uncertain-minor-axis", {"momentum[1]": "200, 400"}, samples=3)
+    assert found.records.shape == (2, 3) and "effects.gyrostat.momentum[1]" not in [key.name for key in found.plan.sampled.keys]
+
+
+def test_chunks_hold_every_point_once_and_are_the_same_from_json():
+    plan = planned(CASES / "minor-axis-100.toml", {"momentum[1]": "1:9:9", "x[1]": "0:4:200", "x[3]": "-3:3:300"})
+    assert sum(chunk.points for chunk in plan.chunks) == plan.points and len(plan.chunks) > 3
+    assert from_json(plan.as_json()).chunks == plan.chunks and from_json(plan.as_json()).digest == plan.digest
+
+
+def test_a_killed_run_goes_on_from_its_parts(tmp_path, monkeypatch):
+    plan = planned(CASES / "minor-axis-100.toml", {"momentum[1]": "1:3:3", "x[1]": "0:4:70"}, answer="fate")
+    monkeypatch.setattr("stabilab.maps.plan.LARGEST", 30)
+    folder, made = tmp_path / "f.nc.parts", []
+    with run(plan, workers=1) as found:
+        whole = found.records
+    with parts.kept(plan, folder):
+        for number in range(4):
+            parts.write(folder, number, answered(plan, number).tobytes())
+    cut = folder / "part-0000002"
+    cut.write_bytes(cut.read_bytes()[:-1])  # as a power cut leaves it
+    monkeypatch.setattr("stabilab.maps.run.answered", lambda plan, number: made.append(number) or answered(plan, number))
+    with run(plan, tmp_path / "f.nc", workers=1) as found:
+        assert (found.records == whole).all() and folder.is_dir()
+    assert made == [2, *range(4, 9)] and not folder.exists()
+
+
+def test_parts_of_another_sweep_are_left_alone(tmp_path):
+    one, other = (planned(CASES / "minor-axis-100.toml", {"x[1]": text}) for text in ("0:1:3", "0:1:4"))
+    with parts.kept(one, tmp_path / "f.nc.parts"):
+        pass
+    with pytest.raises(InputError, match="of another sweep"), run(other, tmp_path / "f.nc", workers=1):
+        pass
+
+
+@pytest.mark.parametrize("options, words", [
+    ({"vary": {}}, "nothing varies"),
+    ({"vary": {"x[1]": "0:1:3", "motion.x[1]": "2:3:2"}}, "varies already"), ({"vary": {}, "samples": 3}, "no number with an"),
+    ({"vary": {f"{key}[{n}]": "1:2:2" for key, n in (("x", 1), ("x", 2), ("x", 3), ("momentum", 1), ("momentum", 2))}}, "at most 4 axes"),
+    ({"vary": {"x[1]": "0:1:3"}, "answer": "fats"}, "did you mean fate"), ({"vary": {"x[1]": "0:1:3"}, "answer": "when"}, "no limit"),
+    ({"vary": {"x[1]": "0:1:30000", "x[2]": "0:1:30000"}}, "at most 100,000,000"), ({"vary": {"x[1]": 3}}, "numbers in a row")])
+def test_what_cannot_be_swept_is_told(options, words):
+    with pytest.raises(InputError) as error:
+        planned(CASES / "minor-axis-100.toml", **options)
+    assert words in str(error.value)
