@@ -197,6 +197,20 @@ def test_the_page_of_stuck_thrusters_prints_what_it_shows(tmp_path, wanted):
     assert follow(text, folder, lambda command: command.startswith(f"stabilab {wanted}"))
 
 
+FOLLOWED = {"README.md", "docs/guide.md", "docs/start.md", "docs/stuck.md", "docs/adding-an-effect.md"}  # by the tests beside this one
+OTHERS = [page for page, name in zip(PAGES, NAMES) if name not in FOLLOWED and ("```console" in page.read_text() or "```sh" in page.read_text())]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("page", OTHERS, ids=[page.stem for page in OTHERS])
+def test_the_other_pages_print_what_they_show(page, tmp_path, monkeypatch):
+    text, folder = prepared(page.read_text(encoding="utf-8"), tmp_path)
+    follow(text, folder, lambda command: True)
+    monkeypatch.chdir(folder)
+    if ">>>" in text:
+        in_python(text)
+
+
 @pytest.mark.parametrize("page", ["readme", "guide"])
 def test_sessions_in_python_give_what_they_show(page, request, monkeypatch):
     text, folder = request.getfixturevalue(page)

@@ -37,13 +37,13 @@ def test_every_public_name_stands_in_the_reference():
     assert all(f":: stabilab.{name}\n" in text for name in stabilab.__all__ if name not in ("plot", "__version__"))
 
 
-def test_every_case_stands_in_the_gallery_under_its_group(tmp_path, monkeypatch):
-    from stabilab.show.report.whole import group
+def test_every_case_stands_in_the_gallery_under_a_group(tmp_path, monkeypatch):
+    from stabilab.show.report.whole import GROUPS
 
     def undrawn(path, folder):
         folder.mkdir(exist_ok=True)
         (folder / f"{path.stem}.png").touch()
-        return {"title": path.stem, "source": "", "group": group(stabilab.load(path)), "kind": "time", "answer": "none"}
+        return {"title": path.stem, "source": "", "group": GROUPS[len(path.stem) % len(GROUPS)][0], "kind": "time", "answer": "none"}
 
     monkeypatch.setattr(gallery, "made", undrawn)
     assert sorted(gallery.write(tmp_path)) == STEMS
