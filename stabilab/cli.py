@@ -456,6 +456,26 @@ def sweep(case: CaseFile,
 
 
 @app.command()
+def explore(case: Annotated[Path | None, typer.Argument(metavar="[CASE]", help="A case file (TOML). Default: one that stabilab brings.", show_default=False,
+                                                           autocompletion=completion.cases)] = None,
+            port: Annotated[int, typer.Option(metavar="N", min=0, max=65535, help="Port of this machine; 0: a free one.")] = 0,
+            browser: Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page, or only print its address.")] = True):
+    """Move a case by hand: sliders, and the verdict follows.
+
+    Separatrix, equilibria, motion, phase plane and rates over time; the verdict changes as you drag. The page is served to this machine alone, under an
+    address with a random token, until Ctrl-C.
+
+    Example: stabilab explore cases/thruster-stuck-major-axis.toml --no-browser
+    """
+    from .show.explore.serve import serve
+    one, *rest = _load([case or Path(__file__).parent / "cases" / "thruster-stuck-major-axis.toml"])
+    if rest:
+        _say(f"{one.place}: the first combination of its sweep is explored")
+    _say("Ctrl-C ends it.")
+    serve(one, port, browser, _print)
+
+
+@app.command()
 def when(cases: CaseFiles,
          rate: Annotated[str | None, typer.Option(metavar="RATE", help='Of |omega|: "30 deg/s". Default: the limit of [limits].')] = None,
          component: Annotated[str | None, typer.Option(metavar="AXIS=RATE", help='Of one component\'s size: "z = 30 deg/s"; x, y, z of the file, '

@@ -108,6 +108,16 @@ class Circle:
         self.slopes = abs(self.c) + abs(self.d)
 
     @staticmethod
+    def place(x, z):
+        """The place of (X, Z)."""
+        return x, z
+
+    @staticmethod
+    def xz(place):
+        """(X, Z) of a place."""
+        return place
+
+    @staticmethod
     def turn(y: float) -> tuple[float, float]:
         """(sin y, sin(y/2))."""
         return math.sin(y), math.sin(0.5 * y)
@@ -197,6 +207,16 @@ class Hyperbola:
         self.e1 = 0.5 * (constants["c"] + constants["d"])
         self.e2 = 0.5 * (constants["d"] - constants["c"])
         self.slopes = abs(self.e1) + abs(self.e2)
+
+    @staticmethod
+    def place(x, z):
+        """The place (X + Z, X - Z) of (X, Z)."""
+        return x + z, x - z
+
+    @staticmethod
+    def xz(place):
+        """As of `Circle`."""
+        return 0.5 * (place[0] + place[1]), 0.5 * (place[0] - place[1])
 
     @staticmethod
     def turn(y: float) -> tuple[float, float]:
@@ -290,6 +310,16 @@ class Parabola:
 
     def slope(self, place):
         return self.derivatives(place)[0]
+
+    @staticmethod
+    def place(first, second):
+        """The two components."""
+        return first, second
+
+    @staticmethod
+    def xz(place):
+        """The two components of a place."""
+        return place
 
     def move(self, place, y):
         u, v = place

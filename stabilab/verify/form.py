@@ -23,7 +23,11 @@ SCENES = {"physical": ("variables", "inertia", "momentum", "torque"), "scaled": 
 def read(path) -> dict:
     """The object in a file. OSError where it cannot be read, `Malformed` where it is no JSON of this form."""
     with open(path, "rb") as file:
-        text = file.read(MOST_BYTES + 1)
+        return parsed(file.read(MOST_BYTES + 1))
+
+
+def parsed(text: bytes) -> dict:
+    """The object in the bytes of a file. `Malformed` where they are no JSON of this form."""
     if len(text) > MOST_BYTES:
         raise Malformed(f"expected at most {MOST_BYTES} bytes")
     try:

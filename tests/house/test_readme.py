@@ -77,6 +77,16 @@ def make_knows(target):
     return run.stdout
 
 
+def serves(*arguments):
+    """A command that serves until it is interrupted tells its address."""
+    run = subprocess.Popen([sys.executable, "-m", "stabilab", *arguments], cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    try:
+        return run.stdout.readline().startswith("http://127.0.0.1:")
+    finally:
+        run.kill()
+        run.communicate()
+
+
 # Commands that are not run here, for they install or take minutes, and how each is checked instead.
 NOT_RUN = {
     "make report": lambda: "-m venv .venv" in make_knows("report") and "stabilab report cases/*.toml --papers --precision --out report" in make_knows("report"),
@@ -85,6 +95,7 @@ NOT_RUN = {
     "apt install libegl1 libgl1-mesa-dri": lambda: CURE == "apt install libegl1 libgl1-mesa-dri",
     "make coverage": lambda: "--cov" in make_knows("coverage") and "fail_under = 95" in (ROOT / "pyproject.toml").read_text(),
     "make mutate": lambda: "-m tests.mutate" in make_knows("mutate"),
+    "stabilab explore cases/thruster-stuck-major-axis.toml": lambda: serves("explore", "cases/thruster-stuck-major-axis.toml", "--no-browser"),
     "make docs": lambda: "-m sphinx" in make_knows("docs"),
     "python -m benchmarks": lambda: importlib.util.find_spec("benchmarks.__main__") and "-m benchmarks" in make_knows("bench"),
 }

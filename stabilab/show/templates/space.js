@@ -1,10 +1,13 @@
 "use strict";
-(() => {
-  const data = JSON.parse(document.getElementById("space-data").textContent), canvas = document.querySelector(".space canvas");
+// The space of the rates on a canvas: show(data) draws what it is given in place of what was there; onpick(place, words) hears of a click on something drawn.
+function spaceView(canvas) {
+  let data = null;
+  const view = {show, draw, onpick: null};
   const layer = document.createElement("canvas"), gl = layer.getContext("webgl2", {antialias: true, preserveDrawingBuffer: true}), pen = canvas.getContext("2d");
-  const places = text => Float32Array.from(new Int16Array(Uint8Array.from(atob(text), c => c.charCodeAt(0)).buffer), v => v / 4095);
+  const numbers = row => typeof row === "string" ? new Int16Array(Uint8Array.from(atob(row), c => c.charCodeAt(0)).buffer) : row;
+  const places = row => Float32Array.from(numbers(row), v => v / 4095);
   const rgb = hex => [1, 3, 5].map(i => parseInt(hex.slice(i, i + 2), 16) / 255);
-  if (!gl) { pen.font = "24px sans-serif"; pen.fillText("This browser draws no WebGL 2.", 40, 60); return; }
+  if (!gl) { pen.font = "24px sans-serif"; pen.fillText("This browser draws no WebGL 2.", 40, 60); return {...view, show() {}, draw() {}}; }
 
   const build = (kind, source) => { const s = gl.createShader(kind); gl.shaderSource(s, source); gl.compileShader(s); return s; };
   const program = gl.createProgram();
@@ -19,7 +22,9 @@
       float light = mix(0.45 + 0.55 * abs(dot(n, normalize(e + vec3(0.25, 0.1, 0.5)))), 1.0, flatly);
       pixel = vec4(colour * light, 1.0); }`));
   gl.linkProgram(program); gl.useProgram(program);
-  const where = name => gl.getUniformLocation(program, name), parts = [];
+  const uniforms = {}, where = name => uniforms[name] ??= gl.getUniformLocation(program, name);
+  let parts = [], buffers = [], shapes = [];
+  const filled = (target, values) => { const buffer = gl.createBuffer(); buffers.push(buffer); gl.bindBuffer(target, buffer); gl.bufferData(target, values, gl.STATIC_DRAW); };
 
   function add(points, triangles, colour, flatly) {
     const normals = new Float32Array(points.length);
@@ -30,11 +35,11 @@
     }
     const vertices = gl.createVertexArray(); gl.bindVertexArray(vertices);
     for (const [name, values] of [["at", points], ["normal", normals]]) {
-      const place = gl.getAttribLocation(program, name), buffer = gl.createBuffer();
-      gl.bindBuffer(gl.ARRAY_BUFFER, buffer); gl.bufferData(gl.ARRAY_BUFFER, values, gl.STATIC_DRAW);
+      const place = gl.getAttribLocation(program, name);
+      filled(gl.ARRAY_BUFFER, values);
       if (place >= 0) { gl.enableVertexAttribArray(place); gl.vertexAttribPointer(place, 3, gl.FLOAT, false, 0, 0); }
     }
-    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer()); gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, new Uint32Array(triangles), gl.STATIC_DRAW);
+    filled(gl.ELEMENT_ARRAY_BUFFER, new Uint32Array(triangles));
     parts.push({vertices, count: triangles.length, colour: rgb(colour), flatly});
   }
 
@@ -75,11 +80,19 @@
     add(new Float32Array(points), triangles, colour, 0.2);
   }
 
-  data.sheets.forEach(sheet);
-  data.curves.forEach(c => tube(places(c.at), c.kind === "this motion" ? 0.013 : 0.011, c.colour));
-  data.points.forEach(p => ball(p.at, 0.03, p.colour));
   const corner = [[-1, -1, -1], [1, -1, -1], [1, 1, -1], [-1, 1, -1], [-1, -1, 1], [1, -1, 1], [1, 1, 1], [-1, 1, 1]];
-  for (const [a, b] of [[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 7], [7, 4], [0, 4], [1, 5], [2, 6], [3, 7]]) tube([...corner[a], ...corner[b]], 0.0025, "#999999");
+  const edges = [[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 7], [7, 4], [0, 4], [1, 5], [2, 6], [3, 7]];
+  function show(given) {
+    data = given;
+    parts.forEach(part => gl.deleteVertexArray(part.vertices)); buffers.forEach(buffer => gl.deleteBuffer(buffer));
+    parts = []; buffers = []; shapes = [];
+    data.sheets.forEach(sheet);
+    data.curves.forEach(c => tube(places(c.at), c.kind === "this motion" ? 0.013 : 0.011, c.colour));
+    data.points.forEach(p => ball(p.at, 0.03, p.colour));
+    edges.forEach(([a, b]) => tube([...corner[a], ...corner[b]], 0.0025, "#999999"));
+    shapes = [...data.points.map(p => [p.kind, [p.at]]), ...[...data.curves, ...data.sheets].map(c => [c.kind || c.name, c.at])];
+    draw();
+  }
 
   const first = {turn: -0.95, lift: 0.42, near: 1}; let now = {...first};
   function step(half) {  // a round number that divides the box into some four parts
@@ -98,6 +111,7 @@
     })()};
   }
   function draw() {
+    if (!data) return;
     const sharp = Math.min(window.devicePixelRatio || 1, 2), width = Math.round(canvas.clientWidth * sharp) || 1000, height = Math.round(width * (canvas.clientWidth < 500 ? 0.95 : 0.7));
     if (canvas.width !== width || canvas.height !== height) { canvas.width = layer.width = width; canvas.height = layer.height = height; }
     const seen = look();
@@ -132,8 +146,27 @@
     }
   }
   const held = new Map(); let apart = 0;
-  canvas.addEventListener("pointerdown", e => { held.set(e.pointerId, e); canvas.setPointerCapture(e.pointerId); apart = 0; });
+  let pressed = null;
+  canvas.addEventListener("pointerdown", e => { pressed = e; held.set(e.pointerId, e); canvas.setPointerCapture(e.pointerId); apart = 0; });
   for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, e => { held.delete(e.pointerId); apart = 0; });
+  canvas.addEventListener("pointerup", e => { if (view.onpick && data && pressed && Math.hypot(e.clientX - pressed.clientX, e.clientY - pressed.clientY) < 5) pick(e.offsetX, e.offsetY); });
+  function pick(x, y) {  // the nearest place within some pixels; of two as near the one in front
+    const seen = look(), wide = canvas.clientWidth, high = canvas.clientHeight; let best = null, words = "";
+    for (const [name, row] of shapes) {
+      const points = Array.isArray(row) ? row : Array.from(places(row)).reduce((all, v, i) => { if (i % 3) all[all.length - 1].push(v); else all.push([v]); return all; }, []);
+      for (const p of points) {
+        if (p.some(v => Math.abs(v) > 1)) continue;
+        const [a, b, , w] = seen.of(p), off = Math.hypot(wide * (0.5 + a / w / 2) - x, high * (0.5 - b / w / 2) - y), cost = off + 12 * w + (name.startsWith("Sheet") ? 8 : 0);
+        if (off < 14 && (!best || cost < best.cost)) { best = {cost, p}; words = name; }
+      }
+    }
+    if (best) view.onpick(best.p.map((v, k) => data.middle[k] + data.half * v), words);
+  }
+  canvas.addEventListener("keydown", e => {
+    const way = {ArrowLeft: [0.12, 0, 1], ArrowRight: [-0.12, 0, 1], ArrowUp: [0, -0.12, 1], ArrowDown: [0, 0.12, 1], "+": [0, 0, 1.15], "=": [0, 0, 1.15], "-": [0, 0, 1 / 1.15]}[e.key];
+    if (!way) return;
+    e.preventDefault(); now.turn += way[0]; now.lift = Math.min(1.55, Math.max(-1.55, now.lift + way[1])); now.near = Math.min(8, Math.max(0.4, now.near * way[2])); draw();
+  });
   canvas.addEventListener("pointermove", e => {
     const before = held.get(e.pointerId); if (!before) return;
     held.set(e.pointerId, e);
@@ -145,5 +178,6 @@
   });
   canvas.addEventListener("wheel", e => { if (!e.ctrlKey && !held.size && document.activeElement !== canvas) return; e.preventDefault(); now.near = Math.min(8, Math.max(0.4, now.near * Math.exp(-e.deltaY / 500))); draw(); }, {passive: false});
   canvas.tabIndex = 0; canvas.addEventListener("dblclick", () => { now = {...first}; draw(); });
-  window.addEventListener("resize", draw); draw();
-})();
+  window.addEventListener("resize", draw);
+  return view;
+}

@@ -1,0 +1,45 @@
+"""One position of a moving hand on the page of `stabilab explore`: the verdict, and all that is drawn, against what a hand notices."""
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from statistics import median
+
+from stabilab import load
+from stabilab.show.explore.bag import unframed
+from stabilab.show.explore.session import Session
+
+from .rows import Row
+
+CASES = Path(__file__).parents[1] / "cases"
+NAMES = ("thruster-stuck-major-axis", "minor-axis-100", "middle-axis-double-well", "cubesat-3u")
+UPDATE, ANALYSIS = 100.0, 10.0  # ms: of all, and of the verdict
+WHAT = "the rest: equilibria with proofs, separatrix of 20 x 41 places a sheet, motion, phase plane"
+
+
+def rows(small=False) -> list[Row]:
+    """CPU time of one process, as other work on the machine does not change it. theirs: what is allowed."""
+    return [row for name in NAMES[:1 if small else None] for row in _rows(name, 3 if small else 25)]
+
+
+def _rows(name, rounds) -> list[Row]:
+    session = Session(load(CASES / f"{name}.toml"))
+    torque = session.about()["groups"][0]
+    size, tilt, azimuth = (one["value"] for one in torque["controls"])
+    box = unframed(session.answer({}))[0]["space"]["box"]
+    whole, verdict = [], []
+    for n in range(rounds + 2):
+        moved = {"axis": torque["axis"], "size": repr(size * (1 + 0.003 * n)), "tilt": repr(tilt), "azimuth": repr(azimuth)}
+        asked = {"torque": moved, "box": box, "moving": True}
+        begun = time.process_time()
+        told = unframed(session.answer(asked))[0]
+        whole.append(1e3 * (time.process_time() - begun))
+        verdict.append(told["analysis"])
+    return [_row(f"explorer, the torque of {name} moves", whole[2:], UPDATE, WHAT),
+            _row(f"explorer, the torque of {name} moves: the verdict", verdict[2:], ANALYSIS, "case read anew, fate, margin in energy, extremes")]
+
+
+def _row(name, times, allowed, note) -> Row:
+    ratios = sorted(allowed / t for t in times)
+    return Row(name, f"{median(times):.1f} ms of CPU", f"{allowed:.0f} ms allowed", median(ratios), (ratios[0], ratios[-1]), "none: as exact as the questions",
+               1.0, note)

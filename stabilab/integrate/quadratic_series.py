@@ -1,0 +1,67 @@
+"""One motion with quadratic rates by its power series in plain floats: for pictures that follow a hand, where neither NumPy nor a compiled step is at hand.
+
+The rates are x_i' = kappa_i x_j x_k + rho_i x_k + sigma_i x_j + m_i, so the coefficients of the series follow from one another by products of series.
+A picture needs no last digit: a step leaves SHARE of the state's size at most.
+"""
+from __future__ import annotations
+
+import math
+from operator import mul
+
+from ..numbers.vectors import CYCLE
+from ..physics.quadratic import QuadraticForm
+
+ORDER = 14
+SHARE = 1e-8  # of the size of the state: the last term of a step
+STEPS = 120    # of a motion at most; a revolution takes some five
+INSIDE = 12     # points a step
+LARGEST = 1e100  # a rate beyond which a motion is not drawn on
+
+Path = tuple[list[float], list[tuple[float, ...]]]
+
+
+def followed(form: QuadraticForm, start: tuple[float, ...], until: float, steps: int = STEPS) -> Path:
+    """(times, states) of the motion from t = 0 on, dense enough to be drawn as a line, to `until` or as far as so many steps go."""
+    t, x = 0.0, tuple(map(float, start))
+    times, states = [t], [x]
+    for _ in range(steps):
+        series = coefficients(form, x)
+        h = min(_step(series, form), until - t)
+        for n in range(1, INSIDE + 1):
+            share = h * n / INSIDE
+            times.append(t + share)
+            states.append(tuple(_value(one, share) for one in series))
+        t, x = times[-1], states[-1]
+        if t >= until or not max(map(abs, x)) < LARGEST:
+            break
+    return times, states
+
+
+def coefficients(form: QuadraticForm, x: tuple[float, ...], order: int = ORDER) -> list[list[float]]:
+    """Three lists: the coefficients of the powers of time from 0 to `order`."""
+    kappa, rho, sigma, m = form.coefficients
+    a = [[float(v)] for v in x]
+    for n in range(order):
+        products = [kappa[i] * sum(map(mul, a[j], reversed(a[k]))) + rho[i] * a[k][n] + sigma[i] * a[j][n] + (m[i] if n == 0 else 0.0)
+                    for i, (j, k) in enumerate(CYCLE)]
+        for one, value in zip(a, products):
+            one.append(value / (n + 1))
+    return a
+
+
+def _step(series: list[list[float]], form: QuadraticForm) -> float:
+    """A length over which the last two terms stay below SHARE of the state's size."""
+    size = max(abs(one[0]) for one in series) or max(map(abs, form.coefficients[3]))
+    lengths = []
+    for n in (ORDER - 1, ORDER):
+        last = max(abs(one[n]) for one in series)
+        if 0 < last < math.inf:
+            lengths.append((SHARE * size / last) ** (1 / n))
+    return min(lengths, default=math.inf)
+
+
+def _value(series: list[float], t: float) -> float:
+    total = 0.0
+    for c in reversed(series):
+        total = total * t + c
+    return total

@@ -1,0 +1,161 @@
+"""The page and its answers on the loopback address, by the standard library alone.
+
+Who may ask: a page that knows the random token in the address, from this machine, under the address that was printed. A name that some other server lets
+point here is refused by the header Host, a page of another origin by the header Origin.
+"""
+from __future__ import annotations
+
+import hmac
+import itertools
+import json
+import secrets
+import sys
+import threading
+from collections.abc import Callable
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from typing import Any
+
+from ...case.read import Case
+from ...errors import InputError
+from .certificates import checked
+from .page import page
+from .session import Session, Stopped
+
+HOST = "127.0.0.1"
+LONGEST = 1 << 23  # bytes of a question: a certificate has at most half
+PATIENCE = 60.0  # s without a word from a page that keeps its line open
+POLICY = ("default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:; connect-src 'self'; base-uri 'none'; form-action 'none'; "
+          "frame-ancestors 'none'")
+HEADERS = {"Cache-Control": "no-store", "Referrer-Policy": "no-referrer", "X-Content-Type-Options": "nosniff", "Content-Security-Policy": POLICY,
+           "Cross-Origin-Resource-Policy": "same-origin"}
+HOW = "The program that opened this page answers it; nothing leaves this machine."
+
+
+class Explorer(ThreadingHTTPServer):
+    """Serves one case until it is closed. `address` is what a browser opens."""
+
+    daemon_threads = True
+
+    def __init__(self, case: Case, port: int = 0) -> None:
+        self.session, self.token, self.newest, self._numbers = Session(case), secrets.token_urlsafe(24), 0, itertools.count(1)
+        self.html = page(self.session.about(), "explore-server.js", HOW).encode()
+        try:
+            super().__init__((HOST, port), _Handler)
+        except (OSError, OverflowError) as error:
+            raise InputError(f"--port: {port} cannot be had: {getattr(error, 'strerror', None) or error}; leave it out, and a free one is taken") from None
+
+    @property
+    def hosts(self) -> tuple[str, str]:
+        """What a browser that followed the address says it asked."""
+        return f"{HOST}:{self.server_port}", f"localhost:{self.server_port}"
+
+    @property
+    def address(self) -> str:
+        """With the token."""
+        return f"http://{HOST}:{self.server_port}/{self.token}/"
+
+    def answer(self, asked: dict[str, Any]) -> bytes | None:
+        """The session's answer; None where a newer question made it useless."""
+        number = self.newest = next(self._numbers)
+        try:
+            return self.session.answer(asked, lambda: self.newest != number)
+        except Stopped:
+            return None
+
+    def handle_error(self, request: Any, client_address: Any) -> None:
+        """A page that went away is no fault; anything else is told."""
+        error = sys.exception() if hasattr(sys, "exception") else sys.exc_info()[1]
+        if not isinstance(error, (ConnectionError, TimeoutError)):
+            super().handle_error(request, client_address)
+
+
+class _Handler(BaseHTTPRequestHandler):
+    server: Explorer
+    protocol_version = "HTTP/1.1"
+    timeout = PATIENCE
+    server_version, sys_version = "stabilab", ""
+
+    def do_GET(self) -> None:
+        """The page."""
+        if not self._allowed():
+            return
+        if self._path() == "":
+            self._send(200, self.server.html, "text/html; charset=utf-8")
+        else:
+            self._refuse(404, "there is nothing here")
+
+    def do_POST(self) -> None:
+        """A question."""
+        answers: dict[str, Callable[[dict[str, Any]], bytes | None]] = {"answer": self.server.answer, "verify": checked}
+        if not self._allowed():
+            return
+        way = answers.get(self._path() or "")
+        asked = self._asked() if way else None
+        if way is None:
+            self._refuse(404, "there is nothing here")
+        elif asked is not None:
+            found = way(asked)
+            self._send(204 if found is None else 200, found or b"", "application/octet-stream")
+
+    def _allowed(self) -> bool:
+        """Whether the question comes from the page itself; refuses it otherwise."""
+        host, origin = self.headers.get("Host", ""), self.headers.get("Origin")
+        if host not in self.server.hosts:
+            self._refuse(403, "this host is not served here")
+        elif origin is not None and origin not in [f"http://{name}" for name in self.server.hosts]:
+            self._refuse(403, "pages of another origin are not served here")
+        elif self._path() is None:
+            self._refuse(403, "the address lacks the token that stabilab explore printed")
+        else:
+            return True
+        return False
+
+    def _path(self) -> str | None:
+        """What stands behind the token; None without the token."""
+        token, _, rest = self.path.split("?")[0].removeprefix("/").partition("/")
+        return rest if hmac.compare_digest(token.encode(), self.server.token.encode()) else None
+
+    def _asked(self) -> dict[str, Any] | None:
+        """The question in the body; refuses what is none."""
+        try:
+            length = int(self.headers.get("Content-Length", ""))
+        except ValueError:
+            length = -1
+        if self.headers.get_content_type() != "application/json" or not 0 <= length <= LONGEST:
+            self._refuse(400, f"expected JSON of at most {LONGEST} bytes with its length")
+            return None
+        try:
+            asked = json.loads(self.rfile.read(length))
+        except (ValueError, RecursionError):
+            asked = None
+        if not isinstance(asked, dict):
+            self._refuse(400, "expected a JSON object")
+            return None
+        return asked
+
+    def _refuse(self, status: int, words: str) -> None:
+        self.close_connection = True  # what it may still send is not read
+        self._send(status, f"{words}\n".encode(), "text/plain; charset=utf-8")
+
+    def _send(self, status: int, body: bytes, kind: str) -> None:
+        self.send_response(status)
+        for name, value in {**HEADERS, "Content-Type": kind, "Content-Length": str(len(body))}.items():
+            self.send_header(name, value)
+        if self.close_connection:
+            self.send_header("Connection", "close")
+        self.end_headers()
+        self.wfile.write(body)
+
+    def log_message(self, format: str, *args: Any) -> None:
+        """Nothing is logged: stderr is for people."""
+
+
+def serve(case: Case, port: int = 0, browser: bool = True, tell: Callable[[str], None] = print) -> None:
+    """Serve a case until the program is interrupted. tell: is given the address once it can be opened."""
+    with Explorer(case, port) as server:
+        threading.Thread(target=server.session.answer, args=({},), daemon=True).start()  # loads what the first answer needs
+        tell(server.address)
+        if browser:
+            import webbrowser
+            threading.Thread(target=webbrowser.open, args=(server.address,), daemon=True).start()
+        server.serve_forever()

@@ -1,0 +1,166 @@
+"""What a page asks of a case and what it is answered: the verdict of the changed case, and everything that the page draws.
+
+An answer for a moving hand is brief (no search for the nearest point of the separatrix, no run of a motion off the axes, a coarser surface); one for a
+resting hand is whole. Everything but the surfaces does without NumPy, so that it also runs in a browser.
+"""
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable
+from typing import Any
+
+from ...answers.equilibria import equilibria
+from ...answers.kinds import KINDS, kind_of
+from ...answers.motion import motion
+from ...case.read import Case
+from ...errors import InputError, StabilabError
+from ...integrate.quadratic_series import followed
+from ...orbit.result import Motion
+from ...packages import present
+from ...physics.coefficients import content, gyrostat_scene
+from ...physics.effects import effect_class
+from ...physics.scene import AnyScene, ScaledGyrostat, Scene
+from ..text.headline import headline
+from ..units import units_of
+from . import controls, planes, space, tables
+from .bag import Bag
+from .changed import changed
+
+SHAPES = {True: (20, 41), False: (48, 97)}  # rows and columns of a sheet: while the hand moves, and when it rests
+POINTS = {True: (16, 40), False: (40, 90)}  # of a piece of a curve of equilibria: to find what is in the box, and to draw it
+TURNS = 60.0  # rad of turn at most that are drawn
+FOLLOWED = "the torque is off the principal axes: keep still, and the motion is followed"
+NO_ARRAYS = "the torque is off the principal axes, and without NumPy no motion is followed"
+
+
+class Stopped(Exception):
+    """A newer question has come: nobody waits for this answer any more."""
+
+
+class Session:
+    """One case on one page. What only depends on the scene is kept for the next answer."""
+
+    def __init__(self, case: Case) -> None:
+        if not case.scene.plain and ((parts := content(case.scene)) is None or parts.kind != "gyrostat"):
+            names = ", ".join(e.name for e in case.scene.effects if e.name not in ("gyrostat", "constant_torque"))
+            raise InputError(f"{case.place}: explore moves a body with wheels and a torque; this one also has {names}: ask stabilab classify or report")
+        self.case, self.units = case, units_of(case)
+        self._kept: dict[str, tuple[Any, Any]] = {}
+
+    def about(self) -> dict[str, Any]:
+        """What a page must know before its first question."""
+        return {"name": self.case.name, "title": self.case.heading, "groups": controls.groups(self.case, self.units),
+                "axes": [1, 2, 3], "rates": self.units.rates[0], "scaled": self.units.scaled}
+
+    def answer(self, asked: dict[str, Any], stopped: Callable[[], bool] = lambda: False) -> bytes:
+        """The answer to a request as a framed message (`bag`). asked: as of `changed`, with moving (whether a hand still moves), box (that of the
+        last answer, or None) and click (turn and rate of a point of the phase plane to start from, or None). stopped: asked on the way; Stopped is raised
+        once it holds. What cannot be answered is told under "error"."""
+        bag = Bag()
+        try:
+            return bag.framed(self._answer(asked, bag, stopped))
+        except StabilabError as error:
+            return Bag().framed({"error": str(error)})
+
+    def _answer(self, asked, bag, stopped):
+        began = time.process_time()
+        moving, clicked = bool(asked.get("moving")), None
+        case, note = changed(self.case, asked, self.units)
+        if asked.get("click"):
+            clicked = planes.clicked(self._twin(case), case.state, asked["click"], self.units)
+            case, note = changed(self.case, asked | {"start": clicked, "click": None}, self.units)
+        found, words = self._motion(case, moving, stopped)
+        settled = time.process_time()
+        twin = self._twin(case)
+        at_rest = self._once("equilibria", twin, lambda: equilibria(twin))
+        times, path = followed(twin.quadratic(), case.state, _length(case, twin))
+        picture = self._space(bag, case, twin, found, at_rest, path, asked.get("box"), moving)
+        made = {"headline": words, "fate": "undecided" if found is None else found.fate.word, "note": note, "moving": moving, "start": clicked,
+                "toml": case.text, "rows": [] if found is None else tables.rows(case, found, self.units), "equilibria": tables.equilibria(at_rest, self.units),
+                "space": picture, "plane": planes.drawn(bag, twin, case.state, self.units), "time": planes.over_time(bag, case, found, times, path, self.units)}
+        return made | {"analysis": 1e3 * (settled - began), "work": 1e3 * (time.process_time() - began)}
+
+    def _motion(self, case: Case, moving: bool, stopped) -> tuple[Motion | None, str]:
+        """(what is known of the motion, the verdict in a line); None while it has to be followed."""
+        runs = KINDS[kind_of(self._twin(case))].follows
+        if runs and (moving or not present("numpy")):
+            return None, f"UNDECIDED so far: {FOLLOWED if moving else NO_ARRAYS}"
+
+        def tell(*_):
+            if stopped():
+                raise Stopped
+        found = motion(case.scene, case.start, brief=moving, exact=case.exact_state, tell=tell if runs else None)
+        return found, headline(case, found, self.units)
+
+    def _twin(self, case: Case) -> AnyScene:
+        """The scene of wheel and torque alone with the same rates."""
+        return case.scene if case.scene.plain else gyrostat_scene(content(case.scene))
+
+    def _space(self, bag, case, twin, found, at_rest, path, asked, moving):
+        near = space.near_part(path, found)
+        marks = space.marks_of(case.state, found, at_rest)
+        box = space.box_of(asked, [*near, *(m["at"] for m in marks if m["kind"].startswith(("start", "nearest")))], moving)
+        bare, ghost = _without_tilt(twin)
+        sheets, words = self._sheets(bare, box, SHAPES[moving])
+        sheets = [sheet for sheet in sheets if space.seen(sheet.points, box)]
+        if ghost:
+            words = "No separatrix is known for a torque off the axes" + (": the surface drawn is that of the torque without its tilt" if sheets else "")
+        names = [planes.labelled(component.replace("omega", "ω"), self.units.rates[0]) for component in case.scene.components]
+        made = space.drawn(bag, box, names, self.units.rates[1], sheets, at_rest, near, marks, ghost, POINTS[moving])
+        return made | {"words": words, "box": {"middle": box.middle, "half": box.half}}
+
+    def _sheets(self, scene: AnyScene, box: space.Box, shape) -> tuple[tuple, str]:
+        """(sheets as far as the box reaches, what they part or why there are none)."""
+        if not present("numpy"):
+            return (), "The surfaces need NumPy, which is not here"
+        from ...orbit.separatrix.sheets import separatrix
+        needed = box.farthest
+
+        def reaching():
+            reach = self._kept.get("reach", (None, 4.0))[1]
+            found = separatrix(scene, reach=reach, shape=shape)
+            far = max((abs(float(extreme)) for sheet in found.sheets for extreme in (sheet.points.min(), sheet.points.max())), default=0.0)
+            wanted = min(reach * 1.3 * needed / far, 1e4) if far else reach
+            if far and (far < needed or far > 8 * needed) and wanted > 1.01:
+                self._kept["reach"] = (None, wanted)
+                found = separatrix(scene, reach=wanted, shape=shape)
+            return found
+        try:
+            found = self._once("sheets", (scene, box, shape), reaching)
+        except StabilabError as error:
+            return (), f"No separatrix: {error}"
+        return (found.sheets, _capital(found.reason)) if found.sheets else ((), f"No separatrix: {found.reason}")
+
+    def _once(self, name: str, key: Any, make: Callable[[], Any]) -> Any:
+        """What `make` gave for this key the last time, or gives now."""
+        kept = self._kept.get(name)
+        if kept is None or kept[0] != key:
+            kept = self._kept[name] = (key, make())
+        return kept[1]
+
+
+def _capital(words: str) -> str:
+    return words[:1].upper() + words[1:]
+
+
+def _length(case: Case, scene: AnyScene) -> float:
+    """How far a motion is drawn: over the span of the case, so many radians of turn at most."""
+    rate, torque = math.hypot(*case.state), math.hypot(*scene.quadratic().coefficients[3])
+    natural = TURNS / max(rate, math.sqrt(torque)) if rate or torque else 1.0
+    span = None if case.span is None else max(case.span[1], -case.span[0])
+    return natural if span is None else min(span, 4 * natural)
+
+
+def _without_tilt(scene: AnyScene) -> tuple[AnyScene, bool]:
+    """The scene with the largest component of its torque alone, and whether that is another one."""
+    torque = scene.mu if scene.variables == "scaled" else scene.vector("constant_torque")
+    acting = [n for n in range(3) if torque[n]]
+    if len(acting) < 2:
+        return scene, False
+    main = max(acting, key=lambda n: abs(torque[n]))
+    kept = tuple(v if n == main else 0 for n, v in enumerate(torque))
+    if scene.variables == "scaled":
+        return ScaledGyrostat(*scene.exact_ab, tuple(v if n == main else 0 for n, v in enumerate(scene.exact_mu))), True
+    others = [effect for effect in scene.effects if effect.name != "constant_torque"]
+    return Scene(scene.body, *others, effect_class("constant_torque")(kept)), True

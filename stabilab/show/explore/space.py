@@ -1,0 +1,172 @@
+"""The space of the rates as a page draws it: separatrix, equilibria, motion and marks in a box that stays while a hand moves.
+
+Places are whole numbers of 16 bits along each axis, 4095 for half of the box, as on a page of the report. Surfaces need NumPy; all else does without.
+"""
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from ...equilibrium.result import Equilibria
+from ...errors import InputError
+from ...orbit.result import Motion
+from .. import style
+from .bag import Bag
+
+HALF = 4095      # of the box in a packed place
+BEYOND = 8.0     # boxes: what is farther off is moved in, outside what is drawn
+ROOM = 1.9       # half of the box, of the farthest point of the motion from its middle
+SMALL = 0.22     # of the box: a motion that fills less gets a box of its own
+LATEST = 3.0     # times its first size, up to which a motion that spins up is drawn
+SHEETS = (style.SKY, style.GREEN, style.PURPLE, style.YELLOW)  # orange is the motion's
+KINDS = {"stable": "stable equilibria", "unstable": "unstable equilibria", "degenerate": "equilibria of a fold"}
+
+Point = Sequence[float]
+
+
+@dataclass(frozen=True)
+class Box:
+    """A cube of rates: its middle and half of its edge."""
+
+    middle: tuple[float, ...]
+    half: float
+
+    def share(self, at: Point) -> list[float]:
+        """A place in halves of the edge from the middle."""
+        return [(float(v) - m) / self.half for v, m in zip(at, self.middle)]
+
+    def holds(self, at: Point, room: float = 1.0) -> bool:
+        """Whether a place is inside a box so many times as large."""
+        return all(abs(v) <= room for v in self.share(at))
+
+    @property
+    def farthest(self) -> float:
+        """Of all its places, the largest component."""
+        return max(map(abs, self.middle)) + self.half
+
+
+def near_part(path: list[tuple[float, ...]], motion: Motion | None) -> list[tuple[float, ...]]:
+    """The motion as long as it is near where it began; all of it where it stays so."""
+    size = max(math.hypot(*x) for x in path[:max(2, len(path) // 20)])
+    if motion is not None and motion.margin_velocity is not None and math.isfinite(motion.margin_velocity):
+        size = max(size, motion.margin_velocity)
+    late = next((n for n, x in enumerate(path) if math.hypot(*x) > LATEST * size), len(path)) if size else len(path)
+    return path[:late + 1] if late > 20 else path
+
+
+def box_of(asked: Any, points: list[Point], moving: bool) -> Box:
+    """The box that was asked for (middle and half), as long as the points are inside and, once the hand rests, fill a part of it; else a new one about
+    them."""
+    low, high = ([pick(p[n] for p in points) for n in range(3)] for pick in (min, max))
+    extent = max(b - a for a, b in zip(low, high)) / 2
+    if asked is not None:
+        box = _given(asked)
+        if all(box.holds(p) for p in points) and (moving or extent > SMALL * box.half):
+            return box
+    return Box(tuple((a + b) / 2 for a, b in zip(low, high)), ROOM * extent or max(map(abs, high)) or 1.0)
+
+
+def _given(asked: Any) -> Box:
+    """The box of a request."""
+    try:
+        numbers = [float(v) for v in (*asked["middle"], asked["half"])]
+    except (KeyError, TypeError, ValueError):
+        numbers = []
+    if len(numbers) != 4 or not all(map(math.isfinite, numbers)) or not numbers[3] > 0:
+        raise InputError(f"box: expected a middle of three numbers and half an edge, got {asked!r:.80}")
+    return Box(tuple(numbers[:3]), numbers[3])
+
+
+def packed(points: Iterable[Point], box: Box) -> list[int]:
+    """The places as whole numbers."""
+    return [round(min(max(v, -BEYOND), BEYOND) * HALF) for p in points for v in box.share(p)]
+
+
+def packed_array(points: Any, box: Box) -> bytes:
+    """The places of a NumPy array (..., 3), little-endian."""
+    import numpy as np
+    share = np.clip((points - np.asarray(box.middle)) / box.half, -BEYOND, BEYOND)
+    return np.round(share * HALF).astype("<i2").tobytes()
+
+
+def seen(points: Any, box: Box) -> bool:
+    """Whether any place of a NumPy array (..., 3) is in the box."""
+    import numpy as np
+    return bool((np.abs(points - np.asarray(box.middle)) <= box.half).all(axis=-1).any())
+
+
+def drawn(bag: Bag, box: Box, names: list[str], one: float, sheets: Sequence[Any], found: Equilibria | None, path: list[tuple[float, ...]],
+          marks: list[dict[str, Any]], ghost: bool, number: tuple[int, int]) -> dict[str, Any]:
+    """What the view takes. one: how many of the unit of the labels make one of the scene's; ghost: the sheets are those of the torque without its tilt;
+    number: as of `lines`."""
+    curves: list[dict[str, Any]] = [{"kind": KINDS[kind], "colour": colour(kind), "at": bag.add("int16", packed(places, box))}
+                                    for kind, places in lines(found, box, *number)]
+    if path:
+        curves.append({"kind": "this motion", "colour": style.MEANING["this motion"]["color"], "at": bag.add("int16", packed(path, box))})
+    surfaces = [{"name": _sheet_name(sheet, ghost), "colour": SHEETS[n % len(SHEETS)], "rows": sheet.points.shape[0],
+                 "columns": sheet.points.shape[1], "at": bag.add("int16", packed_array(sheet.points, box))} for n, sheet in enumerate(sheets)]
+    points = [mark | {"at": [round(v, 5) for v in box.share(mark["at"])]} for mark in marks if box.holds(mark["at"])]
+    legend: dict[str, str] = {row.get("name") or row["kind"]: row["colour"] for row in (*surfaces, *curves, *points)}
+    return {"names": names, "middle": [v * one for v in box.middle], "half": box.half * one, "sheets": surfaces, "curves": curves, "points": points,
+            "legend": list(legend.items())}
+
+
+def _sheet_name(sheet: Any, ghost: bool) -> str:
+    return f"{sheet.name.capitalize()} of the separatrix{' without the tilt' if ghost else ''}"
+
+
+def marks_of(start: Point, motion: Motion | None, found: Equilibria | None) -> list[dict[str, Any]]:
+    """Start, nearest point of the separatrix, isolated equilibria."""
+    marks = [{"kind": "start", "colour": style.BLACK, "at": list(start)}]
+    if motion is not None and motion.velocity_witness is not None:
+        marks.append({"kind": "nearest point of the separatrix", "colour": style.YELLOW, "at": list(motion.velocity_witness)})
+    for point in found.points if found is not None else ():
+        kind = point.linear if point.linear in KINDS else "degenerate"
+        marks.append({"kind": KINDS[kind], "colour": colour(kind), "at": list(point.at[:3])})
+    return marks
+
+
+def colour(kind: str) -> str:
+    """The colour of an equilibrium."""
+    return str(style.MEANING["fold" if kind == "degenerate" else kind]["color"])
+
+
+def lines(found: Equilibria | None, box: Box, coarse: int, fine: int) -> list[tuple[str, list[Point]]]:
+    """[(kind, places)] of the pieces of the curves of equilibria that come into the box, looked for at `coarse` places of each piece and drawn through
+    `fine`."""
+    out: list[tuple[str, list[Point]]] = []
+    for curve in found.curves if found is not None else ():
+        for segment in curve.segments:
+            kind = segment.linear if segment.linear in KINDS else "degenerate"
+            for low, high in _inside(curve.point, _spread(*segment.t, coarse), box):
+                out.append((kind, [curve.point(low + (high - low) * n / fine) for n in range(fine + 1)]))
+    return out
+
+
+def _inside(point: Any, ts: list[float], box: Box) -> list[tuple[float, float]]:
+    """The runs of parameters whose places are in or near the box, each one step longer."""
+    near = [box.holds(at, 1.05) for at in map(point, ts)]
+    near = [near[n] or any(near[max(0, n - 1):n + 2]) for n in range(len(ts))]
+    runs, first = [], None
+    for n, inside in enumerate([*near, False]):
+        if inside and first is None:
+            first = n
+        if not inside and first is not None:
+            if n - 1 > first:
+                runs.append((ts[first], ts[n - 1]))
+            first = None
+    return runs
+
+
+def _spread(low: float, high: float, number: int) -> list[float]:
+    """Parameters inside (low, high), dense at both ends, geometric towards infinite ones; `show.sampling` does so in arrays."""
+    if math.isfinite(low) and math.isfinite(high):
+        return [low + (high - low) * (1 - math.cos(1e-3 + (math.pi - 2e-3) * n / (number - 1))) / 2 for n in range(number)]
+    away = [10 ** (-4 + 8 * n / (number - 1)) for n in range(number)]
+    if math.isfinite(low):
+        return [low + v * max(1.0, abs(low)) for v in away]
+    if math.isfinite(high):
+        return [high - v * max(1.0, abs(high)) for v in reversed(away)]
+    return [*(-v for v in reversed(away)), *away]

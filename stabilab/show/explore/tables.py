@@ -1,0 +1,39 @@
+"""The tables beside the pictures: what is known of the motion, and the equilibria."""
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from ...case.read import Case
+from ...equilibrium.result import Equilibria
+from ...orbit.result import Motion
+from ..text.headline import rate_margin
+from ..units import Units
+
+DIGITS = 5
+MOST = 12  # rows of equilibria
+
+
+def rows(case: Case, motion: Motion, units: Units) -> list[list[str]]:
+    """[words, value] of what is known of the motion."""
+    found = [["start", units.vector(motion.at[:3], units.rates, DIGITS)]]
+    if motion.margin_energy is not None:
+        side = "below" if motion.margin_energy >= 0 else "above"
+        found.append(["energy", f"{units.energy(abs(motion.margin_energy), DIGITS)} {side} the barrier ahead"])
+    if apart := rate_margin(motion, units, DIGITS):
+        found.append(["distance from the separatrix", apart])
+    if motion.period is not None:
+        found.append(["period", units.time(motion.period, DIGITS)])
+    if motion.extremes is not None and not any(map(math.isnan, sum(map(list, motion.extremes), []))):
+        for component, pair in zip(case.scene.components, motion.extremes):
+            found.append([component.replace("omega", "ω"), f"{units.told(pair[0], units.rates, DIGITS)} to {units.told(pair[1], units.rates, DIGITS)}"])
+    return [*found, ["why", motion.because]]
+
+
+def equilibria(found: Equilibria, units: Units) -> dict[str, Any]:
+    """{reason, rows of (where, verdict)}."""
+    told = [[units.vector(point.at[:3], units.rates, DIGITS), point.verdict] for point in found.points]
+    for curve in found.curves:
+        told += [[f"{curve.name}, {segment.linear}", segment.verdict] for segment in curve.segments]
+    more = len(told) - MOST
+    return {"reason": found.reason, "rows": told[:MOST] + ([[f"and {more} more", ""]] if more > 0 else [])}

@@ -1,0 +1,157 @@
+// The page: sliders ask, answers are drawn. A question of a moving hand waits for the one before; one of a resting hand gives way to any newer.
+const $ = id => document.getElementById(id), setup = JSON.parse($("setup").textContent), ask = backend(), view = spaceView($("space"));
+const touched = {}, fields = {};
+let axis = setup.groups[0].axis, axisTouched = false, shown = null, serial = 0, latest = 0, busy = false, waiting = null, resting = null, abort = null, cross = null, planeArt = null;
+const REST = 160;  // ms without a change after which a hand rests
+
+function element(tag, properties, ...children) { const made = Object.assign(document.createElement(tag), properties); made.append(...children); return made; }
+
+function put(name, text) {  // a number on its slider and in its field
+  const {range, field, row} = fields[name], value = Number(text);
+  if (value > Number(range.max)) range.max = value;
+  if (value < Number(range.min)) range.min = value;
+  range.value = value; field.value = text; row.classList.toggle("own", !(name in touched));
+}
+
+function slider(control) {
+  const name = control.name, range = element("input", {type: "range", id: name, min: control.low, max: control.high, step: "any", value: control.value});
+  const field = element("input", {type: "number", step: "any", value: control.value}), words = `${control.words}${control.unit ? `, ${control.unit}` : ""}`;
+  field.setAttribute("aria-label", `${words}, as a number`); range.setAttribute("aria-label", words);
+  const label = element("label", {htmlFor: name, textContent: control.words}), row = element("div", {className: "control own"}, label, field, element("span", {className: "unit", textContent: control.unit}), range);
+  const step = 10 ** Math.floor(Math.log10((control.high - control.low) / 500));
+  range.oninput = () => { touched[name] = String(+(Math.round(Number(range.value) / step) * step).toPrecision(9)); put(name, touched[name]); move(); };
+  field.oninput = () => { if (field.value === "" || !Number.isFinite(Number(field.value))) return; touched[name] = field.value; put(name, field.value); move(); };
+  fields[name] = {range, field, row, label, own: String(control.value), low: control.low, high: control.high};
+  return row;
+}
+
+function build() {
+  for (const group of setup.groups) {
+    const set = element("fieldset", {}, element("legend", {textContent: group.title}));
+    if (group.axis) {
+      const choice = element("select", {id: "axis"}, ...[1, 2, 3].map(n => element("option", {value: n, textContent: `axis ${n}`}))); choice.value = axis;
+      choice.onchange = () => { axis = Number(choice.value); axisTouched = true; fields.size.label.textContent = `about axis ${axis}`; move(); };
+      set.append(element("div", {className: "control"}, element("label", {htmlFor: "axis", textContent: "along"}), choice));
+    }
+    set.append(...group.controls.map(slider)); $("controls").append(set);
+  }
+  const again = element("button", {type: "button", id: "again", textContent: "As in the case"}), save = element("button", {type: "button", id: "save", textContent: "Save as case"});
+  again.onclick = () => {
+    for (const name of Object.keys(touched)) delete touched[name];
+    axis = setup.groups[0].axis; axisTouched = false; if ($("axis")) $("axis").value = axis;
+    for (const [name, {range, low, high, own}] of Object.entries(fields)) { range.min = low; range.max = high; put(name, own); }
+    if (fields.size) fields.size.label.textContent = `about axis ${axis}`;
+    shown = null; move();
+  };
+  save.onclick = () => {
+    if (!shown || !shown.toml) return;
+    const link = element("a", {href: URL.createObjectURL(new Blob([shown.toml], {type: "application/toml"})), download: `${setup.name}-explored.toml`});
+    document.body.append(link); link.click(); link.remove(); setTimeout(() => URL.revokeObjectURL(link.href), 5000);
+  };
+  $("controls").append(element("div", {className: "buttons"}, save, again)); $("controls").onsubmit = e => e.preventDefault();
+}
+
+function question(moving, click) {
+  const row = (stem, count) => Array.from({length: count}, (_, n) => touched[stem + n] ?? null), value = name => touched[name] ?? fields[name].own;
+  const torque = axisTouched || ["size", "tilt", "azimuth"].some(name => name in touched);
+  return {torque: torque ? {axis, size: value("size"), tilt: value("tilt"), azimuth: value("azimuth")} : null, wheel: row("wheel", setup.groups[1].controls.length),
+          start: row("start", 3), moving, click: click || null, box: shown && shown.space ? shown.space.box : null};
+}
+
+function move(click) {
+  clearTimeout(resting); resting = setTimeout(rest, REST);
+  waiting = {click}; if (!busy) pump();
+}
+
+function rest() {  // a click is answered first: its start is part of every question after it
+  if (busy || waiting) resting = setTimeout(rest, REST); else send(false);
+}
+
+async function pump() {
+  busy = true;
+  while (waiting) { const {click} = waiting; waiting = null; await send(true, click); }
+  busy = false;
+}
+
+async function send(moving, click) {
+  const number = ++serial, began = performance.now();
+  if (abort) abort.abort();
+  abort = moving ? null : new AbortController();
+  try {
+    const reply = await ask("answer", {...question(moving, click), serial: number}, abort && abort.signal);
+    if (reply === null || number < latest) return;
+    const answer = unpacked(reply); latest = number;
+    if (answer.start) answer.start.forEach((text, n) => { touched[`start${n}`] = text; put(`start${n}`, text); });
+    const answered = performance.now();
+    show(answer);
+    if (!answer.error) $("work").textContent = `Answered in ${Math.round(answered - began)} ms, of which the analysis took ${answer.analysis.toFixed(1)} ms; drawn in ${Math.round(performance.now() - answered)} ms.`;
+  } catch (error) { if (error.name !== "AbortError") trouble(error.message); }
+}
+
+function unpacked(reply) {
+  const length = new DataView(reply).getUint32(0, true), header = JSON.parse(new TextDecoder().decode(new Uint8Array(reply, 4, length))), from = Math.ceil((4 + length) / 4) * 4;
+  const kinds = {int16: Int16Array, float32: Float32Array};
+  const filled = value => {
+    if (Array.isArray(value)) return value.map(filled);
+    if (value && typeof value === "object") return value.type in kinds && "count" in value ? new kinds[value.type](reply, from + value.from, value.count)
+      : Object.fromEntries(Object.entries(value).map(([key, one]) => [key, filled(one)]));
+    return value;
+  };
+  return filled(header);
+}
+
+function trouble(words) { $("note").hidden = !words; $("note").textContent = words; $("headline").classList.toggle("stale", Boolean(words)); }
+
+function show(answer) {
+  if (answer.error) { trouble(answer.error); return; }
+  trouble(""); $("note").hidden = !answer.note; $("note").textContent = answer.note; shown = answer;
+  $("headline").textContent = answer.headline; $("headline").className = `verdict-line ${answer.fate}`;
+  view.show(answer.space);
+  $("legend").replaceChildren(...answer.space.legend.map(([words, colour]) => { const mark = element("i", {}); mark.style.background = colour; return element("span", {}, mark, words); }));
+  $("space-words").textContent = `${answer.space.words}. Drag to turn; click a curve or a point to start there; double click: as at first.`;
+  drawFlat();
+  $("plane-words").textContent = answer.plane ? "Orange: this motion; black: separatrix; grey: other energies; filled: centre; open: saddle. Click to start a motion there."
+    : "This scene does not reduce to one degree of freedom, so it has no phase plane.";
+  $("time-words").replaceChildren(...answer.time.names.flatMap((name, n) => { const mark = element("span", {textContent: `${name} `}); mark.style.color = INK.components[n]; mark.style.fontWeight = 600; return [mark]; }),
+    answer.time.extremes ? "Dotted: least and greatest for ever." : "");
+  $("facts").replaceChildren(...answer.rows.flatMap(([words, value]) => [element("dt", {textContent: words}), element("dd", {textContent: value})]));
+  $("equilibria-words").textContent = answer.equilibria.reason;
+  $("equilibria").replaceChildren(...answer.equilibria.rows.map(row => element("tr", {}, ...row.map(text => element("td", {textContent: text})))));
+  document.documentElement.dataset.answers = latest; document.documentElement.dataset.moving = answer.moving;
+}
+
+function drawFlat() {
+  if (!shown) return;
+  drawTime($("time"), shown.time);
+  if (shown.plane) planeArt = drawPlane($("plane"), shown.plane, document.activeElement === $("plane") ? cross : null);
+  else { planeArt = null; const canvas = $("plane"); canvas.getContext("2d").setTransform(1, 0, 0, 1, 0, 0); canvas.getContext("2d").clearRect(0, 0, canvas.width, canvas.height); }
+}
+
+$("plane").onclick = e => { if (!planeArt) return; const [turn, rate] = planeArt.at(e.offsetX, e.offsetY); cross = null; move({turn, rate}); };
+$("plane").onkeydown = e => {
+  const way = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}[e.key];
+  if (!planeArt || !way && e.key !== "Enter") return;
+  e.preventDefault(); cross = cross || [...planeArt.start];
+  const [first, last, low, high] = planeArt.span;
+  if (way) { cross[0] += way[0] * Math.abs(last - first) / 60; cross[1] += way[1] * (high - low) / 60; drawFlat(); }
+  else { const [turn, rate] = cross; cross = null; move({turn, rate}); }
+};
+$("plane").onblur = () => { cross = null; drawFlat(); };
+view.onpick = place => { place.forEach((v, n) => { touched[`start${n}`] = String(+v.toPrecision(7)); put(`start${n}`, touched[`start${n}`]); }); move(); };
+window.addEventListener("resize", drawFlat);
+
+async function check(file) {
+  $("checked").textContent = `Checking ${file.name} ...`;
+  try {
+    const found = unpacked(await ask("verify", {text: await file.text()}));
+    const rows = (found.findings || []).map(one => element("tr", {}, element("td", {textContent: one.claim}), element("td", {className: one.status, textContent: one.status}), element("td", {textContent: one.reason})));
+    $("checked").replaceChildren(element("p", {className: found.status || "refuted", textContent: found.error ? found.error : `${file.name}: ${found.status}`}), element("p", {className: "quiet", textContent: found.about || ""}),
+      element("div", {className: "scroll"}, element("table", {}, ...rows)));
+  } catch (error) { $("checked").textContent = error.message; }
+}
+$("certificate").onchange = e => e.target.files.length && check(e.target.files[0]);
+$("drop").ondragover = e => { e.preventDefault(); $("drop").classList.add("over"); };
+$("drop").ondragleave = () => $("drop").classList.remove("over");
+$("drop").ondrop = e => { e.preventDefault(); $("drop").classList.remove("over"); if (e.dataTransfer.files.length) check(e.dataTransfer.files[0]); };
+
+build(); send(false);

@@ -1,0 +1,101 @@
+"""What sliders change: the new case is the text that is saved, and nothing else moves."""
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+
+from stabilab.case.read import load, read_text
+from stabilab.errors import InputError
+from stabilab.show.explore import controls
+from stabilab.show.explore.changed import changed
+from stabilab.show.explore.toml import data_of, exact_text, text_of
+from stabilab.show.units import units_of
+
+CASES = sorted((Path(__file__).parents[3] / "cases").glob("*.toml"))
+NAMED = {path.stem: path for path in CASES}
+
+
+def asked(**parts):
+    return {"torque": None, "wheel": None, "start": None, **parts}
+
+
+def moved(name, **parts):
+    case = load(NAMED[name])
+    return case, changed(case, asked(**parts), units_of(case))[0]
+
+
+@pytest.mark.parametrize("path", CASES, ids=lambda p: p.stem)
+def test_the_text_of_every_case_says_the_same_when_written_anew(path):
+    text = path.read_text(encoding="utf-8")
+    assert data_of(text_of(data_of(text), "a head\nof two lines")) == data_of(text)
+
+
+def test_a_case_that_no_hand_touched_is_the_case_itself():
+    case, same = moved("thruster-stuck-major-axis")
+    assert same is case
+
+
+def test_numbers_that_no_hand_touched_stay_as_they_were_written():
+    case, new = moved("thruster-stuck-major-axis", wheel=[None, None, "0.25"], start=["7.5", None, None])
+    assert new.scene.vector("gyrostat") == (0, 4, Fraction(1, 4))
+    assert new.exact_state[1:] == case.exact_state[1:] and 'angular_velocity = ["7.5 deg/s", 0.03, -0.02]' in new.text
+    assert new.scene.body.exact == case.scene.body.exact and new.scene.vector("constant_torque") == case.scene.vector("constant_torque")
+
+
+def test_a_case_that_is_saved_states_what_was_seen():
+    for name in ("upper-stage", "cubesat-3u", "geostationary-22n", "minor-axis-100", "charged-body", "two-wheels-minor-axis"):
+        case = load(NAMED[name])
+        n = len(controls.vector(case, "wheel"))
+        _, new = moved(name, torque={"axis": 2, "size": "0.5", "tilt": "3", "azimuth": "90"}, wheel=["0.125", *[None] * (n - 1)], start=[None, "1.5", None])
+        again = read_text("saved.toml", new.text)
+        assert (again.scene, again.exact_state, again.span) == (new.scene, new.exact_state, new.span)
+
+
+def test_the_wheel_of_a_tensor_that_is_not_diagonal_counts_along_its_principal_axes():
+    case, new = moved("cubesat-3u", wheel=["0.001", None, None])
+    assert new.scene.vector("gyrostat")[0] == Fraction(1, 1000)
+    for one, other in zip(case.scene.vector("gyrostat")[1:] + case.scene.body.exact, new.scene.vector("gyrostat")[1:] + new.scene.body.exact):
+        assert abs(one - other) <= abs(one) / 10**34  # 36 digits are written
+    assert new.frame.as_given and not new.wheels and not new.thrusters
+
+
+def test_a_stuck_thruster_closes_where_a_slider_gives_the_torque():
+    case, new = moved("upper-stage", torque={"axis": 3, "size": "2", "tilt": "0", "azimuth": "0"})
+    assert tuple(map(float, new.scene.vector("constant_torque"))) == (0, 0, 2) and not any(t.stuck for t in new.thrusters)
+
+
+def test_a_start_beyond_the_limit_is_explored_without_the_limit():
+    case = load(NAMED["cubesat-3u"])
+    new, words = changed(case, asked(start=["90", None, None]), units_of(case))
+    assert case.limits and new.limits is None and "beyond the limit" in words
+
+
+@pytest.mark.parametrize("axis, size, tilt, azimuth", [(1, 2.0, 0.0, 0.0), (2, -3.0, 5.0, 90.0), (3, 0.5, 30.0, -120.0), (3, -1.0, 12.0, 45.0)])
+def test_size_tilt_and_azimuth_tell_a_torque_back(axis, size, tilt, azimuth):
+    assert controls.direction(controls.torque_of(axis, size, tilt, azimuth)) == pytest.approx((axis, size, tilt, azimuth), abs=1e-12)
+
+
+def test_a_torque_on_an_axis_or_in_a_plane_is_there_exactly():
+    assert controls.torque_of(2, 3.0, 0.0, 77.0) == (0.0, 3.0, 0.0)
+    assert controls.torque_of(1, 2.0, 10.0, 90.0)[1] == 0 == controls.torque_of(1, 2.0, 10.0, -180.0)[2]
+
+
+@pytest.mark.parametrize("parts", [{"wheel": ["x"]}, {"start": ["nan", None, None]}, {"start": [1.5, None, None]}, {"start": ["1e999", None, None]},
+                                   {"torque": {"axis": 4, "size": "1", "tilt": "0", "azimuth": "0"}}, {"torque": {"axis": 1}}])
+def test_what_is_no_number_is_refused_in_words(parts):
+    with pytest.raises(InputError, match="expected"):
+        moved("thruster-stuck-major-axis", **parts)
+
+
+@pytest.mark.parametrize("value, text", [
+    (Fraction(1, 8), "0.125"), (Fraction(-3), "-3.0"), (Fraction(1, 3), "1/3"), (Fraction(0), "0.0"), (Fraction(1, 10**6), "0.000001")])
+def test_a_rational_is_written_with_nothing_lost(value, text):
+    assert exact_text(value) == text and Fraction(text) == value
+
+
+@pytest.mark.parametrize("path", CASES, ids=lambda p: p.stem)
+def test_every_slider_holds_the_number_of_its_case(path):
+    case = load(path)
+    for group in controls.groups(case, units_of(case)):
+        for one in group["controls"]:
+            assert one["low"] <= one["value"] <= one["high"] and one["low"] < one["high"], one

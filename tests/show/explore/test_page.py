@@ -1,0 +1,147 @@
+"""The page in a real browser: sliders, verdict, surface, clicks and files, and nothing on the console."""
+import json
+import threading
+import time
+from urllib.parse import urlsplit
+
+import pytest
+
+from stabilab import load, motion
+from stabilab.answers.certificate import certificate
+from stabilab.case.read import read_text
+from stabilab.show.explore.serve import Explorer
+from tests.browser import CHROMIUM, Browser
+
+CASE = "cases/minor-axis-100.toml"
+pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="Chromium is not installed")
+HEADLINE, ANSWERS = "document.querySelector('#headline').textContent", "Number(document.documentElement.dataset.answers || 0)"
+RESTS = "document.documentElement.dataset.moving === 'false'"
+MESH = "JSON.stringify(shown.space.sheets.map(s => Array.from(s.at.slice(0, 3000))))"
+
+
+@pytest.fixture(scope="module")
+def server():
+    with Explorer(load(CASE)) as one:
+        threading.Thread(target=one.serve_forever, daemon=True).start()
+        yield one
+        one.shutdown()
+
+
+@pytest.fixture(scope="module")
+def browser(tmp_path_factory):
+    with Browser(tmp_path_factory.mktemp("profile")) as one:
+        yield one
+
+
+@pytest.fixture(scope="module")
+def opened(server, browser):
+    browser.open(server.address)
+    browser.until(f"{ANSWERS} > 0 && {RESTS}")
+    return browser
+
+
+@pytest.fixture
+def page(server, opened):
+    """As it was opened: the button "As in the case" brings it there."""
+    browser = opened
+    browser.size(900, 800)
+    if browser.run("axisTouched || Object.keys(touched).length"):
+        next_answer(browser, lambda: browser.run("$('again').click()"))
+    yield browser
+    assert browser.console == []
+    assert {urlsplit(one).netloc for one in browser.requests if not one.startswith(("data:", "blob:"))} == {f"127.0.0.1:{server.server_port}"}
+
+
+def next_answer(page, act):
+    """What comes back once the page has rested after an act."""
+    before = page.run(ANSWERS)
+    act()
+    page.until(f"{ANSWERS} > {before} && {RESTS}")
+    return page.run(HEADLINE)
+
+
+def test_a_wrong_token_shows_nothing(server, browser):
+    browser.open(f"http://127.0.0.1:{server.server_port}/wrong/")
+    assert "lacks the token" in browser.until("document.body.innerText")
+    assert all("403" in line for line in browser.console)
+    browser.console.clear()
+
+
+def test_dragging_a_slider_moves_verdict_and_surface_on_the_way(page):
+    said, mesh, seen = page.run(HEADLINE), page.run(MESH), set()
+    answered = "Number(shown.toml.match(/mu = .*, (\\S+)]/)[1]) === Number(fields.size.field.value)"
+    assert said.startswith("BOUNDED for ever while the torque is exactly along axis 3")
+    for _ in page.drag("#size", (0.74, 0.8, 0.88, 0.95)):
+        page.until(answered)
+        seen.add(page.run(HEADLINE))
+    page.until(f"{RESTS} && {answered}")
+    assert len(seen) >= 4 and page.run(HEADLINE) not in (said, "") and page.run(MESH) != mesh
+    case = read_text("saved.toml", page.run("shown.toml"))
+    assert case.scene.mu[2] == page.run("Number(fields.size.field.value)") > 2
+    assert motion(case.scene, case.state).fate.word == page.run("shown.fate")
+
+
+def test_a_tilt_is_followed_once_the_hand_rests(page):
+    page.run("fields.tilt.field.value = '5'; fields.tilt.field.oninput()")
+    page.until(f"{HEADLINE}.startsWith('UNDECIDED so far')")
+    page.until(f"{RESTS} && {HEADLINE}.startsWith('SPINS UP')")
+    assert "without the tilt" in page.run("document.querySelector('#legend').textContent")
+
+
+def test_a_click_in_the_phase_plane_starts_a_motion(page):
+    said = page.run(HEADLINE)
+    assert next_answer(page, lambda: page.click("#plane", 0.5, 0.12)) != said
+    start = page.run("['start0', 'start1', 'start2'].map(name => Number(fields[name].field.value))")
+    assert start != [2.5, 4, 0.1] and read_text("saved.toml", page.run("shown.toml")).state == pytest.approx(start, rel=1e-6)
+
+
+def test_the_phase_plane_is_reached_by_the_keyboard(page):
+    page.run("document.querySelector('#plane').focus()")
+    for _ in range(3):
+        page.key("ArrowUp")
+    next_answer(page, lambda: page.key("Enter"))
+    assert page.run("Number(fields.start2.field.value)") > 0.2
+
+
+def test_a_click_on_an_equilibrium_starts_there(page):
+    place = page.run("""(() => { const best = shown.space.curves.find(c => c.kind.startsWith('stable')), all = Array.from(best.at);
+      for (let i = 0; i < all.length; i += 3) { const p = all.slice(i, i + 3).map(v => v / 4095); if (p.every(v => Math.abs(v) < 0.9)) return p; } })()""")
+    wanted = page.run(f"{json.dumps(place)}.map((v, k) => shown.space.middle[k] + v * shown.space.half)")
+    next_answer(page, lambda: page.run(f"view.onpick({json.dumps(wanted)}, 'stable equilibria')"))
+    assert page.run("Number(fields.start0.field.value)") == pytest.approx(wanted[0], rel=1e-5, abs=1e-5)
+    said = page.run(HEADLINE)
+    assert said.startswith(("BOUNDED", "AT REST"))  # beside a centre
+    answers = page.run(ANSWERS)
+    page.click("#space", 0.5, 0.45)  # a real click, on whatever is drawn in the middle
+    time.sleep(0.5)
+    assert page.run(ANSWERS) >= answers
+
+
+def test_the_case_is_saved_as_it_is_seen(page, tmp_path):
+    page.ask("Browser.setDownloadBehavior", session=None, behavior="allow", downloadPath=str(tmp_path))
+    next_answer(page, lambda: page.run("fields.start1.field.value = '3.25'; fields.start1.field.oninput()"))
+    page.click("#save")
+    saved = tmp_path / "minor-axis-100-explored.toml"
+    for _ in range(100):
+        if saved.exists():
+            break
+        time.sleep(0.05)
+    case = load(saved)
+    assert case.state == (2.5, 3.25, 0.1) and motion(case.scene, case.state).fate.word == page.run("shown.fate")
+    assert next_answer(page, lambda: page.click("#again")).startswith("BOUNDED") and page.run("Object.keys(touched).length") == 0
+
+
+def test_a_dropped_certificate_is_checked(page):
+    case = load(CASE)
+    text = json.dumps(certificate(case.scene, case.exact_state))
+    page.run(f"void check(new File([{json.dumps(text)}], 'mine.json'))")
+    assert page.until("document.querySelector('#checked p').textContent") == "mine.json: proved"
+
+
+def test_the_page_fits_a_telephone_and_says_so_of_every_slider(page):
+    page.size(400, 800)
+    page.run("scrollTo(0, 0)")
+    assert page.run("document.documentElement.scrollWidth") <= 400
+    assert page.run("[...document.querySelectorAll('input, select')].every(one => one.labels.length || one.getAttribute('aria-label'))")
+    tops = page.run("['#headline', '.space', '#controls', '#plane'].map(one => document.querySelector(one).getBoundingClientRect().top)")
+    assert tops == sorted(tops)

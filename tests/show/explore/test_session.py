@@ -1,0 +1,153 @@
+"""What a page is answered: the same as the questions answer, drawn in places that lie where they should."""
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from stabilab import load, motion, separatrix
+from stabilab.errors import InputError
+from stabilab.orbit.phase_plane import phase_plane
+from stabilab.show.explore.bag import Bag, unframed
+from stabilab.show.explore.plane import plane_of
+from stabilab.show.explore.session import FOLLOWED, Session, Stopped
+from stabilab.show.text.headline import headline
+
+
+def case_of(name):
+    return load(f"cases/{name}.toml")
+
+
+def ask(session, **asked):
+    header, numbers = unframed(session.answer(asked))
+    return header, numbers
+
+
+def row(numbers, told):
+    return np.frombuffer(numbers, {"int16": "<i2", "float32": "<f4"}[told["type"]], told["count"], told["from"])
+
+
+def test_numbers_come_out_of_a_message_as_they_went_in():
+    bag = Bag()
+    rows = [bag.add("int16", [1, -2, 3]), bag.add("float32", [0.5, float("inf")]), bag.add("int16", b"\x01\x00")]
+    header, numbers = unframed(bag.framed({"rows": rows, "ä": float("nan")}))
+    assert header["ä"] is None and [row(numbers, one).tolist() for one in header["rows"]] == [[1, -2, 3], [0.5, float("inf")], [1]]
+
+
+@pytest.mark.parametrize("name", ["minor-axis-100", "thruster-stuck-major-axis", "torque-free-gyrostat", "wheel-and-thruster", "symmetric-body",
+                                  "off-axis-two"])
+def test_the_verdict_of_a_resting_hand_is_that_of_the_questions(name):
+    case = case_of(name)
+    told, _ = ask(Session(case))
+    found = motion(case.scene, case.state, exact=case.exact_state)
+    assert told["headline"] == headline(case, found) and told["fate"] == found.fate.word
+
+
+def test_the_verdict_is_that_of_the_case_that_is_saved(tmp_path):
+    told, _ = ask(Session(case_of("minor-axis-100")), start=[None, None, "30"])
+    saved = tmp_path / "saved.toml"
+    saved.write_text(told["toml"], encoding="utf-8")
+    case = load(saved)
+    assert case.state[2] == 30 and told["headline"] == headline(case, motion(case.scene, case.state, exact=case.exact_state)) and told["fate"] == "spin-up"
+
+
+def test_a_moving_hand_gets_the_same_fate_without_the_search_for_the_separatrix():
+    session = Session(case_of("thruster-stuck-major-axis"))
+    whole, brief = ask(session)[0], ask(session, moving=True)[0]
+    assert whole["fate"] == brief["fate"] == "bounded" and "distance" in str(whole["rows"]) and "distance" not in str(brief["rows"])
+    assert sum(s["rows"] for s in brief["space"]["sheets"]) < sum(s["rows"] for s in whole["space"]["sheets"])
+
+
+def test_a_tilted_torque_is_undecided_while_the_hand_moves_and_followed_when_it_rests():
+    session, tilted = Session(case_of("thruster-stuck-major-axis")), {"torque": {"axis": 1, "size": "0.02", "tilt": "2", "azimuth": "0"}}
+    box = ask(session)[0]["space"]["box"]
+    told = ask(session, moving=True, box=box, **tilted)[0]
+    assert told["space"]["box"] == box and told["space"]["sheets"] and told["headline"] == f"UNDECIDED so far: {FOLLOWED}"
+    assert told["fate"] == "undecided" and told["plane"] is None
+    assert "without its tilt" in told["space"]["words"] and all(s["name"].endswith("without the tilt") for s in told["space"]["sheets"])
+    assert ask(session, **tilted)[0]["fate"] == "spin-up"
+
+
+def test_a_motion_is_followed_no_longer_once_a_newer_question_has_come():
+    tilted = {"torque": {"axis": 1, "size": "0.02", "tilt": "2", "azimuth": "0"}}
+    with pytest.raises(Stopped):
+        Session(case_of("thruster-stuck-major-axis")).answer(tilted, lambda: True)
+
+
+def test_the_drawn_surface_is_the_separatrix():
+    case = case_of("thruster-stuck-major-axis")
+    told, numbers = ask(Session(case))
+    space, per_degree = told["space"], np.pi / 180
+    middle, half = np.array(space["middle"]) * per_degree, space["half"] * per_degree
+    # the same scene, farther out and finer; every drawn place inside the box lies on one of its facets' size
+    exact = np.concatenate([s.points.reshape(-1, 3) for s in separatrix(case.scene, reach=60.0, shape=(400, 401)).sheets])
+    for sheet in space["sheets"]:
+        places = row(numbers, sheet["at"]).reshape(-1, 3) / 4095
+        inside = middle + half * places[(np.abs(places) < 1).all(axis=1)][::17]
+        assert len(inside) and max(np.linalg.norm(exact - p, axis=1).min() for p in inside) < 0.04 * half
+
+
+def test_the_box_stays_while_the_motion_stays_in_it():
+    session = Session(case_of("minor-axis-100"))
+    first = ask(session)[0]["space"]["box"]
+    assert ask(session, box=first, moving=True, start=["2.6", None, None])[0]["space"]["box"] == first
+    assert ask(session, box=first, moving=True, start=["60", None, None])[0]["space"]["box"] != first
+
+
+@pytest.mark.parametrize("name", ["minor-axis-100", "thruster-stuck-major-axis", "middle-axis-double-well", "torque-free-body", "symmetric-spin-up"])
+def test_the_plane_in_plain_floats_is_that_in_arrays(name):
+    case = case_of(name)
+    plain, arrays = plane_of(case.scene, case.state), phase_plane(case.scene, case.state)
+    if arrays is None:
+        assert plain is None
+        return
+    heights = arrays.height(np.array(plain.y))
+    assert np.allclose(plain.heights, heights, rtol=1e-9, atol=1e-9 * np.abs(heights).max()) and plain.unit == pytest.approx(arrays.unit)
+    for y, _, saddle in plain.rests:
+        near = arrays.repeated(arrays.saddles if saddle else arrays.centres, y - 1e-6, y + 1e-6)
+        assert len(near) >= 1
+    for y, W in ((0.3, 0.7), (-0.4, -1.1)):
+        state = arrays.states(np.array(y), np.array(W))
+        assert plain.state(y * plain.unit, float(state[plain.reduction.axis])) == pytest.approx(state, rel=1e-9, abs=1e-9)
+        assert plain.rate(W) == pytest.approx(float(state[plain.reduction.axis]))
+
+
+def test_a_click_in_the_phase_plane_starts_there():
+    session = Session(case_of("thruster-stuck-major-axis"))
+    told = ask(session, click={"turn": 0.0, "rate": 25.0})[0]
+    assert [float(v) for v in told["start"]] == pytest.approx([25.0, 0.03 * 180 / np.pi, -0.02 * 180 / np.pi], rel=1e-6)
+
+
+@pytest.mark.parametrize("asked", [
+    {"click": {"turn": "x"}}, {"click": 3}, {"start": ["x", None, None]}, {"start": 3}, {"box": 3}, {"torque": []}, {"wheel": {"a": 1}},
+    {"box": {"middle": [0, 0, "x"], "half": 1}}, {"box": {"middle": [0, 0, 0], "half": 0}}, {"click": {"turn": "inf", "rate": 1}}])
+def test_a_question_that_is_none_is_answered_in_words(asked):
+    told, _ = ask(Session(case_of("minor-axis-100")), **asked)
+    assert "expected" in told["error"] or "click" in told["error"]
+
+
+def test_a_body_with_a_liquid_is_refused_with_what_to_do():
+    with pytest.raises(InputError, match="liquid_cavity.*: ask stabilab classify or report"):
+        Session(case_of("liquid-base"))
+
+
+def test_all_but_the_surfaces_is_answered_without_numpy():
+    """In a fresh interpreter that refuses every package but python-flint."""
+    code = """
+import sys
+class Bare:
+    def find_spec(self, name, path=None, target=None):
+        if name.split(".")[0] in {"numpy", "scipy", "sympy", "mpmath", "matplotlib", "pyvista", "jinja2", "rich", "typer", "heyoka", "numba"}:
+            raise ModuleNotFoundError(f"No module named {name!r}", name=name)
+sys.meta_path.insert(0, Bare())
+import stabilab
+from stabilab.show.explore.session import Session
+from stabilab.show.explore.certificates import checked
+from stabilab.show.explore.bag import unframed
+for name in ("thruster-stuck-major-axis", "cubesat-3u"):
+    print(unframed(Session(stabilab.load(f"cases/{name}.toml")).answer({}))[0]["headline"])
+"""
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert run.returncode == 0, run.stderr
+    first, second = run.stdout.splitlines()
+    assert first.startswith("BOUNDED for ever while the torque is exactly along axis 1; largest rate 1.725 deg/s") and second.startswith("UNDECIDED")
