@@ -390,6 +390,7 @@ def plot(case: CaseFile,
          units: UnitsOption = None, strict: Strict = False):
     """Draw a case: rates over time, phase plane, separatrix and more.
 
+    Of a FILE.nc of stabilab sweep it draws the map; --kind is then a column.
     The same case gives the same bytes. What a case has no plot of is refused, with the kinds that it has.
 
     Example: stabilab plot cases/middle-axis-double-well.toml --kind time --out double-well.svg
@@ -398,6 +399,10 @@ def plot(case: CaseFile,
     from .show.files import endings
     from .show.plot.to_file import default_name, inches, write
     from .show.text import law
+    if case.suffix.lower() == ".nc":
+        from .show.maps import picture
+        _print(str(picture.write(case, out or Path(f"{printable(case.stem)}.png"), kind, inches(size), dpi)))
+        return
     loaded, drawn = _load([case], motion=kind != "equilibria"), []
     _systems(loaded, units)  # says what is wrong with them
     target = out or Path(default_name(printable(case.stem), kind))

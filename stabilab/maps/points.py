@@ -49,9 +49,21 @@ def _put_all(data, rows: Puts) -> None:
 
 def states_of(plan: Plan, case: Case, low: int, high: int) -> np.ndarray:
     """(high - low, 3): states of a scene in its own variables, along its principal axes."""
-    if not plan.inner:
-        return np.array([case.state], float)
-    written = _as_written(plan, low, high)
+    return _turned(case, _as_written(plan, low, high)) if plan.inner else np.array([case.state], float)
+
+
+def states_between(plan: Plan, case: Case, index: np.ndarray, dimension: int, share: np.ndarray) -> np.ndarray:
+    """(n, 3): the same of places between points: rows of `index` (n, dimensions), each moved by a share of the way to the next along a dimension."""
+    states = np.tile(_base(plan), (len(index), 1))
+    for n in plan.inner:
+        axis, at = plan.axes[n], index[:, n]
+        values = np.array(axis.si)
+        here = values[at]
+        states[:, axis.key.paths[0][2]] = here + (values[np.minimum(at + 1, len(values) - 1)] - here) * share if n == dimension else here
+    return _turned(case, states)
+
+
+def _turned(case: Case, written: np.ndarray) -> np.ndarray:
     frame = case.frame
     if frame is None or frame.as_given:
         return written
@@ -61,11 +73,7 @@ def states_of(plan: Plan, case: Case, low: int, high: int) -> np.ndarray:
 
 def _as_written(plan: Plan, low: int, high: int) -> np.ndarray:
     """The same in the frame of the file."""
-    first = plan.inner[0]
-    varied = plan.axes[first].key if first < len(plan.axes) else plan.sampled.keys[0]
-    base = Table(("motion",), plan.data["motion"], Faults(KeyLines())).vector(varied.paths[0][1])
-    states = np.empty((high - low, 3))
-    states[:] = [float(value) for value in base]
+    states = np.tile(_base(plan), (high - low, 1))
     places = np.unravel_index(np.arange(low, high), [plan.shape[n] for n in plan.inner])
     for dimension, at in zip(plan.inner, places):
         if dimension < len(plan.axes):
@@ -78,3 +86,10 @@ def _as_written(plan: Plan, low: int, high: int) -> np.ndarray:
                 states[:, sampled.paths[0][2]] = rows[:, n]
     return states
 
+
+
+def _base(plan: Plan) -> list[float]:
+    """The rates as the file gives them."""
+    first = plan.inner[0]
+    varied = plan.axes[first].key if first < len(plan.axes) else plan.sampled.keys[0]
+    return [float(value) for value in Table(("motion",), plan.data["motion"], Faults(KeyLines())).vector(varied.paths[0][1])]

@@ -1,0 +1,91 @@
+"""The picture of a sweep: where its boundary is, and what it cannot draw."""
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import stabilab
+from stabilab import sweep
+from stabilab.errors import InputError
+from stabilab.maps.boundary import changes
+from stabilab.maps.plan import planned
+from stabilab.maps.points import case_at
+from stabilab.show.maps import field, picture, shades
+from tests.shared import CASES
+
+xarray = pytest.importorskip("xarray")
+MINOR = CASES / "minor-axis-100.toml"
+
+
+@pytest.fixture(scope="module")
+def swept(tmp_path_factory):
+    path = tmp_path_factory.mktemp("sweeps") / "map.nc"
+    stabilab.sweep(MINOR, {"x[1]": "-4:4:9", "x[3]": "-3:3:7", "momentum[1]": "100, 200"}, out=path)
+    return path
+
+
+def test_the_boundary_of_states_lies_where_the_margin_of_the_energy_is_zero():
+    """The boundary asks for labels alone; the margin in balls is another way to the same place."""
+    plan = planned(MINOR, {"momentum[1]": "100, 200", "x[1]": "1:4:4", "x[3]": "-3:3:7"})
+    rows = np.array([[1, 0, 3], [1, 1, 5]])  # places of (2, 4, 0) with the second wheel, and of (2, 4, 2)
+    for row in rows:
+        spun = stabilab.fate(*_of(plan, row)).labels == stabilab.Fate.SPIN_UP
+        share, = changes(plan, tuple(row), 1, row[None], np.array([spun]))
+        scene, state = _of(plan, row)
+        state[0] += share * 1.0
+        assert abs(stabilab.motion(scene, state).margin_energy) < 1e-9
+
+
+def _of(plan, row):
+    case = case_at(plan, tuple(map(int, row)))
+    return case.scene, list(case.state)
+
+
+def test_pieces_of_the_boundary_close_a_circle():
+    x, y = np.linspace(-2, 2, 31), np.linspace(-2, 2, 27)
+    inside = x[:, None] ** 2 + y**2 < 1.2
+
+    def way(at, along):  # the circle's own place on the line, by Pythagoras
+        low, other = (x[at[:, 0]], y[at[:, 1]]) if along == 0 else (y[at[:, 1]], x[at[:, 0]])
+        step = (x[1] - x[0], y[1] - y[0])[along]
+        target = np.sqrt(1.2 - other**2) * np.where(low + step / 2 > 0, 1, -1)
+        return (target - low) / step
+    pieces = field.segments_of(inside.astype(np.int8), x, y, way)
+    assert np.abs((pieces**2).sum(axis=-1) - 1.2).max() < 1e-12
+    assert np.linalg.norm(pieces[:, 1] - pieces[:, 0], axis=1).sum() == pytest.approx(2 * np.pi * np.sqrt(1.2), rel=0.01)
+
+
+def test_a_file_is_drawn_with_its_columns_by_name(swept, tmp_path, stabilab):
+    assert stabilab("plot", swept, "--out", tmp_path / "a.png") == (0, f"{tmp_path / 'a.png'}\n", "")
+    code, _, err = stabilab("plot", swept, "--kind", "period")
+    assert code == 2 and "this file has fate, margin, level" in err
+    picture.write(swept, tmp_path / "b.png")
+    assert (tmp_path / "a.png").read_bytes() == (tmp_path / "b.png").read_bytes()
+
+
+def test_what_is_no_sweep_is_refused(tmp_path, stabilab):
+    other = tmp_path / "other.nc"
+    assert "no such file" in stabilab("plot", other)[2]
+    other.write_bytes(b"CDF nothing")
+    code, _, err = stabilab("plot", other)
+    assert code == 2 and "expected a file of stabilab sweep" in err
+    sweep(MINOR, {"x[1]": "1"}, out=tmp_path / "one.nc")
+    with pytest.raises(InputError, match="one point"):
+        picture.write(tmp_path / "one.nc", tmp_path / "x.png")
+
+
+@pytest.mark.parametrize("values, logarithmic", [((1, 10, 100), True), ((1, 2, 3), False), ((-1, 0, 1), False), ((1, 2), False)])
+def test_values_in_equal_ratios_are_drawn_so(values, logarithmic):
+    assert shades.is_log(np.array(values, float)) == logarithmic
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("case, vary, options", [
+    ("uncertain-separatrix", {}, {"samples": 50}), ("uncertain-separatrix", {"angular_velocity[1]": "0:1:3"}, {"samples": 20}),
+    ("uncertain-separatrix", {"angular_velocity[1]": "0:1:3", "torque[3]": "1:100:4:log"}, {"samples": 10}),
+    ("off-axis-two", {"torque[1]": "-0.2:0.2:5", "torque[2]": "-0.2:0.2:5"}, {"answer": "equilibria,verdict"}),
+    ("minor-axis-100", {"momentum[1]": "-300:300:21"}, {"answer": "fate,margin,extremes,period,verdict"}),
+    ("minor-axis-100", {"momentum[1]": "-300:300:5", "x[1]": "0:4:5", "x[2]": "0:4:4", "x[3]": "0:1:5"}, {})])
+def test_every_kind_of_sweep_has_its_picture(tmp_path, case, vary, options):
+    stabilab.sweep(CASES / f"{case}.toml", vary, out=tmp_path / "map.nc", **options)
+    assert picture.write(tmp_path / "map.nc", tmp_path / "map.png").stat().st_size > 5000
