@@ -146,10 +146,12 @@ def audit(paper: Annotated[str | None, typer.Argument(metavar="[PAPER]", help="A
 
     Example: stabilab audit constant-torque-gyrostat --equation 17
     """
+    from .show.progress import counted
     from .show.text import answers
     from .show.text import audit as shown
     from .theories.audit import audited
-    findings = audited(paper, equation)
+    with counted() as tell:
+        findings = audited(paper, equation, tell)
     if out is not None:
         from .show.report.audit_page import page
         _say(f"written: {page(findings, out)}")
@@ -168,9 +170,11 @@ def validate(source: Annotated[str | None, typer.Argument(metavar="[SOURCE]", he
     Example: stabilab validate nesc
     """
     from .show.outside import validation as shown
+    from .show.progress import counted
     from .show.text import answers
     from .theories.validation import validated
-    found = validated(source)
+    with counted() as tell:
+        found = validated(source, tell)
     if out is not None:
         _say(f"written: {shown.page(found, out)}")
     _either(json, lambda: answers.as_json(shown.as_dict(found)), lambda: shown.text(found))
@@ -578,9 +582,11 @@ def tables(out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the
     Example: stabilab tables --out tables
     """
     from .show.files import manifest
+    from .show.progress import counted
     from .show.text import table
     with manifest.written(out, sys.argv[1:], table.case_files(table.STEMS), table.TOLERANCES) as folder:
-        made = table.write_tables(folder)
+        with counted() as tell:
+            made = table.write_tables(folder, tell=tell)
     _print_paths([out / path.relative_to(folder) for path in made], out)
 
 

@@ -32,12 +32,22 @@ def told():
 def each(items: Iterable[Any], name: Callable[[Any], str]) -> Iterator[Any]:
     """The items one by one; where they take longer than a second, a terminal is told which of how many it is, and about how long the rest takes."""
     rows = list(items)
+    with counted() as tell:
+        for done, item in enumerate(rows):
+            if len(rows) > 1:
+                tell(done, len(rows), name(item))
+            yield item
+
+
+@contextmanager
+def counted() -> Iterator[Callable[[int, int, str], None]]:
+    """Context giving tell(done, count, words): which of how many it is, and about how long the rest takes; silent where no terminal is."""
     begin = time.monotonic()
     with Progress() as progress:
-        for done, item in enumerate(rows):
-            if progress.wanted and len(rows) > 1:
-                progress(f"{done + 1} of {len(rows)}{_left(time.monotonic() - begin, done, len(rows))}: {name(item)}")
-            yield item
+        def tell(done: int, count: int, words: str) -> None:
+            if progress.wanted:
+                progress(f"{done + 1} of {count}{_left(time.monotonic() - begin, done, count)}: {words}")
+        yield tell
 
 
 def _left(gone: float, done: int, count: int) -> str:

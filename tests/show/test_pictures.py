@@ -323,3 +323,21 @@ def test_surface_points_lie_on_the_level_of_their_saddle(tmp_path):
         energy = x3**2 / 2 - theta - X**2 / 2 - (scene.b - scene.a) * X
         scale = 1 + np.abs(X).max() ** 2
         assert np.ptp(energy, axis=1).max() < 1e-11 * scale
+
+
+def test_in_a_surface_picture_the_colours_of_equilibria_are_theirs_alone_and_no_label_floats_over_a_sheet():
+    if not render_probe.probe().available:
+        pytest.skip(render_probe.probe().words)
+    from stabilab.orbit.separatrix.sheets import separatrix
+    scene = paper.scene("minor", 100)
+    found = separatrix(scene, shape=(12, 25))
+    stage = surface.plotter(scene, found, [mesh.triangulate(sheet) for sheet in found.sheets])
+    try:
+        theirs = {tuple(int(style.MEANING[kind]["color"][i:i + 2], 16) for i in (1, 3, 5)) for kind in ("stable", "unstable", "fold")}
+        coloured = {name for name, actor in stage.actors.items() if hasattr(actor, "prop") and tuple(actor.prop.color.int_rgb) in theirs}
+        assert coloured and all(name.startswith("line ") for name in coloured)
+        assert "vtkActor2D" not in {type(actor).__name__ for actor in stage.actors.values()}  # labels at points of space
+        box, sheets = stage.renderer.cube_axes_actor.bounds, np.concatenate([sheet.points.reshape(-1, 3) for sheet in found.sheets])
+        assert all(box[2 * i] < sheets[:, i].min() and sheets[:, i].max() < box[2 * i + 1] for i in range(3))
+    finally:
+        stage.close()

@@ -142,3 +142,22 @@ def test_progress_tells_which_of_how_many_and_the_time_that_is_left_to_a_termina
             now[0] += 2
         told[terminal] = [line.strip() for line in screen.getvalue().split("\r") if line.strip()]
     assert told == {True: ["2 of 4, about 6 s left: B", "3 of 4, about 4 s left: C", "4 of 4, about 2 s left: D"], False: []}
+
+
+def test_long_commands_count_their_steps(monkeypatch, stabilab, tmp_path):
+    """audit, validate, tables: every step from 0 on, of the same number."""
+    from contextlib import contextmanager
+
+    from stabilab.show import progress
+    steps = []
+
+    @contextmanager
+    def counted():
+        yield lambda done, count, words: steps.append((done, count))
+    monkeypatch.setattr(progress, "counted", counted)
+    paper = tmp_path / "claims.toml"
+    paper.write_text('[symbols]\n"x y" = "m"\n' + "".join(f'[[row]]\nequation = "{n}"\nprinted = "x + y = y + x"\n' for n in range(3)))
+    for words in (("audit", paper), ("tables", "--out", tmp_path / "tables"), ("validate", "orekit")):
+        steps.clear()
+        assert stabilab(*map(str, words))[0] == 0
+        assert len({count for _, count in steps}) == 1 and {done for done, _ in steps} == set(range(steps[0][1])), words

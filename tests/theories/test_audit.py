@@ -254,3 +254,37 @@ def test_a_formula_named_as_a_symbol_is_refused(tmp_path):
     path.write_text('[symbols]\n"x1" = "1"\n[formulas]\nx1 = "2"\n')
     with pytest.raises(InputError, match="own.toml, formulas: 'x1' is a symbol already"):
         read(path)
+
+
+IN_NUMBERS = [  # by hand; x = 7/5, t = 9/10, y stands for t x
+    ("at(diff(sin(x*t), t), t, 0)", 1.4), ("mean(cos(t)**2 * x, t)", 0.7), ("integral(t**2, t, 0, x)", 1.4**3 / 3), ("at(y/t, t, 0)", 1.4),
+    ("at(y + t, t, 2)", 4.8)]
+
+
+@pytest.mark.parametrize("text, value", IN_NUMBERS)
+def test_operators_carried_out_in_numbers_and_in_symbols_have_one_value(text, value):
+    """Where numbers alone would divide by zero, symbols are asked."""
+    import mpmath
+    import sympy as sp
+
+    from stabilab.theories.audit.values import Evaluator
+    symbols = {name: sp.Symbol(name, real=True) for name in "txy"}
+    bound = {"y": parse("t*x", symbols)}
+    for in_numbers in (False, True):
+        value_of = Evaluator(mpmath.fp, {"x": mpmath.fp.mpf(1.4), "t": mpmath.fp.mpf(0.9)}, bound, None, in_numbers)
+        assert abs(value_of(parse(text, symbols)) - value) < 1e-12, in_numbers
+
+
+def test_an_edit_is_tried_in_doubles_without_work_on_symbols(monkeypatch):
+    """Of hundreds of edits of a formula with `at`, few need SymPy: those where a number would be divided by zero. Before, all did."""
+    from stabilab.theories.audit import repair
+    from stabilab.theories.audit.values import Evaluator
+    tried, carried = [], []
+    near, plain = repair._Trial._near, Evaluator.plain
+    monkeypatch.setattr(repair._Trial, "_near", lambda self, printed: tried.append(near(self, printed)) or tried[-1])
+    monkeypatch.setattr(Evaluator, "plain", lambda self, e: carried.append(len(tried)) or plain(self, e))
+    paper = PAPERS["charged-axisymmetric-short"]
+    row = next(row for row in paper.rows if row.kind == "holds" and any("at(" in text for text in row.printed))
+    system, bound, printed = system_of(paper, row.system, row.place), bound_of(paper, row), raw(paper, row.printed)
+    repairs(paper, row, printed, system, bound, domain_of(paper, row.domain, pairs(paper, row, printed, system, bound), bound, system))
+    assert len(tried) > 100 and 20 * len(set(carried)) < len(tried)

@@ -9,11 +9,12 @@ import numpy as np
 
 from ...answers.equilibria import equilibria
 from ...case.read import blamed_on
-from ...errors import RenderingUnavailable
+from ...errors import RenderingUnavailable, printable
 from ...orbit.separatrix.sheets import separatrix
 from ...packages import present
 from .. import style
 from ..files import endings, manifest
+from ..progress import each
 from ..sampling import spread
 from .mesh import Mesh, glb, normals, stl, triangulate
 from .render_probe import probe, use
@@ -43,7 +44,8 @@ def write_all(cases, out, reach=None, shape=None, picture=True, arguments=None) 
     where this machine cannot draw.
     """
     out = endings.folder(out)
-    rows = [(case, *_found(case, reach, shape)) for case in cases]
+    named = [(case, _scene(case)[1]) for case in cases]
+    rows = [(case, *_found(case, reach, shape)) for case, _ in each(named, lambda one: printable(one[1]))]
     summaries = [summarise(case, found, meshes) | {"files": []} for case, found, meshes in rows]
     if not any(meshes for *_, meshes in rows):
         return summaries
@@ -51,7 +53,7 @@ def write_all(cases, out, reach=None, shape=None, picture=True, arguments=None) 
     inputs = dict.fromkeys(case.path for case in cases if hasattr(case, "path"))
     residual = max(summary["largest_residual"] for summary in summaries)
     with manifest.written(out, arguments, inputs, {"distance of a vertex from its surface": residual}) as folder:
-        for (case, found, meshes), summary in zip(rows, summaries):
+        for (case, found, meshes), summary in each(zip(rows, summaries), lambda row: f"drawing {printable(row[1]['case'])}"):
             if meshes:
                 _write(case, found, meshes, folder, renderer, summary)
     if picture and not renderer.available:
@@ -181,29 +183,24 @@ def plotter(scene, found, meshes):
     size = 1.15 * max([np.abs(m.points).max(initial=0.0) for m in meshes] or [0.0]) or 5.0
     for number, (kind, points) in enumerate(equilibrium_lines(equilibria(scene).curves, size)):
         stage.add_mesh(pyvista.lines_from_points(points).tube(radius=size * 0.008), color=_colour(kind), name=f"line {number}")
-    for axis, colour in enumerate((style.VERMILION, style.GREEN, style.BLUE)):
+    for axis in range(3):
         ends = np.zeros((2, 3))
         ends[:, axis] = (-size, size)
         stage.add_mesh(pyvista.Line(*ends).tube(radius=size * 0.003), color=style.GREY, name=f"axis {axis}")
-        tip = np.zeros(3)
-        tip[axis] = size
-        cone = pyvista.Cone(center=tip, direction=np.eye(3)[axis], height=size * 0.06, radius=size * 0.02)
-        stage.add_mesh(cone, color=colour, name=f"tip {axis}")
     _name_axes(stage, scene, size)
     stage.camera_position = [(2.6 * size, -3.4 * size, 2.0 * size), (0, 0, 0), (0, 0, 1)]
     stage.reset_camera()
-    stage.camera.zoom(1.45)
+    stage.camera.zoom(0.94)
     return stage
 
 
 def _name_axes(stage, scene, size):
-    """The components at the tips of the axes, and a round number on each of them for the scale."""
-    step = 10 ** np.floor(np.log10(0.9 * size))
-    mark = step * max(k for k in (1, 2, 5) if k * step <= 0.9 * size)
-    for at, words, font in ((1.08 * size, scene.components, 22), (mark, (f"  {mark:g}",) * 3, 16)):
-        stage.add_point_labels(at * np.eye(3), list(words), shape=None, font_size=font, text_color="black",
-                               show_points=at == mark, point_color="black", point_size=7, render_points_as_spheres=True,
-                               always_visible=True)
+    """A box about everything with the components' names and a scale along its outer edges, where no sheet is."""
+    names = (name.replace("omega", "axis ") for name in scene.components)  # VTK's letters have no Greek
+    power = 10.0 ** np.floor(np.log10(size / 2))
+    edge = 2 * power * min(k for k in (1, 1.5, 2, 2.5, 3, 4, 5, 10) if 2 * k * power >= 0.95 * size)  # round numbers at the edge and half way
+    stage.show_bounds(bounds=(-edge, edge) * 3, grid="back", location="outer", ticks="outside", n_xlabels=5, n_ylabels=5, n_zlabels=5, fmt="%.3g",
+                      color=style.GREY, font_size=14, use_3d_text=False, **dict(zip(("xtitle", "ytitle", "ztitle"), names)))
 
 
 def _colour(kind):
@@ -211,21 +208,21 @@ def _colour(kind):
 
 
 def _write_legend(image, scene, meshes):
-    """Into the lower corners of a picture: what the colours stand for, and the unit of the axes."""
+    """Into the upper corners of a picture: what the colours stand for, and the unit of the axes."""
     from matplotlib import get_data_path
     from PIL import ImageDraw, ImageFont
     font = ImageFont.truetype(str(Path(get_data_path()) / "fonts/ttf/DejaVuSans.ttf"), 16)
-    pen, (width, height) = ImageDraw.Draw(image), image.size
+    pen, width = ImageDraw.Draw(image), image.width
     kinds = {segment.linear for curve in equilibria(scene).curves for segment in curve.segments}
     rows = [(mesh.name, style.SHEETS[number % len(style.SHEETS)]) for number, mesh in enumerate(meshes)]
     rows += [(f"{kind} equilibria", _colour(kind)) for kind in sorted(kinds)]
     left = width - 44 - max((pen.textlength(words, font) for words, _ in rows), default=0)
-    for number, (words, colour) in enumerate(reversed(rows)):
-        top = height - 34 - 24 * number
+    for number, (words, colour) in enumerate(rows):
+        top = 20 + 24 * number
         pen.rectangle((left, top + 3, left + 14, top + 17), fill=colour)
         pen.text((left + 22, top), words, fill="black", font=font)
     unit = "components of \u03c9 in rad/s" if scene.variables == "physical" else "scaled components, no unit"
-    pen.text((20, height - 34), unit, fill="black", font=font)
+    pen.text((20, 20), unit, fill="black", font=font)
 
 
 def _normals(mesh):

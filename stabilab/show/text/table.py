@@ -4,6 +4,7 @@ from __future__ import annotations
 import html
 import math
 import os
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -117,9 +118,14 @@ def _extremes_row(path, lam):
     return (case.name, lam, case.scene.a, case.scene.b, *case.state, found.fate.word, found.period, *low_high)
 
 
-def tables() -> tuple[Table, ...]:
-    """Tables 1-4, computed now."""
-    return (torque_signs(), *(extremes_table(n) for n in EXTREMES))
+def tables(tell: Callable[[int, int, str], None] | None = None) -> tuple[Table, ...]:
+    """Tables 1-4, computed now. tell(done, count, words): before each."""
+    made = []
+    for done, number in enumerate(numbers := (1, *EXTREMES)):
+        if tell:
+            tell(done, len(numbers), f"table {number}")
+        made.append(torque_signs() if number == 1 else extremes_table(number))
+    return tuple(made)
 
 
 # -- formats -----------------------------------------------------------------------------------------------------------
@@ -209,15 +215,13 @@ TOLERANCES = {"equilibria and verdicts": "exact", "extremes and periods": "roots
 FORMATS = {"txt": text, "csv": comma_separated, "md": markdown, "tex": latex, "html": html_page}
 
 
-def write_tables(out, formats=tuple(FORMATS), progress=None) -> list[Path]:
-    """Write Tables 1-4 into the folder `out`, one file a format (see FORMATS). Returns the paths."""
+def write_tables(out, formats=tuple(FORMATS), tell: Callable[[int, int, str], None] | None = None) -> list[Path]:
+    """Write Tables 1-4 into the folder `out`, one file a format (see FORMATS). tell: as of `tables`. Returns the paths."""
     for name in formats:
         if name not in FORMATS:
             raise InputError(f"format {name!r}: expected one of {', '.join(FORMATS)}")
     written = []
-    for table in tables():
-        if progress:
-            progress(f"table {table.number}")
+    for table in tables(tell):
         for name in formats:
             path = Path(out) / f"{table.stem}.{name}"
             with style.whole_file(path) as waiting:

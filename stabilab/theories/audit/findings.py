@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from ...errors import InputError
@@ -40,13 +41,18 @@ class Finding:
     unit_fault: str = ""
 
 
-def audit(paper: Paper, equation: str | None = None, search: bool = True) -> tuple[Finding, ...]:
-    """Findings of a paper's rows, or of one equation. search: whether conditions and repairs are looked for."""
+def audit(paper: Paper, equation: str | None = None, search: bool = True, tell: Callable[[int, int, str], None] | None = None) -> tuple[Finding, ...]:
+    """Findings of a paper's rows, or of one equation. search: whether conditions and repairs are looked for; tell(done, count, words): before each row."""
     prove_systems(paper)
     rows = [row for row in paper.rows if equation in (None, row.equation)]
     if not rows:
         raise InputError(f"{paper.name} has no row for equation {equation!r}; it has {', '.join(row.equation for row in paper.rows)}")
-    return tuple(examine(paper, row, search) for row in rows)
+    found = []
+    for done, row in enumerate(rows):
+        if tell:
+            tell(done, len(rows), f"equation {row.equation}")
+        found.append(examine(paper, row, search))
+    return tuple(found)
 
 
 def prove_systems(paper: Paper) -> None:

@@ -60,6 +60,7 @@ class _Trial:
         self.paper, self.row, self.system, self.bound, self.domain, self.fixed = paper, row, system, bound, domain, fixed
         every = [s for name, s in paper.symbols.items() if name not in bound and name not in (fixed or {})]
         self.points = points(every, row.equation, 2, domain, bound, system, fixed)
+        self.values = None  # an evaluator a point: an edit shares most of its parts with the one before
 
     def agrees(self, printed) -> bool:
         import mpmath
@@ -77,13 +78,15 @@ class _Trial:
             return False
         return decide(pairs, self.bound, self.system, self.row.equation, self.domain, self.fixed, symbolic=False).holds is True
 
-
     def _near(self, printed):
         """Whether doubles leave it open that the formulas hold, without any work on symbols."""
         import mpmath
+
+        if self.values is None:
+            ready = [settled(mpmath.fp, point, self.fixed, self.bound, self.system) for point in self.points]
+            self.values = [Evaluator(mpmath.fp, one, self.bound, self.system, in_numbers=True) for one in ready]
         try:
-            for point in self.points:
-                value = Evaluator(mpmath.fp, settled(mpmath.fp, point, self.fixed, self.bound, self.system), self.bound, self.system)
+            for value in self.values:
                 for left, right in printed:
                     a, b = value(left), value(right)
                     if not abs(a - b) <= 1e-7 * max(1, abs(a), abs(b)):

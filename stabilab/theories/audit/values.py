@@ -6,6 +6,7 @@ import cmath
 import random
 import zlib
 from fractions import Fraction
+from functools import lru_cache
 
 from ...errors import InputError
 from .duals import Dual, DualNumbers, parts
@@ -30,11 +31,25 @@ class Evaluator:
     """Values of raw formulas at one point.
 
     numbers: an mpmath context (`mpmath.fp`, or `mpmath.mp` whose digits the caller sets); point: symbol name -> value; bound: symbol
-    name -> SymPy expression it stands for (definitions, `where`); system: whose `rate` the operator asks for, or None.
+    name -> SymPy expression it stands for (definitions, `where`); system: whose `rate` the operator asks for, or None. in_numbers: `at`, `mean`
+    and `integral` put numbers in place of their symbol, where else SymPy puts in all that stands for another symbol first: quick for many
+    formulas that share most of their parts, but a division by zero is not cancelled.
     """
 
-    def __init__(self, numbers, point: dict, bound: dict, system):
-        self.numbers, self.point, self.bound, self.system, self.known = numbers, point, bound, system, {}
+    def __init__(self, numbers, point: dict, bound: dict, system, in_numbers: bool = False):
+        self.numbers, self.point, self.bound, self.system, self.in_numbers = numbers, point, bound, system, in_numbers
+        self.known: dict = {}   # expression -> value
+        self._beside: dict = {}  # what differs -> evaluator that has the same but for that
+
+    def beside(self, key, make):
+        """The evaluator kept under a key, made where there is none: what it has found once serves the next formula."""
+        if key not in self._beside:
+            self._beside[key] = make()
+        return self._beside[key]
+
+    def moved(self, name, value):
+        """The same with another value of one symbol."""
+        return self.beside((name, value), lambda: Evaluator(self.numbers, self.point | {name: value}, self.bound, self.system, True))
 
     def __call__(self, expression):
         if expression in self.known:
@@ -96,13 +111,17 @@ class Evaluator:
 
     def carried(self, e):
         """The expression with every rate along the motion carried out."""
-        return e.replace(lambda f: f.func.__name__ == "rate", lambda f: _rate_of(self, f)) if e.has(*_operators()) else e
+        return e.replace(lambda f: f.func.__name__ == "rate", lambda f: _rate_of(self, f)) if operated(e) else e
 
 
-def _operators():
-    import sympy as sp
+def operated(e) -> bool:
+    """Whether an operator (rate, diff, at, mean, integral) stands in a formula."""
+    return not e.is_Atom and _operated(e)
 
-    return tuple(sp.Function(name) for name in OPERATORS)
+
+@lru_cache(maxsize=1 << 16)
+def _operated(e):
+    return e.func.__name__ in OPERATORS or any(operated(a) for a in e.args)
 
 
 def _rate_of(evaluator, f):
@@ -122,35 +141,44 @@ def _rate(evaluator, f, n=1):
         return evaluator(_rate_of(evaluator, sp.Function("rate")(f, n)))
     if evaluator.system is None:
         raise InputError("rate(...) needs a system: name one in the row")
+    return parts(evaluator.beside("rate", lambda: _along(evaluator))(f))[1]
+
+
+def _along(evaluator):
+    """Values that carry their rate along the motion."""
     state = {x.name: x for x in evaluator.system.state}
     values = {name: evaluator(x) for name, x in state.items()}
     slopes = dict(zip(state, map(evaluator, evaluator.system.rates)))
-    return _slope(evaluator, f, {name: e for name, e in evaluator.bound.items() if name not in state}, values, slopes)
+    return _with_slopes(evaluator, {name: e for name, e in evaluator.bound.items() if name not in state}, values, slopes)
 
 
 def _diff(evaluator, f, s, n=1):
-    if n != 1 or isinstance(evaluator.numbers, DualNumbers) or _nested(f):
+    if n != 1 or isinstance(evaluator.numbers, DualNumbers) or operated(f):
         return evaluator(evaluator.plain(f).diff(s, int(n)))
-    return _slope(evaluator, f, evaluator.bound, {s.name: evaluator(s)}, {s.name: evaluator.numbers.mpf(1)})
+    one = evaluator.numbers.mpf(1)
+    return parts(evaluator.beside(("diff", s.name), lambda: _with_slopes(evaluator, evaluator.bound, {s.name: evaluator(s)}, {s.name: one}))(f))[1]
 
 
-def _nested(f):
-    return f.has(*_operators())
-
-
-def _slope(evaluator, f, bound, values, slopes):
-    """Derivative of f where the symbols of `slopes` change at those rates."""
+def _with_slopes(evaluator, bound, values, slopes):
+    """Values that carry their derivative where the symbols of `slopes` change at those rates."""
     point = evaluator.point | {name: Dual(value, slopes[name]) for name, value in values.items()}
-    return parts(Evaluator(DualNumbers(evaluator.numbers), point, bound, evaluator.system)(f))[1]
+    return Evaluator(DualNumbers(evaluator.numbers), point, bound, evaluator.system)
 
 
 def _at(evaluator, f, s, value):
+    if evaluator.in_numbers and not isinstance(evaluator.numbers, DualNumbers):
+        try:
+            return evaluator.moved(s.name, evaluator(value))(f)
+        except Undefined:
+            pass  # what SymPy cancels, it may have
     f = evaluator.plain(f).replace(lambda e: e.func.__name__ == "diff", lambda e: evaluator.plain(e.args[0]).diff(*e.args[1:]))
     return evaluator(f.subs(s, value))
 
 
 def _moved(evaluator, f, s):
     """f as a function of one symbol, the others as they are."""
+    if evaluator.in_numbers and not isinstance(evaluator.numbers, DualNumbers):
+        return lambda value: evaluator.moved(s.name, value)(f)
     f = evaluator.plain(f)
 
     def of(value):

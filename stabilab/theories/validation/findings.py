@@ -1,6 +1,7 @@
 """Each printed value beside ours, the difference, and its cause where it is larger than the tolerance."""
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
@@ -38,16 +39,23 @@ class Finding:
     left: float | None
 
 
-def findings(source: Source) -> tuple[Finding, ...]:
-    """Every value of a source, in the order of its record; each motion is followed once."""
+def findings(source: Source, tell: Callable[[int, str], None] | None = None) -> tuple[Finding, ...]:
+    """Every value of a source, in the order of its record; each motion is followed once. tell(how many are done, words): before each motion and value."""
     times: dict = {}
     for printed in source.printed:
         times.setdefault(printed.motion.id, (printed.motion, set()))[1].update(Fraction(row[0]) for row in printed.values)
     followed = {}
     for name, (motion, wanted) in times.items():
+        if tell:
+            tell(0, f"{source.title}: following {name}")
         ordered = sorted(wanted)
         followed[name] = dict(zip(ordered, at(motion, ordered)))
-    return tuple(one for printed in source.printed for row in printed.values for one in _row(printed, row, followed[printed.motion.id]))
+    found = []
+    for done, (printed, row) in enumerate((one, row) for one in source.printed for row in one.values):
+        if tell:
+            tell(done, source.title)
+        found += _row(printed, row, followed[printed.motion.id])
+    return tuple(found)
 
 
 def _row(printed, row, followed):
