@@ -6,7 +6,7 @@ from pathlib import Path
 HERE = Path(__file__).parent
 sys.path[:0] = [str(HERE.parent), str(HERE)]
 
-from making import gallery, reference, written  # noqa: E402
+from making import gallery, notebooks, reference, written  # noqa: E402
 
 import stabilab  # noqa: E402
 
@@ -32,11 +32,12 @@ def setup(app):
 
 
 def write_pages(app):
-    """The pages that are made from what the repository holds: README, results of the benchmarks, reference, gallery of cases."""
+    """The pages that are made from what the repository holds: README, results of the benchmarks, reference, notebooks, gallery of cases."""
     readme = (HERE.parent / "README.md").read_text(encoding="utf-8")
     written.page(HERE / "readme.md", readme.replace("](docs/", "](").replace("](figures/", "](../figures/"))
     written.page(HERE / "results.md", (HERE.parent / "benchmarks/RESULTS.md").read_text(encoding="utf-8"))
     written.page(HERE / "api.md", reference.text())
+    notebooks.write(HERE)
     gallery.write(HERE)
 
 
@@ -44,6 +45,6 @@ def point_inside(app, name, source):
     """Links to files outside of docs/ lead to their pages here."""
     for outside, inside in ELSEWHERE.items():
         source[0] = source[0].replace(f"]({outside}", f"]({inside}")
-    source[0] = source[0].replace("](benchmarks/RESULTS.md", "](results.md")
+    source[0] = source[0].replace("](benchmarks/RESULTS.md", "](results.md").replace(".ipynb)", ".md)")
     if name.startswith("mathematics/"):  # the formulas first, what checks them at a click
         source[0] = re.sub(r"^```python\n.*?^```$", rf"<details><summary>{CHECKED}</summary>\n\n\\g<0>\n\n</details>", source[0], flags=re.M | re.S)

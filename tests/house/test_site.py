@@ -9,16 +9,18 @@ import stabilab
 from .test_readme import MADE, ROOT, make_knows
 
 sys.path.insert(0, str(ROOT / "docs"))
-from making import gallery, reference
+from making import gallery, notebooks, reference
 
 CASES = sorted((ROOT / "cases").glob("*.toml"))
+NOTEBOOKS = sorted((ROOT / "docs/notebooks").glob("*.ipynb"))
 STEMS = sorted(path.stem for path in CASES)
 
 
 def pages():
     """Every page that is written by hand, from docs/."""
+    made = {"_site", gallery.FOLDER, notebooks.FOLDER}
     return {path.relative_to(ROOT / "docs").with_suffix("").as_posix() for path in (ROOT / "docs").rglob("*.md")
-            if not {"_site", gallery.FOLDER} & set(path.relative_to(ROOT / "docs").parts) and path.name not in MADE and path != ROOT / "docs/index.md"}
+            if not made & set(path.relative_to(ROOT / "docs").parts) and path.name not in MADE and path != ROOT / "docs/index.md"}
 
 
 def contents(page, folder=""):
@@ -28,7 +30,8 @@ def contents(page, folder=""):
 
 
 def test_every_page_stands_in_the_contents_of_the_site():
-    assert contents("index.md") | contents("mathematics/index.md", "mathematics/") == pages() | {name.removesuffix(".md") for name in MADE}
+    assert contents("index.md") | contents("mathematics/index.md", "mathematics/") == pages() | {f"notebooks/{path.stem}" for path in NOTEBOOKS} \
+        | {name.removesuffix(".md") for name in MADE}
     assert "-m sphinx" in make_knows("docs") and "-W" in make_knows("docs") and "make docs" in (ROOT / ".ci/run").read_text()
 
 
@@ -70,3 +73,28 @@ def test_a_case_of_the_gallery_has_picture_answer_file_and_commands_and_is_kept_
     monkeypatch.setattr(gallery, "made", lambda path, folder: drawn.append(path) or {"title": "", "source": "", "group": "No torque", "kind": "", "answer": ""})
     gallery.write(tmp_path, [changed])
     assert drawn == [changed]
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=[path.stem for path in NOTEBOOKS])
+def test_a_notebook_is_whole_and_its_page_has_every_cell_picture_and_link(path):
+    notebook = notebooks.read(path)
+    text, pictures = notebooks.page(path)
+    assert notebook["nbformat"] == 4 and all("id" in cell for cell in notebook["cells"])
+    assert all("".join(cell["source"]) in text for cell in notebook["cells"][1:]) and text.startswith("# ")
+    assert len(pictures) == text.count("![What the cell above draws]") >= 1 and all(drawn.startswith(b"\x89PNG") for drawn in pictures.values())
+    assert all((path.parent / target.split("#")[0]).exists() for target in re.findall(r"\]\((\.\./[^)]+)\)", text))
+
+
+def test_a_cell_shows_what_it_prints_its_value_and_its_figures():
+    made = notebooks.outputs("import matplotlib.pyplot as plt\nprint(1)\na = 2\na + 1", names := {}, 1)
+    assert [one["output_type"] for one in made] == ["stream", "execute_result"] and names["a"] == 2
+    assert notebooks.texts({"cells": [{"outputs": made}]}) == ["1\n", "3"]
+    (drawn,) = notebooks.outputs("_ = plt.subplots(figsize=(1, 1))", names, 2)
+    assert drawn["output_type"] == "display_data" and not names["plt"].get_fignums()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=[path.stem for path in NOTEBOOKS])
+def test_a_notebook_that_is_run_today_prints_what_it_shows(path):
+    kept = notebooks.read(path)
+    assert notebooks.texts(notebooks.executed(kept)) == notebooks.texts(kept)
