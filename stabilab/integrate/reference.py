@@ -16,6 +16,7 @@ from .taylor_digits import Exhausted, Loop, Recursion, steps
 DIGITS = (30, 42, 84, 168)  # of successive runs; each is checked by the one before
 AGREEMENT = 1e-19  # two runs agree where they differ by less than this share of the state: far below a double's 1e-16
 WORK = 60_000_000  # multiplications of all runs together, some ten seconds
+SEARCH = 20  # evaluations of a series that the search for its roots takes in a step
 GUARD = 8  # digits that the roundings of a run may use up
 
 
@@ -53,11 +54,12 @@ def one_run(recursion, start, times, digits, budget, orbit=False):
     with working(int((digits + GUARD) * 3.33)) as numbers:
         wanted = [numbers.ball(t) for t in times]
         try:
-            for step in steps(recursion, start, digits, budget, numbers, -1 if len(times) and times[-1] < 0 else 1):
+            for step in steps(recursion, start, digits, budget, numbers, -1 if len(times) and times[-1] < 0 else 1, orbit):
                 while len(found) < len(wanted) and abs(wanted[len(found)] - step.start) <= abs(step.length):
                     found.append(step.at((wanted[len(found)] - step.start).mid()))
                 if loop:
                     passed.append(step)
+                    budget[0] -= SEARCH * (recursion.size + 1) * len(step.rows[0])
                     loop.take(step)
                     if loop.closed:
                         found += [_folded(passed, t, loop.period) for t in wanted[len(found):]]

@@ -90,10 +90,11 @@ def value(row, s, derivative=0):
     return total
 
 
-def steps(recursion, start, digits, budget, numbers, sense=1):
+def steps(recursion, start, digits, budget, numbers, sense=1, swing=False):
     """Steps from the start at time 0, without end; raises Exhausted where the budget (a list of one count) is used up.
 
-    numbers: the kind (`balls.Digits`), to be taken while it is the working one.
+    numbers: the kind (`balls.Digits`), to be taken while it is the working one. swing: the way back to the start is looked for, so a step
+    is no longer than what changes in it is told.
     """
     order, rates = int(1.15 * digits) + 4, recursion.in_balls(numbers)
     x, now = [numbers.ball(v) for v in start], numbers.ball(0)
@@ -102,7 +103,8 @@ def steps(recursion, start, digits, budget, numbers, sense=1):
         if budget[0] < 0:
             raise Exhausted
         rows = recursion.series(rates, x, order)
-        length = sense * _length(rows, order, digits)
+        length = _length(rows, order, digits)
+        length = sense * (min(length, _length_of_change(rows, order, digits)) if swing else length)
         step = Step(now, length, rows)
         yield step
         x, now = step.at(length), (now + length).mid()
@@ -118,6 +120,17 @@ def _length(rows, order, digits):
         if top > 0:
             shortest = min(shortest, (size * arb(10) ** -digits / top).root(n))
     return shortest.mid()
+
+
+def _length_of_change(rows, order, digits):
+    """Twice the step whose tail is 10^-digits of the largest of its first terms: a swing may be as small as it likes beside the state."""
+    from flint import arb
+    top, longest = max(abs(row[order]) for row in rows), arb(0)
+    for n in (1, 2, 3):
+        most = max(abs(row[n]) for row in rows)
+        if most > 0 and top > 0:
+            longest = max(longest, (most * arb(10) ** -digits / top).root(order - n))
+    return (2 * longest).mid() if longest > 0 else arb(10) ** 9
 
 
 class Loop:

@@ -10,6 +10,7 @@ import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.answers.motion import motion
 from stabilab.errors import InputError
+from stabilab.orbit.flow.flow import reduced_motion
 from stabilab.orbit.phase_plane import phase_plane
 
 RATES = (0.1, 0.05, 0.2)
@@ -103,3 +104,45 @@ def test_a_wheel_hundreds_of_decades_below_the_torque_changes_no_row(wheel, torq
         stabilab.separatrix(one)
     with pytest.raises(InputError, match="phase plane: .* beyond the range of doubles"):
         phase_plane(one, states[0])
+
+
+@pytest.mark.parametrize("k", [-480, -150, 150, 400])
+@pytest.mark.parametrize("name", BODIES)
+def test_the_state_at_any_time_of_a_far_motion_is_that_of_the_motion_in_its_own_unit(name, k):
+    """Euler's equations are homogeneous, and u = 2^k rounds nothing; the motion in the ordinary unit is held against series elsewhere."""
+    body, wheel, torque = BODIES[name]
+    u = Fraction(2) ** k
+    made = [Scene(body, Gyrostat(tuple(Fraction(w, 5) * v for w in wheel)), ConstantTorque(tuple(Fraction(m, 50) * v * v for m in torque)))
+            for v in (1, u)]
+    times = np.array([0.0, 0.3, 2.0, 17.0])
+    one, far = (reduced_motion(scene, tuple(w * float(v) for w in RATES)) for scene, v in zip(made, (1, u)))
+    np.testing.assert_allclose(far.states(times / float(u)) / float(u), one.states(times), rtol=1e-9, atol=1e-11)
+    np.testing.assert_allclose(np.array(far.at(2.0 / float(u))) / float(u), one.at(2.0), rtol=1e-9, atol=1e-11)
+    assert far.period * float(u) == pytest.approx(one.period, rel=1e-11)
+
+
+def test_a_swing_below_the_doubles_about_a_rotation_of_1e200_has_its_period_and_no_warning():
+    """The swing is 2 M/((D1 - D2) w1), some 1e-500 rad/s, and no double; the period is Euler's of small swings, as above."""
+    found = reduced_motion(Scene(Body((12, 9, 5)), ConstantTorque((0, 0, 1e-300))), (1e200, 0.0, 0.0))
+    assert found.period == pytest.approx(2 * np.pi / 1e200 / np.sqrt(3 * 7 / (9 * 5)), rel=1e-11)
+    assert found.states(np.array([0.0, 0.3])).tolist() == [[1e200, 0.0, 0.0]] * 2
+
+
+def test_a_swing_of_few_digits_and_a_time_beyond_counting_are_refused_in_words():
+    scene = Scene(Body((12, 9, 5)), ConstantTorque((0, 0, 0.02)))
+    with pytest.raises(InputError, match="more digits than doubles have"):
+        reduced_motion(scene, (1e160, 0.0, 0.0))
+    with pytest.raises(InputError, match="further than doubles can count"):
+        reduced_motion(scene, (1e160, 1e160, 0.0)).at(1e200)
+
+
+@pytest.mark.parametrize("torque, rate", [("0.02", 1e160), pytest.param("1e-300", 1e200, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("command", [["simulate", "--at", "0,1"], ["when", "--rate", "1e201"], ["when", "--energy", "1e300"]], ids=" ".join)
+def test_a_command_answers_or_says_what_it_does_not_reach_beyond_the_squares_of_doubles(stabilab, tmp_path, command, torque, rate):
+    """The greatest rate is the first: torque 1e-300 changes nothing that a double tells."""
+    (tmp_path / "far.toml").write_text(f"[body]\ninertia = [12, 9, 5]\n[effects.constant_torque]\ntorque = [0, 0, {torque}]\n"
+                                       f"[motion]\nangular_velocity = [{rate}, 0, 0]\n")
+    code, out, said = stabilab(command[0], tmp_path / "far.toml", *command[1:])
+    assert "fault of the program" not in said and code == (5 if command[0] == "simulate" and rate == 1e160 else 0), said
+    assert {"simulate": "followed to 1 s", "1e201": "NEVER", "1e300": "starts at or beyond"}[command[0] if command[0] == "simulate" else command[2]] in out
+    assert not any("-" in row.split()[1][1:] for row in out.splitlines()[2:4] if command[0] == "simulate"), "two columns are one"

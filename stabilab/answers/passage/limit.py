@@ -46,15 +46,20 @@ class Limit:
         if self.kind == "tilt":
             return False
         sizes = [max(abs(low), abs(high)) * (1 + slack) for low, high in extremes]
-        for terms, most in self.parts:
-            top = sum(float(c) * sum(abs(float(a)) * size for a, size in zip(vector, sizes) if a) ** 2 for c, vector in terms)
-            if not top < float(most):
-                return False
-        return True
+        return all(_below(terms, [size if any(vector[n] for _, vector in terms) else 0.0 for n, size in enumerate(sizes)], most)
+                   for terms, most in self.parts)
 
     def beyond_rate(self, rate: float) -> bool:
         """Whether |omega| <= rate keeps the quantity below the limit."""
-        return self.kind != "tilt" and all(float(max(c for c, _ in terms)) * rate * rate < float(most) for terms, most in self.parts)
+        return self.kind != "tilt" and math.isfinite(rate) and all(max(c for c, _ in terms) * Fraction(rate) ** 2 < most for terms, most in self.parts)
+
+
+def _below(terms, sizes, most) -> bool:
+    """Whether sum c (a . omega)^2 stays below a value for rates of these sizes: in exact numbers, as squares of doubles may be none."""
+    if not all(map(math.isfinite, sizes)):
+        return False
+    sizes = list(map(Fraction, sizes))
+    return sum(c * sum(abs(a) * size for a, size in zip(vector, sizes)) ** 2 for c, vector in terms) < most
 
 
 def asked(scene, rate=None, component=None, energy=None, tilt=None) -> Limit:

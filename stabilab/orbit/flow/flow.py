@@ -12,11 +12,13 @@ import numpy as np
 from ...errors import InputError
 from ...physics.states import checked_states
 from ..ball_orbit import Orbit
+from ..far_states import own
 from ..period.one_state import period_of
 from ..result import Fate
+from .far import InOwnUnit, exponent
 from .in_doubles import constants, ordinary
 from .panels import POINTS, Panels, Passing, Turn, Turning, turning_offset
-from .periodic import DIP, ROTATION_SAMPLES, SAMPLES, Around, Between, ByPanels, BySeries, Resting, Rotation, by_samples
+from .periodic import DIP, ROTATION_SAMPLES, SAMPLES, TOO_FINE, Around, Between, ByPanels, BySeries, Resting, Rotation, by_samples
 from .profile import Relief, relief
 from .spin_up import SpinUp
 from .table import tabulated
@@ -39,12 +41,20 @@ def reduced_motion(scene, state, nodes: int | None = None, backwards: bool = Fal
     if reduction is None:
         raise InputError("the scene has no reduction to one degree of freedom: its torque is off the principal axes, or the "
                          "gyrostatic moment has a component along it; take method taylor")
-    motion = ordinary(plain, state, nodes, backwards) if plain else None
+    k = exponent(scene, state)
+    motion = ordinary(plain, state, nodes, backwards) if plain and k is None else None
     if motion is None:
         orbit = Orbit(reduction, tuple(state))
-        motion = _motion(relief(orbit), state, nodes, backwards)
+        orbit = orbit if k is None else own(orbit, k)
+        with np.errstate(all="ignore"):
+            motion = _motion(relief(orbit), orbit.state, nodes, backwards)
+        if motion.period != motion.period:
+            raise InputError(TOO_FINE)
         if nodes is None and isinstance(motion, ByPanels) and not motion.sense:
             _refuse_another_period(motion, orbit)
+        if isinstance(motion, Resting) and orbit.settled(lambda one: one.force_here) != 0:  # its swing is below the doubles, its period is not
+            motion.period = period_of(orbit, Fate.BOUNDED)
+        motion = motion if k is None else InOwnUnit(motion, k)
     motion.axis, motion.spin = reduction.axis, plain.spin if plain else (1.0, float(reduction.s))
     return motion
 
@@ -53,7 +63,7 @@ def _refuse_another_period(motion, orbit):
     """InputError where the panels of a libration do not add up to its period, which is known by other means."""
     expected = period_of(orbit, Fate.BOUNDED)
     if not abs(motion.period - expected) <= PERIODS_AGREE * expected:
-        raise InputError("the reduced form of this motion takes more digits than doubles have; take method taylor")
+        raise InputError(TOO_FINE)
 
 
 def _motion(ground: Relief, state, nodes, backwards):

@@ -24,6 +24,7 @@ ROTATION_SAMPLES = (64, 128, 256, 512)
 NEWTON = 20
 DIP = 1e-3  # kinetic energy over a hill against the largest: below it the hill's own coordinate is needed
 CHUNK = 4096
+TOO_FINE = "the reduced form of this motion takes more digits than doubles have; take method taylor"
 
 
 class Between:
@@ -50,7 +51,7 @@ class Between:
         way = max(sense * (-spot.at - a), 0.0)
         steep = 2 * sense * spot.share(a, sense * way, Plain)
         if not steep > 0:
-            raise InputError("the reduced form of this motion takes more digits than doubles have; take method taylor")
+            raise InputError(TOO_FINE)
         small = 2 * math.atan2(abs(w) / math.sqrt(steep),
                                math.sqrt(max(2 * self.half - way, 0.0)))
         return math.copysign(small if left else math.pi - small, w)

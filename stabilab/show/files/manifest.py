@@ -148,4 +148,4 @@ def _kept(out, replaced) -> list[dict]:
 
 def _write(out, data):
     with files.whole_file(out / NAME) as waiting:
-        waiting.write_text(json.dumps(data, indent=1) + "\n", encoding="utf-8")
+        waiting.write_text(json.dumps(data, indent=1, allow_nan=False) + "\n", encoding="utf-8")

@@ -139,7 +139,7 @@ def glb(meshes, colours) -> bytes:
     if "nodes" in document:
         document["scenes"][0]["nodes"] = list(range(len(document["nodes"])))
         document["buffers"] = [{"byteLength": len(binary)}]
-    text = json.dumps(document, separators=(",", ":")).encode()
+    text = json.dumps(document, separators=(",", ":"), allow_nan=False).encode()
     text += b" " * (-len(text) % 4)
     chunks = struct.pack("<II", len(text), 0x4E4F534A) + text
     if binary:

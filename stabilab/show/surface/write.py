@@ -16,6 +16,7 @@ from .. import style
 from ..files import endings, manifest
 from ..progress import each
 from ..sampling import spread
+from ..text.answers import plain
 from .mesh import Mesh, glb, normals, stl, triangulate
 from .render_probe import probe, use
 
@@ -82,7 +83,7 @@ def _write(case, found, meshes, folder, renderer, summary):
         files.append(draw(scene, found, meshes, folder / f"{name}.png"))
     summary["files"] = sorted([f"{name}.json", *(f.name for f in files)])
     with style.whole_file(folder / f"{name}.json") as waiting:
-        waiting.write_text(json.dumps(summary, indent=1) + "\n", encoding="utf-8")
+        waiting.write_text(json.dumps(plain(summary), indent=1, allow_nan=False) + "\n", encoding="utf-8")
 
 
 def _scene(case):

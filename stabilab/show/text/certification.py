@@ -19,7 +19,7 @@ def write(certificate: dict, path) -> Path:
     import json
     path = checked(path)
     with whole_file(path) as waiting:
-        waiting.write_text(json.dumps(certificate, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+        waiting.write_text(json.dumps(certificate, indent=1, ensure_ascii=False, allow_nan=False) + "\n", encoding="utf-8")
     return path
 
 

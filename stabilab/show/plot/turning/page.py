@@ -23,5 +23,5 @@ def page(one, found: Turn, scale, path) -> Path:
             "corners": (CORNERS * found.edges).round(5).tolist(), "edges": found.edges.round(5).tolist(), "faces": FACES,
             "colours": [style.VERMILION, style.GREEN, style.BLUE],
             "tip": int(np.argmax(np.abs(found.omega[0]))), "real": float(abs(found.t[-1] - found.t[0]))}
-    text = json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")  # nothing of it ends the script
+    text = json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")  # nothing of it ends the script
     return html.write(path, "attitude.html", title=printable(one.heading or "Attitude"), data=text, whole=found.whole)
