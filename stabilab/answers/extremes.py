@@ -42,10 +42,11 @@ def _length(span: Any) -> float | None:
 
 
 def period(scene: AnyScene, states: ArrayLike, digits: int | None = None, fast: bool | None = None) -> np.ndarray:
-    """Period of each motion, (...,) in the scene's time: inf where the motion does not repeat, 0 at an equilibrium.
+    """Period of each motion, (...,) in the scene's time: inf where the motion does not repeat, 0 at an equilibrium, NaN where its
+    fate is undecided or no return is found.
 
-    digits, fast: as of `extremes`. Raises InputError as `fate` does, and for scenes without a known period (torque off
-    the axes).
+    digits, fast: as of `extremes`. Raises InputError as `fate` does, and under a torque off the axes follows every
+    motion as `fate` does.
     """
     if digits is not None:
         return ask_all("period", scene, states, digits, period(scene, states)).required().values

@@ -13,5 +13,5 @@ def extremes(scene, states, span=None, fast: bool | None = None):
 
 
 def periods(scene, states, fast: bool | None = None):
-    """(n,); inf where the motion does not repeat, 0 at an equilibrium."""
+    """(n,); inf where the motion does not repeat, 0 at an equilibrium, NaN where it is undecided."""
     return extremes_and_periods(scene, states, fast, box=False)[1]

@@ -40,7 +40,7 @@ class Motion(Shown):
     whatever value of the invariant, to 1e-9, or where that is not reached a number that it is proved not to be below
     (None where the scene has none, or nothing is known: then velocity_because says why). velocity_bounds: (proved lower bound,
     distance of velocity_witness), velocity_witness: a state on the separatrix as near as that; velocity_because: why the two
-    bounds are apart. period: None where the motion does not repeat. extremes: ((min, max),) * 3 over t >= 0, entries +-inf where
+    bounds are apart. period: None where the motion does not repeat, or is undecided. extremes: ((min, max),) * 3 over t >= 0, entries +-inf where
     unbounded, None where unknown; extremes_over: "all time" or the span they were searched over. validity: of an approximate
     law (`stabilab.physics.law_limits`), with its largest value along the motion; None where all laws are exact. tilt: what a tilt of its
     torque off the axis does to a bounded motion (`answers.tilt`), where that was asked. level: of the
@@ -87,8 +87,21 @@ def finite(value: Number) -> float | None:
 
 
 def repeats(time: float) -> float | None:
-    """The period; None where there is none (at rest, or a motion that does not repeat)."""
+    """The period; None where there is none (at rest, or a motion that does not repeat), or none is known."""
     return time if 0 < time < math.inf else None
+
+
+def without_return(label: int) -> float:
+    """What stands for the period of a motion that is not known to be bounded: 0 at rest, inf where it does not repeat, NaN where its
+    fate is undecided, as it may repeat or not."""
+    return {Fate.EQUILIBRIUM: 0.0, Fate.UNDECIDED: math.nan}.get(Fate(int(label)), math.inf)
+
+
+def no_period(fate: Fate) -> str:
+    """Why a motion with this fate has no period told, in words."""
+    known = {Fate.UNDECIDED: "the period is not known: the fate is undecided", Fate.BOUNDED: "no period is known of this motion",
+             Fate.EQUILIBRIUM: "the state is at rest and has no period"}
+    return known.get(fate, "the motion does not repeat")
 
 
 def pairs(array: Iterable[Sequence[Number]]) -> tuple[tuple[float, float], ...]:

@@ -144,13 +144,15 @@ def turned_extremes(scene, state, label, time, span):
 
 
 def periods(scene, states, fast: bool | None = None):
-    """(n,); inf where the motion does not repeat, 0 at an equilibrium."""
+    """(n,); inf where the motion does not repeat, 0 at an equilibrium, NaN where it is undecided."""
     return turned_periods(scene, states, fates(scene, states).labels)
 
 
 def turned_period(orbit, label) -> float:
-    """The period of one motion with this orbit of its twin; inf where it does not repeat."""
-    return period_of(orbit, label) if label == Fate.BOUNDED else 0.0 if label == Fate.EQUILIBRIUM else math.inf
+    """The period of one motion with this orbit of its twin; inf where it does not repeat, NaN where it is undecided."""
+    if orbit.reduction is None:  # its momentum grows by law
+        return 0.0 if label == Fate.EQUILIBRIUM else math.inf
+    return period_of(orbit, label)
 
 
 def turned_periods(scene, states, labels):

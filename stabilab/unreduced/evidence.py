@@ -10,7 +10,7 @@ from ..errors import InputError
 from ..integrate.extrema import roots_of_rates
 from ..integrate.trajectory import integrated
 from ..orbit.result import Fate, pairs
-from ..physics.states import equilibrium_mask, three_numbers
+from ..physics.states import three_numbers
 from ..physics.to_numpy import equations_of, to_numpy
 
 # A run that has not shown what is asked after this many steps (seconds of work) gives up and says so.
@@ -128,11 +128,6 @@ def span_needed(scene) -> InputError:
     """What is said to whoever asks for extremes that are not known for all time, and names no span."""
     return InputError("this scene has no reduction, so its extremes are searched over a time span: give span=T "
                       f"({scene.time_unit}), or a span in the case's [motion]")
-
-
-def periods(scene, states, fast: bool | None = None):
-    """(n,): 0 at an equilibrium, inf elsewhere: no motion is known to repeat."""
-    return np.where(equilibrium_mask(scene, states), 0.0, np.inf)
 
 
 def seen_over(scene, state, span) -> dict:

@@ -35,7 +35,8 @@ SAME_POINT = 1e-9
 
 @dataclass(frozen=True)
 class PeriodExtremes:
-    """extremes: (3, 2) over `over` ("all time" or the span searched); period: inf where no return was found."""
+    """extremes: (3, 2) over `over` ("all time" or the span searched); period: inf on a separatrix, NaN where no return
+    was found."""
 
     extremes: np.ndarray
     period: float
@@ -47,7 +48,7 @@ def extremes_over_period(scene, state) -> PeriodExtremes:
     """Period and extremes of a motion without torque (any gyrostatic moment), from one return to its first extreme.
 
     Each extreme is polished on the two invariants of the state, so it does not carry the run's drift. An equilibrium has
-    period 0; a motion that does not return within the step budget (on or next to a separatrix) has period inf and its
+    period 0; a motion on a separatrix has period inf, one next to it that does not return within the step budget NaN, and their
     extremes are over the span run. Numbers that are no doubles are NaN. Raises InputError where a torque acts, and where rates and
     gyrostatic moment are so far apart that no unit makes doubles of both.
     """
@@ -67,7 +68,9 @@ def extremes_over_period(scene, state) -> PeriodExtremes:
         period, swings = loop
         return PeriodExtremes(np.array([[scaled_double(v, k) for v in pair] for pair in swings]), _no_double_is_nan(scaled_double(period, -k)),
                               "all time", "no torque: the motion is closed and periodic; followed in many digits, as its rates are small")
-    return _in_scene_unit(_by_return(scene, form, state, k), k)
+    tied = scene.variables == "physical" and free_fate(scene, exact).label == Fate.SEPARATRIX
+    follow = _without_return if tied else _by_return
+    return _in_scene_unit(follow(scene, form, state, k), k)
 
 
 def _own_exponent(form, x) -> int:
@@ -103,8 +106,14 @@ def _by_return(scene, form, state, k) -> PeriodExtremes:
         if closing is not None:
             return _one_period(scene, roots, closing)
         span *= 4
-    return PeriodExtremes(roots.extremes(), math.inf, f"{scene.time_unit} in [0, {powered(roots.t_reached, -k):g}]",
-                          f"no return within {roots.steps} steps: on or next to a separatrix")
+    return PeriodExtremes(roots.extremes(), math.nan, f"{scene.time_unit} in [0, {powered(roots.t_reached, -k):g}]",
+                          f"no return within {roots.steps} steps: next to a separatrix")
+
+
+def _without_return(scene, form, state, k) -> PeriodExtremes:
+    """On a separatrix: a run would leave it by its rounding and return, which the motion never does."""
+    roots = roots_of_rates(scene, state, _first_span(form, state))
+    return PeriodExtremes(roots.extremes(), math.inf, f"{scene.time_unit} in [0, {powered(roots.t_reached, -k):g}]", "on a separatrix the motion does not return")
 
 
 def _first_span(form, x):
@@ -173,17 +182,19 @@ def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
         fields = {"margin_velocity": 0.0, "velocity_bounds": (0.0, 0.0), "velocity_witness": state}
     elif has_no_saddle(scene):
         fields = {"velocity_because": "with three equal moments there is no separatrix"}
-    lost = ["the margin in energy"] if math.isnan(decided.margin) else []
+    lost, open_ = ["the margin in energy"] if math.isnan(decided.margin) else [], ""
     if rests(scene.quadratic(), given):
         decided = at_rest(scene, decided)
         fields["extremes"] = tuple((v, v) for v in state)
     else:
         closed = extremes_over_period(scene, given)
+        open_ = closed.reason if math.isnan(closed.period) and closed.over != "all time" else ""
         whole = bool(np.isfinite(closed.extremes).all())
-        lost += ([] if whole else ["an extreme"]) + (["the period"] if math.isnan(closed.period) else [])
+        lost += ([] if whole else ["an extreme"]) + (["the period"] if math.isnan(closed.period) and closed.over == "all time" else [])
         fields |= {"extremes": pairs(closed.extremes) if whole else None, "period": repeats(closed.period),
                    "extremes_over": closed.over if whole else f"none: {BEYOND}"}
     known = judged(state, decided)
+    known["because"] += f"; its period is not known: {open_}" if open_ else ""
     known["because"] += f"; {BEYOND}: {', '.join(lost)}" if lost else ""
     return Motion(**known, margin_energy=finite(decided.margin), **fields)
 
@@ -200,6 +211,6 @@ def extremes(scene, states, span=None, fast: bool | None = None):
 
 
 def periods(scene, states, fast: bool | None = None):
-    """(n,); 0 at an equilibrium, inf on or next to a separatrix."""
+    """(n,); 0 at an equilibrium, inf on a separatrix, NaN where no return is found next to it."""
     rest = equilibrium_mask(scene, states)
     return np.array([0.0 if still else extremes_over_period(scene, s).period for s, still in zip(states, rest)])

@@ -16,12 +16,12 @@ from ..integrate.extrema import roots_of_rates
 from ..orbit.fate.one_state import OneFate, at_rest
 from ..orbit.fate.reasons import Reason
 from ..orbit.fate.result import FateResult, empty_columns
-from ..orbit.result import Fate, Motion, finite, judged, pairs
+from ..orbit.result import Fate, Motion, finite, judged, pairs, without_return
 from ..physics.quadratic import rests
 from ..physics.state import three_floats
 from ..physics.states import equilibrium_mask
 from .enclosure.ranges import ranges_until
-from .evidence import evidence, periods, seen_over, size_words
+from .evidence import evidence, seen_over, size_words
 from .spin_up.follow import spin_up
 from .spin_up.many import LEVELS, SpinUps, spin_up_many
 from .spin_up.result import SpinUp
@@ -136,6 +136,11 @@ def fates(scene, states, fast: bool | None = None, follow: float | None = None, 
         resting = at_rest(scene, OneFate(Fate.UNDECIDED, Reason.OFF_AXIS, math.nan))
         blank = replace(blank, margins=np.where(rest, resting.margin, blank.margins))
     return blank
+
+
+def periods(scene, states, fast: bool | None = None):
+    """(n,): 0 at an equilibrium, inf where spin-up is certified, NaN elsewhere."""
+    return np.array([without_return(label) for label in fates(scene, states, fast).labels])
 
 
 def extremes(scene, states, span=None, fast: bool | None = None, follow: float | None = None, tell=None):

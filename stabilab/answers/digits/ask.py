@@ -24,7 +24,7 @@ from ...orbit.fate.free_margin import free_margin, is_free
 from ...orbit.landscape import landscape
 from ...orbit.period.balls import period_ball
 from ...orbit.reduction import reduce
-from ...orbit.result import Fate
+from ...orbit.result import Fate, no_period
 from ...physics.alignment import aligned
 from ...physics.coefficients import effective
 from ...physics.scene import Scene
@@ -52,7 +52,7 @@ def ask(question, scene, state, digits: int, span=None, known=None, exact=None, 
         known = motion(scene, state, span, exact=exact)
     twin, land = _reduced(scene)
     if question != "extremes" and _number(question, known) is None:
-        return nothing(question, digits, "the motion does not repeat" if question == "period" else "there is no margin in energy to be judged")
+        return nothing(question, digits, no_period(known.fate) if question == "period" else "there is no margin in energy to be judged")
     if question == "fate" and is_free(twin):
         return _margin_without_reduction(twin, known, digits, exact or known.at[:3])
     if land is not None:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ...errors import InputError, ToleranceNotMet
+from ...orbit.result import no_period
 
 DEFAULT = 10  # digits, where nothing else is asked for
 NEAR = 1.0  # a digit by which an aim that nobody asked for may be missed, rather than pay for many digits
@@ -67,7 +68,7 @@ def by_bound(question, motion, asked: int = DEFAULT) -> Told | None:
     if question == "fate":
         return None if values is not None else nothing(question, asked, motion.because)
     if values is None:
-        return nothing(question, asked, "the motion does not repeat")
+        return nothing(question, asked, no_period(motion.fate))
     tolerance = motion.tolerance * (10 if question == "period" else 1)
     return Told(question, values, asked, digits_of(tolerance), "formulas", f"formulas that bound their own rounding by {tolerance:.0e}, balls beyond")
 

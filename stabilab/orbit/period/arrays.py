@@ -31,6 +31,7 @@ def period_chunk(land: Landscape, states, decided, start, span=None):
     points, where they are known already."""
     out = np.full(len(states), np.inf)
     out[decided.labels == Fate.EQUILIBRIUM] = 0.0
+    out[decided.labels == Fate.UNDECIDED] = np.nan
     place, w, _ = start
     bounded = decided.labels == Fate.BOUNDED
     precise = (needs_digits(land, states) | land.beside_centre(place) | near_separatrix(land, place, w, decided, PERIOD_SHARE)) & bounded

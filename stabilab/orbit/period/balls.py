@@ -8,7 +8,7 @@ from ...numbers.balls import sign, working
 from ...numbers.double_ball import Unclear
 from ..ball_orbit import Orbit
 from ..extremes.balls import turning_points
-from ..result import Fate
+from ..result import Fate, without_return
 
 DIGITS = 14  # two steps agree to so many; the rule doubles its digits with every halving, so the second is exact to a double
 SPARE = 8  # digits beyond those: terms that are smaller are left out
@@ -16,10 +16,8 @@ FINEST = 9  # halvings of the step; the seventh serves a double
 
 
 def precise_period(orbit: Orbit, label: int) -> float:
-    """Period of one state with the given `Fate` label: inf where the motion does not repeat, 0 at an equilibrium."""
-    if label == Fate.EQUILIBRIUM:
-        return 0.0
-    return float("inf") if label != Fate.BOUNDED else float(period_ball(orbit).mid())
+    """Period of one state with the given `Fate` label: inf where the motion does not repeat, 0 at an equilibrium, NaN where it is undecided."""
+    return without_return(label) if label != Fate.BOUNDED else float(period_ball(orbit).mid())
 
 
 def period_ball(orbit: Orbit, digits: int = DIGITS):

@@ -14,7 +14,7 @@ from ...numbers.double_ball import EPS, Unclear
 from ..ball_orbit import Orbit
 from ..extremes.balls import turning_points
 from ..potential import potential
-from ..result import Fate
+from ..result import Fate, without_return
 from .balls import precise_period
 
 NODES = (16, 32, 64, 128, 256, 512)
@@ -24,11 +24,9 @@ SHARP = 1e-11  # relative error that rounding may leave in E - V, as for the per
 
 
 def period_of(orbit: Orbit, label: Fate) -> float:
-    """Period of one state with this label, in the scene's time: inf where the motion does not repeat, 0 at rest."""
-    if label == Fate.EQUILIBRIUM:
-        return 0.0
+    """Period of one state with this label, in the scene's time: inf where the motion does not repeat, 0 at rest, NaN where it is undecided."""
     if label != Fate.BOUNDED:
-        return math.inf
+        return without_return(label)
 
     def question(orbit):
         ends = turning_points(orbit)

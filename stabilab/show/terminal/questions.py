@@ -4,6 +4,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
+from ...orbit.result import Fate, no_period
 from ..text.headline import cause, fate_words, headline, largest, rate_margin
 from ..units import DIGITS, Units, number
 from .letters import greek
@@ -61,7 +62,7 @@ def _said(told) -> str:
 def period(case, motion, told, units: Units, all_digits: bool, say: bool, proofs: bool = False) -> str:
     """The period with its unit."""
     if told.values is None:
-        value = f"the motion does not repeat ({motion.fate.word})"
+        value = no_period(motion.fate) + (f" ({motion.fate.word})" if motion.fate in (Fate.SPIN_UP, Fate.SEPARATRIX, Fate.BOUNDED) else "")
     elif all_digits:
         value = f"period {told.decimals or number(told.values, max(SHOWN, told.asked))} {case.scene.time_unit}"
     else:

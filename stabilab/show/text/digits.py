@@ -35,7 +35,7 @@ def fate(case, motion, told) -> dict:
 
 
 def period(case, motion, told) -> dict:
-    """One object of `stabilab period --json`; null where the motion does not repeat."""
+    """One object of `stabilab period --json`; null where the motion does not repeat, or is undecided (see fate, digits.because)."""
     return {"schema": "stabilab.period/1", "case": case.name, "variables": case.variables, "at": motion.at, "fate": motion.fate.word,
             "period": told.values, "time": case.scene.time_unit, "digits": as_dict(told)} | frame.key(case)
 
