@@ -113,7 +113,7 @@ def _by_return(scene, form, state, k) -> PeriodExtremes:
 def _without_return(scene, form, state, k) -> PeriodExtremes:
     """On a separatrix: a run would leave it by its rounding and return, which the motion never does."""
     roots = roots_of_rates(scene, state, _first_span(form, state))
-    return PeriodExtremes(roots.extremes(), math.inf, f"{scene.time_unit} in [0, {powered(roots.t_reached, -k):g}]", "on a separatrix the motion does not return")
+    return PeriodExtremes(roots.extremes(), math.inf, f"{scene.time_unit} in [0, {powered(roots.t_reached, -k):g}]", "on a separatrix it does not return")
 
 
 def _first_span(form, x):

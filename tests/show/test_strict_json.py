@@ -41,8 +41,11 @@ CASES["charged"] = (Path(__file__).parents[2] / "cases" / "charged-body-small-to
 MANY = ["bounded", "spin-up", "no saddle", "off the axes", "at rest", "beyond doubles"]
 SLOW = "beyond doubles"
 # command -> (options, cases)
-ASKED = {"classify": ([], [*MANY, "liquid"]), "fate": ([], MANY), "extremes": ([], MANY), "period": ([], MANY), "when": (["--rate", "0.3 rad/s"], MANY),
+ASKED = {"classify": ([], [*MANY, "liquid"]),
+         "fate": ([], MANY), "extremes": ([], MANY), "period": ([], MANY), "when": (["--rate", "0.3 rad/s"], MANY),
          "simulate": (["--at", "0,1"], MANY), "compare": ([], ["charged"]), "precision": (["--quick"], ["bounded"]),
+        
+         "sweep": (["--vary", "motion.angular_velocity[3]=0:4:3", "--answer", "fate,margin,distance,extremes,period"], ["bounded", "no saddle"]),
          "reference": (["--at", "0,1", "--digits", "12"], ["bounded"]), "stuck": ([], ["craft"]), "verify": ([], ["certificate"]),
          "audit": (["constant-torque-gyrostat", "--equation", "17"], [None]), "validate": ([], [None])}
 

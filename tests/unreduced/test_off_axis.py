@@ -215,7 +215,7 @@ def test_fates_of_an_array_are_proved_on_request():
 
 
 def test_the_period_of_an_undecided_motion_is_no_number_and_the_command_says_why(stabilab, tmp_path):
-    """Inside a bounded island (its motions were followed for 1e6 s by a plain integrator) no certificate is met: inf would say that the motion never repeats."""
+    """Inside a bounded island (followed for 1e6 s by an integrator) no certificate is met: inf would say that the motion never repeats."""
     scene = Scene(Body((4.936, 3.555, 1.537)), Gyrostat((-1.151, 0, 0)), ConstantTorque((-1.405, -1.744, -0.091)))
     state = (0.4836, -0.1631, -3.7926)
     assert np.isnan(period(scene, state)) and np.isposinf(period(scene, (0.0, 0.0, 5.0)))  # the second spins up
