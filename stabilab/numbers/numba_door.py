@@ -28,9 +28,11 @@ def wanted(n: int, fast: bool | None, loaded: bool, cold: int, warm: int) -> boo
     return bool(fast)
 
 
-def compiled(module: ModuleType, inlined: Container[str]) -> dict[str, Any]:
-    """The names of a module of straight-line kernels with all its functions compiled; kept on disk where there is a place for it."""
-    return _kept(lambda cache: _compiled(module, inlined, cache))
+def compiled(module: ModuleType, inlined: Container[str], **instead: Any) -> dict[str, Any]:
+    """The names of a module of straight-line kernels with all its functions compiled; kept on disk where there is a place for it.
+
+    instead: what stands for names that the module imports, for compiled code."""
+    return _kept(lambda cache: _compiled(module, inlined, cache, instead))
 
 
 def compiled_function(function: FunctionType) -> Any:
@@ -47,9 +49,9 @@ def _kept(make: Callable[[bool], Any]) -> Any:
         return make(False)
 
 
-def _compiled(module: ModuleType, inlined: Container[str], cache: bool) -> dict[str, Any]:
+def _compiled(module: ModuleType, inlined: Container[str], cache: bool, instead: dict[str, Any]) -> dict[str, Any]:
     from numba import njit
-    names = dict(vars(module))
+    names = vars(module) | instead
     for name, function in list(names.items()):
         if isinstance(function, FunctionType) and function.__module__ == module.__name__:
             twin = FunctionType(function.__code__, names, name)

@@ -15,6 +15,7 @@ import numpy as np
 
 from ...asked import checked_scene
 from ...numbers.exact import exact_vector
+from ...numbers.numba_door import installed
 from ...physics.coefficients import effective
 from ..spin_up.clock import Trap
 from ..spin_up.fields import natural, tests_of
@@ -36,7 +37,7 @@ def proved(scene, state, found: SpinUp, steps: int | None = None, bits: int | No
     before: Any = found.trap  # of a motion off the axes of symmetry
     scene = effective(checked_scene(scene))
     own, unit = natural(scene)
-    test = tests_of(own).certifier(before.field, before.orders)
+    test = tests_of(own).certifier(before.field, before.orders, installed())
     way = _Way(scene, state, found.t * LATER[-1], bits)
     for later in LATER:
         reached = way.to(found.t * later, steps)

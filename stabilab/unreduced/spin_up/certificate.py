@@ -44,7 +44,7 @@ class Sums:
 
     def __init__(self, terms: Terms, coefficients, shift=(0, 0)):
         j, k, a, b = terms.powers
-        pairs, column = np.unique(np.stack([a + shift[0], b + shift[1]], axis=1).reshape(-1, 2), axis=0, return_inverse=True)
+        pairs, column = _distinct(a + shift[0], b + shift[1])
         self.a, self.b = pairs.T.astype(float)
         self.table = np.zeros((1 + int((j + k).max(initial=0)), len(pairs)))
         np.add.at(self.table, ((j + k).astype(int), column.ravel()), coefficients)
@@ -54,14 +54,21 @@ class Sums:
         return (np.vander(A, len(self.table), increasing=True) @ self.table * factors).sum(axis=1)
 
 
+def _distinct(a, b):
+    """The distinct pairs of whole numbers (m, 2), ordered, and which of them each pair is, (n,)."""
+    keys, which = np.unique((a.astype(np.int64) << 20) + b, return_inverse=True)
+    second = ((keys + (1 << 19)) & ((1 << 20) - 1)) - (1 << 19)
+    return np.stack([(keys - second) >> 20, second], axis=1).reshape(-1, 2), which
+
+
 class Values:
     """The value of a sum of terms at many places; pairs of exponents in the order of `Sums`."""
 
     def __init__(self, terms: Terms):
         j, k, a, b = terms.powers
         half = j >= k  # terms come with their conjugates
-        pairs, column = np.unique(np.stack([a, b], axis=1).reshape(-1, 2), axis=0, return_inverse=True)
-        powers, row = np.unique(np.stack([j, k], axis=1).reshape(-1, 2)[half], axis=0, return_inverse=True)
+        pairs, column = _distinct(a, b)
+        powers, row = _distinct(j[half], k[half])
         self.j, self.k = powers.T
         self.table = np.zeros((len(powers), len(pairs)), complex)
         np.add.at(self.table, (row.ravel(), column.ravel()[half]), np.where(j == k, 1, 2)[half] * terms.c[half])

@@ -10,20 +10,22 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .compiled.runs import CompiledRuns
 from .fields import Tests
 from .way.drift import Leaps
 from .way.runs import Runs
 
-FIRST, EARLY, SHARES, MOST = 4, 200, (0.25, 0.1), 2000  # steps between tests: a share of those before (early, later), at least and at most so many
+FIRST, EARLY, SHARES, MOST = 4, 600, (0.25, 0.1), 2000  # steps between tests: a share of those before (early, later), at least and at most so many
 # Which tests a stage asks: (every so many stages, from so many steps on, name in `Tests`), the last that applies. What costs more comes later.
 LAST = 5000
-PLAN = ((1, 0, "often"), (3, 6, "high"), (4, 100, "all"), (8, LAST, "last"))
+PLAN = ((1, 0, "often"), (3, 24, "high"), (4, 1000, "all"), (8, LAST, "last"))
 
 
 @dataclass
 class Chased:
     """Columns (n,): which test fired (-1 none) as index into `tests.asked`, time, steps, condition, state there; constants (6, n) of it; largest and
-    least (n, 48) size of the state at the stages of each doubling of the steps; passed: steps that the way takes one by one; blur: of the time."""
+    least (n, 48) size of the state at the stages of each doubling of the steps; passed: steps that the way takes one by one; blur: of the time;
+    reach: how far from the state the rounding may have carried the true one."""
 
     tests: Tests
     fired: np.ndarray
@@ -36,28 +38,29 @@ class Chased:
     least: np.ndarray
     passed: np.ndarray
     blur: np.ndarray
+    reach: np.ndarray
 
 
 def chase(scene, tests: Tests, starts, t_max: float, budget: int, after: float = 0.0, tell=None, fast: bool = False) -> Chased:
     """Follow the motions from starts (n, 3) of a scene in natural units, each until a test fires at a time no earlier than `after`,
     t_max, or `budget` steps. tell(least time, steps, motions left): called after every stage. fast: compiled tests."""
     n = len(starts)
-    runs = Runs(scene, starts)
-    out = Chased(tests, np.full(n, -1), np.zeros(n), np.zeros(n, int), np.ones(n), np.array(starts, float), np.full((6, n), np.nan),
-                  np.zeros((n, 48)), np.full((n, 48), np.inf), np.zeros(n), np.zeros(n))
+    runs = (CompiledRuns if fast else Runs)(scene, starts)
+    out = Chased(tests, np.full(n, -1), runs.times, runs.steps, np.ones(n), runs.states, np.full((6, n), np.nan), np.zeros((n, 48)), np.full((n, 48), np.inf),
+                 runs.rounded, runs.twins.blur, np.zeros(n))
     open_, stage, leaps = np.arange(n), 0, Leaps(runs)
     far = np.zeros(n, bool)  # rows that have just leapt: a test costs less than what they passed
     while open_.size:
-        _measure(out, runs, open_)
+        runs.measure(open_, out)
         ready = out.t[open_] >= after
         which = [name for every, since, name in PLAN if stage % every == 0 and runs.steps_done >= since][-1]
         left = [open_[~ready]]
         for rows, asked in ((open_[ready & ~far[open_]], which), (open_[ready & far[open_]], "last")):
-            left.append(_tested(out, runs, rows, getattr(tests, asked), fast) if rows.size else rows)
+            left.append(_tested(out, rows, getattr(tests, asked), fast) if rows.size else rows)
         open_ = np.sort(np.concatenate(left))
         ended = (out.t[open_] >= t_max) | (runs.steps[open_] >= budget) | ~np.isfinite(out.states[open_]).all(axis=1)
         if ended.any():  # the last word is that of all tests that so much work is worth
-            _tested(out, runs, open_[ended & (out.t[open_] >= after)], tests.last if runs.steps_done >= LAST else tests.all, fast)
+            _tested(out, open_[ended & (out.t[open_] >= after)], tests.last if runs.steps_done >= LAST else tests.all, fast)
         open_ = open_[~ended]
         if open_.size:
             leapt = leaps.advance(open_, t_max, after)
@@ -72,38 +75,26 @@ def chase(scene, tests: Tests, starts, t_max: float, budget: int, after: float =
     return out
 
 
-def _measure(out, runs, rows):
-    out.condition[rows] = np.fmax(out.condition[rows], runs.twins.growth[rows])
-    out.t[rows], out.states[rows], out.steps[rows] = runs.times[rows], runs.states[rows], runs.steps[rows]
-    out.passed[rows], out.blur[rows] = runs.rounded[rows], runs.twins.blur[rows]
-    doubling = np.log2(1.0 + runs.steps[rows]).astype(int)
-    with np.errstate(all="ignore"):
-        size = np.sqrt((out.states[rows] ** 2).sum(axis=1))
-    out.largest[rows, doubling] = np.fmax(out.largest[rows, doubling], size)
-    out.least[rows, doubling] = np.fmin(out.least[rows, doubling], size)
-
-
-def _tested(out, runs, rows, which, fast):
+def _tested(out, rows, which, fast):
     """The rows that no test decides; the others are written down."""
     ahead = {}
     for field, orders in which:
         if not rows.size:
             break
+        test = out.tests.certifier(field, orders, fast)
+        number = out.tests.asked.index((field, orders))
+        if fast:
+            test.decide(rows, out.states, out.reach, out.fired, number, out.constants)
+            rows = rows[out.fired[rows] < 0]
+            continue
         if id(field) not in ahead:  # rows that spin in the sense of the form
             with np.errstate(all="ignore"):
                 ahead[id(field)] = rows[field.place(out.states[rows])[0] > 0]
         candidates = ahead[id(field)][out.fired[ahead[id(field)]] < 0]
         if candidates.size:
-            _test(out, runs, candidates, field, orders, fast)
+            found = test(out.states[candidates], out.reach[candidates])
+            done = candidates[found.good]
+            out.fired[done] = number
+            out.constants[:, done] = np.array([found.A, found.z, found.eta, found.z_up, found.eta_up, found.k])[:, found.good]
             rows = rows[out.fired[rows] < 0]
     return rows
-
-
-def _test(out, runs, candidates, field, orders, fast):
-    with np.errstate(all="ignore"):
-        size = np.maximum(np.abs(out.states[candidates]).max(axis=1), 1.0)
-        near = runs.step_error * (1 + runs.rounded[candidates]) * out.condition[candidates] * size * (runs.rounded[candidates] > 0)
-    found = out.tests.certifier(field, orders, fast)(out.states[candidates], near)
-    done = candidates[found.good]
-    out.fired[done] = out.tests.asked.index((field, orders))
-    out.constants[:, done] = np.array([found.A, found.z, found.eta, found.z_up, found.eta_up, found.k])[:, found.good]

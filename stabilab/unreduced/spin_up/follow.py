@@ -32,7 +32,8 @@ def spin_up(scene, state, t_max: float | None = None, budget: int | None = None,
     time or later: bounds and clocks of a later trap are narrower.
     proof: enclose the way to the inequality, so that nothing rests on a run in machine precision: level "proved" where that succeeds. A state
     of Fractions or of decimals in strings is then taken exactly. tell(time, steps, motions left): called on the way. fast: True for
-    tests compiled by numba (the extra `fast`); loading it costs a second, so without it NumPy serves. The two agree to rounding.
+    steps and tests compiled by numba (the extra `fast`); loading it costs a second, so for one state NumPy serves unless proof is asked for, which
+    loads it anyway. The two have steps of slightly different lengths, so they fire at slightly different times.
     Raises InputError for scenes with other effects than turn the body as wheel and torque do, and for states that are none.
     """
     given, scene, state = state, effective(checked_scene(scene)), three_floats(state)
@@ -47,7 +48,7 @@ def spin_up(scene, state, t_max: float | None = None, budget: int | None = None,
         words = f"a rate exceeds {FARTHEST:g} natural units of {unit:.3g} 1/{scene.time_unit}: no run in doubles holds it"
         return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, 0.0, state, 0, words, 1.0)
     found = chase(own, tests, np.array([state]) / unit, NATURAL_TIMES if t_max is None else t_max * unit, BUDGET if budget is None else budget, after * unit,
-                  tell and (lambda t, steps, left: tell(t / unit, steps, left)), wanted(1, fast, False, 2, 2))
+                  tell and (lambda t, steps, left: tell(t / unit, steps, left)), wanted(1, fast, proof, 2, 1))
     answer = answer_of(scene, unit, found, 0)
     return proved(scene, given if isinstance(given, (list, tuple)) else state, answer) if proof else answer
 

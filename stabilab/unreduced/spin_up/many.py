@@ -5,8 +5,10 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from ...asked import checked_scene
 from ...numbers.numba_door import wanted
 from ...orbit.result import Fate
+from ...physics.coefficients import effective
 from ...physics.scene import AnyScene
 from ...physics.states import checked_states
 from ..enclosure.proof import proved
@@ -14,6 +16,7 @@ from .chase import Chased, chase
 from .fields import natural, tests_of
 from .follow import BUDGET, FARTHEST, NATURAL_TIMES, answer_of, spin_up
 from .result import SpinUp
+from .symmetric import exactly
 
 COLD = 256  # states from which on numba is loaded unasked, where it is installed
 LEVELS = ("undecided", "certified", "exact", "proved")
@@ -48,13 +51,12 @@ def spin_up_many(scene, states, t_max: float | None = None, budget: int | None =
                  proof: bool = False) -> SpinUps:
     """`follow.spin_up` for states (n, 3), in batches; every motion leaves its batch as soon as it is decided. Limits as there.
     fast: as there, None for numba from COLD states on. proof: enclose the way of each that is certified, one after another."""
-    states = checked_states(states).reshape(-1, 3)
-    own, unit = natural(scene)
+    states, covered = checked_states(states).reshape(-1, 3), effective(checked_scene(scene))
+    covered.quadratic()  # says which effect of the scene is not covered
+    own, unit = natural(covered)
     tests = tests_of(own)
-    first = spin_up(scene, states[0].tolist(), t_max=0.0, budget=0, fast=fast) if len(states) else None
-    if first is not None and (first.level == "exact" or not tests):  # closed solutions: of all states of the scene or of none
-        return _one_by_one(scene, states)
-    if not (np.abs(states) / FARTHEST < unit).all():
+    closed = bool(len(states)) and exactly(covered, states[0].tolist()) is not None  # of all states of the scene or of none
+    if closed or not tests or not (np.abs(states) / FARTHEST < unit).all():
         return _one_by_one(scene, states)
     found = chase(own, tests, states / unit, NATURAL_TIMES if t_max is None else t_max * unit, BUDGET if budget is None else budget,
                   tell=tell and (lambda t, steps, left: tell(t / unit, steps, left)), fast=wanted(len(states), fast, False, COLD, COLD))

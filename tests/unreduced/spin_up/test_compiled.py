@@ -7,13 +7,16 @@ import pytest
 
 from stabilab.unreduced.spin_up import certificate, elimination, fixed_centre, moving_centre
 from stabilab.unreduced.spin_up.certificate import Certifier
-from stabilab.unreduced.spin_up.compiled import kernel, moving_kernel
+from stabilab.unreduced.spin_up.compiled import kernel, lanes, moving_kernel, steps
 from stabilab.unreduced.spin_up.compiled.door import FixedCertifier, MovingCertifier
+from stabilab.unreduced.spin_up.compiled.runs import CompiledRuns
 from stabilab.unreduced.spin_up.fields import tests_of as certificates
 from stabilab.unreduced.spin_up.follow import spin_up
 from stabilab.unreduced.spin_up.many import spin_up_many
+from stabilab.unreduced.spin_up.way import twins
+from stabilab.unreduced.spin_up.way.runs import Runs
 
-from .scenes import random_scene, sphere
+from .scenes import EXAMPLE, random_scene, rates_of, run, sphere
 
 numba = pytest.mark.skipif(find_spec("numba") is None, reason="needs the extra fast")
 NAMES = ("A", "z", "eta", "z_up", "eta_up", "k")
@@ -36,6 +39,7 @@ def test_constants_stand_twice_and_agree():
     assert kernel.COEFFICIENT == moving_kernel.COEFFICIENT == certificate.COEFFICIENT
     assert kernel.ROUNDING == elimination.ROUNDING and kernel.BLUR == fixed_centre.BLUR
     assert moving_kernel.CONDITION == moving_centre.CONDITION * fixed_centre.BLUR
+    assert (steps.STILL, steps.LOST) == (twins.STILL, twins.LOST)
 
 
 @pytest.mark.parametrize("wheel, orders", [(0, (2, 4)), (0.1, (4, 6)), (1, (0, 2)), (3, (2, 4))])
@@ -63,14 +67,87 @@ def test_loops_about_the_moving_centre_find_what_the_arrays_find(wheel):
 @numba
 @pytest.mark.parametrize("wheel", [0, 1])
 def test_motions_are_decided_alike_with_and_without_numba(wheel):
+    """The compiled steps are of slightly other lengths, so the tests are asked at slightly other times: verdicts are the same, and both states lie on one
+    motion, by SciPy's DOP853."""
     scene, starts = random_scene(random.Random(31), wheel), np.random.default_rng(6).normal(size=(40, 3)) * 3
     slow, fast = (spin_up_many(scene, starts, 100, 3000, fast=way) for way in (False, True))
-    for name in ("fate", "axis", "sense", "level", "t", "steps", "condition", "states"):
+    for name in ("fate", "axis", "sense", "level"):
         assert np.array_equal(getattr(slow, name), getattr(fast, name))
-    decided = int(np.flatnonzero(fast.level)[0])
-    one, other = slow.row(decided), fast.row(decided)
-    assert one.trap.orders == other.trap.orders and one.trap.form == other.trap.form
-    assert np.allclose([one.trap.A, one.trap.z, one.trap.eta], [other.trap.A, other.trap.z, other.trap.eta], rtol=1e-11)
+    for n in np.flatnonzero((fast.t > 0) & (fast.level > 0))[::4]:
+        for found in (slow, fast):
+            end = run(rates_of(scene), starts[n], np.array([0.0, found.t[n]]))[-1]
+            assert np.allclose(found.states[n], end, rtol=0, atol=1e-9 * found.condition[n] * (1 + np.abs(end).max()) * (1 + found.t[n]))
+    assert np.median(fast.t[fast.t > 0]) == pytest.approx(np.median(slow.t[slow.t > 0]), rel=0.2)
+
+
+@numba
+@pytest.mark.parametrize("reach", [0.0, 1e-9])
+def test_rows_are_decided_as_by_arrays(reach):
+    """The compiled loops find places of rows by themselves: against the test by arrays about both centres."""
+    scene, good = random_scene(random.Random(31), 0.3), 0
+    tests, places = certificates(scene), states(3, 80)
+    for field in tests.fixed + tests.moving:
+        expected = Certifier(field, (2, 4))(places, reach)
+        fired, found = np.full(80, -1), np.full((6, 80), np.nan)
+        tests.certifier(field, (2, 4), fast=True).decide(np.arange(80), places, np.full(80, reach), fired, 7, found)
+        assert np.array_equal(fired == 7, expected.good)
+        assert np.allclose(found[:, expected.good], [getattr(expected, name)[expected.good] for name in NAMES], rtol=1e-9)
+        good += expected.good.sum()
+    assert good
+
+
+def test_steps_side_by_side_end_where_a_run_by_another_formula_does():
+    """The kernel as NumPy has it, without a compiler: forth to common times, and back again."""
+    table, starts = vars(steps), states(4, 5)
+    runs = CompiledRuns(EXAMPLE, starts, table)
+    out, times = runs.carried(starts, np.full(5, 0.7), 1000)
+    assert (times == 0.7).all()
+    for start, end in zip(starts, out):
+        assert np.allclose(end, run(rates_of(EXAMPLE), start, np.array([0.0, 0.7]))[-1], rtol=0, atol=1e-8 * (1 + np.abs(start).max()))
+    back, times = runs.carried(out, np.full(5, -0.7), 1000)
+    assert (times == -0.7).all() and np.allclose(back, starts, rtol=0, atol=1e-11 * (1 + np.abs(starts).max()))
+
+
+def test_a_change_carried_beside_grows_as_the_twin_does():
+    """Against twins by the run without a compiler, advance by advance to the same times."""
+    starts = states(5, 6)
+    compiled, plain = CompiledRuns(EXAMPLE, starts, vars(steps)), Runs(EXAMPLE, starts)
+    rows = np.arange(6)
+    for end in (0.3, 0.9):
+        for one in (compiled, plain):
+            one.advance(rows, 400, end)
+        assert (compiled.times == end).all() and np.allclose(compiled.states, plain.states, rtol=1e-9, atol=1e-9)
+        assert np.allclose(compiled.twins.growth, plain.twins.growth, rtol=0.01)
+        assert np.allclose(compiled.twins.ahead, plain.twins.ahead, atol=0.02) and np.allclose(compiled.twins.blur, plain.twins.blur, rtol=0.02)
+
+
+@numba
+def test_vectors_are_as_numpy_has_them():
+    """Compiled operations on eight doubles against their plain meaning, to rounding: x y + z is rounded once."""
+    starts = states(6, 11)
+    plain, compiled = CompiledRuns(EXAMPLE, starts, vars(steps)), CompiledRuns(EXAMPLE, starts)
+    for one in (plain, compiled):
+        one.advance(np.arange(11), 12, 1e300, 0.05)
+    assert np.allclose(plain.states, compiled.states, rtol=1e-12, atol=1e-12) and np.allclose(plain.times, compiled.times, rtol=1e-12)
+    assert np.allclose(plain.twins.growth, compiled.twins.growth, rtol=1e-9)
+    columns = np.array([0.0, 1.0, 2.0**-30, 3.7, 1e150, 64.0, 1.5, 1e-300])
+    for name in ("logarithm", "power_of_two", "size"):
+        assert np.array_equal(applied(name, columns + 1.0), getattr(lanes, name)(columns + 1.0))
+    powers = np.array([-900.0, -3.5, 0.0, 0.25, 1.0, 9.75, 77.0, 101.5])
+    assert np.array_equal(applied("two_to", powers), lanes.two_to(powers)) and np.allclose(lanes.two_to(powers), 2.0**powers, rtol=0.004)
+
+
+def applied(name, row):
+    """An operation of `lanes.vectors` on one row."""
+    from numba import njit
+    load, store, function = (lanes.vectors()[key] for key in ("load", "store", name))
+
+    @njit
+    def once(table):
+        store(table, 1, function(load(table, 0)))
+    table = np.array([row, row])
+    once(table)
+    return table[1]
 
 
 @numba

@@ -7,15 +7,16 @@ import numpy as np
 
 from ....numbers.numba_door import compiled
 from ..certificate import Certifier, Found
-from . import kernel, moving_kernel
+from ..fixed_centre import BLUR
+from . import kernel, lanes, moving_kernel, steps
 
 INLINED = {kernel: {"put"}, moving_kernel: {"greatest"}}
 
 
-@lru_cache(maxsize=2)
+@lru_cache(maxsize=3)
 def functions(module) -> dict:
     """A kernel's functions by name, compiled; kept on disk where there is a place for it."""
-    return compiled(module, INLINED[module])
+    return compiled(module, INLINED.get(module, ()), **lanes.vectors() if module is steps else {})
 
 
 def fast_certifier(field, orders: tuple[int, int]):
@@ -33,10 +34,11 @@ class FixedCertifier:
         made = [np.zeros((top, top, powers), kind) for _ in range(4) for kind in (complex, float)]
         added_e, most_e, rate_e, rise_e, added_b, most_b, rate_b, rise_b = made
         self.kernel["tables"](np.array(orders), f.om, f.drag, np.array([f.D1, f.M1, f.gam, f.h]), np.array([f.mu, f.kap], complex), *made)
-        self.tables = (*self._parts(added_e), *self._parts(added_b), *(self._gathered(c, m, by_size) for c, m, by_size in (
-            (added_e, most_e, True), (added_e, most_e, False), (added_b, most_b, True), (added_b, most_b, False), (rate_b, rise_b, True),
-            (rate_e, rise_e, True))))
+        sums = [self._gathered(c, m, by_size) for c, m, by_size in ((added_e, most_e, True), (added_e, most_e, False), (added_b, most_b, True), (
+            added_b, most_b, False), (rate_b, rise_b, True), (rate_e, rise_e, True))]
+        self.tables = *self._parts(added_e), *self._parts(added_b), *(table for table, _ in sums), np.array([sums[n][1] for n in (0, 2, 4, 5)])
         self.work = np.zeros(top, complex), np.zeros(powers), np.zeros(6)
+        self.order, self.frame = np.array(f.order), np.array([*f.turn, f.shift, *f.centre, *f.scale], float)
 
     def _parts(self, c):
         top, _, powers = c.shape
@@ -46,10 +48,14 @@ class FixedCertifier:
         return np.ascontiguousarray(made[0][:, :m]), made[1][:m], made[2][:m]
 
     def _gathered(self, c, m, by_size):
-        out = np.zeros((2 * c.shape[0], c.shape[2]))
+        """(table, index n of its first column) of the sums over the terms of a degree, without the outer rows and columns of zeros. Where sums and
+        majorants of a quantity belong together the majorants, which are never smaller, tell which columns those are."""
+        out, most = np.zeros((2, 2 * c.shape[0], c.shape[2]))
         self.kernel["gather"](c, m, by_size, out)
-        degrees = np.flatnonzero(out.any(axis=1))
-        return np.ascontiguousarray(out[:1 + (degrees[-1] if degrees.size else 0)])
+        self.kernel["gather"](c, m, False, most)
+        degrees, columns = np.flatnonzero(most.any(axis=1)), np.flatnonzero(most.any(axis=0))
+        first, end = (columns[0], columns[-1] + 1) if columns.size else (0, 1)
+        return np.ascontiguousarray(out[:1 + (degrees[-1] if degrees.size else 0), first:end]), first
 
     def __call__(self, states, near=0.0) -> Found:
         """See `certificate.Certifier`."""
@@ -59,6 +65,11 @@ class FixedCertifier:
             x, zeta, dx, dz = self.field.place(np.asarray(states, float), near)
         self.kernel["search_all"](x, zeta, dx, dz, f.D1, f.M1, f.drag, *self.tables, *self.work, good, out)
         return Found(good, *out)
+
+    def decide(self, rows, states, reach, fired, number, found):
+        """The test for those of rows that no test has fired for, balls of radius reach (n,) about states (n, 3): see `kernel.decide`."""
+        f = self.field.form
+        self.kernel["decide"](rows, states, reach, fired, number, found, self.order, self.frame, f.D1, f.M1, f.drag, *self.tables, *self.work)
 
 
 class MovingCertifier:
@@ -79,6 +90,7 @@ class MovingCertifier:
         self.tables = (*values, pairs(e), e.table, plain.energy_majorant.table, pairs(b), b.table, plain.amplitude_majorant.table,
                        pairs(r), r.table, pairs(k), k.table)
         self.work = np.zeros((4, 2 * moving_kernel.MIDDLE + 1)), np.zeros(degrees, complex), np.zeros(6)
+        self.frame = np.array([field.s, *field.wheel, *field.torque, *field.roots, field.n2, field.n3, BLUR], float)
 
     def __call__(self, states, near=0.0) -> Found:
         """See `certificate.Certifier`."""
@@ -89,3 +101,13 @@ class MovingCertifier:
         x, zeta, dx, dz = self.field.place(np.asarray(states, float), near)
         self.kernel["search_all"](x, zeta, dx, dz, *self.numbers, *self.tables, *self.work, good, out)
         return Found(good, *out)
+
+    def decide(self, rows, states, reach, fired, number, found):
+        """As of `FixedCertifier`."""
+        if self.serves:
+            self.kernel["decide"](rows, states, reach, fired, number, found, self.field.basis, self.frame, *self.numbers, *self.tables, *self.work)
+            return
+        rows = rows[fired[rows] < 0]
+        got = self.plain(states[rows], reach[rows])
+        fired[rows[got.good]] = number
+        found[:, rows[got.good]] = np.array([got.A, got.z, got.eta, got.z_up, got.eta_up, got.k])[:, got.good]

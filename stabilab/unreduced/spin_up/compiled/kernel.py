@@ -93,36 +93,46 @@ def gather(c, m, by_size, out):
 
 def columns(table, A, row):
     """Sum of table[d, n] A^d over d, into row[n]: along rows, as memory lies."""
-    row[:] = 0.0
-    power = 1.0
-    for d in range(table.shape[0]):
+    for n in range(table.shape[1]):
+        row[n] = table[0, n]
+    power = A
+    for d in range(1, table.shape[0]):
         for n in range(table.shape[1]):
             row[n] += power * table[d, n]
         power *= A
 
 
-def total(table, A, z, shift, row):
-    """Sum of table[d, n] A^d z^(1 - n - shift)."""
+def total(table, first, A, z, shift, row):
+    """Sum of table[d, n - first] A^d z^(1 - n - shift)."""
     columns(table, A, row)
-    return falling(row, z, z ** (1.0 - shift))
+    return falling(row, table.shape[1], z, power_of(z, 1 - shift - first))
 
 
-def falling(row, z, power):
+def falling(row, count, z, power):
     """Sum of row[n] power z^-n."""
-    result = 0.0
-    for n in range(row.size - 1, -1, -1):
-        result = result / z + row[n]
+    result, over = 0.0, 1 / z
+    for n in range(count - 1, -1, -1):
+        result = result * over + row[n]
     return result * power
 
 
-def tails(table, A, z, row):
+def power_of(z, n):
+    """z^n, n whole."""
+    base, result = z if n >= 0 else 1 / z, 1.0
+    for _ in range(abs(n)):
+        result *= base
+    return result
+
+
+def tails(table, first, A, z, row):
     """As `total`, of the integrals of the factors over all greater z."""
     columns(table, A, row)
-    if row[0] != 0 or row[1] != 0 or row[2] != 0:
-        return math.inf
-    for n in range(3, row.size):
-        row[n] /= n - 2.0
-    return falling(row, z, z * z)
+    for n in range(table.shape[1]):
+        if n + first > 2:
+            row[n] /= n + first - 2.0
+        elif row[n] != 0:
+            return math.inf
+    return falling(row, table.shape[1], z, power_of(z, 2 - first))
 
 
 def value_of(weights, real, imaginary, zeta, x, powers, row):
@@ -136,18 +146,18 @@ def value_of(weights, real, imaginary, zeta, x, powers, row):
         u, v = factor.real, factor.imag
         for n in range(row.size):
             row[n] += u * real[m, n] - v * imaginary[m, n]
-    return falling(row, x, x)
+    return falling(row, row.size, x, x)
 
 
-def blurred(weights, real, imaginary, sums, majorant, zeta, size, x, low, dx, powers, row):
+def blurred(weights, real, imaginary, sums, majorant, first, zeta, size, x, low, dx, powers, row):
     """(value, blur) of a quantity at a place known within dx and within size - |zeta|."""
     value = value_of(weights, real, imaginary, zeta, x, powers, row)
-    inner = total(sums, abs(zeta), low, 0.0, row)
-    wide = total(sums, size, low, 0.0, row)
-    for n in range(row.size):
-        row[n] *= abs(n - 1.0)
-    moved = falling(row, low, low) / low * dx
-    return value, (wide - inner) + moved * (1 + SLACK) + SLACK * wide + COEFFICIENT * total(majorant, size, low, 0.0, row)
+    inner = total(sums, first, abs(zeta), low, 0, row)
+    wide = total(sums, first, size, low, 0, row)
+    for n in range(sums.shape[1]):
+        row[n] *= abs(n + first - 1.0)
+    moved = falling(row, sums.shape[1], low, power_of(low, -first)) * dx
+    return value, (wide - inner) + moved * (1 + SLACK) + SLACK * wide + COEFFICIENT * total(majorant, first, size, low, 0, row)
 
 
 def parts(c, weights, real, imaginary):
@@ -165,17 +175,19 @@ def parts(c, weights, real, imaginary):
 
 
 def search(x, zeta, dx, dz, D1, M1, drag, weights_e, real_e, imaginary_e, weights_b, real_b, imaginary_b, e_sums, e_most, b_sums,
-           b_most, r_sums, k_sums, powers, row, out):
-    """Whether the inequality holds at one place, and its constants A, z, eta, z_up, eta_up, k in out (6,): `certificate.Certifier`."""
+           b_most, r_sums, k_sums, firsts, powers, row, out):
+    """Whether the inequality holds at one place, and its constants A, z, eta, z_up, eta_up, k in out (6,): `certificate.Certifier`. firsts (4,): the
+    index n of the first column of the sums e, b, r, k."""
     low, top = x - dx, x + dx
     if not (low > 0 and dx < x / 8):
         return False
+    first_e, first_b, first_r, first_k = firsts[0], firsts[1], firsts[2], firsts[3]
     size = abs(zeta) * (1 + SLACK) + dz
-    if not total(k_sums, size, low, 1.0, row) < M1 + min(0.0, drag) / low:
+    if not total(k_sums, first_k, size, low, 1, row) < M1 + min(0.0, drag) / low:
         return False  # necessary, for k grows with A and as z falls: nothing else need be looked at
-    value, blur = blurred(weights_e, real_e, imaginary_e, e_sums, e_most, zeta, size, x, low, dx, powers, row)
+    value, blur = blurred(weights_e, real_e, imaginary_e, e_sums, e_most, first_e, zeta, size, x, low, dx, powers, row)
     energy, energy_up = value - blur, value + blur
-    value, blur = blurred(weights_b, real_b, imaginary_b, b_sums, b_most, zeta, size, x, low, dx, powers, row)
+    value, blur = blurred(weights_b, real_b, imaginary_b, b_sums, b_most, first_b, zeta, size, x, low, dx, powers, row)
     mean = drag / M1
     weight = 1 + mean / x + abs(mean) * (dx / (low * low) + BLUR / x) + BLUR
     amplitude = weight * size * size * (1 + SLACK) + value + blur
@@ -184,36 +196,57 @@ def search(x, zeta, dx, dz, D1, M1, drag, weights_e, real_e, imaginary_e, weight
         step = min(1e-2, growth)
         growth *= 4
         for _ in range(2):
-            need = max(total(e_sums, A, z, 0.0, row) - energy, 0.0) * (GROWTH + step) + 1e-7 * low * low
+            need = max(total(e_sums, first_e, A, z, 0, row) - energy, 0.0) * (GROWTH + step) + 1e-7 * low * low
             z = low - 2 * need / (D1 * (low + (z if z > 0 else low)))
             if not z > 0:
                 z = low
         if not z < low:
             return False
-        k = total(k_sums, A, z, 1.0, row)
+        k = total(k_sums, first_k, A, z, 1, row)
         eta = M1 + min(0.0, drag) / z - k - SLACK * (M1 + k)
         least = 1 + min(0.0, drag) / (M1 * z) - SLACK
         if not (eta > 0 and least > 0):
             return False
-        F = (amplitude + total(b_sums, A, z, 0.0, row) + tails(r_sums, A, z, row) * D1 / eta) / least
+        F = (amplitude + total(b_sums, first_b, A, z, 0, row) + tails(r_sums, first_r, A, z, row) * D1 / eta) / least
         if not F < 1e100:
             return False
-        e = total(e_sums, A, z, 0.0, row)
-        gained = D1 * (low - z) * (low + z) / 2
-        if gained * (1 - SLACK) - SLACK * D1 * low * low * 2.0**-8 > e - energy and F * (1 + SLACK) < A * A and size < A:
-            out[0], out[1], out[2], out[5] = A, z * (1 - SLACK), eta, k
-            out[3] = top + (e + energy_up) / (D1 * low) * (1 + SLACK) + SLACK * top
-            out[4] = (M1 + max(0.0, drag) / z + k) * (1 + SLACK)
-            return True
+        if F * (1 + SLACK) < A * A and size < A:
+            e = total(e_sums, first_e, A, z, 0, row)
+            gained = D1 * (low - z) * (low + z) / 2
+            if gained * (1 - SLACK) - SLACK * D1 * low * low * 2.0**-8 > e - energy:
+                out[0], out[1], out[2], out[5] = A, z * (1 - SLACK), eta, k
+                out[3] = top + (e + energy_up) / (D1 * low) * (1 + SLACK) + SLACK * top
+                out[4] = (M1 + max(0.0, drag) / z + k) * (1 + SLACK)
+                return True
         A = max(A, math.sqrt(max(F, 0.0))) * (1 + step)
     return False
 
 
 def search_all(x, zeta, dx, dz, D1, M1, drag, weights_e, real_e, imaginary_e, weights_b, real_b, imaginary_b, e_sums, e_most, b_sums, b_most, r_sums,
-               k_sums, powers, row, constants, good, out):
+               k_sums, firsts, powers, row, constants, good, out):
     """`search` for places (n,): good (n,), out (6, n)."""
     for n in range(x.size):
         if search(x[n], zeta[n], dx[n], dz[n], D1, M1, drag, weights_e, real_e, imaginary_e, weights_b, real_b, imaginary_b, e_sums, e_most, b_sums,
-                  b_most, r_sums, k_sums, powers, row, constants):
+                  b_most, r_sums, k_sums, firsts, powers, row, constants):
             good[n] = True
             out[:, n] = constants
+
+
+def decide(rows, states, reach, fired, number, found, order, frame, D1, M1, drag, weights_e, real_e, imaginary_e, weights_b, real_b, imaginary_b, e_sums,
+           e_most, b_sums, b_most, r_sums, k_sums, firsts, powers, row, constants):
+    """Ask for those of rows that no test has fired for: fired (n,) becomes `number`, found (6, n) the constants, where the inequality holds for the whole
+    ball of radius reach (n,) about the state. order (3,), frame (8,): turn, shift, centre, scale of the form; places as of `fixed_centre`."""
+    most = max(abs(frame[6]), abs(frame[7]))
+    for n in rows:
+        if fired[n] >= 0:
+            continue
+        w1, w2, w3, near = frame[0] * states[n, order[0]], frame[1] * states[n, order[1]], frame[2] * states[n, order[2]], reach[n]
+        x = w1 + frame[3]
+        if not x > 0:
+            continue
+        size = abs(w1) + abs(w2) + abs(w3) + abs(frame[4]) + abs(frame[5])
+        zeta = complex(frame[6] * (w2 - frame[4]), frame[7] * (w3 - frame[5]))
+        if search(x, zeta, BLUR * (abs(w1) + abs(frame[3])) + near, most * (BLUR * size + near), D1, M1, drag, weights_e, real_e, imaginary_e, weights_b,
+                  real_b, imaginary_b, e_sums, e_most, b_sums, b_most, r_sums, k_sums, firsts, powers, row, constants):
+            fired[n] = number
+            found[:, n] = constants

@@ -172,13 +172,14 @@ def search(x, zeta, dx, dz, D1, M1, a2, a3, c, reach, drive, value_e, degrees_e,
         F = (amplitude + b + r * D1 / eta) / least
         if not F < 1e100:
             return False
-        e = total(e_sums, pairs_e, A, rows, a2, a3, 0, 0.0, p, q)
-        gained = D1 * (low - z) * (turning + math.sqrt(pz * qz)) / 2
-        if gained * (1 - SLACK) - SLACK * D1 * low * turning * 2.0**-8 > e - energy and F * (1 + SLACK) < A * A and size < A:
-            out[0], out[1], out[2], out[5] = A, z * (1 - SLACK), eta, k
-            out[3] = top + (e + energy_up) / (D1 * turning) * (1 + SLACK) + SLACK * top
-            out[4] = (most_drive + k) * (1 + SLACK)
-            return True
+        if F * (1 + SLACK) < A * A and size < A:
+            e = total(e_sums, pairs_e, A, rows, a2, a3, 0, 0.0, p, q)
+            gained = D1 * (low - z) * (turning + math.sqrt(pz * qz)) / 2
+            if gained * (1 - SLACK) - SLACK * D1 * low * turning * 2.0**-8 > e - energy:
+                out[0], out[1], out[2], out[5] = A, z * (1 - SLACK), eta, k
+                out[3] = top + (e + energy_up) / (D1 * turning) * (1 + SLACK) + SLACK * top
+                out[4] = (most_drive + k) * (1 + SLACK)
+                return True
         A = max(A, math.sqrt(max(F, 0.0))) * (1 + step)
     return False
 
@@ -197,3 +198,30 @@ def search_all(x, zeta, dx, dz, D1, M1, a2, a3, c, reach, drive, value_e, degree
                   e_most, pairs_b, b_sums, b_most, pairs_r, r_sums, pairs_k, k_sums, rows, powers, constants):
             good[n] = True
             out[:, n] = constants
+
+
+def decide(chosen, states, reach, fired, number, found, basis, frame, D1, M1, a2, a3, c, reach_of_powers, drive, value_e, degrees_e, value_b, degrees_b,
+           pairs_e, e_sums, e_most, pairs_b, b_sums, b_most, pairs_r, r_sums, pairs_k, k_sums, rows, powers, constants):
+    """As `kernel.decide`; basis (3, 3), frame (10,): s, wheel, torque, roots, n2, n3, rounding of a double; places as of `moving_centre`."""
+    s, l2, l3, M2, M3, r2, r3, n2, n3, blur = (frame[0], frame[1], frame[2], frame[3], frame[4], frame[5], frame[6], frame[7], frame[8], frame[9])
+    for n in chosen:
+        if fired[n] >= 0:
+            continue
+        w1, w2, w3 = states[n, 0], states[n, 1], states[n, 2]
+        size = abs(w1) + abs(w2) + abs(w3)
+        x, y, z = (basis[0, 0] * w1 + basis[0, 1] * w2 + basis[0, 2] * w3, basis[1, 0] * w1 + basis[1, 1] * w2 + basis[1, 2] * w3,
+                   basis[2, 0] * w1 + basis[2, 1] * w2 + basis[2, 2] * w3)
+        p, q = a3 * x + c, a2 * x + c
+        near = reach[n] + blur * size
+        if not (x > 0 and p > 0 and q > 0 and near * max(a3 / p, a2 / q) < 1 / 64):
+            continue
+        rho = math.sqrt(math.sqrt(q / p))
+        eta = complex(r2 * rho * (y - s * (l2 * x - M3) / q), s * r3 / rho * (z - s * (l3 * x + M2) / p))
+        moved2 = CONDITION * (size + (abs(l2 * x) + abs(M3)) / q) + near * (1 + abs(n3) / (q * q))
+        moved3 = CONDITION * (size + (abs(l3 * x) + abs(M2)) / p) + near * (1 + abs(n2) / (p * p))
+        turned = near * abs(c * (a2 - a3)) / (4 * p * q)
+        dz = 1.25 * (r2 * rho * moved2 + r3 / rho * moved3 + (turned + CONDITION) * abs(eta))
+        if search(x, eta, near, dz, D1, M1, a2, a3, c, reach_of_powers, drive, value_e, degrees_e, value_b, degrees_b, pairs_e, e_sums, e_most, pairs_b,
+                  b_sums, b_most, pairs_r, r_sums, pairs_k, k_sums, rows, powers, constants):
+            fired[n] = number
+            found[:, n] = constants

@@ -9,7 +9,7 @@ from .runs import Runs
 
 FROM = 10_000                      # steps that a motion is followed plainly first
 LEAST, FIRST, MOST = 512.0, 1024.0, 2.0**40  # revolutions of a window: fewer are hardly less work than step by step
-AGAIN = 1.2                        # after how many times its steps a motion that would not leap is asked again
+AGAIN = 1.6                        # after how many times its steps a motion that would not leap is asked again
 
 APART = 2.0**-26                   # of a twin, relative: a window of a million revolutions leaves it near
 

@@ -78,6 +78,16 @@ class Runs:
         error = self.step_error * self.rounded[rows] * np.sqrt((starts**2).sum(axis=1))
         return self.twins.compare(rows, starts, self.states[rows], twins, delays, apart, error)
 
+    def measure(self, rows, out):
+        """Note in columns (n,) of `chase.Chased` how much a small change of rows has grown, how far their rounding reaches, and (n, 48) their sizes."""
+        out.condition[rows] = np.fmax(out.condition[rows], self.twins.growth[rows])
+        doubling = np.log2(1.0 + self.steps[rows]).astype(int)
+        with np.errstate(all="ignore"):
+            most, size = np.maximum(np.abs(self.states[rows]).max(axis=1), 1.0), np.sqrt((self.states[rows] ** 2).sum(axis=1))
+            out.reach[rows] = np.where(self.rounded[rows] > 0, self.step_error * (1 + self.rounded[rows]) * out.condition[rows] * most, 0.0)
+        out.largest[rows, doubling] = np.fmax(out.largest[rows, doubling], size)
+        out.least[rows, doubling] = np.fmin(out.least[rows, doubling], size)
+
     def rates(self, states):
         """The rates of change at states (m, 3)."""
         y, z = states[:, [1, 2, 0]], states[:, [2, 0, 1]]

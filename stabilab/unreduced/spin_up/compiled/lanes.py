@@ -1,0 +1,155 @@
+"""Eight doubles at a time: what compiled steps of eight motions side by side are written in.
+
+A row of an array (n, 8) is loaded, worked on and stored as one value; lanes never meet, so that the numbers of a motion depend on no neighbour.
+Each operation stands here twice: as NumPy has it, and (`vectors`) as instructions on vectors, which numba does not make of loops by itself. The two
+agree to rounding: x y + z is rounded once in the second. numba's cache on disk watches the kernel's file alone: change both together.
+"""
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+
+WIDE = 8
+
+
+def load(array, row):
+    """A row of an array (n, 8)."""
+    return array[row].copy()
+
+
+def store(array, row, x):
+    """Put a value into a row."""
+    array[row] = x
+
+
+def spread(number):
+    """A number in all lanes."""
+    return np.full(WIDE, number)
+
+
+def plus(x, y):
+    return x + y
+
+
+def minus(x, y):
+    return x - y
+
+
+def times(x, y):
+    return x * y
+
+
+def fused(x, y, z):
+    """x y + z."""
+    return x * y + z
+
+
+def size(x):
+    return np.abs(x)
+
+
+def greater(x, y):
+    """The greater; y where they cannot be compared."""
+    return np.where(x > y, x, y)
+
+
+def lesser(x, y):
+    """The lesser; y where they cannot be compared."""
+    return np.where(x < y, x, y)
+
+
+def logarithm(x):
+    """Of positive x to the base 2: exact at powers of 2, linear between them, so at most 0.09 below."""
+    return x.view(np.int64) * 2.0**-52 - 1023.0
+
+
+def power_of_two(x):
+    """The greatest that is not above x, 2^-1022 < x < infinity; x = 1 and more are meant."""
+    return (x.view(np.int64) & EXPONENT).view(float)
+
+
+def two_to(y):
+    """2^y for |y| < 1000, within 0.3 per cent."""
+    whole = np.floor(y)
+    part = y - whole
+    return (((whole + 1023.0).astype(np.int64)) << 52).view(float) * (1.0 + part * (0.6565 + 0.3435 * part))
+
+
+EXPONENT = 0x7FF0000000000000
+
+
+@lru_cache(maxsize=1)
+def vectors() -> dict:
+    """The operations by name for code that numba compiles."""
+    from llvmlite import ir
+    from numba.core import cgutils, types
+    from numba.extending import intrinsic, models, register_model
+
+    double, whole = ir.VectorType(ir.DoubleType(), WIDE), ir.VectorType(ir.IntType(64), WIDE)
+
+    class Lanes(types.Type):
+        pass
+
+    register_model(Lanes)(type("LanesModel", (models.PrimitiveModel,), {"__init__": lambda self, dmm, kind: models.PrimitiveModel.__init__(
+        self, dmm, kind, double)}))
+    lanes = Lanes("lanes")
+
+    def operation(emit, *arguments, result=lanes):
+        def typed(context, *given):
+            return result(*(old if new is None else new for old, new in zip(given, arguments))), lambda *all_: emit(*all_)
+        counted = {1: lambda context, x: typed(context, x), 2: lambda context, x, y: typed(context, x, y),
+                   3: lambda context, x, y, z: typed(context, x, y, z)}  # numba counts the arguments by their names
+        return intrinsic(counted[len(arguments)])
+
+    def place(context, builder, signature, given):
+        array = context.make_array(signature.args[0])(context, builder, given[0])
+        start = builder.mul(given[1], ir.Constant(given[1].type, WIDE))
+        return builder.bitcast(builder.gep(array.data, [start]), double.as_pointer())
+
+    def loaded(context, builder, signature, given):
+        value = builder.load(place(context, builder, signature, given))
+        value.align = 8
+        return value
+
+    def stored(context, builder, signature, given):
+        builder.store(given[2], place(context, builder, signature, given)).align = 8
+        return context.get_dummy_value()
+
+    def spread_out(context, builder, signature, given):
+        empty, where = ir.Constant(double, ir.Undefined), ir.VectorType(ir.IntType(32), WIDE)
+        return builder.shuffle_vector(builder.insert_element(empty, given[0], ir.IntType(32)(0)), empty, ir.Constant(where, [0] * WIDE))
+
+    def called(name, n):
+        def emit(context, builder, signature, given):
+            kind = ir.FunctionType(double, [double] * n)
+            return builder.call(cgutils.get_or_insert_function(builder.module, kind, f"llvm.{name}.v{WIDE}f64"), given)
+        return emit
+
+    def all_of(kind, number):
+        return ir.Constant(kind, [number] * WIDE)
+
+    def chosen(sign):
+        return lambda context, builder, signature, given: builder.select(builder.fcmp_ordered(sign, *given), *given)
+
+    def logarithm_of(context, builder, signature, given):
+        bits = builder.sitofp(builder.bitcast(given[0], whole), double)
+        return builder.fsub(builder.fmul(bits, all_of(double, 2.0**-52)), all_of(double, 1023.0))
+
+    def power_below(context, builder, signature, given):
+        return builder.bitcast(builder.and_(builder.bitcast(given[0], whole), all_of(whole, EXPONENT)), double)
+
+    def raised(context, builder, signature, given):
+        floor = called("floor", 1)(context, builder, signature, given)
+        part = builder.fsub(given[0], floor)
+        share = builder.fadd(all_of(double, 0.6565), builder.fmul(all_of(double, 0.3435), part))
+        share = builder.fadd(all_of(double, 1.0), builder.fmul(part, share))
+        bits = builder.fptosi(builder.fadd(floor, all_of(double, 1023.0)), whole)
+        return builder.fmul(builder.bitcast(builder.shl(bits, all_of(whole, 52)), double), share)
+
+    two = {name: operation(lambda c, b, s, g, name=name: getattr(b, name)(*g), lanes, lanes) for name in ("fadd", "fsub", "fmul")}
+    return {"load": operation(loaded, None, types.int64), "store": operation(stored, None, types.int64, lanes, result=types.none),
+            "spread": operation(spread_out, types.float64), "plus": two["fadd"], "minus": two["fsub"], "times": two["fmul"],
+            "fused": operation(called("fma", 3), lanes, lanes, lanes), "size": operation(called("fabs", 1), lanes),
+            "greater": operation(chosen(">"), lanes, lanes), "lesser": operation(chosen("<"), lanes, lanes),
+            "logarithm": operation(logarithm_of, lanes), "power_of_two": operation(power_below, lanes), "two_to": operation(raised, lanes)}
