@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import inspect
 import re
+from importlib import import_module
 
 GROUPS = {
     "A case": ("load", "Case", "Body", "Scene", "ScaledGyrostat", "Gyrostat", "ConstantTorque", "Charge", "Resistance", "LiquidCavity", "NewtonianField",
@@ -13,6 +14,12 @@ GROUPS = {
     "Motions in time": ("trajectory", "ensemble", "simulate", "compare", "theory", "derive"),
     "Errors": ("InputError",),
 }
+# What the questions answer, and the plots: name -> module
+ANSWERS = {"FateResult": "stabilab.orbit.fate.result", "Motion": "stabilab.orbit.result", "Equilibria": "stabilab.equilibrium.result",
+           "EquilibriumPoint": "stabilab.equilibrium.result", "EquilibriumCurve": "stabilab.equilibrium.result",
+           "CurveSegment": "stabilab.equilibrium.result", "Separatrix": "stabilab.orbit.separatrix.result", "Sheet": "stabilab.orbit.separatrix.result",
+           "SpinUp": "stabilab.unreduced.spin_up.result", "Trajectory": "stabilab.integrate.trajectory", "Simulation": "stabilab.answers.simulate",
+           "Ensemble": "stabilab.integrate.ensemble", "Stuck": "stabilab.answers.stuck.result", "Comparison": "stabilab.theories.comparison"}
 
 
 def text() -> str:
@@ -25,6 +32,10 @@ def text() -> str:
     for title, names in GROUPS.items():
         parts.append(f"## {title}\n")
         parts += [_entry(f"stabilab.{name}", getattr(stabilab, name)) for name in names]
+    parts.append("## Pictures\n")
+    parts += [_entry(f"stabilab.plot.{name}", getattr(stabilab.plot, name)) for name in stabilab.plot.__all__]
+    parts.append("## What the answers hold\n")
+    parts += [_entry(f"{module}.{name}", getattr(import_module(module), name)) for name, module in ANSWERS.items()]
     return "\n".join(parts)
 
 

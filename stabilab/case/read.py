@@ -125,8 +125,8 @@ def blamed_on(case: Case):
         raise InputError(f"{printable(case.path)}:{line}: motion.{key}: {rest}" if line else f"{case.place}: {error}") from None
 
 
-def load(path) -> Case:
-    """The case in the TOML file `path`. Raises CaseError with all faults of the file at once.
+def load(path: str | os.PathLike[str]) -> Case:
+    """The case in the TOML file `path`. Raises CaseError, an InputError, with all faults of the file at once.
 
     The case is scaled where the file has [scaled], gives the motion as x, or gives no motion and the torque as mu
     (and the scaling is defined); else physical. Decimals are read exactly, the motion is rounded once.

@@ -11,6 +11,7 @@ from contextlib import nullcontext
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..errors import InputError
 from ..physics.blocks import slices
@@ -58,7 +59,7 @@ class Ensemble:
         return "stopped" if self.stopped else "reached"
 
 
-def ensemble(scene, states, times, rtol: float | None = None, workers: int = 1) -> Ensemble:
+def ensemble(scene: AnyScene, states: ArrayLike, times: ArrayLike, rtol: float | None = None, workers: int = 1) -> Ensemble:
     """The motions of a scene from many starts at t = 0, at the given times; the laws are not checked (`trajectory` does).
 
     states: (n, N), a row for each motion as `trajectory` takes it. times: (m,) as for `trajectory`. rtol: relative

@@ -15,7 +15,11 @@ if TYPE_CHECKING:  # a scene of exact laws does not load it
 
 
 class Fate(IntEnum):
-    """What becomes of a state as time goes on."""
+    """What becomes of a state as time goes on; `word` is the word of reports and JSON.
+
+    BOUNDED: every rate stays within bounds for ever. SPIN_UP: one grows without bound. SEPARATRIX: exactly between the two. EQUILIBRIUM: the state does
+    not change. UNDECIDED: nothing is proved, and the reason is told.
+    """
 
     BOUNDED = 0
     SPIN_UP = 1

@@ -69,7 +69,8 @@ class Equations:
 def derive(scene: AnyScene, also: Iterable[str] = ()) -> Equations:
     """Equations of motion of a Scene (omega, rad/s, body frame) or of a ScaledGyrostat (x).
 
-    The state has the blocks that the scene's effects need, and those named in `also` (physical scenes only).
+    The state has the blocks that the scene's effects need, and those named in `also` (physical scenes only). Right-hand sides, energy, Jacobian and
+    balance laws are SymPy expressions. Raises InputError for what is no scene, and for velocity or position of a body without a mass.
     """
     return _scaled(scene) if checked_scene(scene).variables == "scaled" else _physical(scene, ordered((*scene.blocks, *also)))
 

@@ -79,7 +79,8 @@ def _largest(value: float | np.ndarray) -> float:
 def validity(scene: AnyScene, states: States, over: str = "at the start") -> Validity | None:
     """How far the approximate laws of a scene hold at states (..., N): the blocks of the scene in order, omega alone, or a dict of blocks.
 
-    None where all its laws are exact. For arrays `value` and `holds` are arrays (...,). over: where the states are, in words.
+    None where all its laws are exact. States are in rad/s along the principal axes. For arrays `value` and `holds` are arrays (...,). over: where
+    the states are, in words. Raises InputError for blocks that the scene does not have.
     """
     return _judged(scene, _blocks(scene, states), over, None)
 

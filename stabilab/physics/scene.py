@@ -20,7 +20,11 @@ ZERO3 = (Fraction(0),) * 3
 @dataclass(frozen=True)
 class Scene:
     """A body and its effects, each at most once. Effects not named here do not exist for any later step, and one of zero
-    strength is not kept: it equals an absent one in every answer because it is absent."""
+    strength is not kept: it equals an absent one in every answer because it is absent.
+
+    Scene(body, effect, effect ...): vectors are along the body's principal axes, in kg, m, s. States are the rates about these axes, (..., 3) in rad/s;
+    effects that need more of the state add blocks to it. Raises InputError for anything but a Body and effects, and for an effect named twice.
+    """
 
     body: Body
     effects: tuple[Effect, ...] = ()
@@ -81,7 +85,10 @@ class Scene:
 class ScaledGyrostat:
     """The dimensionless system of Amer et al. 2024, eq. (5), for any real a, b, mu; accepted wherever a scene is.
 
-    x1' = x2 x3 + mu1,  x2' = -x3 (x1 + a) + mu2,  x3' = x2 (x1 + b) + mu3
+    x1' = x2 x3 + mu1,  x2' = -x3 (x1 + a) + mu2,  x3' = x2 (x1 + b) + mu3, the dash for d/dtau
+
+    a, b: two numbers for moments and wheel; mu: three for the torque; numbers or exact strings such as "1/5". States are x (..., 3), times tau.
+    Raises InputError for what is no number.
     """
 
     a: Given

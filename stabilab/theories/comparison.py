@@ -2,8 +2,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..errors import InputError
 from .follow import follow, models_of
@@ -49,8 +51,10 @@ class Comparison:
         return self.runs["exact"].validity
 
 
-def compare(case, times=None, order: int | None = None) -> Comparison:
-    """All models of a case over its span (or at `times`, increasing from 0) against the exact motion.
+def compare(case: Any, times: ArrayLike | None = None, order: int | None = None) -> Comparison:
+    """All models of a case over its span (or at `times` (n,), s, increasing from 0) against the exact motion.
+
+    case: as `stabilab.load` gives it, with a motion; order: of the fast top's expansion.
 
     The first times of 1 % and 10 % error are bracketed on the grid and refined by evaluating both models in between.
     Raises InputError as `follow` does.

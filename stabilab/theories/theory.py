@@ -1,6 +1,8 @@
 """What the theory behind the analytic models of a case says of its motion beyond the motion itself, in words and numbers."""
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from ..errors import InputError
@@ -18,9 +20,13 @@ from .top.model import ORDER, state_of
 REVOLUTION = np.linspace(0.0, 1.0, 721)  # shares of a period at which the nutation is looked at
 
 
-def theory(case, order: int | None = None, model: str | None = None) -> list[dict]:
-    """A list of {"about", "words", "values"}: values by name, with the unit in the words; none where no theory applies or the
-    case gives no motion. order: of the top's expansion; model: "printed" adds the misprints of the charged body's paper."""
+def theory(case: Any, order: int | None = None, model: str | None = None) -> list[dict]:
+    """What the analytic theories know of a case: a list of {"about", "words", "values"}.
+
+    case: as `stabilab.load` gives it. values by name, with the unit in the words; none where no theory applies or the case gives no motion. order: of
+    the top's expansion; model: "printed" adds the misprints of the charged body's paper. Where the theory refuses the case's numbers the one
+    row says why: the InputError is told and not raised.
+    """
     module = family(case.scene)
     if module is None or case.state is None:
         return []

@@ -1,4 +1,5 @@
 """The site of the documentation: `make docs` builds it and ends at a warning; what its pages hold is told here without Sphinx."""
+import inspect
 import re
 import sys
 
@@ -38,6 +39,29 @@ def test_every_page_stands_in_the_contents_of_the_site():
 def test_every_public_name_stands_in_the_reference():
     text = reference.text()
     assert all(f":: stabilab.{name}\n" in text for name in stabilab.__all__ if name not in ("plot", "__version__"))
+
+
+def public():
+    """(name, function or class) of everything public, the plots among it."""
+    return [(name, getattr(stabilab, name)) for name in stabilab.__all__ if name not in ("plot", "__version__")] \
+        + [(f"plot.{name}", getattr(stabilab.plot, name)) for name in stabilab.plot.__all__]
+
+
+def test_every_public_function_has_types_and_says_what_it_takes_and_refuses():
+    functions = [(name, thing) for name, thing in public() if inspect.isfunction(thing)]
+    assert len(functions) > 25
+    for name, function in functions:
+        signature, says = inspect.signature(function), inspect.getdoc(function)
+        bare = [p.name for p in signature.parameters.values() if p.annotation is p.empty] + ["return"] * (signature.return_annotation is signature.empty)
+        assert not bare, f"{name}: no type for {', '.join(bare)}"
+        assert re.search(r"Raises|InputError", says) or name.startswith("plot."), f"{name}: what does it refuse?"
+
+
+def test_every_public_class_says_its_units_or_what_it_stands_for():
+    units = ("kg", "rad/s", "N m", "1/s", "N,", "scene's time", "dimensionless", "word", "user")
+    for name, thing in public():
+        if inspect.isclass(thing):
+            assert any(unit in inspect.getdoc(thing) for unit in units), name
 
 
 def test_every_case_stands_in_the_gallery_under_a_group(tmp_path, monkeypatch):

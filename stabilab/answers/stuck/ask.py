@@ -2,7 +2,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 from ...errors import InputError
 from ...numbers.principal import NOTHING, without_trace
@@ -19,7 +21,7 @@ from .scenario import scenario_of
 from .wheel import intervals
 
 
-def stuck(case, all_thrusters: bool = False, progress=None) -> Stuck:
+def stuck(case: Any, all_thrusters: bool = False, progress: Callable[[str], Any] | None = None) -> Stuck:
     """What the stuck thrusters of a case do: fate, axis, time to the limit, margins, wheels and thrusters that help.
 
     case: as `stabilab.load` gives it, with a motion. The first row has all thrusters that the case marks as stuck firing together, with what

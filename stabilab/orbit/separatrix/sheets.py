@@ -15,6 +15,7 @@ import numpy as np
 from ...errors import InputError
 from ...numbers.numba_door import wanted
 from ...physics.coefficients import effective
+from ...physics.scene import AnyScene
 from ..far_states import in_range
 from ..landscape import landscape_in_doubles
 from .circle_numba import serves, sheets_by_kernel
@@ -26,7 +27,7 @@ from .saddles import limit_of, saddle_branches
 SHAPE = (96, 129)  # fine enough for pictures
 
 
-def separatrix(scene, reach: float | None = None, shape: tuple[int, int] | None = None,
+def separatrix(scene: AnyScene, reach: float | None = None, shape: tuple[int, int] | None = None,
                accuracy: float | None = None, fast: bool = False) -> Separatrix:
     """Every sheet of the separatrix of a scene with an elliptic or hyperbolic reduction.
 
@@ -38,8 +39,7 @@ def separatrix(scene, reach: float | None = None, shape: tuple[int, int] | None 
     only where the largest grids, of 1025 rows, still bend as much). fast: on circles with a torque compile the work with numba
     (the extra `fast`); points agree to rounding, and loading numba costs more than some hundred surfaces. Points are in the
     scene's variables. A scene without saddles gives no sheets and the reason. Raises InputError for a shape, reach or accuracy
-    out of range, and for fast=True
-    without numba.
+    out of range, and for fast=True without numba.
     """
     _check(reach, shape, accuracy)
     scene = effective(scene)

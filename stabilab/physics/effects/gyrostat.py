@@ -16,7 +16,8 @@ from .base import Effect
 class Gyrostat(Effect):
     """Gyrostatic moment lambda, body frame, kg m^2/s, any direction (paper: Amer et al. 2024, eq. (1), along axis 1).
 
-    It adds lambda to the angular momentum H = D omega + lambda; its torque lambda x omega does no work.
+    moment: three numbers or exact strings. It adds lambda to the angular momentum H = D omega + lambda; its torque lambda x omega does no work.
+    Raises InputError for what is no vector of numbers.
     """
 
     name: ClassVar[str] = "gyrostat"

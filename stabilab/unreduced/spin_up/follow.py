@@ -1,12 +1,16 @@
 """One motion under a torque of any direction, followed until its spin-up is certified."""
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 
 from ...asked import checked_scene
 from ...numbers.numba_door import wanted
 from ...orbit.result import Fate
 from ...physics.coefficients import effective
+from ...physics.scene import AnyScene
 from ...physics.state import three_floats
 from ..enclosure.proof import proved
 from .cause import seen
@@ -22,8 +26,8 @@ NATURAL_TIMES, BUDGET = 1e9, 600_000
 FARTHEST = 1e150  # natural units: a run in doubles holds no squares of larger rates
 
 
-def spin_up(scene, state, t_max: float | None = None, budget: int | None = None, after: float = 0.0, proof: bool = False,
-            tell=None, fast: bool | None = None) -> SpinUp:
+def spin_up(scene: AnyScene, state: Any, t_max: float | None = None, budget: int | None = None, after: float = 0.0, proof: bool = False,
+            tell: Callable[..., Any] | None = None, fast: bool | None = None) -> SpinUp:
     """Whether and how the motion from a state spins up, decided by a certificate (`certificate`, `symmetric`) or not at all.
 
     scene: gyrostat and constant torque, physical or scaled. state: three rates at t = 0, taken at their word. t_max: how long the motion
