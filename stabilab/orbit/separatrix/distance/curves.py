@@ -35,7 +35,23 @@ class Spot(NamedTuple):
     sr: float
 
 
-class Hyperbola:
+class _Remembered:
+    """A branch remembers the place that it was asked for last: a box asks for that of its middle twice, and its neighbour for the same one."""
+
+    last: tuple[float, Spot | None] = (math.nan, None)
+
+    def at(self, t) -> Spot:
+        known, spot = self.last
+        if known != t:
+            spot = self.found(t)
+            self.last = t, spot
+        return spot
+
+    def found(self, t) -> Spot:
+        raise NotImplementedError
+
+
+class Hyperbola(_Remembered):
     """Saddles X = (K/h - c)/G, Z = h - shift for h = h0 exp(t), |h| within [inner, outer].
 
     h0 is, of the ends of the branch and the saddles level with the state, the one nearest to the state; the places there, and how far they
@@ -72,7 +88,7 @@ class Hyperbola:
         more = Fraction(size) / abs(self.h0) - 1
         return math.log1p(more) if abs(more) < 0.5 else math.log((more + 1).numerator) - math.log((more + 1).denominator)
 
-    def at(self, t) -> Spot:
+    def found(self, t) -> Spot:
         K, c, G, shift = self.plain
         h0, k0, x0, z0, u0, v0 = self.first
         up, down = math.expm1(t), math.expm1(-t)
@@ -117,7 +133,7 @@ class Hyperbola:
                 -km, kr, hm, hr, km, kr, hm, hr, s.u - s.xt * more, s.v + s.zt * more, s.su + kr, s.sv + hr)
 
 
-class Straight:
+class Straight(_Remembered):
     """Saddles on one of the lines that the conic degenerates to, at a point of it plus t times its direction.
 
     The point is the foot of the orbits, where a cone may have its tip, or the place nearest to the state where the state is much
@@ -150,7 +166,7 @@ class Straight:
     def _apart(g, base, way, t):
         return g["a"] * (base[0] + t * way[0] - g["X"]) ** 2 + g["b"] * (base[1] + t * way[1] - g["Z"]) ** 2
 
-    def at(self, t) -> Spot:
+    def found(self, t) -> Spot:
         x0, z0, dx, dz, u0, v0 = self.plain
         g, tx, tz = self.here, t * dx, t * dz
         x, z, sx, sz = x0 + tx, z0 + tz, abs(x0) + abs(tx), abs(z0) + abs(tz)

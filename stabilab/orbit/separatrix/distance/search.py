@@ -1,7 +1,8 @@
 """The nearest point of the sheets of a separatrix: branch and bound over their parameters, with a proved lower bound.
 
 A box is done with when its second-order Taylor bound (`forms`) exceeds the least distance found; where the Hessian is positive
-definite all over the box the bound is that of the convex quadratic, so no cluster of boxes gathers about the nearest point.
+definite all over the box the bound is that of the convex quadratic, so no cluster of boxes gathers about the nearest point: a
+rectangle with that point in its middle is tried first, and what lies within it needs no boxes.
 A point whose rounding in doubles would decide is looked at in balls; a nearest point that lies between doubles is gone round
 in offsets from an exact place (`beside`).
 """
@@ -19,6 +20,7 @@ CLOSE = 4e-10  # of the distance: lower bound and witness are brought so near
 INF = math.inf
 TINY = 2.0**-50  # of a parameter: boxes are not halved further
 MOST = 6000  # boxes; what is not closed by then is told as a bracket
+TRIES, SHRUNK = 6, 0.4  # rectangles about the nearest point found, each so much smaller than the one before
 
 
 class Nearest(NamedTuple):
@@ -57,6 +59,7 @@ class _Search:
     def __init__(self, w, upper, genuine, start):
         self.w, self.upper, self.genuine, self.hole = w, upper, genuine, None
         self.at = start or (None, 0.0, 0.0)
+        self.clear: tuple = (None, 0.0, 0.0)  # (at, dt, dy): the rectangle about the witness `at` that holds nothing nearer
         self.goal = (upper * (1 - CLOSE)) ** 2
 
     def run(self, charts, most, hole=None):
@@ -71,6 +74,8 @@ class _Search:
             low, _, way, (chart, t, dt, y, dy) = heapq.heappop(heap)
             if boxes > most:
                 return self.found(min(low, stuck), boxes)
+            if self.clear[0] is not self.at and self.at[0] is chart and hole is None:
+                boxes += self.clear_about_the_witness(chart, dt, dy)
             if not chart.sharpest and (dt <= TINY * (abs(t) + dt) and dy <= TINY * (abs(y) + dy) or low < 0 and dt + dy < 1e-12):
                 stuck = min(stuck, low)  # no smaller box: doubles of t and y do not tell the rest apart
                 continue
@@ -81,6 +86,23 @@ class _Search:
                 if low < self.goal:
                     heapq.heappush(heap, (low, boxes, new, box))
         return self.found(min(stuck, self.goal), boxes)
+
+    def clear_about_the_witness(self, chart, dt, dy) -> int:
+        """Look for a rectangle about the nearest point, at most 2 dt by 2 dy, that holds nothing nearer; the number of boxes looked at."""
+        at = _, t, y = self.at
+        self.clear = at, 0.0, 0.0
+        dy = min(dy, abs(y)) if chart.from_saddle else dy
+        for tried in range(1, TRIES + 1 if dy else 1):
+            if self.bound(chart, t, dt, y, dy)[0] >= self.goal:
+                self.clear = at, dt, dy
+                return tried
+            dt, dy = SHRUNK * dt, SHRUNK * dy
+        return TRIES
+
+    def cleared(self, chart, t, dt, y, dy) -> bool:
+        """Whether a box lies within the rectangle about the nearest point."""
+        at, wide, high = self.clear
+        return at is self.at and chart is at[0] and abs(t - at[1]) + dt <= wide and abs(y - at[2]) + dy <= high
 
     def found(self, square, boxes):
         """square: a bound that no point's squared distance is below."""
@@ -124,7 +146,8 @@ class _Search:
 
     def bound(self, chart, t, dt, y, dy):
         """(lower bound of D over a box, inf where it holds no point; 0 or 1: the side that is better halved)."""
-        if self.hole is not None and self.hole.covers(chart, t, dt, y, dy) or chart.misses(t, dt, y, dy, self.upper):
+        if (self.hole is not None and self.hole.covers(chart, t, dt, y, dy) or self.cleared(chart, t, dt, y, dy)
+                or chart.misses(t, dt, y, dy, self.upper)):
             return INF, 0
         if chart.folded(t, dt, y, dy):
             return chart.coarse(t, dt, y, dy), 0 if chart.steep(t, dt, y, dy) else 1
