@@ -12,7 +12,7 @@ from functools import lru_cache
 from typing import NamedTuple
 
 from ..errors import InputError
-from ..numbers.exact import exact
+from ..numbers.exact import exact, pi_in
 
 Dimension = tuple  # exponents of m, kg, s, A, rad
 
@@ -65,14 +65,14 @@ DIMENSIONS = {  # of the numbers of a case file; one that is not here is a numbe
     "effects.liquid_cavity.radius": LENGTH,
 }
 
-_NUMBER = re.compile(r"\s*([+-]?(?:\d[\d_]*(?:\.[\d_]*)?|\.\d[\d_]*)(?:[eE][+-]?\d+)?(?:\s*/\s*\d+)?)\s*(.*)", re.ASCII | re.DOTALL)
+_NUMBER = r"(?as)\s*([+-]?(?:\d[\d_]*(?:\.[\d_]*)?|\.\d[\d_]*)(?:[eE][+-]?\d+)?(?:\s*/\s*\d+)?)\s*(.*)"  # compiled where a unit is read
 _FACTOR = re.compile(r"\s*([*·/.\-]|)\s*(1|[A-Za-zµμ°]+)(?:(?:\^|\*\*)?([+-]?\d{1,2})|([²³]))?\s*")
 _SUPER = {"²": 2, "³": 3}
 
 
 def split(text: str) -> tuple[str, str] | None:
     """("22", "N") of "22 N"; None where the text does not begin with a number."""
-    found = _NUMBER.fullmatch(text) if len(text) <= 400 else None
+    found = re.fullmatch(_NUMBER, text) if len(text) <= 400 else None
     return (found[1], found[2].strip()) if found else None
 
 
@@ -165,14 +165,4 @@ def _near(word: str) -> str:
 @lru_cache(maxsize=1)
 def pi() -> Fraction:
     """Pi within 2**-300, by Machin's formula in integers."""
-    bits = 320
-    one = 1 << bits
-
-    def arctan(inverse):
-        term, total, n = one // inverse, 0, 1
-        while term:
-            total += term // n if n % 4 == 1 else -(term // n)
-            term //= inverse * inverse
-            n += 2
-        return total
-    return Fraction((4 * (4 * arctan(5) - arctan(239))) >> 16, 1 << (bits - 16))
+    return Fraction(pi_in(304), 1 << 304)

@@ -12,13 +12,12 @@ from .coefficients import Content
 
 def split(parts: Content, state: Any) -> tuple[Float3, Float3 | None]:
     """(omega, gamma or None) as plain floats."""
-    from .states import numbers_in_a_row
     if isinstance(state, dict):
         rows = [state.get("omega", ()), state.get("gamma", ())]
     else:
-        row = numbers_in_a_row(state, "state")
+        row = _row(state)
         rows = [row[:3], row[3:]]
-    omega, gamma = (tuple(map(float, numbers_in_a_row(row, "state"))) if len(row) else () for row in rows)
+    omega, gamma = (_row(row) if len(row) else () for row in rows)
     if len(omega) != 3 or len(gamma) not in (0, 3):
         raise InputError("state: expected three numbers (omega), or six (omega, gamma), or a dict of blocks")
     if not parts.directed:
@@ -26,6 +25,14 @@ def split(parts: Content, state: Any) -> tuple[Float3, Float3 | None]:
     if not gamma:
         raise InputError("state: an effect of this scene asks where the vertical is: give gamma too (six numbers, or a dict of blocks)")
     return omega, gamma
+
+
+def _row(values: Any) -> tuple[float, ...]:
+    """Finite floats in one row; InputError otherwise."""
+    if isinstance(values, (tuple, list)) and values and all(type(v) is float and math.isfinite(v) for v in values):
+        return tuple(values)
+    from .states import numbers_in_a_row  # other kinds of numbers, and the words for what is none
+    return tuple(map(float, numbers_in_a_row(values, "state")))
 
 
 def three_floats(state: Any) -> Float3:

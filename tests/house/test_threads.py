@@ -14,7 +14,6 @@ from functools import cache
 from pathlib import Path
 
 import flint
-import mpmath
 import numpy as np
 import pytest
 
@@ -163,15 +162,10 @@ def test_analysis_and_checker_hold_one_lock_while_flint_has_their_precision():
     assert entered.is_set() and flint.ctx.prec == 53
 
 
-def test_exact_cosines_of_two_threads_keep_their_own_bits(monkeypatch):
-    cosine = lambda bits: precise("cos", Fraction(1, 7), bits=bits)
-    alone, found, cos = {bits: cosine(bits) for bits in (900, 240)}, {}, mpmath.mp.cos
-
-    def slow(x):  # the thread of 900 bits works on while that of 240 has begun and not ended
-        time.sleep(0.05 if threading.current_thread().name == "900" else 0.1)
-        return cos(x)
-    monkeypatch.setattr(mpmath.mp, "cos", slow)
-    threads = [threading.Thread(target=lambda bits=bits: found.update({bits: cosine(bits)}), name=str(bits)) for bits in alone]
+def test_exact_cosines_of_two_threads_keep_their_own_bits(restless):
+    cosine = lambda bits: [precise("cos", Fraction(n, 7), bits=bits) for n in range(20)]
+    alone, found = {bits: cosine(bits) for bits in (900, 240)}, {}
+    threads = [threading.Thread(target=lambda bits=bits: found.update({bits: cosine(bits)})) for bits in alone]
     for thread in threads:
         thread.start()
     for thread in threads:
@@ -200,6 +194,12 @@ def test_functions_of_symbols_are_made_by_one_thread_at_a_time(monkeypatch):
     assert most == [1] * 4
 
 
+def sources(*words):
+    """The files of the package in which one of the words stands: the others need no reading by the syntax."""
+    texts = ((path, path.read_text(encoding="utf-8")) for path in (ROOT / "stabilab").rglob("*.py"))
+    return [path for path, text in texts if any(word in text for word in words)]
+
+
 @cache
 def nodes(path):
     return list(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
@@ -207,14 +207,15 @@ def nodes(path):
 
 def test_only_gates_that_hold_a_lock_set_a_precision():
     """Another place that set it would do so while some thread computes."""
-    gates = {"numbers/balls.py": "flint", "verify/precision.py": "flint", "numbers/exact.py": "mpmath", "theories/top/series.py": "mpmath"}
-    found = {path.relative_to(ROOT / "stabilab").as_posix(): ast.unparse(node.value).split(".")[0] for path in (ROOT / "stabilab").rglob("*.py")
-             for node in nodes(path) if isinstance(node, ast.Attribute) and node.attr in ("workprec", "extraprec", "workdps", "extradps")}
+    gates = {"numbers/balls.py": "flint", "verify/precision.py": "flint", "theories/top/series.py": "mpmath"}
+    words = ("workprec", "extraprec", "workdps", "extradps")
+    found = {path.relative_to(ROOT / "stabilab").as_posix(): ast.unparse(node.value).split(".")[0] for path in sources(*words)
+             for node in nodes(path) if isinstance(node, ast.Attribute) and node.attr in words}
     assert found == gates
 
 
 def test_no_module_rebinds_a_name_at_run_time():
     """What a module knows is the same for every thread: a kind of number, a precision, a count is passed."""
-    found = [f"{path}: {', '.join(node.names)}" for path in (ROOT / "stabilab").rglob("*.py")
+    found = [f"{path}: {', '.join(node.names)}" for path in sources("global ")
              for node in nodes(path) if isinstance(node, ast.Global)]
     assert found == []
