@@ -16,8 +16,8 @@ HELP = ("help of all commands, from typer alone", ("--help",))
 COMMANDS = (HELP, ("classify one state", ("classify", CASE)), ("extremes of one state", ("extremes", CASE)))
 TYPER = ("-c", "import typer")
 LIMIT = ("a command cannot be faster than the import of typer that it begins with. Beyond it: reading the case and its classes "
-         "(fractions, tomllib, some twenty dataclasses at half a millisecond each), exact equilibria, and for classify the "
-         "distance from the separatrix. Tried and left: NumPy (75 ms) and python-flint (40 ms) for one state; now balls of "
+         "(fractions, tomllib, some thirty records at a sixth of a millisecond each), exact equilibria, and for classify the "
+         "distance from the separatrix, whose search takes a quarter of it. Tried and left: NumPy (75 ms) and python-flint (40 ms) for one state; now balls of "
          "doubles answer it, and python-flint is loaded only where they are unclear")
 
 

@@ -78,10 +78,11 @@ def classify(cases: CaseFiles, json: Json = False, strict: Annotated[bool, typer
 
     Example: stabilab classify cases/minor-axis-100.toml --json
     """
-    from .show.text import answers, certification, law
+    from .show.text import answers, law
     loaded = _load(cases)
     systems = _systems(loaded, units)
     if certify:
+        from .show.text import certification
         certification.checked(out)
         if len(cases) != 1:
             raise InputError(f"--certify: expected one case, got {len(cases)}; certify them one by one")

@@ -1,7 +1,7 @@
 """What can go wrong, in words for the user, and the exit codes that announce it."""
 from __future__ import annotations
 
-from dataclasses import dataclass
+from .record import record
 
 OK, BUG, BAD_INPUT, UNDECIDED, NO_RENDERING, TOLERANCE_NOT_MET, INTERRUPTED = 0, 1, 2, 3, 4, 5, 130
 
@@ -23,7 +23,7 @@ def printable(text: str) -> str:
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in text)
 
 
-@dataclass(frozen=True)
+@record
 class Problem:
     """One fault of a case file; `line` is 1-based, None where the file as a whole is meant."""
 

@@ -1,12 +1,12 @@
 """What a spacecraft carries, as a case file states it: [[thrusters]], [[wheels]] and [limits]."""
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
 
 from ..errors import InputError
 from ..numbers.exact import exact, sqrt_fraction
 from ..numbers.vectors import Exact3, cross, dot
+from ..record import record
 from .table import Table, described
 from .uncertainty import plus_minus, states_uncertainty
 from .units import FORCE, pi
@@ -18,7 +18,7 @@ WHEEL = ("name", "axis", "momentum", "inertia", "speed")
 SAME = Fraction(1, 10**6)  # relative: momentum and inertia x speed given to six digits agree
 
 
-@dataclass(frozen=True)
+@record
 class Thruster:
     """position: m, structural frame; direction: unit vector of the force on the body, input frame; force: N; misalignment: half-angle
     of the cone that the true direction lies in, rad, or None; force_tolerance: half-width, N, or None; stuck: whether it fires for
@@ -35,7 +35,7 @@ class Thruster:
     arm: Exact3 = ZERO3
 
 
-@dataclass(frozen=True)
+@record
 class Wheel:
     """axis: unit vector, input frame; momentum: along it relative to the body, N m s; vector: both as a vector, input frame."""
 
@@ -45,7 +45,7 @@ class Wheel:
     vector: Exact3
 
 
-@dataclass(frozen=True)
+@record
 class Limits:
     """rate: largest |omega|, rad/s, or rates: largest |omega_i| along the axes of the input frame; the other one is None."""
 

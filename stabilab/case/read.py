@@ -4,7 +4,7 @@ from __future__ import annotations
 import math
 import os
 from contextlib import contextmanager
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from fractions import Fraction
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -17,6 +17,7 @@ from ..physics.body import Body
 from ..physics.effects import REGISTRY, effect_class
 from ..physics.scaling import Scaling, to_scaled, torque_from_mu
 from ..physics.scene import ScaledGyrostat, Scene
+from ..record import record
 from .attitude import judge as judge_attitude
 from .attitude import vertical_of
 from .expect import expected
@@ -36,7 +37,7 @@ UNIT_SLACK = 1e-6  # a direction given to six decimals counts as a unit vector; 
 STAND_IN = Body((3, 2, 1))  # lets the faults of the effects show where the body itself is at fault
 
 
-@dataclass(frozen=True)
+@record
 class Case:
     """One case file.
 
@@ -297,7 +298,7 @@ def _scaled(top: Table) -> ScaledGyrostat | None:
     return None if a is None or b is None or mu is None else ScaledGyrostat(a, b, mu)
 
 
-@dataclass(frozen=True)
+@record
 class _Motion:
     """[motion] as it is written: which keys, and their numbers."""
 

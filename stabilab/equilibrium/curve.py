@@ -2,13 +2,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from fractions import Fraction
 from typing import NamedTuple
 
 from ..errors import InputError
 from ..numbers.polynomial import Poly
 from ..numbers.vectors import Exact3, Float3
+from ..record import record
 
 T = Poly((0, 1))
 ONE_POLY = Poly((1,))
@@ -24,7 +25,7 @@ class Grounds(NamedTuple):
     maximum: Verdict    # m < 0 on both sides
 
 
-@dataclass(frozen=True)
+@record
 class RationalCurve:
     """x_i(t) = numerators[i](t)/denominator(t). crossings: parameter where another curve meets this one -> verdict.
     poles: zeros of the denominator, rising, all rational. scale: a parameter size at which something happens."""

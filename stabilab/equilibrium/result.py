@@ -2,17 +2,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING
 
 from ..numbers.vectors import Float3
+from ..record import record
 from ..shown import Shown
 
 if TYPE_CHECKING:
     from ..physics.law_limits import Validity
 
 
-@dataclass(frozen=True)
+@record
 class EquilibriumPoint:
     """One equilibrium with its verdicts.
 
@@ -28,7 +29,7 @@ class EquilibriumPoint:
     because: str
 
 
-@dataclass(frozen=True)
+@record
 class CurveSegment:
     """A piece of an equilibrium curve with one verdict; `t` is the open parameter interval (ends may be infinite)."""
 
@@ -38,7 +39,7 @@ class CurveSegment:
     because: str
 
 
-@dataclass(frozen=True)
+@record
 class EquilibriumCurve:
     """A curve of equilibria: point(t) -> (x1, x2, x3) for t inside the segments' intervals.
 
@@ -55,7 +56,7 @@ class EquilibriumCurve:
     samples: tuple[EquilibriumPoint, ...] = ()
 
 
-@dataclass(frozen=True, repr=False)
+@record
 class Equilibria(Shown):
     """All equilibria of a scene. kind: "none", "points", "curves" (curves, possibly with points) or "all" (every
     state is one); reason: why these and no others. validity: of an approximate law (`stabilab.physics.law_limits`), at the points; None where

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
-from dataclasses import dataclass
 from fractions import Fraction
 from threading import RLock
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from ..record import record
 from .double_ball import Doubles, Unclear
 from .polynomial import Poly, real_roots
 from .vectors import Number
@@ -43,7 +43,7 @@ def working(bits: int, terms: int = 10) -> Iterator[Digits]:
             flint.ctx.cap = before
 
 
-@dataclass(frozen=True)
+@record
 class Digits:
     """Where python-flint's balls come from, to be used while it is `working` with so many bits; `double_balls.Doubles` has
     the same interface."""

@@ -8,11 +8,11 @@ is irrational has the same error. `error` bounds what is left, proved by the res
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import TypeAlias
 
 from ..errors import InputError
+from ..record import record
 from .exact import sqrt_fraction
 from .polynomial import Poly, integers, real_roots
 from .vectors import Exact3, Number, Triple, cross, dot
@@ -25,7 +25,7 @@ NAMES = "xyz"
 NOTHING = Fraction(1, 1 << 200)  # of a vector: a component as small is what irrational axes, good to BITS, leave of zero
 
 
-@dataclass(frozen=True)
+@record
 class PrincipalAxes:
     """moments: three, in the tensor's unit; axes: rows, unit vectors of the principal axes in the input frame, right-handed.
 

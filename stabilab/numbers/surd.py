@@ -1,14 +1,14 @@
 """Numbers p + q sqrt(d) with rational p, q and d >= 0: roots of a quadratic, signs decided exactly."""
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
 
+from ..record import record
 from .exact import sqrt_fraction
 from .vectors import Number
 
 
-@dataclass(frozen=True)
+@record
 class Surd:
     """p + q sqrt(d). Arithmetic joins surds of one d and rationals."""
 

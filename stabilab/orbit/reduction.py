@@ -19,7 +19,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -28,6 +27,7 @@ from ..numbers.exact import sqrt_fraction
 from ..numbers.vectors import CYCLE, Exact3, Number, Triple
 from ..physics.quadratic import QuadraticForm
 from ..physics.scene import AnyScene
+from ..record import record
 from .potential import GEOMETRIES, Geometry
 
 
@@ -48,7 +48,7 @@ class Constants(NamedTuple):
     flip: int
 
 
-@dataclass(frozen=True)
+@record
 class Reduction:
     """A scene seen as a particle in a potential (see the module text).
 

@@ -3,11 +3,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from enum import IntEnum
 from typing import TYPE_CHECKING, Any
 
 from ..numbers.vectors import Float3, Number
+from ..record import record
 from ..shown import Shown
 
 if TYPE_CHECKING:  # a scene of exact laws does not load it
@@ -33,7 +34,7 @@ class Fate(IntEnum):
         return ("bounded", "spin-up", "separatrix", "equilibrium", "undecided")[self]
 
 
-@dataclass(frozen=True, repr=False)
+@record
 class Motion(Shown):
     """Everything known about the motion from one state.
 

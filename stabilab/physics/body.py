@@ -2,14 +2,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from ..errors import InputError
 from ..numbers.exact import exact, exact_vector, floats
 from ..numbers.vectors import Exact3, Given
+from ..record import record
 
 
-@dataclass(frozen=True)
+@record
 class Body:
     """A rigid body seen from its principal axes 1, 2, 3.
 

@@ -10,12 +10,12 @@ of mass does not turn the body.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import ClassVar
 
 from ..asked import checked_scene
 from ..numbers.vectors import Exact3, Number, Triple, cross
+from ..record import record
 from .body import Body
 from .effects import effect_class
 from .effects.base import Effect
@@ -25,7 +25,7 @@ KNOWN = {"gyrostat", "constant_torque", "charge", "resistance", "liquid_cavity",
 ZERO = Fraction(0)
 
 
-@dataclass(frozen=True)
+@record
 class Content:
     """The coefficients of the equations above, exact. printed: the liquid's torque is the printed one."""
 
@@ -95,7 +95,7 @@ def shortened(value: Fraction) -> Fraction:
     return Fraction(round(value * 2**shift), 2**shift)
 
 
-@dataclass(frozen=True)
+@record
 class Together(Effect):
     """What turns the body as a wheel of moment Lambda would: wheel and charge of constant angle in one."""
 

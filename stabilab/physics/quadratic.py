@@ -8,14 +8,14 @@ differences such as D1 - D2 or b - a are formed before the one rounding to doubl
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 
 from ..numbers.vectors import CYCLE, Exact3, Number, Triple
+from ..record import record
 
 
-@dataclass(frozen=True)
+@record
 class QuadraticForm:
     """Coefficients of the rates; `symbol` is the letter of the state ("omega" or "x")."""
 

@@ -10,17 +10,17 @@ The paper forgets the root of u in a and b, which is harmless only for its u = 1
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 
 from ..errors import InputError
 from ..numbers.exact import exact_vector, sqrt_fraction
 from ..numbers.vectors import Exact3, Float3, Number
+from ..record import record
 from .body import Body
 from .scene import ScaledGyrostat, Scene
 
 
-@dataclass(frozen=True)
+@record
 class Scaling:
     """omega_j = rate[j] x_j and t = time tau; exact up to square roots kept to 240 bits."""
 

@@ -2,13 +2,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from fractions import Fraction
 from typing import Any, ClassVar, Literal, TypeAlias
 
 from ..errors import InputError
 from ..numbers.exact import exact, exact_vector, floats
 from ..numbers.vectors import Exact3, Given
+from ..record import record
 from .blocks import ordered
 from .body import Body
 from .effects.base import Effect
@@ -17,7 +18,7 @@ from .quadratic import QuadraticForm, euler_form, scaled_form
 ZERO3 = (Fraction(0),) * 3
 
 
-@dataclass(frozen=True)
+@record
 class Scene:
     """A body and its effects, each at most once. Effects not named here do not exist for any later step, and one of zero
     strength is not kept: it equals an absent one in every answer because it is absent.
@@ -81,7 +82,7 @@ class Scene:
         return euler_form(self.body.exact, self.vector("gyrostat"), self.vector("constant_torque"))
 
 
-@dataclass(frozen=True)
+@record
 class ScaledGyrostat:
     """The dimensionless system of Amer et al. 2024, eq. (5), for any real a, b, mu; accepted wherever a scene is.
 

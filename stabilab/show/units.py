@@ -2,11 +2,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal, localcontext
 from typing import TYPE_CHECKING
 
 from ..errors import InputError
+from ..record import record
 
 if TYPE_CHECKING:
     from ..case.read import Case
@@ -17,7 +17,7 @@ Unit = tuple[str, float]  # its name, and how many of it make one in SI
 TURN = 180 / math.pi
 
 
-@dataclass(frozen=True)
+@record
 class Units:
     """A system of units: `name` is "deg", "si", or "scaled" for dimensionless variables.
 

@@ -2,9 +2,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
+from ...record import record
 from ...shown import Shown
 
 if TYPE_CHECKING:
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 AGREE = 1e-9  # relative: nearer than that, lower bound and witness are one number
 
 
-@dataclass(frozen=True)
+@record
 class Sheet:
     """One sheet of the separatrix as a parametric grid.
 
@@ -36,7 +36,7 @@ class Sheet:
     cut: int = 1
 
 
-@dataclass(frozen=True, repr=False)
+@record
 class Separatrix(Shown):
     """Every sheet of the separatrix inside the asked-for range; reason says why there is none or what bounds it."""
 

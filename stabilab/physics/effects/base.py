@@ -6,15 +6,15 @@ The formulas use arithmetic only, so the same lines serve SymPy symbols, floats,
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, ClassVar
 
 from ...numbers.principal import PrincipalAxes
 from ...numbers.vectors import Number, Triple
+from ...record import record
 
 
-@dataclass(frozen=True)
+@record
 class Limit:
     """Up to where an approximate law may be used: a dimensionless number that must not exceed `limit`.
 
@@ -29,7 +29,7 @@ class Limit:
     source: str
 
 
-@dataclass(frozen=True)
+@record
 class Effect:
     """Base of every effect. `name` is its table in a case file; `keys` its keys there."""
 

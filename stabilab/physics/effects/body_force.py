@@ -2,16 +2,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from fractions import Fraction
 from typing import Any, ClassVar
 
 from ...numbers.exact import exact_vector, floats
 from ...numbers.vectors import Exact3, Given, Number, Triple
+from ...record import record
 from .base import Effect
 
 
-@dataclass(frozen=True)
+@record
 class BodyForce(Effect):
     """Force f, N, body frame, through the centre of mass (Galal et al., charged body: eq. (38)). The body needs a mass."""
 

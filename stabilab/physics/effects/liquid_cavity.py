@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from fractions import Fraction
 from math import pi
 from typing import Any, ClassVar
@@ -11,6 +11,7 @@ from ...errors import InputError
 from ...numbers.exact import exact, precise
 from ...numbers.principal import PrincipalAxes
 from ...numbers.vectors import Given, Number, Triple, cross
+from ...record import record
 from .base import Effect, Limit
 from .pace import pace
 
@@ -19,7 +20,7 @@ NEXT_TERM = 2 / 45  # of the Reynolds number: the next term of the series over t
 SOURCE = "Chernousko's expansion for small Reynolds numbers; Galal et al., liquid cavity: sections 1 and 2"
 
 
-@dataclass(frozen=True)
+@record
 class LiquidCavity(Effect):
     """Torque kappa (omega'' + omega x omega'), kappa = density P0/viscosity, N m s^3: the rates of omega taken along
     the motion without the small effects, as Chernousko's derivation for small Reynolds numbers demands.

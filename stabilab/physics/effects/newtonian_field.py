@@ -2,19 +2,20 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from fractions import Fraction
 from typing import Any, ClassVar
 
 from ...numbers.exact import exact
 from ...numbers.principal import PrincipalAxes
 from ...numbers.vectors import Given, Number, Triple, cross
+from ...record import record
 from .base import Effect, Limit
 
 SMALL = 0.1  # size over distance at which the next term of the field's torque is a tenth or so of the one that is kept
 
 
-@dataclass(frozen=True)
+@record
 class NewtonianField(Effect):
     """Torque N gamma x D gamma, N m, with N = 3 lambda/R^3 in 1/s^2; gamma along the line to the centre (Amer et al.
     2023, fast top: eq. (2); its eq. (1) has the opposite sign). Potential energy N gamma . D gamma/2. distance: R, m, where
