@@ -469,7 +469,11 @@ def sweep(case: CaseFile,
 def explore(case: Annotated[Path | None, typer.Argument(metavar="[CASE]", help="A case file (TOML). Default: one that stabilab brings.", show_default=False,
                                                            autocompletion=completion.cases)] = None,
             port: Annotated[int, typer.Option(metavar="N", min=0, max=65535, help="Port of this machine; 0: a free one.")] = 0,
-            browser: Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page, or only print its address.")] = True):
+            browser: Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page, or only print its address.")] = True,
+            static: Annotated[Path | None, typer.Option(metavar="DIR", help="Write the page as a folder for any web server: "
+                                                                           "Python answers in the browser.")] = None,
+            pyodide: Annotated[Path | None, typer.Option(metavar="DIR", help="With --static: a folder with Pyodide and python-flint's wheel, to be "
+                                                                            "copied in. Without: loaded from where they are published.")] = None):
     """Move a case by hand: sliders, and the verdict follows.
 
     Separatrix, equilibria, motion, phase plane and rates over time; the verdict changes as you drag. The page is served to this machine alone, under an
@@ -477,10 +481,16 @@ def explore(case: Annotated[Path | None, typer.Argument(metavar="[CASE]", help="
 
     Example: stabilab explore cases/thruster-stuck-major-axis.toml --no-browser
     """
-    from .show.explore.serve import serve
     one, *rest = _load([case or Path(__file__).parent / "cases" / "thruster-stuck-major-axis.toml"])
     if rest:
         _say(f"{one.place}: the first combination of its sweep is explored")
+    if static is not None:
+        from .show.explore.static import write
+        _print(str(write(one, static, pyodide)))
+        return
+    if pyodide is not None:
+        raise typer.BadParameter("--pyodide belongs to --static")
+    from .show.explore.serve import serve
     _say("Ctrl-C ends it.")
     serve(one, port, browser, _print)
 

@@ -18,14 +18,15 @@ FLAGS = ("--headless", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshade
 class Browser:
     """One page. `console`: what it wrote there and every error; `requests`: every address that it asked for."""
 
-    def __init__(self, profile: Path, width: int = 1300, height: int = 1000):
+    def __init__(self, profile: Path, width: int = 1300, height: int = 1000, flags=()):
         down, self._up = os.pipe()
         self._out, up = os.pipe()
         self.console, self.requests, self._number, self._rest = [], [], 0, b""
         # the protocol is spoken over the descriptors 3 and 4, whatever their numbers are here
         script = f'exec "$0" "$@" 3<&{down} 4>&{up}'
         self._process = subprocess.Popen(
-            ["bash", "-c", script, CHROMIUM, *FLAGS, f"--window-size={width},{height}", f"--user-data-dir={profile}", "--remote-debugging-pipe", "about:blank"],
+            ["bash", "-c", script, CHROMIUM, *FLAGS, *flags, f"--window-size={width},{height}", f"--user-data-dir={profile}", "--remote-debugging-pipe",
+             "about:blank"],
             pass_fds=(down, up), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(down), os.close(up)
         (page,) = [one for one in self.ask("Target.getTargets", session=None)["targetInfos"] if one["type"] == "page"]

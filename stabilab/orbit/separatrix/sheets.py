@@ -23,6 +23,7 @@ from .grid import grid
 from .homoclinic_arrays import residual
 from .result import Separatrix, Sheet
 from .saddles import limit_of, saddle_branches
+from .words import NO_REDUCTION, PARABOLIC, what_it_parts, why_none
 
 SHAPE = (96, 129)  # fine enough for pictures
 
@@ -50,18 +51,17 @@ def separatrix(scene: AnyScene, reach: float | None = None, shape: tuple[int, in
 def _separatrix(scene, reach, shape, accuracy, fast) -> Separatrix:
     land = landscape_in_doubles(scene)
     if land is None:
-        return Separatrix((), "no reduction to one degree of freedom: the separatrix of this scene is not known in closed form")
+        return Separatrix((), NO_REDUCTION)
     if land.conic is None:
-        return Separatrix((), "parabolic reduction (two equal moments): all motions are bounded by walls on both sides, "
-                              "except pure spin about the torque; no sheet bounds a spin-up")
+        return Separatrix((), PARABOLIC)
     branches = saddle_branches(land.conic, land.potential, limit_of(land.conic, reach or 4.0))
     if not branches:
-        return Separatrix((), _why_none(land))
+        return Separatrix((), why_none(land.conic))
     strips = [(branch, side) for branch in branches for side, _ in land.conic.sides(land.sense)]
     rows, columns = shape or SHAPE
     half = None if accuracy else (rows, columns // 2 + 1)
     made = _by_kernel(land, strips, half, accuracy) if _goes_fast(land, strips, fast) else _by_arrays(land, strips, half, accuracy)
-    return Separatrix(tuple(_sheets(land, strips, *made)), _what_it_parts(land))
+    return Separatrix(tuple(_sheets(land, strips, *made)), what_it_parts(land.potential, land.sense))
 
 
 def _goes_fast(land, strips, fast) -> bool:
@@ -115,19 +115,3 @@ def _sheets(land, strips, points, off, saddles, centres, found, cut, error):
             name = f"sheet {first // per + 1}{words[strip - first] if len(kept) > 1 else ''}"
             yield Sheet(name, points[strip, rows], off[strip, rows], saddle[strip, rows], centre[strip, rows],
                         invariant[strip, rows], float(error[strip]), cut)
-
-
-def _what_it_parts(land) -> str:
-    if land.potential.walled:
-        return "both sides of each sheet are bounded: it parts oscillations about one centre from those around two"
-    if land.sense == 0:
-        return ("both sides of each sheet are bounded: inside motions oscillate about a centre, outside about more of "
-                "them or right round the axis")
-    return "each sheet bounds the motions that oscillate about the centres inside it"
-
-
-def _why_none(land) -> str:
-    if land.conic.pieces or land.conic.lines:
-        return ("no equilibrium is a saddle of the reduced potential: each orbit has a single well, and there is no "
-                "separatrix surface")
-    return "there is no equilibrium, so there is no saddle and no separatrix surface"

@@ -1,13 +1,13 @@
 """What a page asks of a case and what it is answered: the verdict of the changed case, and everything that the page draws.
 
 An answer for a moving hand is brief (no search for the nearest point of the separatrix, no run of a motion off the axes, a coarser surface); one for a
-resting hand is whole. Everything but the surfaces does without NumPy, so that it also runs in a browser.
+resting hand is whole. All of it does without NumPy (then the surfaces are coarser, and no motion is followed off the axes), so that it also runs in a browser.
 """
 from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from ...answers.equilibria import equilibria
@@ -17,6 +17,7 @@ from ...case.read import Case
 from ...errors import InputError, StabilabError
 from ...integrate.quadratic_series import followed
 from ...orbit.result import Motion
+from ...orbit.separatrix.plain_sheets import REACH, PlainSheet, plain_separatrix
 from ...packages import present
 from ...physics.coefficients import content, gyrostat_scene
 from ...physics.effects import effect_class
@@ -27,7 +28,9 @@ from . import controls, planes, space, tables
 from .bag import Bag
 from .changed import changed
 
-SHAPES = {True: (20, 41), False: (48, 97)}  # rows and columns of a sheet: while the hand moves, and when it rests
+PLAIN = {True: (18, 17), False: (40, 33)}  # rows of a sheet, and columns of half of it: while the hand moves, and when it rests
+GRADED = (48, 97)
+FARTHEST = 1e4  # times the fold's radius: how far a sheet is followed for a large box
 POINTS = {True: (16, 40), False: (40, 90)}  # of a piece of a curve of equilibria: to find what is in the box, and to draw it
 TURNS = 60.0  # rad of turn at most that are drawn
 FOLLOWED = "the torque is off the principal axes: keep still, and the motion is followed"
@@ -84,8 +87,10 @@ class Session:
     def _motion(self, case: Case, moving: bool, stopped) -> tuple[Motion | None, str]:
         """(what is known of the motion, the verdict in a line); None while it has to be followed."""
         runs = KINDS[kind_of(self._twin(case))].follows
-        if runs and (moving or not present("numpy")):
-            return None, f"UNDECIDED so far: {FOLLOWED if moving else NO_ARRAYS}"
+        if runs and not present("numpy"):
+            return None, f"UNDECIDED: {NO_ARRAYS}"
+        if runs and moving:
+            return None, f"UNDECIDED so far: {FOLLOWED}"
 
         def tell(*_):
             if stopped():
@@ -102,35 +107,32 @@ class Session:
         marks = space.marks_of(case.state, found, at_rest)
         box = space.box_of(asked, [*near, *(m["at"] for m in marks if m["kind"].startswith(("start", "nearest")))], moving)
         bare, ghost = _without_tilt(twin)
-        sheets, words = self._sheets(bare, box, SHAPES[moving])
-        sheets = [sheet for sheet in sheets if space.seen(sheet.points, box)]
+        sheets, words = self._sheets(bare, box, moving)
+        sheets = [sheet for sheet in sheets if space.seen(sheet, box)]
         if ghost:
             words = "No separatrix is known for a torque off the axes" + (": the surface drawn is that of the torque without its tilt" if sheets else "")
         names = [planes.labelled(component.replace("omega", "ω"), self.units.rates[0]) for component in case.scene.components]
         made = space.drawn(bag, box, names, self.units.rates[1], sheets, at_rest, near, marks, ghost, POINTS[moving])
         return made | {"words": words, "box": {"middle": box.middle, "half": box.half}}
 
-    def _sheets(self, scene: AnyScene, box: space.Box, shape) -> tuple[tuple, str]:
+    def _sheets(self, scene: AnyScene, box: space.Box, moving: bool) -> tuple[Sequence[PlainSheet], str]:
         """(sheets as far as the box reaches, what they part or why there are none)."""
-        if not present("numpy"):
-            return (), "The surfaces need NumPy, which is not here"
-        from ...orbit.separatrix.sheets import separatrix
         needed = box.farthest
 
         def reaching():
-            reach = self._kept.get("reach", (None, 4.0))[1]
-            found = separatrix(scene, reach=reach, shape=shape)
-            far = max((abs(float(extreme)) for sheet in found.sheets for extreme in (sheet.points.min(), sheet.points.max())), default=0.0)
-            wanted = min(reach * 1.3 * needed / far, 1e4) if far else reach
+            reach = self._kept.get("reach", (None, REACH))[1]
+            found, words = _surface(scene, reach, moving)
+            far = max((abs(v) for sheet in found for p in sheet.points for v in p), default=0.0)
+            wanted = min(reach * 1.3 * needed / far, FARTHEST) if far else reach
             if far and (far < needed or far > 8 * needed) and wanted > 1.01:
                 self._kept["reach"] = (None, wanted)
-                found = separatrix(scene, reach=wanted, shape=shape)
-            return found
+                found, words = _surface(scene, wanted, moving)
+            return found, words
         try:
-            found = self._once("sheets", (scene, box, shape), reaching)
+            found, words = self._once("sheets", (scene, box, moving), reaching)
         except StabilabError as error:
             return (), f"No separatrix: {error}"
-        return (found.sheets, _capital(found.reason)) if found.sheets else ((), f"No separatrix: {found.reason}")
+        return (found, _capital(words)) if found else ((), f"No separatrix: {words}")
 
     def _once(self, name: str, key: Any, make: Callable[[], Any]) -> Any:
         """What `make` gave for this key the last time, or gives now."""
@@ -138,6 +140,15 @@ class Session:
         if kept is None or kept[0] != key:
             kept = self._kept[name] = (key, make())
         return kept[1]
+
+
+def _surface(scene: AnyScene, reach: float, moving: bool) -> tuple[Sequence[PlainSheet], str]:
+    """The separatrix: coarse in plain floats for a moving hand, graded by NumPy, where that is here, for one that rests."""
+    if moving or not present("numpy"):
+        return plain_separatrix(scene, reach, *PLAIN[moving])
+    from ...orbit.separatrix.sheets import separatrix
+    found = separatrix(scene, reach=reach, shape=GRADED)
+    return [PlainSheet(sheet.name, *sheet.points.shape[:2], sheet.points.reshape(-1, 3).tolist()) for sheet in found.sheets], found.reason
 
 
 def _capital(words: str) -> str:

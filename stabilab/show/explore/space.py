@@ -1,6 +1,6 @@
 """The space of the rates as a page draws it: separatrix, equilibria, motion and marks in a box that stays while a hand moves.
 
-Places are whole numbers of 16 bits along each axis, 4095 for half of the box, as on a page of the report. Surfaces need NumPy; all else does without.
+Places are whole numbers of 16 bits along each axis, 4095 for half of the box, as on a page of the report. All of it does without NumPy.
 """
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from typing import Any
 from ...equilibrium.result import Equilibria
 from ...errors import InputError
 from ...orbit.result import Motion
+from ...orbit.separatrix.plain_sheets import PlainSheet
 from .. import style
 from .bag import Bag
 
@@ -81,23 +82,17 @@ def _given(asked: Any) -> Box:
 
 def packed(points: Iterable[Point], box: Box) -> list[int]:
     """The places as whole numbers."""
-    return [round(min(max(v, -BEYOND), BEYOND) * HALF) for p in points for v in box.share(p)]
+    (a, b, c), per = box.middle, HALF / box.half
+    far = int(BEYOND * HALF)
+    return [min(max(round(v), -far), far) for x, y, z in points for v in ((x - a) * per, (y - b) * per, (z - c) * per)]
 
 
-def packed_array(points: Any, box: Box) -> bytes:
-    """The places of a NumPy array (..., 3), little-endian."""
-    import numpy as np
-    share = np.clip((points - np.asarray(box.middle)) / box.half, -BEYOND, BEYOND)
-    return np.round(share * HALF).astype("<i2").tobytes()
+def seen(sheet: PlainSheet, box: Box) -> bool:
+    """Whether any place of a sheet is in the box."""
+    return any(box.holds(p) for p in sheet.points)
 
 
-def seen(points: Any, box: Box) -> bool:
-    """Whether any place of a NumPy array (..., 3) is in the box."""
-    import numpy as np
-    return bool((np.abs(points - np.asarray(box.middle)) <= box.half).all(axis=-1).any())
-
-
-def drawn(bag: Bag, box: Box, names: list[str], one: float, sheets: Sequence[Any], found: Equilibria | None, path: list[tuple[float, ...]],
+def drawn(bag: Bag, box: Box, names: list[str], one: float, sheets: Sequence[PlainSheet], found: Equilibria | None, path: list[tuple[float, ...]],
           marks: list[dict[str, Any]], ghost: bool, number: tuple[int, int]) -> dict[str, Any]:
     """What the view takes. one: how many of the unit of the labels make one of the scene's; ghost: the sheets are those of the torque without its tilt;
     number: as of `lines`."""
@@ -105,15 +100,15 @@ def drawn(bag: Bag, box: Box, names: list[str], one: float, sheets: Sequence[Any
                                     for kind, places in lines(found, box, *number)]
     if path:
         curves.append({"kind": "this motion", "colour": style.MEANING["this motion"]["color"], "at": bag.add("int16", packed(path, box))})
-    surfaces = [{"name": _sheet_name(sheet, ghost), "colour": SHEETS[n % len(SHEETS)], "rows": sheet.points.shape[0],
-                 "columns": sheet.points.shape[1], "at": bag.add("int16", packed_array(sheet.points, box))} for n, sheet in enumerate(sheets)]
+    surfaces = [{"name": _sheet_name(sheet, ghost), "colour": SHEETS[n % len(SHEETS)], "rows": sheet.rows, "columns": sheet.columns,
+                 "at": bag.add("int16", packed(sheet.points, box))} for n, sheet in enumerate(sheets)]
     points = [mark | {"at": [round(v, 5) for v in box.share(mark["at"])]} for mark in marks if box.holds(mark["at"])]
     legend: dict[str, str] = {row.get("name") or row["kind"]: row["colour"] for row in (*surfaces, *curves, *points)}
     return {"names": names, "middle": [v * one for v in box.middle], "half": box.half * one, "sheets": surfaces, "curves": curves, "points": points,
             "legend": list(legend.items())}
 
 
-def _sheet_name(sheet: Any, ghost: bool) -> str:
+def _sheet_name(sheet: PlainSheet, ghost: bool) -> str:
     return f"{sheet.name.capitalize()} of the separatrix{' without the tilt' if ghost else ''}"
 
 

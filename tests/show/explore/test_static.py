@@ -1,0 +1,94 @@
+"""The page as a folder: what is in it, what it says it needs, and that its core runs with python-flint alone."""
+import io
+import json
+import subprocess
+import sys
+import zipfile
+from importlib.util import find_spec
+from pathlib import Path
+
+import pytest
+
+from stabilab import load
+from stabilab.errors import InputError
+from stabilab.show.explore import static
+
+CASE = "cases/thruster-stuck-major-axis.toml"
+LOCK = {"info": {"abi_version": "2026_0", "python": "3.14.2"}}
+WHEEL = "python_flint-0.9.0-cp314-cp314-pyemscripten_2026_0_wasm32.whl"
+
+
+@pytest.fixture
+def pyodide(tmp_path):
+    """A folder with the names of Pyodide's files."""
+    folder = tmp_path / "pyodide"
+    folder.mkdir()
+    for name in (*static.NEEDED, WHEEL):
+        (folder / name).write_bytes(name.encode())
+    (folder / "pyodide-lock.json").write_text(json.dumps(LOCK))
+    return folder
+
+
+def test_the_archive_is_the_same_every_time_and_holds_no_papers():
+    once = static.archive()
+    names = zipfile.ZipFile(io.BytesIO(once)).namelist()
+    assert once == static.archive() and "stabilab/show/explore/session.py" in names and "stabilab/verify/__init__.py" in names
+    assert not [name for name in names if "theories" in name or "cost" in name.split("/") or not name.endswith(".py")]
+
+
+def test_the_archive_answers_and_checks_with_python_flint_alone(tmp_path):
+    """In an interpreter that sees the archive and python-flint, and no other package."""
+    with zipfile.ZipFile(io.BytesIO(static.archive())) as packed:
+        packed.extractall(tmp_path)
+    flint = Path(find_spec("flint").origin).parent
+    (tmp_path / "flint").symlink_to(flint)
+    for beside in flint.parent.glob("python_flint*.libs"):
+        (tmp_path / beside.name).symlink_to(beside)
+    code = ("import sys\nfrom pathlib import Path\nfrom stabilab.case.read import read_text\nfrom stabilab.show.explore.session import Session\n"
+            "from stabilab.show.explore.certificates import checked\nfrom stabilab.show.explore.bag import unframed\n"
+            "from stabilab.answers.certificate import certificate\n"
+            "import json\nname, text = 'c.toml', Path(sys.argv[1]).read_text()\ncase = read_text(name, text)\n"
+            "print(unframed(Session(case).answer({}))[0]['headline'])\n"
+            "print(unframed(checked({'text': json.dumps(certificate(case.scene, case.exact_state))}))[0]['status'])\n"
+            "print(sorted(m for m in ('numpy', 'sympy', 'mpmath', 'jinja2', 'typer') if m in sys.modules))")
+    run = subprocess.run([sys.executable, "-I", "-S", "-c", f"import sys; sys.path.insert(0, {str(tmp_path)!r})\n{code}", str(Path(CASE).resolve())],
+                         capture_output=True, text=True, cwd=tmp_path)
+    assert run.returncode == 0, run.stderr
+    headline, status, loaded = run.stdout.splitlines()
+    assert headline.startswith("BOUNDED for ever while the torque is exactly along axis 1") and "margin 74.4 deg/s" in headline
+    assert (status, loaded) == ("proved", "[]")
+
+
+def test_the_folder_says_from_where_python_comes(tmp_path):
+    index = static.write(load(CASE), tmp_path / "site")
+    assert sorted(path.name for path in index.parent.iterdir()) == ["index.html", "stabilab.zip", "worker.js"]
+    text = index.read_text(encoding="utf-8")
+    assert static.ADDRESS in text and f"Pyodide {static.PYODIDE} from {static.ADDRESS}" in text and "worker-src" in text
+
+
+def test_with_a_folder_of_pyodide_nothing_comes_from_elsewhere(tmp_path, pyodide):
+    index = static.write(load(CASE), tmp_path / "site", pyodide)
+    assert {path.name for path in (index.parent / "pyodide").iterdir()} == {*static.NEEDED, WHEEL}
+    text = index.read_text(encoding="utf-8")
+    assert static.ADDRESS not in text and "https://" not in text and f"from the folder of this page, {WHEEL} too" in text
+
+
+@pytest.mark.parametrize("without", [*static.NEEDED, WHEEL])
+def test_what_is_missing_of_pyodide_is_named_with_the_cure(tmp_path, pyodide, without):
+    (pyodide / without).unlink()
+    with pytest.raises(InputError, match="npm pack pyodide") as refused:
+        static.write(load(CASE), tmp_path / "site", pyodide)
+    assert ("python_flint" if without == WHEEL else without) in str(refused.value) and not (tmp_path / "site").exists()
+
+
+@pytest.mark.parametrize("lock", ["{", "[]", '{"info": {}}', '{"info": {"python": 3, "abi_version": 1}}'])
+def test_a_lock_that_is_none_is_refused(tmp_path, pyodide, lock):
+    (pyodide / "pyodide-lock.json").write_text(lock)
+    with pytest.raises(InputError, match="is not Pyodide's"):
+        static.write(load(CASE), tmp_path / "site", pyodide)
+
+
+def test_the_wheel_must_be_of_this_python(tmp_path, pyodide):
+    (pyodide / "pyodide-lock.json").write_text(json.dumps({"info": {"abi_version": "2027_0", "python": "3.15.0"}}))
+    with pytest.raises(InputError, match="no wheel python_flint"):
+        static.write(load(CASE), tmp_path / "site", pyodide)
