@@ -432,6 +432,7 @@ def sweep(case: CaseFile,
           out: Annotated[Path | None, typer.Option(metavar="FILE.nc", help="Write NetCDF. What is finished outlives a killed run: the same command goes "
                                                    "on.")] = None,
           workers: Annotated[int | None, typer.Option(metavar="N", help="Processes that share the work; default: one a core where that pays.")] = None,
+          scheduler: Annotated[str | None, typer.Option(metavar="tcp://...", help="Let the workers of this Dask scheduler do it (extra cluster).")] = None,
           rate: Annotated[str | None, typer.Option(metavar="RATE", help="Limits of the answer when, as of stabilab when.")] = None,
           component: Annotated[str | None, typer.Option(metavar="AXIS=RATE", hidden=True)] = None,
           energy: Annotated[str | None, typer.Option(metavar="ENERGY", hidden=True)] = None,
@@ -454,7 +455,7 @@ def sweep(case: CaseFile,
     if out:
         from .show.maps import dataset
         dataset.checked(out)
-    with run(plan, out, workers) as found:
+    with run(plan, out, workers, scheduler) as found:
         if out:
             _say(f"written: {dataset.write(dataset.dataset(found), out)}")
     if json or csv:

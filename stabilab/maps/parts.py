@@ -1,7 +1,7 @@
 """What is finished of a sweep: a folder beside its file with a part for every chunk, whole or absent.
 
-A part is the records of a chunk as they lie in memory, with a digest before them. The folder says of which sweep it is; a run that was killed
-leaves it there, and the same sweep goes on from it.
+A part is the records of a chunk as they lie in memory, with a digest of them and of the sweep before them. The folder says of which sweep it is; a run
+that was killed leaves it there, and the same sweep goes on from it.
 """
 from __future__ import annotations
 
@@ -34,7 +34,11 @@ def kept(plan: Plan, folder: Path) -> Iterator[Path]:
         folder.mkdir(parents=True, exist_ok=True)
         with alone_in(folder, wait=False):
             _claim(plan, folder)
-            yield folder
+            try:
+                yield folder
+            finally:
+                if not any(folder.glob("part-*")):  # nothing is finished: nothing to keep
+                    remove(folder)
     except BlockingIOError:
         raise InputError(f"{folder}: another run is at work on this sweep: wait for it, or give another --out") from None
     except OSError as error:
@@ -54,10 +58,10 @@ def _claim(plan: Plan, folder: Path) -> None:
         waiting.write_text(f'{{"digest": "{plan.digest}"}}\n', encoding="utf-8")
 
 
-def write(folder: Path, number: int, rows: bytes) -> None:
+def write(plan: Plan, folder: Path, number: int, rows: bytes) -> None:
     """Put a part into the folder, whole."""
     with whole_file(_path(folder, number)) as waiting:
-        waiting.write_bytes(hashlib.sha256(rows).digest() + rows)
+        waiting.write_bytes(_digest(plan, number, rows) + rows)
 
 
 def read(plan: Plan, folder: Path, number: int) -> np.ndarray | None:
@@ -67,8 +71,12 @@ def read(plan: Plan, folder: Path, number: int) -> np.ndarray | None:
     except FileNotFoundError:
         return None
     rows = found[DIGEST:]
-    whole = len(rows) == plan.chunks[number].points * record(plan.answers).itemsize and hashlib.sha256(rows).digest() == found[:DIGEST]
-    return np.frombuffer(rows, record(plan.answers)) if whole else None
+    return np.frombuffer(rows, record(plan.answers)) if _digest(plan, number, rows) == found[:DIGEST] else None
+
+
+def _digest(plan: Plan, number: int, rows: bytes) -> bytes:
+    """Of the rows as those of this chunk of this sweep: a worker that outlived another run may have left a part."""
+    return hashlib.sha256(f"{plan.digest} {number} ".encode() + rows).digest()
 
 
 def missing(plan: Plan, folder: Path) -> list[int]:

@@ -18,6 +18,7 @@ from ..interrupt import undoing
 from ..streams import Progress
 from . import parts
 from .chunk import answered
+from .cluster import by_cluster
 from .plan import Plan
 from .points import case_of
 from .workers import by_workers
@@ -38,15 +39,16 @@ class Swept:
 
 
 @contextmanager
-def run(plan: Plan, out: Path | None = None, workers: int | None = None) -> Iterator[Swept]:
+def run(plan: Plan, out: Path | None = None, workers: int | None = None, scheduler: str | None = None) -> Iterator[Swept]:
     """The finished sweep as a context; the parts of `out` are removed when its block ends well, and stay otherwise. out: the file that the parts are
-    for, None to keep none. workers: processes on this machine; None: one a core where that pays. """
+    for, None to keep none. workers: processes on this machine; None: one a core where that pays.
+    scheduler: address of a Dask scheduler whose workers do it instead."""
     _judge(workers)
     with _folder(plan, out) as folder:
         left = parts.missing(plan, folder)
         points = sum(plan.chunks[number].points for number in left)
         with _counted(plan, points) as tell:
-            for number in _makers(plan, folder, left, workers):
+            for number in _makers(plan, folder, left, workers, scheduler):
                 tell(plan.chunks[number].points)
         yield _finished(plan, parts.whole(plan, folder), plan.points - points)
         if out is not None:
@@ -68,8 +70,10 @@ def _folder(plan, out):
             yield Path(folder)
 
 
-def _makers(plan: Plan, folder: Path, left: list[int], workers: int | None) -> Iterable[int]:
+def _makers(plan: Plan, folder: Path, left: list[int], workers: int | None, scheduler: str | None) -> Iterable[int]:
     """The chunks left, each as soon as its part is there."""
+    if scheduler is not None:
+        return by_cluster(plan, folder, left, scheduler)
     enough = int(sum(plan.chunks[n].points for n in left) * plan.cost / WORTH)  # processes that have something to do besides starting
     number = min(max(1, min(cores(), enough)) if workers is None else workers, len(left))
     return by_workers(plan, folder, left, number) if number > 1 else _here(plan, folder, left)
@@ -77,7 +81,7 @@ def _makers(plan: Plan, folder: Path, left: list[int], workers: int | None) -> I
 
 def _here(plan, folder, left):
     for number in left:
-        parts.write(folder, number, answered(plan, number).tobytes())
+        parts.write(plan, folder, number, answered(plan, number).tobytes())
         yield number
 
 

@@ -16,12 +16,13 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InputError, StabilabError
+from ..files import whole_file
 from ..interrupt import undoing
 from . import parts
 from .chunk import answered
 from .plan import Plan, from_json
 
-DONE, FAILED = "done", "failed"
+DONE, FAILED, WORK = "done", "failed", "work.json"
 
 
 class WorkerLost(StabilabError):
@@ -77,7 +78,8 @@ def _feed(worker, waiting, told) -> None:
 
 @contextmanager
 def _processes(plan: Plan, folder: Path, number: int):
-    (folder / "work.json").write_text(plan.as_json(), encoding="utf-8")
+    with whole_file(folder / WORK) as waiting:
+        waiting.write_text(plan.as_json(), encoding="utf-8")
     workers = [subprocess.Popen([sys.executable, "-m", __name__, str(folder)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, encoding="utf-8")
                for _ in range(number)]
 
@@ -98,10 +100,13 @@ def main(folder: Path) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the one that started it hears of it, and ends it
     answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
     os.dup2(2, 1)  # what a library prints is no answer
-    plan = from_json((folder / "work.json").read_text(encoding="utf-8"))
+    plan = from_json((folder / WORK).read_text(encoding="utf-8"))
     for line in sys.stdin:
         try:
-            parts.write(folder, int(line), answered(plan, int(line)).tobytes())
+            rows = answered(plan, int(line)).tobytes()
+            if not (folder / WORK).exists():  # whoever waited for it is gone, and another run has finished the sweep
+                return
+            parts.write(plan, folder, int(line), rows)
             answers.write(f"{DONE} {line.strip()}\n")
         except StabilabError as error:
             answers.write(f"{FAILED} {str(error)}\n".replace("\n", "\x1f", str(error).count("\n")))

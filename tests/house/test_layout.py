@@ -14,7 +14,7 @@ from tests.house import geometry, rooms
 from tests.house.rooms import GROUND, MAY, PACKAGE, PAGE, ROOT, all_imports, circles, modules, room, statements, tree_of
 
 HEAVY = {"sympy", "scipy", "matplotlib", "pyvista", "vtk", "vtkmodules", "heyoka", "xarray", "pandas", "mpmath", "flint",
-         "rich", "jinja2", "pydantic", "numba", "trame", "h5netcdf", "hypothesis", "pytest"}
+         "rich", "jinja2", "pydantic", "numba", "dask", "distributed", "trame", "h5netcdf", "hypothesis", "pytest"}
 # The one door of each package that draws or writes: no other room than show may open it.
 DRAWING = {"matplotlib", "pyvista", "vtk", "vtkmodules", "trame", "jinja2", "xarray", "rich"}
 MODULES = sorted(PACKAGE.rglob("*.py"))

@@ -217,7 +217,7 @@ def test_every_package_of_an_extra_is_named_with_its_extra():
 
     from stabilab.packages import EXTRAS, cure
     extras = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["optional-dependencies"]
-    brought = {re.match(r"[\w-]+", line)[0]: extra for extra in ("fast", "data") for line in extras[extra]}
+    brought = {re.match(r"[\w-]+", line)[0]: extra for extra in ("fast", "data", "cluster") for line in extras[extra]}
     assert extras["all"] == ["stabilab[fast,data]"] and EXTRAS == brought
     assert cure("xarray") == 'pip install xarray (part of stabilab\'s extra data: pip install "stabilab[data]")'
 

@@ -121,7 +121,7 @@ def test_a_killed_run_goes_on_from_its_parts(tmp_path, monkeypatch):
         whole = found.records
     with parts.kept(plan, folder):
         for number in range(4):
-            parts.write(folder, number, answered(plan, number).tobytes())
+            parts.write(plan, folder, number, answered(plan, number).tobytes())
     cut = folder / "part-0000002"
     cut.write_bytes(cut.read_bytes()[:-1])  # as a power cut leaves it
     monkeypatch.setattr("stabilab.maps.run.answered", lambda plan, number: made.append(number) or answered(plan, number))
@@ -132,8 +132,8 @@ def test_a_killed_run_goes_on_from_its_parts(tmp_path, monkeypatch):
 
 def test_parts_of_another_sweep_are_left_alone(tmp_path):
     one, other = (planned(CASES / "minor-axis-100.toml", {"x[1]": text}) for text in ("0:1:3", "0:1:4"))
-    with parts.kept(one, tmp_path / "f.nc.parts"):
-        pass
+    with parts.kept(one, tmp_path / "f.nc.parts") as folder:
+        parts.write(one, folder, 0, answered(one, 0).tobytes())
     with pytest.raises(InputError, match="of another sweep"), run(other, tmp_path / "f.nc", workers=1):
         pass
 

@@ -80,7 +80,7 @@ def _own(ax, data, plan, moving) -> dict[str, Any]:
     ends = [(float(data[name].min()), float(data[name].max())) for name in moving[:2]]
     if any(value is None or not low <= value <= high for value, (low, high) in zip(at, ends)):
         return {}
-    look = style.MARKER["start"] | {"markeredgecolor": "white"}
+    look: dict[str, Any] = style.MARKER["start"] | {"markeredgecolor": "white"}
     ax.plot(*[[value] for value in at], **look)
     return {"the case itself": Line2D([], [], **look)}
 
@@ -118,14 +118,19 @@ def _levels(ax, data, moving) -> dict[str, Any]:
         return {}
     drawn = ax.contour(x, y, margin.T, levels=np.linspace(0, np.nanmax(margin), 7)[1:-1], colors=style.GREY, linewidths=0.6)
     ax.clabel(drawn, fontsize=7, fmt="%.3g")
-    from matplotlib.lines import Line2D
     unit = _unit(data, "margin")
-    return {f"equal margin{f' ({unit})' if unit else ''}": Line2D([], [], **style.MEANING["level"])}
+    return {f"equal margin{f' ({unit})' if unit else ''}": _line("level", 0.6)}
+
+
+def _line(meaning: str, width: float) -> Any:
+    """A line of a legend."""
+    from matplotlib.lines import Line2D
+    look: dict[str, Any] = style.MEANING[meaning] | {"linewidth": width}
+    return Line2D([], [], **look)
 
 
 def _boundary(ax, data, plan, moving, index) -> dict[str, Any]:
     from matplotlib.collections import LineCollection
-    from matplotlib.lines import Line2D
     dims = [next(n for n, axis in enumerate(plan.axes) if axis.key.name == data[name].attrs["long_name"]) for name in moving[:2]]
     exact = known_exactly(plan, *dims)
     fates = np.asarray(data["fate"].transpose(*moving[:2]))
@@ -135,9 +140,9 @@ def _boundary(ax, data, plan, moving, index) -> dict[str, Any]:
     way = (lambda at, along: _exact(plan, index, dims, at, along, fates)) if exact else (lambda at, along: _zero(margin, at, along))
     x, y = (np.asarray(data[name]) for name in moving[:2])
     segments = segments_of(fates, x, y, way)
-    ax.add_collection(LineCollection(segments, color=style.MEANING["separatrix"]["color"], linewidth=1.4))
+    ax.add_collection(LineCollection(list(segments), color=style.BLACK, linewidth=1.4))
     words = "separatrix (exact)" if exact else "margin zero"
-    return {words: Line2D([], [], **style.MEANING["separatrix"] | {"linewidth": 1.4})} if len(segments) else {}
+    return {words: _line("separatrix", 1.4)} if len(segments) else {}
 
 
 def _exact(plan, index, dims, at, along, fates):

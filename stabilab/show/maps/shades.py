@@ -20,10 +20,10 @@ LIGHT = 0.45  # of a colour that fills an area
 LONG = 28  # letters of a key beside an axis
 
 
-def light(colour: str, share: float = LIGHT) -> tuple[float, ...]:
+def light(colour: str, share: float = LIGHT) -> tuple[float, float, float]:
     """The colour on white."""
-    rgb = [int(colour[i:i + 2], 16) / 255 for i in (1, 3, 5)]
-    return tuple(1 - share * (1 - c) for c in rgb)
+    red, green, blue = (1 - share * (1 - int(colour[i:i + 2], 16) / 255) for i in (1, 3, 5))
+    return red, green, blue
 
 
 def label(data: Any, name: str) -> str:
