@@ -73,7 +73,7 @@ def test_csv_and_json_hold_every_point(stabilab):
     assert told["schema"] == "stabilab.sweep/1" and told["shape"] == [3, 2] and len(rows) == 6
     assert [float(row["margin"]) for row in rows] == told["columns"]["margin"]["values"]
     assert [row["fate"] for row in rows] == [told["columns"]["fate"]["flags"][n] for n in told["columns"]["fate"]["values"]]
-    assert [float(row["greatest3"]) for row in rows] == told["columns"]["greatest"]["values"][2::3]
+    assert [float(row["greatest3"]) for row in rows] == [float(value) for value in told["columns"]["greatest"]["values"][2::3]]
     assert [float(row["effects.gyrostat.momentum[1] (N m s)"]) for row in rows[:2]] == told["axes"][1]["values"] == [100, 200]
 
 
