@@ -99,7 +99,7 @@ class Certifier:
         energy, amplitude = field.energy(orders[0]), field.amplitude(orders[1])
         turn = field.algebra.turn
         self.e, self.b, self.r = (Sums(terms, sizes(terms)) for terms in (energy.added, amplitude.added, amplitude.rate))
-        self.k = Sums(energy.rate, sizes(energy.rate), (-turn[0], -turn[1]))
+        self.k = Sums(energy.rate, sizes(energy.rate) / field.turn_size, (-turn[0], -turn[1]))
         self.energy_majorant, self.amplitude_majorant = (Sums(terms, terms.m) for terms in (energy.added, amplitude.added))
         self.energy_added, self.amplitude_added = Values(energy.added), Values(amplitude.added)
 

@@ -13,10 +13,10 @@ class FixedCentre:
     """A normal form with p = X. Arrays: (n,) or (n, m) for m pairs of exponents.
 
     In every such field x is the spin that grows, D1 x' = drive + what oscillates, `turning(x)` the rate of the phase up to a
-    constant, increasing and concave.
+    constant, increasing and concave: turn_size times a monomial.
     """
 
-    name, sharp = "fixed centre", True
+    name, sharp, turn_size = "fixed centre", True, 1.0
 
     def __init__(self, form: NormalForm):
         self.form, self.algebra = form, fixed_algebra(form)
