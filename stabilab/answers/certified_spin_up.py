@@ -1,11 +1,11 @@
 """The part of a certificate that proves a spin-up under a torque of any direction: the way, and an inequality at its end that stays true.
 
-The inequality is that of the normal form about its fixed centre, whatever form decided the fate first: it holds a little later, and a
-checker can work it out from the rates alone. docs/certificate.md has the form.
+The inequality is that about the fixed centre where it holds soon, else that about the moving centre, or along the equator of a body of revolution: a
+checker can work out each from the rates alone. docs/certificate.md has the form.
 """
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import Any
 
@@ -14,15 +14,16 @@ import numpy as np
 from ..orbit.result import Fate
 from ..physics.scene import AnyScene
 from ..unreduced.enclosure import kernel
-from ..unreduced.enclosure.run import Course
+from ..unreduced.enclosure.run import Course, allowed
 from ..unreduced.spin_up.fields import natural, tests_of
 from ..unreduced.spin_up.follow import spin_up
 
-BUDGET, STEPS = 60_000, 2_500  # of the run that finds the time, and validated ones: a checker takes some seconds for so many
-ORDERS = ((0, 2), (4, 6), (12, 14), (16, 18))  # lowest first: the check of high ones takes longest
+BUDGET, STEPS = 60_000, 30_000  # of the run that finds the time, and validated ones: a checker takes a millisecond for each
+FIXED_ORDERS = ((0, 2), (4, 6), (12, 14), (16, 18))  # lowest first: the check of high ones takes longest
+MOVING_ORDERS = ((2, 4), (4, 6), (8, 10))
 LATER = (1.0, 1.0625, 1.25, 1.5, 2.0, 3.0, 5.0, 8.0)  # times, over that of the first certificate, at which the inequality is asked
 CHECKPOINTS = 4
-DIGITS = 22  # of the checkpoints' brackets, relative to the greatest rate; wider where the enclosure is
+DIGITS = 9  # of the checkpoints' brackets, relative to the greatest rate; wider where the enclosure is
 SURE = Fraction(1 << 20, (1 << 20) + 1)  # what is told of the gain is less by this: the inequality's own rounding
 
 
@@ -30,23 +31,29 @@ def certified_spin_up(scene: AnyScene, state: Sequence[Any]) -> tuple[dict[str, 
     """(claims, "") of the spin-up from a state (three Fractions), or (None, why there are none)."""
     found = spin_up(scene, state, budget=BUDGET)
     if found.fate is not Fate.SPIN_UP or found.level == "exact":
-        return None, f"{found.fate.word}: {found.cause}" + (" (a closed solution, which has no certificate yet)" if found.level == "exact" else "")
+        return None, f"{found.fate.word}: {found.cause}"
     own, unit = natural(scene)
-    field = next((field for field in tests_of(own).fixed if (field.axis + 1, field.sense) == (found.axis, found.sense)), None)
-    if field is None:
-        return None, f"{found.fate.word}: {found.cause}; there is a certificate for spin-up about the major and the minor axis alone"
-    end = found.t * LATER[-1]
+    ways = list(_inequalities(tests_of(own), found))
     times = [found.t * later for later in LATER] if found.t else [0.0]
-    course = Course(scene, state, end) if end else None
+    course = Course(scene, state, times[-1]) if found.t else None
     for later in times:
         box = _box(course, later, state)
         if box is None:
             return None, f"{found.fate.word}: {found.cause}; its way was not enclosed up to t = {later:.6g} in {STEPS} validated steps"
-        inequality = _holding(tests_of(own), field, box, unit)
+        inequality = _holding(tests_of(own), ways, box, unit)
         if inequality:
             t = Fraction(course.t) if course else Fraction(0)
             return {"axis": found.axis, "sense": found.sense, "t": str(t), **inequality, "way": _checkpoints(scene, state, course, t)}, ""
-    return None, f"{found.fate.word}: {found.cause}; the inequality about the fixed centre, which a checker knows, does not hold up to t = {times[-1]:.6g}"
+    return None, f"{found.fate.word}: {found.cause}; no inequality that a checker knows holds up to t = {times[-1]:.6g}"
+
+
+def _inequalities(tests: Any, found: Any) -> Iterator[tuple[str, Any, tuple[int, int]]]:
+    """(what it is about, field, orders) of those that say what was found, in the order in which they are asked."""
+    if not found.axis:
+        yield from (("equator", field, orders) for field in tests.equatorial for orders in MOVING_ORDERS)
+        return
+    for about, fields, all_ in (("fixed centre", tests.fixed, FIXED_ORDERS), ("moving centre", tests.moving, MOVING_ORDERS)):
+        yield from ((about, field, orders) for field in fields if (field.axis + 1, field.sense) == (found.axis, found.sense) for orders in all_)
 
 
 def _box(course: Course | None, t: float, state: Sequence[Any]) -> Any:
@@ -54,22 +61,27 @@ def _box(course: Course | None, t: float, state: Sequence[Any]) -> Any:
     if course is None:
         middle = np.array([float(v) for v in state])
         return middle, float(sum(abs(v - Fraction(m)) for v, m in zip(state, middle.tolist()))) * (1 + 2.0**-40)
-    course.advance(t, STEPS - course.steps)
+    course.advance(t, min(STEPS, allowed(course.bits)) - course.steps)
     now = course.now
     return (now.middle, float(np.abs(now.rest).sum() + now.radius.sum()) * (1 + 2.0**-40)) if course.status == kernel.DONE else None
 
 
-def _holding(tests: Any, field: Any, box: Any, unit: float) -> dict[str, Any] | None:
-    """Orders and constants of the first inequality that holds for the ball, in the scene's units; None where none does."""
+def _holding(tests: Any, ways: list[tuple[str, Any, tuple[int, int]]], box: Any, unit: float) -> dict[str, Any] | None:
+    """The first inequality that holds for the ball, its orders and constants in the scene's units; None where none does."""
     middle, near = box
-    for orders in ORDERS:
+    for about, field, orders in ways:
         found = tests.certifier(field, orders)(middle[None] / unit, np.array([near / unit]))
         if found.good[0]:
             u = Fraction(unit)
-            cone = Fraction(float(found.A[0])) / abs(Fraction(field.form.scale[0])) * u
+            cone = Fraction(float(found.A[0])) / Fraction(_scale(about, field)) * u
             gain = Fraction(float(found.eta[0])) / Fraction(field.D1) * u * u * SURE
-            return {"orders": list(orders), "cone": str(cone), "least": str(Fraction(float(found.z[0])) * u), "gain": _decimal(gain, 12)}
+            return {"about": about, "orders": list(orders), "cone": str(cone), "least": str(Fraction(float(found.z[0])) * u), "gain": _decimal(gain, 12)}
     return None
+
+
+def _scale(about: str, field: Any) -> float:
+    """The field's amplitude over that of a checker, who knows the rates and no moments: of U + i q V, or of w u + i tau v/w."""
+    return float(abs(field.form.scale[0]) if about == "fixed centre" else np.sqrt(np.prod(field.roots)))
 
 
 def _decimal(value: Fraction, digits: int) -> str:

@@ -16,7 +16,7 @@ KEYS = {
         "curves": [{"numerators": None, "denominator": None, "segments": [PIECE], "folds": [PIECE]}],
         "planes": [{**dict.fromkeys(("base", "directions", "linear", "verdict")), "centre": dict.fromkeys(("at", "verdict"))}]},
     "motion": {**dict.fromkeys(("state", "fate", "axis", "sense", "extremes", "period")),
-               "spin_up": {**dict.fromkeys(("axis", "sense", "orders", "t", "cone", "least", "gain")), "way": [dict.fromkeys(("t", "box"))]}}}
+               "spin_up": {**dict.fromkeys(("about", "axis", "sense", "orders", "t", "cone", "least", "gain")), "way": [dict.fromkeys(("t", "box"))]}}}
 SCENES = {"physical": ("variables", "inertia", "momentum", "torque"), "scaled": ("variables", "a", "b", "mu")}
 
 

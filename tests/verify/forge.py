@@ -22,7 +22,9 @@ JUNK = [True, False, 5, -1, 0, 1.5, float("nan"), float("inf"), 1e300, 10**30, {
         "equilibria", "null", "true", "None", "[]", "{}", ["\u0661", "\u0662"], ["2", "1"], [["1", "0"]] * 3, [["1"] * 3] * 3, [[[["1"]]]],
         "points ", "curve", "separatrices"]
 WORDS = {"kind": ("none", "points", "curves", "all"), "linear": ("stable", "unstable", "degenerate"), "verdict": ("stable", "unstable"),
-         "fate": ("bounded", "spin-up", "equilibrium", "separatrix"), "variables": ("physical", "scaled")}
+         "fate": ("bounded", "spin-up", "equilibrium", "separatrix"), "variables": ("physical", "scaled"),
+         "about": ("fixed centre", "moving centre", "equator")}
+WORD_IS = {"variables": "junk", "about": "open"}  # another word there; elsewhere it is false. The constants of one form may do for another
 OPTIONAL = {"program", "uncertified", "equilibria", "motion", "axis", "sense", "extremes", "period"}  # a certificate may leave them out
 PROSE = {"program", "uncertified"}
 
@@ -81,7 +83,7 @@ def _fixed(claims, path, old):
         yield "extra", old | {"note": "all of this is proved"}
         yield "extra", old | {"b\u0435cause": ["1"]}
     if key in WORDS:
-        yield from (("false" if key != "variables" else "junk", other) for other in WORDS[key] if other != old)
+        yield from ((WORD_IS.get(key, "false"), other) for other in WORDS[key] if other != old)
     if key == "verdict":
         yield "weaker", "undecided"
     if key == "fate":
@@ -106,7 +108,7 @@ def _without(claims, path, old):
     if path[-1] == "spin_up":  # the fate has no proof then
         return "weaker"
     if "spin_up" in path and isinstance(path[-1], str):
-        return "true" if path[-1] == "way" else "junk"
+        return {"way": "true", "about": "true" if old in (None, "fixed centre") else "open"}.get(path[-1], "junk")
     if "orders" in path:
         return "junk"
     if path[-1] in OPTIONAL or path[:-1] == ("uncertified",):
@@ -128,7 +130,7 @@ def _null(path, old):
         return "false"
     if path[-1] in ("points", "curves", "planes", "segments", "folds") and old:
         return "false"
-    return _without(None, path, old) if isinstance(path[-1], str) else "junk"
+    return "junk" if path[-1] == "about" else _without(None, path, old) if isinstance(path[-1], str) else "junk"
 
 
 def _junk(path, old, bad):

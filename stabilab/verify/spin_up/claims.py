@@ -4,22 +4,25 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from ..numbers import Malformed, ball, bracket, brief, entries, field, number, shown
+from ..numbers import Malformed, ball, bracket, brief, entries, field, number, shown, word
 from ..precision import working
 from ..zeros import above, below
 from .inequality import MOST_ORDER, Inequality, Unsuited
+from .moving_form import equator, moving_form
+from .moving_inequality import MovingInequality
 from .normal_form import form_about
 from .way import Lost, Way
 
 BITS = (96, 192, 384)  # of the way: more where fewer leave something open
-MOST_STEPS = 10_000  # of all ways together: some half a minute
+MOST_STEPS = 40_000  # of all ways together: some minute
 
 
 @dataclass(frozen=True)
 class SpinUpClaims:
-    """axis (1, 2, 3), sense; orders; t: when the inequality holds; cone, least, gain: its A and z and the rate at which the spin grows at
-    least, in the units of the rates; way: [(time, three brackets)], times rising."""
+    """about: the form, a key of `FORMS`; axis (1, 2, 3; 0 in the equator), sense; orders; t: when the inequality holds; cone, least, gain: its A and z and
+    the rate at which the spin grows at least, in the units of the rates; way: [(time, three brackets)], times rising."""
 
+    about: str
     axis: int
     sense: int
     orders: tuple[int, int]
@@ -44,7 +47,9 @@ def spin_up_of(table) -> SpinUpClaims:
     way = [_point(entry, f"{where}.way[{i}]") for i, entry in enumerate(entries(table, "way", where))]
     if any(a >= b for (a, _), (b, _) in zip(way, way[1:])):
         raise Malformed(f"{where}.way: expected rising times")
-    return SpinUpClaims(_one_of(table, "axis", (1, 2, 3)), _one_of(table, "sense", (-1, 1)), tuple(orders), t, cone, least, gain, way)
+    about = word(table, "about", where, tuple(FORMS)) if "about" in table else "fixed centre"
+    axes, senses = ((0,), (1,)) if about == "equator" else ((1, 2, 3), (-1, 1))
+    return SpinUpClaims(about, _one_of(table, "axis", axes), _one_of(table, "sense", senses), tuple(orders), t, cone, least, gain, way)
 
 
 def _one_of(table, key, known):
@@ -96,13 +101,19 @@ def _trap(claims):
     return f"trap at t = {brief(claims.t)}"
 
 
+# How the form about an axis (0, 1, 2) in a sense is made, and what is made of it.
+FORMS = {"fixed centre": (form_about, Inequality), "moving centre": (moving_form, MovingInequality),
+         "equator": (lambda rates, axis, sense: equator(rates), MovingInequality)}
+
+
 def _judged(rates, claims, way):
-    form = form_about(rates, claims.axis - 1, claims.sense)
-    if form is None or not form.M > 0:
-        why = "the spin about this axis does not turn the other two" if form is None else "the torque's component does not have the sense of the spin"
-        return [(_trap(claims), "refuted", why)], ("not checked", why)
+    make, inequality_of = FORMS[claims.about]
     with working(max(way.bits, 128)):
-        inequality = Inequality(form, claims.orders)
+        form = make(rates, claims.axis - 1, claims.sense)
+        if form is None or not form.M > 0:
+            why = "the spin there does not turn the other two" if form is None else "the torque's component does not have the sense of the spin"
+            return [(_trap(claims), "refuted", why)], ("not checked", why)
+        inequality = inequality_of(form, claims.orders)
     found, states = [], {}
     for t in sorted({claims.t, *(t for t, _ in claims.way)}):
         states[t] = way.to(t)

@@ -40,15 +40,18 @@ class Form:
         return x1 + self.shift, acb(x2 - ball(self.centre[0]), self.q * (x3 - ball(self.centre[1])))
 
 
+def turned(rates, axis: int, sense: int):
+    """(order, signs, kappa, rho, sigma, m) with an axis (0, 1, 2) called 1, turned by half a turn about axis 2 where the sense is -1."""
+    order, signs = (axis, (axis + 1) % 3, (axis + 2) % 3), (sense, 1, sense)
+    pick = lambda row, of: tuple(row[n] * signs[i] * of(i) for i, n in enumerate(order))
+    ahead, later = lambda i: signs[(i + 1) % 3], lambda i: signs[(i + 2) % 3]
+    return (order, signs, pick(rates.kappa, lambda i: ahead(i) * later(i)), pick(rates.rho, later), pick(rates.sigma, ahead), pick(rates.m, lambda i: 1))
+
+
 def form_about(rates, axis: int, sense: int) -> Form | None:
     """The form about an axis (0, 1, 2) in a sense (+1, -1); None where the spin about it does not turn the other two."""
     from flint import acb
-    order, signs = (axis, (axis + 1) % 3, (axis + 2) % 3), (sense, 1, sense)
-    pick = lambda row, of: [row[n] * signs[i] * of(i) for i, n in enumerate(order)]
-    k1, k2, k3 = pick(rates.kappa, lambda i: signs[(i + 1) % 3] * signs[(i + 2) % 3])
-    r1, r2, r3 = pick(rates.rho, lambda i: signs[(i + 2) % 3])
-    s1, s2, s3 = pick(rates.sigma, lambda i: signs[(i + 1) % 3])
-    m1, m2, m3 = pick(rates.m, lambda i: 1)
+    order, signs, (k1, k2, k3), (r1, r2, r3), (s1, s2, s3), (m1, m2, m3) = turned(rates, axis, sense)
     if not k2 * k3 < 0:
         return None
     c2, c3 = -s3 / k3, -r2 / k2

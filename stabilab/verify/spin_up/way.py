@@ -24,7 +24,7 @@ from ..precision import working
 
 AHEAD = ((1, 2), (2, 0), (0, 1))
 PATIENCE = 20  # times the present step that later ones may be, in the mean
-LINEAR_BITS = 96  # of J: what it errs by multiplies the width of the set
+LINEAR_BITS, LINEAR_ORDER = 64, 9  # of J: what it errs by multiplies the width of the set alone
 
 
 class Lost(Exception):
@@ -37,7 +37,6 @@ class Way:
     def __init__(self, rates, state, bits: int, allowed: int):
         self.allowed = allowed
         self.bits, self.order, self.t, self.steps = bits, bits // 5 + 12, Fraction(0), 0
-        self.linear_order = max(20, 2 * self.order // 3)
         with working(bits):
             self.numbers = _in_balls(rates)
             start = [ball(v) for v in state]
@@ -59,7 +58,7 @@ class Way:
 
     def _reach(self):
         """c + P E less c: balls about zero."""
-        return [sum((self.P[i][j] * _about_zero(self.box[j]) for j in range(3)), ball(0)) for i in range(3)]
+        return [sum((self.P[i][j] * _about_zero(self.box[j]) for j in range(3)), _nothing()) for i in range(3)]
 
     def _step(self, t):
         a = _series(self.numbers, self.centre, self.order)
@@ -68,31 +67,32 @@ class Way:
             raise Lost(f"not followed beyond t = {brief(self.t)}: at this pace {self.allowed} steps do not reach {brief(t)}")
         around = [c + r for c, r in zip(self.centre, self._reach())]
         with working(LINEAR_BITS):
-            wide = _series(self.coarse, around, self.linear_order)
-            columns = [_linear(self.coarse, wide, j, self.linear_order) for j in range(3)]
+            wide = _series(self.coarse, around, LINEAR_ORDER)
+            columns = [_linear(self.coarse, wide, j, LINEAR_ORDER) for j in range(3)]
         h = min(h, t - self.t)
         for _ in range(40):
-            tail = _tail(self.numbers, a, h)
+            length = ball(h)
+            tail = _tail(self.numbers, a, length)
             with working(LINEAR_BITS):
-                wide_tail = _tail(self.coarse, wide, h)
-                ends = wide_tail and [_linear_end(self.coarse, wide, wide_tail, column, h) for column in columns]
+                wide_tail = _tail(self.coarse, wide, length)
+                ends = wide_tail and [_linear_end(self.coarse, wide, wide_tail, column, length) for column in columns]
             if tail and ends and None not in ends:
                 break
             h /= 2
         else:
             raise Lost(f"no step closes at t = {brief(self.t)}: the set is too wide")
-        end = [_value(row, h) + _about_zero(bound) for row, bound in zip(a, tail[1])]
+        end = [_value(row, length) + _about_zero(bound) for row, bound in zip(a, tail[1])]
         self._carry(end, [[ends[j][i] for j in range(3)] for i in range(3)])
         self.t, self.steps = self.t + h, self.steps + 1
 
     def _carry(self, end, J):
         """The set at the end of a step: its centre a ball, J the derivative over the set."""
-        product = [[sum((J[i][k] * self.P[k][j] for k in range(3)), ball(0)) for j in range(3)] for i in range(3)]
+        product = [[sum((J[i][k] * self.P[k][j] for k in range(3)), _nothing()) for j in range(3)] for i in range(3)]
         self.centre, self.P = [v.mid() for v in end], [[v.mid() for v in row] for row in product]
         E = [_about_zero(v) for v in self.box]
-        left = [v - v.mid() + sum(((product[i][j] - self.P[i][j]) * E[j] for j in range(3)), ball(0)) for i, v in enumerate(end)]
+        left = [v - v.mid() + sum(((product[i][j] - self.P[i][j]) * E[j] for j in range(3)), _nothing()) for i, v in enumerate(end)]
         inverse = _inverse(self.P)
-        self.box = [(E[i] + sum((inverse[i][j] * left[j] for j in range(3)), ball(0))).abs_upper() for i in range(3)]
+        self.box = [(E[i] + sum((inverse[i][j] * left[j] for j in range(3)), _nothing())).abs_upper() for i in range(3)]
         if not all(v.is_finite() for v in (*self.box, *self.centre)):
             raise Lost(f"the set has no bounds any more at t = {brief(self.t)}")
 
@@ -120,6 +120,11 @@ def _in_balls(rates):
     return [[ball(v) for v in row] for row in (rates.kappa, rates.rho, rates.sigma, rates.m)]
 
 
+def _nothing():
+    from flint import arb
+    return arb()
+
+
 def _about_zero(reach):
     """The ball of all numbers within `reach`."""
     from flint import arb
@@ -132,9 +137,9 @@ def _series(numbers, start, order):
     rows = [[v] for v in start]
     for n in range(order):
         backward = [row[::-1] for row in rows]
-        new = [kappa[i] * sum(map(mul, rows[j], backward[k])) + rho[i] * rows[k][n] + sigma[i] * rows[j][n] for i, (j, k) in enumerate(AHEAD)]
-        for i, row in enumerate(rows):
-            row.append(((new[i] + m[i]) if n == 0 else new[i]) / (n + 1))
+        for i, (j, k) in enumerate(AHEAD):
+            new = kappa[i] * sum(map(mul, rows[j], backward[k])) + rho[i] * backward[k][0] + sigma[i] * backward[j][0]
+            rows[i].append((new if n else new + m[i]) / (n + 1))
     return rows
 
 
@@ -153,7 +158,7 @@ def _linear(numbers, x, column, order):
 
 def _sizes(rows, h):
     """|c_n| h^n, upper bounds, and their sums."""
-    powers, h = [ball(1)], ball(h)
+    powers = [ball(1)]
     for _ in rows[0][1:]:
         powers.append(powers[-1] * h)
     sizes = [[(c * p).abs_upper() for c, p in zip(row, powers)] for row in rows]
@@ -162,18 +167,18 @@ def _sizes(rows, h):
 
 def _beyond(one, other):
     """Sum of one_m other_n over m + n >= N, both up to N."""
-    tails, total = [], ball(0)
+    tails, total = [], _nothing()
     for value in reversed(other):
         total = total + value
         tails.append(total)  # tails[m]: the sum of other_n over n >= N - m
-    return sum(map(mul, one, tails), ball(0))
+    return sum(map(mul, one, tails), _nothing())
 
 
 def _tail(numbers, rows, h):
     """(sums, tails) of a series at h; None where no tail is found."""
     sizes, sums = _sizes(rows, h)
     kappa, rho, sigma, _ = [[abs(v) for v in row] for row in numbers]
-    share = ball(h) / len(rows[0])
+    share = h / len(rows[0])
     known = [share * (kappa[i] * _beyond(sizes[j], sizes[k]) + rho[i] * sizes[k][-1] + sigma[i] * sizes[j][-1]) for i, (j, k) in enumerate(AHEAD)]
     return _closed(known, lambda T: [share * (kappa[i] * (sums[j] * T[k] + T[j] * sums[k] + T[j] * T[k]) + rho[i] * T[k] + sigma[i] * T[j])
                                      for i, (j, k) in enumerate(AHEAD)], sums)
@@ -196,7 +201,7 @@ def _linear_end(numbers, x, known_tail, V, h):
     (sizes, _), (v, vsum) = _sizes(x, h), _sizes(V, h)
     sums, T = known_tail
     kappa, rho, sigma, _ = [[abs(c) for c in row] for row in numbers]
-    share = ball(h) / len(V[0])
+    share = h / len(V[0])
     known = [share * (kappa[i] * (_beyond(sizes[j], v[k]) + _beyond(sizes[k], v[j]) + T[j] * vsum[k] + T[k] * vsum[j])
                       + rho[i] * v[k][-1] + sigma[i] * v[j][-1]) for i, (j, k) in enumerate(AHEAD)]
     whole = [a + b for a, b in zip(sums, T)]
@@ -207,7 +212,7 @@ def _linear_end(numbers, x, known_tail, V, h):
 
 def _value(row, h):
     """The polynomial at h, by Horner's rule."""
-    total, h = row[-1], ball(h)
+    total = row[-1]
     for c in row[-2::-1]:
         total = total * h + c
     return total
@@ -216,7 +221,7 @@ def _value(row, h):
 def _inverse(P):
     """The inverse of an exact 3 x 3 matrix, entries as balls."""
     minor = lambda i, j: (P[(i + 1) % 3][(j + 1) % 3] * P[(i + 2) % 3][(j + 2) % 3] - P[(i + 1) % 3][(j + 2) % 3] * P[(i + 2) % 3][(j + 1) % 3])
-    determinant = sum((P[0][j] * minor(0, j) for j in range(3)), ball(0))
+    determinant = sum((P[0][j] * minor(0, j) for j in range(3)), _nothing())
     if 0 in determinant:
         raise Lost("the set's directions have become parallel")
     return [[minor(j, i) / determinant for j in range(3)] for i in range(3)]
