@@ -2,11 +2,13 @@
 import json
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
 from stabilab.physics.effects import REGISTRY
 
+ROOT = Path(__file__).parents[2]
 BODY = "[body]\ninertia = {inertia}\nmass = 5\n"
 MOTION = "[motion]\nangular_velocity = [0.1, 0.05, 0.02]\nspan = [0, 1]\n"
 EFFECTS = {
@@ -65,6 +67,33 @@ def check(folder, commands, scenes):
         assert loaded <= set(names), (command, path.name, loaded)
         if "liquid_cavity" not in names and "charge" not in names:
             assert "stabilab.physics.law_limits" not in modules, (command, path.name)
+
+
+# Refuses every package but python-flint, and answers and certifies one state of each case.
+ALONE = """
+import json, sys
+class Alone:
+    def find_spec(self, name, path=None, target=None):
+        if name.partition(".")[0] not in {*sys.stdlib_module_names, "stabilab", "flint"}:
+            raise ModuleNotFoundError(f"No module named {name!r}", name=name)
+sys.meta_path.insert(0, Alone())
+import stabilab
+from stabilab.answers.certificate import certificate
+for path in sys.argv[1:]:
+    case = stabilab.load(path)
+    found = stabilab.motion(case.scene, case.state, case.span, exact=case.exact_state)
+    rest = stabilab.equilibria(case.scene)
+    proved = certificate(case.scene, case.exact_state)
+    print(case.name, found.fate.word, found.extremes is not None, rest.kind, proved["motion"]["fate"])
+"""
+
+
+def test_one_state_is_answered_and_certified_with_python_flint_alone():
+    """On circles, hyperbolas, without a torque, and where a separatrix is near enough for many digits."""
+    cases = [f"cases/{name}.toml" for name in ("minor-axis-100", "middle-axis-double-well", "torque-free-body", "uncertain-separatrix")]
+    run = subprocess.run([sys.executable, "-c", ALONE, *cases], capture_output=True, text=True, cwd=ROOT)
+    assert run.returncode == 0, run.stderr
+    assert [line.split()[1:] for line in run.stdout.splitlines()] == [["bounded", "True", "curves", "bounded"]] * 4
 
 
 def test_commands_load_only_the_effects_that_the_scene_names(tmp_path):
