@@ -19,8 +19,10 @@ LAST_ORDERS = (8, 10)  # about the moving centre, asked last and seldom: making 
 EQUATORIAL_ORDERS = ((2, 4), (4, 6))
 
 
+@lru_cache(maxsize=32)
 def natural(scene):
-    """(scene in natural units, unit of rates): powers of two near the mean moment and near the root of torque over moment."""
+    """(scene in natural units, unit of rates): powers of two near the mean moment and near the root of torque over moment. Kept, for
+    a certificate and its proof ask for it in turn."""
     if scene.variables == "scaled":
         torque, mass = max(map(abs, scene.exact_mu)), 1
     else:
@@ -29,7 +31,7 @@ def natural(scene):
         return scene, 1.0
     weight = 2.0 ** round(_log2(mass))
     unit = 2.0 ** round((_log2(torque) - _log2(mass)) / 2)
-    return in_unit(scene, unit, weight), unit
+    return scene if unit == weight == 1 else in_unit(scene, unit, weight), unit
 
 
 def _log2(value):

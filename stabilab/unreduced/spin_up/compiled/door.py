@@ -34,9 +34,9 @@ class FixedCertifier:
         made = [np.zeros((top, top, powers), kind) for _ in range(4) for kind in (complex, float)]
         added_e, most_e, rate_e, rise_e, added_b, most_b, rate_b, rise_b = made
         self.kernel["tables"](np.array(orders), f.om, f.drag, np.array([f.D1, f.M1, f.gam, f.h]), np.array([f.mu, f.kap], complex), *made)
-        sums = [self._gathered(c, m, by_size) for c, m, by_size in ((added_e, most_e, True), (added_e, most_e, False), (added_b, most_b, True), (
-            added_b, most_b, False), (rate_b, rise_b, True), (rate_e, rise_e, True))]
-        self.tables = *self._parts(added_e), *self._parts(added_b), *(table for table, _ in sums), np.array([sums[n][1] for n in (0, 2, 4, 5)])
+        (e, e_most, *first), (b, b_most, *second), (r, _, *third), (k, _, *fourth) = (
+            self._gathered(c, m) for c, m in ((added_e, most_e), (added_b, most_b), (rate_b, rise_b), (rate_e, rise_e)))
+        self.tables = *self._parts(added_e), *self._parts(added_b), e, e_most, b, b_most, r, k, np.array(first + second + third + fourth)
         self.work = np.zeros(top, complex), np.zeros(powers), np.zeros(6)
         self.order, self.frame = np.array(f.order), np.array([*f.turn, f.shift, *f.centre, *f.scale], float)
 
@@ -47,15 +47,14 @@ class FixedCertifier:
         m = self.kernel["parts"](c, *made)
         return np.ascontiguousarray(made[0][:, :m]), made[1][:m], made[2][:m]
 
-    def _gathered(self, c, m, by_size):
-        """(table, index n of its first column) of the sums over the terms of a degree, without the outer rows and columns of zeros. Where sums and
-        majorants of a quantity belong together the majorants, which are never smaller, tell which columns those are."""
-        out, most = np.zeros((2, 2 * c.shape[0], c.shape[2]))
-        self.kernel["gather"](c, m, by_size, out)
+    def _gathered(self, c, m):
+        """(sums of sizes, of majorants, index n of their first column) over the terms of a degree, without the outer rows and columns of zeros."""
+        sums, most = np.zeros((2, 2 * c.shape[0], c.shape[2]))
+        self.kernel["gather"](c, m, True, sums)
         self.kernel["gather"](c, m, False, most)
         degrees, columns = np.flatnonzero(most.any(axis=1)), np.flatnonzero(most.any(axis=0))
-        first, end = (columns[0], columns[-1] + 1) if columns.size else (0, 1)
-        return np.ascontiguousarray(out[:1 + (degrees[-1] if degrees.size else 0), first:end]), first
+        rows, first, end = (degrees[-1] + 1, columns[0], columns[-1] + 1) if columns.size else (1, 0, 1)
+        return np.ascontiguousarray(sums[:rows, first:end]), np.ascontiguousarray(most[:rows, first:end]), first
 
     def __call__(self, states, near=0.0) -> Found:
         """See `certificate.Certifier`."""
