@@ -482,9 +482,8 @@ def explore(case: Annotated[Path | None, typer.Argument(metavar="[CASE]", help="
 
     Example: stabilab explore cases/thruster-stuck-major-axis.toml --no-browser
     """
-    one, *rest = _load([case or Path(__file__).parent / "cases" / "thruster-stuck-major-axis.toml"])
-    if rest:
-        _say(f"{one.place}: the first combination of its sweep is explored")
+    from .case.read import load
+    one = load(case or Path(__file__).parent / "cases" / "thruster-stuck-major-axis.toml")
     if static is not None:
         from .show.explore.static import write
         _print(str(write(one, static, pyodide)))

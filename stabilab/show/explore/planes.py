@@ -60,5 +60,5 @@ def over_time(bag: Bag, case: Case, motion: Motion | None, times: list[float], p
     extremes = [[v * rate for v in pair] for pair in motion.extremes] if known and motion is not None and motion.extremes is not None else None
     return {"times": bag.add("float32", [t * one for t in times]), "rates": [bag.add("float32", [x[n] * rate for x in path]) for n in range(3)],
             "extremes": extremes, "period": None if motion is None or motion.period is None else motion.period * one,
-            "x": "time τ" if units.scaled else labelled("time", name), "y": labelled("rate", label),
+            "x": "time τ" if units.scaled else labelled("time", name), "y": labelled("x" if units.scaled else "rate", label),
             "names": [f"{symbol}{n}" for n in (1, 2, 3)]}

@@ -18,7 +18,7 @@ from ...errors import InputError, StabilabError
 from ...integrate.quadratic_series import followed
 from ...orbit.result import Motion
 from ...orbit.separatrix.plain_sheets import REACH, PlainSheet, plain_separatrix
-from ...packages import present
+from ...packages import explained, present
 from ...physics.coefficients import content, gyrostat_scene
 from ...physics.effects import effect_class
 from ...physics.scene import AnyScene, ScaledGyrostat, Scene
@@ -34,7 +34,9 @@ FARTHEST = 1e4  # times the fold's radius: how far a sheet is followed for a lar
 POINTS = {True: (16, 40), False: (40, 90)}  # of a piece of a curve of equilibria: to find what is in the box, and to draw it
 TURNS = 60.0  # rad of turn at most that are drawn
 FOLLOWED = "the torque is off the principal axes: keep still, and the motion is followed"
-NO_ARRAYS = "the torque is off the principal axes, and without NumPy no motion is followed"
+WORKED_OUT = "keep still, and this motion is worked out"
+NO_ARRAYS = "this motion has to be followed, which needs NumPy, and that is not here"
+PATIENCE = 0.12  # s: a motion whose kind took longer the last time waits until the hand rests
 
 
 class Stopped(Exception):
@@ -50,6 +52,7 @@ class Session:
             raise InputError(f"{case.place}: explore moves a body with wheels and a torque; this one also has {names}: ask stabilab classify or report")
         self.case, self.units = case, units_of(case)
         self._kept: dict[str, tuple[Any, Any]] = {}
+        self._cost: dict[str, float] = {}  # s that the last motion of a kind took
 
     def about(self) -> dict[str, Any]:
         """What a page must know before its first question."""
@@ -65,6 +68,10 @@ class Session:
             return bag.framed(self._answer(asked, bag, stopped))
         except StabilabError as error:
             return Bag().framed({"error": str(error)})
+        except ImportError as error:
+            if (words := explained(error)) is None:
+                raise
+            return Bag().framed({"error": str(words)})
 
     def _answer(self, asked, bag, stopped):
         began = time.process_time()
@@ -85,17 +92,23 @@ class Session:
         return made | {"analysis": 1e3 * (settled - began), "work": 1e3 * (time.process_time() - began)}
 
     def _motion(self, case: Case, moving: bool, stopped) -> tuple[Motion | None, str]:
-        """(what is known of the motion, the verdict in a line); None while it has to be followed."""
-        runs = KINDS[kind_of(self._twin(case))].follows
-        if runs and not present("numpy"):
-            return None, f"UNDECIDED: {NO_ARRAYS}"
-        if runs and moving:
-            return None, f"UNDECIDED so far: {FOLLOWED}"
+        """(what is known of the motion, the verdict in a line); None where a run would keep a moving hand waiting, or NumPy is needed and not here."""
+        kind = kind_of(self._twin(case))
+        runs = KINDS[kind].follows
+        if moving and (runs or self._cost.get(kind, 0.0) > PATIENCE):
+            return None, f"UNDECIDED so far: {FOLLOWED if runs else WORKED_OUT}" if present("numpy") else f"UNDECIDED: {NO_ARRAYS}"
 
         def tell(*_):
             if stopped():
                 raise Stopped
-        found = motion(case.scene, case.start, brief=moving, exact=case.exact_state, tell=tell if runs else None)
+        began = time.process_time()
+        try:
+            found = motion(case.scene, case.start, brief=moving, exact=case.exact_state, tell=tell if runs else None)
+        except ModuleNotFoundError as error:
+            if error.name != "numpy":
+                raise
+            return None, f"UNDECIDED: {NO_ARRAYS}"
+        self._cost[kind] = time.process_time() - began
         return found, headline(case, found, self.units)
 
     def _twin(self, case: Case) -> AnyScene:
@@ -103,10 +116,9 @@ class Session:
         return case.scene if case.scene.plain else gyrostat_scene(content(case.scene))
 
     def _space(self, bag, case, twin, found, at_rest, path, asked, moving):
-        near = space.near_part(path, found)
+        near, (bare, ghost) = space.near_part(path, found), _without_tilt(twin)
         marks = space.marks_of(case.state, found, at_rest)
-        box = space.box_of(asked, [*near, *(m["at"] for m in marks if m["kind"].startswith(("start", "nearest")))], moving)
-        bare, ghost = _without_tilt(twin)
+        box = space.box_of(asked, [*near, *(m["at"] for m in marks if m["kind"].startswith(("start", "nearest")))], moving or ghost)
         sheets, words = self._sheets(bare, box, moving)
         sheets = [sheet for sheet in sheets if space.seen(sheet, box)]
         if ghost:

@@ -57,14 +57,14 @@ def near_part(path: list[tuple[float, ...]], motion: Motion | None) -> list[tupl
     return path[:late + 1] if late > 20 else path
 
 
-def box_of(asked: Any, points: list[Point], moving: bool) -> Box:
-    """The box that was asked for (middle and half), as long as the points are inside and, once the hand rests, fill a part of it; else a new one about
+def box_of(asked: Any, points: list[Point], kept: bool) -> Box:
+    """The box that was asked for (middle and half), as long as the points are inside and, unless it is kept, fill a part of it; else a new one about
     them."""
     low, high = ([pick(p[n] for p in points) for n in range(3)] for pick in (min, max))
     extent = max(b - a for a, b in zip(low, high)) / 2
     if asked is not None:
         box = _given(asked)
-        if all(box.holds(p) for p in points) and (moving or extent > SMALL * box.half):
+        if all(box.holds(p) for p in points) and (kept or extent > SMALL * box.half):
             return box
     return Box(tuple((a + b) / 2 for a, b in zip(low, high)), ROOM * extent or max(map(abs, high)) or 1.0)
 

@@ -44,7 +44,7 @@ def write(case: Case, out: Path, pyodide: Path | None = None) -> Path:
     words = f"Pyodide {PYODIDE} from {ADDRESS}" if wheels is None else "Pyodide from the folder of this page"
     flint = "python-flint and NumPy from where Pyodide finds them" if wheels is None else f"{' and '.join(wheels)} too"
     how = (f"Python runs in this browser and answers here: {words}, {flint}, and stabilab {__version__} from stabilab.zip beside this page. "
-           + ("" if wheels is None or len(wheels) > 1 else "Without NumPy a motion under a tilted torque is not followed."))
+           + ("" if wheels is None or len(wheels) > 1 else "Without NumPy a motion that no law decides is not followed."))
     python = {"pyodide": ADDRESS if wheels is None else "pyodide/", "wheels": wheels, "arrays": wheels is None, "words": words, "name": Path(case.path).name,
               "text": case.text}
     _written(out / "stabilab.zip", archive())

@@ -26,8 +26,16 @@ def rows(case: Case, motion: Motion, units: Units) -> list[list[str]]:
         found.append(["period", units.time(motion.period, DIGITS)])
     if motion.extremes is not None and not any(map(math.isnan, sum(map(list, motion.extremes), []))):
         for component, pair in zip(case.scene.components, motion.extremes):
-            found.append([component.replace("omega", "ω"), f"{units.told(pair[0], units.rates, DIGITS)} to {units.told(pair[1], units.rates, DIGITS)}"])
+            found.append([component.replace("omega", "ω"), _range(*pair, units)])
     return [*found, ["why", motion.because]]
+
+
+def _range(low: float, high: float, units: Units) -> str:
+    """Least and greatest rate."""
+    least, greatest = (units.told(value, units.rates, DIGITS) for value in (low, high))
+    if math.isinf(low) or math.isinf(high):
+        return "without end both ways" if low == -high else f"from {least} up, without end" if math.isinf(high) else f"from {greatest} down, without end"
+    return f"{least} to {greatest}"
 
 
 def equilibria(found: Equilibria, units: Units) -> dict[str, Any]:

@@ -1,5 +1,5 @@
 // The page: sliders ask, answers are drawn. A question of a moving hand waits for the one before; one of a resting hand gives way to any newer.
-const $ = id => document.getElementById(id), setup = JSON.parse($("setup").textContent), ask = backend(), view = spaceView($("space"));
+const $ = id => document.getElementById(id), setup = JSON.parse($("setup").textContent), ask = backend(), view = spaceView($("space"), {glass: 0.62, near: 0.9});
 const touched = {}, fields = {};
 let axis = setup.groups[0].axis, axisTouched = false, shown = null, serial = 0, latest = 0, busy = false, waiting = null, resting = null, abort = null, cross = null, planeArt = null;
 const REST = 160;  // ms without a change after which a hand rests
@@ -123,8 +123,9 @@ function show(answer) {
 function drawFlat() {
   if (!shown) return;
   drawTime($("time"), shown.time);
+  $("plane").hidden = !shown.plane;
   if (shown.plane) planeArt = drawPlane($("plane"), shown.plane, document.activeElement === $("plane") ? cross : null);
-  else { planeArt = null; const canvas = $("plane"); canvas.getContext("2d").setTransform(1, 0, 0, 1, 0, 0); canvas.getContext("2d").clearRect(0, 0, canvas.width, canvas.height); }
+  else planeArt = null;
 }
 
 $("plane").onclick = e => { if (!planeArt) return; const [turn, rate] = planeArt.at(e.offsetX, e.offsetY); cross = null; move({turn, rate}); };

@@ -1,6 +1,7 @@
 "use strict";
 // The space of the rates on a canvas: show(data) draws what it is given in place of what was there; onpick(place, words) hears of a click on something drawn.
-function spaceView(canvas) {
+// glass: how opaque the surfaces are, so that a motion behind them is seen; near: how near one stands at first.
+function spaceView(canvas, {glass = 1, near = 1} = {}) {
   let data = null;
   const view = {show, draw, onpick: null};
   const layer = document.createElement("canvas"), gl = layer.getContext("webgl2", {antialias: true, preserveDrawingBuffer: true}), pen = canvas.getContext("2d");
@@ -15,12 +16,12 @@ function spaceView(canvas) {
     in vec3 at; in vec3 normal; uniform mat4 view; out vec3 place; out vec3 up;
     void main() { place = at; up = normal; gl_Position = view * vec4(at, 1.0); }`));
   gl.attachShader(program, build(gl.FRAGMENT_SHADER, `#version 300 es
-    precision highp float; in vec3 place; in vec3 up; uniform vec3 colour; uniform vec3 eye; uniform float flatly; out vec4 pixel;
+    precision highp float; in vec3 place; in vec3 up; uniform vec3 colour; uniform vec3 eye; uniform float flatly; uniform float glass; out vec4 pixel;
     void main() {
       if (any(greaterThan(abs(place), vec3(1.0005)))) discard;
       vec3 n = normalize(up), e = normalize(eye);
       float light = mix(0.45 + 0.55 * abs(dot(n, normalize(e + vec3(0.25, 0.1, 0.5)))), 1.0, flatly);
-      pixel = vec4(colour * light, 1.0); }`));
+      pixel = vec4(colour * light, glass); }`));
   gl.linkProgram(program); gl.useProgram(program);
   const uniforms = {}, where = name => uniforms[name] ??= gl.getUniformLocation(program, name);
   let parts = [], buffers = [], shapes = [];
@@ -94,7 +95,7 @@ function spaceView(canvas) {
     draw();
   }
 
-  const first = {turn: -0.95, lift: 0.42, near: 1}; let now = {...first};
+  const first = {turn: -0.95, lift: 0.42, near}; let now = {...first};
   function step(half) {  // a round number that divides the box into some four parts
     const rough = half / 2.2, ten = 10 ** Math.floor(Math.log10(rough)); return ten * [1, 2, 5, 10].find(k => k * ten >= rough);
   }
@@ -117,10 +118,14 @@ function spaceView(canvas) {
     const seen = look();
     gl.viewport(0, 0, width, height); gl.clearColor(1, 1, 1, 1); gl.enable(gl.DEPTH_TEST); gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     gl.uniformMatrix4fv(where("view"), false, seen.matrix); gl.uniform3fv(where("eye"), seen.eye);
-    for (const part of parts) {
+    gl.enable(gl.BLEND); gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ONE, gl.ONE);
+    for (const part of [...parts.filter(one => one.flatly), ...parts.filter(one => !one.flatly)]) {
+      const clear = glass < 1 && !part.flatly;  // a surface: after all else, and hiding nothing behind it
+      gl.depthMask(!clear); gl.uniform1f(where("glass"), clear ? glass : 1);
       gl.uniform3fv(where("colour"), part.colour); gl.uniform1f(where("flatly"), part.flatly); gl.bindVertexArray(part.vertices);
       gl.drawElements(gl.TRIANGLES, part.count, gl.UNSIGNED_INT, 0);
     }
+    gl.depthMask(true);
     pen.drawImage(layer, 0, 0); words(seen, sharp);
   }
   function words(seen, sharp) {
@@ -140,7 +145,7 @@ function spaceView(canvas) {
         pen.fillText(String(+v.toPrecision(6) || 0).replace("-", "\u2212"), x + 20 * sharp * away[0], y + 16 * sharp * away[1]);
       }
       pen.fillStyle = "#000"; pen.font = `600 ${small * 1.1}px sans-serif`;
-      const [tx, ty] = [mx + (k === 2 ? 78 : 60) * sharp * away[0], my + 44 * sharp * away[1]];
+      const [tx, ty] = [mx + (k === 2 ? 92 : 72) * sharp * away[0], my + 52 * sharp * away[1]];
       const half = pen.measureText(data.names[k]).width / 2 + 4;
       pen.fillText(data.names[k], Math.min(Math.max(tx, half), canvas.width - half), Math.min(Math.max(ty, small), canvas.height - small));
     }

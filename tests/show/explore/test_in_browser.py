@@ -79,7 +79,7 @@ def test_sliders_move_verdict_and_surface(page):
 
 def test_a_tilt_is_undecided_and_says_why(page):
     page.run("fields.tilt.field.value = '3'; fields.tilt.field.oninput()")
-    page.until(f"{RESTS} && {HEADLINE}.startsWith('UNDECIDED: the torque is off the principal axes, and without NumPy')", 60)
+    page.until(f"{RESTS} && {HEADLINE}.startsWith('UNDECIDED: this motion has to be followed, which needs NumPy')", 60)
     page.run("document.querySelector('#again').click()")
     page.until(f"{RESTS} && {HEADLINE}.startsWith('BOUNDED')", 60)
 

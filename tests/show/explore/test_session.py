@@ -68,6 +68,14 @@ def test_a_tilted_torque_is_undecided_while_the_hand_moves_and_followed_when_it_
     assert ask(session, **tilted)[0]["fate"] == "spin-up"
 
 
+def test_a_kind_of_motion_that_took_long_waits_until_the_hand_rests(monkeypatch):
+    session, along = Session(case_of("thruster-stuck-major-axis")), {"wheel": ["1", None, None]}  # a wheel along the torque leaves no integral
+    assert ask(session, moving=True, **along)[0]["fate"] == "spin-up"
+    monkeypatch.setattr("stabilab.show.explore.session.PATIENCE", 0.0)  # any work takes longer
+    assert ask(session, moving=True, **along)[0]["headline"].startswith("UNDECIDED so far: keep still")
+    assert ask(session, **along)[0]["fate"] == "spin-up"
+
+
 def test_a_motion_is_followed_no_longer_once_a_newer_question_has_come():
     tilted = {"torque": {"axis": 1, "size": "0.02", "tilt": "2", "azimuth": "0"}}
     with pytest.raises(Stopped):
@@ -146,8 +154,12 @@ from stabilab.show.explore.certificates import checked
 from stabilab.show.explore.bag import unframed
 for name in ("thruster-stuck-major-axis", "cubesat-3u"):
     print(unframed(Session(stabilab.load(f"cases/{name}.toml")).answer({}))[0]["headline"])
+along = unframed(Session(stabilab.load("cases/thruster-stuck-major-axis.toml")).answer({"wheel": ["1", None, None]}))[0]
+print(along["headline"], along["space"]["words"])
 """
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert run.returncode == 0, run.stderr
-    first, second = run.stdout.splitlines()
-    assert first.startswith("BOUNDED for ever while the torque is exactly along axis 1; largest rate 1.725 deg/s") and second.startswith("UNDECIDED")
+    first, second, third = run.stdout.splitlines()
+    assert first.startswith("BOUNDED for ever while the torque is exactly along axis 1; largest rate 1.725 deg/s")
+    assert second.startswith("UNDECIDED: this motion has to be followed, which needs NumPy")
+    assert third.startswith("UNDECIDED: this motion has to be followed, which needs NumPy") and "No separatrix" in third
