@@ -22,7 +22,7 @@ autodoc_typehints = "none"  # docstrings give shapes and units, which types do n
 autodoc_member_order = "bysource"
 CHECKED = "Evaluated against the program"
 # What stands outside of docs/ has its page here under another name
-ELSEWHERE = {"../README.md": "readme.md", "../benchmarks/RESULTS.md": "results.md"}
+PAGES = {"README.md": "readme.md", "benchmarks/RESULTS.md": "results.md", "CONTRIBUTING.md": "contributing.md", "CHANGELOG.md": "changelog.md"}
 
 
 def setup(app):
@@ -32,10 +32,10 @@ def setup(app):
 
 
 def write_pages(app):
-    """The pages that are made from what the repository holds: README, results of the benchmarks, reference, notebooks, gallery of cases."""
-    readme = (HERE.parent / "README.md").read_text(encoding="utf-8")
-    written.page(HERE / "readme.md", readme.replace("](docs/", "](").replace("](figures/", "](../figures/"))
-    written.page(HERE / "results.md", (HERE.parent / "benchmarks/RESULTS.md").read_text(encoding="utf-8"))
+    """The pages that are made from what the repository holds: what stands outside of docs/, reference, notebooks, gallery of cases."""
+    for outside, name in PAGES.items():
+        text = (HERE.parent / outside).read_text(encoding="utf-8")
+        written.page(HERE / name, text.replace("](docs/", "](").replace("](figures/", "](../figures/").replace("](CITATION.cff", "](../CITATION.cff"))
     written.page(HERE / "api.md", reference.text())
     notebooks.write(HERE)
     gallery.write(HERE)
@@ -43,8 +43,8 @@ def write_pages(app):
 
 def point_inside(app, name, source):
     """Links to files outside of docs/ lead to their pages here."""
-    for outside, inside in ELSEWHERE.items():
-        source[0] = source[0].replace(f"]({outside}", f"]({inside}")
-    source[0] = source[0].replace("](benchmarks/RESULTS.md", "](results.md").replace(".ipynb)", ".md)")
+    for outside, inside in PAGES.items():
+        source[0] = source[0].replace(f"](../{outside}", f"]({inside}").replace(f"]({outside}", f"]({inside}")
+    source[0] = source[0].replace(".ipynb)", ".md)")
     if name.startswith("mathematics/"):  # the formulas first, what checks them at a click
         source[0] = re.sub(r"^```python\n.*?^```$", rf"<details><summary>{CHECKED}</summary>\n\n\\g<0>\n\n</details>", source[0], flags=re.M | re.S)
