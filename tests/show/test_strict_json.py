@@ -44,7 +44,6 @@ SLOW = "beyond doubles"
 ASKED = {"classify": ([], [*MANY, "liquid"]),
          "fate": ([], MANY), "extremes": ([], MANY), "period": ([], MANY), "when": (["--rate", "0.3 rad/s"], MANY),
          "simulate": (["--at", "0,1"], MANY), "compare": ([], ["charged"]), "precision": (["--quick"], ["bounded"]),
-        
          "sweep": (["--vary", "motion.angular_velocity[3]=0:4:3", "--answer", "fate,margin,distance,extremes,period"], ["bounded", "no saddle"]),
          "reference": (["--at", "0,1", "--digits", "12"], ["bounded"]), "stuck": ([], ["craft"]), "verify": ([], ["certificate"]),
          "audit": (["constant-torque-gyrostat", "--equation", "17"], [None]), "validate": ([], [None])}
