@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError
+from ..shown import Shown
 from .follow import follow, models_of
 from .theory import theory
 
@@ -34,8 +35,8 @@ class Departure:
     first: dict
 
 
-@dataclass(frozen=True)
-class Comparison:
+@dataclass(frozen=True, repr=False)
+class Comparison(Shown):
     """t: (n,) times; runs: model -> Simulation, the exact one first; departures: one per model and part of the state;
     refused: model -> why it has no answer for this motion; theory: what else the theory says (`theory.theory`)."""
 

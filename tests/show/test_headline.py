@@ -1,6 +1,7 @@
 """The first line of an answer: what becomes of the motion, in words and in the units of engineers."""
 import math
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -8,8 +9,10 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from stabilab import load, motion
+from stabilab.show.report.one_case import verdict
+from stabilab.show.report.one_case.measures import Measures
 from stabilab.show.text.headline import headline
-from stabilab.show.units import DEG, SI
+from stabilab.show.units import DEG, SI, units_of
 
 ROOT = Path(__file__).parents[2]
 CASES = ROOT / "cases"
@@ -110,3 +113,12 @@ def test_proofs_and_algebra_stand_behind_why(stabilab, own):
         assert words not in short and words in long
     assert long == stabilab("classify", path, "-v")[1] and short.splitlines()[0] == long.splitlines()[0]
     assert "(deg/s)^2" in long and "\n  energy " in long and long.count(" J\n") == 2
+
+
+def test_a_page_of_a_sweep_tells_margin_and_rate_as_the_first_line_does_and_open_bounds_as_two_numbers(own):
+    case = own()
+    found = told(case)
+    line, units = headline(case, found), Measures(units_of(case))
+    assert f"largest rate {verdict.largest(found, units)}; margin {verdict.margin(found, units)}; period" in line.replace("-", "−")
+    open_ = replace(found, velocity_because="the search ended", velocity_bounds=(0.1, 0.2))
+    assert verdict.margin(open_, units) == "5.73 deg/s to 11.46 deg/s (0.5089 J)"  # 0.1 and 0.2 rad/s

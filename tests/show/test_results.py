@@ -1,5 +1,6 @@
 """Results show themselves: in a line, in a notebook, as data sets and tables."""
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,11 +11,16 @@ from stabilab import errors, packages
 SCENE = stabilab.Scene(stabilab.Body((12, 9, 5)), stabilab.Gyrostat(("0.8", 0, 0)), stabilab.ConstantTorque((0, 0, "0.02")))
 STATES = [[0.1, 0.05, 0.02], [0.1, 0.05, 0.9]]
 TIMES = [0.0, 10.0, 20.0]
+CASES = Path(__file__).parents[2] / "cases"
+OFF = stabilab.Scene(stabilab.Body((12, 9, 5)), stabilab.Gyrostat(("0.8", 0, 0)), stabilab.ConstantTorque(("0.01", "0.3", "0.02")))
 RESULTS = {
     "Motion": lambda: stabilab.motion(SCENE, STATES[0]), "Equilibria": lambda: stabilab.equilibria(SCENE),
     "FateResult": lambda: stabilab.fate(SCENE, STATES), "Trajectory": lambda: stabilab.trajectory(SCENE, STATES[0], TIMES),
     "Simulation": lambda: stabilab.simulate(SCENE, STATES[0], TIMES), "Separatrix": lambda: stabilab.separatrix(SCENE, shape=(5, 7)),
-    "TimeTo": lambda: stabilab.time_to(SCENE, STATES, rate=2)}
+    "TimeTo": lambda: stabilab.time_to(SCENE, STATES, rate=2),
+    "Comparison": lambda: stabilab.compare(stabilab.load(CASES / "charged-body-small-torque.toml"), TIMES),
+    "Stuck": lambda: stabilab.stuck(stabilab.load(CASES / "upper-stage.toml")),
+    "SpinUp": lambda: stabilab.spin_up(OFF, STATES[1])}
 
 
 @pytest.fixture(scope="module")
@@ -33,6 +39,22 @@ def test_the_line_of_a_motion_has_its_fate_margin_and_period(results):
     line = repr(results["Motion"])
     assert all(words in line for words in ("bounded", "margin in energy 0.508862", "in rate 0.16891", "period 32.8438"))
     assert repr(results["FateResult"]) == "FateResult(2 states: 1 bounded, 1 spin-up)"
+
+
+def test_the_lines_of_a_stuck_thruster_of_models_and_of_a_spin_up_have_their_numbers(results):
+    """Beside the fields themselves."""
+    row, found = results["Stuck"].rows[0], results["SpinUp"]
+    assert all(words in repr(results["Stuck"]) for words in (row.fate, f"{row.time_to_limit[0]:.6g}"))
+    assert f"spin-up about axis {found.axis}, sense {found.sense:+d}, {found.level}" in repr(found)
+    assert "3 times; largest error of a part's size: linear " in repr(results["Comparison"])
+
+
+def test_tables_of_a_stuck_thruster_of_models_and_of_a_spin_up_hold_their_numbers(results):
+    table, rows = results["Stuck"].to_pandas(), results["Stuck"].rows
+    assert list(table["fate"]) == [row.fate for row in rows] and list(table["limit_low"]) == [row.time_to_limit[0] for row in rows]
+    table, rows = results["Comparison"].to_pandas(), results["Comparison"].departures
+    assert list(table["largest"]) == [d.largest for d in rows] and list(table["part"]) == [d.part for d in rows]
+    assert list(results["SpinUp"].to_pandas()["state"]) == list(results["SpinUp"].state) and results["SpinUp"].to_xarray().attrs["t"] == results["SpinUp"].t
 
 
 @pytest.mark.parametrize("name", RESULTS)

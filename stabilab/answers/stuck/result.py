@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from ...numbers.vectors import Float3
+from ...shown import Shown
 from ..tilt import Tilt
 
 
@@ -104,8 +105,8 @@ class Row:
     tilt: Tilt | None = None
 
 
-@dataclass(frozen=True)
-class Stuck:
+@dataclass(frozen=True, repr=False)
+class Stuck(Shown):
     """The answer for one case: a row a combination of thrusters (see `stuck`), in one set of principal axes."""
 
     case: str

@@ -1,6 +1,7 @@
 """The numbers of a result with their dimensions, units and words: what data sets, tables and pages are made of."""
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -111,6 +112,42 @@ def _separatrix(found):
     return Variables(("point",), values, AXIS, {"reason": found.reason, "grids": shapes})
 
 
+def _comparison(found):
+    text = lambda values: (("departure",), np.array(list(values), dtype=object), {})
+    number = lambda values, words: (("departure",), np.array([np.nan if v is None else v for v in values], float), {"long_name": words})
+    rows = found.departures
+    firsts = {f"first_{100 * level:g}_percent": number([d.first[level] for d in rows], f"time of the first error of {100 * level:g} % of the scale; NaN: none")
+              for level in (rows[0].first if rows else ())}
+    return Variables(("departure",), {"model": text(d.model for d in rows), "part": text(d.part for d in rows),
+                                      "largest": number([d.largest for d in rows], "largest error while the model runs"),
+                                      "scale": number([d.scale for d in rows], "largest exact component over the span"), **firsts},
+                     {}, {f"refused_{model}": why for model, why in found.refused.items()})
+
+
+def _stuck(found):
+    rows = found.rows
+    text = lambda values: (("row",), np.array(list(values), dtype=object), {})
+    number = lambda values, unit: (("row",), np.array([np.nan if v is None else v for v in values], float), {"units": unit})
+    ends = [row.time_to_limit or (None, None) for row in rows]
+    margins = {f"margin_{name}": number([row.margins[name].size if name in row.margins else None for row in rows], unit)
+               for name, unit in (("rate", "rad/s"), ("wheel", "N m s"), ("torque", "N m"))}
+    values = {"thrusters": text("+".join(row.thrusters) for row in rows), "fate": text(row.fate for row in rows), "level": text(row.level for row in rows),
+              "spin_axis": number([row.axis or 0 for row in rows], "1"), "limit_low": number([low for low, _ in ends], "s"),
+              "limit_high": number([high for _, high in ends], "s"), "largest_rate": number([row.largest_rate for row in rows], "rad/s"), **margins,
+              "torque": (("row", "axis"), np.array([row.torque for row in rows], float), {"units": "N m", "long_name": "in the frame of the file"}),
+              "because": text(row.because for row in rows)}
+    return Variables(("row",), values, {"axis": ([1, 2, 3], {"long_name": "axis of the file"})}, {"case": found.case})
+
+
+def _spin_up(found):
+    along = found.direction or (math.nan,) * 3
+    values = {"state": (("axis",), np.array(found.state, float), {"long_name": "rates at time t"}),
+              "direction": (("axis",), np.array(along, float), {"long_name": "along which the rate grows; NaN: undecided"})}
+    notes = {"fate": found.fate.word, "level": found.level, "spin_axis": found.axis, "sense": found.sense, "t": found.t, "steps": found.steps,
+             "cause": found.cause, "condition": found.condition}
+    return Variables(("axis",), values, AXIS, notes)
+
+
 OF: dict[str, Callable[[Any], Variables]] = {
     "Simulation": _simulation, "Trajectory": _trajectory, "FateResult": _fates, "TimeTo": _times, "Equilibria": _equilibria, "Motion": _motion,
-    "Separatrix": _separatrix}
+    "Separatrix": _separatrix, "Comparison": _comparison, "Stuck": _stuck, "SpinUp": _spin_up}

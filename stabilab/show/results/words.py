@@ -63,7 +63,30 @@ def _separatrix(found):
     return "; ".join(f"{s.name}, {s.points.shape[0]} x {s.points.shape[1]} points" for s in found.sheets) or f"no sheets: {found.reason}"
 
 
+def _comparison(found):
+    worst = {}
+    for d in found.departures:
+        share = d.largest / d.scale if d.scale else math.inf if d.largest else 0.0
+        worst[d.model] = max(worst.get(d.model, 0.0), share)
+    models = [f"{model} {share:.2g}" for model, share in worst.items()] + [f"{model} refused" for model in found.refused]
+    return f"{_counted(len(found.t), 'time')}; largest error of a part's size: {', '.join(models) or 'no model'}"
+
+
+def _stuck(found):
+    head = found.rows[0]
+    low, high = head.time_to_limit or (None, None)
+    when = "" if low is None else f", limit in {low:.6g} s" if f"{low:.6g}" == f"{high:.6g}" else f", limit in {low:.6g} to {high:.6g} s"
+    first = f"{' and '.join(head.thrusters) or 'torque'}: {head.fate}{f' about axis {head.axis}' if head.axis else ''}{when}"
+    return first if len(found.rows) == 1 else f"{_counted(len(found.rows), 'row')} ({_shares(row.fate for row in found.rows)}), the first {first}"
+
+
+def _spin_up(found):
+    about = f" about axis {found.axis}, sense {found.sense:+d}" if found.axis else ""
+    return f"{found.fate.word}{about}, {found.level}; t = {found.t:.6g}, {_counted(found.steps, 'step')}"
+
+
 SHORT = {
     "Motion": _motion, "Equilibria": _equilibria, "FateResult": _fates, "TimeTo": _time_to, "Separatrix": _separatrix,
+    "Comparison": _comparison, "Stuck": _stuck, "SpinUp": _spin_up,
     "Trajectory": lambda run: _run(run.t, run.blocks, run.method, run.status, run.reason),
     "Simulation": lambda run: _run(run.t, run.state, f"{run.model}, {run.method}" if run.model != "exact" else run.method, run.status, run.reason)}

@@ -65,10 +65,18 @@ def largest(motion: Motion, units: Units) -> str:
     bound = motion.invariants.get("rate_bound")
     if bound is not None and (over or not finite):
         return f"{'|x|' if units.scaled else '|omega|'} at most {units.rate(bound, SHORT)}"
-    if not finite or len(finite) < len(sizes):
+    found = greatest(motion, units)
+    return f"largest rate {found}" if found else ""
+
+
+def greatest(motion: Motion, units: Units) -> str:
+    """The largest rate with its axis, and over which time where that is not all; empty where a rate has no end or is not known."""
+    pairs, over = _pairs(motion, units)
+    sizes = {n: max(map(abs, pair)) for n, pair in enumerate(pairs or (), 1) if None not in pair}
+    if len(sizes) < 3 or not all(map(math.isfinite, sizes.values())):
         return ""
-    axis = max(finite, key=finite.__getitem__)
-    return f"largest rate {units.rate(finite[axis], SHORT)} about axis {axis}{over}"
+    axis = max(sizes, key=sizes.__getitem__)
+    return f"{units.rate(sizes[axis], SHORT)} about axis {axis}{over}"
 
 
 def _pairs(motion, units):
@@ -90,13 +98,23 @@ def span_words(over: str, units: Units) -> str:
 
 def margin(motion: Motion, units: Units) -> str:
     """The distance to the separatrix as a rate, and the energy to the barrier."""
-    rate, energy = rate_margin(motion, units, SHORT), motion.margin_energy
-    if not rate and energy is None or motion.fate.word in ("separatrix", "equilibrium", "undecided"):
-        return ""
-    height = "" if energy is None else units.energy(abs(energy), SHORT) + (" above the barrier" if energy < 0 else "")
+    rate, height = rate_and_height(motion, units)
     if motion.fate.word == "spin-up":
         return f"{rate} from the separatrix" + (f" ({height})" if height else "") if rate else height
-    return f"margin {rate} ({height})" if rate and height else f"margin {rate or height}"
+    return f"margin {with_height(rate, height)}" if rate or height else ""
+
+
+def rate_and_height(motion: Motion, units: Units) -> tuple[str, str]:
+    """The distance to the separatrix and the energy to the barrier, each empty where it is not known or says nothing."""
+    rate, energy = rate_margin(motion, units, SHORT), motion.margin_energy
+    if motion.fate.word in ("separatrix", "equilibrium", "undecided"):
+        return "", ""
+    return rate, "" if energy is None else units.energy(abs(energy), SHORT) + (" above the barrier" if energy < 0 else "")
+
+
+def with_height(rate: str, height: str) -> str:
+    """The distance with the energy in parentheses, or the one that is known."""
+    return f"{rate} ({height})" if rate and height else rate or height
 
 
 def rate_margin(motion: Motion, units: Units, digits: int) -> str:

@@ -4,11 +4,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ...orbit.result import Fate
+from ...shown import Shown
 from .clock import SteadyTrap, Trap
 
 
-@dataclass(frozen=True)
-class SpinUp:
+@dataclass(frozen=True, repr=False)
+class SpinUp(Shown):
     """The fate of one motion as far as spin-up decides it.
 
     fate: SPIN_UP, BOUNDED (exact cases alone) or UNDECIDED. axis: 1, 2, 3 of the body, 0 where it is none; sense: +1 or -1 about it, 0

@@ -1,10 +1,9 @@
 """The first line of a page, and the table of what is known of the motion."""
 from __future__ import annotations
 
-import math
-
 from ....orbit.result import Fate
 from ...text import frame
+from ...text.headline import greatest, rate_and_height, with_height
 from ...text.headline import headline as answer
 from .measures import spoken, told, vector
 
@@ -33,19 +32,12 @@ def css(fate: str) -> str:
 
 def largest(motion, measures) -> str:
     """The largest rate and its axis, where it has an end."""
-    if motion.extremes is None or motion.fate in (Fate.EQUILIBRIUM, Fate.UNDECIDED):
-        return ""
-    sizes = [max(abs(low), abs(high)) for low, high in motion.extremes]
-    most = max(sizes)
-    return "" if math.isinf(most) else f"{measures.rate(most)} about axis {sizes.index(most) + 1}"
+    return "" if motion.fate == Fate.EQUILIBRIUM else spoken(greatest(motion, measures.units))
 
 
 def margin(motion, measures) -> str:
     """The distance from the separatrix, with that in energy in parentheses."""
-    energy = "" if motion.margin_energy is None else measures.energy(abs(motion.margin_energy))
-    if motion.margin_velocity is None:
-        return energy if measures.physical else ""
-    return measures.rate(motion.margin_velocity) + (f" ({energy})" if energy and measures.physical else "")
+    return spoken(with_height(*rate_and_height(motion, measures.units)))
 
 
 def rows(case, motion, measures) -> list[tuple[str, str]]:
