@@ -85,13 +85,13 @@ def _scale(about: str, field: Any) -> float:
 
 
 def _decimal(value: Fraction, digits: int) -> str:
-    """A positive number, rounded down to so many digits."""
+    """Return a positive number after rounding it down to so many digits."""
     exponent = digits - 1 - int(f"{float(value):e}".partition("e")[2])
     return str(Fraction(int(value * Fraction(10) ** exponent)) / Fraction(10) ** exponent)
 
 
 def _checkpoints(scene: AnyScene, state: Sequence[Any], course: Course | None, t: Fraction) -> list[dict[str, Any]]:
-    """Brackets of the rates at some times up to t, for whoever reads and for whoever checks."""
+    """Return brackets of the rates at some times up to t. A reader follows the motion by them, and a checker compares its own with them."""
     if not t:
         return []
     out, again = [], Course(scene, state, float(t))

@@ -1,4 +1,4 @@
-"""Extremes and periods of every state of an array, whatever the scene."""
+"""The extremes and the period of every state of an array are told here, whatever the scene."""
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
@@ -36,7 +36,7 @@ def extremes(scene: AnyScene, states: ArrayLike, span: Any = None, digits: int |
 
 
 def _length(span: Any) -> float | None:
-    """The length of a span; None where none is given."""
+    """Return the length of a span, or None where no span is given."""
     ends = checked_span(span)
     return None if ends is None else ends[1] - ends[0]
 

@@ -1,4 +1,4 @@
-"""Which way answers a scene: a row a kind; each module answers the same questions.
+"""A table tells which way answers a scene: it has a row for each kind of scene, and the module of a row answers the same questions as every other.
 
 One state: `motion(scene, state, span, exact, brief)` -> Motion. Many: `fates(scene, states, fast)` -> FateResult,
 `extremes(scene, states, span, fast)` -> (n, 3, 2), `periods(scene, states, fast)` -> (n,), for rows (n, 3). Kinds that
@@ -28,7 +28,7 @@ class Kind(NamedTuple):
 
 
 def _acting(scene: AnyScene) -> int:
-    """About how many axes a torque acts."""
+    """Return the number of axes about which a torque acts."""
     return sum(m != 0 for m in scene.quadratic().m)
 
 

@@ -1,4 +1,4 @@
-"""The exact motion of a case, block by block: rates, direction of the vertical, attitude angles, momentum, place."""
+"""The exact motion of a case is told block by block: its rates, the direction of the vertical, the angles of the attitude, the momentum and the place."""
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
@@ -80,7 +80,7 @@ def _simulation(run: Trajectory, state: dict[str, np.ndarray], why: str = "") ->
 
 
 def _reason(run: Trajectory, *why: str) -> str:
-    """Why it stopped, if it did, and what is to be said of the method; else that all times were reached."""
+    """Say why the run stopped and what is to be said of its method. Where it did not stop, say that all times were reached."""
     told = "; ".join(filter(None, (run.reason if run.status != "reached" else "", *why)))
     return told or run.reason
 

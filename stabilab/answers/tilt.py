@@ -121,7 +121,10 @@ def _question(scene: AnyScene, state: Any, rate: Any, case: Any) -> Any:
 
 
 def _search(scene: AnyScene, state: Any, limit: Limit, cone: Cone) -> Any:
-    """(azimuths, times, how long the shortest run without a crossing went) round the cone, and closer about the best."""
+    """Look for crossings round the cone, then more closely about the azimuth with the shortest time.
+
+    Return the azimuths, the times, and how long the shortest run without a crossing went on.
+    """
     azimuths = [2 * math.pi * n / AZIMUTHS for n in range(AZIMUTHS)]
     times, followed = [], math.inf
     for azimuth in azimuths:

@@ -58,8 +58,11 @@ def fates(scene, states, fast=None) -> FateResult:
 
 
 def rows_beyond_doubles(scene, states):
-    """(n,) True for the states (n, 3) of a scene with a reduction that are answered one at a time: their squares, or the numbers of
-    the scene's landscape, may leave the range of doubles."""
+    """Return (n,) booleans that mark which of the states (n, 3) have to be answered one at a time.
+
+    Those are states whose squares may leave the range of doubles; where the numbers of the scene's landscape may leave it, all states are. The
+    scene has a reduction.
+    """
     far = far_rows(scene, states)
     return far if far.all() or in_doubles(scene) else np.ones(len(states), bool)
 
@@ -77,7 +80,7 @@ def _ordinary(scene, states, fast) -> FateResult:
 
 
 def labeller(scene):
-    """The function that labels a chunk (n, 3) into the columns of `out` and returns how many needed many digits."""
+    """Return the function that labels a chunk of states (n, 3). It fills the columns of `out` and returns how many states needed many digits."""
     if is_free(scene):
         return _at_rest_too(scene, lambda states, out: label_free(scene, states, out))
     land = landscape(scene)
@@ -85,7 +88,7 @@ def labeller(scene):
 
 
 def _at_rest_too(scene, label):
-    """A labeller that marks states at rest as well."""
+    """Return a labeller that does what `label` does and then marks the states at rest."""
     def whole(states, out):
         precise = label(states, out)
         at_rest(scene, states, out)
@@ -94,7 +97,7 @@ def _at_rest_too(scene, label):
 
 
 def at_rest(scene, states, out):
-    """Mark the states where every rate vanishes exactly; `margin_at_rest` has their margins."""
+    """Mark the states at which every rate of change vanishes exactly. Their margins are those of `margin_at_rest`."""
     found = equilibrium_mask(scene, states)
     if found.any():
         out["labels"][found], out["reasons"][found] = Fate.EQUILIBRIUM, Reason.AT_REST
@@ -103,8 +106,11 @@ def at_rest(scene, states, out):
 
 
 def fate_on_orbit(scene, land, states) -> FateResult:
-    """`fates` with the margin against the barriers of the reduction's own orbit: without a torque that is another one, for there the
-    reduction keeps another invariant than the momentum. 0 on an invariant plane, where no barrier stands."""
+    """Return the fates of `fates`, with margins against the barriers of the reduction's own orbit.
+
+    The two margins differ only without a torque: there `fates` compares motions of equal momentum, while the reduction keeps another invariant.
+    The margin is 0 on an invariant plane, where no barrier stands.
+    """
     found = fates(scene, states)
     if land.sense or not len(states):
         return found
@@ -113,7 +119,7 @@ def fate_on_orbit(scene, land, states) -> FateResult:
 
 
 def _settled_circle(land, states, place, w, size):
-    """(margins (n,), signs (n,), how many were decided in many digits), in canonical units."""
+    """Return the margins (n,) in canonical units, their signs (n,), and how many of the signs took many digits to decide."""
     margins, doubtful = circle_margins(land, place, w, size)
     doubtful = np.nonzero(doubtful)[0]
     signs = np.sign(margins)
@@ -146,7 +152,10 @@ def _mark_ties(out, tie):
 
 
 def circle_margins(land: Landscape, place, w, size):
-    """(margins (n,), doubtful (n,)): highest barrier within one turn ahead minus the energy, in canonical units."""
+    """Return the margins (n,) in canonical units, and which of them are doubtful (n,).
+
+    A margin is the height of the highest barrier within one turn ahead, less the energy.
+    """
     pot = land.potential
     offsets, spots, barrier = land.critical(place, barriers_only=True)
     energy = 0.5 * w * w
@@ -191,7 +200,7 @@ def _label_hyperbola(land: Landscape, states, out) -> int:
 
 
 def _valley_margins(land, states, place, w, size):
-    """Margins to the barrier nearest in height; +inf where the orbit has none. Both sides of it are bounded."""
+    """Return the margins to the barrier that is nearest in height, +inf where the orbit has none. Motions on either side of it are bounded."""
     n = len(w)
     margins, signs = np.full(n, np.inf), np.ones(n)
     if not land.may_have_barriers():
@@ -226,7 +235,7 @@ def _tilted(pot, spot, offset, margin, energy):
 
 
 def _label_plane(land, state, place, out, index):
-    """One state exactly on an invariant plane (or on both: pure spin)."""
+    """Label one state that is exactly on an invariant plane, or on both planes, where it is a pure spin."""
     xi, eta = place
     axis = land.reduction.axis + 1
     if xi == 0 and eta == 0:
@@ -246,7 +255,7 @@ def _label_plane(land, state, place, out, index):
 
 
 def _plane_margins(land, states, place, w, size):
-    """Of hyperbolas: 0 on an invariant plane."""
+    """Return the margins of states on hyperbolas; they are 0 on an invariant plane."""
     margins, *rest = _valley_margins(land, states, place, w, size)
     margins[(place[0] == 0) | (place[1] == 0)] = 0.0
     return margins, *rest
@@ -276,7 +285,7 @@ def _is_flat(r, state) -> bool:
 
 
 class _Ways(NamedTuple):
-    """Of a geometry: how a chunk is labelled, and the margins of its orbits."""
+    """What a geometry has to say here: how a chunk of states is labelled, and what the margins of its orbits are."""
 
     label: Callable
     margins: Callable

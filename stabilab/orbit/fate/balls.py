@@ -1,4 +1,4 @@
-"""The margin of one state decided in balls, with as many digits as it takes."""
+"""The sign of the margin of one state is decided in balls, with as many digits as that takes."""
 from __future__ import annotations
 
 from typing import NamedTuple

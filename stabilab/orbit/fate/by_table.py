@@ -1,4 +1,4 @@
-"""Fates of many states from the table of barriers: NumPy in chunks, or the compiled loops of the extra `fast`."""
+"""The fates of many states are read from the table of barriers: by NumPy in chunks, or by the compiled loops of the extra `fast`."""
 from __future__ import annotations
 
 from collections.abc import Callable
@@ -44,7 +44,7 @@ def _compiled(table, states, out, compiled):
 
 
 def canonical(table, states):
-    """(X, Z, W) of states (n, 3)."""
+    """Return the canonical variables (X, Z, W), three arrays (n,), of states (n, 3)."""
     i, j, k = table.axes
     sj, fj, sk, fk, s, fi, _ = table.frame
     return (states[:, j] + sj) * fj, (states[:, k] + sk) * fk, (states[:, i] + s) * fi
@@ -63,8 +63,11 @@ def _circles(table, states, out):
 
 
 def circle_heights(table, x, z):
-    """(height, scale, clear), arrays (n,), of places on circles: the barrier ahead over the place in canonical units, -inf
-    without one; the size of the terms it is made of; and whether it is certain which barrier that is."""
+    """Return (height, scale, clear), arrays (n,), of places on circles, in canonical units.
+
+    The height is that of the barrier ahead over the place; it is -inf where no barrier stands ahead. The scale is the size of the terms that the
+    height is made of. A place is clear where it is certain which barrier stands ahead.
+    """
     form, mu = table.form, table.form[3]
     size, rounding = np.sqrt(x * x + z * z), np.abs(x) + np.abs(z) + table.frame[6]
     phase = arithmetic.angle(x, z)

@@ -78,7 +78,7 @@ def fewest_cells(rows, columns):
 
 
 def finer(shape, worst, accuracy):
-    """The next shape to try where facets stray by `worst`."""
+    """Return the shape to try next, after one whose facets stray from the surface by `worst`."""
     grow = max(SAFETY * np.sqrt(worst / accuracy), 1.1)
     return tuple(min(int(np.ceil((number - 1) * grow)) + 1, MOST) for number in shape)
 
@@ -136,7 +136,7 @@ def _outline(land, loops):
 
 
 def _stray(across, twist, down, cut):
-    """Largest distance (..., k) of the edges' mid-points and the centres of a quad's facets from the surface."""
+    """Return the largest distance (..., k) from the surface of the mid-points of edges and of the centres of a quad's facets."""
     diagonal = across + down + 2 * cut * twist
     edges = np.maximum(np.abs(diagonal), np.maximum(np.abs(across), np.abs(down)))
     return np.maximum(edges / 8, np.abs(across + down + diagonal) / 18).max(axis=(-1, -2))
@@ -155,7 +155,7 @@ def _density(form, other, edges, straight, last=0.0):
 
 
 def _even_steps(length, at, number):
-    """(k, number) parameters between those of `at` (k, j) at even steps of `length` (k, j)."""
+    """Return parameters (k, number) between those of `at` (k, j), spaced so that `length` (k, j) grows by equal steps from each to the next."""
     out = np.array([np.interp(np.linspace(0, way[-1], number), way, x) for way, x in zip(length, at)])
     out[:, -1] = at[:, -1]
     return out

@@ -14,7 +14,7 @@ from .homoclinic import loop_end
 
 
 def polished(land, saddle, s):
-    """The conic's points moved along their orbits to where the force vanishes (all but the fold itself)."""
+    """Return the points of the conic after each was moved along its orbit to where the force vanishes. The fold itself stays where it is."""
     moved = land.polished(saddle)
     return tuple(np.where(s > 0, m, v) for m, v in zip(moved, saddle))
 

@@ -1,4 +1,4 @@
-"""What the analyses of surfaces and distances answer: frozen results."""
+"""The answers about surfaces and distances are frozen results; these are their classes."""
 from __future__ import annotations
 
 import math

@@ -45,7 +45,7 @@ def limit_of(conic, reach) -> float:
 
 @lru_cache(maxsize=64)
 def saddle_branches(conic, pot, limit) -> tuple[Branch, ...]:
-    """Every branch of saddles of a conic of equilibria, as far out as |Q| = limit; kept for the next surface of a scene."""
+    """Return every branch of saddles of a conic of equilibria, as far out as |Q| = limit. They are kept, for the next surface of the same scene."""
     found = [branch for piece in conic.pieces if piece.barrier for branch in _on_piece(conic, piece, limit)]
     for line in conic.lines:
         found += [Branch(conic, line, start, end, OPEN) for start, end in _on_line(conic, pot, line, limit)]
@@ -57,7 +57,7 @@ def on_line(line, t):
 
 
 def foot(conic, line) -> float:
-    """Where along a line the invariant is stationary."""
+    """Return the place along a line at which the invariant is stationary."""
     a = line.dz**2 - conic.e * line.dx**2
     return -(line.z0 * line.dz - conic.e * line.x0 * line.dx) / a if a else 0.0
 
