@@ -11,6 +11,7 @@ report: $(STAMP)
 
 # ROOM=orbit/fate: the tests of one room or wing alone. A file stays with one of the two workers, which computes once what its tests share
 ROOM ?=
+test: export PYTHONDONTWRITEBYTECODE =  # where this is set, every process would compile all that it reads once more
 test: $(STAMP)
 	$(BIN)/python -m pytest -n 2 --dist loadfile -m "not slow" $(if $(ROOM),tests/$(ROOM))
 

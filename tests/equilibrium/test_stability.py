@@ -203,7 +203,7 @@ def stays(scene, at, span=60.0, seed=0):
 STABLE = [SCENES[i] for i in (0, 1, 2, 6, 7, 8, 9)]
 
 
-@pytest.mark.parametrize("scene", STABLE)
+@pytest.mark.parametrize("scene", [*STABLE[::3], *(pytest.param(scene, marks=pytest.mark.slow) for n, scene in enumerate(STABLE) if n % 3)])
 def test_neighbours_of_stable_points_stay_in_proportion(scene):
     """Excursion/disturbance stays of order one for both sizes: SciPy over 60 time units. Only samples of moderate size."""
     checked = 0

@@ -59,7 +59,7 @@ def test_case_2_extremes_on_large_circles_keep_their_digits(decade):
 
 # 3. Folds: saddle and centre merging ---------------------------------------------------------------------------------
 
-@pytest.mark.parametrize("decade", range(1, 6))
+@pytest.mark.parametrize("decade", [1, 3, 5, *(pytest.param(n, marks=pytest.mark.slow) for n in (2, 4))])
 @pytest.mark.parametrize("a, b", [(0.0, 0.0), (0.25, 1.0), (1.5, 0.25)])
 def test_case_3_the_well_that_is_about_to_vanish_still_holds_its_states(decade, a, b):
     """Just outside the fold's circle the well is as deep as distance^3: a quartic solved for well separated roots
@@ -90,12 +90,13 @@ def test_case_3_the_exact_fold_is_an_equilibrium_and_holds_nothing():
 
 @pytest.mark.parametrize("a, b", [(1.0, 1.0 + 2.0 ** -52), (1.0, 1.0 + 1e-9), (0.0, 1e-300), (-1e6, -2e6), (3e4, -1e4),
                                   (-0.2, -0.4)])
-@pytest.mark.parametrize("mu", [(0, 0, 1), (0, 0, -1), (0, 1, 0), (0, -1, 0)])
-def test_case_4_a_near_b_and_gyrostats_of_any_size_and_sign(a, b, mu):
+@pytest.mark.parametrize("mu, count", [((0, 0, 1), 2), ((0, -1, 0), 2), *(pytest.param(mu, 4, marks=pytest.mark.slow)
+                                                                         for mu in ((0, 0, 1), (0, 0, -1), (0, 1, 0), (0, -1, 0)))])
+def test_case_4_a_near_b_and_gyrostats_of_any_size_and_sign(a, b, mu, count):
     """Formulas that divide by c = b - a, or whose c comes from a difference of rounded numbers, break here."""
     rng = np.random.default_rng(8)
     centre = (-a, 0, 0) if mu[2] else (-b, 0, 0)
-    agrees(scaled(a, b, mu), rng.normal(size=(4, 3)) * 2 + centre)
+    agrees(scaled(a, b, mu), (rng.normal(size=(4, 3)) * 2 + centre)[:count])
 
 
 @pytest.mark.parametrize("decade", [-12, -6, 6, 12, *(pytest.param(d, marks=pytest.mark.slow) for d in (-9, -3, 3, 9))])
@@ -123,15 +124,15 @@ BODIES = {
 
 
 @pytest.mark.parametrize("body", BODIES)
-@pytest.mark.parametrize("axis", [0, 1, 2])
-def test_case_6_symmetric_rod_like_and_flat_bodies(body, axis):
+@pytest.mark.parametrize("axis, count", [(0, 2), (1, 2), (2, 2), *(pytest.param(axis, 4, marks=pytest.mark.slow) for axis in (0, 1, 2))])
+def test_case_6_symmetric_rod_like_and_flat_bodies(body, axis, count):
     """Divisions by D_j - D_k: circles of radius 1e12, elliptic and hyperbolic formulas that should meet in a parabola."""
     inertia = BODIES[body]
     scale = np.max(inertia)
     for moment in ((0.4, -0.7, 0.9), (0.0, 0.0, 0.0)):
         momentum, torque = np.array(moment) * scale, np.zeros(3)
         momentum[axis], torque[axis] = 0, 0.3 * scale
-        agrees(physical(inertia, momentum, torque), np.random.default_rng(axis).normal(size=(4, 3)), period=False)
+        agrees(physical(inertia, momentum, torque), np.random.default_rng(axis).normal(size=(4, 3))[:count], period=False)
 
 
 def test_case_6_the_symmetric_limit_is_reached_continuously():

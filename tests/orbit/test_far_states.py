@@ -36,7 +36,7 @@ def test_a_motion_in_another_unit_of_rate_is_the_same_motion(name, k):
     np.testing.assert_allclose(stabilab.extremes(made[1], np.array(RATES) * float(u)), far.extremes, rtol=1e-11)
 
 
-@pytest.mark.parametrize("rate", [1e155, 1e160, 1e200, 1e308])
+@pytest.mark.parametrize("rate", [1e155, 1e308, *(pytest.param(rate, marks=pytest.mark.slow) for rate in (1e160, 1e200))])
 def test_rates_up_to_the_largest_doubles_have_a_fate_and_no_margin_that_is_no_double(rate):
     """Torque-free in effect: the wheelless body turns about axis 1 under a torque on axis 3, bounded by its centrifugal barrier
     (D1 - D3)(D1 - D2) w1^2/... far above the torque; the period is 2 pi over w1 sqrt((D1 - D2)(D1 - D3)/(D2 D3)) (Euler)."""
@@ -75,8 +75,11 @@ def test_scenes_without_a_reduction_answer_or_refuse_any_rate(effects, power):
             assert "range of doubles" in str(error) or "largest double" in str(error)
 
 
-@pytest.mark.parametrize("order", [(0, 1, 2), (2, 0, 1), (1, 2, 0)])
-@pytest.mark.parametrize("beside, torque", [(1.0, 1.0), (1e-5, 1e8), (0.0, 1e300)])
+ORDERS, TORQUES = ((0, 1, 2), (2, 0, 1), (1, 2, 0)), ((1.0, 1.0), (1e-5, 1e8), (0.0, 1e300))
+
+
+@pytest.mark.parametrize("order, beside, torque", [pytest.param(order, *pair, marks=() if m == n else pytest.mark.slow)  # each of both comes up
+                                                   for m, order in enumerate(ORDERS) for n, pair in enumerate(TORQUES)])
 def test_rows_of_a_wheel_as_large_as_doubles_go_round_it(beside, torque, order):
     """Theory: but for terms of 1e-290 it acts alone beside the torque, D1 w1' = L w3, D3 w3' = M - L w1, w2 constant, L = 1e300."""
     scene = Scene(Body(tuple((3, 2, 1)[i] for i in order)), Gyrostat(tuple((beside, 1e300, 0)[i] for i in order)),

@@ -274,7 +274,7 @@ def test_given_axes_decide_whether_equilibria_are_drawn_in_space():
         stabilab.plot.equilibria(load("torque-free-gyrostat"), ax=flat)
 
 
-@pytest.mark.parametrize("kind", ["sphere", "space", "equilibria"])
+@pytest.mark.parametrize("kind", ["space", *(pytest.param(kind, marks=pytest.mark.slow) for kind in ("sphere", "equilibria"))])
 def test_pictures_in_space_have_the_same_bytes_again(kind, tmp_path):
     one, two = (to_file.write(load("torque-free-body"), tmp_path / f"{n}.svg", kind).read_bytes() for n in (1, 2))
     assert one == two and len(one) < 3_000_000

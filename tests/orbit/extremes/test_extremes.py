@@ -83,12 +83,12 @@ def test_a_physical_case_has_the_extremes_of_its_scaled_twin_times_the_rates(lam
 
 
 @pytest.mark.parametrize("name", ["minor scaled +", "minor physical", "major physical"])
-@pytest.mark.parametrize("decades", [3, 6, 9, 12, 15])
+@pytest.mark.parametrize("decades", [3, 9, 15, *(pytest.param(n, marks=pytest.mark.slow) for n in (6, 12))])
 def test_extremes_and_period_just_inside_the_separatrix_keep_their_digits(name, decades):
     """The far turning point merges with the saddle: root finding on w^2 there loses half of the digits."""
     scene, problem = FAMILIES[name]
     rng, found = np.random.default_rng(11), 0
-    while found < 2:
+    while found < 1 + (decades % 6 == 0):  # those of the default suite have one state each
         state = brink(problem, rng.normal(size=2) * 2, -(10.0 ** -decades))
         if state is None or energy.label(problem, state) != "bounded":
             continue
