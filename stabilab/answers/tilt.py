@@ -18,7 +18,7 @@ from ..errors import InputError
 from ..numbers.vectors import Exact3
 from ..orbit.result import Fate, Motion
 from ..physics.alignment import torque_axis
-from ..physics.scene import AnyScene
+from ..physics.scene import AnyScene, Scene
 from ..physics.state import three_floats
 from .extremes import extremes
 from .fate import fate
@@ -120,7 +120,7 @@ def _question(scene: AnyScene, state: Any, rate: Any, case: Any) -> Any:
     return {"rate": TWICE * float(np.linalg.norm(largest))}, False
 
 
-def _search(scene: AnyScene, state: Any, limit: Limit, cone: Cone) -> Any:
+def _search(scene: Scene, state: Any, limit: Limit, cone: Cone) -> Any:
     """Look for crossings round the cone, then more closely about the azimuth with the shortest time.
 
     Return the azimuths, the times, and how long the shortest run without a crossing went on.
@@ -142,6 +142,6 @@ def _search(scene: AnyScene, state: Any, limit: Limit, cone: Cone) -> Any:
     return np.array(azimuths)[order], np.array(times)[order], followed
 
 
-def _time(scene: AnyScene, state: Any, limit: Limit, cone: Cone, azimuth: float) -> Any:
+def _time(scene: Scene, state: Any, limit: Limit, cone: Cone, azimuth: float) -> Any:
     found, unit = run_once(tilted(scene, cone.at(azimuth)), state, limit, math.inf, STEPS)
     return (math.inf, found.until / unit) if found.t is None else (found.t / unit, math.inf)

@@ -2,15 +2,20 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from typing import Any, cast
 
+from ...numbers.vectors import Float3, Number
 from ...orbit.result import Fate
+from ...physics.scene import AnyScene
 from ...unreduced.spin_up.follow import spin_up
+from .limit import Limit
 from .result import Found
 
 LATER = 0.5  # the certificate is asked for once more at this share of the earliest time, where it is narrower
 
 
-def by_clock(scene, state, limit, followed: float) -> Found | None:
+def by_clock(scene: AnyScene, state: Float3, limit: Limit, followed: float) -> Found | None:
     """Bounds of the first crossing of a motion whose spin-up is certified; None where none is, or where the limit is not of a rate along it.
 
     followed: a time before which the limit is known not to be reached. The bounds of the trap hold from its own time on; where that is later than
@@ -33,13 +38,13 @@ def by_clock(scene, state, limit, followed: float) -> Found | None:
     return Found(low, max(times[1], low), found.level, words)
 
 
-def _times(found, limit):
+def _times(found: Any, limit: Limit) -> Any:
     """(earliest, latest) of all parts, or None where none of them grows with the spin."""
     bounds, spin, times = found.trap.bounds(), found.axis - 1, []
     for terms, most in limit.parts:
         weights = [0.0, 0.0, 0.0]
         for c, vector in terms:
-            weights[_axis(vector)] += float(c)
+            weights[cast(int, _axis(vector))] += float(c)  # each is along an axis: asked above
         across = sum(c * max(abs(low), abs(high)) ** 2 for n, (c, (low, high)) in enumerate(zip(weights, bounds)) if n != spin and c)
         if not weights[spin]:
             if across >= float(most):
@@ -52,6 +57,6 @@ def _times(found, limit):
     return (min(t for t, _ in times), min(t for _, t in times)) if times else None
 
 
-def _axis(vector):
+def _axis(vector: Sequence[Number]) -> int | None:
     entries = [n for n, v in enumerate(vector) if v]
     return entries[0] if len(entries) == 1 else None

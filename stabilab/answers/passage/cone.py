@@ -4,6 +4,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any, cast
 
 import numpy as np
 
@@ -18,7 +19,7 @@ class Cone:
     azimuth phi the change is (cos - 1) whole + sin (cos phi first + sin phi second). words: what is tilted; angle: the largest half-angle."""
 
     torque: np.ndarray
-    parts: tuple
+    parts: tuple[Any, ...]
     words: str
     angle: float
 
@@ -38,7 +39,7 @@ class Cone:
         return float(side) + blur, (float(self.torque[axis] - along) - blur, float(self.torque[axis] + along) + blur)
 
 
-def cone_of(scene, case=None, angle: float | None = None) -> Cone:
+def cone_of(scene: Scene, case: Any = None, angle: float | None = None) -> Cone:
     """The cone of a scene's torque: tilted as a whole by `angle`, or, without it, as the stuck thrusters of the case state.
 
     Azimuth 0 of the whole torque lies towards the axis that follows its own, cyclically; of a thruster, towards the structural axis that is farthest
@@ -51,10 +52,10 @@ def cone_of(scene, case=None, angle: float | None = None) -> Cone:
         return Cone(torque, parts, "the force of " + " and ".join(t.name for t in loose), max(part[-1] for part in parts))
     axis = int(np.argmax(np.abs(torque)))
     first, second = (abs(torque[axis]) * np.eye(3)[(axis + n) % 3] for n in (1, 2))
-    return Cone(torque, ((torque, first, second, angle),), "the torque", angle)
+    return Cone(torque, ((torque, first, second, angle),), "the torque", cast(float, angle))
 
 
-def _of_force(case, thruster):
+def _of_force(case: Any, thruster: Any) -> tuple[np.ndarray, np.ndarray, np.ndarray, float]:
     """(whole, first, second, half-angle) of the torque of a thruster whose force points anywhere in its cone, along principal axes."""
     force = np.array([float(v) for v in thruster.direction])
     arm = np.array([float(v) for v in thruster.arm])
@@ -63,10 +64,10 @@ def _of_force(case, thruster):
     first /= np.linalg.norm(first)
     frame = np.array([[float(v) for v in axis] for axis in case.frame.axes])
     turned = [frame @ np.cross(arm, float(thruster.force) * v) for v in (force, first, np.cross(force, first))]
-    return (*turned, float(thruster.misalignment))
+    return turned[0], turned[1], turned[2], float(thruster.misalignment)
 
 
-def tilted(scene, torque) -> Scene:
+def tilted(scene: Scene, torque: np.ndarray) -> Scene:
     """The scene under another torque (3,), its doubles taken at their word."""
     others = [effect for effect in scene.effects if effect.name != "constant_torque"]
     kind = type(scene.effect("constant_torque"))

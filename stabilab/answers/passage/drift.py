@@ -21,7 +21,8 @@ import math
 
 import numpy as np
 
-from ...numbers.vectors import CYCLE
+from ...numbers.vectors import CYCLE, Float3
+from ...physics.scene import Scene
 
 ROUNDING = 1e-9  # of the limit's square: far beyond the rounding of these lines
 POINTS = 720  # to a turn of the phase; between them a bound of the slope counts
@@ -29,7 +30,7 @@ BEHIND = 4  # turns that are looked at against the torque
 HALVINGS = 50
 
 
-def stays_below(scene, state, rate: float, sideways: float, along: tuple[float, float]) -> float:
+def stays_below(scene: Scene, state: Float3, rate: float, sideways: float, along: tuple[float, float]) -> float:
     """A time before which |omega| < `rate`, for every torque whose component along its axis is within `along` (N m) and whose part across it is at most
     `sideways`; constant, but otherwise any. scene: with the torque on an axis; state: three floats, rad/s. 0 where nothing is proved."""
     crude = _by_energy(scene, state, rate, math.hypot(sideways, max(map(abs, along))))
@@ -51,7 +52,7 @@ def stays_below(scene, state, rate: float, sideways: float, along: tuple[float, 
     return float(max(crude, low))
 
 
-def _by_energy(scene, state, rate, torque) -> float:
+def _by_energy(scene: Scene, state: Float3, rate: float, torque: float) -> float:
     """T = W^2/2: |W'| <= |D^(-1/2) M| bounds |omega| <= W/min(D)^(1/2)."""
     D = [float(v) for v in scene.body.exact]
     least = math.sqrt(min(D))
@@ -59,7 +60,7 @@ def _by_energy(scene, state, rate, torque) -> float:
 
 
 class _Well:
-    def __init__(self, D, l, a, omega, rate, sideways, along):
+    def __init__(self, D: np.ndarray, l: np.ndarray, a: np.ndarray, omega: np.ndarray, rate: float, sideways: float, along: tuple[float, float]) -> None:
         self.D, self.rate, self.sideways, self.along = D, rate, sideways, along
         self.centre, self.scale = -l / a, np.sqrt(D[1:] * np.abs(a))
         self.n = math.copysign(math.sqrt(a[0] * a[1] / (D[1] * D[2])), a[0])
@@ -71,7 +72,7 @@ class _Well:
         self.step = 2 * math.pi / POINTS
         self.behind, self.ahead = (sense * np.arange(turns * POINTS + 1) * self.step for sense, turns in ((-ahead, BEHIND), (ahead, 1)))
 
-    def holds(self, t) -> bool:
+    def holds(self, t: float) -> bool:
         """Whether |omega| is surely below the rate up to t."""
         rhos = self.rho - self.pull * t, self.rho + self.pull * t
         if not rhos[0] > 0:
@@ -80,18 +81,19 @@ class _Well:
         across = math.hypot(*self.centre) + rhos[1] / min(self.scale)
         energy = self.energy + t * (self.sideways * across + tilt * self.pull / rhos[0])
         ends = [self._first_closed(way, rhos, energy) for way in (self.behind, self.ahead)]
-        if None in ends:
+        known = [end for end in ends if end is not None]
+        if len(known) < 2:
             return False
-        inside = np.concatenate([way[:end + 1] for way, end in zip((self.behind, self.ahead), ends)])
+        inside = np.concatenate([way[:end + 1] for way, end in zip((self.behind, self.ahead), known)])
         return self._most(inside, rhos, energy) < self.rate**2 * (1 - ROUNDING)
 
-    def _first_closed(self, way, rhos, energy):
+    def _first_closed(self, way: np.ndarray, rhos: tuple[float, float], energy: float) -> int | None:
         """Index of the first place of a way that the phase cannot pass, None where there is none."""
         least = -self._greatest(way, rhos, -0.5 * self.D[1:], 1.0)
         closed = np.nonzero(least > energy * (1 + ROUNDING))[0]
         return int(closed[0]) if closed.size else None
 
-    def _most(self, way, rhos, energy):
+    def _most(self, way: np.ndarray, rhos: tuple[float, float], energy: float) -> float:
         """Most of |omega|^2 at these places and half a step around them."""
         weights = 1 - self.D[1:] / self.D[0]
         value = 2 * energy / self.D[0] + self._greatest(way, rhos, weights, 2 / self.D[0])
@@ -99,7 +101,7 @@ class _Well:
         slope = (2 * np.abs(weights) * fastest * rhos[1] / self.scale).sum() + 2 / self.D[0] * max(map(abs, self.along)) / abs(self.n)
         return float(value.max()) + slope * self.step / 2
 
-    def _greatest(self, way, rhos, weights, factor):
+    def _greatest(self, way: np.ndarray, rhos: tuple[float, float], weights: np.ndarray, factor: float) -> np.ndarray:
         """Greatest of weights . omega_perp^2 + factor (M_i/n)(theta - theta(0)) over the radii and the torque along the axis, at each place."""
         theta = self.theta + way
         across = np.stack([np.cos(theta), -np.sin(theta)], axis=-1) / self.scale

@@ -2,11 +2,15 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
 from ...integrate.crossing import Search
 from ...integrate.integer_flow import IntegerFlow
+from ...numbers.vectors import Number
+from ...physics.scene import AnyScene
+from .limit import Limit
 
 FIRST_BITS, MOST_BITS = 112, 720
 KEPT = 58  # bits that the enclosure of the state is to keep
@@ -26,7 +30,7 @@ class Enclosed:
     spent: int
 
 
-def enclosed(scene, start, limit, t_max: Fraction | None = None, work: int = WORK) -> Enclosed:
+def enclosed(scene: AnyScene, start: Sequence[Number], limit: Limit, t_max: Fraction | None = None, work: int = WORK) -> Enclosed:
     """The first crossing of the motion of a plain scene from three rationals, proved; or until when there is none.
 
     t_max: None where only the work is to end the search. A first attempt, at few bits, is carried on beyond what its bits can prove, to learn
@@ -46,7 +50,7 @@ def enclosed(scene, start, limit, t_max: Fraction | None = None, work: int = WOR
     return Enclosed(best.low, best.high, best.until, best.done, spent)
 
 
-def own_unit(scene, start) -> Fraction:
+def own_unit(scene: AnyScene, start: Sequence[Number]) -> Fraction:
     """A power of two near the largest rate, or near the root of its rate of change."""
     form = scene.quadratic()
     size = max(float(max(map(abs, start))), math.sqrt(float(max(map(abs, form.rate([Fraction(v) for v in start]))))))
@@ -56,13 +60,14 @@ def own_unit(scene, start) -> Fraction:
 class _Attempt:
     """One run at a number of bits. needs: the bits that a proof would have taken, where these were too few; None otherwise."""
 
-    def __init__(self, flow, limit, unit, t_max):
-        self.flow, self.unit, self.needs = flow, unit, None
+    def __init__(self, flow: IntegerFlow, limit: Limit, unit: Fraction, t_max: Fraction | None) -> None:
+        self.flow, self.unit = flow, unit
+        self.needs: int | None = None
         self.end = None if t_max is None else t_max * unit
         self.thresholds = limit.thresholds(unit)
         self.proved = [Search(one) for one in self.thresholds]
 
-    def run(self, work) -> Enclosed:
+    def run(self, work: int) -> Enclosed:
         """Proved as far as the bits reach, then on, at its word, to where a proof would end."""
         until, lost, flow = Fraction(0), 0, self.flow
         searches, proving = self.proved, True
@@ -90,11 +95,10 @@ class _Attempt:
                 self.needs = needs + 1
                 return self._answer(until, False)
 
-    def _answer(self, until, done):
-        low = [one.low for one in self.proved if one.low is not None]
-        high = [one.high for one in self.proved if one.high is not None]
-        low, high = min(low, default=None), min(high, default=None)
+    def _answer(self, until: Fraction, done: bool) -> Enclosed:
+        low = min((one.low for one in self.proved if one.low is not None), default=None)
+        high = min((one.high for one in self.proved if one.high is not None), default=None)
         if self.end is not None and low is not None and low > self.end:
             low = high = None
         scale = lambda t: None if t is None else t / self.unit
-        return Enclosed(scale(low), scale(high), scale(min(until, self.end) if done else until), done, 0)
+        return Enclosed(scale(low), scale(high), (min(until, self.end) if done and self.end is not None else until) / self.unit, done, 0)

@@ -2,13 +2,16 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any
 
 from ...errors import InputError
 from ...integrate.crossing import Threshold
 from ...numbers.exact import exact, exact_vector, precise, sqrt_fraction
-from ...numbers.vectors import dot
+from ...numbers.vectors import Exact3, Number, dot
+from ...physics.scene import AnyScene
 
 AXES = tuple(tuple(Fraction(int(i == j)) for j in range(3)) for i in range(3))
 COSINE_BITS = 1200  # of the cosine of a tilt: more than any run has
@@ -21,7 +24,7 @@ class Limit:
     value `most`, the first of the parts counts; for a tilt vector and angle, rad. words: for the reader, in SI."""
 
     kind: str
-    parts: tuple
+    parts: tuple[Any, ...]
     words: str
 
     def thresholds(self, unit: Fraction) -> list[Threshold]:
@@ -33,15 +36,15 @@ class Limit:
         return [Threshold(terms, most / (unit * unit)) for terms, most in self.parts]
 
     @property
-    def direction(self):
+    def direction(self) -> Exact3 | None:
         """The body axis whose tilt is asked for, a unit vector; None for other limits."""
         return self.parts[0][0][0][1] if self.kind == "tilt" else None
 
-    def reached_by(self, state) -> bool:
+    def reached_by(self, state: Sequence[Number]) -> bool:
         """Whether an exact state has reached it; a tilt is 0 at the start."""
         return self.kind != "tilt" and any(part.passed(state) for part in self.thresholds(Fraction(1)))
 
-    def beyond(self, extremes, slack: float) -> bool:
+    def beyond(self, extremes: Iterable[Iterable[float]], slack: float) -> bool:
         """Whether rates within their extremes, ((least, greatest),) * 3, each wider by the share `slack`, stay below it."""
         if self.kind == "tilt":
             return False
@@ -54,15 +57,15 @@ class Limit:
         return self.kind != "tilt" and math.isfinite(rate) and all(max(c for c, _ in terms) * Fraction(rate) ** 2 < most for terms, most in self.parts)
 
 
-def _below(terms, sizes, most) -> bool:
+def _below(terms: Iterable[Any], sizes: list[float], most: Fraction) -> bool:
     """Whether sum c (a . omega)^2 stays below a value for rates of these sizes: in exact numbers, as squares of doubles may be none."""
     if not all(map(math.isfinite, sizes)):
         return False
-    sizes = list(map(Fraction, sizes))
-    return sum(c * sum(abs(a) * size for a, size in zip(vector, sizes)) ** 2 for c, vector in terms) < most
+    exactly = list(map(Fraction, sizes))
+    return sum(c * sum(abs(a) * size for a, size in zip(vector, exactly)) ** 2 for c, vector in terms) < most
 
 
-def asked(scene, rate=None, component=None, energy=None, tilt=None) -> Limit:
+def asked(scene: AnyScene, rate: Any = None, component: Any = None, energy: Any = None, tilt: Any = None) -> Limit:
     """The one limit that is given; InputError for none, several, and for numbers that are none."""
     given = {name: value for name, value in (("rate", rate), ("component", component), ("energy", energy), ("tilt", tilt)) if value is not None}
     if len(given) != 1:
@@ -71,7 +74,7 @@ def asked(scene, rate=None, component=None, energy=None, tilt=None) -> Limit:
     return {"rate": _rate, "component": _component, "energy": _energy, "tilt": _tilt}[name](scene, value)
 
 
-def _rate(scene, value) -> Limit:
+def _rate(scene: AnyScene, value: Any) -> Limit:
     unit = _unit(scene)
     if hasattr(value, "__len__") and not isinstance(value, str):
         limits = exact_vector(value, "rate")
@@ -82,7 +85,7 @@ def _rate(scene, value) -> Limit:
     return Limit("rate", ((tuple((Fraction(1), axis) for axis in AXES), most**2),), f"|{letter}| = {float(most):.10g} {unit}".rstrip())
 
 
-def _component(scene, value) -> Limit:
+def _component(scene: AnyScene, value: Any) -> Limit:
     several = isinstance(value, list) and value and all(isinstance(one, tuple) for one in value)
     parts, words = [], []
     for axis, most in (_pair(one, "component") for one in (value if several else [value])):
@@ -93,14 +96,14 @@ def _component(scene, value) -> Limit:
     return Limit("component", tuple(parts), " or ".join(words))
 
 
-def _energy(scene, value) -> Limit:
+def _energy(scene: AnyScene, value: Any) -> Limit:
     if scene.variables == "scaled":
         raise InputError("energy: scaled variables know no kinetic energy: give a body")
     most = _positive(value, "energy")
     return Limit("energy", ((tuple((d / 2, axis) for d, axis in zip(scene.body.exact, AXES)), most),), f"kinetic energy = {float(most):.10g} J")
 
 
-def _tilt(scene, value) -> Limit:
+def _tilt(scene: AnyScene, value: Any) -> Limit:
     if scene.variables == "scaled":
         raise InputError("tilt: scaled variables know no attitude: give a body")
     axis, angle = _pair(value, "tilt")
@@ -111,11 +114,11 @@ def _tilt(scene, value) -> Limit:
     return Limit("tilt", ((((Fraction(1), vector),), angle),), f"tilt of {named} = {float(angle):.10g} rad")
 
 
-def _unit(scene) -> str:
+def _unit(scene: AnyScene) -> str:
     return "" if scene.variables == "scaled" else "rad/s"
 
 
-def _pair(value, name):
+def _pair(value: Any, name: str) -> tuple[Any, Any]:
     try:
         axis, most = value
     except (TypeError, ValueError):
@@ -123,7 +126,7 @@ def _pair(value, name):
     return axis, most
 
 
-def _direction(axis, name):
+def _direction(axis: Any, name: str) -> tuple[Exact3, str]:
     """(unit vector along it, its name)."""
     if isinstance(axis, (int, float, str)) and not isinstance(axis, bool):
         if axis in (1, 2, 3):
@@ -136,7 +139,7 @@ def _direction(axis, name):
     return tuple(v / length for v in vector), "(" + ", ".join(f"{float(v / length):.6g}" for v in vector) + ")"
 
 
-def _positive(value, name) -> Fraction:
+def _positive(value: Any, name: str) -> Fraction:
     try:
         number = exact(value)
     except InputError as error:

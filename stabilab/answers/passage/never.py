@@ -2,22 +2,26 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 
+from ...numbers.vectors import Exact3, Float3
 from ...orbit.result import Fate
 from ...physics.quadratic import rests
+from ...physics.scene import AnyScene
 from ..extremes import extremes, period
 from ..fate import fate
 from ..kinds import kind_of
 from ..motion import motion
+from .limit import Limit
 from .result import Found
 
 SLACK = 1e-9  # relative: extremes and periods are known to 1e-11
 REDUCED = ("orbit", "aligned", "free")
 
 
-def never(scene, state, exact, limit) -> tuple[Found | None, float | None]:
+def never(scene: AnyScene, state: Float3, exact: Exact3, limit: Limit) -> tuple[Found | None, float | None]:
     """(the answer where extremes over all time stay below the limit, a time by which it is reached if ever or None). exact: three rationals."""
     if limit.kind == "tilt":
         return None, None
@@ -37,16 +41,16 @@ def never(scene, state, exact, limit) -> tuple[Found | None, float | None]:
     return None, repeats * (1 + SLACK) if 0 < repeats < math.inf else None
 
 
-def _repeats(scene, row) -> bool:
+def _repeats(scene: AnyScene, row: np.ndarray) -> bool:
     return bool(fate(scene, row).labels == Fate.BOUNDED) and math.isfinite(float(period(scene, row)))
 
 
-def after_a_period(limit) -> Found:
+def after_a_period(limit: Limit) -> Found:
     """The answer where a whole period, enclosed, stays below the limit."""
     return Found(math.inf, math.inf, "proved", f"{limit.words}: never, the motion repeats and a whole period stays below it")
 
 
-def never_bounded(scene, state, limit) -> Found | None:
+def never_bounded(scene: AnyScene, state: Any, limit: Limit) -> Found | None:
     """The answer for a scene of other effects, where energy or momentum bound the rate below the limit; None where they do not."""
     if limit.kind == "tilt":
         return None

@@ -1,12 +1,17 @@
 """What is known of the first time at which a limit is reached."""
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ...shown import Shown
+
+if TYPE_CHECKING:  # a scene of exact laws does not load it
+    from ...physics.law_limits import Validity
 
 
 @dataclass(frozen=True, repr=False)
@@ -23,18 +28,18 @@ class TimeTo(Shown):
     level: np.ndarray
     words: np.ndarray
     quantity: str = ""
-    scene: object = field(default=None, repr=False, compare=False)
-    states: np.ndarray = field(default=None, repr=False, compare=False)
+    scene: Any = field(default=None, repr=False, compare=False)
+    states: np.ndarray | None = field(default=None, repr=False, compare=False)
 
     @cached_property
-    def validity(self):
+    def validity(self) -> Validity | None:
         """Of an approximate law (`stabilab.physics.law_limits`) at the start; None where all laws are exact."""
         if not self.scene.approximate:
             return None
         from ...physics.law_limits import validity
         return validity(self.scene, self.states)
 
-    def __iter__(self):
+    def __iter__(self) -> Iterator[np.ndarray]:
         return iter((self.low, self.high))
 
 

@@ -2,16 +2,21 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Any
 
 import numpy as np
 
 from ...integrate.event_run import first_root
 from ...integrate.to_heyoka import TAYLOR_TOLERANCE
 from ...physics.attitude import to_space
-from ...physics.equations import derive, rotation
+from ...physics.equations import Equations, derive, rotation
 from ...physics.motion_units import in_unit, mass_unit, own_unit
+from ...physics.scene import AnyScene
 from ...physics.states import equations_and_start, moved_row
 from ...physics.to_numpy import to_numpy
+from .limit import Limit
 from .result import Found
 
 STEPS = 300_000  # of each of the two runs
@@ -20,12 +25,12 @@ WIDER = 4.0  # times what the two runs differ by
 ROUNDING = 2.0**-50  # relative, of a time that both find alike
 
 
-def by_run(scene, start, limit, t_max: float = math.inf, steps: int = STEPS) -> Found:
+def by_run(scene: AnyScene, start: Any, limit: Limit, t_max: float = math.inf, steps: int = STEPS) -> Found:
     """The first crossing of the motion of any scene. start: numbers or blocks, as `trajectory` takes them; t_max: the scene's time."""
     return by_run_of(scene, start, limit, t_max, steps)[0]
 
 
-def by_run_of(scene, start, limit, t_max: float = math.inf, steps: int = STEPS) -> tuple[Found, int]:
+def by_run_of(scene: AnyScene, start: Any, limit: Limit, t_max: float = math.inf, steps: int = STEPS) -> tuple[Found, int]:
     """The same, and the steps that the first run took."""
     equations, state, unit, expressions = _asked(scene, start, limit)
     end = t_max * unit if math.isfinite(t_max) else 1e300
@@ -42,17 +47,17 @@ def by_run_of(scene, start, limit, t_max: float = math.inf, steps: int = STEPS) 
     return Found(max(0.0, one.t - blur) / unit, (one.t + blur) / unit, "run", f"{words}, the error from a second one"), one.steps
 
 
-def run_once(scene, start, limit, t_max: float = math.inf, steps: int = STEPS):
+def run_once(scene: AnyScene, start: Any, limit: Limit, t_max: float = math.inf, steps: int = STEPS) -> tuple[Any, float]:
     """(`FirstRoot` of one run, in the motion's own time; that time's unit): no word on its error."""
     equations, state, unit, expressions = _asked(scene, start, limit)
     return first_root(equations, state, expressions, t_max * unit if math.isfinite(t_max) else 1e300, steps), unit
 
 
-def _less(t):
+def _less(t: float) -> float:
     return t * (1 - ROUNDING)
 
 
-def _asked(scene, start, limit):
+def _asked(scene: AnyScene, start: Any, limit: Limit) -> tuple[Equations, np.ndarray, float, list[Any]]:
     """(equations, state, unit, expressions that vanish at the limit), in units near the motion's own where these are known."""
     tilted = limit.kind == "tilt"
     if tilted and not isinstance(start, dict):
@@ -72,7 +77,7 @@ def _asked(scene, start, limit):
     return equations, state, unit, _expressions(limit, equations, state, unit)
 
 
-def _expressions(limit, equations, state, unit):
+def _expressions(limit: Limit, equations: Equations, state: Sequence[float] | np.ndarray, unit: float) -> list[Any]:
     from sympy import Float, Rational, cos
     rational = lambda v: Rational(v.numerator, v.denominator)
     if limit.kind != "tilt":
@@ -82,12 +87,12 @@ def _expressions(limit, equations, state, unit):
                 for terms, most in limit.parts]
     at = 3 + (3 if "gamma" in equations.blocks else 0)
     q = equations.state[at:at + 4]
-    first = to_space(state[at:at + 4], [float(v) for v in limit.direction])
+    direction = limit.direction or ()
+    first = to_space(state[at:at + 4], [float(v) for v in direction])
     rows = rotation(q)
-    turned = sum(Rational(float(f)) * rational(a) * entry for f, row in zip(first, rows) for a, entry in zip(limit.direction, row) if a)
+    turned = sum(Rational(float(f)) * rational(a) * entry for f, row in zip(first, rows) for a, entry in zip(direction, row) if a)
     return [turned - Rational(float(cos(Float(rational(limit.parts[0][1]), 30))))]
 
 
-def _fraction(value):
-    from fractions import Fraction
+def _fraction(value: float) -> Fraction:
     return Fraction(value)
