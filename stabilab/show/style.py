@@ -76,7 +76,8 @@ def save(figure, path, dpi: float | None = None) -> Path:
     path = endings.file(path, endings.PICTURES)
     kind = endings.ending(path)
     buffer = io.BytesIO()
-    figure.savefig(buffer, format=kind[1:], dpi=dpi or DPI, metadata=_UNDATED[kind])
+    packed: dict[str, Any] = {"pil_kwargs": {"compress_level": 0}} if kind == ".png" else {}  # read again at once
+    figure.savefig(buffer, format=kind[1:], dpi=dpi or DPI, metadata=_UNDATED[kind], **packed)
     if kind == ".png":
         from PIL import Image
         write_small(Image.open(buffer), path)

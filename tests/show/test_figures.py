@@ -7,7 +7,7 @@ import pytest
 from stabilab.show import style
 from stabilab.show.figures import catalogue, cavity, major_axis, middle_axis, minor_axis, paper
 from stabilab.show.figures.catalogue import figure
-from stabilab.show.terminal.letters import written
+from stabilab.show.terminal.letters import some, written
 
 # Names of letters spelt out; a list of its own, so that one left out of the table of letters is seen.
 SPELT = re.compile(r"(?<![A-Za-z])(lambda|omega|psi|phi|theta|eta|zeta|gamma|Gamma|Lambda|Omega|eps|delta|sigma|pi|sqrt)(?![a-z])|\^\d")
@@ -91,3 +91,7 @@ def test_captions_and_titles_spell_no_letter(row):
 @pytest.mark.slow
 def test_no_caption_spells_a_letter():
     assert [row.file for row in catalogue.chosen() if SPELT.search(f"{row.title} {row.caption} {row.tolerance}")] == []
+
+
+def test_one_thing_is_told_in_the_singular():
+    assert [some(n, "curve") for n in (0, 1, 2)] == ["0 curves", "1 curve", "2 curves"]

@@ -25,6 +25,11 @@ def written(text: str) -> str:
     return POWER.sub(lambda found: found[1].translate(RAISED) if found[1] else "√", text)
 
 
+def some(count: int, noun: str) -> str:
+    """A number with its noun: "1 curve", "2 curves"."""
+    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
+
+
 def greek(text: str) -> str:
     """The text with the names of angular velocities, momenta and torques as letters: omega1 becomes ω1."""
     return NAMES.sub(lambda found: GREEK[found[0]], text)

@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from ...case.units import DIMENSIONS, NAMES
 from ..text.headline import WORDS, known_as, rate_margin
 from ..units import SHORT, Units, number
-from .letters import greek
+from .letters import greek, some
 from .motion import shown
 
 GAP = 2
@@ -36,7 +36,7 @@ def text(cases: Sequence, answer: str, columns: Sequence[tuple[str, str]], rows:
     sizes = [max(map(len, column)) for column in zip(heads, units, *cells)]
     lines = ["".join(f"{cell:>{size + GAP}}" for cell, size in zip(row, sizes)).rstrip() for row in (heads, units, *cells)]
     name = cases[0].name.removesuffix(cases[0].variant)
-    return "\n".join([f"{name}: {len(cases)} combinations: {answer}", *lines])
+    return "\n".join([f"{name}: {some(len(cases), 'combination')}: {answer}", *lines])
 
 
 def swept_columns(cases: Sequence) -> list[tuple[str, str, list[str]]]:

@@ -7,6 +7,7 @@ import textwrap
 from collections import Counter
 
 from ...theories.audit.findings import VERDICTS
+from ..terminal.letters import some
 
 SCHEMA = "stabilab.audit/1"
 
@@ -45,7 +46,7 @@ def text(findings, width: int = 100) -> str:
     parts = []
     for paper, group in findings:
         count = Counter(f.verdict for f in group)
-        parts.append(f"{paper.title}: " + ", ".join(f"{count[v]} {v}" for v in VERDICTS if count[v]) + f"; {len(group)} rows\n")
+        parts.append(f"{paper.title}: " + ", ".join(f"{count[v]} {v}" for v in VERDICTS if count[v]) + f"; {some(len(group), 'row')}\n")
         parts += [_paragraph(finding, width, paper.figures) for finding in group]
     return "\n".join(parts)
 

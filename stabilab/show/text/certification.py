@@ -5,6 +5,7 @@ from pathlib import Path
 
 from ...files import whole_file
 from ..files import endings
+from ..terminal.letters import some
 
 SCHEMA = "stabilab.verification/1"
 
@@ -28,8 +29,8 @@ def summary(certificate: dict) -> str:
     parts = []
     if certificate["equilibria"]:
         found = certificate["equilibria"]
-        planes = f", {len(found['planes'])} planes" if found.get("planes") else ""
-        count = f"{len(found['points'])} isolated, {len(found['curves'])} curves{planes}" if found["kind"] in ("points", "curves") else found["kind"]
+        planes = f", {some(len(found['planes']), 'plane')}" if found.get("planes") else ""
+        count = f"{len(found['points'])} isolated, {some(len(found['curves']), 'curve')}{planes}" if found["kind"] in ("points", "curves") else found["kind"]
         parts.append(f"equilibria ({count})")
     if certificate["motion"]:
         motion = certificate["motion"]

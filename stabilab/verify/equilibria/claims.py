@@ -111,10 +111,14 @@ def _say(point, m, n, root, note):
 # -- completeness
 
 
+def _some(count, noun):
+    return f"{count} {noun}{'' if count == 1 else 's'}"
+
+
 def _check_complete(rates, claims, line, note):
     kind, points, curves, planes = claims.kind, claims.points, claims.curves, claims.planes
-    claim = f"the equilibria are complete: {kind}, {len(points)} isolated, {len(curves)} curves"
-    claim += f", {len(planes)} planes" if planes else ""
+    claim = f"the equilibria are complete: {kind}, {len(points)} isolated, {_some(len(curves), 'curve')}"
+    claim += f", {_some(len(planes), 'plane')}" if planes else ""
     if not rates.torque:
         status, reason = whole_torque_free(rates, kind, points, curves, planes)
     elif planes:

@@ -12,6 +12,7 @@ from ....answers.simulate import simulate
 from ....case.sweep import keys_and_values
 from ....errors import StabilabError
 from ... import style
+from ...terminal.letters import some
 from ...units import units_of
 from . import pictures, verdict
 from .equations import equations
@@ -39,7 +40,7 @@ def headline(rows) -> str:
     """How many combinations have which fate."""
     words = [row["fate"] for row in rows]
     told = ", ".join(f"{words.count(word)} {word or 'without a motion'}" for word in dict.fromkeys(words))
-    return f"{len(rows)} combinations: {told}"
+    return f"{some(len(rows), 'combination')}: {told}"
 
 
 def _answer(case):
