@@ -113,9 +113,9 @@ def draw_lines(plt, title, lines, width=3.5, height=2.05, words=None, mark_words
         for column, ax in zip(columns, line[int(alone):]):
             _panel(ax, row, column, _window(row, [column]) if own else shared)
             if headed:
-                ax.set_title(column.heading, pad=14)  # above the words on cuts
+                ax.set_title(column.heading + _refused(column, words), pad=14, fontsize=8 if column.refused else None)  # above the words on cuts
             if not i:
-                _missing(ax, column, words)
+                _ending(ax, column)
             ax.tick_params(labelleft=own or column is columns[0])
         for ax in line:
             if not row.over_time or i + 1 == len(lines) or not lines[i + 1][0].over_time:
@@ -140,13 +140,17 @@ def _headings(lines) -> int:
     return len(dict.fromkeys(tuple(c.heading for c in columns) for _, columns in lines))
 
 
-def _missing(ax, column, words):
-    """In the panel, where curves leave room: which model has no curve, or ends early, and why."""
+def _refused(column, words) -> str:
+    """Which models have no curve in a column, and why, as lines of its heading."""
+    why = {reason.split(": ")[0]: [words[m] for m, other in column.refused.items() if other == reason] for reason in column.refused.values()}
+    return "".join("\n" + fill(f"no curve {'; '.join(models)}: {reason}", 48) for reason, models in why.items())
+
+
+def _ending(ax, column):
+    """In the panel, where curves leave room: which model ends early, and why."""
     from matplotlib.lines import Line2D
     rows = [(f"ends at {run.t[-1]:.3g} s: {run.reason.split(' at t = ')[0]}", END | {"color": LOOKS[name]["color"]})
             for name, run in column.runs.items() if _stops(run)]
-    why = {reason.split(": ")[0]: [words[m] for m, other in column.refused.items() if other == reason] for reason in column.refused.values()}
-    rows += [(f"no curve, {' nor '.join(models)}: {reason}", {"linestyle": "none"}) for reason, models in why.items()]
     if rows:
         ax.legend([Line2D([], [], **look) for _, look in rows], [fill(text, 34) for text, _ in rows], fontsize=7.5, loc="best")
 
