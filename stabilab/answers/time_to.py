@@ -87,8 +87,9 @@ def _end(t_max: float | Fraction | None) -> Fraction | None:
     raise InputError(f"t_max: expected a positive time, got {t_max!r:.80}")
 
 
-def of_one(scene: AnyScene, state: Any, start: Any, limit: Limit, end: Fraction | None, work: int = WORK) -> Found:
-    """The answer for one motion of a plain scene: three floats, and the three rationals that they round."""
+def of_one(scene: AnyScene, state: Any, start: Any, limit: Limit, end: Fraction | None, work: int = WORK, bands: int = BAND_STEPS) -> Found:
+    """The answer for one motion of a plain scene: three floats, and the three rationals that they round. work: multiplications that an enclosure in
+    integers may take; bands: compiled steps that enclose what goes on longer."""
     if limit.reached_by(start):
         return Found(0.0, 0.0, "exact", f"{limit.words}: reached already at the start")
     found, repeats = never(scene, state, start, limit)
@@ -100,7 +101,7 @@ def of_one(scene: AnyScene, state: Any, start: Any, limit: Limit, end: Fraction 
         return Found(_down(proof.low), _up(proof.high), "proved", f"{limit.words}: the motion enclosed, its first crossing by roots")
     if proof.done:
         return _at_the_end(proof, limit, last is not end, scene.time_unit)
-    return _beyond_integers(scene, state, start, limit, end, proof, work)
+    return _beyond_integers(scene, state, start, limit, end, proof, bands if work else 0)
 
 
 def _at_the_end(proof: Any, limit: Limit, whole: Any, unit: Any) -> Found:
@@ -113,12 +114,12 @@ def _at_the_end(proof: Any, limit: Limit, whole: Any, unit: Any) -> Found:
     return Found(_down(proof.until), math.nan, "proved", f"{limit.words}: not reached by t_max, the motion enclosed")
 
 
-def _beyond_integers(scene: AnyScene, state: Any, start: Any, limit: Limit, end: Fraction | None, proof: Any, work: int) -> Found:
+def _beyond_integers(scene: AnyScene, state: Any, start: Any, limit: Limit, end: Fraction | None, proof: Any, bands: int) -> Found:
     """The work allowed in integers is done: a run follows longer ways, which compiled steps enclose, and the clock tells of the longest."""
     known, last = _down(proof.until), math.inf if end is None else float(end)
     run, steps = by_run_of(scene, state, limit, last)
-    if work and steps <= BAND_STEPS and (run.high == run.high or run.low >= last * (1 - LATER)):
-        band = banded(scene, start, limit, run.high * (1 + LATER) if run.high == run.high else last)
+    if steps <= bands and (run.high == run.high or run.low >= last * (1 - LATER)):
+        band = banded(scene, start, limit, run.high * (1 + LATER) if run.high == run.high else last, bands)
         if band is not None and band.high < math.inf:
             return Found(band.low, band.high, "proved", f"{limit.words}: the motion enclosed in {band.steps} compiled steps")
         known = max(known, band.low) if band is not None else known

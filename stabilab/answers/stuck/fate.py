@@ -16,6 +16,7 @@ from ..time_to import of_one
 from .reach import largest_rate
 
 BUDGET = 100_000  # steps of a run that looks for the largest rate
+LITTLE, FEW = 2_000_000, 3_000  # multiplications and compiled steps: some tenths of a second
 TURN = 1.001  # of a period: a motion that repeats is followed for so long
 EXACT = ("axis", "law")  # certificates of growth that are closed solutions
 
@@ -54,8 +55,9 @@ def found(scenario, torque, wheel=None) -> Found:
 
 
 def time_under(scenario, torque, wheel):
-    """The bracket of the time to the limit under a torque and a wheel momentum, s; None where it is never within what is known."""
-    return _when(scenario, scenario.scene(torque, wheel), None).time
+    """The bracket of the time to the limit under a torque and a wheel momentum, s; None where it is never within what is known. A motion that a wheel holds
+    up goes on for long: it is enclosed where little work does that, else followed by a run."""
+    return _when(scenario, scenario.scene(torque, wheel), None, LITTLE, FEW).time
 
 
 def _at_rest(scenario, kind):
@@ -94,11 +96,11 @@ class _When:
     unsure: str = ""
 
 
-def _when(scenario, scene, t_max) -> _When:
-    """When the limit is reached, by `time_to`; t_max: how far an undecided motion was followed, s."""
+def _when(scenario, scene, t_max, *work) -> _When:
+    """When the limit is reached, by `time_to`; t_max: how far an undecided motion was followed, s; work: as of `time_to.of_one`."""
     if scenario.limit is None:
         return _When(None, "run", False, 0.0 if t_max is None else t_max)
-    seen = of_one(scene, scenario.start, scenario.state, _limit(scenario), None if t_max is None else Fraction(t_max))
+    seen = of_one(scene, scenario.start, scenario.state, _limit(scenario), None if t_max is None else Fraction(t_max), *work)
     if math.isinf(seen.low):
         return _When(None, seen.level, True, math.inf)
     if math.isfinite(seen.high):
