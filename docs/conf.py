@@ -18,7 +18,7 @@ html_theme, html_title = "furo", "stabilab"
 html_static_path, html_css_files = ["static"], ["site.css"]
 html_show_copyright = False
 myst_heading_anchors = 3
-autodoc_typehints = "none"  # docstrings give shapes and units, which types do not
+autodoc_typehints, autodoc_typehints_format, maximum_signature_line_length = "signature", "short", 90
 autodoc_member_order = "bysource"
 CHECKED = "Evaluated against the program"
 # What stands outside of docs/ has its page here under another name
