@@ -29,6 +29,10 @@ def write(docs: Path, cases: list[Path] | None = None) -> list[str]:
     grouped = {title: [one for one in entries if one["group"] == title] for title, _ in GROUPS}
     grouped = {title: rows for title, rows in grouped.items() if rows}
     page(docs / "gallery.md", overview(grouped))
+    known = {f"{slug(title)}.md" for title in grouped} | {f"{one['name']}{ending}" for one in entries for ending in (".png", ".json")}
+    for path in (docs / FOLDER).iterdir():
+        if path.name not in known:  # of a case or a group that is gone
+            path.unlink()
     for title, rows in grouped.items():
         page(docs / FOLDER / f"{slug(title)}.md", f"# {title}\n\n" + "\n".join(map(section, rows)))
     return [one["name"] for rows in grouped.values() for one in rows]

@@ -89,9 +89,11 @@ def test_a_case_of_the_gallery_has_picture_answer_file_and_commands_and_is_kept_
     assert "BOUNDED for ever while the torque is exactly along axis 3" in page and minor.read_text(encoding="utf-8") in page
     assert "stabilab plot cases/minor-axis-100.toml --kind phase" in page and "λ1 = 100" in page
     assert (folder / "minor-axis-100.png").read_bytes().startswith(b"\x89PNG")
+    (gone := folder / "of-a-case-that-is-gone.png").touch()
     with monkeypatch.context() as patch:
         patch.setattr(gallery, "made", lambda path, folder: pytest.fail("drawn again"))
         gallery.write(tmp_path, [minor])
+    assert not gone.exists()
     (changed := tmp_path / minor.name).write_text(minor.read_text(encoding="utf-8") + "# more\n", encoding="utf-8")
     drawn = []
     monkeypatch.setattr(gallery, "made", lambda path, folder: drawn.append(path) or {"title": "", "source": "", "group": "No torque", "kind": "", "answer": ""})
