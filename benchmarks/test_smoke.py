@@ -3,7 +3,7 @@ import pytest
 
 pytest.importorskip("heyoka")
 
-from . import fates, orbit_extremes, spin_up, suite
+from . import fates, orbit_extremes, spin_up, spin_up_sample, suite
 
 
 @pytest.mark.parametrize("topic", suite.TOPICS)
@@ -28,3 +28,16 @@ def test_spin_up_is_timed_beside_heyokas_own_batches(capsys):
     pytest.importorskip("heyoka")
     ours, raw = spin_up.pace(seed=2, scenes=1, states=24, times=50.0, steps=300)
     assert ours > 0 and raw > 0 and "times the raw integration" in capsys.readouterr().out
+
+
+def test_the_sample_of_scenes_is_gathered_in_pieces_and_told_as_a_table(tmp_path, monkeypatch):
+    pieces, page = [tmp_path / name for name in ("late", "early")], tmp_path / "page.md"
+    for path, first in zip(pieces, (2, 0)):
+        spin_up_sample.run(path, first, 4)
+    page.write_text(f"before\n{spin_up_sample.BEGIN}\nold\n{spin_up_sample.END}\nafter", encoding="utf-8")
+    monkeypatch.setattr(spin_up_sample, "PAGE", page)
+    spin_up_sample.write(*pieces)
+    rows = spin_up_sample.rows_of(pieces)
+    assert [row["number"] for row in rows] == [0, 1, 2, 3, 4, 5] and all(row["cause"] for row in rows if row["level"] == "undecided")
+    text = page.read_text(encoding="utf-8")
+    assert "| all | 6 |" in text and "old" not in text and text.startswith("before") and text.endswith("after") and "Undecided: " in text
