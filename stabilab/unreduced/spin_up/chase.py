@@ -17,8 +17,8 @@ from .way.runs import Runs
 
 FIRST, EARLY, SHARES, MOST = 4, 600, (0.25, 0.1), 2000  # steps between tests: a share of those before (early, later), at least and at most so many
 # Which tests a stage asks: (every so many stages, from so many steps on, name in `Tests`), the last that applies. What costs more comes later.
-LAST = 12_000
-PLAN = ((1, 0, "often"), (3, 48, "high"), (4, 1000, "all"), (8, LAST, "last"))
+LAST = 20_000
+PLAN = ((1, 0, "often"), (3, 48, "high"), (4, 3000, "all"), (8, LAST, "last"))
 
 
 @dataclass

@@ -7,7 +7,7 @@ from .collocation import NODES, window
 from .returns import Returns
 from .runs import Runs
 
-FROM = 10_000                      # steps that a motion is followed plainly first
+FROM = 20_000                      # steps that a motion is followed plainly first: to find out that it would not leap takes half as many
 LEAST, FIRST, MOST = 512.0, 1024.0, 2.0**40  # revolutions of a window: fewer are hardly less work than step by step
 AGAIN = 1.6                        # after how many times its steps a motion that would not leap is asked again
 
