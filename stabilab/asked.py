@@ -13,6 +13,13 @@ def checked_scene(scene):
     return scene
 
 
+def checked_case(case):
+    """The case itself, if it is one."""
+    if not (hasattr(case, "scene") and hasattr(case, "span") and hasattr(case, "state")):
+        raise InputError(f"case: expected a case, as stabilab.load gives it, got {case!r:.80}")
+    return case
+
+
 def checked_span(span) -> tuple[float, float] | None:
     """(from, to) of a span given by its two ends, or by its length; None stays."""
     if span is None:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..asked import checked_scene
 from ..integrate.trajectory import Trajectory
 from ..physics.attitude import angles, beyond, body_momentum, to_space, unwrapped
 from ..physics.scene import AnyScene, Scene
@@ -59,7 +60,7 @@ def simulate(scene: AnyScene, omega: Sequence[float], times: ArrayLike, blocks: 
     is "taylor", or Radau where the decay is so fast that an explicit method would crawl (the reason says so). Raises
     InputError as `trajectory` does.
     """
-    times = np.atleast_1d(np.asarray(times, float))
+    scene, times = checked_scene(scene), np.atleast_1d(np.asarray(times, float))
     if scene.variables == "scaled":
         run = trajectory(scene, omega, times, method or "taylor", rtol)
         return _simulation(run, {"x": run.states})

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, TypeAlias
 
+from ..asked import checked_scene
 from ..numbers.vectors import Number
 from .blocks import slices
 from .effects.base import Limit
@@ -82,7 +83,7 @@ def validity(scene: AnyScene, states: States, over: str = "at the start") -> Val
     None where all its laws are exact. States are in rad/s along the principal axes. For arrays `value` and `holds` are arrays (...,). over: where
     the states are, in words. Raises InputError for blocks that the scene does not have.
     """
-    return _judged(scene, _blocks(scene, states), over, None)
+    return _judged(checked_scene(scene), _blocks(scene, states), over, None)
 
 
 def along(scene: AnyScene, states: States, over: str) -> Validity | None:

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..asked import checked_case
 from ..errors import InputError
 from ..shown import Shown
 from .follow import follow, models_of
@@ -60,10 +61,12 @@ def compare(case: Any, times: ArrayLike | None = None, order: int | None = None)
     The first times of 1 % and 10 % error are bracketed on the grid and refined by evaluating both models in between.
     Raises InputError as `follow` does.
     """
-    if order is not None and "lindstedt" not in models_of(case.scene):
+    if order is not None and "lindstedt" not in models_of(checked_case(case).scene):
         raise InputError(f"order: belongs to the model \"lindstedt\"; this scene has {', '.join(models_of(case.scene))}")
+    if times is None and checked_case(case).span is None:
+        raise InputError("compare: the case states no span: give it times")
     times = np.linspace(case.span[0], case.span[1], GRID) if times is None else np.asarray(times, float)
-    runs, refused = side_by_side(case, times, order)
+    runs, refused = side_by_side(checked_case(case), times, order)
     exact, found = runs["exact"], []
     for name, run in list(runs.items())[1:]:
         for part in (p for p in SHARED if p in run.state and p in exact.state):

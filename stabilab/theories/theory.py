@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from ..asked import checked_case
 from ..errors import InputError
 from .cavity.attractors import attractors
 from .charged.mean_pointing import pointing, spin_drift
@@ -27,7 +28,7 @@ def theory(case: Any, order: int | None = None, model: str | None = None) -> lis
     the top's expansion; model: "printed" adds the misprints of the charged body's paper. Where the theory refuses the case's numbers the one
     row says why: the InputError is told and not raised.
     """
-    module = family(case.scene)
+    module = family(checked_case(case).scene)
     if module is None or case.state is None:
         return []
     told = {"charged": _axisymmetric, "cavity": _averaged, "top": _top}

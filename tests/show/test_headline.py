@@ -11,7 +11,7 @@ from scipy.integrate import solve_ivp
 from stabilab import load, motion
 from stabilab.show.report.one_case import verdict
 from stabilab.show.report.one_case.measures import Measures
-from stabilab.show.text.headline import headline
+from stabilab.show.text.headline import bracketed, headline
 from stabilab.show.units import DEG, SI, units_of
 
 ROOT = Path(__file__).parents[2]
@@ -121,4 +121,11 @@ def test_a_page_of_a_sweep_tells_margin_and_rate_as_the_first_line_does_and_open
     line, units = headline(case, found), Measures(units_of(case))
     assert f"largest rate {verdict.largest(found, units)}; margin {verdict.margin(found, units)}; period" in line.replace("-", "−")
     open_ = replace(found, velocity_because="the search ended", velocity_bounds=(0.1, 0.2))
-    assert verdict.margin(open_, units) == "5.73 deg/s to 11.46 deg/s (0.5089 J)"  # 0.1 and 0.2 rad/s
+    assert verdict.margin(open_, units) == "5.729 to 11.46 deg/s (0.5089 J)"  # 0.1 and 0.2 rad/s, rounded outward
+
+
+@pytest.mark.parametrize("low, high, words", [(5.7296, 11.459, "5.729 to 11.46 deg/s"), (2483386930.5, 2483387077.2, "2.48338693e+09 to 2.48338708e+09 deg/s"),
+                                              (0.0, 3.5, "0 to 3.5 deg/s"), (4.625, 4.625, "4.625 to 4.625 deg/s")])
+def test_open_bounds_are_rounded_outward_with_the_digits_that_tell_them_apart(low, high, words):
+    """By hand: two digits of the difference, four digits at least."""
+    assert bracketed(low, high, "deg/s", 4) == words

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import math
 import re
+from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal, localcontext
 from typing import TYPE_CHECKING, Any, cast
 
 from ...physics.alignment import torque_axis
@@ -120,9 +121,21 @@ def with_height(rate: str, height: str) -> str:
 def rate_margin(motion: Motion, units: Units, digits: int) -> str:
     """The distance from the separatrix: a number where it is one to 1e-9, else its bounds; empty where unknown."""
     if motion.velocity_because and motion.velocity_bounds:
-        low, high = motion.velocity_bounds
-        return f"{units.rate(low, digits)} to {units.rate(high, digits)}"
+        name, one = units.rates
+        return bracketed(*(v * one for v in motion.velocity_bounds), name, digits)
     return "" if motion.margin_velocity is None else units.rate(motion.margin_velocity, digits)
+
+
+def bracketed(low: float, high: float, unit: str, digits: int) -> str:
+    """Two bounds with as many digits as tell them apart, the lower rounded down and the upper up."""
+    if not low > 0 or not math.isfinite(high):
+        return f"{number(low, digits)} to {number(high, digits)} {unit}".rstrip()
+    more = min(17, max(digits, 1 - math.floor(math.log10((high - low) / high)) if high > low else 0))
+    with localcontext() as context:
+        context.prec, ends = more, []
+        for end, context.rounding in ((low, ROUND_FLOOR), (high, ROUND_CEILING)):
+            ends.append(number(float(+Decimal(end)), more))
+    return f"{ends[0]} to {ends[1]} {unit}".rstrip()
 
 
 def period(motion: Motion, units: Units) -> str:

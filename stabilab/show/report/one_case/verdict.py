@@ -3,9 +3,9 @@ from __future__ import annotations
 
 from ....orbit.result import Fate
 from ...text import frame
-from ...text.headline import greatest, rate_and_height, with_height
+from ...text.headline import greatest, rate_and_height, rate_margin, with_height
 from ...text.headline import headline as answer
-from .measures import spoken, told, vector
+from .measures import DIGITS, spoken, told, vector
 
 
 def headline(case, motion, equilibria, measures) -> str:
@@ -66,8 +66,7 @@ def _rates(values, measures):
 
 def _distance(motion, measures):
     if motion.velocity_because and motion.velocity_bounds:
-        low, high = motion.velocity_bounds
-        return f"between {measures.rate(low)} and {measures.rate(high)}: {spoken(motion.velocity_because)}"
+        return f"{spoken(rate_margin(motion, measures.units, DIGITS))}: {spoken(motion.velocity_because)}"
     return f"{measures.rate(motion.margin_velocity)}: the smallest change of the rates that reaches the separatrix"
 
 
