@@ -15,6 +15,8 @@ from ..answers.motion import motion
 from ..answers.time_to import time_to
 from ..case.read import Case, blamed_on
 from ..errors import CaseError, InputError
+from ..numbers.numba_door import installed
+from ..orbit.extremes_and_periods import extremes_and_periods
 from ..orbit.result import Fate
 from ..physics.coefficients import effective
 from ..physics.states import start_of
@@ -22,6 +24,7 @@ from .columns import ENDLESS, LEVELS, LIMIT_LEVELS, NO_CASE, NONE, OPEN, record
 from .plan import Chunk, Plan
 from .points import case_of, states_of
 
+COMPILED = 20_000  # states for which loading numba's code pays
 NO_CASE_VALUES = {"fate": NO_CASE, "reason": -1, "equilibria": NONE}
 
 
@@ -64,18 +67,28 @@ def _many(plan: Plan, case: Case, states: np.ndarray, out: np.ndarray) -> None:
         for name, column in columns.items():
             if name in out.dtype.names:
                 out[name] = column()
-    if "extremes" in asked:
-        box = _extremes(case, states)
-        out["least"], out["greatest"] = box[..., 0], box[..., 1]
-    if "period" in asked:
-        out["period"] = period(scene, states)
+    if {"extremes", "period"} & set(asked):
+        box, times = _extremes_and_periods(case, states, "extremes" in asked, "period" in asked)
+        if box is not None:
+            out["least"], out["greatest"] = box[..., 0], box[..., 1]
+        if times is not None:
+            out["period"] = times
     if "when" in asked:
         limit = plan.limit_of(case)
         _times(time_to(scene, states, **limit.ask, t_max=limit.until), out)
 
 
-def _extremes(case: Case, states: np.ndarray) -> np.ndarray:
-    follows = KINDS[kind_of(effective(case.scene))].follows
+def _extremes_and_periods(case: Case, states: np.ndarray, box: bool, times: bool) -> tuple[np.ndarray | None, np.ndarray | None]:
+    """(extremes or None, periods or None). Whether numba serves hangs on the number of states alone, not on what this process did before: its last
+    digits are not NumPy's."""
+    fast = (len(states) >= COMPILED and installed()) or None
+    kind = kind_of(effective(case.scene))
+    if kind == "orbit":
+        return extremes_and_periods(case.scene, states, fast, box=box, period=times)
+    return _extremes(case, states, KINDS[kind].follows) if box else None, period(case.scene, states) if times else None
+
+
+def _extremes(case: Case, states: np.ndarray, follows: bool) -> np.ndarray:
     try:
         return extremes(case.scene, states, case.span)
     except InputError:
