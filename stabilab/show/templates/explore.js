@@ -100,6 +100,12 @@ function unpacked(reply) {
   return filled(header);
 }
 
+function fill(id, told, children) {  // what says the same as before stays, and is not painted anew
+  const place = $(id), key = JSON.stringify(told);
+  if (place.dataset.told === key) return;
+  place.dataset.told = key; place.replaceChildren(...children(told));
+}
+
 function trouble(words) { $("note").hidden = !words; $("note").textContent = words; $("headline").classList.toggle("stale", Boolean(words)); }
 
 function show(answer) {
@@ -107,16 +113,16 @@ function show(answer) {
   trouble(""); $("note").hidden = !answer.note; $("note").textContent = answer.note; shown = answer;
   $("headline").textContent = answer.headline; $("headline").className = `verdict-line ${answer.fate}`;
   view.show(answer.space);
-  $("legend").replaceChildren(...answer.space.legend.map(([words, colour]) => { const mark = element("i", {}); mark.style.background = colour; return element("span", {}, mark, words); }));
-  $("space-words").textContent = `${answer.space.words}. Drag to turn; click a curve or a point to start there; double click: as at first.`;
+  fill("legend", answer.space.legend, rows => rows.map(([words, colour]) => { const mark = element("i", {}); mark.style.background = colour; return element("span", {}, mark, words); }));
+  fill("space-words", `${answer.space.words}. Drag to turn; click a curve or a point to start there; double click: as at first.`, words => [words]);
   drawFlat();
-  $("plane-words").textContent = answer.plane ? "Orange: this motion; black: separatrix; grey: other energies; filled: centre; open: saddle. Click to start a motion there."
-    : "This scene does not reduce to one degree of freedom, so it has no phase plane.";
-  $("time-words").replaceChildren(...answer.time.names.flatMap((name, n) => { const mark = element("span", {textContent: `${name} `}); mark.style.color = INK.components[n]; mark.style.fontWeight = 600; return [mark]; }),
-    answer.time.extremes ? "Dotted: least and greatest for ever." : "");
-  $("facts").replaceChildren(...answer.rows.flatMap(([words, value]) => [element("dt", {textContent: words}), element("dd", {textContent: value})]));
-  $("equilibria-words").textContent = answer.equilibria.reason;
-  $("equilibria").replaceChildren(...answer.equilibria.rows.map(row => element("tr", {}, ...row.map(text => element("td", {textContent: text})))));
+  fill("plane-words", answer.plane ? "Orange: this motion; black: separatrix; grey: other energies; filled: centre; open: saddle. Click to start a motion there."
+    : "This scene does not reduce to one degree of freedom, so it has no phase plane.", words => [words]);
+  fill("time-words", [answer.time.names, answer.time.extremes ? "Dotted: least and greatest for ever." : ""], ([names, words]) => [...names.map((name, n) => {
+    const mark = element("span", {textContent: `${name} `}); mark.style.color = INK.components[n]; mark.style.fontWeight = 600; return mark; }), words]);
+  fill("facts", answer.rows, rows => rows.flatMap(([words, value]) => [element("dt", {textContent: words}), element("dd", {textContent: value})]));
+  fill("equilibria-words", answer.equilibria.reason, words => [words]);
+  fill("equilibria", answer.equilibria.rows, rows => rows.map(row => element("tr", {}, ...row.map(text => element("td", {textContent: text})))));
   document.documentElement.dataset.answers = latest; document.documentElement.dataset.moving = answer.moving;
 }
 
