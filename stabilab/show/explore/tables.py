@@ -7,6 +7,7 @@ from typing import Any
 from ...case.read import Case
 from ...equilibrium.result import Equilibria
 from ...orbit.result import Motion
+from ..terminal.letters import greek
 from ..text.headline import rate_margin
 from ..units import Units
 
@@ -27,7 +28,7 @@ def rows(case: Case, motion: Motion, units: Units) -> list[list[str]]:
     if motion.extremes is not None and not any(map(math.isnan, sum(map(list, motion.extremes), []))):
         for component, pair in zip(case.scene.components, motion.extremes):
             found.append([component.replace("omega", "ω"), _range(*pair, units)])
-    return [*found, ["why", motion.because]]
+    return [*found, ["why", greek(motion.because)]]
 
 
 def _range(low: float, high: float, units: Units) -> str:
@@ -42,6 +43,6 @@ def equilibria(found: Equilibria, units: Units) -> dict[str, Any]:
     """{reason, rows of (where, verdict)}."""
     told = [[units.vector(point.at[:3], units.rates, DIGITS), point.verdict] for point in found.points]
     for curve in found.curves:
-        told += [[f"{curve.name}, {segment.linear}", segment.verdict] for segment in curve.segments]
+        told += [[greek(f"{curve.name}, {segment.linear}"), segment.verdict] for segment in curve.segments]
     more = len(told) - MOST
-    return {"reason": found.reason, "rows": told[:MOST] + ([[f"and {more} more", ""]] if more > 0 else [])}
+    return {"reason": greek(found.reason), "rows": told[:MOST] + ([[f"and {more} more", ""]] if more > 0 else [])}
