@@ -92,7 +92,10 @@ def line(row) -> str:
 def page(found) -> str:
     """The table in Markdown: answers that are numbers first, then those that are words."""
     head = ["# Hard cases", "",
-            "Relative errors against answers in 25 digits and more that share no code with the program. *Condition*: what half",
+            "Formulas that are right on paper lose their digits near a separatrix, where two moments are nearly equal, and where numbers of very different "
+            "sizes meet. This page",
+            "lists such cases, what a plain program answers there, and what stabilab answers.", "",
+            "The columns hold relative errors against answers in 25 digits and more that share no code with the program. *Condition*: what half",
             "a unit in the last place of every input, and of the answer, does to the answer; the program stays within",
             f"{ALLOWED} times that. Inputs count as exact numbers, so a naive error below the condition is an error all the",
             "same, and the program's own is mostly far below. The averaged liquid is judged against a run at 1e-12, by what",

@@ -64,7 +64,7 @@ def _torque_axis(form):
 
 
 def growth_law(scene):
-    """(axis 0-based, J(state), J_rate): the law of the module's docstring with its exact rate; None where it does not
+    """(axis 0-based, J(state), J_rate): the law of `growth` with its exact rate; None where it does not
     apply (torque not along one principal axis, or no gyrostatic component along it)."""
     if scene.variables == "scaled":
         (a, b), mu = scene.exact_ab, scene.exact_mu

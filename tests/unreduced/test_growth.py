@@ -94,7 +94,7 @@ def test_theory_well_condition_is_the_weaker_one():
 
 @pytest.mark.parametrize("c", [-0.3, -2.0, 0.7])
 def test_certificates_grow_along_the_motion(c, brute):
-    """Margins never shrink once positive: the proof in the module's docstring, observed."""
+    """Margins never shrink once positive: the proof in docs/mathematics/spin-up.md, observed."""
     rng = np.random.default_rng(5)
     for _ in range(40):
         y, margins = rng.normal(size=3) * 4, []
