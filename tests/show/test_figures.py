@@ -95,3 +95,8 @@ def test_no_caption_spells_a_letter():
 
 def test_one_thing_is_told_in_the_singular():
     assert [some(n, "curve") for n in (0, 1, 2)] == ["0 curves", "1 curve", "2 curves"]
+
+
+def test_a_page_writes_units_with_their_powers():
+    from stabilab.show.report.one_case.measures import spoken
+    assert spoken("moment 0.04 kg m^2, lambda3 in rad/s^2") == "moment 0.04 kg m², λ3 in rad/s²"

@@ -107,7 +107,7 @@ def _parameters(case):
 def _errors(case, end, found=None):
     """A row per model and part of the state: first times of 1 % and 10 %, and the largest error."""
     found = found or compare(case, np.linspace(0.0, end, POINTS))
-    rows = [{"case": case.name, "model": panels.WORDS[d.model], "part": d.part, "one": _time(d.first[0.01]), "ten": _time(d.first[0.1]),
+    rows = [{"case": case.name, "model": panels.WORDS[d.model], "part": written(d.part), "one": _time(d.first[0.01]), "ten": _time(d.first[0.1]),
              "largest": f"{d.largest / d.scale:.2g}" if d.scale else f"{d.largest:.2g}"} for d in found.departures]
     return rows + [{"case": case.name, "model": panels.WORDS[name], "part": "", "one": "no answer", "ten": why, "largest": ""}
                    for name, why in found.refused.items()]
@@ -124,7 +124,7 @@ def _sensible(chapter, folder):
     runs, _ = side_by_side(case, np.linspace(0.0, chapter.window, 1001))
     with style.drawing() as plt:
         path = style.save(comparison.picture(plt, case, runs, chapter.parts), folder / "figures" / f"{chapter.paper}-sensible.png")
-    return {"case": case.name, "title": case.title, "why": written(chapter.why), "end": chapter.sensible_end, "rows": _errors(case, None, found),
+    return {"case": case.name, "title": written(case.title), "why": written(chapter.why), "end": chapter.sensible_end, "rows": _errors(case, None, found),
             "parameters": _parameters(case), "file": f"figures/{path.name}", "size": size(path), "path": f"cases/{case.name}.toml"}
 
 

@@ -66,4 +66,5 @@ def spoken(name: str) -> str:
     for plain, letter in LETTERS.items():
         name = re.sub(rf"\b{plain}(?=\d|_|\b)", letter, name)
     name = re.sub(r"\b(s|tau) in \[([^],]+), ([^]]+)\]", lambda span: f"{span[2]} to {span[3]} {'s' if span[1] == 's' else 'of τ'}", name)
+    name = re.sub(r"\b(kg m|rad/s|m/s|s)\^2\b", r"\1²", name)
     return re.sub(r"(?<![\w.])\d+\.\d{6,}(?:e[+-]?\d+)?", lambda number: f"{float(number[0]):.6g}", name)
