@@ -22,6 +22,7 @@ from ..physics.state import three_floats
 from ..physics.states import equilibrium_mask
 from .enclosure.ranges import ranges_until
 from .evidence import evidence, seen_over, size_words
+from .periodic import in_the_middle
 from .spin_up.follow import spin_up
 from .spin_up.many import LEVELS, SpinUps, spin_up_many
 from .spin_up.result import SpinUp
@@ -52,9 +53,20 @@ def motion(scene, state, span=None, exact=None, brief: bool = False, follow: flo
     known = {"t_certificate" if found.fate == Fate.SPIN_UP else "followed_until": found.t, "steps_followed": found.steps,
              "small_change_grew": found.condition}
     seen = {} if span is None else seen_over(scene, state, span)
+    if found.fate == Fate.UNDECIDED and "an island is seen" in found.cause:
+        fields["because"] += _middle(scene, found.state)
     if seen and found.fate == Fate.UNDECIDED:
         fields["because"] += "; over the span its size went " + size_words(seen["evidence"])
     return Motion(**fields | seen | {"evidence": {**seen.get("evidence", {}), **known}})
+
+
+def _middle(scene, state) -> str:
+    """Words on the periodic motion in the middle of an island, where one is found."""
+    orbit = in_the_middle(scene, state)
+    if orbit is None:
+        return ""
+    return (f"; in its middle is a periodic motion of period {orbit.period:.6g} {scene.time_unit}, elliptic: neighbours turn about it by "
+            f"{math.degrees(orbit.angle):.4g} deg from passage to passage")
 
 
 def _limits(follow) -> dict:

@@ -1,0 +1,215 @@
+"""Periodic motions under a torque of any direction with a wheel, and whether they are elliptic: Newton's method on the return map of a section.
+
+A section is a plane on which one rate has a value and grows (or falls). The map from one passage to the next is evaluated by Taylor series, its derivative by
+the variational equations V' = J(x) V beside it: a change dx of the start moves the next passage, at the time t and the state y, by V dx - f(y) (V dx)_k/f_k(y).
+The flow keeps volume, so the product of the map's two multipliers at a fixed point is 1: two real ones (hyperbolic), or exp(+- i angle): elliptic, and
+then, where the angle is in no low resonance and the map twists, tori surround it (KAM): the island in which neighbours stay. That is not proved here.
+"""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..numbers.vectors import CYCLE
+from .spin_up.island import Centre, centres
+
+ORDER, TOLERANCE = 20, 1e-17
+STEPS = 800      # from one passage to the next, at most
+PASSES = 15      # of Newton's method
+FAR = 2          # times the size of a state: no periodic motion is looked for so far from it
+CLOSED = 1e-11   # relative distance of a passage from the next at a periodic motion
+RETURNS = 48, 160  # passages whose mean is where the search for a centre begins
+SHARES = 512     # of the way from one scene to another, at most
+
+
+@dataclass(frozen=True)
+class Section:
+    """Where the rate number `axis` (0, 1, 2) passes `level` in the direction `sense`."""
+
+    axis: int
+    level: float
+    sense: int
+
+    @property
+    def across(self) -> list[int]:
+        """The two other rates, by which a place on the section is told."""
+        return [n for n in range(3) if n != self.axis]
+
+
+@dataclass(frozen=True)
+class Periodic:
+    """A periodic motion: its state on the section, its period (scene's time) and the two multipliers of the return map there."""
+
+    state: tuple
+    period: float
+    multipliers: tuple
+    section: Section
+
+    @property
+    def elliptic(self) -> bool:
+        """Whether the multipliers are a pair on the unit circle, not real."""
+        one = self.multipliers[0]
+        return abs(one.imag) > 1e-9 and abs(abs(one) - 1) < 1e-6
+
+    @property
+    def angle(self) -> float:
+        """By which neighbours turn about it from passage to passage, rad; nan where it is not elliptic."""
+        return abs(math.atan2(self.multipliers[0].imag, self.multipliers[0].real)) if self.elliptic else math.nan
+
+
+def passage(scene: Any, state: Any, section: Section, linear: bool = True) -> tuple[float, np.ndarray, np.ndarray] | None:
+    """(time, state, derivative of the state with respect to the start at that time) of the next passage; None where there is none in STEPS steps.
+    linear: the derivative too, else it stays the identity."""
+    rows = np.array(scene.quadratic().coefficients, float)
+    x, V, t, k = np.array(state, float), np.eye(3), 0.0, section.axis
+    for _ in range(STEPS):
+        a, A = _series(rows, x, V, linear)
+        h = _length(a)
+        begun, ended = (section.sense * (v - section.level) for v in (x[k], _at(a, h)[k]))
+        if t and begun < 0 <= ended or not t and begun < -1e-13 * abs(x).max() and ended >= 0:
+            root = _root(section.sense * (a[:, k] - section.level * (np.arange(len(a)) == 0)), h)
+            return t + root, _at(a, root), _at(A, root) if linear else V
+        x, V, t = _at(a, h), _at(A, h) if linear else V, t + h
+        if not np.isfinite(x).all():
+            return None
+    return None
+
+
+def periodic(scene: Any, state: Any, section: Section) -> Periodic | None:
+    """The periodic motion near a state, which is moved onto the section; None where Newton's method finds none."""
+    x = np.array(state, float)
+    x[section.axis], across = section.level, section.across
+    for _ in range(PASSES):
+        found = passage(scene, x, section)
+        if found is None:
+            return None
+        t, y, V = found
+        f = np.array(scene.quadratic().rate(y.tolist()))
+        slope = (V - np.outer(f, V[section.axis]) / f[section.axis])[np.ix_(across, across)]
+        gap = (y - x)[across]
+        if np.abs(gap).max() < CLOSED * np.abs(x).max():
+            return Periodic(tuple(x.tolist()), t, tuple(complex(v) for v in np.linalg.eigvals(slope)), section)
+        try:
+            x[across] += np.linalg.solve(np.eye(2) - slope, gap)
+        except np.linalg.LinAlgError:
+            return None
+        if not math.dist(x, state) < FAR * math.hypot(*state):
+            return None
+    return None
+
+
+def about_centre(scene: Any, centre: Centre) -> Periodic | None:
+    """The periodic motion that averaging has at a centre, by its formula as the first guess."""
+    i = centre.axis - 1
+    j, k = CYCLE[i]
+    D, l, M = ([float(v) for v in vector] for vector in (scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque")))
+    P, Q = (D[i] - D[k]) * centre.spin + l[i], (D[i] - D[j]) * centre.spin + l[i]
+    if not P * Q > 0:
+        return None
+    start = [0.0] * 3
+    start[i], start[k] = centre.spin, (l[k] * centre.spin + M[j]) / P
+    start[j] = (l[j] * centre.spin - M[k]) / Q + math.sqrt(centre.action / D[j]) * (P / Q) ** 0.25
+    sense = 1 if scene.quadratic().rate(start)[k] > 0 else -1
+    return periodic(scene, start, Section(k, start[k], sense))
+
+
+def in_the_middle(scene: Any, state: Any) -> Periodic | None:
+    """The elliptic periodic motion in the middle of the passages of a motion that recurs; None where the mean of these leads to none."""
+    states = _sampled(scene, np.array(state, float))
+    if states is None:
+        return None
+    middle = states.mean(axis=0)
+    swings = [np.count_nonzero(np.diff(np.signbit(states[:, n] - middle[n]))) * states[:, n].std() for n in range(3)]
+    for axis in np.argsort(swings)[::-1].tolist():
+        section = Section(axis, float(middle[axis]), 1)
+        places: list[np.ndarray] = []
+        for count in RETURNS:
+            places += passages(scene, places[-1] if places else states[-1], section, count - len(places))
+            orbit = periodic(scene, np.mean(places, axis=0), section) if len(places) == count else None
+            if orbit is not None and orbit.elliptic:
+                return orbit
+    return None
+
+
+def passages(scene: Any, state: Any, section: Section, count: int) -> list[np.ndarray]:
+    """The next passages of a section, fewer than `count` where there are no more in STEPS steps."""
+    places: list[np.ndarray] = []
+    while len(places) < count and (found := passage(scene, places[-1] if places else state, section, linear=False)) is not None:
+        places.append(found[1])
+    return places
+
+
+def continued(scenes: Any, known: Periodic) -> Periodic | None:
+    """The periodic motion of scenes(1) that one of scenes(0) becomes, followed in steps of the share that are halved where Newton's method fails; None
+    where it gets lost. scenes: share -> scene."""
+    share, step, now, section = 0.0, 1 / 4, known, known.section
+    while share < 1:
+        if step < 1 / SHARES:
+            return None
+        ahead = periodic(scenes(min(1.0, share + step)), now.state, section)
+        if ahead is None or math.dist(ahead.state, now.state) > 0.5 * math.hypot(*now.state):
+            step /= 2
+            continue
+        share, now, step = share + step, ahead, min(2 * step, 1 / 4)
+    return now
+
+
+def elliptic_of(scene: Any) -> list[Periodic]:
+    """The elliptic periodic motions at the centres that averaging finds for a scene."""
+    found = (about_centre(scene, centre) for centre in centres(scene))
+    return [one for one in found if one is not None and one.elliptic]
+
+
+def _sampled(scene, x, steps: int = 400) -> np.ndarray | None:
+    """(n, 3) states after each of some steps."""
+    rows, out = np.array(scene.quadratic().coefficients, float), []
+    for _ in range(steps):
+        a, _ = _series(rows, x, np.eye(3), False)
+        x = _at(a, _length(a))
+        if not np.isfinite(x).all():
+            return None
+        out.append(x)
+    return np.array(out)
+
+
+def _series(rows, x, V, linear):
+    """Taylor coefficients of the state, (ORDER + 1, 3), and of its derivative, (ORDER + 1, 3, 3)."""
+    a, A = np.zeros((ORDER + 1, 3)), np.zeros((ORDER + 1, 3, 3))
+    a[0], A[0] = x, V
+    kappa, rho, sigma, m = rows
+    for n in range(ORDER):
+        back = a[n::-1]
+        for i, (j, k) in enumerate(CYCLE):
+            a[n + 1, i] = (kappa[i] * (a[:n + 1, j] @ back[:, k]) + rho[i] * a[n, k] + sigma[i] * a[n, j] + (m[i] if n == 0 else 0.0)) / (n + 1)
+            if linear:
+                A[n + 1, i] = (kappa[i] * (back[:, j] @ A[:n + 1, k] + back[:, k] @ A[:n + 1, j]) + rho[i] * A[n, k] + sigma[i] * A[n, j]) / (n + 1)
+    return a, A
+
+
+def _length(a) -> float:
+    size = max(np.abs(a[0]).max(), 1e-300)
+    return float(min((TOLERANCE * size / max(np.abs(a[n]).max(), 1e-300)) ** (1 / n) for n in (ORDER - 1, ORDER)))
+
+
+def _at(a, h):
+    """The polynomial at h."""
+    return np.tensordot(h ** np.arange(len(a)), a, 1)
+
+
+def _root(row, h: float) -> float:
+    """The zero in [0, h] of a polynomial that rises through zero there: halving, then Newton's method in the bracket."""
+    low, high, t = 0.0, h, h / 2
+    slope = row[1:] * np.arange(1, len(row))
+    for _ in range(200):
+        value = float(np.polynomial.polynomial.polyval(t, row))
+        low, high = (t, high) if value < 0 else (low, t)
+        fast = float(np.polynomial.polynomial.polyval(t, slope))
+        ahead = t - value / fast if fast > 0 else math.nan
+        ahead = ahead if low < ahead < high else (low + high) / 2
+        if abs(ahead - t) <= 1e-16 * h:
+            return ahead
+        t = ahead
+    return t
