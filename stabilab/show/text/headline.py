@@ -122,7 +122,8 @@ def rate_margin(motion: Motion, units: Units, digits: int) -> str:
     """The distance from the separatrix: a number where it is one to 1e-9, else its bounds; empty where unknown."""
     if motion.velocity_because and motion.velocity_bounds:
         name, one = units.rates
-        return bracketed(*(v * one for v in motion.velocity_bounds), name, digits)
+        low, high = motion.velocity_bounds
+        return bracketed(low * one, high * one, name, digits)
     return "" if motion.margin_velocity is None else units.rate(motion.margin_velocity, digits)
 
 
