@@ -1,7 +1,6 @@
 """Spin-up under torques of any direction: how much is decided, by when and at what cost; none against a run of another kind.
 
 python -m benchmarks.spin_up pace SEED SCENES STATES: many states of a scene beside heyoka's own batches run to the times at which the certificates fire.
-python -m benchmarks.spin_up table SEED SCENES: the table of docs/spin-up.md, with the limits of an answer that is asked for none.
 python -m benchmarks.spin_up SEED SCENES [TIMES STEPS SECONDS CONTINUED]: random bodies (half generic, the rest flat, rods, nearly
 equal moments), the torque uniform on the sphere, wheels of 0, 0.1, 1, 10 and states of 0.1 to 30 natural units.
 """
@@ -121,22 +120,6 @@ def main(seed=1, scenes=100, times=2000.0, steps=60_000, seconds=170.0, continue
     return rows
 
 
-def table(seed=7, scenes=1000):
-    """Prints shares decided (per cent) by natural times and by steps, as rows of Markdown."""
-    rng, rows = random.Random(seed), []
-    for _ in range(scenes):
-        scene, state, kind, wheel = random_scene(rng)
-        rows.append((kind, wheel, spin_up(scene, state, fast=numba_available())))
-    groups = [(f"wheel {w}", [r for r in rows if r[1] == w]) for w in WHEELS] + [(k, [r for r in rows if r[0] == k]) for k in KINDS]
-    groups += [("generic, wheel <= 1", [r for r in rows if r[0] == "generic" and r[1] <= 1]), ("all", rows)]
-    print("| | scenes | t < 100 | 1e3 | 5e3 | steps < 1e3 | 1e4 | 1e5 | 6e5 | median steps |\n|---|---|---|---|---|---|---|---|---|---|")
-    for name, group in groups:
-        good, n = [r[2] for r in group if r[2].level != "undecided"], max(1, len(group))
-        shares = [sum(a.t < t for a in good) for t in (100, 1e3, 5e3)] + [sum(a.steps < k for a in good) for k in (1e3, 1e4, 1e5)] + [len(good)]
-        steps = sorted(r[2].steps for r in group)
-        print(f"| {name} | {len(group)} | " + " | ".join(f"{100 * share / n:.1f}" for share in shares) + f" | {steps[len(steps) // 2] if steps else 0} |")
-
-
 def pace(seed=1, scenes=10, states=1000, times=2000.0, steps=20_000):
     """Prints, by scene, what deciding a state costs beside its raw integration by heyoka's batches up to the same time; returns (ours, raw), s."""
     import numpy as np
@@ -207,8 +190,8 @@ def _line(group):
 
 
 if __name__ == "__main__":
-    if sys.argv[1:2] in (["pace"], ["table"]):
-        {"pace": pace, "table": table}[sys.argv[1]](*map(int, sys.argv[2:]))
+    if sys.argv[1:2] == ["pace"]:
+        pace(*map(int, sys.argv[2:]))
     else:
         kinds = (int, int, float, lambda v: int(float(v)), float, float)
         main(*(kind(v) for kind, v in zip(kinds, sys.argv[1:])))
