@@ -78,9 +78,12 @@ def interval(land: Landscape, place, w) -> Interval:
     wells = np.where(inside, spots.energy, -np.inf)
     fastest = np.maximum(wells.max(axis=1, initial=-np.inf), 0.5 * w * w)
     closest = np.where(spots.barrier, np.abs(spots.energy), np.inf).min(axis=1, initial=np.inf)
+    # from an anchor that the search put nowhere near the state the way to the end may leave the doubles
+    told = np.isfinite(left_place).all(axis=0) & np.isfinite(right_place).all(axis=0)
     half = 0.5 * (right - left)
-    middle = np.array(land.potential.move(place, 0.5 * (right + left)))
-    return Interval(left, right, left_place, right_place, fastest, middle, half, ok_r & ok_l & np.isfinite(half),
+    with np.errstate(all="ignore"):
+        middle = np.array(land.potential.move(place, 0.5 * (right + left)))
+    return Interval(left, right, left_place, right_place, fastest, middle, half, ok_r & ok_l & told & np.isfinite(half),
                     np.array([blur_l, blur_r]), np.maximum(haze_l, haze_r) + EPS * fastest, closest)
 
 
@@ -127,9 +130,9 @@ def turning_point(land, spots, place, w, side):
         y = bracketed_newton(fun, np.zeros(n), reach, start, (towards, level, *spot), rising=~anchored_at_barrier,
                              enough=1e-9)
     y = np.where(level == 0, 0.0, y) * towards
-    end = np.array(land.potential.move(tuple(spot), y))
     start = spots.offset[rows, anchor]
     with np.errstate(all="ignore"):
+        end = np.array(land.potential.move(tuple(spot), y))
         # the force at the anchor is zero only to rounding: that tilts the potential over the way from state and end, and
         # the anchor itself is off by some roundings of the angle, which count where the whole motion is not much longer
         bend, pull = np.abs(land.potential.slope(tuple(spot))), land.potential.terms(tuple(spot))

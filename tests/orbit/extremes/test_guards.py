@@ -8,9 +8,12 @@ import pytest
 
 import stabilab
 from stabilab.numbers.constants import EPS
+from stabilab.orbit.ball_orbit import Orbit
 from stabilab.orbit.extremes import guards
 from stabilab.orbit.extremes import turning_points as turning
+from stabilab.orbit.extremes_and_periods import extremes_and_periods
 from stabilab.orbit.landscape import landscape
+from stabilab.orbit.period.balls import period_ball
 from stabilab.orbit.reduction import reduce
 from tests.oracles.pairs import brink, scaled
 from tests.orbit.fate.test_fate import FAMILIES
@@ -150,3 +153,13 @@ def test_extremes_and_periods_leave_to_balls_what_is_within_their_share_of_the_s
     scale = edge[2] ** 2 / 2 + 1 + (x * x + z * z) + 0.2 * np.hypot(x, z)
     near = edge[2] ** 2 * off <= share * scale
     np.testing.assert_array_equal([tuple(s) in asked for s in states.tolist()], near)
+
+
+def test_an_end_beyond_the_doubles_beside_an_equilibrium_of_nearly_equal_moments_is_left_to_balls_without_a_warning():
+    """A wild scene: the search for the well ended elsewhere on the hyperbola. The second rate swings by the 7.2e-15 rad/s that balls find."""
+    scene = stabilab.Scene(stabilab.Body((1.1358912034371995, 1.1358912034372006, 1.369444431794344)),
+                           stabilab.Gyrostat((15.42395050522702, 0.0, 0.006658581675073356)), stabilab.ConstantTorque((0.0, 142451.4621787088, 0.0)))
+    state = tuple(map(float.fromhex, ("0x1.fa74aefe3b0dfp+9", "0x0.0p+0", "-0x1.4217b28358025p+9")))
+    box, periods = extremes_and_periods(scene, np.array([state]), False)
+    np.testing.assert_allclose(box[0, 1], np.array((-7.199010478703518e-15, 7.199010478703518e-15)), rtol=1e-9)
+    assert periods[0] == pytest.approx(float(period_ball(Orbit(reduce(scene), state), 20).mid()), rel=1e-12)
