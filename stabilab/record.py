@@ -17,9 +17,11 @@ Class = TypeVar("Class", bound=type)
 def record(cls: Class) -> Class:
     """The class as `dataclass(frozen=True)` makes it: `fields`, `replace` and `asdict` know it; words, equality, hash and refusals are the same.
 
-    A method that the class, or one above it that is no record, writes itself stays. Data classes above it are records too.
+    A method that the class, or one above it that is no record, writes itself stays. A frozen data class may stand above it or below it.
     """
-    made = dataclass(repr=False, eq=False)(cls)
+    above = any(vars(one)["__dataclass_params__"].frozen for one in cls.__mro__[1:] if "__dataclass_params__" in vars(one))
+    made: Any = dataclass(repr=False, eq=False, frozen=above)(cls)
+    made.__dataclass_params__.frozen = True  # what `dataclass` asks the classes above: a frozen one takes only its like
     for name, method in SHARED.items():
         if getattr(cls, name) is getattr(object, name):
             setattr(made, name, method)

@@ -43,6 +43,20 @@ class Two(One):
         object.__setattr__(self, "b", 2 * self.b)
 
 
+def test_a_frozen_data_class_may_stand_below_a_record():
+    @dataclass(frozen=True)
+    class Below(One):
+        b: int = 3
+
+    one = replace(Below(1), b=5)
+    assert one == Below(1, 5) and hash(one) == hash(Below(1, 5)) and asdict(one) == {"a": 1, "b": 5}  # as one data class below another
+    for name in ("a", "b", "c"):
+        with pytest.raises(FrozenInstanceError):
+            setattr(one, name, 0)
+    with pytest.raises(TypeError, match="frozen"):
+        dataclass(type("Loose", (One,), {}))  # as the standard library refuses it
+
+
 def test_a_record_says_what_the_standard_class_says():
     for arguments in ((1, (2, 3)), (1, (2,), {"k": 1}), (1, (), {}, "other")):
         assert repr(Made(*arguments)) == repr(Standard(*arguments))
