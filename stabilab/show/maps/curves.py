@@ -1,4 +1,4 @@
-"""A sweep along one axis: a curve for every number, the fate as the colour behind it."""
+"""A sweep along one axis: a curve for every number, the fate (or how it is known) as the colour behind it."""
 from __future__ import annotations
 
 from typing import Any
@@ -6,21 +6,21 @@ from typing import Any
 import numpy as np
 
 from .. import style
-from .shades import FATES, fate_legend, label, light, own_value, scale_axes, short_label
+from .shades import FLAGS, flag_legend, label, light, looks, own_value, scale_axes, short_label
 
 TOGETHER = (("margin",), ("distance",), ("least", "greatest"), ("period",), ("when_low", "when_high"), ("equilibria", "stable", "unstable", "open"))
 
 
-def curves(data: Any, plan: Any, along: str, size: Any, plt: Any) -> Any:
-    """The figure: a panel for each question."""
-    panels = [[name for name in names if name in data] for names in TOGETHER]
+def curves(data: Any, plan: Any, kind: str, along: str, size: Any, plt: Any) -> Any:
+    """The figure: a panel for each question; of a column other than the fate, the panel that it is in alone."""
+    panels = [[name for name in names if name in data] for names in TOGETHER if kind in (*FLAGS, *names)]
     panels = [names for names in panels if names and np.isfinite(np.asarray(data[names[0]], float)).any()] or [[]]
     figure, axes = plt.subplots(len(panels), 1, sharex=True, squeeze=False, layout="constrained", figsize=size or (8, 1.4 + 2.2 * len(panels)))
-    x = np.asarray(data[along])
+    x, behind = np.asarray(data[along]), kind if kind in FLAGS else "fate"
     order = np.argsort(x)
     for ax, names in zip(axes[:, 0], panels):
-        if "fate" in data:
-            _bands(ax, x[order], np.asarray(data["fate"])[order])
+        if behind in data:
+            _bands(ax, x[order], np.asarray(data[behind])[order], looks(data, behind))
         _lines(ax, data, x, order, names)
         ax.set_xlim(x.min(), x.max())
         scale_axes(ax, x)
@@ -30,16 +30,16 @@ def curves(data: Any, plan: Any, along: str, size: Any, plt: Any) -> Any:
     if own is not None and x.min() <= own <= x.max():
         for ax in axes[:, 0]:
             ax.axvline(own, color=style.BLACK, linewidth=0.8, linestyle=":", label="the case itself")
-    _legend(figure, data, axes[:, 0])
+    _legend(figure, flag_legend(data, behind) if behind in data else [], axes[:, 0])
     return figure
 
 
-def _bands(ax, x, fates):
-    """Areas of one fate, each from half way before its first point to half way after its last."""
+def _bands(ax, x, flags, look):
+    """Areas of one flag, each from half way before its first point to half way after its last."""
     edges = np.concatenate([[x[0]], 0.5 * (x[1:] + x[:-1]), [x[-1]]])
-    cuts = [0, *(np.flatnonzero(np.diff(fates)) + 1), len(fates)]
+    cuts = [0, *(np.flatnonzero(np.diff(flags)) + 1), len(flags)]
     for first, last in zip(cuts, cuts[1:]):
-        ax.axvspan(edges[first], edges[last], facecolor=light(FATES[int(fates[first])][1], 0.22), linewidth=0, zorder=0)
+        ax.axvspan(edges[first], edges[last], facecolor=light(look[int(flags[first])][1], 0.22), linewidth=0, zorder=0)
 
 
 def _lines(ax, data, x, order, names):
@@ -74,8 +74,7 @@ def _broken(data, order, values):
     return ends
 
 
-def _legend(figure, data, axes):
-    rows = fate_legend(data) if "fate" in data else []
+def _legend(figure, rows, axes):
     for ax in axes:
         handles, words = ax.get_legend_handles_labels()
         if len(words) > 1 + ("the case itself" in words):

@@ -10,7 +10,7 @@ from ...maps.boundary import changes, known_exactly
 from ...maps.columns import ENDLESS, NONE, OPEN
 from ...orbit.result import Fate
 from .. import style
-from .shades import FATES, fate_legend, label, light, own_value, scale_axes
+from .shades import FLAGS, LONG, flag_legend, label, light, looks, own_value, scale_axes
 
 COUNTS = ("equilibria", "stable", "unstable", "open")
 WITHOUT = {ENDLESS: "curves", OPEN: "open", NONE: "no case"}
@@ -27,7 +27,7 @@ def fields(data: Any, plan: Any, kind: str, moving: list[str], panels: list[dict
     limits = _limits(data, kind)
     for ax, place in zip(axes.flat, panels):
         here = data.isel(place)
-        shown = _map(ax, here, kind, moving, limits)
+        shown = _map(ax, here, data, kind, moving, limits)
         if kind == "fate":
             rows |= _boundary(ax, here, plan, moving, _index(data, plan, place))
             if "margin" in here and len(panels) == 1:
@@ -35,22 +35,23 @@ def fields(data: Any, plan: Any, kind: str, moving: list[str], panels: list[dict
         scale_axes(ax, np.asarray(here[moving[0]]), np.asarray(here[moving[1]]))
         rows |= _own(ax, here, plan, moving) if not place else {}
         if place:
-            ax.set_title(", ".join(f"{name.replace('_', ' ')} = {float(data[name][n]):.4g} {_unit(data, name)}".strip() for name, n in place.items()))
+            ax.set_title(",\n".join(f"{name.replace('_', ' ')} = {float(data[name][n]):.4g} {_unit(data, name)}".strip() for name, n in place.items()))
     for ax in axes.flat[len(panels):]:
         ax.set_visible(False)
     for ax in (axes.flat[n] for n in range(len(panels)) if n + across >= len(panels)):
         ax.set_xlabel(label(data, moving[0]))
         ax.xaxis.set_tick_params(labelbottom=True)
     for ax in axes[:, 0]:
-        ax.set_ylabel(label(data, moving[1]))
-    figure.suptitle(data.attrs.get("title", ""), fontsize=10.5, wrap=True)
-    if kind != "fate":
-        bar = figure.colorbar(shown, ax=axes, label=label(data, kind) + (", greatest of the three axes" if "axis" in data[kind].dims else ""))
+        ax.set_ylabel(label(data, moving[1], LONG if down == 1 else 0))
+    figure.suptitle(str(data.attrs.get("title", "")) + _of_all(data, panels), fontsize=10.5, wrap=True)
+    if kind not in FLAGS:
+        of_axes = f", {'least' if kind == 'least' else 'greatest'} of the three axes" if "axis" in data[kind].dims else ""
+        bar = figure.colorbar(shown, ax=axes, label=label(data, kind) + of_axes)
         if kind in COUNTS:
             numbers = [n for n in range(int(limits[0]), int(limits[1]) + 1) if n >= 0 or (np.asarray(data[kind]) == n).any()]
             bar.set_ticks(numbers, labels=[WITHOUT.get(n, str(n)) for n in numbers])
             bar.ax.tick_params(length=0)
-    handles = [*(fate_legend(data) if kind == "fate" else []), *((h, w) for w, h in rows.items())]
+    handles = [*(flag_legend(data, kind) if kind in FLAGS else []), *((h, w) for w, h in rows.items())]
     if handles:
         figure.legend(*zip(*handles), loc="outside lower center", ncols=min(4, len(handles)))
     return figure
@@ -61,15 +62,24 @@ def _unit(data, name) -> str:
     return "" if unit == "1" else unit
 
 
+def _of_all(data, panels) -> str:
+    """What share of the maps is shown, where not all are."""
+    number = math.prod(data.sizes[name] for name in panels[0])
+    return f" ({len(panels)} of {number} maps)" if len(panels) < number else ""
+
+
 def _index(data, plan, place) -> tuple[int, ...]:
     """The place along every dimension of the sweep; 0 where the map varies."""
     by_key = {data[name].attrs["long_name"]: n for name, n in place.items()}
     return tuple(by_key.get(axis.key.name, 0) for axis in plan.axes)
 
 
-def _values(data, kind) -> np.ndarray:
+def values_of(data, kind) -> np.ndarray:
+    """A number for each point: of three axes the least of what is least, the greatest of what is greatest."""
     array = data[kind]
-    return np.asarray(abs(array).max("axis") if "axis" in array.dims else array)
+    if "axis" in array.dims:
+        array = array.min("axis") if kind == "least" else array.max("axis")
+    return np.asarray(array)
 
 
 def _own(ax, data, plan, moving) -> dict[str, Any]:
@@ -86,19 +96,21 @@ def _own(ax, data, plan, moving) -> dict[str, Any]:
 
 
 def _limits(data, kind) -> tuple[float, float]:
-    values = np.asarray(_values(data, kind), float)
+    values = np.asarray(values_of(data, kind), float)
     values = values[np.isfinite(values)]
     return (float(values.min()), float(values.max())) if values.size else (0.0, 1.0)
 
 
-def _map(ax, data, kind, moving, limits) -> Any:
+def _map(ax, data, whole, kind, moving, limits) -> Any:
     from matplotlib.colors import BoundaryNorm, ListedColormap
     x, y = (np.asarray(data[name]) for name in moving[:2])
     dims = [d for d in data[kind].dims if d != "axis"]
-    values = _values(data, kind) if dims == moving[:2] else _values(data, kind).T
+    values = values_of(data, kind) if dims == moving[:2] else values_of(data, kind).T
     options: dict[str, Any] = {"shading": "nearest", "rasterized": True}
-    if kind == "fate":
-        options |= {"cmap": ListedColormap([light(colour) for _, colour in FATES.values()]), "vmin": -0.5, "vmax": len(FATES) - 0.5}
+    if kind in FLAGS:
+        look = looks(whole, kind)
+        options |= {"cmap": ListedColormap([light(colour) for _, colour in look.values()]), "vmin": -0.5, "vmax": len(look) - 0.5}
+        values = np.searchsorted(list(look), values)
     elif kind in COUNTS:
         levels = np.arange(limits[0], limits[1] + 2) - 0.5
         colours = ListedColormap([light(colour, 0.6) for colour in (style.GREY, *style.SHEETS)][:max(2, len(levels) - 1)])

@@ -1,20 +1,20 @@
 """A sweep's file as a picture: curves along one axis, a map along two, small maps side by side along more."""
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ...errors import InputError, printable
+from ...maps.columns import columns_of
 from ...maps.plan import Plan, from_json
 from ...packages import demand
 from .. import style
 from ..files import endings
 from .curves import curves
 from .field import fields
-from .labels import SAMPLE
+from .labels import SAMPLE, dimensions
 from .spread import spread
 
 if TYPE_CHECKING:
@@ -31,32 +31,71 @@ def write(path: str | Path, out: str | Path, kind: str | None = None, size: tupl
     target = endings.file(out, endings.PICTURES)
     data, plan = opened(Path(path))
     with style.drawing() as plt:
-        figure = _drawn(data, plan, chosen(data, kind), size, plt)
+        figure = drawn(data, plan, chosen(data, kind), size, plt)
         return style.save(figure, target, dpi)
 
 
 def opened(path: Path) -> tuple[xarray.Dataset, Plan]:
-    """The data set of a file and the sweep that it is of."""
-    import xarray
-    words = f"{path}: expected a file of stabilab sweep (NetCDF)"
+    """The data set of a file and the sweep that it is of. Raises InputError for what is no such file, is cut off, or was changed since."""
+    words = f"{printable(str(path))}: expected a file of stabilab sweep (NetCDF)"
+    if path.is_dir():
+        raise InputError(f"{words}, got a folder")
     if not path.is_file():
         raise InputError(f"{path}: no such file; stabilab sweep --out {path} makes one")
+    data = _read(path, words)
+    if "sweep" not in data.attrs:
+        raise InputError(f"{words}: this one is of another kind: it does not say of which sweep it is")
     try:
-        with xarray.open_dataset(path, engine="scipy") as found:
-            data = found.load()
-        return data, from_json(data.attrs["sweep"])
-    except (TypeError, ValueError, KeyError, OSError, json.JSONDecodeError) as error:
-        raise InputError(f"{words}: {printable(str(error)) or type(error).__name__}"[:300]) from None
+        plan = from_json(data.attrs["sweep"])
+        off = differing(data, plan)
+    except Exception:  # of any kind: what stands there is no plan, or of another version
+        raise InputError(f"{words}: what it says of its sweep cannot be read: was it changed, or made by another version?") from None
+    if off:
+        raise InputError(f"{words}: its {off} is not that of the sweep that it says it is of: was it changed since?")
+    return data, plan
+
+
+def _read(path: Path, words: str) -> xarray.Dataset:
+    import warnings
+
+    import xarray
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of bytes that mean nothing a reader may say anything
+            with xarray.open_dataset(path, engine="scipy") as found:
+                return found.load()
+    except OSError as error:
+        if error.strerror:
+            raise InputError(f"{printable(str(path))}: {error.strerror}") from None
+    except Exception:  # and raise anything
+        pass
+    raise InputError(f"{words}: this one is of another format, or cut off")
+
+
+def differing(data: xarray.Dataset, plan: Plan) -> str:
+    """What of a data set is not as the sweep made it, "" where all is: a part of a sweep would have its boundary drawn elsewhere."""
+    dims = dimensions(plan)
+    for name, axis in zip(dims, plan.axes):
+        same = name in data.coords and data[name].attrs.get("long_name") == axis.key.name and np.array_equal(data[name].values, np.array(axis.values))
+        if not same:
+            return f"axis {name}"
+    for column in columns_of(plan.answers)[1:]:
+        expected = (*dims, *(["axis"] if column.shape else []))
+        if column.name not in data or data[column.name].dims != expected or data[column.name].shape != (*plan.shape, *column.shape):
+            return f"column {column.name}"
+    return ""
 
 
 def chosen(data: xarray.Dataset, kind: str | None) -> str:
-    """The column that is drawn."""
+    """The column that is drawn. Raises InputError where the file lacks it, or no number of it could be drawn."""
     have = [name for name in ("fate", *NUMBERS, "level", "reason") if name in data]
-    if kind is None:
-        return have[0]
-    if kind not in have:
+    if kind is not None and kind not in have:
         raise InputError(f"plot {printable(kind)[:40]}: this file has {', '.join(have)}")
-    return kind
+    asked = have if kind is None else [kind]
+    found = next((name for name in asked if np.isfinite(data[name]).any()), None)
+    if found is None:
+        raise InputError(f"plot: nothing to draw: no point has a finite value of {' or '.join(asked)}")
+    return found
 
 
 def dimensions_of(data: xarray.Dataset) -> list[str]:
@@ -65,7 +104,8 @@ def dimensions_of(data: xarray.Dataset) -> list[str]:
     return [str(d) for d in data[name].dims if d not in (SAMPLE, "axis")]
 
 
-def _drawn(data, plan, kind, size, plt) -> Any:
+def drawn(data: xarray.Dataset, plan: Plan, kind: str, size: tuple[float, float] | None, plt: Any) -> Any:
+    """The figure of a column: curves, a map, small maps, or how samples spread."""
     moving = [name for name in dimensions_of(data) if data.sizes[name] > 1]
     data = data.isel({name: 0 for name in dimensions_of(data) if name not in moving})
     if SAMPLE in data.sizes:
@@ -73,7 +113,7 @@ def _drawn(data, plan, kind, size, plt) -> Any:
     if len(moving) < 2:
         if not moving:
             raise InputError("a sweep of one point has no picture: stabilab plot draws its case")
-        return curves(data, plan, moving[0], size, plt)
+        return curves(data, plan, kind, moving[0], size, plt)
     panels = _panels(data, moving)
     return fields(data, plan, kind, moving, panels, size, plt)
 

@@ -16,6 +16,7 @@ from .. import style
 # fate -> (its name in a legend, its colour)
 FATES = {Fate.BOUNDED: ("bounded", style.BLUE), Fate.SPIN_UP: ("spins up", style.VERMILION), Fate.SEPARATRIX: ("on the separatrix", style.BLACK),
          Fate.EQUILIBRIUM: ("at rest", style.GREEN), Fate.UNDECIDED: ("undecided", style.YELLOW), 5: ("no case", style.GREY)}
+FLAGS = ("fate", "level", "reason")  # columns of words
 LIGHT = 0.45  # of a colour that fills an area
 LONG = 28  # letters of a key beside an axis
 
@@ -26,11 +27,12 @@ def light(colour: str, share: float = LIGHT) -> tuple[float, float, float]:
     return red, green, blue
 
 
-def label(data: Any, name: str) -> str:
-    """The name of a dimension or column with its unit."""
+def label(data: Any, name: str, most: int = LONG) -> str:
+    """The name of a dimension or column with its unit; of a dimension as many of its last words as `most` letters take, one at least."""
     attrs = data[name].attrs
     words, unit = str(attrs.get("long_name", name)), attrs.get("units", "1")
-    words = words if len(words) <= LONG or name not in data.dims else ".".join(words.split(".")[-2:])
+    while name in data.dims and len(words) > most and "." in words:
+        words = words.partition(".")[2]
     return words if unit == "1" else f"{words} ({unit})"
 
 
@@ -65,8 +67,19 @@ def own_value(plan: Plan, dimension: int) -> float | None:
     return None if exact is None else float(exact / unit_of(axis.unit).size) if axis.unit else float(exact)
 
 
-def fate_legend(data: Any) -> list[tuple[Any, str]]:
-    """(patch, words) of every fate that occurs."""
+def looks(data: Any, kind: str) -> dict[int, tuple[str, str]]:
+    """value -> (its word, its colour) of a column of flags: fates have colours of their own, others those of a series, as they occur."""
+    if kind == "fate":
+        return {int(value): FATES[value] for value in sorted(FATES)}
+    words = str(data[kind].attrs["flag_meanings"]).split()
+    present = np.unique(np.asarray(data[kind])).tolist()
+    colours = [*style.SERIES, *style.SHEETS]
+    return {value: (words[value].replace("_", " ") if value >= 0 else "not told", style.GREY if value < 0 else colours[n % len(colours)])
+            for n, value in enumerate(present)}
+
+
+def flag_legend(data: Any, kind: str) -> list[tuple[Any, str]]:
+    """(patch, words) of every flag of a column that occurs."""
     from matplotlib.patches import Patch
-    present = [value for value in FATES if (np.asarray(data["fate"]) == value).any()]
-    return [(Patch(facecolor=light(FATES[value][1]), edgecolor=FATES[value][1]), FATES[value][0]) for value in present]
+    values = np.asarray(data[kind])
+    return [(Patch(facecolor=light(colour), edgecolor=colour), words) for value, (words, colour) in looks(data, kind).items() if (values == value).any()]

@@ -10,7 +10,8 @@ from stabilab.errors import InputError
 from stabilab.maps.boundary import changes
 from stabilab.maps.plan import planned
 from stabilab.maps.points import case_at
-from stabilab.show.maps import field, picture, shades
+from stabilab.show import style
+from stabilab.show.maps import curves, field, picture, shades
 from tests.shared import CASES
 
 xarray = pytest.importorskip("xarray")
@@ -72,6 +73,62 @@ def test_what_is_no_sweep_is_refused(tmp_path, stabilab):
     sweep(MINOR, {"x[1]": "1"}, out=tmp_path / "one.nc")
     with pytest.raises(InputError, match="one point"):
         picture.write(tmp_path / "one.nc", tmp_path / "x.png")
+    assert "got a folder" in _refused(tmp_path)
+
+
+def _refused(path):
+    path = path / "folder.nc"
+    path.mkdir()
+    with pytest.raises(InputError) as error:
+        picture.opened(path)
+    return str(error.value)
+
+
+def test_a_file_that_is_cut_off_or_changed_is_one_error(swept, tmp_path):
+    whole, other = swept.read_bytes(), tmp_path / "other.nc"
+    for content in (whole[:40], whole[:500], whole[:-40], whole.replace(b'"vary"', b'"vbry"'), whole.replace(b"x_1", b"x_9"),
+                    whole.replace(b"long_name", b"lung_name"), whole.replace(b"margin", b"morgin")):
+        assert content != whole
+        other.write_bytes(content)
+        with pytest.raises(InputError, match="expected a file of stabilab sweep"):
+            picture.write(other, tmp_path / "x.png")
+    assert not (tmp_path / "x.png").exists()
+
+
+def test_a_part_of_a_sweep_is_refused_since_its_boundary_would_be_that_of_another(swept, tmp_path):
+    xarray.load_dataset(swept, engine="scipy").isel(x_1=slice(2, None)).to_netcdf(tmp_path / "part.nc", engine="scipy")
+    with pytest.raises(InputError, match="its axis x_1 is not that of the sweep"):
+        picture.write(tmp_path / "part.nc", tmp_path / "x.png")
+
+
+def test_a_column_without_a_finite_number_is_refused_and_not_drawn_empty(tmp_path):
+    sweep(MINOR, {"x[3]": "100:101:3"}, answer="period", out=tmp_path / "up.nc")  # far above every barrier: a spin-up has no period
+    with pytest.raises(InputError, match="no point has a finite value of period"):
+        picture.write(tmp_path / "up.nc", tmp_path / "x.png")
+
+
+def test_a_column_named_is_drawn_alone_along_one_axis(tmp_path):
+    data = sweep(MINOR, {"x[1]": "1:2:3"}, answer="fate,margin,period", out=tmp_path / "line.nc")
+    plan = picture.opened(tmp_path / "line.nc")[1]
+    with style.drawing() as plt:
+        assert [ax.get_ylabel() for ax in curves.curves(data, plan, "period", "x_1", None, plt).axes] == ["period"]
+        assert len(curves.curves(data, plan, "fate", "x_1", None, plt).axes) == 2
+
+
+def test_flags_are_drawn_in_words_and_rates_with_their_sign():
+    data = sweep(MINOR, {"mu[1]": "0, 0.4", "x[3]": "0, 4"}, answer="fate,level,extremes")
+    assert [word for _, word in shades.flag_legend(data, "level")] == ["certified", "exact"]
+    assert (field.values_of(data, "least") == data.least.values.min(axis=-1)).all() and (field.values_of(data, "least") < 0).all()
+
+
+def test_no_title_of_small_maps_lies_on_its_neighbour(tmp_path):
+    data = sweep(MINOR, {"momentum[1]": "100, 200", "x[1]": "0, 1", "x[2]": "0:1:4", "x[3]": "0:1:4"}, out=tmp_path / "four.nc")
+    plan = picture.opened(tmp_path / "four.nc")[1]
+    with style.drawing() as plt:
+        figure = picture.drawn(data, plan, "fate", None, plt)
+        figure.canvas.draw()
+        boxes = [ax.title.get_window_extent() for ax in figure.axes[:2]]
+        assert boxes[0].x1 < boxes[1].x0 and "9 of 16 maps" in figure.get_suptitle()
 
 
 @pytest.mark.parametrize("values, logarithmic", [((1, 10, 100), True), ((1, 2, 3), False), ((-1, 0, 1), False), ((1, 2), False)])
