@@ -25,7 +25,7 @@ from .plan import Chunk, Plan
 from .points import case_of, states_of
 
 COMPILED = 20_000  # states for which loading numba's code pays
-NO_CASE_VALUES = {"fate": NO_CASE, "reason": -1, "equilibria": NONE}
+NO_CASE_VALUES = {"fate": NO_CASE, "level": -1, "reason": -1, "when_level": -1, "equilibria": NONE, "stable": NONE, "unstable": NONE, "open": NONE}
 
 
 def answered(plan: Plan, number: int) -> np.ndarray:
@@ -104,7 +104,7 @@ def _times(found, out: np.ndarray) -> None:
 
 def _single(plan: Plan, case: Case, states: np.ndarray, out: np.ndarray) -> None:
     """States that are answered one by one: liquid, medium, field."""
-    for state, row in zip(states.tolist(), out):
+    for n, state in enumerate(states.tolist()):
         here = replace(case, state=tuple(state)) if tuple(state) != case.state else case
         brief = not {"distance", "period"} & set(plan.answers)
         found = motion(here.scene, here.start, here.span, brief, here.exact_state)
@@ -116,10 +116,10 @@ def _single(plan: Plan, case: Case, states: np.ndarray, out: np.ndarray) -> None
                    "period": (0.0 if found.fate == Fate.EQUILIBRIUM else np.inf) if found.period is None else found.period}
         for name, value in columns.items():
             if name in out.dtype.names:
-                row[name] = value
+                out[name][n] = value
         if "when" in plan.answers:
             limit = plan.limit_of(here)
-            _times(time_to(here.scene, start_of(here.scene, here.state, here.blocks), **limit.ask, t_max=limit.until), row)
+            _times(time_to(here.scene, start_of(here.scene, here.state, here.blocks), **limit.ask, t_max=limit.until), out[n:n + 1])
 
 
 def _equilibria(case: Case, out: np.ndarray) -> None:

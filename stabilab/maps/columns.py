@@ -30,27 +30,28 @@ class Column(NamedTuple):
 
 
 NOT_KNOWN = "NaN where it is not known"
+FOLLOWED = "over all time, or over the span of the case where no law holds and the motion is followed"
 # what may be asked -> its columns
 ANSWERS: dict[str, tuple[Column, ...]] = {
     "fate": (Column("fate", "i1", "", "what becomes of the motion", (*(fate.word for fate in Fate), "no_case")),
              Column("spin_axis", "i1", "", "axis of a spin-up with its sense as a sign", note="0 where there is none, or it is no principal axis")),
-    "level": (Column("level", "i1", "", "how well the fate is known", LEVELS),),
+    "level": (Column("level", "i1", "", "how well the fate is known", LEVELS, note="-1: no case"),),
     "reason": (Column("reason", "i1", "", "why the fate is known", tuple(reason.name.lower() for reason in Reason),
                       note="-1 where a motion is answered by itself: stabilab fate tells why"),),
     "margin": (Column("margin", "f8", ENERGY, "height of the barrier ahead less the energy",
                       note=f"-inf without a barrier ahead, +inf where none bounds the motion, {NOT_KNOWN}"),),
     "distance": (Column("distance", "f8", RATE, "smallest change of the rates that reaches the separatrix", note=f"+inf without one, {NOT_KNOWN}"),),
-    "extremes": (Column("least", "f8", RATE, "least rate about each principal axis", shape=(3,), note=f"-inf where unbounded, {NOT_KNOWN}"),
-                 Column("greatest", "f8", RATE, "greatest rate about each principal axis", shape=(3,), note=f"+inf where unbounded, {NOT_KNOWN}")),
+    "extremes": (Column("least", "f8", RATE, "least rate about each principal axis", shape=(3,), note=f"-inf where unbounded, {NOT_KNOWN}; {FOLLOWED}"),
+                 Column("greatest", "f8", RATE, "greatest rate about each principal axis", shape=(3,), note=f"+inf where unbounded, {NOT_KNOWN}; {FOLLOWED}")),
     "period": (Column("period", "f8", TIME, "period of the motion", note="+inf where it does not repeat or is not known to, 0 at rest"),),
     "when": (Column("when_low", "f8", TIME, "the limit is not reached before", note="+inf: never"),
              Column("when_high", "f8", TIME, "the limit is reached by", note="+inf: never; NaN where that is not known"),
-             Column("when_level", "i1", "", "how well the time is known", LIMIT_LEVELS)),
+             Column("when_level", "i1", "", "how well the time is known", LIMIT_LEVELS, note="-1: no case")),
     "equilibria": (Column("equilibria", "i4", "", "number of equilibria",
                           note=f"{ENDLESS}: curves of them, {OPEN}: not all of them are known, {NONE}: no case"),),
-    "verdict": (Column("stable", "i4", "", "stable equilibria, and stable pieces of curves of them"),
-                Column("unstable", "i4", "", "unstable equilibria, and unstable pieces of curves of them"),
-                Column("open", "i4", "", "equilibria and pieces whose stability is undecided")),
+    "verdict": (Column("stable", "i4", "", "stable equilibria, and stable pieces of curves of them", note=f"{NONE}: no case"),
+                Column("unstable", "i4", "", "unstable equilibria, and unstable pieces of curves of them", note=f"{NONE}: no case"),
+                Column("open", "i4", "", "equilibria and pieces whose stability is undecided", note=f"{NONE}: no case")),
 }
 DEFAULT = ("fate", "level", "margin")
 VALID = Column("valid", "i1", "", "whether the numbers make a case", ("no", "yes"))

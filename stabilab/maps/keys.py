@@ -29,18 +29,24 @@ def keys_of(data: dict[str, Any]) -> dict[str, Key]:
 
 def key_of(data: dict[str, Any], text: str) -> Key:
     """The number that is meant: its whole name, or the end of one where no other number ends so. Raises InputError with what is near otherwise."""
-    known, asked = keys_of(data), "".join(text.split())
-    if asked in known:
-        return known[asked]
-    ending = [name for name in known if name.endswith(f".{asked}")]
+    known, asked = keys_of(data), _tight(text)
+    if text.strip() in known:
+        return known[text.strip()]
+    same = [name for name in known if _tight(name) == asked]
+    ending = same or [name for name in known if _tight(name).endswith(f".{asked}")]
     if len(ending) == 1:
         return known[ending[0]]
     if ending:
         raise InputError(f"vary {printable(text)[:80]}: may be {_listed(ending)}: write one of them")
-    parts = [name for name in known if name.startswith(f"{asked}[") or f".{asked}[" in name]
+    parts = [name for name in known if f".{asked}[" in f".{_tight(name)}"]
     if parts:
         raise InputError(f"vary {printable(text)[:80]}: has several numbers: vary one of them, {_listed(parts)}")
     raise InputError(f"vary {printable(text)[:80]}: this case has no such number{_near(asked, known)}")
+
+
+def _tight(text: str) -> str:
+    """Without blanks, which a wheel's name may have and a key may be typed with."""
+    return "".join(text.split())
 
 
 def value_at(data: Any, path: tuple[Any, ...]) -> Any:
@@ -83,10 +89,14 @@ def _both_sides(data: dict[str, Any], path: tuple[Any, ...]) -> tuple[tuple[Any,
 
 
 def _near(asked: str, known: dict[str, Key]) -> str:
-    tails = {name.rpartition(".")[2]: name for name in known}
-    near = get_close_matches(asked[:80], known, n=1, cutoff=0.6)
-    near = near or [tails[tail] for tail in get_close_matches(asked.rpartition(".")[2][:60], tails, n=1, cutoff=0.6)]
-    return f"; did you mean {printable(near[0])}?" if near else f"; it has {_listed(list(known))}" if known else "; it has none that may vary"
+    tails = {name.rpartition(".")[2].lower(): name for name in known}
+    words = asked[:80].lower()
+    near = _closest(words, {name.lower(): name for name in known}) or _closest(words.rpartition(".")[2], tails) or _closest(words, tails)
+    return f"; did you mean {printable(near)}?" if near else f"; it has {_listed(list(known))}" if known else "; it has none that may vary"
+
+
+def _closest(asked: str, names: dict[str, str]) -> str | None:
+    return next((names[found] for found in get_close_matches(asked, names, n=1, cutoff=0.6)), None)
 
 
 def _listed(names: list[str]) -> str:

@@ -179,7 +179,7 @@ def split_keys(words: Sequence[str]) -> list[tuple[str, str]]:
     for word in words:
         if "=" not in word:
             raise InputError(f'--vary: expected KEY=START:STOP:COUNT or KEY=A,B,C, got "{printable(word)[:60]}"')
-    return [(key.strip(), values.strip()) for key, _, values in (word.partition("=") for word in words)]
+    return [(key.strip(), values.strip()) for key, _, values in (word.rpartition("=") for word in words)]  # values have none, a wheel's name may
 
 
 def planned(case: Case | str | os.PathLike[str], vary: Mapping[str, Any] | Sequence[tuple[str, Any]], samples: int | None = None, seed: int = 1,
@@ -213,6 +213,8 @@ def _judge(plan: Plan) -> None:
         raise InputError(f"expected at most {AXES} axes, got {len(plan.shape)}")
     if plan.points > MOST:
         raise InputError(f"{' x '.join(map(str, plan.shape))} are {plan.points:,} points; at most {MOST:,} are run")
+    if plan.limit and "when" not in plan.answers:
+        raise InputError(f"{plan.limit[0][0]}: belongs to the answer when, which is not asked for: add it, as in --answer fate,when")
     moving = [name for name in plan.answers if name not in ("equilibria", "verdict")]
     if moving and case.state is None:
         raise InputError(f"{case.place}: motion: expected x or angular_velocity in [motion]; {', '.join(moving)} need a state")

@@ -39,6 +39,12 @@ def test_the_end_of_a_name_is_enough_where_one_number_ends_so():
     assert key_of(DATA, "torque[3]").name == "effects.constant_torque.torque[3]"
 
 
+def test_blanks_in_a_wheels_name_and_in_a_typed_key_do_not_matter():
+    data = tomllib.loads(TEXT.replace('"W2"', '"W 2.x"'), parse_float=Written)
+    for asked in ("wheels.W 2.x.momentum", "W 2.x.momentum", " wheels.W2.x . momentum"):
+        assert key_of(data, asked).paths == (("wheels", 1, "momentum"),)
+
+
 def test_a_product_of_inertia_stands_on_both_sides():
     assert key_of(DATA, "inertia[2][1]").paths == key_of(DATA, "inertia[1][2]").paths == (("body", "inertia", 0, 1), ("body", "inertia", 1, 0))
 
@@ -48,7 +54,9 @@ def test_names_and_truths_are_no_numbers():
 
 
 @pytest.mark.parametrize("asked, words", [("momentum", "may be wheels.W1.momentum, wheels.W2.momentum"), ("torque", "vary one of them, effects"),
-                                          ("wheels.W3.momentum", "did you mean wheels.W"), ("torqe[3]", "did you mean effects.constant_torque.torque[3]?")])
+                                          ("wheels.W3.momentum", "did you mean wheels.W"), ("torqe[3]", "did you mean effects.constant_torque.torque[3]?"),
+                                          ("TORQUE[3]", "did you mean effects.constant_torque.torque[3]?"),
+                                          ("torque.3", "did you mean effects.constant_torque.torque[")])
 def test_what_is_no_one_number_is_told_with_what_is_near(asked, words):
     with pytest.raises(InputError) as error:
         key_of(DATA, asked)

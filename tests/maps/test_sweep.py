@@ -9,6 +9,7 @@ import pytest
 import stabilab
 from stabilab.answers.equilibria import equilibria
 from stabilab.answers.motion import motion
+from stabilab.case.read import read_text
 from stabilab.errors import InputError
 from stabilab.maps import parts
 from stabilab.maps.chunk import answered
@@ -50,7 +51,7 @@ def test_the_order_of_the_axes_is_the_users():
 
 
 def test_a_state_in_the_frame_of_a_full_tensor_is_turned(tmp_path):
-    found = swept("upper-stage", {"angular_velocity[2]": "-1:1:3 deg/s"}, answer="extremes", until="1 s")
+    found = swept("upper-stage", {"angular_velocity[2]": "-1:1:3 deg/s"}, answer="extremes")
     for n, rate in enumerate(("-1 deg/s", "0 deg/s", "1 deg/s")):
         one = written(tmp_path, "upper-stage", angular_velocity=f'["1.5 deg/s", "{rate}", "-0.05 deg/s"]')
         start = np.array(one.state)
@@ -76,13 +77,28 @@ def test_a_limit_is_reached_when_the_case_alone_reaches_it():
 def test_scenes_without_arrays_are_answered_one_by_one(tmp_path):
     found = swept("liquid-base", {"angular_velocity[1]": "0, 0.5"}, answer="fate,extremes,verdict")
     for n, rate in enumerate(("0", "0.5")):
-        from stabilab.case.read import read_text
         text = (CASES / "liquid-base.toml").read_text(encoding="utf-8")
         case = stabilab.load(CASES / "liquid-base.toml")
         first = next(line for line in text.splitlines() if line.startswith("angular_velocity"))
         one = read_text("x.toml", text.replace(first, f"angular_velocity = [{rate}, {case.state[1]!r}, {case.state[2]!r}]"))
         expected = motion(one.scene, one.start, one.span)
         assert found.records["fate"][n] == expected.fate and found.records["greatest"][n] == pytest.approx([b for _, b in expected.extremes])
+
+
+def test_a_limit_is_asked_of_scenes_without_arrays_too():
+    found = swept("top-fast", {"lambda": "0.5, 1"}, answer="when", component="1 = 100")
+    for n, share in enumerate(("0.5", "1")):
+        text = (CASES / "top-fast.toml").read_text(encoding="utf-8")
+        first = next(line for line in text.splitlines() if line.startswith("lambda"))
+        one = read_text("x.toml", text.replace(first, f"lambda = {share}"))
+        alone = stabilab.time_to(one.scene, one.start, component=(1, 100.0))
+        told = [found.records["when_low"][n], found.records["when_high"][n]]
+        assert np.array_equal(told, np.array([alone.low, alone.high], float), equal_nan=True)
+
+
+def test_words_of_what_is_no_case_are_those_of_no_answer():
+    found = swept("minor-axis-100", {"inertia[1]": "2000, 9000"}, answer="level,when,equilibria,verdict", rate="100")
+    assert [int(found.records[name][1]) for name in ("level", "when_level", "equilibria", "stable", "open")] == [-1, -1, -3, -3, -3]
 
 
 def test_numbers_that_make_no_case_are_told_and_nothing_else_is_lost():
@@ -143,7 +159,8 @@ def test_parts_of_another_sweep_are_left_alone(tmp_path):
     ({"vary": {"x[1]": "0:1:3", "motion.x[1]": "2:3:2"}}, "varies already"), ({"vary": {}, "samples": 3}, "no number with an"),
     ({"vary": {f"{key}[{n}]": "1:2:2" for key, n in (("x", 1), ("x", 2), ("x", 3), ("momentum", 1), ("momentum", 2))}}, "at most 4 axes"),
     ({"vary": {"x[1]": "0:1:3"}, "answer": "fats"}, "did you mean fate"), ({"vary": {"x[1]": "0:1:3"}, "answer": "when"}, "no limit"),
-    ({"vary": {"x[1]": "0:1:30000", "x[2]": "0:1:30000"}}, "at most 100,000,000"), ({"vary": {"x[1]": 3}}, "numbers in a row")])
+    ({"vary": {"x[1]": "0:1:30000", "x[2]": "0:1:30000"}}, "at most 100,000,000"), ({"vary": {"x[1]": 3}}, "numbers in a row"),
+    ({"vary": {"x[1]": "0:1:3"}, "rate": "5"}, "rate: belongs to the answer when")])
 def test_what_cannot_be_swept_is_told(options, words):
     with pytest.raises(InputError) as error:
         planned(CASES / "minor-axis-100.toml", **options)

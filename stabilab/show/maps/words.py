@@ -17,8 +17,11 @@ from .labels import SAMPLE, unit
 
 SCHEMA = "stabilab.sweep/1"
 ROWS = 40  # points of a table
-DOES = {Fate.BOUNDED: "stay bounded", Fate.SPIN_UP: "spin up", Fate.SEPARATRIX: "lie on the separatrix", Fate.EQUILIBRIUM: "are at rest",
-        Fate.UNDECIDED: "are undecided", NO_CASE: "are no case"}
+FEW = 100  # points that are counted; of more their share is told
+# what points do, what one point does
+DOES = {Fate.BOUNDED: ("stay bounded", "stays bounded"), Fate.SPIN_UP: ("spin up", "spins up"),
+        Fate.SEPARATRIX: ("lie on the separatrix", "lies on the separatrix"), Fate.EQUILIBRIUM: ("are at rest", "is at rest"),
+        Fate.UNDECIDED: ("are undecided", "is undecided"), NO_CASE: ("are no case", "is no case")}
 COUNTS = {ENDLESS: "curves of equilibria", OPEN: "equilibria not all known", NONE: "no case"}
 
 
@@ -27,7 +30,8 @@ def text(found: Swept) -> str:
     plan = found.plan
     lines = [f"{plan.case.name}: {_answer(found)}", *_details(found)]
     if found.broken:
-        lines.append(f"  {found.broken:,} points are no case; the first: {printable(found.why)}")
+        told = f"{found.broken:,} points are no case; the first" if found.broken > 1 else "one point is no case"
+        lines.append(f"  {told}: {printable(found.why)}")
     if found.records.size <= ROWS:
         lines += _table(found)
     return "\n".join(lines)
@@ -38,7 +42,7 @@ def _answer(found: Swept) -> str:
     if "fate" in names:
         return _shares(found.records["fate"], lambda value: DOES[value])
     if "equilibria" in names:
-        return _shares(found.records["equilibria"], lambda value: f"have {_number(value)}")
+        return _shares(found.records["equilibria"], lambda value: (f"have {_number(value)}", f"has {_number(value)}"))
     return f"{found.records.size:,} points"
 
 
@@ -50,16 +54,16 @@ def _shares(values: np.ndarray, words: Any) -> str:
     """"62 % of 10,201 points stay bounded, 38 % spin up"."""
     kinds, counts = np.unique(values, return_counts=True)
     order = np.argsort(-counts, kind="stable")
-    parts = [(_share(int(counts[n]), values.size), words(int(kinds[n]))) for n in order]
+    parts = [(_share(int(counts[n]), values.size), words(int(kinds[n]))[int(counts[n]) == 1 and values.size <= FEW]) for n in order]
     if len(parts) == 1:
-        return f"all {values.size:,} points {parts[0][1]}" if values.size > 1 else f"the one point: {parts[0][1]}"
+        return f"all {values.size:,} points {parts[0][1]}" if values.size > 1 else f"the one point {parts[0][1]}"
     head, *rest = parts
     return f"{head[0]} of {values.size:,} points {head[1]}" + "".join(f", {share} {what}" for share, what in rest)
 
 
 def _share(count: int, of: int) -> str:
     """A share in per cent that is 0 or 100 only where it is so; of few points their number."""
-    if of <= 100:
+    if of <= FEW:
         return str(count)
     percent = 100 * count / of
     told = f"{percent:.0f}" if 1 <= percent <= 99 else f"{percent:.2g}" if percent < 1 else f"{min(percent, 99.99):.2f}"
@@ -68,17 +72,18 @@ def _share(count: int, of: int) -> str:
 
 def _details(found: Swept) -> list[str]:
     lines, names = [], found.records.dtype.names
+    cases = found.records[found.records["valid"] == 1]
     if "spin_axis" in names and (found.records["fate"] == Fate.SPIN_UP).any():
         about = found.records["spin_axis"][found.records["fate"] == Fate.SPIN_UP]
         lines.append("  spin-up about " + _listed(about, lambda axis: f"{axis:+d}" if axis else "no principal axis"))
     if "level" in names:
         flags = next(c.flags for c in columns_of(found.plan.answers) if c.name == "level")
-        lines.append("  the fate is known as " + _listed(found.records["level"], lambda level: flags[level]))
+        lines.append("  the fate is known as " + _listed(cases["level"], lambda level: flags[level]))
     for column in columns_of(found.plan.answers):
         if column.kind == "f8":
-            lines.append(_range(found, column))
+            lines.append(_range(cases[column.name], column, unit(found.plan, column)))
         elif column.kind == "i4":
-            lines.append(f"  {column.words}: " + _listed(found.records[column.name], lambda value: COUNTS.get(value, str(value))))
+            lines.append(f"  {column.words}: " + _listed(cases[column.name], lambda value: COUNTS.get(value, str(value))))
     return lines
 
 
@@ -87,12 +92,12 @@ def _listed(values: np.ndarray, words: Any) -> str:
     return ", ".join(f"{words(int(kind))} ({count:,})" for kind, count in sorted(zip(kinds.tolist(), counts.tolist()), key=lambda pair: -pair[1]))
 
 
-def _range(found: Swept, column: Column) -> str:
-    values, of = found.records[column.name], unit(found.plan, column)
+def _range(values: np.ndarray, column: Column, of: str) -> str:
     finite, name = values[np.isfinite(values)], column.name.replace("_", " ")
     rest = [f"{words} at {count:,}" for words, count in (("-inf", np.isneginf(values).sum()), ("+inf", np.isposinf(values).sum()),
                                                          ("not known", np.isnan(values).sum())) if count]
-    told = "no finite value" if not finite.size else f"{finite.min() + 0.0:.6g} to {finite.max() + 0.0:.6g}{'' if of == '1' else f' {of}'}"
+    ends = list(dict.fromkeys(f"{end + 0.0:.6g}" for end in (finite.min(), finite.max()))) if finite.size else []
+    told = " to ".join(ends) + ("" if of == "1" else f" {of}") if ends else "no finite value"
     return f"  {name}: {told}" + (f" ({', '.join(rest)})" if rest else "")
 
 

@@ -5,6 +5,7 @@ import math
 from fractions import Fraction
 
 SUBJECTS = {"equilibria": ("hold", "depend"), "fate": ("holds", "depends")}
+LONG = 24  # letters of a number in a line
 
 
 def as_dict(found) -> dict:
@@ -37,6 +38,12 @@ def number(value: Fraction) -> str:
     return shown if Fraction(shown) == value else str(value)
 
 
+def _short(value: Fraction) -> str:
+    """The same for a reader: rounded where the ratio is long (degrees bring digits of pi)."""
+    exact = number(value)
+    return exact if len(exact) <= LONG else f"{float(value):.12g}"
+
+
 def _numbers(witness) -> dict[str, list[str]]:
     """All numbers of a witness as a case file can state them; a state is rounded to doubles as it is read."""
     shown = {name: [number(v) for v in values] for name, values in witness.values.items()}
@@ -49,7 +56,7 @@ def text(found) -> str:
     """Lines that follow what a command says of a case; nothing where no number is uncertain."""
     if found is None:
         return ""
-    lines = ["uncertain: " + ", ".join(f"{key(u)} = {number(u.middle)} +- {number(u.half)}" for u in found.numbers)]
+    lines = ["uncertain: " + ", ".join(f"{key(u)} = {_short(u.middle)} +- {_short(u.half)}" for u in found.numbers)]
     for name in SUBJECTS:
         over = getattr(found, name)
         lines += [] if over is None else _lines(name, over)

@@ -66,6 +66,13 @@ def test_the_first_line_is_the_answer(stabilab):
     assert code == 0 and not err and out.splitlines()[0] == f"minor-axis-100: {spun} % of 441 points spin up, {100 - spun} % stay bounded"
 
 
+def test_words_speak_of_one_point_in_the_singular_and_of_cases_alone(stabilab):
+    out = stabilab("sweep", MINOR, "--vary", "inertia[1]=2000,2001,9000")[1].splitlines()
+    assert out[0] == "minor-axis-100: 2 of 3 points stay bounded, 1 is no case"
+    assert out[1] == "  the fate is known as exact (2)" and "not known" not in out[2] and out[3].startswith("  one point is no case: ")
+    assert "all" not in stabilab("sweep", MINOR, "--vary", "x[1]=2.5")[1].splitlines()[0]
+
+
 def test_csv_and_json_hold_every_point(stabilab):
     arguments = ("sweep", MINOR, "--vary", "x[1]=-4:4:3", "--vary", "momentum[1]=100,200", "--answer", "fate,margin,extremes")
     rows = list(csv.DictReader(io.StringIO(stabilab(*arguments, "--csv")[1])))
