@@ -9,12 +9,14 @@ import hashlib
 import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 
 from ..errors import InputError
 from ..files import alone_in, whole_file
+from ..interrupt import undoing
 from .columns import record
 from .plan import Plan
 
@@ -33,12 +35,12 @@ def kept(plan: Plan, folder: Path) -> Iterator[Path]:
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with alone_in(folder, wait=False):
-            _claim(plan, folder)
-            try:
-                yield folder
-            finally:
-                if not any(folder.glob("part-*")):  # nothing is finished: nothing to keep
-                    remove(folder)
+            with undoing(partial(_remove_if_empty, folder)):
+                try:
+                    _claim(plan, folder)
+                    yield folder
+                finally:
+                    _remove_if_empty(folder)
     except BlockingIOError:
         raise InputError(f"{folder}: another run is at work on this sweep: wait for it, or give another --out") from None
     except OSError as error:
@@ -47,9 +49,19 @@ def kept(plan: Plan, folder: Path) -> Iterator[Path]:
         raise InputError(f"{folder}: cannot be written: {error.strerror or error}") from None
 
 
+def _remove_if_empty(folder: Path) -> None:
+    """Where nothing is finished, there is nothing to keep."""
+    if (folder / PLAN).exists() and not any(folder.glob("part-*")):
+        remove(folder)
+    elif folder.is_dir() and not any(folder.iterdir()):
+        folder.rmdir()
+
+
 def _claim(plan: Plan, folder: Path) -> None:
     claim = folder / PLAN
-    if claim.exists():
+    if not claim.exists() and any(not entry.name.startswith(".") for entry in folder.iterdir()):
+        raise InputError(f"{folder}: holds files that are no sweep's, and would be removed with its parts: move them, or give another --out")
+    if claim.exists() and any(folder.glob("part-*")):  # of one killed before its first part nothing is lost
         if plan.digest not in claim.read_text(encoding="utf-8"):
             raise InputError(f"{folder}: holds what is finished of another sweep (or of another version): run that one again, remove the folder, or give "
                              "another --out")

@@ -2,6 +2,9 @@
 from __future__ import annotations
 
 import itertools
+import os
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -152,6 +155,38 @@ def test_parts_of_another_sweep_are_left_alone(tmp_path):
         parts.write(one, folder, 0, answered(one, 0).tobytes())
     with pytest.raises(InputError, match="of another sweep"), run(other, tmp_path / "f.nc", workers=1):
         pass
+
+
+def test_a_run_that_ended_before_its_first_part_stands_in_nobodys_way(tmp_path):
+    one, other = (planned(CASES / "minor-axis-100.toml", {"x[1]": text}) for text in ("0:1:3", "0:1:4"))
+    with parts.kept(one, tmp_path / "f.nc.parts"):
+        claim = (tmp_path / "f.nc.parts" / parts.PLAN).read_bytes()
+    assert not (tmp_path / "f.nc.parts").exists()
+    (tmp_path / "f.nc.parts").mkdir()
+    (tmp_path / "f.nc.parts" / parts.PLAN).write_bytes(claim)  # as a kill leaves it
+    with run(other, tmp_path / "f.nc", workers=1) as found:
+        assert found.records.shape == (4,)
+    assert not (tmp_path / "f.nc.parts").exists()
+
+
+def test_files_that_are_no_parts_are_not_removed_with_them(tmp_path):
+    own = tmp_path / "f.nc.parts" / "thesis.txt"
+    own.parent.mkdir()
+    own.write_text("my own", encoding="utf-8")
+    with pytest.raises(InputError, match="no sweep's"), run(planned(CASES / "minor-axis-100.toml", {"x[1]": "0:1:3"}), tmp_path / "f.nc", workers=1):
+        pass
+    assert own.read_text(encoding="utf-8") == "my own"
+
+
+@pytest.mark.skipif(os.name != "posix", reason="a signal that a process sends to itself")
+def test_an_interrupt_takes_an_empty_folder_of_parts_along(tmp_path):
+    program = ("import os, pathlib, signal, sys\n"
+               "from stabilab import interrupt\nfrom stabilab.maps import parts, plan\n"
+               "interrupt.arm()\n"
+               "with parts.kept(plan.planned(sys.argv[1], {'x[1]': '0:1:3'}), pathlib.Path(sys.argv[2])) as folder:\n"
+               "    assert folder.is_dir()\n    os.kill(os.getpid(), signal.SIGINT)\n    signal.pause()\n")
+    code = subprocess.run([sys.executable, "-c", program, CASES / "minor-axis-100.toml", tmp_path / "f.nc.parts"], timeout=60).returncode
+    assert code == 130 and not (tmp_path / "f.nc.parts").exists()
 
 
 @pytest.mark.parametrize("options, words", [
