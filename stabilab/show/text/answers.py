@@ -7,7 +7,8 @@ from ...physics.blocks import PARTS
 from ..files import comma
 from . import frame, when
 
-ENDLESS = {math.inf: "Infinity", -math.inf: "-Infinity"}  # strings, as JSON has no such numbers and strict readers refuse those beyond doubles
+ENDLESS = {math.inf: "1e999", -math.inf: "-1e999"}  # numbers by JSON's grammar, beyond all doubles: Python, JavaScript and MATLAB read them as infinite
+MARK = "\0 endless "  # before such a number in the text until its quotes are taken off
 
 
 class Endless(float):
@@ -17,12 +18,15 @@ class Endless(float):
 def as_json(value) -> str:
     """JSON with every digit of a double; what does not exist (and infinity, unless it is an end that is told as `Endless`) is null."""
     import json
-    return json.dumps(plain(value), allow_nan=False, ensure_ascii=False, indent=1)
+    text = json.dumps(plain(value), allow_nan=False, ensure_ascii=False, indent=1)
+    for told in ENDLESS.values():
+        text = text.replace(json.dumps(MARK + told), told)
+    return text
 
 
 def plain(value):
     """The value in lists, dicts, floats and None: complex numbers as [re, im], infinities and NaN as None.
-    What is `Endless` is one of the strings "Infinity" and "-Infinity" where it is infinite."""
+    What is `Endless` is a marked string where it is infinite."""
     if isinstance(value, dict):
         return {str(key): plain(item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):
@@ -30,7 +34,7 @@ def plain(value):
     if isinstance(value, complex):
         return [plain(value.real), plain(value.imag)]
     if isinstance(value, Endless) and value in ENDLESS:
-        return ENDLESS[value]
+        return MARK + ENDLESS[value]
     if isinstance(value, float):
         return float(value) + 0.0 if math.isfinite(value) else None
     if hasattr(value, "tolist"):  # NumPy scalars and arrays

@@ -23,7 +23,7 @@ SOON = 2  # times a margin: the fate is back before a change as great
 
 def as_dict(found) -> dict:
     """One object of `stabilab stuck --json`: SI units, rates in rad/s."""
-    return {"schema": "stabilab.stuck/2", "case": found.case, "rows": [_row(row) for row in found.rows],
+    return {"schema": "stabilab.stuck/1", "case": found.case, "rows": [_row(row) for row in found.rows],
             "principal": {"moments": list(found.principal.moments), "axes": [list(axis) for axis in found.principal.axes]}}
 
 
