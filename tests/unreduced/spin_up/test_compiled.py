@@ -5,6 +5,7 @@ from importlib.util import find_spec
 import numpy as np
 import pytest
 
+from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.unreduced.spin_up import certificate, elimination, fixed_centre, moving_centre
 from stabilab.unreduced.spin_up.certificate import Certifier
 from stabilab.unreduced.spin_up.compiled import kernel, lanes, moving_kernel, steps
@@ -119,6 +120,24 @@ def test_a_change_carried_beside_grows_as_the_twin_does():
         assert (compiled.times == end).all() and np.allclose(compiled.states, plain.states, rtol=1e-9, atol=1e-9)
         assert np.allclose(compiled.twins.growth, plain.twins.growth, rtol=0.01)
         assert np.allclose(compiled.twins.ahead, plain.twins.ahead, atol=0.02) and np.allclose(compiled.twins.blur, plain.twins.blur, rtol=0.02)
+
+
+@pytest.mark.parametrize("small", [1e-30, 1e-45, 1e-60])
+@pytest.mark.parametrize("make", [Runs, lambda scene, starts: CompiledRuns(scene, starts, vars(steps))])
+def test_steps_beside_a_saddle_stay_short_though_the_state_hardly_leaves_it(make, small):
+    """Expected: the linear solution beside the free spin w2 = -20 about the middle axis of D = (3, 2, 1), w1' = -20 w3/3, w3' = -20 w1."""
+    scene, r = Scene(Body((3, 2, 1)), Gyrostat((0, 0, 0)), ConstantTorque((0, 0, 0))), 3**0.5
+    growing = lambda t: np.array([np.cosh(20 / r * t) - np.sinh(20 / r * t) / r, np.cosh(20 / r * t) - r * np.sinh(20 / r * t)])
+    starts = np.array([[small, -20.0, small]])
+    runs = make(scene, starts)
+    if not runs.taylor:
+        pytest.skip("needs heyoka")
+    out, _ = runs.carried(starts, np.array([2.0]), 1000)
+    assert np.allclose(out[0, [0, 2]], small * growing(2.0), rtol=1e-3, atol=0)
+    if isinstance(runs, CompiledRuns):
+        runs.advance(np.arange(1), 1000, 4.0)
+        assert runs.times[0] == 4.0 and np.allclose(runs.states[0, [0, 2]], small * growing(4.0), rtol=1e-3, atol=0)
+        assert runs.twins.growth[0] == pytest.approx(np.abs(growing(4.0)).max(), rel=0.05)
 
 
 @numba

@@ -3,6 +3,9 @@
 w_i' = kappa_i w_j w_k + rho_i w_k + sigma_i w_j + m_i (cyclic). The coefficient of s^n of w_i stands in row 3 n + i of a table, a motion to a lane; s is
 the time over `scale`, a power of two near the fastest rate, so that no coefficient overflows. The change v of a motion obeys the equation made linear. It
 is told to a few per cent, so its series ends at degree SIDE: over a step, a seventh of the radius of convergence, that leaves out 3e-7 of it.
+
+Coefficients of a motion that hardly leaves a steady one say nothing of how fast a change there grows: beside a saddle, 1e-45 away, they allow a step over
+which it grows e^100 times. So a step is no longer than the change's own last coefficients allow, nor than a few times what the slopes of the rates allow.
 """
 from __future__ import annotations
 
@@ -13,6 +16,8 @@ from .lanes import fused, greater, lesser, load, logarithm, minus, plus, power_o
 ORDER, SIDE = 20, 8
 TAIL = -56.0          # base 2: what the last coefficients may add to a state, relative to it or to a natural unit: a sixteenth of a unit of rounding
 LONGEST = 64.0        # of a step: even of a motion at rest
+BESIDE = -5.0         # base 2: what the last coefficients of a change may add to it; what is left out is then below a hundredth of it
+STEEP = 3.0           # base 2: of a step times the slopes: beyond, the terms left out of e^x would be greater than the last
 STILL, LOST = 2.0**-8, 2.0**-30  # of `way.twins`: the tests hold them equal
 
 
@@ -72,15 +77,33 @@ def to_scale(given, numbers, a, work):
         store(numbers, n, times(load(given, n), scale))
 
 
-def length(a, work):
+def largest_of(table, n, least):
+    """The greatest size in the row of degree n of three polynomials, at least `least`."""
+    p = 3 * n
+    return greater(greater(size(load(table, p)), size(load(table, p + 1))), greater(size(load(table, p + 2)), spread(least)))
+
+
+def allowed(table, order, least, share):
+    """The logarithm of the step over which each of the last two coefficients adds to the state, or to `least`, at most its share (a logarithm)."""
+    most = plus(logarithm(largest_of(table, 0, least)), spread(share))
+    last, other = logarithm(largest_of(table, order, 1e-290)), logarithm(largest_of(table, order - 1, 1e-290))
+    return lesser(times(minus(most, last), spread(1.0 / order)), times(minus(most, other), spread(1.0 / (order - 1))))
+
+
+def steepest(numbers, a):
+    """The greatest sum of sizes in a row of the rates' derivative."""
+    x, y, z = load(a, 0), load(a, 1), load(a, 2)
+    s0 = plus(size(fused(load(numbers, 0), z, load(numbers, 6))), size(fused(load(numbers, 0), y, load(numbers, 3))))
+    s1 = plus(size(fused(load(numbers, 1), x, load(numbers, 7))), size(fused(load(numbers, 1), z, load(numbers, 4))))
+    s2 = plus(size(fused(load(numbers, 2), y, load(numbers, 8))), size(fused(load(numbers, 2), x, load(numbers, 5))))
+    return greater(greater(s0, s1), greater(s2, spread(1e-290)))
+
+
+def length(numbers, a, v, work, beside):
     """The step that the last two coefficients of each lane allow, over the scale, to work row 3; rows 0 to 2: spans, what of them has passed, senses."""
-    largest = greater(greater(size(load(a, 0)), size(load(a, 1))), greater(size(load(a, 2)), spread(1.0)))
-    allowed = plus(logarithm(largest), spread(TAIL))
-    p = 3 * ORDER
-    last = greater(greater(size(load(a, p)), size(load(a, p + 1))), greater(size(load(a, p + 2)), spread(1e-290)))
-    p -= 3
-    other = greater(greater(size(load(a, p)), size(load(a, p + 1))), greater(size(load(a, p + 2)), spread(1e-290)))
-    h = lesser(times(minus(allowed, logarithm(last)), spread(1.0 / ORDER)), times(minus(allowed, logarithm(other)), spread(1.0 / (ORDER - 1))))
+    h = lesser(allowed(a, ORDER, 1.0, TAIL), minus(spread(STEEP), logarithm(steepest(numbers, a))))
+    if beside:
+        h = lesser(h, allowed(v, SIDE, 1e-200, BESIDE))
     fastest, span, passed = load(work, 4), load(work, 0), load(work, 1)
     left = minus(span, passed)
     scale = two_to(minus(spread(0.0), logarithm(fastest)))
@@ -108,9 +131,10 @@ def run(given, numbers, a, v, work, steps, beside):
     for number in range(steps):
         to_scale(given, numbers, a, work)
         series(numbers, a)
-        length(a, work)
         if beside:
             series_beside(numbers, a, v)
+        length(numbers, a, v, work, beside)
+        if beside:
             ahead_by(v, SIDE, work)
         ahead_by(a, ORDER, work)
         if number % 4 == 3:

@@ -18,6 +18,7 @@ WIDE = 32  # lanes where there are so many rows: the calls, not the steps, are w
 # Of twins, relative: over the two thousand steps of an advance the tolerance of their steps moves them by a hundredth of that, and a delay of a
 # thousand times that is still small.
 APART, LOOSE, CLOSE = 2.0**-16, 1e-10, 2.0**-28  # those that go too far apart are run again, closer
+STEEP = 8.0  # of a step times the slopes of the rates: a motion that hardly leaves a steady one has coefficients that would allow any
 
 
 class Runs:
@@ -100,6 +101,12 @@ class Runs:
         c = self.coefficients
         return c[0] * (y * w + v * z) + c[1] * w + c[2] * v
 
+    def steepest(self, states):
+        """(m,) greatest sums of sizes in a row of the rates' derivative at states (m, 3)."""
+        y, z = states[:, [1, 2, 0]], states[:, [2, 0, 1]]
+        c = self.coefficients
+        return (np.abs(c[0] * z + c[2]) + np.abs(c[0] * y + c[1])).max(axis=1)
+
     def slopes_back(self, states, weights):
         """The gradient of the rates' sum with weights (m, 3)."""
         c = [row * weights for row in self.coefficients[:3]]
@@ -114,6 +121,8 @@ class Runs:
         """(states, times) after so many steps, or at the ends (n,)."""
         out, reached, n = np.empty_like(states), np.empty_like(times), len(states)
         wide = n - n % WIDE if n >= WIDE else 0
+        with np.errstate(all="ignore"):
+            longest = np.nan_to_num(STEEP / self.steepest(states), nan=np.inf, posinf=np.inf)
         for lanes, part in ((WIDE, np.arange(wide)), (LANES, np.arange(wide, n))):
             if not part.size:
                 continue
@@ -122,7 +131,7 @@ class Runs:
                 for group in filled:
                     ta.set_time(times[group])
                     ta.state[:] = states[group].T
-                    ta.propagate_until(ends[group], max_steps=steps)
+                    ta.propagate_until(ends[group], max_steps=steps, max_delta_t=longest[group])
                     out[group], reached[group] = ta.state.T, ta.time
         return out, reached
 
