@@ -7,6 +7,7 @@ answer rests on a run that was not enclosed.
 """
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from fractions import Fraction
 from typing import Any
@@ -82,5 +83,5 @@ class _Way:
 
 def _up(reach) -> float:
     """A bound of the length of a vector with components of at most these sizes."""
-    return float(sum(Fraction(v) ** 2 for v in (reach.tolist() if isinstance(reach, np.ndarray) else reach))) ** 0.5 * WIDER
+    return math.hypot(*map(float, reach)) * WIDER  # squares of small reaches would vanish
 

@@ -7,7 +7,7 @@ import pytest
 
 from stabilab import Body, ConstantTorque, Scene
 from stabilab.numbers.numba_door import installed
-from stabilab.unreduced.enclosure.proof import proved
+from stabilab.unreduced.enclosure.proof import _up, proved
 from stabilab.unreduced.spin_up.certificate import Certifier
 from stabilab.unreduced.spin_up.compiled.door import FixedCertifier
 from stabilab.unreduced.spin_up.follow import spin_up
@@ -93,3 +93,9 @@ def test_many_are_proved_as_one_by_one():
         assert LEVELS[many.level[number]] == one.level == row.level and row.axis == one.axis == many.axis[number]
     assert set(many.level.tolist()) == {LEVELS.index("proved"), LEVELS.index("undecided")}
     assert len(spin_up_many(EXAMPLE, np.empty((0, 3)), proof=True).level) == 0
+
+
+def test_the_radius_of_a_ball_does_not_vanish_in_small_units():
+    for small in (Fraction(1), Fraction(1, 10**170), Fraction(1, 10**300)):
+        assert _up([3 * small, 4 * small]) == pytest.approx(float(5 * small), rel=1e-11)  # Pythagoras
+        assert _up(np.array([3.0, 4.0]) * float(small)) >= 5 * small
