@@ -78,10 +78,10 @@ class Tests:
         """The test itself; fast: by compiled loops."""
         key = id(field), orders, fast
         if key not in self.made:
+            if (field, orders) not in self.asked:  # before it is made: another thread that finds it made looks for its number
+                self.asked.append((field, orders))
             with np.errstate(all="ignore"):  # what overflows is not finite, and certifies nothing
                 self.made[key] = (fast_certifier if fast else Certifier)(field, orders)
-            if (field, orders) not in self.asked:
-                self.asked.append((field, orders))
         return self.made[key]
 
 

@@ -57,7 +57,7 @@ def spin_up_many(scene, states, t_max: float | None = None, budget: int | None =
     tests = tests_of(own)
     closed = bool(len(states)) and exactly(covered, states[0].tolist()) is not None  # of all states of the scene or of none
     if closed or not tests or not (np.abs(states) / FARTHEST < unit).all():
-        return _one_by_one(scene, states)
+        return _one_by_one(scene, states, t_max=t_max, budget=budget, fast=fast, proof=proof)
     found = chase(own, tests, states / unit, NATURAL_TIMES if t_max is None else t_max * unit, BUDGET if budget is None else budget,
                   tell=tell and (lambda t, steps, left: tell(t / unit, steps, left)), fast=wanted(len(states), fast, False, COLD, COLD))
     good = found.fired >= 0
@@ -75,8 +75,8 @@ def _proved(scene, states, found: SpinUps) -> SpinUps:
                    chased=None, exact=rows)
 
 
-def _one_by_one(scene, states):
-    rows = tuple(spin_up(scene, state) for state in states.tolist())
+def _one_by_one(scene, states, **limits):
+    rows = tuple(spin_up(scene, state, **limits) for state in states.tolist())
     columns = [np.array([getattr(row, name) for row in rows]) for name in ("fate", "axis", "sense")]
     return SpinUps(*(column.astype(np.int8) for column in columns), np.array([LEVELS.index(row.level) for row in rows], np.int8),
                    *(np.array([getattr(row, name) for row in rows]) for name in ("t", "steps", "condition", "state")), scene, 1.0, None, rows)

@@ -9,6 +9,7 @@ from benchmarks.spin_up import random_scene as benchmark_scene
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
 from stabilab.errors import InputError
 from stabilab.physics.scaling import to_scaled
+from stabilab.unreduced.spin_up import fields
 from stabilab.unreduced.spin_up.cause import _equilibria, seen
 from stabilab.unreduced.spin_up.follow import spin_up
 from stabilab.unreduced.spin_up.many import spin_up_many
@@ -183,3 +184,18 @@ def test_a_small_component_without_a_wheel_is_certified_about_the_moving_centre_
     scene, state, *_ = [benchmark_scene(rng) for _ in range(1423)][-1]
     answer = spin_up(scene, state)
     assert answer.level == "certified" and answer.t < 5000 and answer.trap.form == "moving centre"
+
+
+def test_limits_hold_for_all_where_one_state_is_beyond_doubles():
+    near = (0.1, 0.2, 0.3)
+    found = spin_up_many(EXAMPLE, [near, (1e200, 0.0, 0.0)], 0.5, 8)
+    assert found.t[0] <= 0.5 and found.steps[0] <= 8 and found.row(0) == spin_up(EXAMPLE, near, 0.5, 8)
+    assert spin_up_many(EXAMPLE, [near, (1e200, 0.0, 0.0)], proof=True).row(0).level == "proved"
+
+
+def test_a_test_has_its_number_before_another_thread_may_find_it(monkeypatch):
+    tests, seen_ = fields.Tests(EXAMPLE), []
+    monkeypatch.setattr(fields, "Certifier", lambda field, orders: seen_.append((field, orders) in tests.asked))
+    for asked in tests.high:
+        tests.certifier(*asked)
+    assert seen_ == [True] * len(tests.high)
