@@ -116,7 +116,8 @@ def test_a_port_that_is_taken_is_told(server):
 
 def test_the_command_prints_its_address_and_ends_at_an_interrupt():
     run = subprocess.Popen([sys.executable, "-m", "stabilab", "explore", CASE, "--no-browser"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                           env={**os.environ, "PYTHONUNBUFFERED": "1"})
+                           env={**os.environ, "PYTHONUNBUFFERED": "1"},
+                           preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))  # a test run in the background may hand down an ignored one
     try:
         assert run.stdout.readline().startswith("http://127.0.0.1:")
         run.send_signal(signal.SIGINT)
