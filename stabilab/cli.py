@@ -491,8 +491,11 @@ def explore(case: Annotated[Path | None, typer.Argument(metavar="[CASE]", help="
     if pyodide is not None:
         raise typer.BadParameter("--pyodide belongs to --static")
     from .show.explore.serve import serve
-    _say("Ctrl-C ends it.")
-    serve(one, port, browser, _print)
+
+    def tell(address: str) -> None:
+        _say("Ctrl-C ends it.")
+        _print(address)
+    serve(one, port, browser, tell)
 
 
 @app.command()

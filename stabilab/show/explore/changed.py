@@ -5,6 +5,7 @@ the file has them. Sliders count along principal axes; where the file's tensor i
 """
 from __future__ import annotations
 
+import math
 from fractions import Fraction
 from typing import Any
 
@@ -16,6 +17,7 @@ from .toml import Written, data_of, exact_text, text_of
 
 SPOKEN_FOR = ("expect", "sweep")  # tables that speak of the file's own numbers
 LENGTH = 40  # letters of a number at most
+LARGEST = 1e8  # beyond it doubles that are drawn run into overflows and lost digits; no body has such numbers
 
 
 def changed(case: Case, asked: dict[str, Any], units: Units) -> tuple[Case, str]:
@@ -105,11 +107,14 @@ def _numbers(asked: dict[str, Any], name: str, count: int) -> list[Any] | None:
 def number(value: Any, name: str) -> str:
     """A decimal in text."""
     try:
-        if isinstance(value, str) and len(value) <= LENGTH:
-            return f"{float(value):.12g}" if float(value) - float(value) == 0 else number(None, name)
+        found = float(value) if isinstance(value, str) and len(value) <= LENGTH else math.nan
     except ValueError:
-        pass
-    raise InputError(f"{name}: expected a number, got {value!r:.40}")
+        found = math.nan
+    if not math.isfinite(found):
+        raise InputError(f"{name}: expected a number, got {value!r:.40}")
+    if abs(found) > LARGEST:
+        raise InputError(f"{name}: expected a number of at most {LARGEST:g}, which can still be drawn, got {value}")
+    return f"{found:.12g}"
 
 
 def _torque(asked: Any) -> tuple[float, ...]:

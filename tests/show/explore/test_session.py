@@ -134,6 +134,14 @@ def test_a_question_that_is_none_is_answered_in_words(asked):
     assert "expected" in told["error"] or "click" in told["error"]
 
 
+@pytest.mark.parametrize("size, refused", [("1e8", False), ("-1e8", False), ("1e-300", False), ("1.1e8", True), ("1e200", True)])
+def test_numbers_of_any_size_are_drawn_or_refused_in_words(size, refused):
+    session = Session(case_of("thruster-stuck-major-axis"))
+    for asked in ({"start": [size, None, None]}, {"wheel": [None, size, None]}, {"torque": {"axis": 3, "size": size, "tilt": "0", "azimuth": "0"}}):
+        header, _ = ask(session, moving=True, **asked)
+        assert ("which can still be drawn" in header.get("error", "")) == refused and ("headline" in header) != refused
+
+
 def test_a_body_with_a_liquid_is_refused_with_what_to_do():
     with pytest.raises(InputError, match="liquid_cavity.*: ask stabilab classify or report"):
         Session(case_of("liquid-base"))
