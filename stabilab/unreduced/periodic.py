@@ -118,13 +118,10 @@ def about_centre(scene: Any, centre: Centre) -> Periodic | None:
 
 def in_the_middle(scene: Any, state: Any) -> Periodic | None:
     """The elliptic periodic motion in the middle of the passages of a motion that recurs; None where the mean of these leads to none."""
-    states = _sampled(scene, np.array(state, float))
+    states = sampled(scene, state)
     if states is None:
         return None
-    middle = states.mean(axis=0)
-    swings = [np.count_nonzero(np.diff(np.signbit(states[:, n] - middle[n]))) * states[:, n].std() for n in range(3)]
-    for axis in np.argsort(swings)[::-1].tolist():
-        section = Section(axis, float(middle[axis]), 1)
+    for section in sections(states):
         places: list[np.ndarray] = []
         for count in RETURNS:
             places += passages(scene, places[-1] if places else states[-1], section, count - len(places))
@@ -132,6 +129,13 @@ def in_the_middle(scene: Any, state: Any) -> Periodic | None:
             if orbit is not None and orbit.elliptic:
                 return orbit
     return None
+
+
+def sections(states: np.ndarray) -> list[Section]:
+    """The three planes through the mean of states (n, 3) along a motion, the one that it crosses most and farthest first."""
+    middle = states.mean(axis=0)
+    swings = [np.count_nonzero(np.diff(np.signbit(states[:, n] - middle[n]))) * states[:, n].std() for n in range(3)]
+    return [Section(axis, float(middle[axis]), 1) for axis in np.argsort(swings)[::-1].tolist()]
 
 
 def passages(scene: Any, state: Any, section: Section, count: int) -> list[np.ndarray]:
@@ -163,16 +167,20 @@ def elliptic_of(scene: Any) -> list[Periodic]:
     return [one for one in found if one is not None and one.elliptic]
 
 
-def _sampled(scene, x, steps: int = 400) -> np.ndarray | None:
-    """(n, 3) states after each of some steps."""
+def sampled(scene: Any, state: Any, steps: int = 400, until: float = math.inf) -> np.ndarray | None:
+    """(n, 3) states at the ends of some Taylor steps, before a time (scene's time) where one is given; None where the numbers overflow."""
     rows, out = np.array(scene.quadratic().coefficients, float), []
+    x, t = np.array(state, float), 0.0
     for _ in range(steps):
         a, _ = _series(rows, x, np.eye(3), False)
-        x = _at(a, _length(a))
+        h = _length(a)
+        x, t = _at(a, h), t + h
         if not np.isfinite(x).all():
             return None
+        if t > until:
+            break
         out.append(x)
-    return np.array(out)
+    return np.array(out).reshape(-1, 3)
 
 
 def _series(rows, x, V, linear):
