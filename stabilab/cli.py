@@ -385,13 +385,14 @@ def surface(case: CaseFile, out: Annotated[Path, typer.Option(metavar="DIR", hel
 @app.command()
 def plot(case: CaseFile,
          kind: Annotated[str | None, typer.Option(metavar="KIND", autocompletion=completion.kinds,
-                                                  help="time, phase, sphere, space, equilibria, budget, state or attitude (moves). "
+                                                  help="time, phase, sphere, space, section, equilibria, budget, state or attitude (moves). "
                                                                        "Default: the one that says most of the case.")] = None,
          out: Annotated[Path | None, typer.Option(metavar="FILE.png|.svg|.pdf", help="Picture to write; default: CASE.png in the current "
                                                   "folder. Of an attitude .html, .gif or .mp4.")] = None,
          size: Annotated[str | None, typer.Option(metavar="WxH", help='Width and height in inches: "8x5".')] = None,
          dpi: Annotated[float | None, typer.Option(metavar="N", help="Dots an inch of a .png; default: 110.")] = None,
          until: Annotated[str | None, typer.Option(metavar="TIME", help='Draw up to this time: "10 min".')] = None,
+         neighbours: Annotated[int, typer.Option(metavar="N", help="Of a section: so many motions beside this one.")] = 0,
          units: UnitsOption = None, strict: Strict = False):
     """Draw a case: rates over time, phase plane, separatrix and more.
 
@@ -414,7 +415,7 @@ def plot(case: CaseFile,
     for one in loaded:
         with blamed_on(one):
             end = _time(until, one, "until")
-            drawn.append(write(one, endings.labelled(target, one), kind, inches(size), dpi, units, end))
+            drawn.append(write(one, endings.labelled(target, one), kind, inches(size), dpi, units, end, neighbours))
     laws = [law.of_case(one) for one in loaded]
     _print("\n".join(words for held, path in zip(laws, drawn) for words in (held and held.words, str(path)) if words))
     _strictly(strict, laws)

@@ -123,9 +123,9 @@ def test_a_motion_too_small_to_be_seen_beside_its_separatrix_is_shown_enlarged()
 
 
 EVERYWHERE = {"time", "space", "budget"}
-KINDS = {"minor-axis-100": EVERYWHERE | {"phase", "sphere", "equilibria"}, "off-axis-two": EVERYWHERE | {"equilibria"},
-         "major-axis-100": EVERYWHERE, "torque-free-gyrostat": EVERYWHERE | {"phase", "sphere", "equilibria"},
-         "liquid-base": EVERYWHERE | {"state", "equilibria"}, "charged-body": EVERYWHERE | {"phase", "sphere", "state", "equilibria"},
+KINDS = {"minor-axis-100": EVERYWHERE | {"phase", "sphere", "section", "equilibria"}, "off-axis-two": EVERYWHERE | {"equilibria"},
+         "major-axis-100": EVERYWHERE, "torque-free-gyrostat": EVERYWHERE | {"phase", "sphere", "section", "equilibria"},
+         "liquid-base": EVERYWHERE | {"state", "equilibria"}, "charged-body": EVERYWHERE | {"phase", "sphere", "section", "state", "equilibria"},
          "top-fast": EVERYWHERE | {"state", "equilibria"}}
 
 

@@ -4,9 +4,10 @@ from .cost import budget as budget
 from .momentum_surface import sphere as sphere
 from .over_time import time as time
 from .phase_plane import phase as phase
+from .plane_section import section as section
 from .rate_space import space as space
 from .to_file import write as write
 from .turning.animation import attitude as attitude
 from .whole_state import state as state
 
-__all__ = ["attitude", "budget", "equilibria", "phase", "space", "sphere", "state", "time", "write"]
+__all__ = ["attitude", "budget", "equilibria", "phase", "section", "space", "sphere", "state", "time", "write"]

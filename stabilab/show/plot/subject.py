@@ -21,7 +21,8 @@ DEFAULT_SPAN = (0.0, 15.0)  # in the scene's time, where nothing else says how f
 @dataclass(frozen=True)
 class Subject:
     """scene: as it was given; state: the three rates at t = 0 in the scene's variables (rad/s, or x), None without a motion; blocks: the rest
-    of the state by name; span: (from, to) or None; heading: for titles, may be empty; case: where all this stands, or None."""
+    of the state by name; span: (from, to) or None; heading: for titles, may be empty; case: where all this stands, or None;
+    neighbours: how many motions a section shows beside it."""
 
     scene: AnyScene
     state: tuple[float, ...] | None
@@ -29,6 +30,7 @@ class Subject:
     span: tuple[float, ...] | None
     heading: str = ""
     case: Case | None = field(default=None, repr=False)
+    neighbours: int = 0
 
     @property
     def physical(self) -> bool:

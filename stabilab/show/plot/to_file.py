@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,7 @@ from .cost import whole as budget
 from .momentum_surface import sphere
 from .over_time import time
 from .phase_plane import phase
+from .plane_section import section
 from .rate_space import space
 from .subject import Subject, subject
 from .turning.animation import ENDINGS, film
@@ -29,6 +31,7 @@ DRAWN: dict[str, Callable[..., Any]] = {
     "phase": lambda one, units, size, plt: phase(one, units=units, size=size).figure,
     "sphere": lambda one, units, size, plt: sphere(one, units=units, size=size).figure,
     "space": lambda one, units, size, plt: space(one, units=units, size=size).figure,
+    "section": lambda one, units, size, plt: section(one, units=units, size=size).figure,
     "equilibria": lambda one, units, size, plt: equilibria(one, units=units, size=size).figure,
     "budget": lambda one, units, size, plt: budget(one, plt),
     "state": lambda one, units, size, plt: state(one),
@@ -36,16 +39,19 @@ DRAWN: dict[str, Callable[..., Any]] = {
 
 
 def write(case: Any, path: str | Path, kind: str | None = None, size: tuple[float, float] | None = None, dpi: float | None = None, units: str | None = None,
-          span: Any = None) -> Path:
+          span: Any = None, neighbours: int = 0) -> Path:
     """Draw a case (or a Subject) and write the picture to `path` (.png, .svg, .pdf; of an attitude .html, .gif, .mp4), whole or not at all; returns the
     path.
 
     kind: one of `which.KINDS`; None: the one that says most of the case. size: (width, height) in inches; dpi: dots an inch of a .png.
-    units: "deg" or "si", None for those of the case. span: in place of the case's own. The same input gives the same bytes (but for "budget",
-    whose times are measured). Raises InputError for another ending, and where the case has no such plot: it names those that there are.
+    units: "deg" or "si", None for those of the case. span: in place of the case's own. neighbours: of a section, how many motions are shown
+    beside it. The same input gives the same bytes (but for "budget", whose times are measured). Raises InputError for another ending, and where the
+    case has no such plot: it names those that there are.
     """
-    one = subject(case, span=span)
+    one = replace(subject(case, span=span), neighbours=neighbours)
     chosen = checked(path, one, kind)
+    if neighbours and chosen != "section":
+        raise InputError(f"neighbours: a section alone shows them (kind section), got kind {chosen}")
     demand(*style.PACKAGES)
     _check_size(size, dpi)
     with style.drawing() as plt:

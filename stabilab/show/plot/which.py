@@ -1,10 +1,14 @@
 """Which kinds of plot a scene has, and why it has not the others."""
 from __future__ import annotations
 
+import math
+
 from ...answers.equilibria import equilibria
 from ...errors import InputError, printable
 from ...orbit.far_states import far_exponent
 from ...orbit.reduction import reduce
+from ...orbit.result import Fate
+from ...unreduced.section import LEAST, crossed
 from .subject import Subject
 
 # kind -> what it shows
@@ -13,6 +17,7 @@ KINDS = {
     "phase": "the plane of the reduced motion: turn about the torque's axis and its rate",
     "sphere": "the surface on which the motion stays, with the other motions on it",
     "space": "the motion in the space of rates, beside the separatrix",
+    "section": "the Poincaré section: passages of a plane, with neighbours and the periodic motion in the middle of an island",
     "equilibria": "all equilibria, stable and unstable",
     "budget": "what accuracy costs in time",
     "state": "every part of the state over time, the analytic models beside the exact motion",
@@ -77,6 +82,28 @@ def _sphere(one: Subject) -> str:
     return "no surface is known on which the motion stays (torque off the principal axes, or a wheel along it)" if reduce(one.twin) is None else _far(one)
 
 
+def certain_from(one: Subject) -> float:
+    """The time (scene's time) from which on spin-up is certain; inf of a motion that is not known to spin up."""
+    found = one.motion
+    return float(found.evidence.get("t_certificate") or 0.0) if found.fate == Fate.SPIN_UP else math.inf
+
+
+def _section(one: Subject) -> str:
+    if not one.twin.plain:
+        return f"it is drawn of a body with a wheel and a torque alone, not with {_beyond(one)}"
+    if why := _far(one):
+        return why
+    if one.motion.fate == Fate.EQUILIBRIUM:
+        return "the motion is at rest: it passes no plane"
+    until = certain_from(one)
+    if crossed(one.twin, one.state, until) is not None:
+        return ""
+    if math.isinf(until):
+        return f"the motion does not come back: it passes no plane {LEAST} times"
+    when = "from its start on" if not until else f"from {until:.4g} {one.scene.time_unit} on"
+    return f"spin-up about axis {one.motion.axis} is certain {when}, before the motion has passed any plane {LEAST} times"
+
+
 def _state(one: Subject) -> str:
     return "its state is the rates alone, and no analytic model applies: time shows it" if one.scene.plain else ""
 
@@ -98,4 +125,4 @@ def _beyond(one: Subject) -> str:
     return " and ".join(effect.name.replace("_", " ") for effect in one.scene.effects if effect.name not in ("gyrostat", "constant_torque"))
 
 
-_REASONS = {"phase": _phase, "sphere": _sphere, "state": _state, "attitude": _attitude, "budget": _budget, "time": _far, "space": _far}
+_REASONS = {"phase": _phase, "sphere": _sphere, "state": _state, "attitude": _attitude, "budget": _budget, "time": _far, "space": _far, "section": _section}

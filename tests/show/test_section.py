@@ -1,0 +1,139 @@
+"""The Poincaré section of a motion: what is drawn, by another integrator and by what is known of periodic motions, and of what there is none."""
+import math
+
+import matplotlib
+import numpy as np
+import pytest
+
+import stabilab
+from stabilab import errors
+from stabilab.show.plot import plane_section, subject, to_file, which
+from stabilab.unreduced.section import crossed, neighbours_of, returns
+
+matplotlib.use("Agg")
+from matplotlib import pyplot as plt  # after the back end is chosen
+
+CASES = __file__.rsplit("/tests/", 1)[0] + "/cases"
+ORANGE, BLUE, SKY, VERMILION, PURPLE = "#E69F00", "#0072B2", "#56B4E9", "#D55E00", "#CC79A7"
+D, M, WHEEL = np.array([1.2412, .3937, 1.3650]), np.array([.0987, .8450, .5255]), np.array([-.5224, .8309, .1914])
+ISLAND = stabilab.Scene(stabilab.Body(D.tolist()), stabilab.Gyrostat(WHEEL.tolist()), stabilab.ConstantTorque(M.tolist()))
+START = (-1.572, .657, .738)
+FAR = 10.0  # rad/s: this motion has 4.21 at most
+
+
+def load(name):
+    return stabilab.load(f"{CASES}/{name}.toml")
+
+
+def dots(ax, colour):
+    """(n, 2) of the points of a colour."""
+    return np.concatenate([np.empty((0, 2)), *(np.array(line.get_data()).T for line in ax.get_lines() if line.get_color() == colour)])
+
+
+def euler(_, w):
+    return (M - np.cross(w, D * w + WHEEL)) / D
+
+
+@pytest.fixture(scope="module")
+def island():
+    yield stabilab.plot.section(ISLAND, START, units="si", neighbours=4, passages=60)
+    plt.close("all")
+
+
+def passed(start, axis, level, count, span):
+    """(count, 3) by DOP853 and its events: where the rate rises through the level."""
+    from scipy.integrate import solve_ivp
+    event = lambda t, w: w[axis] - level
+    event.direction = 1
+    return solve_ivp(euler, (0, span), start, "DOP853", rtol=1e-12, atol=1e-13, events=event).y_events[0][:count]
+
+
+def test_every_passage_is_one_that_another_integrator_finds_and_none_is_left_out():
+    """Oracle: SciPy's DOP853 with events on Euler's equations written by hand."""
+    plane = crossed(ISLAND, START)
+    times, places = returns(ISLAND, START, plane, 40)
+    assert np.abs(places - passed(START, plane.axis, plane.level, 40, times[-1] + 1)).max() < 1e-7
+
+
+def test_passages_in_an_island_go_round_the_marked_periodic_motion(island):
+    """The mark is a fixed point of the map (DOP853 brings it back), and the motion's passages surround it."""
+    (mark,), own = dots(island, BLUE), dots(island, ORANGE)
+    from stabilab.unreduced.periodic import in_the_middle
+    orbit = in_the_middle(ISLAND, START)
+    (back,) = passed(orbit.state, orbit.section.axis, orbit.section.level, 2, 1.5 * orbit.period)[-1:]
+    assert mark == pytest.approx(np.array(orbit.state)[orbit.section.across]) and np.abs(back - orbit.state).max() < 1e-8
+    angles = np.sort(np.arctan2(*(own - mark).T))
+    assert len(own) == 60 and np.diff(angles).max() < 1 and angles[0] + 2 * math.pi - angles[-1] < 1
+
+
+def test_neighbours_inside_the_island_stay_and_those_far_outside_leave(island):
+    """By DOP853 until a rate is more than twice as large as any of this motion: the two neighbours inside never come so far, the last one outside does."""
+    from scipy.integrate import solve_ivp
+
+    from stabilab.unreduced.periodic import in_the_middle
+    (mark,), own, stay, leave = (dots(island, colour) for colour in (BLUE, ORANGE, SKY, VERMILION))
+    assert np.abs(stay - mark).max() <= np.abs(own - mark).max() and len(stay) == 2 * 61 and len(leave)
+    orbit = in_the_middle(ISLAND, START)
+    starts = neighbours_of(np.array(orbit.state), returns(ISLAND, START, orbit.section, 1)[1][0], orbit.section, 4)
+    far = lambda _, w: np.abs(w).max() - FAR
+    far.terminal = True
+    ended = [len(solve_ivp(euler, (0, 60 * orbit.period), start, "DOP853", rtol=1e-8, atol=1e-8, events=far).t_events[0]) for start in starts[[0, 1, 3]]]
+    assert ended == [0, 0, 1]
+
+
+def test_axes_have_the_two_other_rates_in_the_units_asked_for(island):
+    assert (island.get_xlabel(), island.get_ylabel()) == (r"$\omega_1$ (rad/s)", r"$\omega_2$ (rad/s)")
+    case = load("torque-free-gyrostat")
+    deg, si = (stabilab.plot.section(case, units=units, passages=5) for units in ("deg", "si"))
+    assert dots(deg, ORANGE) == pytest.approx(np.degrees(dots(si, ORANGE))) and "(deg/s)" in deg.get_xlabel()
+    plt.close("all")
+
+
+def test_a_periodic_motion_passes_at_one_place_once_a_period_and_neighbours_each_at_theirs():
+    """A motion that reduces to one degree of freedom and is bounded repeats; its period by the integral of the reduced motion."""
+    case = load("minor-axis-100")
+    ax = stabilab.plot.section(case, neighbours=3, passages=10)
+    own, others = dots(ax, ORANGE), dots(ax, SKY)
+    assert np.ptp(own, axis=0).max() < 1e-9 and len(np.unique(others.round(6), axis=0)) == 3
+    times, _ = returns(case.scene, case.state, crossed(case.scene, case.state), 3)
+    assert np.diff(times) == pytest.approx(float(stabilab.period(case.scene, case.state)), rel=1e-10)
+    assert "periodic, 1.804 τ" in ax.get_title()
+    plt.close("all")
+
+
+def test_of_a_motion_that_spins_up_the_passages_until_that_is_certain_are_drawn():
+    """cubesat-3u: its certificate holds from 109.7 s on; the passage after the last one that is drawn is later."""
+    one = subject.subject(load("cubesat-3u"))
+    until, ax = which.certain_from(one), stabilab.plot.section(one.case)
+    times, places = returns(one.twin, one.state, crossed(one.twin, one.state, until), 100)
+    assert len(dots(ax, ORANGE)) == np.count_nonzero(times <= until) < 100 and "until spin-up about axis 3 is certain" in ax.get_title()
+    plt.close("all")
+
+
+def test_several_motions_are_drawn_on_the_plane_of_the_first():
+    scene, states = load("minor-axis-100").scene, np.array([[2.5, 4, .1], [2.6, 4, .1], [2.4, 4, .1]])
+    ax = stabilab.plot.section(scene, states, passages=6)
+    assert len(dots(ax, ORANGE)) == 6 and len(np.unique(dots(ax, PURPLE).round(6), axis=0)) == 2
+    plt.close("all")
+
+
+def test_what_has_no_section_is_refused_with_the_reason():
+    rest = stabilab.Scene(stabilab.Body((3, 2, 1)))
+    for given, words in (((load("major-axis-100"),), "spin-up about axis 1 is certain from its start on"), ((load("liquid-base"),), "not with .*liquid"),
+                         ((rest, (0.1, 0, 0)), "at rest"), ((load("off-axis-two").scene,), "needs a state"),
+                         ((load("torque-free-body"), np.empty((0, 3))), "at least one state")):
+        with pytest.raises(errors.InputError, match=words):
+            stabilab.plot.section(*given)
+    for options, words in (({"neighbours": -1}, "whole number from 0"), ({"passages": 0}, "whole number from 1")):
+        with pytest.raises(errors.InputError, match=words):
+            stabilab.plot.section(load("minor-axis-100"), **options)
+
+
+def test_a_section_with_neighbours_is_written_the_same_again_and_other_kinds_have_none(tmp_path, monkeypatch):
+    monkeypatch.setattr(plane_section, "PASSAGES", 6)
+    case = load("torque-free-body")
+    one, two = (to_file.write(case, tmp_path / f"{n}.png", "section", neighbours=2).read_bytes() for n in (1, 2))
+    assert one == two and one.startswith(b"\x89PNG")
+    with pytest.raises(errors.InputError, match="a section alone shows them"):
+        to_file.write(case, tmp_path / "a.png", "time", neighbours=2)
+    assert not (tmp_path / "a.png").exists()
