@@ -11,6 +11,7 @@ from stabilab.case.table import Written
 from stabilab.errors import InputError
 from stabilab.maps.axes import axis_of
 from stabilab.maps.keys import key_of, keys_of
+from stabilab.maps.plan import split_keys
 
 TEXT = """
 [body]
@@ -91,3 +92,7 @@ def test_values_that_are_none_are_told(text, words):
     with pytest.raises(InputError) as error:
         values(text)
     assert words in str(error.value) and "effects.constant_torque.torque[3]" in str(error.value)
+
+
+def test_a_key_ends_at_the_last_equals_sign_as_a_wheels_name_may_have_one():
+    assert split_keys(["wheels.a=b.momentum = 0:1:3"]) == [("wheels.a=b.momentum", "0:1:3")]

@@ -38,7 +38,7 @@ def number(value: Fraction) -> str:
     return shown if Fraction(shown) == value else str(value)
 
 
-def _short(value: Fraction) -> str:
+def rounded(value: Fraction) -> str:
     """The same for a reader: rounded where the ratio is long (degrees bring digits of pi)."""
     exact = number(value)
     return exact if len(exact) <= LONG else f"{float(value):.12g}"
@@ -56,7 +56,7 @@ def text(found) -> str:
     """Lines that follow what a command says of a case; nothing where no number is uncertain."""
     if found is None:
         return ""
-    lines = ["uncertain: " + ", ".join(f"{key(u)} = {_short(u.middle)} +- {_short(u.half)}" for u in found.numbers)]
+    lines = ["uncertain: " + ", ".join(f"{key(u)} = {rounded(u.middle)} +- {rounded(u.half)}" for u in found.numbers)]
     for name in SUBJECTS:
         over = getattr(found, name)
         lines += [] if over is None else _lines(name, over)
