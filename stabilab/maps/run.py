@@ -1,7 +1,6 @@
 """Running a sweep: which chunks are left, who computes them, and how far it is."""
 from __future__ import annotations
 
-import os
 import shutil
 import tempfile
 import time
@@ -15,6 +14,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..interrupt import undoing
+from ..processes import cores
 from ..streams import Progress
 from . import parts
 from .chunk import answered
@@ -83,11 +83,6 @@ def _here(plan, folder, left):
     for number in left:
         parts.write(plan, folder, number, answered(plan, number).tobytes())
         yield number
-
-
-def cores() -> int:
-    """How many processors this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def _finished(plan: Plan, records: np.ndarray, resumed: int) -> Swept:

@@ -1,7 +1,4 @@
-"""Processes on this machine that compute chunks: each is told a number, writes the part, and says that it did.
-
-A fresh interpreter each, started with the module's name, so that neither threads nor the caller's own script are copied into it.
-"""
+"""Processes on this machine that compute chunks: each is told a number, writes the part, and says that it did."""
 from __future__ import annotations
 
 import os
@@ -11,13 +8,12 @@ import subprocess
 import sys
 import threading
 from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 from ..errors import InputError, StabilabError
 from ..files import whole_file
-from ..interrupt import undoing
+from ..processes import helpers
 from . import parts
 from .chunk import answered
 from .plan import Plan, from_json
@@ -38,7 +34,9 @@ def by_workers(plan: Plan, folder: Path, left: list[int], number: int) -> Iterat
     told: queue.SimpleQueue[tuple[str, Any]] = queue.SimpleQueue()
     for chunk in left:
         waiting.put(chunk)
-    with _processes(plan, folder, number) as workers:
+    with whole_file(folder / WORK) as work:
+        work.write_text(plan.as_json(), encoding="utf-8")
+    with helpers(__name__, folder, number, stdout=subprocess.PIPE, text=True, encoding="utf-8") as workers:
         for worker in workers:
             threading.Thread(target=_feed, args=(worker, waiting, told), daemon=True).start()
         for _ in left:
@@ -74,25 +72,6 @@ def _feed(worker, waiting, told) -> None:
             continue
         told.put((FAILED, InputError(rest.replace("\x1f", "\n")) if word == FAILED else (chunk, worker.wait())))
         return
-
-
-@contextmanager
-def _processes(plan: Plan, folder: Path, number: int):
-    with whole_file(folder / WORK) as waiting:
-        waiting.write_text(plan.as_json(), encoding="utf-8")
-    workers = [subprocess.Popen([sys.executable, "-m", __name__, str(folder)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, encoding="utf-8")
-               for _ in range(number)]
-
-    def stop_all() -> None:
-        for worker in workers:
-            worker.kill()
-            worker.wait()
-
-    with undoing(stop_all):
-        try:
-            yield workers
-        finally:
-            stop_all()
 
 
 def main(folder: Path) -> None:

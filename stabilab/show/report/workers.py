@@ -9,13 +9,13 @@ import os
 import pickle
 import subprocess
 import sys
-from contextlib import contextmanager
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
 
 from ...errors import StabilabError
-from ...interrupt import end_with_parent, undoing
+from ...interrupt import end_with_parent
+from ...processes import cores, helpers
 
 PLACE = ".tasks"  # folder inside that of the report, removed at the end
 MOST = 4          # helpers need memory too: some 400 MB each
@@ -31,11 +31,6 @@ class Task:
     weight: float = 1.0
 
 
-def cores() -> int:
-    """How many processors this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-
-
 def done(tasks, folder: Path, tell, workers: int | None = None) -> list:
     """What the tasks give, in their order. workers: processes in all, this one counted; None: one a core."""
     number = min(cores() if workers is None else workers, MOST, len(tasks))
@@ -46,13 +41,14 @@ def done(tasks, folder: Path, tell, workers: int | None = None) -> list:
     order = sorted(range(len(tasks)), key=lambda n: -tasks[n].weight)
     (place / "tasks").write_bytes(pickle.dumps(tasks))
     found: dict = {}
-    with _helpers(place, number - 1) as helpers:
+    with helpers(__name__, place, number - 1, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as others:  # they do tasks until none is left
         for n in order:
             if _taken(place, n):
                 found[n] = _told(tasks[n], tell)
-        for helper in helpers:
+        for helper in others:
             tell("what is under way")
             helper.wait()
+            helper.stdin.close()
     for n in order:
         if n not in found:
             found[n] = _left(place, n, tasks[n], tell)
@@ -88,25 +84,6 @@ def _left(place, n, task, tell):
         return pickle.loads((place / f"made-{n}").read_bytes())
     except (OSError, EOFError, pickle.UnpicklingError):
         return _told(task, tell)
-
-
-@contextmanager
-def _helpers(place, number):
-    """Processes that do tasks until none is left; they end with this one, whatever ends it."""
-    helpers = [subprocess.Popen([sys.executable, "-m", __name__, str(place)], stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-               for _ in range(number)]
-
-    def stop_all():
-        for helper in helpers:
-            helper.kill()
-            helper.wait()
-            helper.stdin.close()
-
-    with undoing(stop_all):
-        try:
-            yield helpers
-        finally:
-            stop_all()
 
 
 def main(place: Path) -> None:

@@ -1,0 +1,38 @@
+"""Processes of this machine that help another one: how many it may use, and an end with the one that started them, whatever ends it."""
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from .interrupt import undoing
+
+
+def cores() -> int:
+    """How many processors this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+@contextmanager
+def helpers(module: str, place: Path, number: int, **streams: Any) -> Iterator[list[subprocess.Popen]]:
+    """While the block runs: `number` fresh interpreters that run a module, told the place where they work. They are killed at its end, however it ends.
+
+    A fresh interpreter each, so that neither threads nor the caller's own script are copied into it. Each has a pipe as its standard input: by its end
+    it learns that the one who started it was killed. streams: what `subprocess.Popen` shall do with the others.
+    """
+    started = [subprocess.Popen([sys.executable, "-m", module, str(place)], stdin=subprocess.PIPE, **streams) for _ in range(number)]
+
+    def stop_all() -> None:
+        for one in started:
+            one.kill()
+            one.wait()
+
+    with undoing(stop_all):
+        try:
+            yield started
+        finally:
+            stop_all()
