@@ -1,4 +1,4 @@
-"""What all tests share: hypothesis that draws the same examples every time, and the commands run in this process."""
+"""What all tests share: hypothesis that draws the same examples every time, no picture left open, and the commands run in this process."""
 import sys
 
 import pytest
@@ -8,6 +8,14 @@ from stabilab import cli
 
 settings.register_profile("same", derandomize=True, deadline=None)
 settings.load_profile("same")
+
+
+@pytest.fixture(autouse=True)
+def no_picture_is_left_open():
+    """A picture that one test leaves open is not seen by the next one of its process."""
+    yield
+    if plt := sys.modules.get("matplotlib.pyplot"):
+        plt.close("all")
 
 
 @pytest.fixture

@@ -33,15 +33,16 @@ def executed(notebook: dict) -> dict:
 
 
 def outputs(source: str, names: dict, count: int) -> list[dict]:
-    """What a cell prints, the value of its last line, and the figures that it leaves open."""
+    """What a cell prints, the value of its last line, and the figures that it opens and leaves open; those of others stay as they are."""
     from matplotlib import pyplot as plt
+    before = set(plt.get_fignums())
     body = ast.parse(source).body
     last = ast.Expression(body.pop().value) if body and isinstance(body[-1], ast.Expr) else None
     with contextlib.redirect_stdout(io.StringIO()) as screen:
         exec(compile(ast.Module(body, []), "cell", "exec"), names)
         value = None if last is None else eval(compile(last, "cell", "eval"), names)
     made = [{"output_type": "stream", "name": "stdout", "text": lines(screen.getvalue())}] if screen.getvalue() else []
-    figures = [plt.figure(number) for number in plt.get_fignums()]
+    figures = [plt.figure(number) for number in plt.get_fignums() if number not in before]
     if value is not None and not figures:
         shown = {"text/plain": lines(repr(value))}
         if hasattr(value, "_repr_html_"):
@@ -52,7 +53,7 @@ def outputs(source: str, names: dict, count: int) -> list[dict]:
         figure.savefig(drawn, format="png", dpi=SHARP, bbox_inches="tight", metadata={"Software": None})
         data = {"image/png": base64.b64encode(drawn.getvalue()).decode() + "\n", "text/plain": ["<Figure>"]}
         made.append({"output_type": "display_data", "metadata": {}, "data": data})
-    plt.close("all")
+        plt.close(figure)
     return made
 
 

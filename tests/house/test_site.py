@@ -111,12 +111,15 @@ def test_a_notebook_is_whole_and_its_page_has_every_cell_picture_and_link(path):
     assert all((path.parent / target.split("#")[0]).exists() for target in re.findall(r"\]\((\.\./[^)]+)\)", text))
 
 
-def test_a_cell_shows_what_it_prints_its_value_and_its_figures():
+def test_a_cell_shows_what_it_prints_its_value_and_its_own_figures():
+    from matplotlib import pyplot as plt
+    others = [plt.figure(figsize=(1, 1)).number, *plt.get_fignums()]   # a figure that somebody else left open is none of the cell's
     made = notebooks.outputs("import matplotlib.pyplot as plt\nprint(1)\na = 2\na + 1", names := {}, 1)
     assert [one["output_type"] for one in made] == ["stream", "execute_result"] and names["a"] == 2
     assert notebooks.texts({"cells": [{"outputs": made}]}) == ["1\n", "3"]
     (drawn,) = notebooks.outputs("_ = plt.subplots(figsize=(1, 1))", names, 2)
-    assert drawn["output_type"] == "display_data" and not names["plt"].get_fignums()
+    assert drawn["output_type"] == "display_data" and sorted(set(others)) == plt.get_fignums()
+    plt.close(others[0])
 
 
 @pytest.mark.slow
