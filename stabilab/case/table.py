@@ -28,6 +28,17 @@ UNCERTAIN = {("body", "inertia"), ("effects", "gyrostat", "momentum"), ("effects
              ("scaled", "a"), ("scaled", "b"), ("scaled", "mu")}  # the keys whose numbers may be uncertain
 
 
+HOMES = {word: home for home, words in {
+    "[motion]": ("angular_velocity", "omega", "span", "vertical", "attitude", "start", "initial", "state"),
+    "[body]": ("inertia", "moments", "products", "mass", "centre_of_mass"),
+    "[limits]": ("rate", "limit"),
+    "[output]": ("units",),
+    "[[wheels]], or as [effects.gyrostat]": ("momentum", "wheel", "gyrostat"),
+    "[effects.constant_torque]": ("torque", "constant_torque"),
+    "[[thrusters]]": ("force", "position", "direction", "thruster"),
+}.items() for word in words}  # where the words stand that a reader most often writes in another place
+
+
 class Uncertain(NamedTuple):
     """A number known within bounds: its path in the file (with the list index), the middle and the half-width, exact."""
 
@@ -236,7 +247,8 @@ def described(value) -> str:
 
 
 def did_you_mean(word: str, allowed) -> str:
-    """"; did you mean ...?" where a known word is near, else the list of what may stand here."""
+    """"; did you mean ...?" where a known word is near, else in which table it stands, and the list of what may stand here."""
     from difflib import get_close_matches
+    home = f"; it is written in {HOMES[word.lower()]}" if word.lower() in HOMES and word.lower() not in allowed else ""
     near = get_close_matches(word.lower()[:60], list(allowed), n=1, cutoff=0.6)
-    return f"; did you mean {near[0]}?" if near else f"; here may stand {', '.join(allowed)}"
+    return f"; did you mean {near[0]}?" if near else f"{home}; here may stand {', '.join(allowed)}"

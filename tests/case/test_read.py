@@ -75,6 +75,8 @@ def test_span_is_converted_between_seconds_and_tau(case):
 FAULTS = [
     # text, line, key, words of the message
     (BODY + "[effects.gyrostatt]\nmomentum = [1, 0, 0]\n", 3, "effects.gyrostatt", "did you mean gyrostat? Known effects: gyrostat, constant_torque"),
+    (BODY + "angular_velocity = [0, 1, 0]\n", 3, "body.angular_velocity", "it is written in [motion]"),
+    (BODY + "[start]\nangular_velocity = [0, 1, 0]\n", 3, "start", "it is written in [motion]"),
     (BODY + "[effects.magnet]\nfield = 1\n", 3, "effects.magnet", "here may stand gyrostat, constant_torque"),
     (BODY + "[effects.gyrostat]\nmomentun = [1, 0, 0]\n", 4, "effects.gyrostat.momentun", "did you mean momentum?"),
     (BODY + "[effects.gyrostat]\n", 3, "effects.gyrostat", "momentum is missing"),
