@@ -22,6 +22,7 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
     from .case.read import load as load
     from .errors import InputError as InputError
     from .integrate.ensemble import ensemble as ensemble
+    from .maps.bifurcation.ask import bifurcation as bifurcation
     from .orbit.result import Fate as Fate
     from .orbit.separatrix.sheets import separatrix as separatrix
     from .physics.body import Body as Body
@@ -59,7 +60,7 @@ _HOME = {
     "Charge": "physics.effects.charge", "Resistance": "physics.effects.resistance", "LiquidCavity": "physics.effects.liquid_cavity",
     "NewtonianField": "physics.effects.newtonian_field", "Gravity": "physics.effects.gravity", "BodyForce": "physics.effects.body_force",
     "derive": "physics.equations", "validity": "physics.law_limits",
-    "plot": "show", "sweep": "show.maps.dataset", "InputError": "errors",
+    "plot": "show", "sweep": "show.maps.dataset", "bifurcation": "maps.bifurcation.ask", "InputError": "errors",
 }
 __all__ = [*_HOME, "__version__"]
 

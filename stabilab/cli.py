@@ -394,7 +394,7 @@ def plot(case: CaseFile,
          until: Annotated[str | None, typer.Option(metavar="TIME", help='Draw up to this time: "10 min".')] = None,
          neighbours: Annotated[int, typer.Option(metavar="N", help="Of a section: so many motions beside this one.")] = 0,
          units: UnitsOption = None, strict: Strict = False):
-    """Draw a case: rates over time, phase plane, separatrix and more.
+    """Draw a case: rates over time, phase plane, separatrix, more.
 
     Of a FILE.nc of stabilab sweep it draws the map; --kind is then a column.
     The same case gives the same bytes. What a case has no plot of is refused, with the kinds that it has.
@@ -465,6 +465,38 @@ def sweep(case: CaseFile,
         _show(words.text(found))
     if strict and words.undecided(found):
         raise typer.Exit(UNDECIDED)
+
+
+@app.command()
+def bifurcation(case: CaseFile,
+                vary: Annotated[list[str] | None, typer.Option(metavar="KEY=FROM:TO", help='A number that varies: "torque[3]=0:0.5", '
+                                                               '"wheels.pitch.speed=-3000:3000 rpm". One or two.')] = None,
+                curve: Annotated[bool, typer.Option("--curve", help="Of a torque on a principal axis: where stability changes along the whole curve of "
+                                                                    "equilibria, whatever the motion.")] = False,
+                out: Annotated[Path | None, typer.Option(metavar="FILE.png", help="Draw it: .png, .svg or .pdf.")] = None,
+                csv: Annotated[bool, typer.Option("--csv", help="CSV on stdout: points of all branches.")] = False, json: Json = False):
+    """Find where equilibria appear and vanish.
+
+    Exactly, over the range of one number or two: folds and what else there is are roots of discriminants, none is missed.
+
+    Example: stabilab bifurcation cases/wheel-and-thruster.toml --vary "torque[3]=0:2000"
+    """
+    if json and csv:
+        raise typer.BadParameter("choose one of --json and --csv")
+    from .maps.bifurcation.ask import bifurcation as ask
+    from .maps.plan import split_keys
+    from .show.files import endings
+    from .show.maps.bifurcation import words
+    if out:
+        endings.file(out, endings.PICTURES)
+    found = ask(case, split_keys(vary or []), curve)
+    if out:
+        from .show.maps.bifurcation import picture
+        _say(f"written: {picture.write(found, out)}")
+    if json or csv:
+        _print(words.json(found) if json else words.csv(found))
+    else:
+        _show(words.text(found))
 
 
 @app.command()
@@ -552,7 +584,7 @@ def stuck(case: CaseFile,
           out: Annotated[Path | None, typer.Option(metavar="FILE.png|.svg|.pdf", help="Draw the rates against time.")] = None,
           json: Json = False, csv: Annotated[bool, typer.Option("--csv", help="CSV on stdout instead of text.")] = False,
           strict: Annotated[bool, typer.Option("--strict", help="Exit with 3 where a fate is undecided.")] = False):
-    """Say what a thruster stuck open does, how soon, and what helps.
+    """Say what a thruster stuck open does, how soon, what helps.
 
     Fate, axis, time to the limit of [limits], margins; wheel momenta that keep the motion bounded, thrusters that help.
 

@@ -1,0 +1,50 @@
+"""The question: a case and one or two ranges in, a diagram out."""
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from ...case.read import Case, read_text
+from ...case.source import parsed, source_text
+from ...errors import InputError
+from ...physics.coefficients import effective
+from .family import Family
+from .line import diagram
+from .result import Diagram
+from .span import spans_of
+
+
+def bifurcation(case: Case | str | os.PathLike[str], vary: Mapping[str, Any] | Sequence[tuple[str, Any]], curve: bool = False) -> Diagram:
+    """All equilibria of a case over the range of one number, exactly: where they appear, vanish or go to infinity, and which are stable.
+
+    case: a Case, or the path of a case file. vary: name of a number -> its range, "0:0.5 N m" or two numbers in SI units; names are those of
+    `stabilab.sweep`. Off the principal axes isolated equilibria are counted; of a torque on one, those on the curve that the motion of the case keeps
+    to, or, with `curve` or without a motion, the points of the curve of equilibria where stability changes. Critical values are roots of discriminants and
+    resultants with rational coefficients, isolated by balls: no step size, and none is missed. Raises InputError for what cannot be eliminated.
+    """
+    family = family_of(case, vary)
+    return diagram(family, curve)
+
+
+def family_of(case: Case | str | os.PathLike[str], vary: Mapping[str, Any] | Sequence[tuple[str, Any]]) -> Family:
+    """The scenes over the ranges. Raises InputError for what cannot vary, and for effects that no diagram covers."""
+    if not isinstance(case, (Case, str, os.PathLike)):
+        raise InputError(f"bifurcation: expected a case or the path of a case file, got {case!r:.80}")
+    path, text = (case.path, case.text) if isinstance(case, Case) else (os.fspath(case), source_text(case))
+    read = read_text(path, text)
+    data = {key: value for key, value in parsed(path, text)[0].items() if key not in ("sweep", "expect")}
+    family = Family(read, data, spans_of(data, _pairs(vary)))
+    scene = effective(read.scene)
+    if not scene.plain:
+        others = ", ".join(e.name for e in scene.effects if e.name not in ("gyrostat", "constant_torque"))
+        raise InputError(f"{read.place}: a diagram is exact for a body with wheels under a constant torque; this case also has {others}: "
+                         "stabilab sweep --answer equilibria,verdict counts there")
+    return family
+
+
+def _pairs(vary: Mapping[str, Any] | Sequence[tuple[str, Any]]) -> list[tuple[str, Any]]:
+    try:
+        return [(str(name), asked) for name, asked in (vary.items() if isinstance(vary, Mapping) else vary)]
+    except (TypeError, ValueError):
+        raise InputError(f'vary: expected names and ranges such as {{"torque[3]": "0:0.5"}}, got {vary!r:.80}') from None

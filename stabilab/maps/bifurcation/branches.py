@@ -1,0 +1,64 @@
+"""The branches of a diagram as rows of points to be drawn or tabulated: each point solved by itself, dense where two branches meet."""
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+
+from ...numbers.balls import rational, settled
+from ...numbers.double_ball import Unclear
+from ...numbers.vectors import Float3
+from .choice import chosen
+from .eliminated import Eliminated
+from .result import Diagram, Piece
+from .verdicts import ball_form, state_of
+
+POINTS = 64  # of a branch, closer towards both ends as a fold's parabola needs it
+
+
+@dataclass(frozen=True)
+class Branch:
+    """A branch of one piece: rows (value, state in the case's variables), the verdict that all of it has, and which branch of which piece it is."""
+
+    piece: int
+    number: int
+    verdict: str
+    values: tuple[float, ...]
+    states: tuple[Float3, ...]
+
+
+def branches(diagram: Diagram, points: int = POINTS) -> list[Branch]:
+    """Every branch of every piece."""
+    system = chosen(diagram.family, diagram.kind == "borders")[2]
+    if system is None:
+        return []
+    eliminated = Eliminated(diagram.family, system)
+    return [branch for n, piece in enumerate(diagram.pieces) if piece.count for branch in _of_piece(diagram, eliminated, n, piece, points)]
+
+
+def _of_piece(diagram: Diagram, eliminated: Eliminated, n: int, piece: Piece, points: int) -> Iterator[Branch]:
+    rows = [(float(value), states) for value in _spread(piece, points) if (states := _solved(diagram, eliminated, value, piece.count)) is not None]
+    for number in range(piece.count):
+        yield Branch(n, number, piece.states[number].verdict, tuple(value for value, _ in rows), tuple(states[number] for _, states in rows))
+
+
+def _spread(piece: Piece, points: int) -> list[Fraction]:
+    """Values inside, ends left out."""
+    low, high = Fraction(piece.low), Fraction(piece.high)
+    shares = [Fraction(0.5 - 0.5 * math.cos(math.pi * k / points)) for k in range(1, points)]
+    ends = [Fraction(1, 10**6), 1 - Fraction(1, 10**6)]
+    return sorted(low + (high - low) * share for share in {*shares, *ends})
+
+
+def _solved(diagram: Diagram, eliminated: Eliminated, value: Fraction, count: int) -> list[Float3] | None:
+    try:
+        states = settled(lambda digits: [_state(diagram, root.y, value) for root in eliminated.at_general((value,))], most=1024)
+    except Unclear:
+        return None
+    return states if len(states) == count else None
+
+
+def _state(diagram: Diagram, y, value: Fraction) -> Float3:
+    u = ball_form(diagram.family, [rational(value)])[1] if diagram.family.scaled else []
+    return tuple(float(v.mid()) + 0.0 for v in state_of(diagram.family, y, u))

@@ -1,0 +1,262 @@
+"""A diagram's equations in one unknown: R(x; p, q) = 0, the values at which its number of real roots may change, and its roots.
+
+What is known at a point of the range is known exactly: p and q are rational there, or p is an algebraic number and R is split into powers over
+the field of it. Two points one above another (equal x) would be taken for one, so a point where anything may happen is looked at along several
+directions x - lean y: two points are in line for one lean at the most, so the greatest number of roots is the number of points.
+"""
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from ...numbers.balls import rational, real_roots_of
+from ...numbers.double_ball import Unclear
+from .algebraic import Algebraic, FieldPoly
+from .family import Family
+from .system import LEANS, Conics, OnLine
+
+if TYPE_CHECKING:
+    from flint import arb, fmpq_mpoly, fmpq_poly
+
+SPARE = 7  # leans looked at: of four points in the plane, complex ones counted, at most six pairs are in line
+PROBES = (Fraction(37, 97), Fraction(53, 89))  # parts of the range where the general case is looked at
+
+
+class Root(NamedTuple):
+    """A ball about an unknown, how often it counts, and the state y in balls."""
+
+    x: arb
+    times: int
+    y: tuple[arb, ...]
+
+
+@dataclass(frozen=True)
+class Leant:
+    """R in x - lean y. guard: the constant coefficients of y^2; where both vanish points may be invented."""
+
+    lean: Fraction
+    f: fmpq_mpoly
+    g: fmpq_mpoly
+    R: fmpq_mpoly
+    guard: tuple[fmpq_mpoly, ...]
+
+
+@dataclass(frozen=True)
+class Eliminated:
+    """The one unknown's polynomial over a family, with all that may change the number of its real roots."""
+
+    family: Family
+    system: OnLine | Conics
+
+    @cached_property
+    def views(self) -> tuple[Leant, ...]:
+        """R along several directions; of a line there is one."""
+        if isinstance(self.system, OnLine):
+            x, c = self.family.ring.gens()[0], self.system.coefficients
+            return (Leant(Fraction(0), c[0], c[0], c[0] + x * c[1] + x * x * c[2], (self.family.ring.constant(1),)),)
+        return tuple(made for lean in LEANS if (made := self._leant(lean)) is not None)
+
+    @cached_property
+    def main(self) -> Leant:
+        """The first view in which the general point has as many roots as in any."""
+        at = tuple(span.low + (span.high - span.low) * part for span, part in zip(self.family.spans, PROBES))
+        found = [(len(self._distinct(view, at)) - 1, view) for view in self.views]
+        most = max(number for number, _ in found)
+        return next(view for number, view in found if number == most)
+
+    @property
+    def endless(self) -> bool:
+        """Whether every value of the unknown solves, at every point of the range."""
+        return self.main.R.is_zero()
+
+    @cached_property
+    def reduced(self) -> fmpq_mpoly:
+        """R of the main view, each of its factors once, without those that hold no unknown."""
+        return self._once(self.main.R)
+
+    @cached_property
+    def critical(self) -> tuple[fmpq_mpoly, ...]:
+        """Irreducible polynomials in the numbers that vary, one of which is zero wherever the number of real roots changes."""
+        R = self.reduced
+        parts = [_leading(R), *([_guard(self.main.guard)] if self.main.guard else [])]
+        if R.degrees()[0] > 1:
+            parts.append(R.resultant(R.derivative("x"), "x"))
+        parts += [c for f, _ in _factors(self.main.R) if (c := f).degrees()[0] < 1]
+        parts.append(self.system.special)
+        found: dict[str, fmpq_mpoly] = {}
+        for part in parts:
+            for factor, _ in _factors(part):
+                found.setdefault(str(factor), factor)
+        return tuple(factor for factor in found.values() if not factor.is_constant())
+
+    def _leant(self, lean: Fraction) -> Leant | None:
+        f, g = self.system.leant(lean)  # type: ignore[union-attr]  # a line is not asked
+        guard = tuple(_coefficient(h, 2) for h in (f, g))
+        if all(c.is_zero() for c in guard):
+            return None
+        return Leant(lean, f, g, _resultant_y(f, g), guard)
+
+    def _once(self, R: fmpq_mpoly) -> fmpq_mpoly:
+        out = self.family.ring.constant(1)
+        for factor, _ in _factors(R):
+            if factor.degrees()[0] > 0:
+                out *= factor
+        return out
+
+    def _distinct(self, view: Leant, at: tuple[Fraction, ...]) -> list[Fraction]:
+        """Coefficients of the square-free part of R there, in size of its distinct roots plus one."""
+        f = univariate(at_rational(view.R, at))
+        if f.degree() < 1:
+            return [Fraction(0)] * (1 if f.degree() == 0 else 9)
+        return [Fraction(0)] * (f.degree() - f.gcd(f.derivative()).degree() + 1)
+
+    def at(self, values: tuple[Fraction, ...]) -> list[Root] | None:
+        """The equilibria at rational values in balls of the working precision, None where they are not isolated."""
+        view = self._best([(view, univariate(at_rational(view.R, values))) for view in self._guarded_at(values)], values)
+        if view is None:
+            return None
+        chosen, f = view
+        return self._with_states(chosen, real_roots_of(f), [rational(v) for v in values])
+
+    def at_general(self, values: tuple[Fraction, ...]) -> list[Root]:
+        """The same at a point where nothing happens, by the main view alone: rising in x, so that branches keep their numbers."""
+        f = univariate(at_rational(self.main.R, values))
+        return self._with_states(self.main, real_roots_of(f), [rational(v) for v in values])
+
+    def _guarded_at(self, values: tuple[Fraction, ...]) -> list[Leant]:
+        good = [view for view in self.views if any(not at_rational(c, values).is_zero() for c in view.guard)]
+        return good[:SPARE]
+
+    def _best(self, made: Sequence[tuple[Leant, fmpq_poly]], values) -> tuple[Leant, fmpq_poly] | None:
+        made = [(view, f) for view, f in made if f.degree() >= 0]
+        if not made:
+            return None
+        number = lambda f: f.degree() - f.gcd(f.derivative()).degree() if f.degree() > 0 else 0
+        most = max(number(f) for _, f in made)
+        return next(one for one in made if number(one[1]) == most)
+
+    def at_algebraic(self, number: Algebraic, bits: int) -> list[Root] | None:
+        """The equilibria at an algebraic p (a family of one number), None where they are not isolated. Unclear where so many bits do not tell."""
+        best: tuple[int, Leant, FieldPoly] | None = None
+        for view in self.views:
+            if all(_zero_at(c, number) for c in view.guard):
+                continue
+            f = number.trimmed(_over_field(view.R))
+            if not f:
+                continue
+            distinct = sum(len(factor) - 1 for factor, _ in number.powers(f))
+            if best is None or distinct > best[0]:
+                best = (distinct, view, f)
+        if best is None:
+            return None
+        _, view, f = best
+        return self._with_states(view, number.real_roots(f, bits), [number.ball(bits)])
+
+    def _with_states(self, view: Leant, roots: list[tuple[arb, int]], values: list) -> list[Root]:
+        return [Root(x, times, self._state(view, x, values)) for x, times in roots]
+
+    def _state(self, view: Leant, x: arb, values: list) -> tuple[arb, ...]:
+        from flint import arb
+        of = lambda polynomial, *unknowns: evaluated(polynomial, [*unknowns, *([arb(0)] * (2 - len(unknowns))), *values])
+        if isinstance(self.system, OnLine):
+            below = of(self.system.below)
+            return tuple((of(s) + x * of(a)) / below for s, a in zip(self.system.start, self.system.along))
+        rows = [[of(_coefficient(h, n), x) for n in range(3)] for h in (view.f, view.g)]
+        y = _common(rows)
+        place = [arb(0)] * 3
+        j, k = (self.system.axis + 1) % 3, (self.system.axis + 2) % 3
+        place[j], place[k] = x + y * rational(view.lean), y
+        return tuple(place)
+
+
+def _common(rows: list[list[arb]]) -> arb:
+    """The y that solves two quadratics a0 + a1 y + a2 y^2 at once: by the linear combination without y^2, else the one root that serves both."""
+    (a0, a1, a2), (b0, b1, b2) = rows
+    rate = b2 * a1 - a2 * b1
+    if not rate.contains(0):
+        return (a2 * b0 - b2 * a0) / rate
+    for (c0, c1, c2), (d0, d1, d2) in (rows, rows[::-1]):
+        candidates = [-c0 / c1] if c2.contains(0) and not c1.contains(0) else []
+        if not c2.contains(0):
+            half = (c1 * c1 - 4 * c2 * c0)
+            root = half.nonnegative_part().sqrt()
+            candidates = [(-c1 + s * root) / (2 * c2) for s in (1, -1)]
+        fitting = [y for y in candidates if (d0 + d1 * y + d2 * y * y).contains(0)]
+        if fitting:
+            return fitting[0]
+    raise Unclear
+
+
+def _factors(f: fmpq_mpoly) -> list[tuple[fmpq_mpoly, int]]:
+    return [] if f.is_zero() or f.is_constant() else f.factor()[1]
+
+
+def _leading(R: fmpq_mpoly) -> fmpq_mpoly:
+    """The coefficient of the highest power of x."""
+    return _of_power(R, 0, max(R.degrees()[0], 0))
+
+
+def _guard(guard: tuple[fmpq_mpoly, ...]) -> fmpq_mpoly:
+    """Zero wherever all of them are."""
+    out = guard[0]
+    for c in guard[1:]:
+        out = out.gcd(c)
+    return out
+
+
+def _coefficient(h: fmpq_mpoly, n: int) -> fmpq_mpoly:
+    """The coefficient of y^n."""
+    return _of_power(h, 1, n)
+
+
+def _of_power(h: fmpq_mpoly, variable: int, n: int) -> fmpq_mpoly:
+    ring = h.context()
+    terms = {tuple(0 if i == variable else e for i, e in enumerate(powers)): c for powers, c in h.to_dict().items() if powers[variable] == n}
+    return ring.from_dict(terms)
+
+
+def _resultant_y(f: fmpq_mpoly, g: fmpq_mpoly) -> fmpq_mpoly:
+    if f.is_zero() or g.is_zero():
+        return f * 0
+    if max(f.degrees()[1], g.degrees()[1]) < 1:
+        return f.gcd(g)
+    return f.resultant(g, "y")
+
+
+def at_rational(f: fmpq_mpoly, values: tuple[Fraction, ...]) -> fmpq_mpoly:
+    """With rational numbers in the place of p (and q)."""
+    return f.subs(dict(zip(("p", "q"), map(rational, values))))
+
+
+def univariate(f: fmpq_mpoly, variable: int = 0) -> fmpq_poly:
+    """As a polynomial in one variable, which is all it has."""
+    from flint import fmpq_poly
+    coefficients: list[Any] = [0] * (max(f.degrees()[variable], 0) + 1)
+    for powers, c in f.to_dict().items():
+        coefficients[powers[variable]] = c
+    return fmpq_poly(coefficients)
+
+
+def _over_field(R: fmpq_mpoly) -> list[fmpq_poly]:
+    """Coefficients of the powers of x, as polynomials in p."""
+    return [univariate(_of_power(R, 0, n), 2) for n in range(max(R.degrees()[0], 0) + 1)]
+
+
+def _zero_at(c: fmpq_mpoly, number: Algebraic) -> bool:
+    return number.reduced(univariate(c, 2)) == 0
+
+
+def evaluated(f: fmpq_mpoly, at: list) -> arb:
+    """A polynomial at balls or rationals, one for each of (x, y, p, q)."""
+    from flint import arb
+    total = arb(0)
+    for powers, c in f.to_dict().items():
+        term = arb(c)
+        for value, power in zip(at, powers):
+            if power:
+                term *= arb(value) ** power
+        total += term
+    return total

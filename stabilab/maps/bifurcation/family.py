@@ -1,0 +1,121 @@
+"""The scenes over a range as polynomials: moments, wheel, torque and start with exact coefficients in the numbers that vary.
+
+The case is read at rational values of its numbers; polynomials through these that hold at further values as well are the law by which the
+numbers enter. Torques, momenta, moments, forces, arms and speeds enter so; a direction or a product of inertia turns axes, by roots, and is refused.
+"""
+from __future__ import annotations
+
+import copy
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import cached_property
+from itertools import product
+from typing import TYPE_CHECKING, Any
+
+from ...case.read import Case, with_data
+from ...equilibrium.balance import Pencil, pencil
+from ...errors import InputError, printable
+from ...numbers.balls import rational
+from ...physics.coefficients import effective
+from ..keys import put
+from .span import Span
+
+if TYPE_CHECKING:
+    from flint import fmpq_mpoly, fmpq_mpoly_ctx
+
+DEGREE = 3  # in each number that varies; a thruster's arm, force and a wheel's speed come to one each
+CHECKS = 2  # further values at which the polynomials must hold
+VARIABLES = ("x", "y", "p", "q")  # two unknowns of an elimination, then the numbers that vary
+
+
+@dataclass(frozen=True)
+class Family:
+    """case: as the file has it; data: its TOML data; spans: what varies."""
+
+    case: Case
+    data: dict[str, Any] = field(repr=False)
+    spans: tuple[Span, ...]
+
+    def at(self, values: tuple[Fraction, ...]) -> Case:
+        """The case with these values, exactly. Raises InputError where they make none."""
+        data = copy.deepcopy(self.data)
+        for span, value in zip(self.spans, values):
+            for path in span.key.paths:
+                put(data, path, span.written(value))
+        return with_data(self.case.path, self.case.text, data)
+
+    def pencil_at(self, values: tuple[Fraction, ...]) -> Pencil:
+        """The balance whose zeros are the equilibria there."""
+        return pencil(effective(self.at(values).scene))
+
+    @cached_property
+    def ring(self) -> fmpq_mpoly_ctx:
+        """Polynomials in two unknowns and the numbers that vary."""
+        from flint import fmpq_mpoly_ctx
+        return fmpq_mpoly_ctx.get(VARIABLES, "lex")
+
+    @cached_property
+    def numbers(self) -> dict[str, tuple[fmpq_mpoly, ...]]:
+        """D, lam, M, u (of `Pencil`) and y, the start in its variables (absent without a motion), as polynomials."""
+        grids = [[span.low + (span.high - span.low) * Fraction(n, DEGREE) for n in range(DEGREE + 1)] for span in self.spans]
+        table = {values: _numbers_of(self._read(values)) for values in product(*grids)}
+        first = next(iter(table.values()))
+        found = {name: tuple(self._through(grids, {values: row[name][n] for values, row in table.items()}) for n in range(3)) for name in first}
+        for number in range(1, CHECKS + 1):
+            values = tuple(span.low + (span.high - span.low) * Fraction(2 * number - 1 + k, 7 + 4 * k) for k, span in enumerate(self.spans))
+            self._hold(found, values)
+        return found
+
+    @property
+    def scaled(self) -> bool:
+        """Whether the case is in dimensionless variables."""
+        return self.case.variables == "scaled"
+
+    def _read(self, values: tuple[Fraction, ...]) -> Case:
+        try:
+            return self.at(values)
+        except InputError as error:
+            told = ", ".join(f"{span.label} = {float(value):.6g}" for span, value in zip(self.spans, values))
+            raise InputError(f"vary: the range leaves what a case may be: at {told}: {str(error).splitlines()[0]}") from None
+
+    def _through(self, grids, values) -> fmpq_mpoly:
+        """The polynomial of degree DEGREE in each variable with these values on the grid, by Lagrange."""
+        ring = self.ring
+        letters = ring.gens()[2:]
+        total = ring.constant(0)
+        basis = [[_lagrange(letter, grid, n, ring) for n in range(len(grid))] for letter, grid in zip(letters, grids)]
+        for places in product(*(range(len(grid)) for grid in grids)):
+            value = values[tuple(grid[n] for grid, n in zip(grids, places))]
+            if value:
+                term = ring.constant(rational(value))
+                for parts, n in zip(basis, places):
+                    term *= parts[n]
+                total += term
+        return total
+
+    def _hold(self, found, values) -> None:
+        case = self._read(values)
+        put_in = dict(zip(("p", "q"), map(rational, values)))
+        for name, row in _numbers_of(case).items():
+            for polynomial, value in zip(found[name], row):
+                if polynomial.subs(put_in) != rational(value):
+                    keys = " and ".join(printable(span.key.name) for span in self.spans)
+                    what = {"D": "principal moments", "lam": "wheel", "M": "torque", "u": "wheel", "y": "start"}[name]
+                    raise InputError(f"vary {keys}: the {what} of the case (along principal axes, in its variables) is no polynomial of it of degree "
+                                     f"{DEGREE}, so nothing can be eliminated exactly: vary a moment of inertia, a torque, a force or a wheel instead, or "
+                                     "use stabilab sweep")
+
+
+def _numbers_of(case: Case) -> dict[str, tuple[Fraction, ...]]:
+    p = pencil(effective(case.scene))
+    start = case.exact_state
+    found = {"D": p.D, "lam": p.lam, "M": p.M, "u": p.u}
+    return found | ({"y": tuple(a * x + u for a, x, u in zip(p.A, start, p.u))} if start is not None else {})
+
+
+def _lagrange(letter, grid, n, ring):
+    out = ring.constant(1)
+    for other, node in enumerate(grid):
+        if other != n:
+            out *= (letter - rational(node)) * (1 / rational(grid[n] - node))
+    return out

@@ -1,0 +1,150 @@
+"""Which equilibria a diagram counts, as equations in one or two unknowns with polynomial coefficients in the numbers that vary.
+
+Off the principal axes they are isolated: on the line where the two linear conditions meet, y = (P + x v)/w, one quadratic remains
+(`equilibrium.isolated`). A torque on principal axis i, with no wheel along it, has a whole conic of them, and a motion keeps to its own curve
+across that axis, W = const: the equilibria on this curve are where two conics meet. Without a motion the points of the conic where stability
+changes are counted, m = 0, another two conics. All unknowns are components of y (`equilibrium.balance.Pencil`).
+"""
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+from ...numbers.vectors import CYCLE, cross, dot
+from .family import Family
+
+if TYPE_CHECKING:
+    from flint import fmpq_mpoly
+
+ISOLATED, LEAF, BORDERS = "isolated", "motion", "borders"
+LEANS = tuple(Fraction(*parts) for parts in ((0, 1), (1, 1), (-1, 1), (2, 1), (1, 2), (-3, 1), (1, 3), (3, 1), (-2, 1), (5, 2)))  # X = x - lean y
+
+
+@dataclass(frozen=True)
+class OnLine:
+    """One quadratic c[0] + c[1] x + c[2] x^2 = 0 on the line y = (start + x along)/below. special: zero where the torque falls on a principal axis."""
+
+    coefficients: tuple[fmpq_mpoly, ...]
+    start: tuple[fmpq_mpoly, ...]
+    along: tuple[fmpq_mpoly, ...]
+    below: fmpq_mpoly
+    special: fmpq_mpoly
+    load: fmpq_mpoly
+    kind: str = ISOLATED
+
+
+@dataclass(frozen=True)
+class Conics:
+    """Two conics f = g = 0 in the components x = y_j and y = y_k of the state, the third being zero; axis: i of the torque. special: zero where
+    the equations do not hold all equilibria of the kind (along a curve of them: where the torque vanishes)."""
+
+    f: fmpq_mpoly
+    g: fmpq_mpoly
+    axis: int
+    kind: str
+    special: fmpq_mpoly
+    load: fmpq_mpoly
+
+    def leant(self, lean: Fraction) -> tuple[fmpq_mpoly, fmpq_mpoly]:
+        """Both in X = x - lean y and y: points one above another move apart."""
+        from flint import fmpq
+        if not lean:
+            return self.f, self.g
+        ring = self.f.context()
+        x, y, p, q = ring.gens()
+        moved = x + y * fmpq(lean.numerator, lean.denominator)
+        return self.f.compose(moved, y, p, q, ctx=ring), self.g.compose(moved, y, p, q, ctx=ring)
+
+
+def fixed_axis(family: Family) -> int | None:
+    """The principal axis that carries the torque all over the range; None where there is none."""
+    M = family.numbers["M"]
+    along = [i for i in range(3) if not M[i].is_zero()]
+    return along[0] if len(along) == 1 else None
+
+
+def on_line(family: Family) -> OnLine:
+    """The isolated equilibria of a torque off the principal axes; `special` is zero where none of the range has one."""
+    n, ring = family.numbers, family.ring
+    D, lam, M = n["D"], n["lam"], n["M"]
+    turned = lambda v: tuple(d * c for d, c in zip(D, v))
+    v = cross(M, turned(M))
+    shared = _gcd(v, ring)
+    if shared.is_zero():
+        return OnLine((shared,) * 3, v, v, shared, shared, dot(lam, M))
+    v = tuple(c / shared for c in v)
+    load, below = dot(lam, M), shared * dot(v, v)
+    start = tuple(load * c for c in cross(M, v))
+    det = lambda a, b: dot(cross(a, b), M)
+    Dv, H = turned(v), tuple(a + below * b for a, b in zip(turned(start), lam))
+    rows = [det(H, start) + dot(M, M) * below * below, det(Dv, start) + det(H, v), det(Dv, v)]
+    content = _gcd(rows, ring)
+    if not content.is_zero():
+        rows = [c / content for c in rows]
+        shared *= content
+    return OnLine(tuple(rows), start, v, below, shared, load)
+
+
+def across(family: Family, axis: int, kind: str) -> Conics:
+    """The equilibria on the curve that the motion keeps to (LEAF), or where stability changes along the conic (BORDERS)."""
+    n = family.numbers
+    j, k = CYCLE[axis]
+    x, y = family.ring.gens()[:2]
+    D, lam, M = n["D"], n["lam"], n["M"]
+    f = (D[j] * x + lam[j]) * y - (D[k] * y + lam[k]) * x + M[axis]
+    if kind == LEAF:
+        keeps = _kept(family, axis)
+        g = keeps(x, y) - keeps(n["y"][j], n["y"][k])
+    else:
+        place: list[Any] = [None] * 3
+        place[axis], place[j], place[k] = family.ring.constant(0), x, y
+        g = _linear_m(family, place)
+    one, zero = family.ring.constant(1), family.ring.constant(0)
+    return Conics(f, g, axis, kind, M[axis] if kind == BORDERS else one, zero)
+
+
+def _kept(family: Family, axis: int):
+    """W(y_j, y_k), which every motion keeps: |H|^2 - 2 D_i T across the torque, or the scaled system's own."""
+    n = family.numbers
+    (j, k), D, lam = CYCLE[axis], n["D"], n["lam"]
+    if not family.scaled:
+        return lambda x, y: ((D[j] * x + lam[j]) * (D[j] * x + lam[j]) + (D[k] * y + lam[k]) * (D[k] * y + lam[k])
+                             - D[axis] * (D[j] * x * x + D[k] * y * y))
+    half = lambda y1: y1 * family.ring.constant(1) / 2  # x1 + a = y1/2 - lam1, x1 + b = y1/2 + lam1
+    if axis == 2:
+        return lambda y1, y2: (half(y1) - lam[0]) * (half(y1) - lam[0]) + y2 * y2
+    if axis == 1:
+        return lambda y3, y1: (half(y1) + lam[0]) * (half(y1) + lam[0]) - y3 * y3
+    return lambda y2, y3: y2 * y2 + y3 * y3
+
+
+def _linear_m(family: Family, y: Sequence[fmpq_mpoly]) -> fmpq_mpoly:
+    """m of z^3 + m z + n at y, times the positive moments (all 1 in scaled variables)."""
+    n, one = family.numbers, family.ring.constant(1)
+    kappa: Sequence[fmpq_mpoly]
+    rho: Sequence[fmpq_mpoly]
+    sigma: Sequence[fmpq_mpoly]
+    if family.scaled:
+        u1, l1 = n["u"][0], n["lam"][0]
+        a, b = u1 / 2 - l1, u1 / 2 + l1
+        x = ((y[0] - u1) / 2, y[1], -y[2])
+        weights, kappa, rho, sigma = (one,) * 3, (one, -one, one), (0 * one, 0 * one, b), (0 * one, -a, 0 * one)
+    else:
+        D, lam = n["D"], n["lam"]
+        x, weights, kappa = (y[0], y[1], y[2]), (D[0], D[1], D[2]), tuple(D[j] - D[k] for j, k in CYCLE)
+        rho, sigma = tuple(lam[j] for j, _ in CYCLE), tuple(-lam[k] for _, k in CYCLE)
+    total = 0 * one
+    for i, (j, k) in enumerate(CYCLE):  # the pair (j, k): entries row j, column k and row k, column j of the Jacobian
+        row_j = kappa[j] * x[i] + sigma[j]
+        row_k = kappa[k] * x[i] + rho[k]
+        total -= row_j * row_k * weights[i]
+    return total
+
+
+def _gcd(parts: Sequence[fmpq_mpoly], ring) -> fmpq_mpoly:
+    found = ring.constant(0)
+    for part in parts:
+        found = found.gcd(part)
+    return found

@@ -1,0 +1,58 @@
+"""The stability of an equilibrium of a diagram, from the signs of m and n in balls and the reasons of the room `equilibrium`."""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from ...equilibrium.conics import WELL
+from ...equilibrium.spectrum import invariants
+from ...equilibrium.stability import POSITIVE_EIGENVALUE, isolated_verdict, linear_word
+from ...numbers.balls import sign
+from ...physics.quadratic import QuadraticForm, euler_form
+from .eliminated import Root, evaluated
+from .family import Family
+from .result import State
+from .system import BORDERS, ISOLATED
+
+if TYPE_CHECKING:
+    from flint import arb
+
+BORDER = ("border", "m = 0 on the curve of equilibria: stability changes here")
+CROSSES = ("undecided", "the curve that the motion keeps to crosses itself here")
+
+
+def ball_form(family: Family, values: list) -> tuple[QuadraticForm, list[arb]]:
+    """(the rates with balls for coefficients, u) at values of what varies."""
+    from flint import arb
+    unknowns = [arb(0)] * 2
+    numbers: dict[str, Any] = {name: [evaluated(c, [*unknowns, *values]) for c in row] for name, row in family.numbers.items()}
+    if not family.scaled:
+        return euler_form(tuple(numbers["D"]), tuple(numbers["lam"]), tuple(numbers["M"])), numbers["u"]
+    half, l1 = numbers["u"][0] / 2, numbers["lam"][0]
+    one: Any = arb(1)
+    zero: Any = arb(0)
+    return QuadraticForm((one, -one, one), (zero, zero, half + l1), (zero, l1 - half, zero), tuple(numbers["M"]), "x"), numbers["u"]
+
+
+def state_of(family: Family, y: tuple[arb, ...], u: list[arb]) -> tuple[arb, ...]:
+    """The state in the case's variables."""
+    return ((y[0] - u[0]) / 2, y[1], -y[2]) if family.scaled else tuple(y)
+
+
+def judged_state(family: Family, kind: str, values: list, root: Root, after: int = 0) -> State:
+    """An equilibrium with its verdict. after: where branches meet in it on a motion's curve, the sign of m on the branch that goes on. Unclear where
+    the balls leave a sign open."""
+    form, u = ball_form(family, values)
+    x = state_of(family, root.y, u)
+    at = tuple(float(v.mid()) + 0.0 for v in x)
+    if kind == BORDERS:
+        return State(at, root.times, "degenerate", *BORDER)
+    m, n = invariants(form, x)
+    if kind == ISOLATED:
+        n_sign = sign(n) if root.times == 1 else 0
+        m_sign = 0 if n_sign and m.contains(0) else sign(m)
+        return State(at, root.times, linear_word(m_sign, n_sign), *isolated_verdict(m_sign, n_sign))
+    if root.times == 1:
+        m_sign = sign(m)
+        return State(at, 1, linear_word(m_sign, 0), *(WELL.positive if m_sign > 0 else POSITIVE_EIGENVALUE))
+    verdict = WELL.odd if root.times % 2 == 0 else WELL.minimum if after > 0 else WELL.maximum if after < 0 else CROSSES
+    return State(at, root.times, "degenerate", *verdict)

@@ -1,0 +1,1 @@
+"""A diagram of equilibria in words, numbers and pictures."""

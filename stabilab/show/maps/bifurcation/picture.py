@@ -1,0 +1,80 @@
+"""A diagram over one number as a picture: a panel for each component that moves, branches stable or not, events marked."""
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from ....maps.bifurcation.branches import Branch, branches
+from ....maps.bifurcation.result import Diagram
+from ....maps.bifurcation.system import BORDERS
+from ....packages import demand
+from ... import style
+from ...files import endings
+from .words import unit
+
+CROWD = 6.0  # a component that goes to infinity is cut at so many times what nine tenths of the points reach
+LOOKS = {"stable": ("stable", "stable"), "unstable": ("unstable", "unstable"), "border": ("fold", "stability changes"),
+         "undecided": ("dividing", "undecided")}
+
+
+def write(found: Diagram, out: str | Path, size: tuple[float, float] | None = None, dpi: float | None = None) -> Path:
+    """Draw the diagram and write the picture; returns its path."""
+    demand(*style.PACKAGES)
+    target = endings.file(out, endings.PICTURES)
+    with style.drawing() as plt:
+        return style.save(drawn(found, size, plt), target, dpi)
+
+
+def drawn(found: Diagram, size: tuple[float, float] | None, plt: Any) -> Any:
+    """The figure."""
+    rows = branches(found)
+    moving = [i for i in range(3) if any(abs(state[i]) > 0 for branch in rows for state in branch.states)] or [0]
+    figure, axes = plt.subplots(len(moving), 1, sharex=True, squeeze=False, layout="constrained", figsize=size or (8, 1.4 + 2.6 * len(moving)))
+    labels = style.axis_labels(found.family.case.scene)
+    for ax, i in zip(axes[:, 0], moving):
+        _panel(ax, found, rows, i)
+        ax.set_ylabel(labels[i])
+    span = found.family.spans[0]
+    axes[-1, 0].set_xlabel(f"{span.label}{f' ({span.shown_unit})' if unit(span) else ''}")
+    _counts(axes[0, 0], found)
+    case = found.family.case
+    figure.suptitle(case.title or case.name, x=0.02, ha="left", fontsize=10.5, wrap=True)
+    handles, words = axes[0, 0].get_legend_handles_labels()
+    kept = dict(zip(words, handles))
+    if kept:
+        figure.legend(kept.values(), kept.keys(), loc="outside lower center", ncols=5)
+    return figure
+
+
+def _panel(ax: Any, found: Diagram, rows: list[Branch], i: int) -> None:
+    for branch in rows:
+        look, word = LOOKS[branch.verdict]
+        ax.plot(branch.values, [state[i] for state in branch.states], label=word, **style.MEANING[look])
+    for event in (*found.events, *found.connections):
+        ax.axvline(event.value, color=style.GREY, linewidth=0.7, linestyle=":", zorder=0)
+        met = [state.at[i] for state in event.states if state.times > 1]
+        if met:
+            word = "changes meet" if found.kind == BORDERS else " and ".join(event.kinds)
+            ax.plot([event.value] * len(met), met, label=word, zorder=4, **style.MARKER["degenerate"])
+    span = found.family.spans[0]
+    ax.set_xlim(float(span.low), float(span.high))
+    heights = sorted(abs(state[i]) for branch in rows for state in branch.states)
+    if heights and heights[-1] > CROWD * (usual := heights[int(0.9 * (len(heights) - 1))]) > 0:
+        ax.set_ylim(-1.5 * usual, 1.5 * usual)
+
+
+def _counts(ax: Any, found: Diagram) -> None:
+    """How many there are in each piece, above the first panel."""
+    span = found.family.spans[0]
+    whole = float(span.high) - float(span.low)
+    for piece in found.pieces:
+        if piece.high - piece.low > 0.03 * whole:
+            ax.annotate(str(piece.count) if piece.count >= 0 else "curves", (0.5 * (piece.low + piece.high), 1.0), xycoords=("data", "axes fraction"),
+                        xytext=(0, 3), textcoords="offset points", ha="center", va="bottom", fontsize=9, fontweight="bold")
+    shown = [event for event in found.events if event.value not in (float(span.low), float(span.high))]
+    for event in shown[:6]:
+        ax.annotate(f"{event.value + 0.0:.5g}", (event.value, 0.0), xycoords=("data", "axes fraction"), xytext=(0, 3), textcoords="offset points",
+                    ha="center", va="bottom", fontsize=7.5, bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.8})
+
+
+__all__ = ["drawn", "write"]
