@@ -144,6 +144,64 @@ class EventExtremes:
         return out
 
 
+class SceneEvents:
+    """Extremes over one period of any scene with its torque on a principal axis: events at the zeros of each rate, stopped at the third
+    reversal of the turn."""
+
+    def __init__(self, scene, tolerance=1e-16):
+        import heyoka
+        x, system, axis, _ = turning_system(scene, heyoka)
+        self.values, self.reversals, across = [], 0, [k for k in range(3) if k != axis]
+
+        def note(ta, time, sign, component):
+            ta.update_d_output(time)
+            self.values.append((component, ta.d_output[component]))
+
+        def turned(ta, sign):
+            # the two rates across the axis are extreme there: the stop cuts the step, so note them here
+            self.values += [(k, ta.state[k]) for k in across]
+            self.reversals += 1
+            return self.reversals < 3
+        events = [heyoka.nt_event(rate, lambda ta, t, s, k=k: note(ta, t, s, k)) for k, (_, rate) in enumerate(system[:3])]
+        self.integrator = heyoka.taylor_adaptive(system, [0.0] * 4, tol=tolerance, nt_events=events, t_events=[heyoka.t_event(x[axis], callback=turned)])
+
+    def __call__(self, states):
+        out, ta = np.empty((len(states), 3, 2)), self.integrator
+        for n, state in enumerate(states):
+            ta.time, ta.state[:], self.reversals = 0.0, [*state, 0.0], 0
+            ta.reset_cooldowns()
+            self.values.clear()
+            ta.propagate_until(1e6, max_steps=100_000)
+            out[n] = np.stack([state, state], axis=1)
+            for k, value in self.values:
+                out[n, k] = min(out[n, k, 0], value), max(out[n, k, 1], value)
+        return out
+
+
+class TurningTimes:
+    """Periods of any scene with its torque on a principal axis: one terminal event at each reversal of the turn, stopped at the third."""
+
+    def __init__(self, scene, tolerance=1e-16):
+        import heyoka
+        x, system, axis, _ = turning_system(scene, heyoka)
+        self.times = []
+
+        def turned(ta, sign):
+            self.times.append(ta.time)
+            return len(self.times) < 3
+        self.integrator = heyoka.taylor_adaptive(system, [0.0] * 4, tol=tolerance, t_events=[heyoka.t_event(x[axis], callback=turned)])
+
+    def __call__(self, states):
+        periods, ta = np.empty(len(states)), self.integrator
+        for n, state in enumerate(states):
+            ta.time, ta.state[:] = 0.0, [*state, 0.0]
+            ta.reset_cooldowns()
+            self.times.clear()
+            ta.propagate_until(1e6, max_steps=100_000)
+            periods[n] = self.times[2] - self.times[0] if len(self.times) > 2 else np.nan
+        return periods
+
+
 def off_axis_rates(inertia, moment, torque):
     """(variable, rate) of Euler's equations with numbers for coefficients, multiplied out: the fastest of the forms tried."""
     import heyoka

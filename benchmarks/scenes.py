@@ -1,0 +1,184 @@
+"""Every question on a sample of random scenes, each scene beside what a careful user of the general tools would write.
+
+python -m benchmarks.scenes [SCENES [FIRST]]: the rows on so many scenes of the sample, from the number FIRST on; one line a scene goes to stderr.
+Times are processor times of one thread, each contestant warmed up, in turn on the same states.
+"""
+from __future__ import annotations
+
+import statistics
+import sys
+import time
+from dataclasses import dataclass
+
+import numpy as np
+
+from stabilab import Fate, extremes, fate, period, separatrix
+from stabilab.show.surface.mesh import triangulate
+
+from .contestants import BatchFate, SceneEvents, TurningTimes
+from .random_scenes import Drawn, drawn
+from .rows import Row, numba_available
+
+SCENES = 200
+STATES = 20_000     # of ours; theirs are asked of `SAMPLE` of them
+SAMPLE = 48
+CLEAR = 1e-6        # of the kinetic energy: nearer to the separatrix heyoka's run may pass it by rounding, and never ends
+ROUNDS = 3
+PATIENCE = 0.4      # s for a call: of slower questions fewer states are asked
+CELLS = 256         # of Flying Edges along each side
+WANTED = {"fate, NumPy": 100, "fate, numba": 400, "extremes, NumPy": 5, "extremes, numba": 20, "period, NumPy": 2, "period, numba": 8,
+          "separatrix surfaces": 50}
+
+
+@dataclass(frozen=True)
+class Measured:
+    """One question on one scene: seconds a piece of ours and of theirs."""
+
+    question: str
+    scene: str
+    ours: float
+    theirs: float
+
+    @property
+    def ratio(self) -> float:
+        """How much faster ours is; NaN where the other gave none."""
+        return self.theirs / self.ours
+
+
+def rows(small=False, scenes=SCENES, first=0, told=None) -> list[Row]:
+    """One row a question, and one for a scene's first call."""
+    sample = drawn(first + (3 if small else scenes))[first:]
+    measured = [m for one in sample for m in _scene(one, small, told)]
+    questions = dict.fromkeys(m.question for m in measured)
+    return [_row(question, [m for m in measured if m.question == question]) for question in questions]
+
+
+def _row(question, found) -> Row:
+    ours = sorted(found, key=lambda m: m.ours)
+    known = sorted((m for m in found if m.theirs == m.theirs), key=lambda m: m.ratio)
+    ninety = ours[min(len(ours) - 1, int(0.9 * len(ours)))]
+    median = statistics.median(m.ours for m in ours)
+    words = f"{_time(median)} median, {_time(ninety.ours)} 90 %, {_time(ours[-1].ours)} worst"
+    if not known:
+        return Row(f"{len(found)} random scenes, {question}", words, "-", 1.0, (1.0, 1.0), f"worst over median {ours[-1].ours / median:.3g}",
+                   note=f"worst: {ours[-1].scene}")
+    theirs = statistics.median(m.theirs for m in known)
+    return Row(f"{len(found)} random scenes, {question}", words, f"{_time(theirs)} median {OTHERS[question.split(',')[0]]}",
+               statistics.median(m.ratio for m in known), (known[0].ratio, known[-1].ratio),
+               f"worst over median {ours[-1].ours / median:.3g}", WANTED.get(question, 0),
+               f"wanted on every scene, reached on {sum(m.ratio >= WANTED[question] for m in known)} of {len(known)}; slowest: {ours[-1].scene}; "
+               f"least ratio: {known[0].scene}")
+
+
+OTHERS = {"fate": "heyoka batch with compaction", "extremes": "heyoka with events", "period": "heyoka with events at the turns only",
+          "separatrix surfaces": f"Flying Edges at {CELLS}^3, field and contour"}
+
+
+def _time(seconds) -> str:
+    for size, unit in ((1.0, "s"), (1e-3, "ms"), (1e-6, "us")):
+        if seconds >= size:
+            return f"{seconds / size:.3g} {unit}"
+    return f"{seconds * 1e9:.3g} ns"
+
+
+def _scene(one: Drawn, small, told):
+    """What is measured of one scene."""
+    found, rounds = [], 1 if small else ROUNDS
+    scene, states = one.scene, one.states(600 if small else STATES)
+    name = f"number {one.number}, {one.name}"
+    at = time.process_time()
+    decided = fate(scene, states, fast=False)
+    found.append(Measured("first call of fate less the next", name, time.process_time() - at, float("nan")))
+    size = (states**2).sum(axis=1)
+    clear = np.abs(decided.margins) > CLEAR * size
+    part = states[clear][:8 if small else SAMPLE]
+    theirs = _pace(BatchFate(scene), part, rounds)
+    for way in ways():
+        ours = _pace(lambda x, way=way: fate(scene, x, fast=way == "numba"), states, rounds)
+        found.append(Measured(f"fate, {way}", name, ours, theirs))
+    found[0] = Measured(found[0].question, name, max(found[0].ours - found[1].ours * len(states), 1e-6), float("nan"))
+    bounded = decided.labels == Fate.BOUNDED
+    held, part = states[bounded], states[bounded & clear][:8 if small else SAMPLE]
+    if len(part) > 3:
+        for question, ask, other in (("extremes", extremes, SceneEvents(scene)), ("period", period, TurningTimes(scene))):
+            theirs = _pace(other, part, rounds)
+            for way in ways():
+                ours = _patient(lambda x, ask=ask, way=way: ask(scene, x, fast=way == "numba"), held, rounds)
+                found.append(Measured(f"{question}, {way}", name, ours, theirs))
+    found += _surface(scene, name, rounds, 24 if small else CELLS)
+    if told:
+        print(one.number, one.kind, ", ".join(f"{m.question} {_time(m.ours)} ({m.ratio:.3g})" for m in found), file=told, flush=True)
+    return found
+
+
+def ways():
+    """NumPy alone, and with the extra `fast`."""
+    return ("NumPy", "numba") if numba_available() else ("NumPy",)
+
+
+def _patient(call, states, rounds) -> float:
+    """`_pace` over so many of the states that a call lasts no longer than `PATIENCE`."""
+    for count in (200, 2000, len(states)):
+        part = states[:count]
+        each = _pace(call, part, 1 if count < len(states) else rounds)
+        if each * min(10 * count, len(states)) > PATIENCE:
+            break
+    return each
+
+
+def _pace(call, states, rounds) -> float:
+    """Processor time a state, s, the median of the rounds after one to warm up."""
+    call(states[:200])
+    return statistics.median(_time_of(lambda: call(states)) for _ in range(rounds)) / len(states)
+
+
+def _time_of(call) -> float:
+    at = time.process_time()
+    call()
+    return time.process_time() - at
+
+
+def _surface(scene, name, rounds, cells):
+    """The mesh of the separatrix at the error of Flying Edges on a grid of margins in the box that the sheets fill."""
+    whole = separatrix(scene, accuracy=None, shape=(12, 17))
+    if not whole.sheets:
+        return []
+    points = np.concatenate([sheet.points.reshape(-1, 3) for sheet in whole.sheets])
+    axes = [np.linspace(low, high, cells) for low, high in zip(points.min(axis=0), points.max(axis=0))]
+    their_time = statistics.median(_time_of(lambda: _contour(scene, axes)) for _ in range(rounds))
+    error = _error(scene, _contour(scene, axes), max(axis[1] - axis[0] for axis in axes))
+    ours = statistics.median(_time_of(lambda: [triangulate(sheet) for sheet in separatrix(scene, accuracy=error).sheets]) for _ in range(rounds + 1))
+    return [Measured("separatrix surfaces", name, ours, their_time)]
+
+
+def _contour(scene, axes):
+    """Flying Edges on margins: as the margin falls by the energy along the torque's axis, one plane of fates fills the box."""
+    import pyvista
+    i = next(k for k in range(3) if scene.vector("constant_torque")[k])
+    plane = np.zeros([1 if k == i else len(axis) for k, axis in enumerate(axes)] + [3])
+    for k, axis in enumerate(axes):
+        plane[..., k] = 0.0 if k == i else axis.reshape([-1 if m == k else 1 for m in range(3)])
+    gap = fate(scene, plane).margins
+    gap = np.where(np.isfinite(gap), gap, -1e3 * np.abs(gap[np.isfinite(gap)]).max(initial=1.0)).astype(np.float32)
+    energy = 0.5 * float(scene.body.exact[i]) * axes[i].reshape([-1 if m == i else 1 for m in range(3)]) ** 2
+    grid = pyvista.ImageData(dimensions=[len(axis) for axis in axes], spacing=[axis[1] - axis[0] for axis in axes], origin=[axis[0] for axis in axes])
+    grid["margin"] = (gap - energy.astype(np.float32)).ravel(order="F")
+    return grid.contour([0.0], scalars="margin", method="flying_edges")
+
+
+def _error(scene, contour, cell, sample=400) -> float:
+    """Largest distance of a contour's points from the surface, to first order, at a sample; a cell at most, which is the error at a fold."""
+    points = np.random.default_rng(1).permutation(np.asarray(contour.points, float))[:sample]
+    if not len(points):
+        return cell
+    step = 1e-4 * cell
+    with np.errstate(all="ignore"):
+        gradient = np.stack([(fate(scene, points + d).margins - fate(scene, points - d).margins) / (2 * step) for d in step * np.eye(3)], axis=-1)
+        off = np.abs(fate(scene, points).margins) / np.linalg.norm(gradient, axis=-1)
+    off = off[np.isfinite(off)]
+    return float(min(off.max(initial=0.0) or cell, cell))
+
+
+if __name__ == "__main__":
+    for row in rows(scenes=int(sys.argv[1]) if sys.argv[1:] else SCENES, first=int(sys.argv[2]) if sys.argv[2:] else 0, told=sys.stderr):
+        print(f"| {row.name} | {row.ours} | {row.theirs} | {row.ratio:.3g} ({row.spread[0]:.3g} to {row.spread[1]:.3g}) | {row.error}; {row.note} |")
