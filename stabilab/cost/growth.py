@@ -24,9 +24,9 @@ from ..orbit.extremes.balls import extreme_balls
 from ..orbit.extremes.turning_points import interval
 from ..orbit.fate.balls import precise_margin
 from ..orbit.landscape import landscape
-from ..orbit.period.arrays import inverse_speed
 from ..orbit.period.balls import period_ball, precise_period
 from ..orbit.period.modes import modes_of
+from ..orbit.period.rules import inverse_speed
 from ..orbit.result import Fate
 from .accuracy import precision
 

@@ -5,6 +5,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from ..extremes.circle_kernel import divided_pair
 from ..landscape import Landscape
 
 
@@ -14,7 +15,6 @@ class Modes:
     data: (k, n) their coefficients; sizes: (k, n) those of the terms that these are the sums of."""
 
     about: Callable[..., Modes]  # of each geometry: the modes about the middles of intervals
-    mirrored = False  # whether sums over mirrored pairs of nodes serve
 
     def __init__(self, data, sizes=None):
         self.data, self.sizes = data, np.abs(data) if sizes is None else sizes
@@ -32,14 +32,23 @@ class Modes:
         return type(self)(self.sizes).terms(rho, left, right)
 
     def second_difference(self, rho, left, right):
-        """V[l, r, theta] with theta - l = 2 rho left, r - theta = 2 rho right."""
+        """V[l, r, theta] with theta - l = 2 rho left, r - theta = 2 rho right; rho (n,), the shares (n,) or (nodes, n)."""
+        raise NotImplementedError
+
+    def whole(self, rho):
+        """(k, n) what `pair` needs of the intervals whatever the node."""
+        return np.empty((0, len(rho)))
+
+    def pair(self, rho, whole, share, narrow):
+        """(even, odd), (n,) each: V[l, r, theta] is their sum at theta - l = 2 rho share, and their difference at its mirror image.
+
+        share: a number up to 1/2. narrow: whether the intervals are shorter than 2 `NARROW`, so that closed forms would cancel.
+        """
         raise NotImplementedError
 
 
 class CircleModes(Modes):
     """V = -mu y + sum_k P_k cos(k y) + Q_k sin(k y), k = 1, 2."""
-
-    mirrored = True
 
     @classmethod
     def about(cls, pot, x, z) -> Modes:
@@ -58,6 +67,15 @@ class CircleModes(Modes):
                    for k, p, q in ((1, p1, q1), (2, p2, q2)))
 
 
+    def whole(self, rho):
+        return np.array([np.sin(rho), np.cos(rho)])
+
+    def pair(self, rho, whole, share, narrow):
+        u = rho * share
+        sinc = np.sin(u) / u if share else np.ones_like(u)
+        return divided_pair(u, sinc, np.cos(u), rho, *whole, *self.data, narrow)
+
+
 class HyperbolaModes(Modes):
     """V = -mu y + a sum of exp(y), exp(-y), exp(2 y), exp(-2 y)."""
 
@@ -71,6 +89,33 @@ class HyperbolaModes(Modes):
         up1, down1, up2, down2 = self.data
         return (up1 * _exp_difference(rho, left, right) + down1 * _exp_difference(rho, right, left)
                 + up2 * 4 * _exp_difference(2 * rho, left, right) + down2 * 4 * _exp_difference(2 * rho, right, left))
+
+
+    def whole(self, rho):
+        with np.errstate(over="ignore"):
+            return np.exp(rho)[None]
+
+    def pair(self, rho, whole, share, narrow):
+        """exp(+-y) has the divided differences A + B and A - B, A = sinhc u sinhc v/2, B = (cosh u sinhc v - sinhc u cosh v)/(2 rho), v = rho - u."""
+        u = rho * share
+        v = rho - u
+        with np.errstate(all="ignore"):
+            if narrow:
+                (fu, gu), (fv, gv) = (_sinhc_and_rest(x * x) for x in (u, v))
+                g2u, g2v = (_sinhc_and_rest(4 * x * x)[1] for x in (u, v))
+                cu, cv = fu + gu, fv + gv
+                odd1, odd2 = gu * fv - fu * gv, g2u * fv * cv - fu * cu * g2v
+            else:
+                less, grown = np.expm1(u), whole[0]
+                eu = 1 + less
+                cu, su = 0.5 * (eu + 1 / eu), 0.5 * (less + less / eu)
+                cv, sv = 0.5 * (grown / eu + eu / grown), 0.5 * (grown / eu - eu / grown)
+                fu, fv = su / u if share else np.ones_like(u), sv / v
+                odd1, odd2 = cu * fv - fu * cv, (1 + 2 * su * su) * fv * cv - fu * cu * (1 + 2 * sv * sv)
+        up1, down1, up2, down2 = self.data
+        both = fu * fv
+        even = both * (0.5 * (up1 + down1) + 2 * (up2 + down2) * cu * cv)
+        return even, (0.5 * (up1 - down1) * odd1 + (up2 - down2) * odd2) / rho
 
 
 class ParabolaModes(Modes):
@@ -90,6 +135,11 @@ class ParabolaModes(Modes):
         y = rho * (left - right)
         two, three, four = self.data
         return two + three * y + four * (y * y + rho * rho)
+
+    def pair(self, rho, whole, share, narrow):
+        two, three, four = self.data
+        y = rho * (2 * share - 1)
+        return two + four * (y * y + rho * rho), three * y
 
 
 GEOMETRIES = {-1: CircleModes, 1: HyperbolaModes, 0: ParabolaModes}
@@ -123,6 +173,15 @@ def _sin_difference(k, rho, y, left, right):
         power_sum = power_sum * a2 + b_power
         coefficient = -coefficient / ((2 * n + 2) * (2 * n + 3))
     return k**3 * y * np.where(np.abs(b) < 1.0, series, np.where(np.abs(a) < 1e-3, _even_limit(a2, b), closed))
+
+
+def _sinhc_and_rest(t):
+    """sinh(u)/u and cosh u less it, of t = u^2 <= 1."""
+    f, g = 1.0, 1.0
+    for n in range(11, 0, -1):
+        f = 1 + t * f * (1 / (2 * n * (2 * n + 1)))
+        g = 1 + t * g * (1 / (2 * n * (2 * n + 3)))
+    return f, t * (1 / 3) * g
 
 
 def _even_limit(a2, b):

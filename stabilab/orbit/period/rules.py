@@ -1,0 +1,149 @@
+"""The integral of dphi/sqrt(2 H) over half a libration, for many rows at once, each row as fine as it needs.
+
+The trapezoidal rule in mirrored pairs of nodes serves nearly all rows: it converges geometrically. Where H is small beside its other values, next to a barrier
+at an end or inside, the integrand has a peak; the double-exponential rule takes these rows, cut where H is least.
+"""
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+
+from ...numbers.constants import TURN
+from ..extremes.circle_kernel import ENOUGH, NARROW, NODES
+from .modes import Modes
+
+PAIR_CHUNK = 2048  # a dozen arrays of so many doubles stay in the processor's second cache
+BLOCK = 1 << 14  # elements of a block of nodes and rows, for the same reason
+REACH = 3.45  # of t: beyond, the weights are 1e-20
+FIRST_LEVEL, LAST_LEVEL = 2, 8  # steps of 2^-level
+LOOKS = 64  # places among which the least H is sought
+CLOSER = 4  # steps towards it, each to the bottom of a parabola through three places
+
+
+def librations(modes: Modes, half):
+    """(periods (n,), H (3, n) at the left end, in the middle and at the right end); NaN where no rule settles."""
+    values, shape = trapezoidal(modes, half)
+    rest = np.nonzero(np.isnan(values))[0]
+    if rest.size:
+        values[rest] = double_exponential(modes.take(rest), half[rest])
+    return values, shape
+
+
+def trapezoidal(modes: Modes, half):
+    """As `librations`: sums over mirrored pairs of nodes, which nest, doubled until the change says that the next change would be rounding."""
+    values, shape = np.empty(len(half)), np.empty((3, len(half)))
+    for start in range(0, len(half), PAIR_CHUNK):
+        part = np.arange(start, min(start + PAIR_CHUNK, len(half)))
+        for narrow in (False, True):
+            rows = part[(half[part] < NARROW) == narrow]
+            if len(rows):
+                values[rows], shape[:, rows] = _pair_sums(modes.take(rows), half[rows], narrow)
+    return values, shape
+
+
+def _pair_sums(modes, rho, narrow):
+    values, live, shape = np.full(len(rho), np.nan), np.arange(len(rho)), np.empty((3, len(rho)))
+    whole, total, before = modes.whole(rho), np.zeros(len(rho)), None
+    first, size = 0, 8
+    while first < len(NODES):
+        last = first + size // 2 if first else 5
+        for node in range(first, last):
+            even, odd = modes.pair(rho, whole, NODES[node], narrow)
+            weight = 0.5 if node in (0, 4) else 1.0  # the ends of [0, pi], and its middle, which is its own mirror image
+            with np.errstate(all="ignore"):
+                total += weight * (1 / np.sqrt(2 * (even + odd)) + 1 / np.sqrt(2 * (even - odd)))
+            if node == 0:
+                shape[0], shape[2] = even + odd, even - odd
+            elif node == 4:
+                shape[1] = even
+        size, first = size * 2 if first else size, last
+        now = total * (TURN / size)
+        if before is not None:
+            with np.errstate(invalid="ignore"):  # both infinite where rounding leaves no depth to the well: not settled here
+                done = np.abs(now - before) <= ENOUGH * now
+            values[live[done]] = now[done]
+            if done.all():
+                break
+            rest = ~done
+            live, now, rho, total, modes, whole = live[rest], now[rest], rho[rest], total[rest], modes.take(rest), whole[:, rest]
+        before = now
+    return values, shape
+
+
+def double_exponential(modes: Modes, rho):
+    """(n,) periods by the tanh-sinh rule on both sides of the place where H is least, the step halved until a row's sums agree; NaN where they never do."""
+    cut, n = _least(modes, rho), len(rho)
+    side = np.repeat([False, True], n)  # whether a piece begins at the right end
+    length, both = np.concatenate([cut, np.pi - cut]), np.concatenate([np.arange(n)] * 2)
+    total, before, values = np.zeros(2 * n), np.full(2 * n, np.nan), np.full(2 * n, np.nan)
+    live = np.arange(2 * n)
+    for level in range(FIRST_LEVEL, LAST_LEVEL + 1):
+        total[live] += _level_sums(modes, rho, both[live], length[live], side[live], level)
+        now = length[live] * total[live] * 2.0**-level
+        with np.errstate(invalid="ignore"):  # a sum that is no number never settles
+            done = np.abs(now - before[live]) <= ENOUGH * now
+        values[live[done]] = now[done]
+        before[live] = now
+        live = live[~done]
+        if not live.size:
+            break
+    return 2 * (values[:n] + values[n:])
+
+
+def _level_sums(modes, rho, rows, length, side, level):
+    """(m,) sums over the nodes that a level adds, of pieces of rows that begin at an end."""
+    near, weight, inner = _nodes(level)
+    out = np.empty(len(rows))
+    wide = max(1, BLOCK // len(near))
+    for start in range(0, len(rows), wide):
+        part = slice(start, start + wide)
+        some = modes.take(rows[part])
+        way = length[part] * near[:, None]  # from the end where the piece begins, or on the inner side from the cut
+        angle = np.where(inner[:, None], length[part] - way, way)
+        small, large = np.sin(0.5 * angle) ** 2, np.cos(0.5 * angle) ** 2
+        left, right = np.where(side[part], large, small), np.where(side[part], small, large)
+        out[part] = weight @ inverse_speed(some, rho[rows[part]], left, right)
+    return out
+
+
+@lru_cache(maxsize=16)
+def _nodes(level):
+    """(distance from the nearer end over the length, weight, whether that end is the inner one) of the nodes that a level adds."""
+    k = np.arange(-int(REACH * 2**level), int(REACH * 2**level) + 1)
+    if level > FIRST_LEVEL:
+        k = k[k % 2 != 0]
+    t = k * 2.0**-level
+    u = 0.5 * np.pi * np.sinh(t)
+    # x = 1/(1 + exp(-2 u)), dx = pi/2 cosh t / (2 cosh(u)^2) dt
+    return 1 / (1 + np.exp(2 * np.abs(u))), 0.25 * np.pi * np.cosh(t) / np.cosh(u) ** 2, t > 0
+
+
+def _least(modes, rho):
+    """(n,) angles phi where H is least inside (0, pi); pi/2 where it is least at an end."""
+    phi = np.linspace(0, np.pi, LOOKS + 1)
+    rows = np.arange(len(rho))
+    seen = np.stack([_curvature(modes, rho, np.full(len(rho), angle)) for angle in phi])
+    at = np.argmin(np.where(np.isnan(seen), np.inf, seen), axis=0)
+    inside = (at > 0) & (at < LOOKS)
+    middle = phi[np.clip(at, 1, LOOKS - 1)]
+    step = np.full(len(rho), np.pi / LOOKS)
+    one, two, three = (seen[np.clip(at, 1, LOOKS - 1) + shift, rows] for shift in (-1, 0, 1))
+    for _ in range(CLOSER):
+        with np.errstate(all="ignore"):
+            move = 0.5 * step * (one - three) / (one - 2 * two + three)
+        middle = middle + np.where(np.abs(move) <= step, move, 0.0)
+        step = 0.1 * step
+        one, two, three = (_curvature(modes, rho, middle + shift * step) for shift in (-1, 0, 1))
+    return np.where(inside & (middle > 0) & (middle < np.pi), middle, 0.5 * np.pi)
+
+
+def _curvature(modes, rho, phi):
+    with np.errstate(all="ignore"):
+        return modes.second_difference(rho, np.sin(0.5 * phi) ** 2, np.cos(0.5 * phi) ** 2)
+
+
+def inverse_speed(modes, rho, left, right):
+    """1/sqrt(2 H) at theta = l + 2 rho left = r - 2 rho right (left + right = 1, each accurate near its end)."""
+    with np.errstate(all="ignore"):
+        return 1 / np.sqrt(2 * modes.second_difference(rho, left, right))
