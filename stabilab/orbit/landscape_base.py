@@ -1,9 +1,13 @@
 """Barriers and wells along the orbits of many states at once: what the three geometries have in common, and circle and hyperbola."""
 from __future__ import annotations
 
+from functools import cached_property
+
 import numpy as np
 
+from ..numbers.double_double import Twofold
 from .conic import Conic, conic_of
+from .fine.places import SURE, TwofoldConstants, twofold_constants, twofold_places
 from .potential import potential
 
 EPS = 2.0**-52
@@ -149,16 +153,33 @@ class ConicLandscape(Landscape):
         """The place of (X, Z), from exact arithmetic where the shift leaves a few digits of it."""
         raise NotImplementedError
 
+    @cached_property
+    def twofold(self) -> TwofoldConstants:
+        """The constants in 32 digits."""
+        return twofold_constants(self.reduction)
+
     def _exactly(self, close, states, place, of):
-        """The place with the rows of `close` formed anew by `of` from exact (X, Z)."""
+        """The place with the rows of `close` formed anew by `of` from (X, Z) to 30 digits; from exact ones where these may leave nothing."""
         if not close.any():
             return place
         first, second = (np.array(v) for v in place)
-        for index in map(tuple, np.argwhere(close)):  # () where one state is asked for
+        some = states[close]
+        x, z = twofold_places(self.twofold, self.reduction.j, self.reduction.k, some)
+        with np.errstate(all="ignore"):
+            found = [v.value() if isinstance(v, Twofold) else v for v in of(x, z)]
+            sure = np.minimum(*np.abs(found)) > SURE * (np.abs(some).sum(axis=1) + self.reduction.parabolic_shift_size) / self.least_scale
+        first[close], second[close] = found
+        indices = np.argwhere(close)
+        for index in map(tuple, indices[~sure]):  # () where one state is asked for
             ex, ez, _ = self.reduction.canonical_exact(states[index])
             first[index], second[index] = map(float, of(ex, ez))
             self._settle_plane(first, second, index, states[index])
         return first, second
+
+    @property
+    def least_scale(self) -> float:
+        """The least factor of a component over its canonical variable."""
+        return min(abs(self.reduction.constants[name]) for name in ("rx", "rz"))
 
     def _settle_plane(self, first, second, index, state):
         """What is exactly on an invariant plane gets exactly there."""

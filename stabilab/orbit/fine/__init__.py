@@ -1,0 +1,1 @@
+"""Rows of which doubles lose digits to the shift of their orbit's centre, in twofold numbers."""
