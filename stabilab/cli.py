@@ -484,19 +484,21 @@ def bifurcation(case: CaseFile,
     if json and csv:
         raise typer.BadParameter("choose one of --json and --csv")
     from .maps.bifurcation.ask import bifurcation as ask
+    from .maps.bifurcation.result import Diagram
     from .maps.plan import split_keys
     from .show.files import endings
-    from .show.maps.bifurcation import words
+    from .show.maps.bifurcation import plane_words, words
     if out:
         endings.file(out, endings.PICTURES)
     found = ask(case, split_keys(vary or []), curve)
     if out:
-        from .show.maps.bifurcation import picture
-        _say(f"written: {picture.write(found, out)}")
+        from .show.maps.bifurcation import picture, plane_picture
+        _say(f"written: {(picture if isinstance(found, Diagram) else plane_picture).write(found, out)}")
+    told = words if isinstance(found, Diagram) else plane_words
     if json or csv:
-        _print(words.json(found) if json else words.csv(found))
+        _print(told.json(found) if json else told.csv(found))
     else:
-        _show(words.text(found))
+        _show(told.text(found))
 
 
 @app.command()

@@ -11,20 +11,22 @@ from ...errors import InputError
 from ...physics.coefficients import effective
 from .family import Family
 from .line import diagram
+from .plane import Plane, plane
 from .result import Diagram
 from .span import spans_of
 
 
-def bifurcation(case: Case | str | os.PathLike[str], vary: Mapping[str, Any] | Sequence[tuple[str, Any]], curve: bool = False) -> Diagram:
-    """All equilibria of a case over the range of one number, exactly: where they appear, vanish or go to infinity, and which are stable.
+def bifurcation(case: Case | str | os.PathLike[str], vary: Mapping[str, Any] | Sequence[tuple[str, Any]], curve: bool = False) -> Diagram | Plane:
+    """All equilibria of a case over the range of one number or of two, exactly: where they appear, vanish or go to infinity, and which are stable.
 
     case: a Case, or the path of a case file. vary: name of a number -> its range, "0:0.5 N m" or two numbers in SI units; names are those of
     `stabilab.sweep`. Off the principal axes isolated equilibria are counted; of a torque on one, those on the curve that the motion of the case keeps
     to, or, with `curve` or without a motion, the points of the curve of equilibria where stability changes. Critical values are roots of discriminants and
-    resultants with rational coefficients, isolated by balls: no step size, and none is missed. Raises InputError for what cannot be eliminated.
+    resultants with rational coefficients, isolated by balls: no step size, and none is missed. Over two numbers these are curves, with their cusps.
+    Raises InputError for what cannot be eliminated.
     """
     family = family_of(case, vary)
-    return diagram(family, curve)
+    return diagram(family, curve) if len(family.spans) == 1 else plane(family, curve)
 
 
 def family_of(case: Case | str | os.PathLike[str], vary: Mapping[str, Any] | Sequence[tuple[str, Any]]) -> Family:

@@ -75,7 +75,7 @@ class Eliminated:
     @cached_property
     def reduced(self) -> fmpq_mpoly:
         """R of the main view, each of its factors once, without those that hold no unknown."""
-        return self._once(self.main.R)
+        return self.once(self.main.R)
 
     @cached_property
     def critical(self) -> tuple[fmpq_mpoly, ...]:
@@ -99,7 +99,8 @@ class Eliminated:
             return None
         return Leant(lean, f, g, _resultant_y(f, g), guard)
 
-    def _once(self, R: fmpq_mpoly) -> fmpq_mpoly:
+    def once(self, R: fmpq_mpoly) -> fmpq_mpoly:
+        """The product of its different factors that hold the unknown."""
         out = self.family.ring.constant(1)
         for factor, _ in _factors(R):
             if factor.degrees()[0] > 0:
@@ -156,9 +157,9 @@ class Eliminated:
         return self._with_states(view, number.real_roots(f, bits), [number.ball(bits)])
 
     def _with_states(self, view: Leant, roots: list[tuple[arb, int]], values: list) -> list[Root]:
-        return [Root(x, times, self._state(view, x, values)) for x, times in roots]
+        return [Root(x, times, self.state(view, x, values)) for x, times in roots]
 
-    def _state(self, view: Leant, x: arb, values: list) -> tuple[arb, ...]:
+    def state(self, view: Leant, x: arb, values: list) -> tuple[arb, ...]:
         from flint import arb
         of = lambda polynomial, *unknowns: evaluated(polynomial, [*unknowns, *([arb(0)] * (2 - len(unknowns))), *values])
         if isinstance(self.system, OnLine):
@@ -196,7 +197,7 @@ def _factors(f: fmpq_mpoly) -> list[tuple[fmpq_mpoly, int]]:
 
 def _leading(R: fmpq_mpoly) -> fmpq_mpoly:
     """The coefficient of the highest power of x."""
-    return _of_power(R, 0, max(R.degrees()[0], 0))
+    return of_power(R, 0, max(R.degrees()[0], 0))
 
 
 def _guard(guard: tuple[fmpq_mpoly, ...]) -> fmpq_mpoly:
@@ -209,10 +210,10 @@ def _guard(guard: tuple[fmpq_mpoly, ...]) -> fmpq_mpoly:
 
 def _coefficient(h: fmpq_mpoly, n: int) -> fmpq_mpoly:
     """The coefficient of y^n."""
-    return _of_power(h, 1, n)
+    return of_power(h, 1, n)
 
 
-def _of_power(h: fmpq_mpoly, variable: int, n: int) -> fmpq_mpoly:
+def of_power(h: fmpq_mpoly, variable: int, n: int) -> fmpq_mpoly:
     ring = h.context()
     terms = {tuple(0 if i == variable else e for i, e in enumerate(powers)): c for powers, c in h.to_dict().items() if powers[variable] == n}
     return ring.from_dict(terms)
@@ -242,7 +243,7 @@ def univariate(f: fmpq_mpoly, variable: int = 0) -> fmpq_poly:
 
 def _over_field(R: fmpq_mpoly) -> list[fmpq_poly]:
     """Coefficients of the powers of x, as polynomials in p."""
-    return [univariate(_of_power(R, 0, n), 2) for n in range(max(R.degrees()[0], 0) + 1)]
+    return [univariate(of_power(R, 0, n), 2) for n in range(max(R.degrees()[0], 0) + 1)]
 
 
 def _zero_at(c: fmpq_mpoly, number: Algebraic) -> bool:

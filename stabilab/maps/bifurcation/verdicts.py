@@ -7,6 +7,7 @@ from ...equilibrium.conics import WELL
 from ...equilibrium.spectrum import invariants
 from ...equilibrium.stability import POSITIVE_EIGENVALUE, isolated_verdict, linear_word
 from ...numbers.balls import sign
+from ...numbers.double_ball import Unclear
 from ...physics.quadratic import QuadraticForm, euler_form
 from .eliminated import Root, evaluated
 from .family import Family
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from flint import arb
 
 BORDER = ("border", "m = 0 on the curve of equilibria: stability changes here")
+SMALL = 1e-17  # radius of a ball over one plus its size
 CROSSES = ("undecided", "the curve that the motion keeps to crosses itself here")
 
 
@@ -38,12 +40,19 @@ def state_of(family: Family, y: tuple[arb, ...], u: list[arb]) -> tuple[arb, ...
     return ((y[0] - u[0]) / 2, y[1], -y[2]) if family.scaled else tuple(y)
 
 
+def doubles(x: tuple[arb, ...]) -> tuple[float, ...]:
+    """The middles of balls that are narrow enough for doubles. Unclear where they are not."""
+    if any(v.rad() > SMALL * (1 + abs(v.mid())) for v in x):
+        raise Unclear
+    return tuple(0.0 if v.contains(0) else float(v.mid()) for v in x)
+
+
 def judged_state(family: Family, kind: str, values: list, root: Root, after: int = 0) -> State:
     """An equilibrium with its verdict. after: where branches meet in it on a motion's curve, the sign of m on the branch that goes on. Unclear where
     the balls leave a sign open."""
     form, u = ball_form(family, values)
     x = state_of(family, root.y, u)
-    at = tuple(float(v.mid()) + 0.0 for v in x)
+    at = doubles(x)
     if kind == BORDERS:
         return State(at, root.times, "degenerate", *BORDER)
     m, n = invariants(form, x)
