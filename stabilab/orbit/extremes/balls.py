@@ -94,7 +94,10 @@ def solve(orbit, inner, outer):
     slope = orbit.force(y)
     if 0 in slope:
         raise Unclear
-    reach = balls.upper(orbit.height(y) - orbit.energy) / balls.lower(slope)
+    over = orbit.height(y) - orbit.energy
+    if over.is_zero():
+        return y  # the root itself: no width about it would have a height of both signs to show but its own
+    reach = balls.upper(over) / balls.lower(slope)
     for times in WIDER:
         width = balls.upper(times * reach)
         below, above = orbit.height(y - side * width) - orbit.energy, orbit.height(y + side * width) - orbit.energy
