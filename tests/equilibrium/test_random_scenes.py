@@ -14,7 +14,7 @@ from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, equi
 from stabilab.answers.certificate import certificate
 from stabilab.verify import verify
 from tests.hunt.wild import disagreements as wild_disagreements
-from tests.hunt.wild import wild_scene, wild_state
+from tests.hunt.wild import tidy_scene, tidy_state, wild_scene, wild_state
 from tests.oracles import elimination as by_hand
 
 
@@ -202,11 +202,11 @@ def test_a_hundred_thousand_scenes(piece, degenerate, capsys):
     assert tally["undecided"] <= (0.01 if degenerate else 0.001) * count, tally
 
 
-def one_wild_scene(seed, number, states, tabled, digits):
+def one_wild_scene(seed, number, states, tabled, digits, scene_of=wild_scene, state_of=wild_state):
     """What is said otherwise by two ways in a scene that (seed, number) repeats: [] where all agree."""
     rng = np.random.default_rng([seed, number])
-    scene = wild_scene(rng)
-    rows = [wild_state(rng, scene) for _ in range(states)]
+    scene = scene_of(rng)
+    rows = [state_of(rng, scene) for _ in range(states)]
     try:
         found = list(wild_disagreements(scene, rows, WAYS, tabled, digits))
     except Exception as error:
@@ -222,6 +222,14 @@ def test_wild_scenes_have_one_answer_by_every_way_to_it(scenes):
     """One state, small arrays (NumPy and compiled), large ones (tables) and thirty digits, each within what it promises."""
     found = [wrong for n in scenes for wrong in one_wild_scene(1, n, 1, n == 3, n % 50 == 4)]
     assert not found, f"{len(found)}, the first: {found[0]}"
+
+
+@pytest.mark.parametrize("scenes", [
+    [*range(20), 95, 104, 114, 122, 1145], pytest.param(range(20, 1500), marks=pytest.mark.slow)], ids=["twenty and what once failed", "the others"])
+def test_scenes_of_small_numbers_have_one_answer_by_every_way_to_it(scenes):
+    """Turning points, centres and places at rest are doubles there: roots whose balls have no width, and wells without depth."""
+    found = [wrong for n in scenes for wrong in one_wild_scene(3, n, 3, n % 20 == 0, n // 4 + 1 if n % 4 == 1 else 0, tidy_scene, tidy_state)]
+    assert not found, f"{len(found)}, the first ten: {found[:10]}"
 
 
 @pytest.mark.slow

@@ -1,5 +1,6 @@
 """Wild scenes: moments equal to the last digit, needles and discs, wheels and torques over sixteen decades, states at rest, at equilibria,
-beside separatrices and on invariant planes; and how far the ways to one answer part, in units of what they promise.
+beside separatrices and on invariant planes; tidy ones of the small numbers that people write, where much is met exactly; and how far the
+ways to one answer part, in units of what they promise.
 """
 from __future__ import annotations
 
@@ -16,6 +17,7 @@ from stabilab.orbit.landscape import landscape
 
 MARGIN, DIGITS = 1e-12, 1e-11  # promised of a margin (of its terms), and of extremes and periods
 MANY = 5200  # rows: more than a table is built for
+TIDY = ((2, 2, 3), (2, 2, 2), (2, 3, 4), (3, 4, 5), (2, 2, 1), (1, 1, 2), (1, 2, 3), (2, 1.5, 1), (4, 4, 3))
 SHAPES = ("any", "any", "near", "twins", "equal", "sphere", "needle", "disc")
 STATES = ("any", "any", "wide", "few", "still", "equilibrium", "brink", "brink", "plane")
 
@@ -49,6 +51,29 @@ def _moments(rng):
          "sphere": (a, a, a), "needle": (a, a * (1 + 1e-9 * rng.integers(0, 2)), a * 10.0 ** rng.uniform(-8, -2)),
          "disc": (a, b, (a + b) * (1 - 10.0 ** rng.uniform(-15, -2)))}[shape]
     return rng.permutation(D) * (10.0 ** rng.uniform(-6, 6) if rng.random() < 0.2 else 1.0)
+
+
+def tidy_scene(rng):
+    """A scene of halves, quarters and small integers whose motions have a reduction, or no torque."""
+    if rng.random() < 0.2:
+        a, b, mu = _small(rng), _small(rng), np.zeros(3)
+        mu[rng.integers(1, 3)] = _small(rng)
+        return ScaledGyrostat(a, b, tuple(mu.tolist()))
+    D, axis, momentum, torque = rng.permutation(TIDY[rng.integers(len(TIDY))]), int(rng.integers(3)), np.zeros(3), np.zeros(3)
+    torque[axis] = _small(rng) * (rng.random() < 0.75)
+    for i in range(3):
+        if rng.random() < 0.5 and not (torque[axis] and i == axis):
+            momentum[i] = _small(rng)
+    return Scene(Body(D.tolist()), Gyrostat(momentum.tolist()), ConstantTorque(torque.tolist()))
+
+
+def _small(rng):
+    return float(rng.integers(-3, 4)) / float(rng.choice([1, 1, 2, 4]))
+
+
+def tidy_state(rng, scene):
+    """Three floats of that kind, zeros among them; of any scene."""
+    return (rng.integers(-4, 5, 3) / rng.choice([1, 1, 2, 4]) * (rng.random(3) < 0.75)).tolist()
 
 
 def wild_state(rng, scene):

@@ -39,7 +39,7 @@ R_BARRIER, L_BARRIER, R_WELL, L_WELL = range(4)
 NARROW = 0.5  # half-widths below it take series where closed forms cancel
 BOUNDED, SPINNING, OTHER = 0.0, 1.0, 2.0
 # rows of the period's table
-P1, Q1, P2, Q2, RHO, SINE, COSINE, SUM, BEFORE, LEAST, MIDDLE, ROW, TERMS = range(13)
+P1, Q1, P2, Q2, RHO, SINE, COSINE, SUM, BEFORE, LEAST, MIDDLE, ROW, TERMS, MOST, OFF = range(15)
 
 
 def sinc_cos(u):
@@ -110,6 +110,11 @@ def orbit_rows(m, states, numbers, jki, folds, lane):
         lane[T, a] = ROUNDINGS * EPS * (energy[a] + mu * (TURN + ratio)
                                         + 2 * (abs(G) * radius[a] + abs(c) + abs(d)) * (rounding + 2 * radius[a]))
         unclear[a] = 1.0 if not (radius[a] > 1e-150 and radius[a] > thin) else unclear[a]
+        # a state at rest has a period of 0: whether every rate vanishes is decided exactly, elsewhere
+        force = mu + G * x[a] * z[a] + c * z[a] + d * x[a]
+        blurred = mu + abs(G * x[a] * z[a]) + abs(c * z[a]) + abs(d * x[a]) + (abs(G) * radius[a] + abs(c) + abs(d)) * rounding
+        still = (abs(w[a]) <= ROUNDINGS * EPS * abs(n) * (abs(states[a, i]) + abs(s))) & (abs(force) <= ROUNDINGS * EPS * blurred)
+        unclear[a] = 1.0 if still else unclear[a]
         for f in folds:
             unclear[a] = 1.0 if abs(q[a] - f) <= ROUNDINGS * EPS * (rounding * rounding + f) else unclear[a]
 
@@ -256,7 +261,7 @@ def turn(m, side, numbers, barrier, well, lane, end):
         at_b, at_w = pi / wide * sqrt(0.5 * whole / abs(b_bend[a])), pi / wide * sqrt(0.5 * whole / abs(w_bend[a]))
         near, far = (at_b if high else at_w), (at_w if high else at_b)
         guess = wide * way_of_cosine(psi, near, far)
-        y[a] = min(max(guess, 0.01 * psi * wide), wide)
+        y[a] = min(max(guess, 0.01 * psi * wide), 0.9 * wide)  # at the far end the slope is 0, and no step leaves it
     for rest in range(HALLEY_STEPS, -1, -1):
         last = 0.0 if rest == 0 else 1.0
         for a in range(m):
@@ -274,12 +279,15 @@ def turn(m, side, numbers, barrier, well, lane, end):
             step = 2 * value * first / (2 * first * first - value * second)
             # a step may not leave the way between barrier and well: half-way to its end instead
             new = min(max(here - step * last, 0.5 * here), 0.5 * (here + reach))
-            y[a], at_x[a], at_z[a], blur[a], haze[a] = new, ex, ez, abs(first), abs(step)
+            # Newton's step counts: Halley's is 0 at a barrier too
+            y[a], at_x[a], at_z[a], blur[a], haze[a] = new, ex, ez, abs(first), abs(value / first)
     for a in range(m):  # the step that was not taken any more counts as an error
         x, z, far, step = anchor_x[a], anchor_z[a], y[a], haze[a]
-        terms = mu + abs(G * x * z) + abs(c * z) + abs(d * x)
+        terms = mu + abs(G * x * z) + abs(c * z) + abs(d * x)  # of the force; where they vanish the potential still has its own
+        bulk = abs(G) * (x * x + z * z) + (abs(c) + abs(d)) * (abs(x) + abs(z))
         found = (step < LAST_STEP * far) & (w_over[a] > 0) & (level[a] != 0)
-        noise, place = EPS * terms * (abs(start[a]) + far), start[a] + towards[a] * far
+        noise = EPS * (terms * (abs(start[a]) + far) + bulk * (min(start[a] * start[a], 2.0) + min(far * far, 2.0)))
+        place = start[a] + towards[a] * far
         haze[a], blur[a] = noise, noise / blur[a] + EPS * abs(start[a]) + step
         at[a] = place if found else np.nan
 
@@ -400,7 +408,7 @@ def write_boxes(m, states, numbers, jki, out, boxes):
         boxes[a, i, 0], boxes[a, i, 1] = min(u, v, states[a, i]), max(u, v, states[a, i])
 
 
-def gather_modes(m, numbers, lane, kind, left_open, narrow, table):
+def gather_modes(m, numbers, lane, left_end, right_end, kind, left_open, narrow, table):
     """V's modes about the middle of each bounded lane's interval, packed; how many. narrow: which half-widths."""
     G, c, d = numbers[0], numbers[1], numbers[2]
     x, z, left, right = lane[X], lane[Z], lane[LEFT], lane[RIGHT]
@@ -414,7 +422,7 @@ def gather_modes(m, numbers, lane, kind, left_open, narrow, table):
             u, v = x[a] + (z[a] * s + x[a] * b), z[a] + (z[a] * b - x[a] * s)
             table[P1, count], table[Q1, count] = -c * u + d * v, -c * v - d * u
             table[P2, count], table[Q2, count] = -0.25 * G * (u - v) * (u + v), -0.5 * G * u * v
-            table[RHO, count], table[ROW, count] = rho, a
+            table[RHO, count], table[ROW, count], table[OFF, count] = rho, a, left_end[BLUR, a] + right_end[BLUR, a]
             count += 1
     for a in range(count):
         f, k = sinc_cos(0.5 * table[RHO, a])
@@ -470,7 +478,7 @@ def librations(count, nodes, narrow, table, periods, left_open):
     else:
         add_node(count, nodes[0], 0.5, False, table)
     for a in range(count):
-        table[BEFORE, a] = table[LEAST, a]
+        table[BEFORE, a], table[MOST, a] = table[LEAST, a], 2 * table[MIDDLE, a] - table[LEAST, a]
     add_nodes(count, 1, 4, nodes, narrow, table)
     if narrow:
         add_node(count, nodes[4], 0.5, True, table)
@@ -478,7 +486,10 @@ def librations(count, nodes, narrow, table, periods, left_open):
         add_node(count, nodes[4], 0.5, False, table)
     for a in range(count):  # at the ends and in the middle H must keep its digits
         noise, ends, middle = EPS * table[TERMS, a], table[BEFORE, a], table[MIDDLE, a]
-        if not (noise <= PERIOD_DIGITS * ends and noise * table[TERMS, a] <= PERIOD_DIGITS * middle * middle):
+        sharp = (noise <= PERIOD_DIGITS * ends) & (noise * table[TERMS, a] <= PERIOD_DIGITS * middle * middle)
+        # and the errors of the turning points must move it by little, as far as it changes on the way between them
+        change, least = max(table[MOST, a], middle) - min(ends, middle), min(ends, middle)
+        if not sharp & (table[OFF, a] * change <= PERIOD_DIGITS * table[RHO, a] * least):
             left_open[int(table[ROW, a])] |= PERIOD
         table[BEFORE, a] = table[SUM, a] * (0.125 * TURN)
     size, first = 8, 5
@@ -504,7 +515,7 @@ def orbits(states, numbers, jki, pieces, folds, wanted, nodes, boxes, periods, l
     """Fill boxes (n, 3, 2) and periods (n,) as far as wanted; left_open (n,): the bits that stay open."""
     mu, count = numbers[3], len(pieces)
     lane, spots, ends = np.empty((14, LANES)), np.empty((count, 7, LANES)), np.zeros((4, 5, LANES))
-    turns, out, table, kind = np.empty((2, 11, LANES)), np.empty((7, LANES)), np.empty((13, LANES)), np.empty(LANES)
+    turns, out, table, kind = np.empty((2, 11, LANES)), np.empty((7, LANES)), np.empty((15, LANES)), np.empty(LANES)
     for begin in range(0, len(states), LANES):
         end = min(begin + LANES, len(states))
         m, part, open_ = end - begin, states[begin:end], left_open[begin:end]
@@ -540,5 +551,5 @@ def orbits(states, numbers, jki, pieces, folds, wanted, nodes, boxes, periods, l
             for a in range(m):
                 some[a] = INFINITY
             for narrow in (False, True):
-                packed = gather_modes(m, numbers, lane, kind, open_, narrow, table)
+                packed = gather_modes(m, numbers, lane, turns[0], turns[1], kind, open_, narrow, table)
                 librations(packed, nodes, narrow, table, some, open_)

@@ -186,6 +186,34 @@ def test_states_that_doubles_cannot_settle_are_left_open():
     assert np.all(plain(scene, states)[2] & 1)
 
 
+@pytest.mark.parametrize("pair, state", [
+    (physical((3, 2, 1), (3, 0, 0), (0, 0, -1)), (0, -3, 4)), (physical((2, 3, 1), (1, 0, 0), (0, -0.25, 0)), (0, 0, 2)),
+    (physical((1, 2, 3), (-1, -1, 0), (0, 0, 0.25)), (-1.5, 1.5, -0.5)), (scaled(-1.0, -3.0, (0, 0, 0)), (0.5, 2, 0))])
+def test_a_turning_point_that_is_not_yet_found_leaves_the_period_open(pair, state):
+    """Halley's steps end 5e-10 to 2e-8 from it, and the period was off by as much as 4e-9."""
+    scene, problem = pair
+    true = float(energy.period(problem, tuple(map(float, state))))
+    _, periods, left = plain(scene, np.array([state], float))
+    assert left[0] & 2 or abs(periods[0] / true - 1) < 1e-11
+    assert abs(extremes_and_periods(scene, np.array([state], float), fast=False)[1][0] / true - 1) < 1e-13
+
+
+def test_the_search_for_a_turning_point_does_not_end_on_a_barrier():
+    """The well is so flat that the first guess lay beyond the barrier, where Halley's step is 0: the least rate about axis 2 was -5.83 for -3.03."""
+    scene, problem = physical((2, 3, 4), (0, 2, 0), (0, 0, 0))
+    boxes, _, left = plain(scene, np.array([(4.0, 0, 2)]))
+    assert not left[0] & 1
+    assert_extremes(boxes[0], energy.extremes(problem, (4.0, 0.0, 2.0)), 1e-12)
+
+
+@pytest.mark.parametrize("scene, state", [
+    (physical((3, 2, 4), (0, 0, 0), (0, 0, -1))[0], (1, 1, 0)),  # (2 - 3) 1 1 = -1: the torque is met, by hand
+    (physical((2, 1.5, 1), (0, -2, 0), (0, 0, 0))[0], (0, 4, 3))])  # D omega + lambda = (0, 4, 3) = omega
+def test_a_state_at_rest_is_left_open(scene, state):
+    """Its period is 0; the compiled kernel gave that of small oscillations about it."""
+    assert plain(scene, np.array([state], float))[2][0] == 3 and stabilab.period(scene, np.array([state, state]))[0] == 0
+
+
 def test_extremes_and_periods_in_one_go_equal_each_alone():
     scene = FAMILIES["minor scaled +"][0]
     states = sample("minor scaled +", 30)
