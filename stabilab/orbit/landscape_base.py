@@ -113,6 +113,14 @@ class Landscape:
         """(n,) True where the doubles do not hold the orbit's own size."""
         return np.zeros(np.shape(place[0]), bool)
 
+    def haze(self, spot, start, y):
+        """(n,) error of a height y away from an equilibrium, `start` away from the state, over that at the equilibrium."""
+        # the force there is zero only to rounding: that tilts the potential over the way from state and end, and
+        # the equilibrium itself is off by some roundings of the angle, which count where the whole motion is not much longer
+        bend, pull = np.abs(self.potential.slope(spot)), self.potential.terms(spot)
+        pull = pull + np.abs(self.potential.force(spot)) / EPS  # a place that is no equilibrium: the search for it failed
+        return EPS * (bend + pull) * (np.abs(start) + np.abs(y) + EPS * (1 + pull / np.maximum(bend, 1e-300)))
+
     def polished(self, spot):
         """Newton steps along the orbit: whatever the conic lost, the force regains. Most need one tiny step."""
         first, second = spot

@@ -9,6 +9,7 @@ import numpy as np
 
 from ...numbers.roots import bracketed_newton
 from ..ball_orbit import Orbit
+from ..fine.motion import fine_boxes
 from ..landscape import Landscape
 from ..result import Fate
 from .balls import precise_extremes
@@ -35,6 +36,10 @@ def extremes_of_chunk(land: Landscape, states, decided, start, span=None):
     spinning = labels == Fate.SPIN_UP
     into(out, spinning, _spinning(land, *picked(place, w, spinning)))
     if precise.any():
+        fine = np.nonzero(precise & rows)[0] if land.conic is not None else np.zeros(0, int)
+        if fine.size:
+            values, found = fine_boxes(land, states[fine])
+            out[fine[found]], precise[fine[found]] = values[found], False
         for index in np.nonzero(precise)[0]:
             out[index] = precise_extremes(Orbit(land.reduction, states[index]), int(decided.labels[index]))
     out[:, :, 0] = np.minimum(out[:, :, 0], states)  # rounding must not exclude the state itself

@@ -133,11 +133,7 @@ def turning_point(land, spots, place, w, side):
     start = spots.offset[rows, anchor]
     with np.errstate(all="ignore"):
         end = np.array(land.potential.move(tuple(spot), y))
-        # the force at the anchor is zero only to rounding: that tilts the potential over the way from state and end, and
-        # the anchor itself is off by some roundings of the angle, which count where the whole motion is not much longer
-        bend, pull = np.abs(land.potential.slope(tuple(spot))), land.potential.terms(tuple(spot))
-        pull = pull + np.abs(land.potential.force(tuple(spot))) / EPS  # a place that is no equilibrium: the search for it failed
-        haze = EPS * (bend + pull) * (np.abs(start) + np.abs(y) + EPS * (1 + pull / np.maximum(bend, 1e-300)))
+        haze = land.haze(tuple(spot), start, y)
         blur = haze / np.abs(land.potential.force(tuple(end))) + EPS * np.abs(start)
     return np.where(ok, start + y, 0.0), end, ok, blur, haze
 

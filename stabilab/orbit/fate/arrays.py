@@ -18,6 +18,7 @@ from ...numbers.constants import EPS, TURN
 from ...physics.states import equilibrium_mask
 from ..ball_orbit import Orbit
 from ..far_states import far_exponent, far_fate, far_rows
+from ..fine.margins import MARGIN_SHARE, valley_margins
 from ..landscape import ROUNDINGS, Landscape, in_doubles, landscape
 from ..potential import derivatives_on_parabola
 from ..reduction import reduce
@@ -32,7 +33,6 @@ from .table import barrier_table
 from .table_numba import compiled_loops
 
 TABLE_FROM = 5000  # a table costs some ten milliseconds to build, as much as the general formula needs for these
-MARGIN_SHARE = 5e-13  # of the kinetic energy and the barrier's height: half of the rounding that `fate` admits
 
 
 def fates(scene, states, fast=None) -> FateResult:
@@ -223,6 +223,10 @@ def _valley_margins(land, states, place, w, size):
             doubtful |= barrier[:, column] & (~(pot.slope(spot) > 0) | _tilted(pot, spot, offset, -rise - energy, energy))
         doubtful |= land.beside_fold(place) | land.beside_centre(place)
     signs = np.sign(margins)
+    rows = np.nonzero(doubtful)[0]
+    if rows.size and land.conic is not None:
+        found, sure = valley_margins(land, states[rows])
+        margins[rows[sure]], signs[rows[sure]], doubtful[rows[sure]] = found[sure], np.sign(found[sure]), False
     for index in np.nonzero(doubtful)[0]:
         tie = decide(Orbit(land.reduction, states[index]))
         signs[index], margins[index] = (tie.sign, tie.margin) if np.isfinite(tie.margin) else (1, np.inf)

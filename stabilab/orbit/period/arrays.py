@@ -12,6 +12,7 @@ from ...numbers.constants import EPS, TURN
 from ..ball_orbit import Orbit
 from ..extremes.guards import clear_of_barriers, near_separatrix, needs_digits, picked, trapped_rows
 from ..extremes.turning_points import interval
+from ..fine.motion import fine_periods
 from ..landscape import Landscape
 from ..result import Fate
 from .balls import precise_period
@@ -39,6 +40,10 @@ def period_chunk(land: Landscape, states, decided, start, span=None):
     out[trapped] = values
     precise[np.nonzero(trapped)[0][~found]] = True
     if precise.any():
+        fine = np.nonzero(precise & rows)[0] if land.conic is not None else np.zeros(0, int)
+        if fine.size:
+            values, found = fine_periods(land, states[fine])
+            out[fine[found]], precise[fine[found]] = values[found], False
         for index in np.nonzero(precise)[0]:
             out[index] = precise_period(Orbit(land.reduction, states[index]), int(decided.labels[index]))
     return out

@@ -16,6 +16,9 @@ import pytest
 import stabilab
 from stabilab.numbers.constants import EPS
 from stabilab.orbit import landscape_base
+from stabilab.orbit.ball_orbit import Orbit
+from stabilab.orbit.fate.balls import decide
+from stabilab.orbit.fine.margins import valley_margins
 from stabilab.orbit.landscape import landscape
 from stabilab.orbit.reduction import Reduction, reduce
 from tests.oracles import energy
@@ -30,8 +33,9 @@ AWAY = 10.0 ** np.arange(-7, -17, -0.125)  # relative distances from the separat
 
 
 def doubtful(scene, states, monkeypatch):
-    """(n,) True where a state goes to exact arithmetic."""
+    """(n,) True where doubles leave a state to longer arithmetic; twofold numbers, which would decide most, leave it to balls here."""
     asked = []
+    monkeypatch.setattr(fate, "valley_margins", lambda land, rows: (np.zeros(len(rows)), np.zeros(len(rows), bool)))
     monkeypatch.setattr(fate, "decide", lambda orbit: asked.append(tuple(orbit.state)) or SimpleNamespace(sign=1, margin=1.0))
     stabilab.fate(scene, states)
     monkeypatch.undo()
@@ -84,6 +88,18 @@ def test_states_within_some_fifty_roundings_of_a_separatrix_are_decided_exactly_
         size, square = terms(problem, tuple(states[-1]))
         bound = AWAY[np.argmax(unsure)] * square / (EPS * size)
         assert 40 < bound < 160, state
+
+
+def test_twofold_numbers_decide_no_state_otherwise_than_balls_however_near_the_separatrix():
+    scene, problem = BARRIERS["middle scaled, |c| far above"]
+    land, nearest = landscape(scene), []
+    for state in brinks("middle scaled, |c| far above", problem):
+        states = np.array([state] * len(AWAY))
+        states[:, axis_of(problem)] *= 1 + AWAY
+        margins, sure = valley_margins(land, states)
+        assert np.array_equal(np.sign(margins[sure]), [decide(Orbit(land.reduction, one)).sign for one in states[sure]])
+        nearest.append(AWAY[sure].min())
+    assert max(nearest) < 1e-12  # the zone that is left to balls is no wider than that of doubles
 
 
 def on_circles(radius, count):

@@ -1,0 +1,136 @@
+"""Extremes and periods of rows of bounded motions, from equilibria in twofold numbers: where doubles lose digits and balls would take a millisecond."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...numbers.constants import EPS
+from ..extremes.guards import DIGITS
+from ..extremes.turning_points import turning_point
+from ..landscape import Landscape
+from ..period.rules import librations
+from .anchored import Anchored
+from .modes import TaylorModes
+from .spots import FineSpots, fine_spots
+
+CLEAR = 64  # times its error: so far a height is from the energy where the barrier's side is certain
+FAR = 1.5  # of theta: ends farther from their anchor have no period by series
+PERIOD_DIGITS = 1e-11  # as of the periods of arrays
+
+
+class _Anchors:
+    """What `turning_point` asks of a landscape."""
+
+    def __init__(self, land):
+        self.potential, self.turn, self.farther = Anchored(land.reduction), land.turn, land.farther
+
+    def haze(self, spot, start, y):
+        return self.potential.rounding(y, spot)
+
+
+@dataclass(frozen=True)
+class FineInterval:
+    """As `Interval`, of offsets from the states alone."""
+
+    left: np.ndarray
+    right: np.ndarray
+    fastest: np.ndarray
+    blur: np.ndarray
+    haze: np.ndarray
+    ok: np.ndarray
+    found: FineSpots
+
+
+def fine_interval(land: Landscape, states) -> FineInterval:
+    """The intervals of bounded states (n, 3) on circles or hyperbolas."""
+    found, anchors = fine_spots(land, states), _Anchors(land)
+    spots, w = found.spots, found.w
+    ends = [turning_point(anchors, spots, (found.x, found.z), w, side) for side in (-1, 1)]
+    left, right = np.minimum(ends[0][0], 0.0), np.maximum(ends[1][0], 0.0)
+    inside = spots.there & (spots.offset >= left[:, None]) & (spots.offset <= right[:, None])
+    fastest = np.maximum(np.where(inside & ~spots.barrier, spots.energy, -np.inf).max(axis=1, initial=-np.inf), 0.5 * w * w)
+    off = _anchors_error(found, inside, fastest)
+    blur, haze = [], []
+    for _, place, _, unsure, rounding in ends:
+        with np.errstate(all="ignore"):
+            blur.append(unsure + off / np.abs(anchors.potential.force(tuple(place))))
+        haze.append(rounding + off)
+    with np.errstate(invalid="ignore"):
+        clear = (~spots.there | ~spots.barrier | (np.abs(spots.energy) > CLEAR * found.error)).all(axis=1)
+    ok = found.sure & ends[0][2] & ends[1][2] & clear & np.isfinite(left) & np.isfinite(right)
+    return FineInterval(left, right, fastest, np.array(blur), np.maximum(*haze) + EPS * fastest, ok, found)
+
+
+def _anchors_error(found, inside, fastest):
+    """(n,) error of the energy over the equilibria from which ends are told: those inside and next to these, no farther from the energy."""
+    near = inside.copy()
+    near[:, 1:] |= inside[:, :-1]
+    near[:, :-1] |= inside[:, 1:]
+    with np.errstate(invalid="ignore"):
+        return np.where(near & (np.abs(found.spots.energy) <= fastest[:, None]), found.error, 0.0).max(axis=1, initial=0.0)
+
+
+def fine_boxes(land: Landscape, states):
+    """(extremes (n, 3, 2), which of them have their digits (n,)) of bounded states (n, 3)."""
+    span, r, g = fine_interval(land, states), land.reduction, land.reduction.constants
+    at = [span.left, span.right, *_stationary(land, span)]
+    changes = np.array([_change(land, span.found, y) for y in at])  # (k, 2, n)
+    out, top = np.empty((len(states), 3, 2)), np.sqrt(2 * span.fastest)
+    good = span.ok & (span.haze <= DIGITS * 2 * span.fastest)
+    blurred = np.maximum(*[_speed_times(land, span.found, y, blur) for y, blur in zip((span.left, span.right), span.blur)])
+    for row, axis, factor in ((0, r.j, g["flip"] * g["rx"]), (1, r.k, g["rz"])):
+        ends = factor * changes[:, row]
+        out[:, axis, 0], out[:, axis, 1] = states[:, axis] + ends.min(axis=0, initial=0.0), states[:, axis] + ends.max(axis=0, initial=0.0)
+        good &= abs(factor) * blurred[row] + 4 * EPS * (np.abs(states[:, axis]) + np.abs(ends).max(axis=0)) <= DIGITS * np.abs(out[:, axis]).max(axis=1)
+    rates = np.array([r.component_i(-top), r.component_i(top)])
+    out[:, r.axis] = np.sort(rates, axis=0).T
+    return out, good & np.isfinite(out).all(axis=(1, 2))
+
+
+def fine_periods(land: Landscape, states):
+    """(periods (n,), which of them have their digits (n,)) of bounded states (n, 3)."""
+    span, values, sure = fine_interval(land, states), np.full(len(states), np.nan), np.zeros(len(states), bool)
+    spots, rows = span.found.spots, np.arange(len(states))
+    inside = spots.there & ~spots.barrier & (spots.offset >= span.left[:, None]) & (spots.offset <= span.right[:, None])
+    anchor = np.argmax(np.where(inside, spots.energy, -np.inf), axis=1)
+    with np.errstate(invalid="ignore"):
+        left, right = (end - spots.offset[rows, anchor] for end in (span.left, span.right))
+        fits = span.ok & inside.any(axis=1) & (np.maximum(np.abs(left), np.abs(right)) <= FAR) & (right > left)
+    some = np.nonzero(fits)[0]
+    if some.size:
+        modes = TaylorModes.between(Anchored(land.reduction), spots.place[:, rows, anchor][:, some], left[some], right[some])
+        half = 0.5 * (right - left)[some]
+        values[some], shape = librations(modes, half)
+        with np.errstate(all="ignore"):
+            good = np.isfinite(values[some]) & (span.blur[:, some].sum(axis=0) * np.ptp(shape, axis=0) <= PERIOD_DIGITS * half * shape.min(axis=0))
+            for share, value in zip((0.0, 0.5, 1.0), shape):
+                good &= 8 * EPS * modes.terms(half, share, 1 - share) <= PERIOD_DIGITS * value
+        sure[some] = good
+    return values, sure
+
+
+def _change(land, found, y):
+    """(2, n) what X and Z change by on the way y from the states."""
+    s, h = (np.sin(y), np.sin(0.5 * y)) if land.e < 0 else (np.sinh(y), np.sinh(0.5 * y))
+    less = 2 * land.e * h * h
+    return np.array([found.z * s + found.x * less, found.z * less + land.e * found.x * s])
+
+
+def _speed_times(land, found, y, blur):
+    """(2, n) what X and Z at the end of the way y are off by where y is off by `blur`, and by rounding."""
+    dx, dz = _change(land, found, y)
+    s, h = (np.sin(y), np.sin(0.5 * y)) if land.e < 0 else (np.sinh(y), np.sinh(0.5 * y))
+    x, z, h2 = np.abs(found.x), np.abs(found.z), 2 * h * h
+    return np.array([np.abs(found.z + dz) * blur + 4 * EPS * (z * np.abs(s) + x * h2), np.abs(found.x + dx) * blur + 4 * EPS * (z * h2 + x * np.abs(s))])
+
+
+def _stationary(land, span):
+    """Offsets (n,) where X or Z is stationary inside the interval, 0 where there is none."""
+    x, z = span.found.x, span.found.z
+    if land.e < 0:
+        found = [np.arctan2(*pair) + k * np.pi for pair in ((z, x), (-x, z)) for k in range(-3, 4)]
+    else:
+        with np.errstate(all="ignore"):
+            found = [np.arctanh(-z / x), np.arctanh(-x / z)]
+    return [np.where(np.isfinite(y) & (y > span.left) & (y < span.right), y, 0.0) for y in found]

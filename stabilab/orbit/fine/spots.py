@@ -1,0 +1,89 @@
+"""The equilibria along the orbits of rows, placed by Newton's method in twofold numbers: ways to them, slopes and heights keep their digits
+though the orbit is thousands of times as large as the motion."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...numbers.constants import EPS, TURN
+from ...numbers.double_double import Twofold
+from ..extremes.turning_points import Spots, spots_along
+from ..landscape import ROUNDINGS, Landscape
+from .anchored import ROUNDED, Anchored
+from .places import twofold_places
+
+STEPS = 4
+ENOUGH = 1e-12  # of the way to the nearest other equilibrium, or of a radian: the last step leaves its square
+DRIFT = 1e-3  # of a radian: farther from the doubles' place another equilibrium may have been found
+
+
+@dataclass(frozen=True)
+class FineSpots:
+    """spots: as `spots_along` gives them, with the slope of the force as third row of the place; error: (n, m) of the energy; sure: (n,) where
+    all were placed; x, z, w: (n,) of the states."""
+
+    spots: Spots
+    error: np.ndarray
+    sure: np.ndarray
+    x: np.ndarray
+    z: np.ndarray
+    w: np.ndarray
+
+
+def fine_spots(land: Landscape, states) -> FineSpots:
+    """Those of states (n, 3) on circles or hyperbolas."""
+    place, w, size = land.start(states)
+    rough = spots_along(land, place, w)
+    x, z = twofold_places(land.twofold, land.reduction.j, land.reduction.k, states)
+    with np.errstate(all="ignore"):
+        X, Z = (Twofold(v.high[:, None], v.low[:, None]) for v in (x, z))
+        u, v = (Twofold(np.where(rough.there, p, np.nan), np.zeros(p.shape)) for p in land.xz(rough.place))
+        u, v, slope, last = _settled(land, u, v, X, Z)
+        way = _way(land, u, v, X, Z)
+        turns = np.round((rough.offset - way) / TURN) if land.turn < np.inf else np.zeros(way.shape)
+        turns = np.where(rough.there, turns, 0.0)
+        anchors = np.array([u.value(), v.value(), slope])
+        pot, kinetic = Anchored(land.reduction), 0.5 * w[:, None] ** 2
+        fall = TURN * pot.mu * turns
+        energy = kinetic + pot.rise(-way, anchors) + fall
+        error = pot.rounding(-way, anchors) + ROUNDED * EPS * (kinetic + np.abs(fall))
+        offset = np.where(rough.there, way + TURN * turns, np.inf)
+        good = (np.abs(last) <= ENOUGH) & (np.abs(offset - rough.offset) <= DRIFT) & ((slope > 0) == rough.barrier) & np.isfinite(energy)
+        apart = (np.diff(offset, axis=1) > 0) | ~rough.there[:, 1:]
+    sure = (good | ~rough.there).all(axis=1) & apart.all(axis=1) & ~_beside_fold(land, place, size) & ~land.beside_centre(place)
+    filled = np.where(rough.there, anchors, 1.0)
+    return FineSpots(Spots(offset, filled, np.where(rough.there, energy, np.nan), rough.barrier, rough.there), error, sure, x.value(), z.value(), w)
+
+
+def _beside_fold(land, place, size):
+    """(n,) True where the rounding of a place, of that size of terms, may make or unmake a pair of equilibria of its orbit."""
+    Q, rounding, beside = land.invariant(place), (size[0] + size[1]) ** 2, np.zeros(np.shape(place[0]), bool)
+    for edge in land.conic.fold_invariants + land.conic.tangents:
+        beside |= ~(np.abs(Q - edge) > ROUNDINGS * EPS * (rounding + abs(edge)))
+    return beside
+
+
+def _settled(land, u, v, X, Z):
+    """(places, slopes and last steps) of the equilibria next to (u, v) on the orbits of (X, Z)."""
+    k, e = land.twofold, land.e
+    Q = Z * Z - X * X * e
+    for _ in range(STEPS):
+        off = (v * v - u * u * e - Q).value() / (2 * (u.high * u.high + v.high * v.high))
+        u, v = u + e * off * u.high, v + -off * v.high
+        force = k.mu + k.G * u * v + k.c * v + k.d * u
+        slope = (k.G * (v * v + u * u * e) + k.c * u * e + k.d * v).value()
+        step = -force.value() / slope
+        step = np.where(np.abs(step) < 0.1, step, np.nan)
+        half = 0.5 * e * step * step
+        u, v = u + v * step + u * half, v + u * (e * step) + v * half
+    return u, v, (k.G * (v * v + u * u * e) + k.c * u * e + k.d * v).value(), step
+
+
+def _way(land, u, v, X, Z):
+    """theta from the states (X, Z) to places on their orbits, the short way round a circle."""
+    Q = (Z * Z - X * X * land.e).value()
+    across = (u * Z - v * X).value() / Q
+    if land.e > 0:
+        return np.arcsinh(across)
+    return np.arctan2(across, (u * X + v * Z).value() / Q)

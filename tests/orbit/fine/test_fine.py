@@ -1,0 +1,105 @@
+"""Rows whose orbit is far larger than their motion: answers from twofold numbers against ball arithmetic, which proves its digits."""
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from stabilab import Body, ConstantTorque, Fate, Gyrostat, Scene, extremes, fate, period
+from stabilab.orbit.ball_orbit import Orbit
+from stabilab.orbit.extremes import arrays as extremes_arrays
+from stabilab.orbit.extremes.balls import precise_extremes
+from stabilab.orbit.fate import arrays as fate_arrays
+from stabilab.orbit.fate.balls import decide
+from stabilab.orbit.fine.anchored import Anchored
+from stabilab.orbit.fine.margins import MARGIN_SHARE, valley_margins
+from stabilab.orbit.fine.motion import fine_boxes, fine_periods
+from stabilab.orbit.landscape import landscape
+from stabilab.orbit.period.balls import precise_period
+
+
+def scene(moments, wheel, axis, torque):
+    return Scene(Body(moments), Gyrostat(wheel), ConstantTorque(tuple(torque if k == axis else 0 for k in range(3))))
+
+
+# moments that differ by a few per cent or thousandths: the centre of the orbits stands ten to a thousand times as far off as the states
+SCENES = {"hyperbolas, 7.121 and 7.104": scene((7.121, 7.104, 9.259), (0, -2.586, -0.953), 0, -0.6156),
+          "hyperbolas, 0.938 and 0.942": scene((0.473, 0.938, 0.942), (0, 0, 4.556), 1, 0.6802),
+          "hyperbolas, 8.045 and 7.854": scene((8.045, 7.854, 4.382), (-3.961, 0, -3.388), 1, -0.0789),
+          "circles, 4.642 and 4.635": scene((3.315, 4.642, 4.635), (0, 0, -1.393), 1, -0.0106),
+          "circles, a rod": scene((3.895, 3.766, 0.196), (0, -2.753, -0.167), 0, -0.3551)}
+HYPERBOLAS = [name for name in SCENES if name.startswith("hyper")]
+
+
+def states_of(name, count, seed=4, label=None):
+    """States of a tenth to ten times the rates that the wheel brings about."""
+    one, rng = SCENES[name], np.random.default_rng(seed)
+    rate = float(np.linalg.norm([float(v) for v in one.vector("gyrostat")])) / float(min(one.body.exact))
+    states = rng.normal(size=(count, 3)) * rate * 10 ** rng.uniform(-1.3, 0.7, (count, 1))
+    return states if label is None else states[fate(one, states).labels == label]
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_extremes_from_twofold_numbers_are_those_of_balls(name):
+    land, states = landscape(SCENES[name]), states_of(name, 400, label=Fate.BOUNDED)
+    boxes, found = fine_boxes(land, states)
+    assert found.mean() > 0.9
+    rows = np.nonzero(found)[0][:40]
+    exact = np.array([precise_extremes(Orbit(land.reduction, states[n]), Fate.BOUNDED) for n in rows])
+    assert (np.abs(boxes[rows] - exact).max(axis=2) <= 1e-12 * np.abs(exact).max(axis=2)).all()
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_periods_from_twofold_numbers_are_those_of_balls(name):
+    land, states = landscape(SCENES[name]), states_of(name, 400, label=Fate.BOUNDED)
+    values, found = fine_periods(land, states)
+    assert found.mean() > 0.4  # a motion far from its well, as on the whole circle of the rod, has none
+    rows = np.nonzero(found)[0][:8]
+    np.testing.assert_allclose(values[rows], [precise_period(Orbit(land.reduction, states[n]), Fate.BOUNDED) for n in rows], rtol=1e-11)
+
+
+@pytest.mark.parametrize("name", HYPERBOLAS)
+def test_margins_from_twofold_numbers_are_those_of_balls(name):
+    land, states = landscape(SCENES[name]), states_of(name, 60)
+    margins, sure = valley_margins(land, states)
+    assert sure.mean() > 0.9
+    for state, margin in zip(states[sure], margins[sure]):
+        tie, energy = decide(Orbit(land.reduction, state)), 0.5 * land.reduction.canonical(state)[2] ** 2
+        if not np.isfinite(tie.margin):  # no barrier: balls say -inf on either geometry
+            assert margin == np.inf
+            continue
+        assert tie.sign == np.sign(margin) and abs(margin - tie.margin) <= 2 * MARGIN_SHARE * (energy + abs(tie.margin + energy))
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_heights_about_an_equilibrium_integrate_their_force_and_follow_their_series(name):
+    """V' = -F by differences, and V by its Taylor series, at an anchor with any slope: the formulas are told in F alone."""
+    pot, anchor = Anchored(landscape(SCENES[name]).reduction), (np.array([0.7]), np.array([-1.3]), np.array([0.01]))
+    for y in (-1.2, -0.2, 0.05, 0.9):
+        at, h = np.array([y]), 1e-4
+        inner = [pot.rise(at + k * h, anchor)[0] for k in (-2, -1, 1, 2)]
+        slope = (inner[0] - 8 * inner[1] + 8 * inner[2] - inner[3]) / (12 * h)
+        size = sum(abs(t[0]) for t in pot._terms(at, anchor)) + abs(anchor[2][0])
+        assert slope == pytest.approx(-pot.force(pot.move(anchor, at))[0], abs=1e-9 * (size + abs(slope)))
+        series = sum(c[0] * y ** (n + 2) for n, c in enumerate(pot.taylor(anchor, 40)))
+        assert series == pytest.approx(pot.rise(at, anchor)[0], abs=1e-13 * size)
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_hardly_a_row_of_nearly_equal_moments_goes_to_balls(name, monkeypatch):
+    asked, one, states = [], SCENES[name], states_of(name, 1500, 5)
+    monkeypatch.setattr(extremes_arrays, "precise_extremes", lambda orbit, label: asked.append(label) or precise_extremes(orbit, label))
+    assert fate(one, states).precise <= 3
+    if one.quadratic() and landscape(one).e > 0:
+        extremes(one, states, fast=False)
+        assert len(asked) <= 6
+
+
+def test_rows_that_twofold_numbers_leave_open_go_to_balls_as_before(monkeypatch):
+    name = HYPERBOLAS[0]
+    one, states = SCENES[name], states_of(name, 60, label=Fate.BOUNDED)
+    fine = extremes(one, states, fast=False), period(one, states, fast=False), fate(one, states).margins
+    nothing = lambda land, rows: (np.full((len(rows), 3, 2), np.nan), np.zeros(len(rows), bool))
+    monkeypatch.setattr(extremes_arrays, "fine_boxes", nothing)
+    monkeypatch.setattr(fate_arrays, "valley_margins", lambda land, rows: (np.full(len(rows), np.nan), np.zeros(len(rows), bool)))
+    np.testing.assert_allclose(extremes(one, states, fast=False), fine[0], rtol=0, atol=1e-12 * np.abs(fine[0]).max())
+    np.testing.assert_allclose(fate(one, states).margins, fine[2], rtol=1e-11)
