@@ -439,6 +439,7 @@ def sweep(case: CaseFile,
           energy: Annotated[str | None, typer.Option(metavar="ENERGY", hidden=True)] = None,
           tilt: Annotated[str | None, typer.Option(metavar="AXIS=ANGLE", hidden=True)] = None,
           until: Annotated[str | None, typer.Option(metavar="TIME", hidden=True)] = None,
+          follow: Follow = None,
           csv: Annotated[bool, typer.Option("--csv", help="CSV on stdout: a line for each point.")] = False, json: Json = False,
           strict: Annotated[bool, typer.Option("--strict", help="Exit with 3 where a fate is undecided.")] = False):
     """Answer a case over ranges of its numbers.
@@ -452,7 +453,7 @@ def sweep(case: CaseFile,
     from .maps.plan import planned, split_keys
     from .maps.run import run
     from .show.maps import words
-    plan = planned(case, split_keys(vary or []), samples, seed, answer, rate=rate, component=component, energy=energy, tilt=tilt, until=until)
+    plan = planned(case, split_keys(vary or []), samples, seed, answer, follow, rate=rate, component=component, energy=energy, tilt=tilt, until=until)
     if out:
         from .show.maps import dataset
         dataset.checked(out)
@@ -499,6 +500,42 @@ def bifurcation(case: CaseFile,
         _print(told.json(found) if json else told.csv(found))
     else:
         _show(told.text(found))
+
+
+@app.command()
+def basin(case: CaseFile,
+          vary: Annotated[list[str] | None, typer.Option(metavar="KEY=FROM:TO[:N]", help='A rate of the initial state and its range: "x[1]=-4:4", '
+                                                         '"angular_velocity[3]=-30:30:33 deg/s" for 33 points of the coarse grid. Two of them.')] = None,
+          depth: Annotated[int, typer.Option(metavar="K", help="How often a cell is halved whose corners have different fates.")] = 5,
+          out: Annotated[list[Path] | None, typer.Option(metavar="FILE.png|.svg|.pdf|.nc", help="Draw, or write NetCDF, whose parts outlive a killed run; may "
+                                                         "be repeated.")] = None,
+          workers: Annotated[int | None, typer.Option(metavar="N", help="Processes that share the work; default: one a core where that pays.")] = None,
+          scheduler: Annotated[str | None, typer.Option(metavar="tcp://...", help="Let the workers of this Dask scheduler do it (extra cluster).")] = None,
+          follow: Follow = None,
+          csv: Annotated[bool, typer.Option("--csv", help="CSV on stdout: a line for each cell.")] = False, json: Json = False,
+          strict: Annotated[bool, typer.Option("--strict", help="Exit with 3 where a fate is undecided.")] = False):
+    """Show which initial states spin up, and how rough the edge is.
+
+    A plane of states in cells that get smaller towards the boundary between fates; shares, the exact separatrix, box dimension.
+
+    Example: stabilab basin cases/minor-axis-100.toml --vary "x[1]=-4:4" --vary "x[3]=-3:3" --out basin.png
+    """
+    if json and csv:
+        raise typer.BadParameter("choose one of --json and --csv")
+    from .maps.basins.ask import basins
+    from .maps.plan import split_keys
+    from .show.maps.basins import words
+    from .show.maps.basins.write import checked, write
+    targets = checked(out or [])
+    with basins(case, split_keys(vary or []), depth, targets.data, workers, scheduler, follow) as found:
+        for path in targets.paths:
+            _say(f"written: {write(found, path)}")
+    if json or csv:
+        _print(words.json(found) if json else words.csv(found))
+    else:
+        _show(words.text(found))
+    if strict and words.undecided(found):
+        raise typer.Exit(UNDECIDED)
 
 
 @app.command()

@@ -453,8 +453,8 @@ def test_every_command_has_help_with_an_example(stabilab):
     code, out, _ = stabilab("--help")
     groups = out.split("-h, --help")[1].partition("\n")[2]
     commands = [line.split()[0] for line in groups.splitlines() if line.startswith("  ")]
-    assert code == 0 and set(commands) == {"audit", "bifurcation", "show", "classify", "extremes", "simulate", "compare", "precision", "surface", "plot",
-                                        "explore", "tables", "figures", "report", "doctor", "fate", "import", "period", "reference",
+    assert code == 0 and set(commands) == {"audit", "basin", "bifurcation", "show", "classify", "extremes", "simulate", "compare", "precision", "surface",
+                                        "plot", "explore", "tables", "figures", "report", "doctor", "fate", "import", "period", "reference",
                                         "rerun", "stuck", "sweep", "validate", "verify", "when"}
     assert "--install-completion" in out and "..." not in groups
     for command in commands:

@@ -17,7 +17,7 @@ def known_exactly(plan: Plan, first: int, second: int) -> bool:
     return {first, second} <= set(plan.inner) and effective(plan.case.scene).plain and all(n < len(plan.axes) for n in plan.inner)
 
 
-def changes(plan: Plan, index: tuple[int, ...], dimension: int, lower: np.ndarray, spun: np.ndarray) -> np.ndarray:
+def changes(plan: Plan, index: tuple[int, ...], dimension: int, lower: np.ndarray, spun: np.ndarray, halvings: int = HALVINGS) -> np.ndarray:
     """(lines,): at what share of the way from a point to the next along `dimension` the fate changes.
 
     index: the place along every dimension of the points, in rows (lines, dimensions) by `lower`; spun: whether the lower point spins up. By halving
@@ -25,7 +25,7 @@ def changes(plan: Plan, index: tuple[int, ...], dimension: int, lower: np.ndarra
     """
     case = case_of(plan, _scene(plan, index))
     low, high = np.zeros(len(lower)), np.ones(len(lower))
-    for _ in range(HALVINGS):
+    for _ in range(halvings):
         middle = 0.5 * (low + high)
         same = (fate(case.scene, states_between(plan, case, lower, dimension, middle)).labels == Fate.SPIN_UP) == spun
         low, high = np.where(same, middle, low), np.where(same, high, middle)

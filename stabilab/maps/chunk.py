@@ -60,7 +60,7 @@ def _many(plan: Plan, case: Case, states: np.ndarray, out: np.ndarray) -> None:
     """The states of a scene whose answers come in arrays."""
     asked, scene = plan.answers, case.scene
     if {"fate", "level", "reason", "margin", "distance"} & set(asked):
-        found = fate(scene, states)
+        found = fate(scene, states, follow=plan.longest)
         columns: dict[str, Callable[[], Any]] = {
             "fate": lambda: found.labels, "spin_axis": lambda: found.axis * found.sense, "reason": lambda: found.reasons, "margin": lambda: found.margins,
             "level": lambda: [LEVELS.index(word) for word in found.levels], "distance": lambda: found.velocity_margins}
@@ -107,7 +107,7 @@ def _single(plan: Plan, case: Case, states: np.ndarray, out: np.ndarray) -> None
     for n, state in enumerate(states.tolist()):
         here = replace(case, state=tuple(state)) if tuple(state) != case.state else case
         brief = not {"distance", "period"} & set(plan.answers)
-        found = motion(here.scene, here.start, here.span, brief, here.exact_state)
+        found = motion(here.scene, here.start, here.span, brief, here.exact_state, plan.longest)
         pairs = found.extremes or ((np.nan, np.nan),) * 3
         known = lambda value: np.nan if value is None else value
         columns = {"fate": found.fate, "spin_axis": found.axis * found.sense, "level": LEVELS.index(found.level), "reason": -1,

@@ -97,8 +97,10 @@ def missing(plan: Plan, folder: Path) -> list[int]:
 
 
 def whole(plan: Plan, folder: Path) -> np.ndarray:
-    """All records in the user's order, of the shape of the sweep."""
+    """All records in the user's order, of the shape of the sweep; in one row where places are listed."""
     rows = np.concatenate([read(plan, folder, number) for number in range(len(plan.chunks))])
+    if plan.listed:
+        return rows
     order = (*plan.outer, *plan.inner)
     return rows.reshape([plan.shape[n] for n in order]).transpose(np.argsort(order))
 

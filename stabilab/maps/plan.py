@@ -18,12 +18,14 @@ from ..answers.kinds import KINDS, kind_of
 from ..case.limit_options import StatedLimit, stated_limit
 from ..case.read import Case, read_text
 from ..case.source import parsed, source_text
+from ..case.units import NONE, TIME, quantity
 from ..errors import InputError, printable
 from ..physics.coefficients import effective
 from ..version import __version__
 from .axes import MOST, Axis, axis_of
 from .columns import asked_answers
 from .keys import key_of, keys_of
+from .listed import unpacked
 from .samples import Samples, samples_of
 
 AXES = 4
@@ -52,7 +54,8 @@ class Chunk(NamedTuple):
 @dataclass(frozen=True)
 class Plan:
     """path, text: of the case; vary: (name, what was asked) in the user's order; samples, seed: of random points, None without; answers: names of
-    `columns.ANSWERS`; limit: options of `when`, by name."""
+    `columns.ANSWERS`; limit: options of `when`, by name; listed: of a plane of states those places alone (`listed.packed`), in one row; follow: how long
+    motions are followed that only a run decides, as it was written."""
 
     path: str
     text: str = field(repr=False)
@@ -61,6 +64,8 @@ class Plan:
     seed: int
     answers: tuple[str, ...]
     limit: tuple[tuple[str, str], ...] = ()
+    listed: str = field(default="", repr=False)
+    follow: str | None = None
 
     @cached_property
     def data(self) -> dict[str, Any]:
@@ -107,11 +112,15 @@ class Plan:
     @property
     def states(self) -> int:
         """States of each scene."""
-        return prod(self.shape[n] for n in self.inner)
+        return len(unpacked(self.listed)) if self.listed else prod(self.shape[n] for n in self.inner)
 
     @property
     def points(self) -> int:
-        return prod(self.shape)
+        return self.scenes * self.states
+
+    def places(self, low: int, high: int) -> Any:
+        """Which places of the grid along the inner dimensions the states [low, high) are."""
+        return unpacked(self.listed)[low:high] if self.listed else range(low, high)
 
     @cached_property
     def stated_limit(self) -> StatedLimit | None:
@@ -121,6 +130,19 @@ class Plan:
     def limit_of(self, case: Case) -> StatedLimit | None:
         """The same for a point, whose own [limits] may vary."""
         return stated_limit(case, **dict(self.limit)) if "when" in self.answers else None
+
+    @cached_property
+    def longest(self) -> float | None:
+        """How long motions are followed, in the time of the case; None for as long as an answer takes unasked."""
+        if self.follow is None:
+            return None
+        try:
+            found = float(quantity(self.follow, NONE if self.case.variables == "scaled" else TIME)[0])
+        except InputError as error:
+            raise InputError(f"follow: {error}") from None
+        if not found > 0:
+            raise InputError(f"follow: expected a time above zero, got {printable(self.follow)[:40]}")
+        return found
 
     @cached_property
     def chunks(self) -> tuple[Chunk, ...]:
@@ -144,7 +166,8 @@ class Plan:
     def as_json(self, brief: bool = False) -> str:
         """All of the plan, for another process. brief: without the folder of the case, for a file that is to be the same wherever it is made."""
         return json.dumps({"version": __version__, "path": os.path.basename(self.path) if brief else self.path, "text": self.text,
-                           "vary": self.vary, "samples": self.samples, "seed": self.seed, "answers": self.answers, "limit": self.limit})
+                           "vary": self.vary, "samples": self.samples, "seed": self.seed, "answers": self.answers, "limit": self.limit}
+                          | {name: told for name, told in (("listed", self.listed), ("follow", self.follow)) if told})
 
     @cached_property
     def digest(self) -> str:
@@ -160,6 +183,7 @@ class Plan:
         words += [f"--vary={name}={_as_text(asked)}" for name, asked in self.vary]
         words += [f"--samples={self.samples}", f"--seed={self.seed}"] if self.samples else []
         words += [f"--answer={','.join(self.answers)}", *(f"--{name}={text}" for name, text in self.limit)]
+        words += [f"--follow={self.follow}"] if self.follow else []
         return shlex.join(words)
 
 
@@ -171,7 +195,8 @@ def from_json(text: str) -> Plan:
     """The plan that another process wrote down."""
     told = json.loads(text)
     rows = lambda name: tuple((key, value) for key, value in told[name])
-    return Plan(told["path"], told["text"], rows("vary"), told["samples"], told["seed"], tuple(told["answers"]), rows("limit"))
+    return Plan(told["path"], told["text"], rows("vary"), told["samples"], told["seed"], tuple(told["answers"]), rows("limit"), told.get("listed", ""),
+                told.get("follow"))
 
 
 def split_keys(words: Sequence[str]) -> list[tuple[str, str]]:
@@ -183,11 +208,12 @@ def split_keys(words: Sequence[str]) -> list[tuple[str, str]]:
 
 
 def planned(case: Case | str | os.PathLike[str], vary: Mapping[str, Any] | Sequence[tuple[str, Any]], samples: int | None = None, seed: int = 1,
-            answer: Any = None, **limit: str | None) -> Plan:
+            answer: Any = None, follow: str | None = None, **limit: str | None) -> Plan:
     """A sweep whose every part is checked. Raises InputError with what is wrong."""
     path, text = (case.path, case.text) if isinstance(case, Case) else (os.fspath(case), source_text(case))
     rows = [(name, asked if isinstance(asked, str) else _plain(name, asked)) for name, asked in (vary.items() if isinstance(vary, Mapping) else vary)]
-    plan = Plan(os.fspath(path), text, tuple(rows), samples, seed, asked_answers(answer), tuple((k, v) for k, v in limit.items() if v is not None))
+    plan = Plan(os.fspath(path), text, tuple(rows), samples, seed, asked_answers(answer), tuple((k, v) for k, v in limit.items() if v is not None),
+                follow=follow)
     _judge(plan)
     return plan
 
@@ -218,4 +244,4 @@ def _judge(plan: Plan) -> None:
     moving = [name for name in plan.answers if name not in ("equilibria", "verdict")]
     if moving and case.state is None:
         raise InputError(f"{case.place}: motion: expected x or angular_velocity in [motion]; {', '.join(moving)} need a state")
-    plan.limit_of(case)
+    plan.limit_of(case), plan.longest  # say what is wrong with them

@@ -74,7 +74,7 @@ def _turned(case: Case, written: np.ndarray) -> np.ndarray:
 def _as_written(plan: Plan, low: int, high: int) -> np.ndarray:
     """The same in the frame of the file."""
     states = np.tile(_base(plan), (high - low, 1))
-    places = np.unravel_index(np.arange(low, high), [plan.shape[n] for n in plan.inner])
+    places = np.unravel_index(np.array(plan.places(low, high)), [plan.shape[n] for n in plan.inner])
     for dimension, at in zip(plan.inner, places):
         if dimension < len(plan.axes):
             axis = plan.axes[dimension]

@@ -12,6 +12,8 @@ from ...maps.plan import Plan, from_json
 from ...packages import demand
 from .. import style
 from ..files import endings
+from ..plot import basins as basin_picture
+from .basins import dataset as basin_data
 from .curves import curves
 from .field import fields
 from .labels import SAMPLE, dimensions
@@ -29,20 +31,49 @@ def write(path: str | Path, out: str | Path, kind: str | None = None, size: tupl
     first number that there is. Raises InputError for a file that is none, and for a column that it has not."""
     demand("xarray", "scipy", *style.PACKAGES)
     target = endings.file(out, endings.PICTURES)
-    data, plan = opened(Path(path))
+    data = loaded(Path(path))
+    if "basin" in data.attrs:
+        return _basin(data, Path(path), target, kind, size, dpi)
+    plan = _plan(data, Path(path))
     with style.drawing() as plt:
         figure = drawn(data, plan, chosen(data, kind), size, plt)
         return style.save(figure, target, dpi)
 
 
+def _basin(data, path, target, kind, size, dpi) -> Path:
+    """The same of a file of `stabilab basin`."""
+    if kind is not None:
+        raise InputError(f"plot {printable(kind)[:40]}: a file of stabilab basin has one picture: leave --kind away")
+    try:
+        found = basin_data.opened(data)
+    except Exception:  # of any kind: what stands there is not of this program, or of another version
+        raise InputError(f"{printable(str(path))}: what it says of its basins cannot be read: was it changed, or made by another version?") from None
+    return basin_picture.write(found, target, size, dpi)
+
+
 def opened(path: Path) -> tuple[xarray.Dataset, Plan]:
     """The data set of a file and the sweep that it is of. Raises InputError for what is no such file, is cut off, or was changed since."""
-    words = f"{printable(str(path))}: expected a file of stabilab sweep (NetCDF)"
+    data = loaded(path)
+    return data, _plan(data, path)
+
+
+def loaded(path: Path) -> xarray.Dataset:
+    """The data set of a file. Raises InputError for what is none."""
+    words = _words(path)
     if path.is_dir():
         raise InputError(f"{words}, got a folder")
     if not path.is_file():
         raise InputError(f"{path}: no such file; stabilab sweep --out {path} makes one")
-    data = _read(path, words)
+    return _read(path, words)
+
+
+def _words(path: Path) -> str:
+    return f"{printable(str(path))}: expected a file of stabilab sweep (NetCDF)"
+
+
+def _plan(data: xarray.Dataset, path: Path) -> Plan:
+    """The sweep that a data set is of."""
+    words = _words(path)
     if "sweep" not in data.attrs:
         raise InputError(f"{words}: this one is of another kind: it does not say of which sweep it is")
     try:
@@ -52,7 +83,7 @@ def opened(path: Path) -> tuple[xarray.Dataset, Plan]:
         raise InputError(f"{words}: what it says of its sweep cannot be read: was it changed, or made by another version?") from None
     if off:
         raise InputError(f"{words}: its {off} is not that of the sweep that it says it is of: was it changed since?")
-    return data, plan
+    return plan
 
 
 def _read(path: Path, words: str) -> xarray.Dataset:

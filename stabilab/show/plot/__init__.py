@@ -1,5 +1,6 @@
 """Plots of a case or a scene: each takes Matplotlib axes and returns them; `write` makes a file."""
 from .all_equilibria import equilibria as equilibria
+from .basins import basin as basin
 from .cost import budget as budget
 from .momentum_surface import sphere as sphere
 from .over_time import time as time
@@ -10,4 +11,4 @@ from .to_file import write as write
 from .turning.animation import attitude as attitude
 from .whole_state import state as state
 
-__all__ = ["attitude", "budget", "equilibria", "phase", "section", "space", "sphere", "state", "time", "write"]
+__all__ = ["attitude", "basin", "budget", "equilibria", "phase", "section", "space", "sphere", "state", "time", "write"]

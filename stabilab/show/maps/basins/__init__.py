@@ -1,0 +1,1 @@
+"""Basins in words, as a data set, as a file and as a picture."""

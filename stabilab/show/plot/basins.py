@@ -1,0 +1,123 @@
+"""Basins as a picture: a colour for each, and the boundary, drawn from the exact separatrix where there is one."""
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...maps.basins.ask import BOUNDED, NO_AXIS, UNDECIDED, Basins
+from ...packages import demand
+from .. import style
+from ..files import endings
+from ..maps.basins.words import basin_name, cells_of
+from ..maps.labels import dimensions
+from ..maps.shades import light, own_value
+from . import canvas
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+COLOURS = {BOUNDED: style.BLUE, UNDECIDED: style.YELLOW, 1: style.VERMILION, 2: style.ORANGE, 3: style.PURPLE, -1: style.GREEN, -2: style.SKY, -3: "#8A6A3A",
+           NO_AXIS: style.GREY}
+DOTS = 1200     # of the picture's own grid along an axis, at most
+
+
+def basin(found: Basins, ax: Axes | None = None, size: tuple[float, float] | None = None, legend: bool = True) -> Axes:
+    """Draw basins onto Matplotlib axes, or a figure of its own, and return the axes: a colour for each basin, the case's own state, and the boundary.
+    The boundary is a line where the scene reduces (found by halving between states of different fate), else the finest cells are black."""
+    demand(*style.PACKAGES)
+    with canvas.on(ax, size or canvas.SQUARE) as target:
+        rows = _areas(target, found) + _line(target, found) + _own(target, found)
+        target.grid(False)
+        names = [axis.key.name for axis in found.plan.axes]
+        for setter, axis, name in zip((target.set_xlabel, target.set_ylabel), found.plan.axes, names):
+            setter(name.removeprefix("motion.").replace("_", " ") + ("" if axis.shown_unit == "1" else f" ({axis.shown_unit})"))
+        for setter, axis, (_, text) in zip((target.set_xscale, target.set_yscale), found.plan.axes, found.plan.vary):
+            setter("log" if text.count(":") == 3 and axis.values[0] > 0 else "linear")
+        rough = found.dimension
+        told = "" if math.isnan(rough.value) else f"boundary: box dimension {rough.value:.3f} ± {rough.uncertainty:.3f}"
+        canvas.title(target, found.plan.case.title or found.plan.case.name, told)
+        if legend:
+            canvas.legend(target, rows, ax is None)
+    return target
+
+
+def write(found: Basins, out: str | Path, size: tuple[float, float] | None = None, dpi: float | None = None) -> Path:
+    """Draw basins and write the picture, whole or not at all; the same basins give the same bytes."""
+    demand(*style.PACKAGES)
+    target = endings.file(out, endings.PICTURES)
+    with style.drawing():
+        return style.save(basin(found, size=size).figure, target, dpi)
+
+
+def _areas(ax: Any, found: Basins) -> list[tuple[str, dict[str, Any]]]:
+    """The colours, and what they mean."""
+    from matplotlib.colors import ListedColormap
+    labels = list(found.shares)
+    shown = raster(found)
+    ranks = np.searchsorted(np.sort(labels), shown)
+    colours = [light(COLOURS[label]) for label in sorted(labels)]
+    black = not found.exact and len(found.boundary)
+    if black:
+        ranks = np.where(_on_boundary(found, shown.shape), len(labels), ranks)
+        colours.append((0.0, 0.0, 0.0))
+    x, y = (_edges(axis.values, n) for axis, n in zip(found.plan.axes, shown.shape))
+    ax.pcolormesh(x, y, ranks.T, cmap=ListedColormap(colours), vmin=-0.5, vmax=len(colours) - 0.5, shading="flat", rasterized=True)
+    rows = [(basin_name(label), {"facecolor": light(COLOURS[label]), "edgecolor": COLOURS[label]}) for label in labels]
+    return rows + ([("finest cells on the boundary", {"facecolor": "black", "edgecolor": "black"})] if black else [])
+
+
+def raster(found: Basins) -> np.ndarray:
+    """Labels on an even grid of as many cells as a picture shows: of each cell that of its lower corner."""
+    mesh = found.mesh
+    fine = _fine(found)
+    out = np.zeros([n << fine for n in mesh.cells], np.int64)
+    cells, shift = cells_of(found), mesh.depth - fine
+    for width in np.unique(cells["width"])[::-1].tolist():  # coarse ones first
+        chosen = cells["width"] == width
+        row, column, label = (cells[name][chosen] for name in ("first", "second", "label"))
+        for i in range(max(1, width >> shift)):
+            for j in range(max(1, width >> shift)):
+                out[(row >> shift) + i, (column >> shift) + j] = label
+    return out
+
+
+def _fine(found: Basins) -> int:
+    depth = found.mesh.depth
+    while depth and max(found.mesh.cells) << depth > DOTS:
+        depth -= 1
+    return depth
+
+
+def _on_boundary(found: Basins, shape: tuple[int, ...]) -> np.ndarray:
+    out = np.zeros(shape, bool)
+    row, column = found.mesh.at(found.mesh.depth, found.boundary)
+    shift = found.mesh.depth - _fine(found)
+    out[row >> shift, column >> shift] = True
+    return out
+
+
+def _edges(values: tuple[float, ...], cells: int) -> np.ndarray:
+    return np.array(values)[::(len(values) - 1) // cells]
+
+
+def _line(ax: Any, found: Basins) -> list[tuple[str, dict[str, Any]]]:
+    from matplotlib.collections import LineCollection
+    pieces = found.separatrix()
+    if not len(pieces):
+        return []
+    look: dict[str, Any] = style.MEANING["separatrix"] | {"linewidth": 1.2}
+    ax.add_collection(LineCollection(list(pieces), color=look["color"], linewidth=look["linewidth"], capstyle="round"))
+    return [("separatrix (exact)", look)]
+
+
+def _own(ax: Any, found: Basins) -> list[tuple[str, dict[str, Any]]]:
+    """The case's own state, where it is in the picture."""
+    at = [own_value(found.plan, n) for n in range(len(dimensions(found.plan)))]
+    if any(value is None or not min(axis.values) <= value <= max(axis.values) for value, axis in zip(at, found.plan.axes)):
+        return []
+    look: dict[str, Any] = style.MARKER["start"] | {"markeredgecolor": "white"}
+    ax.plot(*[[value] for value in at], **look)
+    return [("the case itself", look)]
