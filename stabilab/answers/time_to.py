@@ -17,6 +17,7 @@ from ..physics.states import checked_states, equations_and_start, start_of
 from .passage.banded import STEPS as BAND_STEPS
 from .passage.banded import banded
 from .passage.clock import by_clock
+from .passage.earliest import earliest
 from .passage.enclosed import WORK, enclosed
 from .passage.limit import Limit, asked
 from .passage.never import after_a_period, never, never_bounded
@@ -87,21 +88,26 @@ def _end(t_max: float | Fraction | None) -> Fraction | None:
     raise InputError(f"t_max: expected a positive time, got {t_max!r:.80}")
 
 
-def of_one(scene: AnyScene, state: Any, start: Any, limit: Limit, end: Fraction | None, work: int = WORK, bands: int = BAND_STEPS) -> Found:
+def of_one(scene: AnyScene, state: Any, start: Any, limit: Limit, end: Fraction | None, work: int = WORK, bands: int = BAND_STEPS,
+           spun: Any = None) -> Found:
     """The answer for one motion of a plain scene: three floats, and the three rationals that they round. work: multiplications that an enclosure in
-    integers may take; bands: compiled steps that enclose what goes on longer."""
+    integers may take; bands: compiled steps that enclose what goes on longer; spun: what `spin_up` says of the motion, where it was asked already."""
     if limit.reached_by(start):
         return Found(0.0, 0.0, "exact", f"{limit.words}: reached already at the start")
     found, repeats = never(scene, state, start, limit)
     if found:
         return found
     last = end if repeats is None or (end is not None and end < repeats) else Fraction(repeats)
-    proof = enclosed(scene, start, limit, last, work)
+    before = earliest(scene, start, limit)
+    if last is not None and before > last:
+        return after_a_period(limit) if last is not end else Found(_down(last), math.nan, "proved", f"{limit.words}: not reached by t_max: the torque "
+                                                                   "could not bring the energy for it sooner")
+    proof = enclosed(scene, start, limit, last, work, before)
     if proof.high is not None:
         return Found(_down(proof.low), _up(proof.high), "proved", f"{limit.words}: the motion enclosed, its first crossing by roots")
     if proof.done:
         return _at_the_end(proof, limit, last is not end, scene.time_unit)
-    return _beyond_integers(scene, state, start, limit, end, proof, bands if work else 0)
+    return _beyond_integers(scene, state, start, limit, end, max(_down(proof.until), _down(before)), bands if work else 0, spun)
 
 
 def _at_the_end(proof: Any, limit: Limit, whole: Any, unit: Any) -> Found:
@@ -114,9 +120,10 @@ def _at_the_end(proof: Any, limit: Limit, whole: Any, unit: Any) -> Found:
     return Found(_down(proof.until), math.nan, "proved", f"{limit.words}: not reached by t_max, the motion enclosed")
 
 
-def _beyond_integers(scene: AnyScene, state: Any, start: Any, limit: Limit, end: Fraction | None, proof: Any, bands: int) -> Found:
-    """The work allowed in integers is done: a run follows longer ways, which compiled steps enclose, and the clock tells of the longest."""
-    known, last = _down(proof.until), math.inf if end is None else float(end)
+def _beyond_integers(scene: AnyScene, state: Any, start: Any, limit: Limit, end: Fraction | None, known: float, bands: int, spun: Any) -> Found:
+    """The work allowed in integers is done, and the limit is not reached before `known`: a run follows longer ways, which compiled steps enclose, and
+    the clock tells of the longest."""
+    last = math.inf if end is None else float(end)
     run, steps = by_run_of(scene, state, limit, last)
     if steps <= bands and (run.high == run.high or run.low >= last * (1 - LATER)):
         band = banded(scene, start, limit, run.high * (1 + LATER) if run.high == run.high else last, bands)
@@ -125,7 +132,7 @@ def _beyond_integers(scene: AnyScene, state: Any, start: Any, limit: Limit, end:
         known = max(known, band.low) if band is not None else known
     if run.high >= known:  # a run that the enclosure contradicts is worth nothing
         return run
-    clock = by_clock(scene, state, limit, max(run.low, known)) if end is None else None
+    clock = by_clock(scene, state, limit, max(run.low, known), run.low, spun) if end is None else None
     if clock is not None:
         return clock
     if run.low > known and run.high != run.high:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from ...integrate.crossing import Search
-from ...integrate.integer_flow import IntegerFlow
+from ...integrate.integer_flow import IntegerFlow, Piece
 from ...numbers.vectors import Number
 from ...physics.scene import AnyScene
 from .limit import Limit
@@ -16,6 +16,8 @@ FIRST_BITS, MOST_BITS = 112, 720
 KEPT = 58  # bits that the enclosure of the state is to keep
 MARGIN = KEPT + 18  # beyond the growth of the error, for the rounding of a longer series
 WORK = 30_000_000  # multiplications; two to four seconds
+TRIED, HOPELESS = 16, 8  # after this part of the work a way that would take so many times what is left is given up
+STEADY = 1.125  # steps that grow faster than this are those of the first search for a length
 
 
 @dataclass(frozen=True)
@@ -30,17 +32,19 @@ class Enclosed:
     spent: int
 
 
-def enclosed(scene: AnyScene, start: Sequence[Number], limit: Limit, t_max: Fraction | None = None, work: int = WORK) -> Enclosed:
+def enclosed(scene: AnyScene, start: Sequence[Number], limit: Limit, t_max: Fraction | None = None, work: int = WORK,
+             earliest: Fraction = Fraction(0)) -> Enclosed:
     """The first crossing of the motion of a plain scene from three rationals, proved; or until when there is none.
 
-    t_max: None where only the work is to end the search. A first attempt, at few bits, is carried on beyond what its bits can prove, to learn
+    t_max: None where only the work is to end the search. earliest: a time before which it is known not to happen: a way that would not
+    come so far with the work is given up soon. A first attempt, at few bits, is carried on beyond what its bits can prove, to learn
     how many it takes.
     """
     form, unit = scene.quadratic(), own_unit(scene, start)
     weights = (Fraction(1), Fraction(2), Fraction(1)) if scene.variables == "scaled" else scene.body.exact
     bits, best, spent = FIRST_BITS, Enclosed(None, None, Fraction(0), False, 0), 0
     while True:
-        attempt = _Attempt(IntegerFlow(form, weights, start, bits, unit, limit.direction), limit, unit, t_max)
+        attempt = _Attempt(IntegerFlow(form, weights, start, bits, unit, limit.direction), limit, unit, t_max, earliest)
         found = attempt.run(work - spent)
         spent += attempt.flow.work
         best = found if found.high is not None or found.until > best.until or found.done else best
@@ -60,29 +64,33 @@ def own_unit(scene: AnyScene, start: Sequence[Number]) -> Fraction:
 class _Attempt:
     """One run at a number of bits. needs: the bits that a proof would have taken, where these were too few; None otherwise."""
 
-    def __init__(self, flow: IntegerFlow, limit: Limit, unit: Fraction, t_max: Fraction | None) -> None:
+    def __init__(self, flow: IntegerFlow, limit: Limit, unit: Fraction, t_max: Fraction | None, earliest: Fraction) -> None:
         self.flow, self.unit = flow, unit
         self.needs: int | None = None
         self.end = None if t_max is None else t_max * unit
+        self.earliest = (earliest if t_max is None else min(earliest, t_max)) * unit
         self.thresholds = limit.thresholds(unit)
         self.proved = [Search(one) for one in self.thresholds]
 
     def run(self, work: int) -> Enclosed:
         """Proved as far as the bits reach, then on, at its word, to where a proof would end."""
         until, lost, flow = Fraction(0), 0, self.flow
-        searches, proving = self.proved, True
+        searches, proving, length = self.proved, True, math.inf
         while True:
             needs = lost + flow.error.bit_length() + MARGIN
             if flow.work * (1 if proving else 1 + (needs / flow.bits) ** 2) > work or needs > MOST_BITS:
                 return self._answer(until, False)
             if proving and flow.error.bit_length() > flow.bits - KEPT:
                 proving, searches = False, [Search(one, exactly=False) for one in self.thresholds]
+            before = flow.work
             try:
                 piece = flow.step()
             except OverflowError:  # the error of one step is beyond doubles: what was proved before stays
                 return self._answer(until, False)
             hit = [search.take(piece) for search in searches]
-            now = flow.now
+            now, shorter, length = flow.now, length, float(piece.length)
+            if flow.work * TRIED > work and length < STEADY * shorter and self._hopeless(piece, flow.work - before, work - flow.work):
+                return self._answer(until, False)
             if proving:
                 until = now
             elif (excess := flow.error.bit_length() - flow.bits) > 0:
@@ -94,6 +102,10 @@ class _Attempt:
                     return self._answer(until, ended)
                 self.needs = needs + 1
                 return self._answer(until, False)
+
+    def _hopeless(self, piece: Piece, work: int, left: int) -> bool:
+        """Whether steps like this one would take much more than the work that is left to come to where the limit may first be reached."""
+        return (self.earliest - piece.start) * work > HOPELESS * left * piece.length
 
     def _answer(self, until: Fraction, done: bool) -> Enclosed:
         low = min((one.low for one in self.proved if one.low is not None), default=None)

@@ -14,11 +14,12 @@ RANGE = 2  # times the momentum that the wheel has now, either way; one at rest 
 PLACES, CLOSER = 41, 24  # momenta that are tried over the range, and nearer and nearer to the best of them
 PATIENCE = 100  # times the time without a change: a limit that is not reached by then counts as never
 BUDGET = 20_000  # steps of each run
+SAME = 1e-6  # relative: a run that ends so much sooner than the limit has not come to it
 
 
 def delayed(scenario, torque, axis, now, time):
-    """(best momentum, N m s, bracket of its time or None, gain in s or None, the range searched), or None where there is nothing to search, or nothing
-    better was found.
+    """(best momentum, N m s, bracket of its time or None, gain in s or None, the range searched, whether its run came to the limit), or None where
+    there is nothing to search, or nothing better was found.
 
     axis: exact unit vector of the wheel, scene's axes; now: its momentum; time: bracket of the limit as things are.
     """
@@ -33,15 +34,16 @@ def delayed(scenario, torque, axis, now, time):
     places = np.linspace(-reach, reach, PLACES)
     times = [until(s) for s in places]
     best = int(np.argmax(times))
-    s = float(places[best])
+    s, longest = float(places[best]), times[best]
     if math.isfinite(times[best]):
         closer = golden_section(lambda s: -until(s), places[max(best - 1, 0)], places[min(best + 1, PLACES - 1)], CLOSER)
-        s = float(min((s, -times[best]), *closer, key=lambda one: one[1])[0])
+        s, longest = min((s, -longest), *closer, key=lambda one: one[1])
+        s, longest = float(s), -longest
     told = time_under(scenario, torque, [w + Fraction(s) * a for w, a in zip(others, axis)])
     gain = None if told is None else told[0] - time[0]
     if gain is not None and gain <= 0:
         return None
-    return s, told, gain, (-reach, reach)
+    return s, told, gain, (-reach, reach), told is None or not longest < told[0] * (1 - SAME)
 
 
 def _own(scenario, torque) -> float:

@@ -66,10 +66,11 @@ def _at_rest(scenario, kind):
 
 
 def _off_axis(scenario, scene):
-    seen = proved(scene, scenario.state, spin_up(scene, scenario.start))
+    certified = spin_up(scene, scenario.start)
+    seen = proved(scene, scenario.state, certified)
     spins = seen.fate == Fate.SPIN_UP
     about = (seen.axis, seen.sense, seen.direction) if spins else (0, 0, None)
-    when = _when(scenario, scene, None if spins or seen.fate == Fate.BOUNDED else seen.t)
+    when = _when(scenario, scene, None if spins or seen.fate == Fate.BOUNDED else seen.t, spun=certified)
     largest = _largest(scenario, scene, when, None if spins else seen.t)
     return Found(seen.fate, "run" if seen.level == "undecided" else seen.level, *about, f"{seen.cause}{when.unsure}", "off axis", None, when.time, when.level,
                  when.never, largest, when.followed)
@@ -96,11 +97,11 @@ class _When:
     unsure: str = ""
 
 
-def _when(scenario, scene, t_max, *work) -> _When:
-    """When the limit is reached, by `time_to`; t_max: how far an undecided motion was followed, s; work: as of `time_to.of_one`."""
+def _when(scenario, scene, t_max, *work, spun=None) -> _When:
+    """When the limit is reached, by `time_to`; t_max: how far an undecided motion was followed, s; work, spun: as of `time_to.of_one`."""
     if scenario.limit is None:
         return _When(None, "run", False, 0.0 if t_max is None else t_max)
-    seen = of_one(scene, scenario.start, scenario.state, _limit(scenario), None if t_max is None else Fraction(t_max), *work)
+    seen = of_one(scene, scenario.start, scenario.state, _limit(scenario), None if t_max is None else Fraction(t_max), *work, spun=spun)
     if math.isinf(seen.low):
         return _When(None, seen.level, True, math.inf)
     if math.isfinite(seen.high):

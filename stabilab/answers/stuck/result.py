@@ -41,7 +41,8 @@ class WheelAnswer:
 
     keeps_bounded: (least, greatest) momentum along its axis, N m s, of every interval, -inf and inf where it has no end. best: where
     there is no interval, the momentum within `searched` that delays the limit most; best_time: (low, high), s, None where the limit is not
-    reached within the time followed; gain: by how much later, s (low end against low end). because: how this is known.
+    reached within the time followed; gain: by how much later, s (low end against low end). most: whether the runs that are compared came to the
+    limit: else another momentum may delay it more. because: how this is known.
     """
 
     wheel: str
@@ -53,6 +54,7 @@ class WheelAnswer:
     best_time: tuple[float, float] | None = None
     gain: float | None = None
     searched: tuple[float, float] | None = None
+    most: bool = True
 
 
 @dataclass(frozen=True)

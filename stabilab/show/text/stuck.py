@@ -216,8 +216,8 @@ def _wheel(wheel, units) -> str:
     later = "not reached while followed" if wheel.best_time is None else f"{units.time(wheel.best_time[0], SHORT)}"
     gain = "" if wheel.gain is None else f", {units.time(wheel.gain, SHORT)} later"
     low, high = wheel.searched
-    return (f"wheel {name}, now {_number(wheel.now)} N m s: {_number(wheel.best)} N m s delays the limit most of all within {_number(low)} to "
-            f"{_number(high)}: {later}{gain}")
+    most = "delays the limit most of all" if wheel.most else "delays the limit, perhaps not most of all,"
+    return f"wheel {name}, now {_number(wheel.now)} N m s: {_number(wheel.best)} N m s {most} within {_number(low)} to {_number(high)}: {later}{gain}"
 
 
 def _interval(ends) -> str:
