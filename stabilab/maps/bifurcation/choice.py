@@ -6,7 +6,7 @@ from .family import Family
 from .system import BORDERS, ISOLATED, LEAF, Conics, OnLine, across, fixed_axis, on_line
 
 WHAT = {ISOLATED: "isolated equilibria (torque off the principal axes)",
-        LEAF: "equilibria on the curve that the motion keeps to",
+        LEAF: "equilibria on the curve that the motion keeps to, all branches of it",
         BORDERS: "points where stability changes along the curve of equilibria"}
 
 
