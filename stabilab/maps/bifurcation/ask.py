@@ -9,6 +9,7 @@ from ...case.read import Case, read_text
 from ...case.source import parsed, source_text
 from ...errors import InputError
 from ...physics.coefficients import effective
+from .connections import with_connections
 from .family import Family
 from .line import diagram
 from .plane import Plane, plane
@@ -26,7 +27,7 @@ def bifurcation(case: Case | str | os.PathLike[str], vary: Mapping[str, Any] | S
     Raises InputError for what cannot be eliminated.
     """
     family = family_of(case, vary)
-    return diagram(family, curve) if len(family.spans) == 1 else plane(family, curve)
+    return with_connections(diagram(family, curve)) if len(family.spans) == 1 else plane(family, curve)
 
 
 def family_of(case: Case | str | os.PathLike[str], vary: Mapping[str, Any] | Sequence[tuple[str, Any]]) -> Family:

@@ -257,7 +257,7 @@ def evaluated(f: fmpq_mpoly, at: list) -> arb:
     for powers, c in f.to_dict().items():
         term = arb(c)
         for value, power in zip(at, powers):
-            if power:
-                term *= arb(value) ** power
-        total += term
+            for _ in range(power):
+                term = term * value
+        total = total + term
     return total

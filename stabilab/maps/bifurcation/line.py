@@ -2,12 +2,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from fractions import Fraction
 from functools import partial
 from typing import Any
 
 from ...equilibrium.gyrostat import gyrostat_equilibria
-from ...numbers.balls import rational, settled
+from ...numbers.balls import settled
 from ...physics.coefficients import effective
 from .choice import chosen
 from .critical import Cut, between, cuts
@@ -15,7 +14,7 @@ from .eliminated import Eliminated, Root, univariate
 from .family import Family
 from .result import ENDLESS, Diagram, Event, Piece, State
 from .system import BORDERS, LEAF, Conics, OnLine
-from .verdicts import judged_state
+from .verdicts import general_states, judged_state
 
 WORDS = {"fold": "two {} meet and vanish", "pitchfork": "three {} meet in one", "crossing": "two branches of {} cross",
          "touch": "two {} that are there at this value alone", "infinity": "{} go to infinity"}
@@ -50,14 +49,9 @@ def _pieces(family: Family, kind: str, eliminated: Eliminated, found: Sequence[C
             out.append(None)
             continue
         sample = between(low, high)
-        states = settled(partial(_states, family, kind, eliminated, sample))
+        states = settled(partial(general_states, family, kind, eliminated, sample))
         out.append(Piece(values[n], values[n + 1], len(states), sample, states))
     return out
-
-
-def _states(family: Family, kind: str, eliminated: Eliminated, value: Fraction, digits: Any) -> tuple[State, ...]:
-    """The equilibria at a value where nothing happens."""
-    return tuple(judged_state(family, kind, [rational(value)], root) for root in eliminated.at_general((value,)))
 
 
 def _event(family: Family, kind: str, eliminated: Eliminated, cut: Cut, sides: Sequence[Piece | None]) -> Event | None:

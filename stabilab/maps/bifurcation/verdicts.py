@@ -1,15 +1,16 @@
 """The stability of an equilibrium of a diagram, from the signs of m and n in balls and the reasons of the room `equilibrium`."""
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from ...equilibrium.conics import WELL
 from ...equilibrium.spectrum import invariants
 from ...equilibrium.stability import POSITIVE_EIGENVALUE, isolated_verdict, linear_word
-from ...numbers.balls import sign
+from ...numbers.balls import rational, sign
 from ...numbers.double_ball import Unclear
 from ...physics.quadratic import QuadraticForm, euler_form
-from .eliminated import Root, evaluated
+from .eliminated import Eliminated, Root, evaluated
 from .family import Family
 from .result import State
 from .system import BORDERS, ISOLATED
@@ -65,3 +66,8 @@ def judged_state(family: Family, kind: str, values: list, root: Root, after: int
         return State(at, 1, linear_word(m_sign, 0), *(WELL.positive if m_sign > 0 else POSITIVE_EIGENVALUE))
     verdict = WELL.odd if root.times % 2 == 0 else WELL.minimum if after > 0 else WELL.maximum if after < 0 else CROSSES
     return State(at, root.times, "degenerate", *verdict)
+
+
+def general_states(family: Family, kind: str, eliminated: Eliminated, value: Fraction, digits: Any) -> tuple[State, ...]:
+    """The equilibria at a value where no branches meet, with their verdicts; asked by `settled`."""
+    return tuple(judged_state(family, kind, [rational(value)], root) for root in eliminated.at_general((value,)))

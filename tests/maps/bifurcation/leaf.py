@@ -6,6 +6,7 @@ dx/da = ((Dk - Di) y + lk)/Dj, dy/da = ((Di - Dj) x - lj)/Dk along the curve, so
 from __future__ import annotations
 
 import numpy as np
+from scipy.optimize import brentq
 
 POINTS = 40_001
 FAR = 14.0  # of a hyperbola's parameter: the force grows like exp(2 FAR)
@@ -43,6 +44,30 @@ def _branches(a, c, rest):
     if rest / a > 0:
         return [(s * grows * np.cosh(t), crosses * np.sinh(t), False) for s in (1, -1)]
     return [(grows * np.sinh(t), s * crosses * np.cosh(t), False) for s in (1, -1)]
+
+
+def rises(D, lam, M, omega, i):
+    """How much the potential T - M alpha rises from one saddle of the motion's ellipse to the next, both ways round; None but for two saddles.
+
+    alpha is the angle of the turn: from the equations above in centred coordinates X = r cos(n a), Y = -(r n/p) sin(n a), p = (Dk - Di)/Dj.
+    """
+    j, k = (i + 1) % 3, (i + 2) % 3
+    D, lam, omega = (np.array([float(v) for v in row]) for row in (D, lam, omega))
+    p, q = (D[k] - D[i]) / D[j], (D[i] - D[j]) / D[k]
+    if p * q >= 0:
+        return None
+    n, x0, y0 = np.sqrt(-p * q), lam[j] / (D[i] - D[j]), -lam[k] / (D[k] - D[i])
+    r = np.hypot(omega[j] - x0, p * (omega[k] - y0) / n)
+    place = lambda s: (x0 + r * np.cos(s), y0 - r * n / p * np.sin(s))
+    height = lambda s: 0.5 * (D[j] * place(s)[0]**2 + D[k] * place(s)[1]**2) - float(M[i]) * s / n
+    force = lambda s: (D[j] * place(s)[0] + lam[j]) * place(s)[1] - (D[k] * place(s)[1] + lam[k]) * place(s)[0] + float(M[i])
+    grid = np.linspace(0, 2 * np.pi, 4001)
+    values = force(grid)
+    tops = [brentq(force, a, b) for a, b, u, v in zip(grid, grid[1:], values, values[1:]) if u < 0 < v]  # the force pushes away on both sides
+    if len(tops) != 2:
+        return None
+    first, second = tops
+    return height(second) - height(first), height(first + 2 * np.pi) - height(second)
 
 
 def _changes(values, closed):

@@ -50,7 +50,9 @@ def _panel(ax: Any, found: Diagram, rows: list[Branch], i: int) -> None:
     for branch in rows:
         look, word = LOOKS[branch.verdict]
         ax.plot(branch.values, [state[i] for state in branch.states], label=word, **style.MEANING[look])
-    for event in (*found.events, *found.connections):
+    for event in found.connections:
+        ax.axvline(event.value, label="connection: two saddles at one height", zorder=1, **style.MEANING["separatrix"] | {"linewidth": 1.2})
+    for event in found.events:
         ax.axvline(event.value, color=style.GREY, linewidth=0.7, linestyle=":", zorder=0)
         met = [state.at[i] for state in event.states if state.times > 1]
         if met:
@@ -71,7 +73,7 @@ def _counts(ax: Any, found: Diagram) -> None:
         if piece.high - piece.low > 0.03 * whole:
             ax.annotate(str(piece.count) if piece.count >= 0 else "curves", (0.5 * (piece.low + piece.high), 1.0), xycoords=("data", "axes fraction"),
                         xytext=(0, 3), textcoords="offset points", ha="center", va="bottom", fontsize=9, fontweight="bold")
-    shown = [event for event in found.events if event.value not in (float(span.low), float(span.high))]
+    shown = [event for event in (*found.events, *found.connections) if event.value not in (float(span.low), float(span.high))]
     for event in shown[:6]:
         ax.annotate(f"{event.value + 0.0:.5g}", (event.value, 0.0), xycoords=("data", "axes fraction"), xytext=(0, 3), textcoords="offset points",
                     ha="center", va="bottom", fontsize=7.5, bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.8})

@@ -1,0 +1,255 @@
+"""Where two saddles of a motion's circle come to one height: the separatrix of each then ends at the other, and its type changes.
+
+On a circle about its centre, X' = p Y and Y' = q X with p q < 0 per angle alpha of the turn, the force is k X Y + c Y + d X + F0, so the potential is
+
+    U = -k X^2/(2 p) - c X/p - d Y/q - F0 alpha,   alpha = atan2(-p Y/n, X)/n,   n = sqrt(-p q).
+
+Between two critical values there are two saddles at the most (four equilibria). Both ways round, the rise of U from one to the next is a function of the number
+that varies, enclosed with its slope over whole intervals; an interval is dropped where the rise keeps away from zero, settled where the slope does, and
+halved otherwise. Hyperbolas and parabolas have one saddle a branch.
+"""
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from fractions import Fraction
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from ...numbers.balls import rational, real_roots_of, settled, working
+from ...numbers.double_ball import Unclear
+from .choice import chosen
+from .eliminated import Eliminated, at_rational, evaluated, of_power, univariate
+from .family import Family
+from .result import Diagram, Event, Piece
+from .system import LEAF, Conics
+from .verdicts import ball_form, general_states
+
+if TYPE_CHECKING:
+    from flint import arb, arb_series
+
+BITS = 160
+NEAR = Fraction(1, 10**9)  # of a piece: so near to its ends, where a saddle is lost, nothing is looked for
+DEPTH = 48  # halvings of an interval
+WORDS = "two saddles are at one height: the separatrix of each ends at the other"
+
+
+def with_connections(found: Diagram) -> Diagram:
+    """The diagram with the connections in it; where they are not settled a note says so."""
+    if found.kind != LEAF:
+        return found
+    system = chosen(found.family, False)[2]
+    try:
+        return replace(found, connections=tuple(connections(found.family, system, found.pieces)))
+    except Unclear:
+        return replace(found, notes=(*found.notes, "undecided: whether two saddles come to one height somewhere; enclosures did not settle it"))
+
+
+def connections(family: Family, system: Any, pieces: tuple[Piece, ...]) -> list[Event]:
+    """All of them in the range of one number, rising; none where the motion keeps to no circle."""
+    if not isinstance(system, Conics):
+        return []
+    eliminated, found = Eliminated(family, system), []
+    if eliminated.main.lean:
+        return []
+    for piece in pieces:
+        saddles = [n for n, state in enumerate(piece.states) if state.linear == "unstable"]
+        if len(saddles) == 2 and _on_a_circle(family, system.axis, piece.sample):
+            width = Fraction(piece.high) - Fraction(piece.low)
+            low, high = Fraction(piece.low) + NEAR * width, Fraction(piece.high) - NEAR * width
+            for way in (0, 1):
+                found += [_event(family, eliminated, piece, value) for value in _zeros(_Rise(family, eliminated, saddles, way), low, high)]
+    return sorted(found, key=lambda event: event.value)
+
+
+def _event(family: Family, eliminated: Eliminated, piece: Piece, value: Fraction) -> Event:
+    value = Fraction(float(value))
+    states = settled(partial(general_states, family, LEAF, eliminated, value))
+    return Event(float(value), None, (), 0, ("connection",), piece.count, states, WORDS)
+
+
+def _on_a_circle(family: Family, axis: int, value: Fraction) -> bool:
+    with working(BITS):
+        form, _ = ball_form(family, [rational(value)])
+        j, k = (axis + 1) % 3, (axis + 2) % 3
+        return bool(form.kappa[j] * form.kappa[k] < 0)
+
+
+class _Rise:
+    """The rise of U from one saddle to the next, and its slope, over an interval of the number that varies.
+
+    A saddle's angle may be held while the number varies: U is stationary in it.
+    """
+
+    def __init__(self, family: Family, eliminated: Eliminated, saddles: list[int], way: int) -> None:
+        self.family, self.eliminated, self.saddles, self.way = family, eliminated, saddles, way
+
+    def sign(self, value: Fraction) -> int:
+        """At one value; Unclear where so many bits leave it open."""
+        rise, _ = self._of(value, value)
+        if rise > 0 or rise < 0:
+            return 1 if rise > 0 else -1
+        raise Unclear
+
+    def over(self, low: Fraction, high: Fraction) -> tuple[arb, arb]:
+        """(rise, slope) as balls that hold those of every value of the interval; the rise by the slope from its middle on."""
+        from flint import arb
+        middle = (low + high) / 2
+        rise, slope = self._of(low, high)
+        with working(BITS):
+            centred = self._of(middle, middle)[0] + slope * arb(0, rational((high - low) / 2))
+            return centred if centred.rad() < rise.rad() else rise, slope
+
+    def _of(self, low: Fraction, high: Fraction) -> tuple[arb, arb]:
+        from flint import arb, arb_series
+        middle = (low + high) / 2
+        with working(BITS, terms=2):
+            off = arb(0, rational((high - low) / 2))
+            p = off + arb(rational(middle))
+            roots = real_roots_of(univariate(at_rational(self.eliminated.main.R, (middle,))))
+            ends = [self._saddle(roots[n][0], middle, off, p) for n in self.saddles]
+            return self._rise(arb_series([p, 1]), ends[:: -1 if self.way else 1])
+
+    def _saddle(self, x: arb, middle: Fraction, off: arb, p: arb) -> tuple[arb, arb]:
+        """(x, y) of a saddle. R is moved to its place at the middle of the interval first, where small balls stay small."""
+        from flint import arb
+        R, f = self.eliminated.reduced, self.eliminated.main.f
+        ring = self.family.ring
+        first, second, third, fourth = ring.gens()
+        at = _exactly(x)
+        moved = R.compose(first + at, second, third + rational(middle), fourth, ctx=ring)
+        coefficients = [evaluated(of_power(moved, 0, n), [arb(0), arb(0), off]) for n in range(R.degrees()[0] + 1)]
+        place = arb(at) + _enclosed(coefficients, arb(0))
+        bottom = evaluated(of_power(f, 1, 1), [place, arb(0), p])
+        if bottom.contains(0):
+            raise Unclear
+        return place, -evaluated(of_power(f, 1, 0), [place, arb(0), p]) / bottom
+
+    def _rise(self, at: arb_series, ends: list[tuple[arb, arb]]) -> tuple[arb, arb]:
+        from flint import arb
+        i = self.eliminated.system.axis  # type: ignore[union-attr]  # a circle is of two conics
+        j, k = (i + 1) % 3, (i + 2) % 3
+        form: Any
+        form, u = ball_form(self.family, [at])
+        start = [evaluated(c, [arb(0), arb(0), at]) for c in self.family.numbers["y"]]
+        p, q = form.kappa[j], form.kappa[k]
+        x0, y0 = -form.sigma[k] / q, -form.rho[j] / p
+        kappa, rho, sigma = form.kappa[i], form.rho[i], form.sigma[i]
+        c, d = kappa * x0 + rho, kappa * y0 + sigma
+        force = kappa * x0 * y0 + rho * y0 + sigma * x0 + form.m[i]
+        n = (-p * q).sqrt()
+        X, Y = self._from_centre(j, k, start[j], start[k], u, x0, y0)
+        size = (X * X + (p * Y / n) * (p * Y / n)).sqrt()
+        heights, angles = [], []
+        for end in ends:
+            X, Y = (head(v) for v in self._from_centre(j, k, *end, u, x0, y0))
+            Z = -head(p) * Y / head(n)
+            angles.append(_angle(Z, X))
+            X, Y = size * (X / head(size)), size * (Z / head(size)) * -n / p
+            heights.append(-kappa * X * X / (2 * p) - c * X / p - d * Y / q)
+        rise = heights[1] - heights[0] - force * _once_round(angles[1] - angles[0]) / n
+        return head(rise), tail(rise)
+
+    def _from_centre(self, j: int, k: int, x: Any, y: Any, u: Any, x0: Any, y0: Any) -> tuple[Any, Any]:
+        """The components of the state about the circle's centre, from those of the balance."""
+        if self.family.scaled:
+            back = (lambda v: (v - u[0]) / 2, lambda v: v, lambda v: -v)
+            x, y = back[j](x), back[k](y)
+        return x - x0, y - y0
+
+
+def _angle(y: arb, x: arb) -> arb:
+    from flint import arb
+    return arb.atan2(y, x) if not (y.contains(0) and not x > 0) else arb.pi() + arb.atan2(-y, -x)
+
+
+def _exactly(x: arb) -> Any:
+    """A rational near a ball's middle."""
+    return rational(Fraction(float(x.mid())))
+
+
+def _once_round(turn: arb) -> arb:
+    """The angle in (0, 2 pi)."""
+    from flint import arb
+    whole = 2 * arb.pi()
+    while turn < 0:
+        turn = turn + whole
+    while turn > whole:
+        turn = turn - whole
+    if not (turn > 0 and turn < whole):
+        raise Unclear
+    return turn
+
+
+def _enclosed(coefficients: list[arb], middle: arb) -> arb:
+    """A ball that holds the one root near `middle` for all coefficients in their balls: Newton's step over it falls inside."""
+    from flint import arb
+    slope = [n * c for n, c in enumerate(coefficients)][1:]
+    at_middle = _horner(coefficients, middle)
+    ball = middle
+    for _ in range(8):
+        rate = _horner(slope, ball)
+        if rate.contains(0):
+            raise Unclear
+        step = middle - at_middle / rate
+        if ball.contains(step):
+            return step
+        ball = arb(middle, 1.2 * float((step - middle).abs_upper()) + 1e-45)
+    raise Unclear
+
+
+def _horner(coefficients: list[arb], x: arb) -> arb:
+    from flint import arb
+    total = arb(0)
+    for c in reversed(coefficients):
+        total = total * x + c
+    return total
+
+
+def head(series: Any) -> arb:
+    """The value of a series, or of a constant."""
+    from flint import arb, arb_series
+    return series[0] if isinstance(series, arb_series) else arb(series)
+
+
+def tail(series: Any) -> arb:
+    """Its slope."""
+    from flint import arb, arb_series
+    return series[1] if isinstance(series, arb_series) else arb(0)
+
+
+def _zeros(rise: _Rise, low: Fraction, high: Fraction) -> list[Fraction]:
+    """All zeros of the rise in the interval. Raises Unclear where halving does not settle."""
+    out: list[Fraction] = []
+    stack = [(low, high, 0)]
+    while stack:
+        a, b, depth = stack.pop()
+        try:
+            value, slope = rise.over(a, b)
+            if not value.contains(0):
+                continue
+            if not slope.contains(0):
+                first, last = rise.sign(a), rise.sign(b)
+                if first != last:
+                    out.append(_bisected(rise.sign, a, b, first))
+                continue
+        except (Unclear, ZeroDivisionError):
+            pass
+        if depth == DEPTH:
+            raise Unclear
+        middle = (a + b) / 2
+        stack += [(a, middle, depth + 1), (middle, b, depth + 1)]
+    return out
+
+
+def _bisected(sign: Callable[[Fraction], int], low: Fraction, high: Fraction, first: int) -> Fraction:
+    for _ in range(60):
+        middle = Fraction(float((low + high) / 2))
+        if not low < middle < high:
+            break
+        try:
+            same = sign(middle) == first
+        except Unclear:
+            return middle
+        low, high = (middle, high) if same else (low, middle)
+    return (low + high) / 2

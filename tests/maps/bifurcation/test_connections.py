@@ -1,0 +1,47 @@
+"""Values at which two saddles come to one height, against heights by quadrature-free NumPy along the motion's ellipse."""
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+import stabilab
+from tests.maps.bifurcation.leaf import rises
+from tests.maps.bifurcation.test_line import written
+
+GRID = 201
+
+
+def dense(D, lam, M, omega, i, low, high):
+    """Values between which a rise changes its sign, on a grid of the wheel's momentum about the next axis."""
+    found, before, last = [], None, low
+    for q in np.linspace(low, high, GRID):
+        wheel = list(lam)
+        wheel[(i + 1) % 3] = q
+        now = rises(D, wheel, M, omega, i)
+        if before is not None and now is not None:
+            found += [(last, q) for u, v in zip(before, now) if u * v < 0]
+        before, last = now, q
+    return found
+
+
+@pytest.mark.parametrize("seed", [0, 1, *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(2, 12))])
+def test_connections_are_those_that_a_grid_of_heights_brackets(tmp_path, seed):
+    rng = np.random.default_rng(seed)
+    i = int(rng.choice([0, 2]))  # of the greatest or the least moment: circles
+    D = (Fraction(12), Fraction(9), Fraction(5))
+    omega = [Fraction(int(v), 10) for v in rng.integers(-9, 10, 3)]
+    lam, M = [Fraction(int(v), 4) for v in rng.integers(-6, 7, 3)], [Fraction(0)] * 3
+    lam[i], M[i] = Fraction(0), Fraction(int(rng.integers(1, 9)), 10)
+    low, high = -12, 12
+    found = stabilab.bifurcation(written(tmp_path, D, lam, M, omega), {f"momentum[{(i + 1) % 3 + 1}]": (low, high)})
+    values = [event.value for event in found.connections]
+    assert all(any(a <= value <= b for value in values) for a, b in dense(D, lam, M, omega, i, low, high))
+    for value in values:
+        sides = []
+        for q in (value - 1e-6, value + 1e-6):
+            wheel = list(lam)
+            wheel[(i + 1) % 3] = q
+            sides.append(rises(D, wheel, M, omega, i))
+        assert any(u * v < 0 for u, v in zip(*sides)), value
