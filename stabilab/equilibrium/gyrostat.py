@@ -11,7 +11,7 @@ from ..physics.coefficients import Content, gyrostat_scene
 from ..physics.scene import AnyScene
 from .balance import Pencil, pencil
 from .conics import balance_fails, conic_curves
-from .isolated import off_axis_equilibria
+from .isolated import isolated_states, off_axis_equilibria
 from .result import Equilibria
 from .stability import curve_with_verdicts
 from .torque_free import torque_free_curves
@@ -38,6 +38,18 @@ def gyrostat_equilibria(scene: AnyScene) -> Equilibria:
     conic = tuple(curve_with_verdicts(p.form, c) for c in conic_curves(p))
     return Equilibria("curves", "the torque is along an eigenvector of D with no gyrostatic moment along it: the two balance "
                                 "conditions are one plane, and in it one conic remains", curves=conic)
+
+
+def number_of_equilibria(scene: AnyScene) -> int | None:
+    """How many equilibria there are, exactly and without their stability, where they are isolated under a wheel and a torque off the
+    principal axes; None where they are not, or other effects act."""
+    if not scene.plain:
+        return None
+    p = pencil(scene)
+    if not any(p.M) or p.torque_axis_moment() is not None:
+        return None
+    _, points, curves = isolated_states(p)
+    return None if curves else len(points)
 
 
 def _torque_free(p: Pencil) -> Equilibria:

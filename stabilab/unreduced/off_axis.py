@@ -126,9 +126,23 @@ class Followed:
         level = np.append(self.found.level, 0)  # the last one for states at rest
         return level[self.place] == LEVELS.index("proved")
 
+    @property
+    def islands(self) -> np.ndarray:
+        """(n,) int8: 2 where a motion is seen to stay on what looks like a bounded island, 1 where it is undecided and an island may exist, else 0."""
+        out = np.zeros(len(self.place), np.int8)
+        for n in np.flatnonzero(np.append(self.found.fate, 0)[self.place] == Fate.UNDECIDED).tolist():
+            out[n] = _island(self.row(n))
+        return out
+
     def row(self, number: int) -> SpinUp | None:
         """All that following state `number` showed: trap, cause, time."""
         return None if self.place[number] < 0 else self.found.row(int(self.place[number]))
+
+
+def _island(found: SpinUp | None) -> int:
+    if found is None or found.fate != Fate.UNDECIDED:
+        return 0
+    return 2 if "an island is seen" in found.cause else int("a bounded island may exist" in found.cause)
 
 
 def fates(scene, states, fast: bool | None = None, follow: float | None = None, tell=None, proof: bool = False) -> FateResult:
