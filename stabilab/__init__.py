@@ -39,6 +39,7 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
     from .physics.scene import ScaledGyrostat as ScaledGyrostat
     from .physics.scene import Scene as Scene
     from .show import plot as plot
+    from .show.maps.atlas.dataset import atlas as atlas
     from .show.maps.basins.dataset import basin as basin
     from .show.maps.dataset import sweep as sweep
     from .theories.comparison import compare as compare
@@ -61,7 +62,8 @@ _HOME = {
     "Charge": "physics.effects.charge", "Resistance": "physics.effects.resistance", "LiquidCavity": "physics.effects.liquid_cavity",
     "NewtonianField": "physics.effects.newtonian_field", "Gravity": "physics.effects.gravity", "BodyForce": "physics.effects.body_force",
     "derive": "physics.equations", "validity": "physics.law_limits",
-    "plot": "show", "sweep": "show.maps.dataset", "basin": "show.maps.basins.dataset", "bifurcation": "maps.bifurcation.ask", "InputError": "errors",
+    "plot": "show", "sweep": "show.maps.dataset", "atlas": "show.maps.atlas.dataset",
+    "basin": "show.maps.basins.dataset", "bifurcation": "maps.bifurcation.ask", "InputError": "errors",
 }
 __all__ = [*_HOME, "__version__"]
 

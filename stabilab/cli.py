@@ -407,6 +407,10 @@ def plot(case: CaseFile,
     from .show.text import law
     if case.suffix.lower() == ".nc":
         from .show.maps import picture
+        from .show.maps.atlas import to_file
+        if to_file.is_atlas(case):
+            _print(str(to_file.redrawn(case, out or Path(f"{printable(case.stem)}.png"), kind, inches(size), dpi, units)))
+            return
         _print(str(picture.write(case, out or Path(f"{printable(case.stem)}.png"), kind, inches(size), dpi)))
         return
     loaded, drawn = _load([case], motion=kind != "equilibria"), []
@@ -534,6 +538,51 @@ def basin(case: CaseFile,
         _print(words.json(found) if json else words.csv(found))
     else:
         _show(words.text(found))
+    if strict and words.undecided(found):
+        raise typer.Exit(UNDECIDED)
+
+
+@app.command()
+def atlas(case: CaseFile,
+          torque: Annotated[str | None, typer.Option(metavar="SIZE", help='Size of the torque: "1 N m". Default: that of the case.')] = None,
+          wheel: Annotated[str | None, typer.Option(metavar="[AXIS=]VALUES", help='Wheel momenta beside each of which all directions are asked: "0:2:5" along '
+                                                    'the wheel of the case, "z=-2:2:5" (x, y, z of the file, or 1, 2, 3). Default: as in the case.')] = None,
+          level: Annotated[int, typer.Option(metavar="N", help="8 times 4^N cells of equal area at first.")] = 3,
+          refine: Annotated[int, typer.Option(metavar="N", help="How often cells along a boundary are cut in four.")] = 2,
+          rate: Annotated[str | None, typer.Option(metavar="RATE", help="Limit whose time is asked, as of stabilab when; default: that of [limits].")] = None,
+          component: Annotated[str | None, typer.Option(metavar="AXIS=RATE", hidden=True)] = None,
+          energy: Annotated[str | None, typer.Option(metavar="ENERGY", hidden=True)] = None,
+          tilt: Annotated[str | None, typer.Option(metavar="AXIS=ANGLE", hidden=True)] = None,
+          until: Annotated[str | None, typer.Option(metavar="TIME", hidden=True)] = None,
+          certify: Annotated[bool, typer.Option("--certify", help="Prove fates and times where that succeeds, whatever it takes.")] = False,
+          out: Annotated[list[Path] | None, typer.Option(metavar="FILE.nc|.png|.svg|.pdf|.html", help="Write cells, a picture or a page that answers the "
+                                                         "pointer; may be given again. What is finished outlives a killed run.")] = None,
+          workers: Annotated[int | None, typer.Option(metavar="N", help="Processes that share the work; default: one a core where that pays.")] = None,
+          scheduler: Annotated[str | None, typer.Option(metavar="tcp://...", help="Let the workers of this Dask scheduler do it (extra cluster).")] = None,
+          follow: Follow = None, units: UnitsOption = None,
+          csv: Annotated[bool, typer.Option("--csv", help="CSV on stdout: a line for each cell.")] = False, json: Json = False,
+          strict: Annotated[bool, typer.Option("--strict", help="Exit with 3 where a fate is undecided.")] = False):
+    """Map all directions of a torque: fates, axes, times.
+
+    Cells of equal area on the sphere, smaller ones along the boundaries; principal axes and thrusters stand on it as points.
+
+    Example: stabilab atlas cases/cubesat-3u.toml --out atlas.png
+    """
+    if json and csv:
+        raise typer.BadParameter("choose one of --json and --csv")
+    from .maps.atlas.asked import asked
+    from .maps.atlas.run import drawn
+    from .show.maps.atlas import to_file, words
+    from .show.units import units_of
+    plan = asked(case, torque, wheel, level, refine, certify, follow, rate=rate, component=component, energy=energy, tilt=tilt, until=until)
+    system, targets = units_of(plan.case, units), to_file.checked(out or [])
+    with drawn(plan, targets[0] if targets else None, workers, scheduler) as found:
+        for target in targets:
+            _say(f"written: {to_file.write(found, target, system)}")
+    if json or csv:
+        _print(words.json(found, system) if json else words.csv(found))
+    else:
+        _show(words.text(found, system))
     if strict and words.undecided(found):
         raise typer.Exit(UNDECIDED)
 

@@ -10,7 +10,7 @@ GROUPS = {
                "Gravity", "BodyForce"),
     "Questions about a motion": ("fate", "Fate", "fate_grid", "motion", "extremes", "period", "spin_up", "stuck", "time_to", "TimeTo", "validity"),
     "Questions about all motions": ("equilibria", "separatrix"),
-    "Many cases at once": ("sweep", "basin", "bifurcation"),
+    "Many cases at once": ("sweep", "atlas", "basin", "bifurcation"),
     "Motions in time": ("trajectory", "ensemble", "simulate", "compare", "theory", "derive"),
     "Errors": ("InputError",),
 }

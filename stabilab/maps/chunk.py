@@ -14,6 +14,7 @@ from ..answers.kinds import KINDS, kind_of
 from ..answers.motion import motion
 from ..answers.time_to import time_to
 from ..case.read import Case, blamed_on
+from ..equilibrium.gyrostat import number_of_equilibria
 from ..errors import CaseError, InputError
 from ..numbers.numba_door import installed
 from ..orbit.extremes_and_periods import extremes_and_periods
@@ -25,6 +26,7 @@ from .plan import Chunk, Plan
 from .points import case_of, states_of
 
 COMPILED = 20_000  # states for which loading numba's code pays
+POINTED_WORK = 20_000  # multiplications for the proof of a time in an atlas: it leaves the long motions to compiled steps, which prove them sooner
 NO_CASE_VALUES = {"fate": NO_CASE, "level": -1, "reason": -1, "when_level": -1, "equilibria": NONE, "stable": NONE, "unstable": NONE, "open": NONE}
 
 
@@ -59,11 +61,12 @@ def _scene(plan: Plan, scene: int, chunk: Chunk, out: np.ndarray) -> None:
 def _many(plan: Plan, case: Case, states: np.ndarray, out: np.ndarray) -> None:
     """The states of a scene whose answers come in arrays."""
     asked, scene = plan.answers, case.scene
-    if {"fate", "level", "reason", "margin", "distance"} & set(asked):
-        found = fate(scene, states, follow=plan.longest)
+    if {"fate", "level", "reason", "island", "margin", "distance"} & set(asked):
+        found = fate(scene, states, **_following(plan, case))
         columns: dict[str, Callable[[], Any]] = {
             "fate": lambda: found.labels, "spin_axis": lambda: found.axis * found.sense, "reason": lambda: found.reasons, "margin": lambda: found.margins,
-            "level": lambda: [LEVELS.index(word) for word in found.levels], "distance": lambda: found.velocity_margins}
+            "level": lambda: [LEVELS.index(word) for word in found.levels], "distance": lambda: found.velocity_margins,
+            "island": lambda: 0 if found.followed is None else found.followed.islands}
         for name, column in columns.items():
             if name in out.dtype.names:
                 out[name] = column()
@@ -75,7 +78,15 @@ def _many(plan: Plan, case: Case, states: np.ndarray, out: np.ndarray) -> None:
             out["period"] = times
     if "when" in asked:
         limit = plan.limit_of(case)
-        _times(time_to(scene, states, **limit.ask, t_max=limit.until), out)
+        brief: dict[str, Any] = {} if plan.pointed is None or plan.pointed.certify else {"work": POINTED_WORK}
+        _times(time_to(scene, states, **limit.ask, t_max=limit.until, **brief), out)
+
+
+def _following(plan: Plan, case: Case) -> dict[str, Any]:
+    """How motions of an atlas are followed: each is alone in its scene, and all of them together are worth the compiler."""
+    if plan.pointed is None or not KINDS[kind_of(effective(case.scene))].follows:
+        return {"follow": plan.longest}
+    return {"follow": plan.longest, "fast": installed() or None, "proof": plan.pointed.certify}
 
 
 def _extremes_and_periods(case: Case, states: np.ndarray, box: bool, times: bool) -> tuple[np.ndarray | None, np.ndarray | None]:
@@ -123,6 +134,9 @@ def _single(plan: Plan, case: Case, states: np.ndarray, out: np.ndarray) -> None
 
 
 def _equilibria(case: Case, out: np.ndarray) -> None:
+    if "stable" not in out.dtype.names and (number := number_of_equilibria(case.scene)) is not None:
+        out["equilibria"] = number
+        return
     found = equilibria(case.scene)
     verdicts = [point.verdict for point in found.points] + [piece.verdict for curve in found.curves for piece in curve.segments]
     number = {"none": 0, "points": len(found.points), "undecided": OPEN}.get(found.kind, ENDLESS)

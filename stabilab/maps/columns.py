@@ -11,6 +11,7 @@ from ..orbit.result import Fate
 
 LEVELS = ("undecided", "certified", "exact", "proved")
 LIMIT_LEVELS = ("run", "exact", "proved")
+ISLANDS = ("none", "may_exist", "seen")
 ENDLESS, OPEN, NONE = -1, -2, -3  # equilibria without number; not all of them known; numbers that make no case
 NO_CASE = len(Fate)  # in the place of a fate: the numbers make no case (moments that no body has)
 RATE, ENERGY, TIME = "rate", "energy", "time"  # units that depend on the variables of a case
@@ -38,6 +39,8 @@ ANSWERS: dict[str, tuple[Column, ...]] = {
     "level": (Column("level", "i1", "", "how well the fate is known", LEVELS, note="-1: no case"),),
     "reason": (Column("reason", "i1", "", "why the fate is known", tuple(reason.name.lower() for reason in Reason),
                       note="-1 where a motion is answered by itself: stabilab fate tells why"),),
+    "island": (Column("island", "i1", "", "whether bounded islands are suspected where the motion is", ISLANDS,
+                      note="of undecided motions alone; 0 where a motion is answered by itself"),),
     "margin": (Column("margin", "f8", ENERGY, "height of the barrier ahead less the energy",
                       note=f"-inf without a barrier ahead, +inf where none bounds the motion, {NOT_KNOWN}"),),
     "distance": (Column("distance", "f8", RATE, "smallest change of the rates that reaches the separatrix", note=f"+inf without one, {NOT_KNOWN}"),),

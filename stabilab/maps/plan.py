@@ -22,6 +22,7 @@ from ..case.units import NONE, TIME, quantity
 from ..errors import InputError, printable
 from ..physics.coefficients import effective
 from ..version import __version__
+from .atlas.pointed import Pointed, pointed_from
 from .axes import MOST, Axis, axis_of
 from .columns import asked_answers
 from .keys import key_of, keys_of
@@ -33,8 +34,9 @@ RATES = ("angular_velocity", "x")  # keys of [motion] whose numbers leave the sc
 CHUNK_SECONDS, LARGEST = 2.0, 1 << 17  # of one processor that a chunk takes, roughly; its most points
 # answer -> seconds for a state of a scene with an orbit, for one whose motions are followed; measured, to size chunks alone
 COST = {"fate": (1e-6, 1e-3), "level": (0, 0), "reason": (0, 0), "margin": (0, 0), "distance": (3e-2, 0), "extremes": (1e-5, 2e-2), "period": (1e-5, 0),
-        "when": (0.1, 0.1), "equilibria": (0, 0), "verdict": (0, 0)}
+        "when": (0.1, 0.1), "island": (0, 0), "equilibria": (0, 0), "verdict": (0, 0)}
 SCENE_COST = (3e-3, 3e-2)
+POINTED_COST = 5e-2  # of a direction of an atlas, all answers together
 LIMITS = ("rate", "component", "energy", "tilt", "until")
 
 
@@ -55,7 +57,7 @@ class Chunk(NamedTuple):
 class Plan:
     """path, text: of the case; vary: (name, what was asked) in the user's order; samples, seed: of random points, None without; answers: names of
     `columns.ANSWERS`; limit: options of `when`, by name; listed: of a plane of states those places alone (`listed.packed`), in one row; follow: how long
-    motions are followed that only a run decides, as it was written."""
+    motions are followed that only a run decides, as it was written; pointed: of an atlas, its directions, the only dimension then."""
 
     path: str
     text: str = field(repr=False)
@@ -66,6 +68,7 @@ class Plan:
     limit: tuple[tuple[str, str], ...] = ()
     listed: str = field(default="", repr=False)
     follow: str | None = None
+    pointed: Pointed | None = field(default=None, repr=False)
 
     @cached_property
     def data(self) -> dict[str, Any]:
@@ -92,6 +95,8 @@ class Plan:
     @cached_property
     def shape(self) -> tuple[int, ...]:
         """Points along every dimension, in the user's order, samples last."""
+        if self.pointed is not None:
+            return (len(self.pointed.points),)
         return (*(len(axis.values) for axis in self.axes), *([self.sampled.count] if self.sampled else []))
 
     @cached_property
@@ -156,6 +161,8 @@ class Plan:
     @cached_property
     def cost(self) -> float:
         """Seconds of a processor for a point, roughly."""
+        if self.pointed is not None:
+            return POINTED_COST
         scene = effective(self.case.scene)
         slow = not scene.plain or KINDS[kind_of(scene)].follows
         return sum(COST[name][slow] for name in self.answers) + SCENE_COST[slow] / self.states
@@ -165,9 +172,10 @@ class Plan:
 
     def as_json(self, brief: bool = False) -> str:
         """All of the plan, for another process. brief: without the folder of the case, for a file that is to be the same wherever it is made."""
+        pointed = {} if self.pointed is None else {"pointed": self.pointed.told()}
         return json.dumps({"version": __version__, "path": os.path.basename(self.path) if brief else self.path, "text": self.text,
                            "vary": self.vary, "samples": self.samples, "seed": self.seed, "answers": self.answers, "limit": self.limit}
-                          | {name: told for name, told in (("listed", self.listed), ("follow", self.follow)) if told})
+                          | pointed | {name: told for name, told in (("listed", self.listed), ("follow", self.follow)) if told})
 
     @cached_property
     def digest(self) -> str:
@@ -195,8 +203,9 @@ def from_json(text: str) -> Plan:
     """The plan that another process wrote down."""
     told = json.loads(text)
     rows = lambda name: tuple((key, value) for key, value in told[name])
+    pointed = pointed_from(told["pointed"]) if "pointed" in told else None
     return Plan(told["path"], told["text"], rows("vary"), told["samples"], told["seed"], tuple(told["answers"]), rows("limit"), told.get("listed", ""),
-                told.get("follow"))
+                told.get("follow"), pointed)
 
 
 def split_keys(words: Sequence[str]) -> list[tuple[str, str]]:

@@ -17,6 +17,8 @@ Puts = list[tuple[tuple[Any, ...], Any]]  # (path, what stands there in a case f
 
 def case_of(plan: Plan, scene: int) -> Case:
     """The case of a scene, with the first of its states. Raises CaseError where its numbers make none."""
+    if plan.pointed is not None:
+        return plan.pointed.case(plan.case, scene)
     data = copy.deepcopy(plan.data)
     places = np.unravel_index(scene, [plan.shape[n] for n in plan.outer]) if plan.outer else ()
     for dimension, at in zip(plan.outer, places):

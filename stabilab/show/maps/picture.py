@@ -64,7 +64,7 @@ def loaded(path: Path) -> xarray.Dataset:
         raise InputError(f"{words}, got a folder")
     if not path.is_file():
         raise InputError(f"{path}: no such file; stabilab sweep --out {path} makes one")
-    return _read(path, words)
+    return read(path, words)
 
 
 def _words(path: Path) -> str:
@@ -86,7 +86,8 @@ def _plan(data: xarray.Dataset, path: Path) -> Plan:
     return plan
 
 
-def _read(path: Path, words: str) -> xarray.Dataset:
+def read(path: Path, words: str) -> xarray.Dataset:
+    """The data set of a NetCDF file; words: what is expected, for the error where it is none."""
     import warnings
 
     import xarray

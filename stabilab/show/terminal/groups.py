@@ -9,7 +9,7 @@ GROUPS = {
     "Answers about a motion": ("classify", "fate", "extremes", "period", "when", "stuck"),
     "Runs and pictures": ("simulate", "plot", "surface", "report", "explore"),
     "Into a case": ("show", "compare", "precision", "import"),
-    "Many cases at once": ("sweep", "basin", "bifurcation"),
+    "Many cases at once": ("sweep", "atlas", "basin", "bifurcation"),
     "Proofs and checks": ("verify", "reference", "audit", "validate", "rerun"),
     "The papers": ("tables", "figures"),
 }

@@ -1,0 +1,1 @@
+"""An atlas in words, as a picture, as a page that answers a pointer, and as files."""

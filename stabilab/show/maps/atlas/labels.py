@@ -1,0 +1,78 @@
+"""How directions, axes and fates of an atlas are named, and the colour of each fate."""
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ....maps.atlas.pointed import AXES, OWN, Point
+from ....maps.atlas.run import Atlas
+from ....orbit.result import Fate
+from ... import style
+from ..shades import FATES, light
+
+# (axis, sense) of a spin-up -> its colour: a hue for each axis, the lighter one against it
+SPINS = {(1, 1): light(style.BLUE, 0.95), (1, -1): light(style.BLUE, 0.5), (2, 1): light(style.GREEN, 0.95), (2, -1): light(style.GREEN, 0.45),
+         (3, 1): light(style.VERMILION, 0.95), (3, -1): light(style.VERMILION, 0.5), (0, 0): light(style.PURPLE, 0.9)}
+ISLAND = light(style.BLACK, 0.75)
+DOES = {Fate.BOUNDED: "stay bounded", Fate.SEPARATRIX: "lie on the separatrix", Fate.EQUILIBRIUM: "are at rest", Fate.UNDECIDED: "are undecided"}
+
+
+def axis_names(atlas: Atlas) -> dict[int, str]:
+    """1, 2, 3 -> "axis 3 (minor)", by the moments: the largest is the major one; equal ones say so."""
+    moments = atlas.asked.case.scene.body.exact  # type: ignore[union-attr]
+    ranks = sorted(set(moments), reverse=True)
+    told = {}
+    for number, moment in enumerate(moments, 1):
+        same = sum(one == moment for one in moments) > 1
+        place = ranks.index(moment)
+        word = "equal moments" if same else "major" if place == 0 else "minor" if place == len(ranks) - 1 else "middle"
+        told[number] = f"axis {number} ({word})"
+    return told
+
+
+def point_name(atlas: Atlas, point: Point) -> str:
+    """"+1" and "-1" for the axes, a thruster's name, "torque of the case"."""
+    if point.level == AXES:
+        return f"{'-' if point.number % 2 else '+'}{point.number // 2 + 1}"
+    return "torque of the case" if point.level == OWN else atlas.asked.case.thrusters[point.number].name
+
+
+def kind_words(atlas: Atlas, fate: int, axis: int, island: int = 0) -> str:
+    """What a cell does, for a legend: "spins up about +3 (minor)"."""
+    if fate == Fate.SPIN_UP:
+        if not axis:
+            return "spins up about no principal axis"
+        return f"spins up about {axis:+d} ({axis_names(atlas)[abs(axis)].partition('(')[2]}"
+    return "undecided, an island is seen" if fate == Fate.UNDECIDED and island == 2 else FATES[Fate(fate)][0]
+
+
+def kind_colour(fate: int, axis: int, island: int = 0) -> Any:
+    """Red, green and blue, 0 to 1."""
+    if fate == Fate.SPIN_UP:
+        return SPINS[(abs(axis), int(np.sign(axis)))]
+    return ISLAND if fate == Fate.UNDECIDED and island == 2 else light(FATES[Fate(fate)][1], 0.8)
+
+
+def kinds(atlas: Atlas, rows: np.ndarray | None = None) -> list[tuple[tuple[int, int, int], np.ndarray, float]]:
+    """((fate, axis with its sense, island), rows of cells, share of the sphere and of the wheels) of all that occurs, the most first."""
+    chosen = np.arange(len(atlas.records)) if rows is None else rows
+    records = atlas.records[chosen]
+    seen = np.where((records["fate"] == Fate.UNDECIDED) & (records["island"] == 2), 2, 0)
+    keys = np.stack([records["fate"].astype(int), records["spin_axis"].astype(int), seen], axis=1)
+    found, which = np.unique(keys, axis=0, return_inverse=True)
+    which = which.ravel()
+    whole = atlas.share[chosen].sum()
+    told = [((int(key[0]), int(key[1]), int(key[2])), chosen[which == n], float(atlas.share[chosen][which == n].sum() / whole))
+            for n, key in enumerate(found)]
+    return sorted(told, key=lambda one: (-one[2], one[0]))
+
+
+def wheel_words(atlas: Atlas, number: int) -> str:
+    """A wheel's momentum as it was asked: "0.5 N m s"."""
+    return f"{atlas.asked.momenta[number]:.6g} {atlas.asked.unit}"
+
+
+def direction_words(vector: Any) -> str:
+    """Three digits of a direction."""
+    return "(" + ", ".join(f"{v + 0.0:.3g}" if abs(v) >= 5e-4 else "0" for v in np.asarray(vector).tolist()) + ")"
