@@ -11,13 +11,15 @@ from ....integrate.to_heyoka import TAYLOR_TOLERANCE, borrowed_taylor, heyoka_av
 from ....integrate.trajectory import FALLBACK_RTOL
 from ....numbers.vectors import CYCLE
 from ....physics.to_numpy import Form
-from .twins import Twins
+from .twins import STILL, Twins
 
 WIDE = 32  # lanes where there are so many rows: the calls, not the steps, are what short advances cost
 
 # Of twins, relative: over the two thousand steps of an advance the tolerance of their steps moves them by a hundredth of that, and a delay of a
 # thousand times that is still small.
 APART, LOOSE, CLOSE = 2.0**-16, 1e-10, 2.0**-28  # those that go too far apart are run again, closer
+TOLD = 8.0  # of a change beside a steady motion, the logarithm of its growth over an advance: a close twin is then still beside the motion
+BEYOND = 2.0**60  # growth of which nothing more need be known: no certificate holds for a ball of its size
 STEEP = 8.0  # of a step times the slopes of the rates: a motion that hardly leaves a steady one has coefficients that would allow any
 
 
@@ -52,17 +54,28 @@ class Runs:
         self.rounded[rows] += steps
         starts, times, ends = self.states[rows], self.times[rows], np.where(self.times[rows] < pause, min(pause, t_max), t_max)
         with np.errstate(all="ignore"):
+            ends = np.minimum(ends, times + self._spans(rows, starts))
             if self.taylor:
                 self.states[rows], self.times[rows] = self._batches(starts, times, ends, steps, TAYLOR_TOLERANCE)
             else:
-                for row in rows:
-                    self._alone(row, steps, t_max)
+                for row, end in zip(rows, ends):
+                    self._alone(row, steps, t_max, end)
             left = np.arange(len(rows))
             for apart, tolerance in ((APART, LOOSE), (CLOSE, TAYLOR_TOLERANCE)):
                 twins, far = self.twins.start(rows[left], starts[left], apart)
                 twins = self._twins(twins, times[left], self.times[rows[left]], 8 * steps, tolerance)
                 left = left[self.compare(rows[left], starts[left], twins, 0.0, far)]
             self.twins.growth[rows[left]] = np.inf
+
+    def _spans(self, rows, starts):
+        """(m,) how long rows may be carried on at once. A twin beside a steady motion that is none (a saddle) leaves it, goes round, and comes back close to it
+        in the end: what is seen there is not the growth. Over the span in which the linear change grows e^TOLD times a close twin has not left."""
+        out = np.full(len(rows), np.inf)
+        still = np.sqrt((self.rates(starts) ** 2).sum(axis=1)) <= STILL * np.maximum(np.abs(starts).max(axis=1), 1.0)
+        still &= (self.twins.growth[rows] < BEYOND) & np.isfinite(starts).all(axis=1)
+        if still.any():
+            out[still] = TOLD / np.maximum(np.linalg.eigvals(self.derivatives(starts[still])).real.max(axis=1), 1e-300)
+        return out
 
     def _twins(self, twins, times, ends, steps, tolerance):
         """Where twins come to at the ends; not finite where these are not: rates beyond doubles leave a motion without a time."""
@@ -101,11 +114,16 @@ class Runs:
         c = self.coefficients
         return c[0] * (y * w + v * z) + c[1] * w + c[2] * v
 
+    def derivatives(self, states):
+        """(m, 3, 3) of the rates at states (m, 3)."""
+        y, z, out = states[:, [1, 2, 0]], states[:, [2, 0, 1]], np.zeros((len(states), 3, 3))
+        c = self.coefficients
+        out[:, [0, 1, 2], [1, 2, 0]], out[:, [0, 1, 2], [2, 0, 1]] = c[0] * z + c[2], c[0] * y + c[1]
+        return out
+
     def steepest(self, states):
         """(m,) greatest sums of sizes in a row of the rates' derivative at states (m, 3)."""
-        y, z = states[:, [1, 2, 0]], states[:, [2, 0, 1]]
-        c = self.coefficients
-        return (np.abs(c[0] * z + c[2]) + np.abs(c[0] * y + c[1])).max(axis=1)
+        return np.abs(self.derivatives(states)).sum(axis=2).max(axis=1)
 
     def slopes_back(self, states, weights):
         """The gradient of the rates' sum with weights (m, 3)."""
@@ -135,12 +153,13 @@ class Runs:
                     out[group], reached[group] = ta.state.T, ta.time
         return out, reached
 
-    def _alone(self, row, steps, t_max):
+    def _alone(self, row, steps, t_max, end):
         if self.solvers[row] is None:
             self.solvers[row] = self._solver(self.states[row], 0.0, t_max, FALLBACK_RTOL)
         solver = self.solvers[row]
+        solver.max_step = self._longest(solver.y)
         for _ in range(steps):
-            if solver.status == "running":
+            if solver.status == "running" and solver.t < end:
                 solver.step()
         self.states[row] = solver.y if solver.status != "failed" else np.nan
         self.times[row] = solver.t
@@ -149,9 +168,15 @@ class Runs:
         if not (end > start and np.isfinite(state).all()):
             return state
         solver = self._solver(state, start, end, max(rtol, FALLBACK_RTOL))
+        solver.max_step = self._longest(state)
         while solver.status == "running":
             solver.step()
         return solver.y if solver.status == "finished" else np.full(3, np.nan)
+
+    def _longest(self, state):
+        """As of Taylor steps: the solver's error beside a steady motion would allow any."""
+        with np.errstate(all="ignore"):
+            return float(np.nan_to_num(STEEP / self.steepest(state[None])[0], nan=np.inf, posinf=np.inf))
 
     def _solver(self, state, start, end, rtol):
         return stand_in(self.quadratic.rate, state, end, start, rtol)
