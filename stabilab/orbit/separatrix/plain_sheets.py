@@ -17,7 +17,7 @@ from ..reduction import reduce
 from .circle_kernel import SHARED
 from .homoclinic import loop_end
 from .saddles import limit_of, saddle_branches
-from .words import NO_REDUCTION, PARABOLIC, what_it_parts, why_none
+from .words import NO_REDUCTION, what_it_parts, why_none, why_parabolic
 
 REACH = 4.0  # as of `sheets.separatrix`
 POLISH = 3   # Newton steps of a saddle along its orbit
@@ -39,7 +39,7 @@ def plain_separatrix(scene: AnyScene, reach: float = REACH, rows: int = 20, half
     if r is None:
         return (), NO_REDUCTION
     if not r.geometry.centred:
-        return (), PARABOLIC
+        return (), why_parabolic(r)
     try:
         pot, conic = potential(r), conic_of(r)
         branches = saddle_branches(conic, pot, limit_of(conic, reach))
@@ -49,7 +49,7 @@ def plain_separatrix(scene: AnyScene, reach: float = REACH, rows: int = 20, half
     for number, branch in enumerate(branches, 1):
         strips = [(word, points) for side, word in conic.sides(r.sense) if len(points := _strip(r, pot, branch, side, rows, half)) > 1]
         found += [PlainSheet(f"sheet {number}{word if len(strips) > 1 else ''}", len(points), 2 * half - 1, sum(points, [])) for word, points in strips]
-    return tuple(found), what_it_parts(pot, r.sense) if found else why_none(conic)
+    return tuple(found), what_it_parts(pot, r.sense) if found else why_none(conic, r.sense)
 
 
 def _strip(r: Any, pot: Any, branch: Any, side: int, rows: int, half: int) -> list[list[tuple[float, ...]]]:

@@ -23,7 +23,7 @@ from .grid import grid
 from .homoclinic_arrays import residual
 from .result import Separatrix, Sheet
 from .saddles import limit_of, saddle_branches
-from .words import NO_REDUCTION, PARABOLIC, what_it_parts, why_none
+from .words import NO_REDUCTION, what_it_parts, why_none, why_parabolic
 
 SHAPE = (96, 129)  # fine enough for pictures
 
@@ -53,10 +53,10 @@ def _separatrix(scene, reach, shape, accuracy, fast) -> Separatrix:
     if land is None:
         return Separatrix((), NO_REDUCTION)
     if land.conic is None:
-        return Separatrix((), PARABOLIC)
+        return Separatrix((), why_parabolic(land.reduction))
     branches = saddle_branches(land.conic, land.potential, limit_of(land.conic, reach or 4.0))
     if not branches:
-        return Separatrix((), why_none(land.conic))
+        return Separatrix((), why_none(land.conic, land.sense))
     strips = [(branch, side) for branch in branches for side, _ in land.conic.sides(land.sense)]
     rows, columns = shape or SHAPE
     half = None if accuracy else (rows, columns // 2 + 1)

@@ -2,8 +2,6 @@
 from __future__ import annotations
 
 NO_REDUCTION = "no reduction to one degree of freedom: the separatrix of this scene is not known in closed form"
-PARABOLIC = ("parabolic reduction (two equal moments): all motions are bounded by walls on both sides, except pure spin about the torque; no sheet bounds a "
-             "spin-up")
 
 
 def what_it_parts(potential, sense: int) -> str:
@@ -16,9 +14,23 @@ def what_it_parts(potential, sense: int) -> str:
     return "each sheet bounds the motions that oscillate about the centres inside it"
 
 
-def why_none(conic) -> str:
-    """Of a scene without."""
+def why_none(conic, sense: int) -> str:
+    """Of a scene on circles or hyperbolas without sheets."""
     if conic.pieces or conic.lines:
         return ("no equilibrium is a saddle of the reduced potential: each orbit has a single well, and there is no "
                 "separatrix surface")
+    if sense == 0:
+        return "no force acts along any orbit: the rate about the axis of symmetry is constant, and there is no saddle and no separatrix surface"
     return "there is no equilibrium, so there is no saddle and no separatrix surface"
+
+
+def why_parabolic(reduction) -> str:
+    """Of a scene on parabolas: no sheets are drawn of it."""
+    bent = reduction.kappa or reduction.rho or reduction.sigma
+    if reduction.sense == 0:
+        told = "no torque acts, and every motion is bounded"
+    elif bent:
+        told = "all motions are bounded by walls on both sides, except pure spin about the torque"
+    else:
+        told = "nothing turns the body out of the torque's way, and every motion spins up"
+    return f"parabolic reduction ({reduction.geometry.where}): {told}; no sheet bounds a spin-up"

@@ -22,7 +22,7 @@ from .validity import SMALL_ANGLE, horizon
 PARTS = ("omega", "angles", "momentum", "velocity", "position")
 # equation of the paper: (what it gives, what is wrong in print, what `corrected` takes instead)
 MISPRINTS = {
-    "(8)": ("frequency W", "zeta1 D1 stands in both lines of (7): not an approximation for D1 near D2, the phase is off", "as printed"),
+    "(8)": ("frequency W", "zeta1 D1 stands in both lines of (7): not an approximation for D1 near D2, the phase is off", "it as it stands"),
     "(11)": ("p1 + i q1", "", "as printed"),
     "(13)": ("p, q", "the second form of q lacks 1/i", "q = Im Pi1 / sqrt(zeta1), its first form"),
     "(20)-(26)": ("psi, phi, theta", "", "as printed"),
@@ -30,13 +30,13 @@ MISPRINTS = {
                    "the true R23, which (31), (33) and (40) use"),
     "(33)": ("G1 + i G2", "", "as printed"),
     "(35)": ("G1 + i G2", "leaves out the charge, G0 and theta0: it holds for k = 0, a start from rest and theta0 = 0 only",
-             "as printed: circle"),
+             "(33), which has them"),
     "(37)": ("acceleration", "lacks 1/m", "(40), which has it"),
     "(42)": ("velocity", "lacks its value at t = 0", "(43), which has it"),
     "(46)": ("I2 omega", "sign of both exponential terms; a second zeta before Lambda in the exponent", "the integral of (25)"),
     "(50), (51)": ("I4, I5 omega", "e^(-i r0 t) under the integral is left out; sign of the exponential terms in (50)",
                    "the integral of e^(-i r0 t) times (24), (25)"),
-    "(53), (54)": ("velocity ratio", "hold for Lambda = 0 only: D3 r0 stands for D3 r0 + Lambda", "pointing(body).velocity_ratio"),
+    "(53), (54)": ("velocity ratio", "hold for Lambda = 0 only: D3 r0 stands for D3 r0 + Lambda", "D3 r0 + Lambda in its place"),
     "(58)": ("transverse displacement", "sign of f (e^(i r0 t) - 1)/r0^2; Gamma0 t for Gamma0 tau under the integral",
              "the integral of (43)"),
     "(61)": ("I2 eta", "1 - e^(...) - 1 for e^(...) - 1", "the integral of the true (46)"),
@@ -98,7 +98,7 @@ def numbers(body: ChargedBody, t) -> dict:
     D1, D2, D3 = np.moveaxis(body.inertia, -1, 0)
     zeta1, zeta2, r0 = (D3 - D2) / D1, (D3 - D1) / D2, body.spin
     if np.any((zeta1 <= 0) | (zeta2 <= 0)):
-        raise InputError(f"the printed formulas take roots of zeta1 and zeta2: D3 must exceed D1 and D2; got {body.inertia}")
+        raise InputError(f"the printed formulas take roots of zeta1 and zeta2: D3 must exceed D1 and D2; got {np.asarray(body.inertia).tolist()}")
     root1, root2, Lam = np.sqrt(zeta1), np.sqrt(zeta2), body.gyrostat - body.charge_moment
     if np.any(root1 * root2 * (r0 + Lam / (zeta1 * D1)) == 0):
         raise InputError("W = 0: the printed formulas divide by their frequency (8), which is zero here")

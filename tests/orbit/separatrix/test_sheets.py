@@ -13,6 +13,7 @@ from stabilab.answers.motion import motion
 from stabilab.errors import InputError
 from stabilab.orbit.reduction import reduce
 from stabilab.orbit.separatrix.distance.ask import distance_of
+from stabilab.orbit.separatrix.plain_sheets import plain_separatrix
 from tests.oracles import energy
 from tests.oracles.pairs import PAPER_BODY, WORDS, physical, scaled
 from tests.shared import SCALED_MINOR
@@ -506,3 +507,15 @@ def test_a_mesh_that_cannot_be_made_is_refused_and_a_parabola_has_none():
             stabilab.separatrix(SCALED_MINOR, **wrong)
     found = stabilab.separatrix(Scene(Body((2, 2, 1)), ConstantTorque((1, 0, 0))))
     assert not found.sheets and "parabolic" in found.reason
+
+
+@pytest.mark.parametrize("scene, words", [  # what there is none of, by hand
+    (Scene(Body((2, 2, 3))), "no force acts along any orbit"),  # the axis and a plane of equilibria: not "there is no equilibrium"
+    (Scene(Body((3, 2, 2)), ConstantTorque((1, 0, 0))), "there is no equilibrium"),  # D1 p' = 1
+    (Scene(Body((2, 2, 2)), ConstantTorque((1, 0, 0))), "every motion spins up"),  # D omega' = M: not "all motions are bounded"
+    (Scene(Body((2, 2, 2)), Gyrostat((0, 1, 0)), ConstantTorque((1, 0, 0))), "all motions are bounded"),  # omega turns about the wheel, shifted
+    (Scene(Body((2, 2, 2)), Gyrostat((0, 1, 0))), "no torque acts")])  # nor is there a "pure spin about the torque"
+@pytest.mark.parametrize("sheets_of", [stabilab.separatrix, plain_separatrix])
+def test_a_scene_without_sheets_is_told_what_is_true_of_it(scene, words, sheets_of):
+    found = sheets_of(scene)
+    assert words in (found[1] if isinstance(found, tuple) else found.reason)
