@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from flint import arb, fmpq_poly
 
 FieldPoly = list  # of fmpq_poly
+Powers = list  # of (square-free FieldPoly, how often it counts)
 
 
 @dataclass(frozen=True)
@@ -81,7 +82,7 @@ class Algebraic:
             f, g = g, self.divided(f, g)[1]
         return self.monic(f)
 
-    def powers(self, f: FieldPoly) -> list[tuple[FieldPoly, int]]:
+    def powers(self, f: FieldPoly) -> Powers:
         """(square-free factor, how often it counts) of a polynomial that is not zero, by Yun's algorithm; constants are left out."""
         out: list[tuple[FieldPoly, int]] = []
         slope = derivative(f)
@@ -104,11 +105,11 @@ class Algebraic:
         take = lambda h, n: h[n] if n < len(h) else zero
         return self.trimmed([take(f, n) - take(g, n) for n in range(size)])
 
-    def real_roots(self, f: FieldPoly, bits: int) -> list[tuple[arb, int]]:
-        """(ball, how often it counts) of the distinct real roots, rising. Unclear where so many bits do not isolate them."""
+    def real_roots(self, powers: Powers, bits: int) -> list[tuple[arb, int]]:
+        """(ball, how often it counts) of the distinct real roots of a polynomial, given its `powers`, rising. Unclear where the bits do not isolate them."""
         from flint import acb, acb_poly, arb_poly
         at, found = self.ball(bits), []
-        for factor, times in self.powers(f):
+        for factor, times in powers:
             values = [arb_poly(c)(at) for c in factor]
             try:
                 roots = acb_poly([acb(v) for v in values]).roots()

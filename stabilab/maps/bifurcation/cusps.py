@@ -85,7 +85,7 @@ def _on_curve(family: Family, R: fmpq_mpoly, eliminated: Eliminated, F: fmpq_mpo
 def _places(family: Family, R: fmpq_mpoly, eliminated: Eliminated, number: Algebraic, common, digits: Any):
     """[((p, q), state)] of the common roots q over the field of p, each with its triple root."""
     at, out = number.ball(digits.bits), []
-    for q, _ in number.real_roots(common, digits.bits):
+    for q, _ in number.real_roots(number.powers(common), digits.bits):
         x = _triple_root(R, at, q)
         y = eliminated.state(eliminated.main, x, [at, q])
         u = ball_form(family, [at, q])[1]

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ...numbers.balls import rational, real_roots_of
 from ...numbers.double_ball import Unclear
-from .algebraic import Algebraic, FieldPoly
+from .algebraic import Algebraic, Powers
 from .family import Family
 from .system import LEANS, Conics, OnLine
 
@@ -114,47 +114,48 @@ class Eliminated:
             return [Fraction(0)] * (1 if f.degree() == 0 else 9)
         return [Fraction(0)] * (f.degree() - f.gcd(f.derivative()).degree() + 1)
 
-    def at(self, values: tuple[Fraction, ...]) -> list[Root] | None:
-        """The equilibria at rational values in balls of the working precision, None where they are not isolated."""
-        view = self._best([(view, univariate(at_rational(view.R, values))) for view in self._guarded_at(values)], values)
-        if view is None:
-            return None
-        chosen, f = view
-        return self._with_states(chosen, real_roots_of(f), [rational(v) for v in values])
-
     def at_general(self, values: tuple[Fraction, ...]) -> list[Root]:
         """The same at a point where nothing happens, by the main view alone: rising in x, so that branches keep their numbers."""
         f = univariate(at_rational(self.main.R, values))
         return self._with_states(self.main, real_roots_of(f), [rational(v) for v in values])
 
-    def _guarded_at(self, values: tuple[Fraction, ...]) -> list[Leant]:
-        good = [view for view in self.views if any(not at_rational(c, values).is_zero() for c in view.guard)]
-        return good[:SPARE]
-
-    def _best(self, made: Sequence[tuple[Leant, fmpq_poly]], values) -> tuple[Leant, fmpq_poly] | None:
-        made = [(view, f) for view, f in made if f.degree() >= 0]
-        if not made:
-            return None
-        number = lambda f: f.degree() - f.gcd(f.derivative()).degree() if f.degree() > 0 else 0
-        most = max(number(f) for _, f in made)
-        return next(one for one in made if number(one[1]) == most)
-
     def at_algebraic(self, number: Algebraic, bits: int) -> list[Root] | None:
         """The equilibria at an algebraic p (a family of one number), None where they are not isolated. Unclear where so many bits do not tell."""
-        best: tuple[int, Leant, FieldPoly] | None = None
-        for view in self.views:
-            if all(_zero_at(c, number) for c in view.guard):
-                continue
-            f = number.trimmed(_over_field(view.R))
-            if not f:
-                continue
-            distinct = sum(len(factor) - 1 for factor, _ in number.powers(f))
-            if best is None or distinct > best[0]:
-                best = (distinct, view, f)
-        if best is None:
+        split = self._split(number)
+        if split is None:
             return None
-        _, view, f = best
-        return self._with_states(view, number.real_roots(f, bits), [number.ball(bits)])
+        view, powers = split
+        return self._with_states(view, number.real_roots(powers, bits), [number.ball(bits)])
+
+    def _split(self, number: Algebraic) -> tuple[Leant, Powers] | None:
+        """(view, R there in square-free factors with their powers), of the view with most roots; once for each number."""
+        key = (str(number.polynomial), number.index)
+        if key not in self._known:
+            made = [(view, number.powers(f)) for view in self._needed(number) if not all(_zero_at(c, number) for c in view.guard)
+                    if (f := number.trimmed(_over_field(view.R)))]
+            self._known[key] = max(made, key=lambda one: sum(len(factor) - 1 for factor, _ in one[1])) if made else None
+        return self._known[key]
+
+    @cached_property
+    def _known(self) -> dict[tuple[str, int], tuple[Leant, Powers] | None]:
+        return {}
+
+    def _needed(self, number: Algebraic) -> Sequence[Leant]:
+        """The main view alone where it has no two points in line, else as many as tell."""
+        apart = self._apart
+        one = apart is not None and not _zero_at(apart, number) and not all(_zero_at(c, number) for c in self.main.guard)
+        return (self.main,) if one else self.views[:SPARE + 1]
+
+    @cached_property
+    def _apart(self) -> fmpq_mpoly | None:
+        """A polynomial: where it is not zero the main view has one point at the most above each x, because f = a(x) + b(x) y and a, b share no root."""
+        f = self.main.f
+        if isinstance(self.system, OnLine):
+            return self.family.ring.constant(1)
+        if f.degrees()[1] != 1:
+            return None
+        a, b = _coefficient(f, 0), _coefficient(f, 1)
+        return b if b.degrees()[0] < 1 else a if a.degrees()[0] < 1 else a.resultant(b, "x")
 
     def _with_states(self, view: Leant, roots: list[tuple[arb, int]], values: list) -> list[Root]:
         return [Root(x, times, self.state(view, x, values)) for x, times in roots]

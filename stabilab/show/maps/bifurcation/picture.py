@@ -66,7 +66,7 @@ def _panel(ax: Any, found: Diagram, rows: list[Branch], i: int) -> None:
 
 
 def _counts(ax: Any, found: Diagram) -> None:
-    """How many there are in each piece, above the first panel."""
+    """How many there are in each piece, and the values between, above the first panel."""
     span = found.family.spans[0]
     whole = float(span.high) - float(span.low)
     for piece in found.pieces:
@@ -74,9 +74,12 @@ def _counts(ax: Any, found: Diagram) -> None:
             ax.annotate(str(piece.count) if piece.count >= 0 else "curves", (0.5 * (piece.low + piece.high), 1.0), xycoords=("data", "axes fraction"),
                         xytext=(0, 3), textcoords="offset points", ha="center", va="bottom", fontsize=9, fontweight="bold")
     shown = [event for event in (*found.events, *found.connections) if event.value not in (float(span.low), float(span.high))]
-    for event in shown[:6]:
-        ax.annotate(f"{event.value + 0.0:.5g}", (event.value, 0.0), xycoords=("data", "axes fraction"), xytext=(0, 3), textcoords="offset points",
-                    ha="center", va="bottom", fontsize=7.5, bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.8})
+    last = float(span.low) - whole
+    for event in sorted(shown, key=lambda event: event.value):
+        if event.value - last > 0.09 * whole:  # two labels side by side
+            ax.annotate(f"{event.value + 0.0:.5g}", (event.value, 1.0), xycoords=("data", "axes fraction"), xytext=(0, 16), textcoords="offset points",
+                        ha="center", va="bottom", fontsize=7.5)
+            last = event.value
 
 
 __all__ = ["drawn", "write"]
