@@ -26,7 +26,7 @@ from .plan import Chunk, Plan
 from .points import case_of, states_of
 
 COMPILED = 20_000  # states for which loading numba's code pays
-POINTED_WORK = 20_000  # multiplications for the proof of a time in an atlas: it leaves the long motions to compiled steps, which prove them sooner
+POINTED_WORK = 100_000  # multiplications for the proof of a time in an atlas: it leaves long motions to compiled steps, which prove them sooner
 NO_CASE_VALUES = {"fate": NO_CASE, "level": -1, "reason": -1, "when_level": -1, "equilibria": NONE, "stable": NONE, "unstable": NONE, "open": NONE}
 
 

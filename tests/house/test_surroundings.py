@@ -32,6 +32,7 @@ WRITERS = {
     "precision png": (("precision", MINOR, "--quick", "--until", "1"), "--out", "points.png"),
     "plot": (("plot", MINOR), "--out", "plane.png"), "tables": (("tables",), "--out", "tables"),
     "sweep": (("sweep", MINOR, "--vary", "x[1]=0:4:500"), "--out", "map.nc"),
+    "atlas": (("atlas", ROOT / "cases" / "off-axis-two.toml", "--level", "1", "--refine", "0"), "--out", "sky.nc"),
     "figures": (("figures", "9"), "--out", "figures"), "surface": (("surface", MINOR), "--out", "surface"),
 }
 ONE_FILE = {name for name, (_, _, target) in WRITERS.items() if "." in target}

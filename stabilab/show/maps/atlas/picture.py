@@ -18,11 +18,12 @@ from ...units import Units
 from ..shades import light
 from ..words import COUNTS
 from . import flat
-from .labels import kind_colour, kind_words, kinds, point_name, wheel_words
+from .labels import axis_names, kind_colour, kind_words, kinds, point_name, wheel_words
 from .words import limit_words
 
 PIXELS = 1500  # across one map
 ROWS = 5  # wheel momenta of a picture
+LOG = 8  # times of more than this ratio are shown by their logarithm
 KINDS = ("fate", "when", "equilibria", "level")
 NEVER, UNKNOWN = light(style.GREY, 0.25), light(style.YELLOW, 0.6)
 COUNTED = (light(style.GREY, 0.35), light(style.SKY, 0.7), light(style.ORANGE, 0.7), light(style.GREEN, 0.6), light(style.PURPLE, 0.7))
@@ -52,7 +53,7 @@ def drawn(atlas: Atlas, units: Units, shown: tuple[str, ...], size: tuple[float,
     alone = len(wheels) == 1
     down, across = (len(shown), 1) if alone else (len(wheels), len(shown))
     figure, axes = plt.subplots(down, across, squeeze=False, layout="constrained",
-                                figsize=size or ((7.6, 4.3 * down + 0.9) if alone else (5.4 * across + 0.4, 2.75 * down + 1.2)))
+                                figsize=size or ((7.8, 4.05 * down + 0.5) if alone else (5.4 * across + 0.4, 2.75 * down + 1.2)))
     times = _times(atlas, units)
     for n, wheel in enumerate(wheels):
         for m, kind in enumerate(shown):
@@ -63,7 +64,7 @@ def drawn(atlas: Atlas, units: Units, shown: tuple[str, ...], size: tuple[float,
     for m, kind in enumerate(shown):
         below = [axes[m, 0]] if alone else list(axes[:, m])
         _explained(figure, below, atlas, kind, times, units)
-    figure.suptitle(f"{atlas.asked.case.title or atlas.asked.case.name}\ntorque of {units.torque(float(atlas.asked.torque), 4)} in every direction",
+    figure.suptitle(f"{atlas.asked.case.title or atlas.asked.case.name}\ntorque of {units.torque(float(atlas.asked.torque))} in every direction",
                     fontsize=10.5, wrap=True)
     return figure
 
@@ -103,10 +104,18 @@ def _points(ax: Any, atlas: Atlas, wheel: int, plain: bool) -> None:
         on_axis = point.level == AXES
         ax.plot(*place, marker="o" if on_axis else "*", markersize=4 if on_axis else 10, color="white", markeredgecolor=style.BLACK, markeredgewidth=0.9,
                 linestyle="none", clip_on=False, zorder=3)
-        right = place[0] <= flat.ACROSS * 0.75
-        offset = (5 if right else -5, 3) if abs(place[1]) < flat.UP * 0.98 else (6, 3 if place[1] > 0 else -10)
-        ax.annotate(point_name(atlas, point), place, offset, textcoords="offset points", fontsize=8 if plain else 9, path_effects=halo, zorder=4,
+        pole = on_axis and point.number >= 4  # its name stands left of it: thrusters have theirs on the right
+        right = place[0] <= flat.ACROSS * 0.75 and not pole
+        offset = (5 if right else -5, 3) if place[1] > -flat.UP * 0.98 else (5 if right else -5, -9)
+        ax.annotate(_label(atlas, point, plain), place, offset, textcoords="offset points", fontsize=8 if plain else 9, path_effects=halo, zorder=4,
                     ha="left" if right else "right", fontweight="normal" if on_axis else "bold")
+
+
+def _label(atlas: Atlas, point: Any, plain: bool) -> str:
+    """The name of a direction; of an axis with its place among the moments, where there is room."""
+    if point.level != AXES or plain:
+        return point_name(atlas, point)
+    return f"{point_name(atlas, point)} {axis_names(atlas)[point.number // 2 + 1].partition('(')[2].rstrip(')')}"
 
 
 def _times(atlas: Atlas, units: Units) -> Any:
@@ -118,7 +127,7 @@ def _times(atlas: Atlas, units: Units) -> Any:
     values = atlas.records["when_low"][known]
     low, high = (float(values.min()), float(values.max())) if len(values) else (0.0, 1.0)
     name, one = units.times(float(np.median(values)) if len(values) else high)
-    scale = LogNorm if low > 0 and high > 8 * low else Normalize
+    scale = LogNorm if low > 0 and high > LOG * low else Normalize
     return scale(low * one, high * one if high > low else low * one + 1e-9), name, one
 
 
@@ -150,12 +159,15 @@ def _explained(figure: Any, axes: list[Any], atlas: Atlas, kind: str, times: Any
     """The legend of a column of maps, or its scale."""
     from matplotlib.cm import ScalarMappable
     from matplotlib.patches import Patch
+    from matplotlib.ticker import LogLocator, NullFormatter
     if kind == "when":
         scale, name, _ = times
         bar = figure.colorbar(ScalarMappable(scale, "cividis_r"), ax=axes, location="bottom", shrink=0.7, aspect=40, pad=0.02,
                               label=f"time to {limit_words(atlas, units)} ({name})")
+        if scale.vmax > LOG * scale.vmin > 0:
+            bar.ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
         bar.ax.xaxis.set_major_formatter(lambda value, _: f"{value:.4g}")
-        bar.ax.xaxis.set_minor_formatter(lambda value, _: "" if scale.vmax > 12 * scale.vmin > 0 else f"{value:.3g}")
+        bar.ax.xaxis.set_minor_formatter(NullFormatter())
         known, low = _known(atlas), atlas.records["when_low"]
         rows = [(NEVER, "never", np.isinf(low)), (UNKNOWN, "time not known", ~known & ~np.isinf(low))]
         handles = [(Patch(facecolor=colour, edgecolor=style.GREY), words) for colour, words, cells in rows if cells.any()]
@@ -168,5 +180,5 @@ def _explained(figure: Any, axes: list[Any], atlas: Atlas, kind: str, times: Any
         handles = [(Patch(facecolor=COUNTED[(int(value) if value >= 0 else n) % len(COUNTED)], edgecolor=style.GREY), words(int(value)))
                    for n, value in enumerate(np.unique(values))]
     if handles:
-        axes[-1].legend(*zip(*handles), loc="upper center", bbox_to_anchor=(0.5, 0.0), ncols=min(3, len(handles)), borderaxespad=0.2)
+        axes[-1].legend(*zip(*handles), loc="upper center", bbox_to_anchor=(0.5, 0.0), ncols=min(2, len(handles)), borderaxespad=0.2)
 
