@@ -198,3 +198,19 @@ def test_a_case_that_has_no_atlas_says_why():
         asked(CASES / "liquid-base.toml", torque="1 N m")
     with pytest.raises(InputError, match="expected angular_velocity in .motion."):
         asked(read_text("still.toml", BODY.partition("[motion]")[0].format(inertia=[3, 2, 1.5], wheel=[0, 0, 0], torque=[1, 0, 0])))
+
+
+def test_a_motion_on_an_island_is_marked_where_its_torque_points():
+    """The island of docs/spin-up.md, whose elliptic periodic motion `unreduced.periodic` finds by Newton's method."""
+    case = case_of((1.2412, 0.3937, 1.3650), (-0.5224, 0.8309, 0.1914), (0.0987, 0.8450, 0.5255), (-1.572, 0.657, 0.738))
+    plan = asked(case, level=0).plan(asked(case, level=0).named[-1:])
+    (own,) = machinery.answered(plan, 0)
+    assert (own["fate"], own["island"], own["level"]) == (Fate.UNDECIDED, 2, 0)
+
+
+def test_motions_are_followed_as_long_as_is_asked():
+    case = case_of(wheel=(0.0, 0.2, 0.0), start=(0.3, -0.2, 0.5))
+    brief = made(case, level=0, follow="1 s")
+    assert (brief.records["fate"] == Fate.UNDECIDED).any() and "'--follow=1 s'" in brief.asked.command
+    with pytest.raises(InputError, match="follow"):
+        asked(case, follow="long")
