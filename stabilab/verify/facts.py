@@ -74,11 +74,11 @@ def _turning(orbit, side):
     if orbit.y0 == 0 and exact_sign(orbit.F0) == -side:
         return ball(0)
     inner, low, windows = None, Fraction(0), WINDOWS
-    reach = Fraction(1)
+    reach = Fraction(1013, 1009)  # windows end where no force of small numbers vanishes, and not before FAR
     if orbit.kind < 0:
-        reach, windows = above(orbit.turn), 1
+        reach, windows = orbit.past_a_turn, 1
         if exact_sign(orbit.tilt) == -side:  # each turn behind is higher: skip those that are surely too low
-            low, windows = side * _turns_below(orbit, side) * reach, 4
+            low, windows = side * _turns_below(orbit, side) * below(orbit.turn), 4
             inner = ball(low) if low else None
     for _ in range(windows):
         for spot in _spots(orbit, low, low + side * reach):
@@ -110,7 +110,7 @@ def _spots(orbit, start: Fraction, end: Fraction):
 
 def _turns_below(orbit, side) -> int:
     """How many whole turns behind hold no barrier that reaches the energy, less one."""
-    turn = above(orbit.turn)
+    turn = orbit.past_a_turn
     highest = orbit.excess(ball(0))
     for spot in _spots(orbit, Fraction(0), side * turn):
         highest = highest.max(orbit.excess(spot))
@@ -162,7 +162,7 @@ def _lowest(orbit, left, right):
 
 def _heights_round(orbit):
     """(greatest, least) U - E on the whole circle without torque."""
-    values = [orbit.excess(ball(0)), *map(orbit.excess, _spots(orbit, Fraction(0), above(orbit.turn)))]
+    values = [orbit.excess(ball(0)), *map(orbit.excess, _spots(orbit, Fraction(0), orbit.past_a_turn))]
     most = least = values[0]
     for value in values[1:]:
         most, least = most.max(value), least.min(value)
@@ -172,6 +172,7 @@ def _heights_round(orbit):
 def _ranges(orbit, left, right):
     """((low, high) of u, (low, high) of v) on [left, right]."""
     low, high = below(left), above(right)
+    room = (high - low) / 1024  # u or v may turn just where the motion does: no ball would tell the sign of its slope there
     out = []
     for which in (0, 1):
         f = lambda x, w=which: orbit.slopes(x)[w]
@@ -179,7 +180,9 @@ def _ranges(orbit, left, right):
         df = lambda x, w=which: ball(orbit.p if w == 0 else orbit.q) * orbit.slopes(x)[1 - w]
         values = [orbit.place(left)[which], orbit.place(right)[which]]
         if not orbit.constant(which):
-            for z in zeros(f, df, low, high, purse=orbit.purse):
+            for z in zeros(f, df, low - room, high + room, purse=orbit.purse):
+                if z < left or z > right:
+                    continue
                 value = orbit.place(z)[which]
                 for end, there in ((left, values[0]), (right, values[1])):
                     if z.overlaps(end):  # beside the end by less than its own width: inside or not makes no difference
@@ -211,7 +214,7 @@ def _slowest_ahead(orbit, sense):
         low, high = (behind, ball(0)) if sense > 0 else (ball(0), behind)
         return -(-2 * _lowest(orbit, low, high)).sqrt()
     slowest = ball(orbit.E)
-    ahead = above(orbit.turn) if orbit.kind < 0 else Fraction(FAR)  # the force has its last sign from there on
+    ahead = orbit.past_a_turn if orbit.kind < 0 else Fraction(FAR)  # the force has its last sign from there on
     for spot in _spots(orbit, Fraction(0), sense * ahead):
         slowest = slowest.min(-orbit.excess(spot))
     return (2 * slowest).sqrt()

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 
 from .numbers import ball, exact_sign, q
 from .rates import AHEAD
-from .zeros import CELLS, Purse
+from .zeros import CELLS, Purse, above
 
 
 class Orbit:
@@ -64,6 +64,11 @@ class Orbit:
         """One turn of a circle in alpha."""
         from flint import arb
         return 2 * arb.pi() / self.balls.n
+
+    @property
+    def past_a_turn(self) -> Fraction:
+        """Somewhat more than a turn: at a whole one the force may vanish again, and no ball would tell its sign there."""
+        return above(self.turn) * 65 / 64
 
     def constant(self, which) -> bool:
         """Whether u (0) or v (1) does not change along the orbit at all."""

@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from stabilab import Body, ConstantTorque, Gyrostat, Scene, extremes, fate, period
+from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, extremes, fate, period
+from stabilab.answers.certificate import certificate
 from stabilab.verify import verify, verify_file
 from stabilab.verify.numbers import Malformed
 
@@ -58,6 +59,18 @@ def test_fast_answers_are_proved_by_separate_code(seed):
 BOUNDED = {"schema": "stabilab.certificate/1", "scene": {"variables": "scaled", "a": "0.2", "b": "0.4", "mu": ["0", "0", "1"]},
            "motion": {"state": ["3", "-1.5", "0.3"], "fate": "bounded", "axis": 0, "sense": 0,
                       "extremes": [[["-9", "9"], ["-9", "9"]]] * 3, "period": ["1", "30"]}}
+
+
+@pytest.mark.parametrize("scene, state", [
+    (Scene(Body((1.5, 2, 1))), (-2, -3, 0)),  # no force at the start, nor a whole turn on
+    (Scene(Body((3, 4, 2)), ConstantTorque((0, 0, 1))), (-1, -1, 0.5)),  # the same, with a torque that the start holds in balance: (3 - 4)(-1)(-1) = -1
+    (ScaledGyrostat(-2, -1, (0, 2, 0)), (0, 0, 0)), (ScaledGyrostat(0, 1, (0, 0, 0)), (0, 0.5, 0)),  # another rate turns where the motion turns
+    (Scene(Body((5, 3, 4)), Gyrostat((0, 2, 1.5)), ConstantTorque((-3, 0, 0))), (0, 1, -4)),
+    (Scene(Body((3, 2, 2)), Gyrostat((2, 0, 0)), ConstantTorque((0, 0, 0.5))), (-3, -3, -4))])  # the force vanishes a whole number of units on
+def test_a_motion_of_small_numbers_is_proved_where_signs_vanish_at_the_ends_of_a_search(scene, state):
+    found = verify(json.loads(json.dumps(certificate(scene, state))))
+    assert found.status == "proved", [f for f in found.findings if f.status != "proved"]
+
 
 
 @pytest.mark.parametrize("change", [
