@@ -146,6 +146,9 @@ def _motion(scene: AnyScene, state: tuple[Fraction, ...], uncertified: list[str]
 
 def _without_reduction(scene: AnyScene, state: tuple[Fraction, ...], claims: dict[str, Any], uncertified: list[str]) -> dict[str, Any] | None:
     from .certified_spin_up import certified_spin_up
+    from .closed_motion import closed_motion
+    if closed := closed_motion(scene, state):
+        return claims | closed
     found, why = certified_spin_up(scene, state)
     if found is None:
         uncertified.append(f"motion: the scene has no reduction to one degree of freedom; {why}")

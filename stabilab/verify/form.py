@@ -16,6 +16,7 @@ KEYS = {
         "curves": [{"numerators": None, "denominator": None, "segments": [PIECE], "folds": [PIECE]}],
         "planes": [{**dict.fromkeys(("base", "directions", "linear", "verdict")), "centre": dict.fromkeys(("at", "verdict"))}]},
     "motion": {**dict.fromkeys(("state", "fate", "axis", "sense", "extremes", "period")),
+               "closed": dict.fromkeys(("law", "direction", "gain", "most")),
                "spin_up": {**dict.fromkeys(("about", "axis", "sense", "orders", "t", "cone", "least", "gain")), "way": [dict.fromkeys(("t", "box"))]}}}
 SCENES = {"physical": ("variables", "inertia", "momentum", "torque"), "scaled": ("variables", "a", "b", "mu")}
 

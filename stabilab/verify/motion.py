@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
 
+from .closed import ClosedClaims, check_closed, closed_of
 from .facts import Facts
 from .numbers import Malformed, ball, bracket, exact_sign, field, numbers, shown, word
 from .orbit import Orbit
@@ -30,6 +31,7 @@ class Claims:
     extremes: list | None
     period: tuple[Fraction, Fraction] | None
     spin_up: SpinUpClaims | None
+    closed: ClosedClaims | None = None
 
     @property
     def words(self) -> str:
@@ -40,11 +42,11 @@ class Claims:
 
 def motion_of(table) -> Claims:
     """The claims on a motion. Raises `Malformed` before anything is worked out."""
-    extremes, period, spin_up = (table.get(key) if isinstance(table, dict) else None for key in ("extremes", "period", "spin_up"))
+    extremes, period, spin_up, closed = (table.get(key) if isinstance(table, dict) else None for key in ("extremes", "period", "spin_up", "closed"))
     return Claims(numbers(field(table, "state", "motion"), "motion.state", 3), word(table, "fate", "motion", FATES),
                   _whole(table, "axis", range(4)), _whole(table, "sense", range(-1, 2)),
                   None if extremes is None else _pairs(extremes), None if period is None else bracket(period, "motion.period"),
-                  None if spin_up is None else spin_up_of(spin_up))
+                  None if spin_up is None else spin_up_of(spin_up), None if closed is None else closed_of(closed))
 
 
 def _whole(table, key, known):
@@ -69,6 +71,9 @@ def check_motion(rates, claims, note):
         return
     if claims.fate == "equilibrium":
         note(claims.words, "refuted", "the rates do not vanish exactly at the state")
+        return
+    if claims.closed:
+        _check_closed(rates, claims, note)
         return
     if claims.spin_up:
         _check_trapped(rates, claims, note)
@@ -95,6 +100,8 @@ def _check_rest(claims, note):
         note("period", "refuted", "an equilibrium has no period")
     if claims.spin_up:
         note("spin-up", "refuted", "the state does not change")
+    if claims.closed:
+        note(f"law: {claims.closed.law}", "refuted", "the state does not change")
 
 
 def _check_trapped(rates, claims, note):
@@ -108,6 +115,21 @@ def _check_trapped(rates, claims, note):
         note(claim, "not checked", "the inequality says nothing of the time before")
     if claims.period is not None:
         note("period", "refuted" if status == "proved" else "not checked", "a motion that spins up does not repeat")
+
+
+def _check_closed(rates, claims, note):
+    """A motion that a closed solution tells."""
+    fate, axis, sense, reason = check_closed(rates, claims.state, claims.closed, note)
+    if fate:
+        _check_words(claims, fate, axis, sense, reason, note)
+    else:
+        note(claims.words, "not checked", reason)
+    for claim, *_ in _named(claims.extremes, [(None, None)] * 3):
+        note(claim, "not checked", "the closed solution bounds sizes alone")
+    if claims.period is not None:
+        note("period", "refuted" if fate == "spin-up" else "not checked", "the closed solution is not asked for a period")
+    if claims.spin_up:
+        check_spin_up(rates, claims.state, claims.spin_up, note)
 
 
 def _check_words(claims, fate, axis, sense, reason, note):

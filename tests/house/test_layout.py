@@ -23,6 +23,7 @@ SIGNS = 25  # tests of the sign of p q, of 139 once
 # Imports inside functions, besides those of the commands: (importing module, imported module) -> why it waits
 DOORS = {
     ("stabilab.answers.certificate", "stabilab.answers.certified_spin_up"): "loads numpy",
+    ("stabilab.answers.certificate", "stabilab.answers.closed_motion"): "loads numpy",
     ("stabilab.answers.digits.run", "stabilab.physics.law_limits"): "loaded for approximate laws alone",
     ("stabilab.answers.equilibria", "stabilab.physics.law_limits"): "loaded for approximate laws alone",
     ("stabilab.answers.motion", "stabilab.physics.law_limits"): "loaded for approximate laws alone",
