@@ -8,7 +8,9 @@ last place, and done again in many digits where that is not enough.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -17,17 +19,20 @@ from ...integrate.reference import DIGITS, GUARD, WORK, reference
 from ...integrate.taylor_digits import Exhausted, Recursion, steps, widen
 from ...integrate.to_heyoka import TAYLOR_TOLERANCE
 from ...numbers.balls import DOUBLE_BITS, Digits, working
+from ...numbers.vectors import Exact3, Number
 from ...orbit.ball_orbit import Orbit
 from ...orbit.extremes.balls import extreme_balls
 from ...orbit.fate.balls import precise_margin
 from ...orbit.fate.free_margin import free_margin, is_free
-from ...orbit.landscape import landscape
+from ...orbit.landscape import Landscape, landscape
 from ...orbit.period.balls import period_ball
 from ...orbit.reduction import reduce
-from ...orbit.result import Fate, no_period
+from ...orbit.result import Fate, Motion, no_period
 from ...physics.alignment import aligned
 from ...physics.coefficients import effective
-from ...physics.scene import Scene
+from ...physics.equations import Equations
+from ...physics.quadratic import QuadraticForm
+from ...physics.scene import AnyScene, Scene
 from ...physics.states import checked_states, equations_and_start, moved_row
 from ...unreduced.growth_extremes import law_extremes
 from ...unreduced.near_rest import beside_rest, small_loop
@@ -40,7 +45,8 @@ LAW_BITS = 200  # of the numbers of a law that holds for all time: more than MOS
 SEARCH = 20  # evaluations of a rate's series that the search for its roots takes in a step
 
 
-def ask(question, scene, state, digits: int, span=None, known=None, exact=None, aim: bool = False) -> Told:
+def ask(question: str, scene: AnyScene, state: Any, digits: int, span: Any = None, known: Motion | None = None, exact: Exact3 | None = None,
+        aim: bool = False) -> Told:
     """The extremes, the period, or the margin of the "fate" of one state, to `digits` decimal digits (1 to 50).
 
     state, span, exact: as of `motion`; known: what `motion` found, where that is at hand. Digits of extremes are relative to the
@@ -68,7 +74,7 @@ def ask(question, scene, state, digits: int, span=None, known=None, exact=None, 
     return _over_span(scene, state, span, known, digits, exact, NEAR * aim)
 
 
-def ask_all(question, scene, states, digits: int, values, span=None) -> Told:
+def ask_all(question: str, scene: AnyScene, states: Any, digits: int, values: Any, span: Any = None) -> Told:
     """The same for an array of states (..., 3); values (..., 3, 2) or (...,): what the formulas say of them; span: a time. Of many
     states a sample is checked."""
     array = checked_states(states)
@@ -82,27 +88,27 @@ def ask_all(question, scene, states, digits: int, values, span=None) -> Told:
     if len(told) == len(rows):
         values = np.array([old if t.values is None else t.values for old, t in zip(values, told)]).reshape(values.shape)
     judged = [t for t in told if t.digits is not None]
-    worst = min(judged, key=lambda t: t.digits) if judged else told[0]
+    worst = min(judged, key=lambda t: t.digits or 0.0) if judged else told[0]
     sampled = f"; {len(told)} of {len(rows)} states checked" if len(told) < len(rows) else ""
     shape = array.shape[:-1]
     texts = None if worst.decimals is None else np.array([t.decimals for t in told], dtype=object).reshape((*shape, *np.shape(worst.decimals)))
     return replace(worst, values=values.reshape((*shape, *values.shape[1:])), because=worst.because + sampled, decimals=texts)
 
 
-def _reduced(scene):
+def _reduced(scene: AnyScene) -> tuple[AnyScene, Landscape | None]:
     """(the scene that turns alike and has nothing but a wheel and a torque, its landscape or None)."""
     twin = effective(scene)
     return twin, landscape(twin) if twin.plain else None
 
 
-def _number(question, known):
+def _number(question: str, known: Motion) -> Any:
     return {"extremes": known.extremes, "period": known.period, "fate": known.margin_energy}[question]
 
 
 # -- motions with a reduction ------------------------------------------------------------------------------------------
 
 
-def _by_formula(question, scene, land, known, digits, state) -> Told:
+def _by_formula(question: str, scene: AnyScene, land: Landscape, known: Motion, digits: int, state: Any) -> Told:
     values, label = _number(question, known), known.fate
     balls = _balls(question, Orbit(land.reduction, state), label, max(digits, MOST) + 1)
     if balls is None:  # on the separatrix
@@ -110,11 +116,11 @@ def _by_formula(question, scene, land, known, digits, state) -> Told:
     return _judged(question, values, balls, digits)
 
 
-def _tie(question, digits) -> Told:
+def _tie(question: str, digits: int) -> Told:
     return Told(question, 0.0, digits, math.inf, "balls", "the energy equals the barrier's, by algebra")
 
 
-def _judged(question, values, balls, digits) -> Told:
+def _judged(question: str, values: Any, balls: Any, digits: int) -> Told:
     """The formulas' values where the balls (to max(digits, MOST) + 1 digits) confirm so many digits, else the balls'."""
     wanted = max(digits, MOST) + 1
     with working(DOUBLE_BITS):
@@ -127,7 +133,7 @@ def _judged(question, values, balls, digits) -> Told:
                 f"ball arithmetic: the number is within {width:.0e}", _decimals(balls, digits) if digits > MOST else None)
 
 
-def _balls(question, orbit, label, digits):
+def _balls(question: str, orbit: Orbit, label: Fate, digits: int) -> Any:
     """The answer in balls, nested as its floats are."""
     if question == "extremes":
         return extreme_balls(orbit, int(label), math.ceil(digits * math.log2(10)))
@@ -136,14 +142,14 @@ def _balls(question, orbit, label, digits):
     return precise_margin(orbit, digits)
 
 
-def _each(values):
+def _each(values: Any) -> list[tuple[Any, Any]]:
     """(value, size of its component) of a number or of pairs."""
     if not isinstance(values, (list, tuple, np.ndarray)):
         return [(values, values)]
     return [(v, max((u for u in pair if math.isfinite(float(u))), key=lambda u: abs(float(u)), default=1)) for pair in values for v in pair]
 
 
-def _gap(values, balls) -> float:
+def _gap(values: Any, balls: Any) -> float:
     """Largest distance of floats from balls, relative to the component's size."""
     from flint import arb
     worst = 0.0
@@ -155,18 +161,18 @@ def _gap(values, balls) -> float:
     return worst
 
 
-def _width(balls) -> float:
+def _width(balls: Any) -> float:
     from flint import arb
     return max(float(arb(v).rad()) / abs(float(size)) if float(size) else float(arb(v).rad()) for v, size in _each(balls) if math.isfinite(float(v)))
 
 
-def _floats(balls):
+def _floats(balls: Any) -> Any:
     if isinstance(balls, list):
         return tuple(tuple(map(_floats, pair)) for pair in balls)
     return float(balls) if isinstance(balls, float) or 0 not in balls else 0.0
 
 
-def _decimals(balls, digits):
+def _decimals(balls: Any, digits: int) -> Any:
     """Written out with one digit more, so that writing costs none of them."""
     if isinstance(balls, list):
         return [[_decimals(v, digits) for v in pair] for pair in balls]
@@ -179,23 +185,24 @@ def _decimals(balls, digits):
 # -- motions without one -----------------------------------------------------------------------------------------------
 
 
-def _margin_without_reduction(scene, known, digits, state) -> Told:
+def _margin_without_reduction(scene: AnyScene, known: Motion, digits: int, state: Any) -> Told:
     wanted = max(digits, MOST) + 1
     if is_free(scene):
         margin = free_margin(scene, state, wanted)
         balls = None if margin.tie else margin.ball
     else:
-        turn = aligned(scene)
-        balls = precise_margin(Orbit(reduce(turn.twin), turn(state)), wanted)
+        turn: Any = aligned(scene)  # between two equal moments, or there were no margin
+        twin: Any = reduce(turn.twin)
+        balls = precise_margin(Orbit(twin, turn(state)), wanted)
     return _tie("fate", digits) if balls is None else _judged("fate", known.margin_energy, balls, digits)
 
 
-def _by_return(question, scene, known, digits, state) -> Told:
+def _by_return(question: str, scene: AnyScene, known: Any, digits: int, state: Any) -> Told:
     """A closed motion: its return in doubles against the return of a Taylor series in many digits."""
     values = _number(question, known)
     if beside_rest(scene.quadratic(), state):
         return _by_small_loop(question, scene.quadratic(), values, digits, state)
-    exact = reference(scene, state, [0.5 * known.period], orbit=True)
+    exact: Any = reference(scene, state, [0.5 * known.period], orbit=True)
     if exact.period is None:
         return Told(question, values, digits, 0.0, "run", "no return was found in many digits within the work allowed")
     with working(400) as numbers:
@@ -212,7 +219,7 @@ def _by_return(question, scene, known, digits, state) -> Told:
                     f"the return of a Taylor series in {pair}, {own:.0e} apart", _decimals(found, digits) if digits > MOST else None)
 
 
-def _by_small_loop(question, form, values, digits, state) -> Told:
+def _by_small_loop(question: str, form: QuadraticForm, values: Any, digits: int, state: Any) -> Told:
     """A closed motion that starts next to an equilibrium: two runs of its series from the start, the second with more digits."""
     more = max(digits, MOST) + 8
     with working(2 * int(3.33 * more) + 400):
@@ -228,7 +235,7 @@ def _by_small_loop(question, form, values, digits, state) -> Told:
                     f"two runs of its series from the start, {error:.0e} apart", _decimals(found[1], digits) if digits > MOST else None)
 
 
-def _over_span(scene, state, span, known, digits, exact, slack) -> Told:
+def _over_span(scene: AnyScene, state: Any, span: Any, known: Motion, digits: int, exact: Exact3 | None, slack: float) -> Told:
     if known.extremes is None or span is None and known.bounds:
         return nothing("extremes", digits, known.extremes_over)
     if scene.variables != "scaled":  # a force at the centre of mass does not turn the body
@@ -246,23 +253,23 @@ def _over_span(scene, state, span, known, digits, exact, slack) -> Told:
     return _unbounded_again(found, values) if found else Told("extremes", values, digits, digits_of(error), "run", other.reason or because)
 
 
-def _apart(values, other) -> float:
+def _apart(values: Any, other: Any) -> float:
     """Largest distance of what is finite among the values from the other's, relative to the size of its component."""
     finite = np.isfinite(values)
     size = np.where(finite, np.abs(values), 0.0).max(axis=-1, keepdims=True)
     return float((np.where(finite, np.abs(np.where(finite, values, 0.0) - other), 0.0) / np.where(size > 0, size, 1.0)).max())
 
 
-def _unbounded_again(told, values) -> Told:
+def _unbounded_again(told: Told, values: Any) -> Told:
     """What a run found, with the entries that are known to be infinite."""
     known = values.tolist()
 
-    def put(found, kind):
+    def put(found: Any, kind: Callable[[Any], Any]) -> tuple[tuple[Any, ...], ...]:
         return tuple(tuple(kind(old) if math.isinf(old) else new for new, old in zip(*both)) for both in zip(found, known))
     return replace(told, values=put(told.values, float), decimals=told.decimals and put(told.decimals, str))
 
 
-def _many_digits(equations, start, length, digits):
+def _many_digits(equations: Equations, start: Sequence[Number], length: float, digits: int) -> Told | None:
     """Extremes over the span by a Taylor series, each precision checked by the one before; None where the work allowed is not enough."""
     recursion, before = Recursion(equations), None
     for n in DIGITS:
@@ -281,7 +288,7 @@ def _many_digits(equations, start, length, digits):
     return None
 
 
-def _balls_apart(now, before) -> float:
+def _balls_apart(now: Any, before: Any) -> float:
     """Largest distance of pairs, relative to the size of their component."""
     worst = 0.0
     for one, two in zip(now, before):
@@ -290,11 +297,12 @@ def _balls_apart(now, before) -> float:
     return worst
 
 
-def _series_extremes(recursion, start, length, digits, budget, numbers):
+def _series_extremes(recursion: Recursion, start: Sequence[Number], length: float, digits: int, budget: list[int], numbers: Digits) -> list[list[Any]]:
     pairs, left = [[numbers.ball(v)] * 2 for v in start[:3]], numbers.ball(length)
     for step in steps(recursion, start, digits, budget, numbers):
         budget[0] -= SEARCH * len(pairs) * len(step.rows[0])
         widen(pairs, step, min(step.length, left))
         left = (left - step.length).mid()
         if left <= 0:
-            return pairs
+            break
+    return pairs

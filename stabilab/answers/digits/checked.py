@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ...errors import InputError, ToleranceNotMet
-from ...orbit.result import no_period
+from ...orbit.result import Motion, no_period
 
 DEFAULT = 10  # digits, where nothing else is asked for
 NEAR = 1.0  # a digit by which an aim that nobody asked for may be missed, rather than pay for many digits
@@ -40,12 +40,12 @@ class Told:
         return self
 
 
-def short(told) -> str:
+def short(told: Told) -> str:
     """What is missing, in words."""
     return f"{told.asked} digits asked for, {told.digits:.1f} reached ({told.because}); ask for fewer"
 
 
-def checked_digits(digits, most: int) -> int:
+def checked_digits(digits: int, most: int) -> int:
     """The number of digits, if it can be asked for."""
     if not (isinstance(digits, int) and not isinstance(digits, bool) and 1 <= digits <= most):
         raise InputError(f"digits: expected a whole number from 1 to {most}, got {digits!r}")
@@ -59,7 +59,7 @@ def digits_of(error: float, most: float = MOST + 0.95) -> float:
     return max(0.0, min(-math.log10(error), most))
 
 
-def by_bound(question, motion, asked: int = DEFAULT) -> Told | None:
+def by_bound(question: str, motion: Motion, asked: int = DEFAULT) -> Told | None:
     """What the formulas of the reduced motion say of themselves: they bound their rounding as they go, and hand over to ball
     arithmetic where the bound is too large. None where no formula answered."""
     if motion.tolerance is None:
@@ -73,6 +73,6 @@ def by_bound(question, motion, asked: int = DEFAULT) -> Told | None:
     return Told(question, values, asked, digits_of(tolerance), "formulas", f"formulas that bound their own rounding by {tolerance:.0e}, balls beyond")
 
 
-def nothing(question, asked, why) -> Told:
+def nothing(question: str, asked: int, why: str) -> Told:
     """The answer that there is no such number."""
     return Told(question, None, asked, None, "none", why)

@@ -7,6 +7,7 @@ import sys
 from dataclasses import asdict, dataclass
 from hashlib import sha256
 from pathlib import Path
+from typing import Any
 
 from ...machine import machine, versions
 
@@ -25,7 +26,7 @@ class FrontPoint:
     cost: float
 
 
-def front(case) -> tuple[FrontPoint, ...]:
+def front(case: Any) -> tuple[FrontPoint, ...]:
     """The measured front of a case on this machine with this version, cheapest first; empty where none was measured
     (`stabilab precision CASE` measures it)."""
     try:
@@ -37,7 +38,7 @@ def front(case) -> tuple[FrontPoint, ...]:
         return ()
 
 
-def keep(measured) -> Path | None:
+def keep(measured: Any) -> Path | None:
     """Keep the front of a measurement over the whole span, a quick one only where there is none yet; the file, or None
     where a part of the span was not judged or the folder cannot be written."""
     if measured.reference.status != "agrees":
@@ -70,7 +71,7 @@ def cache_folder() -> Path:
     return Path.home() / ".cache" / "stabilab"
 
 
-def _file(case) -> Path:
+def _file(case: Any) -> Path:
     """One file per motion: the scene's numbers, the start and the span, whatever the case file is called."""
     key = repr((case.scene, case.state, case.span, sorted(case.blocks.items())))
     return cache_folder() / "precision" / f"{sha256(key.encode()).hexdigest()[:24]}.json"

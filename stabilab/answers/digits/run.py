@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,12 +18,16 @@ from ...integrate.to_heyoka import TAYLOR_TOLERANCE
 from ...integrate.trajectory import FALLBACK_RTOL, SCIPY_METHODS
 from ...physics.attitude import angles, beyond, body_momentum, to_space
 from ...physics.equations import derive
+from ...physics.scene import AnyScene
 from ...physics.states import equations_and_start, moved_row, start_of
 from ...physics.to_numpy import to_numpy
 from ..simulate import STIFF_METHOD, Simulation, simulate
 from .checked import CAUTION, DEFAULT, MOST, NEAR, checked_digits, digits_of
 from .front import SAFETY, front
 from .reduced import ladder, reduced
+
+if TYPE_CHECKING:
+    from ...physics.law_limits import Validity
 
 MANY, REDUCED_FORM = "many digits", "reduced form"
 OWN = ("as simulate chooses", 0.0)  # the finest Taylor series, which costs little more than a coarse one; Radau where the scene is stiff
@@ -48,7 +53,7 @@ class Reached:
         return self.run.status == "reached" and self.digits >= self.asked
 
 
-def simulate_to(case, times, digits: int = DEFAULT) -> Reached:
+def simulate_to(case: Any, times: np.ndarray, digits: int = DEFAULT) -> Reached:
     """The exact motion of a case at the times (as of `simulate`) to `digits` decimal digits: relative to the largest size of
     each part of the state over the times.
 
@@ -60,19 +65,20 @@ def simulate_to(case, times, digits: int = DEFAULT) -> Reached:
     return found
 
 
-def missed(case, found) -> str:
+def missed(case: Any, found: Any) -> str:
     """Why digits were not reached, in words."""
     if found.run.status != "reached":
         return f"{case.place}: {found.run.reason}"
     return f"{case.place}: {found.asked} digits asked for, {found.digits:.1f} reached ({found.because}); ask for fewer or for a shorter span"
 
 
-def best_reached(case, times, digits: int = DEFAULT, measured: bool = True, aim: bool = False) -> Reached:
+def best_reached(case: Any, times: np.ndarray, digits: int = DEFAULT, measured: bool = True, aim: bool = False) -> Reached:
     """As `simulate_to`, but where no setting reaches the digits the motion that comes nearest. Where stepping stops early, so would finer
     steps: then only the reduced form is left. measured: choose by the times that were measured on this machine; without them the answer is
     always the same. aim: nobody asked for the digits: the last `NEAR` of them may be missing, and many digits go no farther than FAR."""
     checked_digits(digits, MOST)
-    times, best = np.atleast_1d(np.asarray(times, float)), None
+    times = np.atleast_1d(np.asarray(times, float))
+    best: Any = None  # `simulate`'s own way always has an answer
     far = _turned(case, times) > (FAR if aim else FARTHEST)
     tried = candidates(case, times, digits) if measured else _unmeasured(case, times)
     for method, value in tried:
@@ -87,7 +93,7 @@ def best_reached(case, times, digits: int = DEFAULT, measured: bool = True, aim:
     return best
 
 
-def _hopeless(method, best, far) -> bool:
+def _hopeless(method: str, best: Reached, far: bool) -> bool:
     """Whether a way is not worth trying after what was found: steps where steps stopped or where the reduced form, which makes none, has
     answered first; many digits where the way is far."""
     if method == "reduced":
@@ -95,7 +101,7 @@ def _hopeless(method, best, far) -> bool:
     return best.run.status != "reached" or (far if method == MANY else best.run.method == REDUCED_FORM)
 
 
-def candidates(case, times, digits) -> list[tuple[str, float]]:
+def candidates(case: Any, times: np.ndarray, digits: int) -> list[tuple[str, float]]:
     """(method, setting) to try, in order: what was measured to reach the digits with one to spare, cheapest first; then,
     whatever was measured, what `simulate` chooses itself, and many digits, with the reduced form before the one that costs more."""
     end = max(case.span, key=abs) if case.span else 0.0
@@ -104,12 +110,12 @@ def candidates(case, times, digits) -> list[tuple[str, float]]:
     return list(dict.fromkeys([*measured, *_unmeasured(case, times)]))
 
 
-def _unmeasured(case, times):
+def _unmeasured(case: Any, times: np.ndarray) -> list[tuple[str, float]]:
     ladder = [("reduced", nodes) for nodes in _resolutions(case, times)]
     return [*ladder, OWN, (MANY, 0.0)] if _turned(case, times) > FAR else [OWN, *ladder, (MANY, 0.0)]
 
 
-def _turned(case, times) -> float:
+def _turned(case: Any, times: np.ndarray) -> float:
     """Radians or so that a motion goes through: its rates, or the roots of their rates where these are larger, times the longest time."""
     scene = case.scene
     row = np.array([*case.state, *(v for name in scene.blocks[1:] for v in case.blocks.get(name, (0.0,) * 3))])
@@ -120,7 +126,7 @@ def _turned(case, times) -> float:
     return max(math.hypot(*row), math.sqrt(rates)) * float(np.abs(times).max())
 
 
-def _resolutions(case, times):
+def _resolutions(case: Any, times: np.ndarray) -> tuple[int, ...]:
     """Of the reduced form; none where it does not serve."""
     if case.blocks or case.scene.blocks != ("omega",) or (times < 0).any():
         return ()
@@ -131,7 +137,7 @@ def _resolutions(case, times):
     return tuple(found[n] for n in NODES)
 
 
-def _checked(case, times, method, value, asked) -> Reached | None:
+def _checked(case: Any, times: np.ndarray, method: str, value: Any, asked: int) -> Reached | None:
     """The motion by one setting with the digits that the check shows; None where that way has no answer."""
     if method == MANY:
         return _many_digits(case, times, asked)
@@ -156,7 +162,7 @@ def _checked(case, times, method, value, asked) -> Reached | None:
                    f"from a start moved in its last place differs by {gap:.1e}")
 
 
-def _checked_reduced(case, times, run, nodes, asked) -> Reached | None:
+def _checked_reduced(case: Any, times: np.ndarray, run: Simulation, nodes: float, asked: int) -> Reached | None:
     """By twice the nodes, and from a start moved by so many last places that the period, rounded, moves with it: what a period is off by grows
     with the number of periods, and two runs that round it alike would not show that."""
     try:
@@ -169,19 +175,19 @@ def _checked_reduced(case, times, run, nodes, asked) -> Reached | None:
                    f"place by {far / SHIFT:.1e}" if far < STRAIGHT else "the motion goes too far for its start in doubles")
 
 
-def _other(method, value):
+def _other(method: str, value: float) -> float:
     """A setting fine enough to judge by, or, where there is none, a coarser one: the difference is then too large."""
     finest = TAYLOR_TOLERANCE if method == "taylor" else FALLBACK_RTOL
     return max(value / 1000, finest) if value > 4 * finest and method != STIFF_METHOD else value * 8
 
 
-def _moved(case, places: float = 1.0):
+def _moved(case: Any, places: float = 1.0) -> Any:
     """The case with its start moved; what is zero throughout (rest at the origin) stays."""
     return replace(case, state=tuple(map(float, moved_row(case.state, places))),
                    blocks={name: tuple(map(float, moved_row(row, places))) for name, row in case.blocks.items()})
 
 
-def _distance(one, two) -> float:
+def _distance(one: Any, two: Any) -> float:
     worst = 0.0
     for name, values in one.state.items():
         size = np.abs(values).max() or 1.0
@@ -189,12 +195,12 @@ def _distance(one, two) -> float:
     return worst if math.isfinite(worst) else math.inf
 
 
-def _integrated(case, times, method, rtol):
+def _integrated(case: Any, times: np.ndarray, method: str, rtol: float | None) -> Simulation:
     own = (method, rtol) == OWN
     return simulate(case.scene, case.state, times, case.blocks, None if own else method, None if own else rtol)
 
 
-def _reduced(case, times, method, nodes):
+def _reduced(case: Any, times: np.ndarray, method: str, nodes: float) -> Simulation:
     if case.blocks or case.scene.blocks != ("omega",) or (times < 0).any():
         raise InputError("the reduced form gives the rate alone, from time 0 on")
     orbit = reduced(case.scene, case.state, int(nodes))
@@ -205,11 +211,11 @@ def _reduced(case, times, method, nodes):
 RUNS = {"taylor": _integrated, OWN[0]: _integrated, **dict.fromkeys(SCIPY_METHODS, _integrated), "reduced": _reduced}
 
 
-def _first(case):
+def _first(case: Any) -> str:
     return "x" if case.scene.variables == "scaled" else "omega"
 
 
-def _many_digits(case, times, asked) -> Reached | None:
+def _many_digits(case: Any, times: np.ndarray, asked: int) -> Reached | None:
     """The reference itself, rounded once; at times of one sign."""
     scaled = case.scene.variables == "scaled"
     equations, start = equations_and_start(case.scene, case.state if scaled else start_of(case.scene, case.state, case.blocks))
@@ -223,7 +229,7 @@ def _many_digits(case, times, asked) -> Reached | None:
     states = np.empty_like(found.states)
     states[order] = found.states
     validity = _validity(case.scene, {name: states[:, part] for name, part in found.slices.items()})
-    parts = {_first(case) if name == "omega" else name: states[:, part] for name, part in found.slices.items()}
+    parts: Any = {_first(case) if name == "omega" else name: states[:, part] for name, part in found.slices.items()}
     error = float(found.error.max()) + 2.0**-53
     if "attitude" in parts:
         parts = _with_angles(case, times, parts)
@@ -235,7 +241,7 @@ def _many_digits(case, times, asked) -> Reached | None:
     return Reached(run, asked, digits_of(error), because)
 
 
-def _validity(scene, blocks):
+def _validity(scene: AnyScene, blocks: Any) -> Validity | None:
     """Of the laws at the times asked for; None where all are exact."""
     if not scene.approximate:
         return None
@@ -243,7 +249,7 @@ def _validity(scene, blocks):
     return along(scene, blocks, "at the times told")
 
 
-def _with_angles(case, times, parts):
+def _with_angles(case: Any, times: np.ndarray, parts: dict[str, np.ndarray]) -> dict[str, np.ndarray] | None:
     """Angles and momentum in place of the quaternion: turns counted by a run in doubles; None where it is too far off to count."""
     near, q = _integrated(case, times, *OWN), parts.pop("attitude")
     if near.status != "reached":

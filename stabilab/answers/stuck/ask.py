@@ -2,22 +2,24 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
 from ...errors import InputError
 from ...numbers.principal import NOTHING, without_trace
+from ...numbers.vectors import Exact3
 from ...orbit.result import Fate
 from ...physics.alignment import torque_axis
+from ...physics.scene import Scene
 from ..tilt import Tilt, tilt
 from .delay import delayed
 from .family import STEADY
-from .fate import found
+from .fate import Found, found
 from .helpers import helpers
 from .margins import margins
 from .result import Row, Stuck, WheelAnswer
-from .scenario import scenario_of
+from .scenario import Scenario, scenario_of
 from .wheel import intervals
 
 
@@ -40,11 +42,11 @@ def stuck(case: Any, all_thrusters: bool = False, progress: Callable[[str], Any]
     return Stuck(case.name, tuple(rows), scenario.axes.principal, all_thrusters)
 
 
-def _named(thrusters) -> str:
+def _named(thrusters: Sequence[Any]) -> str:
     return " and ".join(t.name for t in thrusters) or "the torque of the case"
 
 
-def _chosen(case, scenario, all_thrusters):
+def _chosen(case: Any, scenario: Scenario, all_thrusters: bool) -> list[tuple[Any, ...]]:
     """The combinations of thrusters that are asked about, a tuple each."""
     if all_thrusters:
         if not case.thrusters:
@@ -59,12 +61,12 @@ def _chosen(case, scenario, all_thrusters):
     return [marked] + ([(t,) for t in marked] if len(marked) > 1 else [])
 
 
-def _soonest(row):
+def _soonest(row: Row) -> tuple[Any, ...]:
     """In front: the limit is reached soon; then what spins up later or is not known, then what never reaches it."""
     return (row.time_to_limit[0] if row.time_to_limit else math.inf, {"spin-up": 0, "undecided": 1}.get(row.fate, 2))
 
 
-def _row(scenario, thrusters) -> Row:
+def _row(scenario: Scenario, thrusters: Sequence[Any]) -> Row:
     torque, axes = scenario.torque(thrusters), scenario.axes
     seen = found(scenario, torque)
     axis, sense = axes.number(seen.axis, seen.sense)
@@ -76,7 +78,7 @@ def _row(scenario, thrusters) -> Row:
                helpers(scenario, torque, others) if seen.fate not in STEADY else (), _tilted(scenario, thrusters, scene, seen))
 
 
-def _tilted(scenario, thrusters, scene, seen) -> Tilt | None:
+def _tilted(scenario: Scenario, thrusters: Sequence[Any], scene: Scene, seen: Found) -> Tilt | None:
     """What a tilt of an axis torque does to a bounded motion: by the misalignment of the thrusters that fire, else by one degree."""
     stated = scenario.limit is not None or any(t.misalignment for t in thrusters)
     if not stated or seen.fate != Fate.BOUNDED or seen.kind != "orbit" or not torque_axis(scene):
@@ -85,7 +87,7 @@ def _tilted(scenario, thrusters, scene, seen) -> Tilt | None:
     return tilt(scene, scenario.start, None, None, case, scenario.state)
 
 
-def _wheel(scenario, torque, seen, wheel) -> WheelAnswer:
+def _wheel(scenario: Scenario, torque: Exact3, seen: Found, wheel: Any) -> WheelAnswer:
     """What one wheel of the case can do, the others left as they are."""
     axis = without_trace(scenario.axes.turned(wheel.axis), torque)
     least = NOTHING * max(map(abs, scenario.wheel))

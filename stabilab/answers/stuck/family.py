@@ -2,10 +2,11 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from ...numbers.vectors import CYCLE
+from ...numbers.vectors import CYCLE, Exact3
 from ...orbit.ball_orbit import Orbit
 from ...orbit.fate.one_state import fate_of
 from ...orbit.reduction import Reduction, reduce
@@ -29,20 +30,20 @@ class Family:
     body: Body
     axis: int
     torque: Fraction
-    wheel: tuple
-    state: tuple
+    wheel: Exact3
+    state: Exact3
     turn: Turn | None = None
 
-    def scene(self, wheel=None, torque=None) -> Scene:
+    def scene(self, wheel: Sequence[Fraction] | None = None, torque: Fraction | None = None) -> Scene:
         """With this wheel momentum, and this torque about the axis."""
         size = self.torque if torque is None else torque
         return Scene(self.body, Gyrostat(tuple(self.wheel if wheel is None else wheel)), ConstantTorque(tuple(size * (n == self.axis) for n in range(3))))
 
-    def fate(self, wheel=None, torque=None) -> Fate:
+    def fate(self, wheel: Sequence[Fraction] | None = None, torque: Fraction | None = None) -> Fate:
         """The fate of the start, decided exactly; SPIN_UP where a wheel along the torque lets no motion be bounded."""
         return self._decided(wheel, torque)[0]
 
-    def _decided(self, wheel, torque):
+    def _decided(self, wheel: Sequence[Fraction] | None, torque: Fraction | None) -> tuple[Fate, float]:
         """(fate, margin in energy)."""
         scene = self.scene(wheel, torque)
         reduction = reduce(scene)
@@ -51,22 +52,22 @@ class Family:
         found = fate_of(scene, Orbit(reduction, self.state))
         return found.label, found.margin
 
-    def clearly(self, wanted: bool = True, wheel=None, torque=None) -> tuple[bool, float]:
+    def clearly(self, wanted: bool = True, wheel: Sequence[Fraction] | None = None, torque: Fraction | None = None) -> tuple[bool, float]:
         """(whether the start stays bounded, or with wanted=False does not; how clearly: the margin in energy, positive where so, NaN where it tells not)."""
         label, margin = self._decided(wheel, torque)
         steady = label in STEADY
         holds, sign = steady == wanted, 1 if wanted else -1
         return holds, sign * margin if math.isfinite(margin) and (sign * margin > 0) == holds and label != Fate.EQUILIBRIUM else math.nan
 
-    def steady(self, wheel=None, torque=None) -> bool:
+    def steady(self, wheel: Sequence[Fraction] | None = None, torque: Fraction | None = None) -> bool:
         """Whether the start stays bounded."""
         return self.fate(wheel, torque) in STEADY
 
-    def reduction(self, wheel) -> Reduction | None:
+    def reduction(self, wheel: Sequence[Fraction]) -> Reduction | None:
         """About the torque's axis; None where the wheel has momentum along it."""
         return reduce(self.scene(wheel))
 
-    def along(self, start, step, s):
+    def along(self, start: Sequence[Fraction], step: Sequence[Fraction], s: Fraction) -> Exact3:
         """start + s step."""
         return tuple(a + s * b for a, b in zip(start, step))
 
@@ -81,18 +82,18 @@ class Family:
         weight = max(self.body.inertia)
         return weight * max(math.hypot(*map(float, self.state)), math.sqrt(abs(float(self.torque)) / weight))
 
-    def turned(self, vector) -> tuple:
+    def turned(self, vector: Sequence[Fraction]) -> Exact3:
         """A vector along the scene's axes, along those of the family."""
         return tuple(vector) if self.turn is None else self.turn(vector)
 
-    def back(self, vector) -> tuple:
+    def back(self, vector: Sequence[Fraction]) -> Exact3:
         """The inverse of `turned`."""
         if self.turn is None:
             return tuple(vector)
-        return tuple(sum(self.turn.rotation[i][j] * Fraction(vector[i]) for i in range(3)) for j in range(3))
+        return tuple(sum((self.turn.rotation[i][j] * Fraction(vector[i]) for i in range(3)), Fraction(0)) for j in range(3))
 
 
-def family_of(scene, state) -> Family | None:
+def family_of(scene: Scene, state: Sequence[Fraction]) -> Family | None:
     """The family of a scene and an exact state; None where the torque is off the axes, or there is none."""
     turn, torque = None, scene.vector("constant_torque")
     if sum(m != 0 for m in torque) > 1:
@@ -107,7 +108,7 @@ def family_of(scene, state) -> Family | None:
     return Family(scene.body, acting[0], torque[acting[0]], scene.vector("gyrostat"), tuple(map(Fraction, state)), turn)
 
 
-def change_between(answer, inside: Fraction, outside: Fraction, scale: Fraction) -> tuple[Fraction, Fraction]:
+def change_between(answer: Callable[[Fraction], tuple[bool, float]], inside: Fraction, outside: Fraction, scale: Fraction) -> tuple[Fraction, Fraction]:
     """(last number known to hold, first known not to) between one that holds and one that does not, as near as `FINE` of their size or of scale.
 
     answer(number): (whether it holds, a margin that is positive exactly where it does, or NaN). Where both ends have margins the next number is
@@ -131,7 +132,7 @@ def change_between(answer, inside: Fraction, outside: Fraction, scale: Fraction)
     return inside, outside
 
 
-def _next(inside, outside, margins, least):
+def _next(inside: Fraction, outside: Fraction, margins: list[float], least: Fraction) -> Fraction:
     a, b = margins
     if not (a > 0 > b and math.isfinite(a - b)):
         return (inside + outside) / 2

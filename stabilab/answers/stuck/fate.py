@@ -2,18 +2,22 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from ...orbit.result import Fate
+from ...numbers.vectors import Float3, dot
+from ...orbit.result import Fate, Motion
 from ...physics.quadratic import rests
+from ...physics.scene import Scene
 from ...unreduced.enclosure.proof import proved
 from ...unreduced.spin_up.follow import spin_up
 from ..kinds import kind_of, one
 from ..passage.limit import Limit
 from ..time_to import of_one
 from .reach import largest_rate
+from .scenario import Scenario
 
 BUDGET = 100_000  # steps of a run that looks for the largest rate
 LITTLE, FEW = 2_000_000, 3_000  # multiplications and compiled steps: some tenths of a second
@@ -34,7 +38,7 @@ class Found:
     level: str
     axis: int
     sense: int
-    direction: tuple | None
+    direction: Float3 | None
     because: str
     kind: str
     motion: Any
@@ -45,7 +49,7 @@ class Found:
     followed: float
 
 
-def found(scenario, torque, wheel=None) -> Found:
+def found(scenario: Scenario, torque: Sequence[Fraction], wheel: Sequence[Fraction] | None = None) -> Found:
     """What becomes of the scenario's motion under a torque, with another wheel momentum where one is given."""
     scene = scenario.scene(torque, wheel)
     kind = kind_of(scene)
@@ -54,18 +58,18 @@ def found(scenario, torque, wheel=None) -> Found:
     return _off_axis(scenario, scene) if kind == "off axis" else _by_law(scenario, scene, kind)
 
 
-def time_under(scenario, torque, wheel):
+def time_under(scenario: Scenario, torque: Sequence[Fraction], wheel: Sequence[Fraction]) -> tuple[float, float] | None:
     """The bracket of the time to the limit under a torque and a wheel momentum, s; None where it is never within what is known. A motion that a wheel holds
     up goes on for long: it is enclosed where little work does that, else followed by a run."""
     return _when(scenario, scenario.scene(torque, wheel), None, LITTLE, FEW).time
 
 
-def _at_rest(scenario, kind):
+def _at_rest(scenario: Scenario, kind: str) -> Found:
     size = math.hypot(*scenario.start)
     return Found(Fate.EQUILIBRIUM, "exact", 0, 0, None, "every rate vanishes at the state, exactly", kind, None, None, "exact", True, size, math.inf)
 
 
-def _off_axis(scenario, scene):
+def _off_axis(scenario: Scenario, scene: Scene) -> Found:
     certified = spin_up(scene, scenario.start)
     seen = proved(scene, scenario.state, certified)
     spins = seen.fate == Fate.SPIN_UP
@@ -76,7 +80,7 @@ def _off_axis(scenario, scene):
                  when.never, largest, when.followed)
 
 
-def _by_law(scenario, scene, kind):
+def _by_law(scenario: Scenario, scene: Scene, kind: str) -> Found:
     motion = one(scene).motion(scene, scenario.start, None, scenario.state)
     spins = motion.fate == Fate.SPIN_UP
     when = _when(scenario, scene, None)
@@ -97,11 +101,12 @@ class _When:
     unsure: str = ""
 
 
-def _when(scenario, scene, t_max, *work, spun=None) -> _When:
+def _when(scenario: Scenario, scene: Scene, t_max: float | None, *work: Any, spun: Any = None) -> _When:
     """When the limit is reached, by `time_to`; t_max: how far an undecided motion was followed, s; work, spun: as of `time_to.of_one`."""
     if scenario.limit is None:
         return _When(None, "run", False, 0.0 if t_max is None else t_max)
-    seen = of_one(scene, scenario.start, scenario.state, _limit(scenario), None if t_max is None else Fraction(t_max), *work, spun=spun)
+    end = None if t_max is None else Fraction(t_max)
+    seen = of_one(scene, scenario.start, scenario.state, _limit(scenario), end, *work, spun=spun)  # type: ignore[misc]  # work is no more than two
     if math.isinf(seen.low):
         return _When(None, seen.level, True, math.inf)
     if math.isfinite(seen.high):
@@ -109,7 +114,7 @@ def _when(scenario, scene, t_max, *work, spun=None) -> _When:
     return _When(None, seen.level, False, seen.low, f"; {seen.words}")
 
 
-def _limit(scenario) -> Limit:
+def _limit(scenario: Scenario) -> Limit:
     """The limit of the case along the scene's axes, exactly."""
     limits = scenario.case.limits
     if limits.rate is not None:
@@ -120,7 +125,7 @@ def _limit(scenario) -> Limit:
     return Limit("component", parts, "components in the frame of the file")
 
 
-def _largest(scenario, scene, when, otherwise) -> float | None:
+def _largest(scenario: Scenario, scene: Scene, when: _When, otherwise: float | None) -> float | None:
     """|omega| at the most until the limit is reached, or until another time (None: not told)."""
     if when.time is not None and isinstance(scenario.limit, float) and when.time[1] > 0:
         return scenario.limit
@@ -131,25 +136,25 @@ def _largest(scenario, scene, when, otherwise) -> float | None:
     return largest if reached >= until * (1 - 1e-12) else None
 
 
-def _level(kind, motion) -> str:
+def _level(kind: str, motion: Motion) -> str:
     if motion.fate == Fate.UNDECIDED:
         return "run"
     certificate = motion.evidence.get("certificate") if kind == "growth" else "law"
     return "exact" if certificate in EXACT else "run" if certificate in ("evidence", "none") else "certified"
 
 
-def _direction(scene, motion):
+def _direction(scene: Scene, motion: Motion) -> Float3 | None:
     """Along which the rate grows: an axis; or the torque, where it lies between two equal moments."""
     if motion.axis:
         return tuple(float(motion.sense * (n == motion.axis - 1)) for n in range(3))
     torque = scene.vector("constant_torque")
-    if any(scene.vector("gyrostat")) and sum(a * b for a, b in zip(scene.vector("gyrostat"), torque)):
+    if any(scene.vector("gyrostat")) and dot(scene.vector("gyrostat"), torque):
         return None
     size = math.hypot(*map(float, torque))
     return tuple(float(m) / size for m in torque)
 
 
-def _bound(motion) -> float:
+def _bound(motion: Motion) -> float:
     """An upper bound of |omega| for ever, from those of its components."""
     if motion.extremes is None or motion.extremes_over != "all time":
         return math.inf

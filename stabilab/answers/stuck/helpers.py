@@ -5,27 +5,32 @@ A thruster that fires for a share of the time is taken as its mean torque: that 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from fractions import Fraction
 from itertools import combinations
+from typing import Any, TypeAlias, TypeGuard
 
-from ...numbers.vectors import CYCLE, dot
+from ...numbers.vectors import CYCLE, Exact3, dot
 from .family import STEADY, Family
 from .fate import found
 from .result import Helper
+from .scenario import Scenario
 
 NOTHING = Fraction(1, 10**9)  # of the torque: what is left of it counts as none
 WORTH = Fraction(999, 1000)  # of the torque: a helper that leaves more is none
+Duty: TypeAlias = tuple[Fraction, ...]  # the share of the time that each fires
 MOST = 12  # helpers that are told
 
 
-def helpers(scenario, torque, others) -> tuple[Helper, ...]:
+def helpers(scenario: Scenario, torque: Sequence[Fraction], others: Sequence[Any]) -> tuple[Helper, ...]:
     """The helpers among `others` (thrusters that do not fire) against a torque (exact, scene's axes), the best first."""
     if not any(torque):
         return ()
     turned = [(t.name, scenario.axes.turned(t.torque)) for t in others]
     turned = [(name, arm) for name, arm in turned if any(arm)]
     sets = [(one,) for one in turned] + list(combinations(turned, 2))
-    told, done = [], set()
+    told: list[Helper] = []
+    done: set[str] = set()
     for chosen in sets:
         names = tuple(name for name, _ in chosen)
         if not done & set(names) and (helper := _stops(scenario, torque, names, [arm for _, arm in chosen])):
@@ -36,7 +41,7 @@ def helpers(scenario, torque, others) -> tuple[Helper, ...]:
     return tuple(told[:MOST] or _least(scenario, torque, sets))
 
 
-def _stops(scenario, torque, names, arms) -> Helper | None:
+def _stops(scenario: Scenario, torque: Sequence[Fraction], names: tuple[str, ...], arms: Sequence[Sequence[Fraction]]) -> Helper | None:
     """The helper that these make, where they leave no torque or a bounded motion."""
     duty = _least_squares(torque, arms)
     if _possible(duty):
@@ -55,15 +60,15 @@ def _stops(scenario, torque, names, arms) -> Helper | None:
     return None if best is None else Helper(names, tuple(map(float, best[0])), "bounded", abs(float(best[1])), best[2].word, None)
 
 
-def _possible(duty) -> bool:
+def _possible(duty: Duty | None) -> TypeGuard[Duty]:
     return duty is not None and all(0 < u <= 1 for u in duty)
 
 
-def _left(torque, arms, duty):
+def _left(torque: Sequence[Fraction], arms: Sequence[Sequence[Fraction]], duty: Sequence[Fraction]) -> Exact3:
     return tuple(m + sum(u * arm[n] for u, arm in zip(duty, arms)) for n, m in enumerate(torque))
 
 
-def _least_squares(torque, arms):
+def _least_squares(torque: Sequence[Fraction], arms: Sequence[Sequence[Fraction]]) -> Duty | None:
     """The shares, of any sign and size, that leave the least torque; None where two arms are parallel."""
     if len(arms) == 1:
         return (-dot(arms[0], torque) / dot(arms[0], arms[0]),)
@@ -71,7 +76,7 @@ def _least_squares(torque, arms):
     return _solved(dot(a, a), dot(a, b), dot(a, b), dot(b, b), -dot(a, torque), -dot(b, torque))
 
 
-def _onto_axis(torque, arms, i):
+def _onto_axis(torque: Sequence[Fraction], arms: Sequence[Sequence[Fraction]], i: int) -> Duty | None:
     """The shares that leave no torque across axis i; None where there are none."""
     j, k = CYCLE[i]
     if len(arms) == 2:
@@ -85,15 +90,16 @@ def _onto_axis(torque, arms, i):
     return (share,) if (torque[other] + share * a[other]) ** 2 <= NOTHING**2 * size else None
 
 
-def _solved(p, q, r, s, x, y):
+def _solved(p: Fraction, q: Fraction, r: Fraction, s: Fraction, x: Fraction, y: Fraction) -> Duty | None:
     """(u, v) with p u + q v = x and r u + s v = y; None where the rows are alike."""
     det = p * s - q * r
     return None if det * det <= NOTHING**2 * (p * p + q * q) * (r * r + s * s) else ((x * s - q * y) / det, (p * y - r * x) / det)
 
 
-def _least(scenario, torque, sets) -> list[Helper]:
+def _least(scenario: Scenario, torque: Sequence[Fraction], sets: Any) -> list[Helper]:
     """The thruster and the pair that leave the least torque."""
-    out, size = [], dot(torque, torque)
+    out: list[tuple[Fraction, Any, Duty]] = []
+    size = dot(torque, torque)
     for many in (1, 2):
         tried = [(dot(left, left), chosen, duty) for chosen in sets if len(chosen) == many
                  for duty in _in_the_box(torque, [arm for _, arm in chosen]) for left in [_left(torque, [arm for _, arm in chosen], duty)]]
@@ -105,14 +111,14 @@ def _least(scenario, torque, sets) -> list[Helper]:
     return [_slower(scenario, torque, *one) for one in out]
 
 
-def _in_the_box(torque, arms):
+def _in_the_box(torque: Sequence[Fraction], arms: Sequence[Sequence[Fraction]]) -> list[Duty]:
     """The shares in 0 to 1 among which the one is that leaves the least torque: inside, or on the border."""
     duty = _least_squares(torque, arms)
     if duty is not None and all(0 <= u <= 1 for u in duty):
         return [duty]
-    if len(arms) == 1:
+    if duty is not None and len(arms) == 1:
         return [(min(max(duty[0], Fraction(0)), Fraction(1)),)]
-    out = []
+    out: list[Duty] = []
     for fixed in (0, 1):
         for whole in (Fraction(0), Fraction(1)):
             rest = _left(torque, [arms[fixed]], (whole,))
@@ -121,6 +127,6 @@ def _in_the_box(torque, arms):
     return out
 
 
-def _slower(scenario, torque, square, chosen, duty) -> Helper:
+def _slower(scenario: Scenario, torque: Sequence[Fraction], square: Fraction, chosen: Any, duty: Duty) -> Helper:
     seen = found(scenario, _left(torque, [arm for _, arm in chosen], duty))
     return Helper(tuple(name for name, _ in chosen), tuple(map(float, duty)), "slower", math.sqrt(float(square)), seen.fate.word, seen.time)

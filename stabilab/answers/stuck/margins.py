@@ -2,15 +2,21 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 
 from ...numbers.exact import sqrt_fraction
 from ...numbers.roots import golden_section
-from ...orbit.result import Fate
-from .family import STEADY, TRIES, change_between, family_of
+from ...numbers.vectors import Float3, Number
+from ...orbit.result import Fate, Motion
+from ...physics.scene import Scene
+from .family import STEADY, TRIES, Family, change_between, family_of
+from .fate import Found
 from .result import Margin
+from .scenario import Scenario
 from .wheel import across
 
 TURN = 2000  # places on the turn at which the rise of the potential is looked at, to find a direction
@@ -23,7 +29,7 @@ ALONE = "to the separatrix, where alone the fate is another: beyond it the motio
 CLOSE = Fraction(1, 10**6)  # of a change: how near to it, as doubles saw it, the exact change is looked for
 
 
-def margins(scenario, scene, seen) -> dict[str, Margin]:
+def margins(scenario: Scenario, scene: Scene, seen: Found) -> dict[str, Margin]:
     """The margins of one answer (`fate.Found`), by name: "rate" (rad/s), "wheel" (N m s), "torque" (N m)."""
     if seen.fate == Fate.SEPARATRIX:
         return {name: Margin(0.0, None, "the motion is on the separatrix") for name in ("rate", "wheel", "torque")}
@@ -34,7 +40,7 @@ def margins(scenario, scene, seen) -> dict[str, Margin]:
     return {"rate": _rate(scenario, seen.motion, family), **_parameters(scenario, family)}
 
 
-def _rate(scenario, motion, family) -> Margin:
+def _rate(scenario: Scenario, motion: Motion, family: Family | None) -> Margin:
     if motion.margin_velocity is None or motion.velocity_witness is None:
         return Margin(because=motion.velocity_because or "no separatrix stands near it")
     change = [b - a for a, b in zip(scenario.start, motion.velocity_witness)]
@@ -44,22 +50,22 @@ def _rate(scenario, motion, family) -> Margin:
     return Margin(motion.margin_velocity, direction, because)
 
 
-def _walled(family) -> bool:
+def _walled(family: Family | None) -> bool:
     """Whether every motion but those on a separatrix is bounded."""
     reduction = None if family is None else family.reduction(family.wheel)
     return reduction is not None and reduction.geometry.walled
 
 
-def _parameters(scenario, family) -> dict:
+def _parameters(scenario: Scenario, family: Family | None) -> dict[str, Margin]:
     """Those of torque and wheel momentum."""
     words = _no_barrier(family)
-    if words:
+    if words or family is None:
         return {name: Margin(because=words) for name in ("wheel", "torque")}
     steady = family.fate() in STEADY
     return {"wheel": _wheel(scenario, family, steady), "torque": _torque(scenario, family, steady)}
 
 
-def _no_barrier(family) -> str:
+def _no_barrier(family: Family | None) -> str:
     if family is None:
         return "no torque acts: the motion is bounded whatever the wheel does"
     reduction = family.reduction(family.wheel)
@@ -68,7 +74,7 @@ def _no_barrier(family) -> str:
     return "" if not _walled(family) else "every motion is bounded but for a set of measure zero: the fate does not change"
 
 
-def _torque(scenario, family, steady) -> Margin:
+def _torque(scenario: Scenario, family: Family, steady: bool) -> Margin:
     """Along the torque's axis: the more torque in one sense the lower every barrier ahead, so one size in each sense divides the fates."""
     size = abs(family.torque)
     now = 1 if family.torque > 0 else -1
@@ -84,7 +90,7 @@ def _torque(scenario, family, steady) -> Margin:
     return Margin(float(abs(change)), _direction(scenario, family, {family.axis: 1 if change > 0 else -1}), words, math.inf)
 
 
-def _least_torque(family, sign, size) -> Fraction | None:
+def _least_torque(family: Family, sign: int, size: Fraction) -> Fraction | None:
     """The least size of a torque in this sense that spins the start up."""
     steady = Fraction(0)
     for _ in range(TRIES):
@@ -94,7 +100,7 @@ def _least_torque(family, sign, size) -> Fraction | None:
     return None
 
 
-def _wheel(scenario, family, steady) -> Margin:
+def _wheel(scenario: Scenario, family: Family, steady: bool) -> Margin:
     """Of a momentum across the torque: the nearest in the plane of the two other axes. Doubles show the way, exact fates give the number."""
     j, k = family.across
     rise, (best, step) = _Rise(family), _to_pure_spin(family) if steady else (None, None)
@@ -109,7 +115,7 @@ def _wheel(scenario, family, steady) -> Margin:
             if found is not None:
                 best, step = (found, towards) if best is None or found < best else (best, step)
                 break
-    if best is None:
+    if best is None or step is None:
         return Margin(because="no wheel momentum across the torque is known to change the fate, up to a thousand times the body's own")
     words = "of a wheel momentum that stays across the torque, the least found over its directions"
     best, until = _along(family, step, best, steady)
@@ -118,7 +124,7 @@ def _wheel(scenario, family, steady) -> Margin:
     return Margin(float(best), _direction(scenario, family, {j: step[j], k: step[k]}), words, until)
 
 
-def _along(family, step, size, steady) -> tuple[Fraction, float | None]:
+def _along(family: Family, step: Sequence[Fraction], size: Fraction, steady: bool) -> tuple[Fraction, float | None]:
     """(the least change along a unit vector at which the fate changes, the greater one from which on it is again what it was), by all the changes of
     fate along it: one nearer than `size` or a way back may be too narrow for the places that doubles looked at."""
     kept, _ = across(family, family.wheel, step)
@@ -132,27 +138,27 @@ def _along(family, step, size, steady) -> tuple[Fraction, float | None]:
     return (first if first < size * (1 - CLOSE) else size), min(returns, default=math.inf)
 
 
-def _to_pure_spin(family):
+def _to_pure_spin(family: Family) -> tuple[Fraction, list[Fraction]] | tuple[None, None]:
     """(size, unit vector) of the change on the way to the momentum at which the orbit's circle is a point and nothing stands in the way of a spin-up."""
     step = [Fraction(0)] * 3
     for n in family.across:
         step[n] = _pure_spin(family, n) - family.wheel[n]
-    whole = sqrt_fraction(sum(v * v for v in step))
+    whole = sqrt_fraction(sum((v * v for v in step), Fraction(0)))
     if not whole:
         return None, None
     step = [v / whole for v in step]
     return change_between(lambda s: family.clearly(wheel=family.along(family.wheel, step, s)), Fraction(0), whole, whole)[1], step
 
 
-def _pure_spin(family, n) -> Fraction:
+def _pure_spin(family: Family, n: int) -> Fraction:
     """The wheel's momentum along axis n with which omega_n = -s_n of the reduction."""
     D = family.body.exact
     return (D[family.axis] - D[n]) * family.state[n]
 
 
-def _exactly(family, step, size, steady) -> Fraction | None:
+def _exactly(family: Family, step: Sequence[Fraction], size: Fraction, steady: bool) -> Fraction | None:
     """The s near `size` at which the fate changes along a step, decided exactly."""
-    def same(s):
+    def same(s: Fraction) -> bool:
         return family.steady(family.along(family.wheel, step, s)) == steady
     share = CLOSE
     for _ in range(14):
@@ -163,7 +169,7 @@ def _exactly(family, step, size, steady) -> Fraction | None:
     return None
 
 
-def _nearest(rise, steady) -> list[tuple[float, float]]:
+def _nearest(rise: _Rise, steady: bool) -> list[tuple[float, float]]:
     """(angle, size) of the least changes of momentum in the plane across the torque, each nearest among its neighbours, seen in doubles."""
     centre = rise.centre + np.concatenate([-BESIDE[::-1], [0.0], BESIDE])  # a circle that is a point has no barrier: a small island of spin-up
     angles = np.sort(np.concatenate([np.linspace(0, 2 * math.pi, DIRECTIONS, endpoint=False), centre % (2 * math.pi)]))
@@ -181,14 +187,14 @@ def _nearest(rise, steady) -> list[tuple[float, float]]:
 class _Rise:
     """How far the potential rises over the start, less its energy, at many places of one turn, as a quadratic of a change of the wheel: doubles."""
 
-    def __init__(self, family):
+    def __init__(self, family: Family) -> None:
         unit = Fraction(family.momentum_unit)
         self.unit = float(unit)
         place = [family.wheel]
         for n in family.across:
             place.append(tuple(w + unit * (m == n) for m, w in enumerate(family.wheel)))
         rows = [_numbers(family.reduction(wheel), family.state) for wheel in place]
-        (X, Z, c, d), G, mu, E = rows[0][0], *rows[0][1]  # type: ignore[misc]
+        (X, Z, c, d), (G, mu, E) = rows[0]
         j, k = family.across
         self.centre = _towards_point(family, j, k)
         slopes = [tuple(b - a for a, b in zip(rows[0][0], row[0])) for row in rows[1:]]
@@ -196,7 +202,7 @@ class _Rise:
         y = np.concatenate([ends, np.linspace(0, 2 * math.pi, TURN + 1)[1:], 2 * math.pi - ends])
         S, K = np.sin(y / 2), np.cos(y / 2)
 
-        def parts(x, z, cc, dd):
+        def parts(x: Number, z: Number, cc: Number, dd: Number) -> Any:
             w, u = z * K - x * S, x * K + z * S
             return w, u, G * (x + S * w) + cc, dd
         at, moved = parts(X, Z, c, d), [parts(*slope) for slope in slopes]
@@ -204,7 +210,7 @@ class _Rise:
         self.slope = [-2 * S * (at[0] * m[2] + m[0] * at[2] + at[3] * m[1] + m[3] * at[1]) for m in moved]
         self.bend = [[-2 * S * (m[0] * n[2] + m[3] * n[1]) for n in moved] for m in moved]
 
-    def first_change(self, angle, steady) -> float:
+    def first_change(self, angle: float, steady: bool) -> float:
         """The least s > 0 at which the fate changes along a direction of the plane; inf where it does not."""
         a, b = math.cos(angle), math.sin(angle)
         A, B = self.level, a * self.slope[0] + b * self.slope[1]
@@ -218,19 +224,19 @@ class _Rise:
         return s * self.unit
 
 
-def _towards_point(family, j, k) -> float:
+def _towards_point(family: Family, j: int, k: int) -> float:
     """The angle in the plane across the torque towards the wheel momentum for which the orbit's circle is a point: omega_j = -s_j, omega_k = -s_k."""
     return math.atan2(float(_pure_spin(family, k) - family.wheel[k]), float(_pure_spin(family, j) - family.wheel[j]))
 
 
-def _begin_of(A, C, real, low, high) -> float:
+def _begin_of(A: np.ndarray, C: np.ndarray, real: Any, low: Number, high: Number) -> float:
     """The least s > 0 at which one of the quadratics A + B s + C s^2 becomes positive."""
     at = np.where(C > 0, np.where(low > 0, np.inf, high), low)  # outside the roots where it opens upwards, between them where downwards
     at = np.where(real & np.isfinite(at) & (at > 0), at, np.where((C > 0) & real & (high > 0), high, np.inf))
     return float(np.min(at, initial=np.inf))
 
 
-def _end_of(A, C, real, low, high) -> float:
+def _end_of(A: np.ndarray, C: np.ndarray, real: Any, low: Number, high: Number) -> float:
     """The least s > 0 from which on, for a while, none of them is positive."""
     starts = np.concatenate([np.where(C > 0, -np.inf, low), np.where(C > 0, high, np.inf)])
     ends = np.concatenate([np.where(C > 0, low, high), np.where(C > 0, np.inf, -np.inf)])
@@ -247,7 +253,7 @@ def _end_of(A, C, real, low, high) -> float:
     return float(now) if now > 0 else math.inf
 
 
-def _numbers(reduction, state):
+def _numbers(reduction: Any, state: Sequence[Fraction]) -> tuple[Any, Any]:
     """((X, Z, c, d), (G, mu, E)) of the start, in doubles."""
     g = reduction.exact_constants
     x, z = g["flip"] * (state[reduction.j] + g["sj"]) / g["rx"], (state[reduction.k] + g["sk"]) / g["rz"]
@@ -255,12 +261,12 @@ def _numbers(reduction, state):
     return tuple(map(float, (x, z, g["c"], g["d"]))), tuple(map(float, (g["G"], g["mu"], speed * speed / 2)))
 
 
-def _direction(scenario, family, parts) -> tuple:
+def _direction(scenario: Scenario, family: Family, parts: dict[int, Any]) -> Float3:
     """The unit vector with these parts along the family's axes, in the frame of the file."""
     vector = [Fraction(parts.get(n, 0)) for n in range(3)]
     return _unit(scenario.axes.back(family.back(vector)))
 
 
-def _unit(vector) -> tuple:
+def _unit(vector: Sequence[float]) -> Float3:
     size = math.hypot(*vector)
     return tuple(v / size + 0.0 for v in vector)

@@ -2,20 +2,23 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
 from ...integrate.stand_in import root_between, stand_in
 from ...integrate.to_heyoka import heyoka_available, taylor_events
-from ...numbers.vectors import CYCLE
+from ...numbers.vectors import CYCLE, Number
 from ...physics.motion_units import in_unit, mass_unit, own_unit
+from ...physics.scene import AnyScene
 from ...physics.to_numpy import Form
 
 CHUNK = 256  # steps between two looks at what was found
 
 
-def first_time(scene, state, limit, rows, t_max: float, budget: int) -> float:
+def first_time(scene: AnyScene, state: Sequence[float], limit: Any, rows: Any, t_max: float, budget: int) -> float:
     """The time at which a run first comes to its limit, s, without a bracket; inf where not until t_max, and where the `budget` of steps ends before
     that, the time it got to.
 
@@ -30,31 +33,31 @@ def first_time(scene, state, limit, rows, t_max: float, budget: int) -> float:
     return found / unit if found is not None else math.inf if end >= t_max * unit else end / unit
 
 
-def largest_rate(scene, state, until: float, budget: int) -> tuple[float, float]:
+def largest_rate(scene: AnyScene, state: Sequence[float], until: float, budget: int) -> tuple[float, float]:
     """(largest |omega| from 0 to `until`, rad/s; the time that the run reached, s): at its ends and where it is stationary."""
     own, unit = _in_its_own(scene, state)
     _, largest, end = _run(own, [v / unit for v in state], None, None, until * unit, budget)
     return largest * unit, end / unit
 
 
-def _in_its_own(scene, state):
+def _in_its_own(scene: AnyScene, state: Sequence[float]) -> tuple[AnyScene, Any]:
     """(the scene in the motion's own unit of rates, that unit): that of a feeble torque alone would make numbers whose events are not found."""
     unit = own_unit(scene, state, scene.quadratic().rate(list(state)))
     return in_unit(scene, unit, mass_unit(scene)), unit
 
 
-def _passed(state, limits, rows) -> bool:
+def _passed(state: Sequence[float], limits: Any, rows: Any) -> bool:
     if len(limits) == 1:
         return math.hypot(*state) >= limits[0]
     return any(abs(sum(r * v for r, v in zip(row, state))) >= most for row, most in zip(rows, limits))
 
 
-def _run(scene, start, limits, rows, t_max, budget):
+def _run(scene: AnyScene, start: Sequence[float], limits: Any, rows: Any, t_max: float, budget: int) -> tuple[float | None, float, float]:
     """(time at the limit or None, largest |omega|, time reached), in the scene's unit."""
     return (_taylor if heyoka_available() else _scipy)(scene, start, limits, rows, t_max, budget)
 
 
-def _taylor(scene, start, limits, rows, t_max, budget):
+def _taylor(scene: AnyScene, start: Sequence[float], limits: Any, rows: Any, t_max: float, budget: int) -> tuple[float | None, float, float]:
     asked = "turning" if limits is None else "components" if len(limits) == 3 else "rate"
     numbers = [*sum(zip(*scene.quadratic().coefficients), ()), *_event_numbers(limits, rows)]
     state, symbols, expressions = _structure(asked)
@@ -74,7 +77,7 @@ def _taylor(scene, start, limits, rows, t_max, budget):
         return None, max(largest, end) if math.isfinite(end) else largest, float(ta.time)
 
 
-def _event_numbers(limits, rows):
+def _event_numbers(limits: Any, rows: Any) -> Any:
     if limits is None:
         return []
     squares = [v * v for v in limits]
@@ -82,11 +85,12 @@ def _event_numbers(limits, rows):
 
 
 @lru_cache(maxsize=3)
-def _structure(asked):
+def _structure(asked: str) -> Any:
     """State, coefficients, and rates followed by events: where |omega| is stationary ("turning"), or where it ("rate") or one of its components is at
     its limit. All scenes have the same twelve coefficients, so that it is compiled once."""
     from sympy import symbols
     more = {"turning": 0, "rate": 1, "components": 12}[asked]
+    extra: Any
     x, c, extra = symbols("x1:4", real=True), symbols("c0:12", real=True), symbols(f"e0:{more}", real=True) if more else ()
     rates = [c[4 * i] * x[j] * x[k] + c[4 * i + 1] * x[k] + c[4 * i + 2] * x[j] + c[4 * i + 3] for i, (j, k) in enumerate(CYCLE)]
     if asked == "turning":
@@ -98,12 +102,12 @@ def _structure(asked):
     return x, (*c, *extra), (*rates, *events)
 
 
-def _scipy(scene, start, limits, rows, t_max, budget):
+def _scipy(scene: AnyScene, start: Sequence[float], limits: Any, rows: Any, t_max: float, budget: int) -> tuple[float | None, float, float]:
     """Where heyoka is not installed: sign changes on SciPy's interpolant."""
     solver = stand_in(scene.quadratic().rate, np.array(start, float), t_max, rtol=3e-14, atol=1e-16)
     largest = math.hypot(*start)
 
-    def over(y):
+    def over(y: Number) -> float:
         if len(limits) == 1:
             return float(y @ y) - limits[0] ** 2
         return max(abs(float(np.dot(row, y))) - most for row, most in zip(rows, limits))

@@ -1,13 +1,14 @@
 """A case with its thrusters stuck one way or another: what turns the body then."""
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
 from ...errors import InputError
 from ...numbers.principal import without_trace
-from ...numbers.vectors import Float3
+from ...numbers.vectors import Exact3, Float3
 from ...physics.body import Body
 from ...physics.effects.constant_torque import ConstantTorque
 from ...physics.effects.gyrostat import Gyrostat
@@ -26,21 +27,21 @@ class Scenario:
     case: Any
     body: Body
     axes: Axes
-    state: tuple
-    base: tuple
-    wheel: tuple
+    state: Exact3
+    base: Exact3
+    wheel: Exact3
     limit: float | Float3 | None
 
-    def scene(self, torque, wheel=None) -> Scene:
+    def scene(self, torque: Sequence[Fraction], wheel: Sequence[Fraction] | None = None) -> Scene:
         """The scene under a torque (N m), with another wheel momentum (N m s) where one is given."""
-        wheel = without_trace(tuple(self.wheel if wheel is None else wheel), torque)
+        wheel = without_trace(tuple(self.wheel if wheel is None else wheel), tuple(torque))
         return Scene(self.body, Gyrostat(wheel), ConstantTorque(tuple(torque)))
 
-    def torque(self, thrusters) -> tuple:
+    def torque(self, thrusters: Sequence[Any]) -> Exact3:
         """The whole torque while these thrusters fire, along the scene's axes."""
-        return tuple(map(sum, zip(self.base, *(self.axes.turned(t.torque) for t in thrusters))))
+        return tuple(sum(column, Fraction(0)) for column in zip(self.base, *(self.axes.turned(t.torque) for t in thrusters)))
 
-    def torque_in_file(self, thrusters) -> Float3:
+    def torque_in_file(self, thrusters: Sequence[Any]) -> Float3:
         """The same in the frame of the file; what a thruster alone gives is rounded once."""
         whole = [sum(column) for column in zip(*(t.torque for t in thrusters))] if thrusters else [Fraction(0)] * 3
         base = self.axes.back(self.base) if any(self.base) else (0.0,) * 3
@@ -57,7 +58,7 @@ class Scenario:
         return [[float(self.axes.rows[i][n]) for i in range(3)] for n in range(3)]
 
 
-def scenario_of(case) -> Scenario:
+def scenario_of(case: Any) -> Scenario:
     """The scenario of a case. InputError where it has no body, no motion, or effects that no stuck thruster is answered with."""
     if not hasattr(case, "thrusters"):
         raise InputError(f"stuck: expected a case, as of stabilab.load(...), got {case!r:.80}")

@@ -2,19 +2,24 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from fractions import Fraction
+from typing import Any, TypeAlias
 
-from ...numbers.vectors import dot
+from ...numbers.vectors import Exact3, dot
 from ...physics.quadratic import rests
-from .family import STEADY, change_between, family_of
+from ...physics.scene import Scene
+from .family import STEADY, Family, change_between, family_of
 from .wheel_roots import Circle, candidates
 
 INF = math.inf
 NEAR = Fraction(1, 10**9)  # of the unit: how near to a candidate its change of fate is looked for first
+Intervals: TypeAlias = tuple[tuple[float, float], ...]
+Answer: TypeAlias = tuple[Intervals, str]  # and because
 EVERY = ((-INF, INF),)
 
 
-def intervals(scene, state, axis):
+def intervals(scene: Scene, state: Sequence[Fraction], axis: Exact3) -> Answer:
     """(((least, greatest) momentum along a wheel's axis that keeps the motion bounded, N m s), ...), because.
 
     scene: with the momentum of every other wheel in it, but not of this one; state: exact; axis: exact unit vector, scene's axes. An end is
@@ -38,7 +43,7 @@ def intervals(scene, state, axis):
     return across(family, start, tuple(step))
 
 
-def _sphere(torque, wheel, axis):
+def _sphere(torque: Sequence[Fraction], wheel: Exact3, axis: Exact3) -> Answer:
     """Three equal moments: bounded exactly if there is a wheel momentum and it is across the torque."""
     level, slope = dot(torque, wheel), dot(torque, axis)
     words = "three equal moments: bounded where the wheels' momentum is across the torque and not zero"
@@ -48,7 +53,7 @@ def _sphere(torque, wheel, axis):
     return (() if level else EVERY), words
 
 
-def _off_axis(scene, state, axis):
+def _off_axis(scene: Scene, state: Sequence[Fraction], axis: Exact3) -> Answer:
     """Off the axes only an equilibrium is known to be bounded: M - omega x (D omega + l) = s omega x a has one s or none."""
     form = scene.quadratic()
     words = "the torque is off the principal axes, and no bounded motion is known there but equilibria"
@@ -63,7 +68,7 @@ def _off_axis(scene, state, axis):
     return (((float(s),) * 2,) if resting else ()), words
 
 
-def _one_momentum(family, start, step, s):
+def _one_momentum(family: Family, start: Sequence[Fraction], step: Sequence[Fraction], s: Fraction) -> Answer:
     """A wheel that is not across the torque: at one momentum alone it leaves none along it."""
     wheel = list(family.along(start, step, s))
     wheel[family.axis] = Fraction(0)
@@ -71,9 +76,11 @@ def _one_momentum(family, start, step, s):
     return (((float(s),) * 2,) if family.fate(wheel) in STEADY else ()), words
 
 
-def across(family, start, step):
+def across(family: Family, start: Sequence[Fraction], step: Sequence[Fraction]) -> Answer:
     """The intervals, and because, of momenta start + s step that have no part along the torque."""
-    at_0, at_1 = (family.reduction(family.along(start, step, s)) for s in (0, 1))
+    at_0: Any  # none has a part along the torque, so both have a reduction
+    at_1: Any
+    at_0, at_1 = (family.reduction(family.along(start, step, s)) for s in (Fraction(0), Fraction(1)))
     if at_0.geometry.walled:
         return EVERY, f"the torque is on {at_0.geometry.where}: the potential has walls on both sides, so every motion is bounded but for a set of measure zero"
     found = candidates(Circle(at_0, at_1, family.state))
@@ -83,18 +90,19 @@ def across(family, start, step):
                                                              f"of {len(found)} candidates, isolated as roots, those where the exact fate changes")
 
 
-def _pieces(family, start, step, cuts):
+def _pieces(family: Family, start: Sequence[Fraction], step: Sequence[Fraction], cuts: Sequence[float]) -> Intervals:
     """The intervals among the cuts: the fate is one and the same between two of them."""
-    def holds(s):
+    def holds(s: Fraction) -> bool:
         return family.steady(family.along(start, step, s))
     unit = Fraction(family.momentum_unit)
-    cuts = [Fraction(s) for s in cuts]
-    if not cuts:
+    at = [Fraction(s) for s in cuts]
+    if not at:
         return EVERY if holds(Fraction(0)) else ()
-    samples = [cuts[0] - unit, *((a + b) / 2 for a, b in zip(cuts, cuts[1:])), cuts[-1] + unit]
+    samples = [at[0] - unit, *((a + b) / 2 for a, b in zip(at, at[1:])), at[-1] + unit]
     steady = [holds(s) for s in samples]
-    out, low = [], -INF if steady[0] else None
-    for n, cut in enumerate(cuts):
+    out: list[tuple[float, float]] = []
+    low = -INF if steady[0] else math.nan
+    for n, cut in enumerate(at):
         if steady[n] == steady[n + 1]:
             continue
         inside, outside = (samples[n], samples[n + 1]) if steady[n] else (samples[n + 1], samples[n])
@@ -104,7 +112,7 @@ def _pieces(family, start, step, cuts):
         end = float(change_between(lambda s: family.clearly(wheel=family.along(start, step, s)), inside, outside, unit)[0])
         if steady[n]:
             out.append((low, end))
-            low = None
+            low = math.nan
         else:
             low = end
-    return tuple([*out, (low, INF)] if low is not None else out)
+    return tuple([*out, (low, INF)] if steady[-1] else out)

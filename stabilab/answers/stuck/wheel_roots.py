@@ -21,9 +21,13 @@ momenta a little: they are where a change of fate is looked for, and that is the
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 from fractions import Fraction
+from typing import Any
 
 from ...numbers.balls import working
+from ...numbers.vectors import Number, Triple
+from ...orbit.reduction import Reduction
 
 BITS = 128
 CELLS = 16  # the turn at first
@@ -37,7 +41,7 @@ class Circle:
     """The two quadratics along one line of wheel momenta: `at_0`, `at_1` are the reductions at s = 0 and 1; state: exact. Numbers are Fractions, linear ones
     pairs (at s = 0, change per unit of s)."""
 
-    def __init__(self, at_0, at_1, state):
+    def __init__(self, at_0: Reduction, at_1: Reduction, state: Sequence[Fraction]) -> None:
         (g0, x0, z0), (g1, x1, z1) = _place(at_0, state), _place(at_1, state)
         self.G, self.mu = g0["G"], g0["mu"]
         self.c, self.d = ((g0[name], g1[name] - g0[name]) for name in "cd")
@@ -45,11 +49,11 @@ class Circle:
         speed = g0["n"] * (state[at_0.axis] + at_0.s)
         self.energy = max(speed * speed / 2, LEAST * self.mu)
 
-    def balls(self, ball) -> tuple:
+    def balls(self, ball: Callable[[Any], Any]) -> tuple[Number, ...]:
         """Its numbers as balls, for `quadratics`."""
         return tuple(map(ball, (self.G, self.mu, self.energy, *self.c, *self.d, *self.x, *self.z)))
 
-    def equilibrium(self):
+    def equilibrium(self) -> Fraction | None:
         """The s at which the torque is balanced at the start, F(0, s) = 0; None where there is none, or no one s."""
         (c0, c1), (d0, d1), (x0, x1), (z0, z1), G = self.c, self.d, self.x, self.z, self.G
         level = self.mu + G * x0 * z0 + c0 * z0 + d0 * x0
@@ -57,12 +61,12 @@ class Circle:
         return -level / slope if slope else None
 
 
-def _place(reduction, state):
+def _place(reduction: Reduction, state: Sequence[Fraction]) -> Triple:
     g = reduction.exact_constants
     return g, g["flip"] * (state[reduction.j] + g["sj"]) / g["rx"], (state[reduction.k] + g["sk"]) / g["rz"]
 
 
-def quadratics(numbers, h):
+def quadratics(numbers: Sequence[Number], h: Number) -> tuple[Triple, Triple]:
     """((f2, f1, f0), (g2, g1, g0)) in sigma at half the turn h (a ball, or a series of balls): f = R - E and g = S F."""
     G, mu, E, c0, c1, d0, d1, x0, x1, z0, z1 = numbers
     S, K = h.sin_cos()
@@ -76,7 +80,7 @@ def quadratics(numbers, h):
     return f, (-2 * (K * bend + S * (G * w1 * u1)), F1, S * F0)
 
 
-def resultant(f, g):
+def resultant(f: Sequence[Number], g: Sequence[Number]) -> Number:
     """Of two quadratics (highest coefficient first): zero where they share a root."""
     (f2, f1, f0), (g2, g1, g0) = f, g
     cross = f2 * g0 - g2 * f0
@@ -95,10 +99,11 @@ def candidates(circle: Circle) -> list[float] | None:
     return sorted(found if rest is None else [*found, float(rest)])
 
 
-def _isolated(known) -> list[float] | None:
+def _isolated(known: Sequence[Number]) -> list[float] | None:
     """The h in [0, pi] at which the resultant may vanish."""
     step = math.pi * (1 + 1e-15) / CELLS
-    cells, found = [(n * step, (n + 1) * step) for n in range(CELLS)], []
+    cells = [(n * step, (n + 1) * step) for n in range(CELLS)]
+    found: list[float] = []
     for _ in range(MOST):
         if not cells:
             return found
@@ -116,7 +121,7 @@ def _isolated(known) -> list[float] | None:
     return None
 
 
-def expansion(known, middle, half) -> list:
+def expansion(known: Sequence[Number], middle: Number, half: Number) -> list[Number]:
     """Coefficients of the resultant in the distance from the middle of a cell of h: Taylor's at the middle, and in front of the power `ORDER` a ball that holds
     the rest over the whole cell. The balls of a whole cell alone do not see what cancels, which is nearly all where two moments are nearly equal."""
     from flint import arb, arb_series
@@ -125,7 +130,7 @@ def expansion(known, middle, half) -> list:
     return [*(here[n] for n in range(ORDER)), rest[ORDER]]
 
 
-def _narrowed(known, low, high):
+def _narrowed(known: Sequence[Number], low: Number, high: Number) -> tuple[Number, Number] | None:
     """The part of a cell of h that may hold a zero; None where it holds none."""
     from flint import arb
     middle, half = (low + high) / 2, (high - low) / 2 * (1 + 1e-12)
@@ -142,7 +147,7 @@ def _narrowed(known, low, high):
     return (low, high) if low <= high else None
 
 
-def _momenta(known, h: float) -> list[float]:
+def _momenta(known: Sequence[Number], h: float) -> list[float]:
     """The s of a zero at h: the root that the quadratics share, or, where they are alike, both of them."""
     from flint import arb
     half = arb(h)

@@ -11,6 +11,7 @@ from ...integrate.reference import GUARD, one_run
 from ...integrate.taylor_digits import Recursion
 from ...numbers.balls import working
 from ...physics.coefficients import effective
+from ...physics.scene import AnyScene
 from ...physics.states import equations_and_start
 from ..digits.checked import MOST_DECIMALS, checked_digits
 from ..passage.enclosed import own_unit
@@ -36,7 +37,7 @@ def tabulated(scene: Any, start: Sequence[Any], exact: Sequence[Fraction], times
     return _twice(scene, start, exact, times, digits, work)
 
 
-def _enclosed(scene, start, times, digits, work, asked) -> Tabulated:
+def _enclosed(scene: AnyScene, start: Any, times: Sequence[Fraction], digits: int, work: int, asked: bool) -> Tabulated:
     need = int(digits * 3.33) + SPARE
     bits, best = need + 40, None
     while True:
@@ -55,13 +56,15 @@ def _enclosed(scene, start, times, digits, work, asked) -> Tabulated:
     return Tabulated(tuple(times[:count]), tuple(states[:count]), tuple(scene.components), digits, PROVED, because, reached, events, words)
 
 
-def _attempt(scene, start, times, digits, bits, work):
+def _attempt(scene: AnyScene, start: Any, times: Sequence[Fraction], digits: int, bits: int, work: int) -> Any:
     """(how many times were reached to the digits, states, pieces with their unit, why it ended, bits that the error grew by)."""
     from flint import arb
     unit = own_unit(scene, start)
     weights = (Fraction(1), Fraction(2), Fraction(1)) if scene.variables == "scaled" else scene.body.exact
     flow = IntegerFlow(scene.quadratic(), list(map(Fraction, weights)), start, bits, unit)
-    states, pieces, why = [], [], ""
+    states: list[tuple[Any, ...]] = []
+    pieces: list[Polynomials] = []
+    why = ""
     with working(bits + 64) as numbers:
         small = arb(10) ** -digits
         while len(states) < len(times) and not why:
@@ -82,26 +85,26 @@ class Polynomials:
     """A piece as polynomials in s from 0 to 1, in the scene's own variables: start and length in the scene's time, exact; rows with
     their radii; unit: the size of the motion's rates."""
 
-    def __init__(self, piece, unit, numbers):
+    def __init__(self, piece: Any, unit: Fraction, numbers: Any) -> None:
         from flint import arb, arb_poly
         scale = numbers.ball(unit) * arb(2) ** -piece.bits
         self.start, self.length, self.unit = piece.start / unit, piece.length / unit, unit
         self.rows = [arb_poly([arb(c) * scale for c in row]) for row in piece.rows]
         self.radii = [arb(0, radius) * scale for radius in piece.radii]
 
-    def at(self, s) -> list:
+    def at(self, s: Any) -> list[Any]:
         """The components at s, a ball of numbers from 0 to 1."""
         return [row(s) + radius for row, radius in zip(self.rows, self.radii)]
 
 
-def _twice(scene, start, exact, times, digits, work) -> Tabulated:
+def _twice(scene: AnyScene, start: Any, exact: Any, times: Sequence[Fraction], digits: int, work: int) -> Tabulated:
     equations, row = equations_and_start(scene, start)
     begin = [*exact, *map(float, row[3:])]
     recursion, budget = Recursion(equations), [work]
     runs = [one_run(recursion, begin, times, digits + more, budget)[0] for more in (GUARD, GUARD + MORE_DIGITS)]
     components = tuple(map(str, equations.state))
     with working(int((digits + GUARD + MORE_DIGITS) * 3.33)) as numbers:
-        states: list = []
+        states: list[tuple[Any, ...]] = []
         for low, high in zip(*runs):
             size = max(map(abs, high), key=lambda v: v.mid())
             gap = max((abs(a - b) for a, b in zip(low, high)), key=lambda v: v.mid())

@@ -5,9 +5,13 @@ Any other interval is divided. The rates' own equations give the derivatives, so
 """
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
+from typing import Any
 
 from ...numbers.vectors import CYCLE
+from ...physics.quadratic import QuadraticForm
+from ...physics.scene import AnyScene
 from .result import Event
 
 MOST_BOXES = 500  # of a piece and a function
@@ -16,7 +20,7 @@ NOTHING = 25  # digits below the motion's own size: a rate, or its derivative, t
 ROUNDS = 60  # of Newton's method
 
 
-def events_of(scene, pieces, until: Fraction) -> tuple[tuple[Event, ...], str]:
+def events_of(scene: AnyScene, pieces: Sequence[Any], until: Fraction) -> tuple[tuple[Event, ...], str]:
     """(events after the start in order of time, words on how they were found). To be called with more than enough bits at work."""
     found, open_at, form = [], [], scene.quadratic()
     names = scene.components
@@ -35,7 +39,7 @@ def events_of(scene, pieces, until: Fraction) -> tuple[tuple[Event, ...], str]:
     return tuple(sorted(found, key=lambda one: one.t.mid())), words
 
 
-def _event(curve, i, kind, s):
+def _event(curve: _Curve, i: int, kind: str, s: Any) -> Event:
     from flint import arb
     value, bend = curve.derivative(i, 0, s), curve.derivative(i, 2, s)
     if kind == "extreme":
@@ -43,7 +47,7 @@ def _event(curve, i, kind, s):
     return Event(kind, i, _ball(curve.piece.start) + s * _ball(curve.piece.length), arb(0) if kind == "zero" else value)
 
 
-def _ball(value):
+def _ball(value: Any) -> Any:
     from flint import arb, fmpq
     return arb(fmpq(value.numerator, value.denominator))
 
@@ -51,11 +55,11 @@ def _ball(value):
 class _Curve:
     """Rates over a piece and their derivatives in time, from the equations x_i' = kappa x_j x_k + rho x_k + sigma x_j + m."""
 
-    def __init__(self, piece, form):
+    def __init__(self, piece: Any, form: QuadraticForm) -> None:
         self.piece, self.size = piece, _ball(Fraction(piece.unit))
         self.kappa, self.rho, self.sigma, self.m = ([_ball(Fraction(v)) for v in row] for row in (form.kappa, form.rho, form.sigma, form.m))
 
-    def derivative(self, i, order, s):
+    def derivative(self, i: int, order: int, s: Any) -> Any:
         """The `order`-th derivative (0 to 2) of component i at s, a ball."""
         x = self.piece.at(s)
         if order == 0:
@@ -67,13 +71,14 @@ class _Curve:
         return self.kappa[i] * (rate[j] * x[k] + x[j] * rate[k]) + self.rho[i] * rate[k] + self.sigma[i] * rate[j]
 
 
-def _roots(curve, i, order, first):
+def _roots(curve: _Curve, i: int, order: int, first: bool) -> tuple[list[Any], bool]:
     """(balls of s, whether all of the piece is clear) of the zeros of a derivative. first: the piece begins at the start, whose own zero does not count."""
     from flint import arb
     whole = lambda n: curve.derivative(i, n, arb(0.5, 0.5))
     if whole(order).abs_upper() < curve.size ** (order + 1) * arb(10) ** -NOTHING:
         return [], True  # a rate that is zero, or constant, throughout
-    left, boxes, found = [(Fraction(0), Fraction(1))], 0, []
+    left, boxes = [(Fraction(0), Fraction(1))], 0
+    found: list[Any] = []
     while left:
         a, b = left.pop()
         boxes += 1
@@ -96,7 +101,7 @@ def _roots(curve, i, order, first):
     return found, True
 
 
-def _closer(curve, i, order, box):
+def _closer(curve: _Curve, i: int, order: int, box: Any) -> Any:
     """The root in a box on which the slope has a sign, by interval Newton as long as it narrows."""
     from flint import arb
     scale = _ball(curve.piece.length)

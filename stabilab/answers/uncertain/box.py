@@ -7,19 +7,25 @@ the equations of motion from either.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from typing import Any, TypeAlias
 
 import numpy as np
 
 from ...errors import InputError
 from ...numbers.affine import EPS, LEAST, Affine, root, sign_over, squared
+from ...numbers.vectors import Float3, Number, Triple
 from ...physics.body import Body
 from ...physics.effects import effect_class
 from ...physics.quadratic import QuadraticForm, euler_form, scaled_form
 from ...physics.scaling import to_scaled, torque_from_mu
-from ...physics.scene import ScaledGyrostat, Scene
+from ...physics.scene import AnyScene, ScaledGyrostat, Scene
+
+Point: TypeAlias = Any  # of a box: a number in [-1, 1] for each place, an array or a sequence
+Numbers: TypeAlias = dict[str, tuple[Number, ...]]  # "inertia", "momentum", "torque" ... -> its numbers
 
 
 @dataclass(frozen=True)
@@ -28,8 +34,8 @@ class Box:
     system), and "state" (three, or absent); half: name -> their half-widths, zero where certain. variables: those of scene
     and state, "physical" or "scaled" (a body may be asked in scaled variables)."""
 
-    middle: dict
-    half: dict
+    middle: Numbers
+    half: Numbers
     variables: str
 
     @cached_property
@@ -43,7 +49,7 @@ class Box:
         return "inertia" in self.middle
 
     # -- one point, exactly
-    def values(self, point, reach=1) -> dict:
+    def values(self, point: Point, reach: float = 1) -> Numbers:
         """The numbers at a point (one number in [-1, 1] for each place), exact: rounded toward the middle to what a case file
         can state, decimals of a double's digits (a state to the double itself)."""
         out = {name: list(numbers) for name, numbers in self.middle.items()}
@@ -53,11 +59,11 @@ class Box:
             out[name][i] = middle if value == middle else _toward(value, middle, Fraction if name == "state" else _decimal)
         return {name: tuple(numbers) for name, numbers in out.items()}
 
-    def at(self, point, reach=1):
+    def at(self, point: Point, reach: float = 1) -> tuple[AnyScene, Float3 | None]:
         """(scene, state or None) at a point, exact. Raises InputError where there is no such body."""
         return self.scene_of(self.values(point, reach))
 
-    def scene_of(self, values):
+    def scene_of(self, values: Numbers) -> tuple[AnyScene, Float3 | None]:
         """(scene, state or None) of exact numbers. Raises InputError where there is no such body or no such scaling."""
         state = tuple(map(float, values["state"])) if "state" in values else None
         if not self.bodily:
@@ -68,7 +74,7 @@ class Box:
         return (to_scaled(scene, mu)[0] if self.variables == "scaled" else scene), state
 
     # -- many boxes at once
-    def numbers(self, centres, widths, reach=1.0, cells=None) -> dict:
+    def numbers(self, centres: np.ndarray, widths: np.ndarray, reach: float = 1.0, cells: Any = None) -> Numbers:
         """Every number over n sub-boxes: `Affine`, or the exact number where it is certain.
 
         centres, widths: (n, places), within [-1, 1], times reach. cells: one more column of g, left free for another variable.
@@ -82,7 +88,7 @@ class Box:
             out[name][i] = Affine(c, g, 8 * EPS * (abs(middle) + np.abs(half * centres[:, k]) + g[:, k]) + LEAST)
         return {name: tuple(numbers) for name, numbers in out.items()}
 
-    def impossible(self, numbers) -> np.ndarray | np.bool_:
+    def impossible(self, numbers: Numbers) -> np.ndarray | np.bool_:
         """True for each sub-box that surely holds no body: a moment of inertia not positive, or the triangle inequality broken
         (for a body in scaled variables: moments not in falling order)."""
         if not self.bodily:
@@ -95,7 +101,7 @@ class Box:
             wrong = wrong | (sign_over(D[0] - D[1]) < 0) | (sign_over(D[1] - D[2]) < 0)
         return wrong
 
-    def rates(self, numbers) -> QuadraticForm:
+    def rates(self, numbers: Numbers) -> QuadraticForm:
         """The equations of motion (coefficients of the kind of the numbers)."""
         if not self.bodily:
             return scaled_form(numbers["a"][0], numbers["b"][0], numbers["mu"])
@@ -105,7 +111,7 @@ class Box:
         return scaled_form(*_scaled(D, lam[0], numbers))
 
 
-def box_of(case) -> Box:
+def box_of(case: Any) -> Box:
     """The box of a Case. Raises InputError for scenes beyond a gyrostat under a constant torque."""
     if not case.scene.plain:
         raise InputError("what uncertain numbers do to the verdicts is known for a gyrostat under a constant torque alone; "
@@ -128,7 +134,7 @@ def box_of(case) -> Box:
     return box
 
 
-def _scalable(box: Box):
+def _scalable(box: Box) -> None:
     """Scaled variables, and mu, need three moments in falling order and the gyrostatic moment along axis 1."""
     if not box.bodily or (box.variables == "physical" and "mu" not in box.middle):
         return
@@ -141,12 +147,12 @@ def _scalable(box: Box):
                          "physical variables")
 
 
-def _name(path) -> str:
+def _name(path: tuple[Any, ...]) -> str:
     key = path[-2] if isinstance(path[-1], int) else path[-1]
     return "state" if key in ("angular_velocity", "x") else key
 
 
-def _toward(value: Fraction, middle: Fraction, read) -> Fraction:
+def _toward(value: Fraction, middle: Fraction, read: Callable[[float], Fraction]) -> Fraction:
     """The number next to a value, on the middle's side, among those that `read` makes of doubles."""
     rounded = float(value)
     while (read(rounded) - value) * (value - middle) > 0:
@@ -160,18 +166,18 @@ def _decimal(number: float) -> Fraction:
     return Fraction(repr(number))
 
 
-def _shape_factors(D):
+def _shape_factors(D: Sequence[Number]) -> Triple:
     return (D[1] - D[2]) / D[0], (D[0] - D[2]) / D[1], (D[0] - D[1]) / D[2]
 
 
-def _torque(D, mu):
+def _torque(D: Sequence[Number], mu: Sequence[Number]) -> Triple:
     """M from the dimensionless torque with u = 1 (Amer et al. 2024, eq. (4))."""
     ks = _shape_factors(D)
     k = ks[0] * ks[1] * ks[2]
     return tuple(d * root(k * kj) * m if _there(m) else m for d, kj, m in zip(D, ks, mu))
 
 
-def _scaled(D, lam1, numbers):
+def _scaled(D: Sequence[Number], lam1: Number, numbers: Numbers) -> Triple:
     """(a, b, mu) of a body (`scaling.to_scaled`)."""
     ks = _shape_factors(D)
     k = ks[0] * ks[1] * ks[2]
@@ -185,5 +191,5 @@ def _scaled(D, lam1, numbers):
     return lam1 / ((D[0] - D[2]) * strength), lam1 / ((D[0] - D[1]) * strength), mu
 
 
-def _there(value) -> bool:
+def _there(value: Number) -> bool:
     return isinstance(value, Affine) or value != 0

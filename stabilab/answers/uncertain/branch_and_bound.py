@@ -7,11 +7,14 @@ surplus is quadratic in its width.
 """
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
 from ...numbers.affine import EPS, Affine, lifted, sign_over
+from ...numbers.vectors import Number
+from .box import Box, Point
 from .orbit import TURN, Orbit, excess, force, highest_ahead, orbit_of, reduction_over, stiffness
 
 BATCH = 2048
@@ -26,7 +29,7 @@ class Proof(NamedTuple):
 
     holds: bool | None
     parts: int
-    point: tuple | None = None
+    point: Point | None = None
 
 
 class Parts(NamedTuple):
@@ -37,28 +40,31 @@ class Parts(NamedTuple):
     angle: np.ndarray
     reach: np.ndarray
 
-    def some(self, chosen):
+    def some(self, chosen: np.ndarray | slice) -> Parts:
         return Parts(*(v[chosen] for v in self))
 
-    def joined(self, other):
+    def joined(self, other: Parts) -> Parts:
         return Parts(*(np.concatenate(pair) for pair in zip(self, other)))
+
+
+Judge: TypeAlias = Callable[[Parts], tuple[np.ndarray, np.ndarray, np.ndarray]]  # (settled, contradicted, how much each number matters)
 
 
 class Family:
     """The reduced motions of a box: `orbit(parts)` over sub-boxes, `points` for single ones."""
 
-    def __init__(self, box, axis, signs):
+    def __init__(self, box: Box, axis: int, signs: Any) -> None:
         self.box, self.axis, self.signs = box, axis, signs
 
-    def orbit(self, centres, widths, stretch=1.0, cells=None):
+    def orbit(self, centres: np.ndarray, widths: np.ndarray, stretch: float = 1.0, cells: Any = None) -> tuple[Orbit, np.ndarray]:
         """(the orbit over each part, True for each part that holds no body)."""
         with np.errstate(all="ignore"):
             numbers = self.box.numbers(centres, widths, stretch, cells)
-            reduction = reduction_over(self.box.rates(numbers), self.axis)
+            reduction: Any = reduction_over(self.box.rates(numbers), self.axis)
             return (orbit_of(reduction, numbers["state"], self.signs),
                     np.broadcast_to(self.box.impossible(numbers), len(centres)))
 
-    def margins(self, points, stretch=1.0):
+    def margins(self, points: np.ndarray, stretch: float = 1.0) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """(margin, sense, possible) of each point (n, places), in floats: highest excess ahead; the torque's sign."""
         orbit, none = self.orbit(points, np.zeros_like(points), stretch)
         flat = Orbit(*(np.broadcast_to(v, (len(points), 1)) for v in orbit.middle()))
@@ -70,7 +76,7 @@ class Family:
         return margin, sense, ~none & np.isfinite(margin)
 
 
-def prove(family: Family, claim: str, senses, stretch=1.0, most=20_000) -> Proof:
+def prove(family: Family, claim: str, senses: Any, stretch: float = 1.0, most: int = 20_000) -> Proof:
     """Whether "bounded" or "spin-up" holds all over the box stretched by `stretch`, for torques of these senses."""
     looked = 0
     for sense in senses:
@@ -81,14 +87,14 @@ def prove(family: Family, claim: str, senses, stretch=1.0, most=20_000) -> Proof
     return Proof(True, looked)
 
 
-def whole(box, cells=1):
+def whole(box: Box, cells: Any = 1) -> Parts:
     """The whole box, and one turn ahead in so many cells."""
     n = len(box.places)
     half = (TURN * (1 + 1e-9)) / (2 * cells)
     return Parts(np.zeros((cells, n)), np.ones((cells, n)), half * (2 * np.arange(cells) + 1), np.full(cells, half))
 
 
-def branch_and_bound(start: Parts, judge, most) -> Proof:
+def branch_and_bound(start: Parts, judge: Judge, most: int) -> Proof:
     """Branch and bound: judge(parts) -> (settled, contradicted, across): how much each number, and last the angle, matters."""
     waiting, looked = start, 0
     while len(waiting.angle):
@@ -105,7 +111,7 @@ def branch_and_bound(start: Parts, judge, most) -> Proof:
     return Proof(True, looked)
 
 
-def _halved(parts: Parts, weights) -> Parts:
+def _halved(parts: Parts, weights: np.ndarray) -> Parts:
     n = parts.centres.shape[1]
     side = np.nan_to_num(weights, nan=0.0, posinf=1e299).argmax(1)
     rows = np.arange(len(side))
@@ -116,23 +122,23 @@ def _halved(parts: Parts, weights) -> Parts:
     return halves[0].joined(halves[1])
 
 
-def importance(slopes, rest, widths):
+def importance(slopes: np.ndarray, rest: np.ndarray, widths: np.ndarray) -> np.ndarray:
     """How much each number matters (n, places): its first-order share, and a like share of what is of higher order; where
     the bound is undefined, the width alone."""
     share = np.abs(slopes) + widths * (rest / widths.shape[1])[:, None]
     return np.where(np.isfinite(share).all(1, keepdims=True), share, widths)
 
 
-def _slack(m: Orbit, angle):
+def _slack(m: Orbit, angle: Number) -> np.ndarray:
     """What rounding may do to an excess of floats (n, 1)."""
     radius = np.abs(m.x) + np.abs(m.z)
     waves = (np.abs(m.G) * radius + np.abs(m.c) + np.abs(m.d)) * radius
     return (1e3 * EPS * (np.abs(m.mu) * angle[:, None] + waves + m.w * m.w))[:, 0]
 
 
-def _bounded(family, sense, stretch, most) -> Proof:
+def _bounded(family: Family, sense: int, stretch: float, most: int) -> Proof:
     """A place ahead above the energy; it leans with the parameters as the top of the barrier does."""
-    def judge(parts):
+    def judge(parts: Parts) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         orbit, none = family.orbit(parts.centres, parts.widths, stretch)
         orbit = orbit.turned(sense)
         m = Orbit(*(np.broadcast_to(v, (len(none), 1)) for v in orbit.middle()))
@@ -147,14 +153,15 @@ def _bounded(family, sense, stretch, most) -> Proof:
         better = level.low > best.low
         settled = (np.maximum(best.low, level.low) > 0) | none
         against = ~none & (top < -_slack(m, angle)) & (m.mu[:, 0] > 0)
-        slopes, rest = np.where(better[:, None], level.g, best.g), np.where(better, level.e, best.e)
+        slopes: np.ndarray = np.where(better[:, None], level.g, best.g)
+        rest: Any = np.where(better, level.e, best.e)
         return settled, against, np.hstack([importance(slopes, rest, parts.widths), np.full((len(angle), 1), -1.0)])
     return branch_and_bound(whole(family.box, 1), judge, most)
 
 
-def _spin_up(family, sense, stretch, most) -> Proof:
+def _spin_up(family: Family, sense: int, stretch: float, most: int) -> Proof:
     """No place of one turn ahead reaches the energy; next to the state a force ahead says so."""
-    def judge(parts):
+    def judge(parts: Parts) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         orbit, none = family.orbit(parts.centres, parts.widths, stretch, cells=True)
         orbit = orbit.turned(sense)
         g = np.zeros((len(none), len(family.box.places) + 1))

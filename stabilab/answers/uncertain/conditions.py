@@ -11,11 +11,15 @@ their signs. Numbers are of any kind; one that vanishes for every body of the bo
 """
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from ...numbers.affine import Affine, squared
-from ...numbers.vectors import CYCLE, Number
+from ...numbers.vectors import CYCLE, Number, Triple
+from ...orbit.reduction import Reduction
+from ...physics.quadratic import QuadraticForm
+from .box import Box, Numbers
 from .orbit import reduction_over
 
 
@@ -32,7 +36,7 @@ class Unknown(Exception):
     """Scenes whose equilibria have no such list here; the text says which."""
 
 
-def conditions(box, numbers) -> list[Condition]:
+def conditions(box: Box, numbers: Numbers) -> list[Condition]:
     """The conditions of a box, for numbers of any kind (`Box.numbers`). Raises Unknown."""
     form = box.rates(numbers)
     acting = [i for i in range(3) if _there(form.m[i])]
@@ -45,7 +49,7 @@ def conditions(box, numbers) -> list[Condition]:
     axis = acting[0]
     if _there(lam[axis]):
         return torque + [Condition(lam[axis], f"the gyrostatic moment along axis {axis + 1} vanishes")]
-    reduction = reduction_over(form, axis)
+    reduction: Any = reduction_over(form, axis)  # a torque on an axis without momentum along it has one
     return torque + (_conic(reduction) if _there(reduction.kappa) else _line(reduction))
 
 
@@ -54,20 +58,20 @@ def known(found: list[Condition]) -> list[Condition]:
     return [c for c in found if isinstance(c.value, Affine)]
 
 
-def _there(value) -> bool:
+def _there(value: Number) -> bool:
     return isinstance(value, Affine) or value != 0
 
 
-def _balance(box, numbers, form):
+def _balance(box: Box, numbers: Numbers, form: QuadraticForm) -> tuple[Triple, Triple, Triple]:
     """(D, lambda, M) of (D y + lambda) x y + M = 0 (`pencil`)."""
     if box.variables == "physical":
-        return numbers["inertia"], numbers["momentum"], [d * m for d, m in zip(numbers["inertia"], form.m)]
+        return numbers["inertia"], numbers["momentum"], tuple(d * m for d, m in zip(numbers["inertia"], form.m))
     b, a = form.rho[2], -form.sigma[1]
     zero, half = Fraction(0), Fraction(1, 2)
     return (half, zero, Fraction(1)), ((b - a) * half, zero, zero), form.m
 
 
-def _free(D, lam):
+def _free(D: Sequence[Number], lam: Sequence[Number]) -> list[Condition]:
     if any(map(_there, lam)):
         raise Unknown("without a torque, and with a gyrostatic moment, the stability along the curve of equilibria is not "
                       "followed over a box")
@@ -75,11 +79,11 @@ def _free(D, lam):
     return [Condition(D[i] - D[j], f"moments {i + 1} and {j + 1} are equal") for i, j in pairs]
 
 
-def _dot(u, v):
+def _dot(u: Sequence[Number], v: Sequence[Number]) -> Number:
     return sum((a * b for a, b in zip(u, v)), Fraction(0))
 
 
-def _off_axis(D, lam, M, acting):
+def _off_axis(D: Sequence[Number], lam: Sequence[Number], M: Sequence[Number], acting: Sequence[int]) -> list[Condition]:
     if not any(_there(D[i] - D[acting[0]]) for i in acting[1:]):
         raise Unknown("the torque lies across the axes in the plane of two equal moments")
     gaps = [D[j] - D[k] for j, k in CYCLE]
@@ -100,7 +104,7 @@ def _off_axis(D, lam, M, acting):
     return [plane, Condition(q0, "a line of equilibria appears")]
 
 
-def _conic(r):
+def _conic(r: Reduction) -> list[Condition]:
     """The conic of a torque on a principal axis with two different moments across it."""
     k, p, q = r.kappa, r.p, r.q
     N = r.rho * r.sigma - r.m * k                  # kappa^2 K
@@ -118,7 +122,7 @@ def _conic(r):
     return found + ([Condition(disc, "two folds meet and vanish")] if _there(disc) else [])
 
 
-def _line(r):
+def _line(r: Reduction) -> list[Condition]:
     """The line of equilibria where the two moments across the torque are equal (kappa = 0)."""
     across = squared(r.rho) + squared(r.sigma)
     if not _there(across):

@@ -1,18 +1,20 @@
 """Number, kind and stability of the equilibria of a body that is known only within bounds."""
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import partial
+from typing import Any
 
 import numpy as np
 
 from ...errors import InputError
 from ...numbers.affine import lifted
 from ..equilibria import equilibria
-from .box import Box
+from .box import Box, Point
 from .branch_and_bound import Parts, Proof, branch_and_bound, importance, whole
 from .conditions import Condition, Unknown, conditions, known
 from .result import FEWER, Over, bracketed, by_trial
-from .search import UNKNOWN, confirmed, nearest_change
+from .search import UNKNOWN, Answer, confirmed, nearest_change
 
 
 def equilibria_over(box: Box) -> Over:
@@ -33,7 +35,7 @@ def _without_state(box: Box) -> Box:
     return Box(keep(box.middle), keep(box.half), box.variables)
 
 
-def signature_at(box: Box, point) -> str | None:
+def signature_at(box: Box, point: Point) -> str | None:
     """Kind, number and verdicts of the equilibria at a point, by the ordinary exact code; None where there is no such body."""
     try:
         return signature(equilibria(box.at(point)[0]))
@@ -41,7 +43,7 @@ def signature_at(box: Box, point) -> str | None:
         return None
 
 
-def signature(found) -> str:
+def signature(found: Any) -> str:
     """Kind, number and verdicts in words: of points, and of the segments of each curve in order."""
     points = [p.verdict for p in found.points]
     curves = [f"{c.name} ({', '.join(s.verdict for s in c.segments)})" for c in found.curves]
@@ -49,13 +51,13 @@ def signature(found) -> str:
     return f"{found.kind}: {'; '.join(parts)}" if parts else found.kind
 
 
-def _by_conditions(box, here, answer) -> Over:
+def _by_conditions(box: Box, here: Any, answer: Answer) -> Over:
     n = len(box.places)
     all_of = partial(_conditions, box)
     first = all_of(np.zeros((1, n)), np.zeros((1, n)))
     signs = [int(np.ravel(c.value.sign)[0]) for c in first]
 
-    def codes(points):
+    def codes(points: np.ndarray) -> np.ndarray:
         with np.errstate(all="ignore"):
             numbers = box.numbers(points, np.zeros_like(points))
             values = [np.broadcast_to(lifted(c.value).c, len(points)) for c in known(conditions(box, numbers))]
@@ -78,16 +80,16 @@ def _by_conditions(box, here, answer) -> Over:
     return Over(**{**vars(found), "but": "; ".join(f"where {c.what}" for c in passing)})
 
 
-def _conditions(box, centres, widths, stretch=1.0) -> list[Condition]:
+def _conditions(box: Box, centres: np.ndarray, widths: np.ndarray, stretch: float = 1.0) -> list[Condition]:
     with np.errstate(all="ignore"):
         return known(conditions(box, box.numbers(centres, widths, stretch)))
 
 
-def _proof(all_of, box, first, signs, stretch, most, passes=False) -> Proof:
+def _proof(all_of: Callable[..., list[Condition]], box: Box, first: Any, signs: Any, stretch: float, most: int, passes: bool = False) -> Proof:
     """Whether every condition keeps its sign over the stretched box; passes: but those that may pass through zero."""
     kept = [(k, sign) for k, sign in enumerate(signs) if not (passes and first[k].passes)]
 
-    def judge(parts: Parts):
+    def judge(parts: Parts) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         values = all_of(parts.centres, parts.widths, stretch)
         none = np.broadcast_to(box.impossible(box.numbers(parts.centres, parts.widths, stretch)), len(parts.angle))
         settled = np.ones(len(none), bool)

@@ -1,6 +1,7 @@
 """The fate of a motion whose body, torque or start is known only within bounds: proved, or with a witness on each side."""
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import partial
 from typing import Any
 
@@ -8,19 +9,21 @@ import numpy as np
 
 from ...errors import InputError
 from ...numbers.affine import Affine, lifted, sign_over
+from ...numbers.vectors import Number
 from ...orbit.ball_orbit import Orbit
 from ...orbit.fate.one_state import fate_of
 from ...orbit.fate.reasons import REASONS, Reason
 from ...orbit.potential import derivatives_on_parabola
-from ...orbit.reduction import reduce
+from ...orbit.reduction import Reduction, reduce
 from ...orbit.result import Fate
+from ...physics.quadratic import QuadraticForm
 from ..fate import fate
 from ..kinds import kind_of
-from .box import Box
+from .box import Box, Numbers, Point
 from .branch_and_bound import Family, Proof, prove
 from .orbit import orbit_of, reduction_over
 from .result import Over, Witness, bracketed, by_sample, by_trial
-from .search import UNKNOWN, confirmed, nearest_change
+from .search import UNKNOWN, Answer, confirmed, nearest_change
 
 UNBOUNDED = "unbounded"
 TIE_STRETCHES = (1e-6, 1e-3, 1.0)
@@ -53,7 +56,7 @@ def fate_over(box: Box) -> Over | None:
     return _on_circles(box, here, answer, Family(box, acting[0], signs))
 
 
-def verdict_at(box: Box, point) -> str | None:
+def verdict_at(box: Box, point: Point) -> str | None:
     """The fate at a point of the box, by the ordinary exact code; None where there is no such body."""
     try:
         scene, state = box.at(point)
@@ -65,7 +68,7 @@ def verdict_at(box: Box, point) -> str | None:
     if reduction is None:
         one = fate(scene, np.array(state))
         return words(Fate(int(one.labels)), int(one.axis), int(one.sense))
-    found = fate_of(scene, Orbit(reduction, state))
+    found = fate_of(scene, Orbit(reduction, state))  # type: ignore[arg-type]  # asked of boxes that have a state
     return words(found.label, found.axis, found.sense)
 
 
@@ -78,17 +81,17 @@ def words(label: Fate, axis: int, sense: int) -> str:
     return label.word
 
 
-def _there(value) -> bool:
+def _there(value: Number) -> bool:
     return isinstance(value, Affine) or value != 0
 
 
-def _root(box, stretch=1.0):
+def _root(box: Box, stretch: float = 1.0) -> Any:
     n = len(box.places)
     with np.errstate(all="ignore"):
         return box.numbers(np.zeros((1, n)), np.ones((1, n)), stretch)
 
 
-def _signs(r):
+def _signs(r: Reduction) -> tuple[int, ...] | None:
     """(sign of p, sign of q) over the whole box, or None."""
     signs = [int(np.ravel(sign_over(v))[0]) for v in (r.p, r.q)]
     return None if any(s == 0 and _there(v) for s, v in zip(signs, (r.p, r.q))) else tuple(signs)
@@ -97,15 +100,15 @@ def _signs(r):
 # -- circles
 
 
-def _on_circles(box, here, answer, family: Family) -> Over:
+def _on_circles(box: Box, here: Any, answer: Answer, family: Family) -> Over:
     """Elliptic reduction: bounded iff a barrier stands ahead."""
     claim = "bounded" if here == Fate.BOUNDED.word else "spin-up"
 
-    def codes(points):
+    def codes(points: np.ndarray) -> np.ndarray:
         margin, sense, possible = family.margins(points)
         return np.where(possible, np.where(margin > 0, 0, sense), UNKNOWN)
 
-    def attempt(stretch, most):
+    def attempt(stretch: float, most: int) -> Proof:
         senses = _senses(box, family, stretch)
         if senses is None or (claim == "spin-up" and len(senses) > 1):
             return Proof(None, 0)
@@ -120,7 +123,7 @@ def _on_circles(box, here, answer, family: Family) -> Over:
                      REASONS[Reason.BELOW_BARRIER if claim == "bounded" else Reason.ABOVE_BARRIER])
 
 
-def _tie(box, here, answer, corners) -> Over:
+def _tie(box: Box, here: Any, answer: Answer, corners: Sequence[np.ndarray]) -> Over:
     """The middle lies on the separatrix (or at rest on a saddle): what lies on either side."""
     because, n = "the middle lies on the separatrix itself", len(box.places)
     sides: dict[str, Any] = {}
@@ -134,18 +137,18 @@ def _tie(box, here, answer, corners) -> Over:
     return Over("undecided", here, f"{because}, and only one side of it was found")
 
 
-def _senses(box, family, stretch):
+def _senses(box: Box, family: Family, stretch: float) -> tuple[int, ...] | None:
     """Signs the torque may have over the box, (1,), (-1,) or (1, -1); None where the geometry itself may change."""
     with np.errstate(all="ignore"):
         numbers = _root(box, stretch)
         r = reduction_over(box.rates(numbers), family.axis)
-        if _signs(r) != family.signs:
+        if r is None or _signs(r) != family.signs:
             return None
         sign = int(np.ravel(sign_over(r.m))[0])
     return (sign,) if sign else (1, -1)
 
 
-def _against_gradient(family: Family):
+def _against_gradient(family: Family) -> tuple[np.ndarray, np.ndarray]:
     """The corners towards which the margin falls and rises fastest."""
     n, step = len(family.box.places), 1e-4
     ahead, behind = (family.margins(s * step * np.eye(n))[0] for s in (1, -1))
@@ -157,7 +160,7 @@ def _against_gradient(family: Family):
 # -- hyperbolas and parabolas
 
 
-def _between_walls(box, here, answer, r, numbers, signs) -> Over:
+def _between_walls(box: Box, here: Any, answer: Answer, r: Reduction, numbers: Numbers, signs: Any) -> Over:
     """The potential grows on both sides: bounded, but for a set of measure zero."""
     state = numbers["state"]
     if here != Fate.BOUNDED.word:
@@ -178,22 +181,22 @@ def _between_walls(box, here, answer, r, numbers, signs) -> Over:
     return Over("holds", here, REASONS[Reason.WALLS], proved=1.0, but=but)
 
 
-def _shifted(r, state):
+def _shifted(r: Reduction, state: Sequence[Number]) -> tuple[Number, Number]:
     sj, sk = r.centre
     return state[r.j] + sj, state[r.k] + sk
 
 
-def _spins(r, state) -> bool:
+def _spins(r: Reduction, state: Sequence[Number]) -> bool:
     """Pure spin about the axis for every number of the box."""
     return bool(_there(r.p) and _there(r.q)) and not any(map(_there, _shifted(r, state)))
 
 
-def _flat(r, state) -> bool:
+def _flat(r: Reduction, state: Sequence[Number]) -> bool:
     """Whether the force is the same all along the parabola for every number of the box."""
     return not any(map(_there, derivatives_on_parabola(r, state[r.j], state[r.k])))
 
 
-def _certain_plane(r, state) -> bool:
+def _certain_plane(r: Reduction, state: Sequence[Number]) -> bool:
     u, v = _shifted(r, state)
     if any(isinstance(n, Affine) for n in (u, v, r.p, r.q)):
         return False
@@ -203,7 +206,7 @@ def _certain_plane(r, state) -> bool:
 # -- no reduction
 
 
-def _under_law(box, here, answer, numbers, form, axis) -> Over:
+def _under_law(box: Box, here: Any, answer: Answer, numbers: Numbers, form: QuadraticForm, axis: int) -> Over:
     """A gyrostatic moment along the torque: |H|^2/2 - D_i T grows at the rate lambda_i M_i."""
     along = numbers["momentum"][axis] if box.variables == "physical" else -form.sigma[1] - form.rho[2]
     if int(np.ravel(sign_over(along * form.m[axis]))[0]):

@@ -9,13 +9,15 @@ over one turn ahead, as the next turn is lower by 2 pi mu. Formulas serve floats
 """
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ...numbers.affine import Affine, lifted, root, squared
 from ...numbers.vectors import Number
 from ...orbit.reduction import Reduction, reduction_about
+from ...physics.quadratic import QuadraticForm
 
 TURN = 2 * np.pi
 GRID = 96  # angles a turn on which the highest place ahead is looked for: the potential has two maxima a turn at most
@@ -42,12 +44,12 @@ class Orbit(NamedTuple):
         return Orbit(*(np.reshape(lifted(v).c, (-1, 1)) for v in self))
 
 
-def reduction_over(form, axis) -> Reduction | None:
+def reduction_over(form: QuadraticForm, axis: int) -> Reduction | None:
     """The reduction about an axis, in numbers of any kind (`reduction_about`); None where the scene has none."""
     return reduction_about(form, axis)
 
 
-def orbit_of(r: Reduction, state, signs) -> Orbit:
+def orbit_of(r: Reduction, state: Sequence[Number], signs: Any) -> Orbit:
     """The orbit of a state (three numbers) of a reduction whose p, q have these signs all over the box."""
     sp, sq = signs
     ap, aq = sp * r.p, sq * r.q
@@ -59,11 +61,11 @@ def orbit_of(r: Reduction, state, signs) -> Orbit:
                  mu=rp * rq * r.m)
 
 
-def _sin_cos(y):
+def _sin_cos(y: Number) -> tuple[Number, Number]:
     return y.sin_cos() if isinstance(y, Affine) else (np.sin(y), np.cos(y))
 
 
-def excess(o: Orbit, y):
+def excess(o: Orbit, y: Number) -> Number:
     """Height of the potential at the angle y ahead over the energy."""
     s, _ = _sin_cos(y)
     half, _ = _sin_cos(y * 0.5)
@@ -72,24 +74,24 @@ def excess(o: Orbit, y):
     return o.d * dz - o.mu * y - dx * (o.G * (o.x + dx * 0.5) + o.c) - squared(o.w) * 0.5
 
 
-def force(o: Orbit, y):
+def force(o: Orbit, y: Number) -> Number:
     """The force ahead at the angle y: minus the slope of the excess."""
     x, z = _place(o, y)
     return o.mu + o.G * (x * z) + o.c * z + o.d * x
 
 
-def stiffness(o: Orbit, y):
+def stiffness(o: Orbit, y: Number) -> Number:
     """The slope of the force: positive at the top of a barrier."""
     x, z = _place(o, y)
     return o.G * ((z - x) * (z + x)) - o.c * x + o.d * z
 
 
-def _place(o, y):
+def _place(o: Orbit, y: Number) -> tuple[Number, Number]:
     s, c = _sin_cos(y)
     return o.x * c + o.z * s, o.z * c - o.x * s
 
 
-def highest_ahead(o: Orbit):
+def highest_ahead(o: Orbit) -> tuple[np.ndarray, np.ndarray]:
     """(angle, excess) of the highest place within one turn ahead, (n,) each, for an orbit of floats (n, 1)."""
     grid = np.arange(1, GRID + 1) * (TURN / GRID)
     heights = excess(o, grid[None])

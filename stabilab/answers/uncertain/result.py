@@ -3,11 +3,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
 from ...orbit.result import Fate
-from .search import MOST, Change, confirmed
+from .box import Box, Numbers, Point
+from .branch_and_bound import Proof
+from .search import MOST, Answer, Change, confirmed
 
 PARTS, FEWER = 60_000, 2_500  # of the box: for the question asked, and for each try to prove more
 NEARER = (0.5, 0.75, 0.9, 0.99, 0.999)  # shares of a change that is there, tried as proved stretches until one fails
@@ -21,7 +24,7 @@ class Witness:
     """A point of the box: its verdict by the ordinary exact code, and all numbers there (name -> exact numbers)."""
 
     verdict: str
-    values: dict = field(repr=False)
+    values: Numbers = field(repr=False)
 
 
 @dataclass(frozen=True)
@@ -44,7 +47,7 @@ class Over:
     parts: int = 0
 
 
-def bracketed(box, here: str, answer: Callable, change: Change | None, attempt: Callable, because: str) -> Over:
+def bracketed(box: Box, here: Any, answer: Answer, change: Change | None, attempt: Callable[[float, int], Proof], because: str) -> Over:
     """The answer from a change that was found (or None) and attempt(stretch, most) -> Proof, with [proved, changes_at]."""
     parts, proved = 0, 0.0
     if change is None or change.stretch > 1:
@@ -57,7 +60,7 @@ def bracketed(box, here: str, answer: Callable, change: Change | None, attempt: 
     proved, parts = max(proved, more), parts + looked
     sides = () if change is None else tuple(
         Witness(answer(p), box.values(p)) for p in (np.zeros(len(box.places)), change.direction * change.stretch))
-    found = {"proved": proved, "changes_at": change and change.stretch, "witnesses": sides, "parts": parts}
+    found: dict[str, Any] = {"proved": proved, "changes_at": change and change.stretch, "witnesses": sides, "parts": parts}
     if proved >= 1:
         return Over("holds", here, because, **found)
     if change is not None and change.stretch <= 1:
@@ -65,7 +68,7 @@ def bracketed(box, here: str, answer: Callable, change: Change | None, attempt: 
     return Over("undecided", here, f"neither a proof in {parts} parts of the box nor a contrary case was found", **found)
 
 
-def _farthest(change, attempt, proved):
+def _farthest(change: Change | None, attempt: Callable[[float, int], Proof], proved: float) -> tuple[float, int]:
     """(largest stretch proved, parts looked at): rising until a proof fails, and falling where the first one does."""
     looked, safe = 0, proved
     share = 1.0 if change is None else change.stretch
@@ -85,7 +88,7 @@ def _farthest(change, attempt, proved):
     return safe, looked
 
 
-def _of_point(point, answer, here) -> Change | None:
+def _of_point(point: Point, answer: Answer, here: str) -> Change | None:
     """The change at a point that contradicts a claim, where the ordinary code confirms it."""
     size = float(np.abs(point).max())
     if not size or answer(np.array(point)) in (None, here):
@@ -93,7 +96,7 @@ def _of_point(point, answer, here) -> Change | None:
     return Change(np.array(point) / size, size, 0.0)
 
 
-def by_trial(box, here: str, answer: Callable, because: str) -> Over:
+def by_trial(box: Box, here: Any, answer: Answer, because: str) -> Over:
     """Where no proof is at hand: what single points of the box say, by the ordinary code."""
     n = len(box.places)
     trial = np.concatenate([np.eye(n), -np.eye(n), np.ones((1, n)), -np.ones((1, n))])
@@ -110,9 +113,10 @@ def by_trial(box, here: str, answer: Callable, because: str) -> Over:
     return Over("undecided", here, f"{because}; {tried} other points of the box, tried one by one, do as the middle does")
 
 
-def by_sample(box, here: str, answer: Callable, because: str) -> Over:
+def by_sample(box: Box, here: Any, answer: Answer, because: str) -> Over:
     """Where no proof is at hand and answers cost a run: what points of the box drawn at random say, by the ordinary code."""
-    counts, places = {}, {}
+    counts: dict[str, int] = {}
+    places: dict[str, Point] = {}
     for point in np.random.default_rng(SEED).uniform(-1, 1, (SAMPLE, len(box.places))):
         if counts.get(Fate.UNDECIDED.word, 0) == TIRED:  # each costs a second
             break

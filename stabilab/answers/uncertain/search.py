@@ -6,8 +6,9 @@ one; nothing found is no proof. Seeded: the same box gives the same answer.
 """
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from itertools import product
-from typing import NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -15,6 +16,8 @@ MOST = 100.0          # times the stated uncertainty
 LADDER = np.concatenate([10.0 ** np.arange(-9, -2), 2.0 ** np.arange(-6, 7) * (MOST / 64)])
 CORNERS, CHUNK = 256, 4096
 HALVINGS, ROUNDS, NEAREST = 14, 4, 16
+Codes: TypeAlias = Callable[[np.ndarray], np.ndarray]  # points (m, n) of a box -> what is known there as an int each, (m,)
+Answer: TypeAlias = Callable[[np.ndarray], Any]  # one point of a box -> what the ordinary exact code answers there
 UNKNOWN = -9          # the code of a point where there is no body, or nothing is known
 
 
@@ -26,7 +29,7 @@ class Change(NamedTuple):
     before: float
 
 
-def rays(n: int, favoured=()) -> np.ndarray:
+def rays(n: int, favoured: Iterable[np.ndarray] = ()) -> np.ndarray:
     """Directions (rays, n) to be tried."""
     rng = np.random.default_rng(5)
     if 2**n <= CORNERS:
@@ -37,7 +40,7 @@ def rays(n: int, favoured=()) -> np.ndarray:
     return np.unique(np.concatenate([*(np.reshape(f, (-1, n)) for f in favoured), single, corners]), axis=0)
 
 
-def nearest_change(codes, here: int, n: int, favoured=(), most=MOST) -> Change | None:
+def nearest_change(codes: Codes, here: int, n: int, favoured: Iterable[np.ndarray] = (), most: float = MOST) -> Change | None:
     """The nearest change found of codes(points (m, n)) -> (m,) ints from `here`; None where none is found up to `most`."""
     ladder = LADDER[LADDER <= most * 1.0001]
     directions = rays(n, favoured)
@@ -63,7 +66,7 @@ def nearest_change(codes, here: int, n: int, favoured=(), most=MOST) -> Change |
     return Change(direction, float(end), float(start))
 
 
-def _first_change(codes, here, directions, ladder):
+def _first_change(codes: Codes, here: int, directions: np.ndarray, ladder: np.ndarray) -> np.ndarray:
     """The first rung at which each ray has changed, inf where none."""
     points = (directions[:, None, :] * ladder[None, :, None]).reshape(-1, directions.shape[1])
     found = np.concatenate([codes(points[i:i + CHUNK]) for i in range(0, len(points), CHUNK)]).reshape(len(directions), -1)
@@ -71,7 +74,7 @@ def _first_change(codes, here, directions, ladder):
     return np.where(changed.any(1), ladder[changed.argmax(1)], np.inf)
 
 
-def _bisected(codes, here, directions, starts, ends):
+def _bisected(codes: Codes, here: int, directions: np.ndarray, starts: np.ndarray, ends: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     for _ in range(HALVINGS):
         middle = np.where(starts > 0, np.sqrt(starts * ends), ends / 2)
         found = codes(directions * middle[:, None])
@@ -80,15 +83,14 @@ def _bisected(codes, here, directions, starts, ends):
     return starts, ends
 
 
-def _moved(direction):
+def _moved(direction: np.ndarray) -> np.ndarray:
     """The ray with one number changed at a time."""
     n = len(direction)
     out = [np.where(np.arange(n) == k, value, direction) for k in range(n) for value in (-1.0, -0.5, 0.0, 0.5, 1.0)]
-    out = np.array([d for d in out if np.abs(d).max() == 1.0])
-    return np.unique(out, axis=0)
+    return np.unique(np.array([d for d in out if np.abs(d).max() == 1.0]), axis=0)
 
 
-def confirmed(change: Change, answer, here, halvings: int = 20) -> Change | None:
+def confirmed(change: Change, answer: Answer, here: Any, halvings: int = 20) -> Change | None:
     """The change with its stretch settled by answer(point), of any kind, that differs from `here`; None where the answer is
     still `here` a thousandth farther."""
     end = next((end for end in (change.stretch * (1 + push) for push in (0.0, 1e-9, 1e-6, 1e-4, 1e-3))

@@ -7,7 +7,9 @@ another.
 """
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from ...errors import InputError
 from .box import box_of
@@ -21,12 +23,12 @@ class Uncertainty:
     """numbers: the uncertain numbers of the case; equilibria, fate: what they do to each, None where not asked (and the fate
     where there is no state)."""
 
-    numbers: tuple
+    numbers: tuple[Any, ...]
     equilibria: Over | None
     fate: Over | None
 
 
-def uncertain(case, questions=("equilibria", "fate")) -> Uncertainty | None:
+def uncertain(case: Any, questions: Sequence[str] = ("equilibria", "fate")) -> Uncertainty | None:
     """What the uncertain numbers of a Case do to its verdicts, None where it has none; questions: those to be answered."""
     if not case.uncertain:
         return None

@@ -32,7 +32,7 @@ def twofold_constants(reduction) -> TwofoldConstants:
 
 def _twofold(value: Fraction) -> Twofold:
     high = float(value)
-    return Twofold(np.float64(high), np.float64(float(value - Fraction(high))))
+    return Twofold(np.float64(high), np.float64(float(value - Fraction(high))))  # type: ignore[arg-type]  # a double broadcasts as an array does
 
 
 def twofold_places(constants: TwofoldConstants, j: int, k: int, states) -> tuple[Twofold, Twofold]:

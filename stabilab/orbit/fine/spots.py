@@ -35,7 +35,8 @@ def fine_spots(land: Landscape, states) -> FineSpots:
     """Those of states (n, 3) on circles or hyperbolas."""
     place, w, size = land.start(states)
     rough = spots_along(land, place, w)
-    x, z = twofold_places(land.twofold, land.reduction.j, land.reduction.k, states)
+    constants = land.twofold  # type: ignore[attr-defined]  # of circles and hyperbolas
+    x, z = twofold_places(constants, land.reduction.j, land.reduction.k, states)
     with np.errstate(all="ignore"):
         X, Z = (Twofold(v.high[:, None], v.low[:, None]) for v in (x, z))
         u, v = (Twofold(np.where(rough.there, p, np.nan), np.zeros(p.shape)) for p in land.xz(rough.place))
