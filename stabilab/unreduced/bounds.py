@@ -15,10 +15,7 @@ from ..numbers.vectors import dot
 from ..orbit.fate.reasons import REASONS, Reason
 from ..orbit.result import Fate, Motion
 from ..physics.coefficients import Content, at_rest, content
-from ..physics.scene import Scene
 from ..physics.state import split
-
-STIFF = 1e5  # fastest decay times span beyond which a search for extremes would take minutes
 
 
 def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
@@ -30,7 +27,10 @@ def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
         scene.quadratic()  # says which effect it is
     omega, gamma = split(parts, state)
     at = omega + (gamma or ())
-    seen = {} if span is None else _over_span(scene, omega, gamma, span)
+    seen = {}
+    if span is not None:
+        from .over_span import seen_over
+        seen = seen_over(scene, omega, gamma, span)
     if at_rest(parts, exact or omega, gamma):
         fields: dict[str, Any] = {"fate": Fate.EQUILIBRIUM, "because": REASONS[Reason.AT_REST],
                   "extremes": tuple((w, w) for w in omega)}
@@ -139,37 +139,3 @@ def _directed(parts: Content, omega, gamma) -> tuple[Fate, str, dict]:
                 "rad/s; where it tends is undecided", {"energy": T0 + V0, "rate_bound": rate})
     return (Fate.UNDECIDED, "undecided: the constant torque does work in a body that also turns in a field; no bound and no release is proved",
             {"energy": T0 + V0})
-
-
-def _over_span(scene, omega, gamma, span) -> dict:
-    """Extremes as roots of the rates over the length of the span, and how the energy went; empty where the decay is too fast."""
-    import numpy as np
-
-    from ..integrate.extrema import roots_of_rates
-    from ..physics.states import equations_and_start
-    from ..physics.to_numpy import to_numpy
-    start = {"omega": omega} | ({"gamma": gamma} if gamma else {})
-    turning = Scene(scene.body, *(e for e in scene.effects if e.name != "body_force"))
-    equations, state = equations_and_start(turning, start)
-    system, length = to_numpy(equations), float(span[1]) - float(span[0])
-    J = system.jacobian(state)
-    if not np.isfinite(J).all() or abs(np.linalg.eigvals(J).real).max() * length > STIFF:
-        return {"extremes_over": "none: the decay is too fast for a search over the span"}
-    found = roots_of_rates(turning, start, length)
-    over = f"s in [{float(span[0]):g}, {float(span[0]) + found.t_reached:g}]"
-    ends = system.invariants(np.vstack([found.start, found.end]))["energy"]
-    return {"extremes": tuple((float(a), float(b)) for a, b in found.extremes()),
-            "extremes_over": over,
-            **_validity(turning, found, over),
-            "evidence": {"span": found.t_reached, "energy_change": float(ends[1] - ends[0]),
-                         "rate_end": [float(v) for v in found.end[:3]], "steps": found.steps}}
-
-
-def _validity(scene, found, over) -> dict:
-    """Of approximate laws, at every state that the search met: where a rate vanishes, and at both ends."""
-    if not scene.approximate:
-        return {}
-    import numpy as np
-
-    from ..physics.law_limits import along
-    return {"validity": along(scene, np.vstack([found.start, found.states, found.end]), f"over {over}")}

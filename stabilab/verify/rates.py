@@ -4,7 +4,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from .numbers import Malformed, field, number, numbers
+from .numbers import Malformed, ball, field, number, numbers, q
 
 AHEAD = ((1, 2), (2, 0), (0, 1))
 
@@ -77,7 +77,6 @@ class Rates:
         """A coefficient in the arithmetic of x."""
         if isinstance(x[0], Fraction):
             return value
-        from .numbers import ball, q
         return ball(value) if type(x[0]).__name__ == "arb" else q(value)
 
 

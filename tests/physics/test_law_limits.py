@@ -225,7 +225,7 @@ def test_strict_of_fate_is_three_for_an_undecided_motion(stabilab):
 
 def test_surface_carries_it_in_its_summary(stabilab, tmp_path, monkeypatch):
     from stabilab.show.surface import render_probe
-    monkeypatch.setattr(render_probe, "probe", lambda: render_probe.Renderer(False, "none here"))
+    monkeypatch.setattr("stabilab.show.surface.write.probe", lambda: render_probe.Renderer(False, "none here"))  # loaded first, so that it is put back
     _, out, _ = stabilab("surface", CASES / "charged-body.toml", "--out", tmp_path / "s")
     assert json.loads(out)["validity"]["effect"] == "charge"
 

@@ -11,7 +11,7 @@ import pytest
 
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
 from stabilab.answers.trajectory import trajectory
-from stabilab.unreduced import growth_certificates, growth_run
+from stabilab.unreduced import growth_certificates, growth_steps
 from stabilab.unreduced.growth import captured_fate
 from stabilab.unreduced.growth_certificates import spin_up_margin, well_margin
 from stabilab.unreduced.growth_extremes import captured_extremes
@@ -89,7 +89,7 @@ def test_the_last_reversal_of_the_turn_is_the_same_by_both_steppers(state, turns
     found = []
     for available in (True, False):
         monkeypatch.setattr("stabilab.integrate.to_heyoka.heyoka_available", lambda: available)
-        run, last = growth_run._runner(0.3, state), None
+        run, last = growth_steps.runner(0.3, state), None
         for t in (1.0, 2.5, 6.0):
             reached, y, reversal, steps = run(t, 10**6)
             assert reached == t and steps > 0

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from ...case.read import load_all
 from ...theories.comparison import side_by_side
 from .. import style
 from ..text.table import cases_folder
@@ -70,7 +71,6 @@ class Column:
 @lru_cache(maxsize=32)
 def sweep(name: str) -> dict:
     """Variant -> case of a sweep file of the repository ("" for a file without sweep)."""
-    from ...case.read import load_all
     return {case.variant: case for case in load_all(cases_folder() / f"{name}.toml")}
 
 

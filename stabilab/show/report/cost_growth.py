@@ -4,6 +4,7 @@ from __future__ import annotations
 from dataclasses import astuple, fields
 from pathlib import Path
 
+from ...case.read import load
 from ...cost.growth import NODE_DIGITS, Growth, with_closeness, with_digits, with_states
 from .. import style
 from ..files import comma
@@ -104,7 +105,6 @@ def words(rows, about) -> str:
 
 def main(case, folder) -> None:
     """The whole measurement, every decade of states and every setting: minutes."""
-    from ...case.read import load
     print(page(load(case), folder, full=True))
 
 

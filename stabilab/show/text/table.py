@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ...answers.motion import motion
+from ...case.read import load
 from ...equilibrium.torque_table import torque_table
 from ...errors import InputError
 from .. import style
@@ -111,7 +112,6 @@ def extremes_table(number: int, folder: Path | None = None) -> Table:
 
 
 def _extremes_row(path, lam):
-    from ...case.read import load
     case = load(path)
     found = motion(case.scene, case.start, case.span, exact=case.exact_state)  # of one state: the same bytes on every processor
     low_high = [float(v) for pair in found.extremes for v in pair]

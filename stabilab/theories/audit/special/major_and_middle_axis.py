@@ -3,6 +3,9 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
+from ....answers.trajectory import trajectory
 from ....physics.body import Body
 from ....physics.scaling import scaling
 from ....physics.scene import ScaledGyrostat
@@ -18,9 +21,6 @@ RANGES_TRUE = {100: ((-3.8126, 3.8127), (-3.8591, 3.8642)), 300: ((-3.7568, 3.75
 
 def _ranges(table):
     """Largest distance of the table's ranges from those of the motion."""
-    import numpy as np
-
-    from ....answers.trajectory import trajectory
     worst = 0.0
     for lam, limits in table.items():
         run = trajectory(ScaledGyrostat(lam / 500, lam / 250, (1, 0, 0)), (4.5, 1.8, 3.4), np.linspace(0, 15, 60001))
@@ -33,7 +33,6 @@ def _ranges(table):
 def _capture():
     """J of the end state minus J of the start, plus 2 c tau: the law that forbids a bounded motion. Fig. 12,
     lambda1 = 100: the print's "stable" would keep J; start (0, -1, 5), tau = 15."""
-    from ....answers.trajectory import trajectory
     c = 0.2
     run = trajectory(ScaledGyrostat(0.2, 0.4, (1, 0, 0)), (0.0, -1.0, 5.0), (0.0, 15.0))
     first, last = (x2 * x2 + x3 * x3 - 2 * c * x1 for x1, x2, x3 in (run.states[0], run.states[-1]))
@@ -77,7 +76,6 @@ def _time_scale():
 
 def _least_quartic(c):
     """Smallest g^4 + c g + 1; zero or less where a saddle exists."""
-    import numpy as np
     g = np.cbrt(-c / 4)
     return float(g**4 + c * g + 1)
 

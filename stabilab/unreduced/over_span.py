@@ -1,0 +1,38 @@
+"""What a run over a span shows of a motion whose bounds alone are proved: extremes as roots of the rates, and how the energy went."""
+from __future__ import annotations
+
+import numpy as np
+
+from ..integrate.extrema import roots_of_rates
+from ..physics.scene import Scene
+from ..physics.states import equations_and_start
+from ..physics.to_numpy import to_numpy
+
+STIFF = 1e5  # fastest decay times span beyond which a search for extremes would take minutes
+
+
+def seen_over(scene, omega, gamma, span) -> dict:
+    """Extremes as roots of the rates over the length of the span, and how the energy went; empty where the decay is too fast."""
+    start = {"omega": omega} | ({"gamma": gamma} if gamma else {})
+    turning = Scene(scene.body, *(e for e in scene.effects if e.name != "body_force"))
+    equations, state = equations_and_start(turning, start)
+    system, length = to_numpy(equations), float(span[1]) - float(span[0])
+    J = system.jacobian(state)
+    if not np.isfinite(J).all() or abs(np.linalg.eigvals(J).real).max() * length > STIFF:
+        return {"extremes_over": "none: the decay is too fast for a search over the span"}
+    found = roots_of_rates(turning, start, length)
+    over = f"s in [{float(span[0]):g}, {float(span[0]) + found.t_reached:g}]"
+    ends = system.invariants(np.vstack([found.start, found.end]))["energy"]
+    return {"extremes": tuple((float(a), float(b)) for a, b in found.extremes()),
+            "extremes_over": over,
+            **_validity(turning, found, over),
+            "evidence": {"span": found.t_reached, "energy_change": float(ends[1] - ends[0]),
+                         "rate_end": [float(v) for v in found.end[:3]], "steps": found.steps}}
+
+
+def _validity(scene, found, over) -> dict:
+    """Of approximate laws, at every state that the search met: where a rate vanishes, and at both ends."""
+    if not scene.approximate:
+        return {}
+    from ..physics.law_limits import along
+    return {"validity": along(scene, np.vstack([found.start, found.states, found.end]), f"over {over}")}
