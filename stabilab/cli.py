@@ -1,18 +1,18 @@
-"""The commands: each loads its cases, asks the analysis, and shows the answer. Data to stdout, messages to stderr."""
+"""The commands and their options. Each opens one door, to its file in `commands`, which loads cases, asks the analysis and shows the answer."""
 from __future__ import annotations
 
 import os
 import sys
-from functools import partial
 from pathlib import Path
 from typing import Annotated  # typer reads the annotations at run time
 
 import typer
 
-from .errors import BAD_INPUT, BUG, INTERRUPTED, OK, UNDECIDED, InputError, RenderingUnavailable, StabilabError, ToleranceNotMet, printable
+from .errors import BAD_INPUT, BUG, INTERRUPTED, OK, StabilabError
 from .show.terminal import completion
 from .show.terminal.groups import Grouped
 from .streams import LOST, OutputLost, guarded
+from .version import __version__
 
 
 def _without_commands() -> typer.Typer:
@@ -44,8 +44,7 @@ Strict = Annotated[bool, typer.Option("--strict", help="Exit with 3 where a fate
 
 def _version(wanted: bool):
     if wanted:
-        from .version import __version__
-        _print(f"stabilab {__version__}")
+        print(f"stabilab {__version__}", flush=True)
         raise typer.Exit()
 
 
@@ -63,8 +62,8 @@ def show(case: CaseFile):
 
     Example: stabilab show cases/minor-axis-100.toml
     """
-    from .show.text.scene_text import text
-    _show("\n\n".join(text(one) for one in _load([case])))
+    from .commands.show import show as answer
+    answer(case)
 
 
 @app.command()
@@ -78,29 +77,8 @@ def classify(cases: CaseFiles, json: Json = False, strict: Annotated[bool, typer
 
     Example: stabilab classify cases/minor-axis-100.toml --json
     """
-    from .show.text import answers, law
-    loaded = _load(cases)
-    systems = _systems(loaded, units)
-    if certify:
-        from .show.text import certification
-        certification.checked(out)
-        if len(cases) != 1:
-            raise InputError(f"--certify: expected one case, got {len(cases)}; certify them one by one")
-    answered = [(case, _equilibria(case), _tilted(case, _motion(case, follow=follow, proof=certify), tilt) if case.state else None)
-                for case in _each(loaded)]
-    boxes, shown = _over_boxes(loaded, "equilibria", "fate")
-    laws = [law.worst(found.validity, motion and motion.validity) for _, found, motion in answered]
-    if json:
-        _print(answers.as_json([answers.classification(*answer) | law.key(held) | shown.as_dict(box)
-                                for answer, held, box in zip(answered, laws, boxes)]))
-    else:
-        from .show.terminal import classification
-        texts = [lambda n=n: classification.text(*answered[n], systems[n], why) for n in range(len(answered))]
-        _tell_all(loaded, texts, laws, [shown.text(box) for box in boxes], why, "\n\n", _swept_motions([m for *_, m in answered], systems))
-    certified = all([_certified(case, out) for case in loaded]) if certify else True
-    undecided = any(answers.undecided(found, motion) for _, found, motion in answered) or any(map(shown.undecided, boxes))
-    if strict and (not certified or undecided or law.beyond(*laws)):
-        raise typer.Exit(UNDECIDED)
+    from .commands.classify import classify as answer
+    answer(cases, json, strict, certify, out, follow, tilt, units, why)
 
 
 @app.command()
@@ -115,25 +93,8 @@ def verify(certificate: Annotated[Path, typer.Argument(metavar="CERTIFICATE", he
 
     Example: stabilab verify certificate.json --case cases/minor-axis-100.toml
     """
-    from .show.text import answers, certification
-    from .verify import verify as check
-    from .verify.about import about, line
-    from .verify.form import read
-    from .verify.numbers import Malformed
-    cases = _load([case]) if case else []
-    try:
-        claims = read(certificate)
-        found = check(claims)
-    except (Malformed, UnicodeDecodeError) as error:
-        raise InputError(f"{certificate}: {error}; expected a certificate of stabilab classify --certify") from None
-    told = about(claims)
-    _either(json, lambda: answers.as_json(certification.as_dict(found, told)), lambda: certification.text(found, line(told)))
-    if found.status == "refuted":
-        raise ToleranceNotMet(f"{certificate}: a claim is wrong")
-    if cases:
-        _about_one_of(cases, told, certificate)
-    if strict and found.status != "proved":
-        raise typer.Exit(UNDECIDED)
+    from .commands.verify import verify as answer
+    answer(certificate, case, json, strict)
 
 
 @app.command()
@@ -147,16 +108,8 @@ def audit(paper: Annotated[str | None, typer.Argument(metavar="[PAPER]", help="A
 
     Example: stabilab audit constant-torque-gyrostat --equation 17
     """
-    from .show.progress import counted
-    from .show.text import answers
-    from .show.text import audit as shown
-    from .theories.audit import audited
-    with counted() as tell:
-        findings = audited(paper, equation, tell)
-    if out is not None:
-        from .show.report.audit_page import page
-        _say(f"written: {page(findings, out)}")
-    _either(json, lambda: answers.as_json(shown.as_dict(findings)), lambda: shown.text(findings))
+    from .commands.papers import audit as answer
+    answer(paper, equation, json, out)
 
 
 @app.command()
@@ -170,17 +123,13 @@ def validate(source: Annotated[str | None, typer.Argument(metavar="[SOURCE]", he
 
     Example: stabilab validate nesc
     """
-    from .show.outside import validation as shown
-    from .show.progress import counted
-    from .show.text import answers
-    from .theories.validation import validated
-    with counted() as tell:
-        found = validated(source, tell)
-    if out is not None:
-        _say(f"written: {shown.page(found, out)}")
-    _either(json, lambda: answers.as_json(shown.as_dict(found)), lambda: shown.text(found))
-    if apart := shown.unexplained(found):
-        raise ToleranceNotMet("\n".join(apart))
+    from .commands.papers import validate as answer
+    answer(source, json, out)
+
+
+def _either_json_or_csv(json: bool, csv: bool):
+    if json and csv:
+        raise typer.BadParameter("choose one of --json and --csv")
 
 
 @app.command()
@@ -191,9 +140,9 @@ def extremes(cases: CaseFiles, json: Json = False,
 
     Example: stabilab extremes cases/minor-axis-*.toml --csv
     """
-    if json and csv:
-        raise typer.BadParameter("choose one of --json and --csv")
-    _tell("extremes", cases, digits, json, strict, csv, follow, units=units, why=why)
+    _either_json_or_csv(json, csv)
+    from .commands.questions import answer
+    answer("extremes", cases, digits, json, strict, csv, follow, units=units, why=why)
 
 
 @app.command()
@@ -205,7 +154,8 @@ def fate(cases: CaseFiles, json: Json = False, digits: Digits = None, strict: St
 
     Example: stabilab fate cases/minor-axis-100.toml --digits 30
     """
-    _tell("fate", cases, digits, json, strict, follow=follow, tilt=tilt, proof=certify, units=units, why=why)
+    from .commands.questions import answer
+    answer("fate", cases, digits, json, strict, follow=follow, tilt=tilt, proof=certify, units=units, why=why)
 
 
 @app.command()
@@ -214,7 +164,8 @@ def period(cases: CaseFiles, json: Json = False, digits: Digits = None, strict: 
 
     Example: stabilab period cases/minor-axis-100.toml --digits 30
     """
-    _tell("period", cases, digits, json, strict, units=units, why=why)
+    from .commands.questions import answer
+    answer("period", cases, digits, json, strict, units=units, why=why)
 
 
 @app.command()
@@ -240,26 +191,8 @@ def simulate(case: CaseFile,
 
     Example: stabilab simulate cases/major-axis-100.toml --at 0,5,10,15 --json
     """
-    from .show.files import trajectory_files
-    loaded = _load([case], motion=True)
-    systems = _systems(loaded, units)
-    if out:
-        trajectory_files.checked(out)
-    runs = [(one, *_followed(one, _times(one, at), model, method, rtol, order, digits)) for one in _each(loaded)]
-    if angles:
-        runs = [(one, _with_angles(one, run, model, order), reached) for one, run, reached in runs]
-    if out:
-        _write_each(out, [(one, partial(trajectory_files.write, one, run)) for one, run, _ in runs])
-    if json:
-        _print_json(loaded, [_run_as_dict(*followed) for followed in runs])
-    elif not out:
-        from .show.terminal import page
-        page.tell("\n\n".join(_run_as_text(*followed, digits, system, page.width()) for followed, system in zip(runs, systems)))
-    else:
-        _say_laws(run.validity for _, run, _ in runs)
-        _say_digits(runs)
-    _judge_runs(runs, digits)
-    _strictly(strict, (run.validity for _, run, _ in runs))
+    from .commands.simulate import simulate as answer
+    answer(case, at, model, order, method, rtol, digits, angles, out, json, strict, units)
 
 
 @app.command()
@@ -273,21 +206,8 @@ def reference(case: CaseFile,
 
     Example: stabilab reference cases/minor-axis-100.toml --digits 30 --out minor-axis-100.csv
     """
-    from .case.read import blamed_on
-    from .show.outside import reference as shown
-    from .show.text import answers
-    loaded, made = _load([case], motion=True), []
-    if out:
-        shown.checked(out)
-    for one in loaded:
-        with blamed_on(one):
-            made.append((one, *shown.as_dict(one, _exact_times(one, at), digits, sys.argv[1:])))
-    if out:
-        _write_each(out, [(one, partial(shown.write, found)) for one, found, _ in made])
-    else:
-        _print(answers.as_json([found for _, found, _ in made] if len(made) > 1 else made[0][1]) if json
-               else "".join(shown.csv(found) for _, found, _ in made).rstrip("\n"))
-    _all_reached(short for one in made for short in shown.missing(*one))
+    from .commands.reference import reference as answer
+    answer(case, at, digits, out, json)
 
 
 @app.command()
@@ -301,18 +221,8 @@ def compare(case: CaseFile,
 
     Example: stabilab compare cases/charged-body.toml
     """
-    from .show.text import comparison, law
-    loaded = _load([case], motion=True)
-    if out:
-        comparison.checked(out)
-    compared = [(one, _compared(one, order)) for one in _each(loaded)]
-    if out:
-        _write_each(out, [(one, partial(comparison.write, one, found)) for one, found in compared])
-    if json:
-        _print_json(loaded, [comparison.as_dict(one, found) | law.key(found.validity) for one, found in compared])
-    else:
-        _show("\n\n".join(law.first(found.validity, comparison.text(one, found)) for one, found in compared))
-    _strictly(strict, (found.validity for _, found in compared))
+    from .commands.accuracy import compare as answer
+    answer(case, order, out, json, strict)
 
 
 @app.command()
@@ -328,29 +238,9 @@ def precision(case: CaseFile, json: Json = False,
 
     Example: stabilab precision cases/minor-axis-100.toml --quick
     """
-    if json and csv:
-        raise typer.BadParameter("choose one of --json and --csv")
-    from .answers.digits.front import keep
-    from .cost.accuracy import precision as measure
-    from .show.text import law
-    from .show.text import precision as shown
-    if out:
-        shown.checked(out)
-    loaded = _load([case], motion=True)
-    measured = [measure(one, "quick" if quick else "full", until) for one in _each(loaded)]
-    for found in measured:
-        keep(found)
-    if out:
-        _write_each(out, [(found.case, partial(shown.write, found)) for found in measured])
-    if json:
-        _print_json(loaded, [shown.as_dict(found) | law.key(found.validity) for found in measured])
-    elif csv:
-        _say_laws(found.validity for found in measured)
-        _print(shown.csv(*measured))
-    else:
-        _show("\n\n".join(law.first(found.validity, shown.text(found)) for found in measured))
-    _all_reached((found.case, found.reference.reason) for found in measured if not found.questions)
-    _strictly(strict, (found.validity for found in measured))
+    _either_json_or_csv(json, csv)
+    from .commands.accuracy import precision as answer
+    answer(case, json, csv, out, until, quick, strict)
 
 
 @app.command()
@@ -363,23 +253,8 @@ def surface(case: CaseFile, out: Annotated[Path, typer.Option(metavar="DIR", hel
 
     Example: stabilab surface cases/minor-axis-100.toml --out surfaces
     """
-    from .show.surface.write import write_all
-    from .show.text import law
-    loaded, unavailable = _load([case]), None
-    laws = [law.of_case(one) for one in loaded]
-    try:
-        summaries = write_all(loaded, out, arguments=sys.argv[1:])
-    except RenderingUnavailable as error:
-        if not hasattr(error, "summaries"):
-            raise
-        summaries, unavailable = error.summaries, error
-    _print_json(loaded, [summary | law.key(held) for summary, held in zip(summaries, laws)])
-    for one, summary in zip(loaded, summaries):
-        if not summary["sheets"]:
-            _say(f"{one.name}: no surface to write: {summary['reason']}")
-    if unavailable:
-        raise unavailable
-    _strictly(strict, laws)
+    from .commands.pictures import surface as answer
+    answer(case, out, strict)
 
 
 @app.command()
@@ -401,28 +276,8 @@ def plot(case: CaseFile,
 
     Example: stabilab plot cases/middle-axis-double-well.toml --kind time --out double-well.svg
     """
-    from .case.read import blamed_on
-    from .show.files import endings
-    from .show.plot.to_file import default_name, inches, write
-    from .show.text import law
-    if case.suffix.lower() == ".nc":
-        from .show.maps import picture
-        from .show.maps.atlas import to_file
-        if to_file.is_atlas(case):
-            _print(str(to_file.redrawn(case, out or Path(f"{printable(case.stem)}.png"), kind, inches(size), dpi, units)))
-            return
-        _print(str(picture.write(case, out or Path(f"{printable(case.stem)}.png"), kind, inches(size), dpi)))
-        return
-    loaded, drawn = _load([case], motion=kind != "equilibria"), []
-    _systems(loaded, units)  # says what is wrong with them
-    target = out or Path(default_name(printable(case.stem), kind))
-    for one in loaded:
-        with blamed_on(one):
-            end = _time(until, one, "until")
-            drawn.append(write(one, endings.labelled(target, one), kind, inches(size), dpi, units, end, neighbours))
-    laws = [law.of_case(one) for one in loaded]
-    _print("\n".join(words for held, path in zip(laws, drawn) for words in (held and held.words, str(path)) if words))
-    _strictly(strict, laws)
+    from .commands.pictures import plot as answer
+    answer(case, kind, out, size, dpi, until, neighbours, units, strict)
 
 
 @app.command()
@@ -452,24 +307,10 @@ def sweep(case: CaseFile,
 
     Example: stabilab sweep cases/minor-axis-100.toml --vary "x[1]=-4:4:101" --vary "x[3]=-3:3:101" --out map.nc
     """
-    if json and csv:
-        raise typer.BadParameter("choose one of --json and --csv")
-    from .maps.plan import planned, split_keys
-    from .maps.run import run
-    from .show.maps import words
-    plan = planned(case, split_keys(vary or []), samples, seed, answer, follow, rate=rate, component=component, energy=energy, tilt=tilt, until=until)
-    if out:
-        from .show.maps import dataset
-        dataset.checked(out)
-    with run(plan, out, workers, scheduler) as found:
-        if out:
-            _say(f"written: {dataset.write(dataset.dataset(found), out)}")
-    if json or csv:
-        _print(words.json(found) if json else words.csv(found))
-    else:
-        _show(words.text(found))
-    if strict and words.undecided(found):
-        raise typer.Exit(UNDECIDED)
+    _either_json_or_csv(json, csv)
+    from .commands.maps import sweep as run
+    limits = {"rate": rate, "component": component, "energy": energy, "tilt": tilt, "until": until}
+    run(case, vary, samples, seed, answer, follow, limits, out, workers, scheduler, csv, json, strict)
 
 
 @app.command()
@@ -486,24 +327,9 @@ def bifurcation(case: CaseFile,
 
     Example: stabilab bifurcation cases/wheel-and-thruster.toml --vary "torque[3]=0:2000"
     """
-    if json and csv:
-        raise typer.BadParameter("choose one of --json and --csv")
-    from .maps.bifurcation.ask import bifurcation as ask
-    from .maps.bifurcation.result import Diagram
-    from .maps.plan import split_keys
-    from .show.files import endings
-    from .show.maps.bifurcation import plane_words, words
-    if out:
-        endings.file(out, endings.PICTURES)
-    found = ask(case, split_keys(vary or []), curve)
-    if out:
-        from .show.maps.bifurcation import picture, plane_picture
-        _say(f"written: {(picture if isinstance(found, Diagram) else plane_picture).write(found, out)}")
-    told = words if isinstance(found, Diagram) else plane_words
-    if json or csv:
-        _print(told.json(found) if json else told.csv(found))
-    else:
-        _show(told.text(found))
+    _either_json_or_csv(json, csv)
+    from .commands.maps import bifurcation as answer
+    answer(case, vary, curve, out, csv, json)
 
 
 @app.command()
@@ -524,22 +350,9 @@ def basin(case: CaseFile,
 
     Example: stabilab basin cases/minor-axis-100.toml --vary "x[1]=-4:4" --vary "x[3]=-3:3" --out basin.png
     """
-    if json and csv:
-        raise typer.BadParameter("choose one of --json and --csv")
-    from .maps.basins.ask import basins
-    from .maps.plan import split_keys
-    from .show.maps.basins import words
-    from .show.maps.basins.write import checked, write
-    targets = checked(out or [])
-    with basins(case, split_keys(vary or []), depth, targets.data, workers, scheduler, follow) as found:
-        for path in targets.paths:
-            _say(f"written: {write(found, path)}")
-    if json or csv:
-        _print(words.json(found) if json else words.csv(found))
-    else:
-        _show(words.text(found))
-    if strict and words.undecided(found):
-        raise typer.Exit(UNDECIDED)
+    _either_json_or_csv(json, csv)
+    from .commands.maps import basin as answer
+    answer(case, vary, depth, out, workers, scheduler, follow, csv, json, strict)
 
 
 @app.command()
@@ -568,23 +381,10 @@ def atlas(case: CaseFile,
 
     Example: stabilab atlas cases/cubesat-3u.toml --out atlas.png
     """
-    if json and csv:
-        raise typer.BadParameter("choose one of --json and --csv")
-    from .maps.atlas.asked import asked
-    from .maps.atlas.run import drawn
-    from .show.maps.atlas import to_file, words
-    from .show.units import units_of
-    plan = asked(case, torque, wheel, level, refine, certify, follow, rate=rate, component=component, energy=energy, tilt=tilt, until=until)
-    system, targets = units_of(plan.case, units), to_file.checked(out or [])
-    with drawn(plan, targets[0] if targets else None, workers, scheduler) as found:
-        for target in targets:
-            _say(f"written: {to_file.write(found, target, system)}")
-    if json or csv:
-        _print(words.json(found, system) if json else words.csv(found))
-    else:
-        _show(words.text(found, system))
-    if strict and words.undecided(found):
-        raise typer.Exit(UNDECIDED)
+    _either_json_or_csv(json, csv)
+    from .commands.maps import atlas as answer
+    limits = {"rate": rate, "component": component, "energy": energy, "tilt": tilt, "until": until}
+    answer(case, torque, wheel, level, refine, certify, follow, limits, out, workers, scheduler, units, csv, json, strict)
 
 
 @app.command()
@@ -603,20 +403,10 @@ def explore(case: Annotated[Path | None, typer.Argument(metavar="[CASE]", help="
 
     Example: stabilab explore cases/thruster-stuck-major-axis.toml --no-browser
     """
-    from .case.read import load
-    one = load(case or Path(__file__).parent / "cases" / "thruster-stuck-major-axis.toml")
-    if static is not None:
-        from .show.explore.static import write
-        _print(str(write(one, static, pyodide)))
-        return
-    if pyodide is not None:
+    if pyodide is not None and static is None:
         raise typer.BadParameter("--pyodide belongs to --static")
-    from .show.explore.serve import serve
-
-    def tell(address: str) -> None:
-        _say("Ctrl-C ends it.")
-        _print(address)
-    serve(one, port, browser, tell)
+    from .commands.pictures import explore as answer
+    answer(case, port, browser, static, pyodide)
 
 
 @app.command()
@@ -637,31 +427,10 @@ def when(cases: CaseFiles,
 
     Example: stabilab when cases/cubesat-3u.toml --rate "30 deg/s"
     """
-    if json and csv:
-        raise typer.BadParameter("choose one of --json and --csv")
-    from .answers.time_to import time_of_case
-    from .case.limit_options import stated_limit
-    from .case.read import blamed_on
-    from .show.text import answers, law
-    from .show.text import when as shown
-    loaded, answered = _load(cases, motion=True), []
-    systems = _systems(loaded, "si" if si else units)
-    for case in _each(loaded):
-        limit = stated_limit(case, rate, component, energy, tilt, until)
-        with blamed_on(case):
-            answered.append((case, limit, time_of_case(case, limit.ask, limit.until)))
-    if json:
-        _print(answers.as_json([shown.as_dict(*one) | law.key(one[2].validity) for one in answered]))
-    elif csv:
-        _say_laws(found.validity for *_, found in answered)
-        _print(shown.csv(answered))
-    else:
-        texts = [lambda n=n: shown.text(*answered[n], systems[n]) for n in range(len(answered))]
-        _tell_all(loaded, texts, [found.validity for *_, found in answered], [""] * len(loaded), False, "\n",
-                  lambda of: shown.swept([answered[n] for n in of], systems[of[0]]))
-    if strict and any(shown.unknown(found) for *_, found in answered):
-        raise typer.Exit(UNDECIDED)
-    _strictly(strict, (found.validity for *_, found in answered))
+    _either_json_or_csv(json, csv)
+    from .commands.when import when as answer
+    limits = {"rate": rate, "component": component, "energy": energy, "tilt": tilt, "until": until}
+    answer(cases, limits, "si" if si else units, json, csv, strict)
 
 
 @app.command()
@@ -678,34 +447,9 @@ def stuck(case: CaseFile,
 
     Example: stabilab stuck cases/upper-stage.toml
     """
-    if json and csv:
-        raise typer.BadParameter("choose one of --json and --csv")
-    from .answers.stuck.ask import stuck as ask
-    from .case.read import blamed_on
-    from .show.progress import told
-    from .show.text import stuck as shown
-    loaded, answers = _load([case], motion=True), []
-    systems = _systems(loaded, "si" if si else units)
-    if out:
-        from .show.files import endings
-        endings.file(out, endings.PICTURES)
-    with told() as tell:
-        for one in loaded:
-            with blamed_on(one):
-                answers.append(ask(one, all_thrusters, tell))
-    if out:
-        from .show.stuck_picture import draw
-        _write_each(out, [(one, partial(draw, one, found, units=system)) for one, found, system in zip(loaded, answers, systems)])
-    if json:
-        _print_json(loaded, list(map(shown.as_dict, answers)))
-    elif csv:
-        _print(shown.csv(answers))
-    else:
-        texts = [lambda n=n: shown.text(loaded[n], answers[n], systems[n]) for n in range(len(loaded))]
-        _tell_all(loaded, texts, [None] * len(loaded), [""] * len(loaded), all_thrusters or why, "\n\n",
-                  lambda of: shown.swept([answers[n] for n in of], systems[of[0]]))
-    if strict and any(row.fate == "undecided" for found in answers for row in found.rows):
-        raise typer.Exit(UNDECIDED)
+    _either_json_or_csv(json, csv)
+    from .commands.stuck import stuck as answer
+    answer(case, all_thrusters, "si" if si else units, why, out, json, csv, strict)
 
 
 @app.command()
@@ -716,13 +460,8 @@ def tables(out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the
 
     Example: stabilab tables --out tables
     """
-    from .show.files import manifest
-    from .show.progress import counted
-    from .show.text import table
-    with manifest.written(out, sys.argv[1:], table.case_files(table.STEMS), table.TOLERANCES) as folder:
-        with counted() as tell:
-            made = table.write_tables(folder, tell=tell)
-    _print_paths([out / path.relative_to(folder) for path in made], out)
+    from .commands.papers import tables as answer
+    answer(out)
 
 
 @app.command()
@@ -738,13 +477,8 @@ def figures(numbers: Annotated[list[int] | None, typer.Argument(
 
     Example: stabilab figures --paper charged 2 8 --out figures
     """
-    from .show.figures import catalogue as drawn
-    from .show.files import manifest
-    from .show.text import table
-    rows = drawn.chosen(numbers, paper)
-    with manifest.written(out, sys.argv[1:], table.case_files(), {row.file: row.tolerance for row in rows}) as folder:
-        made = drawn.write(numbers, folder, paper_name=paper)
-    _print_paths([out / path.relative_to(folder) for path in made], out)
+    from .commands.papers import figures as answer
+    answer(numbers, paper, out)
 
 
 @app.command()
@@ -765,12 +499,8 @@ def report(cases: Annotated[list[Path] | None, typer.Argument(
 
     Example: stabilab report cases/minor-axis-100.toml --out report
     """
-    from .show.report.report import write
-    beyond: list[str] = []
-    made = write(_load(cases or []), out, arguments=sys.argv[1:], papers=papers, precision=precision, certify=certify, workers=workers, beyond=beyond)
-    _print("\n".join([*beyond, str(made)]))
-    if strict and beyond:
-        raise typer.Exit(UNDECIDED)
+    from .commands.report import report as answer
+    answer(cases, out, papers, precision, certify, workers, strict)
 
 
 @app.command()
@@ -783,9 +513,8 @@ def rerun(manifest: Annotated[Path, typer.Argument(metavar="MANIFEST", help="A m
 
     Example: stabilab rerun report/manifest.json
     """
-    from .show.files.rerun import rerun as repeat
-    *lines, verdict = repeat(manifest, out)
-    _show("\n".join([verdict, *lines]))
+    from .commands.report import rerun as answer
+    answer(manifest, out)
 
 
 @app.command(name="import")
@@ -799,24 +528,8 @@ def import_(file: Annotated[Path, typer.Argument(metavar="FILE", help="A NASA 42
 
     Example: stabilab import SC_Simple.txt --out simple.toml
     """
-    from .case import import_42, import_basilisk
-    from .case.imported import case_text, faults_of
-    from .case.source import source_text
-    from .files import whole_file
-    given = source_text(file)
-    craft = (import_42 if import_42.is_one(given) else import_basilisk).spacecraft(given, file)
-    text = case_text(craft, file, stuck or ())
-    if out:
-        with whole_file(out) as waiting:
-            waiting.write_text(text, encoding="utf-8")
-        _say(f"written: {out}")
-    else:
-        _print(text)
-    for words in craft.omitted:
-        _say(f"{printable(str(file))}: no counterpart: {printable(words)}")
-    faults = faults_of(text, out or file)
-    if faults:
-        raise InputError("\n".join(("the case has faults yet:", *faults)))
+    from .commands.foreign import import_ as answer
+    answer(file, out, stuck)
 
 
 @app.command()
@@ -825,357 +538,8 @@ def doctor():
 
     Example: stabilab doctor
     """
-    from .show.text.doctor import text
-    _show(text())
-
-
-def _load(paths, motion: bool = False) -> list:
-    """All cases, of a file with [sweep] every combination; the faults of all files at once. motion: each must state one."""
-    from .case.read import load_all
-    cases, faults = [], []
-    for path in paths:
-        try:
-            cases.extend(load_all(path))
-        except InputError as error:
-            faults.append(str(error))
-    faults += dict.fromkeys(f"{case.path}: motion: expected x or angular_velocity in [motion]; this command needs a state"
-                            for case in cases if motion and case.state is None)
-    if faults:
-        raise InputError("\n".join(faults))
-    return cases
-
-
-def _over_boxes(cases, *questions):
-    """(what uncertain numbers do to the verdicts of each case, None where it has none; the module that shows it)."""
-    from .show.text import uncertain as shown
-    if not questions or not any(case.uncertain for case in cases):
-        return [None] * len(cases), shown
-    from .answers.uncertain.verdicts import uncertain
-    return [uncertain(case, questions) for case in cases], shown
-
-
-def _equilibria(case):
-    from .answers.equilibria import equilibria
-    from .case.read import blamed_on
-    with blamed_on(case):
-        return equilibria(case.scene)
-
-
-def _certified(case, out) -> bool:
-    """Write the certificate of one case; whether all of it could be certified."""
-    from .answers.certificate import certificate
-    from .case.read import blamed_on
-    from .show.files.endings import labelled
-    from .show.text import certification
-    with blamed_on(case):
-        made = certificate(case.scene, case.exact_state)
-    _say(f"written: {certification.write(made, labelled(out, case))}\n{certification.summary(made)}")
-    return not made["uncertified"]
-
-
-def _motion(case, brief=False, follow=None, proof=False):
-    from .answers.motion import motion
-    from .case.read import blamed_on
-    from .streams import Progress
-    long = _time(follow, case)
-    with blamed_on(case), Progress() as progress:
-        words = lambda t, steps, left: progress(f"{printable(case.name)}: followed to {t:.4g} {case.scene.time_unit}, {steps} steps")
-        return motion(case.scene, case.start, case.span, brief, case.exact_state, long, words if progress.wanted else None, proof)
-
-
-def _tilted(case, motion, angle: str | None):
-    """The motion with what a tilt of its torque does, where that is asked for or the case states what it takes: a second of work otherwise saved."""
-    stated = case.limits is not None or any(thruster.stuck and thruster.misalignment for thruster in case.thrusters)
-    if angle is None and not stated:
-        return motion
-    from .answers.tilt import with_tilt
-    from .case.limit_options import stated_angle
-    from .case.read import blamed_on
-    with blamed_on(case):
-        return with_tilt(case, motion, None if angle is None else stated_angle(angle, "tilt"))
-
-
-def _time(text: str | None, case, option: str = "follow") -> float | None:
-    """A time of the command line: a number in the time of the case, or one with a unit where that is s."""
-    if text is None:
-        return None
-    from .case.units import NONE, TIME, quantity
-    try:
-        return float(quantity(text, NONE if case.variables == "scaled" else TIME)[0])
-    except InputError as error:
-        raise InputError(f"--{option}: {error}") from None
-
-
-def _about_one_of(cases, told, certificate):
-    """Exit with 5 where a certificate is of none of the cases."""
-    from .answers.certificate import subject
-    from .verify.about import differences
-    apart = [(case, differences(told, subject(case.scene, case.exact_state))) for case in cases]
-    if all(differing for _, differing in apart):
-        raise ToleranceNotMet("\n".join(f"{printable(str(certificate))}: of another case than {case.place}: {words}"
-                                        for case, differing in apart for words in differing))
-
-
-def _strictly(strict, validities):
-    """Exit with 3 where strict and an approximate law does not hold."""
-    from .show.text import law
-    if strict and law.beyond(*validities):
-        raise typer.Exit(UNDECIDED)
-
-
-def _say_digits(runs):
-    """What the check of a run showed, where that is less than the aim and the states go to a file."""
-    for case, _, reached in runs:
-        if reached and not reached.enough:
-            _say(f"{case.place}: checked to {reached.digits:.1f} digits: {reached.because}")
-
-
-def _say_laws(validities):
-    """How far approximate laws hold, beside a table that has no place for it."""
-    for validity in validities:
-        if validity is not None:
-            _say(validity.words)
-
-
-def _tell(question, paths, digits, json, strict, csv=False, follow=None, tilt=None, proof=False, units=None, why=False):
-    """Answer a question for every case and say how many digits of it are known."""
-    from .show.text import answers, law
-    from .show.text import digits as shown
-    loaded = _load(paths, motion=True)
-    systems = _systems(loaded, units)
-    answered = [(case, found, _told(question, case, found, digits)) for case in _each(loaded)
-                for plain in [_motion(case, brief=question == "extremes", follow=follow, proof=proof)]
-                for found in [_tilted(case, plain, tilt) if question == "fate" else plain]]
-    boxes, over = _over_boxes([case for case, *_ in answered], *(["fate"] if question == "fate" else []))
-    if json:
-        _print(answers.as_json([getattr(shown, question)(*answer) | law.key(answer[1].validity) | over.as_dict(box)
-                                for answer, box in zip(answered, boxes)]))
-    elif csv:
-        _say_laws(motion.validity for _, motion, _ in answered)
-        _print(shown.extremes_csv(answered))
-    else:
-        from .show.terminal import questions
-        told = getattr(questions, question)
-        texts = [lambda n=n: told(*answered[n], systems[n], digits is not None, digits is not None or not answered[n][2].enough, why)
-                 for n in range(len(answered))]
-        motions = [motion for _, motion, _ in answered]
-        table = _swept_extremes(loaded, motions, systems) if question == "extremes" else _swept_motions(motions, systems)
-        _tell_all(loaded, texts, [m.validity for m in motions], [over.text(box) for box in boxes], why or digits is not None, "\n", table)
-    missing = [(case, told) for case, _, told in answered if not told.enough and digits is not None]
-    if missing:
-        from .answers.digits.checked import short
-        _all_reached((case, f"{question}: {short(told)}") for case, told in missing)
-    if strict and any(motion.fate.word == "undecided" for _, motion, _ in answered):
-        raise typer.Exit(UNDECIDED)
-    _strictly(strict, (motion.validity for _, motion, _ in answered))
-
-
-def _told(question, case, motion, digits):
-    """The answer with its digits; where none were asked for and a formula bounds its own error, that is the check."""
-    from .answers.digits.checked import DEFAULT, by_bound
-    found = by_bound(question, motion) if digits is None else None
-    if found is None:
-        from .answers.digits.ask import ask
-        from .case.read import blamed_on
-        with blamed_on(case):
-            found = ask(question, case.scene, case.start, DEFAULT if digits is None else digits, case.span, motion, case.exact_state,
-                        **({"aim": True} if digits is None else {}))
-    return found
-
-
-def _followed(case, times, model, method, rtol, order, digits):
-    """(the motion, what the check of its digits showed or None)."""
-    from .case.read import blamed_on
-    with blamed_on(case):
-        return _run_or_best(case, times, model, method, rtol, order, digits)
-
-
-def _run_or_best(case, times, model, method, rtol, order, digits):
-    chosen = model != "exact" or method or rtol or order
-    if digits is None and chosen:
-        from .theories.follow import follow
-        return follow(case, times, model, method, rtol, order), None
-    if chosen:
-        raise InputError("--digits chooses method and tolerance of the exact motion itself: give it without --model, --method, "
-                         "--rtol and --order")
-    from .answers.digits.checked import DEFAULT
-    from .answers.digits.run import best_reached
-    reached = best_reached(case, times, DEFAULT if digits is None else digits, measured=digits is not None, aim=digits is None)
-    return reached.run, reached
-
-
-def _run_as_dict(case, run, reached) -> dict:
-    from .show.text import answers, law
-    told = reached and {"asked": reached.asked, "reached": reached.digits, "because": reached.because}
-    return answers.simulation(case, run) | {"digits": told} | {"theory": _theory(case, run)} | law.key(run.validity)
-
-
-def _run_as_text(case, run, reached, digits, units, width) -> str:
-    from .show.terminal.run import text
-    from .show.text import law
-    checked = "checked to " if digits is None else ""
-    last = f"\n# {checked}{reached.digits:.1f} digits: {reached.because}" if reached else ""
-    told = "".join(f"\n# {line}" for line in _theory(case, run, words=True))
-    return law.first(run.validity, text(case, run, units, digits is not None, width) + last + told)
-
-
-def _theory(case, run, words=False):
-    """What the theory of an analytic model says, as rows or lines; nothing of an exact run."""
-    if run.model == "exact":
-        return []
-    from .theories.theory import lines, theory
-    found = theory(case, model=run.model)
-    return lines(found) if words else found
-
-
-def _with_angles(case, run, model, order):
-    from .case.read import blamed_on
-    from .theories.top.run_angles import with_euler_angles
-    with blamed_on(case):
-        return with_euler_angles(case, run, model, order)
-
-
-def _judge_runs(runs, digits):
-    """Exit with 5 where a run stopped, the digits asked for were not reached, or no digit was where nobody asked for any."""
-    _all_reached((case, run.reason) for case, run, _ in runs if run.status != "reached")
-    short = [(case, reached) for case, _, reached in runs if reached and not reached.enough and (digits is not None or reached.digits < 1)]
-    if short:
-        from .answers.digits.run import missed
-        raise ToleranceNotMet("\n".join(missed(*row) for row in short))
-
-
-def _compared(case, order):
-    """The models of a case beside its exact motion."""
-    from .case.read import blamed_on
-    from .theories.comparison import compare as set_side_by_side
-    from .theories.follow import models_of
-    if case.span is None:
-        raise InputError(f"{case.place}: motion: no span; compare needs span = [0, T] in [motion]")
-    if models_of(case.scene) == ("exact",):
-        raise InputError(f"{case.place}: no analytic model applies to this scene; there is nothing to compare")
-    with blamed_on(case):
-        return set_side_by_side(case, order=order)
-
-
-def _all_reached(short):
-    """Exit with 5 where (case, why) says that an answer falls short."""
-    lines = [f"{case.place}: {why}" for case, why in short]
-    if lines:
-        raise ToleranceNotMet("\n".join(lines))
-
-
-def _times(case, at: str | None) -> list[float]:
-    """The times asked for, in order; without any, 201 over the span of the case."""
-    if at is None:
-        if case.span is None:
-            raise InputError(f"{case.path}: motion: no span; give --at T1,T2,... or span (or tau) in [motion]")
-        start, end = case.span
-        return [start + (end - start) * i / 200 for i in range(200)] + [end]
-    from .numbers.exact import exact
-    try:
-        return sorted({float(exact(word.strip())) for word in at.split(",")})
-    except InputError as error:
-        raise InputError(f"--at: {error}") from None
-
-
-def _exact_times(case, at: str | None) -> list:
-    """The times asked for as rationals, as they are written; without any, 201 over the span of the case."""
-    from fractions import Fraction
-    if at is None and case.span is not None:
-        start, end = (Fraction(repr(t)) for t in case.span)
-        return [start + (end - start) * i / 200 for i in range(201)]
-    _times(case, at)  # says what is wrong with them
-    return sorted({Fraction("".join(word.split())) for word in (at or "").split(",")})
-
-
-def _each(cases):
-    """The cases, told one by one to a terminal where they take their time."""
-    if len(cases) < 2:
-        return cases
-    from .show.progress import each
-    return each(cases, lambda case: printable(case.name))
-
-
-def _systems(cases, asked: str | None) -> list:
-    """The units in which each case is told."""
-    from .show.units import units_of
-    return [units_of(case, asked) for case in cases]
-
-
-def _tell_all(cases, texts, laws, boxes, full, between, swept):
-    """Text of every case to stdout; the combinations of a [sweep] as one table, unless all is asked for in full. texts: functions, a case each;
-    swept(indices): (answer in a line, columns, rows) of a table."""
-    from .show.terminal import page
-    from .show.text import law
-    if full or not any(case.variant for case in cases):
-        page.tell(between.join(law.first(held, text()) + box for text, held, box in zip(texts, laws, boxes)))
-        return
-    from .show.terminal import sweep
-    told = []
-    for of in sweep.groups(cases):
-        words = sweep.text([cases[n] for n in of], *swept(of)) if cases[of[0]].variant else texts[of[0]]()
-        told.append(law.first(law.worst(*(laws[n] for n in of)), words) + "".join(boxes[n] for n in of))
-    page.tell("\n\n".join(told))
-
-
-def _swept_motions(motions, systems):
-    """How `_tell_all` tells the motions of a sweep."""
-    from .show.terminal import sweep
-
-    def table(of):
-        chosen = [motions[n] for n in of]
-        if None in chosen:
-            return f"{sum(m is None for m in chosen)} of them state no motion", [], [[] for _ in of]
-        return sweep.fates(chosen, systems[of[0]]), *sweep.of_motions(chosen, systems[of[0]])
-    return table
-
-
-def _swept_extremes(cases, motions, systems):
-    """How `_tell_all` tells the extremes of a sweep."""
-    from .show.terminal import sweep
-
-    def table(of):
-        chosen = [motions[n] for n in of]
-        return sweep.fates(chosen, systems[of[0]]), *sweep.of_extremes(chosen, cases[of[0]].scene.components, systems[of[0]])
-    return table
-
-
-def _print(text: str):
-    """Text to stdout."""
-    sys.stdout.write(text.rstrip("\n") + "\n")
-    sys.stdout.flush()
-
-
-def _show(text: str):
-    """Text for people to stdout."""
-    from .show.terminal.page import tell
-    tell(text)
-
-
-def _either(json: bool, data, words):
-    """JSON to stdout, or text for people."""
-    if json:
-        _print(data())
-    else:
-        _show(words())
-
-
-def _print_json(cases, rows):
-    """An object for a case, a list of them for the combinations of a [sweep]."""
-    from .show.text import answers
-    _print(answers.as_json(rows if any(case.variant for case in cases) else rows[0]))
-
-
-def _write_each(out, writers):
-    """Let write(path) of every (case, write) make its file; each is named."""
-    from .show.files.endings import labelled
-    for case, write in writers:
-        _say(f"written: {write(labelled(out, case))}")
-
-
-def _print_paths(paths, otherwise):
-    """The files a command wrote, one a line."""
-    _print("\n".join(map(str, paths)) if isinstance(paths, (list, tuple)) else str(paths or otherwise))
+    from .commands.doctor import doctor as answer
+    answer()
 
 
 def _say(text: str):

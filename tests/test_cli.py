@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 
 from stabilab import cli, streams
+from stabilab.commands import show
 from stabilab.errors import CaseError
 
 ROOT = Path(__file__).parents[1]
@@ -502,11 +503,11 @@ def test_exit_code_of_an_error_is_its_own(stabilab, monkeypatch):
                                (CaseError("c.toml", [Problem("k", "bad", 3)]), 2, "c.toml:3: k: bad"),
                                (ZeroDivisionError("oops"), 1, "ZeroDivisionError: oops"), (KeyboardInterrupt(), 130, ""),
                                (PermissionError(13, "Permission denied", "/x"), 2, "/x: Permission denied")]:
-        monkeypatch.setattr(cli, "_load", raising(error))
+        monkeypatch.setattr(show, "load_cases", raising(error))
         came, out, err = stabilab("show", MINOR)
         assert (came, out) == (code, "") and words in err and "Traceback" not in err
     monkeypatch.setenv("STABILAB_DEBUG", "1")
-    monkeypatch.setattr(cli, "_load", raising(ZeroDivisionError("oops")))
+    monkeypatch.setattr(show, "load_cases", raising(ZeroDivisionError("oops")))
     assert "Traceback" in stabilab("show", MINOR)[2]
 
 

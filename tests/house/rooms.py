@@ -22,7 +22,8 @@ MAY: dict[str, str | None] = {
     "answers": "unreduced orbit equilibrium integrate physics numbers", "theories": "answers integrate physics numbers",
     "maps": "answers orbit equilibrium case integrate physics numbers",
     "cost": "theories answers orbit integrate physics numbers", "verify": None,
-    "show": "maps cost theories answers unreduced orbit equilibrium integrate case physics numbers verify"}
+    "show": "maps cost theories answers unreduced orbit equilibrium integrate case physics numbers verify",
+    "commands": "show maps cost theories answers unreduced orbit equilibrium integrate case physics numbers verify"}
 
 
 class Import(NamedTuple):

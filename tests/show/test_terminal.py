@@ -148,13 +148,13 @@ def test_long_commands_count_their_steps(monkeypatch, stabilab, tmp_path):
     """audit, validate, tables: every step from 0 on, of the same number."""
     from contextlib import contextmanager
 
-    from stabilab.show import progress
+    from stabilab.commands import papers
     steps = []
 
     @contextmanager
     def counted():
         yield lambda done, count, words: steps.append((done, count))
-    monkeypatch.setattr(progress, "counted", counted)
+    monkeypatch.setattr(papers, "counted", counted)
     paper = tmp_path / "claims.toml"
     paper.write_text('[symbols]\n"x y" = "m"\n' + "".join(f'[[row]]\nequation = "{n}"\nprinted = "x + y = y + x"\n' for n in range(3)))
     for words in (("audit", paper), ("tables", "--out", tmp_path / "tables"), ("validate", "orekit")):

@@ -1,0 +1,61 @@
+"""`stabilab compare` and `precision`: how far analytic models and numerical methods are from the exact motion, and at what cost."""
+from __future__ import annotations
+
+from functools import partial
+
+from ..answers.digits.front import keep
+from ..case.read import blamed_on
+from ..cost.accuracy import precision as measure
+from ..errors import InputError
+from ..show.text import comparison, law
+from ..show.text import precision as shown
+from ..theories.comparison import compare as set_side_by_side
+from ..theories.follow import models_of
+from .common.cases import load_cases, one_by_one
+from .common.output import all_reached, hold_laws, say_laws, tell, write, write_each, write_json
+
+
+def compare(case, order, out, json, strict):
+    """Set the models of a case beside its exact motion."""
+    loaded = load_cases([case], motion=True)
+    if out:
+        comparison.checked(out)
+    compared = [(one, _compared(one, order)) for one in one_by_one(loaded)]
+    if out:
+        write_each(out, [(one, partial(comparison.write, one, found)) for one, found in compared])
+    if json:
+        write_json(loaded, [comparison.as_dict(one, found) | law.key(found.validity) for one, found in compared])
+    else:
+        tell("\n\n".join(law.first(found.validity, comparison.text(one, found)) for one, found in compared))
+    hold_laws(strict, (found.validity for _, found in compared))
+
+
+def _compared(case, order):
+    """The models of a case beside its exact motion."""
+    if case.span is None:
+        raise InputError(f"{case.place}: motion: no span; compare needs span = [0, T] in [motion]")
+    if models_of(case.scene) == ("exact",):
+        raise InputError(f"{case.place}: no analytic model applies to this scene; there is nothing to compare")
+    with blamed_on(case):
+        return set_side_by_side(case, order=order)
+
+
+def precision(case, json, csv, out, until, quick, strict):
+    """Measure error and time of every method."""
+    if out:
+        shown.checked(out)
+    loaded = load_cases([case], motion=True)
+    measured = [measure(one, "quick" if quick else "full", until) for one in one_by_one(loaded)]
+    for found in measured:
+        keep(found)
+    if out:
+        write_each(out, [(found.case, partial(shown.write, found)) for found in measured])
+    if json:
+        write_json(loaded, [shown.as_dict(found) | law.key(found.validity) for found in measured])
+    elif csv:
+        say_laws(found.validity for found in measured)
+        write(shown.csv(*measured))
+    else:
+        tell("\n\n".join(law.first(found.validity, shown.text(found)) for found in measured))
+    all_reached((found.case, found.reference.reason) for found in measured if not found.questions)
+    hold_laws(strict, (found.validity for found in measured))

@@ -1,0 +1,38 @@
+"""`stabilab classify`: equilibria, their stability, and the fate of the motion."""
+from __future__ import annotations
+
+from ..answers.equilibria import equilibria
+from ..case.read import blamed_on
+from ..show.terminal import classification
+from ..show.text import answers, law, uncertain
+from .common.cases import load_cases, one_by_one, units_asked
+from .common.motions import motion_of, over_boxes, tilted
+from .common.output import leave_undecided, write
+from .common.tables import swept_motions, tell_all
+
+
+def classify(cases, json, strict, certify, out, follow, tilt, units, why):
+    """Answer every case; with certify write the certificate of the one that is given."""
+    loaded = load_cases(cases)
+    systems = units_asked(loaded, units)
+    if certify:
+        from . import certify as proof
+        proof.checked(out, cases)
+    answered = [(case, _equilibria(case), tilted(case, motion_of(case, follow=follow, proof=certify), tilt) if case.state else None)
+                for case in one_by_one(loaded)]
+    boxes = over_boxes(loaded, "equilibria", "fate")
+    laws = [law.worst(found.validity, motion and motion.validity) for _, found, motion in answered]
+    if json:
+        write(answers.as_json([answers.classification(*answer) | law.key(held) | uncertain.as_dict(box)
+                               for answer, held, box in zip(answered, laws, boxes)]))
+    else:
+        texts = [lambda n=n: classification.text(*answered[n], systems[n], why) for n in range(len(answered))]
+        tell_all(loaded, texts, laws, [uncertain.text(box) for box in boxes], why, "\n\n", swept_motions([m for *_, m in answered], systems))
+    certified = all([proof.certified(case, out) for case in loaded]) if certify else True
+    undecided = any(answers.undecided(found, motion) for _, found, motion in answered) or any(map(uncertain.undecided, boxes))
+    leave_undecided(strict, not certified or undecided or law.beyond(*laws))
+
+
+def _equilibria(case):
+    with blamed_on(case):
+        return equilibria(case.scene)

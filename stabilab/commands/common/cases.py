@@ -1,0 +1,70 @@
+"""The cases, times and units that a command line names."""
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
+from pathlib import Path
+
+from ...case.read import Case, load_all
+from ...case.units import NONE, TIME, quantity
+from ...errors import InputError, printable
+from ...numbers.exact import exact
+from ...show.progress import each
+from ...show.units import Units, units_of
+
+
+def load_cases(paths: Iterable[Path], motion: bool = False) -> list[Case]:
+    """All cases, of a file with [sweep] every combination; the faults of all files at once. motion: each must state one."""
+    cases, faults = [], []
+    for path in paths:
+        try:
+            cases.extend(load_all(path))
+        except InputError as error:
+            faults.append(str(error))
+    faults += dict.fromkeys(f"{case.path}: motion: expected x or angular_velocity in [motion]; this command needs a state"
+                            for case in cases if motion and case.state is None)
+    if faults:
+        raise InputError("\n".join(faults))
+    return cases
+
+
+def one_by_one(cases: Sequence[Case]) -> Iterable[Case]:
+    """The cases, told one by one to a terminal where they take their time."""
+    return cases if len(cases) < 2 else each(cases, lambda case: printable(case.name))
+
+
+def units_asked(cases: Iterable[Case], asked: str | None) -> list[Units]:
+    """The units in which each case is told."""
+    return [units_of(case, asked) for case in cases]
+
+
+def time_asked(text: str | None, case: Case, option: str = "follow") -> float | None:
+    """A time of the command line: a number in the time of the case, or one with a unit where that is s."""
+    if text is None:
+        return None
+    try:
+        return float(quantity(text, NONE if case.variables == "scaled" else TIME)[0])
+    except InputError as error:
+        raise InputError(f"--{option}: {error}") from None
+
+
+def times_asked(case: Case, at: str | None) -> list[float]:
+    """The times asked for, in order; without any, 201 over the span of the case."""
+    if at is None:
+        if case.span is None:
+            raise InputError(f"{case.path}: motion: no span; give --at T1,T2,... or span (or tau) in [motion]")
+        start, end = case.span
+        return [start + (end - start) * i / 200 for i in range(200)] + [end]
+    try:
+        return sorted({float(exact(word.strip())) for word in at.split(",")})
+    except InputError as error:
+        raise InputError(f"--at: {error}") from None
+
+
+def exact_times_asked(case: Case, at: str | None) -> list[Fraction]:
+    """The times asked for as rationals, as they are written; without any, 201 over the span of the case."""
+    if at is None and case.span is not None:
+        start, end = (Fraction(repr(t)) for t in case.span)
+        return [start + (end - start) * i / 200 for i in range(201)]
+    times_asked(case, at)  # says what is wrong with them
+    return sorted({Fraction("".join(word.split())) for word in (at or "").split(",")})

@@ -1,0 +1,76 @@
+"""What a command writes: data and answers to stdout, messages to stderr, an exit code where an answer falls short."""
+from __future__ import annotations
+
+import sys
+
+import typer
+
+from ...errors import UNDECIDED, ToleranceNotMet
+from ...show.files.endings import labelled
+from ...show.terminal import page
+from ...show.text import answers, law
+
+
+def write(text: str):
+    """Text to stdout as it is: data, or names of files."""
+    sys.stdout.write(text.rstrip("\n") + "\n")
+    sys.stdout.flush()
+
+
+def tell(text: str):
+    """Text for people to stdout."""
+    page.tell(text)
+
+
+def say(text: str):
+    """A message to stderr."""
+    print(text, file=sys.stderr)
+
+
+def either(json: bool, data, words):
+    """JSON to stdout, or text for people; both are functions, and one of them is called."""
+    if json:
+        write(answers.as_json(data()))
+    else:
+        tell(words())
+
+
+def write_json(cases, rows):
+    """An object for a case, a list of them for the combinations of a [sweep]."""
+    write(answers.as_json(rows if any(case.variant for case in cases) else rows[0]))
+
+
+def write_paths(paths, otherwise):
+    """The files a command wrote, one a line."""
+    write("\n".join(map(str, paths)) if isinstance(paths, (list, tuple)) else str(paths or otherwise))
+
+
+def write_each(out, writers):
+    """Let write(path) of every (case, write) make its file; each is named."""
+    for case, writer in writers:
+        say(f"written: {writer(labelled(out, case))}")
+
+
+def say_laws(validities):
+    """How far approximate laws hold, beside a table that has no place for it."""
+    for validity in validities:
+        if validity is not None:
+            say(validity.words)
+
+
+def leave_undecided(strict: bool, open_: bool):
+    """Exit with 3 where strict and something is open."""
+    if strict and open_:
+        raise typer.Exit(UNDECIDED)
+
+
+def hold_laws(strict: bool, validities):
+    """Exit with 3 where strict and an approximate law does not hold."""
+    leave_undecided(strict, strict and law.beyond(*validities))
+
+
+def all_reached(short):
+    """Exit with 5 where (case, why) says that an answer falls short."""
+    lines = [f"{case.place}: {why}" for case, why in short]
+    if lines:
+        raise ToleranceNotMet("\n".join(lines))

@@ -1,0 +1,36 @@
+"""The answers of several cases as text: one after the other, or the combinations of a [sweep] as one table."""
+from __future__ import annotations
+
+from ...show.terminal import page, sweep
+from ...show.text import law
+
+
+def tell_all(cases, texts, laws, boxes, full, between, swept):
+    """Text of every case to stdout; the combinations of a [sweep] as one table, unless all is asked for in full. texts: functions, a case each;
+    swept(indices): (answer in a line, columns, rows) of a table."""
+    if full or not any(case.variant for case in cases):
+        page.tell(between.join(law.first(held, text()) + box for text, held, box in zip(texts, laws, boxes)))
+        return
+    told = []
+    for of in sweep.groups(cases):
+        words = sweep.text([cases[n] for n in of], *swept(of)) if cases[of[0]].variant else texts[of[0]]()
+        told.append(law.first(law.worst(*(laws[n] for n in of)), words) + "".join(boxes[n] for n in of))
+    page.tell("\n\n".join(told))
+
+
+def swept_motions(motions, systems):
+    """How `tell_all` tells the motions of a sweep."""
+    def table(of):
+        chosen = [motions[n] for n in of]
+        if None in chosen:
+            return f"{sum(m is None for m in chosen)} of them state no motion", [], [[] for _ in of]
+        return sweep.fates(chosen, systems[of[0]]), *sweep.of_motions(chosen, systems[of[0]])
+    return table
+
+
+def swept_extremes(cases, motions, systems):
+    """How `tell_all` tells the extremes of a sweep."""
+    def table(of):
+        chosen = [motions[n] for n in of]
+        return sweep.fates(chosen, systems[of[0]]), *sweep.of_extremes(chosen, cases[of[0]].scene.components, systems[of[0]])
+    return table

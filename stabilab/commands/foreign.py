@@ -1,0 +1,27 @@
+"""`stabilab import`: another program's spacecraft as a case."""
+from __future__ import annotations
+
+from ..case import import_42, import_basilisk
+from ..case.imported import case_text, faults_of
+from ..case.source import source_text
+from ..errors import InputError, printable
+from ..files import whole_file
+from .common.output import say, write
+
+
+def import_(file, out, stuck):
+    """Write the case, name what has no counterpart, and refuse what has faults yet."""
+    given = source_text(file)
+    craft = (import_42 if import_42.is_one(given) else import_basilisk).spacecraft(given, file)
+    text = case_text(craft, file, stuck or ())
+    if out:
+        with whole_file(out) as waiting:
+            waiting.write_text(text, encoding="utf-8")
+        say(f"written: {out}")
+    else:
+        write(text)
+    for words in craft.omitted:
+        say(f"{printable(str(file))}: no counterpart: {printable(words)}")
+    faults = faults_of(text, out or file)
+    if faults:
+        raise InputError("\n".join(("the case has faults yet:", *faults)))

@@ -1,0 +1,77 @@
+"""`stabilab sweep`, `bifurcation`, `basin` and `atlas`: one case over ranges of its numbers."""
+from __future__ import annotations
+
+from ..maps.atlas.asked import asked
+from ..maps.atlas.run import drawn
+from ..maps.basins.ask import basins
+from ..maps.bifurcation.ask import bifurcation as ask
+from ..maps.bifurcation.result import Diagram
+from ..maps.plan import planned, split_keys
+from ..maps.run import run
+from ..show.files import endings
+from ..show.maps import dataset, words
+from ..show.maps.atlas import to_file as atlas_files
+from ..show.maps.atlas import words as atlas_words
+from ..show.maps.basins import words as basin_words
+from ..show.maps.basins import write as basin_files
+from ..show.maps.bifurcation import picture as diagram_picture
+from ..show.maps.bifurcation import plane_picture, plane_words
+from ..show.maps.bifurcation import words as diagram_words
+from ..show.units import units_of
+from .common.output import leave_undecided, say, tell, write
+
+
+def sweep(case, vary, samples, seed, answer, follow, limits, out, workers, scheduler, csv, json, strict):
+    """Answer the case at every point. limits: those of the answer when, by the names of their options."""
+    plan = planned(case, split_keys(vary or []), samples, seed, answer, follow, **limits)
+    if out:
+        dataset.checked(out)
+    with run(plan, out, workers, scheduler) as found:
+        if out:
+            say(f"written: {dataset.write(dataset.dataset(found), out)}")
+    if json or csv:
+        write(words.json(found) if json else words.csv(found))
+    else:
+        tell(words.text(found))
+    leave_undecided(strict, strict and words.undecided(found))
+
+
+def bifurcation(case, vary, curve, out, csv, json):
+    """Find where equilibria appear and vanish over the range of one number or two."""
+    if out:
+        endings.file(out, endings.PICTURES)
+    found = ask(case, split_keys(vary or []), curve)
+    shown, picture = (diagram_words, diagram_picture) if isinstance(found, Diagram) else (plane_words, plane_picture)
+    if out:
+        say(f"written: {picture.write(found, out)}")
+    if json or csv:
+        write(shown.json(found) if json else shown.csv(found))
+    else:
+        tell(shown.text(found))
+
+
+def basin(case, vary, depth, out, workers, scheduler, follow, csv, json, strict):
+    """Show which initial states of a plane spin up, and how rough the boundary is."""
+    targets = basin_files.checked(out or [])
+    with basins(case, split_keys(vary or []), depth, targets.data, workers, scheduler, follow) as found:
+        for path in targets.paths:
+            say(f"written: {basin_files.write(found, path)}")
+    if json or csv:
+        write(basin_words.json(found) if json else basin_words.csv(found))
+    else:
+        tell(basin_words.text(found))
+    leave_undecided(strict, strict and basin_words.undecided(found))
+
+
+def atlas(case, torque, wheel, level, refine, certify, follow, limits, out, workers, scheduler, units, csv, json, strict):
+    """Map all directions of a torque. limits: what is to be reached, by the names of the options."""
+    plan = asked(case, torque, wheel, level, refine, certify, follow, **limits)
+    system, targets = units_of(plan.case, units), atlas_files.checked(out or [])
+    with drawn(plan, targets[0] if targets else None, workers, scheduler) as found:
+        for target in targets:
+            say(f"written: {atlas_files.write(found, target, system)}")
+    if json or csv:
+        write(atlas_words.json(found, system) if json else atlas_words.csv(found))
+    else:
+        tell(atlas_words.text(found, system))
+    leave_undecided(strict, strict and atlas_words.undecided(found))

@@ -1,0 +1,52 @@
+"""The papers' own: the audit of their formulas, other tools' numbers, their tables and figures."""
+from __future__ import annotations
+
+import sys
+
+from ..errors import ToleranceNotMet
+from ..show.figures import catalogue
+from ..show.files import manifest
+from ..show.outside import validation as validation_text
+from ..show.progress import counted
+from ..show.report import audit_page
+from ..show.text import audit as audit_text
+from ..show.text import table
+from ..theories.audit import audited
+from ..theories.validation import validated
+from .common.output import either, say, write_paths
+
+
+def audit(paper, equation, json, out):
+    """Hold the formulas of a paper, or of all, against the equations of motion."""
+    with counted() as tell:
+        findings = audited(paper, equation, tell)
+    if out is not None:
+        say(f"written: {audit_page.page(findings, out)}")
+    either(json, lambda: audit_text.as_dict(findings), lambda: audit_text.text(findings))
+
+
+def validate(source, json, out):
+    """Hold the numbers of another tool, or of all, against ours."""
+    with counted() as tell:
+        found = validated(source, tell)
+    if out is not None:
+        say(f"written: {validation_text.page(found, out)}")
+    either(json, lambda: validation_text.as_dict(found), lambda: validation_text.text(found))
+    if apart := validation_text.unexplained(found):
+        raise ToleranceNotMet("\n".join(apart))
+
+
+def tables(out):
+    """Write the tables of the constant-torque paper."""
+    with manifest.written(out, sys.argv[1:], table.case_files(table.STEMS), table.TOLERANCES) as folder:
+        with counted() as tell:
+            made = table.write_tables(folder, tell=tell)
+    write_paths([out / path.relative_to(folder) for path in made], out)
+
+
+def figures(numbers, paper, out):
+    """Draw the figures of one paper, or of all."""
+    rows = catalogue.chosen(numbers, paper)
+    with manifest.written(out, sys.argv[1:], table.case_files(), {row.file: row.tolerance for row in rows}) as folder:
+        made = catalogue.write(numbers, folder, paper_name=paper)
+    write_paths([out / path.relative_to(folder) for path in made], out)

@@ -1,0 +1,76 @@
+"""`stabilab surface`, `plot` and `explore`: a case to look at."""
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from ..case.read import blamed_on, load
+from ..errors import RenderingUnavailable, printable
+from ..show.files import endings
+from ..show.maps import picture
+from ..show.maps.atlas import to_file as atlas_files
+from ..show.plot import to_file
+from ..show.surface.write import write_all
+from ..show.text import law
+from .common.cases import load_cases, time_asked, units_asked
+from .common.output import hold_laws, say, write, write_json
+
+AN_EXAMPLE = Path(__file__).parents[1] / "cases" / "thruster-stuck-major-axis.toml"
+
+
+def surface(case, out, strict):
+    """Write the separatrix of a case; the summary first, then what kept a picture from being drawn."""
+    loaded, unavailable = load_cases([case]), None
+    laws = [law.of_case(one) for one in loaded]
+    try:
+        summaries = write_all(loaded, out, arguments=sys.argv[1:])
+    except RenderingUnavailable as error:
+        if not hasattr(error, "summaries"):
+            raise
+        summaries, unavailable = error.summaries, error
+    write_json(loaded, [summary | law.key(held) for summary, held in zip(summaries, laws)])
+    for one, summary in zip(loaded, summaries):
+        if not summary["sheets"]:
+            say(f"{one.name}: no surface to write: {summary['reason']}")
+    if unavailable:
+        raise unavailable
+    hold_laws(strict, laws)
+
+
+def plot(case, kind, out, size, dpi, until, neighbours, units, strict):
+    """Draw a case, or the map of a sweep's file."""
+    if case.suffix.lower() == ".nc":
+        write(str(_of_file(case, out or Path(f"{printable(case.stem)}.png"), kind, to_file.inches(size), dpi, units)))
+        return
+    loaded, drawn = load_cases([case], motion=kind != "equilibria"), []
+    units_asked(loaded, units)  # says what is wrong with them
+    target = out or Path(to_file.default_name(printable(case.stem), kind))
+    for one in loaded:
+        with blamed_on(one):
+            end = time_asked(until, one, "until")
+            drawn.append(to_file.write(one, endings.labelled(target, one), kind, to_file.inches(size), dpi, units, end, neighbours))
+    laws = [law.of_case(one) for one in loaded]
+    write("\n".join(words for held, path in zip(laws, drawn) for words in (held and held.words, str(path)) if words))
+    hold_laws(strict, laws)
+
+
+def _of_file(case, target, kind, size, dpi, units):
+    """The picture of what a sweep or an atlas wrote."""
+    if atlas_files.is_atlas(case):
+        return atlas_files.redrawn(case, target, kind, size, dpi, units)
+    return picture.write(case, target, kind, size, dpi)
+
+
+def explore(case, port, browser, static, pyodide):
+    """Serve a case as a page, or write the page as a folder."""
+    one = load(case or AN_EXAMPLE)
+    if static is not None:
+        from ..show.explore.static import write as write_folder
+        write(str(write_folder(one, static, pyodide)))
+        return
+    from ..show.explore.serve import serve
+
+    def tell(address: str) -> None:
+        say("Ctrl-C ends it.")
+        write(address)
+    serve(one, port, browser, tell)

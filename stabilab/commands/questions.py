@@ -1,0 +1,54 @@
+"""`stabilab extremes`, `fate` and `period`: one question about each motion, with the digits of its answer."""
+from __future__ import annotations
+
+from ..answers.digits.checked import DEFAULT, by_bound, short
+from ..case.read import blamed_on
+from ..show.terminal import questions
+from ..show.text import answers, law, uncertain
+from ..show.text import digits as shown
+from .common.cases import load_cases, one_by_one, units_asked
+from .common.motions import motion_of, over_boxes, tilted
+from .common.output import all_reached, hold_laws, leave_undecided, say_laws, write
+from .common.tables import swept_extremes, swept_motions, tell_all
+
+
+def answer(question, paths, digits, json, strict, csv=False, follow=None, tilt=None, proof=False, units=None, why=False):
+    """Answer a question for every case and say how many digits of it are known."""
+    loaded = load_cases(paths, motion=True)
+    systems = units_asked(loaded, units)
+    answered = [(case, found, _told(question, case, found, digits)) for case in one_by_one(loaded)
+                for plain in [motion_of(case, brief=question == "extremes", follow=follow, proof=proof)]
+                for found in [tilted(case, plain, tilt) if question == "fate" else plain]]
+    boxes = over_boxes([case for case, *_ in answered], *(["fate"] if question == "fate" else []))
+    if json:
+        write(answers.as_json([getattr(shown, question)(*answer) | law.key(answer[1].validity) | uncertain.as_dict(box)
+                               for answer, box in zip(answered, boxes)]))
+    elif csv:
+        say_laws(motion.validity for _, motion, _ in answered)
+        write(shown.extremes_csv(answered))
+    else:
+        _tell(question, loaded, answered, systems, digits, boxes, why)
+    if digits is not None:
+        all_reached((case, f"{question}: {short(told)}") for case, _, told in answered if not told.enough)
+    leave_undecided(strict, any(motion.fate.word == "undecided" for _, motion, _ in answered))
+    hold_laws(strict, (motion.validity for _, motion, _ in answered))
+
+
+def _tell(question, loaded, answered, systems, digits, boxes, why):
+    """The answers as text."""
+    told, motions = getattr(questions, question), [motion for _, motion, _ in answered]
+    texts = [lambda n=n: told(*answered[n], systems[n], digits is not None, digits is not None or not answered[n][2].enough, why)
+             for n in range(len(answered))]
+    table = swept_extremes(loaded, motions, systems) if question == "extremes" else swept_motions(motions, systems)
+    tell_all(loaded, texts, [m.validity for m in motions], [uncertain.text(box) for box in boxes], why or digits is not None, "\n", table)
+
+
+def _told(question, case, motion, digits):
+    """The answer with its digits; where none were asked for and a formula bounds its own error, that is the check."""
+    found = by_bound(question, motion) if digits is None else None
+    if found is None:
+        from ..answers.digits.ask import ask
+        with blamed_on(case):
+            found = ask(question, case.scene, case.start, DEFAULT if digits is None else digits, case.span, motion, case.exact_state,
+                        **({"aim": True} if digits is None else {}))
+    return found

@@ -1,0 +1,24 @@
+"""`stabilab report` and `rerun`: a folder of pages, and whether the same command makes the same bytes."""
+from __future__ import annotations
+
+import sys
+
+from ..show.files import rerun as repetition
+from ..show.report.report import write as write_report
+from .common.cases import load_cases
+from .common.output import leave_undecided, tell, write
+
+
+def report(cases, out, papers, precision, certify, workers, strict):
+    """Write the pages; the laws that do not hold are told beside the path."""
+    beyond: list[str] = []
+    made = write_report(load_cases(cases or []), out, arguments=sys.argv[1:], papers=papers, precision=precision, certify=certify,
+                        workers=workers, beyond=beyond)
+    write("\n".join([*beyond, str(made)]))
+    leave_undecided(strict, bool(beyond))
+
+
+def rerun(manifest, out):
+    """Repeat what a manifest says."""
+    *lines, verdict = repetition.rerun(manifest, out)
+    tell("\n".join([verdict, *lines]))

@@ -1,0 +1,97 @@
+"""`stabilab simulate`: a motion in time, by the equations or by a theory."""
+from __future__ import annotations
+
+from functools import partial
+
+from ..answers.digits.checked import DEFAULT
+from ..answers.digits.run import best_reached, missed
+from ..case.read import blamed_on
+from ..errors import InputError, ToleranceNotMet
+from ..show.files import trajectory_files
+from ..show.terminal import page
+from ..show.terminal.run import text
+from ..show.text import answers, law
+from ..theories.follow import follow
+from ..theories.theory import lines, theory
+from ..theories.top.run_angles import with_euler_angles
+from .common.cases import load_cases, one_by_one, times_asked, units_asked
+from .common.output import all_reached, hold_laws, say, say_laws, tell, write_each, write_json
+
+
+def simulate(case, at, model, order, method, rtol, digits, angles, out, json, strict, units):
+    """Follow the motion of a case, of every combination where it has a [sweep]."""
+    loaded = load_cases([case], motion=True)
+    systems = units_asked(loaded, units)
+    if out:
+        trajectory_files.checked(out)
+    runs = [(one, *_followed(one, times_asked(one, at), model, method, rtol, order, digits)) for one in one_by_one(loaded)]
+    if angles:
+        runs = [(one, _with_angles(one, run, model, order), reached) for one, run, reached in runs]
+    if out:
+        write_each(out, [(one, partial(trajectory_files.write, one, run)) for one, run, _ in runs])
+    if json:
+        write_json(loaded, [_as_dict(*followed) for followed in runs])
+    elif not out:
+        tell("\n\n".join(_as_text(*followed, digits, system, page.width()) for followed, system in zip(runs, systems)))
+    else:
+        say_laws(run.validity for _, run, _ in runs)
+        _say_digits(runs)
+    _judge(runs, digits)
+    hold_laws(strict, (run.validity for _, run, _ in runs))
+
+
+def _followed(case, times, model, method, rtol, order, digits):
+    """(the motion, what the check of its digits showed or None)."""
+    with blamed_on(case):
+        return _run_or_best(case, times, model, method, rtol, order, digits)
+
+
+def _run_or_best(case, times, model, method, rtol, order, digits):
+    chosen = model != "exact" or method or rtol or order
+    if digits is None and chosen:
+        return follow(case, times, model, method, rtol, order), None
+    if chosen:
+        raise InputError("--digits chooses method and tolerance of the exact motion itself: give it without --model, --method, "
+                         "--rtol and --order")
+    reached = best_reached(case, times, DEFAULT if digits is None else digits, measured=digits is not None, aim=digits is None)
+    return reached.run, reached
+
+
+def _with_angles(case, run, model, order):
+    with blamed_on(case):
+        return with_euler_angles(case, run, model, order)
+
+
+def _as_dict(case, run, reached) -> dict:
+    told = reached and {"asked": reached.asked, "reached": reached.digits, "because": reached.because}
+    return answers.simulation(case, run) | {"digits": told} | {"theory": _theory(case, run)} | law.key(run.validity)
+
+
+def _as_text(case, run, reached, digits, units, width) -> str:
+    checked = "checked to " if digits is None else ""
+    last = f"\n# {checked}{reached.digits:.1f} digits: {reached.because}" if reached else ""
+    told = "".join(f"\n# {line}" for line in _theory(case, run, words=True))
+    return law.first(run.validity, text(case, run, units, digits is not None, width) + last + told)
+
+
+def _theory(case, run, words=False):
+    """What the theory of an analytic model says, as rows or lines; nothing of an exact run."""
+    if run.model == "exact":
+        return []
+    found = theory(case, model=run.model)
+    return lines(found) if words else found
+
+
+def _say_digits(runs):
+    """What the check of a run showed, where that is less than the aim and the states go to a file."""
+    for case, _, reached in runs:
+        if reached and not reached.enough:
+            say(f"{case.place}: checked to {reached.digits:.1f} digits: {reached.because}")
+
+
+def _judge(runs, digits):
+    """Exit with 5 where a run stopped, the digits asked for were not reached, or no digit was where nobody asked for any."""
+    all_reached((case, run.reason) for case, run, _ in runs if run.status != "reached")
+    short = [(case, reached) for case, _, reached in runs if reached and not reached.enough and (digits is not None or reached.digits < 1)]
+    if short:
+        raise ToleranceNotMet("\n".join(missed(*row) for row in short))

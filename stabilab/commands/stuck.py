@@ -1,0 +1,37 @@
+"""`stabilab stuck`: what a thruster stuck open does, how soon, and what helps."""
+from __future__ import annotations
+
+from functools import partial
+
+from ..answers.stuck.ask import stuck as ask
+from ..case.read import blamed_on
+from ..show.files import endings
+from ..show.progress import told
+from ..show.stuck_picture import draw
+from ..show.text import stuck as shown
+from .common.cases import load_cases, units_asked
+from .common.output import leave_undecided, write, write_each, write_json
+from .common.tables import tell_all
+
+
+def stuck(case, all_thrusters, units, why, out, json, csv, strict):
+    """Answer a case, every combination where it has a [sweep]."""
+    loaded, answers = load_cases([case], motion=True), []
+    systems = units_asked(loaded, units)
+    if out:
+        endings.file(out, endings.PICTURES)
+    with told() as tell:
+        for one in loaded:
+            with blamed_on(one):
+                answers.append(ask(one, all_thrusters, tell))
+    if out:
+        write_each(out, [(one, partial(draw, one, found, units=system)) for one, found, system in zip(loaded, answers, systems)])
+    if json:
+        write_json(loaded, list(map(shown.as_dict, answers)))
+    elif csv:
+        write(shown.csv(answers))
+    else:
+        texts = [lambda n=n: shown.text(loaded[n], answers[n], systems[n]) for n in range(len(loaded))]
+        tell_all(loaded, texts, [None] * len(loaded), [""] * len(loaded), all_thrusters or why, "\n\n",
+                 lambda of: shown.swept([answers[n] for n in of], systems[of[0]]))
+    leave_undecided(strict, any(row.fate == "undecided" for found in answers for row in found.rows))

@@ -1,0 +1,37 @@
+"""`stabilab verify`: a second look at a certificate, by code that shares nothing with what made it."""
+from __future__ import annotations
+
+from ..errors import InputError, ToleranceNotMet, printable
+from ..show.text import certification
+from ..verify import verify as check
+from ..verify.about import about, differences, line
+from ..verify.form import read
+from ..verify.numbers import Malformed
+from .common.cases import load_cases
+from .common.output import either, leave_undecided
+
+
+def verify(certificate, case, json, strict):
+    """Check a certificate, and that it is of the case where one is named."""
+    cases = load_cases([case]) if case else []
+    try:
+        claims = read(certificate)
+        found = check(claims)
+    except (Malformed, UnicodeDecodeError) as error:
+        raise InputError(f"{certificate}: {error}; expected a certificate of stabilab classify --certify") from None
+    told = about(claims)
+    either(json, lambda: certification.as_dict(found, told), lambda: certification.text(found, line(told)))
+    if found.status == "refuted":
+        raise ToleranceNotMet(f"{certificate}: a claim is wrong")
+    if cases:
+        _about_one_of(cases, told, certificate)
+    leave_undecided(strict, found.status != "proved")
+
+
+def _about_one_of(cases, told, certificate):
+    """Exit with 5 where a certificate is of none of the cases."""
+    from ..answers.certificate import subject
+    apart = [(case, differences(told, subject(case.scene, case.exact_state))) for case in cases]
+    if all(differing for _, differing in apart):
+        raise ToleranceNotMet("\n".join(f"{printable(str(certificate))}: of another case than {case.place}: {words}"
+                                        for case, differing in apart for words in differing))

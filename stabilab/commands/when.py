@@ -1,0 +1,32 @@
+"""`stabilab when`: the first time at which a motion reaches a limit."""
+from __future__ import annotations
+
+from ..answers.time_to import time_of_case
+from ..case.limit_options import stated_limit
+from ..case.read import blamed_on
+from ..show.text import answers, law
+from ..show.text import when as shown
+from .common.cases import load_cases, one_by_one, units_asked
+from .common.output import hold_laws, leave_undecided, say_laws, write
+from .common.tables import tell_all
+
+
+def when(cases, limits, units, json, csv, strict):
+    """Answer every case. limits: what is to be reached and by when, by the names of the options."""
+    loaded, answered = load_cases(cases, motion=True), []
+    systems = units_asked(loaded, units)
+    for case in one_by_one(loaded):
+        limit = stated_limit(case, **limits)
+        with blamed_on(case):
+            answered.append((case, limit, time_of_case(case, limit.ask, limit.until)))
+    if json:
+        write(answers.as_json([shown.as_dict(*one) | law.key(one[2].validity) for one in answered]))
+    elif csv:
+        say_laws(found.validity for *_, found in answered)
+        write(shown.csv(answered))
+    else:
+        texts = [lambda n=n: shown.text(*answered[n], systems[n]) for n in range(len(answered))]
+        tell_all(loaded, texts, [found.validity for *_, found in answered], [""] * len(loaded), False, "\n",
+                 lambda of: shown.swept([answered[n] for n in of], systems[of[0]]))
+    leave_undecided(strict, any(shown.unknown(found) for *_, found in answered))
+    hold_laws(strict, (found.validity for *_, found in answered))
