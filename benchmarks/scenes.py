@@ -1,6 +1,7 @@
 """Every question on a sample of random scenes, each scene beside what a careful user of the general tools would write.
 
-python -m benchmarks.scenes [SCENES [FIRST]]: the rows on so many scenes of the sample, from the number FIRST on; one line a scene goes to stderr.
+python -m benchmarks.scenes [SCENES [FIRST]]: the rows on so many scenes of the sample, from the number FIRST on; one line a scene goes to stderr, and
+Ctrl-C ends the sample: the rows are those of the scenes that were measured.
 Times are processor times of one thread, each contestant warmed up, in turn on the same states.
 """
 from __future__ import annotations
@@ -21,10 +22,11 @@ from .rows import Row, numba_available
 
 SCENES = 200
 STATES = 20_000     # of ours; theirs are asked of `SAMPLE` of them
-SAMPLE = 48
+SAMPLE = 32
 CLEAR = 1e-6        # of the kinetic energy: nearer to the separatrix heyoka's run may pass it by rounding, and never ends
 ROUNDS = 3
 PATIENCE = 0.4      # s for a call: of slower questions fewer states are asked
+LONG = 0.05         # s
 CELLS = 256         # of Flying Edges along each side
 WANTED = {"fate, NumPy": 100, "fate, numba": 400, "extremes, NumPy": 5, "extremes, numba": 20, "period, NumPy": 2, "period, numba": 8,
           "separatrix surfaces": 50}
@@ -48,7 +50,12 @@ class Measured:
 def rows(small=False, scenes=SCENES, first=0, told=None) -> list[Row]:
     """One row a question, and one for a scene's first call."""
     sample = drawn(first + (3 if small else scenes))[first:]
-    measured = [m for one in sample for m in _scene(one, small, told)]
+    measured = []
+    try:
+        for one in sample:
+            measured += _scene(one, small, told)
+    except KeyboardInterrupt:
+        print("ended by Ctrl-C", file=told)
     questions = dict.fromkeys(m.question for m in measured)
     return [_row(question, [m for m in measured if m.question == question]) for question in questions]
 
@@ -127,9 +134,11 @@ def _patient(call, states, rounds) -> float:
 
 
 def _pace(call, states, rounds) -> float:
-    """Processor time a state, s, the median of the rounds after one to warm up."""
+    """Processor time a state, s, the median of the rounds after one to warm up; one round where a call is long."""
     call(states[:200])
-    return statistics.median(_time_of(lambda: call(states)) for _ in range(rounds)) / len(states)
+    times = [_time_of(lambda: call(states))]
+    times += [_time_of(lambda: call(states)) for _ in range(rounds - 1) if times[0] < LONG]
+    return statistics.median(times) / len(states)
 
 
 def _time_of(call) -> float:
@@ -145,8 +154,10 @@ def _surface(scene, name, rounds, cells):
         return []
     points = np.concatenate([sheet.points.reshape(-1, 3) for sheet in whole.sheets])
     axes = [np.linspace(low, high, cells) for low, high in zip(points.min(axis=0), points.max(axis=0))]
-    their_time = statistics.median(_time_of(lambda: _contour(scene, axes)) for _ in range(rounds))
-    error = _error(scene, _contour(scene, axes), max(axis[1] - axis[0] for axis in axes))
+    at = time.process_time()
+    theirs = _contour(scene, axes)
+    their_time = time.process_time() - at
+    error = _error(scene, theirs, max(axis[1] - axis[0] for axis in axes))
     ours = statistics.median(_time_of(lambda: [triangulate(sheet) for sheet in separatrix(scene, accuracy=error).sheets]) for _ in range(rounds + 1))
     return [Measured("separatrix surfaces", name, ours, their_time)]
 

@@ -27,31 +27,43 @@ class Zeros:
 
 
 class _Polynomials:
-    """Three polynomials {powers: coefficient} with all their derivatives, over batches of points (n, 3)."""
+    """Three polynomials {powers: coefficient} with all their derivatives, over batches of points (n, 3): one table of monomials serves them all."""
 
     def __init__(self, polynomials: Sequence[Polynomial]) -> None:
-        self.f = [_arrays(p) for p in polynomials]
-        self.J = [[_arrays(_derivative(p, k)) for k in range(3)] for p in polynomials]
-        self.H = [[[_arrays(_derivative(_derivative(p, k), l)) for l in range(3)] for k in range(3)] for p in polynomials]
-        self.third = np.array([[[[_constant(_derivative(_derivative(_derivative(p, k), l), m)) for m in range(3)] for l in range(3)]
-                                for k in range(3)] for p in polynomials])
+        first = [[_derivative(p, k) for k in range(3)] for p in polynomials]
+        second = [[[_derivative(q, l) for l in range(3)] for q in row] for row in first]
+        self.third = np.array([[[[_constant(_derivative(q, m)) for m in range(3)] for q in row] for row in rows] for rows in second])
+        self.f = _columns(polynomials)
+        self.J = _columns([q for row in first for q in row])
+        self.all = np.concatenate([self.f, self.J, _columns([q for rows in second for row in rows for q in row])], axis=1)
 
     def values(self, x: np.ndarray) -> np.ndarray:
-        return np.stack([_value(p, x) for p in self.f], -1)
+        return _monomials(x) @ self.f
 
     def sizes(self, x: np.ndarray) -> np.ndarray:
-        return np.stack([_value((np.abs(c), e), np.abs(x)) for c, e in self.f], -1)
+        return _monomials(np.abs(x)) @ np.abs(self.f)
 
     def jacobian(self, x: np.ndarray) -> np.ndarray:
-        return np.stack([np.stack([_value(p, x) for p in row], -1) for row in self.J], -2)
+        return (_monomials(x) @ self.J).reshape(-1, 3, 3)
 
-    def hessian(self, x: np.ndarray) -> np.ndarray:
-        return np.stack([np.stack([np.stack([_value(p, x) for p in row], -1) for row in rows], -2) for rows in self.H], -3)
+    def at(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Values (n, 3), first derivatives (n, 3, 3), second ones (n, 3, 3, 3)."""
+        found = _monomials(x) @ self.all
+        return found[:, :3], found[:, 3:12].reshape(-1, 3, 3), found[:, 12:].reshape(-1, 3, 3, 3)
 
 
-def _arrays(polynomial: Polynomial) -> tuple[np.ndarray, np.ndarray]:
-    powers = np.array(list(polynomial) or [(0, 0, 0)])
-    return np.array([float(v) for v in polynomial.values()] or [0.0]), powers
+POWERS = [(i, j, k) for i in range(4) for j in range(4 - i) for k in range(4 - i - j)]
+
+
+def _monomials(x: np.ndarray) -> np.ndarray:
+    """(n, 20) the monomials of third degree at most."""
+    powers = [np.ones_like(x), x, x * x, x * x * x]
+    return np.stack([powers[i][:, 0] * powers[j][:, 1] * powers[k][:, 2] for i, j, k in POWERS], axis=1)
+
+
+def _columns(polynomials: Sequence[Polynomial]) -> np.ndarray:
+    """(20, m) coefficients."""
+    return np.array([[float(p.get(powers, 0)) for p in polynomials] for powers in POWERS])
 
 
 def _derivative(polynomial: Polynomial, k: int) -> Polynomial:
@@ -67,11 +79,6 @@ def _constant(polynomial: Polynomial) -> float:
     if any(any(powers) for powers in polynomial):
         raise ValueError("the polynomials are of third degree at most")
     return float(sum(polynomial.values()))
-
-
-def _value(polynomial: tuple[np.ndarray, np.ndarray], x: np.ndarray) -> np.ndarray:
-    coefficients, powers = polynomial
-    return (coefficients * np.prod(x[:, None, :] ** powers[None], axis=2)).sum(axis=1)
 
 
 def zeros(polynomials: Sequence[Polynomial], reach: Sequence[float]) -> Zeros:
@@ -92,10 +99,10 @@ def zeros(polynomials: Sequence[Polynomial], reach: Sequence[float]) -> Zeros:
 
 def _sieve(system: _Polynomials, m: np.ndarray, h: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """(keep, settled) for boxes m +- h: not proved empty; proved to hold, half as large again, exactly one zero."""
-    J, H = system.jacobian(m), system.hessian(m)
+    values, J, H = system.at(m)
     Y = _inverses(J)
     size = np.abs(Y) @ (SLACK * system.sizes(np.abs(m) + h))[..., None]
-    g = np.abs((Y @ system.values(m)[..., None])[..., 0])
+    g = np.abs((Y @ values[..., None])[..., 0])
     linear = np.abs(Y @ J)
     higher = lambda w: (np.abs(Y) @ (0.5 * np.einsum("nikl,nk,nl->ni", np.abs(H), w, w)
                                      + np.einsum("iklm,nk,nl,nm->ni", np.abs(system.third), w, w, w) / 6)[..., None])[..., 0]
