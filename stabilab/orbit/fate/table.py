@@ -18,8 +18,10 @@ from ..landscape import Landscape, landscape
 from .table_kernel import DEGREE
 
 CELLS = (512, 2048, 8192)  # tried in turn
-GAPS = 0.002  # share of cells that may be left out before more cells are tried
-LOSS = 2.0  # units of rounding
+FAR_ASYMPTOTES = 100  # times the fold's radius
+GAPS = 0.01  # share of cells that may be left out before more cells are tried, at a tenth of a second
+LOSS = 4.0  # units of rounding: polynomial and general formula take two each
+WORTH = 0.5  # of the gaps: where four times as many cells leave more of these, they are rounding, and no more cells are tried
 ANGLE_LOSS = 1e-5  # turns; a tenth of the distance at which an angle is trusted
 CHECKS = np.array([-0.985, -0.85, -0.55, -0.2, 0.3, 0.7, 0.93])  # none of them a Chebyshev point
 
@@ -84,19 +86,33 @@ def _spans(land: Landscape):
             yield piece, ends[0], middle, ends[0], 1.0, 0.0, np.sqrt(middle - ends[0])
             yield piece, middle, ends[1], ends[1], -1.0, 0.0, np.sqrt(ends[1] - middle)
         elif len(ends) == 1 and kind.reaches_out:
-            yield piece, ends[0], np.inf, ends[0], 1.0, 1.0, np.sqrt(ends[0])
+            yield from _out_from(conic, piece, ends[0])
         else:
             yield None
 
 
+def _out_from(conic, piece, fold):
+    """The stretches of a branch from its fold out: one, or two where the conic's asymptotes are so far off that cells measured by
+    the fold would all stand before them."""
+    far = max(abs(conic.c / conic.G), abs(conic.shift))
+    if far <= FAR_ASYMPTOTES * fold:
+        yield piece, fold, np.inf, fold, 1.0, 1.0, np.sqrt(fold)
+        return
+    middle = np.sqrt(fold * far)
+    yield piece, fold, middle, fold, 1.0, 0.0, np.sqrt(middle - fold)
+    yield piece, middle, np.inf, middle, 1.0, 1.0, np.sqrt(far)
+
+
 def _tabulated(land, spans):
     """(ranges (B, 11), cells (B, N, 8), share of cells left out) with as many cells as it takes."""
+    before = np.inf
     for count in CELLS:
         made = [_stretch(land, span, count) for span in spans]
         cells = np.array([c for _, c in made]).reshape(len(spans), count, DEGREE + 3)
         gaps = float(np.isnan(cells).any(axis=2).mean()) if spans else 0.0
-        if gaps <= GAPS:
+        if gaps <= GAPS or gaps > WORTH * before:
             break
+        before = gaps
     return np.array([r for r, _ in made]).reshape(len(spans), 11), cells, gaps
 
 

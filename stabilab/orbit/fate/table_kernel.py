@@ -18,9 +18,9 @@ DEGREE, ANGLE = 5, 6  # coefficients 0..5 of a height, then 6..7 of the barrier'
 
 SIGN_BOUND = 320 * 2.0**-52  # five times the units of rounding that the general formula allows for
 # Terms smaller than these shares of the rounding's scale are left to the general formula, to keep a margin to 1e-12 of its
-# terms: that allows 4.5 units of rounding of the scale on circles, 0.9 on hyperbolas, whose scale is a cruder bound;
-# the largest found in 400,000 random states a scene are a sixth of that.
-MARGIN_BOUND, CONE_MARGIN_BOUND = 1e-3, 2e-4
+# terms: that allows 9 units of rounding of the scale on circles, 1.8 on hyperbolas, whose scale is a cruder bound;
+# of the curves' own terms the check of a cell allows 4.
+MARGIN_BOUND, CONE_MARGIN_BOUND = 2e-3, 4e-4
 FOLD_BOUND = 1e-10  # nearer to a fold, relative, the general formula answers
 TURN_BOUND = 1e-4  # so near to a barrier, in turns, it is not clear here whether it stands ahead or a turn away
 FORCE_BOUND = 1e-11  # a force so small may be an equilibrium's

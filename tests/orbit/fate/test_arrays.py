@@ -14,6 +14,7 @@ from stabilab import Body, ConstantTorque, Fate, Scene
 from stabilab.orbit.fate import table_kernel as barrier_heights
 from stabilab.orbit.fate.by_table import label_by_table
 from stabilab.orbit.fate.reasons import REASONS, Reason
+from stabilab.orbit.fate.result import empty_columns, in_chunks
 from stabilab.orbit.fate.table import barrier_table
 from stabilab.orbit.landscape import landscape
 from stabilab.physics import quadratic
@@ -195,16 +196,44 @@ def test_a_result_is_told_by_its_answers_and_not_by_its_states():
     assert repr(stabilab.fate(FAMILIES["minor scaled +"][0], np.zeros((2, 3)))) == "FateResult(2 states: 2 spin-up)"
 
 
-@pytest.mark.parametrize("name", ["minor scaled +", "middle scaled -, |c| above the cusp", "middle scaled, |c| far above"])
-def test_a_table_has_as_few_cells_as_leave_few_gaps(name, monkeypatch):
+# The fold stands 2,000 times as near to the centre as the asymptotes of the equilibria: the second needs more cells
+FAR_ASYMPTOTES = [stabilab.Scene(stabilab.Body(D), stabilab.Gyrostat(wheel), stabilab.ConstantTorque(torque)) for D, wheel, torque in (
+    ((5.399, 4.133, 3.232), (0, 0, 7.757), (-0.0129, 0, 0)), ((3.315, 4.642, 4.635), (0, 0, -1.393), (0, -0.0106, 0)))]
+
+
+@pytest.mark.parametrize("scene, tries", [(FAMILIES["minor scaled +"][0], 1), (FAMILIES["middle scaled -, |c| above the cusp"][0], 1),
+                                          (FAMILIES["middle scaled, |c| far above"][0], 1), (FAR_ASYMPTOTES[1], 2)])
+def test_a_table_has_as_few_cells_as_leave_few_gaps(scene, tries, monkeypatch):
     module = importlib.import_module("stabilab.orbit.fate.table")
-    table, sizes = barrier_table(FAMILIES[name][0]), list(module.CELLS)
+    table, sizes = barrier_table(scene), list(module.CELLS)
     count = table.cells.shape[1]
-    assert count == sizes[name == "middle scaled, |c| far above"]  # one that needs the second try
-    assert table.gaps <= module.GAPS and count in sizes
-    for fewer in sizes[:sizes.index(count)]:
+    assert count == sizes[tries - 1] and table.gaps <= module.GAPS
+    for fewer in sizes[:tries - 1]:
         monkeypatch.setattr(module, "CELLS", (fewer,))
-        assert module.barrier_table.__wrapped__(FAMILIES[name][0]).gaps > module.GAPS
+        assert module.barrier_table.__wrapped__(scene).gaps > module.GAPS
+
+
+@pytest.mark.parametrize("scene", FAR_ASYMPTOTES)
+def test_a_fold_far_inside_the_asymptotes_leaves_few_states_to_the_general_formula(scene):
+    """Labels and margins of these are the general formula's, which knows no cells."""
+    states = np.random.default_rng(2).normal(size=(20_000, 3)) * 10 ** np.random.default_rng(3).uniform(-1, 1, (20_000, 1))
+    found, kept = stabilab.fate(scene, states, fast=False), empty_columns(len(states))
+    rest = label_by_table(barrier_table(scene), states, kept)
+    assert len(rest) < 1000  # all of the first scene, where cells measured by its fold stand far inside
+    general = in_chunks(importlib.import_module("stabilab.orbit.fate.arrays").labeller(scene), states[::20])
+    assert (found.labels[::20] == general.labels).all()
+    np.testing.assert_allclose(found.margins[::20], general.margins, rtol=1e-11, atol=1e-12 * np.abs(general.margins[np.isfinite(general.margins)]).max())
+
+
+def test_more_cells_are_tried_only_while_they_close_gaps(monkeypatch):
+    module, tried = importlib.import_module("stabilab.orbit.fate.table"), []
+    def rough(land, span, count):
+        tried.append(count)
+        cells = np.zeros((count, module.DEGREE + 3))
+        cells[::10] = np.nan  # a tenth however many: rounding of the curve itself
+        return [0.0] * 11, cells
+    monkeypatch.setattr(module, "_stretch", rough)
+    assert module._tabulated(None, [None])[2] == pytest.approx(0.1, abs=1e-2) and tried == list(module.CELLS[:2])
 
 # Rates of 1e15 and more against moments that differ by 1e-15: the way along the conic to where a barrier was sought ended at a well.
 NO_BARRIER = {
