@@ -18,7 +18,8 @@ from stabilab.orbit.separatrix.distance.loop_chart import Chart
 from stabilab.orbit.separatrix.distance.point import Seen
 from stabilab.orbit.separatrix.distance.turn_chart import TurnChart
 from stabilab.orbit.separatrix.result import NO_SEPARATRIX, UNKNOWN
-from tests.oracles.pairs import physical
+from tests.oracles import energy
+from tests.oracles.pairs import physical, scaled
 
 
 def test_the_chart_beside_a_state_errs_by_less_than_its_bounds_however_alike_two_moments_are():
@@ -161,3 +162,13 @@ def test_states_far_nearer_than_doubles_of_the_search_tell_have_a_settled_distan
     beside = [Fraction(w) + Fraction(part / still.upper) * (Fraction(v) - Fraction(w)) for v, w in zip(state, still.witness)]
     found = distance_of(reduce(scene), beside)
     assert found.settled and found.boxes < 3000 and abs(found.upper - part) < 1e-9 * part + 1e-15
+
+
+def test_a_side_of_a_box_that_no_double_divides_is_left_for_the_other():
+    """Halving it went on until the boxes were spent, and the nearest point told was 1.24 away. The point told is on the separatrix: by the oracle
+    the margin in energy changes its sign across it."""
+    scene, problem = scaled(3.0, 1.0, (0, 1, 0))
+    found = distance_of(reduce(scene), (-1, 1.5, -0.5))
+    assert found.upper < 0.5843 and found.lower > 0.49
+    x, y, z = found.witness
+    assert energy.margin(problem, (x, y * (1 - 1e-9), z)) > 0 > energy.margin(problem, (x, y * (1 + 1e-9), z))

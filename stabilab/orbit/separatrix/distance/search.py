@@ -79,6 +79,8 @@ class _Search:
             if not chart.sharpest and (dt <= TINY * (abs(t) + dt) and dy <= TINY * (abs(y) + dy) or low < 0 and dt + dy < 1e-12):
                 stuck = min(stuck, low)  # no smaller box: doubles of t and y do not tell the rest apart
                 continue
+            if (dt, dy)[way] <= TINY * (abs((t, y)[way]) + (dt, dy)[way]):  # no double lies between
+                way = 1 - way
             for side in (-0.5, 0.5):
                 box = (chart, t + side * dt, 0.5 * dt, y, dy) if way == 0 else (chart, t, dt, y + side * dy, 0.5 * dy)
                 low, new = self.bound(*box)
