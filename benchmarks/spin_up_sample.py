@@ -94,10 +94,11 @@ def table(rows) -> str:
 def left(rows) -> str:
     """What is undecided, by the first cause seen, as a list."""
     undecided = [r for r in rows if r["level"] == "undecided"]
-    causes = Counter(" ".join(r["cause"].split(";")[0].split(",")[0].split(":")[0].split("about axis")[0].split()) for r in undecided)
+    first = [(" ".join(r["cause"].split(";")[0].split(",")[0].split(":")[0].split("about axis")[0].split()), r["number"]) for r in undecided]
+    scenes = lambda cause: ", ".join(str(number) for named, number in first if named == cause)
     kinds = Counter((r["kind"], r["wheel"]) for r in undecided)
-    return "\n".join([f"Undecided: {len(undecided)} of {len(rows)}, by the first cause that their words name:", ""]
-                     + [f"- {n}: {cause}" for cause, n in causes.most_common()]
+    return "\n".join([f"Undecided: {len(undecided)} of {len(rows)}, by the first cause that their words name (scenes counted from 0):", ""]
+                     + [f"- {n}: {cause} ({scenes(cause)})" for cause, n in Counter(cause for cause, _ in first).most_common()]
                      + ["", "By body and wheel: " + ", ".join(f"{kind} {wheel}: {n}" for (kind, wheel), n in kinds.most_common()) + "."])
 
 
