@@ -1,6 +1,10 @@
 """The compiled tests of spin-up against those of NumPy: other loops over other tables, the same inequality."""
+import os
 import random
+import subprocess
+import sys
 from importlib.util import find_spec
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -20,6 +24,7 @@ from stabilab.unreduced.spin_up.way.runs import Runs
 from .scenes import EXAMPLE, random_scene, rates_of, run, sphere
 
 numba = pytest.mark.skipif(find_spec("numba") is None, reason="needs the extra fast")
+ROOT = Path(__file__).parents[3]
 NAMES = ("A", "z", "eta", "z_up", "eta_up", "k")
 
 
@@ -179,3 +184,38 @@ def test_wide_batches_and_narrow_ones_give_the_same_bytes():
     for name in ("t", "steps", "states", "condition"):
         assert np.array_equal(getattr(all_, name)[::7], getattr(some, name))
     assert spin_up(scene, starts[7].tolist(), 200, fast=True).state == tuple(all_.states[7].tolist())
+
+
+HALVES = """
+from stabilab.unreduced.spin_up.compiled.lanes import load, plus, store
+
+
+def first(rows):
+    return load(rows, 0)
+
+
+def doubled(rows):
+    store(rows, 0, plus(first(rows), first(rows)))
+"""
+ASKED = """
+import numpy as np, halves
+from stabilab.numbers.numba_door import compiled
+from stabilab.unreduced.spin_up.compiled import lanes
+rows = np.arange(8.0).reshape(1, 8)
+compiled(halves, (), **lanes.vectors())["doubled"](rows)
+print(rows.tolist())
+"""
+
+
+@numba
+def test_lanes_that_are_partly_kept_on_disk_are_those_that_are_compiled_anew(tmp_path):
+    """A process that was killed, or asked for less, keeps some functions: the others, compiled beside them by the next one, take their values."""
+    (tmp_path / "halves.py").write_text(HALVES)
+    environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path / "kept"), "PYTHONPATH": os.pathsep.join([str(tmp_path), str(ROOT)])}
+    for _ in range(2):
+        done = subprocess.run([sys.executable, "-c", ASKED], env=environment, capture_output=True, text=True)
+        assert done.stdout == f"{[[2.0 * n for n in range(8)]]}\n", done.stderr
+        outer = list(tmp_path.glob("kept/*/halves.doubled-*"))
+        assert outer and list(tmp_path.glob("kept/*/halves.first-*"))
+        for path in outer:
+            path.unlink()

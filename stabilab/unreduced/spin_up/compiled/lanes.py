@@ -80,20 +80,30 @@ EXPONENT = 0x7FF0000000000000
 
 
 @lru_cache(maxsize=1)
+def vector_type():
+    """Numba's type of eight doubles, one for the process. Code that is kept on disk names it by this function: a copy of the class, as pickle would
+    make for each process, is no type that numba knows, where some functions are kept and others are compiled anew."""
+    from llvmlite import ir
+    from numba.core import types
+    from numba.extending import models, register_model
+
+    class Lanes(types.Type):
+        def __reduce__(self):
+            return vector_type, ()
+
+    register_model(Lanes)(type("LanesModel", (models.PrimitiveModel,), {"__init__": lambda self, dmm, one: models.PrimitiveModel.__init__(
+        self, dmm, one, ir.VectorType(ir.DoubleType(), WIDE))}))
+    return Lanes("lanes")
+
+
+@lru_cache(maxsize=1)
 def vectors() -> dict:
     """The operations by name for code that numba compiles."""
     from llvmlite import ir
     from numba.core import cgutils, types
-    from numba.extending import intrinsic, models, register_model
+    from numba.extending import intrinsic
 
-    double, whole = ir.VectorType(ir.DoubleType(), WIDE), ir.VectorType(ir.IntType(64), WIDE)
-
-    class Lanes(types.Type):
-        pass
-
-    register_model(Lanes)(type("LanesModel", (models.PrimitiveModel,), {"__init__": lambda self, dmm, kind: models.PrimitiveModel.__init__(
-        self, dmm, kind, double)}))
-    lanes = Lanes("lanes")
+    lanes, double, whole = vector_type(), ir.VectorType(ir.DoubleType(), WIDE), ir.VectorType(ir.IntType(64), WIDE)
 
     def operation(emit, *arguments, result=lanes):
         def typed(context, *given):
