@@ -6,9 +6,9 @@ a resultant, the q then a common root over the field of p.
 """
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
-from functools import partial
+from functools import cache, partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ...numbers.balls import settled
@@ -23,8 +23,12 @@ if TYPE_CHECKING:
     from flint import arb, fmpq_mpoly
 
 
+MOST_BITS = 2048  # beyond which a state is taken to have no number
+
+
 class Cusp(NamedTuple):
-    """A place where three equilibria meet. at: (p, q); state: in the case's variables; polynomial, root: of p, as those of an event."""
+    """A place where three equilibria meet. at: (p, q); state: in the case's variables, empty where a component is left open; polynomial, root: of p, as
+    those of an event."""
 
     at: tuple[float, float]
     state: tuple[float, ...]
@@ -38,12 +42,13 @@ def cusps(family: Family, eliminated: Eliminated, curves: Sequence[fmpq_mpoly]) 
     if R.degrees()[0] < 3:
         return []
     lead = of_power(R, 0, R.degrees()[0])
-    conditions = [*_conditions(R), *(c for view in _others(eliminated) for c in _conditions(view))]
+    conditions = _conditions(R)
+    more = cache(lambda: [c for view in _others(eliminated) for c in _conditions(view)])
     found: dict[tuple[float, ...], Cusp] = {}
     for F in curves:
         others = [c for c in conditions if c.gcd(F).is_constant()]
         if others and F.degrees()[3] > 0 and lead.gcd(F).is_constant():
-            for cusp in _on_curve(family, R, eliminated, F, others, lead):
+            for cusp in _on_curve(family, R, eliminated, F, others, lead, more):
                 found.setdefault(tuple(round(v, 12) for v in cusp.at), cusp)
     return sorted(found.values())
 
@@ -59,11 +64,11 @@ def _others(eliminated: Eliminated) -> list[fmpq_mpoly]:
 
 
 def _on_curve(family: Family, R: fmpq_mpoly, eliminated: Eliminated, F: fmpq_mpoly, others: Sequence[fmpq_mpoly],
-              lead: fmpq_mpoly) -> list[Cusp]:
+              lead: fmpq_mpoly, more: Callable[[], Sequence[fmpq_mpoly]]) -> list[Cusp]:
     shadows = [F.resultant(c, "q") for c in others]
     shadow = shadows[0]
-    for more in shadows[1:]:
-        shadow = shadow.gcd(more)
+    for other in shadows[1:]:
+        shadow = shadow.gcd(other)
     if shadow.is_constant():
         return []
     first, second = family.spans
@@ -75,6 +80,7 @@ def _on_curve(family: Family, R: fmpq_mpoly, eliminated: Eliminated, F: fmpq_mpo
             common = number.gcd(common, number.trimmed(_in_q(c))) if common else []
         if common and (far := number.trimmed(_in_q(lead))):  # where R loses its highest power nothing is known of its other roots
             common = number.divided(common, number.gcd(common, far))[0]
+        common = _truly(number, common, eliminated, more)
         if len(common) > 1:
             places = settled(partial(_places, family, R, eliminated, number, common))
             out += [Cusp(at, state, tuple(int(c) for c in number.polynomial.numer().coeffs()), number.index) for at, state in places
@@ -82,15 +88,40 @@ def _on_curve(family: Family, R: fmpq_mpoly, eliminated: Eliminated, F: fmpq_mpo
     return out
 
 
+def _truly(number: Algebraic, common: Any, eliminated: Eliminated, more: Callable[[], Sequence[fmpq_mpoly]]) -> Any:
+    """Of common roots q those where three points meet, and are not in line by chance: where that may be, another direction is asked."""
+    apart = eliminated.apart
+    if len(common) < 2:
+        return common
+    line = common if apart is None else number.gcd(common, f) if (f := number.trimmed(_in_q(apart))) else common
+    if len(line) < 2:
+        return common
+    sure = number.divided(common, line)[0]
+    for c in more():
+        line = number.gcd(line, number.trimmed(_in_q(c))) if len(line) > 1 else line
+    product = number.trimmed([sum((sure[i] * line[n - i] for i in range(len(sure)) if 0 <= n - i < len(line)), line[0] * 0)
+                              for n in range(len(sure) + len(line) - 1)])
+    return product
+
+
 def _places(family: Family, R: fmpq_mpoly, eliminated: Eliminated, number: Algebraic, common, digits: Any):
     """[((p, q), state)] of the common roots q over the field of p, each with its triple root."""
     at, out = number.ball(digits.bits), []
     for q, _ in number.real_roots(number.powers(common), digits.bits):
         x = _triple_root(R, at, q)
-        y = eliminated.state(eliminated.main, x, [at, q])
-        u = ball_form(family, [at, q])[1]
-        out.append(((float(at.mid()), float(q.mid())), doubles(state_of(family, y, u))))
+        out.append(((float(at.mid()), float(q.mid())), _state(family, eliminated, x, at, q, digits.bits)))
     return out
+
+
+def _state(family: Family, eliminated: Eliminated, x: arb, p: arb, q: arb, bits: int) -> tuple[float, ...]:
+    """The state there; none where the other component has no number of its own (a whole line lies above x)."""
+    try:
+        y = eliminated.state(eliminated.main, x, [p, q])
+        return doubles(state_of(family, y, ball_form(family, [p, q])[1]))
+    except Unclear:
+        if bits < MOST_BITS:
+            raise
+        return ()
 
 
 def _triple_root(R: fmpq_mpoly, p: arb, q: arb) -> arb:

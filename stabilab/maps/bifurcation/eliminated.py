@@ -142,12 +142,12 @@ class Eliminated:
 
     def _needed(self, number: Algebraic) -> Sequence[Leant]:
         """The main view alone where it has no two points in line, else as many as tell."""
-        apart = self._apart
+        apart = self.apart
         one = apart is not None and not _zero_at(apart, number) and not all(_zero_at(c, number) for c in self.main.guard)
         return (self.main,) if one else self.views[:SPARE + 1]
 
     @cached_property
-    def _apart(self) -> fmpq_mpoly | None:
+    def apart(self) -> fmpq_mpoly | None:
         """A polynomial: where it is not zero the main view has one point at the most above each x, because f = a(x) + b(x) y and a, b share no root."""
         f = self.main.f
         if isinstance(self.system, OnLine):

@@ -54,7 +54,8 @@ def text(found: Plane) -> str:
         stable = sum(state.verdict == "stable" for state in piece.states)
         table.append([str(count), *([] if border else [str(stable)]), "", number(p), number(float(piece.sample))])
     for cusp in found.cusps:
-        table.append(["cusp", *([] if border else [""]), f"({', '.join(f'{v:.6g}' for v in cusp.state)})", number(cusp.at[0]), number(cusp.at[1])])
+        where = f"({', '.join(f'{v:.6g}' for v in cusp.state)})" if cusp.state else "no one state"
+        table.append(["cusp", *([] if border else [""]), where, number(cusp.at[0]), number(cusp.at[1])])
     wide = [max(len(row[n]) for row in table) for n in range(len(table[0]))]
     lines += [("  " + "  ".join(f"{cell:>{size}}" for cell, size in zip(row, wide))).rstrip() for row in table]
     return "\n".join([*lines, *frame.note(found.family.case)])
@@ -84,7 +85,8 @@ def json(found: Plane) -> str:
     case = found.family.case
     return as_json({"schema": SCHEMA, "case": case.name, "variables": case.variables, "answer": answer(found), "kind": found.kind, "what": found.what,
                     "axes": [axis(span) for span in found.family.spans],
-                    "curves": [[{"powers": list(powers[2:]), "coefficient": str(c)} for powers, c in sorted(F.to_dict().items())] for F in found.curves],
+                    "curves": [[{"powers": [int(n) for n in powers[2:]], "coefficient": str(c)} for powers, c in sorted(F.to_dict().items())]
+                               for F in found.curves],
                     "strips": [{"low": strip.low, "high": strip.high, "sample": str(strip.sample),
                                 "cells": [{"low": piece.low, "high": piece.high, "equilibria": None if piece.count == ENDLESS else piece.count,
                                            "stable": sum(s.verdict == "stable" for s in piece.states)} for piece in strip.line.pieces],
