@@ -23,7 +23,7 @@ def closed_motion(scene: AnyScene, state: Sequence[Fraction]) -> dict[str, Any] 
     found = exactly(scene, state)
     if found is None:
         return None
-    D, l, M = scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque")
+    D, l, M = scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque")  # type: ignore[union-attr]  # found of bodies alone
     law, direction, gain, most = _free(D, state) if not any(M) else _sphere(D[0], l, M, state) if len(set(D)) == 1 else _symmetric(D, l, M, state)
     claims = {"law": law, "direction": direction and list(map(str, direction)), "gain": gain and str(gain * (1 - ROOM)), "most": str(most * (1 + ROOM))}
     grows = found.fate is Fate.SPIN_UP

@@ -271,7 +271,7 @@ def test_picture_shows_a_panel_a_question_and_a_line_a_method(measured):
 def test_page_has_words_of_every_case_and_a_picture_of_every_kind(tmp_path, monkeypatch, measured):
     one = replace(measured, points=tuple(measured.of("span")))  # a small picture
     efforts, told = [], []
-    monkeypatch.setattr(measuring, "precision", lambda case, effort: efforts.append(effort) or replace(one, case=case))
+    monkeypatch.setattr("stabilab.commands.accuracy.measure", lambda case, effort: efforts.append(effort) or replace(one, case=case))
     other = replace(FREE, state=(0.3, 0.2, 0.1), title="the same equations")
     path = precision_page.page([FREE, other, replace(FREE, span=None)], tmp_path, told.append)
     html = path.read_text(encoding="utf-8")
@@ -284,7 +284,7 @@ def test_page_has_words_of_every_case_and_a_picture_of_every_kind(tmp_path, monk
 
 def test_command_answers_in_strict_json(stabilab, monkeypatch, tmp_path, measured):
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    monkeypatch.setattr(measuring, "precision", lambda case, effort, until=None: measured)
+    monkeypatch.setattr("stabilab.commands.accuracy.measure", lambda case, effort, until=None: measured)
 
     def refuse(word):
         raise AssertionError(word)
@@ -299,7 +299,7 @@ def test_command_answers_in_strict_json(stabilab, monkeypatch, tmp_path, measure
 def test_command_takes_another_end_of_the_span(stabilab, monkeypatch, tmp_path, measured):
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     given = []
-    monkeypatch.setattr(measuring, "precision", lambda case, effort, until=None: given.append((effort, until)) or measured)
+    monkeypatch.setattr("stabilab.commands.accuracy.measure", lambda case, effort, until=None: given.append((effort, until)) or measured)
     code, out, _ = stabilab("precision", CASES / "torque-free-body.toml", "--until", "1500", "--csv")
     assert code == 0 and given == [("full", 1500.0)] and out.startswith("case,question,method")
 
@@ -310,7 +310,7 @@ def test_times_reach_from_zero_to_the_end_of_the_span():
 
 
 def test_command_refuses_other_endings_before_it_measures(stabilab, monkeypatch, tmp_path):
-    monkeypatch.setattr(measuring, "precision", lambda case, effort, until=None: pytest.fail("measured"))
+    monkeypatch.setattr("stabilab.commands.accuracy.measure", lambda case, effort, until=None: pytest.fail("measured"))
     code, out, err = stabilab("precision", CASES / "torque-free-body.toml", "--out", tmp_path / "p.txt")
     assert code == 2 and not out and ".png, .svg, .pdf or .csv" in err
 
