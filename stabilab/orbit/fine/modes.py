@@ -32,6 +32,42 @@ class TaylorModes(Modes):
         return 0.5 * (low + high), 0.5 * (low - high)
 
 
+class HeldModes(Modes):
+    """Modes of an interval with what H is off at three places taken from it: they are known better there.
+
+    held: (4, n) what is off at the left and at the right end, the factor of the parabola that vanishes at both, and H over a barrier inside
+    (inf without one)."""
+
+    def __init__(self, modes: Modes, held):
+        super().__init__(modes.data, modes.sizes)
+        self.modes, self.held = modes, held
+
+    @property
+    def least(self):
+        """(n,) H over the barrier inside."""
+        return self.held[3]
+
+    def take(self, rows) -> HeldModes:
+        return HeldModes(self.modes.take(rows), self.held[:, rows])
+
+    def second_difference(self, rho, left, right):
+        first, last, bent, _ = self.held
+        return self.modes.second_difference(rho, left, right) + (first * right + last * left + bent * left * right)
+
+    def terms(self, rho, left, right):
+        return self.modes.rounding(rho, left, right)
+
+    def rounding(self, rho, left, right):
+        return self.modes.rounding(rho, left, right)
+
+    def whole(self, rho):
+        return self.modes.whole(rho)
+
+    def pair(self, rho, whole, share, narrow):
+        (even, odd), (first, last, bent, _) = self.modes.pair(rho, whole, share, narrow), self.held
+        return even + (0.5 * (first + last) + share * (1 - share) * bent), odd + (0.5 - share) * (first - last)
+
+
 def _collected(v, left, right):
     """c_k = sum over n of v_n h_(n - 2 - k)(l, r), h the complete homogeneous polynomials."""
     total, power, h = np.ones(len(left)), np.ones(len(left)), [np.ones(len(left))]

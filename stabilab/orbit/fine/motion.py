@@ -9,14 +9,16 @@ from ...numbers.constants import EPS
 from ..extremes.guards import DIGITS
 from ..extremes.turning_points import turning_point
 from ..landscape import Landscape
+from ..period.modes import modes_of
 from ..period.rules import librations
 from .anchored import Anchored
-from .modes import TaylorModes
+from .modes import HeldModes, TaylorModes
 from .spots import FineSpots, fine_spots
 
 CLEAR = 64  # times its error: so far a height is from the energy where the barrier's side is certain
 FAR = 1.5  # of theta: ends farther from their anchor have no period by series
 PERIOD_DIGITS = 1e-11  # as of the periods of arrays
+SCATTERED = 1e-9  # of H, which is known at the ends and over a barrier: what single nodes lose beside these is scattered, and a part of the integral
 
 
 class _Anchors:
@@ -39,6 +41,7 @@ class FineInterval:
     blur: np.ndarray
     haze: np.ndarray
     ok: np.ndarray
+    forces: np.ndarray  # (2, n) F at both ends
     found: FineSpots
 
 
@@ -51,15 +54,16 @@ def fine_interval(land: Landscape, states) -> FineInterval:
     inside = spots.there & (spots.offset >= left[:, None]) & (spots.offset <= right[:, None])
     fastest = np.maximum(np.where(inside & ~spots.barrier, spots.energy, -np.inf).max(axis=1, initial=-np.inf), 0.5 * w * w)
     off = _anchors_error(found, inside, fastest)
-    blur, haze = [], []
+    blur, haze, forces = [], [], []
     for _, place, _, unsure, rounding in ends:
         with np.errstate(all="ignore"):
-            blur.append(unsure + off / np.abs(anchors.potential.force(tuple(place))))
+            forces.append(anchors.potential.force(tuple(place)))
+            blur.append(unsure + off / np.abs(forces[-1]))
         haze.append(rounding + off)
     with np.errstate(invalid="ignore"):
         clear = (~spots.there | ~spots.barrier | (np.abs(spots.energy) > CLEAR * found.error)).all(axis=1)
     ok = found.sure & ends[0][2] & ends[1][2] & clear & np.isfinite(left) & np.isfinite(right)
-    return FineInterval(left, right, fastest, np.array(blur), np.maximum(*haze) + EPS * fastest, ok, found)
+    return FineInterval(left, right, fastest, np.array(blur), np.maximum(*haze) + EPS * fastest, ok, np.array(forces), found)
 
 
 def _anchors_error(found, inside, fastest):
@@ -97,17 +101,47 @@ def fine_periods(land: Landscape, states):
     with np.errstate(invalid="ignore"):
         left, right = (end - spots.offset[rows, anchor] for end in (span.left, span.right))
         fits = span.ok & inside.any(axis=1) & (np.maximum(np.abs(left), np.abs(right)) <= FAR) & (right > left)
-    some = np.nonzero(fits)[0]
-    if some.size:
-        modes = TaylorModes.between(Anchored(land.reduction), spots.place[:, rows, anchor][:, some], left[some], right[some])
-        half = 0.5 * (right - left)[some]
-        values[some], shape = librations(modes, half)
-        with np.errstate(all="ignore"):
-            good = np.isfinite(values[some]) & (span.blur[:, some].sum(axis=0) * np.ptp(shape, axis=0) <= PERIOD_DIGITS * half * shape.min(axis=0))
-            for share, value in zip((0.0, 0.5, 1.0), shape):
-                good &= 8 * EPS * modes.terms(half, share, 1 - share) <= PERIOD_DIGITS * value
-        sure[some] = good
+        wide = span.ok & inside.any(axis=1) & ~fits & (span.right > span.left)
+    for which in (fits, wide):
+        some = np.nonzero(which)[0]
+        if some.size:
+            half = 0.5 * (span.right - span.left)[some]
+            modes = (TaylorModes.between(Anchored(land.reduction), spots.place[:, rows, anchor][:, some], left[some], right[some]) if which is fits
+                     else _modes_of_intervals(land, span, some))
+            modes = _held(modes, span, some, half)
+            values[some], shape = librations(modes, half)
+            sure[some] = np.isfinite(values[some]) & _vouched(modes, half, span.blur[:, some], shape)
     return values, sure
+
+
+def _vouched(modes, half, blur, shape):
+    """(n,) True where single nodes keep H to `SCATTERED` at the ends, in the middle and over a barrier, and it hardly moves with the ends' error."""
+    with np.errstate(all="ignore"):
+        good = blur.sum(axis=0) * np.ptp(shape, axis=0) <= PERIOD_DIGITS * half * np.minimum(shape[0], shape[2])
+        for left, value in zip((0.0, 0.5, 1.0), shape):
+            good &= 8 * EPS * modes.terms(half, left, 1 - left) <= SCATTERED * value
+        return good & (8 * EPS * modes.terms(half, 0.5, 0.5) <= SCATTERED * modes.least)
+
+
+def _modes_of_intervals(land, span, some):
+    """The modes about the middles of intervals that are too long for a series."""
+    with np.errstate(all="ignore"):
+        return modes_of(land, land.potential.move(land.place(span.found.x[some], span.found.z[some]), 0.5 * (span.left + span.right)[some]))
+
+
+def _held(modes, span, some, half):
+    """The modes made to give at both ends the force that is known there, and at the highest barrier inside the energy over it."""
+    spots, rows = span.found.spots, np.arange(len(some))
+    offset, energy = spots.offset[some], spots.energy[some]
+    inside = spots.barrier[some] & (offset > span.left[some, None]) & (offset < span.right[some, None])
+    at, there = np.argmin(np.where(inside, energy, np.inf), axis=1), inside.any(axis=1)
+    with np.errstate(all="ignore"):
+        share = np.where(there, (offset[rows, at] - span.left[some]) / (2 * half), 0.5)
+        dip = energy[rows, at] / (4 * half * half * share * (1 - share))
+        known = np.array([span.forces[0, some] / (2 * half), np.where(there, dip, np.nan), -span.forces[1, some] / (2 * half)])
+        off = known - [modes.second_difference(half, t, 1 - t) for t in (np.zeros(len(some)), share, np.ones(len(some)))]
+        off[1] = np.where(there, off[1], 0.5 * (off[0] + off[2]))
+    return HeldModes(modes, np.array([off[0], off[2], (off[1] - off[0] * (1 - share) - off[2] * share) / (share * (1 - share)), np.where(there, dip, np.inf)]))
 
 
 def _change(land, found, y):

@@ -12,12 +12,13 @@ from ..result import Fate, without_return
 
 DIGITS = 14  # two steps agree to so many; the rule doubles its digits with every halving, so the second is exact to a double
 SPARE = 8  # digits beyond those: terms that are smaller are left out
+AGREED = 9  # the same for a double alone: the next step, twice as many digits, is not taken to see it
 FINEST = 9  # halvings of the step; the seventh serves a double
 
 
 def precise_period(orbit: Orbit, label: int) -> float:
     """Period of one state with the given `Fate` label: inf where the motion does not repeat, 0 at an equilibrium, NaN where it is undecided."""
-    return without_return(label) if label != Fate.BOUNDED else float(period_ball(orbit).mid())
+    return without_return(label) if label != Fate.BOUNDED else float(period_ball(orbit, AGREED).mid())
 
 
 def period_ball(orbit: Orbit, digits: int = DIGITS):
