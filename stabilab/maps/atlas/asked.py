@@ -13,6 +13,7 @@ from ...case.source import source_text
 from ...case.units import TORQUE, quantity
 from ...errors import InputError, printable
 from ...numbers.exact import sqrt_fraction
+from ...numbers.principal import NOTHING
 from ...numbers.vectors import Exact3, dot
 from ..axes import axis_of
 from ..keys import Key
@@ -65,8 +66,7 @@ class Asked:
         """The directions with names, beside every wheel: both senses of the principal axes, the thrusters, the torque of the case itself."""
         case = self.case
         firing = [(THRUSTERS, n) for n, thruster in enumerate(case.thrusters) if any(thruster.torque)]
-        alone = [one.torque for one in case.thrusters if one.stuck]
-        own = any(case.scene.vector("constant_torque")) and "constant_torque" in case.text or len(alone) > 1  # type: ignore[union-attr]
+        own = _own_torque(case)
         kinds = [*((AXES, n) for n in range(AXIS_POINTS)), *firing, *([(OWN, 0)] if own else [])]
         return tuple(Point(wheel, *kind) for wheel in range(len(self.wheels)) for kind in kinds)
 
@@ -105,6 +105,14 @@ def asked(case: Case | str | os.PathLike[str], torque: Any = None, wheel: str | 
     if found.plan(()).longest is not None:  # which says what is wrong with it
         found = replace(found, options=(*options, ("follow", str(follow))))
     return found
+
+
+def _own_torque(case: Case) -> bool:
+    """Whether the case has a torque that is not that of one thruster alone."""
+    whole = case.scene.vector("constant_torque")  # type: ignore[union-attr]
+    stuck = [along_axes(case, thruster.torque) for thruster in case.thrusters if thruster.stuck]
+    rest = [v - sum(torque[n] for torque in stuck) for n, v in enumerate(whole)]
+    return any(whole) and (len(stuck) != 1 or dot(rest, rest) > NOTHING**2 * dot(whole, whole))
 
 
 def _judge(case: Case) -> None:

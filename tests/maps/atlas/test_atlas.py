@@ -140,6 +140,7 @@ def test_directions_of_a_full_tensor_are_told_in_the_frame_of_the_file():
     thruster = next(n for n, point in enumerate(found.named) if point.level == -2)
     torque = np.array(list(map(float, found.asked.case.thrusters[0].torque)))
     assert found.in_file(found.named_directions)[thruster] == pytest.approx(torque / np.linalg.norm(torque), abs=1e-12)
+    assert [point.level for point in found.named] == 6 * [-1] + [-2]  # the case's torque is that of its one thruster
     assert found.named_records["fate"][thruster] == stabilab.motion(found.asked.case.scene, found.asked.case.state).fate
 
 
