@@ -287,8 +287,8 @@ def sweep(case: CaseFile,
                                                          'four.')] = None,
           samples: Annotated[int | None, typer.Option(metavar="N", help="Random points over the uncertainties that the case states.")] = None,
           seed: Annotated[int, typer.Option(metavar="S", help="Of the random points.")] = 1,
-          answer: Annotated[str | None, typer.Option(metavar="A,B,...", help="fate, level, reason, margin, distance, extremes, period, when, equilibria, "
-                                                     "verdict. Default: fate,level,margin.")] = None,
+          answer: Annotated[str | None, typer.Option(metavar="A,B,...", help="fate, level, reason, island, margin, distance, extremes, period, when, "
+                                                     "equilibria, verdict. Default: fate,level,margin.")] = None,
           out: Annotated[Path | None, typer.Option(metavar="FILE.nc", help="Write NetCDF. What is finished outlives a killed run: the same command goes "
                                                    "on.")] = None,
           workers: Annotated[int | None, typer.Option(metavar="N", help="Processes that share the work; default: one a core where that pays.")] = None,
