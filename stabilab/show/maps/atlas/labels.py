@@ -14,7 +14,7 @@ from ..shades import FATES, light
 # (axis, sense) of a spin-up -> its colour: a hue for each axis, the lighter one against it
 SPINS = {(1, 1): light(style.BLUE, 0.95), (1, -1): light(style.BLUE, 0.5), (2, 1): light(style.GREEN, 0.95), (2, -1): light(style.GREEN, 0.45),
          (3, 1): light(style.VERMILION, 0.95), (3, -1): light(style.VERMILION, 0.5), (0, 0): light(style.PURPLE, 0.9)}
-ISLAND = light(style.BLACK, 0.75)
+ISLANDS = {1: light(style.GREY, 0.75), 2: light(style.BLACK, 0.8)}  # of undecided cells: where one may exist, where one is seen
 DOES = {Fate.BOUNDED: "stay bounded", Fate.SEPARATRIX: "lie on the separatrix", Fate.EQUILIBRIUM: "are at rest", Fate.UNDECIDED: "are undecided"}
 
 
@@ -44,21 +44,21 @@ def kind_words(atlas: Atlas, fate: int, axis: int, island: int = 0) -> str:
         if not axis:
             return "spins up about no principal axis"
         return f"spins up about {axis:+d} ({axis_names(atlas)[abs(axis)].partition('(')[2]}"
-    return "undecided, an island is seen" if fate == Fate.UNDECIDED and island == 2 else FATES[Fate(fate)][0]
+    return FATES[Fate(fate)][0] + ("", ", an island may exist", ", an island is seen")[island]
 
 
 def kind_colour(fate: int, axis: int, island: int = 0) -> Any:
     """Red, green and blue, 0 to 1."""
     if fate == Fate.SPIN_UP:
         return SPINS[(abs(axis), int(np.sign(axis)))]
-    return ISLAND if fate == Fate.UNDECIDED and island == 2 else light(FATES[Fate(fate)][1], 0.8)
+    return ISLANDS.get(island) or light(FATES[Fate(fate)][1], 0.8)
 
 
 def kinds(atlas: Atlas, rows: np.ndarray | None = None) -> list[tuple[tuple[int, int, int], np.ndarray, float]]:
     """((fate, axis with its sense, island), rows of cells, share of the sphere and of the wheels) of all that occurs, the most first."""
     chosen = np.arange(len(atlas.records)) if rows is None else rows
     records = atlas.records[chosen]
-    seen = np.where((records["fate"] == Fate.UNDECIDED) & (records["island"] == 2), 2, 0)
+    seen = np.where(records["fate"] == Fate.UNDECIDED, records["island"], 0)
     keys = np.stack([records["fate"].astype(int), records["spin_axis"].astype(int), seen], axis=1)
     found, which = np.unique(keys, axis=0, return_inverse=True)
     which = which.ravel()

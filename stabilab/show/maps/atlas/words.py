@@ -10,7 +10,7 @@ from ....errors import printable
 from ....maps.atlas.cells import area
 from ....maps.atlas.pointed import AXES, THRUSTERS
 from ....maps.atlas.run import Atlas
-from ....maps.columns import LEVELS, LIMIT_LEVELS, columns_of
+from ....maps.columns import ISLANDS, LEVELS, LIMIT_LEVELS, columns_of
 from ....orbit.result import Fate
 from ...files import comma
 from ...text.answers import Endless, as_json
@@ -201,7 +201,7 @@ def json(atlas: Atlas, units: Units) -> str:
     asked, plan = atlas.asked, atlas.asked.plan(())
     wheels = [{"momentum": momentum, "unit": asked.unit, "vector": list(map(float, vector))}
               for momentum, vector in zip(asked.momenta or (None,) * len(asked.wheels), asked.wheels)]
-    shares = [{"fate": Fate(fate).word, "axis": abs(axis) or None, "sense": (axis > 0) - (axis < 0) or None, "island_seen": island == 2, "share": share}
+    shares = [{"fate": Fate(fate).word, "axis": abs(axis) or None, "sense": (axis > 0) - (axis < 0) or None, "island": ISLANDS[island], "share": share}
               for (fate, axis, island), _, share in kinds(atlas)]
     limit = asked.stated_limit
     cells = {"wheel": atlas.leaves.wheel, "level": atlas.leaves.level, "number": atlas.leaves.number, "share": atlas.share,
