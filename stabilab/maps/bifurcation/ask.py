@@ -8,6 +8,7 @@ from typing import Any
 from ...case.read import Case, read_text
 from ...case.source import parsed, source_text
 from ...errors import InputError
+from ...numbers.double_ball import Unclear
 from ...physics.coefficients import effective
 from .connections import with_connections
 from .family import Family
@@ -27,7 +28,11 @@ def bifurcation(case: Case | str | os.PathLike[str], vary: Mapping[str, Any] | S
     Raises InputError for what cannot be eliminated.
     """
     family = family_of(case, vary)
-    return with_connections(diagram(family, curve)) if len(family.spans) == 1 else plane(family, curve)
+    try:
+        return with_connections(diagram(family, curve)) if len(family.spans) == 1 else plane(family, curve)
+    except Unclear:
+        raise InputError(f"{family.case.place}: undecided: no number of bits told what happens at one value of this range, where the equations degenerate: "
+                         "divide the range, or move its ends") from None
 
 
 def family_of(case: Case | str | os.PathLike[str], vary: Mapping[str, Any] | Sequence[tuple[str, Any]]) -> Family:

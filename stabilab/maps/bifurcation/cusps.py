@@ -78,8 +78,8 @@ def _on_curve(family: Family, R: fmpq_mpoly, eliminated: Eliminated, F: fmpq_mpo
         common = number.trimmed(_in_q(F))
         for c in others:
             common = number.gcd(common, number.trimmed(_in_q(c))) if common else []
-        if common and (far := number.trimmed(_in_q(lead))):  # where R loses its highest power nothing is known of its other roots
-            common = number.divided(common, number.gcd(common, far))[0]
+        far = number.trimmed(_in_q(lead))  # where R loses its highest power nothing is known of its other roots
+        common = number.divided(common, number.gcd(common, far))[0] if common and far else []
         common = _truly(number, common, eliminated, more)
         if len(common) > 1:
             places = settled(partial(_places, family, R, eliminated, number, common))

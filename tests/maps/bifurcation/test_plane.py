@@ -60,3 +60,9 @@ def test_regions_off_the_axes_have_the_number_that_elimination_gives(check):
 @pytest.mark.slow
 def test_regions_of_many_random_scenes_have_the_number_that_elimination_gives(check):
     assert sum(check(seed, 50) for seed in range(100, 200)) >= 2000
+
+
+def test_a_plane_in_which_moments_become_equal_is_told():
+    # where D1 = D2 the equations of the motion's curve lose their highest power for every torque: no cusp stands there
+    found = stabilab.bifurcation(CASES / "symmetric-spin-up.toml", {"inertia[1]": ("1.92", "2.08"), "torque[3]": ("-0.1", "0.3")})
+    assert found.strips and not found.cusps
