@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from .version import __version__ as __version__
 
 if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type checkers
+    from .answers.chaos import chaos as chaos
     from .answers.equilibria import equilibria as equilibria
     from .answers.extremes import extremes as extremes
     from .answers.extremes import period as period
@@ -52,7 +53,7 @@ _HOME = {
     "Body": "physics.body", "Scene": "physics.scene", "ScaledGyrostat": "physics.scene",
     "Gyrostat": "physics.effects.gyrostat", "ConstantTorque": "physics.effects.constant_torque",
     "Fate": "orbit.result",
-    "equilibria": "answers.equilibria",
+    "equilibria": "answers.equilibria", "chaos": "answers.chaos",
     "fate": "answers.fate", "fate_grid": "answers.fate_grid", "motion": "answers.motion",
     "extremes": "answers.extremes", "period": "answers.extremes", "spin_up": "unreduced.spin_up.follow",
     "separatrix": "orbit.separatrix.sheets", "stuck": "answers.stuck.ask",

@@ -288,7 +288,7 @@ def sweep(case: CaseFile,
           samples: Annotated[int | None, typer.Option(metavar="N", help="Random points over the uncertainties that the case states.")] = None,
           seed: Annotated[int, typer.Option(metavar="S", help="Of the random points.")] = 1,
           answer: Annotated[str | None, typer.Option(metavar="A,B,...", help="fate, level, reason, island, margin, distance, extremes, period, when, "
-                                                     "equilibria, verdict. Default: fate,level,margin.")] = None,
+                                                     "equilibria, verdict, chaos. Default: fate,level,margin.")] = None,
           out: Annotated[Path | None, typer.Option(metavar="FILE.nc", help="Write NetCDF. What is finished outlives a killed run: the same command goes "
                                                    "on.")] = None,
           workers: Annotated[int | None, typer.Option(metavar="N", help="Processes that share the work; default: one a core where that pays.")] = None,
@@ -311,6 +311,23 @@ def sweep(case: CaseFile,
     from .commands.maps import sweep as run
     limits = {"rate": rate, "component": component, "energy": energy, "tilt": tilt, "until": until}
     run(case, vary, samples, seed, answer, follow, limits, out, workers, scheduler, csv, json, strict)
+
+
+@app.command()
+def chaos(cases: CaseFiles,
+          until: Annotated[str | None, typer.Option(metavar="TIME", help="How long each motion is followed; default: a thousand turns.")] = None,
+          out: Annotated[Path | None, typer.Option(metavar="FILE.png|.svg|.pdf", help="Draw the Poincaré section and MEGNO over its plane.")] = None,
+          csv: Annotated[bool, typer.Option("--csv", help="CSV on stdout: MEGNO over time.")] = False, json: Json = False,
+          strict: Annotated[bool, typer.Option("--strict", help="Exit with 3 where it stays undecided.")] = False):
+    """Say whether each motion is regular or chaotic.
+
+    By how a small change of the start grows (MEGNO), from variational equations of the case's own; seen up to a time, not proved.
+
+    Example: stabilab chaos cases/minor-axis-100.toml
+    """
+    _either_json_or_csv(json, csv)
+    from .commands.pictures import chaos as answer
+    answer(cases, until, out, csv, json, strict)
 
 
 @app.command()

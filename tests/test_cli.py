@@ -454,9 +454,9 @@ def test_every_command_has_help_with_an_example(stabilab):
     code, out, _ = stabilab("--help")
     groups = out.split("-h, --help")[1].partition("\n")[2]
     commands = [line.split()[0] for line in groups.splitlines() if line.startswith("  ")]
-    assert code == 0 and set(commands) == {"audit", "basin", "bifurcation", "show", "classify", "extremes", "simulate", "compare", "precision", "surface",
-                                        "plot", "explore", "tables", "figures", "report", "doctor", "fate", "import", "period", "reference",
-                                        "rerun", "stuck", "sweep", "validate", "verify", "when"}
+    assert code == 0 and set(commands) == {"atlas", "audit", "basin", "bifurcation", "chaos", "classify", "compare", "doctor", "explore", "extremes",
+                                           "fate", "figures", "import", "period", "plot", "precision", "reference", "report", "rerun", "show",
+                                           "simulate", "stuck", "surface", "sweep", "tables", "validate", "verify", "when"}
     assert "--install-completion" in out and "..." not in groups
     for command in commands:
         code, out, _ = stabilab(command, "--help")

@@ -1,19 +1,24 @@
-"""`stabilab surface`, `plot` and `explore`: a case to look at."""
+"""`stabilab surface`, `plot`, `chaos` and `explore`: a case to look at."""
 from __future__ import annotations
 
 import sys
+from functools import partial
 from pathlib import Path
 
+from ..answers.chaos import Order, row_of
+from ..answers.chaos import chaos as ask_chaos
 from ..case.read import blamed_on, load
 from ..errors import RenderingUnavailable, printable
 from ..show.files import endings
 from ..show.maps import picture
 from ..show.maps.atlas import to_file as atlas_files
+from ..show.maps.chaos import picture as chaos_picture
+from ..show.maps.chaos import words as chaos_words
 from ..show.plot import to_file
 from ..show.surface.write import write_all
 from ..show.text import law
-from .common.cases import load_cases, time_asked, units_asked
-from .common.output import hold_laws, say, write, write_json
+from .common.cases import load_cases, one_by_one, time_asked, units_asked
+from .common.output import hold_laws, leave_undecided, say, tell, write, write_each, write_json
 
 AN_EXAMPLE = Path(__file__).parents[1] / "cases" / "thruster-stuck-major-axis.toml"
 
@@ -61,6 +66,23 @@ def _of_file(case, target, kind, size, dpi, units):
     return picture.write(case, target, kind, size, dpi)
 
 
+def chaos(cases, until, out, csv, json, strict):
+    """Say of each motion whether it is regular, and draw what that looks like."""
+    loaded, rows = load_cases(cases, motion=True), []
+    if out:
+        endings.file(out, endings.PICTURES)
+    for case in one_by_one(loaded):
+        with blamed_on(case):
+            rows.append((case, ask_chaos(case.scene, row_of(case.scene, case.state, case.blocks), time_asked(until, case, "until"))))
+    if out:
+        write_each(out, [(case, partial(chaos_picture.write, case, found)) for case, found in rows])
+    if json or csv:
+        write(chaos_words.json(rows) if json else chaos_words.csv(rows))
+    else:
+        tell("\n".join(chaos_words.text(*row) for row in rows))
+    leave_undecided(strict, any(int(found.labels) == Order.UNDECIDED for _, found in rows))
+
+
 def explore(case, port, browser, static, pyodide):
     """Serve a case as a page, or write the page as a folder."""
     one = load(case or AN_EXAMPLE)
@@ -70,7 +92,7 @@ def explore(case, port, browser, static, pyodide):
         return
     from ..show.explore.serve import serve
 
-    def tell(address: str) -> None:
+    def announce(address: str) -> None:
         say("Ctrl-C ends it.")
         write(address)
-    serve(one, port, browser, tell)
+    serve(one, port, browser, announce)

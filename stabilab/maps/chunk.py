@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ..answers.chaos import chaos, long_enough, row_of
 from ..answers.equilibria import equilibria
 from ..answers.extremes import extremes, period
 from ..answers.fate import fate
@@ -27,7 +28,7 @@ from .points import case_of, states_of
 
 COMPILED = 20_000  # states for which loading numba's code pays
 POINTED_WORK = 100_000  # multiplications for the proof of a time in an atlas: it leaves long motions to compiled steps, which prove them sooner
-NO_CASE_VALUES = {"fate": NO_CASE, "level": -1, "reason": -1, "when_level": -1, "equilibria": NONE, "stable": NONE, "unstable": NONE, "open": NONE}
+NO_CASE_VALUES = {"fate": NO_CASE, "level": -1, "reason": -1, "when_level": -1, "chaos": -1, "equilibria": NONE, "stable": NONE, "unstable": NONE, "open": NONE}
 
 
 def answered(plan: Plan, number: int) -> np.ndarray:
@@ -53,7 +54,11 @@ def _scene(plan: Plan, scene: int, chunk: Chunk, out: np.ndarray) -> None:
     out["valid"] = 1
     with blamed_on(case):
         if case.state is not None:
-            (_many if effective(case.scene).plain else _single)(plan, case, states_of(plan, case, chunk.low, chunk.high), out)
+            states = states_of(plan, case, chunk.low, chunk.high)
+            if set(plan.answers) - {"chaos"}:
+                (_many if effective(case.scene).plain else _single)(plan, case, states, out)
+            if "chaos" in plan.answers:
+                _chaos(plan, case, states, out)
         if "equilibria" in plan.answers or "verdict" in plan.answers:
             _equilibria(case, out)
 
@@ -87,6 +92,14 @@ def _following(plan: Plan, case: Case) -> dict[str, Any]:
     if plan.pointed is None or not KINDS[kind_of(effective(case.scene))].follows:
         return {"follow": plan.longest}
     return {"follow": plan.longest, "fast": installed() or None, "proof": plan.pointed.certify}
+
+
+def _chaos(plan: Plan, case: Case, states: np.ndarray, out: np.ndarray) -> None:
+    """All followed as long as the case's own motion is, whatever their company."""
+    end = long_enough(plan.case.scene, row_of(plan.case.scene, plan.case.state, plan.case.blocks))
+    rows = np.array([row_of(case.scene, state, case.blocks) for state in states.tolist()])
+    found = chaos(case.scene, rows, end if plan.longest is None else plan.longest)
+    out["chaos"], out["megno"], out["lyapunov"] = found.labels, found.megno, found.lyapunov
 
 
 def _extremes_and_periods(case: Case, states: np.ndarray, box: bool, times: bool) -> tuple[np.ndarray | None, np.ndarray | None]:

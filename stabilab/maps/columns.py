@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..answers.chaos import Order
 from ..errors import InputError, printable
 from ..orbit.fate.reasons import Reason
 from ..orbit.result import Fate
@@ -14,7 +15,7 @@ LIMIT_LEVELS = ("run", "exact", "proved")
 ISLANDS = ("none", "may_exist", "seen")
 ENDLESS, OPEN, NONE = -1, -2, -3  # equilibria without number; not all of them known; numbers that make no case
 NO_CASE = len(Fate)  # in the place of a fate: the numbers make no case (moments that no body has)
-RATE, ENERGY, TIME = "rate", "energy", "time"  # units that depend on the variables of a case
+RATE, ENERGY, TIME, PACE = "rate", "energy", "time", "pace"  # units that depend on the variables of a case
 
 
 class Column(NamedTuple):
@@ -55,6 +56,10 @@ ANSWERS: dict[str, tuple[Column, ...]] = {
     "verdict": (Column("stable", "i4", "", "stable equilibria, and stable pieces of curves of them", note=f"{NONE}: no case"),
                 Column("unstable", "i4", "", "unstable equilibria, and unstable pieces of curves of them", note=f"{NONE}: no case"),
                 Column("open", "i4", "", "equilibria and pieces whose stability is undecided", note=f"{NONE}: no case")),
+    "chaos": (Column("chaos", "i1", "", "what is seen of the motion up to the time it is followed", tuple(order.word for order in Order), note="-1: no case"),
+              Column("megno", "f8", "", "MEGNO: 2 on tori, grows where chaotic",
+                     note="mean exponential growth of nearby orbits; NaN where the motion spins up or leaves the doubles"),
+              Column("lyapunov", "f8", PACE, "rate at which neighbours part", note="0 where regular, NaN where it is not known")),
 }
 DEFAULT = ("fate", "level", "margin")
 VALID = Column("valid", "i1", "", "whether the numbers make a case", ("no", "yes"))

@@ -34,7 +34,7 @@ RATES = ("angular_velocity", "x")  # keys of [motion] whose numbers leave the sc
 CHUNK_SECONDS, LARGEST = 2.0, 1 << 17  # of one processor that a chunk takes, roughly; its most points
 # answer -> seconds for a state of a scene with an orbit, for one whose motions are followed; measured, to size chunks alone
 COST = {"fate": (1e-6, 1e-3), "level": (0, 0), "reason": (0, 0), "margin": (0, 0), "distance": (3e-2, 0), "extremes": (1e-5, 2e-2), "period": (1e-5, 0),
-        "when": (0.1, 0.1), "island": (0, 0), "equilibria": (0, 0), "verdict": (0, 0)}
+        "when": (0.1, 0.1), "island": (0, 0), "equilibria": (0, 0), "verdict": (0, 0), "chaos": (2e-2, 5e-2)}
 SCENE_COST = (3e-3, 3e-2)
 POINTED_COST = 5e-2  # of a direction of an atlas, all answers together
 LIMITS = ("rate", "component", "energy", "tilt", "until")

@@ -4,7 +4,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from ...maps.columns import ENERGY, RATE, TIME, Column
+from ...maps.columns import ENERGY, PACE, RATE, TIME, Column
 from ...maps.plan import Plan
 
 SAMPLE = "sample"
@@ -32,4 +32,4 @@ def dimensions(plan: Plan) -> list[str]:
 
 def unit(plan: Plan, column: Column) -> str:
     """The unit of a column; "1" where it has none."""
-    return {RATE: "rad/s", ENERGY: "J", TIME: "s"}.get(column.unit, "1") if plan.case.variables == "physical" else "1"
+    return {RATE: "rad/s", ENERGY: "J", TIME: "s", PACE: "1/s"}.get(column.unit, "1") if plan.case.variables == "physical" else "1"

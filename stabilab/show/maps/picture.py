@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     import xarray
 
 PANELS = 12  # small maps of a picture
-NUMBERS = ("margin", "distance", "least", "greatest", "period", "when_low", "when_high", "equilibria", "stable", "unstable", "open")
+NUMBERS = ("margin", "distance", "least", "greatest", "period", "when_low", "when_high", "equilibria", "stable", "unstable", "open", "megno", "lyapunov")
 
 
 def write(path: str | Path, out: str | Path, kind: str | None = None, size: tuple[float, float] | None = None, dpi: float | None = None) -> Path:
@@ -120,7 +120,7 @@ def differing(data: xarray.Dataset, plan: Plan) -> str:
 
 def chosen(data: xarray.Dataset, kind: str | None) -> str:
     """The column that is drawn. Raises InputError where the file lacks it, or no number of it could be drawn."""
-    have = [name for name in ("fate", *NUMBERS, "level", "reason") if name in data]
+    have = [name for name in ("fate", *NUMBERS, "chaos", "level", "reason") if name in data]
     if kind is not None and kind not in have:
         raise InputError(f"plot {printable(kind)[:40]}: this file has {', '.join(have)}")
     asked = have if kind is None else [kind]

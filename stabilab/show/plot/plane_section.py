@@ -51,7 +51,7 @@ def section(case: Any, states: Any = None, ax: Axes | None = None, units: str | 
     _check("neighbours", fan, 0, FAN)
     _check("passages", PASSAGES if passages is None else passages, 1, MOST)
     scale, until = measures(one, units), which.certain_from(one)
-    orbit, plane = _plane(one, until)
+    orbit, plane = plane_of(one, until)
     count, followed = passages or _round(PASSAGES, orbit), _round(BESIDE, orbit)
     times, places = returns(one.twin, one.state, plane, count, until)
     sets = [(THIS, "this motion", places)]
@@ -86,7 +86,7 @@ def _may_have_an_island(one: Subject) -> bool:
     return one.motion.fate == Fate.UNDECIDED and reduce(one.twin) is None and not which.free(one)
 
 
-def _plane(one: Subject, until: float) -> tuple[Periodic | None, Section]:
+def plane_of(one: Subject, until: float) -> tuple[Periodic | None, Section]:
     """The periodic motion in the middle, where there is one, and the plane that the motion passes."""
     orbit = in_the_middle(one.twin, one.state) if _may_have_an_island(one) else None
     if orbit is not None and len(returns(one.twin, one.state, orbit.section, LEAST)[0]) == LEAST:

@@ -6,7 +6,7 @@ from typing import Any
 from typer.core import TyperGroup
 
 GROUPS = {
-    "Answers about a motion": ("classify", "fate", "extremes", "period", "when", "stuck"),
+    "Answers about a motion": ("classify", "fate", "extremes", "period", "when", "stuck", "chaos"),
     "Runs and pictures": ("simulate", "plot", "surface", "report", "explore"),
     "Into a case": ("show", "compare", "precision", "import"),
     "Many cases at once": ("sweep", "atlas", "basin", "bifurcation"),

@@ -1,0 +1,138 @@
+"""Whether motions are regular or chaotic, as far as they are followed: an indicator with its history, not a proof."""
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from enum import IntEnum
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..asked import checked_scene
+from ..errors import InputError
+from ..orbit.result import Fate
+from ..physics.blocks import slices
+from ..physics.coefficients import effective
+from ..physics.scene import AnyScene
+from ..physics.states import checked_starts, start_of
+from ..physics.to_numpy import equations_of
+from ..unreduced.chaos import TURNS, growth, turn_of
+from .fate import fate
+from .motion import motion
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+FLAT = 2.5        # MEGNO of a regular motion stays below: it tends to 2, or to less, from either side
+STEEP = 4.0       # of a chaotic one has come so far at least ...
+DOUBLES = 1.5     # ... and goes on growing, by so much at least while the time doubles
+
+
+class Order(IntEnum):
+    """What is seen of a motion; `word` is the word of reports and JSON."""
+
+    REGULAR = 0
+    CHAOTIC = 1
+    SPIN_UP = 2
+    UNDECIDED = 3
+
+    @property
+    def word(self) -> str:
+        """The word used in reports and JSON."""
+        return ("regular", "chaotic", "spin-up", "undecided")[self]
+
+
+@dataclass(frozen=True, eq=False)
+class Chaos:
+    """labels (...): of `Order`; megno (...): at the last time, nan of motions that spin up or could not be followed; times (k,): in the scene's time, each
+    twice the one before; history (..., k): MEGNO at them; lyapunov (...): the rate at which neighbours part, per time of the scene, 0 of regular motions
+    and nan where it is not known; lyapunov_error (...): how far the last doubling of the time moved it."""
+
+    labels: np.ndarray
+    megno: np.ndarray
+    times: np.ndarray
+    history: np.ndarray
+    lyapunov: np.ndarray
+    lyapunov_error: np.ndarray
+    turn: float
+    scene: AnyScene = field(repr=False, compare=False)
+
+    @property
+    def because(self) -> str:
+        """Of one motion: how the label is known."""
+        if np.shape(self.labels):
+            raise InputError("because: is told of one motion; ask for one state")
+        label, after = int(self.labels), f"{self.times[-1] / self.turn:,.0f} turns"
+        if label == Order.SPIN_UP:
+            return "its fate is spin-up: it does not come back, and chaos is a property of motions that do"
+        if label == Order.UNDECIDED:
+            return ("its numbers leave the doubles" if not np.isfinite(self.megno) else
+                    f"after {after} MEGNO is {self.megno:.3f}, neither near 2 nor growing with time: follow it for longer")
+        before = f"{self.history[-2]:.3f} at half that time"
+        if label == Order.REGULAR:
+            return f"after {after} MEGNO is {self.megno:.3f} ({before}); it tends to 2 on tori, to less where neighbours stay or come together"
+        return f"after {after} MEGNO is {self.megno:.3f} ({before}): it grows with time, neighbours part exponentially"
+
+
+def chaos(scene: AnyScene, states: ArrayLike, until: float | None = None, tell: Callable[[int], Any] | None = None) -> Chaos:
+    """Whether the motions from states (..., N) of a scene are regular or chaotic: three rates, or all blocks of a longer state in order.
+
+    By MEGNO, from variational equations derived from the scene's own (see `unreduced.chaos`), followed until a time of the scene (None: a thousand turns of a
+    motion of middling pace). Motions whose fate is spin-up are not followed. Works for every effect. A label is what was seen up to that time: "regular" is
+    no proof, the slowest chaos takes longer. tell(motions done) is called on the way. Raises InputError for other shapes and numbers.
+    """
+    checked_scene(scene)
+    array = np.asarray(states)
+    rows = checked_starts(equations_of(scene), array.reshape(-1, array.shape[-1]) if array.ndim and array.size else array)
+    if until is not None and not (isinstance(until, (int, float, np.number)) and 0 < until < math.inf):
+        raise InputError(f"until: expected a time above zero, got {until!r:.40}")
+    if effective(scene).plain:  # attitude and path follow from the rates, and say nothing of them
+        scene, rows = effective(scene), rows[:, :3].copy()
+    turn = turn_of(scene, rows)
+    end = TURNS * turn if until is None else float(until)
+    leaving = _leaving(scene, rows, end)
+    found = growth(scene, rows[~leaving], end, turn, tell) if not leaving.all() else None
+    times = end / 2.0 ** np.arange(5, -1, -1) if found is None else found.times
+    history = np.full((len(rows), len(times)), np.nan)
+    if found is not None:
+        history[~leaving] = found.megno
+    labels = np.where(leaving, Order.SPIN_UP, _labels(history))
+    rate, error = _rates(history, times, labels)
+    shaped = lambda values: values.reshape(array.shape[:-1] + values.shape[1:])[()]
+    return Chaos(shaped(labels), shaped(history[:, -1]), times, shaped(history), shaped(rate), shaped(error), turn, scene)
+
+
+def long_enough(scene: AnyScene, state: ArrayLike) -> float:
+    """The time that a motion is followed where none is given."""
+    return TURNS * turn_of(scene, checked_starts(equations_of(scene), [state]))
+
+
+def row_of(scene: AnyScene, state: Sequence[float], blocks: Mapping[str, Sequence[float]]) -> list[float]:
+    """All of a state in one row: its three rates, then the other blocks that the scene needs."""
+    if scene.variables == "scaled":
+        return list(state)
+    parts = start_of(scene, state, blocks)
+    return [float(value) for name in scene.blocks for value in parts[name]]
+
+
+def _leaving(scene: AnyScene, rows: np.ndarray, end: float) -> np.ndarray:
+    """(n,): whether a motion is known to spin up."""
+    if scene.plain:
+        return np.asarray(fate(scene, rows, follow=end).labels == Fate.SPIN_UP)
+    parts = slices(scene.blocks)
+    return np.array([motion(scene, {name: row[part].tolist() for name, part in parts.items()}, brief=True).fate == Fate.SPIN_UP for row in rows], bool)
+
+
+def _labels(history: np.ndarray) -> np.ndarray:
+    last, before = history[:, -1], history[:, -2]
+    flat = (last < FLAT) & (before < FLAT)
+    steep = (last > STEEP) & (last > DOUBLES * before)
+    return np.where(flat, Order.REGULAR, np.where(steep, Order.CHAOTIC, Order.UNDECIDED))
+
+
+def _rates(history: np.ndarray, times: np.ndarray, labels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """MEGNO is half the rate times the time, where neighbours part exponentially."""
+    now, before = 2 * history[:, -1] / times[-1], 2 * history[:, -2] / times[-2]
+    chaotic, regular = labels == Order.CHAOTIC, labels == Order.REGULAR
+    return np.where(chaotic, now, np.where(regular, 0.0, np.nan)), np.where(chaotic, np.abs(now - before), np.where(regular, 0.0, np.nan))

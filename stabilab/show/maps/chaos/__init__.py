@@ -1,0 +1,1 @@
+"""Regular or chaotic motion in words and as a picture."""

@@ -1,0 +1,78 @@
+"""Regular, chaotic, spinning up or undecided: what is said of motions, one by one, in arrays, in sweeps and on the command line."""
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import stabilab
+from stabilab import cli
+from stabilab.answers.chaos import Order
+from stabilab.errors import InputError
+from stabilab.maps.plan import planned
+from stabilab.maps.run import run
+from tests.shared import CASES, case
+from tests.unreduced.test_chaos import TAME, TOP, WILD
+
+
+def test_arrays_have_a_label_for_each_state():
+    found = stabilab.chaos(TOP, [[WILD, TAME]])
+    assert found.labels.tolist() == [[Order.CHAOTIC, Order.REGULAR]] and found.history.shape == (1, 2, 6) and found.megno.shape == (1, 2)
+    assert found.lyapunov[0, 0] > 5 * found.lyapunov_error[0, 0] > 0 and found.lyapunov[0, 1] == 0
+
+
+def test_a_motion_that_spins_up_is_not_followed():
+    one = case("major-axis-100")
+    found = stabilab.chaos(one.scene, one.state)
+    assert found.labels == Order.SPIN_UP and np.isnan(found.megno) and "does not come back" in found.because
+
+
+def test_a_chaotic_motion_followed_briefly_is_undecided_or_regular_so_far_and_the_time_is_told():
+    found = stabilab.chaos(TOP, WILD, until=20)
+    assert found.labels != Order.CHAOTIC and found.times[-1] == 20 and "turns" in found.because
+
+
+def test_attitude_and_path_say_nothing_of_the_rates():
+    one = case("charged-body")
+    assert stabilab.chaos(one.scene, [*one.state, *np.zeros(10)], until=100).labels == Order.REGULAR
+
+
+@pytest.mark.parametrize("states, until, words", [((1, 2), None, "rows of 6 numbers"), ("abc", None, "rows of 6"), (WILD, 0, "until"), (WILD, "x", "until"),
+                                                  ((*WILD[:5], np.nan), None, "not finite")])
+def test_bad_input_is_refused(states, until, words):
+    with pytest.raises(InputError, match=words):
+        stabilab.chaos(TOP, states, until)
+
+
+def test_because_is_of_one_motion():
+    with pytest.raises(InputError, match="one motion"):
+        print(stabilab.chaos(TOP, [TAME, TAME], until=20).because)
+
+
+def test_a_sweep_asks_the_same_of_each_state():
+    with run(planned(CASES / "minor-axis-100.toml", {"x[3]": "0.1, 3"}, answer="chaos", follow="200"), workers=1) as found:
+        pass
+    scene = case("minor-axis-100").scene
+    expected = stabilab.chaos(scene, [[2.5, 4, 0.1], [2.5, 4, 3]], until=200)
+    assert found.records["chaos"].tolist() == expected.labels.tolist() == [Order.REGULAR, Order.SPIN_UP]
+    assert found.records["megno"] == pytest.approx(expected.megno, nan_ok=True)
+
+
+def test_the_command_says_it_in_words_json_and_csv():
+    path = str(CASES / "minor-axis-100.toml")
+    say = lambda *more: CliRunner().invoke(cli.app, ["chaos", path, "--until", "300", *more]).stdout
+    assert say().startswith("minor-axis-100: REGULAR as far as it was followed: after ") and "no proof" in say()
+    told = json.loads(say("--json"))
+    one = case("minor-axis-100")
+    assert told["schema"] == "stabilab.chaos/1" and told["answer"] == "regular" and told["megno"] == float(stabilab.chaos(one.scene, one.state, 300).megno)
+    assert say("--csv").splitlines()[0] == "case,answer,time,megno" and len(say("--csv").splitlines()) == 7
+
+
+def test_the_picture_of_a_motion_that_passes_no_plane_is_its_number_over_time(tmp_path):
+    from stabilab.show.maps.chaos import picture
+    one = case("top-fast")
+    from stabilab.answers.chaos import row_of
+    found = stabilab.chaos(one.scene, row_of(one.scene, one.state, one.blocks), until=5)
+    assert picture.write(one, found, tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")
