@@ -62,7 +62,7 @@ class Wall:
     kinds: tuple[str, ...]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Plane:
     """All equilibria over two numbers. kind, what: as those of `Diagram`; curves: irreducible polynomials in p and q; strips: rising in p, without gaps;
     walls: lines of one p; cusps: where fold curves end in one another."""
@@ -75,6 +75,9 @@ class Plane:
     walls: tuple[Wall, ...] = ()
     cusps: tuple[Cusp, ...] = ()
     notes: tuple[str, ...] = ()
+
+    def __repr__(self) -> str:
+        return f"Plane({self.what}: {len(self.strips)} strips, {len(self.walls)} walls, {len(self.cusps)} cusps)"
 
 
 def plane(family: Family, borders: bool = False) -> Plane:

@@ -50,7 +50,7 @@ class Piece:
     states: tuple[State, ...]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Diagram:
     """All equilibria over one number. kind: which are counted ("isolated", "motion", "borders" or "none"); what: the same in words; pieces and
     events in rising order: event n lies between pieces; an event at an end of the range has a piece on one side only."""
@@ -62,3 +62,7 @@ class Diagram:
     events: tuple[Event, ...]
     connections: tuple[Event, ...] = ()
     notes: tuple[str, ...] = ()
+
+    def __repr__(self) -> str:
+        counts = ", ".join(str(piece.count) for piece in self.pieces)
+        return f"Diagram({self.what}: {counts}; {len(self.events)} events, {len(self.connections)} connections)"
