@@ -125,7 +125,7 @@ def ways():
 
 def _patient(call, states, rounds) -> float:
     """`_pace` over so many of the states that a call lasts no longer than `PATIENCE`."""
-    for count in (200, 2000, len(states)):
+    for count in (2000, len(states)):
         part = states[:count]
         each = _pace(call, part, 1 if count < len(states) else rounds)
         if each * min(10 * count, len(states)) > PATIENCE:
@@ -135,7 +135,7 @@ def _patient(call, states, rounds) -> float:
 
 def _pace(call, states, rounds) -> float:
     """Processor time a state, s, the median of the rounds after one to warm up; one round where a call is long."""
-    call(states[:200])
+    call(states[:6000])  # more than from where on tables and compiled loops serve
     times = [_time_of(lambda: call(states))]
     times += [_time_of(lambda: call(states)) for _ in range(rounds - 1) if times[0] < LONG]
     return statistics.median(times) / len(states)
