@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -22,6 +23,7 @@ PASSES = 15      # of Newton's method
 FAR = 2          # times the size of a state: no periodic motion is looked for so far from it
 CLOSED = 1e-11   # relative distance of a passage from the next at a periodic motion
 RETURNS = 48, 160  # passages whose mean is where the search for a centre begins
+NARROW = 2.0**-24  # of a step: two zeros nearer than that are a touch
 SHARES = 512     # of the way from one scene to another, at most
 
 
@@ -68,9 +70,11 @@ def passage(scene: Any, state: Any, section: Section, linear: bool = True) -> tu
     for _ in range(STEPS):
         a, A = _series(rows, x, V, linear)
         h = _length(a)
-        begun, ended = (section.sense * (v - section.level) for v in (x[k], _at(a, h)[k]))
-        if t and begun < 0 <= ended or not t and begun < -1e-13 * abs(x).max() and ended >= 0:
-            root = _root(section.sense * (a[:, k] - section.level * (np.arange(len(a)) == 0)), h)
+        row = section.sense * (a[:, k] - section.level * (np.arange(len(a)) == 0))
+        on_it = not t and abs(row[0]) <= 1e-13 * abs(x).max()  # the start itself is no passage: what is left of the polynomial without that root
+        between = _rising(_over(row[1:] if on_it else row, h))
+        if between is not None:
+            root = _root(row, between[0] * h, between[1] * h)
             return t + root, _at(a, root), _at(A, root) if linear else V
         x, V, t = _at(a, h), _at(A, h) if linear else V, t + h
         if not np.isfinite(x).all():
@@ -207,9 +211,36 @@ def _at(a, h):
     return np.tensordot(h ** np.arange(len(a)), a, 1)
 
 
-def _root(row, h: float) -> float:
-    """The zero in [0, h] of a polynomial that rises through zero there: halving, then Newton's method in the bracket."""
-    low, high, t = 0.0, h, h / 2
+def _over(row, h: float) -> np.ndarray:
+    """Bernstein's coefficients of a polynomial on [0, h]: it lies between the least and the greatest of them, and has no more zeros than they change sign."""
+    return _shares(len(row) - 1) @ (row * h ** np.arange(len(row)))
+
+
+@lru_cache(maxsize=4)
+def _shares(n: int) -> np.ndarray:
+    return np.array([[math.comb(j, i) / math.comb(n, i) if i <= j else 0.0 for i in range(n + 1)] for j in range(n + 1)])
+
+
+def _rising(values: np.ndarray, low: float = 0.0, high: float = 1.0) -> tuple[float, float] | None:
+    """The part of [low, high] in which a polynomial, by its coefficients there, first comes from below zero to zero or above; None where it never does.
+    Halved until it has one zero at most: a step of the series may pass the plane and come back."""
+    signs = values >= 0
+    changes = np.count_nonzero(signs[1:] != signs[:-1])
+    if changes == 0 or high - low < NARROW:
+        return None
+    if changes == 1:
+        return None if signs[0] else (low, high)
+    left, right, middle = [values[0]], [values[-1]], (low + high) / 2
+    while len(values) > 1:
+        values = 0.5 * (values[1:] + values[:-1])
+        left.append(values[0])
+        right.append(values[-1])
+    return _rising(np.array(left), low, middle) or _rising(np.array(right[::-1]), middle, high)
+
+
+def _root(row, low: float, high: float) -> float:
+    """The zero in [low, high] of a polynomial that rises through zero there: halving, then Newton's method in the bracket."""
+    h, t = high, (low + high) / 2
     slope = row[1:] * np.arange(1, len(row))
     for _ in range(200):
         value = float(np.polynomial.polynomial.polyval(t, row))

@@ -55,6 +55,21 @@ def test_every_passage_is_one_that_another_integrator_finds_and_none_is_left_out
     assert np.abs(places - passed(START, plane.axis, plane.level, 40, times[-1] + 1)).max() < 1e-7
 
 
+def test_a_passage_that_is_undone_within_the_same_step_is_found():
+    """The plane lies just below the top of a rate, so that the rate is beyond it for a part of a step. Oracle: DOP853 in steps of 0.01."""
+    from scipy.integrate import solve_ivp
+
+    from stabilab.unreduced.periodic import Section, passage
+    run = solve_ivp(euler, (0, 12), START, "DOP853", rtol=1e-12, atol=1e-13, max_step=0.01)
+    for axis in range(3):
+        top = int(run.y[axis].argmax())
+        assert 0 < top < len(run.t) - 1
+        level = run.y[axis, top] - 1e-5
+        last = top - 1 - int((run.y[axis, :top][::-1] < level).argmax())  # the last place below the plane before the top
+        found = passage(ISLAND, START, Section(axis, level, 1), linear=False)
+        assert found is not None and run.t[last] <= found[0] <= run.t[top]
+
+
 def test_passages_in_an_island_go_round_the_marked_periodic_motion(island):
     """The mark is a fixed point of the map (DOP853 brings it back), and the motion's passages surround it."""
     (mark,), own = dots(island, BLUE), dots(island, ORANGE)
