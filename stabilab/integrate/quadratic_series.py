@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from operator import mul
 
+from ..errors import InputError
 from ..numbers.vectors import CYCLE
 from ..physics.quadratic import QuadraticForm
 
@@ -21,11 +22,17 @@ Path = tuple[list[float], list[tuple[float, ...]]]
 
 
 def followed(form: QuadraticForm, start: tuple[float, ...], until: float, steps: int = STEPS) -> Path:
-    """(times, states) of the motion from t = 0 on, dense enough to be drawn as a line, to `until` or as far as so many steps go."""
+    """(times, states) of the motion from t = 0 on, dense enough to be drawn as a line, to `until` or as far as so many steps go. Raises InputError
+    where its numbers are so large that not even its first step can be formed in doubles."""
     t, x = 0.0, tuple(map(float, start))
     times, states = [t], [x]
     for _ in range(steps):
         series = coefficients(form, x)
+        if not all(map(math.isfinite, (c for one in series for c in one))):
+            if t:
+                break
+            raise InputError(f"this motion is too fast to be drawn: with a rate of {max(map(abs, x)):.3g} and these torques and momenta the powers of its "
+                             "series exceed what a double holds (1.8e308); expected numbers of a body that can be built, in SI units")
         h = min(_step(series, form), until - t)
         for n in range(1, INSIDE + 1):
             share = h * n / INSIDE

@@ -44,6 +44,7 @@ DOORS = {
     ("stabilab.orbit.fate.result", "stabilab.physics.law_limits"): "loaded for approximate laws alone",
     ("stabilab.orbit.reduction", "stabilab.orbit.extremes.circle_kernel"): "loads numpy",
     ("stabilab.physics.state", "stabilab.physics.states"): "loads numpy",
+    ("stabilab.show.explore.other", "stabilab.answers.simulate"): "loads numpy",
     ("stabilab.show.explore.session", "stabilab.orbit.separatrix.sheets"): "loads numpy",
     ("stabilab.show.terminal.completion", "stabilab.show.plot.which"): "loads numpy",
     ("stabilab.show.text.law", "stabilab.answers.simulate"): "loads numpy",

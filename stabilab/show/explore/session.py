@@ -14,19 +14,23 @@ from ...answers.equilibria import equilibria
 from ...answers.kinds import KINDS, kind_of
 from ...answers.motion import motion
 from ...case.read import Case
-from ...errors import InputError, StabilabError
+from ...equilibrium.result import Equilibria
+from ...errors import StabilabError
 from ...integrate.quadratic_series import followed
 from ...orbit.result import Motion
 from ...orbit.separatrix.plain_sheets import REACH, PlainSheet, plain_separatrix
 from ...packages import explained, present
 from ...physics.coefficients import content, gyrostat_scene
 from ...physics.effects import effect_class
+from ...physics.quadratic import QuadraticForm
 from ...physics.scene import AnyScene, ScaledGyrostat, Scene
+from ..terminal.letters import greek, written
 from ..text.headline import headline
 from ..units import units_of
-from . import controls, planes, space, tables
+from . import controls, other, planes, space, tables
 from .bag import Bag
 from .changed import changed
+from .toml import data_of
 
 PLAIN = {True: (18, 17), False: (40, 33)}  # rows of a sheet, and columns of half of it: while the hand moves, and when it rests
 GRADED = (48, 97)
@@ -36,6 +40,7 @@ TURNS = 60.0  # rad of turn at most that are drawn
 FOLLOWED = "the torque is off the principal axes: keep still, and the motion is followed"
 WORKED_OUT = "keep still, and this motion is worked out"
 NO_ARRAYS = "this motion has to be followed, which needs NumPy, and that is not here"
+SWEPT = "The file has a [sweep]: the page is about the numbers in its body; stabilab fate and report answer every combination."
 PATIENCE = 0.12  # s: a motion whose kind took longer the last time waits until the hand rests
 
 
@@ -47,16 +52,15 @@ class Session:
     """One case on one page. What only depends on the scene is kept for the next answer."""
 
     def __init__(self, case: Case) -> None:
-        if not case.scene.plain and ((parts := content(case.scene)) is None or parts.kind != "gyrostat"):
-            names = ", ".join(e.name for e in case.scene.effects if e.name not in ("gyrostat", "constant_torque"))
-            raise InputError(f"{case.place}: explore moves a body with wheels and a torque; this one also has {names}: ask stabilab classify or report")
+        other.check(case)
         self.case, self.units = case, units_of(case)
+        self._swept = SWEPT if "sweep" in data_of(case.text) else ""
         self._kept: dict[str, tuple[Any, Any]] = {}
         self._cost: dict[str, float] = {}  # s that the last motion of a kind took
 
     def about(self) -> dict[str, Any]:
         """What a page must know before its first question."""
-        return {"name": self.case.name, "title": self.case.heading, "groups": controls.groups(self.case, self.units),
+        return {"name": self.case.name, "title": written(self.case.heading), "groups": controls.groups(self.case, self.units),
                 "axes": [1, 2, 3], "rates": self.units.rates[0], "scaled": self.units.scaled}
 
     def answer(self, asked: dict[str, Any], stopped: Callable[[], bool] = lambda: False) -> bytes:
@@ -83,17 +87,20 @@ class Session:
         found, words = self._motion(case, moving, stopped)
         settled = time.process_time()
         twin = self._twin(case)
-        at_rest = self._once("equilibria", twin, lambda: equilibria(twin))
-        times, path = followed(twin.quadratic(), case.state, _length(case, twin))
+        at_rest = self._at_rest(case, twin, moving)
+        times, path = other.path(case, _length(case)) if twin is None else followed(twin.quadratic(), case.state, _length(case, twin.quadratic()))
         picture = self._space(bag, case, twin, found, at_rest, path, asked.get("box"), moving)
-        made = {"headline": words, "fate": "undecided" if found is None else found.fate.word, "note": note, "moving": moving, "start": clicked,
-                "toml": case.text, "rows": [] if found is None else tables.rows(case, found, self.units), "equilibria": tables.equilibria(at_rest, self.units),
-                "space": picture, "plane": planes.drawn(bag, twin, case.state, self.units), "time": planes.over_time(bag, case, found, times, path, self.units)}
+        made = {"headline": greek(words), "fate": "undecided" if found is None else found.fate.word, "moving": moving, "start": clicked,
+                "note": " ".join(filter(None, (note, self._swept, _beyond(found)))),
+                "toml": case.text, "rows": [] if found is None else tables.rows(case, found, self.units), "space": picture,
+                "plane": None if twin is None else planes.drawn(bag, twin, case.state, self.units),
+                "time": planes.over_time(bag, case, found, times, path, self.units)}
+        made["equilibria"] = tables.equilibria(at_rest, self.units) if at_rest else other.NOT_YET
         return made | {"analysis": 1e3 * (settled - began), "work": 1e3 * (time.process_time() - began)}
 
     def _motion(self, case: Case, moving: bool, stopped) -> tuple[Motion | None, str]:
         """(what is known of the motion, the verdict in a line); None where a run would keep a moving hand waiting, or NumPy is needed and not here."""
-        kind = kind_of(self._twin(case))
+        kind = kind_of(self._twin(case) or case.scene)
         runs = KINDS[kind].follows
         if moving and (runs or self._cost.get(kind, 0.0) > PATIENCE):
             return None, f"UNDECIDED so far: {FOLLOWED if runs else WORKED_OUT}" if present("numpy") else f"UNDECIDED: {NO_ARRAYS}"
@@ -111,15 +118,26 @@ class Session:
         self._cost[kind] = time.process_time() - began
         return found, headline(case, found, self.units)
 
-    def _twin(self, case: Case) -> AnyScene:
-        """The scene of wheel and torque alone with the same rates."""
-        return case.scene if case.scene.plain else gyrostat_scene(content(case.scene))
+    def _twin(self, case: Case) -> AnyScene | None:
+        """The scene of wheel and torque alone with the same rates; None where there is none."""
+        return None if other.needed(case.scene) else case.scene if case.scene.plain else gyrostat_scene(content(case.scene))
+
+    def _at_rest(self, case: Case, twin: AnyScene | None, moving: bool) -> Equilibria | None:
+        """The equilibria; None where they take so long that they wait until the hand rests, or are not known."""
+        if twin is not None:
+            return self._once("equilibria", twin, lambda: equilibria(twin))
+        if moving and self._cost.get("equilibria", math.inf) > PATIENCE and self._kept.get("equilibria", (None,))[0] != case.scene:
+            return None
+        began = time.process_time()
+        found = self._once("equilibria", case.scene, lambda: other.at_rest(case.scene))
+        self._cost["equilibria"] = max(self._cost.get("equilibria", 0.0), time.process_time() - began)
+        return found
 
     def _space(self, bag, case, twin, found, at_rest, path, asked, moving):
-        near, (bare, ghost) = space.near_part(path, found), _without_tilt(twin)
+        near, (bare, ghost) = space.near_part(path, found), (None, False) if twin is None else _without_tilt(twin)
         marks = space.marks_of(case.state, found, at_rest)
         box = space.box_of(asked, [*near, *(m["at"] for m in marks if m["kind"].startswith(("start", "nearest")))], moving or ghost)
-        sheets, words = self._sheets(bare, box, moving)
+        sheets, words = ((), other.why(case.scene)) if bare is None else self._sheets(bare, box, moving)
         sheets = [sheet for sheet in sheets if space.seen(sheet, box)]
         if ghost:
             words = "No separatrix is known for a torque off the axes" + (": the surface drawn is that of the torque without its tilt" if sheets else "")
@@ -163,13 +181,18 @@ def _surface(scene: AnyScene, reach: float, moving: bool) -> tuple[Sequence[Plai
     return [PlainSheet(sheet.name, *sheet.points.shape[:2], sheet.points.reshape(-1, 3).tolist()) for sheet in found.sheets], found.reason
 
 
+def _beyond(found: Motion | None) -> str:
+    """What is to be said where an approximate law does not hold along the motion."""
+    return "" if found is None or found.validity is None or found.validity.held else greek(found.validity.words)
+
+
 def _capital(words: str) -> str:
     return words[:1].upper() + words[1:]
 
 
-def _length(case: Case, scene: AnyScene) -> float:
-    """How far a motion is drawn: over the span of the case, so many radians of turn at most."""
-    rate, torque = math.hypot(*case.state), math.hypot(*scene.quadratic().coefficients[3])
+def _length(case: Case, form: QuadraticForm | None = None) -> float:
+    """How far a motion is drawn: over the span of the case, so many radians of turn at most. form: its rates, where they are quadratic."""
+    rate, torque = math.hypot(*case.state), math.hypot(*form.coefficients[3]) if form is not None else 0.0
     natural = TURNS / max(rate, math.sqrt(torque)) if rate or torque else 1.0
     span = None if case.span is None else max(case.span[1], -case.span[0])
     return natural if span is None else min(span, 4 * natural)

@@ -135,14 +135,23 @@ def lines(found: Equilibria | None, box: Box, coarse: int, fine: int) -> list[tu
     for curve in found.curves if found is not None else ():
         for segment in curve.segments:
             kind = segment.linear if segment.linear in KINDS else "degenerate"
-            for low, high in _inside(curve.point, _spread(*segment.t, coarse), box):
-                out.append((kind, [curve.point(low + (high - low) * n / fine) for n in range(fine + 1)]))
+            for low, high in _inside(curve, _spread(*segment.t, coarse), box):
+                places = [_place(curve, low + (high - low) * n / fine) for n in range(fine + 1)]
+                out.append((kind, [at for at in places if at is not None]))
     return out
 
 
-def _inside(point: Any, ts: list[float], box: Box) -> list[tuple[float, float]]:
+def _place(curve: Any, t: float) -> Point | None:
+    """The rates at a place of a curve (a field adds the vertical behind them); None at an end that belongs to it no more."""
+    try:
+        return curve.point(t)[:3]
+    except InputError:
+        return None
+
+
+def _inside(curve: Any, ts: list[float], box: Box) -> list[tuple[float, float]]:
     """The runs of parameters whose places are in or near the box, each one step longer."""
-    near = [box.holds(at, 1.05) for at in map(point, ts)]
+    near = [at is not None and box.holds(at, 1.05) for at in (_place(curve, t) for t in ts)]
     near = [near[n] or any(near[max(0, n - 1):n + 2]) for n in range(len(ts))]
     runs, first = [], None
     for n, inside in enumerate([*near, False]):

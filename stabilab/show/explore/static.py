@@ -17,6 +17,7 @@ from ...files import whole_file
 from ...version import __version__
 from ..files import endings
 from ..report.html import TEMPLATES
+from . import other
 from .page import page
 from .session import Session
 
@@ -34,6 +35,9 @@ DAY = (1980, 1, 1, 0, 0, 0)  # of files in the archive: the same package gives t
 def write(case: Case, out: Path, pyodide: Path | None = None) -> Path:
     """Write the folder, and return its index.html. pyodide: a folder with Pyodide and a wheel of python-flint, which are copied in; None: the page loads
     both from where they are published. Raises InputError where the case has no such page or files of that folder are missing."""
+    if other.needed(case.scene):
+        raise InputError(f"{case.place}: a page without a server has no SciPy, by which the motion of such a body is followed; stabilab explore without "
+                         "--static shows it")
     about = Session(case).about()
     out = endings.folder(out)
     wheels = None

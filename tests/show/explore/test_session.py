@@ -1,4 +1,5 @@
 """What a page is answered: the same as the questions answer, drawn in places that lie where they should."""
+import re
 import subprocess
 import sys
 
@@ -6,11 +7,13 @@ import numpy as np
 import pytest
 
 from stabilab import load, motion, separatrix
+from stabilab.case.read import read_text
 from stabilab.errors import InputError
 from stabilab.orbit.phase_plane import phase_plane
 from stabilab.show.explore.bag import Bag, unframed
 from stabilab.show.explore.plane import plane_of
 from stabilab.show.explore.session import FOLLOWED, Session, Stopped
+from stabilab.show.terminal.letters import greek
 from stabilab.show.text.headline import headline
 
 
@@ -40,7 +43,7 @@ def test_the_verdict_of_a_resting_hand_is_that_of_the_questions(name):
     case = case_of(name)
     told, _ = ask(Session(case))
     found = motion(case.scene, case.state, exact=case.exact_state)
-    assert told["headline"] == headline(case, found) and told["fate"] == found.fate.word
+    assert told["headline"] == greek(headline(case, found)) and told["fate"] == found.fate.word
 
 
 def test_the_verdict_is_that_of_the_case_that_is_saved(tmp_path):
@@ -48,7 +51,8 @@ def test_the_verdict_is_that_of_the_case_that_is_saved(tmp_path):
     saved = tmp_path / "saved.toml"
     saved.write_text(told["toml"], encoding="utf-8")
     case = load(saved)
-    assert case.state[2] == 30 and told["headline"] == headline(case, motion(case.scene, case.state, exact=case.exact_state)) and told["fate"] == "spin-up"
+    assert case.state[2] == 30 and told["fate"] == "spin-up"
+    assert told["headline"] == greek(headline(case, motion(case.scene, case.state, exact=case.exact_state)))
 
 
 def test_a_moving_hand_gets_the_same_fate_without_the_search_for_the_separatrix():
@@ -142,9 +146,53 @@ def test_numbers_of_any_size_are_drawn_or_refused_in_words(size, refused):
         assert ("which can still be drawn" in header.get("error", "")) == refused and ("headline" in header) != refused
 
 
-def test_a_body_with_a_liquid_is_refused_with_what_to_do():
-    with pytest.raises(InputError, match="liquid_cavity.*: ask stabilab classify or report"):
-        Session(case_of("liquid-base"))
+@pytest.mark.parametrize("name, because", [("liquid-sensible", "the liquid and the medium take energy away"),
+                                           ("top-fast", "the weight and the field act by the attitude")])
+def test_a_body_with_other_effects_is_shown_and_the_page_says_what_is_not_there(name, because):
+    told, _ = ask(Session(case_of(name)), moving=True)
+    assert told["fate"] == "bounded" and told["plane"] is None and told["space"]["sheets"] == []
+    assert told["space"]["words"].startswith("No separatrix and no phase plane: ") and because in told["space"]["words"]
+
+
+def test_the_rates_of_a_body_in_a_medium_lose_their_momentum_as_they_should():
+    text = """[body]
+inertia = [12, 9, 5]
+[effects.resistance]
+coefficient = 0.03
+[motion]
+angular_velocity = [0.1, 0.5, 0.2]
+span = [0, 30]
+[output]
+units = "si"
+"""
+    told, numbers = ask(Session(read_text("medium.toml", text)), moving=True)
+    t, rates = row(numbers, told["time"]["times"]), np.array([row(numbers, one) for one in told["time"]["rates"]])
+    size = np.linalg.norm(np.array([[12], [9], [5]]) * rates, axis=0)
+    assert t[-1] == 30 and size == pytest.approx(size[0] * np.exp(-0.03 * t), rel=1e-5)  # by hand: H' = -c H + H x omega
+
+
+def test_all_curves_of_a_field_are_drawn_without_their_vertical():
+    told, _ = ask(Session(case_of("charged-body-attitude")), torque={"axis": 1, "size": "0.1", "tilt": "0", "azimuth": "0"})
+    assert "error" not in told and told["space"]["curves"]
+
+
+@pytest.mark.parametrize("torque, rate", [("1e150", "0.1"), ("0.02", "1e200"), ("1e150", "1e90")])
+def test_a_case_file_with_numbers_that_no_double_can_follow_is_refused_in_words(torque, rate):
+    text = f"[body]\ninertia = [12, 9, 5]\n[effects.constant_torque]\ntorque = [0, 0, {torque}]\n[motion]\nangular_velocity = [{rate}, 0, 0.1]\n"
+    told, _ = ask(Session(read_text("huge.toml", text)), moving=True)
+    assert "too fast to be drawn" in told["error"] and "expected" in told["error"]
+
+
+def test_a_file_with_a_sweep_is_told_of_whose_numbers_the_page_is():
+    told, _ = ask(Session(case_of("charged-sweep")), moving=True)
+    assert "[sweep]" in told["note"] and "sweep" not in ask(Session(case_of("minor-axis-100")), moving=True)[0]["note"]
+
+
+def test_a_tensor_that_is_not_diagonal_is_refused_beside_a_liquid_with_what_to_do():
+    text = case_of("liquid-sensible").text
+    turned = re.sub(r"inertia = .*", "inertia = [[9.41, 0.1, 0], [0.1, 9.39, 0], [0, 0, 9]]", text)
+    with pytest.raises(InputError, match="principal axes .*or ask stabilab classify or report"):
+        Session(read_text("turned.toml", turned))
 
 
 def test_all_but_the_surfaces_is_answered_without_numpy():
