@@ -10,7 +10,8 @@ from ...maps.boundary import changes, known_exactly
 from ...maps.columns import ENDLESS, NONE, OPEN
 from ...orbit.result import Fate
 from .. import style
-from .shades import FLAGS, LONG, flag_legend, label, light, looks, own_value, scale_axes
+from ..terminal.letters import written
+from .shades import FLAGS, flag_legend, label, light, looks, own_value, scale_axes, spoken_key
 
 COUNTS = ("equilibria", "stable", "unstable", "open")
 WITHOUT = {ENDLESS: "curves", OPEN: "open", NONE: "no case"}
@@ -35,15 +36,15 @@ def fields(data: Any, plan: Any, kind: str, moving: list[str], panels: list[dict
         scale_axes(ax, np.asarray(here[moving[0]]), np.asarray(here[moving[1]]))
         rows |= _own(ax, here, plan, moving) if not place else {}
         if place:
-            ax.set_title(",\n".join(f"{name.replace('_', ' ')} = {float(data[name][n]):.4g} {_unit(data, name)}".strip() for name, n in place.items()))
+            ax.set_title(",\n".join(f"{spoken_key(data, name)} = {float(data[name][n]):.4g} {_unit(data, name)}".strip() for name, n in place.items()))
     for ax in axes.flat[len(panels):]:
         ax.set_visible(False)
     for ax in (axes.flat[n] for n in range(len(panels)) if n + across >= len(panels)):
         ax.set_xlabel(label(data, moving[0]))
         ax.xaxis.set_tick_params(labelbottom=True)
     for ax in axes[:, 0]:
-        ax.set_ylabel(label(data, moving[1], LONG if down == 1 else 0))
-    figure.suptitle(str(data.attrs.get("title", "")) + _of_all(data, panels), fontsize=10.5, wrap=True)
+        ax.set_ylabel(label(data, moving[1]))
+    figure.suptitle(written(str(data.attrs.get("title", ""))) + _of_all(data, panels), fontsize=10.5, wrap=True)
     if kind not in FLAGS:
         of_axes = f", {'least' if kind == 'least' else 'greatest'} of the three axes" if "axis" in data[kind].dims else ""
         bar = figure.colorbar(shown, ax=axes, label=label(data, kind) + of_axes)

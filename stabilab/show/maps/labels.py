@@ -8,6 +8,7 @@ from ...maps.columns import ENERGY, PACE, RATE, TIME, Column
 from ...maps.plan import Plan
 
 SAMPLE = "sample"
+LETTERS = {"angular_velocity": "ω", "mu": "μ"}  # of keys that have one
 
 
 def names(keys: Sequence[str]) -> list[str]:
@@ -18,6 +19,16 @@ def names(keys: Sequence[str]) -> list[str]:
         if len(set(found)) == len(found) and not set(found) & {SAMPLE, "axis"}:
             return found
     return [_plain(f"{key}_{n}") for n, key in enumerate(keys, 1)]
+
+
+def said(keys: Sequence[str]) -> list[str]:
+    """The keys as people read them beside each other: torque[3], ω[1]; as few of their last words as tell each from the others."""
+    parts = [[LETTERS.get(stem, stem) + index for stem, index in (re.match(r"([^\[]*)(.*)", word, re.S).groups() for word in key.split("."))] for key in keys]
+    for words in range(1, max(map(len, parts), default=0) + 1):
+        found = [".".join(part[-words:]) for part in parts]
+        if len(set(found)) == len(found):
+            return found
+    return list(keys)
 
 
 def _plain(text: str) -> str:

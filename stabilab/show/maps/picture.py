@@ -13,6 +13,7 @@ from ...packages import demand
 from .. import style
 from ..files import endings
 from ..plot import basins as basin_picture
+from ..plot.to_file import check_size
 from .basins import dataset as basin_data
 from .curves import curves
 from .field import fields
@@ -31,6 +32,7 @@ def write(path: str | Path, out: str | Path, kind: str | None = None, size: tupl
     first number that there is. Raises InputError for a file that is none, and for a column that it has not."""
     demand("xarray", "scipy", *style.PACKAGES)
     target = endings.file(out, endings.PICTURES)
+    check_size(size, dpi)
     data = loaded(Path(path))
     if "basin" in data.attrs:
         return _basin(data, Path(path), target, kind, size, dpi)

@@ -12,13 +12,13 @@ from ...maps.keys import value_at
 from ...maps.plan import Plan
 from ...orbit.result import Fate
 from .. import style
+from .labels import SAMPLE, said
 
 # fate -> (its name in a legend, its colour)
 FATES = {Fate.BOUNDED: ("bounded", style.BLUE), Fate.SPIN_UP: ("spins up", style.VERMILION), Fate.SEPARATRIX: ("on the separatrix", style.BLACK),
          Fate.EQUILIBRIUM: ("at rest", style.GREEN), Fate.UNDECIDED: ("undecided", style.YELLOW), 5: ("no case", style.GREY)}
 FLAGS = ("fate", "level", "reason", "chaos")  # columns of words
 LIGHT = 0.45  # of a colour that fills an area
-LONG = 28  # letters of a key beside an axis
 
 
 def light(colour: str, share: float = LIGHT) -> tuple[float, float, float]:
@@ -27,13 +27,17 @@ def light(colour: str, share: float = LIGHT) -> tuple[float, float, float]:
     return red, green, blue
 
 
-def label(data: Any, name: str, most: int = LONG) -> str:
-    """The name of a dimension or column with its unit; of a dimension as many of its last words as `most` letters take, one at least."""
+def label(data: Any, name: str) -> str:
+    """The name of a dimension or column with its unit; of a dimension as few of its last words as tell it from the others of the sweep."""
     attrs = data[name].attrs
-    words, unit = str(attrs.get("long_name", name)), attrs.get("units", "1")
-    while name in data.dims and len(words) > most and "." in words:
-        words = words.partition(".")[2]
+    words, unit = spoken_key(data, name) if name in data.dims else str(attrs.get("long_name", name)), attrs.get("units", "1")
     return words if unit == "1" else f"{words} ({unit})"
+
+
+def spoken_key(data: Any, name: str) -> str:
+    """The key of a dimension, as short as the other keys of the sweep allow."""
+    keys = {one: str(data[one].attrs["long_name"]) for one in data.coords if one != SAMPLE and "long_name" in data[one].attrs}
+    return dict(zip(keys, said(list(keys.values())))).get(name, name)
 
 
 def short_label(data: Any, name: str) -> str:

@@ -13,7 +13,7 @@ from ...maps.run import Swept
 from ...orbit.result import Fate
 from ..files import comma
 from ..text.answers import Endless, as_json
-from .labels import SAMPLE, unit
+from .labels import SAMPLE, said, unit
 
 SCHEMA = "stabilab.sweep/1"
 ROWS = 40  # points of a table
@@ -22,6 +22,7 @@ FEW = 100  # points that are counted; of more their share is told
 DOES = {Fate.BOUNDED: ("stay bounded", "stays bounded"), Fate.SPIN_UP: ("spin up", "spins up"),
         Fate.SEPARATRIX: ("lie on the separatrix", "lies on the separatrix"), Fate.EQUILIBRIUM: ("are at rest", "is at rest"),
         Fate.UNDECIDED: ("are undecided", "is undecided"), NO_CASE: ("are no case", "is no case")}
+SHORT = {"spin_axis": "axis"}  # names of columns in a table
 COUNTS = {ENDLESS: "curves of equilibria", OPEN: "equilibria not all known", NONE: "no case"}
 
 
@@ -156,10 +157,21 @@ def _plain(values: np.ndarray) -> list[Any]:
 
 
 def _table(found: Swept) -> list[str]:
+    """A row a point under short names and units, as narrow as a terminal."""
+    plan, columns = found.plan, columns_of(found.plan.answers)[1:]
+    keys = [(axis.key.name, axis.shown_unit) for axis in plan.axes]
+    sampled = [(key.name, plan.sampled.unit(n)) for n, key in enumerate(plan.sampled.keys)] if plan.sampled else []
+    names = said([key for key, _ in keys + sampled])
+    titles = names[:len(keys)] + ([SAMPLE, *names[len(keys):]] if sampled else [])
+    units = [of for _, of in keys] + (["1", *(of for _, of in sampled)] if sampled else [])
+    for column in columns:
+        ends = ("1", "2", "3") if column.shape else ("",)
+        titles += [SHORT.get(column.name, column.name.replace("_", " ")) + (f" {end}" if end else "") for end in ends]
+        units += [unit(plan, column)] * len(ends)
+    units = ["" if of == "1" else of for of in units]
     cells = [[_cell(value) for value in row] for row in rows(found)]
-    titles = heads(found)
-    wide = [max(map(len, column)) for column in zip(titles, *cells)]
-    return ["".join(f"{cell:>{size + 2}}" for cell, size in zip(row, wide)).rstrip() for row in (titles, *cells)]
+    wide = [max(map(len, column)) for column in zip(titles, units, *cells)]
+    return ["".join(f"{cell:>{size + 2}}" for cell, size in zip(row, wide)).rstrip() for row in (titles, *([units] if any(units) else []), *cells)]
 
 
 def _cell(value: Any) -> str:

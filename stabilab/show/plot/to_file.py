@@ -53,7 +53,7 @@ def write(case: Any, path: str | Path, kind: str | None = None, size: tuple[floa
     if neighbours and chosen != "section":
         raise InputError(f"neighbours: a section alone shows them (kind section), got kind {chosen}")
     demand(*style.PACKAGES)
-    _check_size(size, dpi)
+    check_size(size, dpi)
     with style.drawing() as plt:
         if chosen == "attitude":
             return film(one, Path(path), units, size, dpi)
@@ -72,9 +72,11 @@ def checked(path: str | Path, one: Subject, kind: str | None) -> str:
     return chosen
 
 
-def _check_size(size, dpi):
+def check_size(size: tuple[float, float] | None, dpi: float | None) -> None:
+    """Raise InputError for inches or dots of which no picture can be made, with what is possible."""
     if size is not None and not (len(size) == 2 and all(LEAST <= side <= MOST for side in size)):
-        raise InputError(f"size: expected a width and a height of {LEAST:g} to {MOST:g} inches, got {size!r:.60}")
+        got = " x ".join(f"{side:g}" if isinstance(side, (int, float)) else f"{side!r:.40}" for side in size)
+        raise InputError(f"size: expected a width and a height of {LEAST:g} to {MOST:g} inches, got {got}; dpi makes a picture finer")
     if dpi is not None and not 10 <= dpi <= SHARP:
         raise InputError(f"dpi: expected 10 to {SHARP} dots an inch, got {dpi!r:.40}")
     if dpi is not None and max(size or (0,)) * dpi > PIXELS:

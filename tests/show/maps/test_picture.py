@@ -11,7 +11,7 @@ from stabilab.maps.boundary import changes
 from stabilab.maps.plan import planned
 from stabilab.maps.points import case_at
 from stabilab.show import style
-from stabilab.show.maps import curves, field, picture, shades
+from stabilab.show.maps import curves, field, labels, picture, shades
 from tests.shared import CASES
 
 xarray = pytest.importorskip("xarray")
@@ -146,3 +146,13 @@ def test_values_in_equal_ratios_are_drawn_so(values, logarithmic):
 def test_every_kind_of_sweep_has_its_picture(tmp_path, case, vary, options):
     stabilab.sweep(CASES / f"{case}.toml", vary, out=tmp_path / "map.nc", **options)
     assert picture.write(tmp_path / "map.nc", tmp_path / "map.png").stat().st_size > 5000
+
+
+def test_keys_are_as_short_as_the_others_allow():
+    assert labels.said(["effects.constant_torque.torque[3]", "motion.angular_velocity[1]"]) == ["torque[3]", "ω[1]"]
+    assert labels.said(["wheels.a.speed", "wheels.b.speed", "scaled.mu[1]"]) == ["a.speed", "b.speed", "scaled.μ[1]"]
+
+
+def test_a_size_of_which_no_picture_can_be_made_is_refused_for_maps_too(tmp_path):
+    with pytest.raises(InputError, match="1 to 60 inches, got 100 x 100"):
+        picture.write(tmp_path / "none.nc", tmp_path / "a.png", size=(100.0, 100.0))
