@@ -4,6 +4,11 @@ from pathlib import Path
 from .suite import machine, run_all
 
 
+def _ratio(value: float) -> str:
+    """Three digits, as one reads them: 3,590 and not 3.59e+03."""
+    return f"{float(f'{value:.3g}'):,.0f}" if value >= 1000 else f"{value:.3g}"
+
+
 def main():
     rows, seconds = run_all()
     lines = ["# Speed, side by side", "", f"Made by `make bench` in {seconds:.0f} s on {machine()}. Ratios are medians of "
@@ -11,9 +16,9 @@ def main():
              "| what | stabilab | the other | ratio | wanted | error |", "| --- | --- | --- | --- | --- | --- |"]
     for row in rows:
         low, high = row.spread
-        wanted = f"{row.wanted:.3g}" if row.wanted else ""
+        wanted = _ratio(row.wanted) if row.wanted else ""
         note = f"; {row.note}" if row.note else ""
-        lines.append(f"| {row.name} | {row.ours} | {row.theirs} | {row.ratio:.3g} ({low:.3g} to {high:.3g}) | {wanted} | {row.error}{note} |")
+        lines.append(f"| {row.name} | {row.ours} | {row.theirs} | {_ratio(row.ratio)} ({_ratio(low)} to {_ratio(high)}) | {wanted} | {row.error}{note} |")
     text = "\n".join(lines) + "\n"
     Path(__file__).with_name("RESULTS.md").write_text(text, encoding="utf-8")
     print(text)
