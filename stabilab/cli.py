@@ -245,16 +245,15 @@ def precision(case: CaseFile, json: Json = False,
 
 @app.command()
 def surface(case: CaseFile, out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the files.")] = ...,  # type: ignore[assignment]  # typer: must be given
-            strict: Strict = False):
+            json: Json = False, strict: Strict = False):
     """Write the separatrix surfaces as meshes and a picture.
 
-    Files: .vtp, .glb, .stl, .png; a summary goes to stdout (JSON). Where there is no separatrix, it says why, and no
-    file is written.
+    Files: .vtp, .glb, .stl, .png, and a summary, .json. Where there is no separatrix, it says why, and no file is written.
 
     Example: stabilab surface cases/minor-axis-100.toml --out surfaces
     """
     from .commands.pictures import surface as answer
-    answer(case, out, strict)
+    answer(case, out, json, strict)
 
 
 @app.command()
@@ -560,6 +559,12 @@ def doctor():
 
 
 def _say(text: str):
+    """A message for people to stderr, wrapped to a terminal."""
+    if sys.stderr.isatty():
+        import shutil
+
+        from .show.terminal.page import wrapped
+        text = wrapped(text, shutil.get_terminal_size().columns)
     print(text, file=sys.stderr)
 
 

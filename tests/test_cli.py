@@ -378,7 +378,7 @@ def test_files_of_a_sweep_bear_the_labels_of_its_combinations(stabilab, swept, c
 def test_surfaces_of_a_sweep_share_a_folder_and_a_manifest(stabilab, swept, monkeypatch):
     from stabilab.show.surface import render_probe
     monkeypatch.setattr("stabilab.show.surface.write.probe", lambda: render_probe.Renderer(False, "no GL here"))
-    code, out, err = stabilab("surface", "two.toml", "--out", "made")
+    code, out, err = stabilab("surface", "two.toml", "--out", "made", "--json")
     assert code == 4 and [row["case"] for row in strict_json(out)] == ["two-1", "two-2"] and "two-2.vtp" in err
     assert {p.name for p in (swept / "made").iterdir()} == {f"two-{i}.{end}" for i in (1, 2) for end in ("vtp", "glb", "stl", "json")} | {"manifest.json"}
 
@@ -398,7 +398,7 @@ def test_a_file_without_sweep_gives_one_object(stabilab):
 
 
 def test_a_scene_without_a_separatrix_is_an_answer_and_no_file(stabilab, tmp_path):
-    code, out, err = stabilab("surface", ROOT / "cases/middle-axis-100.toml", "--out", tmp_path / "none")
+    code, out, err = stabilab("surface", ROOT / "cases/middle-axis-100.toml", "--out", tmp_path / "none", "--json")
     assert code == 0 and strict_json(out)["files"] == [] and strict_json(out)["sheets"] == []
     assert "middle-axis-100: no surface to write: " in err and not list(tmp_path.iterdir())
 

@@ -9,6 +9,7 @@ from ..show.files import manifest
 from ..show.outside import validation as validation_text
 from ..show.progress import counted
 from ..show.report import audit_page
+from ..show.terminal.page import width
 from ..show.text import audit as audit_text
 from ..show.text import table
 from ..theories.audit import audited
@@ -22,7 +23,7 @@ def audit(paper, equation, json, out):
         findings = audited(paper, equation, tell)
     if out is not None:
         say(f"written: {audit_page.page(findings, out)}")
-    either(json, lambda: audit_text.as_dict(findings), lambda: audit_text.text(findings))
+    either(json, lambda: audit_text.as_dict(findings), lambda: audit_text.text(findings, min(width() or 100, 100)))
 
 
 def validate(source, json, out):

@@ -15,6 +15,7 @@ from ..show.maps.atlas import to_file as atlas_files
 from ..show.maps.chaos import picture as chaos_picture
 from ..show.maps.chaos import words as chaos_words
 from ..show.plot import to_file
+from ..show.surface import words
 from ..show.surface.write import write_all
 from ..show.text import law
 from .common.cases import load_cases, one_by_one, time_asked, units_asked
@@ -23,7 +24,7 @@ from .common.output import hold_laws, leave_undecided, say, tell, write, write_e
 AN_EXAMPLE = Path(__file__).parents[1] / "cases" / "thruster-stuck-major-axis.toml"
 
 
-def surface(case, out, strict):
+def surface(case, out, json, strict):
     """Write the separatrix of a case; the summary first, then what kept a picture from being drawn."""
     loaded, unavailable = load_cases([case]), None
     laws = [law.of_case(one) for one in loaded]
@@ -33,8 +34,11 @@ def surface(case, out, strict):
         if not hasattr(error, "summaries"):
             raise
         summaries, unavailable = error.summaries, error
-    write_json(loaded, [summary | law.key(held) for summary, held in zip(summaries, laws)])
-    for one, summary in zip(loaded, summaries):
+    if json:
+        write_json(loaded, [summary | law.key(held) for summary, held in zip(summaries, laws)])
+    else:
+        tell("\n".join(law.first(held, words.text(summary, out)) for summary, held in zip(summaries, laws)))
+    for one, summary in zip(loaded, summaries if json else ()):
         if not summary["sheets"]:
             say(f"{one.name}: no surface to write: {summary['reason']}")
     if unavailable:

@@ -78,7 +78,7 @@ class Scene:
         """The rates with exact coefficients. Raises InputError for effects outside gyrostat and constant torque."""
         other = self._beyond()
         if other:
-            raise InputError(f"this analysis covers a gyrostat and a constant torque; the scene also has {', '.join(other)}")
+            raise InputError(f"this analysis covers a gyrostat and a constant torque; the scene also has {', '.join(name.replace('_', ' ') for name in other)}")
         return euler_form(self.body.exact, self.vector("gyrostat"), self.vector("constant_torque"))
 
 

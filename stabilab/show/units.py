@@ -103,6 +103,14 @@ def units_of(case: Case, asked: str | None = None) -> Units:
     return SCALED if case.variables == "scaled" else SYSTEMS[asked or case.units or "deg"]
 
 
+PARAMETERS = (("lambda", "N m s"), ("D", "kg m^2"), ("M", "N m"), ("mass", "kg"), ("f", "N"))
+
+
+def parameter_unit(name: str) -> str:
+    """The SI unit of a parameter of the equations of motion by its name (lambda1, D3, mass); nothing for those that have names of their own."""
+    return next((unit for stem, unit in PARAMETERS if name == stem or name.removeprefix(stem).isdigit()), "")
+
+
 def number(value: float, digits: int = SHORT) -> str:
     """So many significant digits at most; a word where it has none."""
     if math.isinf(value):

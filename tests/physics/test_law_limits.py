@@ -226,7 +226,7 @@ def test_strict_of_fate_is_three_for_an_undecided_motion(stabilab):
 def test_surface_carries_it_in_its_summary(stabilab, tmp_path, monkeypatch):
     from stabilab.show.surface import render_probe
     monkeypatch.setattr("stabilab.show.surface.write.probe", lambda: render_probe.Renderer(False, "none here"))  # loaded first, so that it is put back
-    _, out, _ = stabilab("surface", CASES / "charged-body.toml", "--out", tmp_path / "s")
+    _, out, _ = stabilab("surface", CASES / "charged-body.toml", "--out", tmp_path / "s", "--json")
     assert json.loads(out)["validity"]["effect"] == "charge"
 
 
@@ -235,3 +235,11 @@ def test_section_of_a_report_says_it_first(tmp_path):
     from stabilab.show.report.one_case.page import sections
     page = sections(load(water(tmp_path, "1e-6")), tmp_path, "water")
     assert page["law"].startswith("BEYOND THE LAW")  # the page has it below its verdict, before anything else
+
+
+def test_combinations_of_a_file_that_leave_one_limit_are_one_line():
+    from stabilab.case.read import load_all
+    from stabilab.show.text import law
+    cases = load_all(CASES / "charged-sweep.toml")
+    (line,) = law.of_cases(cases).splitlines()
+    assert line.endswith("(charged-sweep: 27 of 27 combinations, the farthest of them told)") and "2.07" in line

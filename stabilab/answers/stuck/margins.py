@@ -120,7 +120,7 @@ def _wheel(scenario: Scenario, family: Family, steady: bool) -> Margin:
     words = "of a wheel momentum that stays across the torque, the least found over its directions"
     best, until = _along(family, step, best, steady)
     if until is not None and until < math.inf:
-        words += f"; from {until:.10g} N m s on along its own it {'is bounded' if steady else 'spins up'} again"
+        words += f"; from {until:.6g} N m s along the same line on it {'is bounded' if steady else 'spins up'} again"
     return Margin(float(best), _direction(scenario, family, {j: step[j], k: step[k]}), words, until)
 
 

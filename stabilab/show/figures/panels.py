@@ -16,6 +16,7 @@ import numpy as np
 from ...case.read import load_all
 from ...theories.comparison import side_by_side
 from .. import style
+from ..text import comparison
 from ..text.table import cases_folder
 
 TIME = "t (s)"
@@ -36,9 +37,7 @@ ALONE = tuple({"color": c, "linewidth": 1.6, "linestyle": s} for c, s in zip(sty
 BESIDE = tuple({"color": c, "linewidth": 0.6, "linestyle": "-"} for c in style.SERIES)
 CORNERS = ((1.0, 1.01, "right", "bottom"), (0.0, 1.01, "left", "bottom"), (0.5, 1.01, "center", "bottom"))  # of the words on cuts
 ORDER = ("printed", "corrected", "averaged1", "linear", "averaged2", "lindstedt")  # in the legend, after the exact motion
-WORDS = {"exact": "exact motion", "printed": "as printed", "linear": "linear model, both rates",
-         "corrected": "corrected integrals, frequency (8)",
-         "averaged1": "averaged, first order", "averaged2": "averaged, second order", "lindstedt": "corrected expansion"}
+WORDS = comparison.WORDS | {"corrected": "corrected integrals, frequency (8)"}
 
 
 @dataclass(frozen=True)

@@ -29,7 +29,9 @@ def _value(source, one):
 def counts(found) -> str:
     """How many values have which verdict, in words."""
     number = Counter(one.verdict for one in found)
-    return ", ".join(f"{number[verdict]} {verdict}" for verdict in VERDICTS if number[verdict]) or "no values"
+    told = {"agrees": "agree", "explained": "differ for a known cause", "differs": "differ"}
+    words = {verdict: many if number[verdict] > 1 else many.replace("agree", "agrees").replace("differ", "differs") for verdict, many in told.items()}
+    return ", ".join(f"{number[verdict]} {words[verdict]}" for verdict in VERDICTS if number[verdict]) or "prints no values"
 
 
 def text(validated) -> str:
@@ -43,11 +45,24 @@ def _lines(source, found):
     for group in grouped(found):
         printed = group[0].printed
         yield f"  {printed.tool} ({printed.file.rsplit('/', 1)[-1]}; tolerance {_tolerance(printed)}: {printed.tolerance_is})"
-        for one in group:
-            yield (f"    t = {one.time:>4} s  {one.component:<11}{one.ours:>26}  theirs {one.theirs:>21}  differs by {one.difference:.1e} {one.unit:<6} "
-                   f"{one.verdict}").rstrip()
+        yield from _table([("t (s)", "quantity", "ours", "theirs", "differs by", "")] + [
+            (one.time, one.component, _short(one.ours), one.theirs, f"{one.difference:.1e} {one.unit}".strip(), one.verdict) for one in group])
         if words := cause(group):
             yield f"    cause: {words}"
+
+
+def _table(rows):
+    """Rows of cells, each column as wide as it needs; the words of the second and the last from the left, numbers from the right."""
+    sizes = [max(len(row[n]) for row in rows) for n in range(len(rows[0]))]
+    for row in rows:
+        yield ("    " + "  ".join(cell.ljust(size) if n in (1, len(row) - 1) else cell.rjust(size) for n, (cell, size) in enumerate(zip(row, sizes)))).rstrip()
+
+
+def _short(decimal: str) -> str:
+    """A proved decimal, of more digits than a person reads, rounded to 14; JSON has them all."""
+    from decimal import Context
+    number = Context(prec=14).create_decimal(decimal)
+    return f"{number.normalize():.14g}" if number else "0"
 
 
 def _tolerance(printed):

@@ -7,6 +7,7 @@ from itertools import groupby
 from ..text import frame
 from ..text.headline import headline
 from ..units import Units, number
+from .letters import written
 from .motion import row, state, table, tilt_lines, why
 
 FEW = 3  # curves that one line has room for
@@ -16,7 +17,7 @@ WORDS = ("stable", "asymptotically stable", "unstable", "undecided")
 def text(case, equilibria, motion, units: Units, proofs: bool = False) -> str:
     """The lines for one case. proofs: with eigenvalues, equations of curves, reasons of every verdict and the principal axes."""
     answer = resting(equilibria) if motion is None else headline(case, motion, units)
-    lines = [f"{case.name}: {answer}", *([case.title] if case.title else [])]
+    lines = [f"{case.name}: {answer}", *([written(case.title)] if case.title else [])]
     if motion is not None:
         lines += [*table(case, motion, units), *tilt_lines(case, motion, units, proofs), *why(case, motion, units, proofs)]
     lines += ["" if motion is None else f"equilibria: {resting(equilibria)}", *_equilibria(equilibria, units, proofs)]

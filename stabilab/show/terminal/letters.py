@@ -4,16 +4,16 @@ from __future__ import annotations
 import re
 
 GREEK = {"omega": "ω", "lambda": "λ", "Lambda": "Λ", "mu": "μ", "gamma": "γ", "alpha": "α", "sigma": "σ", "zeta": "ζ", "tau": "τ"}
-PLAIN = {letter: name for name, letter in GREEK.items()} | {
+# What papers write in captions and formulas, where no key, path or option can stand: every Greek letter, with or without its number, and powers.
+ALPHABET = GREEK | {"beta": "β", "delta": "δ", "eps": "ε", "eta": "η", "theta": "θ", "kappa": "κ", "pi": "π", "phi": "φ", "psi": "ψ", "rho": "ρ",
+                    "Gamma": "Γ", "Delta": "Δ", "Omega": "Ω"}
+PLAIN = {letter: name for name, letter in ALPHABET.items()} | {
+    "ᵢ": "_i", "ⱼ": "_j", "ₖ": "_k", "∞": "inf",
     "²": "^2", "³": "^3", "⁴": "^4", "±": "+-", "−": "-", "–": "-", "≤": "<=", "≥": ">=", "≠": "!=", "√": "sqrt", "×": "x",
     "·": ".", "µ": "u", "°": " deg", "…": "..."}
 # A name with its number, between bars, or the time of a scaled case; not part of a path, a key or an option.
 NAMES = re.compile(r"(?<![\w./\\])(?<![\w-]-)(omega|lambda|Lambda|mu|gamma|alpha|sigma|zeta)(?=(?:[123]|_[ijk])\b(?!\\|/[A-Za-z]|\.\w))"
                    r"|(?<=\|)(?:omega|gamma)(?= ?[xyz]?\|)|\bgamma(?= = \()|(?<=[\d )=] )tau\b")
-
-# What papers write in captions and formulas, where no key, path or option can stand: every Greek letter, with or without its number, and powers.
-ALPHABET = GREEK | {"beta": "β", "delta": "δ", "eps": "ε", "eta": "η", "theta": "θ", "kappa": "κ", "pi": "π", "phi": "φ", "psi": "ψ", "rho": "ρ",
-                    "Gamma": "Γ", "Delta": "Δ", "Omega": "Ω"}
 LETTER = re.compile(r"(?<![A-Za-z_])(" + "|".join(sorted(ALPHABET, key=len, reverse=True)) + r")(?:_?(?=\d)|(?![\w-]))|(?<![A-Za-z])l_(?=[xyz]\b)")
 POWER = re.compile(r"\^(\d)(?!\d)|sqrt(?=\()")
 RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")

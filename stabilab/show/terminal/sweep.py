@@ -41,18 +41,19 @@ def text(cases: Sequence, answer: str, columns: Sequence[tuple[str, str]], rows:
 
 def swept_columns(cases: Sequence) -> list[tuple[str, str, list[str]]]:
     """(head, unit, a cell a case) of every swept key; of a vector the components that vary. A value with a unit of its own is told as written."""
-    found = []
-    for place, (key, _) in enumerate(cases[0].swept):
-        values = [case.swept[place][1] for case in cases]
-        label = ".".join(LETTERS.get(word, word) for word in key.split(".")[-1 if _alone(key, cases[0].swept) else -2:])
-        if any(isinstance(v, list) and any(isinstance(one, list) for one in v) for v in values):  # a matrix: which of those in the file
-            found.append((label, "", [f"no. {case.variant.split('-')[1 + place]}" for case in cases]))
-        elif all(isinstance(v, list) and len(v) == len(values[0]) for v in values):
-            moving = [i for i in range(len(values[0])) if len({repr(v[i]) for v in values}) > 1] or [0]
-            found += [(f"{label}[{i + 1}]", _unit(key, [v[i] for v in values]), [str(v[i]) for v in values]) for i in moving]
-        else:
-            found.append((label, _unit(key, values), [str(v) for v in values]))
-    return found
+    return [column for place in range(len(cases[0].swept)) for column in key_columns(cases, place)]
+
+
+def key_columns(cases: Sequence, place: int) -> list[tuple[str, str, list[str]]]:
+    """(head, unit, a cell a case) of one swept key, the number of which is `place`."""
+    key, values = cases[0].swept[place][0], [case.swept[place][1] for case in cases]
+    label = ".".join(LETTERS.get(word, word) for word in key.split(".")[-1 if _alone(key, cases[0].swept) else -2:])
+    if any(isinstance(v, list) and any(isinstance(one, list) for one in v) for v in values):  # a matrix: which of those in the file
+        return [(label, "", [f"no. {case.variant.split('-')[1 + place]}" for case in cases])]
+    if all(isinstance(v, list) and len(v) == len(values[0]) for v in values):
+        moving = [i for i in range(len(values[0])) if len({repr(v[i]) for v in values}) > 1] or [0]
+        return [(f"{label}[{i + 1}]", _unit(key, [v[i] for v in values]), [str(v[i]) for v in values]) for i in moving]
+    return [(label, _unit(key, values), [str(v) for v in values])]
 
 
 def _unit(key: str, values) -> str:

@@ -46,9 +46,16 @@ def text(findings, width: int = 100) -> str:
     parts = []
     for paper, group in findings:
         count = Counter(f.verdict for f in group)
-        parts.append(f"{paper.title}: " + ", ".join(f"{count[v]} {v}" for v in VERDICTS if count[v]) + f"; {some(len(group), 'row')}\n")
+        parts.append(f"{paper.title}: " + ", ".join(f"{count[v]} {counted(v, count[v])}" for v in VERDICTS if count[v]) + f"; {some(len(group), 'row')}\n")
         parts += [_paragraph(finding, width, paper.figures) for finding in group]
     return "\n".join(parts)
+
+
+def counted(verdict: str, count: int) -> str:
+    """A verdict as one says it of so many formulas."""
+    one, many = {"holds": ("holds", "hold"), "only-if": ("holds only on a condition", "hold only on a condition"), "wrong": ("is wrong", "are wrong"),
+                 "definition": ("is a definition", "are definitions"), "not-checkable": ("cannot be checked", "cannot be checked")}[verdict]
+    return one if count == 1 else many
 
 
 def figures_changed(row, paper: str) -> str:
@@ -60,7 +67,7 @@ def figures_changed(row, paper: str) -> str:
 def _paragraph(finding, width, paper=""):
     row = finding.row
     head = f"{row.equation:<12} {finding.verdict.upper() if finding.verdict == 'wrong' else finding.verdict}"
-    head += f" {finding.condition}" if finding.verdict == "only-if" else ""
+    head = head.replace("only-if", f"holds only if {finding.condition}") if finding.verdict == "only-if" else head.replace("not-checkable", "cannot be checked")
     lines = [head + (f": {row.says}" if row.says else "")]
     if finding.verdict in ("wrong", "only-if"):
         lines += [f"printed: {'; '.join(row.printed)}"] + ([f"instead: {finding.correction}"] if finding.correction else [])

@@ -9,6 +9,7 @@ from ...physics.blocks import PARTS
 from ...theories.theory import lines as told
 from .. import style
 from ..files import comma, endings
+from ..terminal.letters import written
 
 LOOKS = {"exact": {"color": style.BLACK, "linewidth": 2.2}, "linear": {"color": style.BLUE, "linewidth": 1.4, "linestyle": "--"},
          "corrected": {"color": style.PURPLE, "linewidth": 1.5, "linestyle": "-."},
@@ -19,6 +20,8 @@ LOOKS = {"exact": {"color": style.BLACK, "linewidth": 2.2}, "linear": {"color": 
 NAMES = {"omega": (r"$\omega_1$", r"$\omega_2$", r"$\omega_3$"), "gamma": (r"$\gamma_1$", r"$\gamma_2$", r"$\gamma_3$"),
          "angles": (r"$\psi$", r"$\phi$", r"$\theta$"), "momentum": (r"$H_1$", r"$H_2$", r"$H_3$"),
          "velocity": (r"$v_1$", r"$v_2$", r"$v_3$"), "position": (r"$x_1$", r"$x_2$", r"$x_3$")}
+WORDS = {"exact": "exact motion", "printed": "as printed", "linear": "linear model, both rates", "corrected": "corrected integrals",
+         "averaged1": "averaged, first order", "averaged2": "averaged, second order", "lindstedt": "corrected expansion"}
 REACH = 1.6  # a model that leaves the exact motion's range by more than this factor is cut off, and the panel says so
 
 
@@ -37,10 +40,10 @@ def text(case, found) -> str:
     unit = case.scene.time_unit
     lines = [f"{case.name}: {_closest(found)}; {', '.join(list(found.runs)[1:]) or 'no model'} against the exact motion, {found.t[0]:g} to "
              f"{found.t[-1]:g} {unit}",
-             f"  {'model':<12}{'part':<12}{'largest error':>16}{'of':>14}{'1 % from':>14}{'10 % from':>14}"]
+             f"  {'model':<11}{'part':<10}{'largest error':>13}{'of':>12}{'1 % from':>15}{'10 % from':>15}"]
     for d in found.departures:
         first = [f"{time:.4g} {unit}" if time is not None else "never" for time in d.first.values()]
-        lines.append(f"  {d.model:<12}{d.part:<12}{d.largest:>16.4g}{d.scale:>14.4g}{first[0]:>14}{first[1]:>14}")
+        lines.append(f"  {d.model:<11}{written(d.part):<10}{d.largest:>13.4g}{d.scale:>12.4g}{first[0]:>15}{first[1]:>15}")
     notes = [f"  {name}: {run.reason}" for name, run in found.runs.items() if run.reason and run.reason != "all times reached"]
     notes += [f"  {name}: no answer: {why}" for name, why in found.refused.items()]
     return "\n".join(lines + notes + [f"  {line}" for line in told(found.theory)])
@@ -52,7 +55,7 @@ def _closest(found) -> str:
     if not rates:
         return "no model has an answer"
     best = min(rates, key=lambda d: d.largest / d.scale)
-    return f"{best.model} is closest, its {best.part} off by {100 * best.largest / best.scale:.3g} % at most"
+    return f"{best.model} is closest, its {written(best.part)} off by {100 * best.largest / best.scale:.3g} % at most"
 
 
 def checked(path) -> Path:
@@ -81,8 +84,8 @@ def picture(plt, case, runs, parts=("omega",)):
             ax.set_ylabel(f"{NAMES[part][column]}{f' ({unit})' if unit else ''}")
     for ax in axes[-1]:
         ax.set_xlabel("t (s)")
-    figure.suptitle(case.heading, fontsize=10, parse_math=False, wrap=True)
-    style.legend(figure, [(name, LOOKS[name]) for name in runs], columns=6)
+    figure.suptitle(written(case.heading), fontsize=10, parse_math=False, wrap=True)
+    style.legend(figure, [(WORDS[name], LOOKS[name]) for name in runs], columns=6)
     return figure
 
 
@@ -97,7 +100,7 @@ def _curves(ax, runs, part, column):
     if half and (high - low) > 6 * half:  # a model far off must not flatten the motion itself
         ax.set_ylim(middle - 2 * wide, middle + 2 * wide)
         out = [name for name, run in runs.items() if part in run.state and _leaves(np.asarray(run.state[part])[:, column], ax.get_ylim())]
-        ax.set_title(f"cut: {', '.join(out)}", loc="right", fontsize=8)
+        ax.set_title(f"cut: {', '.join(WORDS[name] for name in out)}", loc="right", fontsize=8)
 
 
 def _leaves(values, limits):

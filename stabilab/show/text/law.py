@@ -1,6 +1,8 @@
 """How far approximate laws hold: the first line of a text, a key of JSON, a line of a picture, an exit code."""
 from __future__ import annotations
 
+import re
+
 from ...errors import printable
 
 
@@ -10,8 +12,13 @@ def first(validity, text: str) -> str:
     if validity is None:
         return text
     answer, *rest = text.split("\n")
-    words = printable(validity.words)
+    words = _spans(printable(validity.words))
     return "\n".join([f"{answer}; {words}" if validity.held else f"{words}; by that law: {answer}", *rest])
+
+
+def _spans(words: str) -> str:
+    """The words with "over s in [0, 20]" as "over 0 to 20 s"."""
+    return re.sub(r"\b(s|tau) in \[([^],]+), ([^]]+)\]", r"\2 to \3 \1", words)
 
 
 def key(validity) -> dict:
@@ -49,5 +56,18 @@ def of_case(case):
 
 def of_cases(cases) -> str:
     """A line for every law among cases that one of them leaves; empty where there is none."""
-    told = [(case.name, v) for case in cases if (v := of_case(case)) is not None and not v.held]
-    return "\n".join(f"{v.words} ({printable(name)})" for name, v in told)
+    told: dict = {}
+    for case in cases:
+        if (found := of_case(case)) is not None and not found.held:
+            told.setdefault((case.path, found.effect, found.number) if case.variant else case.name, []).append((case, found))
+    return "\n".join(_of_alike(group, cases) for group in told.values())
+
+
+def _of_alike(group, cases) -> str:
+    """A line on a case, or on the combinations of one file that leave the same limit: the most exceeded of them."""
+    case, _ = group[0]
+    found = worst(*(one for _, one in group))
+    if not case.variant:
+        return f"{found.words} ({printable(case.name)})"
+    of = sum(other.path == case.path for other in cases)
+    return f"{found.words} ({printable(case.name.removesuffix(case.variant))}: {len(group)} of {of} combinations, the farthest of them told)"

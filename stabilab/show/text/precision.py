@@ -10,6 +10,7 @@ from ...packages import demand
 from .. import style
 from ..files import comma, endings
 from ..report.precision_picture import picture
+from ..terminal.letters import written
 from .precision_words import caption, duration, methods, setting, title, words
 
 COLUMNS = ("case", "question", "method", "setting", "value", "error", "digits", "steps", "evaluations", "seconds", "slowest",
@@ -17,14 +18,14 @@ COLUMNS = ("case", "question", "method", "setting", "value", "error", "digits", 
 
 
 def text(found) -> str:
-    """The table of the terminal, * marking the front, then the words."""
+    """The table of the terminal, * marking the front, then the words. rates: how often the rates were evaluated; the slowest run is in CSV and JSON."""
     told = words(found)
     answer = next((line for line in told if "six digits cost" in line), told[0])
-    lines = [f"{found.case.name}: {answer}", *([found.case.title] if found.case.title else [])]
+    lines = [f"{found.case.name}: {answer}", *([written(found.case.title)] if found.case.title else [])]
     for question in found.questions:
         front = set(map(id, found.front(question)))
         lines += ["", title(found, question),
-                  f"  {'method':<14}{'setting':<15}{'error':>9}{'digits':>8}{'steps':>9}{'evaluations':>13}{'time':>10}{'slowest':>10}{'compile':>10}"]
+                  f"  {'method':<13}{'setting':<13}{'error':>8}{'digits':>8}{'steps':>8}{'rates':>8}{'time':>10}{'compile':>9}"]
         lines += [_line(p, id(p) in front) for p in found.of(question)]
     lines += [f"  left out: {line}" for line in _left_out(found)]
     return "\n".join([*lines, "", *told, "", caption()])
@@ -40,9 +41,9 @@ def _left_out(found):
 
 def _line(p, best) -> str:
     error = "none" if math.isinf(p.error) else f"{p.error:.1e}"
-    counts = "".join(f"{'' if n is None else n:>{width}}" for n, width in ((p.steps, 9), (p.evaluations, 13)))
-    times = "".join(f"{duration(s) if s else '':>10}" for s in (p.seconds, p.slowest, p.compile if p.compile > 1e-4 else 0))
-    return f"{'*' if best else ' '} {p.method:<14}{setting(p)[2:]:<15}{error:>9}{p.digits:>8.1f}{counts}{times}"
+    counts = "".join(f"{'' if n is None else n:>{width}}" for n, width in ((p.steps, 8), (p.evaluations, 8)))
+    times = f"{duration(p.seconds):>10}{duration(p.compile) if p.compile > 1e-4 else '':>9}"
+    return f"{'*' if best else ' '} {p.method:<13}{setting(p)[2:]:<13}{error:>8}{p.digits:>8.1f}{counts}{times}".rstrip()
 
 
 def as_dict(found) -> dict:

@@ -6,13 +6,15 @@ import math
 from ...physics.equations import derive
 from ...physics.laws import invariants
 from ...physics.notation import latex, lines
+from ..terminal.letters import written
+from ..units import parameter_unit
 from . import frame
 
 
 def text(case) -> str:
     """Scene, parameters, equations of motion as text and LaTeX, invariants: what `stabilab show` prints."""
     equations = derive(case.scene)
-    parts = [_head(case), _parameters(equations), "Equations of motion", *(f"  {line}" for line in lines(equations)), "",
+    parts = [_head(case), _parameters(equations, case.variables == "physical"), "Equations of motion", *(f"  {line}" for line in lines(equations)), "",
              "In LaTeX", latex(equations), "", "Laws that hold for every value of the parameters"]
     parts += [f"  {law.words}" for law in equations.balances]
     own = invariants(case.scene)
@@ -22,17 +24,17 @@ def text(case) -> str:
 
 
 def _head(case) -> str:
-    rows = [case.title or case.name, f"  from {case.place}"]
+    rows = [written(case.title) or case.name, f"  from {case.place}"]
     rows += [f"  source: {case.source}"] if case.source else []
     rows += [f"  variables: {case.variables} ({', '.join(case.scene.components)}; time in {case.scene.time_unit})"]
     if case.physical:
-        rows.append(f"  body with inertia {case.physical.body.inertia} kg m^2")
+        rows.append(f"  body with inertia {_triple(case.physical.body.inertia)} kg m^2")
         rows += [f"  {effect.name.replace('_', ' ')}: {_values(effect)}" for effect in case.physical.effects]
     rows += [f"  {line}" for line in frame.lines(case)]
     rows += [f"  {line}" for line in _craft(case)]
     if case.scaling:
-        rows.append(f"  one unit of tau is {float(case.scaling.time):.15g} s; "
-                    f"omega_j = {', '.join(f'{float(r):.15g}' for r in case.scaling.rate)} times x_j (rad/s)")
+        rows.append(f"  one unit of tau is {float(case.scaling.time):.6g} s; "
+                    f"omega_j = {', '.join(f'{float(r):.6g}' for r in case.scaling.rate)} times x_j (rad/s)")
     rows += [f"  motion from {case.state}"] if case.state else []
     rows += [f"  good to 240 bits, as their unit holds pi: {', '.join(case.inexact)}"] if case.inexact else []
     rows += [f"  note: {note}" for note in case.notes]
@@ -64,11 +66,12 @@ def _triple(vector) -> str:
 
 
 def _values(effect) -> str:
-    return ", ".join(f"{name} = {float(v):.15g}" for name, v in effect.parameters().items())
+    return ", ".join(f"{name} = {float(v):.15g} {parameter_unit(name)}".rstrip() for name, v in effect.parameters().items())
 
 
-def _parameters(equations) -> str:
-    return "Parameters\n" + "\n".join(f"  {name} = {_value(v)}" for name, v in equations.parameters.items()) + "\n"
+def _parameters(equations, physical) -> str:
+    units = {name: parameter_unit(name) if physical else "" for name in equations.parameters}
+    return "Parameters\n" + "\n".join(f"  {name} = {_value(v)} {units[name]}".rstrip() for name, v in equations.parameters.items()) + "\n"
 
 
 def _value(v) -> str:

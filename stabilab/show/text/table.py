@@ -203,10 +203,12 @@ def html_fragment(table: Table) -> str:
 
 def html_page(table: Table) -> str:
     """The fragment as a page of its own."""
-    return ('<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>'
-            f"Table {table.number}. {html.escape(table.title)}</title>\n<style>table{{border-collapse:collapse;font:14px sans-serif}}"
-            "td,th{padding:.25em .6em;border-bottom:1px solid #ccc;text-align:right}td.words,th{text-align:left}</style>"
-            f"</head>\n<body>\n{html_fragment(table)}</body></html>\n")
+    return ('<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
+            '<meta name="viewport" content="width=device-width, initial-scale=1"><link rel="icon" href="data:,"><title>'
+            f"Table {table.number}. {html.escape(table.title)}</title>\n<style>"
+            "body{font:14px sans-serif;margin:1em}div{overflow-x:auto}table{border-collapse:collapse}caption{text-align:left;font-weight:600}"
+            "td,th{padding:.25em .6em;border-bottom:1px solid #ccc;text-align:right;vertical-align:top}td.words,th{text-align:left;min-width:4.5em}</style>"
+            f"</head>\n<body>\n<div>{html_fragment(table)}</div></body></html>\n")
 
 
 # what tables() reads

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import math
+import re
 
 from ...errors import printable
 from ..files import comma
@@ -35,7 +36,7 @@ def text(case, limit, found, units: Units) -> str:
     lines = [f"{printable(case.name)}: {_answer(limit, found, low, high, units)}"]
     if math.isfinite(high) and high > 0:
         lines += [f"  between   {low!r} {unit}", f"      and   {high!r} {unit}"]
-    return "\n".join([*lines, f"  {found.words}"])
+    return "\n".join([*lines, f"  {re.sub(r'^[^:]* = [^:]*: ', '', str(found.words))}"])  # the limit stands above, in the units asked for
 
 
 def swept(answers, units: Units):
