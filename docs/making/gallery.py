@@ -57,14 +57,14 @@ def made(path: Path, folder: Path) -> dict:
     from stabilab.show.plot import which, write
     from stabilab.show.plot.subject import subject
     from stabilab.show.report.whole import group
-    from stabilab.show.terminal.letters import greek
+    from stabilab.show.terminal.letters import greek, written
     from stabilab.show.text.headline import headline
     case, *others = load_all(path)
     one = subject(case)
     folder.mkdir(parents=True, exist_ok=True)
     write(one, folder / f"{path.stem}.png", dpi=SHARP)
     first = f"The first of {1 + len(others)} combinations is drawn: " if others else ""
-    return {"title": greek(case.title), "source": greek(case.source or ""), "group": group(case), "kind": which.default(one),
+    return {"title": written(case.title), "source": written(case.source or ""), "group": group(case), "kind": which.default(one),
             "answer": first + greek(headline(case, one.motion))}
 
 

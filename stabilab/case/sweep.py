@@ -18,11 +18,6 @@ def combinations(top: Table) -> list[tuple[str, dict]]:
     return [("".join(f"-{i}" for i, _ in pick), _with(plain, paths, pick)) for pick in product(*choices)] if paths else []
 
 
-def keys_and_values(data: dict) -> list[tuple[str, list]]:
-    """(key, its values) of every swept key of a file's data, in order: the numbers of a suffix count along them."""
-    return [(key, values) for key, values in data.get("sweep", {}).items()]
-
-
 def swept(top: Table) -> tuple[list[tuple], list[list]]:
     """The paths that [sweep] replaces and the numbered values of each, both empty where it cannot be run; keeps the faults."""
     table = top.table("sweep")

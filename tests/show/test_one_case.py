@@ -11,6 +11,7 @@ from stabilab.answers.equilibria import equilibria
 from stabilab.answers.motion import motion
 from stabilab.case.read import load, read_text
 from stabilab.show.report.one_case import measures, space
+from stabilab.show.report.one_case.equilibria import table
 from stabilab.show.report.one_case.page import sections
 from stabilab.show.units import DEG, SCALED, units_of
 
@@ -72,7 +73,7 @@ def test_numbers_are_told_in_engineers_units_with_six_digits_at_most():
 
 
 def test_words_have_their_greek_letters():
-    assert measures.spoken("omega1 lambda3 |gamma| alpha_i over s in [0, 30]: 0.26666666666666666") == "ω1 λ3 |γ| α_i over 0 to 30 s: 0.266667"
+    assert measures.spoken("omega1 lambda3 |gamma| alpha_i over s in [0, 30]: 0.26666666666666666") == "ω1 λ3 |γ| αᵢ over 0 to 30 s: 0.266667"
     assert measures.spoken("gammas omegaX") == "gammas omegaX"
 
 
@@ -100,3 +101,24 @@ def test_the_sheets_of_the_space_are_those_of_the_separatrix():
         X, x2, x3 = p[inside, :, 0] + scene.a, p[inside, :, 1], p[inside, :, 2]
         energy = x3**2 / 2 - np.unwrap(np.arctan2(X, x2), axis=1) - X**2 / 2 - (scene.b - scene.a) * X
         assert inside.any() and np.ptp(energy[2:], axis=1).max() < 2e-3 * (1 + np.abs(X).max() ** 2)  # places are rounded to 1/4095 of the box
+
+
+@pytest.mark.parametrize("plain, told", [
+    ("omega = Omega gamma, (Omega^2 - N) D", "ω = Ω γ, (Ω² − N) D"), ("from -inf to -291.942", "from −∞ to −291.942"), ("sqrt(-m) <= 2", "√(−m) ≤ 2"),
+    ("`stabilab fate CASE --tilt \"1 deg\"` at 3-1-2", "`stabilab fate CASE --tilt \"1 deg\"` at 3-1-2"), ("period 1.804 tau", "period 1.804 τ")])
+def test_formulas_in_words_have_the_signs_of_a_book_and_commands_stay(plain, told):
+    assert measures.spoken(plain) == told
+
+
+def test_a_sentence_of_a_page_has_a_capital_and_its_commands_are_code():
+    from stabilab.show.report.html import sentence
+    assert sentence('the rest: `a --b <c>`') == 'The rest: <code>a <span class="nowrap">--b</span> &lt;c&gt;</code>'
+    assert sentence("ω = Ω γ") == "ω = Ω γ" and sentence("omega1_x < 2") == "omega1_x &lt; 2"
+
+
+def test_folds_of_a_field_are_told_as_rates_without_the_vertical_behind_them():
+    found = equilibria(load(CASES / "top-fast.toml").scene)
+    told = table(found, measures.Measures(DEG))
+    folds = [row["where"] for row in told["rows"] if row["where"].startswith("fold")]
+    assert folds and all(where.count(",") == 2 for where in folds)
+    assert len(told["curves"]) == 1 and told["curves"][0][0] == "branch 1 to branch 10"  # one equation, told once

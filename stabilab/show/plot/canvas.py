@@ -9,6 +9,7 @@ from typing import Any
 from ...errors import InputError
 from ...packages import demand
 from .. import style
+from ..terminal.letters import greek, written
 
 SIZE = (7.6, 4.8)  # inches
 SQUARE = (7.0, 6.4)
@@ -64,5 +65,6 @@ def _columns(names: list[str], room: float) -> int:
 
 
 def title(ax: Any, *lines: str) -> None:
-    """The lines that are not empty, above the axes."""
-    ax.set_title("\n".join(filter(None, lines)), wrap=True, parse_math=False)
+    """The lines that are not empty, above the axes; the first is the title of the case."""
+    heading, *others = lines
+    ax.set_title("\n".join(filter(None, (written(heading), *map(greek, others)))), wrap=True, parse_math=False)

@@ -58,6 +58,7 @@ def _enlarged(ax, plane, factors):
     rest = factors["rate_scale"] * float(plane.rate(np.zeros(1))[0])
     inset.set_ylim(rest - AROUND * height / 2, rest + AROUND * height / 2)
     inset.tick_params(labelsize=7)
+    inset.set_in_layout(False)  # it lies inside; the layout would keep room for it below
     ax.indicate_inset_zoom(inset, edgecolor=style.BLACK)
 
 

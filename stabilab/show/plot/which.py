@@ -105,7 +105,7 @@ def _section(one: Subject) -> str:
 
 
 def _state(one: Subject) -> str:
-    return "its state is the rates alone, and no analytic model applies: time shows it" if one.scene.plain else ""
+    return "no approximate theory comes with a wheel and a constant torque: the rates over time are the exact motion" if one.scene.plain else ""
 
 
 def _budget(one: Subject) -> str:

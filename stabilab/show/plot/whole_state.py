@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from ...theories.comparison import side_by_side
+from ..terminal.letters import written
 from ..text import comparison
 from . import which
 from .subject import DEFAULT_SPAN, subject
@@ -24,5 +25,5 @@ def state(case: Any, start: Any = None, span: Any = None) -> Any:
     parts = [name for name in comparison.NAMES if name in runs["exact"].state]
     figure, law = comparison.picture(plt, one, runs, parts), runs["exact"].validity
     if law is not None and not law.held:
-        figure.suptitle(f"{one.heading}\n{law.short}", fontsize=10, parse_math=False, wrap=True)
+        figure.suptitle(f"{written(one.heading)}\n{law.short}", fontsize=10, parse_math=False, wrap=True)
     return figure

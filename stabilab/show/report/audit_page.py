@@ -9,7 +9,7 @@ from pathlib import Path
 from ...theories.audit.checks import raw
 from ...theories.audit.findings import VERDICTS
 from ...theories.audit.formulas import FormulaError
-from ..text.audit import figures_changed
+from ..text.audit import counted, figures_changed
 from . import html
 
 GREEK = {"al": "alpha", "th": "theta", "gam": "gamma", "om": "omega", "lam": "lambda", "Om": "Omega", "eps": "varepsilon", "ep": "varepsilon"}
@@ -20,7 +20,7 @@ def page(findings, path, **around) -> Path:
     papers = [
         {"name": paper.name, "title": paper.title, "count": count(group), "rows": [_row(paper, finding) for finding in group]} for paper, group in findings
     ]
-    return html.write(Path(path), "audit.html", title="Published formulas, held against the equations of motion", papers=papers, verdicts=VERDICTS, **around)
+    return html.write(Path(path), "audit.html", title="Published formulas, held against the equations of motion", papers=papers, counted=counted, **around)
 
 
 def count(group) -> list[tuple[str, int]]:

@@ -29,9 +29,10 @@ TITLES = {"states": "Time against the number of states", "digits": "Time against
 AXES = {"states": "states", "digits": "digits reached", "separatrix": "relative distance from the separatrix, in energy"}
 
 
-def page(case, folder, tell=None, full: bool = False) -> Path:
+def page(case, folder, tell=None, full: bool = False, **around) -> Path:
     """Measure how cost grows about a case (torque on an axis, bounded, no wheel momentum along the torque) and write growth.html,
-    growth.csv and three pictures (in growth/) into the folder; returns the page's path. full: every decade of states."""
+    growth.csv and three pictures (in growth/) into the folder; returns the page's path. full: every decade of states; around: of the
+    pages beside it (`html.render`)."""
     folder, tell = Path(folder), tell or (lambda words: None)
     rows = [*with_states(case, full, tell), *with_digits(case, "full" if full else "brief", tell), *with_closeness(case, tell)]
     with style.whole_file(folder / "growth.csv") as waiting:
@@ -41,7 +42,7 @@ def page(case, folder, tell=None, full: bool = False) -> Path:
         with style.drawing() as plt:
             style.save(picture(plt, [r for r in rows if r.about == about], about), folder / "growth" / f"{about}.png")
         pictures.append({"file": f"growth/{about}.png", "title": TITLES[about], "words": words(rows, about)})
-    return html.write(folder / "growth.html", "growth.html", pictures=pictures, machine=caption(), case=case.name, full=full)
+    return html.write(folder / "growth.html", "growth.html", pictures=pictures, machine=caption(), case=case.name, full=full, **around)
 
 
 def csv(rows) -> str:

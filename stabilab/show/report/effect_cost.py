@@ -11,10 +11,10 @@ from . import html
 PICTURE = "effects.png"
 
 
-def page(folder, tell=None) -> Path:
+def page(folder, tell=None, **around) -> Path:
     """Count, time and check every effect, and write effects.html with its picture into the folder; returns its path.
 
-    tell: called with a line of words before each part of the work (some twenty seconds in all).
+    tell: called with a line of words before each part of the work (some twenty seconds in all); around: of the pages beside it (`html.render`).
     """
     folder, tell = Path(folder), tell or (lambda words: None)
     tell("what each effect costs, one added to the other")
@@ -29,7 +29,7 @@ def page(folder, tell=None) -> Path:
         folder / "effects.html", "effects.html", picture=PICTURE, many=MANY, machine=caption(), words=words(steps, singles, zero),
         ladder=[_row(cost, seconds) for cost, seconds in steps],
         alone=[_row(cost, seconds) | {"modules": ", ".join(modules)} for cost, seconds, modules in singles],
-        questions=list(next(iter(zero.values()))),
+        questions=list(next(iter(zero.values()))), **around,
         zero=[{"name": spoken(name), "same": list(same.values())} for name, same in zero.items()])
 
 

@@ -1,10 +1,12 @@
 """Pages of the report from their templates: what comes from case files is escaped, what a template lacks is an error."""
 from __future__ import annotations
 
+import re
 from functools import lru_cache
 from pathlib import Path
 
 from ...files import whole_file
+from ..terminal.letters import written
 
 TEMPLATES = Path(__file__).parents[1] / "templates"
 ALONE = {"nav": (), "here": "", "up": "", "title": ""}  # of a page that is no part of a folder
@@ -13,7 +15,25 @@ ALONE = {"nav": (), "here": "", "up": "", "title": ""}  # of a page that is no p
 @lru_cache(maxsize=1)
 def _environment():
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
-    return Environment(loader=FileSystemLoader(TEMPLATES), autoescape=True, undefined=StrictUndefined)
+    environment = Environment(loader=FileSystemLoader(TEMPLATES), autoescape=True, undefined=StrictUndefined)
+    environment.filters |= {"written": written, "sentence": sentence, "typed": typed}
+    return environment
+
+
+def sentence(text: str):
+    """Words for a page: with a capital at their head, and what stands between backquotes as code."""
+    from markupsafe import Markup, escape
+    text = text[:1].upper() + text[1:] if re.match("[a-z]+( |$)", text) else text  # no formula, no name of a file
+    parts = text.split("`")
+    found = [escape(part) if n % 2 == 0 or n == len(parts) - 1 else typed(part) for n, part in enumerate(parts)]
+    return Markup("").join(found).replace("|ω|", Markup('<span class="nowrap">|ω|</span>'))
+
+
+def typed(command: str):
+    """A command as code; no line ends within the dashes of an option."""
+    from markupsafe import Markup
+    words = [Markup('<span class="nowrap">{}</span>').format(word) if word.startswith("--") else word for word in command.split(" ")]
+    return Markup("<code>{}</code>").format(Markup(" ").join(words))
 
 
 def render(template: str, **values) -> str:

@@ -13,10 +13,11 @@ from . import html
 PRICED = (3, 6, 9, 12)  # digits of the table over all cases
 
 
-def page(cases, folder, tell=None, passed=()) -> Path:
+def page(cases, folder, tell=None, passed=(), **around) -> Path:
     """Measure every case that has a motion and a span and write precision.html with its pictures and points (in precision/)
     into the folder; returns its path. The first case of every kind (the same equations, the same axis of the torque) is measured with
-    every method and drawn; the others, with the methods that are likely to be best, are told in words. passed: lines on cases that are left out."""
+    every method and drawn; the others, with the methods that are likely to be best, are told in words. passed: lines on cases that are left out;
+    around: of the pages beside it (`html.render`)."""
     folder, tell, sections, passed, seen = Path(folder), tell or (lambda words: None), [], list(passed), set()
     for case in cases:
         if case.state is None or case.span is None:
@@ -30,7 +31,7 @@ def page(cases, folder, tell=None, passed=()) -> Path:
             continue
         seen.add(of)
         sections.append(section)
-    return html.write(folder / "precision.html", "precision.html", cases=sections, passed=passed, machine=caption(), priced=PRICED)
+    return html.write(folder / "precision.html", "precision.html", cases=sections, passed=passed, machine=caption(), priced=PRICED, **around)
 
 
 def kind(case) -> tuple:

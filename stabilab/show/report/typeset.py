@@ -62,4 +62,4 @@ def inner(expression) -> str:
     """The expression as presentation MathML, without the element around it."""
     from sympy import Integer
     from sympy.printing.mathml import mathml
-    return mathml(Integer(0) + expression, printer="presentation")
+    return mathml(Integer(0) + expression, printer="presentation").replace("<mo>-</mo>", "<mo>&#x2212;</mo>")

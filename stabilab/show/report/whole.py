@@ -10,7 +10,9 @@ from ...theories.validation import validated
 from ..figures import catalogue as figures
 from ..figures import paper
 from ..outside import validation
+from ..terminal.letters import some
 from ..text import table
+from ..text.audit import counted
 from . import audit_page, chapters, cost_growth, effect_cost, html, own, precision_page
 from .workers import Task, done
 
@@ -144,7 +146,7 @@ def _audit(folder, found, nav):
     for _, rows in findings:
         for verdict, number in audit_page.count(rows):
             total[verdict] = total.get(verdict, 0) + number
-    return ", ".join(f"{number} {verdict}" for verdict, number in total.items())
+    return ", ".join(f"{number} {counted(verdict, number)}" for verdict, number in total.items())
 
 
 def _validation(folder, found, nav):
@@ -156,23 +158,24 @@ def _validation(folder, found, nav):
 # -- what measures times -----------------------------------------------------------------------------------------------------
 
 
-def _precision(cases, folder):
+def _precision(cases, folder, **around):
     """The first case of every kind: the others of a kind obey the same equations with other numbers."""
     firsts: dict = {}
     for case in cases:
         if case.state is not None and case.span is not None:
             firsts.setdefault(precision_page.kind(case), case)
     left = len(own.entries(cases)) - len(firsts)
-    return precision_page.page(firsts.values(), folder, passed=(f"{left} other cases, with the equations of one of these and other numbers",) if left else ())
+    return precision_page.page(firsts.values(), folder, passed=(f"{left} other cases, with the equations of one of these and other numbers",) if left else (),
+                               **around)
 
 
-def _growth(cases, folder):
+def _growth(cases, folder, **around):
     case = next((case for case in cases if case.name == GROWING), None)
-    return case and cost_growth.page(case, folder)
+    return case and cost_growth.page(case, folder, **around)
 
 
-def _effects(cases, folder):
-    return effect_cost.page(folder)
+def _effects(cases, folder, **around):
+    return effect_cost.page(folder, **around)
 
 
 # (title, what it says, page(cases, folder) -> its path, or None where the cases do not call for it)
@@ -183,7 +186,7 @@ COSTS = (("What accuracy costs", "every way to follow each motion: error against
 
 def costs(cases, folder: Path) -> list[dict]:
     """The pages that hold measured times, one after the other by one process: never two measurements at once."""
-    made = [(title, words, page(cases, folder)) for title, words, page in COSTS]
+    made = [(title, words, page(cases, folder, nav=_nav(True))) for title, words, page in COSTS]
     return [{"title": title, "words": words, "file": path.name} for title, words, path in made if path]
 
 
@@ -191,9 +194,9 @@ def _start(folder, found, nav, groups, audit, tools, cost, around):
     """The first page: the finest picture, and what is inside."""
     first, last = figures.FIGURES[0].number, figures.FIGURES[-1].number
     words = {"constant-torque.html": f"{paper.PAPER}: tables 1 to {len(found['tables'])}, figures {first} to {last}, recomputed and corrected",
-             "cases.html": "; ".join(f"{title[0].lower()}{title[1:]}: {number}" for title, number in groups),
-             "audit.html": f"every numbered equation of five papers, tried: {audit}", "validation.html": tools,
-             "cost.html": "accuracy, growth, effects: measured"}
+             "cases.html": "; ".join(f"{title[0].lower()}{title[1:]} ({some(number, 'case')})" for title, number in groups),
+             "audit.html": f"every numbered equation of five papers, tried on the equations of motion: {audit}", "validation.html": tools,
+             "cost.html": "What accuracy, many states and each effect cost, measured"}
     words |= {f"{one.paper}.html": f"{one.title}: {figures.PAPERS[one.paper]}" for one in chapters.CHAPTERS}
     cards = [page | {"words": words[page["file"]]} for page in nav if page["file"] != "index.html"]
     picture = found.get(f"figure {FINEST}") or found[f"figure {figures.FIGURES[0].number}"]

@@ -136,17 +136,24 @@ function spaceView(canvas, {glass = 1, near = 1} = {}) {
       const others = [0, 1, 2].filter(j => j !== k), edges = [[-1, -1], [-1, 1], [1, -1], [1, 1]].map(([a, b]) => s => { const p = [0, 0, 0]; p[k] = s; p[others[0]] = a; p[others[1]] = b; return p; });
       const out = e => { const [x, y] = at(e(0)); return k === 2 ? -x : y + 0.25 * Math.abs(x - middle[0]); };
       const edge = edges.reduce((a, b) => out(b) > out(a) ? b : a), [mx, my] = at(edge(0));
-      const size = Math.hypot(mx - middle[0], my - middle[1]) || 1, away = [(mx - middle[0]) / size, (my - middle[1]) / size];
+      const ends = [at(edge(-1)), at(edge(1))], [ex, ey] = [ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]], size = Math.hypot(ex, ey) || 1;
+      const side = Math.sign(-ey * (mx - middle[0]) + ex * (my - middle[1])) || 1, away = [-side * ey / size, side * ex / size];  // across the edge, outwards
       const every = step(data.half), low = data.middle[k] - data.half, high = data.middle[k] + data.half;
-      pen.fillStyle = "#333"; pen.font = `${small}px sans-serif`;
+      pen.fillStyle = "#333"; pen.font = `${small}px sans-serif`; let widest = 0;
       for (let v = Math.ceil(low / every) * every; v <= high; v += every) {
         if (Math.abs(v - data.middle[k]) > 0.93 * data.half) continue;  // the corners are crowded
         const [x, y] = at(edge((v - data.middle[k]) / data.half));
-        pen.fillText(String(+v.toPrecision(6) || 0).replace("-", "\u2212"), x + 20 * sharp * away[0], y + 16 * sharp * away[1]);
+        const told = String(+v.toPrecision(6) || 0).replace("-", "\u2212"), wide = pen.measureText(told).width;
+        widest = Math.max(widest, wide);
+        pen.fillText(told, x + (8 * sharp + wide / 2) * away[0], y + 16 * sharp * away[1]);
       }
       pen.fillStyle = "#000"; pen.font = `600 ${small * 1.1}px sans-serif`;
-      const [tx, ty] = [mx + (k === 2 ? 92 : 72) * sharp * away[0], my + 52 * sharp * away[1]];
       const half = pen.measureText(data.names[k]).width / 2 + 4;
+      let [tx, ty] = [mx + (18 * sharp + widest + half) * away[0], my + 44 * sharp * away[1]];
+      if (tx < half || tx > canvas.width - half) {  // no room beside the numbers: beyond the upper end of the edge
+        const end = ends[0][1] < ends[1][1] ? ends[0] : ends[1];
+        [tx, ty] = [end[0] + half * 0.5 * away[0], end[1] - 16 * sharp];
+      }
       pen.fillText(data.names[k], Math.min(Math.max(tx, half), canvas.width - half), Math.min(Math.max(ty, small), canvas.height - small));
     }
   }

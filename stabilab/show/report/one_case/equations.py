@@ -4,10 +4,9 @@ from __future__ import annotations
 from ....physics.equations import derive
 from ....physics.laws import invariants
 from ....physics.notation import latex
+from ...units import parameter_unit
 from .. import typeset
 from .measures import spoken, told
-
-UNITS = (("lambda", "N m s"), ("D", "kg m²"), ("M", "N m"), ("mass", "kg"), ("f", "N"))
 
 
 def equations(case) -> dict:
@@ -20,6 +19,4 @@ def equations(case) -> dict:
 
 
 def _unit(case, name):
-    if case.variables != "physical":
-        return ""
-    return next((unit for stem, unit in UNITS if name == stem or name.removeprefix(stem).isdigit()), "")
+    return parameter_unit(name).replace("^2", "²") if case.variables == "physical" else ""

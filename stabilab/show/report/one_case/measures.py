@@ -5,10 +5,16 @@ import math
 import re
 from dataclasses import dataclass
 
+from ...terminal.letters import greek
 from ...units import Units
 
 DIGITS = 5
-LETTERS = {"alpha": "α", "omega": "ω", "lambda": "λ", "gamma": "γ", "sigma": "σ"}
+LETTERS = {"alpha": "α", "omega": "ω", "lambda": "λ", "gamma": "γ", "sigma": "σ", "zeta": "ζ", "kappa": "κ", "mu": "μ", "Omega": "Ω", "Lambda": "Λ",
+           "Gamma": "Γ"}
+INDICES = {"i": "ᵢ", "j": "ⱼ", "k": "ₖ"}
+SIGNS = ((r"\^2(?!\d)", "²"), (r"\^3(?!\d)", "³"), (r"\^4(?!\d)", "⁴"), (r"\bsqrt(?=\()", "√"), (r"<=", "≤"), (r">=", "≥"), (r"(?<=\s)x(?=\s[\w(]+\s=)", "×"),
+         (r"(?<![\w)])-inf\b", "−∞"), (r"\binf\b", "∞"), (r"(?<![\w)\]-])-(?=[\d.])|(?<=[ (])-(?=[\w(])", "−"), (r"(?<=[\w)²³]) - (?=[\w(])", " − "),
+         (r"(?<=\w) \. (?=[\w(])", " · "))
 
 
 @dataclass(frozen=True)
@@ -62,9 +68,19 @@ def vector(values, digits: int = DIGITS) -> str:
 
 
 def spoken(name: str) -> str:
-    """Words with Greek letters in place of their names (ω1, λ3, γ2), with no number of more than six digits, and spans as one says them."""
+    """Words with Greek letters in place of their names (ω1, λ3, γ2), with the signs that a book sets (², √, ≤, −), with no number of more than
+    six digits, and with spans as one says them. What stands between backquotes is a command and stays as it is."""
+    parts = re.split(r"(`[^`]*`)", name)
+    return "".join(part if part.startswith("`") else _spoken(part) for part in parts)
+
+
+def _spoken(name):
     for plain, letter in LETTERS.items():
-        name = re.sub(rf"\b{plain}(?=\d|_|\b)", letter, name)
+        name = re.sub(rf"(?<![\w-]){plain}(?=\d|_[ijk]\b|\b(?!-))", letter, name)
+    name = re.sub(r"(?<=\w)_([ijk])\b", lambda index: INDICES[index[1]], name)
     name = re.sub(r"\b(s|tau) in \[([^],]+), ([^]]+)\]", lambda span: f"{span[2]} to {span[3]} {'s' if span[1] == 's' else 'of τ'}", name)
     name = re.sub(r"\b(kg m|rad/s|m/s|s)\^2\b", r"\1²", name)
-    return re.sub(r"(?<![\w.])\d+\.\d{6,}(?:e[+-]?\d+)?", lambda number: f"{float(number[0]):.6g}", name)
+    name = re.sub(r"(?<![\w.])\d+\.\d{6,}(?:e[+-]?\d+)?", lambda number: f"{float(number[0]):.6g}", name)
+    for plain, sign in SIGNS:
+        name = re.sub(plain, sign, name)
+    return greek(name)

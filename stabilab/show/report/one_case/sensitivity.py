@@ -7,7 +7,7 @@ from ....answers.stuck.ask import stuck
 from ....errors import InputError
 from ....orbit.result import Fate
 from ....physics.alignment import torque_axis
-from .measures import told, vector
+from .measures import spoken, told, vector
 
 UNITS = {"wheel": "N m s", "torque": "N m"}
 OF = {"rate": "rates at the start", "wheel": "wheel momentum", "torque": "torque"}
@@ -57,7 +57,7 @@ def _of_motion(motion, measures):
 
 def _margin(name, margin, measures):
     size = "" if margin.size is None else measures.rate(margin.size) if name == "rate" else told(margin.size, UNITS[name])
-    return {"what": OF[name], "size": size, "direction": vector(margin.direction) if margin.direction else "", "because": margin.because}
+    return {"what": OF[name], "size": size, "direction": vector(margin.direction) if margin.direction else "", "because": spoken(margin.because)}
 
 
 def _wheel(wheel):

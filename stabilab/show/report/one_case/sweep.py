@@ -1,7 +1,6 @@
 """A file with [sweep] as one page: a row a combination, a column a swept key, and one picture of all motions."""
 from __future__ import annotations
 
-import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -9,14 +8,14 @@ import numpy as np
 from ....answers.equilibria import equilibria
 from ....answers.motion import motion
 from ....answers.simulate import simulate
-from ....case.sweep import keys_and_values
 from ....errors import StabilabError
 from ... import style
 from ...terminal.letters import some
+from ...terminal.sweep import key_columns
 from ...units import units_of
 from . import pictures, verdict
 from .equations import equations
-from .measures import Measures, told
+from .measures import Measures
 
 STYLES = ("-", "--", ":", "-.")
 WIDTHS = (1.0, 1.8, 2.6)
@@ -26,13 +25,14 @@ POINTS = 801
 def sections(cases, folder: Path, stem: str) -> dict:
     """What the template says of the combinations of one file; the picture goes into the folder."""
     measures, first = Measures(units_of(cases[0])), cases[0]
-    keys = keys_and_values(tomllib.loads(first.text))
+    keys = [key_columns(cases, place) for place in range(len(first.swept))]
     answered = [(case, *_answer(case)) for case in cases]
-    rows = [_row(case, found, why, keys, measures) for case, found, why in answered]
+    rows = [_row(case, found, why, [cells[n] for key in keys for _, _, cells in key], measures) for n, (case, found, why) in enumerate(answered)]
     moved = [(case, found) for case, found, _ in answered if found is not None]
     return {"name": stem, "title": first.title or stem, "source": first.source, "path": first.path, "text": first.text, "rows": rows,
-            "keys": [_short(key) for key, _ in keys], "picture": _picture(moved, keys, measures, folder / f"{stem}-sweep.png") if moved else None,
-            "equations": _equations(first), "headline": headline(rows),
+            "keys": [_head(label, unit) for key in keys for label, unit, _ in key], "equations": _equations(first),
+            "picture": _picture(moved, keys, cases, measures, folder / f"{stem}-sweep.png") if moved else None,
+            "headline": headline(rows),
             "law": next((row["law"] for row in rows if row["law"]), "")}
 
 
@@ -51,8 +51,8 @@ def _answer(case):
         return None, str(error)
 
 
-def _row(case, found, why, keys, measures):
-    return {"name": case.name, "values": [_value(values[at]) for (_, values), at in zip(keys, _places(case))],
+def _row(case, found, why, values, measures):
+    return {"name": case.name, "values": values,
             "fate": "" if found is None else found.fate.word, "css": "" if found is None else verdict.css(found.fate.word),
             "law": verdict.law(found),
             "told": [why, "", ""] if found is None else [of(found, measures) for of in (verdict.largest, verdict.margin, verdict.period)]}
@@ -63,15 +63,9 @@ def _places(case):
     return [int(word) - 1 for word in case.variant.split("-")[1:]]
 
 
-def _value(value):
-    if isinstance(value, list):
-        return f"({', '.join(map(_value, value))})"
-    return value if isinstance(value, str) else told(float(value), digits=6)
-
-
-def _short(key):
-    """effects.gyrostat.momentum as "gyrostat momentum"."""
-    return " ".join(key.split(".")[-2:]).replace("_", " ")
+def _head(label, unit):
+    """A swept key with its unit: momentum[3] (N m s)."""
+    return f"{label.replace('_', ' ')} ({unit})" if unit else label.replace("_", " ")
 
 
 def _equations(case):
@@ -81,7 +75,7 @@ def _equations(case):
         return None
 
 
-def _picture(moved, keys, measures, path):
+def _picture(moved, keys, cases, measures, path):
     """The size of the rates against time, all combinations in one panel: colour, dashes and width tell the values of the first three keys."""
     until = max(pictures.length(case, found) for case, found in moved)
     (unit, one), (clock, per) = measures.rate_unit, measures.time_unit(until)
@@ -92,7 +86,7 @@ def _picture(moved, keys, measures, path):
             run = simulate(case.scene, case.state, np.linspace(0.0, pictures.length(case, found), POINTS), case.blocks)
             ax.plot(np.asarray(run.t) * per, np.linalg.norm(next(iter(run.state.values())), axis=1) * one, **_look(_places(case)))
         ax.set(xlim=(0.0, until * per), xlabel=f"time ({clock})" if unit else "τ", ylabel=f"|{letter}| ({unit})" if unit else f"|{letter}|")
-        style.legend(figure, list(_legend(keys)), columns=3)
+        style.legend(figure, list(_legend(keys, cases)), columns=3)
         return pictures.described(style.save(figure, path), f"The size of the rates, |{letter}|, of every combination.")
 
 
@@ -101,9 +95,11 @@ def _look(places):
     return {"color": style.SERIES[first % len(style.SERIES)], "linestyle": STYLES[second % len(STYLES)], "linewidth": WIDTHS[third % len(WIDTHS)]}
 
 
-def _legend(keys):
+def _legend(keys, cases):
     """A row a value of each of the first three keys."""
-    for number, (key, values) in enumerate(keys[:3]):
-        for at, value in enumerate(values):
-            look = _look([at if n == number else 0 for n in range(3)])
-            yield f"{_short(key)} = {_value(value)}", look if number == 0 else look | {"color": style.GREY}
+    for number, columns in enumerate(keys[:3]):
+        first = {_places(case)[number]: n for n, case in reversed(list(enumerate(cases)))}  # value -> the first combination that has it
+        for at, n in sorted(first.items()):
+            look = _look([at if m == number else 0 for m in range(3)])
+            words = ", ".join(f"{label.replace('_', ' ')} = {cells[n]} {unit}".rstrip() for label, unit, cells in columns)
+            yield words, look if number == 0 else look | {"color": style.GREY}

@@ -73,7 +73,11 @@ def _distance(motion, measures):
 EVIDENCE = {  # key of what a run showed -> (words, what it is)
     "span": ("followed for", "time"), "size_start": ("|ω| at the start", "rate"), "size_end": ("|ω| at the end", "rate"),
     "size_largest": ("largest |ω| seen", "rate"), "energy_start": ("energy at the start", "energy"), "energy_end": ("energy at the end", "energy"),
-    "energy_change": ("change of energy", "energy"), "t_certificate": ("certificate holds from", "time"), "rate_end": ("rates at the end", "rates")}
+    "energy_change": ("change of energy", "energy"), "t_certificate": ("certificate holds from", "time"), "followed_until": ("followed until", "time"),
+    "release_time": ("released at", "time"),
+    "release_estimate": ("released at about", "time"), "rate_end": ("rates at the end", "rates"), "energy_trend": ("the energy", ""),
+    "steps": ("steps of the run", ""), "invariant_drift": ("exact laws kept to", ""), "steps_followed": ("steps of the certified run", ""),
+    "small_change_grew": ("a small change grew by a factor of", "")}
 
 
 def _evidence(name, value, measures):
@@ -84,7 +88,7 @@ def _evidence(name, value, measures):
         return words, getattr(measures, kind)(value)
     if isinstance(value, (list, tuple)) or hasattr(value, "tolist"):
         return words, vector(value, 6) if all(isinstance(v, float) for v in value) else ", ".join(map(str, value))
-    return words, told(value, digits=6) if isinstance(value, float) else str(value)
+    return words, told(value, digits=3) if isinstance(value, float) else str(value)
 
 
 def extremes(case, motion, measures) -> list[dict]:
@@ -100,6 +104,10 @@ def extremes(case, motion, measures) -> list[dict]:
 
 def invariants(motion, measures) -> list[tuple[str, str]]:
     """(name, value with its unit where it is known what it is) of the constants of this motion."""
-    known = {"energy": measures.energy, "rate_bound": measures.rate, "late_rate_bound": measures.rate}
-    words = {"rate_bound": "|ω| never exceeds", "late_rate_bound": "|ω| in the end at most"}
+    known = {"energy": measures.energy, "rate_bound": measures.rate, "late_rate_bound": measures.rate,
+             "Q": lambda v: measures.units.Q(v, DIGITS).replace("^2", "²"),
+             "momentum": lambda v: measures.units.momentum(v, DIGITS), "J": lambda v: told(v, "(N m s)²" * measures.physical),
+             "J_rate": lambda v: told(v, "(N m s)²/s" * measures.physical)}
+    words = {"rate_bound": "|ω| never exceeds", "late_rate_bound": "|ω| in the end at most", "Q": "invariant Q", "J_rate": "J changes by",
+             "momentum": "angular momentum"}
     return [(words.get(name, name.replace("_", " ")), known.get(name, lambda v: told(v, digits=6))(value)) for name, value in motion.invariants.items()]
