@@ -13,13 +13,27 @@ from .rows import Row
 
 CASES = Path(__file__).parents[1] / "cases"
 NAMES = ("thruster-stuck-major-axis", "minor-axis-100", "middle-axis-double-well", "cubesat-3u")
+FOLLOWED = ("liquid-sensible", "top-fast")  # bodies of other effects
 UPDATE, ANALYSIS = 100.0, 10.0  # ms: of all, and of the verdict
 WHAT = "the rest: equilibria with proofs, separatrix of 18 x 33 places a sheet, motion, phase plane"
 
 
 def rows(small=False) -> list[Row]:
     """CPU time of one process, as other work on the machine does not change it. theirs: what is allowed."""
-    return [row for name in NAMES[:1 if small else None] for row in _rows(name, 3 if small else 25)]
+    made = [row for name in NAMES[:1 if small else None] for row in _rows(name, 3 if small else 25)]
+    return made if small else [*made, *(_followed(name) for name in FOLLOWED)]
+
+
+def _followed(name, rounds=25) -> Row:
+    """The start of a body moves whose motion has to be followed in time."""
+    session, times = Session(load(CASES / f"{name}.toml")), []
+    own = float(session.about()["groups"][2]["controls"][0]["value"])
+    box = unframed(session.answer({}))[0]["space"]["box"]
+    for n in range(rounds + 2):
+        begun = time.process_time()
+        session.answer({"start": [repr(own * (1 + 0.003 * n)), None, None], "box": box, "moving": True})
+        times.append(1e3 * (time.process_time() - begun))
+    return _row(f"explorer, the start of {name} moves", times[2:], UPDATE, "1200 places of the motion by Taylor series")
 
 
 def _rows(name, rounds) -> list[Row]:

@@ -13,7 +13,7 @@ from ...equilibrium.result import Equilibria
 from ...errors import InputError, StabilabError
 from ...packages import demand
 from ...physics.coefficients import content
-from ...physics.scene import AnyScene
+from ...physics.scene import AnyScene, Scene
 
 POINTS = 1200  # of a motion that is drawn
 NOT_YET = {"reason": "Keep still, and the equilibria are looked for.", "rows": []}
@@ -41,7 +41,7 @@ def why(scene: AnyScene) -> str:
     names = [effect.name for effect in scene.effects]
     taking = [TAKES[name] for name in names if name in TAKES]
     turning = [TURNS[name] for name in names if name in TURNS]
-    if (charge := scene.effect("charge")) is not None and charge.follows_attitude:
+    if isinstance(scene, Scene) and (charge := scene.effect("charge")) is not None and charge.follows_attitude:
         turning.append("the charge")
     reasons = [f"{' and '.join(some)} {word}{'s' * (len(some) == 1)} {how}" for some, word, how in ((taking, "take", "energy away"),
                                                                                                  (turning, "act", "by the attitude")) if some]

@@ -142,7 +142,9 @@ class Session:
         if ghost:
             words = "No separatrix is known for a torque off the axes" + (": the surface drawn is that of the torque without its tilt" if sheets else "")
         names = [planes.labelled(component.replace("omega", "ω"), self.units.rates[0]) for component in case.scene.components]
-        made = space.drawn(bag, box, names, self.units.rates[1], sheets, at_rest, near, marks, ghost, POINTS[moving])
+        number = POINTS[moving]
+        rests = self._once("lines", (case.scene, box, number, at_rest is None), lambda: space.lines(at_rest, box, *number))
+        made = space.drawn(bag, box, names, self.units.rates[1], sheets, rests, near, marks, ghost)
         return made | {"words": words, "box": {"middle": box.middle, "half": box.half}}
 
     def _sheets(self, scene: AnyScene, box: space.Box, moving: bool) -> tuple[Sequence[PlainSheet], str]:

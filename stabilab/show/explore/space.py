@@ -92,12 +92,12 @@ def seen(sheet: PlainSheet, box: Box) -> bool:
     return any(box.holds(p) for p in sheet.points)
 
 
-def drawn(bag: Bag, box: Box, names: list[str], one: float, sheets: Sequence[PlainSheet], found: Equilibria | None, path: list[tuple[float, ...]],
-          marks: list[dict[str, Any]], ghost: bool, number: tuple[int, int]) -> dict[str, Any]:
+def drawn(bag: Bag, box: Box, names: list[str], one: float, sheets: Sequence[PlainSheet], rests: list[tuple[str, list[Point]]], path: list[tuple[float, ...]],
+          marks: list[dict[str, Any]], ghost: bool) -> dict[str, Any]:
     """What the view takes. one: how many of the unit of the labels make one of the scene's; ghost: the sheets are those of the torque without its tilt;
-    number: as of `lines`."""
+    rests: of `lines`."""
     curves: list[dict[str, Any]] = [{"kind": KINDS[kind], "colour": colour(kind), "at": bag.add("int16", packed(places, box))}
-                                    for kind, places in lines(found, box, *number)]
+                                    for kind, places in rests]
     if path:
         curves.append({"kind": "this motion", "colour": style.MEANING["this motion"]["color"], "at": bag.add("int16", packed(path, box))})
     surfaces = [{"name": _sheet_name(sheet, ghost), "colour": SHEETS[n % len(SHEETS)], "rows": sheet.rows, "columns": sheet.columns,
