@@ -56,7 +56,10 @@ def connections(family: Family, system: Any, pieces: tuple[Piece, ...]) -> list[
         saddles = [n for n, state in enumerate(piece.states) if state.linear == "unstable"]
         if len(saddles) == 2 and _on_a_circle(family, system.axis, piece.sample):
             width = Fraction(piece.high) - Fraction(piece.low)
-            low, high = Fraction(piece.low) + NEAR * width, Fraction(piece.high) - NEAR * width
+            off = max(NEAR * width, max(abs(Fraction(piece.low)), abs(Fraction(piece.high))) / (1 << 50))  # the ends are rounded to doubles
+            low, high = Fraction(piece.low) + off, Fraction(piece.high) - off
+            if low >= high:
+                continue
             for way in (0, 1):
                 found += [_event(family, eliminated, piece, value) for value in _zeros(_Rise(family, eliminated, saddles, way), low, high)]
     return sorted(found, key=lambda event: event.value)
@@ -107,6 +110,8 @@ class _Rise:
             off = arb(0, rational((high - low) / 2))
             p = off + arb(rational(middle))
             roots = real_roots_of(univariate(at_rational(self.eliminated.main.R, (middle,))))
+            if len(roots) <= max(self.saddles):
+                raise Unclear
             ends = [self._saddle(roots[n][0], middle, off, p) for n in self.saddles]
             return self._rise(arb_series([p, 1]), ends[:: -1 if self.way else 1])
 

@@ -57,3 +57,7 @@ def test_equilibria_on_a_motions_curve_are_those_that_brute_force_counts(check):
 @pytest.mark.slow
 def test_equilibria_on_a_thousand_motions_curves_are_those_that_brute_force_counts(check):
     assert sum(check(seed) for seed in range(100, 1100)) > 500
+
+
+def test_a_piece_whose_end_is_rounded_outward_is_followed(check):
+    assert check(2067) > 0  # two saddles were asked for one double beyond their fold
