@@ -45,6 +45,8 @@ ASKED = {"classify": ([], [*MANY, "liquid"]),
          "fate": ([], MANY), "extremes": ([], MANY), "period": ([], MANY), "when": (["--rate", "0.3 rad/s"], MANY),
          "simulate": (["--at", "0,1"], MANY), "compare": ([], ["charged"]), "precision": (["--quick"], ["bounded"]),
          "sweep": (["--vary", "motion.angular_velocity[3]=0:4:3", "--answer", "fate,margin,distance,extremes,period"], ["bounded", "no saddle"]),
+         "basin": (["--vary", "motion.angular_velocity[1]=-1:1:3", "--vary", "motion.angular_velocity[3]=-1:1:3", "--depth", "1"], ["bounded"]),
+         "atlas": (["--level", "0", "--refine", "0"], ["bounded"]), "chaos": (["--until", "5"], ["bounded"]),
          "bifurcation": (["--vary", "torque[3]=-1:1"], ["bounded", "off the axes"]),
          "reference": (["--at", "0,1", "--digits", "12"], ["bounded"]), "stuck": ([], ["craft"]), "verify": ([], ["certificate"]),
          "audit": (["constant-torque-gyrostat", "--equation", "17"], [None]), "validate": ([], [None])}
