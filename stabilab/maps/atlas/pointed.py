@@ -12,8 +12,7 @@ from ...case.read import Case
 from ...numbers.exact import sqrt_fraction
 from ...numbers.principal import without_trace
 from ...numbers.vectors import Exact3, dot
-from ...physics.effects.constant_torque import ConstantTorque
-from ...physics.effects.gyrostat import Gyrostat
+from ...physics.effects import effect_class
 from ...physics.scene import Scene
 from .cells import middles
 
@@ -49,7 +48,7 @@ class Pointed:
         point = self.points[number]
         torque = tuple(self.torque * part for part in self._direction(case, number))
         wheel = without_trace(self.wheels[point.wheel], torque)
-        return replace(case, scene=Scene(case.scene.body, Gyrostat(wheel), ConstantTorque(torque)))  # type: ignore[union-attr]  # of a body
+        return replace(case, scene=Scene(case.scene.body, effect_class("gyrostat")(wheel), effect_class("constant_torque")(torque)))  # type: ignore[union-attr]  # of a body
 
     def _direction(self, case: Case, number: int) -> Exact3:
         point = self.points[number]
