@@ -135,7 +135,7 @@ def turning_point(land, spots, place, w, side):
         end = np.array(land.potential.move(tuple(spot), y))
         haze = land.haze(tuple(spot), start, y)
         blur = haze / np.abs(land.potential.force(tuple(end))) + EPS * np.abs(start)
-    return np.where(ok, start + y, 0.0), end, ok, blur, haze
+        return np.where(ok, start + y, 0.0), end, ok, blur, haze
 
 
 def _start_between(land, spots, rows, well, barrier, level, gap, spot, other):

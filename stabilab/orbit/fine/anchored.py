@@ -17,7 +17,8 @@ LAG = 0.3  # below it y - sinh y is a series
 
 
 class Anchored:
-    """As a `potential` of anchors: tuples (X, Z, s) of equilibria, or (X, Z, s, y) of places y away from these."""
+    """As a `potential` of anchors: tuples (X, Z, s, f, t) of equilibria, f and t what the force there and its slope s may be off by, or
+    (X, Z, s, f, t, y) of places y away from these."""
 
     def __init__(self, reduction):
         g = reduction.constants
@@ -47,18 +48,19 @@ class Anchored:
         return sum(self._terms(y, anchor))
 
     def rounding(self, y, anchor):
-        """Size of the error of `rise`."""
-        return ROUNDED * EPS * sum(map(np.abs, self._terms(y, anchor)))
+        """Size of the error of `rise`: of its terms, which grow like an exponential of y, and of what the anchor is off by."""
+        s, h = self._swing(y)
+        return (ROUNDED + 2 * np.abs(y)) * EPS * sum(map(np.abs, self._terms(y, anchor))) + anchor[3] * np.abs(s) + 2 * anchor[4] * h * h
 
     def move(self, anchor, y):
         """The place y away."""
-        return *anchor[:3], np.broadcast_to(y, np.shape(anchor[0]))
+        return *anchor[:5], np.broadcast_to(y, np.shape(anchor[0]))
 
     def force(self, place):
-        """F at (X, Z, s, y); nothing at an anchor."""
-        if len(place) < 4:
+        """F y away from an anchor; nothing at the anchor itself."""
+        if len(place) < 6:
             return np.zeros(np.shape(place[0]))
-        (s, h), (a, b) = self._swing(place[3]), self.modes(*place[:2])
+        (s, h), (a, b) = self._swing(place[5]), self.modes(*place[:2])
         h2 = h * h
         return place[2] * s + self.e * h2 * (6 * a - 2 * self.mu + 4 * b * s) + 8 * a * h2 * h2
 

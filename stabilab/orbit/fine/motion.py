@@ -53,12 +53,12 @@ def fine_interval(land: Landscape, states) -> FineInterval:
     left, right = np.minimum(ends[0][0], 0.0), np.maximum(ends[1][0], 0.0)
     inside = spots.there & (spots.offset >= left[:, None]) & (spots.offset <= right[:, None])
     fastest = np.maximum(np.where(inside & ~spots.barrier, spots.energy, -np.inf).max(axis=1, initial=-np.inf), 0.5 * w * w)
-    off = _anchors_error(found, inside, fastest)
+    off, astray = _anchors_errors(found, inside, fastest)
     blur, haze, forces = [], [], []
     for _, place, _, unsure, rounding in ends:
         with np.errstate(all="ignore"):
             forces.append(anchors.potential.force(tuple(place)))
-            blur.append(unsure + off / np.abs(forces[-1]))
+            blur.append(unsure + off / np.abs(forces[-1]) + astray)
         haze.append(rounding + off)
     with np.errstate(invalid="ignore"):
         clear = (~spots.there | ~spots.barrier | (np.abs(spots.energy) > CLEAR * found.error)).all(axis=1)
@@ -66,13 +66,15 @@ def fine_interval(land: Landscape, states) -> FineInterval:
     return FineInterval(left, right, fastest, np.array(blur), np.maximum(*haze) + EPS * fastest, ok, np.array(forces), found)
 
 
-def _anchors_error(found, inside, fastest):
-    """(n,) error of the energy over the equilibria from which ends are told: those inside and next to these, no farther from the energy."""
+def _anchors_errors(found, inside, fastest):
+    """(n,) errors of the energy over the equilibria from which ends are told, and of the ways to these: those inside and next to these, no farther
+    from the energy."""
     near = inside.copy()
     near[:, 1:] |= inside[:, :-1]
     near[:, :-1] |= inside[:, 1:]
     with np.errstate(invalid="ignore"):
-        return np.where(near & (np.abs(found.spots.energy) <= fastest[:, None]), found.error, 0.0).max(axis=1, initial=0.0)
+        told = near & (np.abs(found.spots.energy) <= fastest[:, None])
+        return tuple(np.where(told, error, 0.0).max(axis=1, initial=0.0) for error in (found.error, found.astray))
 
 
 def fine_boxes(land: Landscape, states):
@@ -110,7 +112,8 @@ def fine_periods(land: Landscape, states):
                      else _modes_of_intervals(land, span, some))
             modes = _held(modes, span, some, half)
             values[some], shape = librations(modes, half)
-            sure[some] = np.isfinite(values[some]) & _vouched(modes, half, span.blur[:, some], shape)
+            unknown = spots.place[3:, rows, anchor][:, some].sum(axis=0)
+            sure[some] = np.isfinite(values[some]) & _vouched(modes, half, span.blur[:, some], shape) & (unknown <= PERIOD_DIGITS * shape.min(axis=0))
     return values, sure
 
 

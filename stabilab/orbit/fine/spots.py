@@ -15,16 +15,18 @@ from .places import twofold_places
 
 STEPS = 4
 ENOUGH = 1e-12  # of the way to the nearest other equilibrium, or of a radian: the last step leaves its square
+TWOFOLD = 2.0**-100  # units of rounding of a twofold sum of some terms, by their size
 DRIFT = 1e-3  # of a radian: farther from the doubles' place another equilibrium may have been found
 
 
 @dataclass(frozen=True)
 class FineSpots:
-    """spots: as `spots_along` gives them, with the slope of the force as third row of the place; error: (n, m) of the energy; sure: (n,) where
-    all were placed; x, z, w: (n,) of the states."""
+    """spots: as `spots_along` gives them, with the rows of an `Anchored` place; error: (n, m) of the energy; astray: (n, m) of the offset,
+    besides its rounding; sure: (n,) where all were placed; x, z, w: (n,) of the states."""
 
     spots: Spots
     error: np.ndarray
+    astray: np.ndarray
     sure: np.ndarray
     x: np.ndarray
     z: np.ndarray
@@ -42,19 +44,20 @@ def fine_spots(land: Landscape, states) -> FineSpots:
         u, v = (Twofold(np.where(rough.there, p, np.nan), np.zeros(p.shape)) for p in land.xz(rough.place))
         u, v, slope, last = _settled(land, u, v, X, Z)
         way = _way(land, u, v, X, Z)
+        pull, bend, astray = _left_over(land, u.high, v.high, X.high, Z.high, tuple(s[:, None] for s in size), last)
         turns = np.round((rough.offset - way) / TURN) if land.turn < np.inf else np.zeros(way.shape)
         turns = np.where(rough.there, turns, 0.0)
-        anchors = np.array([u.value(), v.value(), slope])
+        anchors = np.array([u.value(), v.value(), slope, pull, bend])
         pot, kinetic = Anchored(land.reduction), 0.5 * w[:, None] ** 2
         fall = TURN * pot.mu * turns
         energy = kinetic + pot.rise(-way, anchors) + fall
-        error = pot.rounding(-way, anchors) + ROUNDED * EPS * (kinetic + np.abs(fall))
+        error = pot.rounding(-way, anchors) + ROUNDED * EPS * (kinetic + np.abs(fall)) + np.abs(land.potential.force(place))[:, None] * astray
         offset = np.where(rough.there, way + TURN * turns, np.inf)
         good = (np.abs(last) <= ENOUGH) & (np.abs(offset - rough.offset) <= DRIFT) & ((slope > 0) == rough.barrier) & np.isfinite(energy)
         apart = (np.diff(offset, axis=1) > 0) | ~rough.there[:, 1:]
     sure = (good | ~rough.there).all(axis=1) & apart.all(axis=1) & ~_beside_fold(land, place, size) & ~land.beside_centre(place)
     filled = np.where(rough.there, anchors, 1.0)
-    return FineSpots(Spots(offset, filled, np.where(rough.there, energy, np.nan), rough.barrier, rough.there), error, sure, x.value(), z.value(), w)
+    return FineSpots(Spots(offset, filled, np.where(rough.there, energy, np.nan), rough.barrier, rough.there), error, astray, sure, x.value(), z.value(), w)
 
 
 def _beside_fold(land, place, size):
@@ -81,10 +84,25 @@ def _settled(land, u, v, X, Z):
     return u, v, (k.G * (v * v + u * u * e) + k.c * u * e + k.d * v).value(), step
 
 
+def _left_over(land, u, v, X, Z, size, last):
+    """What 32 digits and Newton's last step leave open, (n, m) each: of the force at the equilibria (u, v) and of its slope, and of the ways from the
+    states (X, Z), whose coordinates are sums of terms of that `size`."""
+    k, far = land.conic, np.abs(u) + np.abs(v)
+    wide = size[0] + size[1]
+    off = TWOFOLD * (far + wide * wide / far)  # of a place beside its orbit, whose own size is off by TWOFOLD * wide^2
+    steep = abs(k.G) * far + abs(k.c) + abs(k.d)
+    bent = (2 * abs(k.G) * far + steep) * far * last * last
+    side = np.where(X * Z < 0, -1.0, 1.0)
+    start, end = (np.abs(X + side * Z), np.abs(u + side * v)) if land.e > 0 else (np.hypot(X, Z), np.hypot(u, v))
+    return steep * off + TWOFOLD * k.mu + bent, (abs(k.G) * far + steep) * off, TWOFOLD * wide / start + off / end
+
+
 def _way(land, u, v, X, Z):
     """theta from the states (X, Z) to places on their orbits, the short way round a circle."""
-    Q = (Z * Z - X * X * land.e).value()
-    across = (u * Z - v * X).value() / Q
-    if land.e > 0:
-        return np.arcsinh(across)
-    return np.arctan2(across, (u * X + v * Z).value() / Q)
+    if land.e > 0:  # X + Z grows and X - Z decays like an exponential: the larger of these keeps its digits next to a plane too
+        side = np.where(X.high * Z.high < 0, -1.0, 1.0)
+        start, end = X + Z * side, u + v * side
+        grown, ratio = ((end - start) / start).value(), (end / start).value()
+        return side * np.where(np.abs(grown) < 0.5, np.log1p(grown), np.log(ratio))
+    Q = (Z * Z + X * X).value()
+    return np.arctan2((u * Z - v * X).value() / Q, (u * X + v * Z).value() / Q)

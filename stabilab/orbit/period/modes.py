@@ -87,8 +87,9 @@ class HyperbolaModes(Modes):
 
     def second_difference(self, rho, left, right):
         up1, down1, up2, down2 = self.data
-        return (up1 * _exp_difference(rho, left, right) + down1 * _exp_difference(rho, right, left)
-                + up2 * 4 * _exp_difference(2 * rho, left, right) + down2 * 4 * _exp_difference(2 * rho, right, left))
+        with np.errstate(over="ignore", invalid="ignore"):  # of an interval some hundreds wide H is no number, and nothing vouches for it
+            return (up1 * _exp_difference(rho, left, right) + down1 * _exp_difference(rho, right, left)
+                    + up2 * 4 * _exp_difference(2 * rho, left, right) + down2 * 4 * _exp_difference(2 * rho, right, left))
 
 
     def whole(self, rho):
@@ -112,10 +113,9 @@ class HyperbolaModes(Modes):
                 cv, sv = 0.5 * (grown / eu + eu / grown), 0.5 * (grown / eu - eu / grown)
                 fu, fv = su / u if share else np.ones_like(u), sv / v
                 odd1, odd2 = cu * fv - fu * cv, (1 + 2 * su * su) * fv * cv - fu * cu * (1 + 2 * sv * sv)
-        up1, down1, up2, down2 = self.data
-        both = fu * fv
-        even = both * (0.5 * (up1 + down1) + 2 * (up2 + down2) * cu * cv)
-        return even, (0.5 * (up1 - down1) * odd1 + (up2 - down2) * odd2) / rho
+            up1, down1, up2, down2 = self.data
+            even = fu * fv * (0.5 * (up1 + down1) + 2 * (up2 + down2) * cu * cv)
+            return even, (0.5 * (up1 - down1) * odd1 + (up2 - down2) * odd2) / rho
 
 
 class ParabolaModes(Modes):
