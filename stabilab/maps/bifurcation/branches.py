@@ -11,6 +11,7 @@ from ...numbers.double_ball import Unclear
 from ...numbers.vectors import Float3
 from .choice import chosen
 from .eliminated import Eliminated
+from .parts import Part, followed, parts
 from .result import Diagram, Piece
 from .verdicts import ball_form, state_of
 
@@ -19,7 +20,8 @@ POINTS = 64  # of a branch, closer towards both ends as a fold's parabola needs 
 
 @dataclass(frozen=True)
 class Branch:
-    """A branch of one piece: rows (value, state in the case's variables), the verdict that all of it has, and which branch of which piece it is."""
+    """A branch of one piece, or of a part of it between seams: rows (value, state in the case's variables), the verdict that all of it has, and which
+    branch of which piece it is."""
 
     piece: int
     number: int
@@ -38,14 +40,20 @@ def branches(diagram: Diagram, points: int = POINTS) -> list[Branch]:
 
 
 def _of_piece(diagram: Diagram, eliminated: Eliminated, n: int, piece: Piece, points: int) -> Iterator[Branch]:
-    rows = [(float(value), states) for value in _spread(piece, points) if (states := _solved(diagram, eliminated, value, piece.count)) is not None]
-    for number in range(piece.count):
-        yield Branch(n, number, piece.states[number].verdict, tuple(value for value, _ in rows), tuple(states[number] for _, states in rows))
+    """The branches of a piece, each part of it by itself; a branch keeps its number across a seam."""
+    numbers, last = list(range(piece.count)), None
+    for part in parts(diagram.family, diagram.kind, eliminated, piece):
+        rows = [(float(value), states) for value in _spread(part, points) if (states := _solved(diagram, eliminated, value, piece.count)) is not None]
+        if rows and last is not None:
+            numbers = [numbers[k] for k in followed(last, rows[0][1])]
+        for place, number in enumerate(numbers):
+            yield Branch(n, number, part.states[place].verdict, tuple(value for value, _ in rows), tuple(states[place] for _, states in rows))
+        last = rows[-1][1] if rows else last
 
 
-def _spread(piece: Piece, points: int) -> list[Fraction]:
+def _spread(part: Part, points: int) -> list[Fraction]:
     """Values inside, ends left out."""
-    low, high = Fraction(piece.low), Fraction(piece.high)
+    low, high = Fraction(part.low), Fraction(part.high)
     shares = [Fraction(0.5 - 0.5 * math.cos(math.pi * k / points)) for k in range(1, points)]
     ends = [Fraction(1, 10**6), 1 - Fraction(1, 10**6)]
     return sorted(low + (high - low) * share for share in {*shares, *ends})

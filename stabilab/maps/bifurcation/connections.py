@@ -18,10 +18,12 @@ from typing import TYPE_CHECKING, Any
 
 from ...numbers.balls import rational, real_roots_of, settled, working
 from ...numbers.double_ball import Unclear
+from ...numbers.vectors import Float3
 from .choice import chosen
 from .eliminated import Eliminated, at_rational, evaluated, of_power, univariate
 from .family import Family
-from .result import Diagram, Event, Piece
+from .parts import followed, parts
+from .result import Diagram, Event, Piece, State
 from .system import LEAF, Conics
 from .verdicts import ball_form, general_states
 
@@ -31,6 +33,7 @@ if TYPE_CHECKING:
 BITS = 160
 NEAR = Fraction(1, 10**9)  # of a piece: so near to its ends, where a saddle is lost, nothing is looked for
 DEPTH = 48  # halvings of an interval
+PARTS = (Fraction(1, 2), Fraction(5, 11), Fraction(6, 11))  # places where an interval may be divided
 WORDS = "two saddles are at one height: the separatrix of each ends at the other"
 
 
@@ -50,25 +53,62 @@ def connections(family: Family, system: Any, pieces: tuple[Piece, ...]) -> list[
     if not isinstance(system, Conics):
         return []
     eliminated, found = Eliminated(family, system), []
-    if eliminated.main.lean:
-        return []
     for piece in pieces:
-        saddles = [n for n, state in enumerate(piece.states) if state.linear == "unstable"]
-        if len(saddles) == 2 and _on_a_circle(family, system.axis, piece.sample):
-            width = Fraction(piece.high) - Fraction(piece.low)
-            off = max(NEAR * width, max(abs(Fraction(piece.low)), abs(Fraction(piece.high))) / (1 << 50))  # the ends are rounded to doubles
-            low, high = Fraction(piece.low) + off, Fraction(piece.high) - off
-            if low >= high:
-                continue
-            for way in (0, 1):
-                found += [_event(family, eliminated, piece, value) for value in _zeros(_Rise(family, eliminated, saddles, way), low, high)]
-    return sorted(found, key=lambda event: event.value)
+        if sum(state.linear == "unstable" for state in piece.states) == 2 and _on_a_circle(family, system.axis, piece.sample):
+            if eliminated.main.lean:
+                raise Unclear
+            found += _of_piece(family, eliminated, piece)
+    return _once(sorted(found, key=lambda event: event.value))
+
+
+def _of_piece(family: Family, eliminated: Eliminated, piece: Piece) -> list[Event]:
+    """Those of a piece: inside each part of it, and at each seam between two."""
+    width = Fraction(piece.high) - Fraction(piece.low)
+    off = max(NEAR * width, max(abs(Fraction(piece.low)), abs(Fraction(piece.high))) / (1 << 50))  # the ends are rounded to doubles
+    found, before = [], None
+    for part in parts(family, LEAF, eliminated, piece):
+        low, high = Fraction(part.low) + off, Fraction(part.high) - off
+        if low >= high:
+            before = None
+            continue
+        saddles = [n for n, state in enumerate(part.states) if state.linear == "unstable"]
+        rises = [_Rise(family, eliminated, saddles, way) for way in (0, 1)]
+        for rise in rises:
+            found += [_event(family, eliminated, piece, value) for value in _zeros(rise, low, high)]
+        if piece.seams and before is not None:
+            kept = followed(before[1], _places(family, eliminated, saddles, low))
+            if any(rise.sign(low) != before[0][way] for rise, way in zip(rises, kept)):  # where both have changed places each goes the other's way
+                found.append(_event(family, eliminated, piece, Fraction(part.low)))
+        before = ([rise.sign(high) for rise in rises], _places(family, eliminated, saddles, high)) if piece.seams and part.high < piece.high else None
+    return found
+
+
+def _places(family: Family, eliminated: Eliminated, saddles: list[int], value: Fraction) -> list[Float3]:
+    """The states of the saddles at a value, by their places in the order there."""
+    states = settled(partial(general_states, family, LEAF, eliminated, value))
+    return [states[n].at for n in saddles]
+
+
+def _once(events: list[Event]) -> list[Event]:
+    """Each value once: where the torque about the centre vanishes both ways round come to one height together."""
+    return [event for n, event in enumerate(events) if not n or event.value != events[n - 1].value]
 
 
 def _event(family: Family, eliminated: Eliminated, piece: Piece, value: Fraction) -> Event:
     value = Fraction(float(value))
-    states = settled(partial(general_states, family, LEAF, eliminated, value))
-    return Event(float(value), None, (), 0, ("connection",), piece.count, states, WORDS)
+    return Event(float(value), None, (), 0, ("connection",), piece.count, _states_at(family, eliminated, piece, value), WORDS)
+
+
+def _states_at(family: Family, eliminated: Eliminated, piece: Piece, value: Fraction) -> tuple[State, ...]:
+    """The equilibria at a value, at a seam by a view in which no two are in line."""
+    for view in (eliminated.main, *eliminated.views):
+        try:
+            states = settled(partial(general_states, family, LEAF, eliminated, value, view=view), most=1024)
+        except Unclear:
+            continue
+        if len(states) == piece.count:
+            return states
+    raise Unclear
 
 
 def _on_a_circle(family: Family, axis: int, value: Fraction) -> bool:
@@ -242,12 +282,26 @@ def _zeros(rise: _Rise, low: Fraction, high: Fraction) -> list[Fraction]:
             pass
         if depth == DEPTH:
             raise Unclear
-        middle = (a + b) / 2
+        middle = _divided(rise, a, b)
         stack += [(a, middle, depth + 1), (middle, b, depth + 1)]
     return out
 
 
+def _divided(rise: _Rise, low: Fraction, high: Fraction) -> Fraction:
+    """A value near the middle at which the rise has a sign: no interval ends at a zero, which it would never be rid of. A scene with a mirror
+    has its zero in the very middle."""
+    for part in PARTS:
+        value = low + (high - low) * part
+        try:
+            rise.sign(value)
+        except (Unclear, ZeroDivisionError):
+            continue
+        return value
+    return (low + high) / 2
+
+
 def _bisected(sign: Callable[[Fraction], int], low: Fraction, high: Fraction, first: int) -> Fraction:
+    """The zero between two values, to the last bit of a double; a short number that cannot be told from it is taken for it."""
     for _ in range(60):
         middle = Fraction(float((low + high) / 2))
         if not low < middle < high:

@@ -35,7 +35,7 @@ class Root(NamedTuple):
 
 @dataclass(frozen=True)
 class Leant:
-    """R in x - lean y. guard: the constant coefficients of y^2; where both vanish points may be invented."""
+    """R in x - lean y. guard: the constant coefficients of y^2 (of y, for lines); where both vanish points may be invented."""
 
     lean: Fraction
     f: fmpq_mpoly
@@ -94,7 +94,8 @@ class Eliminated:
 
     def _leant(self, lean: Fraction) -> Leant | None:
         f, g = self.system.leant(lean)  # type: ignore[union-attr]  # a line is not asked
-        guard = tuple(_coefficient(h, 2) for h in (f, g))
+        highest = 1 if max(_total(f), _total(g)) < 2 else 2  # of two lines all over the range y itself has constant coefficients
+        guard = tuple(_coefficient(h, highest) for h in (f, g))
         if all(c.is_zero() for c in guard):
             return None
         return Leant(lean, f, g, _resultant_y(f, g), guard)
@@ -114,10 +115,10 @@ class Eliminated:
             return [Fraction(0)] * (1 if f.degree() == 0 else 9)
         return [Fraction(0)] * (f.degree() - f.gcd(f.derivative()).degree() + 1)
 
-    def at_general(self, values: tuple[Fraction, ...]) -> list[Root]:
-        """The same at a point where nothing happens, by the main view alone: rising in x, so that branches keep their numbers."""
-        f = univariate(at_rational(self.main.R, values))
-        return self._with_states(self.main, real_roots_of(f), [rational(v) for v in values])
+    def at_general(self, values: tuple[Fraction, ...], view: Leant | None = None) -> list[Root]:
+        """The same at a point where nothing happens, by one view, else the main one: rising in x, so that branches keep their numbers."""
+        view = view or self.main
+        return self._with_states(view, real_roots_of(univariate(at_rational(view.R, values))), [rational(v) for v in values])
 
     def at_algebraic(self, number: Algebraic, bits: int) -> list[Root] | None:
         """The equilibria at an algebraic p (a family of one number), None where they are not isolated. Unclear where so many bits do not tell."""
@@ -133,8 +134,28 @@ class Eliminated:
         if key not in self._known:
             made = [(view, number.powers(f)) for view in self._needed(number) if not all(_zero_at(c, number) for c in view.guard)
                     if (f := number.trimmed(_over_field(view.R)))]
-            self._known[key] = max(made, key=lambda one: sum(len(factor) - 1 for factor, _ in one[1])) if made else None
+            self._known[key] = max(made, key=lambda one: sum(len(factor) - 1 for factor, _ in one[1])) if made else self._of_lines(number)
         return self._known[key]
+
+    def _of_lines(self, number: Algebraic) -> tuple[Leant, Powers] | None:
+        """The same where both conics become lines there: these meet in one point, in none, or are one line (None)."""
+        view = self.main
+        zero = number.polynomial * 0
+        rows = []
+        for h in (view.f, view.g):
+            at: dict[tuple[int, int], Any] = {}
+            for n in range(3):
+                for m in range(3 - n):
+                    at[n, m] = number.reduced(univariate(of_power(of_power(h, 0, n), 1, m), 2))
+            if any(at[place] != zero for place in ((2, 0), (1, 1), (0, 2))):
+                return None
+            rows.append((at[0, 0], at[1, 0], at[0, 1]))
+        (f0, f1, f2), (g0, g1, g2) = rows
+        across, constant, other = (number.reduced(c) for c in (f1 * g2 - g1 * f2, f0 * g2 - g0 * f2, f0 * g1 - g0 * f1))
+        if across != zero:
+            return view, [([constant, across], 1)]
+        empty = any(row[0] != zero and row[1] == zero and row[2] == zero for row in rows)
+        return (view, []) if empty or constant != zero or other != zero else None
 
     @cached_property
     def _known(self) -> dict[tuple[str, int], tuple[Leant, Powers] | None]:
@@ -190,6 +211,11 @@ def _common(rows: list[list[arb]]) -> arb:
         if fitting:
             return fitting[0]
     raise Unclear
+
+
+def _total(h: fmpq_mpoly) -> int:
+    """The degree in both unknowns."""
+    return max((powers[0] + powers[1] for powers in h.to_dict()), default=0)
 
 
 def _factors(f: fmpq_mpoly) -> list[tuple[fmpq_mpoly, int]]:

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -62,7 +63,7 @@ def _event(family: Family, kind: str, eliminated: Eliminated, cut: Cut, sides: S
         return make(("axis",), *_on_an_axis(family, system, cut))
     roots = settled(lambda digits: [eliminated.at_algebraic(number, digits.bits)])[0]
     if roots is None:
-        return make(("axis",), ENDLESS, (), "every point of a curve is an equilibrium")
+        return make(("curve",), ENDLESS, (), "every point of a curve is an equilibrium")
     kinds = _kinds(eliminated, cut, roots, sides)
     if not kinds:
         return None
@@ -117,12 +118,12 @@ def _whole(polynomial) -> tuple[int, ...]:
 
 
 def _joined(pieces: list[Piece], events: list[Event | None], found: Sequence[Cut]) -> tuple[tuple[Piece, ...], tuple[Event, ...]]:
-    """Pieces without the cuts at which nothing happens."""
+    """Pieces without the cuts at which nothing happens but that branches may change their order: their seams."""
     gone = {float(cut.number) for cut, event in zip(found, events) if event is None}
     out: list[Piece] = []
     for piece in pieces:
         if out and piece.low in gone and out[-1].high == piece.low:
-            out[-1] = Piece(out[-1].low, piece.high, piece.count, out[-1].sample, out[-1].states)
+            out[-1] = replace(out[-1], high=piece.high, seams=(*out[-1].seams, piece.low))
         else:
             out.append(piece)
     return tuple(out), tuple(event for event in events if event is not None)

@@ -26,7 +26,8 @@ class State:
 class Event:
     """A value at which something happens. value: a double, in the unit of the range; exact: the number itself where it is rational; polynomial:
     whole coefficients, lowest power first, of which it is the real root number `index` (in rising order, from 0); kinds: "fold", "pitchfork",
-    "crossing", "touch", "infinity", "axis" or "connection", as `words` tells; count: equilibria there, ENDLESS for curves of them; states: those there."""
+    "crossing", "touch", "infinity", "axis", "curve" or "connection", as `words` tells; count: equilibria there, ENDLESS for curves of them; states: those
+    there."""
 
     value: float
     exact: Fraction | None
@@ -41,13 +42,14 @@ class Event:
 @dataclass(frozen=True)
 class Piece:
     """An open piece of the range with one number of equilibria. low, high: doubles; sample: a value inside, exact; states: the equilibria there, in the
-    order in which their branches are numbered."""
+    order in which their branches are numbered; seams: values inside at which two of them may change places in the component that orders them."""
 
     low: float
     high: float
     count: int
     sample: Fraction
     states: tuple[State, ...]
+    seams: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True, repr=False)

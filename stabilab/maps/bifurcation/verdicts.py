@@ -10,7 +10,7 @@ from ...equilibrium.stability import POSITIVE_EIGENVALUE, isolated_verdict, line
 from ...numbers.balls import rational, sign
 from ...numbers.double_ball import Unclear
 from ...physics.quadratic import QuadraticForm, euler_form
-from .eliminated import Eliminated, Root, evaluated
+from .eliminated import Eliminated, Leant, Root, evaluated
 from .family import Family
 from .result import State
 from .system import BORDERS, ISOLATED
@@ -68,6 +68,6 @@ def judged_state(family: Family, kind: str, values: list, root: Root, after: int
     return State(at, root.times, "degenerate", *verdict)
 
 
-def general_states(family: Family, kind: str, eliminated: Eliminated, value: Fraction, digits: Any) -> tuple[State, ...]:
-    """The equilibria at a value where no branches meet, with their verdicts; asked by `settled`."""
-    return tuple(judged_state(family, kind, [rational(value)], root) for root in eliminated.at_general((value,)))
+def general_states(family: Family, kind: str, eliminated: Eliminated, value: Fraction, digits: Any, view: Leant | None = None) -> tuple[State, ...]:
+    """The equilibria at a value where no branches meet, with their verdicts; asked by `settled`. view: another one than the main view."""
+    return tuple(judged_state(family, kind, [rational(value)], root) for root in eliminated.at_general((value,), view))

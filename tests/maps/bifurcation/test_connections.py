@@ -45,3 +45,13 @@ def test_connections_are_those_that_a_grid_of_heights_brackets(tmp_path, seed):
             wheel[(i + 1) % 3] = q
             sides.append(rises(D, wheel, M, omega, i))
         assert any(u * v < 0 for u, v in zip(*sides)), value
+
+
+@pytest.mark.parametrize("ends", [("-0.5", "0.5"), ("-0.5", "0.4"), ("-0.01", "0.013")])
+def test_mirrored_saddles_are_at_one_height_without_a_torque(tmp_path, ends):
+    # by hand: with the wheel along axis 1 alone w2 -> -w2 maps the motion without a torque onto itself backwards, and one saddle onto the other
+    case = written(tmp_path, (12, 9, 5), ("0.8", 0, 0), (0, 0, "0.02"), ("0.1", "0.05", "0.02"))
+    found = stabilab.bifurcation(case, {"torque[3]": tuple(map(Fraction, ends))})
+    assert [event.value for event in found.connections] == [0.0] and not found.notes
+    first, second = (state.at for state in found.connections[0].states if state.verdict == "unstable")
+    assert first == pytest.approx((second[0], -second[1], 0.0), abs=1e-12)

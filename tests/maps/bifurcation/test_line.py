@@ -9,6 +9,7 @@ import pytest
 
 import stabilab
 from stabilab.errors import InputError
+from stabilab.maps.bifurcation.branches import branches
 from stabilab.maps.bifurcation.result import ENDLESS
 from tests.oracles import elimination as by_hand
 from tests.shared import CASES
@@ -137,3 +138,44 @@ def test_what_cannot_be_eliminated_is_refused_with_the_way_out(tmp_path):
         stabilab.bifurcation(CASES / "liquid-base.toml", {"inertia[1]": "8:9"})
     with pytest.raises(InputError, match="without a torque"):
         stabilab.bifurcation(CASES / "torque-free-gyrostat.toml", {"momentum[1]": "0:1"})
+
+
+def test_a_symmetric_body_with_the_torque_along_its_axis_has_a_line_where_stability_changes_once(tmp_path):
+    # by hand, D = (9, 9, 5), lambda = (l, 0, 0): the conic is the line w2 = -M3/l, and m is linear along it
+    found = stabilab.bifurcation(written(tmp_path, (9, 9, 5), ("0.8", 0, 0), (0, 0, "0.02")), {"torque[3]": "-0.5:0.5"}, curve=True)
+    assert counts(found) == [1, 1] and [event.value for event in found.events] == [0.0]
+    (border,), sample = found.pieces[1].states, float(found.pieces[1].sample)
+    assert border.at[1] == pytest.approx(-sample / 0.8, rel=1e-14)
+    growth = [largest_growth((9, 9, 5), (0.8, 0, 0), (border.at[0] + off, border.at[1], 0.0)) for off in (-1e-3, 1e-3)]
+    assert min(growth) < 1e-9 < 1e-3 < max(growth)  # eigenvalues by NumPy
+
+
+def test_a_sphere_within_the_range_keeps_one_equilibrium_on_the_curve_of_the_motion(tmp_path):
+    # by hand: of three equal moments the motion keeps w1, and (0, 0, M3) = -(l, 0, 0) x w at (w1, -M3/l, 0) alone
+    found = stabilab.bifurcation(written(tmp_path, (9, 9, 9), ("0.8", 0, 0), (0, 0, "0.01"), ("0.1", "0.05", "0.02")), {"inertia[3]": "8:10"})
+    (event,) = found.events
+    assert (event.value, event.kinds, event.count) == (9.0, ("infinity",), 1)
+    assert event.states[0].at == pytest.approx((0.1, -0.0125, 0.0), abs=1e-15)
+
+
+def largest_growth(D, lam, omega):
+    """The largest real part of the eigenvalues of D w' = (D w + lambda) x w + M at a state, by NumPy."""
+    turn = lambda v: np.array([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
+    D, lam, omega = (np.array(v, dtype=float) for v in (D, lam, omega))
+    return np.linalg.eigvals((turn(D * omega + lam) - turn(omega) @ np.diag(D)) / D[:, None]).real.max()
+
+
+# at torque -l1 l2/(D1 - D2) the conic is two lines: two equilibria of different stability have one w1 there
+@pytest.mark.parametrize("lam, omega", [(("-0.75", "-0.75"), ("0.05", "-0.25", "-0.05")), (("0.875", "1"), ("-0.05", "0.35", "0.15")),
+                                        (("0.375", "-1"), ("-0.15", "0.3", "0"))])
+def test_branches_that_pass_one_above_another_keep_their_stability(tmp_path, lam, omega):
+    D, torque = (12, 9, 5), -Fraction(lam[0]) * Fraction(lam[1]) / 3
+    found = stabilab.bifurcation(written(tmp_path, D, (*lam, 0), (0, 0, torque), omega), {"torque[3]": (torque - Fraction(1, 5), torque + Fraction(1, 4))})
+    looked = 0
+    for branch in branches(found, 24):
+        for state in branch.states:
+            growth = largest_growth(D, (*map(float, lam), 0), state)
+            if growth > 1e-4 or growth < 1e-7:  # between, rounding decides
+                looked += 1
+                assert branch.verdict == ("unstable" if growth > 1e-4 else "stable")
+    assert looked > 40
