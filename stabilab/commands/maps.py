@@ -40,7 +40,7 @@ def bifurcation(case, vary, curve, out, csv, json):
     """Find where equilibria appear and vanish over the range of one number or two."""
     if out:
         endings.file(out, endings.PICTURES)
-    found = ask(case, split_keys(vary or []), curve)
+    found = ask(case, split_keys(vary or [], "KEY=FROM:TO"), curve)
     shown, picture = (diagram_words, diagram_picture) if isinstance(found, Diagram) else (plane_words, plane_picture)
     if out:
         say(f"written: {picture.write(found, out)}")
@@ -53,7 +53,7 @@ def bifurcation(case, vary, curve, out, csv, json):
 def basin(case, vary, depth, out, workers, scheduler, follow, csv, json, strict):
     """Show which initial states of a plane spin up, and how rough the boundary is."""
     targets = basin_files.checked(out or [])
-    with basins(case, split_keys(vary or []), depth, targets.data, workers, scheduler, follow) as found:
+    with basins(case, split_keys(vary or [], "KEY=FROM:TO or KEY=FROM:TO:N"), depth, targets.data, workers, scheduler, follow) as found:
         for path in targets.paths:
             say(f"written: {basin_files.write(found, path)}")
     if json or csv:

@@ -208,11 +208,11 @@ def from_json(text: str) -> Plan:
                 told.get("follow"), pointed)
 
 
-def split_keys(words: Sequence[str]) -> list[tuple[str, str]]:
-    """(key, values) of every KEY=VALUES of a command line."""
+def split_keys(words: Sequence[str], expected: str = "KEY=START:STOP:COUNT or KEY=A,B,C") -> list[tuple[str, str]]:
+    """(key, values) of every KEY=VALUES of a command line. expected: the form that the command takes, for whom it misses."""
     for word in words:
         if "=" not in word:
-            raise InputError(f'--vary: expected KEY=START:STOP:COUNT or KEY=A,B,C, got "{printable(word)[:60]}"')
+            raise InputError(f'--vary: expected {expected}, got "{printable(word)[:60]}"')
     return [(key.strip(), values.strip()) for key, _, values in (word.rpartition("=") for word in words)]  # values have none, a wheel's name may
 
 

@@ -127,10 +127,3 @@ def name_space(ax, zoom=0.92, order=(1, 2, 3)):
         axis.set_pane_color((1, 1, 1, 1))
     ax.patch.set_visible(False)  # it would cover a label of the panel before
     ax.set_box_aspect(None, zoom=zoom)
-
-
-def axis_labels(scene) -> tuple[str, ...]:
-    """Labels with units of the three components of the scene's state."""
-    if scene.variables == "scaled":
-        return ("$x_1$", "$x_2$", "$x_3$")
-    return tuple(rf"$\omega_{i}$ (rad/s)" for i in (1, 2, 3))

@@ -10,9 +10,12 @@ from ....maps.bifurcation.system import BORDERS
 from ....packages import demand
 from ... import style
 from ...files import endings
+from ...units import units_of
+from .labels import rows_apart
 from .words import unit
 
 CROWD = 6.0  # a component that goes to infinity is cut at so many times what nine tenths of the points reach
+SIZE, ROWS, MARGIN = 7.5, 3, 1.2  # of the values above the panel: points, rows at the most, inches of the figure beside the panel
 LOOKS = {"stable": ("stable", "stable"), "unstable": ("unstable", "unstable"), "border": ("fold", "stability changes"),
          "undecided": ("dividing", "undecided")}
 
@@ -30,10 +33,10 @@ def drawn(found: Diagram, size: tuple[float, float] | None, plt: Any) -> Any:
     rows = branches(found)
     moving = [i for i in range(3) if any(abs(state[i]) > 0 for branch in rows for state in branch.states)] or [0]
     figure, axes = plt.subplots(len(moving), 1, sharex=True, squeeze=False, layout="constrained", figsize=size or (8, 1.4 + 2.6 * len(moving)))
-    labels = style.axis_labels(found.family.case.scene)
+    units = units_of(found.family.case)
     for ax, i in zip(axes[:, 0], moving):
-        _panel(ax, found, rows, i)
-        ax.set_ylabel(labels[i])
+        _panel(ax, found, rows, i, units.rates[1])
+        ax.set_ylabel(f"$x_{i + 1}$" if units.scaled else rf"$\omega_{i + 1}$ ({units.rates[0]})")
     span = found.family.spans[0]
     axes[-1, 0].set_xlabel(f"{span.label}{f' ({span.shown_unit})' if unit(span) else ''}")
     _counts(axes[0, 0], found)
@@ -46,21 +49,22 @@ def drawn(found: Diagram, size: tuple[float, float] | None, plt: Any) -> Any:
     return figure
 
 
-def _panel(ax: Any, found: Diagram, rows: list[Branch], i: int) -> None:
+def _panel(ax: Any, found: Diagram, rows: list[Branch], i: int, one: float) -> None:
+    """The component i over the range; one: how many of the axis' unit make one of the case's variables."""
     for branch in rows:
         look, word = LOOKS[branch.verdict]
-        ax.plot(branch.values, [state[i] for state in branch.states], label=word, **style.MEANING[look])
+        ax.plot(branch.values, [state[i] * one for state in branch.states], label=word, **style.MEANING[look])
     for event in found.connections:
         ax.axvline(event.value, label="connection: two saddles at one height", zorder=1, **style.MEANING["separatrix"] | {"linewidth": 1.2})
     for event in found.events:
         ax.axvline(event.value, color=style.GREY, linewidth=0.7, linestyle=":", zorder=0)
-        met = [state.at[i] for state in event.states if state.times > 1]
+        met = [state.at[i] * one for state in event.states if state.times > 1]
         if met:
             word = "changes meet" if found.kind == BORDERS else " and ".join(event.kinds)
             ax.plot([event.value] * len(met), met, label=word, zorder=4, **style.MARKER["degenerate"])
     span = found.family.spans[0]
     ax.set_xlim(float(span.low), float(span.high))
-    heights = sorted(abs(state[i]) for branch in rows for state in branch.states)
+    heights = sorted(abs(state[i] * one) for branch in rows for state in branch.states)
     if heights and heights[-1] > CROWD * (usual := heights[int(0.9 * (len(heights) - 1))]) > 0:
         ax.set_ylim(-1.5 * usual, 1.5 * usual)
 
@@ -73,13 +77,14 @@ def _counts(ax: Any, found: Diagram) -> None:
         if piece.high - piece.low > 0.03 * whole:
             ax.annotate(str(piece.count) if piece.count >= 0 else "curves", (0.5 * (piece.low + piece.high), 1.0), xycoords=("data", "axes fraction"),
                         xytext=(0, 3), textcoords="offset points", ha="center", va="bottom", fontsize=9, fontweight="bold")
-    shown = [event for event in (*found.events, *found.connections) if event.value not in (float(span.low), float(span.high))]
-    last = float(span.low) - whole
-    for event in sorted(shown, key=lambda event: event.value):
-        if event.value - last > 0.09 * whole:  # two labels side by side
-            ax.annotate(f"{event.value + 0.0:.5g}", (event.value, 1.0), xycoords=("data", "axes fraction"), xytext=(0, 16), textcoords="offset points",
-                        ha="center", va="bottom", fontsize=7.5)
-            last = event.value
+    shown = sorted((event.value, f"{event.value + 0.0:.5g}") for event in (*found.events, *found.connections)
+                   if event.value not in (float(span.low), float(span.high)))
+    wide = 72 * (ax.figure.get_figwidth() - MARGIN) / whole
+    places = [wide * (value - float(span.low)) for value, _ in shown]
+    for (value, told), row in zip(shown, rows_apart(places, [told for _, told in shown], SIZE, ROWS)):
+        if row is not None:
+            ax.annotate(told, (value, 1.0), xycoords=("data", "axes fraction"), xytext=(0, 16 + 1.3 * SIZE * row), textcoords="offset points",
+                        ha="center", va="bottom", fontsize=SIZE)
 
 
 __all__ = ["drawn", "write"]

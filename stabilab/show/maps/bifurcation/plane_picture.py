@@ -11,9 +11,10 @@ from ... import style
 from ...files import endings
 from ..shades import light
 
-LOOKS = {"fold": "fold", "pitchfork": "crossing", "crossing": "crossing", "touch": "crossing", "infinity": "dividing", "axis": "separatrix"}
+LOOKS = {"fold": "fold", "pitchfork": "crossing", "crossing": "crossing", "touch": "crossing", "infinity": "dividing", "axis": "separatrix",
+         "curve": "separatrix"}
 TOLD = {"fold": "fold", "pitchfork": "pitchfork", "crossing": "branches cross", "touch": "branches touch", "infinity": "an equilibrium at infinity",
-        "axis": "torque on a principal axis"}
+        "axis": "torque on a principal axis", "curve": "curve of equilibria"}
 FILLS = {0: "#FFFFFF", 1: light(style.YELLOW, 0.25), 2: light(style.SKY, 0.28), 3: light(style.PURPLE, 0.3), 4: light(style.BLUE, 0.38),
          ENDLESS: light(style.GREY, 0.3)}
 OTHER = light(style.ORANGE, 0.35)

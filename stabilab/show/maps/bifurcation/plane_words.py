@@ -9,6 +9,7 @@ from ....maps.bifurcation.system import BORDERS
 from ...files import comma
 from ...text import frame
 from ...text.answers import as_json
+from ...units import units_of
 from .words import NAMES, SCHEMA, axis, number
 
 
@@ -39,6 +40,7 @@ def _cells(found: Plane) -> list[tuple[float, Piece]]:
 
 def text(found: Plane) -> str:
     """The answer, what is counted, an example for each number of equilibria, the cusps."""
+    units = units_of(found.family.case)
     first, second = found.family.spans
     lines = [f"{found.family.case.name}: {answer(found)}", f"  {found.what}", *(f"  {note}" for note in found.notes)]
     of = [f"{span.label}{'' if span.shown_unit == '1' else f' ({span.shown_unit})'}" for span in (first, second)]
@@ -54,7 +56,7 @@ def text(found: Plane) -> str:
         stable = sum(state.verdict == "stable" for state in piece.states)
         table.append([str(count), *([] if border else [str(stable)]), "", number(p), number(float(piece.sample))])
     for cusp in found.cusps:
-        where = f"({', '.join(f'{v:.6g}' for v in cusp.state)})" if cusp.state else "no one state"
+        where = units.vector(cusp.state, units.rates) if cusp.state else "no one state"
         table.append(["cusp", *([] if border else [""]), where, number(cusp.at[0]), number(cusp.at[1])])
     wide = [max(len(row[n]) for row in table) for n in range(len(table[0]))]
     lines += [("  " + "  ".join(f"{cell:>{size}}" for cell, size in zip(row, wide))).rstrip() for row in table]

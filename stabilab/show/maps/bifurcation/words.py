@@ -10,10 +10,11 @@ from ....maps.bifurcation.system import BORDERS
 from ...files import comma
 from ...text import frame
 from ...text.answers import as_json
+from ...units import Units, units_of
 
 SCHEMA = "stabilab.bifurcation/1"
 NAMES = {"fold": "fold", "pitchfork": "pitchfork", "crossing": "crossing", "touch": "touch", "infinity": "gone to infinity", "axis": "on a principal axis",
-         "connection": "connection"}
+         "connection": "connection", "curve": "curve of equilibria"}
 
 
 def text(found: Diagram) -> str:
@@ -29,9 +30,11 @@ def number(value: float) -> str:
 
 
 def _things(found: Diagram, count: int) -> str:
+    if count == ENDLESS:
+        return "curves of equilibria"
     if found.kind == BORDERS:
         return "1 change of stability" if count == 1 else f"{count or 'no'} changes of stability"
-    return "curves of equilibria" if count == ENDLESS else f"{count or 'no'} equilibri{'a' if count > 1 else 'um'}"
+    return f"{count or 'no'} equilibri{'a' if count > 1 else 'um'}"
 
 
 def answer(found: Diagram) -> str:
@@ -73,7 +76,7 @@ def _events_told(found: Diagram) -> str:
     by_kind: dict[str, list[str]] = {}
     for event in (*found.events, *found.connections):
         by_kind.setdefault(event.kinds[0], []).append(number(event.value))
-    return ", ".join(f"{NAMES[kind]}{'s' if len(values) > 1 and kind not in ('infinity', 'axis') else ''} at {_and(values)}"
+    return ", ".join(f"{NAMES[kind]}{'s' if len(values) > 1 and kind not in ('infinity', 'axis', 'curve') else ''} at {_and(values)}"
                      for kind, values in by_kind.items())
 
 
@@ -83,13 +86,14 @@ def _and(values: list[str]) -> str:
 
 def _table(found: Diagram) -> list[str]:
     span = found.family.spans[0]
+    units = units_of(found.family.case)
     name = span.label + ("" if span.shown_unit == "1" else f" ({span.shown_unit})")
     rows = [[name, "changes" if found.kind == BORDERS else "equilibria", *([] if found.kind == BORDERS else ["stable"]), "what"]]
     for _, one in _in_order(found):
         if isinstance(one, Piece):
             rows.append([f"{number(one.low)} to {number(one.high)}", *_counts(found, one.count, one.states), ""])
         else:
-            rows.append([f"at {number(one.value)}", *_counts(found, one.count, one.states), one.words + _meeting(one)])
+            rows.append([f"at {number(one.value)}", *_counts(found, one.count, one.states), one.words + _meeting(one, units)])
     wide = [max(len(row[n]) for row in rows) for n in range(len(rows[0]) - 1)]
     return [("  " + "  ".join(f"{cell:>{size}}" for cell, size in zip(row, wide)) + "  " + row[-1]).rstrip() for row in rows]
 
@@ -99,8 +103,8 @@ def _counts(found: Diagram, count: int, states: tuple[State, ...]) -> list[str]:
     return [told] if found.kind == BORDERS else [told, str(sum(s.verdict == "stable" for s in states))]
 
 
-def _meeting(event: Event) -> str:
-    places = [f"({', '.join(f'{c:.6g}' for c in s.at)})" for s in event.states if s.times > 1]
+def _meeting(event: Event, units: Units) -> str:
+    places = [units.vector(s.at, units.rates) for s in event.states if s.times > 1]
     return f", at {' and '.join(places)}" if places else ""
 
 

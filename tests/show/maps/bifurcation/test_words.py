@@ -6,7 +6,10 @@ import json
 import pytest
 
 import stabilab
+from stabilab.commands import maps
+from stabilab.errors import InputError
 from stabilab.show.maps.bifurcation import picture, plane_picture, plane_words, words
+from stabilab.show.maps.bifurcation.labels import GAP, GLYPH, rows_apart
 from tests.shared import CASES
 
 MINOR = CASES / "wheel-and-thruster.toml"
@@ -59,3 +62,33 @@ def test_pictures_are_the_same_bytes_each_time(line, plane, tmp_path, ending):
     for number, (draw, found) in enumerate(((picture, line), (plane_picture, plane))):
         first, second = (draw.write(found, tmp_path / f"{number}-{n}{ending}").read_bytes() for n in (1, 2))
         assert first == second and len(first) > 3000
+
+
+def test_where_curves_of_equilibria_are_no_number_of_changes_is_told(tmp_path):
+    path = tmp_path / "case.toml"
+    path.write_text("[body]\ninertia = [12.0, 9.0, 5.0]\n[effects.gyrostat]\nmomentum = [0.8, 0, 0]\n[effects.constant_torque]\ntorque = [0, 0, 0.02]\n")
+    told = words.text(stabilab.bifurcation(path, {"torque[3]": "-1:1"})).splitlines()[0]
+    assert told == "case: 2 changes of stability for -1 <= torque[3] <= 1 N m, but curves of equilibria at 0: on a principal axis at 0"
+
+
+def test_values_that_stand_near_each_other_are_both_told_above_the_picture_and_apart():
+    from matplotlib import pyplot
+    found = stabilab.bifurcation(CASES / "cubesat-3u.toml", {"wheels.pitch.speed": "-3000:3000 rpm"})
+    figure = picture.drawn(found, None, pyplot)
+    try:
+        figure.draw_without_rendering()
+        first, second = (text for text in figure.axes[0].texts if "119.71" in text.get_text())
+        assert not first.get_window_extent().overlaps(second.get_window_extent())
+        assert figure.axes[0].get_ylabel().endswith("(deg/s)")  # the unit of this case's own answers
+    finally:
+        pyplot.close(figure)
+
+
+def test_labels_take_the_lowest_row_with_room_and_none_where_no_row_has():
+    wide = 5 * GLYPH * 10  # points of a text of five digits
+    assert rows_apart((0, wide + GAP + 1, wide + GAP + 2, wide + GAP + 3), ("12345",) * 4, 10, 2) == [0, 0, 1, None]  # by hand
+
+
+def test_a_range_that_is_missing_is_asked_for_in_the_form_that_a_diagram_takes():
+    with pytest.raises(InputError, match=r'expected KEY=FROM:TO, got "torque\[3\]"'):
+        maps.bifurcation(MINOR, ["torque[3]"], False, None, False, False)
