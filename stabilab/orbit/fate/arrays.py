@@ -164,7 +164,6 @@ def circle_margins(land: Landscape, place, w, size):
     radius = np.hypot(x, z)
     rounding = size[0] + size[1]
     with np.errstate(all="ignore"):
-        angle_error = 32 * EPS * (1 + rounding / radius)
         pull = np.abs(pot.G * x + pot.c) + abs(pot.d)
         for column in range(offsets.shape[1]):
             offset = np.where(barrier[:, column], offsets[:, column], np.nan)
@@ -175,6 +174,8 @@ def circle_margins(land: Landscape, place, w, size):
             scale = (pot.mu * offset + energy
                      + (pull + np.abs(pot.G * spot[0] + pot.c)) * (rounding + np.abs(spot[0]) + np.abs(spot[1])))
             there = ~np.isnan(offset)
+            # next to a fold the force hardly changes with the angle, so that its rounding moves the barrier far along the circle
+            angle_error = 32 * EPS * (1 + rounding / radius) * (1 + pot.terms(tuple(spot)) / np.abs(pot.slope(tuple(spot))))
             # at a barrier rounding decides whether it stands ahead or behind, and then the next one counts
             doubtful |= there & ((np.abs(margin) <= ROUNDINGS * EPS * scale) | (np.minimum(offset, TURN - offset) <= angle_error))
             best = np.where(there & (margin > best), margin, best)

@@ -3,12 +3,12 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from ...numbers.balls import DOUBLE_BITS, START_BITS, sign
+from ...numbers.balls import START_BITS, sign
 from ...numbers.double_ball import Unclear
 from ..ball_orbit import MOST_BITS, Orbit
 from .tie import exact_tie
 
-DOUBLE_SHARE = 1e-12  # of a margin: with less certainty balls of doubles do not settle it
+SHARE = 1e-12  # of a margin: with less certainty balls do not settle it
 EXACT_BITS = 512  # from these bits on algebra is asked whether two energies are equal
 
 
@@ -23,7 +23,7 @@ class Tie(NamedTuple):
 def decide(orbit: Orbit, bits: int = START_BITS) -> Tie:
     """Sign of the margin of one state, doubling the bits until it is clear; sign -1 with margin -inf: no barrier.
 
-    bits: at first; from DOUBLE_BITS the margin comes with at least twelve digits.
+    bits: at first. The margin comes with at least twelve digits, whatever bits settle its sign.
 
     Margin: see `BallOrbit.margin`.
     """
@@ -33,7 +33,7 @@ def decide(orbit: Orbit, bits: int = START_BITS) -> Tie:
             return Tie(-1, float("-inf"), bits)
         if _ties(orbit, margin):
             return Tie(0, 0.0, bits)
-        if bits == DOUBLE_BITS and not DOUBLE_SHARE * abs(margin) > margin.rad():
+        if not SHARE * abs(margin) > margin.rad():
             raise Unclear
         return Tie(sign(margin), float(margin.mid()), bits)
     return orbit.settled(question, bits)

@@ -5,12 +5,15 @@ that just reaches it is its root, and a double lies above or below it for certai
 """
 from __future__ import annotations
 
+import random
+from fractions import Fraction
+
 import mpmath as mp
 import numpy as np
 import pytest
 
 import stabilab
-from stabilab import Fate
+from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
 from tests.oracles import saddles
 from tests.oracles.pairs import physical, scaled
 
@@ -93,3 +96,30 @@ def test_energies_subtracted_in_doubles_do_mislabel():
         tops = [potential(-(c + 1 / s), t + (2 * np.pi if t <= here else 0)) for s, t in zip(h, ahead)]
         wrong += (v * v / 2 + potential(X, here) > max(tops)) != (side > 0)
     assert wrong > 0
+
+
+def test_a_state_at_rest_on_its_circle_next_to_a_saddle_next_to_a_fold_falls_to_the_side_that_its_torque_points_to():
+    """A body of revolution with a wheel across its axis and a torque along it, released without spin: by hand, D2 w2' = M2 - lambda1 w3 turns the
+    transverse rates about a fixed centre, and of the two places of equal height w3 = M2 / lambda1 the one beyond the centre is the saddle. Next to it
+    the motion is held exactly where |w3| > |M2 / lambda1| (rational numbers decide)."""
+    rng, seen = random.Random(1), []
+    for n in range(100):
+        across, wheel, size = rng.uniform(0.5, 3), 10 ** rng.uniform(-4, -1), 10 ** rng.uniform(1, 4)
+        along = across * rng.choice([rng.uniform(1.05, 1.9), rng.uniform(0.6, 0.95)])
+        torque, centre = -wheel * size, wheel / (along - across)
+        scene = Scene(Body((across, along, across)), Gyrostat((wheel, 0, 0)), ConstantTorque((0, torque, 0)))
+        states = np.array([(times * centre, 0.0, torque / wheel * (1 + ulps * 2.0**-52)) for times in (1.5, 2, 3) for ulps in (-40, -3, -1, 1, 3, 40)])
+        held = [abs(Fraction(w3) * Fraction(wheel)) > abs(Fraction(torque)) for w3 in states[:, 2].tolist()]
+        expected = [Fate.BOUNDED if one else Fate.SPIN_UP for one in held]
+        assert stabilab.fate(scene, states).labels.tolist() == expected
+        assert n > 2 or [stabilab.motion(scene, state).fate for state in states[8:10].tolist()] == expected[8:10]
+        seen += held
+    assert 0.3 < np.mean(seen) < 0.7
+
+
+def test_a_margin_of_1e_minus_35_keeps_twelve_digits():
+    """Of a state next to a hyperbola's saddle: 128 bits tell its sign and eleven digits. The value: the same margin at thirty digits."""
+    scene = ScaledGyrostat(0.06030145867915992, 32.78977103673764, (0, 17.486932694954078, 0))
+    state = [float.fromhex(number) for number in ("-0x1.b2d5bbaffb9e1p+3", "0x0p0", "-0x1.4ae91facab29fp+0")]
+    wanted = pytest.approx(7.474296579821735879e-35, rel=1e-12, abs=0)
+    assert stabilab.motion(scene, state).margin_energy == wanted and stabilab.fate(scene, np.array([state])).margins == [wanted]
