@@ -216,12 +216,21 @@ def split_keys(words: Sequence[str], expected: str = "KEY=START:STOP:COUNT or KE
     return [(key.strip(), values.strip()) for key, _, values in (word.rpartition("=") for word in words)]  # values have none, a wheel's name may
 
 
+def place_and_text(question: str, case: Any) -> tuple[str, str]:
+    """(path, text) of a case, or of a case file by its path. Raises InputError, in the name of what was asked, for anything else."""
+    if isinstance(case, Case):
+        return os.fspath(case.path), case.text
+    if not isinstance(case, (str, os.PathLike)):
+        raise InputError(f"{question}: expected a case, as of load(...), or the path of a case file, got {case!r:.80}")
+    return os.fspath(case), source_text(case)
+
+
 def planned(case: Case | str | os.PathLike[str], vary: Mapping[str, Any] | Sequence[tuple[str, Any]], samples: int | None = None, seed: int = 1,
             answer: Any = None, follow: str | None = None, **limit: str | None) -> Plan:
     """A sweep whose every part is checked. Raises InputError with what is wrong."""
-    path, text = (case.path, case.text) if isinstance(case, Case) else (os.fspath(case), source_text(case))
+    path, text = place_and_text("sweep", case)
     rows = [(name, asked if isinstance(asked, str) else _plain(name, asked)) for name, asked in (vary.items() if isinstance(vary, Mapping) else vary)]
-    plan = Plan(os.fspath(path), text, tuple(rows), samples, seed, asked_answers(answer), tuple((k, v) for k, v in limit.items() if v is not None),
+    plan = Plan(path, text, tuple(rows), samples, seed, asked_answers(answer), tuple((k, v) for k, v in limit.items() if v is not None),
                 follow=follow)
     _judge(plan)
     return plan

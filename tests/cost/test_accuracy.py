@@ -271,7 +271,7 @@ def test_picture_shows_a_panel_a_question_and_a_line_a_method(measured):
 def test_page_has_words_of_every_case_and_a_picture_of_every_kind(tmp_path, monkeypatch, measured):
     one = replace(measured, points=tuple(measured.of("span")))  # a small picture
     efforts, told = [], []
-    monkeypatch.setattr("stabilab.commands.accuracy.measure", lambda case, effort: efforts.append(effort) or replace(one, case=case))
+    monkeypatch.setattr("stabilab.cost.accuracy.precision", lambda case, effort: efforts.append(effort) or replace(one, case=case))
     other = replace(FREE, state=(0.3, 0.2, 0.1), title="the same equations")
     path = precision_page.page([FREE, other, replace(FREE, span=None)], tmp_path, told.append)
     html = path.read_text(encoding="utf-8")

@@ -9,7 +9,6 @@ from typing import Any
 
 from ...case.limit_options import FILE_AXES, StatedLimit, stated_limit
 from ...case.read import Case, blamed_on, read_text
-from ...case.source import source_text
 from ...case.units import TORQUE, quantity
 from ...errors import InputError, printable
 from ...numbers.exact import sqrt_fraction
@@ -17,7 +16,7 @@ from ...numbers.principal import NOTHING
 from ...numbers.vectors import Exact3, dot
 from ..axes import axis_of
 from ..keys import Key
-from ..plan import Plan
+from ..plan import Plan, place_and_text
 from .cells import DEEPEST, count
 from .pointed import AXES, AXIS_POINTS, OWN, THRUSTERS, Point, Pointed, along_axes, unit
 
@@ -92,7 +91,7 @@ class Asked:
 def asked(case: Case | str | os.PathLike[str], torque: Any = None, wheel: str | None = None, level: int = LEVEL, refine: int = REFINE,
           certify: bool = False, follow: str | None = None, **limit: str | None) -> Asked:
     """An atlas whose every part is checked. Raises InputError with what is wrong and what to do."""
-    path, text = (case.path, case.text) if isinstance(case, Case) else (os.fspath(case), source_text(case))
+    path, text = place_and_text("atlas", case)
     one = read_text(path, text)
     _judge(one)
     size, (wheels, momenta, of) = _size(one, torque), _wheels(one, wheel)
@@ -101,7 +100,7 @@ def asked(case: Case | str | os.PathLike[str], torque: Any = None, wheel: str | 
     stated = tuple((name, value) for name, value in limit.items() if value is not None)
     if stated:
         stated_limit(one, **dict(stated))
-    found = Asked(os.fspath(path), text, size, wheels, momenta, of, level, refine, certify, stated, options, follow)
+    found = Asked(path, text, size, wheels, momenta, of, level, refine, certify, stated, options, follow)
     if found.plan(()).longest is not None:  # which says what is wrong with it
         found = replace(found, options=(*options, ("follow", str(follow))))
     return found

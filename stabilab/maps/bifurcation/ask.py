@@ -6,10 +6,11 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ...case.read import Case, read_text
-from ...case.source import parsed, source_text
+from ...case.source import parsed
 from ...errors import InputError
 from ...numbers.double_ball import Unclear
 from ...physics.coefficients import effective
+from ..plan import place_and_text
 from .connections import with_connections
 from .family import Family
 from .line import diagram
@@ -37,9 +38,7 @@ def bifurcation(case: Case | str | os.PathLike[str], vary: Mapping[str, Any] | S
 
 def family_of(case: Case | str | os.PathLike[str], vary: Mapping[str, Any] | Sequence[tuple[str, Any]]) -> Family:
     """The scenes over the ranges. Raises InputError for what cannot vary, and for effects that no diagram covers."""
-    if not isinstance(case, (Case, str, os.PathLike)):
-        raise InputError(f"bifurcation: expected a case or the path of a case file, got {case!r:.80}")
-    path, text = (case.path, case.text) if isinstance(case, Case) else (os.fspath(case), source_text(case))
+    path, text = place_and_text("bifurcation", case)
     read = read_text(path, text)
     data = {key: value for key, value in parsed(path, text)[0].items() if key not in ("sweep", "expect")}
     family = Family(read, data, spans_of(data, _pairs(vary)))
