@@ -84,7 +84,8 @@ def fine_boxes(land: Landscape, states):
     changes = np.array([_change(land, span.found, y) for y in at])  # (k, 2, n)
     out, top = np.empty((len(states), 3, 2)), np.sqrt(2 * span.fastest)
     good = span.ok & (span.haze <= DIGITS * 2 * span.fastest)
-    blurred = np.maximum(*[_speed_times(land, span.found, y, blur) for y, blur in zip((span.left, span.right), span.blur)])
+    blurs = [*span.blur] + [0.0] * (len(at) - 2)  # a value that is stationary depends on its place by the square
+    blurred = np.max([_change_errors(land, span.found, y, blur) for y, blur in zip(at, blurs)], axis=0)
     for row, axis, factor in ((0, r.j, g["flip"] * g["rx"]), (1, r.k, g["rz"])):
         ends = factor * changes[:, row]
         out[:, axis, 0], out[:, axis, 1] = states[:, axis] + ends.min(axis=0, initial=0.0), states[:, axis] + ends.max(axis=0, initial=0.0)
@@ -149,25 +150,33 @@ def _held(modes, span, some, half):
 
 def _change(land, found, y):
     """(2, n) what X and Z change by on the way y from the states."""
-    s, h = (np.sin(y), np.sin(0.5 * y)) if land.e < 0 else (np.sinh(y), np.sinh(0.5 * y))
-    less = 2 * land.e * h * h
-    return np.array([found.z * s + found.x * less, found.z * less + land.e * found.x * s])
+    if land.e > 0:  # next to a plane the terms of the sum over sinh and cosh would cancel
+        with np.errstate(over="ignore", invalid="ignore"):
+            grown, decayed = found.xi * np.expm1(y), found.eta * np.expm1(-y)
+            return 0.5 * np.array([grown + decayed, grown - decayed])
+    s, less = np.sin(y), -2 * np.sin(0.5 * y) ** 2
+    return np.array([found.z * s + found.x * less, found.z * less - found.x * s])
 
 
-def _speed_times(land, found, y, blur):
+def _change_errors(land, found, y, blur):
     """(2, n) what X and Z at the end of the way y are off by where y is off by `blur`, and by rounding."""
-    dx, dz = _change(land, found, y)
-    s, h = (np.sin(y), np.sin(0.5 * y)) if land.e < 0 else (np.sinh(y), np.sinh(0.5 * y))
-    x, z, h2 = np.abs(found.x), np.abs(found.z), 2 * h * h
-    return np.array([np.abs(found.z + dz) * blur + 4 * EPS * (z * np.abs(s) + x * h2), np.abs(found.x + dx) * blur + 4 * EPS * (z * h2 + x * np.abs(s))])
+    with np.errstate(over="ignore", invalid="ignore"):
+        dx, dz = _change(land, found, y)
+        if land.e > 0:
+            terms = 0.5 * np.abs([found.xi * np.expm1(y), found.eta * np.expm1(-y)]).sum(axis=0) * (4 + np.abs(y))
+            rounding = np.array([terms, terms])
+        else:
+            s, less = np.abs(np.sin(y)), 2 * np.sin(0.5 * y) ** 2
+            rounding = 4 * np.abs([np.abs(found.z) * s + np.abs(found.x) * less, np.abs(found.z) * less + np.abs(found.x) * s])
+        return np.abs([found.z + dz, found.x + dx]) * blur + EPS * rounding
 
 
 def _stationary(land, span):
     """Offsets (n,) where X or Z is stationary inside the interval, 0 where there is none."""
-    x, z = span.found.x, span.found.z
-    if land.e < 0:
-        found = [np.arctan2(*pair) + k * np.pi for pair in ((z, x), (-x, z)) for k in range(-3, 4)]
-    else:
-        with np.errstate(all="ignore"):
-            found = [np.arctanh(-z / x), np.arctanh(-x / z)]
+    x, z, xi, eta = span.found.x, span.found.z, span.found.xi, span.found.eta
+    with np.errstate(all="ignore"):
+        if land.e < 0:
+            found = [np.arctan(ratio) + k * np.pi for ratio in (z / x, -x / z) for k in range(-3, 4)]
+        else:
+            found = [np.where(np.abs(near) < 0.5, np.arctanh(near), 0.5 * np.log(far)) for near, far in ((-z / x, eta / xi), (-x / z, -eta / xi))]
     return [np.where(np.isfinite(y) & (y > span.left) & (y < span.right), y, 0.0) for y in found]

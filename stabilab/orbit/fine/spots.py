@@ -22,7 +22,7 @@ DRIFT = 1e-3  # of a radian: farther from the doubles' place another equilibrium
 @dataclass(frozen=True)
 class FineSpots:
     """spots: as `spots_along` gives them, with the rows of an `Anchored` place; error: (n, m) of the energy; astray: (n, m) of the offset,
-    besides its rounding; sure: (n,) where all were placed; x, z, w: (n,) of the states."""
+    besides its rounding; sure: (n,) where all were placed; x, z, w and xi = x + z, eta = x - z: (n,) of the states."""
 
     spots: Spots
     error: np.ndarray
@@ -31,6 +31,8 @@ class FineSpots:
     x: np.ndarray
     z: np.ndarray
     w: np.ndarray
+    xi: np.ndarray
+    eta: np.ndarray
 
 
 def fine_spots(land: Landscape, states) -> FineSpots:
@@ -57,7 +59,8 @@ def fine_spots(land: Landscape, states) -> FineSpots:
         apart = (np.diff(offset, axis=1) > 0) | ~rough.there[:, 1:]
     sure = (good | ~rough.there).all(axis=1) & apart.all(axis=1) & ~_beside_fold(land, place, size) & ~land.beside_centre(place)
     filled = np.where(rough.there, anchors, 1.0)
-    return FineSpots(Spots(offset, filled, np.where(rough.there, energy, np.nan), rough.barrier, rough.there), error, astray, sure, x.value(), z.value(), w)
+    return FineSpots(Spots(offset, filled, np.where(rough.there, energy, np.nan), rough.barrier, rough.there), error, astray, sure, x.value(), z.value(), w,
+                     (x + z).value(), (x - z).value())
 
 
 def _beside_fold(land, place, size):

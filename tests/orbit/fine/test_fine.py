@@ -153,3 +153,11 @@ def test_a_row_whose_way_is_lost_is_answered_without_a_warning():
     state = (-112209146907.95891, -388557925455.79285, -0.3297841721936806)
     exact = np.array(precise_extremes(Orbit(landscape(one).reduction, state), Fate.BOUNDED))
     assert (np.abs(extremes(one, [state], fast=False)[0] - exact).max(axis=1) <= 1e-12 * np.abs(exact).max(axis=1)).all()
+
+
+def test_an_extreme_next_to_the_state_keeps_its_digits():
+    """On a circle of 2e14 the component is largest 1e-11 of a radian from the state: pi and back would lose half of the way."""
+    one = scene((2.3655510073770074, 2.365549804636911, 2.365551007409251), (-5.159491704033158, 0, 0), 2, -0.325038361299964)
+    state = (0.0, -0.009737502569610706, 0.05214105440254145)
+    exact = np.array(precise_extremes(Orbit(landscape(one).reduction, state), Fate.BOUNDED))
+    assert (np.abs(extremes(one, [state], fast=False)[0] - exact).max(axis=1) <= 1e-13 * np.abs(exact).max(axis=1)).all()
