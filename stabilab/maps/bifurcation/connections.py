@@ -20,6 +20,7 @@ from ...numbers.balls import rational, real_roots_of, settled, working
 from ...numbers.double_ball import Unclear
 from ...numbers.vectors import Float3
 from .choice import chosen
+from .critical import between
 from .eliminated import Eliminated, at_rational, evaluated, of_power, univariate
 from .family import Family
 from .parts import followed, parts
@@ -54,23 +55,23 @@ def connections(family: Family, system: Any, pieces: tuple[Piece, ...]) -> list[
         return []
     eliminated, found = Eliminated(family, system), []
     for piece in pieces:
-        if sum(state.linear == "unstable" for state in piece.states) == 2 and _on_a_circle(family, system.axis, piece.sample):
-            if eliminated.main.lean:
-                raise Unclear
-            found += _of_piece(family, eliminated, piece)
+        if sum(state.linear == "unstable" for state in piece.states) == 2:
+            found += _of_piece(family, eliminated, system.axis, piece)
     return _once(sorted(found, key=lambda event: event.value))
 
 
-def _of_piece(family: Family, eliminated: Eliminated, piece: Piece) -> list[Event]:
-    """Those of a piece: inside each part of it, and at each seam between two."""
+def _of_piece(family: Family, eliminated: Eliminated, axis: int, piece: Piece) -> list[Event]:
+    """Those of a piece: inside each part of it where the motion keeps to a circle, and at each seam between two such parts."""
     width = Fraction(piece.high) - Fraction(piece.low)
     off = max(NEAR * width, max(abs(Fraction(piece.low)), abs(Fraction(piece.high))) / (1 << 50))  # the ends are rounded to doubles
     found, before = [], None
     for part in parts(family, LEAF, eliminated, piece):
         low, high = Fraction(part.low) + off, Fraction(part.high) - off
-        if low >= high:
+        if low >= high or not _on_a_circle(family, axis, between(low, high)):
             before = None
             continue
+        if eliminated.main.lean:
+            raise Unclear
         saddles = [n for n, state in enumerate(part.states) if state.linear == "unstable"]
         rises = [_Rise(family, eliminated, saddles, way) for way in (0, 1)]
         for rise in rises:
@@ -178,6 +179,8 @@ class _Rise:
         form, u = ball_form(self.family, [at])
         start = [evaluated(c, [arb(0), arb(0), at]) for c in self.family.numbers["y"]]
         p, q = form.kappa[j], form.kappa[k]
+        if not head(p) * head(q) < 0:
+            raise Unclear
         x0, y0 = -form.sigma[k] / q, -form.rho[j] / p
         kappa, rho, sigma = form.kappa[i], form.rho[i], form.sigma[i]
         c, d = kappa * x0 + rho, kappa * y0 + sigma

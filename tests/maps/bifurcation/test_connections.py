@@ -55,3 +55,27 @@ def test_mirrored_saddles_are_at_one_height_without_a_torque(tmp_path, ends):
     assert [event.value for event in found.connections] == [0.0] and not found.notes
     first, second = (state.at for state in found.connections[0].states if state.verdict == "unstable")
     assert first == pytest.approx((second[0], -second[1], 0.0), abs=1e-12)
+
+
+def sign_changes(rises_at, low, high, count=201):
+    """Pairs of neighbouring values between which a rise changes its sign."""
+    rows = [(value, rises_at(value)) for value in np.linspace(low, high, count)]
+    return [(p, q) for (p, before), (q, now) in zip(rows, rows[1:]) if before and now and any(u * v < 0 for u, v in zip(before, now))]
+
+
+@pytest.mark.parametrize("lam, omega", [(("-0.75", "-0.75"), ("0.05", "-0.25", "-0.05")), (("0.5", "0.125"), ("0.2", "0.3", "0"))])
+def test_connections_are_those_of_a_grid_where_equilibria_pass_one_above_another(tmp_path, lam, omega):
+    D, torque = (12, 9, 5), -Fraction(lam[0]) * Fraction(lam[1]) / 3
+    ends = (torque - Fraction(1, 5), torque + Fraction(1, 4))
+    found = stabilab.bifurcation(written(tmp_path, D, (*lam, 0), (0, 0, torque), omega), {"torque[3]": ends})
+    brackets = sign_changes(lambda value: rises(D, (*lam, 0), (0, 0, value), omega, 2), *map(float, ends))
+    assert not found.notes and len(found.connections) == len(brackets)
+    assert all(a <= event.value <= b for event, (a, b) in zip(found.connections, brackets))
+
+
+def test_connections_are_looked_for_up_to_the_moment_of_inertia_at_which_the_circle_opens(tmp_path):
+    lam, M, omega = ("1.75", "-1.75", 0), (0, 0, "-1.25"), ("-1.5", "1.625", "-0.5")
+    found = stabilab.bifurcation(written(tmp_path, (2, "3.25", 2), lam, M, omega), {"inertia[3]": "3:4"})
+    brackets = sign_changes(lambda value: rises((2, 3.25, value), lam, M, omega, 2), 3.2501, 4.0)
+    assert not found.notes and len(found.connections) == len(brackets)
+    assert all(a <= event.value <= b for event, (a, b) in zip(found.connections, brackets))
