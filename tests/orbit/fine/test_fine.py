@@ -161,3 +161,15 @@ def test_an_extreme_next_to_the_state_keeps_its_digits():
     state = (0.0, -0.009737502569610706, 0.05214105440254145)
     exact = np.array(precise_extremes(Orbit(landscape(one).reduction, state), Fate.BOUNDED))
     assert (np.abs(extremes(one, [state], fast=False)[0] - exact).max(axis=1) <= 1e-13 * np.abs(exact).max(axis=1)).all()
+
+
+@pytest.mark.parametrize("one, state", [
+    (scene((2.031718528933873, 4.10832328101258, 3.3109147205774123), (0, 1.917540936122219, 0), 2, 0.0023455994280943146),
+     (114.31465919137567, -104.22387896633768, 121.00166087530833)),
+    (scene((0.3741516734409537, 1.210595902320289, 1.2105959023202715), (-0.20062944808043162, 0, 0), 2, -4.158795551286843),
+     (4.4020441308656935, 17819913.764604468, -22.438121828253696))])
+def test_periods_of_long_intervals_beside_a_plane_keep_their_digits(one, state):
+    """The modes stand about the middle, which is reached from the state's smaller asymptotic coordinate; a sum of doubles had lost seven digits of it."""
+    land = landscape(one)
+    values, found = fine_periods(land, np.array([state]))
+    assert not found[0] or values[0] == pytest.approx(precise_period(Orbit(land.reduction, state), Fate.BOUNDED), rel=1e-11)
