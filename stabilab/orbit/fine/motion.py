@@ -129,10 +129,8 @@ def _vouched(modes, half, blur, shape):
 
 def _modes_of_intervals(land, span, some):
     """The modes about the middles of intervals that are too long for a series."""
-    found = span.found
-    place = (found.xi, found.eta) if land.e > 0 else (found.x, found.z)  # next to a plane x + z would lose the smaller one
     with np.errstate(all="ignore"):
-        return modes_of(land, land.potential.move(tuple(v[some] for v in place), 0.5 * (span.left + span.right)[some]))
+        return modes_of(land, land.potential.move(tuple(v[some] for v in span.found.place), 0.5 * (span.left + span.right)[some]))
 
 
 def _held(modes, span, some, half):

@@ -33,6 +33,7 @@ class FineSpots:
     w: np.ndarray
     xi: np.ndarray
     eta: np.ndarray
+    place: tuple[np.ndarray, ...]  # as the landscape takes it: next to a plane doubles of x and z would have lost the smaller of xi and eta
 
 
 def fine_spots(land: Landscape, states) -> FineSpots:
@@ -60,7 +61,7 @@ def fine_spots(land: Landscape, states) -> FineSpots:
     sure = (good | ~rough.there).all(axis=1) & apart.all(axis=1) & ~_beside_fold(land, place, size) & ~land.beside_centre(place)
     filled = np.where(rough.there, anchors, 1.0)
     return FineSpots(Spots(offset, filled, np.where(rough.there, energy, np.nan), rough.barrier, rough.there), error, astray, sure, x.value(), z.value(), w,
-                     (x + z).value(), (x - z).value())
+                     (x + z).value(), (x - z).value(), tuple(v.value() for v in land.place(x, z)))
 
 
 def _beside_fold(land, place, size):
