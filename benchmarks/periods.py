@@ -6,7 +6,7 @@ import numpy as np
 from stabilab import period
 from stabilab.orbit.extremes_and_periods import extremes_and_periods
 
-from .contestants import EventExtremes
+from .contestants import EventExtremes, TurningTimes
 from .orbit_extremes import SciPyEvents, bounded_states
 from .rows import SCENE, A, B, Row, each, numba_available
 from .timing import side_by_side
@@ -31,7 +31,7 @@ def method(fast) -> str:
 def alone(size, sample, rounds, fast) -> Row:
     """Periods against heyoka with one event, at the reversals of the turn."""
     states = bounded_states(size)
-    part, events = states[:sample], TurnTimes(A, B)
+    part, events = states[:sample], TurningTimes(SCENE)
     timed = side_by_side(lambda: period(SCENE, states, fast=fast), lambda: events(part), len(states), len(part), rounds)
     off = np.abs(period(SCENE, part, fast=fast) / events(part) - 1).max()
     return Row(f"periods of {len(states)} orbits, {method(fast)}", each(timed.ours),
@@ -41,37 +41,10 @@ def alone(size, sample, rounds, fast) -> Row:
                     " 16 or more nodes is what limits it")
 
 
-class TurnTimes:
-    """Periods by heyoka with one terminal event at x3 = 0, stopped at the third."""
-
-    def __init__(self, a, b, tolerance=1e-16):
-        import heyoka
-
-        from .contestants import scaled_minor_system
-        (x1, x2, x3, theta), system = scaled_minor_system(a, b, heyoka)
-        self.times = []
-
-        def turned(ta, sign):
-            self.times.append(ta.time)
-            return len(self.times) < 3
-        self.integrator = heyoka.taylor_adaptive(system, [0.0] * 4, tol=tolerance,
-                                                 t_events=[heyoka.t_event(x3, callback=turned)])
-
-    def __call__(self, states):
-        periods, ta = np.empty(len(states)), self.integrator
-        for n, state in enumerate(states):
-            ta.time, ta.state[:] = 0.0, [*state, 0.0]
-            ta.reset_cooldowns()
-            self.times.clear()
-            ta.propagate_until(1e4)
-            periods[n] = self.times[2] - self.times[0]
-        return periods
-
-
 def together(size, sample, rounds, fast) -> Row:
     """Extremes and periods in one go against heyoka with events at the roots of the rates, whose run shows both."""
     states = bounded_states(size)
-    part, events, turns = states[:sample], EventExtremes(A, B), TurnTimes(A, B)
+    part, events, turns = states[:sample], EventExtremes(A, B), TurningTimes(SCENE)
     timed = side_by_side(lambda: extremes_and_periods(SCENE, states, fast), lambda: events(part), len(states), len(part), rounds)
     boxes, periods = extremes_and_periods(SCENE, part, fast)
     off = max(np.abs(boxes - events(part)).max() / np.abs(part).max(), np.abs(periods / turns(part) - 1).max())
@@ -85,7 +58,7 @@ def against_scipy(size, sample, rounds, fast) -> Row:
     states = bounded_states(size)
     part, events = states[:sample], SciPyEvents(A, B)
     timed = side_by_side(lambda: extremes_and_periods(SCENE, states, fast), lambda: events(part), len(states), len(part), rounds)
-    exact = TurnTimes(A, B)(part)
+    exact = TurningTimes(SCENE)(part)
     ours, theirs = (np.abs(periods / exact - 1).max() for periods in (period(SCENE, part, fast=fast), events(part)[1]))
     return Row(f"extremes and periods of {len(states)} orbits, {method(fast)}", each(timed.ours),
                f"{each(timed.theirs)} SciPy DOP853 with events", timed.ratio, (timed.low, timed.high),
