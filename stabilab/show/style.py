@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from ..files import whole_file
+from ..packages import demand
 from .files import endings
 
 # Okabe-Ito: told apart by colour-blind readers, and by their lightness in a grey print.
@@ -85,6 +86,14 @@ def save(figure, path, dpi: float | None = None) -> Path:
         with whole_file(path) as waiting:
             waiting.write_bytes(buffer.getvalue())
     return path
+
+
+def write(out, draw, dpi: float | None = None) -> Path:
+    """Write the figure that draw(plt) makes and return its path. Raises InputError for another ending, before anything is drawn."""
+    demand(*PACKAGES)
+    target = endings.file(out, endings.PICTURES)
+    with drawing() as plt:
+        return save(draw(plt), target, dpi)
 
 
 def write_small(image, path) -> None:

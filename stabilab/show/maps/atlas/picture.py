@@ -11,9 +11,7 @@ from ....maps.atlas.cells import places_of
 from ....maps.atlas.pointed import AXES
 from ....maps.atlas.run import Atlas
 from ....maps.columns import LEVELS
-from ....packages import demand
 from ... import style
-from ...files import endings
 from ...units import Units
 from ..shades import light
 from ..words import COUNTS
@@ -32,10 +30,7 @@ COUNTED = (light(style.GREY, 0.35), light(style.SKY, 0.7), light(style.ORANGE, 0
 def write(atlas: Atlas, path: Path, units: Units, kind: str | None = None, size: tuple[float, float] | None = None, dpi: float | None = None) -> Path:
     """Draw the atlas and write the picture; returns its path. kind: one of KINDS; None: the fate, and beside it the time to the limit, or the number of
     equilibria where there is no limit."""
-    demand(*style.PACKAGES)
-    shown = chosen(atlas, kind)
-    with style.drawing() as plt:
-        return style.save(drawn(atlas, units, shown, size, plt), endings.file(path, endings.PICTURES), dpi)
+    return style.write(path, lambda plt: drawn(atlas, units, chosen(atlas, kind), size, plt), dpi)
 
 
 def chosen(atlas: Atlas, kind: str | None) -> tuple[str, ...]:

@@ -7,9 +7,7 @@ from typing import Any
 from ....maps.bifurcation.branches import Branch, branches
 from ....maps.bifurcation.result import Diagram
 from ....maps.bifurcation.system import BORDERS
-from ....packages import demand
 from ... import style
-from ...files import endings
 from ...units import units_of
 from .labels import rows_apart
 from .words import unit
@@ -22,10 +20,7 @@ LOOKS = {"stable": ("stable", "stable"), "unstable": ("unstable", "unstable"), "
 
 def write(found: Diagram, out: str | Path, size: tuple[float, float] | None = None, dpi: float | None = None) -> Path:
     """Draw the diagram and write the picture; returns its path."""
-    demand(*style.PACKAGES)
-    target = endings.file(out, endings.PICTURES)
-    with style.drawing() as plt:
-        return style.save(drawn(found, size, plt), target, dpi)
+    return style.write(out, lambda plt: drawn(found, size, plt), dpi)
 
 
 def drawn(found: Diagram, size: tuple[float, float] | None, plt: Any) -> Any:

@@ -6,9 +6,7 @@ from typing import Any
 
 from ....maps.bifurcation.plane import Plane, rows
 from ....maps.bifurcation.result import ENDLESS
-from ....packages import demand
 from ... import style
-from ...files import endings
 from ..shades import light
 
 LOOKS = {"fold": "fold", "pitchfork": "crossing", "crossing": "crossing", "touch": "crossing", "infinity": "dividing", "axis": "separatrix",
@@ -23,10 +21,7 @@ SMALL = 0.004  # of the whole: regions below bear no number
 
 def write(found: Plane, out: str | Path, size: tuple[float, float] | None = None, dpi: float | None = None) -> Path:
     """Draw the diagram and write the picture; returns its path."""
-    demand(*style.PACKAGES)
-    target = endings.file(out, endings.PICTURES)
-    with style.drawing() as plt:
-        return style.save(drawn(found, size, plt), target, dpi)
+    return style.write(out, lambda plt: drawn(found, size, plt), dpi)
 
 
 def drawn(found: Plane, size: tuple[float, float] | None, plt: Any) -> Any:
