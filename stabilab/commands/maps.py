@@ -18,21 +18,18 @@ from ..show.maps.bifurcation import picture as diagram_picture
 from ..show.maps.bifurcation import plane_picture, plane_words
 from ..show.maps.bifurcation import words as diagram_words
 from ..show.units import units_of
-from .common.output import leave_undecided, say, tell, write
+from .common.output import answer, leave_undecided, say
 
 
-def sweep(case, vary, samples, seed, answer, follow, limits, out, workers, scheduler, csv, json, strict):
+def sweep(case, vary, samples, seed, answers, follow, limits, out, workers, scheduler, csv, json, strict):
     """Answer the case at every point. limits: those of the answer when, by the names of their options."""
-    plan = planned(case, split_keys(vary or []), samples, seed, answer, follow, **limits)
+    plan = planned(case, split_keys(vary or []), samples, seed, answers, follow, **limits)
     if out:
         dataset.checked(out)
     with run(plan, out, workers, scheduler) as found:
         if out:
             say(f"written: {dataset.write(dataset.dataset(found), out)}")
-    if json or csv:
-        write(words.json(found) if json else words.csv(found))
-    else:
-        tell(words.text(found))
+    answer(words, found, json, csv)
     leave_undecided(strict, strict and words.undecided(found))
 
 
@@ -44,10 +41,7 @@ def bifurcation(case, vary, curve, out, csv, json):
     shown, picture = (diagram_words, diagram_picture) if isinstance(found, Diagram) else (plane_words, plane_picture)
     if out:
         say(f"written: {picture.write(found, out)}")
-    if json or csv:
-        write(shown.json(found) if json else shown.csv(found))
-    else:
-        tell(shown.text(found))
+    answer(shown, found, json, csv)
 
 
 def basin(case, vary, depth, out, workers, scheduler, follow, csv, json, strict):
@@ -56,10 +50,7 @@ def basin(case, vary, depth, out, workers, scheduler, follow, csv, json, strict)
     with basins(case, split_keys(vary or [], "KEY=FROM:TO or KEY=FROM:TO:N"), depth, targets.data, workers, scheduler, follow) as found:
         for path in targets.paths:
             say(f"written: {basin_files.write(found, path)}")
-    if json or csv:
-        write(basin_words.json(found) if json else basin_words.csv(found))
-    else:
-        tell(basin_words.text(found))
+    answer(basin_words, found, json, csv)
     leave_undecided(strict, strict and basin_words.undecided(found))
 
 
@@ -70,8 +61,5 @@ def atlas(case, torque, wheel, level, refine, certify, follow, limits, out, work
     with drawn(plan, targets[0] if targets else None, workers, scheduler) as found:
         for target in targets:
             say(f"written: {atlas_files.write(found, target, system)}")
-    if json or csv:
-        write(atlas_words.json(found, system) if json else atlas_words.csv(found))
-    else:
-        tell(atlas_words.text(found, system))
+    answer(atlas_words, found, json, csv, system)
     leave_undecided(strict, strict and atlas_words.undecided(found))

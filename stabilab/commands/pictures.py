@@ -19,7 +19,7 @@ from ..show.surface import words
 from ..show.surface.write import write_all
 from ..show.text import law
 from .common.cases import load_cases, one_by_one, time_asked, units_asked
-from .common.output import hold_laws, leave_undecided, say, tell, write, write_each, write_json
+from .common.output import answer, hold_laws, leave_undecided, say, tell, write, write_each, write_json
 
 AN_EXAMPLE = Path(__file__).parents[1] / "cases" / "thruster-stuck-major-axis.toml"
 
@@ -80,10 +80,7 @@ def chaos(cases, until, out, csv, json, strict):
             rows.append((case, ask_chaos(case.scene, row_of(case.scene, case.state, case.blocks), time_asked(until, case, "until"))))
     if out:
         write_each(out, [(case, partial(chaos_picture.write, case, found)) for case, found in rows])
-    if json or csv:
-        write(chaos_words.json(rows) if json else chaos_words.csv(rows))
-    else:
-        tell("\n".join(chaos_words.text(*row) for row in rows))
+    answer(chaos_words, rows, json, csv)
     leave_undecided(strict, any(int(found.labels) == Order.UNDECIDED for _, found in rows))
 
 

@@ -35,6 +35,14 @@ def either(json: bool, data, words):
         tell(words())
 
 
+def answer(shown, found, json: bool, csv: bool, *more):
+    """What was found as JSON or CSV, or in words: by the functions of these names in `shown`, which take `more` (all but csv) besides."""
+    if json or csv:
+        write(shown.json(found, *more) if json else shown.csv(found))
+    else:
+        tell(shown.text(found, *more))
+
+
 def write_json(cases, rows):
     """An object for a case, a list of them for the combinations of a [sweep]."""
     write(answers.as_json(rows if any(case.variant for case in cases) else rows[0]))

@@ -13,7 +13,12 @@ SCHEMA = "stabilab.chaos/1"
 FIRST = {Order.REGULAR: "REGULAR as far as it was followed", Order.CHAOTIC: "CHAOTIC", Order.SPIN_UP: "SPIN-UP", Order.UNDECIDED: "UNDECIDED"}
 
 
-def text(case: Any, found: Chaos) -> str:
+def text(rows: list[tuple[Any, Chaos]]) -> str:
+    """A paragraph a case."""
+    return "\n".join(_of_one(*row) for row in rows)
+
+
+def _of_one(case: Any, found: Chaos) -> str:
     """The answer first; then what it means for a small change, and MEGNO at each doubling of the time."""
     label, unit = Order(int(found.labels)), _unit(case)
     lines = [f"{printable(case.name)}: {FIRST[label]}: {found.because}"]
