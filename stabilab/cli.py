@@ -82,7 +82,7 @@ def classify(cases: CaseFiles, json: Json = False, strict: Annotated[bool, typer
 
 
 @app.command()
-def verify(certificate: Annotated[Path, typer.Argument(metavar="CERTIFICATE", help="A certificate.json of classify --certify.",
+def verify(certificate: Annotated[Path, typer.Argument(metavar="CERTIFICATE", help="A certificate.json of classify --certify or bifurcation --certify.",
                                                        show_default=False, autocompletion=completion.certificates)],
            case: Annotated[Path | None, typer.Option(metavar="CASE.toml", help="The case it must be of: exit with 5 where scene or "
                                                         "state differ.")] = None, json: Json = False,
@@ -336,6 +336,8 @@ def bifurcation(case: CaseFile,
                 curve: Annotated[bool, typer.Option("--curve", help="Of a torque on a principal axis: where stability changes along the whole curve of "
                                                                     "equilibria, whatever the motion.")] = False,
                 out: Annotated[Path | None, typer.Option(metavar="FILE.png", help="Draw it: .png, .svg or .pdf.")] = None,
+                certify: Annotated[Path | None, typer.Option(metavar="FILE.json", help="Of one number: write a certificate of every value and count, which "
+                                                             "`stabilab verify` checks by other algebra.")] = None,
                 csv: Annotated[bool, typer.Option("--csv", help="CSV on stdout: points of all branches.")] = False, json: Json = False):
     """Find where equilibria appear and vanish.
 
@@ -345,7 +347,7 @@ def bifurcation(case: CaseFile,
     """
     _either_json_or_csv(json, csv)
     from .commands.maps import bifurcation as answer
-    answer(case, vary, curve, out, csv, json)
+    answer(case, vary, curve, out, certify, csv, json)
 
 
 @app.command()

@@ -6,6 +6,7 @@ from ..maps.atlas.run import drawn
 from ..maps.basins.ask import basins
 from ..maps.bifurcation.ask import bifurcation as ask
 from ..maps.bifurcation.result import Diagram
+from ..maps.diagram_certificate import certifiable, diagram_certificate
 from ..maps.plan import planned, split_keys
 from ..maps.run import run
 from ..show.files import endings
@@ -17,6 +18,7 @@ from ..show.maps.basins import write as basin_files
 from ..show.maps.bifurcation import picture as diagram_picture
 from ..show.maps.bifurcation import plane_picture, plane_words
 from ..show.maps.bifurcation import words as diagram_words
+from ..show.text import certification
 from ..show.units import units_of
 from .common.output import answer, leave_undecided, say
 
@@ -33,15 +35,27 @@ def sweep(case, vary, samples, seed, answers, follow, limits, out, workers, sche
     leave_undecided(strict, strict and words.undecided(found))
 
 
-def bifurcation(case, vary, curve, out, csv, json):
+def bifurcation(case, vary, curve, out, certify, csv, json):
     """Find where equilibria appear and vanish over the range of one number or two."""
     if out:
         endings.file(out, endings.PICTURES)
-    found = ask(case, split_keys(vary or [], "KEY=FROM:TO"), curve)
+    spans = split_keys(vary or [], "KEY=FROM:TO")
+    if certify:
+        certification.checked(certify)
+        certifiable(spans)
+    found = ask(case, spans, curve)
+    if certify:
+        _certified(found, certify)
     shown, picture = (diagram_words, diagram_picture) if isinstance(found, Diagram) else (plane_words, plane_picture)
     if out:
         say(f"written: {picture.write(found, out)}")
     answer(shown, found, json, csv)
+
+
+def _certified(found, path):
+    made = diagram_certificate(found)
+    say("\n".join([f"written: {certification.write(made, path)}", f"certified: {len(made['events'])} values, {len(made['pieces'])} counts between them",
+                   *(f"not certified: {why}" for why in made["uncertified"])]))
 
 
 def basin(case, vary, depth, out, workers, scheduler, follow, csv, json, strict):

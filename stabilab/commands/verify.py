@@ -18,7 +18,7 @@ def verify(certificate, case, json, strict):
         claims = read(certificate)
         found = check(claims)
     except (Malformed, UnicodeDecodeError) as error:
-        raise InputError(f"{certificate}: {error}; expected a certificate of stabilab classify --certify") from None
+        raise InputError(f"{certificate}: {error}; expected a certificate of stabilab classify --certify or stabilab bifurcation --certify") from None
     told = about(claims)
     either(json, lambda: certification.as_dict(found, told), lambda: certification.text(found, line(told)))
     if found.status == "refuted":

@@ -7,6 +7,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from .diagram.check import check_diagram
+from .diagram.claims import KEYS as DIAGRAM_KEYS
+from .diagram.claims import SCHEMA as DIAGRAM
+from .diagram.claims import claims_of
 from .equilibria.claims import check_equilibria, equilibria_of
 from .form import SCHEMA, check_frame, read, strangers
 from .motion import check_motion, motion_of
@@ -45,6 +49,8 @@ def verify(certificate: dict) -> Verification:
 
     All of it is read before anything is worked out, so a certificate that is malformed anywhere is malformed at once.
     """
+    if isinstance(certificate, dict) and certificate.get("schema") == DIAGRAM:
+        return _verify_diagram(certificate)
     check_frame(certificate)
     silent = tuple(part for part in ("equilibria", "motion") if certificate.get(part) is None)
     findings = [Finding(f"key {where}", "not checked", "this key has no meaning here") for where in strangers(certificate)]
@@ -60,6 +66,15 @@ def verify(certificate: dict) -> Verification:
         if motion:
             check_motion(rates, motion, note)
     return Verification(tuple(findings), silent)
+
+
+def _verify_diagram(certificate: dict) -> Verification:
+    """The same of a diagram over one number."""
+    check_frame(certificate, DIAGRAM)
+    findings = [Finding(f"key {where}", "not checked", "this key has no meaning here") for where in strangers(certificate, DIAGRAM_KEYS)]
+    claims = claims_of(certificate)
+    check_diagram(claims, lambda claim, status, reason="": findings.append(Finding(claim, status, reason)))
+    return Verification(tuple(findings))
 
 
 def verify_file(path) -> Verification:

@@ -1,6 +1,7 @@
 """What a certificate is about: the numbers of its scene and state, in a line, and compared with those of a case."""
 from __future__ import annotations
 
+from .diagram import about as diagram
 from .form import SCENES
 from .numbers import number, shown
 
@@ -10,6 +11,8 @@ WORDS = {"inertia": "moments", "momentum": "wheel"}
 def about(certificate: dict) -> dict:
     """Its scene and state as plain strings, in the order of the form: {"variables": .., "inertia": [..], .., "state": [..]};
     empty where it names no scene. For a certificate that `verify` has read without complaint."""
+    if diagram.is_one(certificate):
+        return diagram.about(certificate)
     scene, motion = certificate.get("scene"), certificate.get("motion")
     if scene is None:
         return {}
@@ -18,6 +21,8 @@ def about(certificate: dict) -> dict:
 
 def line(told: dict) -> str:
     """The line that `stabilab verify` prints first."""
+    if "number" in told:
+        return diagram.line(told)
     parts = [f"{WORDS.get(key, key)} {_short(value)}" for key, value in told.items() if key != "variables"]
     return f"about: {', '.join(parts) or 'no scene'}" + ("" if "state" in told or not told else ", no state")
 
@@ -25,6 +30,8 @@ def line(told: dict) -> str:
 def differences(told: dict, case: dict) -> list[str]:
     """What a certificate is about that a case is not: both as `about` tells it, numbers compared exactly. A certificate
     without a motion says nothing of a state, so the case's may be any."""
+    if "number" in told:
+        return diagram.differences(told, case)
     keys = [*told, *(key for key in case if key not in told and key != "state")]
     return [f"{WORDS.get(key, key)}: the certificate's {_short(told.get(key))}, the case's {_short(case.get(key))}"
             for key in keys if _exact(told.get(key)) != _exact(case.get(key))]

@@ -51,11 +51,11 @@ def _no_number(word):
     raise Malformed(f"{word} is no number of JSON")
 
 
-def check_frame(certificate) -> None:
+def check_frame(certificate, schema: str = SCHEMA) -> None:
     """Schema, and what is no claim: who wrote it, and what it leaves out. Raises `Malformed`."""
     got = certificate.get("schema") if isinstance(certificate, dict) else certificate
-    if got != SCHEMA or not isinstance(certificate, dict):
-        raise Malformed(f"schema: expected {SCHEMA!r}, got {shown(got)}")
+    if got != schema or not isinstance(certificate, dict):
+        raise Malformed(f"schema: expected {schema!r}, got {shown(got)}")
     if not isinstance(certificate.get("program", ""), str):
         raise Malformed(f"program: expected a name, got {shown(certificate['program'])}")
     left = certificate.get("uncertified", [])
@@ -65,11 +65,11 @@ def check_frame(certificate) -> None:
         raise Malformed(f"uncertified: everything is claimed, yet {shown(left[0])} is left out")
 
 
-def strangers(certificate) -> list[str]:
+def strangers(certificate, keys=None) -> list[str]:
     """Where keys stand that have no meaning: nothing is known of what they say."""
     scene = certificate.get("scene")
     known = SCENES.get(field(scene, "variables", "scene", str), ()) if scene is not None else ()
-    return list(_strangers(certificate, KEYS | {"scene": dict.fromkeys(known)}, ""))
+    return list(_strangers(certificate, (KEYS if keys is None else keys) | {"scene": dict.fromkeys(known)}, ""))
 
 
 def _strangers(value, known, where):

@@ -1,0 +1,137 @@
+"""The claims of a diagram against what trace forms count: at every value where they degenerate, and once between any two of these."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from ..numbers import brief, exact_sign, q
+from .claims import Claims, Event
+from .count import Count, System, count_at, critical
+from .equations import Equations, value
+from .ideal import added
+from .sturm import Between, Root, roots
+
+
+@dataclass(frozen=True)
+class Place:
+    """root: of a critical polynomial, or None for all values between two of them; count: the zeros there."""
+
+    root: Root | None
+    count: Count
+
+
+def check_diagram(claims: Claims, note) -> None:
+    """Findings on all claims."""
+    equations = Equations.of(claims)
+    if claims.variables == "physical":
+        whole = all(_positive(D, claims.low, claims.high) for D in claims.scene["inertia"])
+        note("the moments of inertia are positive all over the range", "proved" if whole else "refuted", "by Sturm's sequences")
+        if not whole:
+            return
+    system = _system(claims, equations, note)
+    if system is None:
+        return
+    places = _places(system, claims.low, claims.high)
+    changes = [n for n, place in enumerate(places) if place.root and any(side.count.real != place.count.real for side in _sides(places, n))]
+    left = set(changes)
+    for event in claims.events:
+        _check_event(event, places, changes, left, note)
+    _check_pieces(claims, places, changes, note)
+    missed = sorted(_near(places[n].root) for n in left)
+    between = f"{sum(p.root is not None for p in places)} critical values, {sum(p.root is None for p in places)} counts between them"
+    told = f"near {', '.join(missed)} the number changes too" if missed else f"trace forms: {between}"
+    note("the events are complete", "refuted" if missed else "proved", told)
+
+
+def _positive(f, low: Fraction, high: Fraction) -> bool:
+    return f != 0 and exact_sign(f(q(low))) > 0 and not roots([f], low, high)
+
+
+def _system(claims: Claims, equations: Equations, note) -> System | None:
+    """What is counted; None where the claims fit no such count."""
+    if claims.counted == "isolated":
+        return System(3, [*equations.conditions, *equations.rates], [equations.n])
+    axis = claims.axis - 1
+    claim = f"the torque lies on principal axis {claims.axis}, and no wheel along it"
+    if not equations.along(axis):
+        note(claim, "refuted", "a rate across it does not vanish there")
+        return None
+    note(claim, "proved", "in the plane across it one condition is left")
+    one = equations.across(axis, equations.rates[axis])
+    if claims.start is None:
+        return System(2, [one, equations.across(axis, equations.m)], endless=equations.torque(axis))
+    law = equations.kept(axis)
+    if law is None:
+        note("the curve that a motion keeps to", "refuted", "no law of this form is constant")
+        return None
+    note("the curve that a motion keeps to", "proved", "the rate of its law along every motion vanishes identically")
+    here = value(law, claims.start)
+    kept = added(law, {(0, 0, 0): here} if here != 0 else {}, less=True)
+    return System(2, [one, equations.across(axis, kept)], [equations.across(axis, equations.m)])
+
+
+def _places(system: System, low: Fraction, high: Fraction) -> list[Place]:
+    """Critical values and the intervals between them, rising."""
+    found = roots(critical(system), low, high)
+    out: list[Place] = []
+    ends: list[Any] = [None, *found, None]
+    for first, second in zip(ends, ends[1:]):
+        a, b = first.high if first else low, second.low if second else high
+        if a < b:  # at an end of the range there may be none
+            out.append(Place(None, count_at(system, Between((a + b) / 2))))
+        if second:
+            out.append(Place(second, count_at(system, second)))
+    return out
+
+
+def _sides(places: list[Place], n: int) -> list[Place]:
+    return [places[k] for k in (n - 1, n + 1) if 0 <= k < len(places)]
+
+
+def _check_event(event: Event, places: list[Place], changes: list[int], left: set[int], note) -> None:
+    held = [n for n in changes if (root := places[n].root) and root.within(event.low, event.high)]
+    if len(held) != 1:
+        note(event.claim, "refuted", f"between these bounds there are {len(held)} values at which the number changes, not one")
+        return
+    left.discard(held[0])
+    real = places[held[0]].count.real
+    note(event.claim, "proved" if real == event.count else "refuted", "the signature of the trace form at this value, exactly" if real is not None else
+         "the equations leave endless zeros there")
+
+
+def _check_pieces(claims: Claims, places: list[Place], changes: list[int], note) -> None:
+    """Findings on the pieces: those between the values at which the number changes."""
+    runs: list[list[Place]] = [[]]
+    for n, place in enumerate(places):
+        if n in changes:
+            runs.append([])
+        else:
+            runs[-1].append(place)
+    runs = [run for run in runs if run]
+    if len(runs) != len(claims.pieces):
+        note(f"{len(claims.pieces)} pieces", "refuted", f"there are {len(runs)}")
+        return
+    for number, (piece, run) in enumerate(zip(claims.pieces, runs), 1):
+        told = "endless equilibria" if piece.count is None else f"{piece.count} counted" + ("" if piece.stable is None else f", {piece.stable} stable")
+        right = all(place.count.real == piece.count for place in run)
+        stable = {_stable(claims, place.count) for place in run if place.root is None}
+        if right and piece.stable is not None and None in stable:
+            note(f"piece {number}: {told}", "not checked", "at some value of it the sign that tells stability is open")
+            continue
+        right = right and (piece.stable is None or stable == {piece.stable})
+        note(f"piece {number}: {told}", "proved" if right else "refuted", "signatures of trace forms, at one value of each interval between critical values")
+
+
+def _stable(claims: Claims, count: Count) -> int | None:
+    """How many are stable; None where a sign is open. On a motion's curve those with m > 0; of isolated ones none, where n is not zero."""
+    if count.real is None or not count.tests:
+        return 0
+    (signature, nowhere_zero), = count.tests
+    if not nowhere_zero:
+        return None
+    return (count.real + signature) // 2 if claims.counted == "motion" else 0
+
+
+def _near(root: Root | None) -> str:
+    return brief((root.low + root.high) / 2) if root else ""

@@ -1,0 +1,112 @@
+"""What a certificate of a diagram says, read: a scene whose numbers are polynomials in one that varies, its range, pieces and events."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from ..numbers import MOST, Malformed, bracket, brief, entries, field, numbers, q, shown, word
+
+SCHEMA = "stabilab.diagram-certificate/1"
+COUNTED = ("isolated", "motion", "borders")
+DEGREE, LONGEST = 3, 400  # of the law by which a number of the scene depends on the one that varies; letters of a coefficient
+PLACES = {"physical": (("inertia", 3), ("momentum", 3), ("torque", 3)), "scaled": (("a", 1), ("b", 1), ("mu", 3))}
+KEYS = {"schema": None, "program": None, "uncertified": None, "number": None, "counted": None, "axis": None, "start": None, "range": None,
+        "pieces": [dict.fromkeys(("equilibria", "stable"))], "events": [dict.fromkeys(("t", "equilibria"))]}
+
+
+@dataclass(frozen=True)
+class Event:
+    """low <= value <= high: where something changes; count: equilibria at the value itself, None for endless ones."""
+
+    low: Fraction
+    high: Fraction
+    count: int | None
+
+    @property
+    def claim(self) -> str:
+        told = "endless equilibria" if self.count is None else f"{self.count} equilibri{'um' if self.count == 1 else 'a'}"
+        return f"event near {brief((self.low + self.high) / 2)}: {told} there"
+
+
+@dataclass(frozen=True)
+class Piece:
+    """count, stable: equilibria for every value of a piece and how many of them are stable; None: endless, and not told."""
+
+    count: int | None
+    stable: int | None
+
+
+@dataclass(frozen=True)
+class Claims:
+    """scene: name -> polynomials in t; start: the state's, or None; axis: of the torque, 0 where all equilibria are counted."""
+
+    variables: str
+    scene: dict[str, list[Any]]
+    counted: str
+    axis: int
+    start: list[Any] | None
+    low: Fraction
+    high: Fraction
+    pieces: tuple[Piece, ...]
+    events: tuple[Event, ...]
+
+
+def claims_of(table) -> Claims:
+    """The claims of a certificate. Raises `Malformed` where it is none."""
+    scene = field(table, "scene", "", dict)
+    variables = word(scene, "variables", "scene", tuple(PLACES))
+    read = {name: _polynomials(field(scene, name, "scene"), f"scene.{name}", count) for name, count in PLACES[variables]}
+    counted, axis = word(table, "counted", "", COUNTED), _whole(table, "axis", "", 3)
+    if (counted == "isolated") != (axis == 0):
+        raise Malformed("axis: expected 0 where all equilibria are counted, else that of the torque")
+    start = _polynomials(table["start"], "start", 3) if table.get("start") is not None else None
+    if (counted == "motion") != (start is not None):
+        raise Malformed("start: expected the state of a motion whose curve is counted on, and none else")
+    low, high = bracket(field(table, "range", ""), "range")
+    events = tuple(_event(e, f"events[{i}]") for i, e in enumerate(entries(table, "events", "")))
+    pieces = tuple(_piece(p, f"pieces[{i}]", counted) for i, p in enumerate(entries(table, "pieces", "")))
+    _in_order(events, pieces, low, high)
+    return Claims(variables, read, counted, axis, start, low, high, pieces, events)
+
+
+def _polynomials(value, where: str, count: int) -> list[Any]:
+    from flint import fmpq_poly
+    if not isinstance(value, list) or len(value) != count:
+        raise Malformed(f"{where}: expected {count} list{'s' if count > 1 else ''} of coefficients, got {shown(value)}")
+    rows = [numbers(row, f"{where}[{i}]") for i, row in enumerate(value)]
+    if any(len(row) > DEGREE + 1 or not row for row in rows):
+        raise Malformed(f"{where}: expected 1 to {DEGREE + 1} coefficients")
+    if any(len(c) > LONGEST for row in value for c in row):
+        raise Malformed(f"{where}: expected coefficients of at most {LONGEST} letters")
+    return [fmpq_poly([q(c) for c in row]) for row in rows]
+
+
+def _whole(table, key: str, where: str, most: int = MOST) -> int:
+    value = field(table, key, where)
+    if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value <= most:
+        raise Malformed(f"{where}.{key}: expected a whole number of 0 to {most}, got {shown(value)}")
+    return value
+
+
+def _event(table, where: str) -> Event:
+    low, high = bracket(field(table, "t", where), f"{where}.t")
+    return Event(low, high, _whole(table, "equilibria", where) if field(table, "equilibria", where) is not None else None)
+
+
+def _piece(table, where: str, counted: str) -> Piece:
+    count = _whole(table, "equilibria", where) if field(table, "equilibria", where) is not None else None
+    stable = _whole(table, "stable", where) if field(table, "stable", where) is not None else None
+    if (stable is None) != (counted == "borders" or count is None):
+        raise Malformed(f"{where}.stable: expected how many of the equilibria are stable, and none where these are endless or changes of stability")
+    return Piece(count, stable)
+
+
+def _in_order(events, pieces, low: Fraction, high: Fraction) -> None:
+    if low >= high:
+        raise Malformed("range: expected its lower end first")
+    if any(one.high >= two.low for one, two in zip(events, events[1:])) or any(e.low < low or e.high > high for e in events):
+        raise Malformed("events: expected them rising, apart from one another and inside the range")
+    ends = sum(e.low == e.high == end for e in events for end in (low, high))
+    if len(pieces) != len(events) + 1 - ends:
+        raise Malformed(f"pieces: expected {len(events) + 1 - ends}, before, between and after the events, got {len(pieces)}")

@@ -1,0 +1,141 @@
+"""Certificates of diagrams: what resultants and balls found is proved by trace forms and Sturm's sequences, and nothing else is."""
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from fractions import Fraction as F
+
+import numpy as np
+import pytest
+from flint import fmpq_poly
+
+from stabilab.commands.maps import bifurcation as command
+from stabilab.errors import InputError
+from stabilab.verify import verify
+from stabilab.verify.diagram.count import System, count_at, critical
+from stabilab.verify.diagram.sturm import Between, Root, roots
+from stabilab.verify.numbers import Malformed
+from tests.shared import CASES
+from tests.verify.diagrams import certified, drawn, forgeries
+
+KNOWN = {"a circle of a motion": ("wheel-and-thruster", {"torque[3]": "0:2000"}, False), "off the axes": ("off-axis-two", {"torque[3]": "-0.3:0.3"}, False),
+         "a moment of inertia": ("wheel-and-thruster", {"inertia[1]": "780:860"}, False), "a cusp": ("middle-axis-double-well", {"b": "0:4"}, True),
+         "a curve at one value": ("thruster-stuck-major-axis", {"torque[2]": "-1:1"}, False), 
+         "a start": ("wheel-and-thruster", {"angular_velocity[2]": "-9:9 deg/s"}, False)}
+
+
+def made(name):
+    case, vary, curve = KNOWN[name]
+    return certified(CASES / f"{case}.toml", vary, curve)
+
+
+def status_of(claims):
+    try:
+        return verify(claims).status
+    except Malformed:
+        return "refused"
+
+
+@pytest.mark.parametrize("degenerate", [False, True], ids=["generic", "degenerate"])
+@pytest.mark.parametrize("seeds", [range(20), pytest.param(range(100, 1100), marks=pytest.mark.slow)], ids=["some", "a thousand"])
+def test_what_elimination_finds_is_what_trace_forms_count(tmp_path, seeds, degenerate):
+    proved = 0
+    for seed in seeds:
+        claims = drawn(tmp_path, seed, degenerate)
+        if claims is not None:
+            found = verify(claims)
+            assert found.status == "proved", (seed, [f for f in found.findings if f.status != "proved"])
+            proved += 1
+    assert proved > 0.7 * len(seeds)
+
+
+def test_two_hundred_forgeries_are_refuted(tmp_path):
+    rng, tried = np.random.default_rng(1), 0
+    for claims in (*map(made, KNOWN), *(drawn(tmp_path, seed, True) for seed in (0, 2, 3, 5, 7))):
+        assert status_of(claims) == "proved", verify(claims).findings
+        for words, forged in forgeries(claims, rng):
+            assert status_of(forged) in ("refuted", "refused"), (words, claims)
+            tried += 1
+    assert tried > 200
+
+
+@pytest.mark.slow
+def test_thousands_of_forgeries_are_refuted(tmp_path):
+    rng, tried = np.random.default_rng(1), 0
+    for seed in range(150):
+        claims = drawn(tmp_path, seed, seed % 2 == 0)
+        for words, forged in forgeries(claims, rng) if claims is not None else ():
+            assert status_of(forged) in ("refuted", "refused"), (seed, words)
+            tried += 1
+    assert tried > 2000
+
+
+JUNK = [None, True, 5, -1, 1.5, "x", "1/0", [], {}, [[]], ["1"], ["2", "1"], "9" * 5000, ["0", "1e400000"], [["1"] * 3] * 3, float("nan")]
+
+
+@pytest.mark.parametrize("key", ["scene", "counted", "axis", "start", "range", "pieces", "events"])
+def test_junk_is_refused_or_refuted_and_never_proved(key):
+    claims = made("a circle of a motion")
+    for bad in JUNK:
+        assert status_of(claims | {key: bad}) in ("refuted", "refused"), bad
+    for inner in claims[key] if isinstance(claims[key], dict) else ():
+        for bad in JUNK:
+            assert status_of(claims | {key: claims[key] | {inner: bad}}) in ("refuted", "refused"), (inner, bad)
+    for entry in ({"t": bad, "equilibria": 1, "stable": 1} for bad in JUNK):
+        if isinstance(claims[key], list):
+            assert status_of(claims | {key: [entry, *claims[key][1:]]}) in ("refuted", "refused"), entry
+
+
+def test_a_key_without_a_meaning_is_not_checked():
+    assert status_of(made("off the axes") | {"folds": "none"}) == "partly"
+
+
+def test_a_body_whose_moment_vanishes_in_the_range_is_refuted():
+    claims = made("off the axes")
+    claims["scene"]["inertia"][0] = ["0", "1"]
+    assert status_of(claims) == "refuted"
+
+
+def test_a_diagram_over_two_numbers_has_no_certificate():
+    with pytest.raises(InputError, match="over one number"):
+        command(CASES / "wheel-and-thruster.toml", ["torque[3]=0:1", "torque[1]=0:1"], False, None, "diagram.json", False, False)
+
+
+def test_a_certificate_is_of_its_case_and_of_no_other(tmp_path):
+    run = lambda *words: subprocess.run([sys.executable, "-m", "stabilab", *map(str, words)], capture_output=True, text=True)
+    case, out = CASES / "off-axis-two.toml", tmp_path / "diagram.json"
+    assert run("bifurcation", case, "--vary", "torque[3]=-0.3:0.3", "--certify", out).returncode == 0
+    good, bad = run("verify", out, "--case", case), run("verify", out, "--case", CASES / "off-axis-one.toml")
+    assert good.returncode == 0 and good.stdout.startswith("PROVED: ") and "torque 1/10 1/5 *" in good.stdout
+    assert bad.returncode == 5 and "of another case" in bad.stderr
+    claims = json.loads(out.read_text())
+    claims["events"][0]["equilibria"] = 2
+    out.write_text(json.dumps(claims))
+    assert run("verify", out).returncode == 5
+
+
+# -- the parts by hand
+
+
+def test_a_trace_form_counts_the_points_of_a_circle_on_a_line():
+    """x^2 + y^2 = 1 and y = t: two points for |t| < 1, one at the ends, none beyond; x > 0 at one of them."""
+    p = lambda *c: fmpq_poly(list(c))
+    system = System(2, [{(2, 0): p(1), (0, 2): p(1), (0, 0): p(-1)}, {(0, 1): p(1), (0, 0): p(0, -1)}], [{(1, 0): p(1)}])
+    found = {t: count_at(system, Between(F(t))) for t in (0, F(3, 5), 1, 2)}
+    assert [found[t].real for t in found] == [2, 2, 1, 0] and found[0].tests == ((0, True),) and found[1].tests == ((0, False),)
+    assert {(root.low, root.high) for root in roots(critical(system), F(-3), F(3))} == {(F(-1), F(-1)), (F(1), F(1))}
+
+
+def test_zeros_of_a_chebyshev_polynomial_are_cosines():
+    f, last = fmpq_poly([0, 1]), fmpq_poly([1])
+    for _ in range(10):
+        f, last = fmpq_poly([0, 2]) * f - last, f
+    found = roots([f], F(-1), F(1))
+    expected = sorted(np.cos((2 * k + 1) * np.pi / 22) for k in range(11))
+    assert len(found) == 11 and all(float(r.low) - 1e-12 <= x <= float(r.high) + 1e-12 for r, x in zip(found, expected))
+
+
+def test_the_sign_of_a_polynomial_at_a_zero_of_another_is_exact():
+    root = Root(fmpq_poly([-2, 0, 1]), F(1), F(2))  # the square root of two
+    assert [root.sign(fmpq_poly(c)) for c in ([-2, 0, 1], [-577, 408], [-1393, 985], [0, 0, 0, 1])] == [0, -1, 1, 1]  # its convergents from both sides
