@@ -178,6 +178,17 @@ class Eliminated:
         a, b = _coefficient(f, 0), _coefficient(f, 1)
         return b if b.degrees()[0] < 1 else a if a.degrees()[0] < 1 else a.resultant(b, "x")
 
+    def flat(self, number: Algebraic) -> bool:
+        """Whether m vanishes too at the double root x = -c1/(2 c2) of a line, exactly: all three eigenvalues are zero there."""
+        line = self.system
+        if not isinstance(line, OnLine):
+            return False
+        _, c1, c2 = (number.reduced(univariate(c, 2)) for c in line.coefficients)
+        x, total = number.reduced(number.inverse(2 * c2) * -c1), number.polynomial * 0
+        for c in reversed(_over_field(line.m(self.family))):
+            total = number.reduced(total * x + c)
+        return bool(total == 0)
+
     def _with_states(self, view: Leant, roots: list[tuple[arb, int]], values: list) -> list[Root]:
         return [Root(x, times, self.state(view, x, values)) for x, times in roots]
 

@@ -14,7 +14,7 @@ from .critical import Cut, between, cuts
 from .eliminated import Eliminated, Root, univariate
 from .family import Family
 from .result import ENDLESS, Diagram, Event, Piece, State
-from .system import BORDERS, LEAF, Conics, OnLine
+from .system import BORDERS, ISOLATED, LEAF, Conics, OnLine
 from .verdicts import general_states, judged_state
 
 WORDS = {"fold": "two {} meet and vanish", "pitchfork": "three {} meet in one", "crossing": "two branches of {} cross",
@@ -91,7 +91,8 @@ def _kinds(eliminated: Eliminated, cut: Cut, roots: Sequence[Root], sides: Seque
 def _states_at(family: Family, kind: str, eliminated: Eliminated, cut: Cut, bits: int, sides: Sequence[Piece | None]) -> tuple[State, ...]:
     values = [cut.number.ball(bits)]
     roots = eliminated.at_algebraic(cut.number, bits) or []
-    return tuple(judged_state(family, kind, values, root, _going_on(root, sides) if kind == LEAF else 0) for root in roots)
+    flat = kind == ISOLATED and any(root.times > 1 for root in roots) and eliminated.flat(cut.number)
+    return tuple(judged_state(family, kind, values, root, _going_on(root, sides) if kind == LEAF else 0, flat) for root in roots)
 
 
 def _going_on(root: Root, sides: Sequence[Piece | None]) -> int:

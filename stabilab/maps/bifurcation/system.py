@@ -34,6 +34,13 @@ class OnLine:
     load: fmpq_mpoly
     kind: str = ISOLATED
 
+    def m(self, family: Family) -> fmpq_mpoly:
+        """m of z^3 + m z + n along the line, times below^2 and the positive moments: a quadratic polynomial of y, made homogeneous."""
+        x, zero = family.ring.gens()[0], family.ring.constant(0)
+        y = [s + x * a for s, a in zip(self.start, self.along)]
+        there, mirrored, middle = _linear_m(family, y), _linear_m(family, [-c for c in y]), _linear_m(family, [zero] * 3)
+        return (there + mirrored) / 2 - middle + (there - mirrored) / 2 * self.below + middle * self.below * self.below
+
 
 @dataclass(frozen=True)
 class Conics:

@@ -48,9 +48,9 @@ def doubles(x: tuple[arb, ...]) -> tuple[float, ...]:
     return tuple(0.0 if v.contains(0) else float(v.mid()) for v in x)
 
 
-def judged_state(family: Family, kind: str, values: list, root: Root, after: int = 0) -> State:
-    """An equilibrium with its verdict. after: where branches meet in it on a motion's curve, the sign of m on the branch that goes on. Unclear where
-    the balls leave a sign open."""
+def judged_state(family: Family, kind: str, values: list, root: Root, after: int = 0, flat: bool = False) -> State:
+    """An equilibrium with its verdict. after: where branches meet in it on a motion's curve, the sign of m on the branch that goes on; flat: m is known to
+    be zero there, which no ball tells. Unclear where the balls leave a sign open."""
     form, u = ball_form(family, values)
     x = state_of(family, root.y, u)
     at = doubles(x)
@@ -59,7 +59,7 @@ def judged_state(family: Family, kind: str, values: list, root: Root, after: int
     m, n = invariants(form, x)
     if kind == ISOLATED:
         n_sign = sign(n) if root.times == 1 else 0
-        m_sign = 0 if n_sign and m.contains(0) else sign(m)
+        m_sign = 0 if flat or (n_sign and m.contains(0)) else sign(m)
         return State(at, root.times, linear_word(m_sign, n_sign), *isolated_verdict(m_sign, n_sign))
     if root.times == 1:
         m_sign = sign(m)

@@ -126,6 +126,18 @@ def test_a_thousand_random_scenes_off_the_axes_have_the_counted_equilibria(check
     assert sum(check_isolated(seed) for seed in range(100, 1100)) > 500
 
 
+def test_a_fold_where_all_eigenvalues_are_zero_is_told(tmp_path):
+    """At D3 = 1/2 of D1 = 1, D2 = 3/2 the two meet where m and n vanish at once: by the Jacobian written out here."""
+    D, lam, M = np.array([1, 1.5, 0.5]), np.array([0, -2, 0]), np.array([2, -1, -0.5])
+    found = stabilab.bifurcation(written(tmp_path, (1, "3/2", 1), lam.tolist(), M.tolist()), {"inertia[3]": (Fraction(1, 2), Fraction(3, 2))})
+    (state,) = found.events[0].states
+    x = np.array(state.at)
+    across = lambda v: np.array([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
+    jacobian = (across(D * x + lam) - across(x) @ np.diag(D)) / D[:, None]  # of (D x + lam) x x + M
+    assert np.abs(np.cross(D * x + lam, x) + M).max() < 1e-12
+    assert found.events[0].exact == Fraction(1, 2) and np.abs(np.linalg.matrix_power(jacobian, 3)).max() < 1e-12 and state.verdict == "unstable"
+
+
 def test_what_cannot_be_eliminated_is_refused_with_the_way_out(tmp_path):
     own = written(tmp_path, (3, 2, "1.5"), (0, 0, 0), ("0.1", "0.2", "0.1"))
     for vary, words in (({"torque[3]": "0:1:5"}, "no number of steps"), ({"torque[3]": "1:0"}, "the lower end first"), ({"torqe[3]": "0:1"}, "did you mean"),
