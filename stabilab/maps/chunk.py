@@ -70,7 +70,7 @@ def _many(plan: Plan, case: Case, states: np.ndarray, out: np.ndarray) -> None:
         found = fate(scene, states, **_following(plan, case))
         columns: dict[str, Callable[[], Any]] = {
             "fate": lambda: found.labels, "spin_axis": lambda: found.axis * found.sense, "reason": lambda: found.reasons, "margin": lambda: found.margins,
-            "level": lambda: [LEVELS.index(word) for word in found.levels], "distance": lambda: found.velocity_margins,
+            "level": lambda: found.level_numbers(LEVELS), "distance": lambda: found.velocity_margins,
             "island": lambda: 0 if found.followed is None else found.followed.islands}
         for name, column in columns.items():
             if name in out.dtype.names:

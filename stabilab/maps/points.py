@@ -76,7 +76,8 @@ def _turned(case: Case, written: np.ndarray) -> np.ndarray:
 def _as_written(plan: Plan, low: int, high: int) -> np.ndarray:
     """The same in the frame of the file."""
     states = np.tile(_base(plan), (high - low, 1))
-    places = np.unravel_index(np.array(plan.places(low, high)), [plan.shape[n] for n in plan.inner])
+    asked = plan.places(low, high)
+    places = np.unravel_index(np.arange(low, high) if isinstance(asked, range) else np.array(asked), [plan.shape[n] for n in plan.inner])
     for dimension, at in zip(plan.inner, places):
         if dimension < len(plan.axes):
             axis = plan.axes[dimension]
@@ -87,7 +88,6 @@ def _as_written(plan: Plan, low: int, high: int) -> np.ndarray:
             for n, sampled in enumerate(plan.sampled.keys):
                 states[:, sampled.paths[0][2]] = rows[:, n]
     return states
-
 
 
 def _base(plan: Plan) -> list[float]:

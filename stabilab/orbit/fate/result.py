@@ -1,6 +1,7 @@
 """Fates and margins of arrays as data."""
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -66,10 +67,16 @@ class FateResult(Shown):
         """How well each label is known: "exact" (by a law or a closed solution), "certified" (an inequality met by a run of machine
         precision), "proved" (where `fate` was asked for it: the way to the inequality enclosed) or "undecided": a string for one state, an object
         array otherwise."""
-        words = np.where(self.labels == Fate.UNDECIDED, "undecided", np.where(self.reasons == Reason.CERTIFIED, "certified", "exact")).astype(object)
+        words = ("undecided", "certified", "exact", "proved")
+        return np.array(words, dtype=object)[self.level_numbers(words)]
+
+    def level_numbers(self, words: Sequence[str]) -> np.ndarray:
+        """The same as the places of these words in a row of them."""
+        undecided, certified, exact, proved = map(words.index, ("undecided", "certified", "exact", "proved"))
+        found = np.where(self.labels == Fate.UNDECIDED, np.int8(undecided), np.where(self.reasons == Reason.CERTIFIED, np.int8(certified), np.int8(exact)))
         if self.followed is not None:
-            words[self.followed.proved.reshape(words.shape)] = "proved"
-        return words[()]
+            found[self.followed.proved.reshape(found.shape)] = proved
+        return found
 
     @cached_property
     def validity(self):
