@@ -212,6 +212,37 @@ def off_axis_rates(inertia, moment, torque):
             (r, (D1 - D2) / D3 * p * q + h1 / D3 * q - h2 / D3 * p + M3 / D3)]
 
 
+class BatchSpinUp:
+    """Follow motions off the axes in batches until the largest rate passes HIGH, and name its axis with the sign. Decided motions leave their lane at once
+    (compaction)."""
+
+    HIGH = 10.0
+
+    def __init__(self, scene, tolerance=1e-15, batch=8):
+        import heyoka
+        inertia, moment, torque = ([float(c) for c in part] for part in (scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque")))
+        self.batch = batch
+        self.integrator = heyoka.taylor_adaptive_batch(off_axis_rates(inertia, moment, torque), np.zeros((3, batch)), tol=tolerance)
+
+    def __call__(self, states):
+        """(n,): the axis 1, 2 or 3 with the sign of its rate."""
+        ta, batch, waiting = self.integrator, self.batch, list(range(len(states)))[::-1]
+        lane, found = [None] * batch, np.zeros(len(states), int)
+        while True:
+            for i in range(batch):
+                if lane[i] is None:
+                    lane[i] = waiting.pop() if waiting else None
+                    ta.state[:, i] = states[lane[i]] if lane[i] is not None else 0.0
+            if all(number is None for number in lane):
+                return found
+            ta.step()
+            largest = np.abs(ta.state).max(axis=0)
+            for i in np.flatnonzero(largest > self.HIGH):
+                if lane[i] is not None:
+                    axis = int(np.abs(ta.state[:, i]).argmax())
+                    found[lane[i]], lane[i] = (axis + 1) * int(np.sign(ta.state[axis, i])), None
+
+
 class ScalarRuns:
     """States of one motion on a grid of times that begins at 0, compiled beforehand."""
 
