@@ -28,11 +28,22 @@ def wanted(n: int, fast: bool | None, loaded: bool, cold: int, warm: int) -> boo
     return bool(fast)
 
 
-def compiled(module: ModuleType, inlined: Container[str], **instead: Any) -> dict[str, Any]:
+def compiled(module: ModuleType, inlined: Container[str], variant: str = "", **instead: Any) -> dict[str, Any]:
     """The names of a module of straight-line kernels with all its functions compiled; kept on disk where there is a place for it.
 
-    instead: what stands for names that the module imports, for compiled code."""
-    return _kept(lambda cache: _compiled(module, inlined, cache, instead))
+    instead: what stands for names of the module, for compiled code; variant: names the code that has these, which the disk keeps apart."""
+    return _kept(lambda cache: _compiled(module, inlined, cache, variant, instead))
+
+
+def twins(module: ModuleType, make: Callable[[str, FunctionType], Any], variant: str = "", **instead: Any) -> dict[str, Any]:
+    """The names of a module with `make` of a twin of each of its functions, which sees these names; instead, variant: as of `compiled`."""
+    names = vars(module) | instead
+    for name, function in list(names.items()):
+        if isinstance(function, FunctionType) and function.__module__ == module.__name__:
+            twin = FunctionType(function.__code__, names, name)
+            twin.__qualname__ += variant
+            names[name] = make(name, twin)
+    return names
 
 
 def compiled_function(function: FunctionType) -> Any:
@@ -49,11 +60,6 @@ def _kept(make: Callable[[bool], Any]) -> Any:
         return make(False)
 
 
-def _compiled(module: ModuleType, inlined: Container[str], cache: bool, instead: dict[str, Any]) -> dict[str, Any]:
+def _compiled(module: ModuleType, inlined: Container[str], cache: bool, variant: str, instead: dict[str, Any]) -> dict[str, Any]:
     from numba import njit
-    names = vars(module) | instead
-    for name, function in list(names.items()):
-        if isinstance(function, FunctionType) and function.__module__ == module.__name__:
-            twin = FunctionType(function.__code__, names, name)
-            names[name] = njit(cache=cache, error_model="numpy", forceinline=name in inlined)(twin)
-    return names
+    return twins(module, lambda name, twin: njit(cache=cache, error_model="numpy", forceinline=name in inlined)(twin), variant, **instead)

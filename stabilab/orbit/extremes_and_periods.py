@@ -13,6 +13,7 @@ from .extremes.turning_points import interval
 from .far_states import far_numbers
 from .fate.arrays import fate_on_orbit, rows_beyond_doubles
 from .fate.result import CHUNK
+from .fine.rows_numba import by_rows
 from .landscape import landscape
 from .period.arrays import period_chunk
 from .reduction import reduce
@@ -30,15 +31,15 @@ def extremes_and_periods(scene, states, fast: bool | None = None, *, box=True, p
     if (far := rows_beyond_doubles(scene, flat)).any():
         _fill_far(scene, flat, boxes, periods, far)
         return boxes.reshape(array.shape + (2,)) if box else None, periods.reshape(array.shape[:-1]) if period else None
-    land, left_open = landscape(scene), None
+    land, left_open, tried = landscape(scene), None, False
     if fast is not False:
-        left_open = by_kernel(land, flat, boxes, periods, fast)
+        left_open, tried = by_rows(land, flat, boxes, periods, fast, by_kernel(land, flat, boxes, periods, fast))
     for start in range(0, len(flat), CHUNK):
         rows = slice(start, start + CHUNK)
         if left_open is None:
             _fill(land, scene, flat[rows], boxes[rows], periods[rows])
         elif left_open[rows].any():
-            _fill_open(land, scene, flat[rows], boxes[rows], periods[rows], left_open[rows])
+            _fill_open(land, scene, flat[rows], boxes[rows], periods[rows], left_open[rows], not tried)
     return (boxes.reshape(array.shape + (2,)) if box else None, periods.reshape(array.shape[:-1]) if period else None)
 
 
@@ -51,23 +52,23 @@ def _fill_far(scene, states, boxes, periods, far):
             column[~far] = values if values is not None else column[~far]
 
 
-def _fill(land, scene, states, boxes, periods):
-    """One chunk: boxes (n, 3, 2) and periods (n,), each unless it is empty."""
+def _fill(land, scene, states, boxes, periods, twofold=True):
+    """One chunk: boxes (n, 3, 2) and periods (n,), each unless it is empty. twofold: whether to try these rows in twofold numbers before balls."""
     decided = fate_on_orbit(scene, land, states)
     start = land.start(states)
     trapped = trapped_rows(land, decided)
     span = interval(land, *picked(start[0], start[1], trapped)) if len(boxes) and len(periods) and trapped.any() else None
     if len(boxes):
-        boxes[:] = extremes_of_chunk(land, states, decided, start, span)
+        boxes[:] = extremes_of_chunk(land, states, decided, start, span, twofold)
     if len(periods):
-        periods[:] = period_chunk(land, states, decided, start, span)
+        periods[:] = period_chunk(land, states, decided, start, span, twofold)
 
 
-def _fill_open(land, scene, states, boxes, periods, bits):
-    """The same for those states of a chunk that the compiled kernel left open."""
+def _fill_open(land, scene, states, boxes, periods, bits, twofold):
+    """The same for those states of a chunk that the compiled kernels left open."""
     for column, bit in ((boxes, 1), (periods, 2)):
         rows = np.nonzero(bits & bit)[0]
         if len(column) and len(rows):
             some, none = np.empty((len(rows),) + column.shape[1:]), np.empty(0)
-            _fill(land, scene, states[rows], *((some, none) if bit == 1 else (none, some)))
+            _fill(land, scene, states[rows], *((some, none) if bit == 1 else (none, some)), twofold)
             column[rows] = some

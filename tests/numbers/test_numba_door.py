@@ -7,7 +7,7 @@ from stabilab.numbers import numba_door
 def test_where_no_folder_is_writable_a_module_compiles_without_a_cache(monkeypatch):
     asked = []
 
-    def compiled(module, inlined, cache, instead):
+    def compiled(module, inlined, cache, *names):
         asked.append(cache)
         if cache:
             raise RuntimeError("cannot cache function: no locator available")

@@ -17,8 +17,8 @@ from .guards import DIGITS, EXTREMES_SHARE, SPIN_UP_SHARE, clear_of_barriers, in
 from .turning_points import interval, spots_along, turning_point
 
 
-def extremes_of_chunk(land: Landscape, states, decided, start, span=None):
-    """span: the intervals of all `trapped_rows`, where they are known already."""
+def extremes_of_chunk(land: Landscape, states, decided, start, span=None, twofold=True):
+    """span: the intervals of all `trapped_rows`, where they are known already; twofold: whether to try rows in twofold numbers before balls."""
     out = np.repeat(states[:, :, None], 2, axis=2)
     place, w, size = start
     share = np.where(decided.labels == Fate.SPIN_UP, SPIN_UP_SHARE, EXTREMES_SHARE)
@@ -36,7 +36,7 @@ def extremes_of_chunk(land: Landscape, states, decided, start, span=None):
     spinning = labels == Fate.SPIN_UP
     into(out, spinning, _spinning(land, *picked(place, w, spinning)))
     if precise.any():
-        fine = np.nonzero(precise & rows)[0] if land.conic is not None else np.zeros(0, int)
+        fine = np.nonzero(precise & rows)[0] if twofold and land.conic is not None else np.zeros(0, int)
         if fine.size:
             values, found = fine_boxes(land, states[fine])
             out[fine[found]], precise[fine[found]] = values[found], False

@@ -23,9 +23,9 @@ PERIOD_SHARE = 1e-5  # closer to the separatrix than this share of the energy te
 DIGITS = 1e-11  # rounding that leaves less than this goes to ball arithmetic
 
 
-def period_chunk(land: Landscape, states, decided, start, span=None):
+def period_chunk(land: Landscape, states, decided, start, span=None, twofold=True):
     """(n,) periods of states with known fates and `land.start`; span: the intervals of the motions between two turning
-    points, where they are known already."""
+    points, where they are known already; twofold: whether to try rows in twofold numbers before balls."""
     out = np.full(len(states), np.inf)
     out[decided.labels == Fate.EQUILIBRIUM] = 0.0
     out[decided.labels == Fate.UNDECIDED] = np.nan
@@ -40,7 +40,7 @@ def period_chunk(land: Landscape, states, decided, start, span=None):
     out[trapped] = values
     precise[np.nonzero(trapped)[0][~found]] = True
     if precise.any():
-        fine = np.nonzero(precise & rows)[0] if land.conic is not None else np.zeros(0, int)
+        fine = np.nonzero(precise & rows)[0] if twofold and land.conic is not None else np.zeros(0, int)
         if fine.size:
             values, found = fine_periods(land, states[fine])
             out[fine[found]], precise[fine[found]] = values[found], False

@@ -93,7 +93,7 @@ def double_exponential(modes: Modes, rho):
 
 def _level_sums(modes, rho, rows, length, side, level):
     """(m,) sums over the nodes that a level adds, of pieces of rows that begin at an end."""
-    near, weight, inner = _nodes(level)
+    near, weight, inner = nodes_of(level)
     out = np.empty(len(rows))
     wide = max(1, BLOCK // len(near))
     for start in range(0, len(rows), wide):
@@ -108,7 +108,7 @@ def _level_sums(modes, rho, rows, length, side, level):
 
 
 @lru_cache(maxsize=16)
-def _nodes(level):
+def nodes_of(level):
     """(distance from the nearer end over the length, weight, whether that end is the inner one) of the nodes that a level adds."""
     k = np.arange(-int(REACH * 2**level), int(REACH * 2**level) + 1)
     if level > FIRST_LEVEL:

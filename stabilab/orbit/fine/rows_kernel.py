@@ -1,0 +1,824 @@
+"""Extremes and periods of bounded rows on circles and hyperbolas, one row at a time, as straight lines of floats that numba compiles.
+
+The mechanics of `spots`, `motion`, `anchored` and `modes` and, for the integral, of `period.modes` and `period.rules`: equilibria along a row's orbit by
+Newton's method in twofold numbers, ends of the motion from the equilibrium that is nearer in height, the period by second divided differences. What 32
+digits do not settle is marked and left to the arrays' path. Every function is plain Python too. All in one file: numba's cache on disk watches no other.
+"""
+from __future__ import annotations
+
+import numpy as np
+
+EPS = 2.220446049250313e-16
+TURN, PI = 6.283185307179586, 3.141592653589793
+INFINITY = float("inf")
+BOX, PERIOD = 1, 2  # bits: wanted, and left to the arrays' path, as in `extremes.circle_kernel`
+SPLITTER = 134217729.0
+ROUNDINGS = 64.0  # units of rounding allowed for beside a fold, as in `landscape`
+STEPS, SETTLED, ENOUGH, TWOFOLD, DRIFT, SURE = 6, 1e-15, 1e-12, 2.0**-100, 1e-3, 1e-20  # as in `spots` and `places`
+ROUNDED, LAG = 8.0, 0.3  # as in `anchored`
+CLEAR, FAR, SCATTERED = 64.0, 1.5, 1e-9  # as in `motion`
+DIGITS, PERIOD_DIGITS, PERIOD_SHARE = 1e-12, 1e-11, 1e-5  # as in `extremes.guards` and `period.arrays`
+ROOT, SUM = 1e-9, 1e-9  # relative: the last step to a turning point, and from n nodes to 2 n; both leave the square
+NARROW = 0.5  # half-widths below it take series where closed forms cancel
+TERMS = 30  # of a series about an equilibrium
+LOOKS, CLOSER = 64, 4  # as in `period.rules`
+# columns of a spot: its offset from the state, E - V there, whether it is a barrier, the place, dF/dtheta, modes (A, B) about it; what its force,
+# its slope, the energy and the offset may be off by
+OFFSET, OVER, BARRIER, AT_X, AT_Z, BEND, MODE_A, MODE_B, PULL, TILT, ERROR, ASTRAY = range(12)
+# an end of a motion: offset, force there, error of the offset, error of the energy
+END, FORCE, BLUR, HAZE = range(4)
+
+
+def exact_sum(x, y):
+    s = x + y
+    back = s - x
+    return s, (x - (s - back)) + (y - back)
+
+
+def exact_product(x, y):
+    p = x * y
+    big = SPLITTER * x
+    xh = big - (big - x)
+    xl = x - xh
+    big = SPLITTER * y
+    yh = big - (big - y)
+    yl = y - yh
+    return p, ((xh * yh - p) + xh * yl + xl * yh) + xl * yl
+
+
+def add(a, b):
+    """Of twofold numbers, pairs of a high and a low part."""
+    s, e = exact_sum(a[0], b[0])
+    t, f = exact_sum(a[1], b[1])
+    s, e = exact_sum(s, e + t)
+    return exact_sum(s, e + f)
+
+
+def times(a, b):
+    p, e = exact_product(a[0], b[0])
+    return exact_sum(p, e + (a[0] * b[1] + a[1] * b[0]))
+
+
+def scaled(a, factor):
+    """A twofold number times a double."""
+    p, e = exact_product(a[0], factor)
+    return exact_sum(p, e + a[1] * factor)
+
+
+def less(a, b):
+    return add(a, (-b[0], -b[1]))
+
+
+def value(a):
+    return a[0] + a[1]
+
+
+class Circle:
+    """What rows on circles ask of their geometry; of `Hyperbola` the same names."""
+
+    E = -1.0  # of the invariant Z^2 - E X^2
+    ROUND = TURN  # after so much theta an orbit comes to the same place again
+    WALLED = False  # whether all motions are bounded that are not on a plane
+
+    @staticmethod
+    def invariant(x, z):
+        """Z^2 - E X^2."""
+        return z * z + x * x
+
+    @staticmethod
+    def lost(x, z, xi, eta, wide, form, conic):
+        """Whether a place may be one of those that are decided elsewhere."""
+        return x * x + z * z <= form[5]
+
+    @staticmethod
+    def onto(x, z, Q, xi, eta, radius):
+        """(whether it stands on the orbit's own branch, X, Z) of a place brought onto an orbit."""
+        scale = radius / np.sqrt(x * x + z * z)
+        return True, x * scale, z * scale
+
+    @staticmethod
+    def way_between(u, v, X, Z, Q):
+        """theta from a state (X, Z) to a place (u, v) of its orbit, the short way round; all twofold, Q a double."""
+        return np.arctan2(value(less(times(u, Z), times(v, X))) / Q, value(add(times(u, X), times(v, Z))) / Q)
+
+    @staticmethod
+    def swing(y):
+        """(sin y, sin(y/2), y less the first without cancellation)."""
+        h, t = np.sin(0.5 * y), y * y
+        s = 2 * h * np.cos(0.5 * y)
+        return s, h, (y * t / 6 * (1 - t / 20 * (1 - t / 42 * (1 - t / 72 * (1 - t / 110 * (1 - t / 156))))) if abs(y) < 0.7 else y - s)
+
+    @staticmethod
+    def bent(x, z):
+        """Z^2 + E X^2."""
+        return (z - x) * (z + x)
+
+    @staticmethod
+    def sizes_of_ways(x, z, u, v):
+        """Sizes of what `way_between` is told from, at a state and at a place of its orbit."""
+        return np.sqrt(x * x + z * z), np.sqrt(u * u + v * v)
+
+    @staticmethod
+    def repeated(spots, count, mu):
+        """The last of so many spots a turn earlier or later too, where the tilt has changed the potential by 2 pi mu; how many there are then."""
+        spot, twin = spots[count - 1], spots[count]
+        turn = TURN if spot[OFFSET] <= 0 else -TURN
+        twin[:] = spot
+        twin[OFFSET] += turn
+        twin[OVER] += turn * mu
+        twin[ERROR] += ROUNDED * EPS * TURN * mu
+        return count + 1
+
+    @staticmethod
+    def change(x, z, xi, eta, y):
+        """(what X and Z change by on the way y from a state, what rounding of that way's terms leaves of either); as `motion._change`."""
+        s, h = np.sin(y), np.sin(0.5 * y)
+        down = 2 * h * h
+        return z * s - x * down, -z * down - x * s, 4 * (abs(z * s) + abs(x) * down), 4 * (abs(z) * down + abs(x * s))
+
+    @staticmethod
+    def stationary(row, x, z, xi, eta, left):
+        """The first offset beyond the left end where X (row 0) or Z (1) is stationary; it is so again half a turn later."""
+        first = np.arctan(z / x if row == 0 else -x / z)
+        at = first + PI * np.ceil((left - first) / PI)
+        return at if at > left else at + PI
+
+    @staticmethod
+    def size_of_terms(conic, x, z, xi, eta):
+        """Of the potential, but for its tilt."""
+        q = x * x + z * z
+        return abs(conic[2]) * q + (abs(conic[0]) + abs(conic[1])) * np.sqrt(q)
+
+    @staticmethod
+    def middle_modes(conic, x, z, xi, eta, y, data):
+        """Modes about a place y away from a state, then sizes of what these are sums of: as `period.modes`."""
+        c, d, G = conic[0], conic[1], conic[2]
+        dx, dz, _, _ = change(x, z, xi, eta, y)
+        x, z = x + dx, z + dz
+        data[0], data[1], data[2], data[3] = -c * x + d * z, -c * z - d * x, -0.25 * G * (x - z) * (x + z), -0.5 * G * x * z
+        data[4], data[5], data[6], data[7] = abs(c * x) + abs(d * z), abs(c * z) + abs(d * x), abs(data[2]), abs(data[3])
+
+    @staticmethod
+    def whole(rho):
+        """What `modes_pair` needs of an interval whatever the node."""
+        return np.sin(rho), np.cos(rho)
+
+    @staticmethod
+    def modes_pair(data, rho, whole_s, whole_c, share):
+        """(even, odd) of modes about the middle, as `pair`."""
+        p1, q1, p2, q2 = data[0], data[1], data[2], data[3]
+        u = rho * share
+        v = rho - u
+        fu, cu = sinc_cos(u)
+        su = u * fu
+        sv, cv = whole_s * cu - whole_c * su, whole_c * cu + whole_s * su
+        fv = sv / v
+        even = -0.5 * fu * fv * (p1 + 4 * p2 * cu * cv)
+        if rho < NARROW:
+            gu, gv, wu, wv = sinc_minus_cos(u * u), sinc_minus_cos(v * v), sinc_minus_cos(4 * u * u), sinc_minus_cos(4 * v * v)
+            return even, (0.5 * q1 * (fu * gv - fv * gu) + q2 * (fu * cu * wv - fv * cv * wu)) / rho
+        return even, (0.5 * q1 * (cu * fv - fu * cv) + q2 * ((cu * cu - su * su) * fv * cv - fu * cu * (cv * cv - sv * sv))) / rho
+
+    @staticmethod
+    def modes_terms(data, first, rho, whole_s, whole_c, left):
+        """Size of what H is the sum of at a share of the interval, by the sizes that begin at `first`."""
+        return abs(data[first]) + abs(data[first + 1]) + 4 * (abs(data[first + 2]) + abs(data[first + 3]))
+
+
+class Hyperbola:
+    """What rows on hyperbolas ask of their geometry."""
+
+    E = 1.0
+    ROUND = INFINITY
+    WALLED = True
+
+    @staticmethod
+    def invariant(x, z):
+        return (z - x) * (z + x)
+
+    @staticmethod
+    def lost(x, z, xi, eta, wide, form, conic):
+        return min(abs(xi), abs(eta)) <= SURE * wide or np.sqrt(abs(xi)) * np.sqrt(abs(eta)) <= conic[6]
+
+    @staticmethod
+    def onto(x, z, Q, xi, eta, radius):
+        first, second = x + z, x - z
+        if abs(first) >= abs(second):
+            second = -Q / first
+        else:
+            first = -Q / second
+        there = (first > 0) == (xi > 0) and (second > 0) == (eta > 0)
+        return there, 0.5 * (first + second), 0.5 * (first - second)
+
+    @staticmethod
+    def way_between(u, v, X, Z, Q):
+        side = -1.0 if X[0] * Z[0] < 0 else 1.0  # the larger of the growing and the decaying coordinate keeps its digits next to a plane too
+        start, end = add(X, scaled(Z, side)), add(u, scaled(v, side))
+        grown = value(less(end, start)) / value(start)
+        return side * (np.log1p(grown) if abs(grown) < 0.5 else np.log(value(end) / value(start)))
+
+    @staticmethod
+    def swing(y):
+        h, t = np.sinh(0.5 * y), y * y
+        s = 2 * h * np.sqrt(1 + h * h)
+        return s, h, (-y * t / 6 * (1 + t / 20 * (1 + t / 42 * (1 + t / 72 * (1 + t / 110)))) if abs(y) < LAG else y - s)
+
+    @staticmethod
+    def bent(x, z):
+        return z * z + x * x
+
+    @staticmethod
+    def sizes_of_ways(x, z, u, v):
+        side = -1.0 if x * z < 0 else 1.0
+        return abs(x + side * z), abs(u + side * v)
+
+    @staticmethod
+    def repeated(spots, count, mu):
+        return count
+
+    @staticmethod
+    def change(x, z, xi, eta, y):
+        grown, decayed = xi * np.expm1(y), eta * np.expm1(-y)
+        off = 0.5 * (abs(grown) + abs(decayed)) * (4 + abs(y))
+        return 0.5 * (grown + decayed), 0.5 * (grown - decayed), off, off
+
+    @staticmethod
+    def stationary(row, x, z, xi, eta, left):
+        near, far = (-z / x, eta / xi) if row == 0 else (-x / z, -eta / xi)
+        at = np.arctanh(near) if abs(near) < 0.5 else (0.5 * np.log(far) if far > 0 else INFINITY)
+        return at if at > left else INFINITY
+
+    @staticmethod
+    def size_of_terms(conic, x, z, xi, eta):
+        q = xi * xi + eta * eta
+        return abs(conic[2]) * q + 0.5 * (abs(conic[0] + conic[1]) + abs(conic[1] - conic[0])) * np.sqrt(q)
+
+    @staticmethod
+    def middle_modes(conic, x, z, xi, eta, y, data):
+        c, d, G = conic[0], conic[1], conic[2]
+        xi, eta = xi * np.exp(y), eta * np.exp(-y)
+        data[0], data[1], data[2], data[3] = -0.5 * (c + d) * xi, 0.5 * (d - c) * eta, -0.125 * G * xi * xi, -0.125 * G * eta * eta
+        for k in range(4):
+            data[4 + k] = abs(data[k])
+
+    @staticmethod
+    def whole(rho):
+        return np.exp(rho), 0.0
+
+    @staticmethod
+    def modes_pair(data, rho, whole_s, whole_c, share):
+        return sides_of_exponentials(data[0], data[1], data[2], data[3], rho, whole_s, share)
+
+    @staticmethod
+    def modes_terms(data, first, rho, whole_s, whole_c, left):
+        even, odd = sides_of_exponentials(abs(data[first]), abs(data[first + 1]), abs(data[first + 2]), abs(data[first + 3]), rho, whole_s, min(left, 1 - left))
+        return even + odd if left <= 0.5 else even - odd
+
+
+def guessed(piece, conic, Q, xi, eta, radius):
+    """(whether a piece of the conic meets the orbit, X, Z there by Newton's method in log|h|, held in a bracket)."""
+    sign, inner, outer, rising, low, high = piece[0], piece[1], piece[2], piece[3] > 0, piece[5], piece[6]
+    c, G, K, shift = conic[0], conic[2], conic[4], conic[5]
+    if not (low < Q < high):
+        return False, 0.0, 0.0
+    root = np.sqrt(abs(Q))
+    reach = root + abs(c / G) + abs(shift) + np.sqrt(abs(K / G)) + 1e-300
+    far = min(outer, 4 * reach)
+    near = max(inner, abs(K) / (4 * reach * abs(G)))
+    low, high = min(near, far), max(near, far)
+    if outer == INFINITY:
+        h = min(max(root + abs(shift), low), high)
+    elif inner == 0:
+        h = min(max(abs(K) / (abs(G) * root + abs(c) + 1e-300), low), high)
+    else:
+        h = 0.5 * (low + high)
+    x, z, before = 0.0, 0.0, INFINITY
+    for _ in range(60):
+        at = sign * h
+        ratio = K / at
+        x, z = (ratio - c) / G, at - shift
+        off = invariant(x, z) - Q
+        if (off > 0) == rising:
+            high = h
+        else:
+            low = h
+        step = off / (2 * (z * at + E * x * ratio / G))  # of log h
+        new = h * (1 - step) if abs(step) < 0.1 else h * np.exp(-step)
+        if not (low <= new <= high) or not abs(step) < before:
+            new, step = np.sqrt(low) * np.sqrt(high), 2.0
+        before = 0.7 * abs(step) if step < 1.0 else INFINITY
+        h = new
+        if abs(step) < 1e-7 or high - low <= 4 * EPS * high:
+            break
+    at = sign * h
+    x, z = (K / at - c) / G, at - shift
+    return onto(x, z, Q, xi, eta, radius)
+
+
+def settled(fine, u0, v0, Q):
+    """(place u, v of the equilibrium next to a guess on the orbit Q, slope of the force there, last step, the way from the guess); u, v and Q twofold."""
+    G, c, d, mu = (fine[0], fine[1]), (fine[2], fine[3]), (fine[4], fine[5]), (fine[6], fine[7])
+    u, v, step, whole = (u0, 0.0 * u0), (v0, 0.0 * v0), 1.0 + 0.0 * u0, 0.0 * u0
+    for _ in range(STEPS):
+        off = value(less(add(times(v, v), scaled(times(u, u), -E)), Q)) / (2 * (u[0] * u[0] + v[0] * v[0]))
+        u, v = add(u, exact_product(E * off, u[0])), add(v, exact_product(-off, v[0]))
+        across = add(times(G, u), c)
+        force = add(add(times(v, across), mu), times(d, u))
+        step = -value(force) / slope_of(G, d, u, v, across)
+        if not abs(step) < 0.1:
+            return u, v, 0.0 * u0, np.nan * u0, whole
+        whole += step
+        half = 0.5 * E * step * step
+        u, v = add(add(u, scaled(v, step)), scaled(u, half)), add(add(v, scaled(u, E * step)), scaled(v, half))
+        if abs(step) <= SETTLED:
+            break
+    return u, v, slope_of(G, d, u, v, add(times(G, u), c)), step, whole
+
+
+def slope_of(G, d, u, v, across):
+    """dF/dtheta at (u, v), across: G u + c."""
+    return value(add(times(v, add(times(G, v), d)), scaled(times(u, across), E)))
+
+
+def rise_and_force(mu, y, slope, a, b):
+    """(V(y) - V(0), F, size of the terms of the first, sin y, sin(y/2)) y away from an equilibrium with this slope and modes a, b."""
+    s, h, behind = swing(y)
+    h2 = h * h
+    one, two, three, four = -2 * slope * h2, -mu * behind, -E * 2 * a * s * h2, -E * 4 * b * h2 * h2
+    force = slope * s + E * h2 * (6 * a - 2 * mu + 4 * b * s) + 8 * a * h2 * h2
+    return one + two + three + four, force, abs(one) + abs(two) + abs(three) + abs(four), s, h
+
+
+def rounding_of(y, terms, s, h, pull, tilt):
+    """Size of the error of a rise, as `Anchored.rounding`."""
+    return (ROUNDED + 2 * abs(y)) * EPS * terms + pull * abs(s) + 2 * tilt * h * h
+
+
+def placed(u, v, X, Z, wide, last, conic, way, slope, spot):
+    """Fill a spot's place, slope, modes and what 32 digits leave open of it, as `spots._left_over`."""
+    c, d, G, mu = conic[0], conic[1], conic[2], conic[3]
+    uh, vh = value(u), value(v)
+    far = abs(uh) + abs(vh)
+    off = TWOFOLD * (far + wide * wide / far)
+    steep = abs(G) * far + abs(c) + abs(d)
+    start, end = sizes_of_ways(X[0], Z[0], uh, vh)
+    spot[OFFSET], spot[AT_X], spot[AT_Z], spot[BEND] = way, uh, vh, slope
+    spot[MODE_A], spot[MODE_B] = G * uh * vh, 0.5 * G * bent(uh, vh)
+    spot[PULL] = steep * off + TWOFOLD * mu + (2 * abs(G) * far + steep) * far * last * last
+    spot[TILT], spot[ASTRAY] = (abs(G) * far + steep) * off, TWOFOLD * wide / start + off / end
+
+
+def spots_of_row(fine, conic, pieces, folds, X, Z, w, wide, spots):
+    """(how many equilibria stand along the orbit of a row, in ascending order in `spots`; whether all were placed)."""
+    Q = add(times(Z, Z), scaled(times(X, X), -E))
+    xi, eta, q = value(add(X, Z)), value(less(X, Z)), value(Q)
+    mu, count = conic[3], 0
+    for fold in folds:
+        if not abs(q - fold) > ROUNDINGS * EPS * (wide * wide + abs(fold)):
+            return 0, False
+    radius = np.sqrt(abs(q))
+    kinetic, x, z = 0.5 * w * w, value(X), value(Z)
+    force = conic[3] + conic[2] * x * z + conic[0] * z + conic[1] * x
+    for p in range(len(pieces)):
+        there, u0, v0 = guessed(pieces[p], conic, q, xi, eta, radius)
+        if not there:
+            continue
+        u, v, slope, last, drift = settled(fine, u0, v0, Q)
+        if not (abs(last) <= ENOUGH and abs(drift) <= DRIFT and (slope > 0) == (pieces[p, 4] > 0)):
+            return 0, False
+        spot = spots[count]
+        way = way_between(u, v, X, Z, q)
+        placed(u, v, X, Z, wide, last, conic, way, slope, spot)
+        rise, _, terms, s, h = rise_and_force(mu, -way, slope, spot[MODE_A], spot[MODE_B])
+        spot[OVER], spot[BARRIER] = kinetic + rise, 1.0 if slope > 0 else 0.0
+        spot[ERROR] = rounding_of(way, terms, s, h, spot[PULL], spot[TILT]) + ROUNDED * EPS * kinetic + abs(force) * spot[ASTRAY]
+        count = repeated(spots, count + 1, mu)
+    for i in range(1, count):
+        for k in range(i, 0, -1):
+            if spots[k - 1, OFFSET] <= spots[k, OFFSET]:
+                break
+            for column in range(ASTRAY + 1):
+                spots[k - 1, column], spots[k, column] = spots[k, column], spots[k - 1, column]
+    sure = True
+    for i in range(count):
+        sure = sure and abs(spots[i, OVER]) < INFINITY
+        if i:  # wells and barriers take turns
+            sure = sure and spots[i, OFFSET] > spots[i - 1, OFFSET] and spots[i, BARRIER] != spots[i - 1, BARRIER]
+    return count, sure
+
+
+def way_of_cosine(psi, near, far):
+    """As in `extremes.circle_kernel`."""
+    return psi * (near * (1 - psi) * (1 - psi) + psi * (3 - 2 * psi) - far * psi * (1 - psi))
+
+
+def turned(mu, count, spots, side, end):
+    """Where a motion turns on one side: fills an end; whether it was found. As `turning_points.turning_point`."""
+    b = -1
+    for i in range(count):
+        i = i if side > 0 else count - 1 - i
+        if spots[i, BARRIER] > 0 and spots[i, OVER] <= 0 and spots[i, OFFSET] * side > 0:
+            b = i
+            break
+    well = b - side if b >= 0 else (count - 1 if side > 0 else 0)
+    has_well = 0 <= well < count and not spots[well, BARRIER] > 0
+    if b < 0 and not has_well:
+        return False
+    at_barrier = b >= 0 and (not has_well or -spots[b, OVER] < max(spots[well, OVER], 0.0))
+    spot = spots[b] if at_barrier else spots[well]
+    level, slope = (min(spot[OVER], 0.0) if at_barrier else max(spot[OVER], 0.0)), spot[BEND]
+    towards = -side if at_barrier else side
+    mode_a, mode_b = spot[MODE_A], spot[MODE_B]
+    gap = abs(spots[b, OFFSET] - spots[well, OFFSET]) if b >= 0 and has_well else INFINITY
+    reach = min(gap, ROUND) if min(gap, ROUND) < INFINITY else 1.0
+    for _ in range(64 if reach == 1.0 and gap == ROUND else 0):
+        up = rise_and_force(mu, towards * reach, slope, mode_a, mode_b)[0]
+        if not (up > level if level < 0 else up < level):
+            break
+        reach = min(2 * reach, reach + 64)
+    t = min(np.sqrt(2 * abs(level) / max(abs(slope), 1e-300)), 0.5 * reach)
+    if b >= 0 and has_well:
+        other = spots[well] if at_barrier else spots[b]
+        whole = spots[well, OVER] - spots[b, OVER]
+        psi = 2 / PI * np.arcsin(np.sqrt(min(abs(level) / whole, 1.0)))
+        guess = reach * way_of_cosine(psi, PI * np.sqrt(0.5 * whole / abs(slope)) / reach, PI * np.sqrt(0.5 * whole / abs(other[BEND])) / reach)
+        t = guess if 0 < guess < reach else 0.5 * reach
+    low, high, found, before = 0.0, reach, level == 0, INFINITY
+    if found:
+        t = 0.0 * t
+    for _ in range(100):
+        if found:
+            break
+        rise, force, _, _, _ = rise_and_force(mu, towards * t, slope, mode_a, mode_b)
+        if (rise - level > 0) != at_barrier:
+            high = t
+        else:
+            low = t
+        step = (rise - level) / (-towards * force)
+        small = abs(step) <= ROOT * t
+        if small or (low <= t - step <= high and abs(step) < 0.5 * before):
+            before, t, found = abs(step), t - step, small or rise == level
+        else:
+            before, t = high - low, 0.5 * (low + high)
+            found = high - low <= 2 * EPS * high
+    y = t * towards
+    _, force, terms, s, h = rise_and_force(mu, y, slope, mode_a, mode_b)
+    haze = rounding_of(y, terms, s, h, spot[PULL], spot[TILT])
+    end[END], end[FORCE], end[HAZE] = spot[OFFSET] + y, force, haze
+    end[BLUR] = haze / abs(force) + EPS * abs(spot[OFFSET])
+    return found and abs(end[END]) < INFINITY
+
+
+def spanned(mu, w, count, spots, ends):
+    """(whether the motion's two ends are known, fastest W^2/2, its error, nearest barrier's distance in energy); as `motion.fine_interval`."""
+    if count == 0 or not (turned(mu, count, spots, -1, ends[0]) and turned(mu, count, spots, 1, ends[1])):
+        return False, 0.0, 0.0, 0.0
+    ends[0, END], ends[1, END] = min(ends[0, END], 0.0), max(ends[1, END], 0.0)
+    left, right = ends[0, END], ends[1, END]
+    fastest, closest, clear, barred = 0.5 * w * w, INFINITY, True, False
+    for i in range(count):
+        spot = spots[i]
+        if spot[BARRIER] > 0:
+            closest = min(closest, abs(spot[OVER]))
+            clear = clear and abs(spot[OVER]) > CLEAR * spot[ERROR]
+            barred = barred or (spot[OVER] <= 0 and spot[OFFSET] > 0)
+        elif left <= spot[OFFSET] <= right:
+            fastest = max(fastest, spot[OVER])
+    off, astray = 0.0, 0.0
+    for i in range(count):
+        near = False
+        for k in range(max(i - 1, 0), min(i + 2, count)):
+            near = near or left <= spots[k, OFFSET] <= right
+        if near and abs(spots[i, OVER]) <= fastest:
+            off, astray = max(off, spots[i, ERROR]), max(astray, spots[i, ASTRAY])
+    for k in range(2):
+        ends[k, BLUR] += off / abs(ends[k, FORCE]) + astray
+    haze = max(ends[0, HAZE], ends[1, HAZE]) + off + EPS * fastest
+    return clear and (barred or WALLED), fastest, haze, closest
+
+
+def boxed(form, axes, state, x, z, xi, eta, ends, fastest, haze, box):
+    """Fill the box (3, 2) of a row; whether it has its digits. form: factors of X and Z, flip/n and the shift of the third."""
+    j, k, i = axes
+    low_x, high_x, low_z, high_z, off_x, off_z = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    left, right = ends[0, END], ends[1, END]
+    for at in range(2):
+        y, blur = ends[at, END], ends[at, BLUR]
+        dx, dz, rx, rz = change(x, z, xi, eta, y)
+        low_x, high_x, low_z, high_z = min(low_x, dx), max(high_x, dx), min(low_z, dz), max(high_z, dz)
+        off_x, off_z = max(off_x, abs(z + dz) * blur + EPS * rx), max(off_z, abs(x + dx) * blur + EPS * rz)
+    for row in range(2):
+        at = stationary(row, x, z, xi, eta, left)
+        while at < right:
+            dx, dz, rx, rz = change(x, z, xi, eta, at)
+            low_x, high_x, low_z, high_z = min(low_x, dx), max(high_x, dx), min(low_z, dz), max(high_z, dz)
+            off_x, off_z = max(off_x, EPS * rx), max(off_z, EPS * rz)
+            at += 0.5 * ROUND
+    a, b = form[0] * low_x, form[0] * high_x
+    box[j, 0], box[j, 1] = state[j] + min(a, b), state[j] + max(a, b)
+    good = abs(form[0]) * off_x + 4 * EPS * (abs(state[j]) + max(abs(a), abs(b))) <= DIGITS * max(abs(box[j, 0]), abs(box[j, 1]))
+    a, b = form[1] * low_z, form[1] * high_z
+    box[k, 0], box[k, 1] = state[k] + min(a, b), state[k] + max(a, b)
+    good = good and abs(form[1]) * off_z + 4 * EPS * (abs(state[k]) + max(abs(a), abs(b))) <= DIGITS * max(abs(box[k, 0]), abs(box[k, 1]))
+    top = np.sqrt(2 * fastest)
+    a, b = form[2] * top - form[3], -form[2] * top - form[3]
+    box[i, 0], box[i, 1] = min(a, b, state[i]), max(a, b, state[i])
+    whole = 0.0
+    for axis in range(3):
+        whole += abs(box[axis, 0]) + abs(box[axis, 1])
+    return good and haze <= DIGITS * 2 * fastest and whole < INFINITY
+
+
+def series_modes(mu, spot, left, right, data, work):
+    """Modes of an interval about an equilibrium: fills data with the coefficients of the second divided difference as a polynomial in the distance
+    from it, then with the sizes of these; returns how many there are. As `modes.TaylorModes`."""
+    a, b, slope, size = spot[MODE_A], spot[MODE_B], spot[BEND], max(abs(left), abs(right))
+    count, reach = TERMS, 1.0
+    for n in range(2, TERMS):
+        reach *= 2 * size / (n + 1)
+        if reach < 1e-19:
+            count = n
+            break
+    factorial, grown = 1.0, 1.0
+    for n in range(2, count + 2):
+        factorial *= n
+        odd = (n - 1) % 2
+        grown *= 1 if odd else 4
+        sign = E if ((n - 1) // 2) % 2 else 1.0
+        work[n - 2] = -sign * (slope + (2 * grown - 2) * b if odd else (grown - 1) * a - mu) / factorial
+    for absolute in range(2):
+        l, r = (abs(left), abs(right)) if absolute else (left, right)
+        total, power = 1.0, 1.0
+        for k in range(count):
+            data[absolute * TERMS + k] = 0.0
+        for m in range(count):
+            for k in range(count - m):
+                data[absolute * TERMS + k] += (abs(work[k + m]) if absolute else work[k + m]) * total
+            power *= r
+            total = total * l + power
+    data[2 * TERMS] = left
+    return count
+
+
+def horner(data, first, count, t):
+    total = 0.0 * t
+    for k in range(count - 1, -1, -1):
+        total = total * t + data[first + k]
+    return total
+
+
+def sinc_cos(u):
+    """sin(u)/u and cos u for 0 <= u <= pi/2."""
+    t = u * u
+    s = 1 - t * (1 / 6) * (1 - t * (1 / 20) * (1 - t * (1 / 42) * (1 - t * (1 / 72) * (1 - t * (1 / 110) * (
+        1 - t * (1 / 156) * (1 - t * (1 / 210) * (1 - t * (1 / 272) * (1 - t * (1 / 342) * (1 - t * (1 / 420))))))))))
+    k = 1 - t * 0.5 * (1 - t * (1 / 12) * (1 - t * (1 / 30) * (1 - t * (1 / 56) * (1 - t * (1 / 90) * (
+        1 - t * (1 / 132) * (1 - t * (1 / 182) * (1 - t * (1 / 240) * (1 - t * (1 / 306) * (1 - t * (1 / 380) * (
+            1 - t * (1 / 462)))))))))))
+    return s, k
+
+
+def sinc_minus_cos(t):
+    """sin(u)/u - cos u of t = u^2 <= 1, without cancellation."""
+    return t * (1 / 3) * (1 - t * (1 / 10) * (1 - t * (1 / 28) * (1 - t * (1 / 54) * (1 - t * (1 / 88) * (
+        1 - t * (1 / 130) * (1 - t * (1 / 180) * (1 - t * (1 / 238) * (1 - t * (1 / 304)))))))))
+
+
+def sinhc_and_rest(t):
+    """sinh(u)/u and cosh u less it, of t = u^2 <= 1."""
+    f = 1 + t * (1 / 6) * (1 + t * (1 / 20) * (1 + t * (1 / 42) * (1 + t * (1 / 72) * (1 + t * (1 / 110) * (1 + t * (1 / 156) * (
+        1 + t * (1 / 210) * (1 + t * (1 / 272))))))))
+    g = 1 + t * (1 / 10) * (1 + t * (1 / 28) * (1 + t * (1 / 54) * (1 + t * (1 / 88) * (1 + t * (1 / 130) * (1 + t * (1 / 180) * (
+        1 + t * (1 / 238) * (1 + t * (1 / 304))))))))
+    return f, t * (1 / 3) * g
+
+
+def sides_of_exponentials(p1, q1, p2, q2, rho, grown, share):
+    """(even, odd) of a sum of exp(y), exp(-y), exp(2 y), exp(-2 y) about the middle, grown: exp(rho)."""
+    u = rho * share
+    v = rho - u
+    if rho < NARROW:
+        fu, gu = sinhc_and_rest(u * u)
+        fv, gv = sinhc_and_rest(v * v)
+        wu, wv = sinhc_and_rest(4 * u * u)[1], sinhc_and_rest(4 * v * v)[1]
+        cu, cv = fu + gu, fv + gv
+        odd1, odd2 = gu * fv - fu * gv, wu * fv * cv - fu * cu * wv
+    else:
+        down = np.expm1(u)
+        eu = 1 + down
+        cu, su = 0.5 * (eu + 1 / eu), 0.5 * (down + down / eu)
+        cv, sv = 0.5 * (grown / eu + eu / grown), 0.5 * (grown / eu - eu / grown)
+        fu, fv = su / u if share > 0 else 1.0, sv / v
+        odd1, odd2 = cu * fv - fu * cv, (1 + 2 * su * su) * fv * cv - fu * cu * (1 + 2 * sv * sv)
+    return fu * fv * (0.5 * (p1 + q1) + 2 * (p2 + q2) * cu * cv), (0.5 * (p1 - q1) * odd1 + (p2 - q2) * odd2) / rho
+
+
+def pair(series, count, data, rho, whole_s, whole_c, share):
+    """(even, odd): the second divided difference of V is their sum at theta - l = 2 rho share, share <= 1/2, and their difference at its mirror image.
+
+    series: whether the modes are those about an equilibrium."""
+    if series:
+        t = data[2 * TERMS]
+        low, high = horner(data, 0, count, t + 2 * rho * share), horner(data, 0, count, t + 2 * rho - 2 * rho * share)
+        return 0.5 * (low + high), 0.5 * (low - high)
+    return modes_pair(data, rho, whole_s, whole_c, share)
+
+
+def difference(series, count, data, held, rho, whole_s, whole_c, left, right):
+    """H at theta - l = 2 rho left, r - theta = 2 rho right."""
+    even, odd = pair(series, count, data, rho, whole_s, whole_c, min(left, right))
+    return (even + odd if left <= right else even - odd) + (held[0] * right + held[2] * left + held[1] * left * right)
+
+
+def terms_at(series, count, data, sizes, rho, whole_s, whole_c, left):
+    """Size of what H is the sum of; sizes: whether of the terms that its modes are sums of."""
+    if series:
+        return horner(data, TERMS, count, max(abs(data[2 * TERMS]), abs(data[2 * TERMS] + 2 * rho)))
+    return modes_terms(data, 4 if sizes else 0, rho, whole_s, whole_c, left)
+
+
+def summed(series, count, data, held, rho, whole_s, whole_c, nodes, near, weights, levels):
+    """The period by the trapezoidal rule over mirrored pairs of nodes; by the double-exponential one where that does not settle; NaN where none does."""
+    total, before, size, first = 0.0, np.nan, 8, 0
+    while first < len(nodes):
+        last = first + size // 2 if first else 5
+        for n in range(first, last):
+            share = nodes[n]
+            even, odd = pair(series, count, data, rho, whole_s, whole_c, share)
+            even += 0.5 * (held[0] + held[2]) + share * (1 - share) * held[1]
+            odd += (0.5 - share) * (held[0] - held[2])
+            weight = 0.5 if n == 0 or n == 4 else 1.0
+            total += weight * (1 / np.sqrt(2 * (even + odd)) + 1 / np.sqrt(2 * (even - odd)))
+        size, first = size * 2 if first else size, last
+        now = total * (TURN / size)
+        if abs(now - before) <= SUM * now:
+            return now
+        before = now
+    return peaked(series, count, data, held, rho, whole_s, whole_c, near, weights, levels)
+
+
+def peaked(series, count, data, held, rho, whole_s, whole_c, near, weights, levels):
+    """The period by the double-exponential rule on both sides of the place where H is least; as `period.rules.double_exponential`."""
+    cut, period = least(series, count, data, held, rho, whole_s, whole_c), 0.0
+    for side in range(2):
+        length = PI - cut if side else cut
+        total, before, found = 0.0, np.nan, False
+        for level in range(len(levels) - 1):
+            for n in range(levels[level], levels[level + 1]):
+                way = length * abs(near[n])
+                angle = length - way if near[n] < 0 else way
+                small, large = np.sin(0.5 * angle), np.cos(0.5 * angle)
+                small, large = small * small, large * large
+                left, right = (large, small) if side else (small, large)
+                total += weights[n] / np.sqrt(2 * difference(series, count, data, held, rho, whole_s, whole_c, left, right))
+            now = length * total * 2.0 ** -(level + 2)
+            if abs(now - before) <= SUM * now:
+                period, found = period + 2 * now, True
+                break
+            before = now
+        if not found:
+            return np.nan
+    return period
+
+
+def curvature(series, count, data, held, rho, whole_s, whole_c, phi):
+    s, c = np.sin(0.5 * phi), np.cos(0.5 * phi)
+    return difference(series, count, data, held, rho, whole_s, whole_c, s * s, c * c)
+
+
+def least(series, count, data, held, rho, whole_s, whole_c):
+    """The angle where H is least inside (0, pi); pi/2 where it is least at an end."""
+    at, lowest = 0, INFINITY
+    for n in range(LOOKS + 1):
+        here = curvature(series, count, data, held, rho, whole_s, whole_c, PI / LOOKS * n)
+        if here < lowest:
+            at, lowest = n, here
+    if at == 0 or at == LOOKS:
+        return 0.5 * PI
+    middle, step = PI / LOOKS * at, PI / LOOKS
+    for _ in range(CLOSER + 1):
+        one, two, three = (curvature(series, count, data, held, rho, whole_s, whole_c, middle - step),
+                           curvature(series, count, data, held, rho, whole_s, whole_c, middle),
+                           curvature(series, count, data, held, rho, whole_s, whole_c, middle + step))
+        move = 0.5 * step * (one - three) / (one - 2 * two + three)
+        if abs(move) <= step:
+            middle += move
+        step *= 0.1
+    return middle if 0 < middle < PI else 0.5 * PI
+
+
+def timed(conic, x, z, xi, eta, w, count, spots, ends, closest, nodes, near, weights, levels, data, work, held):
+    """(period, whether it has its digits) of a motion between two ends; as `period.arrays.libration_period`, else `motion.fine_periods`."""
+    mu, left, right = conic[3], ends[0, END], ends[1, END]
+    rho, series, many = 0.5 * (right - left), False, 0
+    if not 0 < rho < 0.5 * ROUND:
+        return np.nan, False
+    whole_s, whole_c = whole(rho)
+    middle_modes(conic, x, z, xi, eta, 0.5 * (left + right), data)
+    blur = ends[0, BLUR] + ends[1, BLUR]
+    held[0], held[1], held[2] = 0.0, 0.0, 0.0
+    if closest > PERIOD_SHARE * (0.5 * w * w + mu + size_of_terms(conic, x, z, xi, eta)):
+        even, odd = pair(series, many, data, rho, whole_s, whole_c, 0.0)
+        first, last, inner = even + odd, even - odd, pair(series, many, data, rho, whole_s, whole_c, 0.5)[0]
+        sharp = True
+        for sizes in range(2):
+            sharp = (sharp and EPS * terms_at(series, many, data, sizes > 0, rho, whole_s, whole_c, 0.0) <= PERIOD_DIGITS * first
+                     and EPS * terms_at(series, many, data, sizes > 0, rho, whole_s, whole_c, 0.5) <= PERIOD_DIGITS * inner
+                     and EPS * terms_at(series, many, data, sizes > 0, rho, whole_s, whole_c, 1.0) <= PERIOD_DIGITS * last)
+        most, lowest = max(first, inner, last), min(first, inner, last)
+        if sharp and 0.5 * blur * (most - lowest) <= PERIOD_DIGITS * rho * lowest:
+            period = summed(series, many, data, held, rho, whole_s, whole_c, nodes, near, weights, levels)
+            if period < INFINITY:
+                return period, True
+    anchor, barrier = -1, -1
+    for i in range(count):
+        if spots[i, BARRIER] > 0:
+            if left < spots[i, OFFSET] < right and (barrier < 0 or spots[i, OVER] < spots[barrier, OVER]):
+                barrier = i
+        elif left <= spots[i, OFFSET] <= right and (anchor < 0 or spots[i, OVER] > spots[anchor, OVER]):
+            anchor = i
+    if anchor < 0:
+        return np.nan, False
+    from_left, from_right = left - spots[anchor, OFFSET], right - spots[anchor, OFFSET]
+    if max(abs(from_left), abs(from_right)) <= FAR and from_right > from_left:
+        series, many = True, series_modes(mu, spots[anchor], from_left, from_right, data, work)
+    share, dip = 0.5, INFINITY
+    held_0 = ends[0, FORCE] / (2 * rho) - difference(series, many, data, held, rho, whole_s, whole_c, 0.0, 1.0)
+    held_2 = -ends[1, FORCE] / (2 * rho) - difference(series, many, data, held, rho, whole_s, whole_c, 1.0, 0.0)
+    inside = 0.5 * (held_0 + held_2)
+    if barrier >= 0:
+        share = (spots[barrier, OFFSET] - left) / (2 * rho)
+        dip = spots[barrier, OVER] / (4 * rho * rho * share * (1 - share))
+        inside = dip - difference(series, many, data, held, rho, whole_s, whole_c, share, 1 - share)
+    held[0], held[2] = held_0, held_2
+    held[1] = (inside - held_0 * (1 - share) - held_2 * share) / (share * (1 - share))
+    first, inner, last = (difference(series, many, data, held, rho, whole_s, whole_c, 0.0, 1.0),
+                          difference(series, many, data, held, rho, whole_s, whole_c, 0.5, 0.5),
+                          difference(series, many, data, held, rho, whole_s, whole_c, 1.0, 0.0))
+    half = 8 * EPS * terms_at(series, many, data, True, rho, whole_s, whole_c, 0.5)
+    # a period goes with the root of H: what the ends' errors move it by is half of what they move H by
+    good = (0.5 * blur * (max(first, inner, last) - min(first, inner, last)) <= PERIOD_DIGITS * rho * min(first, last)
+            and 8 * EPS * terms_at(series, many, data, True, rho, whole_s, whole_c, 0.0) <= SCATTERED * first
+            and half <= SCATTERED * inner and 8 * EPS * terms_at(series, many, data, True, rho, whole_s, whole_c, 1.0) <= SCATTERED * last
+            and half <= SCATTERED * dip and spots[anchor, PULL] + spots[anchor, TILT] <= PERIOD_DIGITS * min(first, inner, last))
+    if not good:
+        return np.nan, False
+    period = summed(series, many, data, held, rho, whole_s, whole_c, nodes, near, weights, levels)
+    return period, period < INFINITY
+
+
+def rows(states, open_rows, fine, form, axes, conic, pieces, folds, wanted, rules, boxes, periods, left_open):
+    """Fill boxes (n, 3, 2) and periods (n,), as far as wanted, of those of the states (n, 3) that are open: their bits in left_open (n,) go where a
+    row is settled.
+
+    fine: high and low parts of G, c, d, mu, sj, sk, flip/rx, 1/rz; form: factors of X and Z, flip/n, shift s of the third component and what its
+    double leaves, least |xi|, |eta| or radius; conic: c, d, G, mu, K, shift, and how near a hyperbola's centre no row is settled.
+    """
+    nodes, near, weights, levels = rules
+    j, k, i = axes
+    spots, ends, box = np.empty((2 * len(pieces) + 1, ASTRAY + 1)), np.empty((2, 4)), np.empty((3, 2))
+    data, work, held = np.empty(2 * TERMS + 1), np.empty(TERMS), np.empty(3)
+    extra = abs(fine[8] * fine[12]) + abs(fine[10] * fine[14])
+    for row in open_rows:
+        asked, state = int(left_open[row]) & wanted, states[row]
+        X = times(add((fine[8], fine[9]), (state[j], 0.0 * state[j])), (fine[12], fine[13]))
+        Z = times(add((fine[10], fine[11]), (state[k], 0.0 * state[k])), (fine[14], fine[15]))
+        turn, rest = exact_sum(state[i], form[3])
+        w = (turn + (rest + form[4])) / form[2]
+        x, z, xi, eta = value(X), value(Z), value(add(X, Z)), value(less(X, Z))
+        wide = abs(x) + abs(z) + extra
+        if lost(x, z, xi, eta, wide, form, conic):
+            continue
+        # whether a state is at rest is decided exactly, elsewhere
+        terms = conic[3] + abs(conic[2] * x * z) + abs(conic[0] * z) + abs(conic[1] * x)
+        still = abs(turn) <= ROUNDINGS * EPS * (abs(state[i]) + abs(form[3]))
+        if still and abs(conic[3] + conic[2] * x * z + conic[0] * z + conic[1] * x) <= ROUNDINGS * EPS * terms * (1 + wide / (abs(x) + abs(z))):
+            continue
+        count, sure = spots_of_row(fine, conic, pieces, folds, X, Z, w, wide, spots)
+        if not sure:
+            continue
+        known, fastest, haze, closest = spanned(conic[3], w, count, spots, ends)
+        if not known:
+            continue
+        if asked & BOX and boxed(form, axes, state, x, z, xi, eta, ends, fastest, haze, box):
+            boxes[row] = box
+            asked -= BOX
+        if asked & PERIOD:
+            period, good = timed(conic, x, z, xi, eta, w, count, spots, ends, closest, nodes, near, weights, levels, data, work, held)
+            if good:
+                periods[row] = period
+                asked -= PERIOD
+        left_open[row] = asked
+
+
+def functions_of(geometry):
+    """{name: function or number} of a geometry, which stand for the names of this module that follow."""
+    return {name: getattr(geometry, name) for name in vars(Circle) if not name.startswith("_")}
+
+
+GEOMETRIES = {"circle": Circle, "hyperbola": Hyperbola}
+E, ROUND, WALLED = Circle.E, Circle.ROUND, Circle.WALLED
+invariant, lost, onto, way_between, swing, bent, sizes_of_ways = (
+    Circle.invariant, Circle.lost, Circle.onto, Circle.way_between, Circle.swing, Circle.bent, Circle.sizes_of_ways)
+repeated, change, stationary, size_of_terms, middle_modes, whole, modes_pair, modes_terms = (
+    Circle.repeated, Circle.change, Circle.stationary, Circle.size_of_terms, Circle.middle_modes, Circle.whole, Circle.modes_pair, Circle.modes_terms)

@@ -1,0 +1,94 @@
+"""Extremes and periods of bounded rows in twofold numbers, one row at a time: the door of numba (the extra `fast`).
+
+It serves circles and hyperbolas with a torque whose equilibria lie on a conic that is no pair of lines. What it leaves open goes the way of the arrays.
+"""
+from __future__ import annotations
+
+from fractions import Fraction
+from functools import lru_cache
+
+import numpy as np
+
+from ...numbers.numba_door import compiled, twins, wanted
+from ..extremes.circle_kernel import NODES
+from ..landscape import CENTRE, Landscape
+from ..period.rules import FIRST_LEVEL, LAST_LEVEL, nodes_of
+from . import rows_kernel
+
+# Else loops call instead of adding
+INLINED = {"exact_sum", "exact_product", "add", "times", "scaled", "less", "value", "swing", "lag", "sinc_cos", "sinc_minus_cos", "sinhc_and_rest",
+           "way_of_cosine", "horner", "rounding_of"}
+# Loading numba and the code from disk costs some 0.3 s, compiling it once per machine some twenty; arrays take 5 to 50 us a row.
+COLD, WARM = 100_000, 100
+STRAIGHT = 1e-6  # of the slopes, as in `conic`: a circle so small hardly sees the bend of its equilibria
+
+
+def by_rows(land: Landscape, states, boxes, periods, fast=None, left_open=None):
+    """Fill boxes (n, 3, 2) and periods (n,), each unless it is empty, of those of the states (n, 3) that another kernel has left open (None: of all).
+
+    Returns (n,) bits of what is open still (1 box, 2 period), None where neither kernel serves; and whether the rows were tried here. fast: as of
+    `circle_numba.by_kernel`.
+    """
+    asked = (rows_kernel.BOX if len(boxes) else 0) | (rows_kernel.PERIOD if len(periods) else 0)
+    count = len(states) if left_open is None else int(np.count_nonzero(left_open))
+    if not count or not wanted(count, fast, bool(kernel.cache_info().currsize), COLD, WARM) or kernel_input(land) is None:
+        return left_open, False
+    left_open = np.full(len(states), asked, np.uint8) if left_open is None else left_open
+    settle_rows(kernel, land, states, boxes, periods, left_open)
+    return left_open, True
+
+
+@lru_cache(maxsize=64)
+def kernel_input(land: Landscape):
+    """(numbers of a landscape as `rows_kernel.rows` takes them, from the constants to the invariants of folds); None where it has no kernel."""
+    conic = land.conic
+    if conic is None or not land.sense or conic.lines or not conic.pieces:
+        return None
+    r, g, fine = land.reduction, land.reduction.constants, land.twofold  # type: ignore[attr-defined]  # of circles and hyperbolas
+    slopes = float(np.hypot(conic.c, conic.d))
+    thin = max(STRAIGHT * slopes / abs(conic.G), 1e-150) ** 2
+    centre = CENTRE * (abs(conic.c) + abs(conic.d)) / abs(conic.G)
+    beside = centre if conic.mu <= (abs(conic.c) + abs(conic.d)) * centre else 0.0
+    parts = np.array([part for number in fine for part in (float(number.high), float(number.low))])
+    shift = float(r.s)
+    form = g["flip"] * g["rx"], g["rz"], g["flip"] / g["n"], shift, float(r.s - Fraction(shift)), thin
+    pieces = np.array([(piece.sign, piece.inner, piece.outer, piece.rising, piece.barrier, *_between(conic, piece)) for piece in conic.pieces], float)
+    numbers = tuple(map(float, (conic.c, conic.d, conic.G, conic.mu, conic.K, conic.shift, beside)))
+    return parts, form, (r.j, r.k, r.axis), numbers, pieces, np.array(conic.fold_invariants + conic.tangents, float)
+
+
+def _between(conic, piece):
+    """The invariants between which a piece meets an orbit."""
+    at = lambda size: float(conic.invariant(piece.sign * size))
+    ends = at(piece.inner) if piece.inner else -conic.e * np.inf, at(piece.outer) if np.isfinite(piece.outer) else np.inf
+    return ends if piece.rising else ends[::-1]
+
+
+@lru_cache(maxsize=1)
+def rules():
+    """(shares of the trapezoidal nodes; distances of the double-exponential ones from the nearer end, negative where that is the inner one, their
+    weights, and where levels begin)."""
+    made = [nodes_of(level) for level in range(FIRST_LEVEL, LAST_LEVEL + 1)]
+    near = np.concatenate([np.where(inner, -way, way) for way, _, inner in made])
+    return NODES, near, np.concatenate([weight for _, weight, _ in made]), np.cumsum([0] + [len(way) for way, _, _ in made])
+
+
+@lru_cache(maxsize=2)
+def kernel(base: str):
+    """`rows_kernel.rows` on a geometry, named as landscapes name it, compiled."""
+    geometry = rows_kernel.GEOMETRIES[base]
+    return compiled(rows_kernel, INLINED, geometry.__name__, **rows_kernel.functions_of(geometry))["rows"]
+
+
+def plain(base: str):
+    """The same in plain Python."""
+    return twins(rows_kernel, lambda name, twin: twin, **rows_kernel.functions_of(rows_kernel.GEOMETRIES[base]))["rows"]
+
+
+def settle_rows(way, land: Landscape, states, boxes, periods, left_open):
+    """Fill boxes (n, 3, 2) and periods (n,), each unless it is empty, of the open ones of states (n, 3), and clear their bits in left_open (n,).
+
+    way: `kernel` or `plain`.
+    """
+    asked = (rows_kernel.BOX if len(boxes) else 0) | (rows_kernel.PERIOD if len(periods) else 0)
+    way(land.base)(states, np.nonzero(left_open)[0], *kernel_input(land), asked, rules(), boxes, periods, left_open)

@@ -1,0 +1,99 @@
+"""The compiled kernel for rows in twofold numbers, as plain Python, against ball arithmetic and against the arrays. Nothing looks at the clock."""
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from benchmarks.random_scenes import drawn
+from stabilab import Fate, extremes, fate, period
+from stabilab.orbit.ball_orbit import Orbit
+from stabilab.orbit.extremes.balls import precise_extremes
+from stabilab.orbit.extremes_and_periods import extremes_and_periods
+from stabilab.orbit.fine import rows_numba
+from stabilab.orbit.fine.rows_numba import kernel_input, settle_rows
+from stabilab.orbit.landscape import landscape
+from stabilab.orbit.period.balls import precise_period
+from tests.orbit.fine.test_fine import HYPERBOLAS, SCENES, scene, states_of
+
+# of the sample of random scenes: hyperbolas and circles, a rod, nearly equal moments, equilibria between two folds
+SAMPLE = (0, 1, 2, 13, 39, 46, 82)
+
+
+def plain(one, states):
+    """(boxes, periods, bits left open) of the kernel as plain Python; NaN where it wrote nothing."""
+    boxes, periods, left = np.full((len(states), 3, 2), np.nan), np.full(len(states), np.nan), np.full(len(states), 3, np.uint8)
+    with np.errstate(all="ignore"):
+        settle_rows(rows_numba.plain, landscape(one), states, boxes, periods, left)
+    return boxes, periods, left
+
+
+def bounded(number, count):
+    one = drawn(number + 1)[number]
+    states = one.states(3 * count)
+    return one.scene, states[fate(one.scene, states).labels == Fate.BOUNDED][:count]
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_rows_of_nearly_equal_moments_have_the_extremes_and_periods_of_balls(name):
+    one, states = SCENES[name], states_of(name, 40, label=Fate.BOUNDED)[:12]
+    boxes, periods, left = plain(one, states)
+    assert (left == 0).sum() >= 10
+    for state, box, time in zip(states[left == 0], boxes[left == 0], periods[left == 0]):
+        orbit = Orbit(landscape(one).reduction, state)
+        exact = np.array(precise_extremes(orbit, Fate.BOUNDED))
+        assert (np.abs(box - exact).max(axis=1) <= 1e-12 * np.abs(exact).max(axis=1)).all()
+        assert time == pytest.approx(precise_period(orbit, Fate.BOUNDED), rel=1e-11)
+
+
+@pytest.mark.parametrize("number", SAMPLE)
+def test_rows_of_random_scenes_have_the_extremes_and_periods_of_arrays(number):
+    one, states = bounded(number, 80)
+    boxes, periods, left = plain(one, states)
+    exact, times = extremes_and_periods(one, states, fast=False)
+    assert (left == 0).mean() > 0.9
+    known, timed = (left & 1) == 0, (left & 2) == 0
+    assert (np.abs(boxes[known] - exact[known]).max(axis=2) <= 2e-12 * np.abs(exact[known]).max(axis=2)).all()
+    np.testing.assert_allclose(periods[timed], times[timed], rtol=2e-11)
+
+
+@pytest.mark.parametrize("name", ["hyperbolas, 0.938 and 0.942", "circles, a rod"])
+def test_rows_next_to_a_barrier_have_the_period_of_balls_or_stay_open(name):
+    """The nearest of four thousand to a barrier, on either side of it: the integrand has a peak, which the double-exponential rule takes."""
+    one, states = SCENES[name], states_of(name, 4000, label=Fate.BOUNDED)
+    near = states[np.argsort(np.abs(fate(one, states).margins) / (states**2).sum(axis=1))[:24]]
+    _, periods, left = plain(one, near)
+    timed = (left & 2) == 0
+    assert timed.sum() >= 8
+    exact = [precise_period(Orbit(landscape(one).reduction, state), Fate.BOUNDED) for state in near[timed][:10]]
+    np.testing.assert_allclose(periods[timed][:10], exact, rtol=1e-11)
+
+
+def test_spin_ups_states_at_rest_and_states_on_a_plane_stay_open_and_unwritten():
+    """At rest: D2 w2' = lambda3 w1 + M2 = 0 at w = (2, 0, 0), the other rates vanish. Planes of D = (3, 2.5, 1) without a wheel: w3 = +-w1, for
+    dw3/dw1 = ((D1 - D2)/D3) w1/(((D2 - D3)/D1) w3) = w1/w3."""
+    spinning = states_of("circles, a rod", 400, label=Fate.SPIN_UP)[:20]
+    for one, states in ((SCENES["circles, a rod"], spinning), (scene((3, 2, 1), (0, 0, 1), 1, -2.0), np.array([[2.0, 0.0, 0.0]])),
+                        (scene((3, 2.5, 1), (0, 0, 0), 1, 0.5), np.array([[1.0, 0.3, 1.0], [-1.5, 0.2, 1.5], [0.0, 0.4, 0.0]]))):
+        assert kernel_input(landscape(one)) is not None
+        boxes, periods, left = plain(one, states)
+        assert (left == 3).all() and np.isnan(boxes).all() and np.isnan(periods).all()
+
+
+@pytest.mark.slow  # compiling takes half a minute where no cache is
+@pytest.mark.parametrize("number", SAMPLE)
+def test_the_compiled_rows_are_those_of_plain_python_and_of_the_arrays(number):
+    pytest.importorskip("numba")
+    one, states = bounded(number, 400)
+    boxes, periods = extremes(one, states, fast=True), period(one, states, fast=True)
+    exact, times = extremes_and_periods(one, states, fast=False)
+    assert (np.abs(boxes - exact).max(axis=2) <= 2e-12 * np.abs(exact).max(axis=2)).all()
+    np.testing.assert_allclose(periods, times, rtol=2e-11)
+    values, spans, left = plain(one, states[:30])
+    if kernel_input(landscape(one)) and landscape(one).e > 0:
+        np.testing.assert_allclose(spans[left == 0], periods[:30][left == 0], rtol=1e-12)
+        np.testing.assert_allclose(values[left == 0], boxes[:30][left == 0], rtol=0, atol=1e-13 * np.abs(values[left == 0]).max())
+
+
+def test_scenes_without_a_torque_or_with_lines_of_equilibria_have_no_kernel():
+    assert kernel_input(landscape(scene((3, 2, 1), (0, 0, 1), 1, 0.0))) is None
+    assert all(kernel_input(landscape(SCENES[name])) is not None for name in HYPERBOLAS)
