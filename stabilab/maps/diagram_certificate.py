@@ -14,7 +14,7 @@ from ..version import __version__
 from .bifurcation.algebraic import Algebraic
 from .bifurcation.eliminated import univariate
 from .bifurcation.family import Family
-from .bifurcation.result import ENDLESS, Diagram, Event, Piece
+from .bifurcation.result import CURVES, ENDLESS, Diagram, Event, Piece
 from .bifurcation.system import BORDERS, ISOLATED, LEAF, fixed_axis
 
 if TYPE_CHECKING:
@@ -33,6 +33,8 @@ def certifiable(spans: Sequence[Any]) -> None:
 
 def diagram_certificate(found: Diagram) -> dict[str, Any]:
     """The object of `stabilab.diagram-certificate/1`. Raises InputError for a diagram of more events than it may hold."""
+    if found.kind == CURVES:
+        raise InputError(f"--certify: {found.what.partition(';')[0]}: stabilab classify --certify proves them at one value")
     pieces, events = _changes(found)
     if len(events) > MOST:
         raise InputError(f"--certify: a certificate holds at most {MOST} events, this range has {len(events)}: divide it")

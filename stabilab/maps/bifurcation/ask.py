@@ -11,12 +11,12 @@ from ...errors import InputError
 from ...numbers.double_ball import Unclear
 from ...physics.coefficients import effective
 from ..plan import place_and_text
+from ..span import spans_of
 from .connections import with_connections
 from .family import Family
 from .line import diagram
 from .plane import Plane, plane
 from .result import Diagram
-from .span import spans_of
 
 
 def bifurcation(case: Case | str | os.PathLike[str], vary: Mapping[str, Any] | Sequence[tuple[str, Any]], curve: bool = False) -> Diagram | Plane:

@@ -18,7 +18,7 @@ from ...errors import InputError, printable
 from ...numbers.balls import rational
 from ...physics.coefficients import effective
 from ..keys import put
-from .span import Span
+from ..span import Span
 
 if TYPE_CHECKING:
     from flint import fmpq_mpoly, fmpq_mpoly_ctx

@@ -15,6 +15,7 @@ from .eliminated import Eliminated, Root, univariate
 from .family import Family
 from .result import ENDLESS, Diagram, Event, Piece, State
 from .system import BORDERS, ISOLATED, LEAF, Conics, OnLine
+from .told import told
 from .verdicts import general_states, judged_state
 
 WORDS = {"fold": "two {} meet and vanish", "pitchfork": "three {} meet in one", "crossing": "two branches of {} cross",
@@ -26,8 +27,7 @@ def diagram(family: Family, borders: bool = False) -> Diagram:
     kind, what, system, notes = chosen(family, borders)
     span = family.spans[0]
     if system is None:
-        return Diagram(family, kind, what, (Piece(float(span.low), float(span.high), 0 if kind == "none" else ENDLESS, (span.low + span.high) / 2, ()),), (),
-                       notes=notes)
+        return told(family, what)
     eliminated = Eliminated(family, system)
     found = cuts((univariate(c, 2) for c in eliminated.critical), span.low, span.high)
     pieces = _pieces(family, kind, eliminated, found)

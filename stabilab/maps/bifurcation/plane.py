@@ -84,7 +84,7 @@ def plane(family: Family, borders: bool = False) -> Plane:
     """All equilibria over the two ranges of a family."""
     kind, what, system, notes = chosen(family, borders)
     if system is None:
-        raise InputError(f"{family.case.place}: nothing changes over these ranges")
+        raise InputError(f"{family.case.place}: {what}: vary one number, and the curves are told in words; over two there is nothing to draw")
     eliminated = Eliminated(family, system)
     curves = eliminated.critical
     found = cuts(_projected(family, curves), family.spans[0].low, family.spans[0].high)

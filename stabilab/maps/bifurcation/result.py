@@ -7,6 +7,7 @@ from fractions import Fraction
 from ...numbers.vectors import Float3
 from .family import Family
 
+CURVES = "curves"  # the kind of a diagram in words
 ENDLESS = -1  # in the place of a count: equilibria without number, curves of them
 
 
@@ -42,7 +43,8 @@ class Event:
 @dataclass(frozen=True)
 class Piece:
     """An open piece of the range with one number of equilibria. low, high: doubles; sample: a value inside, exact; states: the equilibria there, in the
-    order in which their branches are numbered; seams: values inside at which two of them may change places in the component that orders them."""
+    order in which their branches are numbered; seams: values inside at which two of them may change places in the component that orders them; words: which
+    curves there are, where equilibria form these."""
 
     low: float
     high: float
@@ -50,11 +52,12 @@ class Piece:
     sample: Fraction
     states: tuple[State, ...]
     seams: tuple[float, ...] = ()
+    words: str = ""
 
 
 @dataclass(frozen=True, repr=False)
 class Diagram:
-    """All equilibria over one number. kind: which are counted ("isolated", "motion", "borders" or "none"); what: the same in words; pieces and
+    """All equilibria over one number. kind: which are counted ("isolated", "motion", "borders" or "curves"); what: the same in words; pieces and
     events in rising order: event n lies between pieces; an event at an end of the range has a piece on one side only."""
 
     family: Family = field(repr=False)

@@ -148,8 +148,6 @@ def test_what_cannot_be_eliminated_is_refused_with_the_way_out(tmp_path):
             stabilab.bifurcation(own, vary)
     with pytest.raises(InputError, match="sweep --answer equilibria"):
         stabilab.bifurcation(CASES / "liquid-base.toml", {"inertia[1]": "8:9"})
-    with pytest.raises(InputError, match="without a torque"):
-        stabilab.bifurcation(CASES / "torque-free-gyrostat.toml", {"momentum[1]": "0:1"})
 
 
 def test_a_symmetric_body_with_the_torque_along_its_axis_has_a_line_where_stability_changes_once(tmp_path):

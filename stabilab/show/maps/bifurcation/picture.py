@@ -4,8 +4,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from ....errors import InputError
 from ....maps.bifurcation.branches import Branch, branches
-from ....maps.bifurcation.result import Diagram
+from ....maps.bifurcation.result import CURVES, Diagram
 from ....maps.bifurcation.system import BORDERS
 from ... import style
 from ...units import units_of
@@ -19,7 +20,10 @@ LOOKS = {"stable": ("stable", "stable"), "unstable": ("unstable", "unstable"), "
 
 
 def write(found: Diagram, out: str | Path, size: tuple[float, float] | None = None, dpi: float | None = None) -> Path:
-    """Draw the diagram and write the picture; returns its path."""
+    """Draw the diagram and write the picture; returns its path. Raises InputError where equilibria form curves for every value."""
+    if found.kind == CURVES:
+        raise InputError(f"{found.family.case.place}: "
+                         f"{found.what.partition(';')[0]}: these are told in words, and no branches are there to draw: leave --out away")
     return style.write(out, lambda plt: drawn(found, size, plt), dpi)
 
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 from typing import Any
 
 from ....maps.bifurcation.branches import branches
-from ....maps.bifurcation.result import ENDLESS, Diagram, Event, Piece, State
-from ....maps.bifurcation.span import Span
+from ....maps.bifurcation.result import CURVES, ENDLESS, Diagram, Event, Piece, State
 from ....maps.bifurcation.system import BORDERS
+from ....maps.span import Span
 from ...files import comma
 from ...text import frame
 from ...text.answers import as_json
@@ -57,7 +57,7 @@ def _uniform(found: Diagram, count: int) -> str:
     span = found.family.spans[0]
     told = f"{_things(found, count)} for {number(float(span.low))} <= {span.label} <= {number(float(span.high))}{unit(span)}"
     other = [f"{_things(found, event.count)} at {number(event.value)}" for event in found.events if event.count != count]
-    events = _events_told(found)
+    events = "" if other and found.kind == CURVES else _events_told(found)
     return told + (f", but {_and(other)}" if other else "") + (f": {events}" if events else "")
 
 
@@ -76,7 +76,8 @@ def _events_told(found: Diagram) -> str:
     by_kind: dict[str, list[str]] = {}
     for event in (*found.events, *found.connections):
         by_kind.setdefault(event.kinds[0], []).append(number(event.value))
-    return ", ".join(f"{NAMES[kind]}{'s' if len(values) > 1 and kind not in ('infinity', 'axis', 'curve') else ''} at {_and(values)}"
+    names = NAMES | ({"curve": "other curves"} if found.kind == CURVES else {})
+    return ", ".join(f"{names[kind]}{'s' if len(values) > 1 and kind not in ('infinity', 'axis', 'curve') else ''} at {_and(values)}"
                      for kind, values in by_kind.items())
 
 
@@ -91,7 +92,7 @@ def _table(found: Diagram) -> list[str]:
     rows = [[name, "changes" if found.kind == BORDERS else "equilibria", *([] if found.kind == BORDERS else ["stable"]), "what"]]
     for _, one in _in_order(found):
         if isinstance(one, Piece):
-            rows.append([f"{number(one.low)} to {number(one.high)}", *_counts(found, one.count, one.states), ""])
+            rows.append([f"{number(one.low)} to {number(one.high)}", *_counts(found, one.count, one.states), one.words])
         else:
             rows.append([f"at {number(one.value)}", *_counts(found, one.count, one.states), one.words + _meeting(one, units)])
     wide = [max(len(row[n]) for row in rows) for n in range(len(rows[0]) - 1)]
@@ -100,7 +101,7 @@ def _table(found: Diagram) -> list[str]:
 
 def _counts(found: Diagram, count: int, states: tuple[State, ...]) -> list[str]:
     told = "curves" if count == ENDLESS else str(count)
-    return [told] if found.kind == BORDERS else [told, str(sum(s.verdict == "stable" for s in states))]
+    return [told] if found.kind == BORDERS else [told, "" if count == ENDLESS else str(sum(s.verdict == "stable" for s in states))]
 
 
 def _meeting(event: Event, units: Units) -> str:
@@ -135,6 +136,7 @@ def json(found: Diagram) -> str:
     return as_json({"schema": SCHEMA, "case": case.name, "variables": case.variables, "answer": answer(found), "kind": found.kind, "what": found.what,
                     "axes": [axis(span) for span in found.family.spans],
                     "pieces": [{"low": piece.low, "high": piece.high, "sample": str(piece.sample)} | _states(piece.count, piece.states)
+                               | ({"words": piece.words} if piece.words else {})
                                for piece in found.pieces],
                     "events": [event_row(event) for event in (*found.events, *found.connections)], "notes": list(found.notes)} | frame.key(case))
 

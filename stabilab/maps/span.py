@@ -6,12 +6,12 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from ...case.table import Written
-from ...case.units import dimension_of, in_dimension, split
-from ...errors import InputError, printable
-from ...numbers.exact import exact
-from ..axes import si_unit
-from ..keys import Key, key_of
+from ..case.table import Written
+from ..case.units import dimension_of, in_dimension, split
+from ..errors import InputError, printable
+from ..numbers.exact import exact
+from .axes import si_unit
+from .keys import Key, key_of
 
 EXPECTED = 'expected from:to such as "0:0.5 N m"'
 
