@@ -12,6 +12,8 @@ from typing import NamedTuple
 
 from ..numbers.roots import bracketed_newton, real_polynomial_roots
 
+SHORT = 1e-9  # a last step of Newton's method that leaves its square
+
 
 class Piece(NamedTuple):
     """Part of the hyperbola X = (K/h - c)/G, Z = h - d/G with h between `inner` and `outer` in size (0 and inf at the
@@ -186,12 +188,13 @@ class Conic:
         else:
             start = 0.5 * (lo + hi)
 
-        def fun(t, Q):
-            h = sign * np.exp(t)
+        # told from the lower end by 1 and more: where log|h| itself is near 0, no step would ever be short against it
+        def fun(t, Q, lo):
+            h = sign * lo * np.exp(t - 1)
             x, z = (K / h - c) / G, h - s
             return self.invariant_at(x, z) - Q, 2 * (z * h + self.e * x * K / (h * G))
-        t = bracketed_newton(fun, np.log(lo), np.log(hi), np.log(start), (Q,), rising=piece.rising)
-        return np.exp(t)
+        t = bracketed_newton(fun, np.ones(Q.shape), 1 + np.log(hi / lo), 1 + np.log(start / lo), (Q, lo), rising=piece.rising, enough=SHORT)
+        return lo * np.exp(t - 1)
 
     def _meet_line(self, line, Q):
         """Both points of a line where the invariant is Q: a quadratic in t."""

@@ -14,6 +14,7 @@ from .anchored import ROUNDED, Anchored
 from .places import twofold_places
 
 STEPS = 4
+SETTLED = 1e-15  # of a radian: the next step would be its square
 ENOUGH = 1e-12  # of the way to the nearest other equilibrium, or of a radian: the last step leaves its square
 TWOFOLD = 2.0**-100  # units of rounding of a twofold sum of some terms, by their size
 DRIFT = 1e-3  # of a radian: farther from the doubles' place another equilibrium may have been found
@@ -43,14 +44,16 @@ def fine_spots(land: Landscape, states) -> FineSpots:
     constants = land.twofold  # type: ignore[attr-defined]  # of circles and hyperbolas
     x, z = twofold_places(constants, land.reduction.j, land.reduction.k, states)
     with np.errstate(all="ignore"):
-        X, Z = (Twofold(v.high[:, None], v.low[:, None]) for v in (x, z))
-        u, v = (Twofold(np.where(rough.there, p, np.nan), np.zeros(p.shape)) for p in land.xz(rough.place))
+        rows = np.nonzero(rough.there)[0]  # twofold numbers of the equilibria alone, not of what is missing of others
+        X, Z = (Twofold(v.high[rows], v.low[rows]) for v in (x, z))
+        u, v = (Twofold(p[rough.there], np.zeros(len(rows))) for p in land.xz(rough.place))
         u, v, slope, last = _settled(land, u, v, X, Z)
-        way = _way(land, u, v, X, Z)
-        pull, bend, astray = _left_over(land, u.high, v.high, X.high, Z.high, tuple(s[:, None] for s in size), last)
+        left_over = _left_over(land, u.high, v.high, X.high, Z.high, tuple(s[rows] for s in size), last)
+        at_x, at_z, slope, last, way, pull, bend, astray = (_spread(rough.there, found) for found in
+                                                            (u.value(), v.value(), slope, last, _way(land, u, v, X, Z), *left_over))
         turns = np.round((rough.offset - way) / TURN) if land.turn < np.inf else np.zeros(way.shape)
         turns = np.where(rough.there, turns, 0.0)
-        anchors = np.array([u.value(), v.value(), slope, pull, bend])
+        anchors = np.array([at_x, at_z, slope, pull, bend])
         pot, kinetic = Anchored(land.reduction), 0.5 * w[:, None] ** 2
         fall = TURN * pot.mu * turns
         energy = kinetic + pot.rise(-way, anchors) + fall
@@ -72,24 +75,42 @@ def _beside_fold(land, place, size):
     return beside
 
 
+def _spread(there, values):
+    """(n, m) values at their places, NaN elsewhere."""
+    out = np.full(there.shape, np.nan)
+    out[there] = values
+    return out
+
+
 def _settled(land, u, v, X, Z):
-    """(places, slopes and last steps) of the equilibria next to (u, v) on the orbits of (X, Z)."""
+    """(places, slopes and last steps) of the equilibria next to (u, v) on the orbits of (X, Z), all (k,)."""
     k, e = land.twofold, land.e
-    Q = Z * Z - X * X * e
+    Q, last, live = Z * Z - X * X * e, np.full(len(u.high), np.nan), np.arange(len(u.high))
     for _ in range(STEPS):
-        off = (v * v - u * u * e - Q).value() / (2 * (u.high * u.high + v.high * v.high))
-        u, v = u + e * off * u.high, v + -off * v.high
-        force = k.mu + k.G * u * v + k.c * v + k.d * u
-        slope = (k.G * (v * v + u * u * e) + k.c * u * e + k.d * v).value()
-        step = -force.value() / slope
-        step = np.where(np.abs(step) < 0.1, step, np.nan)
-        half = 0.5 * e * step * step
-        u, v = u + v * step + u * half, v + u * (e * step) + v * half
-    return u, v, (k.G * (v * v + u * u * e) + k.c * u * e + k.d * v).value(), step
+        some, other, step = _stepped(k, e, *(Twofold(a.high[live], a.low[live]) for a in (u, v, Q)))
+        for whole, part in ((u, some), (v, other)):
+            whole.high[live], whole.low[live] = part.high, part.low
+        last[live] = step
+        live = live[np.abs(step) > SETTLED]  # false for no number too
+        if not live.size:
+            break
+    return u, v, (k.G * (v * v + u * u * e) + k.c * u * e + k.d * v).value(), last
+
+
+def _stepped(k, e, u, v, Q):
+    """(places, step) after one step of Newton's method from (u, v), brought onto the orbit Q before."""
+    off = (v * v - u * u * e - Q).value() / (2 * (u.high * u.high + v.high * v.high))
+    u, v = u + e * off * u.high, v + -off * v.high
+    force = k.mu + k.G * u * v + k.c * v + k.d * u
+    slope = (k.G * (v * v + u * u * e) + k.c * u * e + k.d * v).value()
+    step = -force.value() / slope
+    step = np.where(np.abs(step) < 0.1, step, np.nan)
+    half = 0.5 * e * step * step
+    return u + v * step + u * half, v + u * (e * step) + v * half, step
 
 
 def _left_over(land, u, v, X, Z, size, last):
-    """What 32 digits and Newton's last step leave open, (n, m) each: of the force at the equilibria (u, v) and of its slope, and of the ways from the
+    """What 32 digits and Newton's last step leave open, (k,) each: of the force at the equilibria (u, v) and of its slope, and of the ways from the
     states (X, Z), whose coordinates are sums of terms of that `size`."""
     k, far = land.conic, np.abs(u) + np.abs(v)
     wide = size[0] + size[1]

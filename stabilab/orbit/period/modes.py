@@ -192,17 +192,26 @@ def _even_limit(a2, b):
 
 def _exp_difference(rho, left, right):
     """exp[-rho, rho, y]: second divided difference of exp, with y + rho = 2 rho left, rho - y = 2 rho right."""
+    short = rho < 1.0
+    series = _exp_series(rho, left, right) if np.any(short) else np.nan
+    return np.where(short, series, np.nan if np.all(short) else _exp_directly(rho, left, right))
+
+
+def _exp_directly(rho, left, right):
     up, down = 2 * rho * right, 2 * rho * left  # distances from the right and the left end
     with np.errstate(all="ignore"):
         near_right = np.exp(rho) * np.where(up > 0, -np.expm1(-up) / np.where(up > 0, up, 1), 1.0)  # exp[y, rho]
         near_left = np.exp(-rho) * np.where(down > 0, np.expm1(down) / np.where(down > 0, down, 1), 1.0)  # exp[-rho, y]
-        direct = (near_right - near_left) / (2 * rho)
+        return (near_right - near_left) / (2 * rho)
+
+
+def _exp_series(rho, left, right):
+    """About the middle, for short intervals: a sum over complete homogeneous polynomials h_n(-rho, rho, y)/(n+2)!."""
     y = rho * (left - right)
-    # series about the middle for short intervals: sum over complete homogeneous polynomials h_n(-rho, rho, y)/(n+2)!
     homogeneous, rho2, even, series, factor = np.ones_like(y), rho * rho, np.ones_like(y), 0.5 * np.ones_like(y), 0.5
     for n in range(1, 22):
         even = even * rho2 if n % 2 == 0 else even
         homogeneous = y * homogeneous + (even if n % 2 == 0 else 0.0)
         factor = factor / (n + 2)
         series = series + factor * homogeneous
-    return np.where(rho < 1.0, series, direct)
+    return series

@@ -121,26 +121,30 @@ def nodes_of(level):
 
 def _least(modes, rho):
     """(n,) angles phi where H is least inside (0, pi); pi/2 where it is least at an end."""
-    phi = np.linspace(0, np.pi, LOOKS + 1)
-    rows = np.arange(len(rho))
-    seen = np.stack([_curvature(modes, rho, np.full(len(rho), angle)) for angle in phi])
+    phi, n = np.linspace(0, np.pi, LOOKS + 1)[:, None], len(rho)
+    rows, wide = np.arange(n), max(1, BLOCK // (LOOKS + 1))
+    seen = np.concatenate([_curvature(modes.take(rows[a:a + wide]), rho[a:a + wide], phi) for a in range(0, n, wide)], axis=1)
     at = np.argmin(np.where(np.isnan(seen), np.inf, seen), axis=0)
     inside = (at > 0) & (at < LOOKS)
-    middle = phi[np.clip(at, 1, LOOKS - 1)]
-    step = np.full(len(rho), np.pi / LOOKS)
-    one, two, three = (seen[np.clip(at, 1, LOOKS - 1) + shift, rows] for shift in (-1, 0, 1))
+    inner = np.clip(at, 1, LOOKS - 1)
+    middle = phi[inner, 0]
+    step = np.full(n, np.pi / LOOKS)
+    one, two, three = (seen[inner + shift, rows] for shift in (-1, 0, 1))
+    beside = np.array([-1.0, 0.0, 1.0])[:, None]
     for _ in range(CLOSER):
         with np.errstate(all="ignore"):
             move = 0.5 * step * (one - three) / (one - 2 * two + three)
         middle = middle + np.where(np.abs(move) <= step, move, 0.0)
         step = 0.1 * step
-        one, two, three = (_curvature(modes, rho, middle + shift * step) for shift in (-1, 0, 1))
+        one, two, three = _curvature(modes, rho, middle + beside * step)
     return np.where(inside & (middle > 0) & (middle < np.pi), middle, 0.5 * np.pi)
 
 
 def _curvature(modes, rho, phi):
+    """H (k, n) at angles (k, n), or (k, 1) for all rows."""
+    left, right = (np.broadcast_to(share, np.broadcast_shapes(phi.shape, rho.shape)) for share in (np.sin(0.5 * phi) ** 2, np.cos(0.5 * phi) ** 2))
     with np.errstate(all="ignore"):
-        return modes.second_difference(rho, np.sin(0.5 * phi) ** 2, np.cos(0.5 * phi) ** 2)
+        return modes.second_difference(rho, left, right)
 
 
 def inverse_speed(modes, rho, left, right):
