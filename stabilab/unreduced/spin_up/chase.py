@@ -48,25 +48,23 @@ def chase(scene, tests: Tests, starts, t_max: float, budget: int, after: float =
     runs = (CompiledRuns if fast else Runs)(scene, starts)
     out = Chased(tests, np.full(n, -1), runs.times, runs.steps, np.ones(n), runs.states, np.full((6, n), np.nan), np.zeros((n, 48)), np.full((n, 48), np.inf),
                  runs.rounded, runs.twins.blur, np.zeros(n))
-    open_, stage, leaps = np.arange(n), 0, Leaps(runs)
-    far = np.zeros(n, bool)  # rows that have just leapt: a test costs less than what they passed
+    open_, stage, leaps, leapt = np.arange(n), 0, Leaps(runs), np.arange(0)
     while open_.size:
         runs.measure(open_, out)
-        ready = out.t[open_] >= after
+        ready = open_ if after <= 0 else open_[out.t[open_] >= after]
         which = [name for every, since, name in PLAN if stage % every == 0 and runs.steps_done >= since][-1]
-        left = [open_[~ready]]
-        for rows, asked in ((open_[ready & ~far[open_]], which), (open_[ready & far[open_]], "last")):
-            left.append(_tested(out, rows, getattr(tests, asked), fast) if rows.size else rows)
-        open_ = np.sort(np.concatenate(left))
-        ended = (out.t[open_] >= t_max) | (runs.steps[open_] >= budget) | ~np.isfinite(out.states[open_]).all(axis=1)
+        far = np.intersect1d(ready, leapt) if leapt.size else leapt  # rows that have just leapt: a test costs less than what they passed
+        for rows, asked in ((np.setdiff1d(ready, far) if far.size else ready, which), (far, "last")):
+            if rows.size:
+                _ask(out, rows, getattr(tests, asked), fast)
+        open_ = open_[out.fired[open_] < 0]
+        ended = runs.over(open_, t_max, budget)
         if ended.any():  # the last word is that of all tests that so much work is worth
-            _tested(out, open_[ended & (out.t[open_] >= after)], tests.last if runs.steps_done >= LAST else tests.all, fast)
+            _ask(out, open_[ended & (out.t[open_] >= after)], tests.last if runs.steps_done >= LAST else tests.all, fast)
         open_ = open_[~ended]
         if open_.size:
             leapt = leaps.advance(open_, t_max, after)
-            far[:] = False
-            far[leapt] = True
-            rows = open_[~far[open_]]
+            rows = np.setdiff1d(open_, leapt) if leapt.size else open_
             if rows.size:
                 share = SHARES[runs.steps_done >= EARLY]
                 runs.advance(rows, int(min(max(FIRST, runs.steps_done * share), MOST, max(1, budget - runs.steps[rows].min()))), t_max, after)
@@ -76,8 +74,8 @@ def chase(scene, tests: Tests, starts, t_max: float, budget: int, after: float =
     return out
 
 
-def _tested(out, rows, which, fast):
-    """The rows that no test decides; the others are written down."""
+def _ask(out, rows, which, fast):
+    """Ask tests for rows, one after another for those that none has fired for; what fires is written down."""
     ahead = {}
     for field, orders in which:
         if not rows.size:
@@ -98,4 +96,3 @@ def _tested(out, rows, which, fast):
             out.fired[done] = number
             out.constants[:, done] = np.array([found.A, found.z, found.eta, found.z_up, found.eta_up, found.k])[:, found.good]
             rows = rows[out.fired[rows] < 0]
-    return rows

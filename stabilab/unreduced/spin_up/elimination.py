@@ -51,8 +51,15 @@ class Algebra:
 
     def rest_of_rate(self, terms: Terms) -> Terms:
         """The rate of a quantity apart from what turning makes of it."""
+        return gathered(*self._rest(terms))
+
+    def rest_of_half(self, terms: Terms) -> list[Terms]:
+        """What adds up to the half of the rate, apart from what turning makes of it, of a real quantity of which the half is given; j > k in it."""
+        return [part.real() for part in self._rest(terms)]
+
+    def _rest(self, terms):
         inner = gathered(self.slope(terms), *_along(terms, self.carried))
-        return gathered(product(inner, self.x_rate), *_along(terms, self.rest))
+        return [product(inner, self.x_rate), *_along(terms, self.rest)]
 
     def slope(self, terms: Terms) -> Terms:
         """d/dx of terms at constant zeta."""
@@ -91,17 +98,18 @@ def sizes(terms: Terms):
 
 
 def corrected(algebra: Algebra, rate: Terms, order: int, added: Terms | None = None) -> Corrected:
-    """Everything oscillating up to x^-order taken out of a rate; added: what was added to the quantity before."""
-    parts = [] if added is None else [added]
+    """Everything oscillating up to x^-order taken out of a rate; added: what was added to the quantity before. Both are real: their terms come with their
+    conjugates, so that half of them need be followed."""
+    parts, rate = [] if added is None else [added.half()], rate.half()
     while True:
         j, k, _, _ = rate.powers
         levels = algebra.levels(rate)
         oscillating = (j != k) & (levels <= 4 * order)
         if not oscillating.any():
-            return Corrected(gathered(*parts), rate)
+            return Corrected(gathered(*parts).whole(), rate.whole())
         now = oscillating & (levels == levels[oscillating].min())
         parts.append(algebra.removed(rate[now]))
-        rate = gathered(rate[~now], algebra.rest_of_rate(parts[-1]))
+        rate = gathered(rate[~now], *algebra.rest_of_half(parts[-1]))
 
 
 def fixed_algebra(form: NormalForm) -> Algebra:

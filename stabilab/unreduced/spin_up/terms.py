@@ -29,7 +29,13 @@ class Terms:
     def powers(self):
         """(j, k, a, b), (n,) each."""
         keys = self.keys + _MIDDLE
-        return keys // _J, keys // _K % 256, keys // _A % _A - (1 << 15), keys % _A - (1 << 15)
+        return keys >> 40, keys >> 32 & 255, (keys >> 16 & _A - 1) - (1 << 15), (keys & _A - 1) - (1 << 15)
+
+    @property
+    def apart(self):
+        """j - k, (n,)."""
+        keys = self.keys + _MIDDLE
+        return (keys >> 40) - (keys >> 32 & 255)
 
     def __getitem__(self, rows):
         return Terms(self.keys[rows], self.c[rows], self.m[rows])
@@ -49,6 +55,25 @@ class Terms:
     def moved(self, key):
         """Times one monomial."""
         return Terms(self.keys + key, self.c, self.m)
+
+    def conjugate(self):
+        """The conjugate of the sum: zeta^j zeta*^k becomes zeta^k zeta*^j."""
+        return Terms(self.keys - self.apart * (_J - _K), self.c.conjugate(), self.m)
+
+    def half(self):
+        """Of a real sum, whose terms come with their conjugates, those with j >= k."""
+        return self[self.apart >= 0]
+
+    def whole(self):
+        """The real sum of which `half` is left."""
+        return gathered(self, self[self.apart > 0].conjugate())
+
+    def real(self):
+        """The half of the sum and its conjugate, like keys not yet added up."""
+        apart = self.apart
+        keys = self.keys - np.minimum(apart, 0) * (_J - _K)
+        mirrored = self.c.conjugate()
+        return Terms(keys, np.where(apart < 0, mirrored, np.where(apart > 0, self.c, self.c + mirrored)), np.where(apart == 0, self.m + self.m, self.m))
 
     def as_dict(self) -> dict:
         """{(j, k, a, b): c}."""

@@ -8,20 +8,45 @@ import numpy as np
 from ....numbers.numba_door import compiled
 from ..certificate import Certifier, Found
 from ..fixed_centre import BLUR
-from . import kernel, lanes, moving_kernel, steps
+from . import kernel, lanes, moving_kernel
 
-INLINED = {kernel: {"put"}, moving_kernel: {"greatest"}}
+INLINED = {kernel: {"put", "columns", "total", "falling", "power_of", "value_of", "blurred", "search"}, moving_kernel: {"greatest"}}
 
 
 @lru_cache(maxsize=3)
 def functions(module) -> dict:
     """A kernel's functions by name, compiled; kept on disk where there is a place for it."""
-    return compiled(module, INLINED.get(module, ()), **lanes.vectors() if module is steps else {})
+    return compiled(module, INLINED.get(module, ()), **{} if module is moving_kernel else lanes.vectors())
 
 
 def fast_certifier(field, orders: tuple[int, int]):
     """The test in a field by compiled loops."""
     return (FixedCertifier if field.sharp else MovingCertifier)(field, orders)
+
+
+class Gathered:
+    """Sums of sizes and of majorants of a quantity by degree (rows) and power, without the outer rows and columns of zeros, in rows of eight.
+
+    first: index n of the first column; wide: how many times eight columns there are. Row d wide + c of a table holds the columns first + 8 c on of row d.
+    """
+
+    def __init__(self, sums, most):
+        degrees, columns = np.flatnonzero(most.any(axis=1)), np.flatnonzero(most.any(axis=0))
+        rows, self.first, self.end = (degrees[-1] + 1, columns[0], columns[-1] + 1) if columns.size else (1, 0, 1)
+        self.wide = -(-(self.end - self.first) // lanes.WIDE)
+        self.sums, self.most = self.in_rows(sums[:rows]), self.in_rows(most[:rows])
+
+    def tails(self):
+        """The sums for integrals of the factors over all greater x: X^(1 - n) gives z^(2 - n)/(n - 2), and infinity where it does not fall faster than 1/X."""
+        fall = self.first + np.arange(lanes.WIDE * self.wide).reshape(self.wide, -1) - 2.0
+        fall = np.tile(fall, (len(self.sums) // self.wide, 1))
+        return np.where(fall > 0, self.sums / np.where(fall > 0, fall, 1.0), np.where(self.sums > 0, np.inf, 0.0))
+
+    def in_rows(self, table):
+        """The columns of a table as rows of eight."""
+        filled = np.zeros((len(table), lanes.WIDE * self.wide))
+        filled[:, :self.end - self.first] = table[:, self.first:self.end]
+        return filled.reshape(-1, lanes.WIDE)
 
 
 class FixedCertifier:
@@ -34,27 +59,26 @@ class FixedCertifier:
         made = [np.zeros((top, top, powers), kind) for _ in range(4) for kind in (complex, float)]
         added_e, most_e, rate_e, rise_e, added_b, most_b, rate_b, rise_b = made
         self.kernel["tables"](np.array(orders), f.om, f.drag, np.array([f.D1, f.M1, f.gam, f.h]), np.array([f.mu, f.kap], complex), *made)
-        (e, e_most, *first), (b, b_most, *second), (r, _, *third), (k, _, *fourth) = (
-            self._gathered(c, m) for c, m in ((added_e, most_e), (added_b, most_b), (rate_b, rise_b), (rate_e, rise_e)))
-        self.tables = *self._parts(added_e), *self._parts(added_b), e, e_most, b, b_most, r, k, np.array(first + second + third + fourth)
-        self.work = np.zeros(top, complex), np.zeros(powers), np.zeros(6)
+        e, b, r, k = (self._gathered(c, m) for c, m in ((added_e, most_e), (added_b, most_b), (rate_b, rise_b), (rate_e, rise_e)))
+        self.tables = *self._parts(added_e, e), *self._parts(added_b, b), e.sums, e.most, b.sums, b.most, r.tails(), k.sums, np.array(
+            [[q.first for q in (e, b, r, k)], [q.wide for q in (e, b, r, k)]])
+        rows = max(q.wide for q in (e, b, r, k))
+        self.work = np.zeros(top, complex), np.zeros((rows, lanes.WIDE)), np.zeros((rows, lanes.WIDE)), np.zeros(6)
         self.order, self.frame = np.array(f.order), np.array([*f.turn, f.shift, *f.centre, *f.scale], float)
 
-    def _parts(self, c):
+    def _parts(self, c, gathered):
+        """(powers of zeta and of its conjugate (2, m), real and imaginary parts) of a quantity's terms in the columns of its sums."""
         top, _, powers = c.shape
         m = top * (top + 1) // 2
         made = np.zeros((2, m), np.int64), np.zeros((m, powers)), np.zeros((m, powers))
         m = self.kernel["parts"](c, *made)
-        return np.ascontiguousarray(made[0][:, :m]), made[1][:m], made[2][:m]
+        return np.ascontiguousarray(made[0][:, :m]), gathered.in_rows(made[1][:m]), gathered.in_rows(made[2][:m])
 
     def _gathered(self, c, m):
-        """(sums of sizes, of majorants, index n of their first column) over the terms of a degree, without the outer rows and columns of zeros."""
         sums, most = np.zeros((2, 2 * c.shape[0], c.shape[2]))
         self.kernel["gather"](c, m, True, sums)
         self.kernel["gather"](c, m, False, most)
-        degrees, columns = np.flatnonzero(most.any(axis=1)), np.flatnonzero(most.any(axis=0))
-        rows, first, end = (degrees[-1] + 1, columns[0], columns[-1] + 1) if columns.size else (1, 0, 1)
-        return np.ascontiguousarray(sums[:rows, first:end]), np.ascontiguousarray(most[:rows, first:end]), first
+        return Gathered(sums, most)
 
     def __call__(self, states, near=0.0) -> Found:
         """See `certificate.Certifier`."""

@@ -1,11 +1,14 @@
 """The certificate about the fixed centre in straight loops: elimination over dense tables, and the search for A and z of one state.
 
 The same formulas as `elimination` and `certificate`, where they are derived; here c[j, k, n] is the coefficient of zeta^j zeta*^k X^(1 - n) and
-beside it stands its majorant m[j, k, n]. Index n = 1 + power of 1/X. All in one file: numba's cache on disk watches no other.
+beside it stands its majorant m[j, k, n]. Index n = 1 + power of 1/X. The search has its tables in rows of eight (`lanes`). numba's cache on disk
+watches this file alone.
 """
 from __future__ import annotations
 
 import math
+
+from .lanes import fused, load, spread, store
 
 ROUNDING = 2.0**-32     # of coefficients over their majorants: `elimination.ROUNDING`
 COEFFICIENT = 2.0**-36  # `certificate.COEFFICIENT`, SLACK, GROWTH, PASSES and `fixed_centre.BLUR`: the tests hold them equal
@@ -91,28 +94,31 @@ def gather(c, m, by_size, out):
                     out[j + k, n] += abs(c[j, k, n]) + ROUNDING * m[j, k, n] if by_size else m[j, k, n]
 
 
-def columns(table, A, row):
-    """Sum of table[d, n] A^d over d, into row[n]: along rows, as memory lies."""
-    for n in range(table.shape[1]):
-        row[n] = table[0, n]
-    power = A
-    for d in range(1, table.shape[0]):
-        for n in range(table.shape[1]):
-            row[n] += power * table[d, n]
-        power *= A
+def columns(table, wide, A, row):
+    """Sum of table[d, n] A^d over d into row[n], eight n at a time: degree d of a table stands in its rows d wide to d wide + wide - 1."""
+    size, last = spread(A), table.shape[0] - wide
+    for c in range(wide):
+        result = load(table, last + c)
+        for d in range(last - wide, -1, -wide):
+            result = fused(result, size, load(table, d + c))
+        store(row, c, result)
 
 
-def total(table, first, A, z, shift, row):
+def total(table, wide, first, A, z, shift, row):
     """Sum of table[d, n - first] A^d z^(1 - n - shift)."""
-    columns(table, A, row)
-    return falling(row, table.shape[1], z, power_of(z, 1 - shift - first))
+    columns(table, wide, A, row)
+    return falling(row, wide, z, power_of(z, 1 - shift - first))
 
 
-def falling(row, count, z, power):
-    """Sum of row[n] power z^-n."""
+def falling(row, wide, z, power):
+    """Sum of row[n] power z^-n: eight at once, by pairs, so that no product waits for more than three others."""
     result, over = 0.0, 1 / z
-    for n in range(count - 1, -1, -1):
-        result = result * over + row[n]
+    second = over * over
+    fourth = second * second
+    for c in range(wide - 1, -1, -1):
+        low = (row[c, 0] + row[c, 1] * over) + (row[c, 2] + row[c, 3] * over) * second
+        high = (row[c, 4] + row[c, 5] * over) + (row[c, 6] + row[c, 7] * over) * second
+        result = result * (fourth * fourth) + (low + high * fourth)
     return result * power
 
 
@@ -124,40 +130,31 @@ def power_of(z, n):
     return result
 
 
-def tails(table, first, A, z, row):
-    """As `total`, of the integrals of the factors over all greater z."""
-    columns(table, A, row)
-    for n in range(table.shape[1]):
-        if n + first > 2:
-            row[n] /= n + first - 2.0
-        elif row[n] != 0:
-            return math.inf
-    return falling(row, table.shape[1], z, power_of(z, 2 - first))
-
-
-def value_of(weights, real, imaginary, zeta, x, powers, row):
-    """The value of a quantity whose terms come with their conjugates: (real + i imaginary)[m, n] of zeta^j zeta*^k, weights (2, m): j, k."""
+def value_of(weights, real, imaginary, wide, first, zeta, x, powers, row):
+    """The value of a quantity whose terms come with their conjugates: (real + i imaginary)[m, n - first] of zeta^j zeta*^k, weights (2, m): j, k."""
     powers[0] = 1
     for j in range(1, powers.size):
         powers[j] = powers[j - 1] * zeta
-    row[:] = 0.0
-    for m in range(real.shape[0]):
-        factor = powers[weights[0, m]] * powers[weights[1, m]].conjugate()
-        u, v = factor.real, factor.imag
-        for n in range(row.size):
-            row[n] += u * real[m, n] - v * imaginary[m, n]
-    return falling(row, row.size, x, x)
+    for c in range(wide):
+        result = spread(0.0)
+        for m in range(weights.shape[1]):
+            factor = powers[weights[0, m]] * powers[weights[1, m]].conjugate()
+            result = fused(load(real, m * wide + c), spread(factor.real), result)
+            result = fused(load(imaginary, m * wide + c), spread(-factor.imag), result)
+        store(row, c, result)
+    return falling(row, wide, x, power_of(x, 1 - first))
 
 
-def blurred(weights, real, imaginary, sums, majorant, first, zeta, size, x, low, dx, powers, row):
+def blurred(weights, real, imaginary, sums, majorant, wide, first, zeta, size, x, low, dx, powers, row):
     """(value, blur) of a quantity at a place known within dx and within size - |zeta|."""
-    value = value_of(weights, real, imaginary, zeta, x, powers, row)
-    inner = total(sums, first, abs(zeta), low, 0, row)
-    wide = total(sums, first, size, low, 0, row)
-    for n in range(sums.shape[1]):
-        row[n] *= abs(n + first - 1.0)
-    moved = falling(row, sums.shape[1], low, power_of(low, -first)) * dx
-    return value, (wide - inner) + moved * (1 + SLACK) + SLACK * wide + COEFFICIENT * total(majorant, first, size, low, 0, row)
+    value = value_of(weights, real, imaginary, wide, first, zeta, x, powers, row)
+    inner = total(sums, wide, first, abs(zeta), low, 0, row)
+    most = total(sums, wide, first, size, low, 0, row)
+    for c in range(wide):
+        for n in range(8):
+            row[c, n] *= abs(8 * c + n + first - 1.0)
+    moved = falling(row, wide, low, power_of(low, -first)) * dx
+    return value, (most - inner) + moved * (1 + SLACK) + SLACK * most + COEFFICIENT * total(majorant, wide, first, size, low, 0, row)
 
 
 def parts(c, weights, real, imaginary):
@@ -175,19 +172,21 @@ def parts(c, weights, real, imaginary):
 
 
 def search(x, zeta, dx, dz, D1, M1, drag, weights_e, real_e, imaginary_e, weights_b, real_b, imaginary_b, e_sums, e_most, b_sums,
-           b_most, r_sums, k_sums, firsts, powers, row, out):
-    """Whether the inequality holds at one place, and its constants A, z, eta, z_up, eta_up, k in out (6,): `certificate.Certifier`. firsts (4,): the
-    index n of the first column of the sums e, b, r, k."""
+           b_most, r_tails, k_sums, spans, powers, kept, row, out):
+    """Whether the inequality holds at one place, and its constants A, z, eta, z_up, eta_up, k in out (6,): `certificate.Certifier`. spans (2, 4): of the
+    quantities e, b, r, k the index n of the first column, and how many times eight columns there are. r_tails: for the integrals of the factors over all
+    greater X. kept, row (most of these, 8): for work."""
     low, top = x - dx, x + dx
     if not (low > 0 and dx < x / 8):
         return False
-    first_e, first_b, first_r, first_k = firsts[0], firsts[1], firsts[2], firsts[3]
+    first_e, first_b, first_r, first_k = spans[0, 0], spans[0, 1], spans[0, 2], spans[0, 3]
+    wide_e, wide_b, wide_r, wide_k = spans[1, 0], spans[1, 1], spans[1, 2], spans[1, 3]
     size = abs(zeta) * (1 + SLACK) + dz
-    if not total(k_sums, first_k, size, low, 1, row) < M1 + min(0.0, drag) / low:
+    if not total(k_sums, wide_k, first_k, size, low, 1, row) < M1 + min(0.0, drag) / low:
         return False  # necessary, for k grows with A and as z falls: nothing else need be looked at
-    value, blur = blurred(weights_e, real_e, imaginary_e, e_sums, e_most, first_e, zeta, size, x, low, dx, powers, row)
+    value, blur = blurred(weights_e, real_e, imaginary_e, e_sums, e_most, wide_e, first_e, zeta, size, x, low, dx, powers, row)
     energy, energy_up = value - blur, value + blur
-    value, blur = blurred(weights_b, real_b, imaginary_b, b_sums, b_most, first_b, zeta, size, x, low, dx, powers, row)
+    value, blur = blurred(weights_b, real_b, imaginary_b, b_sums, b_most, wide_b, first_b, zeta, size, x, low, dx, powers, row)
     mean = drag / M1
     weight = 1 + mean / x + abs(mean) * (dx / (low * low) + BLUR / x) + BLUR
     amplitude = weight * size * size * (1 + SLACK) + value + blur
@@ -195,23 +194,25 @@ def search(x, zeta, dx, dz, D1, M1, drag, weights_e, real_e, imaginary_e, weight
     for _ in range(PASSES):
         step = min(1e-2, growth)
         growth *= 4
+        columns(e_sums, wide_e, A, kept)
         for _ in range(2):
-            need = max(total(e_sums, first_e, A, z, 0, row) - energy, 0.0) * (GROWTH + step) + 1e-7 * low * low
+            need = max(falling(kept, wide_e, z, power_of(z, 1 - first_e)) - energy, 0.0) * (GROWTH + step) + 1e-7 * low * low
             z = low - 2 * need / (D1 * (low + (z if z > 0 else low)))
             if not z > 0:
                 z = low
         if not z < low:
             return False
-        k = total(k_sums, first_k, A, z, 1, row)
+        k = total(k_sums, wide_k, first_k, A, z, 1, row)
         eta = M1 + min(0.0, drag) / z - k - SLACK * (M1 + k)
         least = 1 + min(0.0, drag) / (M1 * z) - SLACK
         if not (eta > 0 and least > 0):
             return False
-        F = (amplitude + total(b_sums, first_b, A, z, 0, row) + tails(r_sums, first_r, A, z, row) * D1 / eta) / least
+        F = amplitude + total(b_sums, wide_b, first_b, A, z, 0, row) + total(r_tails, wide_r, first_r, A, z, -1, row) * D1 / eta
+        F /= least
         if not F < 1e100:
             return False
         if F * (1 + SLACK) < A * A and size < A:
-            e = total(e_sums, first_e, A, z, 0, row)
+            e = falling(kept, wide_e, z, power_of(z, 1 - first_e))
             gained = D1 * (low - z) * (low + z) / 2
             if gained * (1 - SLACK) - SLACK * D1 * low * low * 2.0**-8 > e - energy:
                 out[0], out[1], out[2], out[5] = A, z * (1 - SLACK), eta, k
@@ -222,18 +223,18 @@ def search(x, zeta, dx, dz, D1, M1, drag, weights_e, real_e, imaginary_e, weight
     return False
 
 
-def search_all(x, zeta, dx, dz, D1, M1, drag, weights_e, real_e, imaginary_e, weights_b, real_b, imaginary_b, e_sums, e_most, b_sums, b_most, r_sums,
-               k_sums, firsts, powers, row, constants, good, out):
+def search_all(x, zeta, dx, dz, D1, M1, drag, weights_e, real_e, imaginary_e, weights_b, real_b, imaginary_b, e_sums, e_most, b_sums, b_most, r_tails,
+               k_sums, spans, powers, kept, row, constants, good, out):
     """`search` for places (n,): good (n,), out (6, n)."""
     for n in range(x.size):
         if search(x[n], zeta[n], dx[n], dz[n], D1, M1, drag, weights_e, real_e, imaginary_e, weights_b, real_b, imaginary_b, e_sums, e_most, b_sums,
-                  b_most, r_sums, k_sums, firsts, powers, row, constants):
+                  b_most, r_tails, k_sums, spans, powers, kept, row, constants):
             good[n] = True
             out[:, n] = constants
 
 
 def decide(rows, states, reach, fired, number, found, order, frame, D1, M1, drag, weights_e, real_e, imaginary_e, weights_b, real_b, imaginary_b, e_sums,
-           e_most, b_sums, b_most, r_sums, k_sums, firsts, powers, row, constants):
+           e_most, b_sums, b_most, r_tails, k_sums, spans, powers, kept, row, constants):
     """Ask for those of rows that no test has fired for: fired (n,) becomes `number`, found (6, n) the constants, where the inequality holds for the whole
     ball of radius reach (n,) about the state. order (3,), frame (8,): turn, shift, centre, scale of the form; places as of `fixed_centre`."""
     most = max(abs(frame[6]), abs(frame[7]))
@@ -247,6 +248,6 @@ def decide(rows, states, reach, fired, number, found, order, frame, D1, M1, drag
         size = abs(w1) + abs(w2) + abs(w3) + abs(frame[4]) + abs(frame[5])
         zeta = complex(frame[6] * (w2 - frame[4]), frame[7] * (w3 - frame[5]))
         if search(x, zeta, BLUR * (abs(w1) + abs(frame[3])) + near, most * (BLUR * size + near), D1, M1, drag, weights_e, real_e, imaginary_e, weights_b,
-                  real_b, imaginary_b, e_sums, e_most, b_sums, b_most, r_sums, k_sums, firsts, powers, row, constants):
+                  real_b, imaginary_b, e_sums, e_most, b_sums, b_most, r_tails, k_sums, spans, powers, kept, row, constants):
             fired[n] = number
             found[:, n] = constants

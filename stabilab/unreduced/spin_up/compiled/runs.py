@@ -21,14 +21,17 @@ class CompiledRuns(Runs):
 
     def advance(self, rows, steps: int, t_max: float, pause: float = 0.0):
         self.steps_done += steps
-        self.steps[rows] += steps
-        self.rounded[rows] += steps
         twins, (starts, *vectors) = self.twins, self.small
         self.table["advance"](self.numbers, rows, steps, t_max, pause, self.step_error, self.states, self.times, twins.growth, twins.most, twins.ahead,
-                              twins.blur, self.rounded, starts, *self.work, *vectors)
+                              twins.blur, self.steps, self.rounded, starts, *self.work, *vectors)
 
     def measure(self, rows, out):
         self.table["measure"](rows, self.states, self.steps, self.rounded, self.twins.growth, self.step_error, out.condition, out.reach, out.largest, out.least)
+
+    def over(self, rows, t_max: float, budget: int):
+        out = np.empty(len(rows), bool)
+        self.table["over"](rows, self.states, self.times, self.steps, t_max, budget, out)
+        return out
 
     def _batches(self, states, times, ends, steps, tolerance):
         out, spans = np.empty_like(states), np.empty_like(times)

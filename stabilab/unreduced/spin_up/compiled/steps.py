@@ -215,11 +215,15 @@ def note(c, start, states, row, change, error, rate, growth, most, ahead, blur):
             ahead[row, i] = change[i] / far
 
 
-def advance(coefficients, rows, steps, t_max, pause, step_error, states, clock, growth, most, ahead, blur, rounded, starts, given, numbers, a, v, work, rate,
-            change):
-    """Carry rows on by so many steps, or to t_max (to `pause` those before it), and note how a small change of each has grown. starts: (8, 3) for work."""
+def advance(coefficients, rows, steps, t_max, pause, step_error, states, clock, growth, most, ahead, blur, done, rounded, starts, given, numbers, a, v,
+            work, rate, change):
+    """Carry rows on by so many steps, or to t_max (to `pause` those before it), and note how a small change of each has grown. done, rounded (n,): steps
+    computed and passed. starts: (8, 3) for work."""
     spread_numbers(coefficients, given)
     n = rows.size
+    for row in rows:
+        done[row] += steps
+        rounded[row] += steps
     for first in range(0, n, 8):
         for lane in range(8):
             row = rows[min(first + lane, n - 1)]
@@ -254,3 +258,11 @@ def measure(rows, states, steps, rounded, growth, step_error, condition, reach, 
         while left:
             doubling, left = doubling + 1, left >> 1
         largest[row, doubling], least[row, doubling] = max(largest[row, doubling], far), min(least[row, doubling], far)
+
+
+def over(rows, states, clock, done, t_max, budget, out):
+    """Which of rows have come to the end of their time or of their steps, or beyond doubles."""
+    for n in range(rows.size):
+        row = rows[n]
+        size = abs(states[row, 0]) + abs(states[row, 1]) + abs(states[row, 2])
+        out[n] = clock[row] >= t_max or done[row] >= budget or not size < math.inf

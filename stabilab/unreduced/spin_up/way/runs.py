@@ -102,6 +102,10 @@ class Runs:
         out.largest[rows, doubling] = np.fmax(out.largest[rows, doubling], size)
         out.least[rows, doubling] = np.fmin(out.least[rows, doubling], size)
 
+    def over(self, rows, t_max: float, budget: int):
+        """(m,) which of rows are at the end of their time or of their steps, or beyond doubles."""
+        return (self.times[rows] >= t_max) | (self.steps[rows] >= budget) | ~np.isfinite(self.states[rows]).all(axis=1)
+
     def rates(self, states):
         """The rates of change at states (m, 3)."""
         y, z = states[:, [1, 2, 0]], states[:, [2, 0, 1]]
