@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
@@ -15,9 +16,11 @@ from ...orbit.result import Fate, Motion
 from ...physics.scene import Scene
 from .family import STEADY, TRIES, Family, change_between, family_of
 from .fate import Found
+from .rate_roots import Ray
 from .result import Margin
 from .scenario import Scenario
-from .wheel import across
+from .wheel import Intervals, across, pieces
+from .wheel_roots import candidates
 
 TURN = 2000  # places on the turn at which the rise of the potential is looked at, to find a direction
 MOST = 1000  # of the body's own momentum: changes of the wheel as great are not told
@@ -47,7 +50,31 @@ def _rate(scenario: Scenario, motion: Motion, family: Family | None) -> Margin:
     direction, because = _unit(scenario.axes.back(change)) if any(change) else None, motion.velocity_because
     if _walled(family):
         return Margin(motion.margin_velocity, direction, f"{because}; {ALONE}".removeprefix("; "), motion.margin_velocity)
-    return Margin(motion.margin_velocity, direction, because)
+    if family is None or not any(change):
+        return Margin(motion.margin_velocity, direction, because)
+    until = _rate_again(family, change, Fraction(motion.margin_velocity))
+    if until is not None and until < math.inf:
+        because = f"{because}; from {until:.6g} rad/s along the same line on it {_again(family.fate() in STEADY)}".removeprefix("; ")
+    return Margin(motion.margin_velocity, direction, because, until)
+
+
+def _rate_again(family: Family, change: Sequence[Number], size: Fraction) -> float | None:
+    """The greater change of rate along a direction from which on the fate is again what it was; None where balls or the place of the first do not tell."""
+    reduction = family.reduction(family.wheel)
+    if reduction is None:
+        return None
+    way = family.turned([Fraction(v) for v in change])
+    whole = sqrt_fraction(sum((v * v for v in way), Fraction(0)))
+    step = [v / whole for v in way]
+    cuts = candidates(Ray(reduction, family.state, step))
+    if cuts is None:
+        return None
+    clearly = lambda s: replace(family, state=family.along(family.state, step, s)).clearly()
+    return _ends(pieces(clearly, size, sorted(set(cuts))), size, family.fate() in STEADY)[1]
+
+
+def _again(steady: bool) -> str:
+    return f"{'is bounded' if steady else 'spins up'} again"
 
 
 def _walled(family: Family | None) -> bool:
@@ -120,14 +147,18 @@ def _wheel(scenario: Scenario, family: Family, steady: bool) -> Margin:
     words = "of a wheel momentum that stays across the torque, the least found over its directions"
     best, until = _along(family, step, best, steady)
     if until is not None and until < math.inf:
-        words += f"; from {until:.6g} N m s along the same line on it {'is bounded' if steady else 'spins up'} again"
+        words += f"; from {until:.6g} N m s along the same line on it {_again(steady)}"
     return Margin(float(best), _direction(scenario, family, {j: step[j], k: step[k]}), words, until)
 
 
 def _along(family: Family, step: Sequence[Fraction], size: Fraction, steady: bool) -> tuple[Fraction, float | None]:
     """(the least change along a unit vector at which the fate changes, the greater one from which on it is again what it was), by all the changes of
     fate along it: one nearer than `size` or a way back may be too narrow for the places that doubles looked at."""
-    kept, _ = across(family, family.wheel, step)
+    return _ends(across(family, family.wheel, step)[0], size, steady)
+
+
+def _ends(kept: Intervals, size: Fraction, steady: bool) -> tuple[Fraction, float | None]:
+    """As `_along`, of the intervals of s in which the motion is bounded."""
     ends = [(Fraction(end), side) for pair in kept for side, end in zip((-1, 1), pair) if 0 < end < math.inf]  # -1: bounded from there on, 1: up to there
     leaves = [end for end, side in ends if side == (1 if steady else -1)]
     first = min(leaves, key=lambda end: abs(end - size), default=None)

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import Any, TypeAlias
 
@@ -86,15 +86,18 @@ def across(family: Family, start: Sequence[Fraction], step: Sequence[Fraction]) 
     found = candidates(Circle(at_0, at_1, family.state))
     if found is None:
         return (), "not known: the balls did not isolate the momenta at which the start lies on a separatrix"
-    return _pieces(family, start, step, sorted(set(found))), ("the ends are momenta at which the start lies on a separatrix: "
+    clearly = lambda s: family.clearly(wheel=family.along(start, step, s))
+    return pieces(clearly, Fraction(family.momentum_unit), sorted(set(found))), ("the ends are momenta at which the start lies on a separatrix: "
                                                              f"of {len(found)} candidates, isolated as roots, those where the exact fate changes")
 
 
-def _pieces(family: Family, start: Sequence[Fraction], step: Sequence[Fraction], cuts: Sequence[float]) -> Intervals:
-    """The intervals among the cuts: the fate is one and the same between two of them."""
+def pieces(clearly: Callable[[Fraction], tuple[bool, float]], unit: Fraction, cuts: Sequence[float]) -> Intervals:
+    """The intervals of s in which a motion stays bounded, among the cuts: the fate is one and the same between two of them.
+
+    clearly(s): whether it does, and how clearly (`Family.clearly`); unit: a size of s.
+    """
     def holds(s: Fraction) -> bool:
-        return family.steady(family.along(start, step, s))
-    unit = Fraction(family.momentum_unit)
+        return clearly(s)[0]
     at = [Fraction(s) for s in cuts]
     if not at:
         return EVERY if holds(Fraction(0)) else ()
@@ -109,7 +112,7 @@ def _pieces(family: Family, start: Sequence[Fraction], step: Sequence[Fraction],
         near = cut + (1 if inside > cut else -1) * NEAR * unit, cut - (1 if inside > cut else -1) * NEAR * unit
         if holds(near[0]) and not holds(near[1]):
             inside, outside = near
-        end = float(change_between(lambda s: family.clearly(wheel=family.along(start, step, s)), inside, outside, unit)[0])
+        end = float(change_between(clearly, inside, outside, unit)[0])
         if steady[n]:
             out.append((low, end))
             low = math.nan

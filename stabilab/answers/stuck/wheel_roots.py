@@ -23,7 +23,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from fractions import Fraction
-from typing import Any
+from typing import Any, Protocol, TypeAlias
 
 from ...numbers.balls import working
 from ...numbers.vectors import Number, Triple
@@ -35,6 +35,17 @@ ORDER = 12  # of Taylor's polynomial: the balls' overestimate is less by the cel
 NARROW = 1e-13  # a cell of h as narrow holds a zero as far as anybody can see
 MOST = 2_000  # cells that are looked at
 LEAST = Fraction(1, 10**10)  # of the torque's own potential mu
+
+
+Pair: TypeAlias = Callable[[Any], tuple[Triple, Triple]]  # half a turn h -> the two quadratics, highest coefficient first
+
+
+class Line(Protocol):
+    """Starts or scenes along a line, told by s."""
+
+    def pair(self, ball: Callable[[Any], Any]) -> Pair: ...
+    def unit(self, h: float) -> float: ...
+    def others(self) -> list[Fraction]: ...
 
 
 class Circle:
@@ -49,16 +60,21 @@ class Circle:
         speed = g0["n"] * (state[at_0.axis] + at_0.s)
         self.energy = max(speed * speed / 2, LEAST * self.mu)
 
-    def balls(self, ball: Callable[[Any], Any]) -> tuple[Number, ...]:
-        """Its numbers as balls, for `quadratics`."""
-        return tuple(map(ball, (self.G, self.mu, self.energy, *self.c, *self.d, *self.x, *self.z)))
+    def pair(self, ball: Callable[[Any], Any]) -> Pair:
+        """The two quadratics with its numbers as balls."""
+        numbers = tuple(map(ball, (self.G, self.mu, self.energy, *self.c, *self.d, *self.x, *self.z)))
+        return lambda h: quadratics(numbers, h)
 
-    def equilibrium(self) -> Fraction | None:
-        """The s at which the torque is balanced at the start, F(0, s) = 0; None where there is none, or no one s."""
+    def unit(self, h: float) -> float:
+        """What s is multiplied by in the unknown of the quadratics."""
+        return math.sin(h)
+
+    def others(self) -> list[Fraction]:
+        """The s at which the torque is balanced at the start, F(0, s) = 0, if there is one."""
         (c0, c1), (d0, d1), (x0, x1), (z0, z1), G = self.c, self.d, self.x, self.z, self.G
         level = self.mu + G * x0 * z0 + c0 * z0 + d0 * x0
         slope = G * (x0 * z1 + x1 * z0) + c0 * z1 + c1 * z0 + d0 * x1 + d1 * x0
-        return -level / slope if slope else None
+        return [-level / slope] if slope else []
 
 
 def _place(reduction: Reduction, state: Sequence[Fraction]) -> Triple:
@@ -87,19 +103,16 @@ def resultant(f: Sequence[Number], g: Sequence[Number]) -> Number:
     return cross * cross - (f2 * g1 - g2 * f1) * (f1 * g0 - g1 * f0)
 
 
-def candidates(circle: Circle) -> list[float] | None:
+def candidates(line: Line) -> list[float] | None:
     """Every s at which the start may lie on a separatrix, ascending, in doubles; None where `MOST` cells do not tell."""
     with working(BITS, ORDER + 1) as numbers:
-        known = circle.balls(numbers.ball)
-        kept = _isolated(known)
-        found = None if kept is None else [s for h in kept for s in _momenta(known, h)]
-    if found is None:
-        return None
-    rest = circle.equilibrium()
-    return sorted(found if rest is None else [*found, float(rest)])
+        pair = line.pair(numbers.ball)
+        kept = _isolated(pair)
+        found = None if kept is None else [s for h in kept for s in _shared(pair, h, line.unit(h))]
+    return None if found is None else sorted([*found, *map(float, line.others())])
 
 
-def _isolated(known: Sequence[Number]) -> list[float] | None:
+def _isolated(pair: Pair) -> list[float] | None:
     """The h in [0, pi] at which the resultant may vanish."""
     step = math.pi * (1 + 1e-15) / CELLS
     cells = [(n * step, (n + 1) * step) for n in range(CELLS)]
@@ -108,7 +121,7 @@ def _isolated(known: Sequence[Number]) -> list[float] | None:
         if not cells:
             return found
         low, high = cells.pop()
-        left = _narrowed(known, low, high)
+        left = _narrowed(pair, low, high)
         if left is None:
             continue
         if left[1] - left[0] < NARROW:
@@ -121,20 +134,20 @@ def _isolated(known: Sequence[Number]) -> list[float] | None:
     return None
 
 
-def expansion(known: Sequence[Number], middle: Number, half: Number) -> list[Number]:
+def expansion(pair: Pair, middle: Number, half: Number) -> list[Number]:
     """Coefficients of the resultant in the distance from the middle of a cell of h: Taylor's at the middle, and in front of the power `ORDER` a ball that holds
     the rest over the whole cell. The balls of a whole cell alone do not see what cancels, which is nearly all where two moments are nearly equal."""
     from flint import arb, arb_series
-    rest = resultant(*quadratics(known, arb_series([arb(middle, half), 1], ORDER + 1)))
-    here = resultant(*quadratics(known, arb_series([arb(middle), 1], ORDER)))
+    rest = resultant(*pair(arb_series([arb(middle, half), 1], ORDER + 1)))
+    here = resultant(*pair(arb_series([arb(middle), 1], ORDER)))
     return [*(here[n] for n in range(ORDER)), rest[ORDER]]
 
 
-def _narrowed(known: Sequence[Number], low: Number, high: Number) -> tuple[Number, Number] | None:
+def _narrowed(pair: Pair, low: Number, high: Number) -> tuple[Number, Number] | None:
     """The part of a cell of h that may hold a zero; None where it holds none."""
     from flint import arb
     middle, half = (low + high) / 2, (high - low) / 2 * (1 + 1e-12)
-    value, slope, *bend = expansion(known, middle, half)
+    value, slope, *bend = expansion(pair, middle, half)
     reach, about = arb(half), lambda size: arb(0, size.abs_upper())
     if 0 not in value + about(sum((abs(c) * reach**n for n, c in enumerate((slope, *bend), 1)), arb(0))):
         return None
@@ -147,14 +160,12 @@ def _narrowed(known: Sequence[Number], low: Number, high: Number) -> tuple[Numbe
     return (low, high) if low <= high else None
 
 
-def _momenta(known: Sequence[Number], h: float) -> list[float]:
-    """The s of a zero at h: the root that the quadratics share, or, where they are alike, both of them."""
+def _shared(pair: Pair, h: float, unit: float) -> list[float]:
+    """The s of a zero at h: the root that the quadratics share."""
     from flint import arb
-    half = arb(h)
-    f, g = quadratics(known, half)
-    (f2, f1, f0), (g2, g1, g0) = ([float(v.mid()) for v in row] for row in (f, g))
-    line, sine = f2 * g1 - g2 * f1, math.sin(h)
-    if not sine or not line:
+    (f2, f1, f0), (g2, g1, g0) = ([float(v.mid()) for v in row] for row in pair(arb(h)))
+    line = f2 * g1 - g2 * f1
+    if not unit or not line:
         return []
-    s = -(f2 * g0 - g2 * f0) / line / sine
+    s = -(f2 * g0 - g2 * f0) / line / unit
     return [s] if math.isfinite(s) else []

@@ -206,11 +206,18 @@ def test_a_margin_into_a_narrow_gap_between_two_separatrices_says_where_the_fate
 
 
 def test_an_end_at_infinity_is_a_number_in_json_and_null_is_what_is_not_known(stabilab, tmp_path):
-    """RFC 8259 has numbers of any exponent; IEEE 754 rounds 1e999 to infinity."""
+    """RFC 8259 has numbers of any exponent; IEEE 754 rounds 1e999 to infinity. A change of rate never leads back either: by the balance of energy."""
     (tmp_path / "own.toml").write_text(CASE.replace("{spin}", "0.9"))
     code, out, _ = stabilab("stuck", tmp_path / "own.toml", "--json")
     (row,) = json.loads(out, parse_constant=lambda word: pytest.fail(f"{word} is no JSON"))["rows"]
     (wheel,) = row["wheel_intervals"]
     (first, _), (_, last) = wheel["keeps_bounded"]
     assert code == 0 and first == -math.inf and last == math.inf and out.count(" -1e999") == 1
-    assert row["margin_until"] == {"rate": None, "wheel": math.inf, "torque": math.inf}
+    assert row["margin_until"] == {"rate": math.inf, "wheel": math.inf, "torque": math.inf}
+    craft, change = Craft(CASE.replace("{spin}", "0.9")), np.array(row["margin_direction"]["rate"])
+    for s in row["margin"]["rate"] * np.array([1 - 1e-6, 1 + 1e-6, 1.1, 3, 30, 1e3]):
+        fate = energy_fate(craft.J, craft.torque(), craft.l, craft.start + s * change)[0]
+        assert (fate == row["fate"]) == (s < row["margin"]["rate"])
+    (tmp_path / "tilted.toml").write_text(CASE.replace("{spin}", "0.9").replace("direction = [0, 1, 0]", "direction = [0, 1, 1]"))
+    (row,) = json.loads(stabilab("stuck", tmp_path / "tilted.toml", "--json")[1])["rows"]
+    assert row["margin_until"] == {"rate": None, "wheel": None, "torque": None} == row["margin"]

@@ -9,7 +9,7 @@ import pytest
 from stabilab import Body, ConstantTorque, Gyrostat, Scene, load, stuck
 from stabilab.answers.stuck.family import family_of
 from stabilab.answers.stuck.wheel import intervals
-from stabilab.answers.stuck.wheel_roots import Circle, candidates, expansion, quadratics, resultant
+from stabilab.answers.stuck.wheel_roots import Circle, candidates, expansion, resultant
 from stabilab.numbers.balls import working
 from stabilab.orbit.ball_geometry import ball_orbit
 from tests.answers.stuck import energy
@@ -89,9 +89,8 @@ def test_the_resultant_vanishes_where_the_start_is_on_a_separatrix():
         rise = -g["mu"] * y - g["G"] * (X * X - x * x) / 2 - g["c"] * (X - x) + g["d"] * (Z - z) - w * w / 2
         assert abs(rise.max()) < 1e-8 * abs(rise).max()
     with working(128) as numbers:
-        known = circle.balls(numbers.ball)
         h, s = numbers.ball(Fraction(3, 4)), numbers.ball(Fraction("0.4"))
-        f, g = quadratics(known, h)
+        f, g = circle.pair(numbers.ball)(h)
         sigma = s * h.sin()
         assert 0 in (f[0] * sigma * sigma + f[1] * sigma + f[2]) - _rise(family, Fraction("0.4"), Fraction(3, 2), numbers)
         assert 0 not in resultant(f, g)
@@ -195,10 +194,10 @@ def test_the_expansion_over_a_cell_holds_the_resultant_and_nearly_nothing_else()
     for _ in range(20):
         middle, half = numbers.uniform(0, 3), 10 ** numbers.uniform(-4, -1)
         with working(128, 13) as kind:
-            known = circle.balls(kind.ball)
-            told = expansion(known, middle, half)
+            pair = circle.pair(kind.ball)
+            told = expansion(pair, middle, half)
             sizes = [abs(c) * arb(half) ** n for n, c in enumerate(told)]
             assert len(told) == 13 and told[12].rad() > 0 and sizes[12] < 1e-3 * max(sizes, key=float)
             for share in (-1, -0.7, 0.3, 0.99):
                 t = arb(half) * arb(share)
-                assert resultant(*quadratics(known, arb(middle) + t)).overlaps(sum((c * t**n for n, c in enumerate(told)), arb(0)))
+                assert resultant(*pair(arb(middle) + t)).overlaps(sum((c * t**n for n, c in enumerate(told)), arb(0)))
