@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from ...numbers.balls import rational, real_roots_of, settled
 from ...numbers.double_ball import Unclear
-from .algebraic import Algebraic
+from .field.algebraic import Algebraic
 
 if TYPE_CHECKING:
     from flint import arb, fmpq_poly

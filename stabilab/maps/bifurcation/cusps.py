@@ -13,10 +13,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ...numbers.balls import settled
 from ...numbers.double_ball import Unclear
-from .algebraic import Algebraic, sharpened
 from .critical import cuts
 from .eliminated import Eliminated, evaluated, of_power, univariate
 from .family import Family
+from .field.algebraic import Algebraic, sharpened
 from .verdicts import ball_form, doubles, state_of
 
 if TYPE_CHECKING:

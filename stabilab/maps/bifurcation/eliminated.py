@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ...numbers.balls import rational, real_roots_of
 from ...numbers.double_ball import Unclear
-from .algebraic import Algebraic, Powers
 from .family import Family
+from .field.algebraic import Algebraic, Powers
 from .system import LEANS, Conics, OnLine
 
 if TYPE_CHECKING:

@@ -10,8 +10,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from ...numbers.balls import real_roots_of, working
-from ...numbers.double_ball import Unclear
+from ....numbers.balls import real_roots_of, working
+from ....numbers.double_ball import Unclear
+from .gcd import field_gcd
 
 if TYPE_CHECKING:
     from flint import arb, fmpq_poly
@@ -78,6 +79,8 @@ class Algebraic:
 
     def gcd(self, f: FieldPoly, g: FieldPoly) -> FieldPoly:
         """The greatest common divisor, monic."""
+        if f and g and (found := field_gcd(self.polynomial, f, g)) is not None:
+            return found
         while g:
             f, g = g, self.divided(f, g)[1]
         return self.monic(f)

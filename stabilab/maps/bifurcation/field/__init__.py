@@ -1,0 +1,1 @@
+"""The field of an algebraic number, and polynomials over it."""
