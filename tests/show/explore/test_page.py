@@ -33,19 +33,14 @@ def browser(tmp_path_factory):
         yield one
 
 
-@pytest.fixture(scope="module")
-def opened(server, browser):
-    browser.open(server.address)
-    browser.until(f"{ANSWERS} > 0 && {RESTS}")
-    return browser
-
-
 @pytest.fixture
-def page(server, opened):
-    """As it was opened: the button "As in the case" brings it there."""
-    browser = opened
+def page(server, browser):
+    """As it was opened: the button "As in the case" brings it there, and where a test has gone to another address, opening it anew does."""
     browser.size(900, 800)
-    if browser.run("axisTouched || Object.keys(touched).length"):
+    if browser.run("location.href") != server.address:
+        browser.open(server.address)
+        browser.until(f"{ANSWERS} > 0 && {RESTS}")
+    elif browser.run("axisTouched || Object.keys(touched).length"):
         next_answer(browser, lambda: browser.run("$('again').click()"))
     yield browser
     assert browser.console == []
