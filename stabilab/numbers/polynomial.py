@@ -107,12 +107,18 @@ def _sturm_chain(p: Poly) -> list[list[int]]:
     return [[int(v) for v in q.c] for q in chain]
 
 
-def _sign_at(c: list[int], n: int, e: int) -> int:
-    """Sign of the integer polynomial c at n / 2**e, by integers alone."""
+def _value_at(c: list[int], n: int, e: int) -> int:
+    """The integer polynomial c at n / 2**e times 2**(e degree), by integers alone."""
     value, shift = 0, 0
     for v in reversed(c):
         value = value * n + (v << shift)
         shift += e
+    return value
+
+
+def _sign_at(c: list[int], n: int, e: int) -> int:
+    """Sign of the integer polynomial c at n / 2**e."""
+    value = _value_at(c, n, e)
     return (value > 0) - (value < 0)
 
 
@@ -156,15 +162,57 @@ def _refine(chain: list[list[int]], a: int, b: int, e: int, bits: int) -> Fracti
     if not _sign_at(c, b, e):
         return Fraction(b, 1 << e)
     after = _sign_at(c, b, e)
+    known: tuple[int, int, int] | None = None
     while (b - a) << bits > a:
         if b - a < 2:
             a, b, e = a << 64, b << 64, e + 64
         middle = _middle(a, b)
-        s = _sign_at(c, middle, e)
+        if known is None and b <= 4 * a:
+            known = _bracket(c, a, b, e, bits + 8)
+        s = _side(known, middle, e) if known else 0
+        s = s * after if s else _sign_at(c, middle, e)
         if not s:
             return Fraction(middle, 1 << e)
         a, b = (a, middle) if s == after else (middle, b)
     return Fraction(a + b, 1 << (e + 1))
+
+
+def _side(known: tuple[int, int, int], n: int, e: int) -> int:
+    """1 where n / 2**e lies above the root that is known to lie within (low, high) / 2**k, -1 below, 0 where that does not tell."""
+    low, high, k = known
+    if k >= e:
+        n <<= k - e
+    else:
+        low, high = low << e - k, high << e - k
+    return (n >= high) - (n <= low)
+
+
+def _bracket(c: list[int], low: int, high: int, e: int, bits: int) -> tuple[int, int, int]:
+    """(low, high, k): the one simple root in (low, high) / 2**e lies within (low, high) / 2**k, to 2**-bits relative or nearly a trial point.
+
+    J. Abbott's quadratic interval refinement: the bracket is cut into 2**g cells, and the one that the secant names is tried. Where it
+    holds the root, g doubles, otherwise it is halved: digits double at each step, where bisection wins one.
+    """
+    at_low, at_high, g, degree = _value_at(c, low, e), _value_at(c, high, e), 2, len(c) - 1
+    while (high - low) << bits > low:
+        cell, cells = high - low, 1 << g
+        low, high, e = low << g, high << g, e + g
+        at_low, at_high = at_low << g * degree, at_high << g * degree
+        tried = low + cell * min(max(1, cells * at_low // (at_low - at_high)), cells - 1)
+        found, won = _value_at(c, tried, e), False
+        for _ in range(2):  # the trial point, and the one beyond it on the side where the root is
+            if not found:
+                return tried - 1, tried + 1, e
+            if (found > 0) == (at_high > 0):
+                high, at_high, tried = tried, found, tried - cell
+            else:  # `low` itself may be the root before this one
+                low, at_low, tried = tried, found, tried + cell
+            won = high - low == cell
+            if won or not low < tried < high:
+                break
+            found = _value_at(c, tried, e)
+        g = 2 * g if won else max(1, g // 2)
+    return low, high, e
 
 
 def real_roots(p: Poly, bits: int = 160) -> list[Fraction]:

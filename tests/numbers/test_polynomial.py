@@ -5,6 +5,7 @@ from fractions import Fraction
 
 import pytest
 
+from stabilab.numbers import polynomial
 from stabilab.numbers.polynomial import Poly, real_roots
 
 
@@ -17,3 +18,20 @@ def test_rational_roots_however_close_are_each_found(gap):
     found = real_roots(p, 64)
     assert len(found) == 4 and all(abs(f - w) <= abs(w) / 2**64 for f, w in zip(found, wanted)) and found == sorted(found)
     assert real_roots(Poly((5,))) == [] and real_roots(Poly((0, 0, 3))) == [0]
+
+
+def test_the_digits_of_a_root_double_at_each_step(monkeypatch):
+    """The squares of what is returned lie about 2 by hand; bisection would take a value a bit."""
+    counted, value = [], polynomial._value_at
+    monkeypatch.setattr(polynomial, "_value_at", lambda *arguments: counted.append(1) or value(*arguments))
+    low, high = real_roots(Poly((-2, 0, 1)), 4096)
+    assert low == -high and abs(high * high - 2) < Fraction(8, 2**4096)
+    assert len(counted) < 150
+
+
+@pytest.mark.parametrize("away", [20, 300])
+def test_a_bracket_may_begin_at_the_root_before(away):
+    """1 is a trial point itself, and the next root stands 2^-away beyond it: both by construction."""
+    wanted = [Fraction(1), 1 + Fraction(3, 2**away)]
+    found = real_roots(Poly((-wanted[0], 1)) * Poly((-wanted[1], 1)) * Poly((1, 0, 1)), 700)
+    assert len(found) == 2 and all(abs(f - w) <= w / 2**700 for f, w in zip(found, wanted))
