@@ -11,6 +11,7 @@ CERTAIN_BITS = 56  # the balls of the extremes are this much narrower than the c
 DOUBLE_CERTAIN = 40  # the same for balls of doubles: 1e-12, as the extremes of arrays promise
 # A root's ball in units of the height's over the slope: y is exact, so its height may be much narrower than its neighbours'.
 WIDER = 4, 64, 4096
+STEPS = 128  # of Newton's method, after which a bracket's ends count by their powers of two
 MOST_BITS = 1 << 13  # a component that is still not settled is zero to this precision
 
 
@@ -75,7 +76,7 @@ def solve(orbit, inner, outer):
     lo, hi = inner.mid(), outer.mid()
     side = 1 if hi > lo else -1
     y, last = (lo + hi).mid() / 2, None
-    for _ in range(4000):
+    for step in range(4000):
         value = orbit.height(y) - orbit.energy
         if 0 in value:
             break
@@ -85,7 +86,10 @@ def solve(orbit, inner, outer):
             hi = y
         slope = -orbit.force(y)
         new = (y - value / slope).mid() if 0 not in slope else None
-        if new is None or not (lo < new < hi or hi < new < lo) or (last is not None and 2 * abs(new - y) > last):
+        far = _between_scales(lo, hi, step - STEPS) if step >= STEPS else None
+        if far is not None:
+            new = far
+        elif new is None or not (lo < new < hi or hi < new < lo) or (last is not None and 2 * abs(new - y) > last):
             new = ((lo + hi) / 2).mid()
         last = abs(new - y).mid()
         if new == y:
@@ -104,6 +108,15 @@ def solve(orbit, inner, outer):
         if below < 0 and above > 0:
             return balls.around(y, width)
     raise Unclear
+
+
+def _between_scales(lo, hi, times):
+    """A point of a bracket that many steps have not narrowed, where the root may be any number of powers of two nearer to zero than an end:
+    next to a double root Newton's method gains one a step, as halving does. None where the ends are of one size."""
+    if lo.is_zero() or hi.is_zero():
+        return ((lo + hi) / (1 << (1 << min(times, 9)))).mid()
+    within = (abs(lo).sqrt() * abs(hi).sqrt()).mid() * (1 if hi > 0 else -1)
+    return within if 2 * abs(lo) < abs(within) < abs(hi) / 2 or 2 * abs(hi) < abs(within) < abs(lo) / 2 else None
 
 
 def _bounded(orbit):

@@ -10,6 +10,8 @@ import stabilab.errors
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.answers.certificate import certificate
 from stabilab.answers.digits.ask import ask
+from stabilab.numbers.balls import Digits, working
+from stabilab.orbit.extremes.balls import solve
 from stabilab.verify import verify
 from tests.oracles import energy
 from tests.oracles.pairs import exactly, scaled
@@ -41,3 +43,26 @@ def test_a_turning_point_that_is_a_double_itself_is_settled(scene, state, extrem
     np.testing.assert_allclose(stabilab.extremes(scene, [state, state])[1], extremes, rtol=0, atol=1e-14)
     assert ask("extremes", scene, state, 30).digits >= 30
     assert verify(json.loads(json.dumps(certificate(scene, state)))).status == "proved"
+
+
+@pytest.mark.parametrize("barrier", [1, -1])
+def test_a_turning_point_hundreds_of_powers_of_two_nearer_than_the_barrier_takes_few_steps(barrier):
+    """Height y^2 and energy 2^-3000 beside a barrier 1 away: the root is 2^-1500 by hand, and Newton's method from afar halves y at each step."""
+    asked = []
+
+    class Well:
+        numbers = Digits(128)
+
+        def height(self, y):
+            asked.append(y)
+            return y * y
+
+        def force(self, y):
+            return -2 * y
+
+    with working(128):
+        from flint import arb
+        Well.energy = arb((1, -3000))
+        found = solve(Well(), arb(0), arb(barrier))
+        assert abs(barrier * found * arb((1, 1500)) - 1) < 1e-30
+    assert len(asked) < 200
