@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import lru_cache, reduce
+from functools import cached_property, lru_cache, reduce
 from typing import Any, TypeAlias
 
 from ..asked import checked_scene
@@ -40,7 +40,7 @@ class Equations:
 
     blocks: the parts of the state (see `blocks`); state: symbols of the state; parameters: symbol name -> exact value,
     in order of declaration, but for those that are zero, which are nowhere in the equations; symbols: name -> symbol, same order;
-    rhs: rates of the state, 1/s of it (1/tau when scaled); jacobian: immutable matrix d rhs_i / d state_j; torques: name -> triple,
+    rhs: rates of the state, 1/s of it (1/tau when scaled); torques: name -> triple,
     the parts of inertia * rhs (body frame, N m); inertia: the factors of the rates on the left; energy: kinetic energy; balances: the laws.
     """
 
@@ -51,10 +51,15 @@ class Equations:
     inertia: tuple[Symbolic, ...]
     torques: dict[str, Triple]
     rhs: tuple[Symbolic, ...]
-    jacobian: Symbolic
     energy: Symbolic
     balances: tuple[Balance, ...]
     blocks: tuple[str, ...] = ("omega",)
+
+    @cached_property
+    def jacobian(self) -> Symbolic:
+        """Immutable matrix d rhs_i / d state_j; formed for those who ask, for a liquid's takes as long as all the rest."""
+        from sympy import ImmutableMatrix
+        return ImmutableMatrix([[rate.diff(x) for x in self.state] for rate in self.rhs])
 
     def numeric(self, expression: Symbolic) -> Symbolic:
         """The expression with the exact parameter values put in (rationals; no rounding)."""
@@ -112,11 +117,6 @@ def add_terms(u: Iterable[Number], v: Iterable[Number]) -> Triple:
     return tuple(p + q for p, q in zip(u, v))
 
 
-def _jacobian(rhs: Iterable[Symbolic], state: Sequence[Symbolic]) -> Symbolic:
-    from sympy import ImmutableMatrix
-    return ImmutableMatrix([[rate.diff(x) for x in state] for rate in rhs])
-
-
 @lru_cache(maxsize=32)  # one answer asks for the same equations several times, and a liquid takes a second
 def _physical(scene: Scene, names: tuple[str, ...]) -> Equations:
     from sympy import Integer
@@ -159,8 +159,7 @@ def _physical(scene: Scene, names: tuple[str, ...]) -> Equations:
     if "attitude" in blocks:
         q = blocks["attitude"]
         balances.append(Balance("quaternion", "the quaternion keeps its length", sum(a**2 for a in q), Integer(0)))
-    return Equations("physical", state, parameters, symbols, inertia, torques, rhs, _jacobian(rhs, state), energy,
-                     tuple(balances), names)
+    return Equations("physical", state, parameters, symbols, inertia, torques, rhs, energy, tuple(balances), names)
 
 
 def _gamma_laws(scene: Scene, motion: MotionView, symbols: Symbols, H: Triple) -> Iterator[Balance]:
@@ -260,5 +259,5 @@ def _scaled(scene: ScaledGyrostat) -> Equations:
     energy = ((b - a) * x1**2 + b * x2**2 + a * x3**2) / 2
     work = Balance("energy", "work and energy, (b circle - a hyperbola)/2: T' = (b-a) mu1 x1 + b mu2 x2 + a mu3 x3",
                    energy, (b - a) * mu[0] * x1 + b * mu[1] * x2 + a * mu[2] * x3)
-    return Equations("scaled", x, parameters, symbols, (Integer(1),) * 3, torques, rhs, _jacobian(rhs, x), energy,
+    return Equations("scaled", x, parameters, symbols, (Integer(1),) * 3, torques, rhs, energy,
                      (circle, hyperbola, work))

@@ -47,15 +47,13 @@ def _known(equations: Equations) -> Known:
 
 @lru_cache(maxsize=128)  # a comparison asks for the same scene dozens of times, and this is most of a short run
 def _form(state: tuple[Symbolic, ...], known: Known, expressions: tuple[Symbolic, ...], drop_constants: bool) -> Form:
-    from sympy import Poly, PolynomialError
     numbers_of = dict(known)
     symbols: list[Symbolic] = []
     numbers: list[float] = []
     result = []
     for expression in expressions:
-        try:
-            terms = Poly(expression, *state).terms()
-        except PolynomialError:
+        terms = _terms(expression, state)
+        if terms is None:
             result.append(_unstructured(expression, numbers_of, symbols, numbers))
             continue
         total = expression * 0
@@ -64,6 +62,16 @@ def _form(state: tuple[Symbolic, ...], known: Known, expressions: tuple[Symbolic
                 total += _coefficient(factor, numbers_of, symbols, numbers) * _monomial(state, powers)
         result.append(total)
     return Form(state, tuple(result), tuple(symbols), tuple(numbers))
+
+
+@lru_cache(maxsize=512)  # scenes of one structure have the same expressions, and other numbers
+def _terms(expression: Symbolic, state: tuple[Symbolic, ...]) -> list[tuple[tuple[int, ...], Symbolic]] | None:
+    """(powers, factor) of each monomial of the state; None of what is no polynomial in it."""
+    from sympy import Poly, PolynomialError
+    try:
+        return Poly(expression, *state).terms()
+    except PolynomialError:
+        return None
 
 
 def _monomial(state: Sequence[Symbolic], powers: Sequence[int]) -> Symbolic:
@@ -105,13 +113,29 @@ def _rounded(exact: Symbolic) -> float:
 
 @dataclass(frozen=True)
 class System:
-    """A scene's equations as numbers. Arrays: batch first, component last; any float or complex type."""
+    """A scene's equations as numbers, each part formed where it is asked for. Arrays: batch first, component last; any float or complex type."""
 
     equations: Equations
-    rhs: Form
-    entries: Form
-    quantities: Form
-    rates: Form
+
+    @cached_property
+    def rhs(self) -> Form:
+        """Rates of the state."""
+        return form(self.equations, self.equations.rhs)
+
+    @cached_property
+    def entries(self) -> Form:
+        """The Jacobian's, row by row."""
+        return form(self.equations, list(self.equations.jacobian))
+
+    @cached_property
+    def quantities(self) -> Form:
+        """The laws', up to additive constants."""
+        return form(self.equations, [law.quantity for law in self.equations.balances], drop_constants=True)
+
+    @cached_property
+    def rates(self) -> Form:
+        """Those of the laws' quantities."""
+        return form(self.equations, [law.rate for law in self.equations.balances])
 
     def __call__(self, x: ArrayLike) -> np.ndarray:
         """Rates of the states x: (..., 3) -> (..., 3)."""
@@ -169,10 +193,7 @@ def to_numpy(equations: Equations | AnyScene) -> System:
 
 @lru_cache(maxsize=64)
 def _system(equations: Equations) -> System:
-    laws = equations.balances
-    return System(equations, form(equations, equations.rhs), form(equations, list(equations.jacobian)),
-                  form(equations, [law.quantity for law in laws], drop_constants=True),
-                  form(equations, [law.rate for law in laws]))
+    return System(equations)
 
 
 def equations_of(equations_or_scene: Equations | AnyScene) -> Equations:

@@ -173,3 +173,13 @@ def test_each_scene_has_its_own_laws(scene, names):
 def test_growth_rate_of_the_quadratic_law_is_lambda_times_torque():
     law = {v.name: v for v in invariants(Scene(BODY, Gyrostat((1, 2, 7)), ConstantTorque((0, 0, 5))))}["quadratic"]
     assert law.rate == 35
+
+
+def test_a_run_with_its_laws_forms_no_jacobian():
+    """It is as dear as all the rest of a liquid's equations, and only stiff methods and spectra ask for it."""
+    scene = Scene(Body((12, 9, 5)), Gyrostat((1, 0, 2)), ConstantTorque((0, 0, 3)))
+    system = to_numpy(scene)
+    system.rate_and_laws([0.1, 0.2, 0.3])
+    assert "jacobian" not in vars(system.equations) and "entries" not in vars(system)
+    by_hand = [[0, (9 - 5) * 0.3 / 12 - 2 / 12, (9 - 5) * 0.2 / 12]]  # 12 w1' = (9 - 5) w2 w3 - 2 w2
+    np.testing.assert_allclose(system.jacobian(np.array([0.1, 0.2, 0.3]))[:1], by_hand, rtol=1e-14)
