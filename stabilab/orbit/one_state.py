@@ -8,7 +8,6 @@ from .ball_orbit import Orbit
 from .extremes.one_state import extremes_of
 from .far_states import far_exponent, far_fate, in_scene_unit, own
 from .fate.one_state import fate_of
-from .invariants import invariants_of
 from .period.one_state import period_of
 from .reduction import reduce
 from .result import Fate, Motion, finite, judged, repeats
@@ -36,7 +35,7 @@ def _reduced(orbit, state, decided, brief, k=0) -> Motion:
 
 
 def _rest(orbit, state, decided) -> dict:
-    return {**apart_fields(orbit, state, decided), "period": repeats(period_of(orbit, decided.label)), "invariants": invariants_of(orbit)}
+    return {**apart_fields(orbit, state, decided), "period": repeats(period_of(orbit, decided.label)), "invariants": orbit.invariants()}
 
 
 def apart_fields(orbit: Orbit, state, decided) -> dict:

@@ -16,7 +16,6 @@ from stabilab.orbit.ball_orbit import Orbit
 from stabilab.orbit.extremes.balls import precise_extremes
 from stabilab.orbit.fate.balls import decide
 from stabilab.orbit.fate.one_state import fate_of
-from stabilab.orbit.invariants import invariants_of
 from stabilab.orbit.landscape import landscape
 from stabilab.orbit.period.balls import precise_period
 from stabilab.orbit.reduction import reduce
@@ -87,7 +86,7 @@ def test_energy_and_invariant_of_a_state_are_those_of_every_other_on_its_orbit(n
             if w[0] ** 2 - 2 * fall[0] <= 0:
                 continue
             other = land.components(land.potential.move(place, y), np.sqrt(w * w - 2 * fall))[0]
-            one, two = invariants_of(Orbit(land.reduction, state)), invariants_of(Orbit(land.reduction, other.tolist()))
+            one, two = Orbit(land.reduction, state).invariants(), Orbit(land.reduction, other.tolist()).invariants()
             assert set(one) == {"Q", "energy"}
             # the turn angle of a circle is known up to turns, each 2 pi mu of the energy
             turn = 2 * math.pi * land.potential.mu * land.reduction.energy_unit * (land.e < 0)
@@ -95,7 +94,7 @@ def test_energy_and_invariant_of_a_state_are_those_of_every_other_on_its_orbit(n
             assert min(apart, abs(apart - turn)) <= 1e-12 * (abs(one["energy"]) + abs(two["energy"]) + turn)
             q = float(land.invariant(place)[0])
             assert one["Q"] == pytest.approx(q, rel=1e-12) and two["Q"] == pytest.approx(q, rel=1e-12)
-    assert invariants_of(Orbit(reduce(PARABOLIC["first axis"][0]), [1.0, 2.0, 3.0])) == {}
+    assert Orbit(reduce(PARABOLIC["first axis"][0]), [1.0, 2.0, 3.0]).invariants() == {}
 
 
 @pytest.mark.parametrize("torque", [0.75, -0.75])
