@@ -385,6 +385,7 @@ def atlas(case: CaseFile,
           energy: Annotated[str | None, typer.Option(metavar="ENERGY", hidden=True)] = None,
           tilt: Annotated[str | None, typer.Option(metavar="AXIS=ANGLE", hidden=True)] = None,
           until: Annotated[str | None, typer.Option(metavar="TIME", hidden=True)] = None,
+          no_time: Annotated[bool, typer.Option("--no-time", help="Leave out the time to a limit, which takes most of the work.")] = False,
           certify: Annotated[bool, typer.Option("--certify", help="Prove fates and times where that succeeds, whatever it takes.")] = False,
           out: Annotated[list[Path] | None, typer.Option(metavar="FILE.nc|.png|.svg|.pdf|.html", help="Write cells, a picture or a page that answers the "
                                                          "pointer; may be given again. What is finished outlives a killed run.")] = None,
@@ -402,7 +403,7 @@ def atlas(case: CaseFile,
     _either_json_or_csv(json, csv)
     from .commands.maps import atlas as answer
     limits = {"rate": rate, "component": component, "energy": energy, "tilt": tilt, "until": until}
-    answer(case, torque, wheel, level, refine, certify, follow, limits, out, workers, scheduler, units, csv, json, strict)
+    answer(case, torque, wheel, level, refine, certify, follow, not no_time, limits, out, workers, scheduler, units, csv, json, strict)
 
 
 @app.command()

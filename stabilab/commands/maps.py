@@ -68,9 +68,9 @@ def basin(case, vary, depth, out, workers, scheduler, follow, csv, json, strict)
     leave_undecided(strict, strict and basin_words.undecided(found))
 
 
-def atlas(case, torque, wheel, level, refine, certify, follow, limits, out, workers, scheduler, units, csv, json, strict):
+def atlas(case, torque, wheel, level, refine, certify, follow, timed, limits, out, workers, scheduler, units, csv, json, strict):
     """Map all directions of a torque. limits: what is to be reached, by the names of the options."""
-    plan = asked(case, torque, wheel, level, refine, certify, follow, **limits)
+    plan = asked(case, torque, wheel, level, refine, certify, follow, timed, **limits)
     system, targets = units_of(plan.case, units), atlas_files.checked(out or [])
     with drawn(plan, targets[0] if targets else None, workers, scheduler) as found:
         for target in targets:

@@ -30,7 +30,8 @@ PRINCIPAL = "123"
 class Asked:
     """path, text: of the case. torque: size, N m, exact. wheels: momenta along the principal axes, exact, N m s; momenta: their sizes in `unit`, as asked, or
     () where the case's own alone counts. level: of the first cells; refine: how often they are cut in four along boundaries. limit: options
-    of the time to a limit, by name; certify: whether to prove what can be; follow: how long motions are followed that only a run decides, as written."""
+    of the time to a limit, by name; certify: whether to prove what can be; follow: how long motions are followed that only a run decides, as
+    written; timed: whether the time to a limit is asked."""
 
     path: str
     text: str = field(repr=False)
@@ -44,6 +45,7 @@ class Asked:
     limit: tuple[tuple[str, str], ...]
     options: tuple[tuple[str, str], ...] = ()
     follow: str | None = None
+    timed: bool = True
 
     @cached_property
     def case(self) -> Case:
@@ -52,7 +54,9 @@ class Asked:
 
     @cached_property
     def stated_limit(self) -> StatedLimit | None:
-        """The limit whose time is asked: of an option, or of the case; None where there is neither."""
+        """The limit whose time is asked: of an option, or of the case; None where there is neither, or no time is asked."""
+        if not self.timed:
+            return None
         return stated_limit(self.case, **dict(self.limit)) if self.limit or self.case.limits else None
 
     @property
@@ -84,12 +88,12 @@ class Asked:
         """A command that asks the same."""
         import shlex
         words = ["stabilab", "atlas", os.path.basename(self.path), *(f"--{name}={value}" for name, value in self.options)]
-        words += [f"--level={self.level}", f"--refine={self.refine}", *(["--certify"] if self.certify else [])]
+        words += [f"--level={self.level}", f"--refine={self.refine}", *(["--certify"] if self.certify else []), *([] if self.timed else ["--no-time"])]
         return shlex.join([*words, *(f"--{name}={text}" for name, text in self.limit)])
 
 
 def asked(case: Case | str | os.PathLike[str], torque: Any = None, wheel: str | None = None, level: int = LEVEL, refine: int = REFINE,
-          certify: bool = False, follow: str | None = None, **limit: str | None) -> Asked:
+          certify: bool = False, follow: str | None = None, timed: bool = True, **limit: str | None) -> Asked:
     """An atlas whose every part is checked. Raises InputError with what is wrong and what to do."""
     path, text = place_and_text("atlas", case)
     one = read_text(path, text)
@@ -98,9 +102,11 @@ def asked(case: Case | str | os.PathLike[str], torque: Any = None, wheel: str | 
     _judge_cells(level, refine, len(wheels))
     options = tuple((name, str(value)) for name, value in (("torque", torque), ("wheel", wheel)) if value is not None)
     stated = tuple((name, value) for name, value in limit.items() if value is not None)
+    if stated and not timed:
+        raise InputError(f"--no-time and --{stated[0][0]} contradict each other: give one of them")
     if stated:
         stated_limit(one, **dict(stated))
-    found = Asked(path, text, size, wheels, momenta, of, level, refine, certify, stated, options, follow)
+    found = Asked(path, text, size, wheels, momenta, of, level, refine, certify, stated, options, follow, timed)
     if found.plan(()).longest is not None:  # which says what is wrong with it
         found = replace(found, options=(*options, ("follow", str(follow))))
     return found

@@ -64,8 +64,9 @@ class Atlas:
 
 
 def kinds_of(records: np.ndarray) -> np.ndarray:
-    """(n,): a number for each fate with its axis and sense, and for an island that is seen: boundaries run where it changes."""
-    return (records["fate"].astype(int) * 8 + records["spin_axis"] + 3) * 2 + (records["island"] == 2) * (records["fate"] == Fate.UNDECIDED)
+    """(n,): a number for each fate with its axis and sense, for an island that is seen, and for each number of equilibria: boundaries run where it changes."""
+    island = (records["island"] == 2) & (records["fate"] == Fate.UNDECIDED)
+    return ((records["fate"].astype(int) * 8 + records["spin_axis"] + 3) * 2 + island) * 16 + np.clip(records["equilibria"], -8, 7) + 8
 
 
 @contextmanager

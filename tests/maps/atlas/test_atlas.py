@@ -15,6 +15,9 @@ from stabilab.maps.atlas.asked import asked
 from stabilab.maps.atlas.cells import neighbours
 from stabilab.maps.atlas.run import drawn, kinds_of
 from stabilab.orbit.result import Fate
+from stabilab.show.maps.atlas import dataset as atlas_files
+from stabilab.show.maps.atlas import words as atlas_words
+from stabilab.show.units import units_of
 from tests.shared import CASES
 
 BODY = """[body]
@@ -31,6 +34,9 @@ angular_velocity = {start}
 
 def case_of(inertia=(3.1, 2.3, 1.45), wheel=(0.0, 0.0, 0.0), torque=(0.0, 0.0, 1.0), start=(0.0, 0.0, 0.0), rest=""):
     return read_text("body.toml", BODY.format(inertia=list(inertia), wheel=list(wheel), torque=list(torque), start=list(start), rest=rest))
+
+
+UNITS = units_of(case_of())
 
 
 def made(case, level=1, refine=0, **options):
@@ -125,6 +131,33 @@ def test_refinement_leaves_both_sides_of_every_boundary_at_the_last_depth():
     uncut = found.leaves.level == 1
     same = kinds_of(first.records)[neighbours(1, found.leaves.number[uncut])] == kinds[uncut][:, None]
     assert same.all()  # what was left whole differs from none of its neighbours
+
+
+def test_cells_beside_another_number_of_equilibria_are_cut_too():
+    """A torque off the axes leaves two equilibria or none: the real roots of one quadratic."""
+    found = made(case_of(wheel=(0.0, 0.2, 0.0)), level=2, refine=1)
+    pairs, number = found.leaves.beside(), found.records["equilibria"]
+    across = pairs[number[pairs[:, 0]] != number[pairs[:, 1]]]
+    assert set(number.tolist()) == {0, 2} and len(across) and (found.leaves.level[across] == 3).all()
+
+
+def test_no_time_is_asked_on_request(tmp_path):
+    case = case_of(rest='[limits]\nrate = "2 rad/s"')
+    assert "when_low" in made(case, level=0).records.dtype.names
+    found = asked(case, level=0, timed=False)
+    assert "when" not in found.answers and found.command.endswith("--no-time")
+    with pytest.raises(InputError, match="contradict"):
+        asked(case, timed=False, rate="2")
+    pytest.importorskip("xarray")
+    again = stabilab.atlas(case, level=0, refine=0, timed=False, out=tmp_path / "atlas.nc")
+    assert "when_low" not in again and atlas_words.answer(atlas_files.atlas_of(again, tmp_path / "atlas.nc"), UNITS).count("time") == 0
+
+
+@pytest.mark.parametrize("wheel, words", [((0.1, 0.2, 0.4), "the wheel's axis"), ((0, 0, 0), "the torque's axis")])
+def test_a_sphere_spins_up_about_the_axis_of_its_wheel_or_of_the_torque(wheel, words):
+    # by hand, D w' = l x w + M up to the sign: the part along l grows at the rate M.l/|l|, all of it along M without a wheel
+    found = made(case_of(inertia=(2, 2, 2), wheel=wheel), level=0)
+    assert f"all directions spin up about {words}" in atlas_words.answer(found, UNITS) and "no principal axis" not in atlas_words.text(found, UNITS)
 
 
 def test_wheel_momenta_are_along_the_wheel_or_along_the_axis_that_is_named(spinning):

@@ -27,17 +27,18 @@ if TYPE_CHECKING:
 
 def atlas(case: Case | str | os.PathLike[str], torque: Any = None, wheel: str | None = None, level: int = LEVEL, refine: int = REFINE,
           certify: bool = False, follow: str | None = None, out: str | os.PathLike[str] | None = None, workers: int | None = 1, scheduler: str | None = None,
-          **limit: str | None) -> xarray.Dataset:
+          timed: bool = True, **limit: str | None) -> xarray.Dataset:
     """What becomes of a case's motion under a torque of every direction: cells of equal area on the sphere, smaller ones along the boundaries.
 
     case: a Case, or the path of a case file. torque: its size, "1 N m"; None: that of the case. wheel: momenta beside each of which all directions are
     asked, "0:2:5" along the wheel of the case, or "z=0:2:5"; None: the case's own. level: 8 4^level cells at first; refine: how often those along a boundary
     are cut in four. limit: rate, component, energy, tilt or until, as the options of `stabilab when`; without any, that of [limits] of the case, if it
-    has one. certify: prove what can be. follow: how long motions are followed that only a run decides. out: a .nc file; workers and scheduler: as of
-    `stabilab.sweep`; the numbers are the same whoever computes them. Raises InputError for what cannot be asked.
+    has one; timed: whether that time is asked. certify: prove what can be. follow: how long motions are followed that only a run
+    decides. out: a .nc file; workers and scheduler: as of `stabilab.sweep`; the numbers are the same whoever computes them. Raises InputError for what
+    cannot be asked.
     """
     demand("xarray")
-    plan, path = asked(case, torque, wheel, level, refine, certify, follow, **limit), None if out is None else checked(out)
+    plan, path = asked(case, torque, wheel, level, refine, certify, follow, timed, **limit), None if out is None else checked(out)
     with drawn(plan, path, workers, scheduler) as found:
         made = dataset(found)
         if path is not None:
@@ -90,7 +91,7 @@ def _variable(found: Atlas, column: Any, dimension: str, records: np.ndarray) ->
 def _attributes(found: Atlas) -> dict[str, Any]:
     of = found.asked
     told = {"path": os.path.basename(of.path), "options": dict(of.options), "level": of.level, "refine": of.refine, "certify": of.certify,
-            "limit": dict(of.limit), "computed": found.asked_points}
+            "limit": dict(of.limit), "timed": of.timed, "computed": found.asked_points}
     return {"Conventions": "CF-1.11", "title": of.case.title or of.case.name, "source": f"stabilab {__version__}", "references": of.case.source,
             "history": of.command, "torque": float(of.torque), "case": of.text, "atlas": json.dumps(told)}
 
@@ -100,7 +101,7 @@ def atlas_of(data: xarray.Dataset, path: Path) -> Atlas:
     try:
         told = json.loads(data.attrs["atlas"])
         of = asked(read_text(told["path"], data.attrs["case"]), **told["options"], level=told["level"], refine=told["refine"], certify=told["certify"],
-                   **told["limit"])
+                   timed=told.get("timed", True), **told["limit"])
         leaves = Leaves(*(data[name].values.astype(np.int64) for name in ("wheel", "depth", "number")))
         found = Atlas(of, leaves, _records(data, of, "cell"), of.named, _records(data, of, "point"), told["computed"], 0)
         complete = len(found.named_records) == len(found.named) and abs(found.share.sum() - len(of.wheels)) < 1e-9

@@ -31,6 +31,14 @@ def axis_names(atlas: Atlas) -> dict[int, str]:
     return told
 
 
+def other_axis(atlas: Atlas) -> str:
+    """About what a motion spins up that does so about no principal axis: of a sphere every axis is one, and the wheel or the torque chooses."""
+    if len(set(atlas.asked.case.scene.body.exact)) > 1:  # type: ignore[union-attr]
+        return "no principal axis"
+    wheels = {any(wheel) for wheel in atlas.asked.wheels}
+    return "the wheel's axis" if wheels == {True} else "the torque's axis" if wheels == {False} else "the axis of the wheel, or of the torque"
+
+
 def point_name(atlas: Atlas, point: Point) -> str:
     """"+1" and "-1" for the axes, a thruster's name, "torque of the case"."""
     if point.level == AXES:
@@ -42,7 +50,7 @@ def kind_words(atlas: Atlas, fate: int, axis: int, island: int = 0) -> str:
     """What a cell does, for a legend: "spins up about +3 (minor)"."""
     if fate == Fate.SPIN_UP:
         if not axis:
-            return "spins up about no principal axis"
+            return f"spins up about {other_axis(atlas)}"
         return f"spins up about {axis:+d} ({axis_names(atlas)[abs(axis)].partition('(')[2]}"
     return FATES[Fate(fate)][0] + ("", ", an island may exist", ", an island is seen")[island]
 

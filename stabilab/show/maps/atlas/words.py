@@ -17,7 +17,7 @@ from ...text.answers import Endless, as_json
 from ...units import SHORT, Units
 from ..labels import unit
 from ..words import COUNTS
-from .labels import DOES, axis_names, direction_words, kinds, point_name, wheel_words
+from .labels import DOES, axis_names, direction_words, kinds, other_axis, point_name, wheel_words
 
 SCHEMA = "stabilab.atlas/1"
 ROWS = 12  # wheel momenta that are told one by one
@@ -34,7 +34,7 @@ def answer(atlas: Atlas, units: Units, rows: np.ndarray | None = None) -> str:
     what = "directions" if len(atlas.asked.wheels) == 1 or rows is not None else "directions and wheel momenta"
     parts = []
     for n, ((fate, axis), share) in enumerate(shares):
-        about = axis_names(atlas).get(axis, "no principal axis")
+        about = axis_names(atlas).get(axis) or other_axis(atlas)
         verb = f"about {about}" if n and shares[n - 1][0][0] == fate == Fate.SPIN_UP else f"spin up about {about}" if fate == Fate.SPIN_UP else DOES[Fate(fate)]
         parts.append(f"{_per_cent(share)} of {what} {verb}" if not n else f"{_per_cent(share)} {verb}")
     if len(shares) == 1:
@@ -103,7 +103,7 @@ def _details(atlas: Atlas, units: Units) -> list[str]:
              f"  torque {units.torque(float(atlas.asked.torque))}; {len(records):,} cells of equal area, some {size:.2g} deg wide"]
     spun = records["fate"] == Fate.SPIN_UP
     if spun.any():
-        lines.append("  spin-up about " + _listed(atlas, records["spin_axis"], spun, whole, lambda axis: f"{axis:+d}" if axis else "no principal axis"))
+        lines.append("  spin-up about " + _listed(atlas, records["spin_axis"], spun, whole, lambda axis: f"{axis:+d}" if axis else other_axis(atlas)))
     lines.append("  the fate is known as " + _listed(atlas, records["level"], records["level"] >= 0, whole, lambda level: LEVELS[level]))
     if atlas.asked.stated_limit is not None:
         lines.append(_times(atlas, units, whole))
@@ -155,7 +155,7 @@ def does(atlas: Atlas, n: int) -> str:
     if fate != Fate.SPIN_UP:
         return {Fate.BOUNDED: "stays bounded", Fate.SEPARATRIX: "lies on the separatrix", Fate.EQUILIBRIUM: "is at rest",
                 Fate.UNDECIDED: "is undecided"}[fate]
-    return f"spins up about {axis:+d}" if axis else "spins up about no principal axis"
+    return f"spins up about {axis:+d}" if axis else f"spins up about {other_axis(atlas)}"
 
 
 def in_time(atlas: Atlas, n: int, units: Units) -> str:
