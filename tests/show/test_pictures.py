@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from stabilab import errors
 from stabilab.orbit import phase_plane as phase
@@ -341,3 +342,25 @@ def test_in_a_surface_picture_the_colours_of_equilibria_are_theirs_alone_and_no_
         assert all(box[2 * i] < sheets[:, i].min() and sheets[:, i].max() < box[2 * i + 1] for i in range(3))
     finally:
         stage.close()
+
+
+def test_a_picture_is_drawn_once_and_holds_the_nearest_colours_of_its_palette(tmp_path, monkeypatch):
+    """Nearest by a search of its own, colour by colour in Python's whole numbers; the drawing itself by the way of savefig."""
+    from matplotlib.figure import Figure
+
+    drawn, draw = [], Figure.draw
+    monkeypatch.setattr(Figure, "draw", lambda self, renderer: (drawn.append(self), draw(self, renderer))[1])
+    with style.drawing() as plt:
+        figures = [plt.subplots(layout="constrained", figsize=(3, 2)) for _ in range(2)]
+        for _, ax in figures:
+            ax.imshow(np.random.default_rng(3).random((12, 16)), cmap="twilight")
+        small = Image.open(style.save(figures[0][0], tmp_path / "drawn.png", dpi=70))
+        assert len(drawn) == 1
+        figures[1][0].savefig(whole := io.BytesIO(), format="png", dpi=70)
+    palette = np.reshape(small.getpalette(), (-1, 3)).tolist()
+    wanted, kept = (np.asarray(image.convert("RGB")).reshape(-1, 3) for image in (Image.open(whole), small))
+    colours = {tuple(map(int, colour)): tuple(map(int, entry)) for colour, entry in zip(wanted, kept)}
+    assert len(colours) > 250
+    for colour, entry in colours.items():
+        distances = [sum((a - b) ** 2 for a, b in zip(colour, one)) for one in palette]
+        assert list(entry) == palette[distances.index(min(distances))]
