@@ -563,12 +563,8 @@ def doctor():
 
 def _say(text: str):
     """A message for people to stderr, wrapped to a terminal."""
-    if sys.stderr.isatty():
-        import shutil
-
-        from .show.terminal.page import wrapped
-        text = wrapped(text, shutil.get_terminal_size().columns)
-    print(text, file=sys.stderr)
+    from .show.terminal.page import say
+    say(text)
 
 
 def asked_for(words) -> typer.Typer:

@@ -99,6 +99,46 @@ def test_lines_that_go_on_stand_below_their_words():
     assert [line[:4] for line in page.wrapped("why: " + "because " * 20, 50).split("\n")[1:]] == ["  be"] * 3
 
 
+def test_a_message_wraps_to_the_terminal_that_stderr_is(shown, monkeypatch):
+    """How far a law holds, told beside a table that has no place for it, while the table itself goes into a pipe."""
+    words = {}
+    for terminal in (True, False):
+        monkeypatch.setattr(sys, "stderr", Screen(terminal))
+        shown(Screen(False), "extremes", ROOT / "cases/liquid-sensible.toml", "--csv", columns=50)
+        words[terminal] = sys.stderr.getvalue()
+    assert words[True].split() == words[False].split()
+    assert max(map(len, words[True].splitlines())) <= 50 < max(map(len, words[False].splitlines()))
+
+
+def test_the_name_of_a_written_file_stays_in_one_piece(monkeypatch):
+    monkeypatch.setenv("COLUMNS", "50")
+    monkeypatch.setattr(sys, "stderr", Screen())
+    page.say("written: a folder/two words lambda1/a very long name of a file.csv")
+    assert sys.stderr.getvalue() == "written: a folder/two words lambda1/a very long name of a file.csv\n"
+
+
+def test_a_fault_keeps_its_file_and_line_in_one_piece(monkeypatch, tmp_path):
+    """Two faults of a file whose name has blanks, on a terminal of fifty columns: each begins with the place, and the rest stands below it."""
+    case = tmp_path / "my own case.toml"
+    case.write_text('[body]\ninertia = [3, 2]\n[motion]\nangular_velocity = ["3 apples/s", 0, 0]\n')
+    monkeypatch.setenv("COLUMNS", "50")
+    monkeypatch.setattr(sys, "argv", ["stabilab", "fate", str(case)])
+    monkeypatch.setattr(sys, "stderr", Screen())
+    with pytest.raises(SystemExit) as left:
+        cli.main()
+    lines = sys.stderr.getvalue().splitlines()
+    assert left.value.code == 2 and [f"{case}:{n}:" in sys.stderr.getvalue() for n in (2, 4)] == [True, True]
+    assert all(line.startswith("  ") or line.startswith(str(case)) for line in lines)
+    assert max(len(line) for line in lines if line.startswith("  ")) <= 50
+
+
+def test_a_stream_without_letters_gets_their_names(monkeypatch):
+    for encoding, shown_as in (("ascii", "|omega|"), ("utf-8", "|ω|")):
+        monkeypatch.setattr(sys, "stderr", Screen(False, encoding))
+        page.say("the limit of |ω|")
+        assert sys.stderr.getvalue() == f"the limit of {shown_as}\n"
+
+
 def test_help_tells_the_commands_in_groups(stabilab):
     code, out, _ = stabilab("-h")
     assert code == 0 and stabilab("--help")[1] == out and stabilab("fate", "-h")[1] == stabilab("fate", "--help")[1]

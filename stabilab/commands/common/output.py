@@ -8,6 +8,7 @@ import typer
 from ...errors import UNDECIDED, ToleranceNotMet
 from ...show.files.endings import labelled
 from ...show.terminal import page
+from ...show.terminal.letters import greek
 from ...show.text import answers, law
 
 
@@ -24,7 +25,7 @@ def tell(text: str):
 
 def say(text: str):
     """A message to stderr."""
-    print(text, file=sys.stderr)
+    page.say(text)
 
 
 def either(json: bool, data, words):
@@ -63,7 +64,7 @@ def say_laws(validities):
     """How far approximate laws hold, beside a table that has no place for it."""
     for validity in validities:
         if validity is not None:
-            say(validity.words)
+            say(greek(validity.words))
 
 
 def leave_undecided(strict: bool, open_: bool):

@@ -42,11 +42,13 @@ def plain(text: str) -> str:
 
 def for_people(text: str, encoding: str | None) -> str:
     """The text in letters that the encoding can write; None: of a stream of letters, which writes all."""
-    found = greek(text)
-    if encoding is None:
-        return found
+    return encodable(greek(text), encoding)
+
+
+def encodable(text: str, encoding: str | None) -> str:
+    """The text as it is, or in names of letters where the encoding (None: any letter) cannot write them."""
     try:
-        found.encode(encoding)
+        text.encode(encoding or "utf-8")
     except (UnicodeEncodeError, LookupError):
-        return plain(found)
-    return found
+        return plain(text)
+    return text

@@ -1,15 +1,18 @@
-"""Text for people on stdout: wrapped to a terminal and coloured there, and the plain lines anywhere else."""
+"""Text for people on stdout and stderr: wrapped to a terminal and coloured there, and the plain lines anywhere else."""
 from __future__ import annotations
 
 import os
 import re
 import sys
 
-from .letters import for_people
+from .letters import encodable, for_people
 
+USUAL = 80   # columns of a terminal that does not say how wide it is
 NARROW = 40  # columns below which nothing is wrapped any narrower
 COLOURS = {r"\bBOUNDED\b|\bNEVER\b|\bAT REST\b|\bPROVED\b": "bold green", r"\bSPINS UP\b|BEYOND THE LAW|\bREFUTED\b": "bold red",
            r"\bUNDECIDED\b|ON THE SEPARATRIX|NOT KNOWN": "bold yellow"}
+PLACE = re.compile(r"(?:written: .*|[^:\n]*\.\w+(?::\d+)*:)")  # a file, with a line of it: one word, whatever blanks its name holds
+BLANK = "\0"  # stands for a blank that no line is broken at
 STABLE = {r"\bunstable\b": "red", r"(?<!un)\b(?:asymptotically )?stable\b": "green", r"\bundecided\b": "yellow"}
 
 
@@ -26,6 +29,14 @@ def tell(text: str) -> None:
     out.flush()
 
 
+def say(text: str) -> None:
+    """Write a message for people to stderr. What a file calls its keys stays as it is, for the reader looks for it there."""
+    err = sys.stderr
+    columns = width(err)
+    text = encodable(text.rstrip("\n"), getattr(err, "encoding", None))
+    print(text if columns is None else wrapped(text, columns), file=err)
+
+
 def wrapped(text: str, columns: int) -> str:
     """The text with every line at most so wide; what is continued stands two columns further in."""
     import textwrap
@@ -36,8 +47,9 @@ def wrapped(text: str, columns: int) -> str:
             lines.append(line)
             continue
         indent = " " * _hang(line, columns)
+        line = PLACE.sub(lambda found: found[0].replace(" ", BLANK), line, count=1) if PLACE.match(line) else line
         lines += textwrap.wrap(line, columns, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False) or [""]
-    return "\n".join(lines)
+    return "\n".join(lines).replace(BLANK, " ")
 
 
 def _hang(line, columns):
@@ -48,10 +60,18 @@ def _hang(line, columns):
     return len(line) - len(line.lstrip()) + 2
 
 
-def width() -> int | None:
-    """Columns of the terminal that stdout is; None where it is a pipe or a file, whose lines are never broken."""
-    import shutil
-    return shutil.get_terminal_size().columns if sys.stdout.isatty() else None
+def width(stream=None) -> int | None:
+    """Columns of the terminal that the stream (None: stdout) is; None where it is a pipe or a file, whose lines are never broken."""
+    stream = stream or sys.stdout
+    if not stream.isatty():
+        return None
+    asked = os.environ.get("COLUMNS", "")
+    if asked.isdecimal() and int(asked):
+        return int(asked)
+    try:
+        return os.get_terminal_size(stream.fileno()).columns or USUAL
+    except OSError:  # it has no descriptor of its own
+        return USUAL
 
 
 def _coloured() -> bool:
