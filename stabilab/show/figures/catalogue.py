@@ -69,7 +69,8 @@ FIGURES = (
     Figure(15, "Major axis from (0, −1, 5): x1, x2", _released, _run(paper.START_CAPTURED, "12"), _CAPTURED),
     Figure(16, "Middle axis: no separatrix for the paper's data", f"For |b−a| < {middle.CUSP:.4f} there is no saddle: every motion is "
            "periodic but those on the plane x1 + b = −x3, which spin up. The paper draws separatrices and three regions. At "
-           f"λ1 = {middle.LAMBDA_BEYOND} a figure-eight separatrix does exist (right).", middle.surfaces, middle.exactness),
+           f"λ1 = {middle.LAMBDA_BEYOND} a figure-eight separatrix does exist (right): every saddle has two loops, and all of them "
+           "together are the surfaces.", middle.surfaces, middle.exactness),
     Figure(17, "Middle axis: projection on (x1, x3)", "All equilibria are stable for the paper's data, on both sides of the "
            f"printed line x1 = x3; that line is no invariant plane, x1 + b = x3 is. At λ1 = {middle.LAMBDA_BEYOND} the stretch between the two "
            "folds is unstable.", middle.projections, "closed forms; motions: level sets of the exact potential"),

@@ -128,7 +128,7 @@ def _angles(family, more=""):
     tilts = [np.hypot(*a[:, :2].T).max() for a in _state(family, "printed", "angles")]
     until = dict.fromkeys(f"{float(horizon(b)):.2f}" for b in _bodies(family))
     return (f"The print lets the tilt of psi and phi swing to {listed(tilts)} rad as if it were small. In truth 0.1 rad is outgrown after "
-            f"{listed(until, '{}')} s (green), psi turns back before pi/2, phi runs on, and theta is not r0 t. {more}{_CUT}")
+            f"{listed(until, '{}')} s (green), psi turns back before pi/2, phi runs on, and theta is not r0 t. {more}{_CUT}.")
 
 
 def _circle(family, more=""):
@@ -138,8 +138,7 @@ def _circle(family, more=""):
 
 
 def _by_33(family, more):
-    return (f"By (33), {more} The exact momentum follows for some seconds only: the torque is fixed in the body, and the body tips over. "
-            f"{_CUT}")
+    return (f"By (33), {more} The exact momentum follows for some seconds only: the torque is fixed in the body, and the body tips over.")
 
 
 def _misprinted(family, part, unit):
@@ -154,7 +153,7 @@ def _misprinted(family, part, unit):
 def _speed(family, more=""):
     last, largest = _state(family, "printed", "velocity")[0][-1, 2], max(np.abs(v).max() for v in _state(family, "exact", "velocity"))
     return (f"{_NAMED}Small angles keep the thrust of 3 N along z1: the print has v3 = 0.3 t, {last:.3g} m/s at 50 s. In truth the thrust "
-            f"turns with the body; no component passes {largest:.2g} m/s. {more}{_misprinted(family, 'velocity', 'm/s')}{_CUT}")
+            f"turns with the body; no component passes {largest:.2g} m/s. {more}{_misprinted(family, 'velocity', 'm/s')}{_THIN}")
 
 
 def _way(family, more=""):
@@ -162,7 +161,7 @@ def _way(family, more=""):
     start = [float(np.hypot(*x[0, :2])) for x in printed]
     return (f"The parabola eta3 = 0.15 t^2 ({printed[0][-1, 2]:.3g} m at 50 s) needs an axis that stays upright; in truth eta3 is "
             f"{listed(true, '{:.0f}')} m. {more}{_misprinted(family, 'position', 'm')}By (61) as printed the way does not even start at 0, "
-            f"but {listed(start)} m off. {_CUT}")
+            f"but {listed(start)} m off. {_THIN}")
 
 
 def _pointing():
@@ -175,8 +174,8 @@ def _pointing():
 
 
 _NAMED = "The paper writes omega1, omega2, omega3 for the velocity v1, v2, v3. "
-_CUT = ("Models are drawn to where they leave the exact motion's range; the first column has the printed curves alone, thin those with "
-        "corrected integrals where they differ.")
+_CUT = ("Models are drawn to where they leave the exact motion's range; the first column has the printed curves alone")
+_THIN = _CUT + ", thin those with corrected integrals where they differ."
 
 
 def _exactness(families=tuple(FAMILIES), more=""):

@@ -46,11 +46,12 @@ def surfaces(plt):
     right.set_title(rf"$\lambda_1={LAMBDA_BEYOND}$, $c=2.5>{CUSP:.4f}$: figure-eight separatrix", fontsize=9.5)
     style.legend(figure, [("centres (stable)", style.MEANING["stable"]), ("saddles (unstable)", style.MEANING["unstable"]),
                      ("motion of Table 3", style.MEANING["this motion"]), ("start", style.MARKER["start"]),
-                     ("periodic motions", {"color": style.SKY, "linewidth": 1.0}),
-                     *((f"separatrix, {name}", {"color": colour, "linewidth": 8, "solid_capstyle": "butt"}) for name, colour in zip(names, LOOPS))], columns=3)
+                     ("periodic motions", {"color": style.SKY, "linewidth": 1.0}), ("one figure-eight", EIGHT_LINE),
+                     *((f"separatrix, {name}", {"color": colour, "linewidth": 8, "solid_capstyle": "butt"}) for name, colour in zip(names, LOOPS))], columns=4)
     return figure
 
 
+EIGHT_LINE = {"color": style.BLACK, "linewidth": 2.2}  # of the two loops of one saddle
 LOOPS = ("#8FBCD4", style.YELLOW, style.GREY, style.PURPLE)  # colours of the parts of the figure-eight
 
 
@@ -83,9 +84,18 @@ def _figure_eight(ax):
         ax.plot_surface(*_upright(sheet.points), color=colour, alpha=0.6, rstride=4, cstride=6, linewidth=0.3, edgecolor="#333333", shade=False)
         ax.plot(*_upright(sheet.saddle), **style.MEANING["unstable"])
         ax.plot(*_upright(sheet.centre), **style.MEANING["stable"])
+    _one_eight(ax, *found.sheets[:2])
     style.name_space(ax, 0.98, order=UPRIGHT)
-    ax.view_init(26, -50)  # across both loops: from other sides one hides the other
+    ax.view_init(26, -20)  # onto both loops: from other sides one hides the other
     return [sheet.name for sheet in found.sheets]
+
+
+def _one_eight(ax, left, right):
+    """The two loops of one saddle, in the middle of a sheet: the surfaces are made of such eights."""
+    row = len(left.saddle) // 2
+    other = int(np.abs(right.saddle - left.saddle[row]).sum(axis=1).argmin())
+    for points in (left.points[row], right.points[other]):
+        ax.plot(*_upright(points), zorder=5, **EIGHT_LINE)
 
 
 def projections(plt):
