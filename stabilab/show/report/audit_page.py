@@ -12,6 +12,7 @@ from ...theories.audit.formulas import FormulaError
 from ..text.audit import counted, figures_changed
 from . import html
 
+SHORT = {"al": "alpha", "th": "theta", "gam": "gamma", "om": "omega", "lam": "lambda", "Om": "Omega", "Lam": "Lambda", "ep": "eps"}
 GREEK = {"al": "alpha", "th": "theta", "gam": "gamma", "om": "omega", "lam": "lambda", "Om": "Omega", "eps": "varepsilon", "ep": "varepsilon"}
 
 
@@ -34,7 +35,7 @@ def _row(paper, finding):
     return {
         "equation": row.equation,
         "verdict": finding.verdict,
-        "condition": finding.condition,
+        "condition": _in_full(finding.condition),
         "says": row.says,
         "printed": typeset(paper, row.printed),
         "correction": typeset(paper, row.corrected) if row.corrected else [finding.correction] if finding.correction else [],
@@ -47,6 +48,11 @@ def _row(paper, finding):
         "figures": figures_changed(row, paper.figures),
         "note": row.options.get("note", ""),
     }
+
+
+def _in_full(condition) -> str:
+    """A condition with the whole names of the letters that its formulas abbreviate."""
+    return re.sub(r"\b([A-Za-z]+?)(?=\d*\b)", lambda name: SHORT.get(name[1], name[1]), condition or "")
 
 
 def _texts(table):

@@ -16,8 +16,14 @@ ALONE = {"nav": (), "here": "", "up": "", "title": ""}  # of a page that is no p
 def _environment():
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
     environment = Environment(loader=FileSystemLoader(TEMPLATES), autoescape=True, undefined=StrictUndefined)
-    environment.filters |= {"written": written, "sentence": sentence, "typed": typed}
+    environment.filters |= {"written": written, "sentence": sentence, "typed": typed, "formula": formula}
     return environment
+
+
+def formula(text):
+    """A formula: as it is where it is typeset, else with the letters and signs of a book."""
+    from markupsafe import Markup
+    return text if isinstance(text, Markup) else written(text)
 
 
 def sentence(text: str):

@@ -5,22 +5,25 @@ import re
 
 GREEK = {"omega": "ω", "lambda": "λ", "Lambda": "Λ", "mu": "μ", "gamma": "γ", "alpha": "α", "sigma": "σ", "zeta": "ζ", "tau": "τ"}
 # What papers write in captions and formulas, where no key, path or option can stand: every Greek letter, with or without its number, and powers.
-ALPHABET = GREEK | {"beta": "β", "delta": "δ", "eps": "ε", "eta": "η", "theta": "θ", "kappa": "κ", "pi": "π", "phi": "φ", "psi": "ψ", "rho": "ρ",
-                    "Gamma": "Γ", "Delta": "Δ", "Omega": "Ω"}
+ALPHABET = GREEK | {"beta": "β", "delta": "δ", "eps": "ε", "eta": "η", "theta": "θ", "kappa": "κ", "nu": "ν", "Pi": "Π", "pi": "π", "phi": "φ",
+                    "psi": "ψ", "rho": "ρ", "Gamma": "Γ", "Delta": "Δ", "Omega": "Ω"}
 PLAIN = {letter: name for name, letter in ALPHABET.items()} | {
     "ᵢ": "_i", "ⱼ": "_j", "ₖ": "_k", "∞": "inf",
-    "²": "^2", "³": "^3", "⁴": "^4", "±": "+-", "−": "-", "–": "-", "≤": "<=", "≥": ">=", "≠": "!=", "√": "sqrt", "×": "x",
+    "²": "^2", "³": "^3", "⁴": "^4", "±": "+-", "∓": "-+", "−": "-", "–": "-", "≤": "<=", "≥": ">=", "≠": "!=", "√": "sqrt", "×": "x",
     "·": ".", "µ": "u", "°": " deg", "…": "..."}
 # A name with its number, between bars, or the time of a scaled case; not part of a path, a key or an option.
 NAMES = re.compile(r"(?<![\w./\\])(?<![\w-]-)(omega|lambda|Lambda|mu|gamma|alpha|sigma|zeta)(?=(?:[123]|_[ijk])\b(?!\\|/[A-Za-z]|\.\w))"
-                   r"|(?<=\|)(?:omega|gamma)(?= ?[xyz]?\|)|\bgamma(?= = \()|(?<=[\d )=] )tau\b")
+                   r"|(?<=\|)(?:omega|gamma)(?= ?[xyz]?\|)|\bomega(?= \. \()|\bgamma(?= = \()|(?<=[\d )=] )tau\b")
 LETTER = re.compile(r"(?<![A-Za-z_])(" + "|".join(sorted(ALPHABET, key=len, reverse=True)) + r")(?:_?(?=\d)|(?![\w-]))|(?<![A-Za-z])l_(?=[xyz]\b)")
 POWER = re.compile(r"\^(\d)(?!\d)|sqrt(?=\()")
+SIGNS = {"+-": "±", "-+": "∓", "<=": "≤", ">=": "≥"}
 RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def written(text: str) -> str:
-    """A caption or a claim as a paper sets it: lambda3 becomes λ3, r0^2 becomes r0², sqrt(x) becomes √(x), l_x becomes lx."""
+    """A caption or a claim as a paper sets it: lambda3 becomes λ3, r0^2 becomes r0², sqrt(x) becomes √(x), l_x becomes lx, +- becomes ±."""
+    for plain, sign in SIGNS.items():
+        text = text.replace(plain, sign)
     text = LETTER.sub(lambda found: ALPHABET.get(found[1], "l"), text)
     return POWER.sub(lambda found: found[1].translate(RAISED) if found[1] else "√", text)
 

@@ -52,7 +52,8 @@ def cell(value) -> str:
 TORQUE_COLUMNS = {"wheel": "gyrostat", "torque signs": "mu", "equilibria": "number", "form": "form",
                   "condition": "condition", "characteristic polynomial": "polynomial", "spectrum": "spectrum",
                   "linear": "linear", "nonlinear": "nonlinear"}
-_SIGNS = {"mu1": "μ1", "mu2": "μ2", "mu3": "μ3", "!=": "≠", "+-": "±", "sqrt": "√", "^2": "²", "^3": "³", "^4": "⁴", "<=": "≤", ">=": "≥"}
+_SIGNS = {"mu1": "μ1", "mu2": "μ2", "mu3": "μ3", "!=": "≠", "+-": "±", "-+": "∓", " - ": " − ", "= -": "= −", "(-": "(−", "sqrt": "√",
+          "^2": "²", "^3": "³", "^4": "⁴", "<=": "≤", ">=": "≥"}
 
 
 def torque_signs() -> Table:
@@ -165,7 +166,7 @@ def markdown(table: Table) -> str:
 _LATEX = {"\\": r"\textbackslash{}", "&": r"\&", "%": r"\%", "$": r"\$", "#": r"\#", "_": r"\_", "{": r"\{", "}": r"\}",
           "~": r"\textasciitilde{}", "^": r"\textasciicircum{}", "<": "$<$", ">": "$>$", "|": "$|$",
           "λ": r"$\lambda$", "μ": r"$\mu$", "ω": r"$\omega$", "σ": r"$\sigma$", "ζ": r"$\zeta$", "α": r"$\alpha$",
-          "τ": r"$\tau$", "²": "$^2$", "³": "$^3$", "⁴": "$^4$", "≥": r"$\ge$", "≤": r"$\le$", "≠": r"$\ne$", "±": r"$\pm$",
+          "τ": r"$\tau$", "²": "$^2$", "³": "$^3$", "⁴": "$^4$", "≥": r"$\ge$", "≤": r"$\le$", "≠": r"$\ne$", "±": r"$\pm$", "∓": r"$\mp$",
           "−": "$-$", "–": "--", "√": r"$\surd$", "×": r"$\times$", "·": r"$\cdot$", "∞": r"$\infty$", "′": "$'$",
           "₁": "$_1$", "₂": "$_2$", "₃": "$_3$", "⟂": r"$\perp$", "Δ": r"$\Delta$"}
 

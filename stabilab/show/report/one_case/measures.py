@@ -5,16 +5,14 @@ import math
 import re
 from dataclasses import dataclass
 
-from ...terminal.letters import greek
+from ...terminal.letters import ALPHABET, greek
 from ...units import Units
 
 DIGITS = 5
-LETTERS = {"alpha": "α", "omega": "ω", "lambda": "λ", "gamma": "γ", "sigma": "σ", "zeta": "ζ", "kappa": "κ", "mu": "μ", "Omega": "Ω", "Lambda": "Λ",
-           "Gamma": "Γ"}
 INDICES = {"i": "ᵢ", "j": "ⱼ", "k": "ₖ"}
 SIGNS = ((r"\^2(?!\d)", "²"), (r"\^3(?!\d)", "³"), (r"\^4(?!\d)", "⁴"), (r"\bsqrt(?=\()", "√"), (r"<=", "≤"), (r">=", "≥"), (r"(?<=\s)x(?=\s[\w(]+\s=)", "×"),
          (r"(?<![\w)])-inf\b", "−∞"), (r"\binf\b", "∞"), (r"(?<![\w)\]-])-(?=[\d.])|(?<=[ (])-(?=[\w(])", "−"), (r"(?<=[\w)²³]) - (?=[\w(])", " − "),
-         (r"(?<=\w) \. (?=[\w(])", " · "))
+         (r"(?<=[\w)]) \. (?=[\w(])", " · "), (r"\+-", "±"), (r"-\+", "∓"), (r"\^T\b", "ᵀ"))
 
 
 @dataclass(frozen=True)
@@ -75,10 +73,10 @@ def spoken(name: str) -> str:
 
 
 def _spoken(name):
-    for plain, letter in LETTERS.items():
+    name = re.sub(r"\b(s|tau) in \[([^],]+), ([^]]+)\]", lambda span: f"{span[2]} to {span[3]} {'s' if span[1] == 's' else 'of τ'}", name)
+    for plain, letter in ALPHABET.items():
         name = re.sub(rf"(?<![\w-]){plain}(?=\d|_[ijk]\b|\b(?!-))", letter, name)
     name = re.sub(r"(?<=\w)_([ijk])\b", lambda index: INDICES[index[1]], name)
-    name = re.sub(r"\b(s|tau) in \[([^],]+), ([^]]+)\]", lambda span: f"{span[2]} to {span[3]} {'s' if span[1] == 's' else 'of τ'}", name)
     name = re.sub(r"\b(kg m|rad/s|m/s|s)\^2\b", r"\1²", name)
     name = re.sub(r"(?<![\w.])\d+\.\d{6,}(?:e[+-]?\d+)?", lambda number: f"{float(number[0]):.6g}", name)
     for plain, sign in SIGNS:

@@ -23,7 +23,7 @@ def sensitivity(case, motion, measures) -> dict:
         answer = stuck(case)
     except InputError as error:
         found["rows"] = _of_motion(motion, measures)
-        found["reason"] = f"No margin of wheel or torque: {error}."
+        found["reason"] = f"No margin of wheel or torque: {spoken(str(error))}."
         return found
     row = answer.rows[0]
     known = {name: margin for name, margin in row.margins.items() if margin.size is not None}
@@ -32,7 +32,7 @@ def sensitivity(case, motion, measures) -> dict:
     for name, margin in row.margins.items():
         if name not in known:
             why.setdefault(margin.because, []).append(OF[name])
-    found["reason"] = " ".join(f"No margin in {' and '.join(names)}: {because}." for because, names in why.items())
+    found["reason"] = " ".join(f"No margin in {_any_of(names)}: {spoken(because)}." for because, names in why.items())
     found["words"] = [_wheel(wheel) for wheel in row.wheels] + [_helper(helper, measures) for helper in row.helpers]
     if row.time_to_limit:
         found["words"].insert(0, f"The limit of the case is reached after {_between_times(row.time_to_limit, measures)} ({row.time_level}).")
@@ -43,6 +43,11 @@ def sensitivity(case, motion, measures) -> dict:
 def _between_times(pair, measures):
     low, high = map(measures.time, pair)
     return low if low == high else f"{low} to {high}"
+
+
+def _any_of(names) -> str:
+    """a, b or c."""
+    return " or ".join(filter(None, [", ".join(names[:-1]), names[-1]]))
 
 
 def _of_motion(motion, measures):
