@@ -84,7 +84,9 @@ def test_letters_that_an_encoding_lacks_are_written_out(shown):
 
 
 @pytest.mark.parametrize("plain, people", [
-    ("D1 omega1' = -lambda1*omega2 + alpha3/50", "D1 ω1' = -λ1*ω2 + α3/50"), ("|omega| = 3 deg/s", "|ω| = 3 deg/s"), ("alpha_i' = omega_i", "α_i' = ω_i"),
+    ("D1 omega1' = -lambda1*omega2 + alpha3/50", "D1 ω1' = -λ1*ω2 + α3/50"), ("|omega| = 3 deg/s", "|ω| = 3 deg/s"),
+    ("T' = omega . (torques)", "T' = ω . (torques)"),
+    ("alpha_i' = omega_i", "α_i' = ω_i"),
     ("period 1.8 tau", "period 1.8 τ"), ("torque on axis 3, lambda1 = 100", "torque on axis 3, λ1 = 100"),
     ("cases/liquid-lambda3-20.toml", "cases/liquid-lambda3-20.toml"), ("liquid-lambda3-0_15: BOUNDED", "liquid-lambda3-0_15: BOUNDED"),
     ("lambda3.toml", "lambda3.toml"), (r"\dot{\omega_{1}}", r"\dot{\omega_{1}}"), ("omega10 mu12", "omega10 mu12"), ("--tau", "--tau"),
@@ -201,3 +203,21 @@ def test_long_commands_count_their_steps(monkeypatch, stabilab, tmp_path):
         steps.clear()
         assert stabilab(*map(str, words))[0] == 0
         assert len({count for _, count in steps}) == 1 and {done for done, _ in steps} == set(range(steps[0][1])), words
+
+
+def test_thrusters_that_do_nothing_are_told_beside_the_answer(stabilab, tmp_path):
+    text = ('[body]\ninertia = [120, 95, 60]\n[motion]\nangular_velocity = [0.1, 0.2, 0]\n'
+            '[[thrusters]]\nname = "T1"\nposition = [0.3, 0.4, 0]\ndirection = [0, 0, 1]\nforce = "1 N"\n')
+    (tmp_path / "silent.toml").write_text(text)
+    (tmp_path / "stuck.toml").write_text(text + "stuck = true\n")
+    for command in ("fate", "classify", "extremes"):
+        assert "no thruster fires: stuck = true in a table [[thrusters]] makes one act for ever (T1)" in stabilab(command, tmp_path / "silent.toml")[1]
+        assert "no thruster fires" not in stabilab(command, tmp_path / "stuck.toml")[1]
+
+
+def test_a_component_without_a_lower_end_is_told_in_a_word(stabilab, tmp_path):
+    """Torque of -1 N m on axis 3 of a body without a wheel that starts along it: it spins up downwards, by hand."""
+    (tmp_path / "down.toml").write_text('[body]\ninertia = [12, 9, 5]\n[effects.constant_torque]\ntorque = [0, 0, -1]\n'
+                                        '[motion]\nangular_velocity = [0, 0, 0.1]\nspan = [0, 10]\n')
+    out = stabilab("classify", tmp_path / "down.toml")[1]
+    assert re.search(r"ω3\s+unbounded\s+5\.72958\s+deg/s", out) and "-unbounded" not in out

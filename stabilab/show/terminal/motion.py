@@ -1,6 +1,8 @@
 """A motion in words: where it starts, how far its rates go, its margins and period, and why; every number with its unit."""
 from __future__ import annotations
 
+import math
+
 from ..text import frame
 from ..text.headline import rate_margin, span_words, while_on_axis
 from ..units import DEG, DIGITS, Units, bracket, number
@@ -56,7 +58,9 @@ def pair_lines(case, pairs, units: Units) -> list[str]:
 
 def shown(value, one: float = 1.0, digits: int = DIGITS) -> str:
     """A number of a column; a word where it is unbounded or unknown."""
-    return "unknown" if value is None else number(value * one, digits)
+    if value is None:
+        return "unknown"
+    return "unbounded" if math.isinf(value) else number(value * one, digits)  # its column says downwards or upwards
 
 
 def bound_lines(case, motion, units: Units) -> list[str]:

@@ -3,6 +3,8 @@ from __future__ import annotations
 
 import math
 
+from ...errors import printable
+
 
 def key(case) -> dict:
     """The key "frame" of a JSON answer: moments (kg m^2) and axes (rows, in the frame of the file), how well they are known; nothing
@@ -45,8 +47,16 @@ def lines(case) -> list[str]:
 
 
 def note(case) -> list[str]:
-    """One line where the axes need not be told in full."""
-    return [] if _turned(case) is None else ["  along the principal axes of the tensor, which stabilab show tells"]
+    """A line where the axes need not be told in full, and one where a case has thrusters that do nothing."""
+    return [*([] if _turned(case) is None else ["  along the principal axes of the tensor, which stabilab show tells"]), *silent(case)]
+
+
+def silent(case) -> list[str]:
+    """A line where there are thrusters and none of them acts: whoever described them asks what they do."""
+    thrusters = getattr(case, "thrusters", ())
+    if not thrusters or any(one.stuck for one in thrusters):
+        return []
+    return [f"  no thruster fires: stuck = true in a table [[thrusters]] makes one act for ever ({', '.join(printable(one.name) for one in thrusters)})"]
 
 
 def _turned(case):

@@ -114,7 +114,7 @@ def answer_line(row, units, axes=WORD) -> str:
     while_ = _while(row, axes, units)
     if when:
         return f"{words}{while_}, but {when}{_known(row)}"
-    largest = "" if row.largest_rate is None else f", rate at most {units.rate(row.largest_rate, SHORT)}"
+    largest = "" if row.largest_rate is None else f", |ω| at most {units.rate(row.largest_rate, SHORT)}"
     below = ", never at its limit" if row.never and row.limit is not None else ""
     if row.tilt is None:
         return f"{words}{while_}{largest}{below}{_known(row)}"
@@ -142,7 +142,7 @@ def _known(row):
 
 def _about(row, axes) -> str:
     if row.axis:
-        return f"about axis {row.axis} ({axes[row.axis]}), {'along' if row.sense > 0 else 'against'} it"
+        return f"about axis {row.axis} ({axes[row.axis]}), {'positive' if row.sense > 0 else 'negative'} sense"
     if row.direction:
         return f"about the direction {_vector(row.direction)} of the file's frame"
     return "without bound"
@@ -261,7 +261,7 @@ def _details(row, units) -> list[str]:
 def _axes(principal) -> list[str]:
     words = axis_words(principal)
     return ["principal axes, unit vectors in the frame of the file:"] + [
-        f"  axis {n} ({words[n]})  moment {_number(moment, DIGITS)} kg m^2  {_vector(axis)}"
+        f"  axis {n} {f'({words[n]})':<8}  moment {_number(moment, DIGITS)} kg m^2  {_vector(axis)}"
         for n, (moment, axis) in enumerate(zip(principal.moments, principal.axes), 1)]
 
 
