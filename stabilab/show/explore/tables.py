@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import math
+from itertools import groupby
 from typing import Any
 
 from ...case.read import Case
@@ -40,9 +41,11 @@ def _range(low: float, high: float, units: Units) -> str:
 
 
 def equilibria(found: Equilibria, units: Units) -> dict[str, Any]:
-    """{reason, rows of (where, verdict)}."""
+    """{reason, rows of (where, verdict)}: of a curve a state on each of its pieces, as `classify` tells them."""
     told = [[units.vector(point.at[:3], units.rates, DIGITS), point.verdict] for point in found.points]
     for curve in found.curves:
-        told += [[greek(f"{curve.name}, {segment.linear}"), segment.verdict] for segment in curve.segments]
+        for verdict, samples in groupby(curve.samples, lambda sample: sample.verdict):
+            slowest = min(samples, key=lambda sample: max(map(abs, sample.at[:3])))
+            told.append([greek(f"{curve.name}, such as {units.vector(slowest.at[:3], units.rates, DIGITS)}"), verdict])
     more = len(told) - MOST
     return {"reason": greek(found.reason), "rows": told[:MOST] + ([[f"and {more} more", ""]] if more > 0 else [])}

@@ -1,4 +1,5 @@
 """What a page is answered: the same as the questions answer, drawn in places that lie where they should."""
+import math
 import re
 import subprocess
 import sys
@@ -219,3 +220,14 @@ print(along["headline"], along["space"]["words"])
     assert first.startswith("BOUNDED for ever while the torque is exactly along axis 1; largest rate 1.725 deg/s")
     assert second.startswith("UNDECIDED: this motion has to be followed, which needs NumPy")
     assert third.startswith("UNDECIDED: this motion has to be followed, which needs NumPy") and "No separatrix" in third
+
+
+def test_a_curve_of_equilibria_is_told_by_a_state_on_each_piece():
+    """Torque on axis 3, wheel along axis 1: by Euler's third equation w2 (l1 + (D1 - D2) w1) = -M3 there."""
+    case = read_text("my.toml", '[body]\ninertia = [12, 9, 5]\n[effects.gyrostat]\nmomentum = [0.8, 0, 0]\n'
+                     '[effects.constant_torque]\ntorque = [0, 0, 0.02]\n[motion]\nangular_velocity = [0.1, 0.05, 0.02]\n')
+    told = unframed(Session(case).answer({}))[0]["equilibria"]["rows"]
+    assert [verdict for _, verdict in told] == ["unstable", "stable", "unstable"]
+    for where, _ in told:
+        w1, w2, w3 = (math.radians(float(v)) for v in re.search(r"such as \((.*)\) deg/s", where)[1].split(", "))
+        assert w3 == 0 and (0.8 + (12 - 9) * w1) * w2 == pytest.approx(-0.02, rel=1e-3)
