@@ -1,6 +1,7 @@
 """What `stabilab classify` prints: the answer, the motion's numbers, the equilibria, why; proofs and algebra where they are asked for."""
 from __future__ import annotations
 
+import math
 from collections import Counter
 from itertools import groupby
 
@@ -82,8 +83,13 @@ def _proved_curve(curve, units):
     own = "" if units.scaled else "  (omega in rad/s)"
     lines = [f"  {curve.name}: {curve.equation}{own}", f"    {curve.parametrisation}"]
     for piece in curve.segments:
-        lines += [f"    t from {number(piece.t[0], 6)} to {number(piece.t[1], 6)}: {piece.verdict} (linear: {piece.linear})", f"      {piece.because}"]
+        lines += [f"    t from {_end(piece.t[0])} to {_end(piece.t[1])}: {piece.verdict} (linear: {piece.linear})", f"      {piece.because}"]
     return lines + [f"    fold at {state(fold, units)}" for fold in curve.folds]
+
+
+def _end(t) -> str:
+    """An end of a piece of a curve."""
+    return number(t, 6) if math.isfinite(t) else "∞" if t > 0 else "-∞"
 
 
 def _complex(z) -> str:

@@ -67,7 +67,7 @@ def title(found, question) -> str:
 def _moment(found):
     """The last time that is judged, with its unit."""
     last = f"{found.reference.t[-1]:.6g}"
-    return f"tau = {last}" if found.case.variables == "scaled" else f"t = {last} s"
+    return f"τ = {last}" if found.case.variables == "scaled" else f"t = {last} s"
 
 
 def _merged(prices):
@@ -94,7 +94,7 @@ def _digit_words(found, question) -> str:
 
 def price(factor) -> str:
     """A digit's price as a factor in time."""
-    return f"x{factor:.2f}"
+    return f"×{factor:.2f}"
 
 
 def _because(found, question, missing, best) -> str:

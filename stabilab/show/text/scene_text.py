@@ -91,4 +91,4 @@ def _short(expression) -> str:
     """The expression with rationals that are long rounded to 15 digits."""
     from sympy import Rational
     long = {r: r.evalf(15) for r in expression.atoms(Rational) if len(str(r)) > 24}
-    return str(expression.xreplace(long))
+    return str(expression.xreplace(long)).replace("**", "^")
