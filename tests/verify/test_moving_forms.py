@@ -166,6 +166,18 @@ def test_what_a_machine_forges_of_a_spin_up_is_never_proved(about, count, least)
     assert made > least and not wrong, wrong[:3]
 
 
+@pytest.mark.parametrize("paths, least", [(20, 1000), pytest.param(None, 6000, marks=pytest.mark.slow)])
+def test_what_a_machine_forges_of_a_second_fate_and_its_way_is_never_proved(paths, least):
+    """As the program writes it, with an enclosed way into the equator (`tests.verify.forge` and SciPy judge)."""
+    scene = Scene(Body(("1.3", "1.3", "0.7")), Gyrostat(("0.9", "-0.4", "0.2")), ConstantTorque(("0.25", "-0.3", "0.1")))
+    claims = json.loads(json.dumps(certificate(scene, [F("0.1"), F("0.2"), F("0.05")]))) | {"equilibria": None, "uncertified": []}
+    said = claims["motion"]["spin_up"]
+    assert said["about"] == "equator" and F(said["t"]) > 1 and said["way"]
+    assert verify(claims).status == "proved" and says_what_happens(claims)
+    made, wrong = forge_all(claims, "equator", 1, paths)
+    assert made > least and not wrong, wrong[:3]
+
+
 def test_constants_out_of_reach_and_another_form_are_not_proved():
     for about in ("moving centre", "equator"):
         claims = a_certificate(9, about)

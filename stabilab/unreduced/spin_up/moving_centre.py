@@ -31,6 +31,8 @@ from .terms import Terms, gathered, packed, product, terms_of
 
 CONDITION = 2.0**8  # rounding of p and q over themselves: 2^-44 at most, 2^-36 in the powers that occur
 
+FIRST_ORDERS = {"energy": 4, "amplitude": 6}
+
 
 class MovingCentre:
     """The form about the moving centre as the certificate wants it (see `FixedCentre` for its methods)."""
@@ -42,6 +44,7 @@ class MovingCentre:
         axis, sense: of the body where the form's axis 1 is one of its axes."""
         (D1, D2, D3), (l1, l2, l3), (M1, M2, M3) = D, wheel, torque
         d2, d3 = D1 - D2, D1 - D3
+        self._kept = {}
         self.basis, self.s, self.axis, self.sense = np.array(basis, float), s, axis, sense
         self.limits = (float(l2 / d2) if d2 else 0.0, float(l3 / d3))  # of w2*, w3* for great spins
         self.wheeled = any((l1, l2, l3))
@@ -81,7 +84,7 @@ class MovingCentre:
         """D1 int sqrt(p q) dx, corrected; the drive sqrt(p q) G0 is left out of its rate."""
         a, b = self.algebra.turn
         start = {(j, k, m + a, n + b): c * self.turn_size for (j, k, m, n), c in (self.swing | self.pull).items()}
-        return corrected(self.algebra, terms_of(start), order)
+        return self._corrected("energy", terms_of(start), order)
 
     def amplitude(self, order):
         """G0/M1 |eta|^2, corrected. D1 M1 times its rate is (D1 x' - G0) G0' |eta|^2 + 2 G0 [...], each bracket's products of oscillating
@@ -94,7 +97,16 @@ class MovingCentre:
         slope = self.algebra.slope(G0)
         around = product(product(gathered(swing, pull), slope), terms_of({(1, 1, 0, 0): 1.0}))
         rate = gathered(product(G0.times(2.0), gathered(*inner)), around).times(1 / (self.M1 * self.D1))
-        return corrected(self.algebra, rate, order)
+        return self._corrected("amplitude", rate, order)
+
+    def _corrected(self, name, rate, order):
+        """`corrected`, by way of the order that is asked first and kept: a higher one goes on from there."""
+        if order < FIRST_ORDERS[name]:
+            return corrected(self.algebra, rate, order)
+        if name not in self._kept:
+            self._kept[name] = corrected(self.algebra, rate, FIRST_ORDERS[name])
+        kept = self._kept[name]
+        return kept if order == FIRST_ORDERS[name] else corrected(self.algebra, kept.rate, order, kept.added)
 
     def _pq(self, x):
         return self.a3 * x + self.c, self.a2 * x + self.c
