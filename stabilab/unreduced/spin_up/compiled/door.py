@@ -10,7 +10,7 @@ from ..certificate import Certifier, Found
 from ..fixed_centre import BLUR
 from . import kernel, lanes, moving_kernel
 
-INLINED = {kernel: {"put", "columns", "total", "falling", "power_of", "value_of", "blurred", "search"}, moving_kernel: {"greatest"}}
+INLINED = {kernel: {"put", "columns", "total", "falling", "value_of", "blurred", "search"}, moving_kernel: {"greatest"}}
 
 
 @lru_cache(maxsize=3)

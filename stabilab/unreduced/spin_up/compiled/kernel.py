@@ -104,30 +104,24 @@ def columns(table, wide, A, row):
         store(row, c, result)
 
 
-def total(table, wide, first, A, z, shift, row):
-    """Sum of table[d, n - first] A^d z^(1 - n - shift)."""
+def total(table, wide, first, A, over, shift, row):
+    """Sum of table[d, n - first] A^d z^(1 - n - shift), over = 1/z."""
     columns(table, wide, A, row)
-    return falling(row, wide, z, power_of(z, 1 - shift - first))
+    return falling(row, wide, over, first + shift - 1)
 
 
-def falling(row, wide, z, power):
-    """Sum of row[n] power z^-n: eight at once, by pairs, so that no product waits for more than three others."""
-    result, over = 0.0, 1 / z
+def falling(row, wide, over, first):
+    """Sum of row[n] over^(first + n): eight at once, by pairs, so that no product waits for more than three others."""
+    result = 0.0
     second = over * over
     fourth = second * second
     for c in range(wide - 1, -1, -1):
         low = (row[c, 0] + row[c, 1] * over) + (row[c, 2] + row[c, 3] * over) * second
         high = (row[c, 4] + row[c, 5] * over) + (row[c, 6] + row[c, 7] * over) * second
         result = result * (fourth * fourth) + (low + high * fourth)
-    return result * power
-
-
-def power_of(z, n):
-    """z^n, n whole."""
-    base, result = z if n >= 0 else 1 / z, 1.0
-    for _ in range(abs(n)):
-        result *= base
-    return result
+    for _ in range(first):
+        result *= over
+    return result / over if first < 0 else result  # -1 at the least
 
 
 def value_of(weights, real, imaginary, wide, first, zeta, x, powers, row):
@@ -142,19 +136,20 @@ def value_of(weights, real, imaginary, wide, first, zeta, x, powers, row):
             result = fused(load(real, m * wide + c), spread(factor.real), result)
             result = fused(load(imaginary, m * wide + c), spread(-factor.imag), result)
         store(row, c, result)
-    return falling(row, wide, x, power_of(x, 1 - first))
+    return falling(row, wide, 1 / x, first - 1)
 
 
 def blurred(weights, real, imaginary, sums, majorant, wide, first, zeta, size, x, low, dx, powers, row):
     """(value, blur) of a quantity at a place known within dx and within size - |zeta|."""
     value = value_of(weights, real, imaginary, wide, first, zeta, x, powers, row)
-    inner = total(sums, wide, first, abs(zeta), low, 0, row)
-    most = total(sums, wide, first, size, low, 0, row)
+    over = 1 / low
+    inner = total(sums, wide, first, abs(zeta), over, 0, row)
+    most = total(sums, wide, first, size, over, 0, row)
     for c in range(wide):
         for n in range(8):
             row[c, n] *= abs(8 * c + n + first - 1.0)
-    moved = falling(row, wide, low, power_of(low, -first)) * dx
-    return value, (most - inner) + moved * (1 + SLACK) + SLACK * most + COEFFICIENT * total(majorant, wide, first, size, low, 0, row)
+    moved = falling(row, wide, over, first) * dx
+    return value, (most - inner) + moved * (1 + SLACK) + SLACK * most + COEFFICIENT * total(majorant, wide, first, size, over, 0, row)
 
 
 def parts(c, weights, real, imaginary):
@@ -182,37 +177,39 @@ def search(x, zeta, dx, dz, D1, M1, drag, weights_e, real_e, imaginary_e, weight
     first_e, first_b, first_r, first_k = spans[0, 0], spans[0, 1], spans[0, 2], spans[0, 3]
     wide_e, wide_b, wide_r, wide_k = spans[1, 0], spans[1, 1], spans[1, 2], spans[1, 3]
     size = abs(zeta) * (1 + SLACK) + dz
-    if not total(k_sums, wide_k, first_k, size, low, 1, row) < M1 + min(0.0, drag) / low:
+    if not total(k_sums, wide_k, first_k, size, 1 / low, 1, row) < M1 + min(0.0, drag) / low:
         return False  # necessary, for k grows with A and as z falls: nothing else need be looked at
     value, blur = blurred(weights_e, real_e, imaginary_e, e_sums, e_most, wide_e, first_e, zeta, size, x, low, dx, powers, row)
     energy, energy_up = value - blur, value + blur
-    value, blur = blurred(weights_b, real_b, imaginary_b, b_sums, b_most, wide_b, first_b, zeta, size, x, low, dx, powers, row)
-    mean = drag / M1
-    weight = 1 + mean / x + abs(mean) * (dx / (low * low) + BLUR / x) + BLUR
-    amplitude = weight * size * size * (1 + SLACK) + value + blur
-    A, z, growth = size * GROWTH, low / GROWTH, 1e-6
-    for _ in range(PASSES):
+    A, z, growth, amplitude = size * GROWTH, low / GROWTH, 1e-6, 0.0
+    for number in range(PASSES):
         step = min(1e-2, growth)
         growth *= 4
         columns(e_sums, wide_e, A, kept)
         for _ in range(2):
-            need = max(falling(kept, wide_e, z, power_of(z, 1 - first_e)) - energy, 0.0) * (GROWTH + step) + 1e-7 * low * low
+            need = max(falling(kept, wide_e, 1 / z, first_e - 1) - energy, 0.0) * (GROWTH + step) + 1e-7 * low * low
             z = low - 2 * need / (D1 * (low + (z if z > 0 else low)))
             if not z > 0:
                 z = low
         if not z < low:
             return False
-        k = total(k_sums, wide_k, first_k, A, z, 1, row)
+        over = 1 / z
+        k = total(k_sums, wide_k, first_k, A, over, 1, row)
         eta = M1 + min(0.0, drag) / z - k - SLACK * (M1 + k)
         least = 1 + min(0.0, drag) / (M1 * z) - SLACK
         if not (eta > 0 and least > 0):
             return False
-        F = amplitude + total(b_sums, wide_b, first_b, A, z, 0, row) + total(r_tails, wide_r, first_r, A, z, -1, row) * D1 / eta
+        if number == 0:  # its value costs most, and half of the searches end before
+            value, blur = blurred(weights_b, real_b, imaginary_b, b_sums, b_most, wide_b, first_b, zeta, size, x, low, dx, powers, row)
+            mean = drag / M1
+            weight = 1 + mean / x + abs(mean) * (dx / (low * low) + BLUR / x) + BLUR
+            amplitude = weight * size * size * (1 + SLACK) + value + blur
+        F = amplitude + total(b_sums, wide_b, first_b, A, over, 0, row) + total(r_tails, wide_r, first_r, A, over, -1, row) * D1 / eta
         F /= least
         if not F < 1e100:
             return False
         if F * (1 + SLACK) < A * A and size < A:
-            e = falling(kept, wide_e, z, power_of(z, 1 - first_e))
+            e = falling(kept, wide_e, over, first_e - 1)
             gained = D1 * (low - z) * (low + z) / 2
             if gained * (1 - SLACK) - SLACK * D1 * low * low * 2.0**-8 > e - energy:
                 out[0], out[1], out[2], out[5] = A, z * (1 - SLACK), eta, k
