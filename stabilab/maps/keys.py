@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from difflib import get_close_matches
+from difflib import SequenceMatcher, get_close_matches
 from typing import Any, NamedTuple
 
 from ..case.sweep import SWEPT
@@ -91,12 +91,14 @@ def _both_sides(data: dict[str, Any], path: tuple[Any, ...]) -> tuple[tuple[Any,
 def _near(asked: str, known: dict[str, Key]) -> str:
     tails = {name.rpartition(".")[2].lower(): name for name in known}
     words = asked[:80].lower()
-    near = _closest(words, {name.lower(): name for name in known}) or _closest(words.rpartition(".")[2], tails) or _closest(words, tails)
+    found = [_closest(words, {name.lower(): name for name in known}), _closest(words.rpartition(".")[2], tails), _closest(words, tails)]
+    _, near = max((one for one in found if one), key=lambda one: one[0], default=(0, None))
     return f"; did you mean {printable(near)}?" if near else f"; it has {_listed(list(known))}" if known else "; it has none that may vary"
 
 
-def _closest(asked: str, names: dict[str, str]) -> str | None:
-    return next((names[found] for found in get_close_matches(asked, names, n=1, cutoff=0.6)), None)
+def _closest(asked: str, names: dict[str, str]) -> tuple[float, str] | None:
+    """(how near, the name) of the nearest; None where none is near."""
+    return next(((SequenceMatcher(None, asked, found).ratio(), names[found]) for found in get_close_matches(asked, names, n=1, cutoff=0.6)), None)
 
 
 def _listed(names: list[str]) -> str:

@@ -56,6 +56,8 @@ def test_names_and_truths_are_no_numbers():
 
 @pytest.mark.parametrize("asked, words", [("momentum", "may be wheels.W1.momentum, wheels.W2.momentum"), ("torque", "vary one of them, effects"),
                                           ("wheels.W3.momentum", "did you mean wheels.W"), ("torqe[3]", "did you mean effects.constant_torque.torque[3]?"),
+                                          ("momentun", "did you mean wheels.W"), ("torqeu[3]", "did you mean effects.constant_torque.torque[3]?"),
+                                          ("inertai[3][3]", "did you mean body.inertia[3][3]?"),
                                           ("TORQUE[3]", "did you mean effects.constant_torque.torque[3]?"),
                                           ("torque.3", "did you mean effects.constant_torque.torque[")])
 def test_what_is_no_one_number_is_told_with_what_is_near(asked, words):

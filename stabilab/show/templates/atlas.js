@@ -99,13 +99,22 @@ function atlasView(canvas, data, say) {
   const named = () => data.named.filter(one => one.wheel === state.wheel);
   function points() {
     pen.font = "bold 15px sans-serif"; pen.lineWidth = 3; pen.lineJoin = "round";
+    const taken = [];  // boxes of names: two directions may be one, or beside each other
     for (const one of named()) {
       const at = pixelOf(one.direction);
       if (!at) continue;
       pen.beginPath(); pen.arc(...at, one.axis ? 4.5 : 6.5, 0, 7); pen.fillStyle = one.axis ? "#fff" : "#ffd54a"; pen.fill();
       pen.strokeStyle = "#000"; pen.lineWidth = 1.3; pen.stroke();
-      const right = at[0] < 0.86 * width(); pen.textAlign = right ? "left" : "right"; pen.lineWidth = 3; pen.strokeStyle = "#fff";
-      pen.strokeText(one.name, at[0] + (right ? 9 : -9), at[1] - 6); pen.fillStyle = "#000"; pen.fillText(one.name, at[0] + (right ? 9 : -9), at[1] - 6);
+      const right = at[0] < 0.86 * width(), wide = pen.measureText(one.name).width;
+      const boxes = [[right, -6], [right, 18], [!right, -6], [!right, 18]].map(([side, down]) => {
+        const left = at[0] + (side ? 9 : -9 - wide);
+        return {side, x: at[0] + (side ? 9 : -9), y: at[1] + down, box: [left, left + wide, at[1] + down - 13, at[1] + down + 3]};
+      });
+      const free = box => !taken.some(other => box[0] < other[1] && other[0] < box[1] && box[2] < other[3] && other[2] < box[3]);
+      const chosen = boxes.find(place => free(place.box)) || boxes[0];
+      taken.push(chosen.box);
+      pen.textAlign = chosen.side ? "left" : "right"; pen.lineWidth = 3; pen.strokeStyle = "#fff";
+      pen.strokeText(one.name, chosen.x, chosen.y); pen.fillStyle = "#000"; pen.fillText(one.name, chosen.x, chosen.y);
     }
   }
 

@@ -94,6 +94,8 @@ def _points(ax: Any, atlas: Atlas, wheel: int, plain: bool) -> None:
     from matplotlib.patheffects import withStroke
     halo = [withStroke(linewidth=2.4, foreground="white")]
     here = [n for n, point in enumerate(atlas.named) if point.wheel == wheel]
+    size, taken = 8 if plain else 9, []
+    scale = ax.figure.get_figwidth() * 72 * 0.9 / (ax.get_subplotspec().get_gridspec().ncols * 2.08 * flat.ACROSS)  # points of a unit of the sheet, roughly
     for n, place in zip(here, flat.on_sheet(atlas.named_directions[here])):
         point = atlas.named[n]
         on_axis = point.level == AXES
@@ -101,9 +103,16 @@ def _points(ax: Any, atlas: Atlas, wheel: int, plain: bool) -> None:
                 linestyle="none", clip_on=False, zorder=3)
         pole = on_axis and point.number >= 4  # its name stands left of it: thrusters have theirs on the right
         right = place[0] <= flat.ACROSS * 0.75 and not pole
-        offset = (5 if right else -5, 3) if place[1] > -flat.UP * 0.98 else (5 if right else -5, -9)
-        ax.annotate(_label(atlas, point, plain), place, offset, textcoords="offset points", fontsize=8 if plain else 9, path_effects=halo, zorder=4,
-                    ha="left" if right else "right", fontweight="normal" if on_axis else "bold")
+        label = _label(atlas, point, plain)
+        at, wide = place * scale, 0.62 * size * len(label)
+        for side, up in ((right, 3 if place[1] > -flat.UP * 0.98 else -9), (right, -11), (not right, 3), (not right, -11)):
+            left = at[0] + (5 if side else -5 - wide)
+            box = (left, left + wide, at[1] + up, at[1] + up + size)
+            if not any(box[0] < b and a < box[1] and box[2] < d and c < box[3] for a, b, c, d in taken):
+                break
+        taken.append(box)
+        ax.annotate(label, place, (5 if side else -5, up), textcoords="offset points", fontsize=size, path_effects=halo, zorder=4,
+                    ha="left" if side else "right", fontweight="normal" if on_axis else "bold")
 
 
 def _label(atlas: Atlas, point: Any, plain: bool) -> str:

@@ -49,6 +49,17 @@ def test_the_first_line_has_shares_of_the_sphere_and_the_shortest_time(found):
     assert any(line.startswith("  wheel 0.2 N m s: ") for line in rest) and any("thruster A <1>, direction (0, -1, 0)" in line for line in rest)
 
 
+def test_names_of_directions_that_are_one_stand_apart():
+    """The torque of the case lies on axis 2 here: its name stood over that of the axis."""
+    import matplotlib.pyplot as plt
+    with drawn(asked(case_of(torque=(0.0, 1.0, 0.0)), level=0, refine=0), workers=1) as atlas:
+        figure = picture.drawn(atlas, DEG, ("fate",), None, plt)
+    figure.canvas.draw()
+    boxes = [label.get_window_extent() for label in figure.axes[0].texts]
+    plt.close(figure)
+    assert len(boxes) == 7 and not [1 for n, box in enumerate(boxes) for other in boxes[:n] if box.overlaps(other)]
+
+
 def test_json_and_csv_hold_every_cell(found):
     told = json.loads(words.json(found, DEG))
     assert told["schema"] == "stabilab.atlas/1" and len(told["cells"]["share"]) == len(found.records) == len(told["cells"]["direction"])
