@@ -1,11 +1,17 @@
 """What all tests share: hypothesis that draws the same examples every time, no picture left open, and the commands run in this process."""
+import atexit
+import os
+import shutil
 import sys
+import tempfile
 
 import pytest
 from hypothesis import settings
 
 from stabilab import cli
 
+os.environ["XDG_CACHE_HOME"] = tempfile.mkdtemp()  # nothing that a run left is an answer of the next one
+atexit.register(shutil.rmtree, os.environ["XDG_CACHE_HOME"], ignore_errors=True)
 settings.register_profile("same", derandomize=True, deadline=None)
 settings.load_profile("same")
 

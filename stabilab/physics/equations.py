@@ -7,14 +7,16 @@ Everything here is a SymPy value; numbers enter at `to_numpy`.
 """
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property, lru_cache, reduce
+from pathlib import Path
 from typing import Any, TypeAlias
 
 from ..asked import checked_scene
 from ..errors import InputError
+from ..kept import kept
 from ..numbers.exact import exact
 from ..numbers.vectors import Number, Triple, cross, dot
 from .blocks import BLOCKS, ordered
@@ -42,6 +44,7 @@ class Equations:
     in order of declaration, but for those that are zero, which are nowhere in the equations; symbols: name -> symbol, same order;
     rhs: rates of the state, 1/s of it (1/tau when scaled); torques: name -> triple,
     the parts of inertia * rhs (body frame, N m); inertia: the factors of the rates on the left; energy: kinetic energy; balances: the laws.
+    content: what they were derived from, in words, where what is made of them may be kept on disk; a changed copy has none.
     """
 
     variables: str
@@ -54,6 +57,7 @@ class Equations:
     energy: Symbolic
     balances: tuple[Balance, ...]
     blocks: tuple[str, ...] = ("omega",)
+    content: str = field(default="", init=False)
 
     @cached_property
     def jacobian(self) -> Symbolic:
@@ -117,8 +121,23 @@ def add_terms(u: Iterable[Number], v: Iterable[Number]) -> Triple:
     return tuple(p + q for p, q in zip(u, v))
 
 
-@lru_cache(maxsize=32)  # one answer asks for the same equations several times, and a liquid takes a second
+@lru_cache(maxsize=32)  # one answer asks for the same equations several times
 def _physical(scene: Scene, names: tuple[str, ...]) -> Equations:
+    content = f"{scene!r} {names!r}"
+    if any(type(effect).__module__.partition(".")[0] != __package__.partition(".")[0] for effect in scene.effects):
+        return _derived(scene, names)  # a user's own effect may change without a word
+    equations: Equations = kept_of_symbols("equations", content, lambda: _derived(scene, names))
+    object.__setattr__(equations, "content", content)
+    return equations
+
+
+def kept_of_symbols(kind: str, content: str, make: Callable[[], Any]) -> Any:
+    """What `make` returns, made of SymPy's values, from the disk where it is there."""
+    from sympy import __version__
+    return kept(kind, content, Path(__file__).parent, (__version__,), make, ("sympy.", "fractions.", f"{__package__}."))
+
+
+def _derived(scene: Scene, names: tuple[str, ...]) -> Equations:
     from sympy import Integer
     blocks = {name: tuple(_symbols(BLOCKS[name].components).values()) for name in names}
     parameters = dict(zip(("D1", "D2", "D3"), scene.body.exact))

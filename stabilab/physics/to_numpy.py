@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from ..errors import InputError
-from .equations import Equations, Symbolic, derive, values
+from .equations import Equations, Symbolic, derive, kept_of_symbols, values
 from .scene import AnyScene
 
 if TYPE_CHECKING:
@@ -120,22 +120,27 @@ class System:
     @cached_property
     def rhs(self) -> Form:
         """Rates of the state."""
-        return form(self.equations, self.equations.rhs)
+        return self._formed("rhs", lambda: self.equations.rhs)
 
     @cached_property
     def entries(self) -> Form:
         """The Jacobian's, row by row."""
-        return form(self.equations, list(self.equations.jacobian))
+        return self._formed("entries", lambda: self.equations.jacobian)
 
     @cached_property
     def quantities(self) -> Form:
         """The laws', up to additive constants."""
-        return form(self.equations, [law.quantity for law in self.equations.balances], drop_constants=True)
+        return self._formed("quantities", lambda: [law.quantity for law in self.equations.balances], drop_constants=True)
 
     @cached_property
     def rates(self) -> Form:
         """Those of the laws' quantities."""
-        return form(self.equations, [law.rate for law in self.equations.balances])
+        return self._formed("rates", lambda: [law.rate for law in self.equations.balances])
+
+    def _formed(self, name: str, expressions: Callable[[], Iterable[Symbolic]], drop_constants: bool = False) -> Form:
+        """A part, from the disk where the equations may be kept there."""
+        equations, make = self.equations, lambda: form(self.equations, expressions(), drop_constants)
+        return kept_of_symbols("forms", f"{equations.content} {name}", make) if equations.content else make()
 
     def __call__(self, x: ArrayLike) -> np.ndarray:
         """Rates of the states x: (..., 3) -> (..., 3)."""

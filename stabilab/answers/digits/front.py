@@ -3,12 +3,12 @@ from __future__ import annotations
 
 import json
 import os
-import sys
 from dataclasses import asdict, dataclass
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
+from ...kept import cache_folder
 from ...machine import machine, versions
 
 CACHE_SCHEMA = "stabilab.front/1"
@@ -43,7 +43,10 @@ def keep(measured: Any) -> Path | None:
     where a part of the span was not judged or the folder cannot be written."""
     if measured.reference.status != "agrees":
         return None
-    path = _file(measured.case)
+    try:
+        path = _file(measured.case)
+    except OSError:
+        return None
     if measured.quick and front(measured.case):
         return path
     points = [asdict(FrontPoint(p.method, p.value, round(p.digits, 3), p.seconds)) for p in measured.front("span")]
@@ -59,19 +62,10 @@ def keep(measured: Any) -> Path | None:
     return path
 
 
-def cache_folder() -> Path:
-    """The user's cache folder of this program: XDG_CACHE_HOME where it is set, else the platform's place."""
-    given = os.environ.get("XDG_CACHE_HOME")
-    if given and Path(given).is_absolute():  # the XDG rule: relative paths are to be ignored
-        return Path(given) / "stabilab"
-    if sys.platform == "darwin":
-        return Path.home() / "Library" / "Caches" / "stabilab"
-    if sys.platform == "win32":
-        return Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData" / "Local") / "stabilab" / "Cache"
-    return Path.home() / ".cache" / "stabilab"
-
-
 def _file(case: Any) -> Path:
-    """One file per motion: the scene's numbers, the start and the span, whatever the case file is called."""
+    """One file per motion: the scene's numbers, the start and the span, whatever the case file is called. OSError where nothing is to be kept."""
+    folder = cache_folder()
+    if folder is None:
+        raise FileNotFoundError("STABILAB_CACHE is off")
     key = repr((case.scene, case.state, case.span, sorted(case.blocks.items())))
-    return cache_folder() / "precision" / f"{sha256(key.encode()).hexdigest()[:24]}.json"
+    return folder / "precision" / f"{sha256(key.encode()).hexdigest()[:24]}.json"
