@@ -12,6 +12,7 @@ import pytest
 import stabilab
 from stabilab.answers.digits.run import best_reached
 from stabilab.answers.simulate import simulate
+from stabilab.commands import accuracy
 from stabilab.physics.body import Body
 from stabilab.physics.coefficients import content, liquid_torque
 from stabilab.physics.effects.body_force import BodyForce
@@ -175,9 +176,29 @@ def test_exact_laws_have_none():
 
 # -- commands ------------------------------------------------------------------------------------------------------------------
 
+@pytest.fixture(scope="module")
+def measured():
+    """What was measured, by scene, effort and end."""
+    return {}
+
+
+@pytest.fixture
+def measured_once(measured, monkeypatch):
+    """The measurement of `precision` takes seconds of a liquid, in words as in JSON: each is made once."""
+    measure = accuracy.measure
+
+    def kept(case, effort, until=None):
+        key = repr(case.scene), effort, until
+        if key not in measured:
+            measured[key] = measure(case, effort, until)
+        return measured[key]
+    monkeypatch.setattr(accuracy, "measure", kept)
+
+
 COMMANDS = ["classify", "fate", "extremes", "period", "simulate --at 10", "precision --quick --until 2", "compare", "plot --out picture.png"]
 
 
+@pytest.mark.usefixtures("measured_once")
 @pytest.mark.parametrize("command", COMMANDS)
 def test_commands_say_first_that_a_liquid_is_too_thin_for_its_law(stabilab, tmp_path, monkeypatch, command):
     monkeypatch.chdir(tmp_path)
@@ -199,6 +220,7 @@ def test_commands_say_first_that_a_thick_liquid_is_within_its_law(stabilab, tmp_
     assert "within the law: liquid cavity: " in out.splitlines()[0]
 
 
+@pytest.mark.usefixtures("measured_once")
 @pytest.mark.parametrize("command", [c for c in COMMANDS if "plot" not in c])
 def test_json_carries_number_value_and_limit_and_strict_ends_with_3(stabilab, tmp_path, command):
     name, *more = command.split()

@@ -65,9 +65,10 @@ def onto_boundary(c, y, rng):
     return low
 
 
-def test_no_certificate_misfires_against_brute_force(brute):
+@pytest.mark.parametrize("count", [1000, pytest.param(3000, marks=pytest.mark.slow)])
+def test_no_certificate_misfires_against_brute_force(brute, count):
     fired = {"spin-up": 0, "well": 0}
-    for c, y in random_states(20240, 3000):
+    for c, y in random_states(20240, count):
         name = certificate(c, y)
         if name is None:
             continue
@@ -77,7 +78,7 @@ def test_no_certificate_misfires_against_brute_force(brute):
         turned_back = [t for t, index in hits if index == 0 and t > 0]
         crossed = [t for t, index in hits if index == 1 and t > 0]
         assert not (turned_back if name == "spin-up" else crossed), (c, y, name)
-    assert min(fired.values()) > 300
+    assert min(fired.values()) > count / 10
 
 
 def test_theory_well_condition_is_the_weaker_one():

@@ -98,8 +98,9 @@ def test_euler_is_written_alike_twice():
 
 
 @numba
-def test_no_random_scene_that_is_decided_is_contradicted_by_brute_force(brute):
-    assert checked(51, 30, brute, True) == (30, [])
+@pytest.mark.parametrize("count", [15, pytest.param(30, marks=pytest.mark.slow)])
+def test_no_random_scene_that_is_decided_is_contradicted_by_brute_force(brute, count):
+    assert checked(51, count, brute, True) == (count, [])
 
 
 @numba
