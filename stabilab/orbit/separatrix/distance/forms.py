@@ -129,11 +129,31 @@ def under(value, g1, g2, h11, h12, h22, d1, d2) -> float:
     a, b, most = a - ra, b - rb, rm * d1 * d2
     box = max(_crossed(g1, g2, a, b, m, d1, d2), _crossed(g2, g1, b, a, m, d2, d1)) - most
     if d1 > 0 and d2 > 0:
-        a, b = a - rm * d2 / d1, b - rm * d1 / d2
-        det = a * b - m * m
-        if a > 0 and det > 1e-9 * a * b:
-            box = max(box, -0.5 * (b * g1 * g1 - 2 * m * g1 * g2 + a * g2 * g2) / det)
+        box = max(box, _convex(g1, g2, a - rm * d2 / d1, b - rm * d1 / d2, m, d1, d2))
     return value + box
+
+
+def _convex(g1, g2, a, b, m, d1, d2):
+    """The same of g.d + d.H.d/2 as a convex quadratic, made one where it is nearly one: where two nearest points merge, it bends by nothing one way."""
+    if not (a > 0 and b > 0):
+        return -math.inf
+    det, loss = a * b - m * m, 0.0
+    if not det > 1e-9 * a * b:
+        more = abs(m) / math.sqrt(a * b) * (1 + 1e-8) - 1
+        if more > 0.25:
+            return -math.inf
+        loss, a, b = 0.5 * more * (a * d1 * d1 + b * d2 * d2), a * (1 + more), b * (1 + more)
+        det = a * b - m * m
+    t, y = (m * g2 - b * g1) / det, (m * g1 - a * g2) / det
+    if abs(t) <= d1 and abs(y) <= d2:
+        return -0.5 * (b * g1 * g1 - 2 * m * g1 * g2 + a * g2 * g2) / det - loss
+    # the least is on an edge; from a place near it, by the tangent plane there, which a convex function stays above
+    best = -math.inf
+    t, y = math.copysign(d1, t), math.copysign(d2, y)
+    for s, z in ((t, min(max(-(g2 + m * t) / b, -d2), d2)), (min(max(-(g1 + m * y) / a, -d1), d1), y)):
+        u, v = g1 + a * s + m * z, g2 + m * s + b * z
+        best = max(best, 0.5 * ((g1 + u) * s + (g2 + v) * z) - u * s - v * z - abs(u) * d1 - abs(v) * d2)
+    return best - loss
 
 
 def _crossed(g1, g2, a, b, m, d1, d2):

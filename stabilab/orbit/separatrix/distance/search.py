@@ -194,9 +194,9 @@ class _Search:
         if self._far_reaching(box):
             along, across = (abs(s) * d + 0.5 * (abs(m) + n) * d * d for s, (m, n), d in ((p.phi_t, box.f[0], dt), (p.phi_y, box.f[2], dy)))
             return 0 if along >= across else 1
-        if not flat:
+        if not flat and self.w <= 2 * box.w_high:
             return form.way(dt, dy)
-        # this bound loses by the range of W as well: D changes by (W - w0)/W times phi
+        # this bound loses by the range of W as well: D changes by (W - w0)/W times phi, and where W stays far below the state's own that is most of it
         share = (abs(p.gap) + box.w_high - box.w_low) / (box.w_high + 1e-300)
         return form._replace(t=abs(p.apart_t) + share * abs(p.phi_t), y=abs(p.apart_y) + share * abs(p.phi_y), bends=[
             (abs(a[0]) + a[1] + share * (abs(b[0]) + b[1]), 0.0) for a, b in zip(box.r, box.f)]).way(dt, dy)
