@@ -330,3 +330,17 @@ def _conic_degenerates(reduction) -> bool:
     r = reduction
     across_j, across_k = r.across
     return across_j * across_k == r.kappa * r.torque
+
+
+def planes_touched(reduction) -> tuple[int, ...]:
+    """(+1 or -1) or (): the hyperbola of equilibria touches the invariant plane Z = -X or Z = X, exactly: (c + flip d)^2 = 4 flip (c d - G mu).
+
+    With cj, ck, T of `_conic_degenerates`, f the reflection and n = sqrt|p q| both sides without 2 flip c d are |p q| times
+    cj^2 |q| + ck^2 |p| and flip f sgn(p) n (2 cj ck - 4 kappa T).
+    """
+    r = reduction
+    (cj, ck), p, q = r.across, abs(r.p), abs(r.q)
+    left, right = cj * cj * q + ck * ck * p, 2 * cj * ck - 4 * r.kappa * r.torque
+    if not left or left * left != p * q * right * right:
+        return ()
+    return ((1 if right > 0 else -1) * (1 if r.p > 0 else -1) * (-1 if r.torque < 0 else 1),)

@@ -13,6 +13,7 @@ from fractions import Fraction
 from ....numbers.double_ball import Unclear
 from ....physics.alignment import aligned
 from ...ball_orbit import Orbit
+from ...fate.on_separatrix import on_separatrix
 from ...reduction import reduce
 from ..result import ENDED, NO_SEPARATRIX, UNKNOWN, Apart
 from .on_conics import on_conic
@@ -63,7 +64,10 @@ def distance_of(reduction, state, orbit: Orbit | None = None) -> Apart:
         return NO_SEPARATRIX
     state = tuple(v if isinstance(v, Fraction) else float(v) for v in state)
     try:
-        found = on_conic(reduction, state, orbit or Orbit(reduction, state)) if reduction.geometry.centred else on_parabolas(reduction, state)
+        orbit = orbit or Orbit(reduction, state)
+        if on_separatrix(orbit):
+            return Apart(0.0, 0.0, tuple(map(float, state)))
+        found = on_conic(reduction, state, orbit) if reduction.geometry.centred else on_parabolas(reduction, state)
     except (Unclear, ArithmeticError, ValueError):  # a logarithm of what has vanished in doubles is a ValueError
         return UNKNOWN
     if found.upper != found.upper or found.lower != found.lower:

@@ -101,8 +101,16 @@ class Hyperbola(_Remembered):
 
     def exact(self, t):
         """(x, z) of a saddle at t, or beside it, as Fractions; at the ends of the branch those of the ends."""
+        return self.place(self.h_at(t))
+
+    def h_at(self, t):
+        """h there."""
         h = self.ends[0] if t == self.low else self.ends[1] if t == self.high else short(abs(self.h0) * Fraction(math.exp(t)))
-        g, h = self.seen.exact, self.sign * Fraction(h)
+        return self.sign * Fraction(h)
+
+    def place(self, h):
+        """(x, z) of the saddle at h, as Fractions."""
+        g = self.seen.exact
         return (self.K / h - g["c"]) / g["G"], h - self.shift
 
     def sharp(self, numbers, g, t):

@@ -18,9 +18,9 @@ from ...conic import conic_of
 from ...fate.balls import decide
 from ...potential import slope_at
 from ..result import NO_SEPARATRIX, Apart
+from .charts.long_loops import loops_of, planes_met
+from .charts.loop_chart import Chart
 from .curves import Hyperbola, Straight
-from .long_loops import loops_of, planes_met
-from .loop_chart import Chart
 from .point import UNIT, Seen
 from .search import nearest
 from .shade import Shade
@@ -36,6 +36,8 @@ def on_conic(reduction, state, orbit) -> Apart:
     start = min([_first(seen, arc, shade) for arc in arcs] + way.flat(seen, reduction.sense, arcs), key=lambda one: one[0], default=None)
     if start is None:
         return NO_SEPARATRIX
+    if start[0] == 0:  # at the end of a branch
+        return Apart(0.0, 0.0, tuple(map(float, state)))
     charts = [chart for arc in arcs for chart in arc.charts(seen, reduction.sense, start[0])]
     found = nearest(charts, seen.plain["w"], start[0] * (1 + 1e-14) + 1e-300, genuine=shade, start=_on_chart(charts, *start[2:]))
     place = start[1] if found.chart is None else found.chart.place(found.t, found.y)

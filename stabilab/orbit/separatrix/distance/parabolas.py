@@ -15,11 +15,11 @@ from fractions import Fraction
 
 from ...potential import Parabola
 from ..result import NO_SEPARATRIX, Apart
-from .bends import Span
-from .loop_chart import Chart
+from .charts.bends import Span
+from .charts.loop_chart import Chart
+from .charts.sharp import parabola_place
 from .point import UNIT, Point, gap_of, seen_as, square_of
 from .search import nearest
-from .sharp import parabola_place
 
 
 class ParabolaChart(Chart):

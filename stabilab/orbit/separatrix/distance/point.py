@@ -4,6 +4,8 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Any, NamedTuple
 
+from ...conic import planes_touched
+
 EPS = 2.0**-52
 ROUNDINGS = 48  # units in the last place of the largest terms that a value at a point is off by at most
 UNIT = ROUNDINGS * EPS
@@ -49,6 +51,7 @@ class Seen(NamedTuple):
     exact: dict
     balls: Constants
     plain: dict
+    touched: tuple = ()  # +1, -1: the hyperbola of equilibria touches a plane Z = -X, Z = X
 
     @property
     def e(self) -> int:
@@ -61,11 +64,11 @@ class Seen(NamedTuple):
         u, v, speed = (Fraction(state[axis]) for axis in (r.j, r.k, r.axis))
         x, z, w = g["flip"] * (u + g["sj"]) / g["rx"], (v + g["sk"]) / g["rz"], g["n"] * (speed + r.s)
         return seen_as(reduction.geometry, {"G": g["G"], "c": g["c"], "d": g["d"], "mu": g["mu"], "n2": g["n"] ** 2, "a": g["rx"] ** 2,
-                                            "b": g["rz"] ** 2, "X": x, "Z": z, "w": abs(w) / g["n"]})
+                                            "b": g["rz"] ** 2, "X": x, "Z": z, "w": abs(w) / g["n"]}, planes_touched(r))
 
 
-def seen_as(geometry, exact) -> Seen:
-    return Seen(geometry, exact, Constants(exact), {name: float(value) for name, value in exact.items()})
+def seen_as(geometry, exact, touched=()) -> Seen:
+    return Seen(geometry, exact, Constants(exact), {name: float(value) for name, value in exact.items()}, touched)
 
 
 def gap_of(phi, off_phi, w0):

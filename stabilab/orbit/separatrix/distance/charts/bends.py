@@ -4,8 +4,10 @@ Those of a loop chart are written out, as sums of sizes without differences of n
 """
 from __future__ import annotations
 
-from ...potential import slope_at
-from .curves import ROUNDING
+import math
+
+from ....potential import slope_at
+from ..curves import ROUNDING
 
 MORE = 2.0**-40  # of a middle: what the rounding of a dozen operations stays far below
 OUTWARD = 1 + 1e-9  # on radii, for their own rounding
@@ -52,6 +54,12 @@ class Span:
 
     def pair(self):
         return self.m, self.r * (1 + 1e-9)
+
+
+def shrinking(y, dy):
+    """e^-y over a span."""
+    base = math.exp(-y)
+    return Span(base * math.cosh(dy), base * math.sinh(dy)) if dy < 600 else Span(0.5 * math.exp(dy - y), 0.5 * math.exp(dy - y))
 
 
 def loop_bends(seen, curve, t, dt, y, dy):

@@ -13,9 +13,9 @@ from __future__ import annotations
 
 import math
 
-from ...potential import force_at
+from ....potential import force_at
+from ..point import UNIT, Point, gap_of, square_of
 from .bends import loop_bends
-from .point import UNIT, Point, gap_of, square_of
 from .sharp import loop_place, sharp_place, sharp_point
 
 

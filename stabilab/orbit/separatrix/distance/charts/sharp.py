@@ -8,9 +8,9 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from ....numbers.balls import working
-from ...potential import force_at
-from .point import EPS, Point
+from .....numbers.balls import working
+from ....potential import force_at
+from ..point import EPS, Point
 
 BITS, MOST_BITS = 256, 4096
 TIGHT = 2.0**-60  # relative: a ball as narrow is a double
@@ -94,10 +94,10 @@ def far_place(numbers, g, reach, flip, t, y) -> Place:
         E1 = numbers.ball(reach.exact[2])
         E = E0 + E1 * (r - r0)
     else:
-        rate0 = G * E0 / 2 - e2
+        rate0 = G * E0 / 2 - e2 if reach.tube is None else G * 0
         lift = (r - r0) * (G * (r + r0) / 4 + e1)
         square = rate0 * rate0 + G * lift
-        rate = square.sqrt() if rate0 > 0 else -square.sqrt()
+        rate = square.sqrt() if reach.rising > 0 else -square.sqrt()
         E, E1 = E0 + 2 * lift / (rate + rate0), (G * r / 2 + e1) / rate
     eta = E * less
     eta_t, eta_y = E1 * less * less, -(E + r * E1) * less
@@ -109,17 +109,41 @@ def far_place(numbers, g, reach, flip, t, y) -> Place:
                  phi, k * (pull_xi + pull_eta * eta_t - own * less), k * (mu + pull_eta * eta_y + own * r))
 
 
-def turn_place(g, flip, saddle, t) -> Place:
-    """On a hyperbola's loops by xi and the saddle (x, z, x_t, z_t)."""
+def turn_place(numbers, g, places, flip, t, y) -> Place:
+    """On a hyperbola's loops by xi and the saddle, about the place where xi of these is stationary; places: (H, s0, r0) of `turn_chart`."""
+    H, s0, r0 = map(numbers.ball, places)
     G, mu, d, k = g["G"], flip * g["mu"], flip * g["d"], 2 / g["n2"]
     e1, e2, xi = (g["c"] + d) / 2, (d - g["c"]) / 2, g["X"] + flip * g["Z"] + t
-    x, z, x1, z1 = saddle
-    r, E, r1, E1 = x + flip * z, x - flip * z, x1 + flip * z1, x1 - flip * z1
+    s = s0 + y
+    q = (1 + s * s / 4).sqrt()
+    r, E, r1, E1 = r0 + H * y * (2 * s0 + y), 2 * e2 / G - 2 * H * s * q, 2 * H * s, -2 * H * (1 + s * s / 2) / q
     eta, eta_t, eta_y = r * E / xi, -r * E / (xi * xi), (r1 * E + r * E1) / xi
     gap, pull = eta - (g["X"] - flip * g["Z"]), G * eta / 4 - e2
     phi = k * (mu * (xi / r).log() + xi * (G * xi / 8 + e1) + eta * (G * eta / 8 - e2) - r * (G * r / 8 + e1) - E * (G * E / 8 - e2))
     return Place((t + gap) / 2, flip * (t - gap) / 2, (1 + eta_t) / 2, eta_y / 2, flip * (1 - eta_t) / 2, -flip * eta_y / 2, phi,
                  k * (mu / xi + G * xi / 4 + e1 + pull * eta_t), k * (pull * eta_y - mu * r1 / r - (G * r / 4 + e1) * r1 - (G * E / 4 - e2) * E1))
+
+
+def root_place(numbers, g, places, flip, t, y) -> Place:
+    """On a hyperbola's loops about the place where xi is stationary; places: (H, s0, r0) of `turn_chart`."""
+    H, s0, r0 = map(numbers.ball, places)
+    G, mu, d, k = g["G"], flip * g["mu"], flip * g["d"], 2 / g["n2"]
+    e1, e2 = (g["c"] + d) / 2, (d - g["c"]) / 2
+    half = (-y / 2).exp()
+    less, step, root = half * half, t * half, s0 / half if places[1] else t * 0
+    s, grown = s0 + step, r0 / less if places[2] else t * 0
+    q = (1 + s * s / 4).sqrt()
+    first = -2 * H * (1 + s * s / 2) / q
+    xi, xi_t, xi_y = grown + H * t * (2 * root + t), 2 * H * (root + t), grown + H * root * t
+    r, r_t, r_y = r0 + H * step * (2 * s0 + step), 2 * H * s * half, -H * s * step
+    E, E_t, E_y = 2 * e2 / G - 2 * H * s * q, first * half, -first * step / 2
+    eta, eta_t, eta_y = E * less, E_t * less, (E_y - E) * less
+    P, Q = xi - (g["X"] + flip * g["Z"]), eta - (g["X"] - flip * g["Z"])
+    phi = (mu * y + xi * (G * xi / 8 + e1) + eta * (G * eta / 8 - e2) - r * (G * r / 8 + e1) - E * (G * E / 8 - e2))
+    pulls = G * xi / 4 + e1, G * eta / 4 - e2, -(G * r / 4 + e1), -(G * E / 4 - e2)
+    phi_t, phi_y = (sum(p * n for p, n in zip(pulls, slopes)) for slopes in ((xi_t, eta_t, r_t, E_t), (xi_y, eta_y, r_y, E_y)))
+    return Place((P + Q) / 2, flip * (P - Q) / 2, (xi_t + eta_t) / 2, (xi_y + eta_y) / 2, flip * (xi_t - eta_t) / 2, flip * (xi_y - eta_y) / 2,
+                 k * phi, k * phi_t, k * (phi_y + mu))
 
 
 def parabola_place(g, t, y) -> Place:

@@ -1,7 +1,7 @@
 """Long loops beside the saddle of a hyperbola's branch at which xi is stationary, by xi and the place on the branch.
 
-There neither is the place told by xi nor does the place alone tell a loop's far points well. With r(t), E(t) the xi and eta of the saddles, the loop
-of t passes xi after the way y = log(xi/r), at eta = r E/xi, and
+There neither is the place told by xi nor does the place alone tell a loop's far points well. With r(s), E(s) the xi and eta of the saddles (`turn`), the
+loop of s passes xi after the way y = log(xi/r), at eta = r E/xi, and
 
     n^2 W^2/2 = mu log(xi/r) + u(xi, eta) - u(r, E),  u = G (xi^2 + eta^2)/8 + e1 xi - e2 eta.
 """
@@ -9,22 +9,28 @@ from __future__ import annotations
 
 import math
 
+from ..point import UNIT, Point, gap_of, square_of
 from .bends import Span
 from .loop_chart import Chart
-from .point import UNIT, Point, gap_of, square_of
 from .sharp import turn_place
+from .turn import eta_over
 
 
 class TurnChart(Chart):
-    """xi (less the state's) as t and the place on the branch as y; flip: -1 in the mirror image, where eta takes the place of xi."""
+    """xi (less the state's) as t and s, less s0, as y; flip: -1 in the mirror image, where eta takes the place of xi."""
 
     from_saddle = False
 
-    def __init__(self, seen, curve, flip, y):
-        super().__init__(seen, curve, (0.0, 0.0), y)
+    def __init__(self, seen, turn, ends, flip):
+        """ends: the least and greatest s, and that which y is told from (Fractions)."""
+        low, high, s0 = ends
+        super().__init__(seen, None, (0.0, 0.0), (float(low - s0), float(high - s0)))
         g, exact = self.here, seen.exact
         self.flip, self.mu, d = flip, flip * g["mu"], flip * g["d"]
         self.e1, self.e2 = 0.5 * (g["c"] + d), 0.5 * (d - g["c"])
+        self.places = turn.H, s0, turn.r + turn.H * s0 * s0
+        self.H, self.s0, self.r0 = map(float, self.places)
+        self.E = float(turn.E)
         self.xi0, self.eta0 = float(exact["X"] + flip * exact["Z"]), float(exact["X"] - flip * exact["Z"])
 
     def over(self, low, high):
@@ -57,16 +63,17 @@ class TurnChart(Chart):
     def steep(self, t, dt, y, dy):
         return abs(self.xi0 + t) <= dt
 
-    def _branch(self, t, dt=0.0):
+    def _branch(self, y, dy=0.0):
         """Spans of r, E and their first and second derivatives."""
-        at, (x2, rx2, z2, rz2) = self.curve.at(t), self.curve.over(t, dt)[8:12]
-        out = []
-        for f in (self.flip, -self.flip):
-            most = abs(x2 + f * z2) + rx2 + rz2  # from the middle, as near the turn r changes by its second derivative alone
-            first = at.xt + f * at.zt
-            out.append((Span(at.x + f * at.z, (abs(first) + 0.5 * most * dt) * dt + 2.0**-46 * (at.sx + at.sz)), Span(first, most * dt),
-                        Span(x2 + f * z2, rx2 + rz2)))
-        return tuple(n for pair in zip(*out) for n in pair)
+        step, H = Span(y, dy), self.H
+        s = step + self.s0
+        E, E1, E2 = eta_over(H, self.E, s)
+        return H * (step * (step + 2 * self.s0)) + self.r0, E, (2 * H) * s, E1, Span(2 * H), E2
+
+    def _sizes(self, y):
+        """The sizes of the terms of r and E."""
+        far = abs(self.s0) + abs(y)
+        return abs(self.r0) + abs(self.H * y) * (abs(self.s0) + far), abs(self.E) + 4 * abs(self.H) * far * (1 + far)
 
     def place(self, t, y):
         r, E = (n.m for n in self._branch(y)[:2])
@@ -74,7 +81,7 @@ class TurnChart(Chart):
         return 0.5 * (t + gap), self.flip * 0.5 * (t - gap), math.sqrt(max(self.point(t, y).phi, 0.0))
 
     def point(self, t, y) -> Point:
-        g, xi, at = self.here, self.xi0 + t, self.curve.at(y)
+        g, xi, (thin, tall_E) = self.here, self.xi0 + t, self._sizes(y)
         G, e1, e2, k, a, b = g["G"], self.e1, self.e2, 2 / g["n2"], g["a"], g["b"]
         r, E, r1, E1 = (n.m for n in self._branch(y)[:4])
         eta, eta_t, eta_y = r * E / xi, -r * E / (xi * xi), (r1 * E + r * E1) / xi
@@ -84,23 +91,23 @@ class TurnChart(Chart):
         own = self.mu * r1 / r + (0.25 * G * r + e1) * r1 + (0.25 * G * E - e2) * E1
         phi = k * (self.mu * math.log(xi / r) + xi * (0.125 * G * xi + e1) + eta * (0.125 * G * eta - e2)
                    - r * (0.125 * G * r + e1) - E * (0.125 * G * E - e2))
-        most, size, G1, m1 = abs(self.xi0) + abs(t), at.sx + at.sz, abs(G), abs(self.mu)
-        steep, tall, turn = G1 * abs(xi) + abs(e1), G1 * size + abs(e2) + abs(e1), abs(at.xt) + abs(at.zt)
-        off_phi = k * UNIT * (m1 * (2 + abs(math.log(xi / r)) + most / abs(xi) + size / abs(r)) + most * steep + 4 * size * tall)
-        off_eta = UNIT * size * size * (1 + most / abs(xi)) / abs(xi)
+        most, size, G1, m1 = abs(self.xi0) + abs(t), thin + tall_E, abs(G), abs(self.mu)
+        steep, tall, turn = G1 * abs(xi) + abs(e1), G1 * size + abs(e2) + abs(e1), abs(r1) + abs(E1)
+        off_phi = k * UNIT * (m1 * (2 + abs(math.log(xi / r)) + most / abs(xi) + thin / abs(r)) + most * steep + 4 * size * tall)
+        off_eta = UNIT * thin * tall_E * (1 + most / abs(xi)) / abs(xi)
         off_u = UNIT * (abs(t) + abs(self.eta0)) + off_eta
         apart, off = square_of(u, v, off_u, off_u, a, b)
         gap, off_w = gap_of(phi, off_phi, g["w"])
-        wide, along = a * abs(u) + b * abs(v), 2 * turn * size / abs(xi)
+        wide, along = a * abs(u) + b * abs(v), 2 * (abs(r1) * tall_E + thin * abs(E1) + abs(self.H) * UNIT * tall_E) / abs(xi)
         rough = ((off_u * (a + b) + wide * UNIT) * (1 + abs(eta_t)) + wide * 4 * off_eta / abs(xi),
                  (off_u * (a + b) + wide * UNIT * (3 + most / abs(xi))) * along,
                  8 * k * (UNIT * (m1 / abs(xi) * (1 + most / abs(xi)) + G1 * most + abs(e1)) + (abs(pull_eta) + tall) * off_eta / abs(xi)),
-                 8 * k * UNIT * ((abs(pull_eta) + tall) * along * (2 + most / abs(xi)) + m1 * turn / abs(r) * (1 + size / abs(r)) + tall * turn))
+                 8 * k * UNIT * ((abs(pull_eta) + tall) * along * (2 + most / abs(xi)) + m1 * abs(r1 / r) * (1 + thin / abs(r)) + tall * turn))
         return Point(apart, a * u * (1 + eta_t) + b * v * (1 - eta_t), (a * u - b * v) * eta_y, phi,
                      k * (self.mu / xi + pull_xi + pull_eta * eta_t), k * (pull_eta * eta_y - own), gap, (off, off_phi, off_w), rough)
 
     def sharp(self, numbers, g, t, y):
-        return turn_place(g, self.flip, self.curve.sharp(numbers, g, y), t)
+        return turn_place(numbers, g, self.places, self.flip, t, y)
 
     def bends(self, t, dt, y, dy):
         g, xi = self.here, Span(self.xi0 + t, dt)

@@ -15,15 +15,58 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from .bends import Span
+from ..point import UNIT, Point, gap_of, square_of
+from .bends import Span, shrinking
 from .loop_chart import Chart, outside
-from .point import UNIT, Point, gap_of, square_of
 from .sharp import far_place
 
 
+class Tube(NamedTuple):
+    """About the turn of a branch, where xi = r is stationary and H = flip h: saddles that other charts have, all up to a depth |H| zone^2 up to the
+    way `until`, then those whose xi is within |H| sigma^2 of r e^y, and from the way `turning` on those up to a depth |H| thin^2."""
+
+    r: float
+    H: float
+    zone: float
+    until: float
+    sigma: float
+    turning: float
+    thin: float
+
+    def past(self, xi, dxi, y, dy):
+        """The least and the greatest xi - r e^y over a box, where they have the sign of H; by the size of H."""
+        sign, swing = math.copysign(1.0, self.H), 4e-16 * (abs(xi) + dxi)
+        low, high = sign * xi - dxi - swing, sign * xi + dxi + swing
+        if not self.r:
+            return low, high
+        shift = sorted(sign * self.r * _grown(y + side * dy) * (1 + 1e-15 * side) for side in (-1, 1))
+        return low - shift[1], high - shift[0]
+
+    def depth(self, xi, dxi, y, dy):
+        """The same of r e^-y less r, the depth in saddles: from that, or where e^y is beyond doubles from r itself."""
+        sign = math.copysign(1.0, self.H)
+        low, high = (end * math.exp((-dy if (end > 0) == (side < 0) else dy) - y) for side, end in ((-1, sign * xi - dxi), (1, sign * xi + dxi)))
+        swing, (least, most) = 1e-15 * (abs(low) + abs(high) + abs(self.r)), self.past(xi, dxi, y, dy)
+        shed = math.exp(-y - dy), math.exp(dy - y)
+        least, most = least * shed[least < 0] if least > -math.inf else least, most * shed[most > 0] if most < math.inf else most
+        return max(low - sign * self.r - swing, least), min(high - sign * self.r + swing, most)
+
+    def covers(self, past, y, dy):
+        """Whether other charts have all saddles of a box; on the other side of r there are none."""
+        low, high, most = y - dy, y + dy, max(past[1], 0.0) * (1 + 1e-9) / abs(self.H)
+        return (most <= 0 or (low >= self.until or most <= self.zone**2 * math.exp(low))
+                and (low >= self.turning or high <= self.until or most <= self.sigma**2)
+                and (high <= self.turning or most <= self.thin**2 * _grown(max(low, self.turning))))
+
+
+def _grown(y):
+    return math.exp(y) if y < 700 else math.inf
+
+
 class Reach(NamedTuple):
-    """A piece of a branch on which xi is monotone: a saddle (r0, E0) in its middle, xi from low to high, the middle and radius of eta;
-    line: the slope of E where the branch is straight, else None; exact: r0, E0 and line as Fractions."""
+    """A piece of a branch on which xi is monotone: a saddle (r0, E0), in its middle or at a turn of the branch beside it, xi from low to
+    high, the middle and radius of eta; line: the slope of E where the branch is straight, else None; exact: r0, E0 and line as Fractions; rising:
+    the sign of G E/2 - e2 on it; tube: about a turn."""
 
     r0: float
     E0: float
@@ -32,6 +75,8 @@ class Reach(NamedTuple):
     E: tuple[float, float]
     line: float | None
     exact: tuple
+    rising: float
+    tube: Tube | None = None
 
 
 class FarChart(Chart):
@@ -45,7 +90,7 @@ class FarChart(Chart):
         self.reach, self.flip, self.mu, d = reach, flip, flip * g["mu"], flip * g["d"]
         self.e1, self.e2 = 0.5 * (g["c"] + d), 0.5 * (d - g["c"])
         self.xi0, self.eta0 = float(exact["X"] + int(flip) * exact["Z"]), float(exact["X"] - int(flip) * exact["Z"])
-        self.rate0 = 0.5 * g["G"] * reach.E0 - self.e2
+        self.rate0 = 0.0 if reach.tube else 0.5 * g["G"] * reach.E0 - self.e2
         self.wide = 1 / math.sqrt(g["a"]) + 1 / math.sqrt(g["b"])
 
     def boxes(self):
@@ -56,7 +101,10 @@ class FarChart(Chart):
             y0 = last
 
     def misses(self, t, dt, y, dy, upper):
-        """Whether a box holds no saddle's loop, or is farther than `upper` in eta for certain."""
+        """Whether a box holds no saddle's loop, or none that another chart does not cover, or is farther than `upper` in eta for certain."""
+        tube = self.reach.tube
+        if tube and tube.covers(tube.past(self.xi0 + t, dt, y, dy), y, dy):
+            return True
         low, high = math.exp(-(y + dy)), math.exp(dy - y)
         middle, half = 0.5 * (self.reach.low + self.reach.high), 0.5 * (self.reach.high - self.reach.low)
         return (outside(self.xi0 + t, dt, low, high, middle, half * (1 + 1e-12))
@@ -67,18 +115,28 @@ class FarChart(Chart):
 
     def folded(self, t, dt, y, dy):
         """Whether xi may be stationary along the branch for a saddle of the box."""
-        return self.reach.line is None and self._square(self._feet(t, dt, y, dy))[0] <= 0
+        return self.reach.line is None and self._square(t, dt, y, dy)[0] <= 0
 
     def coarse(self, t, dt, y, dy):
-        """A lower bound of the squared distance over a box by the ranges of xi and eta alone."""
-        less, E = _shrinking(y, dy), Span(*self.reach.E)
-        gap = E * less - self.eta0
+        """A lower bound of the squared distance over a box by the ranges of xi, eta and W alone."""
+        less, E, xi, g = shrinking(y, dy), Span(*self.reach.E), Span(self.xi0 + t, dt), self.here
+        r = xi * less
+        eta, gap = E * less, E * less - self.eta0
         u, v = 0.5 * (gap + Span(t, dt)), 0.5 * (Span(t, dt) - gap)
-        return sum(w * max(abs(s.m) - s.r, 0.0) ** 2 for w, s in ((self.here["a"], u), (self.here["b"], v))) * (1 - 1e-12)
+        eighth = 0.125 * g["G"]
+        phi = (self.mu * Span(y, dy) + xi * (eighth * xi + self.e1) + eta * (eighth * eta - self.e2) - r * (eighth * r + self.e1)
+               - E * (eighth * E - self.e2)) * (2 / g["n2"])
+        if phi.m + phi.r < 0:
+            return math.inf
+        beside = max(math.sqrt(max(phi.m - phi.r, 0.0)) - g["w"], g["w"] - math.sqrt(phi.m + phi.r), 0.0)
+        return (sum(w * max(abs(s.m) - s.r, 0.0) ** 2 for w, s in ((g["a"], u), (g["b"], v))) + beside * beside) * (1 - 1e-12)
 
     def steep(self, t, dt, y, dy):
         """Whether the saddle of a box moves more with xi than with y."""
-        return dt >= abs(self.xi0 + t) * dy
+        tube = self.reach.tube
+        if not tube:
+            return dt >= abs(self.xi0 + t) * dy
+        return dt >= (abs(tube.r) and abs(tube.r) * _grown(y + dy)) * dy and (dy < 0.5 or self.folded(t, dt, y, dy))
 
     def place(self, t, y):
         less = math.exp(-y)
@@ -99,7 +157,7 @@ class FarChart(Chart):
         if line is not None:
             return E0 + line * (r - r0), line, 0.0
         lift = self._lift(r)
-        rate = math.copysign(math.sqrt(self.rate0 * self.rate0 + G * lift), self.rate0)
+        rate = math.copysign(math.sqrt(self.rate0 * self.rate0 + G * lift), self.reach.rising)
         first = (0.5 * G * r + self.e1) / rate
         return E0 + 2 * lift / (rate + self.rate0), first, 0.5 * G * (1 - first * first) / rate
 
@@ -142,14 +200,14 @@ class FarChart(Chart):
 
     def _feet(self, t, dt, y, dy):
         """The xi of the saddles of a box."""
-        return Span(self.xi0 + t, dt) * _shrinking(y, dy)
+        return Span(self.xi0 + t, dt) * shrinking(y, dy)
 
     def bends(self, t, dt, y, dy):
         g, xi = self.here, Span(self.xi0 + t, dt)
         G, e1, e2, k, a, b = g["G"], self.e1, self.e2, 2 / g["n2"], g["a"], g["b"]
-        less = _shrinking(y, dy)
+        less = shrinking(y, dy)
         r = xi * less
-        E, E1, E2 = self._saddles(r)
+        E, E1, E2 = self._saddles(r, () if self.reach.line is not None else self._square(t, dt, y, dy))
         eta = E * less
         less2 = less * less
         eta_t, eta_y = E1 * less2, -((E + r * E1) * less)
@@ -170,27 +228,30 @@ class FarChart(Chart):
         f_yy = 0.25 * G * (eta_y * eta_y) + pull * eta_yy - r * (own1 + r * own2)
         return tuple(n.pair() for n in (2 * tt, 2 * ty, 2 * yy, k * f_tt, k * f_ty, k * f_yy))
 
-    def _square(self, r):
-        """The least and the greatest square of the rate G E/2 - e2 over a span of r."""
-        G, m = self.here["G"], r.m
-        middle, slope = self.rate0 * self.rate0 + G * self._lift(m), G * (0.5 * G * m + self.e1)
+    def _square(self, t, dt, y, dy):
+        """The least and the greatest square of the rate G E/2 - e2 over a box."""
+        G, tube = self.here["G"], self.reach.tube
+        if tube:  # G^2 d (H + d/4) for d = r - r_T
+            (least, most), size = tube.depth(self.xi0 + t, dt, y, dy), abs(tube.H)
+            if least <= 0:
+                return 0.0, math.inf
+            return G * G * least * (size + 0.25 * least) * (1 - 1e-12), G * G * most * (size + 0.25 * most) * (1 + 1e-12)
+        r = self._feet(t, dt, y, dy)
+        middle, slope = self.rate0 * self.rate0 + G * self._lift(r.m), G * (0.5 * G * r.m + self.e1)
         swing = abs(slope) * r.r + 0.25 * G * G * r.r * r.r + 2.0**-40 * (self.rate0 * self.rate0 + abs(middle))
         return middle - swing, middle + swing
 
-    def _saddles(self, r):
-        """E, E', E'' over a span of r."""
+    def _saddles(self, r, square):
+        """E, E', E'' over a span of r; square: that of the rate there."""
         G, line = self.here["G"], self.reach.line
-        E = self._saddle(r.m)[0]
         if line is not None:
-            return Span(E, r.r), Span(line), Span(0.0)
-        least, most = map(math.sqrt, self._square(r))
-        rate = Span(math.copysign(0.5 * (least + most), self.rate0), 0.5 * (most - least))
-        over = rate.inverse()
+            return Span(self._saddle(r.m)[0], r.r), Span(line), Span(0.0)
+        least, most = map(math.sqrt, square)
+        sign, thin, wide = math.copysign(0.5, self.reach.rising), 1 / most, 1 / least
+        rate, over = Span(sign * (least + most), 0.5 * (most - least)), Span(sign * (wide + thin), 0.5 * (wide - thin))
         E1 = (0.5 * G * r + self.e1) * over
-        return Span(E, (abs(E1.m) + E1.r) * r.r), E1, (0.5 * G) * (1 - E1 * E1) * over
-
-
-def _shrinking(y, dy):
-    """e^-y over a span."""
-    base = math.exp(-y)
-    return Span(base * math.cosh(dy), base * math.sinh(dy)) if dy < 600 else Span(0.5 * math.exp(dy - y), 0.5 * math.exp(dy - y))
+        if self.reach.tube:  # E = 2 (rate + e2)/G
+            E = (2 / G) * (rate + self.e2)
+        else:
+            E = Span(self._saddle(r.m)[0], (abs(E1.m) + E1.r) * r.r)
+        return E, E1, (0.5 * G) * (1 - E1 * E1) * over
