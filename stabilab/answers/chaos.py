@@ -68,11 +68,16 @@ class Chaos:
             return "its fate is spin-up: it does not come back, and chaos is a property of motions that do"
         if label == Order.UNDECIDED:
             return ("its numbers leave the doubles" if not np.isfinite(self.megno) else
-                    f"after {after} MEGNO is {self.megno:.3f}, neither near 2 nor growing with time: follow it for longer")
-        before = f"{self.history[-2]:.3f} at half that time"
+                    f"after {after} MEGNO is {_shown(float(self.megno))}, neither near 2 nor growing with time: follow it for longer")
+        before = f"{_shown(self.history[-2])} at half that time"
         if label == Order.REGULAR:
-            return f"after {after} MEGNO is {self.megno:.3f} ({before}); it tends to 2 on tori, to less where neighbours stay or come together"
-        return f"after {after} MEGNO is {self.megno:.3f} ({before}): it grows with time, neighbours part exponentially"
+            return f"after {after} MEGNO is {_shown(float(self.megno))} ({before}); it tends to 2 on tori, to less where neighbours stay or come together"
+        return f"after {after} MEGNO is {_shown(float(self.megno))} ({before}): it grows with time, neighbours part exponentially"
+
+
+def _shown(megno: float) -> str:
+    """Three places, and no minus before zeros."""
+    return f"{0.0 if abs(megno) < 5e-4 else megno:.3f}"
 
 
 def chaos(scene: AnyScene, states: ArrayLike, until: float | None = None, tell: Callable[[int], Any] | None = None) -> Chaos:

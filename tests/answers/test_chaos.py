@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import json
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -9,10 +10,11 @@ from typer.testing import CliRunner
 
 import stabilab
 from stabilab import cli
-from stabilab.answers.chaos import Order
+from stabilab.answers.chaos import Chaos, Order
 from stabilab.errors import InputError
 from stabilab.maps.plan import planned
 from stabilab.maps.run import run
+from stabilab.show.maps.chaos import words
 from tests.shared import CASES, case
 from tests.unreduced.test_chaos import TAME, TOP, WILD
 
@@ -76,3 +78,10 @@ def test_the_picture_of_a_motion_that_passes_no_plane_is_its_number_over_time(tm
     from stabilab.answers.chaos import row_of
     found = stabilab.chaos(one.scene, row_of(one.scene, one.state, one.blocks), until=5)
     assert picture.write(one, found, tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_a_megno_next_to_zero_has_no_minus():
+    found = Chaos(np.array(Order.REGULAR), np.array(-1e-5), np.array([1.0, 2.0]), np.array([-2e-5, -1e-5]), np.array(0.0), np.array(0.0), 1.0, None)
+    assert "MEGNO is 0.000 (0.000 at half" in found.because
+    case = SimpleNamespace(name="rest", scene=SimpleNamespace(time_unit="s"))
+    assert words.text([(case, found)]).count(" 0.0000") == 2

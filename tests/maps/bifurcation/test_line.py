@@ -11,6 +11,7 @@ import stabilab
 from stabilab.errors import InputError
 from stabilab.maps.bifurcation.branches import branches
 from stabilab.maps.bifurcation.result import ENDLESS
+from stabilab.show.maps.bifurcation import words as diagram_words
 from tests.oracles import elimination as by_hand
 from tests.shared import CASES
 
@@ -124,6 +125,15 @@ def test_random_scenes_off_the_axes_have_the_counted_equilibria_on_both_sides_of
 @pytest.mark.slow
 def test_a_thousand_random_scenes_off_the_axes_have_the_counted_equilibria(check_isolated):
     assert sum(check_isolated(seed) for seed in range(100, 1100)) > 500
+
+
+def test_values_that_agree_in_ten_digits_are_told_apart(tmp_path):
+    """The range ends 1e-12 above a fold: both were printed as 0.2253344315."""
+    path = written(tmp_path, (12, 9, 5), ("0.8", 0, 0), (0, 0, "0.02"), ("0.1", "0.05", "0.02"))
+    found = stabilab.bifurcation(path, {"torque[3]": "0:0.225334431522"})
+    told = diagram_words.text(found)
+    assert "0.225334431521 to 0.225334431522" in told and "none above: folds at 0.0185085734791 and 0.225334431521" in told
+    assert "0.2253344315," in diagram_words.text(stabilab.bifurcation(path, {"torque[3]": "0:0.5"}))  # ten digits where they are enough
 
 
 def test_a_fold_where_all_eigenvalues_are_zero_is_told(tmp_path):

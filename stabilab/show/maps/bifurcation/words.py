@@ -13,6 +13,7 @@ from ...text.answers import as_json
 from ...units import Units, units_of
 
 SCHEMA = "stabilab.bifurcation/1"
+DIGITS = 10  # of a value, unless more are needed to tell two apart
 NAMES = {"fold": "fold", "pitchfork": "pitchfork", "crossing": "crossing", "touch": "touch", "infinity": "gone to infinity", "axis": "on a principal axis",
          "connection": "connection", "curve": "curve of equilibria"}
 
@@ -24,9 +25,16 @@ def text(found: Diagram) -> str:
     return "\n".join([*lines, *_table(found), *frame.note(found.family.case)])
 
 
-def number(value: float) -> str:
+def number(value: float, digits: int = DIGITS) -> str:
     """A value of what varies, with the digits that a reader compares."""
-    return f"{value + 0.0:.10g}"
+    return f"{value + 0.0:.{digits}g}"
+
+
+def _digits(found: Diagram) -> int:
+    """As many as tell all values of a diagram apart."""
+    values = {value + 0.0 for piece in found.pieces for value in (piece.low, piece.high)}
+    values |= {event.value + 0.0 for event in (*found.events, *found.connections)}
+    return next((digits for digits in range(DIGITS, 17) if len({number(value, digits) for value in values}) == len(values)), 17)
 
 
 def _things(found: Diagram, count: int) -> str:
@@ -54,9 +62,9 @@ def answer(found: Diagram) -> str:
 
 def _uniform(found: Diagram, count: int) -> str:
     """The answer where the number is the same in all pieces."""
-    span = found.family.spans[0]
-    told = f"{_things(found, count)} for {number(float(span.low))} <= {span.label} <= {number(float(span.high))}{unit(span)}"
-    other = [f"{_things(found, event.count)} at {number(event.value)}" for event in found.events if event.count != count]
+    span, digits = found.family.spans[0], _digits(found)
+    told = f"{_things(found, count)} for {number(float(span.low), digits)} <= {span.label} <= {number(float(span.high), digits)}{unit(span)}"
+    other = [f"{_things(found, event.count)} at {number(event.value, digits)}" for event in found.events if event.count != count]
     events = "" if other and found.kind == CURVES else _events_told(found)
     return told + (f", but {_and(other)}" if other else "") + (f": {events}" if events else "")
 
@@ -67,15 +75,16 @@ def unit(span: Span) -> str:
 
 
 def _range(found: Diagram, piece: Piece, name: str) -> str:
-    at = {event.value: event.count for event in found.events}
+    at, digits = {event.value: event.count for event in found.events}, _digits(found)
     low, high = ("<=" if at.get(end, piece.count) == piece.count else "<" for end in (piece.low, piece.high))
-    return f"{number(piece.low)} {low} {name} {high} {number(piece.high)}"
+    return f"{number(piece.low, digits)} {low} {name} {high} {number(piece.high, digits)}"
 
 
 def _events_told(found: Diagram) -> str:
     by_kind: dict[str, list[str]] = {}
+    digits = _digits(found)
     for event in (*found.events, *found.connections):
-        by_kind.setdefault(event.kinds[0], []).append(number(event.value))
+        by_kind.setdefault(event.kinds[0], []).append(number(event.value, digits))
     names = NAMES | ({"curve": "other curves"} if found.kind == CURVES else {})
     return ", ".join(f"{names[kind]}{'s' if len(values) > 1 and kind not in ('infinity', 'axis', 'curve') else ''} at {_and(values)}"
                      for kind, values in by_kind.items())
@@ -87,14 +96,14 @@ def _and(values: list[str]) -> str:
 
 def _table(found: Diagram) -> list[str]:
     span = found.family.spans[0]
-    units = units_of(found.family.case)
+    units, digits = units_of(found.family.case), _digits(found)
     name = span.label + ("" if span.shown_unit == "1" else f" ({span.shown_unit})")
     rows = [[name, "changes" if found.kind == BORDERS else "equilibria", *([] if found.kind == BORDERS else ["stable"]), "what"]]
     for _, one in _in_order(found):
         if isinstance(one, Piece):
-            rows.append([f"{number(one.low)} to {number(one.high)}", *_counts(found, one.count, one.states), one.words])
+            rows.append([f"{number(one.low, digits)} to {number(one.high, digits)}", *_counts(found, one.count, one.states), one.words])
         else:
-            rows.append([f"at {number(one.value)}", *_counts(found, one.count, one.states), one.words + _meeting(one, units)])
+            rows.append([f"at {number(one.value, digits)}", *_counts(found, one.count, one.states), one.words + _meeting(one, units)])
     wide = [max(len(row[n]) for row in rows) for n in range(len(rows[0]) - 1)]
     return [("  " + "  ".join(f"{cell:>{size}}" for cell, size in zip(row, wide)) + "  " + row[-1]).rstrip() for row in rows]
 
