@@ -9,6 +9,7 @@ import os
 import pickle
 import sys
 from collections.abc import Callable
+from dataclasses import fields, is_dataclass
 from hashlib import sha256
 from io import BytesIO
 from pathlib import Path
@@ -48,6 +49,16 @@ def kept(kind: str, content: str, sources: Path, versions: tuple[str, ...], make
         found = make()
         _write(path, found)
     return found  # type: ignore[return-value]  # of the same content, versions and code
+
+
+def in_words(thing: Any) -> str:
+    """All that makes a dataclass equal to another, as a text: a repr may leave out the unrounded numbers beside the doubles."""
+    if isinstance(thing, tuple):
+        return f"({', '.join(map(in_words, thing))})"
+    if not is_dataclass(thing):
+        return repr(thing)
+    shown = (f"{field.name}={in_words(getattr(thing, field.name))}" for field in fields(thing) if field.compare)
+    return f"{type(thing).__module__}.{type(thing).__qualname__}({', '.join(shown)})"
 
 
 def _path(kind: str, content: str, sources: Path, versions: tuple[str, ...]) -> Path | None:

@@ -83,6 +83,17 @@ def test_equations_from_disk_are_those_derived(folder):
             np.testing.assert_allclose(seen[0][-1], euler, rtol=1e-14)
 
 
+def test_numbers_that_are_equal_as_doubles_alone_have_equations_of_their_own(folder):
+    """0.1 in decimals is 1/10; the double next to it is 3602879701896397/2^55 (IEEE 754)."""
+    double = Fraction(3602879701896397, 2**55)
+    for _ in range(2):
+        for given, moment in (("0.1", Fraction(1, 10)), (0.1, double)):
+            equations._physical.cache_clear()
+            scene = Scene(Body((given, "0.12", "0.15")), ConstantTorque((given, 0, 0)), LiquidCavity(1000, 1e-4, 1e-9))
+            parameters = stabilab.derive(scene).parameters
+            assert parameters["D1"] == parameters["M1"] == moment
+
+
 class Own(ConstantTorque):
     """An effect of a user's own."""
 

@@ -16,7 +16,7 @@ from typing import Any, TypeAlias
 
 from ..asked import checked_scene
 from ..errors import InputError
-from ..kept import kept
+from ..kept import in_words, kept
 from ..numbers.exact import exact
 from ..numbers.vectors import Number, Triple, cross, dot
 from .blocks import BLOCKS, ordered
@@ -123,7 +123,7 @@ def add_terms(u: Iterable[Number], v: Iterable[Number]) -> Triple:
 
 @lru_cache(maxsize=32)  # one answer asks for the same equations several times
 def _physical(scene: Scene, names: tuple[str, ...]) -> Equations:
-    content = f"{scene!r} {names!r}"
+    content = in_words((scene, names))
     if any(type(effect).__module__.partition(".")[0] != __package__.partition(".")[0] for effect in scene.effects):
         return _derived(scene, names)  # a user's own effect may change without a word
     equations: Equations = kept_of_symbols("equations", content, lambda: _derived(scene, names))

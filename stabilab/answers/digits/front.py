@@ -8,7 +8,7 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from ...kept import cache_folder
+from ...kept import cache_folder, in_words
 from ...machine import machine, versions
 
 CACHE_SCHEMA = "stabilab.front/1"
@@ -67,5 +67,5 @@ def _file(case: Any) -> Path:
     folder = cache_folder()
     if folder is None:
         raise FileNotFoundError("STABILAB_CACHE is off")
-    key = repr((case.scene, case.state, case.span, sorted(case.blocks.items())))
+    key = in_words((case.scene, case.state, case.span, *sorted(case.blocks.items())))
     return folder / "precision" / f"{sha256(key.encode()).hexdigest()[:24]}.json"
