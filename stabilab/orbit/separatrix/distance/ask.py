@@ -66,7 +66,7 @@ def distance_of(reduction, state, orbit: Orbit | None = None) -> Apart:
     try:
         orbit = orbit or Orbit(reduction, state)
         if on_separatrix(orbit):
-            return Apart(0.0, 0.0, tuple(map(float, state)))
+            return Apart(0.0, 0.0, (float(state[0]), float(state[1]), float(state[2])))
         found = on_conic(reduction, state, orbit) if reduction.geometry.centred else on_parabolas(reduction, state)
     except (Unclear, ArithmeticError, ValueError):  # a logarithm of what has vanished in doubles is a ValueError
         return UNKNOWN

@@ -37,7 +37,7 @@ def on_conic(reduction, state, orbit) -> Apart:
     if start is None:
         return NO_SEPARATRIX
     if start[0] == 0:  # at the end of a branch
-        return Apart(0.0, 0.0, tuple(map(float, state)))
+        return Apart(0.0, 0.0, (float(state[0]), float(state[1]), float(state[2])))
     charts = [chart for arc in arcs for chart in arc.charts(seen, reduction.sense, start[0])]
     found = nearest(charts, seen.plain["w"], start[0] * (1 + 1e-14) + 1e-300, genuine=shade, start=_on_chart(charts, *start[2:]))
     place = start[1] if found.chart is None else found.chart.place(found.t, found.y)
