@@ -288,3 +288,13 @@ def test_an_edit_is_tried_in_doubles_without_work_on_symbols(monkeypatch):
     system, bound, printed = system_of(paper, row.system, row.place), bound_of(paper, row), raw(paper, row.printed)
     repairs(paper, row, printed, system, bound, domain_of(paper, row.domain, pairs(paper, row, printed, system, bound), bound, system))
     assert len(tried) > 100 and 20 * len(set(carried)) < len(tried)
+
+
+def test_formulas_that_plainly_differ_are_not_multiplied_out(monkeypatch):
+    """Most variants of a printed formula are wrong, and one value tells; (x + 1)^2 = x^2 + 2 x + 1 by hand."""
+    import sympy
+    x, seen, expand = sympy.Symbol("x"), [], sympy.expand
+    monkeypatch.setattr(sympy, "expand", lambda e: seen.append(e) or expand(e))
+    assert decide([((x + 1)**2, x**2 + 2)], {}, None, "seed").holds is False and not seen
+    found = decide([((x + 1)**2, x**2 + 2*x + 1)], {}, None, "seed")
+    assert found.holds and found.method == "symbols" and seen

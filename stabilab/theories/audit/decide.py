@@ -10,6 +10,7 @@ from .values import Evaluator, Undefined, points, precise, settled
 DIGITS = (50, 80)  # a claim "holds" by values only if its residual shrinks with the digits
 POINTS = 5
 SLACK = 14  # digits that cancellation may cost at points of order one
+APART = 1e-6  # relative difference at a point that settles it
 SYMBOLIC_SIZE = 250  # operations up to which symbols are tried
 
 
@@ -25,13 +26,15 @@ class Decision:
 def decide(pairs, bound: dict, system, seed: str, domain=(), fixed=None, symbolic=True) -> Decision:
     """Whether left equals right in every pair, for all values of the free symbols at which `domain` is positive. fixed: name -> expression (a condition)."""
 
-    if symbolic and not fixed and all(_same_in_symbols(left, right, bound, system) for left, right in pairs):
-        return Decision(True, 0.0, "symbols")
-    symbols = free(pairs, domain, bound, system, fixed)
+    chosen, none = (), ""
     try:
-        chosen = points(symbols, seed, POINTS, domain, bound, system, fixed)
+        chosen = points(free(pairs, domain, bound, system, fixed), seed, POINTS, domain, bound, system, fixed)
     except InputError as error:
-        return Decision(None, float("nan"), str(error))
+        none = str(error)
+    if symbolic and not fixed and all(_same_in_symbols(left, right, bound, system, chosen[:1]) for left, right in pairs):
+        return Decision(True, 0.0, "symbols")
+    if none:
+        return Decision(None, float("nan"), none)
     worst, seen = {}, 0
     for digits in DIGITS:
         numbers = precise(digits)
@@ -95,7 +98,14 @@ def _rates():
     return (sp.Function("rate"),)
 
 
-def _same_in_symbols(left, right, bound, system):
+def _apart(left, right, bound, system, chosen):
+    """Whether two expressions differ by so much at a point that no rounding of 50 digits makes up for it."""
+    found = [residual([(left, right)], precise(DIGITS[0]), point, bound, system) for point in chosen]
+    return any(r is not None and r > APART for r in found)
+
+
+def _same_in_symbols(left, right, bound, system, chosen=()):
+    """Whether symbols show it; chosen: points at which expressions that differ plainly are told apart before their terms are multiplied out."""
     import sympy as sp
 
     plain = Evaluator(None, {}, bound, system).plain
@@ -108,6 +118,8 @@ def _same_in_symbols(left, right, bound, system):
     if difference.has(sp.Function("mean"), sp.Function("integral"), sp.Function("diff"), sp.Function("at")) or sp.count_ops(difference) > SYMBOLIC_SIZE:
         return False
     try:
+        if _apart(left, right, bound, system, chosen):
+            return False
         if sp.expand(difference) == 0:
             return True
         numerator = sp.numer(sp.together(difference))
