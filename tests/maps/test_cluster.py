@@ -29,18 +29,18 @@ def started(*words, **options):
     return subprocess.Popen([sys.executable, "-m", "stabilab", *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)
 
 
-def made(out, *more):
+def made(out, *more, asked=ASKED):
     """The bytes of the sweep's file, made by a process of its own."""
-    command = started(*ASKED, "--out", out, *more)
+    command = started(*asked, "--out", out, *more)
     words = command.communicate(timeout=300)
     assert command.returncode == 0, words
     return out.read_bytes()
 
 
-def until(number, out, command):
+def until(number, out, command, pause=0.05):
     """Wait until so many parts of a sweep are finished."""
     while command.poll() is None and len(list(place_of(out).glob("part-*"))) < number:
-        time.sleep(0.05)
+        time.sleep(pause)
     assert command.poll() is None
 
 
@@ -130,6 +130,36 @@ def test_a_killed_sweep_goes_on_with_any_number_of_processes_to_the_same_bytes(t
     finished = {path.name: path.stat().st_mtime_ns for path in place_of(out).glob("part-*")}
     assert made(out, "--workers", "1") == made(tmp_path / "whole.nc", "--workers", "2") and len(finished) >= 2
     assert [path.name for path in tmp_path.iterdir() if path.suffix != ".nc"] == []
+
+
+LARGE = {"a million on the minor axis": (MINOR, "x[1]=-4:4:1000", "x[3]=-3:3:1000"),
+         "100,000 off the axes": (CASES / "off-axis-two.toml", "angular_velocity[1]=-2:2:400", "angular_velocity[2]=-2:2:250")}
+
+
+@posix
+@pytest.mark.slow
+@pytest.mark.parametrize("which", LARGE)
+def test_large_sweeps_give_the_same_bytes_killed_at_a_third_and_on_a_cluster_that_loses_a_worker(tmp_path, which):
+    """The bytes of one process that nobody disturbs, four ways."""
+    pytest.importorskip("distributed")
+    case, *vary = LARGE[which]
+    asked = ("sweep", case, *(word for one in vary for word in ("--vary", one)))
+    whole = made(tmp_path / "whole.nc", "--workers", 1, asked=asked)
+    third = len(planned(case, [one.split("=") for one in vary]).chunks) // 3
+    out = tmp_path / "killed.nc"
+    command = started(*asked, "--out", out, "--workers", 1)
+    until(third, out, command, 0.002)
+    command.send_signal(signal.SIGKILL)
+    command.communicate()
+    assert not out.exists() and len(list(place_of(out).glob("part-*"))) >= third
+    assert made(out, "--workers", 2, asked=asked) == whole
+    with a_cluster(tmp_path, 3) as (address, workers):
+        command = started(*asked, "--out", tmp_path / "cluster.nc", "--scheduler", address)
+        until(1, tmp_path / "cluster.nc", command, 0.002)
+        workers[1].kill()
+        words = command.communicate(timeout=300)
+        assert command.returncode == 0, words
+    assert (tmp_path / "cluster.nc").read_bytes() == whole == made(tmp_path / "two.nc", "--workers", 2, asked=asked)
 
 
 @posix

@@ -78,11 +78,12 @@ def forgeries(claims, rng) -> Iterator[tuple[str, dict]]:
             forged(f"piece {n} of three", lambda c, n=n: c["pieces"][n].update(equilibria=3, stable=None if claims["counted"] == "borders" else 1))
         yield forged(f"piece {n} twice", lambda c, n=n: c["pieces"].insert(n, c["pieces"][n]))
     low, high = map(F, claims["range"])
+    shift = any(F(event["t"][1]) == low for event in claims["events"])  # an event at the lower end has a piece above it alone
     for n, event in enumerate(claims["events"]):
         a, b = map(F, event["t"])
         if low < a and b < high:
-            yield forged(f"event {n} left out", lambda c, n=n: (c["events"].pop(n), c["pieces"].pop(n)))
-            yield forged(f"event {n} left out, and the piece after it", lambda c, n=n: (c["events"].pop(n), c["pieces"].pop(n + 1)))
+            yield forged(f"event {n} left out", lambda c, n=n: (c["events"].pop(n), c["pieces"].pop(n - shift)))
+            yield forged(f"event {n} left out, and the piece after it", lambda c, n=n: (c["events"].pop(n), c["pieces"].pop(n - shift + 1)))
         yield forged(f"count of event {n}", lambda c, n=n: c["events"][n].update(equilibria=(c["events"][n]["equilibria"] or 0) + 1))
         yield forged(f"event {n} endless or not", lambda c, n=n: c["events"][n].update(equilibria=0 if c["events"][n]["equilibria"] is None else None))
         for share in (F(1, 10**30), F(1, 1000)):
