@@ -170,7 +170,7 @@ def period(cases: CaseFiles, json: Json = False, digits: Digits = None, strict: 
 
 @app.command()
 def simulate(case: CaseFile,
-             at: Annotated[str | None, typer.Option(metavar="T1,T2,...", help="Times; the state is at 0. "
+             at: Annotated[str | None, typer.Option(metavar="T1,T2,...", help="Times, with a unit (\"2 min\") or in that of the case; the state is at 0. "
                                                        "Default: 201 times over the span of the case.")] = None,
              model: Annotated[str, typer.Option(autocompletion=completion.models,
                                                 help="exact, or an analytic solution that applies: linear, corrected, printed, "
@@ -197,7 +197,8 @@ def simulate(case: CaseFile,
 
 @app.command()
 def reference(case: CaseFile,
-              at: Annotated[str | None, typer.Option(metavar="T1,T2,...", help="Times from 0 on. Default: 201 times over the span of the case.")] = None,
+              at: Annotated[str | None, typer.Option(metavar="T1,T2,...", help="Times from 0 on, with a unit or in that of the case. "
+                                                                                   "Default: 201 times over the span.")] = None,
               digits: Annotated[int, typer.Option(metavar="N", help="Digits (1 to 50) of every state.")] = 30,
               out: Annotated[Path | None, typer.Option(metavar="FILE.csv|.json", help="Write to a file.")] = None, json: Json = False):
     """Write a motion with guaranteed digits, to test integrators.
@@ -229,7 +230,7 @@ def compare(case: CaseFile,
 def precision(case: CaseFile, json: Json = False,
               csv: Annotated[bool, typer.Option("--csv", help="CSV on stdout instead of text.")] = False,
               out: Annotated[Path | None, typer.Option(metavar="FILE.png|.svg|.pdf|.csv", help="Write the picture or the points.")] = None,
-              until: Annotated[float | None, typer.Option(metavar="T", help="End of the span; default: the case's own.")] = None,
+              until: Annotated[str | None, typer.Option(metavar="TIME", help="End of the span: \"10 min\"; default: the case's own.")] = None,
               quick: Annotated[bool, typer.Option("--quick", help="Few settings: seconds instead of a minute.")] = False,
               strict: Strict = False):
     """Measure what accuracy costs: every method, error and time.

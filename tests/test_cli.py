@@ -266,6 +266,26 @@ def test_wrong_options_of_simulate_end_with_2_and_a_reason(stabilab, arguments, 
     assert code == 2 and not out and words in err and "Traceback" not in err
 
 
+@pytest.mark.parametrize("command", [["precision", "--quick"], ["plot"], ["fate"], ["chaos"]], ids=lambda command: command[0])
+@pytest.mark.parametrize("time", ["0", "-5", "0 min", "nan", "1e400"])
+def test_a_time_to_follow_is_above_zero(stabilab, tmp_path, monkeypatch, command, time):
+    monkeypatch.chdir(tmp_path)
+    option = "--follow" if command == ["fate"] else "--until"
+    code, out, err = stabilab(*command, ROOT / "cases/torque-free-body.toml", f"{option}={time}")
+    assert code == 2 and not out and f"{option}: " in err and not list(tmp_path.iterdir())
+
+
+def test_times_may_have_units(stabilab):
+    sphere = ROOT / "cases/sphere-wheel.toml"
+    timed, alone = (strict_json(stabilab("simulate", sphere, "--at", at, "--json")[1]) for at in ("0.01 min, 500 ms,2", "0.6,0.5,2"))
+    assert timed["t"] == [0.5, 0.6, 2.0] and timed["state"] == alone["state"]
+    timed, alone = (stabilab("reference", sphere, "--digits", "12", "--at", at)[1].splitlines() for at in ("0.01 min,2", "0.6,2"))
+    assert [line for line in timed if line.startswith("state,")] == (states := [line for line in alone if line.startswith("state,")]) and len(states) == 6
+    code, out, err = stabilab("simulate", MINOR, "--at", "1 s")  # scaled time
+    assert code == 2 and not out and err.startswith("--at: expected a number without a unit")
+    assert stabilab("simulate", sphere, "--at", "1 m")[2].startswith("--at: expected time (s), got length (m)")
+
+
 def test_motion_is_asked_for_where_it_is_needed(stabilab, tmp_path):
     path = tmp_path / "still.toml"
     path.write_text(STILL)

@@ -11,7 +11,7 @@ from ..show.text import comparison, law
 from ..show.text import precision as shown
 from ..theories.comparison import compare as set_side_by_side
 from ..theories.follow import models_of
-from .common.cases import load_cases, one_by_one
+from .common.cases import load_cases, one_by_one, time_asked
 from .common.output import all_reached, hold_laws, say_laws, tell, write, write_each, write_json
 
 
@@ -45,7 +45,7 @@ def precision(case, json, csv, out, until, quick, strict):
     if out:
         shown.checked(out)
     loaded = load_cases([case], motion=True)
-    measured = [measure(one, "quick" if quick else "full", until) for one in one_by_one(loaded)]
+    measured = [measure(one, "quick" if quick else "full", time_asked(until, one, "until")) for one in one_by_one(loaded)]
     for found in measured:
         keep(found)
     if out:

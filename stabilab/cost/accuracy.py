@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from ..errors import InputError
 from ..integrate.reference import WORK, Reference, one_run, pairs, reference, relative_errors
 from ..integrate.taylor_digits import Recursion
 from ..integrate.trajectory import SCIPY_METHODS
@@ -157,9 +158,11 @@ def precision(case, effort: str = "full", until: float | None = None, progress=N
     """Measure a case. effort: "full" (a minute), "quick" (few settings, small limits), "brief" (seconds) or "glance" (a second,
     the methods that are likely to be best). until: end of the span in place of the case's own. progress(words) is called before each method.
 
-    Raises InputError for a case without a motion and a span, and for rates that are no polynomials.
+    Raises InputError for a case without a motion and a span, for an end that is not above zero, and for rates that are no polynomials.
     """
     tell = progress or (lambda words: None)
+    if until is not None and not 0 < until < math.inf:
+        raise InputError(f"until: expected a time above zero, got {until!r}")
     case = case if until is None else replace(case, span=(0.0, float(until)))
     task, most = problem(case, TIMES), EFFORTS[effort]
     tell("reference")

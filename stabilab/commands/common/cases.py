@@ -8,7 +8,6 @@ from pathlib import Path
 from ...case.read import Case, load_all
 from ...case.units import NONE, TIME, quantity
 from ...errors import InputError, printable
-from ...numbers.exact import exact
 from ...show.progress import each
 from ...show.units import Units, units_of
 
@@ -42,29 +41,42 @@ def time_asked(text: str | None, case: Case, option: str = "follow") -> float | 
     """A time of the command line: a number in the time of the case, or one with a unit where that is s."""
     if text is None:
         return None
-    try:
-        return float(quantity(text, NONE if case.variables == "scaled" else TIME)[0])
-    except InputError as error:
-        raise InputError(f"--{option}: {error}") from None
+    time = _time(text, case, option)
+    if time <= 0:
+        raise InputError(f"--{option}: expected a time above zero, got {text.strip()[:60]}")
+    return float(time)
 
 
 def times_asked(case: Case, at: str | None) -> list[float]:
     """The times asked for, in order; without any, 201 over the span of the case."""
     if at is None:
-        if case.span is None:
-            raise InputError(f"{case.path}: motion: no span; give --at T1,T2,... or span (or tau) in [motion]")
-        start, end = case.span
+        start, end = _span(case)
         return [start + (end - start) * i / 200 for i in range(200)] + [end]
-    try:
-        return sorted({float(exact(word.strip())) for word in at.split(",")})
-    except InputError as error:
-        raise InputError(f"--at: {error}") from None
+    return sorted({float(time) for time in _each(at, case)})
 
 
 def exact_times_asked(case: Case, at: str | None) -> list[Fraction]:
     """The times asked for as rationals, as they are written; without any, 201 over the span of the case."""
-    if at is None and case.span is not None:
-        start, end = (Fraction(repr(t)) for t in case.span)
+    if at is None:
+        start, end = (Fraction(repr(t)) for t in _span(case))
         return [start + (end - start) * i / 200 for i in range(201)]
-    times_asked(case, at)  # says what is wrong with them
-    return sorted({Fraction("".join(word.split())) for word in (at or "").split(",")})
+    return sorted(set(_each(at, case)))
+
+
+def _span(case: Case) -> tuple[float, float]:
+    if case.span is None:
+        raise InputError(f"{case.path}: motion: no span; give --at T1,T2,... or span (or tau) in [motion]")
+    return case.span
+
+
+def _each(at: str, case: Case) -> list[Fraction]:
+    """The times between the commas, exact as they are written."""
+    return [_time(word, case, "at") for word in at.split(",")]
+
+
+def _time(text: str, case: Case, option: str) -> Fraction:
+    """A time in that of the case, or with a unit where that is s. Raises InputError that names the option."""
+    try:
+        return quantity(text.strip(), NONE if case.variables == "scaled" else TIME)[0]
+    except InputError as error:
+        raise InputError(f"--{option}: {error}") from None
