@@ -174,6 +174,20 @@ def test_the_headline_says_what_the_word_bounded_rests_on(stabilab, tmp_path, co
     assert json.loads(stabilab(command, path, "--json")[1])[0].get("motion", {"tilt": None})["tilt"] is None
 
 
+@pytest.mark.parametrize("command", ["fate", "stuck"])
+def test_the_headline_says_the_longer_of_what_is_proved_and_what_was_followed(stabilab, tmp_path, command):
+    """A bound of days was told as "not found within hours" in the first line."""
+    text = CASE.replace("12.0, 9.0, 5.0", "28.5, 28.45, 33.42").replace("[0.8, 0.0, 0.0]", "[0.0145, 0, -0.104]").replace("[0.0, 0.0, 0.02]", "[0, -0.0136, 0]")
+    path = tmp_path / "near.toml"
+    path.write_text(text.replace("[0.10, 0.05, 0.02]", "[0.789, -3.57, -2.77]") + "[limits]\nrate = 11.75\n")
+    answer = json.loads(stabilab(command, path, "--json")[1])
+    found = answer["rows"][0]["tilt"] if command == "stuck" else answer[0]["tilt"]
+    first = stabilab(command, path, "--units", "si")[1].split("\n")[0]
+    assert found["time"] is None and found["not_before"] > 1e4
+    assert "does not reach 11.75 rad/s before " in first and "(proved)" in first and "not found" not in first
+    assert float(first.split(" before ")[1].split()[0]) == pytest.approx(found["not_before"], rel=1e-3)
+
+
 def test_a_stated_limit_or_misalignment_brings_the_tilt_by_itself(stabilab, tmp_path):
     path = tmp_path / "limit.toml"
     path.write_text(CASE + '[limits]\nrate = "2 rad/s"\n')

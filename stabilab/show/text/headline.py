@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 from ...physics.alignment import torque_axis
 from ..units import SHORT, Units, number, units_of
+from .when import unreached
 
 if TYPE_CHECKING:
     from ...case.read import Case
@@ -157,4 +158,4 @@ def while_on_axis(case: Case, motion: Motion, units: Units) -> str:
         return f" {words}, and even so it reaches {limit} after {units.time(found.untilted[0], SHORT)}"
     if found.ends:
         return f" only {words}: {tilted} reaches {limit} after {units.time(found.low, SHORT)}"
-    return f" {words}; {tilted} was not found to reach {limit} within {units.time(found.followed, SHORT)}"
+    return f" {words}; {tilted} {unreached(found, limit, lambda t: units.time(t, SHORT))}"

@@ -9,7 +9,7 @@ from ..units import DIGITS, SHORT, Units
 from ..units import bracket as _bracket
 from ..units import number as _number
 from .answers import Endless
-from .when import tilt_dict
+from .when import tilt_dict, unreached
 
 WORD = {1: "major", 2: "middle", 3: "minor"}
 CSV = ("case,thrusters,torque_x,torque_y,torque_z,torque_1,torque_2,torque_3,fate,level,axis,sense,limit,time_low,time_high,largest_rate,"
@@ -133,7 +133,7 @@ def _while(row, axes, units):
     limit = units.rate(tilt.limit, SHORT)
     if tilt.ends:
         return f" only {words}: {angle} reaches {limit} in {units.time(tilt.low, SHORT)}"
-    return f" {words}; {angle} was not found to reach {limit} within {units.time(tilt.followed, SHORT)}"
+    return f" {words}; {angle} {unreached(tilt, limit, lambda t: units.time(t, SHORT))}"
 
 
 def _known(row):

@@ -77,6 +77,13 @@ def _asked(limit, units):
     return " or ".join(f"{name} = {units.told(most, unit, DIGITS)}" for name, most in zip(limit.names, limit.limits))
 
 
+def unreached(found, limit: str, time) -> str:
+    """What is known where no tilt was found that reaches the limit: the longer of what is proved and what was followed. time: writes seconds."""
+    if found.not_before >= found.followed:
+        return f"does not reach {limit} before {time(found.not_before)} (proved)"
+    return f"was not found to reach {limit} within {time(found.followed)}"
+
+
 def tilt_dict(found) -> dict | None:
     """The key "tilt" of a motion in JSON: SI units."""
     if found is None:

@@ -7,6 +7,7 @@ from ....answers.stuck.ask import stuck
 from ....errors import InputError
 from ....orbit.result import Fate
 from ....physics.alignment import torque_axis
+from ...text.when import unreached
 from .measures import spoken, told, vector
 
 UNITS = {"wheel": "N m s", "torque": "N m"}
@@ -98,4 +99,4 @@ def _tilt(case, motion, measures, found):
     if found.ends:
         return [f"Bounded only while the torque is exactly on its axis: tilted by {angle} it reaches {limit} after {measures.time(found.low)} "
                 f"({found.level}). {until}"]
-    return [f"Tilted by up to {angle} it was not found to reach {limit} within {measures.time(found.followed)}. {until}"]
+    return [f"Tilted by up to {angle} it {unreached(found, limit, measures.time)}. {until}"]
