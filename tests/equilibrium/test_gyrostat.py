@@ -313,6 +313,15 @@ def test_curve_points_are_refused_at_a_pole():
             curve.point(t)
 
 
+@pytest.mark.parametrize("inertia, momentum, words", [
+    ("3, 3, 2", "0, 0, 0", "plane ω3 = 0 (unstable but at single points)"),  # rest is stable by the energy, its neighbours in the plane turn away
+    ("3, 3, 2", "0, 0, 1", "plane ω3 = 1 (unstable but at single points)")])
+def test_words_of_a_curve_leave_out_the_points_that_do_otherwise(stabilab, tmp_path, inertia, momentum, words):
+    path = tmp_path / "round.toml"
+    path.write_text(f"[body]\ninertia = [{inertia}]\n[effects.gyrostat]\nmomentum = [{momentum}]\n")
+    assert words in stabilab("classify", path)[1]
+
+
 def test_classification_needs_no_numerical_library():
     code = ("import sys; from stabilab import ScaledGyrostat, equilibria; equilibria(ScaledGyrostat(0, 1, (0, 0, 1)));"
             "sys.exit(any(m in sys.modules for m in ('numpy', 'scipy', 'sympy', 'mpmath')))")

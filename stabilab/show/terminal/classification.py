@@ -40,6 +40,8 @@ def resting(equilibria) -> str:
 
 def _along(curve) -> str:
     verdicts = _ordered({piece.verdict for piece in curve.segments})
+    if len(verdicts) == 1 and any(sample.verdict != verdicts[0] for sample in curve.samples):
+        return f"{verdicts[0]} but at single points"
     return f"{verdicts[0]} throughout" if len(verdicts) == 1 else "in part " + " and in part ".join(verdicts)
 
 
