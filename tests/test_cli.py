@@ -286,6 +286,11 @@ def test_times_may_have_units(stabilab):
     assert stabilab("simulate", sphere, "--at", "1 m")[2].startswith("--at: expected time (s), got length (m)")
 
 
+def test_a_power_is_no_energy(stabilab):
+    code, out, err = stabilab("when", ROOT / "cases/torque-free-body.toml", "--energy", "5 W")
+    assert code == 2 and not out and "energy (J), got power (W)" in err
+
+
 def test_motion_is_asked_for_where_it_is_needed(stabilab, tmp_path):
     path = tmp_path / "still.toml"
     path.write_text(STILL)
