@@ -5,7 +5,7 @@ from ..answers.equilibria import equilibria
 from ..case.read import blamed_on
 from ..show.terminal import classification
 from ..show.text import answers, law, uncertain
-from .common.cases import load_cases, one_by_one, units_asked
+from .common.cases import load_cases, one_by_one, tell_radians, units_asked
 from .common.motions import motion_of, over_boxes, tilted
 from .common.output import leave_undecided, write
 from .common.tables import swept_motions, tell_all
@@ -15,6 +15,7 @@ def classify(cases, json, strict, certify, out, follow, tilt, units, why):
     """Answer every case; with certify write the certificate of the one that is given."""
     loaded = load_cases(cases)
     systems = units_asked(loaded, units)
+    tell_radians(systems[0], tilt=tilt)
     if certify:
         from . import certify as proof
         proof.checked(out, cases)

@@ -6,7 +6,7 @@ from ..case.read import blamed_on
 from ..show.terminal import questions
 from ..show.text import answers, law, uncertain
 from ..show.text import digits as shown
-from .common.cases import load_cases, one_by_one, units_asked
+from .common.cases import load_cases, one_by_one, tell_radians, units_asked
 from .common.motions import motion_of, over_boxes, tilted
 from .common.output import all_reached, hold_laws, leave_undecided, say_laws, write
 from .common.tables import swept_extremes, swept_motions, tell_all
@@ -16,6 +16,7 @@ def answer(question, paths, digits, json, strict, csv=False, follow=None, tilt=N
     """Answer a question for every case and say how many digits of it are known."""
     loaded = load_cases(paths, motion=True)
     systems = units_asked(loaded, units)
+    tell_radians(systems[0], tilt=tilt)
     answered = [(case, found, _told(question, case, found, digits)) for case in one_by_one(loaded)
                 for plain in [motion_of(case, brief=question == "extremes", follow=follow, proof=proof)]
                 for found in [tilted(case, plain, tilt) if question == "fate" else plain]]

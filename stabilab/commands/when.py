@@ -6,7 +6,7 @@ from ..case.limit_options import stated_limit
 from ..case.read import blamed_on
 from ..show.text import answers, law
 from ..show.text import when as shown
-from .common.cases import load_cases, one_by_one, units_asked
+from .common.cases import load_cases, one_by_one, tell_radians, units_asked
 from .common.output import hold_laws, leave_undecided, say_laws, write
 from .common.tables import tell_all
 
@@ -15,6 +15,7 @@ def when(cases, limits, units, json, csv, strict):
     """Answer every case. limits: what is to be reached and by when, by the names of the options."""
     loaded, answered = load_cases(cases, motion=True), []
     systems = units_asked(loaded, units)
+    tell_radians(systems[0], **{name: limits.get(name) for name in ("rate", "component", "tilt")})
     for case in one_by_one(loaded):
         limit = stated_limit(case, **limits)
         with blamed_on(case):

@@ -221,3 +221,16 @@ def test_a_component_without_a_lower_end_is_told_in_a_word(stabilab, tmp_path):
                                         '[motion]\nangular_velocity = [0, 0, 0.1]\nspan = [0, 10]\n')
     out = stabilab("classify", tmp_path / "down.toml")[1]
     assert re.search(r"ω3\s+unbounded\s+5\.72958\s+deg/s", out) and "-unbounded" not in out
+
+
+@pytest.mark.parametrize("words, told", [
+    (("fate", "--tilt", "1"), '--tilt: 1 alone is in rad: 57.2958 deg; for degrees write "1 deg"'),
+    (("when", "--rate", "1/2"), '--rate: 1/2 alone is in rad/s: 28.6479 deg/s; for degrees write "1/2 deg/s"'),
+    (("when", "--component", "z = 10"), '--component: 10 alone is in rad/s: 572.958 deg/s; for degrees write "10 deg/s"'),
+    (("fate", "--tilt", "1 deg"), ""), (("when", "--rate", "10", "--units", "si"), "")])
+def test_an_angle_without_a_unit_is_told_in_degrees_before_the_answer(stabilab, tmp_path, words, told):
+    """180/pi = 57.2958."""
+    (tmp_path / "my.toml").write_text('[body]\ninertia = [12, 9, 5]\n[effects.gyrostat]\nmomentum = [0.8, 0, 0]\n[effects.constant_torque]\n'
+                                      'torque = [0, 0, 0.02]\n[motion]\nangular_velocity = [0.1, 0.05, 0.02]\n')
+    code, _, err = stabilab(words[0], tmp_path / "my.toml", *words[1:])
+    assert code == 0 and err.strip() == told

@@ -2,14 +2,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from fractions import Fraction
 from pathlib import Path
 
 from ...case.read import Case, load_all
-from ...case.units import NONE, TIME, quantity
+from ...case.units import NONE, TIME, quantity, split
 from ...errors import InputError, printable
 from ...show.progress import each
-from ...show.units import Units, units_of
+from ...show.units import DEG, DIGITS, Units, number, units_of
+from .output import say
 
 
 def load_cases(paths: Iterable[Path], motion: bool = False) -> list[Case]:
@@ -35,6 +37,20 @@ def one_by_one(cases: Sequence[Case]) -> Iterable[Case]:
 def units_asked(cases: Iterable[Case], asked: str | None) -> list[Units]:
     """The units in which each case is told."""
     return [units_of(case, asked) for case in cases]
+
+
+def tell_radians(units: Units, **options: str | None) -> None:
+    """A message on every angle or rate that came without a unit, where answers are told in degrees: whoever types 1 may mean a degree."""
+    if units.name != DEG.name:
+        return
+    for option, text in options.items():
+        found = split((text or "").rpartition("=")[2].strip())
+        if found is None or found[1]:
+            continue
+        unit, degrees = ("rad", "deg") if option == "tilt" else ("rad/s", "deg/s")
+        with suppress(InputError):  # of a number that none can be: told where it is used
+            taken = number(float(exact(found[0])) * DEG.rates[1], DIGITS)
+            say(f'--{option}: {found[0]} alone is in {unit}: {taken} {degrees}; for degrees write "{found[0]} {degrees}"')
 
 
 def time_asked(text: str | None, case: Case, option: str = "follow") -> float | None:
