@@ -161,6 +161,9 @@ def motion_curve(plane: PhasePlane, low, high, points=4001):
     return y, np.sqrt(2 * np.maximum(plane.W0**2 / 2 - plane.height(y), 0.0))
 
 
+FARTHEST = 1e13  # ratio of places beyond which rounding decides on which orbit an equilibrium lies
+
+
 # --- the equilibria on an orbit, told by their offsets
 def _on_circle(plane):
     here = np.arctan2(*plane.place)
@@ -168,14 +171,17 @@ def _on_circle(plane):
 
 
 def _on_hyperbola(plane):
+    """xi eta = Q on all of the orbit, so that the sign of one of them tells the branch: that of the larger one at the equilibrium. Next to an asymptote
+    the smaller one is rounding."""
     xi, eta = plane.place
     for x, z in _on_conic(plane):
-        ratio = (x + z) / xi if xi else np.inf
-        other = eta / (x - z) if x != z else np.inf
-        for value in (ratio, other):
-            if 0 < value < np.inf and np.sign(x - z) in (0, np.sign(eta)):
-                yield float(np.log(value))
-                break
+        ahead, behind = x + z, x - z
+        if abs(ahead) >= abs(behind):
+            ratio = ahead / xi if xi else np.inf
+        else:
+            ratio = eta / behind
+        if 1 / FARTHEST < ratio < FARTHEST:
+            yield float(np.log(ratio))
 
 
 def _on_conic(plane):

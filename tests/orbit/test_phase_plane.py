@@ -1,4 +1,6 @@
 """The plane of one motion: the place of a single state is that of the same state in a row of states."""
+import math
+
 import numpy as np
 import pytest
 
@@ -30,3 +32,13 @@ def test_a_single_state_that_exact_arithmetic_places_on_a_plane_has_its_place():
     state = np.array([2.0, 0.5, 3.0])
     alone, among = land.start(state), land.start(state[None])
     assert np.ravel(alone[0]).tolist() == np.ravel(among[0]).tolist()
+
+
+@pytest.mark.parametrize("wheel", [100, 300, 500])
+def test_the_centre_on_an_invariant_plane_is_where_the_torque_balances(wheel):
+    """Middle axis, x1 + b = x3: on it x2' = 1 + (b - a) x3 - x3^2 by the equations of motion, x3 = x3(0) e^y. Doubles leave 2e-16 of the invariant."""
+    case = load(str(CASES / f"middle-axis-plane-{wheel}.toml"))
+    c = float(case.scene.b - case.scene.a)
+    plane = phase_plane(case.scene, case.start)
+    assert plane.saddles == [] and abs(plane.Q) < 1e-15
+    assert plane.centres == pytest.approx([math.log((c + math.sqrt(c * c + 4)) / 2 / case.state[2])], abs=1e-14)
