@@ -25,6 +25,7 @@ from stabilab.physics.effects.newtonian_field import NewtonianField
 from stabilab.physics.effects.pace import pace
 from stabilab.physics.effects.resistance import Resistance
 from stabilab.physics.scene import Scene
+from stabilab.show.text import law
 from stabilab.theories.follow import follow
 
 CASES = Path(__file__).parents[2] / "cases"
@@ -265,3 +266,7 @@ def test_combinations_of_a_file_that_leave_one_limit_are_one_line():
     cases = load_all(CASES / "charged-sweep.toml")
     (line,) = law.of_cases(cases).splitlines()
     assert line.endswith("(charged-sweep: 27 of 27 combinations, the farthest of them told)") and "2.07" in line
+
+
+def test_one_reason_of_several_cases_is_one_line_that_names_them():
+    assert law.together(["no body (3) does (one)", "too fast (two)", "no body (3) does (three)"]) == ["no body (3) does (one, three)", "too fast (two)"]

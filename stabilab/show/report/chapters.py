@@ -109,7 +109,7 @@ def _errors(case, end, found=None):
     found = found or compare(case, np.linspace(0.0, end, POINTS))
     rows = [{"case": case.name, "model": panels.WORDS[d.model], "part": written(d.part), "one": _time(d.first[0.01]), "ten": _time(d.first[0.1]),
              "largest": f"{d.largest / d.scale:.2g}" if d.scale else f"{d.largest:.2g}"} for d in found.departures]
-    return rows + [{"case": case.name, "model": panels.WORDS[name], "part": "", "one": "no answer", "ten": why, "largest": ""}
+    return rows + [{"case": case.name, "model": panels.WORDS[name], "part": "", "one": "no answer", "ten": written(why), "largest": ""}
                    for name, why in found.refused.items()]
 
 

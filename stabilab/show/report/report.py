@@ -12,7 +12,7 @@ from ...packages import demand
 from ...version import __version__
 from .. import style
 from ..files import manifest
-from ..text import table
+from ..text import law, table
 from . import own, precision_page, whole
 
 PACKAGES = ("numpy", "scipy", "sympy", "heyoka", "matplotlib", "vtk", "pyvista", "python-flint")
@@ -46,7 +46,7 @@ def write(cases=None, out="report", progress=None, arguments=None, papers=False,
             around["extra"] = _precision(loaded, folder, tell) if wanted.precision else ()
             left = own.pages(loaded, folder, tell, wanted, workers, **around)
     if beyond is not None:
-        beyond += filter(None, left)
+        beyond += law.together(line for lines in left for line in lines.splitlines())
     return out / "index.html"
 
 

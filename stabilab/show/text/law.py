@@ -63,6 +63,15 @@ def of_cases(cases) -> str:
     return "\n".join(_of_alike(group, cases) for group in told.values())
 
 
+def together(lines) -> list[str]:
+    """Lines of `of_cases`, those that say the same of several cases as one line that names them all."""
+    told: dict[str, list[str]] = {}
+    for line in lines:
+        words, _, name = line.rpartition(" (")
+        told.setdefault(words, []).append(name.removesuffix(")"))
+    return [f"{words} ({', '.join(names)})" for words, names in told.items()]
+
+
 def _of_alike(group, cases) -> str:
     """A line on a case, or on the combinations of one file that leave the same limit: the most exceeded of them."""
     case, _ = group[0]

@@ -49,7 +49,7 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
     page["uncertain"] = _uncertain(case, absent)
     if certify:
         page["certificate"] = _tried(absent, "Certificate", lambda: certified.certificate_of(case, folder, stem))
-    return page | {"absent": absent}
+    return page | {"absent": [(what, spoken(why)) for what, why in absent]}
 
 
 def _tried(absent, what, made):
