@@ -18,8 +18,8 @@ from . import rows_kernel
 # Else loops call instead of adding
 INLINED = {"exact_sum", "exact_product", "add", "times", "scaled", "less", "value", "swing", "lag", "sinc_cos", "sinc_minus_cos", "sinhc_and_rest",
            "way_of_cosine", "horner", "rounding_of"}
-# Loading numba and the code from disk costs some 0.3 s, compiling it once per machine some twenty; arrays take 5 to 50 us a row.
-COLD, WARM = 100_000, 100
+# Loading the code from disk costs some 0.3 s of a processor, compiling it once per machine some ten for each geometry; arrays take 5 to 50 us a row.
+COLD, WARM = 1_000_000, 100
 STRAIGHT = 1e-6  # of the slopes, as in `conic`: a circle so small hardly sees the bend of its equilibria
 
 
