@@ -401,7 +401,7 @@ def spots_of_row(fine, conic, pieces, folds, X, Z, w, wide, spots):
                 spots[k - 1, column], spots[k, column] = spots[k, column], spots[k - 1, column]
     sure = True
     for i in range(count):
-        sure = sure and abs(spots[i, OVER]) < INFINITY
+        sure = sure and abs(spots[i, OVER]) < INFINITY and spots[i, ERROR] < INFINITY and spots[i, ASTRAY] < INFINITY
         if i:  # wells and barriers take turns
             sure = sure and spots[i, OFFSET] > spots[i - 1, OFFSET] and spots[i, BARRIER] != spots[i - 1, BARRIER]
     return count, sure
@@ -493,6 +493,7 @@ def spanned(mu, w, count, spots, ends):
             off, astray = max(off, spots[i, ERROR]), max(astray, spots[i, ASTRAY])
     for k in range(2):
         ends[k, BLUR] += off / abs(ends[k, FORCE]) + astray
+        clear = clear and ends[k, BLUR] < INFINITY and ends[k, HAZE] < INFINITY  # no number is not: the largest of some would pass over it
     haze = max(ends[0, HAZE], ends[1, HAZE]) + off + EPS * fastest
     return clear and (barred or WALLED), fastest, haze, closest
 
@@ -507,6 +508,8 @@ def boxed(form, axes, state, x, z, xi, eta, ends, fastest, haze, box):
         dx, dz, rx, rz = change(x, z, xi, eta, y)
         low_x, high_x, low_z, high_z = min(low_x, dx), max(high_x, dx), min(low_z, dz), max(high_z, dz)
         off_x, off_z = max(off_x, abs(z + dz) * blur + EPS * rx), max(off_z, abs(x + dx) * blur + EPS * rz)
+        if not abs(dx) + abs(dz) + rx + rz < INFINITY:
+            return False
     for row in range(2):
         at = stationary(row, x, z, xi, eta, left)
         while at < right:

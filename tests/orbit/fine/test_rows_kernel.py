@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from benchmarks.random_scenes import drawn
-from stabilab import Fate, extremes, fate, period
+from stabilab import Fate, ScaledGyrostat, extremes, fate, period
 from stabilab.orbit.ball_orbit import Orbit
 from stabilab.orbit.extremes.balls import precise_extremes
 from stabilab.orbit.extremes_and_periods import extremes_and_periods
@@ -77,6 +77,17 @@ def test_spin_ups_states_at_rest_and_states_on_a_plane_stay_open_and_unwritten()
         assert kernel_input(landscape(one)) is not None
         boxes, periods, left = plain(one, states)
         assert (left == 3).all() and np.isnan(boxes).all() and np.isnan(periods).all()
+
+
+def test_a_state_whose_only_equilibrium_is_told_too_blurred_stays_open():
+    """Beside a plane, 26 e-foldings from the well of its orbit: the energy over the well is all rounding, and no number says how far the end is off.
+    Ball arithmetic has the second rate between -226.16 and 226.16; half of a motion was called all of it."""
+    one = ScaledGyrostat(a=-0.23863090224735242, b=-0.6107161051478869, mu=(0.0, -1.0, 0.0))
+    state = [float.fromhex(v) for v in ("-0x1.c39a15804066ap+7", "0x1.1f10bffa14b2dp+1", "-0x1.c4d2c54845fc5p+7")]
+    boxes, _, left = plain(one, np.array([state]))
+    exact = np.array(precise_extremes(Orbit(landscape(one).reduction, state), Fate.BOUNDED))
+    assert exact[1] == pytest.approx([-226.1618997146982, 226.1618997146982], rel=1e-12)
+    assert left[0] & 1 or (np.abs(boxes[0] - exact).max(axis=1) <= 1e-12 * np.abs(exact).max(axis=1)).all()
 
 
 @pytest.mark.slow  # compiling takes half a minute where no cache is
