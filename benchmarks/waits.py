@@ -26,7 +26,7 @@ def rows(small=False) -> list[Row]:
         found.append(_row("stabilab report my.toml", ("report", "my.toml", "--out", "one"), folder, 1, 20.0, 3,
                           "the search for the worst tilt, and four pictures with Matplotlib: a third each"))
         found.append(_row("make report, a core's share of two", ("report", *CASES, "--papers", "--precision", "--out", "all"), folder, CORES, 150.0, 1,
-                          "a page with pictures for each of 62 cases, and what answers cost: three tenths each; chapters and audit of the papers: a sixth each"))
+                          "a page with pictures for each case, and what answers cost: three tenths each; chapters and audit of the papers: a sixth each"))
         return found
 
 

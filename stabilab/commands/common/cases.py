@@ -9,6 +9,7 @@ from pathlib import Path
 from ...case.read import Case, load_all
 from ...case.units import NONE, TIME, quantity, split
 from ...errors import InputError, printable
+from ...numbers.exact import exact
 from ...show.progress import each
 from ...show.units import DEG, DIGITS, Units, number, units_of
 from .output import say
