@@ -11,7 +11,7 @@ import pytest
 import stabilab
 from stabilab.show.figures import catalogue as figures
 from stabilab.show.files import manifest
-from stabilab.show.report import chapters, own, report, surfaces, whole
+from stabilab.show.report import audit_page, chapters, own, report, surfaces, whole
 from stabilab.show.surface import render_probe
 from stabilab.theories.audit import findings_of
 
@@ -296,3 +296,15 @@ def test_no_page_is_wider_than_a_telephone(several, everything, tmp_path):
         (line,) = [line for line in _visit(frame, tmp_path / "shot.png") if "wide " in line]
         scroll, client, frame_itself = map(int, re.search(r"wide (\d+) (\d+) (\d+)", line).groups())
         assert scroll <= client <= frame_itself == 400, page  # a bar to scroll down takes its 15 pixels of the frame, so there is less room, not more
+
+
+def test_letters_of_printed_formulas_are_typeset_whole():
+    """A name is a Greek letter, whole or short, or a stem with its index; zeta is no zet with the index a."""
+    from html import unescape
+
+    from sympy import Symbol
+
+    for name, letter in {"th": "θ", "ps": "ψ", "ph": "φ", "zeta": "ζ", "Lam": "Λ", "lam3": "λ", "eta": "η"}.items():
+        shown = unescape(str(audit_page.mathml(Symbol(name), Symbol("kc"))))
+        assert f"<mi>{letter}</mi>" in shown.replace("ϕ", "φ") and ("<msub>" in shown.split("<mo>")[0]) == name[-1].isdigit(), name
+    assert "<mi>k</mi><mi>c</mi>" in shown

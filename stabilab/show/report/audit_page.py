@@ -9,11 +9,12 @@ from pathlib import Path
 from ...theories.audit.checks import raw
 from ...theories.audit.findings import VERDICTS
 from ...theories.audit.formulas import FormulaError
+from ..terminal.letters import ALPHABET
 from ..text.audit import counted, figures_changed
 from . import html
 
-SHORT = {"al": "alpha", "th": "theta", "gam": "gamma", "om": "omega", "lam": "lambda", "Om": "Omega", "Lam": "Lambda", "ep": "eps"}
-GREEK = {"al": "alpha", "th": "theta", "gam": "gamma", "om": "omega", "lam": "lambda", "Om": "Omega", "eps": "varepsilon", "ep": "varepsilon"}
+SHORT = {"al": "alpha", "th": "theta", "ps": "psi", "ph": "phi", "gam": "gamma", "Gam": "Gamma", "om": "omega", "Om": "Omega", "lam": "lambda",
+         "Lam": "Lambda", "ep": "eps"}
 
 
 def page(findings, path, **around) -> Path:
@@ -91,6 +92,12 @@ def _readable(expression):
 
 
 def _name(name):
-    found = re.fullmatch(r"([A-Za-z]+?)_?(\d*|[a-z]?)", name)
-    stem, index = found.groups() if found else (name, "")
-    return f"{GREEK.get(stem, stem)}_{index}" if index else GREEK.get(stem, stem)
+    """The name that SymPy typesets: a Greek letter, whole or abbreviated, with its number; else a stem with the letter or number that is its index."""
+    letter = re.fullmatch(r"([A-Za-z]+?)_?(\d*)", name)
+    stem, index = letter.groups() if letter else (name, "")
+    stem = SHORT.get(stem, stem)
+    if stem not in ALPHABET:
+        found = re.fullmatch(r"([A-Za-z]+?)_?(\d*|[a-z]?)", name)
+        stem, index = found.groups() if found else (name, "")
+    stem = "varepsilon" if stem == "eps" else stem
+    return f"{stem}_{index}" if index else stem
