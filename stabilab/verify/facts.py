@@ -103,8 +103,11 @@ def _spots(orbit, start: Fraction, end: Fraction):
     if orbit.touches():
         return []
     low, high = sorted((start, end))
+    folds, turn = orbit.folds(), below(orbit.turn) if orbit.kind < 0 else 1
     at_zero = orbit.F0 == 0
-    found = zeros(orbit.force, orbit.force_slope, low, high, at_zero and low == 0, at_zero and high == 0, orbit.purse)
+    multiple = [(spot + n * orbit.turn, order) for spot, order in folds for n in range(int(low // turn) - 1, int(high // turn) + 2)]
+    found = zeros(orbit.force, orbit.force_slope, low, high, at_zero and low == 0, at_zero and high == 0, orbit.purse,
+                  multiple, orbit.force_bend)
     return found if end > start else found[::-1]
 
 

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 
 from .numbers import ball, exact_sign, q
 from .rates import AHEAD
-from .zeros import CELLS, Purse, above
+from .zeros import CELLS, Open, Purse, above
 
 
 class Orbit:
@@ -113,13 +113,51 @@ class Orbit:
         if self.decays():  # a quadratic in the exponential
             bend, slope = self.kappa * du * dv, self.kappa * (cu * dv + cv * du) + self.rho * dv + self.sigma * du
             return slope * slope == 4 * bend * (self.kappa * cu * cv + self.rho * cv + self.sigma * cu + self.m)
+        force = self._along_chords()
+        return force != 0 and all(order % 2 == 0 for _, order in force.factor()[1])
+
+    def _along_chords(self):
+        """The force where the line of slope t through the state meets the conic again, times w^2 of `_chord`: a polynomial of degree four in t."""
+        w, u, v = self._chord()
+        return q(self.kappa) * u * v + (q(self.rho) * v + q(self.sigma) * u) * w + q(self.m) * w * w
+
+    def _chord(self):
+        """(w, u, v): that place is (u, v)/w."""
+        du, dv = self.u0 - self.cu, self.v0 - self.cv
         from flint import fmpq_poly
         t = fmpq_poly([0, 1])
         w = q(self.q) - q(self.p) * t * t  # the line of slope t through the state meets the conic again at (u, v)/w
         step = -2 * (q(self.q * du) - q(self.p * dv) * t)
-        u, v = q(self.u0) * w + step, q(self.v0) * w + t * step
-        force = q(self.kappa) * u * v + (q(self.rho) * v + q(self.sigma) * u) * w + q(self.m) * w * w
-        return force != 0 and all(order % 2 == 0 for _, order in force.factor()[1])
+        return w, q(self.u0) * w + step, q(self.v0) * w + t * step
+
+    def folds(self) -> list:
+        """[(ball, order)] of the places alpha, within half a turn of the state, where the force vanishes to second or third order exactly; on a circle."""
+        if self.kind >= 0 or self.touches():
+            return []
+        force, places = self._along_chords(), []
+        from flint import arb
+        w, u, v = ([arb(c) for c in row.coeffs()] for row in self._chord())
+        for factor, order in force.factor()[1]:
+            if order > 1:
+                places += [(_poly(u, root) / _poly(w, root), _poly(v, root) / _poly(w, root), order) for root in _real_roots(factor)]
+        if force.degree() < 3:  # the line of no finite slope
+            places.append((ball(self.u0), ball(2 * self.cv - self.v0), 4 - force.degree()))
+        found = [(self._offset(u, v), order) for u, v, order in places]
+        if any(0 in spot for spot, _ in found) and (self.F0 or self._slope_here()):
+            raise Open
+        return found
+
+    def _slope_here(self):
+        """F' at the state, exactly."""
+        du, dv = self.p * self.v0 + self.p0, self.q * self.u0 + self.q0
+        return self.kappa * (du * self.v0 + self.u0 * dv) + self.rho * dv + self.sigma * du
+
+    def _offset(self, u, v):
+        """alpha of a place on a circle, within half a turn."""
+        from flint import arb
+        g = self.balls
+        det, u, v = g.du * g.sv - g.dv * g.su, u - g.cu, v - g.cv
+        return arb.atan2((g.du * v - g.dv * u) / det, (u * g.sv - v * g.su) / det) / g.n
 
     def _on_plane(self, e):
         g = self.balls
@@ -141,6 +179,14 @@ class Orbit:
     def force_beyond(self, far):
         """The force on a decaying plane of a hyperbola, over all |alpha| >= far in the direction of the decay."""
         return self._force_at(*self._on_plane((-self.balls.n * far).exp().union(ball(0))))
+
+    def force_bend(self, alpha, order):
+        """The second or third derivative of F; (u, v)'' is (p v', q u')."""
+        g, (u, v), (u1, v1) = self.balls, self.place(alpha), self.slopes(alpha)
+        u2, v2, u3, v3 = g.p * v1, g.q * u1, g.p * g.q * u1, g.p * g.q * v1
+        if order == 2:
+            return g.kappa * (u2 * v + 2 * u1 * v1 + u * v2) + g.rho * v2 + g.sigma * u2
+        return g.kappa * (u3 * v + 3 * u2 * v1 + 3 * u1 * v2 + u * v3) + g.rho * v3 + g.sigma * u3
 
     def force_slope(self, alpha):
         """dF/dalpha."""
@@ -198,3 +244,10 @@ def _shift(rates, axis):
                 and rates.rho[k] == s * rates.kappa[k] and s * rates.sigma[k] == 0):
             return s
     return None
+
+
+def _real_roots(factor):
+    """The real roots of an irreducible polynomial with rational coefficients, as balls."""
+    from flint import fmpz_poly
+    whole = fmpz_poly([int(c * factor.denom()) for c in factor.coeffs()])
+    return [root.real for root, _ in whole.complex_roots() if root.imag == 0]

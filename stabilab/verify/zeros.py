@@ -30,9 +30,10 @@ class Purse:
         self.cells -= 1
 
 
-def zeros(f, df, low: Fraction, high: Fraction, at_low=False, at_high=False, purse=None):
-    """Balls that hold one zero of f each, rising, and no zero on (low, high) is elsewhere.
+def zeros(f, df, low: Fraction, high: Fraction, at_low=False, at_high=False, purse=None, multiple=(), bend=None):
+    """Balls that hold one zero of f each, rising, and no zero on (low, high) is elsewhere but those of even order in `multiple`.
 
+    multiple: (ball, order) of zeros of higher order, by algebra, all of them; bend: then, the derivative of an order over a ball.
     at_low, at_high: f is known to vanish exactly at that end; such a zero is not listed. purse: pays for the cells.
     """
     purse = purse or Purse(CELLS)
@@ -48,6 +49,12 @@ def zeros(f, df, low: Fraction, high: Fraction, at_low=False, at_high=False, pur
         if sign(f(cell)):
             continue
         if not sign(df(cell)):
+            at_end = at_low and a == low or at_high and b == high
+            known = _multiple(multiple, bend, a, b, at_end)
+            if known:  # that derivative has one sign, so nothing else vanishes
+                if known[1] % 2 and not at_end:
+                    found.append(known[0])
+                continue
             c = a + (b - a) * SPLIT
             stack += [(c, b), (a, c)]
             continue
@@ -59,6 +66,15 @@ def zeros(f, df, low: Fraction, high: Fraction, at_low=False, at_high=False, pur
         if ends[0] != ends[1]:
             found.append(narrowed(f, df, a, b))
     return found
+
+
+def _multiple(multiple, bend, a, b, at_end):
+    """The (ball, order) of the only zero of a cell, if it is one of higher order: within it, or at its end zero, where f is known to vanish."""
+    for spot, order in multiple:
+        inside = a < below(spot) and above(spot) < b or at_end and 0 in (a, b) and 0 in spot
+        if inside and order < 4 and sign(bend(hull(a, b), order)):
+            return spot, order
+    return None
 
 
 def narrowed(f, df, a: Fraction, b: Fraction):

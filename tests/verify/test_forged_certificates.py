@@ -243,6 +243,9 @@ MOTIONS = {
     "free, round": (physical((3, 2, 1), (0, 1, 0)), (1, 1, 3)), "free, in a well": (physical((3, 2, 1), (1, 0, 0)), (3, 1, 1)),
     "free, steady rate": (physical((3, 3, 1)), (1, 1, 1)), "on a hyperbola": (ScaledGyrostat("0.5", 1, (0, 1, 0)), (1, -1, 2)),
     "on a decaying plane": (ScaledGyrostat("0.5", 1, (0, 1, 0)), (F(1, 2), -1, F(-3, 2))),
+    # force that vanishes to third order on the circle at (0, -1), and to second at (1, 2): there F = x2 (x1 + 3) - 8 and F' = x2^2 - x1 (x1 + 3) do
+    "past a cusp": (physical((3, 1, 2), (-1, 0, 0)), (0, 1, 0)), "past a fold": (ScaledGyrostat(0, 3, (0, 0, -8)), (2, 1, F(3, 2))),
+    "held past a fold": (ScaledGyrostat(0, 3, (0, 0, -8)), (2, 1, F(1, 10))),
     "pure spin": (physical((3, 2, 1), (0, 0, 0), (0, 1, 0)), (0, 1, 0)),
     "on a parabola": (physical((2, 2, 1), (0, 1, 1), (1, 0, 0)), (1, 1, 2)),
     "released at rest": (ScaledGyrostat("0.2", "0.4", (0, 0, 1)), (3, F(-3, 2), 0)),
