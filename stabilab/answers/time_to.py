@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
@@ -11,7 +12,7 @@ import numpy as np
 from ..asked import checked_scene
 from ..errors import InputError
 from ..numbers.exact import exact_vector
-from ..physics.coefficients import effective
+from ..physics.coefficients import content, effective
 from ..physics.scene import AnyScene
 from ..physics.states import checked_states, equations_and_start, start_of
 from .passage.banded import STEPS as BAND_STEPS
@@ -55,6 +56,8 @@ def time_to(scene: AnyScene, states: Any, rate: Any = None, component: Any = Non
         rows, shape = array.reshape(-1, 3).tolist(), array.shape[:-1]
         starts = [exact_vector(exact, "exact")] if exact is not None and len(rows) == 1 else [tuple(map(Fraction, row)) for row in rows]
         found = [of_one(scene, row, start, limit, end, work) for row, start in zip(rows, starts)]
+    if scene is not given and (note := content(given).note):  # what the twin takes for granted of the scene
+        found = [replace(one, words=f"{one.words}; {note}") for one in found]
     column = lambda name, kind: np.array([getattr(one, name) for one in found], kind).reshape(shape)[()]
     return TimeTo(column("low", float), column("high", float), column("level", object), column("words", object), limit.words, given, array)
 
