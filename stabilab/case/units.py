@@ -45,7 +45,7 @@ INERTIA, VELOCITY, CHARGE, FLUX = (2, 1, 0, 0, 0), (1, 0, -1, 0, 0), (0, 0, 1, 1
 PER_SECOND, PER_SECOND_2, DENSITY, VISCOSITY = (0, 0, -1, 0, 0), (0, 0, -2, 0, 0), (-3, 1, 0, 0, 0), (2, 0, -1, 0, 0)
 ATTRACTION, LENGTH_7, ENERGY = (3, 0, -2, 0, 0), (7, 0, 0, 0, 0), (2, 1, -2, 0, 0)  # an energy has the dimension of a torque
 NAMES = {NONE: "a number without a unit", LENGTH: "length (m)", MASS: "mass (kg)", TIME: "time (s)", ANGLE: "angle (rad)",
-         RATE: "angular velocity (rad/s)", FORCE: "force (N)", TORQUE: "torque (N m) or energy (J)", MOMENTUM: "angular momentum (N m s)",
+         RATE: "angular velocity (rad/s)", FORCE: "force (N)", TORQUE: "torque (N m)", MOMENTUM: "angular momentum (N m s)",
          INERTIA: "moment of inertia (kg m^2)", VELOCITY: "velocity (m/s)", CHARGE: "charge (C)", FLUX: "magnetic flux density (T)",
          PER_SECOND: "rate (1/s)", DENSITY: "density (kg/m^3)", VISCOSITY: "kinematic viscosity (m^2/s)", (2, 1, -3, 0, 0): "power (W)",
          (-1, 1, -2, 0, 0): "pressure (Pa)", (0, 0, -2, 0, 1): "angular acceleration (rad/s^2)", (1, 1, -1, 0, 0): "momentum (N s)"}
@@ -99,7 +99,8 @@ def in_dimension(words: str, wanted: Dimension, text: str = "") -> Unit:
         came = text or words
         if wanted == NONE:
             raise InputError(f'expected {named(wanted)}, got {named(unit.dimension)}: "{came[:60]}"')
-        raise InputError(f'expected {named(wanted)}, got {named(unit.dimension)}: "{came[:60]}"; a number alone is in SI units')
+        also = " or energy (J)" if wanted == ENERGY else ""
+        raise InputError(f'expected {named(wanted)}{also}, got {named(unit.dimension)}: "{came[:60]}"; a number alone is in SI units')
     return unit
 
 

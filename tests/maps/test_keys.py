@@ -98,3 +98,10 @@ def test_values_that_are_none_are_told(text, words):
 
 def test_a_key_ends_at_the_last_equals_sign_as_a_wheels_name_may_have_one():
     assert split_keys(["wheels.a=b.momentum = 0:1:3"]) == [("wheels.a=b.momentum", "0:1:3")]
+
+
+def test_the_unit_of_every_number_of_a_file_is_one_unit():
+    """A table heads its columns with it: of a torque that is N m, whatever else has this dimension."""
+    from stabilab.case.units import DIMENSIONS, named
+    names = [named(dimension) for dimension in DIMENSIONS.values()]
+    assert all(name.count("(") <= 1 and " or " not in name for name in names)
