@@ -729,7 +729,7 @@ def timed(conic, x, z, xi, eta, w, count, spots, ends, closest, nodes, near, wei
                      and EPS * terms_at(series, many, data, sizes > 0, rho, whole_s, whole_c, 0.5) <= PERIOD_DIGITS * inner
                      and EPS * terms_at(series, many, data, sizes > 0, rho, whole_s, whole_c, 1.0) <= PERIOD_DIGITS * last)
         most, lowest = max(first, inner, last), min(first, inner, last)
-        if sharp and 0.5 * blur * (most - lowest) <= PERIOD_DIGITS * rho * lowest:
+        if sharp and blur * (most - lowest) <= PERIOD_DIGITS * rho * lowest:
             period = summed(series, many, data, held, rho, whole_s, whole_c, nodes, near, weights, levels)
             if period < INFINITY:
                 return period, True
@@ -759,8 +759,7 @@ def timed(conic, x, z, xi, eta, w, count, spots, ends, closest, nodes, near, wei
                           difference(series, many, data, held, rho, whole_s, whole_c, 0.5, 0.5),
                           difference(series, many, data, held, rho, whole_s, whole_c, 1.0, 0.0))
     half = 8 * EPS * terms_at(series, many, data, True, rho, whole_s, whole_c, 0.5)
-    # a period goes with the root of H: what the ends' errors move it by is half of what they move H by
-    good = (0.5 * blur * (max(first, inner, last) - min(first, inner, last)) <= PERIOD_DIGITS * rho * min(first, last)
+    good = (blur * (max(first, inner, last) - min(first, inner, last)) <= PERIOD_DIGITS * rho * min(first, last)
             and 8 * EPS * terms_at(series, many, data, True, rho, whole_s, whole_c, 0.0) <= SCATTERED * first
             and half <= SCATTERED * inner and 8 * EPS * terms_at(series, many, data, True, rho, whole_s, whole_c, 1.0) <= SCATTERED * last
             and half <= SCATTERED * dip and spots[anchor, PULL] + spots[anchor, TILT] <= PERIOD_DIGITS * min(first, inner, last))
