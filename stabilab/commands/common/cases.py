@@ -9,7 +9,6 @@ from pathlib import Path
 from ...case.read import Case, load_all
 from ...case.units import NONE, TIME, quantity, split
 from ...errors import InputError, printable
-from ...numbers.exact import exact
 from ...show.progress import each
 from ...show.units import DEG, DIGITS, Units, number, units_of
 from .output import say
@@ -50,7 +49,7 @@ def tell_radians(units: Units, **options: str | None) -> None:
             continue
         unit, degrees = ("rad", "deg") if option == "tilt" else ("rad/s", "deg/s")
         with suppress(InputError):  # of a number that none can be: told where it is used
-            taken = number(float(exact(found[0])) * DEG.rates[1], DIGITS)
+            taken = number(float(quantity(found[0], NONE)[0]) * DEG.rates[1], DIGITS)
             say(f'--{option}: {found[0]} alone is in {unit}: {taken} {degrees}; for degrees write "{found[0]} {degrees}"')
 
 
