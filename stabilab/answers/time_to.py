@@ -56,8 +56,9 @@ def time_to(scene: AnyScene, states: Any, rate: Any = None, component: Any = Non
         rows, shape = array.reshape(-1, 3).tolist(), array.shape[:-1]
         starts = [exact_vector(exact, "exact")] if exact is not None and len(rows) == 1 else [tuple(map(Fraction, row)) for row in rows]
         found = [of_one(scene, row, start, limit, end, work) for row, start in zip(rows, starts)]
-    if scene is not given and (note := content(given).note):  # what the twin takes for granted of the scene
-        found = [replace(one, words=f"{one.words}; {note}") for one in found]
+    parts = content(given) if scene is not given else None
+    if parts is not None and parts.note:  # what the twin takes for granted of the scene
+        found = [replace(one, words=f"{one.words}; {parts.note}") for one in found]
     column = lambda name, kind: np.array([getattr(one, name) for one in found], kind).reshape(shape)[()]
     return TimeTo(column("low", float), column("high", float), column("level", object), column("words", object), limit.words, given, array)
 

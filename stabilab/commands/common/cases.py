@@ -79,7 +79,7 @@ def exact_times_asked(case: Case, at: str | None) -> list[Fraction]:
     return sorted(set(_each(at, case)))
 
 
-def _span(case: Case) -> tuple[float, float]:
+def _span(case: Case) -> tuple[float, ...]:
     if case.span is None:
         raise InputError(f"{case.path}: motion: no span; give --at T1,T2,... or span (or tau) in [motion]")
     return case.span
