@@ -5,17 +5,17 @@ derived again. A folder that cannot be written stays as it is. Files appear whol
 """
 from __future__ import annotations
 
+import json
 import os
-import pickle
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import fields, is_dataclass
 from hashlib import sha256
-from io import BytesIO
 from pathlib import Path
 from typing import Any, TypeVar
 
 from .version import __version__
+from .written import read, written
 
 T = TypeVar("T")
 MOST = 256  # files of a kind: beyond, the older half goes
@@ -35,16 +35,16 @@ def cache_folder() -> Path | None:
     return Path.home() / ".cache" / "stabilab"
 
 
-def kept(kind: str, content: str, sources: Path, versions: tuple[str, ...], make: Callable[[], T], made_of: tuple[str, ...]) -> T:
-    """What `make` returns, from the disk where it was made before from the same content.
+def kept(kind: str, content: str, sources: Path, versions: tuple[str, ...], make: Callable[[], T], records: Mapping[str, type]) -> T:
+    """What `make` returns, from the disk where it was made before from the same content; made anew each time where it is not to be written down.
 
     kind: the folder; content: everything that the result depends on, in words; sources: the folder of the code that makes it, of which any change
-    counts; versions: of the packages that make it; made_of: the beginnings of the modules whose classes the result may hold.
+    counts; versions: of the packages that make it; records: the dataclasses, by their names, of which the result is one and may hold others.
     """
     path = _path(kind, content, sources, versions)
     if path is None:
         return make()
-    found = _read(path, made_of)
+    found = _read(path, records)
     if found is None:
         found = make()
         _write(path, found)
@@ -70,47 +70,32 @@ def _path(kind: str, content: str, sources: Path, versions: tuple[str, ...]) -> 
         made_by = __version__, sys.version_info[:3], versions, files
     except (OSError, RuntimeError):  # no home, or a package that is no folder of files
         return None
-    return folder / kind / f"{sha256(repr((content, made_by)).encode()).hexdigest()[:32]}.pickle"
+    return folder / kind / f"{sha256(repr((content, made_by)).encode()).hexdigest()[:32]}.json"
 
 
-class _Reader(pickle.Unpickler):
-    """Loads classes of some packages, and nothing else: no function that a stranger's file might call."""
-
-    def __init__(self, data: bytes, made_of: tuple[str, ...]) -> None:
-        super().__init__(BytesIO(data))
-        self.made_of = made_of
-
-    def find_class(self, module: str, name: str) -> Any:
-        if not f"{module}.".startswith(self.made_of):
-            raise pickle.UnpicklingError(f"{module}.{name} is not of what is kept here")
-        found = super().find_class(module, name)
-        if not isinstance(found, type):
-            raise pickle.UnpicklingError(f"{module}.{name} is no class")
-        return found
-
-
-def _read(path: Path, made_of: tuple[str, ...]) -> object | None:
+def _read(path: Path, records: Mapping[str, type]) -> object | None:
     try:
-        data = path.read_bytes()
-        if data[:32] != sha256(data[32:]).digest():
+        said, _, data = path.read_bytes().partition(b"\n")
+        if said.decode() != sha256(data).hexdigest():
             return None
-        return _Reader(data[32:], made_of).load()
-    except Exception:  # whatever a strange file makes of the loader: it is no answer
+        found = read(json.loads(data), records)
+        return found if type(found) in records.values() else None
+    except Exception:  # whatever a strange file holds: it is no answer
         return None
 
 
 def _write(path: Path, made: object) -> None:
     try:
-        data = pickle.dumps(made, 5)
+        data = json.dumps(written(made), separators=(",", ":")).encode()
         path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
         waiting = path.with_name(f".{path.name}.{os.getpid()}")
         try:
-            waiting.write_bytes(sha256(data).digest() + data)
+            waiting.write_bytes(sha256(data).hexdigest().encode() + b"\n" + data)
             waiting.replace(path)
         finally:
             waiting.unlink(missing_ok=True)
-        files = sorted(path.parent.glob("*.pickle"), key=lambda file: file.stat().st_mtime)
+        files = sorted(path.parent.glob("*.json"), key=lambda file: file.stat().st_mtime)
         for file in files[:len(files) - MOST // 2] if len(files) > MOST else ():
             file.unlink(missing_ok=True)
-    except (OSError, pickle.PicklingError, AttributeError, TypeError, RecursionError):  # it is derived again next time
+    except (OSError, TypeError, ValueError, RecursionError):  # it is derived again next time
         return

@@ -1,11 +1,12 @@
 """What is kept on disk between runs is an answer only where it is what was derived: same content, same versions, whole, and of known classes."""
 from __future__ import annotations
 
-import pickle
-from dataclasses import replace
+import json
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from hashlib import sha256
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -22,11 +23,18 @@ def folder(tmp_path, monkeypatch):
     return tmp_path / "kept"
 
 
-def made(content, value, versions=("1",), sources=None, made_of=("fractions.",)):
+@dataclass(frozen=True)
+class Made:
+    """What is kept in these tests."""
+
+    value: Any
+
+
+def made(content, value, versions=("1",), sources=None):
     """(what `kept` gives, whether it was made anew)."""
     asked = []
-    found = kept("kind", content, sources or Path(__file__).parent, versions, lambda: asked.append(1) or value, made_of)
-    return found, bool(asked)
+    found = kept("kind", content, sources or Path(__file__).parent, versions, lambda: asked.append(1) or Made(value), {"Made": Made})
+    return found.value, bool(asked)
 
 
 def test_the_same_content_is_made_once_and_other_content_or_versions_anew(folder, tmp_path):
@@ -41,13 +49,18 @@ def test_the_same_content_is_made_once_and_other_content_or_versions_anew(folder
 
 
 def whole(data):
-    return sha256(data).digest() + data
+    return sha256(data).hexdigest().encode() + b"\n" + data
 
 
-@pytest.mark.parametrize("data", [b"", b"x" * 100, whole(b"no pickle"), whole(pickle.dumps(print)), whole(pickle.dumps(Path("x")))])
+STRANGE = [["+", "__import__('os').mkdir('made')"], ["+", "x", ["q", 1, 2]], ["q", "1", 2], ["/", 1.5, 2], ["x", 3, {}],
+           ["record", "Path", {}], ["^", ["q", 1, 2]], ["eval", "1"], [], {"a": 1}]
+
+
+@pytest.mark.parametrize("data", [b"", b"x" * 100, whole(b"no JSON"), b"\n" + json.dumps(["record", "Made", {"value": 3}]).encode(), whole(b"3"),
+                                  *(whole(json.dumps(wrapped).encode()) for one in STRANGE for wrapped in (one, ["record", "Made", {"value": one}]))])
 def test_a_broken_or_a_strange_file_is_no_answer_and_is_written_anew(folder, data):
     made("a", Fraction(1, 3))
-    file, = folder.rglob("*.pickle")
+    file, = folder.rglob("*.json")
     file.write_bytes(data)
     assert made("a", Fraction(1, 7)) == (Fraction(1, 7), True) and made("a", None) == (Fraction(1, 7), False)
 
@@ -63,7 +76,7 @@ def test_where_nothing_can_be_written_or_is_to_be_kept_it_is_derived_each_time(t
 def test_the_folder_never_holds_many_files(folder):
     for n in range(MOST + 1):
         made(str(n), Fraction(n))
-    assert len(list(folder.rglob("*.pickle"))) <= MOST and not list(folder.rglob(".*"))
+    assert len(list(folder.rglob("*.json"))) <= MOST and not list(folder.rglob(".*"))
 
 
 def test_equations_from_disk_are_those_derived(folder):
@@ -77,7 +90,7 @@ def test_equations_from_disk_are_those_derived(folder):
             system = to_numpy.to_numpy(stabilab.derive(scene))
             seen.append((system.equations.rhs, system.equations.parameters, system.equations.symbols, system.equations.balances, system.rhs,
                          system.entries, system.quantities, system.rates, system([0.1, 0.2, 0.3]).tolist()))
-        assert seen[0] == seen[1] and len(list(folder.rglob("*.pickle"))) == files
+        assert seen[0] == seen[1] and len(list(folder.rglob("*.json"))) == files
         if files == 5:
             euler = [500 * 0.06 / 2000, (-1000 * 0.03 - 100 * 0.3) / 1500, (500 * 0.02 + 100 * 0.2 + 20) / 1000]
             np.testing.assert_allclose(seen[0][-1], euler, rtol=1e-14)
@@ -102,4 +115,4 @@ def test_a_users_own_effects_and_changed_copies_are_never_kept(folder):
     to_numpy.to_numpy(stabilab.derive(Scene(Body((2000, 1500, 1001)), Own((0, 0, 20)))))
     derived = stabilab.derive(Scene(Body((2000, 1500, 1002)), ConstantTorque((0, 0, 20))))
     assert derived.content and not replace(derived, energy=derived.energy * 2).content
-    assert len(list(folder.rglob("*.pickle"))) == 1
+    assert len(list(folder.rglob("*.json"))) == 1

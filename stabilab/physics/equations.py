@@ -126,15 +126,15 @@ def _physical(scene: Scene, names: tuple[str, ...]) -> Equations:
     content = in_words((scene, names))
     if any(type(effect).__module__.partition(".")[0] != __package__.partition(".")[0] for effect in scene.effects):
         return _derived(scene, names)  # a user's own effect may change without a word
-    equations: Equations = kept_of_symbols("equations", content, lambda: _derived(scene, names))
+    equations: Equations = kept_of_symbols("equations", content, lambda: _derived(scene, names), Equations, Balance)
     object.__setattr__(equations, "content", content)
     return equations
 
 
-def kept_of_symbols(kind: str, content: str, make: Callable[[], Any]) -> Any:
-    """What `make` returns, made of SymPy's values, from the disk where it is there."""
+def kept_of_symbols(kind: str, content: str, make: Callable[[], Any], *records: type) -> Any:
+    """What `make` returns, made of SymPy's values and these dataclasses, from the disk where it is there."""
     from sympy import __version__
-    return kept(kind, content, Path(__file__).parent, (__version__,), make, ("sympy.", "fractions.", f"{__package__}."))
+    return kept(kind, content, Path(__file__).parent, (__version__,), make, {record.__name__: record for record in records})
 
 
 def _derived(scene: Scene, names: tuple[str, ...]) -> Equations:

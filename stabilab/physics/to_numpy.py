@@ -140,7 +140,7 @@ class System:
     def _formed(self, name: str, expressions: Callable[[], Iterable[Symbolic]], drop_constants: bool = False) -> Form:
         """A part, from the disk where the equations may be kept there."""
         equations, make = self.equations, lambda: form(self.equations, expressions(), drop_constants)
-        return kept_of_symbols("forms", f"{equations.content} {name}", make) if equations.content else make()
+        return kept_of_symbols("forms", f"{equations.content} {name}", make, Form) if equations.content else make()
 
     def __call__(self, x: ArrayLike) -> np.ndarray:
         """Rates of the states x: (..., 3) -> (..., 3)."""
