@@ -30,6 +30,8 @@ COMPILED = 20_000  # states for which loading numba's code pays
 POINTED_WORK = 100_000  # multiplications for the proof of a time in an atlas: it leaves long motions to compiled steps, which prove them sooner
 NO_CASE_VALUES = {"fate": NO_CASE, "level": -1, "reason": -1, "when_level": -1, "chaos": -1, "equilibria": NONE, "stable": NONE, "unstable": NONE, "open": NONE}
 
+PERIODS = {Fate.EQUILIBRIUM: 0.0, Fate.SPIN_UP: np.inf, Fate.SEPARATRIX: np.inf}  # of motions that have none
+
 
 def answered(plan: Plan, number: int) -> np.ndarray:
     """(points,) of `columns.record`: the answers for a chunk, in the inner order."""
@@ -137,7 +139,7 @@ def _single(plan: Plan, case: Case, states: np.ndarray, out: np.ndarray) -> None
         columns = {"fate": found.fate, "spin_axis": found.axis * found.sense, "level": LEVELS.index(found.level), "reason": -1,
                    "margin": known(found.margin_energy), "distance": known(found.margin_velocity), "least": [low for low, _ in pairs],
                    "greatest": [high for _, high in pairs],
-                   "period": (0.0 if found.fate == Fate.EQUILIBRIUM else np.inf) if found.period is None else found.period}
+                   "period": PERIODS.get(found.fate, np.nan) if found.period is None else found.period}
         for name, value in columns.items():
             if name in out.dtype.names:
                 out[name][n] = value

@@ -47,7 +47,7 @@ ANSWERS: dict[str, tuple[Column, ...]] = {
     "distance": (Column("distance", "f8", RATE, "smallest change of the rates that reaches the separatrix", note=f"+inf without one, {NOT_KNOWN}"),),
     "extremes": (Column("least", "f8", RATE, "least rate about each principal axis", shape=(3,), note=f"-inf where unbounded, {NOT_KNOWN}; {FOLLOWED}"),
                  Column("greatest", "f8", RATE, "greatest rate about each principal axis", shape=(3,), note=f"+inf where unbounded, {NOT_KNOWN}; {FOLLOWED}")),
-    "period": (Column("period", "f8", TIME, "period of the motion", note="+inf where it does not repeat or is not known to, 0 at rest"),),
+    "period": (Column("period", "f8", TIME, "period of the motion", note=f"+inf where it never repeats, {NOT_KNOWN}, 0 at rest"),),
     "when": (Column("when_low", "f8", TIME, "the limit is not reached before", note="+inf: never"),
              Column("when_high", "f8", TIME, "the limit is reached by", note="+inf: never; NaN where that is not known"),
              Column("when_level", "i1", "", "how well the time is known", LIMIT_LEVELS, note="-1: no case")),

@@ -19,6 +19,7 @@ from stabilab.maps.chunk import answered
 from stabilab.maps.plan import from_json, planned
 from stabilab.maps.run import run
 from stabilab.orbit.result import Fate
+from stabilab.show.maps import words
 from tests.shared import CASES
 
 
@@ -86,6 +87,14 @@ def test_scenes_without_arrays_are_answered_one_by_one(tmp_path):
         one = read_text("x.toml", text.replace(first, f"angular_velocity = [{rate}, {case.state[1]!r}, {case.state[2]!r}]"))
         expected = motion(one.scene, one.start, one.span)
         assert found.records["fate"][n] == expected.fate and found.records["greatest"][n] == pytest.approx([b for _, b in expected.extremes])
+
+
+def test_a_period_that_nobody_knows_is_none_and_the_words_say_so():
+    """+inf is of motions that never repeat. The one command says of this top: no period is known of this motion (bounded)."""
+    found = swept("top-fast", {"angular_velocity[1]": "0, 1"}, answer="fate,period")
+    assert found.records["fate"].tolist() == [Fate.BOUNDED] * 2 and np.isnan(found.records["period"]).all()
+    told = words.text(found)
+    assert told.count("not known") == 3 and "nan" not in told and "inf" not in told
 
 
 def test_a_limit_is_asked_of_scenes_without_arrays_too():

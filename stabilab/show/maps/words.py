@@ -175,4 +175,6 @@ def _table(found: Swept) -> list[str]:
 
 
 def _cell(value: Any) -> str:
-    return f"{value + 0.0:.6g}" if isinstance(value, float) else str(value)
+    if not isinstance(value, float):
+        return str(value)
+    return "not known" if math.isnan(value) else f"{value + 0.0:.6g}"
