@@ -64,10 +64,11 @@ def files(text):
 
 
 def as_pattern(shown):
-    """The regular expression of an output shown, "..." standing for what is left out."""
+    """The regular expression of an output shown, "..." standing for what is left out. Where that is in a line, its columns may stand wider apart: they are as
+    wide as their longest number, and the last digits of a run hang on the machine."""
     lines = [r"(?:.*\n)*?" if line == "..." else "[^\n]*".join(map(re.escape, line.rstrip().split("..."))) + r"[ ]*\n"
              for line in shown.splitlines()]
-    return re.compile("".join(lines))
+    return re.compile("".join(re.sub(r"(?:\\ ){2,}", "[ ]{2,}", line) if "[^\n]*" in line else line for line in lines))
 
 
 def make_knows(target):
