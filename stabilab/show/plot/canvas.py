@@ -9,7 +9,7 @@ from typing import Any
 from ...errors import InputError
 from ...packages import demand
 from .. import style
-from ..terminal.letters import greek, written
+from ..terminal.letters import written
 
 SIZE = (7.6, 4.8)  # inches
 SQUARE = (7.0, 6.4)
@@ -67,4 +67,4 @@ def _columns(names: list[str], room: float) -> int:
 def title(ax: Any, *lines: str) -> None:
     """The lines that are not empty, above the axes; the first is the title of the case."""
     heading, *others = lines
-    ax.set_title("\n".join(filter(None, (written(heading), *map(greek, others)))), wrap=True, parse_math=False)
+    ax.set_title("\n".join(filter(None, map(written, (heading, *others)))), wrap=True, parse_math=False)
