@@ -13,7 +13,7 @@ from ..physics.blocks import slices
 from ..physics.equations import derive
 from .taylor_digits import Exhausted, Loop, Recursion, steps
 
-DIGITS = (30, 42, 84, 168)  # of successive runs; each is checked by the one before
+DIGITS = (30, 42, 84, 168, 336)  # of successive runs; each is checked by the one before
 AGREEMENT = 1e-19  # two runs agree where they differ by less than this share of the state: far below a double's 1e-16
 WORK = 60_000_000  # multiplications of all runs together, some ten seconds
 SEARCH = 20  # evaluations of a series that the search for its roots takes in a step

@@ -100,6 +100,16 @@ def test_a_curve_with_more_turns_than_columns_becomes_a_band_that_holds_it():
     assert path.turning(values) == 2000 and low.max() < -0.99 and high.min() > 0.99
 
 
+def test_a_motion_on_an_unstable_plane_is_drawn_where_it_stays():
+    """By hand: on the plane x1 + 1 = -x3 of this scene x3' = -x2 x3 and x2' = 1 + x3/2 + x3^2, so x3 dies out and x2 grows with the time. A run in doubles is
+    thrown off the plane by rounding at tau = 8."""
+    one = subject.subject(stabilab.load(f"{CASES}/middle-axis-spin-up.toml"))
+    t, x = path.path(one, 0.0, 20.0)
+    assert t[-1] == 20 and abs(x[:, 0] + 1 + x[:, 2]).max() < 1e-15
+    late = t > 3
+    assert abs(x[late, 2]).max() < 0.01 and abs(np.diff(x[late, 1]) / np.diff(t[late]) - 1).max() < 0.02
+
+
 def test_a_motion_that_never_turns_has_one_branch_in_its_plane():
     """torque-free-body goes right round axis 1 (H^2 > 2 T D2), so omega1 keeps its sign; one in a well has both."""
     def signs(name):

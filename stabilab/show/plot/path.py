@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...answers.digits.run import best_reached
 from ...answers.simulate import simulate
 from ...answers.trajectory import trajectory
 from ...errors import InputError
@@ -11,6 +12,8 @@ from .subject import Subject
 EVEN = 2001  # times at least
 INSIDE = 16  # times inside a step: a Taylor step to the last digit turns the body by up to three radians
 MOST = 60_000
+SEEN = 1e-3  # of the largest rate: what an eye tells apart
+DIGITS = 4  # of a run in doubles' place, where these are lost; more than one of them is needed for a line
 BINS, SOLID = 700, 500  # a curve with more turning points than this is drawn as a band of so many pieces
 
 
@@ -21,12 +24,28 @@ def path(one: Subject, start: float, end: float) -> tuple[np.ndarray, np.ndarray
     if one.scene.plain:
         run = trajectory(one.scene, one.start, times, laws=False)
         t, states = run.t, run.states
+        if not _sure(one, t, states):
+            t, states = _in_digits(one, even) or (t, states)
     else:
         found = simulate(one.scene, one.state, times, one.blocks)
         t, states = found.t, found.state["omega"]
     if len(t) < 2:
         raise InputError("plot: the motion cannot be followed: the run stopped at its start")
     return np.asarray(t), np.asarray(states)
+
+
+def _sure(one, t, states) -> bool:
+    """Whether a start moved in its last place leaves the line where it is: on an unstable plane rounding throws a run in doubles off."""
+    moved = trajectory(one.scene, np.nextafter(np.asarray(one.start, float), np.inf), t, laws=False)
+    return len(moved.t) == len(t) and bool((np.abs(moved.states - states) <= SEEN * np.abs(states).max()).all())
+
+
+def _in_digits(one, even):
+    """(times, rates) by the cheapest way that is sure of them; None where none is known, or the motion is not a case's own."""
+    if one.case is None:
+        return None
+    found = best_reached(one.case, even, DIGITS, measured=False)
+    return (found.run.t, found.run.state["x" if one.scene.variables == "scaled" else "omega"]) if found.run.status == "reached" and found.digits > 1 else None
 
 
 def _steps(one, even):
