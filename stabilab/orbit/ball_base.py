@@ -68,7 +68,7 @@ class BallOrbit:
         found = self._found()
         if any(0 in y and not y.is_zero() for y, _ in found):
             raise Unclear  # on which side of the state it stands is not known, and no side may pass it over
-        found.sort(key=lambda one: float(one[0].mid()))
+        found.sort(key=lambda one: one[0].mid())  # as doubles two that nearly meet may be one number
         for (a, _), (b, _) in zip(found, found[1:]):
             if not a < b:
                 raise Unclear
@@ -107,7 +107,7 @@ class BallOrbit:
 
     def margin(self):
         """The margin that decides the fate: of the highest barrier on a circle, else of the one nearest in height; None without a barrier."""
-        return min(self.margins(), key=lambda v: abs(float(v.mid())), default=None)
+        return min(self.margins(), key=lambda v: abs(v.mid()), default=None)
 
     def margins_to_tie(self, margin) -> list:
         """The margins of the barriers that a motion of their energy would tend to, given that which decides the fate."""

@@ -137,20 +137,20 @@ def _asymptotic(orbit):
     ahead = _asymptote(orbit, towards)
     if ahead is not None:
         end, last = ahead
-        low, high = sorted((orbit.energy * 0, end), key=lambda y: float(y.mid()))
+        low, high = sorted((orbit.energy * 0, end), key=lambda y: y.mid())
         slow, fast = orbit.energy.min(last), _fastest(orbit, low, high).max(last)
         for spot in orbit.all_spots:
             if low < spot.y and spot.y < high:
                 slow = slow.min(orbit.energy - orbit.height(spot.y))
-        rates = sorted((towards * (2 * slow).sqrt(), towards * (2 * fast).sqrt()), key=lambda w: float(w.mid()))
+        rates = sorted((towards * (2 * slow).sqrt(), towards * (2 * fast).sqrt()), key=lambda w: w.mid())
         return [low, high, *_tops_between(orbit, low, high)], tuple(rates)
     turn = turning_point(orbit, towards, True)
     behind = _asymptote(orbit, -towards)
     if turn is None or behind is None:
         return _round_the_circle(orbit)
     end, last = behind
-    low, high = sorted((turn, end), key=lambda y: float(y.mid()))
-    there = (2 * _fastest(orbit, *sorted((orbit.energy * 0, turn), key=lambda y: float(y.mid())))).sqrt()
+    low, high = sorted((turn, end), key=lambda y: y.mid())
+    there = (2 * _fastest(orbit, *sorted((orbit.energy * 0, turn), key=lambda y: y.mid()))).sqrt()
     back = (2 * _fastest(orbit, low, high).max(last)).sqrt()
     rates = (-back, there) if towards > 0 else (-there, back)  # on the way to the turning point only what lies before it counts
     return [low, high, *_tops_between(orbit, low, high), orbit.energy * 0], rates
