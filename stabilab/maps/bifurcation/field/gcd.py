@@ -9,10 +9,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from math import isqrt
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 if TYPE_CHECKING:
     from flint import fmpq_poly, nmod_poly
+
+Element: TypeAlias = Any  # a polynomial of the algebraic number, over the rationals or modulo a prime
 
 MOST = 600  # primes tried
 FIRST = 1 << 61  # they are below
@@ -70,16 +72,7 @@ def _image(whole: list[int], prime: int, f: list[fmpq_poly], g: list[fmpq_poly])
         if lead is None:
             return None
         two = [c * lead % modulus for c in two]
-        rest = list(one)
-        for n in range(len(rest) - len(two), -1, -1):
-            factor = rest[n + len(two) - 1]
-            if factor.degree() >= 0:
-                for k, c in enumerate(two):
-                    rest[n + k] = (rest[n + k] - factor * c) % modulus
-        rest = rest[:len(two) - 1] if len(one) >= len(two) else rest
-        while rest and rest[-1].degree() < 0:
-            rest.pop()
-        one, two = two, rest
+        one, two = two, _remainder(modulus, two, one)
     return one
 
 
@@ -109,10 +102,17 @@ def _rational(rows: list[list[int]], product: int) -> list[fmpq_poly] | None:
 
 def _divides(number: fmpq_poly, monic: list[fmpq_poly], f: list[fmpq_poly]) -> bool:
     """Whether a monic polynomial divides f over the field."""
+    return not _remainder(number, monic, f)
+
+
+def _remainder(number: Element, monic: list[Element], f: list[Element]) -> list[Element]:
+    """Of f by a monic polynomial, lowest power first, its leading coefficient not zero; [] where it divides f. number: what coefficients are reduced by."""
     rest = list(f)
     for n in range(len(rest) - len(monic), -1, -1):
         factor = rest[n + len(monic) - 1]
         if factor.degree() >= 0:
             for k, c in enumerate(monic):
                 rest[n + k] = (rest[n + k] - factor * c) % number
-    return all(c.degree() < 0 for c in rest)
+    while rest and rest[-1].degree() < 0:
+        rest.pop()
+    return rest
