@@ -16,6 +16,7 @@ ORDER = 14
 SHARE = 1e-8  # of the size of the state: the last term of a step
 STEPS = 120    # of a motion at most; a revolution takes some five
 INSIDE = 12     # points a step
+APART = (1, 2, 3)  # shares by which the components of a start are moved: it leaves every plane through two of them
 LARGEST = 1e100  # a rate beyond which a motion is not drawn on
 
 Path = tuple[list[float], list[tuple[float, ...]]]
@@ -42,6 +43,20 @@ def followed(form: QuadraticForm, start: tuple[float, ...], until: float, steps:
         if t >= until or not max(map(abs, x)) < LARGEST:
             break
     return times, states
+
+
+def parting(form: QuadraticForm, path: Path, share: float = SHARE, seen: float = 1e-3) -> int:
+    """How many of the first points of a path (of `followed`) lie where they are seen to lie, whatever its steps left: so many steps of the motion whose
+    start is moved by `share` end within `seen` of the path's, of the largest rate. A zero stays: what holds a rate at zero holds it in floats too."""
+    times, states = path
+    width = seen * max(abs(v) for x in states for v in x)
+    x = tuple(v * (1 + n * share) for v, n in zip(states[0], APART))
+    for end in range(INSIDE, len(times), INSIDE):
+        h = times[end] - times[end - INSIDE]
+        x = tuple(_value(one, h) for one in coefficients(form, x))
+        if not all(abs(a - b) <= width for a, b in zip(x, states[end])):
+            return end - INSIDE + 1
+    return len(times)
 
 
 def coefficients(form: QuadraticForm, x: tuple[float, ...], order: int = ORDER) -> list[list[float]]:

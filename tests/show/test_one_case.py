@@ -9,14 +9,18 @@ import pytest
 import stabilab
 from stabilab.answers.equilibria import equilibria
 from stabilab.answers.motion import motion
-from stabilab.case.read import load, read_text
-from stabilab.show.report.one_case import measures, space
+from stabilab.case.read import load, load_all, read_text
+from stabilab.show import style
+from stabilab.show.report.one_case import measures, space, sweep
 from stabilab.show.report.one_case.equilibria import table
 from stabilab.show.report.one_case.page import sections
 from stabilab.show.units import DEG, SCALED, units_of
 
 CASES = Path(__file__).parents[2] / "cases"
 MINOR = CASES / "minor-axis-100.toml"
+
+
+UNSTABLE_PLANE = "[scaled]\na = 0.5\nb = 1\nmu = [0, 1, 0]\n[motion]\nx = [5, 0, -6]\ntau = [0, 8]\n"  # by hand: (x1 + 1 + x3)' = x2 (x1 + 1 + x3)
 
 
 def _sections(name, tmp_path):
@@ -122,3 +126,27 @@ def test_folds_of_a_field_are_told_as_rates_without_the_vertical_behind_them():
     folds = [row["where"] for row in told["rows"] if row["where"].startswith("fold")]
     assert folds and all(where.count(",") == 2 for where in folds)
     assert len(told["curves"]) == 1 and told["curves"][0][0] == "branch 1 to branch 10"  # one equation, told once
+
+
+def test_the_curve_of_a_motion_on_an_unstable_plane_stays_on_it():
+    """By hand: x1 + 1 + x3 = 0 for ever, where a run in doubles has x3 = 15 at the end."""
+    case = read_text("plane.toml", UNSTABLE_PLANE)
+    drawn = _space(case)[1]["drawn"]
+    (row,) = (curve for curve in drawn["curves"] if curve["kind"] == "this motion")
+    x = np.array(drawn["middle"]) + drawn["half"] * _places(row["at"])
+    assert np.abs(x[:, 0] + 1 + x[:, 2]).max() < drawn["half"] / 4095 * 1.01 and x[-1, 1] > 12
+
+
+def test_the_rates_of_a_sweep_on_an_unstable_plane_stay_on_it(tmp_path, monkeypatch):
+    """By hand: the plane x1 + 1 + x3 = 0 is one of every a, x3 dies out on it and x2 grows with the time: |x| goes along with it."""
+    file = tmp_path / "plane.toml"
+    file.write_text(UNSTABLE_PLANE + "[sweep]\n\"scaled.a\" = [0.5, 0.25]\n", encoding="utf-8")
+    cases = load_all(file)
+    kept = []
+    save = style.save
+    monkeypatch.setattr(style, "save", lambda figure, path: kept.extend(line.get_xydata() for line in figure.axes[0].lines) or save(figure, path))
+    sweep.sections(cases, tmp_path, "plane")
+    assert len(kept) == 2
+    for t, size in (rows.T for rows in kept):
+        late = t > 3
+        assert t[-1] == 8 and np.abs(np.diff(size[late]) / np.diff(t[late]) - 1).max() < 0.02

@@ -110,6 +110,13 @@ def test_a_motion_on_an_unstable_plane_is_drawn_where_it_stays():
     assert abs(x[late, 2]).max() < 0.01 and abs(np.diff(x[late, 1]) / np.diff(t[late]) - 1).max() < 0.02
 
 
+def test_a_scene_alone_is_drawn_on_its_unstable_plane_too():
+    """By hand: (x1 + 1 + x3)' = x2 (x1 + 1 + x3), so the plane is kept; with x1 = x3 = -1/2 both components have the same last place."""
+    one = subject.subject(stabilab.ScaledGyrostat(Fraction(1, 2), 1, (0, 1, 0)), state=(-0.5, 3.0, -0.5))
+    t, x = path.path(one, 0.0, 6.0)
+    assert t[-1] == 6 and abs(x[:, 0] + 1 + x[:, 2]).max() < 1e-15
+
+
 def test_a_motion_that_never_turns_has_one_branch_in_its_plane():
     """torque-free-body goes right round axis 1 (H^2 > 2 T D2), so omega1 keeps its sign; one in a well has both."""
     def signs(name):

@@ -5,12 +5,11 @@ which separatrix and phase plane come; what is left are the verdict, the equilib
 """
 from __future__ import annotations
 
-from typing import Any
-
 from ...answers.equilibria import equilibria
 from ...case.read import Case
 from ...equilibrium.result import Equilibria
 from ...errors import InputError, StabilabError
+from ...integrate.quadratic_series import Path
 from ...packages import demand
 from ...physics.coefficients import content
 from ...physics.scene import AnyScene, Scene
@@ -52,14 +51,14 @@ def _names(scene: AnyScene) -> str:
     return " and ".join(effect.name.replace("_", " ") for effect in scene.effects if effect.name not in ("gyrostat", "constant_torque"))
 
 
-def path(case: Case, until: float) -> tuple[list[float], list[tuple[float, ...]]]:
+def path(case: Case, until: float) -> Path:
     """(times, rates) of the motion up to a time, or as far as a run goes."""
     import numpy as np
 
-    from ...answers.simulate import simulate
-    run = simulate(case.scene, case.state, np.linspace(0.0, until, POINTS), case.blocks)
-    rates: Any = next(iter(run.state.values()))
-    return run.t.tolist(), [tuple(row) for row in rates.tolist()]
+    from ..plot.path import along
+    from ..plot.subject import subject
+    t, rates = along(subject(case), np.linspace(0.0, until, POINTS))
+    return t.tolist(), [(x, y, z) for x, y, z in rates.tolist()]
 
 
 def at_rest(scene: AnyScene) -> Equilibria | None:

@@ -16,7 +16,6 @@ from ...answers.motion import motion
 from ...case.read import Case
 from ...equilibrium.result import Equilibria
 from ...errors import StabilabError
-from ...integrate.quadratic_series import followed
 from ...orbit.result import Motion
 from ...orbit.separatrix.plain_sheets import REACH, PlainSheet, plain_separatrix
 from ...packages import explained, present
@@ -30,6 +29,7 @@ from ..units import units_of
 from . import controls, other, planes, space, tables
 from .bag import Bag
 from .changed import changed
+from .line import line
 from .toml import data_of
 
 PLAIN = {True: (18, 17), False: (40, 33)}  # rows of a sheet, and columns of half of it: while the hand moves, and when it rests
@@ -88,7 +88,8 @@ class Session:
         settled = time.process_time()
         twin = self._twin(case)
         at_rest = self._at_rest(case, twin, moving)
-        times, path = other.path(case, _length(case)) if twin is None else followed(twin.quadratic(), case.state, _length(case, twin.quadratic()))
+        form = None if twin is None else twin.quadratic()
+        times, path = self._once("line", (case.scene, case.state, case.span, moving), lambda: line(case, form, _length(case, form), moving))
         picture = self._space(bag, case, twin, found, at_rest, path, asked.get("box"), moving)
         made = {"headline": greek(words), "fate": "undecided" if found is None else found.fate.word, "moving": moving, "start": clicked,
                 "note": " ".join(filter(None, (note, self._swept, _beyond(found)))),

@@ -1,6 +1,9 @@
 """The rates of a motion at times close enough to be drawn as a line."""
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import replace
+
 import numpy as np
 
 from ...answers.digits.run import best_reached
@@ -13,6 +16,7 @@ EVEN = 2001  # times at least
 INSIDE = 16  # times inside a step: a Taylor step to the last digit turns the body by up to three radians
 MOST = 60_000
 SEEN = 1e-3  # of the largest rate: what an eye tells apart
+APART = (1, 2, 3)  # last places by which a start is moved: it leaves every plane through two of its components
 DIGITS = 4  # of a run in doubles' place, where these are lost; more than one of them is needed for a line
 BINS, SOLID = 700, 500  # a curve with more turning points than this is drawn as a band of so many pieces
 
@@ -20,31 +24,40 @@ BINS, SOLID = 700, 500  # a curve with more turning points than this is drawn as
 def path(one: Subject, start: float, end: float) -> tuple[np.ndarray, np.ndarray]:
     """(times (n,), rates (n, 3)) of the motion from `start` to `end`; fewer where the run stops. InputError where it does not begin."""
     even = np.linspace(start, end, EVEN)
-    times = _beside(even, _steps(one, even))
-    if one.scene.plain:
-        run = trajectory(one.scene, one.start, times, laws=False)
-        t, states = run.t, run.states
-        if not _sure(one, t, states):
-            t, states = _in_digits(one, even) or (t, states)
-    else:
-        found = simulate(one.scene, one.state, times, one.blocks)
-        t, states = found.t, found.state["omega"]
+    t, states = along(one, _beside(even, _steps(one, even)), even)
     if len(t) < 2:
         raise InputError("plot: the motion cannot be followed: the run stopped at its start")
-    return np.asarray(t), np.asarray(states)
+    return t, states
 
 
-def _sure(one, t, states) -> bool:
-    """Whether a start moved in its last place leaves the line where it is: on an unstable plane rounding throws a run in doubles off."""
-    moved = trajectory(one.scene, np.nextafter(np.asarray(one.start, float), np.inf), t, laws=False)
-    return len(moved.t) == len(t) and bool((np.abs(moved.states - states) <= SEEN * np.abs(states).max()).all())
+def along(one: Subject, times: np.ndarray, fewer: np.ndarray | None = None, drawn: Callable[[np.ndarray], int] = len) -> tuple[np.ndarray, np.ndarray]:
+    """(times (n,), rates (n, 3)) of the motion at the times, or as many as a run reaches. fewer: times enough for a line where doubles are not and each time
+    costs many digits; drawn: of rates, how many of the first are drawn, where a picture ends before the motion does."""
+    scene, start = (one.twin, one.state) if one.twin.plain else (one.scene, one.start)
+    if scene.plain:
+        t, states = _run(scene, start, times)
+        if not _sure(scene, start, t[:drawn(states)], states[:drawn(states)]):
+            t, states = _in_digits(replace(one, scene=scene, blocks={}), times if fewer is None else fewer) or (t, states)
+    else:
+        found = simulate(one.scene, one.state, times, one.blocks)
+        t, states = np.asarray(found.t), np.asarray(found.state["omega"])
+    return t[:drawn(states)], states[:drawn(states)]
 
 
-def _in_digits(one, even):
-    """(times, rates) by the cheapest way that is sure of them; None where none is known, or the motion is not a case's own."""
-    if one.case is None:
-        return None
-    found = best_reached(one.case, even, DIGITS, measured=False)
+def _run(scene, start, times):
+    run = trajectory(scene, start, times, laws=False)
+    return np.asarray(run.t), np.asarray(run.states)
+
+
+def _sure(scene, start, t, states) -> bool:
+    """Whether a start moved in its last places leaves the line where it is: on an unstable plane rounding throws a run in doubles off."""
+    later, moved = _run(scene, np.asarray(start, float) + APART * np.spacing(start), t)
+    return len(later) == len(t) and bool((np.abs(moved - states) <= SEEN * np.abs(states).max(initial=0.0)).all())
+
+
+def _in_digits(one, times):
+    """(times, rates) by the cheapest way that is sure of them; None where none is known."""
+    found = best_reached(one, times, DIGITS, measured=False)
     return (found.run.t, found.run.state["x" if one.scene.variables == "scaled" else "omega"]) if found.run.status == "reached" and found.digits > 1 else None
 
 

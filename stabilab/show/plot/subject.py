@@ -64,12 +64,16 @@ class Subject:
             return self.state
         return start_of(self.scene, self.state, self.blocks)
 
+    @property
+    def exact_state(self) -> tuple[Any, ...] | None:
+        """The rates at t = 0 as their decimals were written in a case."""
+        return None if self.case is None else self.case.exact_state
+
     @cached_property
     def motion(self) -> Motion:
         """What is known of the motion: its fate, period and extremes."""
         gamma = tuple(self.blocks.get("gamma", ())) if "gamma" in self.scene.blocks else ()
-        exact = self.case.exact_state if self.case is not None else None
-        return motion(self.scene, (*self.state, *gamma), self.span, exact=exact)
+        return motion(self.scene, (*self.state, *gamma), self.span, exact=self.exact_state)
 
 
 def subject(given: Any, state: Any = None, span: Any = None) -> Subject:

@@ -231,3 +231,11 @@ def test_a_curve_of_equilibria_is_told_by_a_state_on_each_piece():
     for where, _ in told:
         w1, w2, w3 = (math.radians(float(v)) for v in re.search(r"such as \((.*)\) deg/s", where)[1].split(", "))
         assert w3 == 0 and (0.8 + (12 - 9) * w1) * w2 == pytest.approx(-0.02, rel=1e-3)
+
+
+@pytest.mark.parametrize("moving", [False, True])
+def test_a_motion_on_an_unstable_plane_is_drawn_on_it_to_its_end_once_the_hand_rests(moving):
+    """By hand: x1 + 1 + x3 = 0 for ever, (x1 + 1 + x3)' = x2 (x1 + 1 + x3): floats lose the plane at tau = 5."""
+    told, numbers = ask(Session(read_text("plane.toml", "[scaled]\na = 0.5\nb = 1\nmu = [0, 1, 0]\n[motion]\nx = [5, 0, -6]\ntau = [0, 8]\n")), moving=moving)
+    tau, (x1, x2, x3) = row(numbers, told["time"]["times"]), (row(numbers, one) for one in told["time"]["rates"])
+    assert np.abs(x1 + 1 + x3).max() < 0.02 and (1 < tau[-1] < 5 if moving else tau[-1] == 8 and x2[-1] > 12)

@@ -10,10 +10,11 @@ from base64 import b64encode
 
 import numpy as np
 
-from ....answers.simulate import simulate
 from ....errors import StabilabError
 from ....orbit.separatrix.sheets import separatrix
 from ... import style
+from ...plot.path import along
+from ...plot.subject import subject
 from ...surface.write import equilibrium_lines
 from . import pictures
 from .measures import spoken
@@ -74,10 +75,14 @@ def _curve(case, motion):
     until = pictures.length(case, motion)
     if motion.period:
         until = min(until, 1.02 * motion.period)
-    states = np.asarray(next(iter(simulate(case.scene, case.state, np.linspace(0.0, until, STEPS), case.blocks).state.values())), float)
+    return along(subject(case), np.linspace(0.0, until, STEPS), drawn=lambda states: _near(states, motion))[1]
+
+
+def _near(states, motion):
+    """How many of the first rates are near where they began."""
     size = np.linalg.norm(states, axis=1)
     late = np.nonzero(size > LATEST * max(size[: STEPS // 20].max(initial=0.0), _least(motion)))[0]
-    return states[: late[0] + 1] if len(late) and late[0] > 20 else states
+    return late[0] + 1 if len(late) and late[0] > 20 else len(states)
 
 
 def _least(motion):

@@ -7,9 +7,10 @@ import numpy as np
 
 from ....answers.equilibria import equilibria
 from ....answers.motion import motion
-from ....answers.simulate import simulate
 from ....errors import StabilabError
 from ... import style
+from ...plot.path import along
+from ...plot.subject import subject
 from ...terminal.letters import some
 from ...terminal.sweep import key_columns
 from ...units import units_of
@@ -83,8 +84,8 @@ def _picture(moved, keys, cases, measures, path):
     with style.drawing() as plt:
         figure, ax = plt.subplots(figsize=(9.0, 4.8), layout="constrained")
         for case, found in moved:
-            run = simulate(case.scene, case.state, np.linspace(0.0, pictures.length(case, found), POINTS), case.blocks)
-            ax.plot(np.asarray(run.t) * per, np.linalg.norm(next(iter(run.state.values())), axis=1) * one, **_look(_places(case)))
+            t, states = along(subject(case), np.linspace(0.0, pictures.length(case, found), POINTS))
+            ax.plot(t * per, np.linalg.norm(states, axis=1) * one, **_look(_places(case)))
         ax.set(xlim=(0.0, until * per), xlabel=f"time ({clock})" if unit else "τ", ylabel=f"|{letter}| ({unit})" if unit else f"|{letter}|")
         style.legend(figure, list(_legend(keys, cases)), columns=3)
         return pictures.described(style.save(figure, path), f"The size of the rates, |{letter}|, of every combination.")
