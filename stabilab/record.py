@@ -41,7 +41,15 @@ def _eq(self: Any, other: object) -> Any:
 
 
 def _hash(self: Any) -> int:
-    return hash(_reader(self.__class__)(self))
+    kept: dict[str, Any] = self.__dict__
+    if KEPT not in kept:  # fractions, of which scenes are made, take long to hash, and every table of what is known of a scene asks
+        kept[KEPT] = hash(_reader(self.__class__)(self))
+    return kept[KEPT]  # type: ignore[no-any-return]
+
+
+def _getstate(self: Any) -> dict[str, Any]:
+    """What is copied or sent: all but the hash, which holds in this process alone."""
+    return {name: value for name, value in self.__dict__.items() if name != KEPT}
 
 
 def _setattr(self: Any, name: str, value: object) -> None:
@@ -64,4 +72,5 @@ def _reader(cls: type) -> Any:
     return cls.compared_by  # type: ignore[attr-defined]
 
 
-SHARED = {"__repr__": _repr, "__eq__": _eq, "__hash__": _hash, "__setattr__": _setattr, "__delattr__": _delattr}
+KEPT = "hash of the fields"  # no name that a class could give a field
+SHARED = {"__repr__": _repr, "__eq__": _eq, "__hash__": _hash, "__getstate__": _getstate, "__setattr__": _setattr, "__delattr__": _delattr}

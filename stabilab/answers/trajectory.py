@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
 METHODS = ("taylor", *SCIPY_METHODS)
 REDUCED = "reduced"  # follows nothing: see `orbit.flow`
+KNOWN = {m.lower(): m for m in (*METHODS, REDUCED)}
 
 
 def trajectory(scene: AnyScene, state: Any, times: ArrayLike, method: str = "taylor", rtol: float | None = None, steps: list[float] | None = None,
@@ -46,12 +47,11 @@ def trajectory(scene: AnyScene, state: Any, times: ArrayLike, method: str = "tay
 
 
 def _method(name: str) -> str:
-    known = {m.lower(): m for m in (*METHODS, REDUCED)}
-    if isinstance(name, str) and name.lower() in known:
-        return known[name.lower()]
-    close = difflib.get_close_matches(str(name).lower(), known, 1)
-    hint = f'; did you mean "{known[close[0]]}"?' if close else ""
-    raise InputError(f"method: there is no {name!r}; choose one of {', '.join(known.values())}{hint}")
+    if isinstance(name, str) and name.lower() in KNOWN:
+        return KNOWN[name.lower()]
+    close = difflib.get_close_matches(str(name).lower(), KNOWN, 1)
+    hint = f'; did you mean "{KNOWN[close[0]]}"?' if close else ""
+    raise InputError(f"method: there is no {name!r}; choose one of {', '.join(KNOWN.values())}{hint}")
 
 
 def _by_quadrature(scene: AnyScene, equations: Equations, state: np.ndarray, times: np.ndarray, rtol: float | None) -> Trajectory:

@@ -18,7 +18,7 @@ from ..physics.blocks import slices
 from ..physics.motion_units import in_unit, own_unit
 from ..physics.scene import AnyScene
 from ..physics.states import checked_rtol, checked_starts, checked_times
-from ..physics.to_numpy import equations_of, form, to_numpy
+from ..physics.to_numpy import equations_of, to_numpy
 from .to_heyoka import TAYLOR_TOLERANCE, borrowed_taylor, heyoka_available
 from .trajectory import STEP_LIMIT, integrated
 
@@ -80,7 +80,7 @@ def ensemble(scene: AnyScene, states: ArrayLike, times: ArrayLike, rtol: float |
         units = np.array([own_unit(scene, *one) for one in zip(starts.tolist(), rates.tolist())])
         if (units != 1).any():
             return _by_units(scene, starts, times, rtol, workers, units)
-    run = _Rows(scene, form(equations, equations.rhs), rtol, starts, times)
+    run = _Rows(scene, system.motion, rtol, starts, times)
     groups = _groups(system, starts)
     with ThreadPoolExecutor(workers) if workers > 1 else nullcontext() as pool:
         steps = sum((pool.map if pool else map)(run, (groups[i::workers] for i in range(workers))))

@@ -1,6 +1,7 @@
 """From symbols to heyoka: the gate to its Taylor series and event searches."""
 from __future__ import annotations
 
+import copy
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import lru_cache
@@ -33,39 +34,47 @@ def to_taylor(equations: Equations, quadratures=(), tolerance: float = TAYLOR_TO
     quadratures: SymPy expressions of the state, integrated alongside without steering the step. Raises ImportError
     where heyoka is not installed (ask `heyoka_available` first).
     """
-    import copy
     equations = equations_of(equations)
     everything = form(equations, (*equations.rhs, *quadratures))
-    integrator = copy.copy(_integrator(everything.state, everything.symbols, everything.expressions, tolerance))
+    integrator = copy.copy(_integrator(everything.structure, tolerance))
     integrator.pars[:] = everything.numbers
     return integrator
 
 
-@contextmanager
-def borrowed_taylor(forms: Form, tolerance: float = TAYLOR_TOLERANCE, lanes: int = 0):
+def borrowed_taylor(forms: Form, tolerance: float = TAYLOR_TOLERANCE, lanes: int = 0) -> _Borrowed:
     """Context giving an integrator as `to_taylor` makes them, which goes back for the next user: copying one takes
     longer than some hundred steps. Its time and state are those of its last user: set them.
 
     forms: `form(equations, (*rhs, *quadratures))`. lanes: 0, or how many motions step together (state, pars and the
     rest are then (..., lanes)). An integrator whose user failed is not handed on.
     """
-    import copy
-    key = (forms.state, forms.symbols, forms.expressions, tolerance, lanes)
-    free = _free(*key)
-    try:
-        integrator = free.pop()  # one operation: safe among threads
-    except IndexError:
-        integrator = copy.copy(_integrator(*key))
-    integrator.pars[:] = np.reshape(forms.numbers, (-1, 1)) if lanes else forms.numbers
-    yield integrator
-    if len(free) < MOST_FREE:
-        free.append(integrator)
+    return _Borrowed(forms, tolerance, lanes)
 
 MOST_FREE = 8
 
 
+class _Borrowed:
+    """A context by itself: one made of a generator costs a short run a hundredth of its time."""
+
+    def __init__(self, forms, tolerance, lanes):
+        self.key, self.numbers = (forms.structure, tolerance, lanes), np.reshape(forms.numbers, (-1, 1)) if lanes else forms.numbers
+
+    def __enter__(self):
+        self.free = _free(*self.key)
+        try:
+            self.integrator = self.free.pop()  # one operation: safe among threads
+        except IndexError:
+            self.integrator = copy.copy(_integrator(*self.key))
+        self.integrator.pars[:] = self.numbers
+        return self.integrator
+
+    def __exit__(self, failed, *_):
+        if failed is None and len(self.free) < MOST_FREE:
+            self.free.append(self.integrator)
+
+
 @lru_cache(maxsize=64)
-def _free(state, symbols, expressions, tolerance, lanes) -> list:
+def _free(structure, tolerance, lanes) -> list:
     """The integrators of this kind that nobody uses."""
     return []
 
@@ -78,7 +87,7 @@ def taylor_events(event_forms: Form, tolerance: float = TAYLOR_TOLERANCE):
     emptied at the start. The integrator is shared within the process and held by a lock: set its time and state.
     """
     with _LOCK:
-        integrator, recorder = _event_integrator(event_forms.state, event_forms.symbols, event_forms.expressions, tolerance)
+        integrator, recorder = _event_integrator(event_forms.structure, tolerance)
         integrator.pars[:] = event_forms.numbers[:len(integrator.pars)]  # constant events, which are left out, may hold the last
         recorder.found.clear()
         yield integrator, recorder.found
@@ -120,25 +129,24 @@ def _from_sympy(heyoka, expression, swap):
 
 
 @lru_cache(maxsize=64)
-def _integrator(state, symbols, expressions, tolerance, lanes=0):
+def _integrator(structure, tolerance, lanes=0):
     import heyoka
-    n = len(state)
-    variables, rates = heyoka_form(state, symbols, expressions)
-    extra = heyoka.make_vars(*(f"quadrature{i}" for i in range(len(expressions) - n))) if len(expressions) > n else []
+    n, count = len(structure.state), len(structure.expressions)
+    variables, rates = heyoka_form(structure.state, structure.symbols, structure.expressions)
+    extra = heyoka.make_vars(*(f"quadrature{i}" for i in range(count - n))) if count > n else []
     extra = extra if isinstance(extra, list) else [extra]
     rates[n:] = [FEATHER * r for r in rates[n:]]
     make, shape = (heyoka.taylor_adaptive_batch, (lanes,)) if lanes else (heyoka.taylor_adaptive, ())
-    return make(list(zip([*variables, *extra], rates)), np.zeros((len(expressions), *shape)),
-                pars=np.zeros((len(symbols), *shape)), tol=tolerance)
+    return make(list(zip([*variables, *extra], rates)), np.zeros((count, *shape)), pars=np.zeros((len(structure.symbols), *shape)), tol=tolerance)
 
 
 @lru_cache(maxsize=64)
-def _event_integrator(state, symbols, expressions, tolerance):
+def _event_integrator(structure, tolerance):
     import heyoka
     heyoka.set_logger_level_error()  # its warnings go to stdout, among the answers
-    n, recorder = len(state), _Recorder()
-    variables, everything = heyoka_form(state, symbols, expressions)
+    n, recorder = len(structure.state), _Recorder()
+    variables, everything = heyoka_form(structure.state, structure.symbols, structure.expressions)
     events = [heyoka.nt_event(e, _Note(i, recorder, n)) for i, e in enumerate(everything[n:])
-              if expressions[n + i].free_symbols & set(state)]
+              if structure.expressions[n + i].free_symbols & set(structure.state)]
     integrator = heyoka.taylor_adaptive(list(zip(variables, everything[:n])), [0.0] * n, tol=tolerance, nt_events=events)
     return integrator, recorder

@@ -13,7 +13,7 @@ import numpy as np
 from ..physics.blocks import slices
 from ..physics.motion_units import in_unit, mass_unit, own_unit
 from ..physics.states import checked_rtol, checked_times, equations_and_start
-from ..physics.to_numpy import form, to_numpy
+from ..physics.to_numpy import to_numpy
 from ..shown import Shown
 from .to_heyoka import FEATHER, TAYLOR_TOLERANCE, borrowed_taylor, heyoka_available
 
@@ -40,6 +40,7 @@ def integrated(scene, state, times, method: str = "taylor", rtol: float | None =
     """
     times, rtol = checked_times(times), checked_rtol(rtol)
     equations, state = equations_and_start(scene, state)
+    start = state.tolist()
     reason, landing = "all times reached", False
     if method == "taylor" and not heyoka_available():
         method, rtol, landing = "DOP853", max(rtol or 0.0, FALLBACK_RTOL), True
@@ -47,7 +48,7 @@ def integrated(scene, state, times, method: str = "taylor", rtol: float | None =
     system = to_numpy(equations)
     if method == "taylor" and equations.blocks == ("omega",):
         with np.errstate(all="ignore"):
-            unit = own_unit(scene, state.tolist(), [float(v) for v in system.rate(state.tolist())])
+            unit = own_unit(scene, start, [float(v) for v in system.rate(start)])
         mass = mass_unit(scene)
         if unit != 1 or mass != 1:
             return _in_unit(scene, state, times, rtol, steps, laws, unit, mass)
@@ -58,25 +59,31 @@ def integrated(scene, state, times, method: str = "taylor", rtol: float | None =
         rtol = SCIPY_RTOL if rtol is None else rtol
         run = _SciPy(system, method, rtol, landing)
     watch = watcher(scene, equations, state)
-    still = (times == 0).sum()
-    times_of, states_of, failures = [np.zeros(still)], [np.repeat(state[None], still, axis=0)], []
+    before, still, after = parted(times)
     drift: dict[str, float] = {}
-    for chosen, sense in ((times < 0, -1), (times > 0, 1)):
-        grid = np.sort(times[chosen] * sense) * sense
+    failures, found = [], [(np.zeros(still), state[None][:still])]
+    for grid, place in ((before, 0), (after, 2)):
         if grid.size:
             points, failure = run.run(state, grid, steps, watch)
-            times_of.append(grid[:len(points)])
-            states_of.append(points[:, :state.size])
             failures += [failure] if failure else []
             for row in points if watch else ():
                 watch.note(row[:state.size])
             for name, departure in departures(system, state, points).items() if laws else ():
                 drift[name] = max(drift.get(name, 0.0), departure)
-    reached, states = np.concatenate(times_of), np.concatenate(states_of)
-    order = np.argsort(reached)[::1 if times.size < 2 or times[1] > times[0] else -1]
-    return Trajectory(reached[order], states[order], method, rtol, drift,
+            sense = place - 1  # those before 0 were met from there on
+            found.insert(place, (grid[:len(points)][::sense], points[::sense, :state.size]))
+    way = 1 if times.size < 2 or times[1] > times[0] else -1
+    reached, states = (np.concatenate(parts)[::way] for parts in zip(*found))
+    return Trajectory(reached, np.ascontiguousarray(states), method, rtol, drift,
                       run.counters, "stopped" if failures else "reached", "; ".join(failures) or reason,
-                      {name: part for name, part in slices(equations.blocks).items()}, watch and watch.result())
+                      slices(equations.blocks), watch and watch.result())
+
+
+def parted(times) -> tuple[np.ndarray, int, np.ndarray]:
+    """(those before 0, how many are 0: one or none, those after it) of times in a row either way; before and after begin next to 0."""
+    rising = times if times.size < 2 or times[1] > times[0] else times[::-1]
+    first, last = rising.searchsorted(0.0), rising.searchsorted(0.0, "right")
+    return rising[:first][::-1], int(last - first), rising[last:]
 
 
 def watcher(scene, equations, state):
@@ -102,20 +109,20 @@ def departures(system, state, points) -> dict[str, float]:
     """Law name -> largest |Q(t) - Q(0) - integral of its rate| over the largest size of its terms in the run."""
     if not len(points):
         return {}
-    n, result = state.size, {}
-    for i, (name, (quantity, sizes)) in enumerate(system.law_values(np.vstack([state, points[:, :n]])).items()):
-        size = max(sizes.max(), np.abs(points[:, n + i]).max())
-        departure = np.abs(quantity[1:] - quantity[0] - points[:, n + i]).max()
-        result[name] = float(departure / size) if size > 0 else 0.0
-    return result
+    n = state.size
+    quantities, sizes = system.laws(np.concatenate([state[None], points[:, :n]]))
+    integrals = points[:, n:].T
+    largest = np.maximum(sizes.max(axis=1), np.abs(integrals).max(axis=1))
+    departed = np.abs(quantities[:, 1:] - quantities[:, :1] - integrals).max(axis=1)
+    return {law.name: float(departure / size) if size > 0 else 0.0
+            for law, departure, size in zip(system.equations.balances, departed.tolist(), largest.tolist())}
 
 
 class _Taylor:
     """Runs of the Taylor series; counters add up over the runs."""
 
     def __init__(self, system, rtol, laws=True):
-        rates = [law.rate for law in system.equations.balances] if laws else []
-        self.forms, self.rtol = form(system.equations, (*system.equations.rhs, *rates)), rtol
+        self.forms, self.rtol = system.motion_and_laws if laws else system.motion, rtol
         self.counters = {"steps": 0}
 
     def run(self, state, grid, passed=None, watch=None):
@@ -136,24 +143,26 @@ class _Taylor:
             ta.state[:] = 0.0
             ta.state[:state.size] = state
             out, failure = self._passed(ta, grid, note)
-        out[:, state.size:] /= FEATHER
-        good = np.isfinite(out).all(axis=1)
-        out = out if good.all() else out[:np.argmin(good)]
+        if out.shape[1] > state.size:
+            out[:, state.size:] /= FEATHER
+        if not np.isfinite(out).all():
+            out = out[:np.argmin(np.isfinite(out).all(axis=1))]
         return out, None if len(out) == len(grid) else _stopped(out, grid, failure)
 
     def _passed(self, ta, grid, note):
         """(states at the times of `grid` that were reached, why not all or None)."""
-        rows, begun = [], self.counters["steps"]
+        rows, begun, size = [], self.counters["steps"], len(ta.state)
         while True:
             done = sum(map(len, rows))
-            last = ta.time
+            last, way = ta.time, np.empty(grid.size - done + 1)
+            way[0], way[1:] = last, grid[done:]
             with np.errstate(all="ignore"):
-                outcome, _, _, steps, *_, out = ta.propagate_grid(np.concatenate([[last], grid[done:]]), max_steps=REPORT, **note)
+                outcome, _, _, steps, *_, out = ta.propagate_grid(way, max_steps=REPORT, **note)
             self.counters["steps"] += steps
-            rows.append(np.reshape(out, (-1, ta.state.size))[1:])
-            left = abs(grid[-1] - ta.time) / (abs(ta.time - last) or 1e-300) * REPORT
+            rows.append(out.reshape(-1, size)[1:])
             if outcome.name != "step_limit":
-                return np.concatenate(rows), OUTCOMES.get(outcome.name, outcome.name)
+                return rows[0] if len(rows) == 1 else np.concatenate(rows), OUTCOMES.get(outcome.name, outcome.name)
+            left = abs(grid[-1] - ta.time) / (abs(ta.time - last) or 1e-300) * REPORT
             if self.counters["steps"] - begun >= STEP_LIMIT or left > PATIENCE * STEP_LIMIT:
                 return np.concatenate(rows), (f"the last {REPORT} steps went from t = {last:.9g} to {ta.time:.9g}, the rest would "
                                               f"take some {left:.1g} steps")

@@ -81,7 +81,7 @@ def derive(scene: AnyScene, also: Iterable[str] = ()) -> Equations:
     The state has the blocks that the scene's effects need, and those named in `also` (physical scenes only). Right-hand sides, energy, Jacobian and
     balance laws are SymPy expressions. Raises InputError for what is no scene, and for velocity or position of a body without a mass.
     """
-    return _scaled(scene) if checked_scene(scene).variables == "scaled" else _physical(scene, ordered((*scene.blocks, *also)))
+    return _scaled(scene) if checked_scene(scene).variables == "scaled" else _physical(scene, ordered((*scene.blocks, *also)) if also else scene.blocks)
 
 
 def values(equations: Equations) -> dict[Symbolic, Symbolic]:

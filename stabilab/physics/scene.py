@@ -4,6 +4,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import field
 from fractions import Fraction
+from functools import cached_property
 from typing import Any, ClassVar, Literal, TypeAlias
 
 from ..errors import InputError
@@ -47,17 +48,17 @@ class Scene:
         object.__setattr__(self, "body", body)
         object.__setattr__(self, "effects", tuple(e for e in flat if e.acts))
 
-    @property
+    @cached_property
     def blocks(self) -> tuple[str, ...]:
         """The blocks of the state that its effects need (see `blocks`)."""
         return ordered(name for effect in self.effects for name in effect.needs)
 
-    @property
+    @cached_property
     def approximate(self) -> tuple[Effect, ...]:
         """Its effects whose laws are approximations: see `stabilab.physics.law_limits`."""
         return tuple(effect for effect in self.effects if effect.approximate)
 
-    @property
+    @cached_property
     def plain(self) -> bool:
         """Whether it has no effect beyond a gyrostat and a constant torque."""
         return not self._beyond()

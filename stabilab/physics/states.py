@@ -22,9 +22,10 @@ if TYPE_CHECKING:
 
 def numbers_in_a_row(values: Any, name: str) -> np.ndarray:
     try:
-        array = np.atleast_1d(np.asarray(real(np.asarray(values), name), float))
+        array = np.asarray(real(np.asarray(values), name), float)
     except (TypeError, ValueError):
         raise InputError(f"{name}: expected numbers, got {values!r}") from None
+    array = array if array.ndim else array.reshape(1)
     if array.ndim != 1 or not array.size or not np.isfinite(array).all():
         raise InputError(f"{name}: expected finite numbers in one row, got {values!r}")
     return array
@@ -63,8 +64,8 @@ def equations_and_start(scene: AnyScene, state: Any) -> tuple[Equations, np.ndar
 
 def checked_times(times: Any) -> np.ndarray:
     array = numbers_in_a_row(times, "times")
-    steps = np.diff(array)
-    if not ((steps > 0).all() or (steps < 0).all()):
+    one, following = array[:-1], array[1:]
+    if not ((one < following).all() or (one > following).all()):
         raise InputError("times: expected strictly increasing or strictly decreasing times")
     return array
 

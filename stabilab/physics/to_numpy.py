@@ -10,12 +10,14 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache
+from itertools import accumulate, chain, pairwise
 from threading import RLock
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
 from ..errors import InputError
+from ..record import record
 from .equations import Equations, Symbolic, derive, kept_of_symbols, values
 from .scene import AnyScene
 
@@ -23,6 +25,15 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
 Known: TypeAlias = tuple[tuple[Symbolic, Symbolic], ...]  # parameters and their numbers
+
+
+@record
+class Structure:
+    """What a form has beside its numbers: code is compiled once for all scenes of one structure."""
+
+    state: tuple[Symbolic, ...]
+    symbols: tuple[Symbolic, ...]
+    expressions: tuple[Symbolic, ...]
 
 
 @dataclass(frozen=True)
@@ -33,6 +44,16 @@ class Form:
     expressions: tuple[Symbolic, ...]
     symbols: tuple[Symbolic, ...]
     numbers: tuple[float, ...]
+
+    @cached_property
+    def structure(self) -> Structure:
+        """Itself without the numbers."""
+        return Structure(self.state, self.symbols, self.expressions)
+
+    @cached_property
+    def function(self) -> Callable[..., Any]:
+        """The values from those of the state and of the coefficients, in NumPy."""
+        return _function(self.state + self.symbols, self.expressions)
 
 
 def form(equations: Equations, expressions: Iterable[Symbolic], drop_constants: bool = False) -> Form:
@@ -137,6 +158,16 @@ class System:
         """Those of the laws' quantities."""
         return self._formed("rates", lambda: [law.rate for law in self.equations.balances])
 
+    @cached_property
+    def motion(self) -> Form:
+        """The rates of the state alone: what an integrator steps."""
+        return form(self.equations, self.equations.rhs)
+
+    @cached_property
+    def motion_and_laws(self) -> Form:
+        """`motion`, and the rates of the laws' quantities with it."""
+        return form(self.equations, (*self.equations.rhs, *(law.rate for law in self.equations.balances)))
+
     def _formed(self, name: str, expressions: Callable[[], Iterable[Symbolic]], drop_constants: bool = False) -> Form:
         """A part, from the disk where the equations may be kept there."""
         equations, make = self.equations, lambda: form(self.equations, expressions(), drop_constants)
@@ -176,19 +207,29 @@ class System:
 
     def law_values(self, x: ArrayLike) -> dict[str, tuple[np.ndarray, np.ndarray]]:
         """Law name -> (`invariants`, `law_sizes`) at the states x, each term formed once: (..., 3) -> two of (...)."""
-        x = np.asarray(x)
-        columns, nothing, found = np.moveaxis(x, -1, 0).copy(), np.zeros(x.shape[:-1]), {}
-        for name, terms in self._law_terms.items():
-            each = _function(terms.state + terms.symbols, terms.expressions)(*columns, *terms.numbers)
-            found[name] = sum(each, nothing), sum(map(np.abs, each), nothing)
-        return found
+        quantities, sizes = self.laws(x)
+        return {law.name: pair for law, pair in zip(self.equations.balances, zip(quantities, sizes))}
+
+    def laws(self, x: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
+        """`law_values` in the order of the equations' balances: (..., 3) -> two of (laws, ...)."""
+        terms, ends = self._law_terms
+        each = _columns(terms, x)
+        quantities, sizes = np.empty((2, len(ends), *each.shape[1:]), each.dtype)
+        for law, (first, last) in enumerate(ends):
+            np.add.reduce(each[first:last], axis=0, out=quantities[law])
+        np.abs(each, out=each)
+        for law, (first, last) in enumerate(ends):
+            np.add.reduce(each[first:last], axis=0, out=sizes[law])
+        return quantities, sizes
 
     @cached_property
-    def _law_terms(self) -> dict[str, Form]:
+    def _law_terms(self) -> tuple[Form, list[tuple[int, int]]]:
+        """(the terms of all laws' quantities in a row, where those of each begin and end)."""
         from sympy import Add
         form = self.quantities
-        return {law.name: Form(form.state, Add.make_args(expression), form.symbols, form.numbers)
-                for law, expression in zip(self.equations.balances, form.expressions)}
+        terms = [Add.make_args(expression) for expression in form.expressions]
+        ends = list(accumulate(map(len, terms), initial=0))
+        return Form(form.state, tuple(chain(*terms)), form.symbols, form.numbers), list(pairwise(ends))
 
 
 def to_numpy(equations: Equations | AnyScene) -> System:
@@ -222,15 +263,28 @@ _NAMES = RLock()
 
 
 def _call(form: Form, x: Sequence[float]) -> list[float]:
-    return _function(form.state + form.symbols, form.expressions)(*x, *form.numbers)
+    return form.function(*x, *form.numbers)
 
 
 def _evaluate(form: Form, x: ArrayLike) -> np.ndarray:
     """Values of the form at x (..., 3), one per expression in the last place; constants are spread over the batch."""
-    x = np.asarray(x)
-    x = x if np.issubdtype(x.dtype, np.inexact) else x.astype(float)
+    x = _inexact(x)
     out = np.empty(x.shape[:-1] + (len(form.expressions),), x.dtype)
-    function = _function(form.state + form.symbols, form.expressions)
-    for i, value in enumerate(function(*np.moveaxis(x, -1, 0), *form.numbers)):
+    for i, value in enumerate(form.function(*np.moveaxis(x, -1, 0), *form.numbers)):
         out[..., i] = value
     return out
+
+
+def _columns(form: Form, x: ArrayLike) -> np.ndarray:
+    """`_evaluate` with one row an expression: (..., 3) -> (expressions, ...), which many states in a row fill faster."""
+    x = _inexact(x)
+    columns = np.ascontiguousarray(x.transpose((x.ndim - 1, *range(x.ndim - 1))))
+    out = np.empty((len(form.expressions), *x.shape[:-1]), x.dtype)
+    for i, value in enumerate(form.function(*columns, *form.numbers)):
+        out[i] = value
+    return out
+
+
+def _inexact(x: ArrayLike) -> np.ndarray:
+    x = np.asarray(x)
+    return x if x.dtype.kind in "fc" else x.astype(float)

@@ -94,3 +94,24 @@ def test_records_are_replaced_copied_and_sent():
     assert (two.a, two.b) == (1, 6) and replace(two, a=5) == Two(5, 6)
     assert copy.copy(two) == copy.deepcopy(two) == pickle.loads(pickle.dumps(two)) == two
     assert Made(1, ()).c is not Made(1, ()).c
+
+
+def test_the_hash_of_a_record_is_formed_once_and_stays_in_its_process():
+    class Counted:
+        asked = 0
+
+        def __hash__(self):
+            Counted.asked += 1
+            return 5
+
+    counted = Counted()
+    one = One(counted)
+    assert hash(one) == hash(one) == hash((counted,)) and Counted.asked == 2  # once for the record, once for the tuple
+    copied = copy.copy(one)
+    assert hash(copied) == hash(one) and Counted.asked == 3  # a copy forms its own
+    assert pickle.dumps(Two(1, 3)) == pickle.dumps(_hashed(Two(1, 3))) and asdict(_hashed(Two(1, 3))) == {"a": 1, "b": 6}
+
+
+def _hashed(one):
+    hash(one)
+    return one

@@ -217,6 +217,27 @@ def test_a_second_run_compiles_and_copies_no_integrator(monkeypatch):
     assert (to_heyoka._integrator.cache_info().misses, to_heyoka._free.cache_info().misses) == before
 
 
+@needs_heyoka
+@pytest.mark.parametrize("laws", [True, False])
+def test_a_second_run_looks_neither_at_fractions_nor_at_symbols(monkeypatch, laws):
+    """What belongs to the scene is read once: each fraction and symbol that is hashed again costs a short run a hundredth of its time."""
+    from sympy.core.basic import Basic
+    trajectory(OFF_AXIS, (1, 2, 3), [0.0, 4.0], laws=laws)
+    seen = []
+    for kind in (Fraction, Basic):
+        monkeypatch.setattr(kind, "__hash__", lambda self, kept=kind.__hash__: seen.append(self) or kept(self))
+    trajectory(OFF_AXIS, (3, 2, 1), [0.0, 4.0], laws=laws)
+    assert not seen
+
+
+@pytest.mark.parametrize("times", [[-3, -1, 0, 2, 4], [-3, -1], [2, 4], [0], [0.0, 1.5], [-2, 0], [-0.0, 1], [5.0], [-5.0]])
+@pytest.mark.parametrize("way", [1, -1])
+def test_times_are_parted_at_zero_and_each_part_leaves_from_there(times, way):
+    before, still, after = trajectories.parted(np.array(times[::way], float))
+    assert before.tolist() == sorted((t for t in times if t < 0), reverse=True) and after.tolist() == sorted(t for t in times if t > 0)
+    assert still == times.count(0)
+
+
 @pytest.mark.parametrize("scale", [2.0**-9, 2.0**-20, 2.0**-33])
 def test_slow_rates_are_followed_to_the_same_digits(scale):
     # rates, momentum and the root of the torque in a smaller unit of 1/s: the same motion, exactly (Euler's equations are homogeneous)
