@@ -3,6 +3,7 @@
 A certificate is taken as true, its brackets as holding the true values. What is known of a change:
 "false": what it says cannot be true (a bracket apart from the one that holds the value, another word, an entry lost or doubled);
 "true": it says the same, or less (a bracket round the one that holds the value, an optional claim left out);
+"narrow": a bracket that overlaps the one that holds the value without holding all of it: tests/verify/true_values.py says whether the value is in it;
 "junk": no value of that form at all; "open": it says something of its own, such as of another body.
 """
 from __future__ import annotations
@@ -50,6 +51,11 @@ def forged(claims, path, to):
 
 def is_bracket(value) -> bool:
     return isinstance(value, list) and len(value) == 2 and all(isinstance(v, str) for v in value)
+
+
+def has_width(path, value) -> bool:
+    """Whether a claim is a bracket of two different ends."""
+    return is_bracket(value) and _bracketed(path) and F(value[0]) < F(value[1])
 
 
 def claims_of(value, path=()):

@@ -2,6 +2,7 @@
 import copy
 import itertools
 import json
+import math
 import random
 import subprocess
 import sys
@@ -25,6 +26,7 @@ from tests.oracles import elimination as by_hand
 from tests.shared import written
 from tests.verify import forge
 from tests.verify.trapped import says_what_happens
+from tests.verify.true_values import TrueValues
 
 
 def physical(D, lam=(0, 0, 0), M=(0, 0, 0)):
@@ -281,10 +283,11 @@ def test_a_forged_claim_on_the_motion_is_refuted(name):
         assert status == "refuted", (change, verify(claims | {"motion": true | change}).findings)
 
 
-# -- by machine: tests/verify/forge.py says what is known of each change without the checker
+# -- by machine: tests/verify/forge.py says what is known of each change without the checker, tests/verify/true_values.py whether a narrowed
+# bracket holds its value: where it does it is a true claim, proved or left open; where it does not it is refuted
 
 ALLOWED = {"false": {"refuted", "refused"}, "true": {"proved"}, "same": {"proved"}, "junk": {"refused"}, "extra": {"partly", "refuted", "refused"},
-           "weaker": {"partly", "refuted"}, "narrow": {"partly", "refuted"}, "open": {"proved", "partly", "refuted", "refused"}}
+           "weaker": {"partly", "refuted"}, "narrow": {"partly", "refuted"}, "holds": {"proved", "partly"}, "open": {"proved", "partly", "refuted", "refused"}}
 KINDS = {name: (scene, None) for name, scene in SCENES.items()} | MOTIONS
 FILES = ("middle-axis-double-well", "middle-axis-spin-up", "off-axis-fold", "off-axis-none", "off-axis-one", "off-axis-two", "sphere-wheel", "symmetric-body",
          "symmetric-spin-up", "thruster-negative-minor-axis", "torque-free-body", "torque-free-gyrostat", "wheel-and-thruster")
@@ -331,7 +334,7 @@ def meets(motion, true):
 
 def forge_all(claims, seed, count, paths=None):
     """Forge a certificate by machine; the number of changes, and what was found of those that went wrong."""
-    rng, made, wrong = random.Random(seed), 0, []
+    rng, made, wrong, values = random.Random(seed), 0, [], TrueValues(claims)
     everything = list(forge.claims_of(claims))
     for path in everything if paths is None else rng.sample(everything, min(paths, len(everything))):
         whole = part_of(claims, path)
@@ -339,6 +342,8 @@ def forge_all(claims, seed, count, paths=None):
             changed = forge.forged(whole, path, to)
             status = status_of(changed)
             made += 1
+            if known == "narrow":
+                known = {True: "holds", False: "false", None: known}[values.holds(path, *to)]
             if known == "true" and not any(changed.get(part) for part in ("equilibria", "motion")):
                 known = "open"  # nothing is claimed any more
             fine = status in ALLOWED[known]
@@ -357,6 +362,31 @@ def test_what_a_machine_forges_is_never_proved(name):
     claims = case_proved(name) if name in FILES else proved(*KINDS[name])
     made, wrong = forge_all(claims, name, 2, paths=4)
     assert made > 300 and not wrong, wrong[:3]
+
+
+OF_EACH_SORT = ("two points", "an oblique line that is left slowly", "spin-up after turning", "free, steady rate", "on a decaying plane", "past a fold",
+                "on a parabola")
+
+
+@pytest.mark.parametrize("name", [pytest.param(name, marks=() if name in OF_EACH_SORT else pytest.mark.slow) for name in (*KINDS, *FILES)])
+def test_every_bracket_holds_the_value_that_the_equations_give_in_fifty_digits(name):
+    claims = case_proved(name) if name in FILES else proved(*KINDS[name])
+    values = TrueValues(claims)
+    for path in forge.claims_of(claims):
+        ends = forge.place_of(claims, path)[path[-1]]
+        if forge.has_width(path, ends):
+            assert values.holds(path, *ends) is True, path
+
+
+def test_a_narrowed_bracket_is_true_where_it_holds_the_value_and_false_where_it_does_not():
+    claims = proved(*MOTIONS["spin-up after turning"])
+    path, values = ("motion", "extremes", 0, 1), TrueValues(claims)  # sqrt 2, the circle's radius (a = b = 0: x1^2 + x2^2 = 2)
+    low, high = map(F, claims["motion"]["extremes"][0][1])
+    for n, below in ((1, True), (2, False)):  # 1e-3 of the bracket's width beside sqrt 2, in integers
+        end = F(math.isqrt(2 * 10**80), 10**40) + (-1)**n * (high - low) / 1000
+        narrowed = [str(low), str(end)]
+        assert values.holds(path, *narrowed) is not below
+        assert status_of(forge.forged(claims, path, narrowed)) == ("refuted" if below else "proved")
 
 
 @pytest.mark.parametrize("path", [("motion", "spin_up", "orders"), ("motion", "spin_up", "orders", 1)], ids=["both", "one"])

@@ -8,12 +8,12 @@ from scipy.integrate import solve_ivp
 LATER = 40  # natural units of time after the trap
 
 
-def rates_of(scene):
-    """(kappa, rho, sigma, m), three floats each, from the numbers of a certificate's scene."""
+def rates_of(scene, number=lambda text: float(F(text))):
+    """(kappa, rho, sigma, m), three numbers each, floats or of the kind that `number` makes, from the numbers of a certificate's scene."""
     if scene["variables"] == "scaled":
-        a, b, mu = float(F(scene["a"])), float(F(scene["b"])), [float(F(v)) for v in scene["mu"]]
+        a, b, mu = number(scene["a"]), number(scene["b"]), [number(v) for v in scene["mu"]]
         return [1, -1, 1], [0, 0, b], [0, -a, 0], mu
-    D, l, M = ([float(F(v)) for v in scene[key]] for key in ("inertia", "momentum", "torque"))
+    D, l, M = ([number(v) for v in scene[key]] for key in ("inertia", "momentum", "torque"))
     turn = [((i + 1) % 3, (i + 2) % 3) for i in range(3)]
     return ([(D[j] - D[k]) / D[i] for i, (j, k) in enumerate(turn)], [l[j] / D[i] for i, (j, k) in enumerate(turn)],
             [-l[k] / D[i] for i, (j, k) in enumerate(turn)], [M[i] / D[i] for i in range(3)])
