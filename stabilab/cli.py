@@ -207,7 +207,7 @@ def reference(case: CaseFile,
 
     Example: stabilab reference cases/minor-axis-100.toml --digits 30 --out minor-axis-100.csv
     """
-    from .commands.reference import reference as answer
+    from .commands.simulate import reference as answer
     answer(case, at, digits, out, json)
 
 

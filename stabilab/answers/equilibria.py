@@ -7,6 +7,7 @@ from importlib import import_module
 from ..asked import checked_scene
 from ..equilibrium.gyrostat import gyrostat_equilibria
 from ..equilibrium.result import Equilibria
+from ..physics.approximate import limits_of
 from ..physics.coefficients import content
 from ..physics.scene import AnyScene
 
@@ -30,10 +31,8 @@ def equilibria(scene: AnyScene) -> Equilibria:
     are known. Raises InputError for effects this analysis does not cover.
     """
     found = _found(checked_scene(scene))
-    if not scene.approximate:
-        return found
-    from ..physics.law_limits import at_equilibria
-    return replace(found, validity=at_equilibria(scene, found))
+    limits = limits_of(scene)
+    return replace(found, validity=limits.at_equilibria(scene, found)) if limits else found
 
 
 def _found(scene: AnyScene) -> Equilibria:

@@ -37,7 +37,7 @@ KINDS = {
     "bounds": Kind(lambda scene: not scene.plain, "unreduced.bounds", "orbit.many"),  # liquid, medium, field: rows are refused, with the effect's name
     "orbit": Kind(lambda scene: reduce(scene) is not None, "orbit.one_state", "orbit.many"),
     "free": Kind(lambda scene: _acting(scene) == 0, "unreduced.free_gyrostat", "unreduced.free_gyrostat"),  # a wheel with no zero component
-    "growth": Kind(lambda scene: _acting(scene) == 1, "unreduced.growth", "unreduced.growth"),  # a wheel along the torque
+    "growth": Kind(lambda scene: _acting(scene) == 1, "unreduced.growth.law", "unreduced.growth.law"),  # a wheel along the torque
     "aligned": Kind(lambda scene: aligned(scene) is not None, "unreduced.aligned", "unreduced.aligned"),  # in the plane of two equal moments
     "off axis": Kind(lambda scene: True, "unreduced.off_axis", "unreduced.off_axis", follows=True),
 }

@@ -9,6 +9,7 @@ from typing import Any
 from ..asked import checked_scene, checked_span
 from ..orbit.far_states import in_range
 from ..orbit.result import Motion
+from ..physics.approximate import limits_of
 from ..physics.coefficients import content, gyrostat_scene
 from ..physics.scene import AnyScene
 from ..physics.state import split
@@ -26,10 +27,8 @@ def motion(scene: AnyScene, state: Any, span: Any = None, brief: bool = False, e
     proof: enclose the way of a motion that is followed, so that its fate is proved where it can be. Raises InputError as `fate` does.
     """
     found = _found(checked_scene(scene), state, checked_span(span), brief, exact, follow, tell, proof)
-    if not scene.approximate or found.validity is not None:
-        return found
-    from ..physics.law_limits import of_motion
-    return replace(found, validity=of_motion(scene, found))
+    limits = limits_of(scene)
+    return replace(found, validity=limits.of_motion(scene, found)) if limits and found.validity is None else found
 
 
 def _found(scene: AnyScene, state: Any, span: tuple[float, float] | None, brief: bool, exact: Sequence[Fraction] | None,

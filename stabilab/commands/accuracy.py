@@ -8,7 +8,7 @@ from ..case.read import blamed_on
 from ..cost.accuracy import precision as measure
 from ..errors import InputError
 from ..show.text import comparison, law
-from ..show.text import precision as shown
+from ..show.text.cost import precision as shown
 from ..theories.comparison import compare as set_side_by_side
 from ..theories.follow import models_of
 from .common.cases import load_cases, one_by_one, time_asked

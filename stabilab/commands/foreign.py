@@ -1,8 +1,8 @@
 """`stabilab import`: another program's spacecraft as a case."""
 from __future__ import annotations
 
-from ..case import import_42, import_basilisk
-from ..case.imported import case_text, faults_of
+from ..case.foreign import import_42, import_basilisk
+from ..case.foreign.imported import case_text, faults_of
 from ..case.source import source_text
 from ..errors import InputError, printable
 from ..files import whole_file

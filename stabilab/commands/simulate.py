@@ -1,6 +1,7 @@
-"""`stabilab simulate`: a motion in time, by the equations or by a theory."""
+"""`stabilab simulate` and `reference`: a motion in time, by the equations or by a theory, and with guaranteed digits for others to test against."""
 from __future__ import annotations
 
+import sys
 from functools import partial
 
 from ..answers.digits.checked import DEFAULT
@@ -8,14 +9,15 @@ from ..answers.digits.run import best_reached, missed
 from ..case.read import blamed_on
 from ..errors import InputError, ToleranceNotMet
 from ..show.files import trajectory_files
+from ..show.outside import reference as outside
 from ..show.terminal import page
 from ..show.terminal.run import text
 from ..show.text import answers, law
 from ..theories.follow import follow
 from ..theories.theory import lines, theory
 from ..theories.top.run_angles import with_euler_angles
-from .common.cases import load_cases, one_by_one, times_asked, units_asked
-from .common.output import all_reached, hold_laws, say, say_laws, tell, write_each, write_json
+from .common.cases import exact_times_asked, load_cases, one_by_one, times_asked, units_asked
+from .common.output import all_reached, hold_laws, say, say_laws, tell, write, write_each, write_json
 
 
 def simulate(case, at, model, order, method, rtol, digits, angles, out, json, strict, units):
@@ -95,3 +97,19 @@ def _judge(runs, digits):
     short = [(case, reached) for case, _, reached in runs if reached and not reached.enough and (digits is not None or reached.digits < 1)]
     if short:
         raise ToleranceNotMet("\n".join(missed(*row) for row in short))
+
+
+def reference(case, at, digits, out, json):
+    """Write the states of a case, of every combination where it has a [sweep]."""
+    loaded, made = load_cases([case], motion=True), []
+    if out:
+        outside.checked(out)
+    for one in loaded:
+        with blamed_on(one):
+            made.append((one, *outside.as_dict(one, exact_times_asked(one, at), digits, sys.argv[1:])))
+    if out:
+        write_each(out, [(one, partial(outside.write, found)) for one, found, _ in made])
+    else:
+        write(answers.as_json([found for _, found, _ in made] if len(made) > 1 else made[0][1]) if json
+              else "".join(outside.csv(found) for _, found, _ in made).rstrip("\n"))
+    all_reached(short for one in made for short in outside.missing(*one))

@@ -18,6 +18,7 @@ from ..errors import InputError
 from ..integrate.reference import WORK, Reference, one_run, pairs, reference, relative_errors
 from ..integrate.taylor_digits import Recursion
 from ..integrate.trajectory import SCIPY_METHODS
+from ..physics.approximate import limits_of
 from .event_methods import answer_methods, fate_methods, known_period
 from .methods import Method, Problem, methods, problem
 
@@ -112,10 +113,10 @@ class Precision:
     @property
     def validity(self):
         """Of the scene's approximate laws at the times compared; None where all are exact."""
-        if not self.case.scene.approximate or not len(self.reference.t):
+        limits = limits_of(self.case.scene)
+        if limits is None or not len(self.reference.t):
             return None
-        from ..physics.law_limits import along
-        return along(self.case.scene, {name: self.reference.states[:, part] for name, part in self.task.slices.items()}, "at the times compared")
+        return limits.along(self.case.scene, {name: self.reference.states[:, part] for name, part in self.task.slices.items()}, "at the times compared")
 
     def of(self, question, method=None) -> list[Point]:
         """The points of a question (and a method), coarse to fine."""

@@ -14,11 +14,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError
+from ..physics.approximate import limits_of
 from ..physics.blocks import slices
-from ..physics.motion_units import in_unit, own_unit
 from ..physics.scene import AnyScene
 from ..physics.states import checked_rtol, checked_starts, checked_times
 from ..physics.to_numpy import equations_of, to_numpy
+from .motion_units import in_unit, own_unit
 from .to_heyoka import TAYLOR_TOLERANCE, borrowed_taylor, heyoka_available
 from .trajectory import STEP_LIMIT, integrated
 
@@ -49,10 +50,10 @@ class Ensemble:
     @property
     def validity(self):
         """Of an approximate law (`stabilab.physics.law_limits`) at the times told, value and holds (n,); None where all laws are exact."""
-        if not self.scene.approximate:
+        limits = limits_of(self.scene)
+        if limits is None:
             return None
-        from ..physics.law_limits import along
-        return along(self.scene, {name: self.states[..., part] for name, part in slices(self.scene.blocks).items()}, "at the times told")
+        return limits.along(self.scene, {name: self.states[..., part] for name, part in slices(self.scene.blocks).items()}, "at the times told")
 
     @property
     def status(self) -> str:

@@ -9,9 +9,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..physics.motion_units import in_unit, mass_unit, own_unit
 from ..physics.states import equations_and_start
 from ..physics.to_numpy import form, to_numpy
+from .motion_units import in_unit, mass_unit, own_unit
 from .stand_in import floor, root_between, sign_changes, stand_in
 from .to_heyoka import TAYLOR_TOLERANCE, heyoka_available, taylor_events
 from .trajectory import FALLBACK_RTOL, STEP_LIMIT

@@ -10,11 +10,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..physics.approximate import limits_of
 from ..physics.blocks import slices
-from ..physics.motion_units import in_unit, mass_unit, own_unit
 from ..physics.states import checked_rtol, checked_times, equations_and_start
 from ..physics.to_numpy import to_numpy
 from ..shown import Shown
+from .motion_units import in_unit, mass_unit, own_unit
 from .to_heyoka import FEATHER, TAYLOR_TOLERANCE, borrowed_taylor, heyoka_available
 
 if TYPE_CHECKING:
@@ -88,10 +89,10 @@ def parted(times) -> tuple[np.ndarray, int, np.ndarray]:
 
 def watcher(scene, equations, state):
     """What looks at each step of a run under an approximate law; None where all laws are exact."""
-    if not getattr(scene, "approximate", ()):
+    limits = limits_of(scene) if hasattr(scene, "approximate") else None  # equations may stand for a scene
+    if limits is None:
         return None
-    from ..physics.law_limits import Watch
-    watch = Watch(scene, equations.blocks)
+    watch = limits.Watch(scene, equations.blocks)
     watch.note(state)
     return watch
 

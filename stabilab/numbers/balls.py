@@ -85,8 +85,7 @@ class Digits:
     @staticmethod
     def real_roots(coefficients: Sequence[Number]) -> list[tuple[arb, int]]:
         """(root, multiplicity) of the real roots of a polynomial with rational coefficients, lowest first; certified."""
-        from flint import fmpq_poly
-        return real_roots_of(fmpq_poly([rational(Fraction(c)) for c in coefficients]))
+        return real_roots_of(polynomial(*coefficients))
 
 
 DOUBLES = Doubles()
@@ -173,3 +172,15 @@ BITS = 320
 def many_digits() -> AbstractContextManager[Digits]:
     """Context in which flint works with `BITS` bits."""
     return working(BITS)
+
+
+def polynomial(*coefficients: Number) -> fmpq_poly:
+    """flint's polynomial with these rational coefficients, lowest power first."""
+    from flint import fmpq_poly
+    return fmpq_poly([rational(Fraction(c)) for c in coefficients])
+
+
+def shares_root(first: fmpq_poly, second: fmpq_poly, root: arb) -> bool:
+    """Whether the root (a ball that isolates it among those of `first`) is one of `second` as well; flint's polynomials."""
+    common = first.gcd(second)
+    return any(z.overlaps(root) for z, _ in real_roots_of(common))

@@ -65,12 +65,22 @@ class Validity:
         """Status, number, value and limit, without what follows."""
         return f"{WITHIN if self.held else BEYOND}: {self._measured()}"
 
+    @property
+    def excess(self) -> float:
+        """Its largest value in units of the limit."""
+        return _largest(self.value) / self.limit
+
+    def as_dict(self) -> dict[str, Any]:
+        """What JSON says of it."""
+        named = {name: getattr(self, name) for name in ("status", "effect", "number", "value", "limit", "holds", "over", "follows", "source")}
+        return named | {"also": [v.as_dict() for v in self.also]}
+
     def _measured(self) -> str:
         size = "unbounded" if math.isinf(_largest(self.value)) else f"{_largest(self.value):.3g}"
         return f"{self.number}, {size} {self.over}, limit {self.limit:g}"
 
     def _told(self) -> str:
-        return self._measured() if _excess(self) <= 1 else f"{self._measured()}: {self.follows}"
+        return self._measured() if self.excess <= 1 else f"{self._measured()}: {self.follows}"
 
 
 def _largest(value: float | np.ndarray) -> float:
@@ -109,15 +119,7 @@ def at_equilibria(scene: AnyScene, found: Any) -> Validity | None:
 def worst(*found: Validity | None) -> Validity | None:
     """Of several the one that is furthest beyond its limit; None of none."""
     known = [v for v in found if v is not None]
-    return max(known, key=_excess, default=None)
-
-
-def as_dict(validity: Validity | None) -> dict[str, Any] | None:
-    """What JSON says of it."""
-    if validity is None:
-        return None
-    named = {name: getattr(validity, name) for name in ("status", "effect", "number", "value", "limit", "holds", "over", "follows", "source")}
-    return named | {"also": [as_dict(v) for v in validity.also]}
+    return max(known, key=lambda v: v.excess, default=None)
 
 
 class Watch:
@@ -206,13 +208,10 @@ def _together(found: Sequence[Validity]) -> Validity | None:
     """The most exceeded number first, or, where none is, the first declared; the others beside it."""
     if not found:
         return None
-    first = max(found, key=lambda v: max(_excess(v), 1.0))
+    first = max(found, key=lambda v: max(v.excess, 1.0))
     others = tuple(v for v in found if v is not first)
     holds = first.holds
     for other in others:
         holds = holds & other.holds
     return replace(first, holds=holds, also=others)
 
-
-def _excess(validity: Validity) -> float:
-    return _largest(validity.value) / validity.limit

@@ -7,6 +7,7 @@ from importlib import import_module
 
 from ..answers.simulate import Simulation, simulate
 from ..errors import InputError
+from ..physics.approximate import limits_of
 
 # model -> the modules that may have it, each with `applies(scene)` and `follow(model, case, times, order)`
 FAMILIES = ("charged.model", "cavity.model", "top.model")
@@ -50,7 +51,7 @@ def follow(case, times, model: str = "exact", method: str | None = None, rtol: f
     if method is not None or rtol is not None:
         raise InputError(f"method, rtol: the model {model!r} is a formula; they belong to the model \"exact\"")
     run = family(case.scene).follow(model, case, times, order)
-    if not case.scene.approximate or "omega" not in run.state or not len(run.t):
+    limits = limits_of(case.scene)
+    if limits is None or "omega" not in run.state or not len(run.t):
         return run
-    from ..physics.law_limits import along
-    return replace(run, validity=along(case.scene, run.state, "at the times told"))
+    return replace(run, validity=limits.along(case.scene, run.state, "at the times told"))

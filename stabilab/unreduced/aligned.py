@@ -27,9 +27,9 @@ from ..orbit.result import Fate, Motion, finite, judged, pairs, repeats
 from ..physics.alignment import aligned
 from ..physics.quadratic import rests
 from ..physics.state import three_floats
-from . import growth
 from .evidence import evidence, length_of
-from .growth import captured_fate, unbounded
+from .growth import law
+from .growth.law import captured_fate, unbounded
 from .near_rest import beside_rest, small_loop
 
 TURN_ROUNDINGS = 16  # units of rounding that turning a state costs: nine products and sums
@@ -117,7 +117,7 @@ def _label(scene, states, out) -> int:
 
 
 def _twin_fates(twin, states) -> FateResult:
-    return growth.fates(twin, states) if landscape(twin) is None else fates_on_orbit(twin, states)
+    return law.fates(twin, states) if landscape(twin) is None else fates_on_orbit(twin, states)
 
 
 def extremes(scene, states, span=None, fast: bool | None = None):

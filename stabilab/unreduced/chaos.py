@@ -17,10 +17,10 @@ from typing import Any
 
 import numpy as np
 
+from ..integrate.motion_units import in_unit, own_unit
 from ..integrate.to_heyoka import TAYLOR_TOLERANCE, borrowed_taylor, heyoka_available
 from ..integrate.trajectory import FALLBACK_RTOL, STEP_LIMIT
 from ..physics.equations import Equations
-from ..physics.motion_units import in_unit, own_unit
 from ..physics.to_numpy import equations_of, form, to_numpy
 
 LANES = 8

@@ -4,6 +4,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..integrate.extrema import roots_of_rates
+from ..physics.approximate import limits_of
 from ..physics.scene import Scene
 from ..physics.states import equations_and_start
 from ..physics.to_numpy import to_numpy
@@ -32,7 +33,7 @@ def seen_over(scene, omega, gamma, span) -> dict:
 
 def _validity(scene, found, over) -> dict:
     """Of approximate laws, at every state that the search met: where a rate vanishes, and at both ends."""
-    if not scene.approximate:
+    limits = limits_of(scene)
+    if limits is None:
         return {}
-    from ..physics.law_limits import along
-    return {"validity": along(scene, np.vstack([found.start, found.states, found.end]), f"over {over}")}
+    return {"validity": limits.along(scene, np.vstack([found.start, found.states, found.end]), f"over {over}")}

@@ -28,7 +28,7 @@ from stabilab.physics.effects.gyrostat import Gyrostat
 from stabilab.physics.equations import derive
 from stabilab.physics.scene import Scene
 from stabilab.show.report import precision_page
-from stabilab.show.text import precision as shown
+from stabilab.show.text.cost import precision as shown
 from tests.oracles.model import physical
 from tests.oracles.taylor import integrate_checked
 

@@ -34,8 +34,8 @@ SUBJECTS = {
     "barriers": (("orbit/fate/table_kernel", "orbit/fate/table"), ("orbit/fate/test_table", "orbit/fate/test_arrays", "orbit/fate/test_table_kernel")),
     "separatrix": (("orbit/separatrix/sheets", "orbit/separatrix/homoclinic", "orbit/separatrix/homoclinic_arrays", "orbit/separatrix/saddles"),
                    ("orbit/separatrix/test_sheets", "orbit/separatrix/test_grid", "orbit/separatrix/test_circle_kernel")),
-    "growth": (("unreduced/growth", "unreduced/growth_certificates", "unreduced/growth_run", "unreduced/growth_steps", "unreduced/growth_form"),
-               ("unreduced/test_growth", "unreduced/test_growth_certificates")),
+    "growth": (tuple(f"unreduced/growth/{name}" for name in ("law", "certificates", "run", "steps", "form")),
+               ("unreduced/growth/test_law", "unreduced/growth/test_certificates")),
     "balls": (("orbit/ball_orbit", "orbit/fate/balls", "orbit/extremes/balls", "orbit/period/balls", "orbit/fate/tie", "orbit/fate/one_state"),
               ("orbit/fate/test_fate", "orbit/extremes/test_extremes", "orbit/extremes/test_arrays", "orbit/fate/test_one_state",
                "orbit/fate/test_tie", "orbit/test_ball_orbit"))}

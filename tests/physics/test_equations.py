@@ -16,8 +16,8 @@ from stabilab.physics.effects.liquid_cavity import LiquidCavity
 from stabilab.physics.effects.resistance import Resistance
 from stabilab.physics.equations import derive
 from stabilab.physics.laws import invariants
-from stabilab.physics.notation import latex, lines
 from stabilab.physics.to_numpy import form, to_numpy
+from stabilab.show.text.notation import latex, lines
 
 BODY = Body((2000, "1500.5", 1000))
 WHEEL, THRUST = Gyrostat((100, "2/3", 0)), ConstantTorque((1, -2, "204.1"))
@@ -96,7 +96,7 @@ def test_unnamed_effects_are_not_imported():
 
 
 def test_deriving_waits_to_import_sympy_and_compiling_heyoka():
-    code = ("import sys, stabilab.physics.equations, stabilab.physics.to_numpy, stabilab.integrate.trajectory, stabilab.unreduced.growth;"
+    code = ("import sys, stabilab.physics.equations, stabilab.physics.to_numpy, stabilab.integrate.trajectory, stabilab.unreduced.growth.law;"
             "print(*[m for m in ('sympy', 'heyoka', 'scipy') if m in sys.modules])")
     assert run_python(code).split() == []
 

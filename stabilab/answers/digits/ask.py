@@ -34,7 +34,7 @@ from ...physics.equations import Equations
 from ...physics.quadratic import QuadraticForm
 from ...physics.scene import AnyScene, Scene
 from ...physics.states import checked_states, equations_and_start, moved_row
-from ...unreduced.growth_extremes import law_extremes
+from ...unreduced.growth.extremes import law_extremes
 from ...unreduced.near_rest import beside_rest, small_loop
 from ..motion import motion
 from .checked import CAUTION, MOST, MOST_DECIMALS, NEAR, Told, checked_digits, digits_of, nothing

@@ -16,6 +16,7 @@ from ...errors import InputError, ToleranceNotMet
 from ...integrate.reference import reference
 from ...integrate.to_heyoka import TAYLOR_TOLERANCE
 from ...integrate.trajectory import FALLBACK_RTOL, SCIPY_METHODS
+from ...physics.approximate import limits_of
 from ...physics.attitude import angles, beyond, body_momentum, to_space
 from ...physics.equations import derive
 from ...physics.scene import AnyScene
@@ -243,10 +244,8 @@ def _many_digits(case: Any, times: np.ndarray, asked: int) -> Reached | None:
 
 def _validity(scene: AnyScene, blocks: Any) -> Validity | None:
     """Of the laws at the times asked for; None where all are exact."""
-    if not scene.approximate:
-        return None
-    from ...physics.law_limits import along
-    return along(scene, blocks, "at the times told")
+    limits = limits_of(scene)
+    return limits.along(scene, blocks, "at the times told") if limits else None
 
 
 def _with_angles(case: Any, times: np.ndarray, parts: dict[str, np.ndarray]) -> dict[str, np.ndarray] | None:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...physics.approximate import limits_of
 from ...shown import Shown
 
 if TYPE_CHECKING:  # a scene of exact laws does not load it
@@ -34,10 +35,8 @@ class TimeTo(Shown):
     @cached_property
     def validity(self) -> Validity | None:
         """Of an approximate law (`stabilab.physics.law_limits`) at the start; None where all laws are exact."""
-        if not self.scene.approximate:
-            return None
-        from ...physics.law_limits import validity
-        return validity(self.scene, self.states)
+        limits = limits_of(self.scene)
+        return limits.validity(self.scene, self.states) if limits else None
 
     def __iter__(self) -> Iterator[np.ndarray]:
         return iter((self.low, self.high))

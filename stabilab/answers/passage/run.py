@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 
 from ...integrate.event_run import first_root
+from ...integrate.motion_units import in_unit, mass_unit, own_unit
 from ...integrate.to_heyoka import TAYLOR_TOLERANCE
 from ...physics.attitude import to_space
 from ...physics.equations import Equations, derive, rotation
-from ...physics.motion_units import in_unit, mass_unit, own_unit
 from ...physics.scene import AnyScene
 from ...physics.states import equations_and_start, moved_row
 from ...physics.to_numpy import to_numpy

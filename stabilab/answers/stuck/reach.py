@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
+from ...integrate.motion_units import in_unit, mass_unit, own_unit
 from ...integrate.stand_in import root_between, stand_in
 from ...integrate.to_heyoka import heyoka_available, taylor_events
 from ...numbers.vectors import CYCLE, Number
-from ...physics.motion_units import in_unit, mass_unit, own_unit
 from ...physics.scene import AnyScene
 from ...physics.to_numpy import Form
 

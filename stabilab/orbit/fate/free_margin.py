@@ -19,9 +19,8 @@ from fractions import Fraction
 from math import isinf, nan
 from typing import NamedTuple
 
-from ...numbers.balls import DOUBLE_BITS, START_BITS, settled, sign
+from ...numbers.balls import DOUBLE_BITS, START_BITS, polynomial, settled, shares_root, sign
 from ...numbers.double_ball import Unclear
-from ...numbers.flint_polynomial import polynomial, shares_root
 from ...numbers.polynomial import Poly
 from ...numbers.vectors import Number
 

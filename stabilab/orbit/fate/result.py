@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ...physics.approximate import limits_of
 from ...physics.scene import AnyScene
 from ...shown import Shown
 from ..far_states import BEYOND
@@ -82,11 +83,11 @@ class FateResult(Shown):
     def validity(self):
         """Of an approximate law (`stabilab.physics.law_limits`), value and holds (...,): without bound in a spin-up, else at the start; None where
         all laws are exact."""
-        if not self.given.approximate:
+        limits = limits_of(self.given)
+        if limits is None:
             return None
-        from ...physics.law_limits import validity
         rows = np.where((self.labels == Fate.SPIN_UP)[..., None], np.inf, self.states)
-        return validity(self.given, rows, "along a spin-up, or at the start")
+        return limits.validity(self.given, rows, "along a spin-up, or at the start")
 
 
 def _cause(row) -> str:

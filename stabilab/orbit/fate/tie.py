@@ -8,8 +8,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from ...numbers.balls import rational
-from ...numbers.flint_polynomial import polynomial, shares_root
+from ...numbers.balls import polynomial, rational, shares_root
 
 
 def exact_tie(orbit) -> bool:

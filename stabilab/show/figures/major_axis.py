@@ -7,7 +7,7 @@ import numpy as np
 
 from ...answers.trajectory import trajectory
 from ...physics.scaling import to_scaled
-from ...unreduced.growth import captured_fate
+from ...unreduced.growth.law import captured_fate
 from .. import style
 from . import paper
 from .figure import listed

@@ -11,13 +11,13 @@ from ...packages import demand
 from .. import style
 from ..files import endings
 from . import which
-from .all_equilibria import equilibria
 from .cost import whole as budget
-from .momentum_surface import sphere
+from .in_rates.all_equilibria import equilibria
+from .in_rates.momentum_surface import sphere
+from .in_rates.rate_space import space
 from .over_time import time
 from .phase_plane import phase
 from .plane_section import section
-from .rate_space import space
 from .subject import Subject, subject
 from .turning.animation import ENDINGS, film
 from .whole_state import state

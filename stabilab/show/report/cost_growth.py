@@ -8,7 +8,7 @@ from ...case.read import load
 from ...cost.growth import NODE_DIGITS, Growth, with_closeness, with_digits, with_states
 from .. import style
 from ..files import comma
-from ..text.precision_words import caption, duration
+from ..text.cost.words import caption, duration
 from . import html
 
 LOOKS = {("fate", "NumPy"): {"color": style.BLUE, "marker": "o"}, ("fate", "numba"): {"color": style.BLUE, "marker": "s", "linestyle": "--"},

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from ...cost.effects import EXAMPLES, MANY, NOTHING, alone, counted, imported, ladder, timed, zero_is_absent
 from .. import style
-from ..text.precision_words import caption, duration
+from ..text.cost.words import caption, duration
 from . import html
 
 PICTURE = "effects.png"

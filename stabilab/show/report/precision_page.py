@@ -6,8 +6,8 @@ from pathlib import Path
 from ...cost import accuracy as measuring
 from ...errors import InputError
 from ...physics.equations import derive
-from ..text.precision import write
-from ..text.precision_words import caption, duration, setting, words
+from ..text.cost.precision import write
+from ..text.cost.words import caption, duration, setting, words
 from . import html
 
 PRICED = (3, 6, 9, 12)  # digits of the table over all cases

@@ -7,7 +7,7 @@ import textwrap
 from ...cost.accuracy import EPS, digit_price
 from ...errors import InputError
 from .. import style
-from ..text.precision_words import FORMULAS, caption, methods, price, title
+from ..text.cost.words import FORMULAS, caption, methods, price, title
 
 LOOKS = {  # method -> how its line is drawn; the same in every picture
     "taylor": {"color": style.BLUE, "marker": "o"}, "taylor-batch": {"color": style.SKY, "marker": "o", "linestyle": "--"},

@@ -4,7 +4,7 @@ from __future__ import annotations
 from functools import lru_cache
 
 from ...physics.equations import Equations
-from ...physics.notation import right_side
+from ..text.notation import right_side
 
 LONG = 40  # operations: a law of more is told in words alone
 

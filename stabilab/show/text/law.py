@@ -4,6 +4,7 @@ from __future__ import annotations
 import re
 
 from ...errors import printable
+from ...physics.approximate import limits_of
 
 
 def first(validity, text: str) -> str:
@@ -23,19 +24,12 @@ def _spans(words: str) -> str:
 
 def key(validity) -> dict:
     """The key of a JSON object; null where all laws are exact."""
-    if validity is None:
-        return {"validity": None}
-    from ...physics.law_limits import as_dict
-    return {"validity": as_dict(validity)}
+    return {"validity": None if validity is None else validity.as_dict()}
 
 
 def worst(*found):
     """The most exceeded of several; None where all laws are exact."""
-    known = [v for v in found if v is not None]
-    if not known:
-        return None
-    from ...physics.law_limits import worst
-    return worst(*known)
+    return max((v for v in found if v is not None), key=lambda v: v.excess, default=None)
 
 
 def beyond(*found) -> bool:
@@ -45,11 +39,11 @@ def beyond(*found) -> bool:
 
 def of_case(case):
     """Of a case's own motion over its span (15 units of time without one), at rest where it has none; None where all laws are exact."""
-    if not case.scene.approximate:
+    limits = limits_of(case.scene)
+    if limits is None:
         return None
     if case.state is None:
-        from ...physics.law_limits import validity
-        return validity(case.scene, (0.0,) * 3, "at rest")
+        return limits.validity(case.scene, (0.0,) * 3, "at rest")
     from ...answers.simulate import simulate
     return simulate(case.scene, case.state, case.span or (0.0, 15.0), case.blocks).validity
 

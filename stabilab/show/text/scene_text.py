@@ -5,10 +5,10 @@ import math
 
 from ...physics.equations import derive
 from ...physics.laws import invariants
-from ...physics.notation import latex, lines
 from ..terminal.letters import written
 from ..units import parameter_unit
 from . import frame
+from .notation import latex, lines
 
 
 def text(case) -> str:

@@ -6,7 +6,7 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 
-from ...physics.motion_units import in_unit
+from ...integrate.motion_units import in_unit
 from .certificate import HIGH_ORDERS, HIGHEST_ORDERS, ORDERS, Certifier
 from .compiled.door import fast_certifier
 from .fixed_centre import FixedCentre

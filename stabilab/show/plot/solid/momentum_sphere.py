@@ -8,8 +8,8 @@ import numpy as np
 from ....answers.equilibria import equilibria
 from ... import style
 from ...sampling import spread
+from ..in_rates.rest_states import CURVES, POINTS, disc, plane_of, simple
 from ..path import path
-from ..rest_states import CURVES, POINTS, disc, plane_of, simple
 from ..subject import Subject
 from .in_space import Box
 from .surface_lines import SurfaceLines, facing, grid_triangles, levels, sight

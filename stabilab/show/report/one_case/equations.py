@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from ....physics.equations import derive
 from ....physics.laws import invariants
-from ....physics.notation import latex
+from ...text.notation import latex
 from ...units import parameter_unit
 from .. import typeset
 from .measures import spoken, told

@@ -13,9 +13,9 @@ from fractions import Fraction
 from typing import Any
 
 from ..errors import InputError
-from .body import Body
-from .effects.base import Effect
-from .scene import AnyScene, ScaledGyrostat, Scene
+from ..physics.body import Body
+from ..physics.effects.base import Effect
+from ..physics.scene import AnyScene, ScaledGyrostat, Scene
 
 SLOW, FAST = 2.0**-4, 2.0**20  # between these the unit stays: the control is at most 16 times coarser than asked
 

@@ -6,18 +6,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...answers.equilibria import equilibria
-from ...orbit.reduction import reduce
-from ...orbit.separatrix.sheets import separatrix
-from .. import style
-from ..surface.mesh import triangulate
-from . import canvas, which
-from .measures import Measures, measures
-from .path import path, turning
+from ....answers.equilibria import equilibria
+from ....orbit.reduction import reduce
+from ....orbit.separatrix.sheets import separatrix
+from ... import style
+from ...surface.mesh import triangulate
+from .. import canvas, which
+from ..measures import Measures, measures
+from ..path import path, turning
+from ..solid import in_space
+from ..solid.in_space import Box
+from ..subject import DEFAULT_SPAN, Subject, subject
 from .rest_states import CURVES, FOLD, POINTS, Rest, meanings, rest_states
-from .solid import in_space
-from .solid.in_space import Box
-from .subject import DEFAULT_SPAN, Subject, subject
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

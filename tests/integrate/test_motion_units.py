@@ -1,4 +1,4 @@
-"""Tests of `physics/motion_units.py`: what once went wrong there, and its edges."""
+"""Tests of `integrate/motion_units.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
 
 import numpy as np
@@ -6,8 +6,8 @@ import pytest
 
 import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
+from stabilab.integrate.motion_units import in_unit
 from stabilab.physics.effects.resistance import Resistance
-from stabilab.physics.motion_units import in_unit
 
 
 def test_steps_of_slow_rates_are_told_in_the_scenes_time():

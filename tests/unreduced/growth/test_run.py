@@ -1,7 +1,7 @@
-"""Tests of `unreduced/growth_run.py`: what once went wrong there, and its edges."""
+"""Tests of `unreduced/growth/run.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
 
-from stabilab.unreduced.growth_run import search_certificate
+from stabilab.unreduced.growth.run import search_certificate
 
 
 def test_rates_beyond_doubles_get_no_certificate_of_a_capture():

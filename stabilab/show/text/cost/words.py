@@ -1,9 +1,9 @@
 """What accuracy costs, in plain words made from the measured front."""
 from __future__ import annotations
 
-from ...cost.accuracy import EPS, digit_price
-from ...integrate.trajectory import SCIPY_METHODS
-from ...machine import machine, versions
+from ....cost.accuracy import EPS, digit_price
+from ....integrate.trajectory import SCIPY_METHODS
+from ....machine import machine, versions
 
 FORMULAS = ("linear", "corrected", "printed", "averaged1", "averaged2", "lindstedt")
 WANTED = (3, 6, 9, 12, 15)  # digits whose price the words tell

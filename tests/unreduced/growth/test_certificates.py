@@ -11,12 +11,13 @@ import pytest
 
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
 from stabilab.answers.trajectory import trajectory
-from stabilab.unreduced import growth_certificates, growth_steps
-from stabilab.unreduced.growth import captured_fate
-from stabilab.unreduced.growth_certificates import spin_up_margin, well_margin
-from stabilab.unreduced.growth_extremes import captured_extremes
+from stabilab.unreduced.growth import certificates as growth_certificates
+from stabilab.unreduced.growth import steps as growth_steps
+from stabilab.unreduced.growth.certificates import spin_up_margin, well_margin
+from stabilab.unreduced.growth.extremes import captured_extremes
+from stabilab.unreduced.growth.law import captured_fate
 
-captured = importlib.import_module("stabilab.unreduced.growth")
+captured = importlib.import_module("stabilab.unreduced.growth.law")
 STATES = [(c, y) for c in (-0.05, -0.7, -3.0, -20.0) for y in (
     (0.3, -1.0, 5.0), (-6.5, 2.0, -1.0), (2.0, 0.5, 0.25), (0.1, 30.0, -40.0), (8.0, -3.0, 0.5), (-0.5, 0.0, 2.0))]
 

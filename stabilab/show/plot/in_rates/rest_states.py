@@ -5,9 +5,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...equilibrium.result import Equilibria, EquilibriumCurve
-from .. import style
-from ..sampling import spread
+from ....equilibrium.result import Equilibria, EquilibriumCurve
+from ... import style
+from ...sampling import spread
 
 CURVES: dict[str, dict[str, Any]] = {
     "stable": {"color": style.BLUE, "linestyle": "-", "linewidth": 2.0}, "unstable": {"color": style.VERMILION, "linestyle": "--", "linewidth": 1.8},

@@ -5,14 +5,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...answers.equilibria import equilibria as all_of
-from ...errors import InputError
-from .. import style
-from . import canvas
-from .measures import measures
+from ....answers.equilibria import equilibria as all_of
+from ....errors import InputError
+from ... import style
+from .. import canvas
+from ..measures import measures
+from ..solid import in_space
+from ..subject import Subject, subject
 from .rest_states import CURVES, FOLD, POINTS, Rest, disc, meanings, rest_states
-from .solid import in_space
-from .subject import Subject, subject
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

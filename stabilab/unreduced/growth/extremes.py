@@ -16,13 +16,13 @@ from fractions import Fraction
 
 import numpy as np
 
-from ..integrate.extrema import roots_of_rates
-from ..numbers.balls import DOUBLE_BITS, settled
-from ..numbers.double_ball import Unclear
-from ..numbers.vectors import CYCLE
-from ..orbit.extremes.balls import CERTAIN_BITS, DOUBLE_CERTAIN
-from .growth_certificates import angle_of, spin_up_margin
-from .growth_form import standard_form
+from ...integrate.extrema import roots_of_rates
+from ...numbers.balls import DOUBLE_BITS, settled
+from ...numbers.double_ball import Unclear
+from ...numbers.vectors import CYCLE
+from ...orbit.extremes.balls import CERTAIN_BITS, DOUBLE_CERTAIN
+from .certificates import angle_of, spin_up_margin
+from .form import standard_form
 
 # Steps after which the finite end of a spin-up is given over the span run, unproved beyond it.
 EXTREMES_BUDGET = 300_000

@@ -5,8 +5,8 @@ import json
 import os
 from dataclasses import dataclass, field
 
-from ..errors import InputError, printable
-from .read import read_text
+from ...errors import InputError, printable
+from ..read import read_text
 
 
 @dataclass

@@ -5,12 +5,12 @@ from fractions import Fraction
 
 import numpy as np
 
-from ..integrate import to_heyoka
-from ..integrate.stand_in import stand_in
-from ..integrate.trajectory import ATOL_SHARE, FALLBACK_RTOL
-from ..physics.equations import derive
-from ..physics.scene import ScaledGyrostat
-from ..physics.to_numpy import form, to_numpy
+from ...integrate import to_heyoka
+from ...integrate.stand_in import stand_in
+from ...integrate.trajectory import ATOL_SHARE, FALLBACK_RTOL
+from ...physics.equations import derive
+from ...physics.scene import ScaledGyrostat
+from ...physics.to_numpy import form, to_numpy
 
 
 def runner(c, y):

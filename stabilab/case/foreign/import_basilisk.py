@@ -8,7 +8,7 @@ import ast
 import json
 from decimal import Decimal
 
-from ..errors import InputError
+from ...errors import InputError
 from .imported import Craft
 
 HUB = {"mass": ("mHub", "mass"), "centre": ("r_BcB_B",), "inertia": ("IHubPntBc_B", "inertia"), "rate": ("omega_BN_BInit", "omega_BN_B")}

@@ -1,7 +1,7 @@
 """The equations of a scene as lines of text and as LaTeX."""
 from __future__ import annotations
 
-from .equations import Equations, Symbolic
+from ...physics.equations import Equations, Symbolic
 
 
 def lines(equations: Equations) -> tuple[str, ...]:

@@ -26,22 +26,22 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..errors import InputError
-from ..numbers.vectors import CYCLE
-from ..orbit.far_states import in_range
-from ..orbit.fate.arrays import at_rest as mark_rest
-from ..orbit.fate.one_state import OneFate
-from ..orbit.fate.reasons import Reason
-from ..orbit.fate.result import FateResult, in_chunks, write_row
-from ..orbit.result import Fate, Motion, judged, pairs
-from ..physics.state import three_floats
-from ..physics.states import three_numbers
-from .evidence import growth as seen_growth
-from .evidence import length_of, seen_over, span_needed
-from .growth_certificates import angle_of, release_estimate
-from .growth_extremes import captured_extremes
-from .growth_form import growth_law, standard_form
-from .growth_run import nearest_other, search_certificate
+from ...errors import InputError
+from ...numbers.vectors import CYCLE
+from ...orbit.far_states import in_range
+from ...orbit.fate.arrays import at_rest as mark_rest
+from ...orbit.fate.one_state import OneFate
+from ...orbit.fate.reasons import Reason
+from ...orbit.fate.result import FateResult, in_chunks, write_row
+from ...orbit.result import Fate, Motion, judged, pairs
+from ...physics.state import three_floats
+from ...physics.states import three_numbers
+from ..evidence import growth as seen_growth
+from ..evidence import length_of, seen_over, span_needed
+from .certificates import angle_of, release_estimate
+from .extremes import captured_extremes
+from .form import growth_law, standard_form
+from .run import nearest_other, search_certificate
 
 # How long to look where the caller names no time, in the motion's own unit 1/sqrt(g |m|).
 PATIENCE = 1e6

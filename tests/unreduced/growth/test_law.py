@@ -10,10 +10,10 @@ import stabilab
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
 from stabilab.answers.trajectory import trajectory
 from stabilab.errors import InputError
-from stabilab.unreduced.growth import captured_fate
-from stabilab.unreduced.growth_certificates import certificate, spin_up_margin, well_margin
-from stabilab.unreduced.growth_extremes import captured_extremes
-from stabilab.unreduced.growth_form import growth_law, standard_form
+from stabilab.unreduced.growth.certificates import certificate, spin_up_margin, well_margin
+from stabilab.unreduced.growth.extremes import captured_extremes
+from stabilab.unreduced.growth.form import growth_law, standard_form
+from stabilab.unreduced.growth.law import captured_fate
 
 heyoka = pytest.importorskip("heyoka")
 BODY = Body((2000, 1500, 1000))

@@ -3,12 +3,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from .. import style
-from . import canvas, which
-from .solid import in_space
-from .solid.cylinder import cylinder
-from .solid.momentum_sphere import momentum_sphere
-from .subject import subject
+from ... import style
+from .. import canvas, which
+from ..solid import in_space
+from ..solid.cylinder import cylinder
+from ..solid.momentum_sphere import momentum_sphere
+from ..subject import subject
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import math
 
-from .growth_certificates import certificate
+from .certificates import certificate
 
 # Units of rounding by which a step of the run (a Taylor polynomial of 20 terms) may move the motion: generous, for the boundary is met seldom.
 STEP_ROUNDINGS = 64
@@ -17,7 +17,7 @@ def search_certificate(c, y, t_max):
         return found, 0.0, y, 0.0, 0
     if not math.isfinite(sum(v * v for v in y) * (1 + c * c)):
         return "none", None, y, 0.0, 0
-    from .growth_steps import runner
+    from .steps import runner
     run, t, last, steps = runner(c, y), 0.0, 0.0, 0
     budget = STEP_BUDGET if c < 0 else RELEASE_BUDGET
     while t < t_max and steps < budget:

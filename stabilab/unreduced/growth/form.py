@@ -10,7 +10,7 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction
 
-from ..numbers.vectors import CYCLE, Float3
+from ...numbers.vectors import CYCLE, Float3
 
 
 @dataclass(frozen=True)

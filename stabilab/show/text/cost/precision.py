@@ -4,14 +4,14 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
-from ...cost.accuracy import digit_price
-from ...machine import machine, versions
-from ...packages import demand
-from .. import style
-from ..files import comma, endings
-from ..report.precision_picture import picture
-from ..terminal.letters import written
-from .precision_words import caption, duration, methods, setting, title, words
+from ....cost.accuracy import digit_price
+from ....machine import machine, versions
+from ....packages import demand
+from ... import style
+from ...files import comma, endings
+from ...report.precision_picture import picture
+from ...terminal.letters import written
+from .words import caption, duration, methods, setting, title, words
 
 COLUMNS = ("case", "question", "method", "setting", "value", "error", "digits", "steps", "evaluations", "seconds", "slowest",
            "repeats", "compile_seconds", "lanes", "parts", "on_front")

@@ -1,0 +1,1 @@
+"""Other programs' spacecraft, read and written as a case."""

@@ -1,0 +1,1 @@
+"""Endless growth by law: a torque along a principal axis that carries a gyrostatic component along it, too."""
