@@ -64,7 +64,7 @@ def test_a_sweep_asks_the_same_of_each_state():
 
 def test_the_command_says_it_in_words_json_and_csv():
     path = str(CASES / "minor-axis-100.toml")
-    say = lambda *more: CliRunner().invoke(cli.app, ["chaos", path, "--until", "300", *more]).stdout
+    say = lambda *more: CliRunner().invoke(cli.whole(), ["chaos", path, "--until", "300", *more]).stdout
     assert say().startswith("minor-axis-100: REGULAR as far as it was followed: after ") and "no proof" in say()
     told = json.loads(say("--json"))
     one = case("minor-axis-100")

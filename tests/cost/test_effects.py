@@ -6,7 +6,7 @@ import pytest
 from typer.testing import CliRunner
 
 from stabilab import Scene, derive, load
-from stabilab.cli import app
+from stabilab.cli import whole
 from stabilab.cost import effects as effect_cost
 from stabilab.cost.effects import BODY, EXAMPLES, alone, answers, counted, example, imported, ladder, operations, without, zero_is_absent
 from stabilab.errors import CaseError
@@ -101,7 +101,7 @@ def printed(folder, command, effects):
     folder.mkdir()
     path = folder / "case.toml"
     path.write_text(CASE.format(effects=effects), encoding="utf-8")
-    result = CliRunner().invoke(app, [*command, str(path), "--json"], catch_exceptions=False)
+    result = CliRunner().invoke(whole(), [*command, str(path), "--json"], catch_exceptions=False)
     assert result.exit_code == 0, result.output
     return json.loads(result.stdout)
 

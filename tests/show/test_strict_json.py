@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from stabilab import cli
+from stabilab.cli import options
 
 BODY = "[body]\ninertia = [12, 9, 5]\n[effects.gyrostat]\nmomentum = {wheel}\n[effects.constant_torque]\ntorque = {torque}\n"
 MOTION = "[motion]\nangular_velocity = {rates}\nspan = [0, 3]\n"
@@ -72,8 +73,8 @@ def test_the_reader_here_refuses_what_is_no_number():
 
 def with_json():
     """The commands that answer in JSON, by the options they declare."""
-    for command in cli.app.registered_commands:
-        if any(note is cli.Json for note in typing.get_type_hints(command.callback, include_extras=True).values()):
+    for command in cli.whole().registered_commands:
+        if any(note is options.Json for note in typing.get_type_hints(command.callback, include_extras=True).values()):
             yield command.name or command.callback.__name__
 
 

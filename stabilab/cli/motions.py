@@ -1,0 +1,122 @@
+"""Answers about a motion: what becomes of it, its extremes and period, when it reaches a limit, what helps."""
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated  # typer reads the annotations at run time
+
+import typer
+
+from .options import CaseFile, CaseFiles, Csv, Digits, Follow, Json, Prove, Si, Strict, Tilt, UnitsOption, Why, either_json_or_csv
+
+commands = typer.Typer()
+
+
+@commands.command()
+def classify(cases: CaseFiles, json: Json = False, strict: Annotated[bool, typer.Option(
+        "--strict", help="Exit with 3 where a verdict or a fate is undecided or an approximate law does not hold.")] = False,
+             certify: Annotated[bool, typer.Option("--certify", help="Prove the answer in exact numbers and balls, and write it as a "
+                                                                     "certificate that `stabilab verify` checks.")] = False,
+             out: Annotated[Path, typer.Option(metavar="FILE.json", help="Where the certificate goes.")] = Path("certificate.json"),
+             follow: Follow = None, tilt: Tilt = None, units: UnitsOption = None, why: Why = False):
+    """Find the equilibria, their stability, and the motion's fate.
+
+    Example: stabilab classify cases/minor-axis-100.toml --json
+    """
+    from ..commands.classify import classify as answer
+    answer(cases, json, strict, certify, out, follow, tilt, units, why)
+
+
+@commands.command()
+def fate(cases: CaseFiles, json: Json = False, digits: Digits = None, strict: Strict = False, follow: Follow = None, tilt: Tilt = None,
+         certify: Prove = False, units: UnitsOption = None, why: Why = False):
+    """Say what becomes of each motion, and by how much.
+
+    Digits are those of the margin in energy; the label itself is certain.
+
+    Example: stabilab fate cases/minor-axis-100.toml --digits 30
+    """
+    from ..commands.questions import answer
+    answer("fate", cases, digits, json, strict, follow=follow, tilt=tilt, proof=certify, units=units, why=why)
+
+
+@commands.command()
+def extremes(cases: CaseFiles, json: Json = False,
+             csv: Csv = False, digits: Digits = None,
+             strict: Strict = False, follow: Follow = None, units: UnitsOption = None, why: Why = False):
+    """Find the least and greatest rates of each motion.
+
+    Example: stabilab extremes cases/minor-axis-*.toml --csv
+    """
+    either_json_or_csv(json, csv)
+    from ..commands.questions import answer
+    answer("extremes", cases, digits, json, strict, csv, follow, units=units, why=why)
+
+
+@commands.command()
+def period(cases: CaseFiles, json: Json = False, digits: Digits = None, strict: Strict = False, units: UnitsOption = None, why: Why = False):
+    """Find the period of each motion that repeats.
+
+    Example: stabilab period cases/minor-axis-100.toml --digits 30
+    """
+    from ..commands.questions import answer
+    answer("period", cases, digits, json, strict, units=units, why=why)
+
+
+@commands.command()
+def when(cases: CaseFiles,
+         rate: Annotated[str | None, typer.Option(metavar="RATE", help='Of |omega|: "30 deg/s". Default: the limit of [limits].')] = None,
+         component: Annotated[str | None, typer.Option(metavar="AXIS=RATE", help='Of one component\'s size: "z = 30 deg/s"; x, y, z of the file, '
+                                                                                 '1, 2, 3 for principal axes.')] = None,
+         energy: Annotated[str | None, typer.Option(metavar="ENERGY", help='Of the kinetic energy: "5 J".')] = None,
+         tilt: Annotated[str | None, typer.Option(metavar="AXIS=ANGLE", help='Of the angle between a body axis and its direction at the start: '
+                                                                             '"z = 20 deg".')] = None,
+         until: Annotated[str | None, typer.Option(metavar="TIME", help='Search no further than this: "10 min".')] = None,
+         units: UnitsOption = None, si: Si = False,
+         json: Json = False, csv: Csv = False,
+         strict: Annotated[bool, typer.Option("--strict", help="Exit with 3 where the time is not known or an approximate law does not hold.")] = False):
+    """Say when each motion first reaches a limit.
+
+    Enclosed between two times, by roots and not by sampling, or never.
+
+    Example: stabilab when cases/cubesat-3u.toml --rate "30 deg/s"
+    """
+    either_json_or_csv(json, csv)
+    from ..commands.when import when as answer
+    limits = {"rate": rate, "component": component, "energy": energy, "tilt": tilt, "until": until}
+    answer(cases, limits, "si" if si else units, json, csv, strict)
+
+
+@commands.command()
+def stuck(case: CaseFile,
+          all_thrusters: Annotated[bool, typer.Option("--all-thrusters", help="Each thruster alone, stuck or not; the one that reaches "
+                                                                              "the limit first in front.")] = False,
+          units: UnitsOption = None, si: Si = False, why: Why = False,
+          out: Annotated[Path | None, typer.Option(metavar="FILE.png|.svg|.pdf", help="Draw the rates against time.")] = None,
+          json: Json = False, csv: Csv = False,
+          strict: Annotated[bool, typer.Option("--strict", help="Exit with 3 where a fate is undecided.")] = False):
+    """Say what a thruster stuck open does, how soon, what helps.
+
+    Fate, axis, time to the limit of [limits], margins; wheel momenta that keep the motion bounded, thrusters that help.
+
+    Example: stabilab stuck cases/upper-stage.toml
+    """
+    either_json_or_csv(json, csv)
+    from ..commands.stuck import stuck as answer
+    answer(case, all_thrusters, "si" if si else units, why, out, json, csv, strict)
+
+
+@commands.command()
+def chaos(cases: CaseFiles,
+          until: Annotated[str | None, typer.Option(metavar="TIME", help="How long each motion is followed; default: a thousand turns.")] = None,
+          out: Annotated[Path | None, typer.Option(metavar="FILE.png|.svg|.pdf", help="Draw the Poincaré section and MEGNO over its plane.")] = None,
+          csv: Annotated[bool, typer.Option("--csv", help="CSV on stdout: MEGNO over time.")] = False, json: Json = False,
+          strict: Annotated[bool, typer.Option("--strict", help="Exit with 3 where it stays undecided.")] = False):
+    """Say whether each motion is regular or chaotic.
+
+    By how a small change of the start grows (MEGNO), from variational equations of the case's own; seen up to a time, not proved.
+
+    Example: stabilab chaos cases/minor-axis-100.toml
+    """
+    either_json_or_csv(json, csv)
+    from ..commands.pictures import chaos as answer
+    answer(cases, until, out, csv, json, strict)

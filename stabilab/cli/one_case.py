@@ -1,0 +1,71 @@
+"""Into a case: its equations and laws, its models and methods compared, and a case from another program's file."""
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated  # typer reads the annotations at run time
+
+import typer
+
+from .options import CaseFile, Csv, Json, Strict, either_json_or_csv
+
+commands = typer.Typer()
+
+
+@commands.command()
+def show(case: CaseFile):
+    """Show the equations of motion and the laws that hold.
+
+    Text and LaTeX; the laws are those of this very scene.
+
+    Example: stabilab show cases/minor-axis-100.toml
+    """
+    from ..commands.show import show as answer
+    answer(case)
+
+
+@commands.command()
+def compare(case: CaseFile,
+            order: Annotated[int | None, typer.Option(min=1, help="Order of the lindstedt expansion.")] = None,
+            out: Annotated[Path | None, typer.Option(metavar="FILE.csv", help="Write the errors over time.")] = None,
+            json: Json = False, strict: Strict = False):
+    """Set the analytic models of a case beside its exact motion.
+
+    Error over time, and when it first reaches 1 % and 10 %.
+
+    Example: stabilab compare cases/charged-body.toml
+    """
+    from ..commands.accuracy import compare as answer
+    answer(case, order, out, json, strict)
+
+
+@commands.command()
+def precision(case: CaseFile, json: Json = False,
+              csv: Csv = False,
+              out: Annotated[Path | None, typer.Option(metavar="FILE.png|.svg|.pdf|.csv", help="Write the picture or the points.")] = None,
+              until: Annotated[str | None, typer.Option(metavar="TIME", help="End of the span: \"10 min\"; default: the case's own.")] = None,
+              quick: Annotated[bool, typer.Option("--quick", help="Few settings: seconds instead of a minute.")] = False,
+              strict: Strict = False):
+    """Measure what accuracy costs: every method, error and time.
+
+    Judged by a Taylor series in many digits that knows its own error.
+
+    Example: stabilab precision cases/minor-axis-100.toml --quick
+    """
+    either_json_or_csv(json, csv)
+    from ..commands.accuracy import precision as answer
+    answer(case, json, csv, out, until, quick, strict)
+
+
+@commands.command(name="import")
+def import_(file: Annotated[Path, typer.Argument(metavar="FILE", help="A NASA 42 spacecraft file, or JSON or a Python dictionary with "
+                                                                      "Basilisk's names.", show_default=False)],
+            out: Annotated[Path | None, typer.Option(metavar="FILE.toml", help="Write the case to a file.")] = None,
+            stuck: Annotated[list[str] | None, typer.Option(metavar="NAME", help="A thruster that is stuck open; may be repeated.")] = None):
+    """Write another program's spacecraft as a case.
+
+    What has no counterpart in a case is listed on stderr. Exits with 2 where the case still has faults.
+
+    Example: stabilab import SC_Simple.txt --out simple.toml
+    """
+    from ..commands.foreign import import_ as answer
+    answer(file, out, stuck)

@@ -1,0 +1,40 @@
+"""The papers' own tables and figures."""
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated  # typer reads the annotations at run time
+
+import typer
+
+from ..show.terminal import completion
+
+commands = typer.Typer()
+
+
+@commands.command()
+def tables(out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the files.")] = ...):  # type: ignore[assignment]  # typer: must be given
+    """Write Tables 1-4 of the constant-torque paper.
+
+    Formats: text, CSV, Markdown, LaTeX, HTML.
+
+    Example: stabilab tables --out tables
+    """
+    from ..commands.papers import tables as answer
+    answer(out)
+
+
+@commands.command()
+def figures(numbers: Annotated[list[int] | None, typer.Argument(
+                metavar="[N...]", help="Figure numbers of one paper; none: all.", show_default=False)] = None,
+            paper: Annotated[str | None, typer.Option(metavar="NAME", autocompletion=completion.papers,
+                                                      help="constant-torque, charged, cavity or top. Default: "
+                                                         "constant-torque where numbers are given, else all.")] = None,
+            out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the pictures.")] = Path("figures")):
+    """Draw the figures of the papers.
+
+    Each picture gets a text file: caption, command, version, tolerance.
+
+    Example: stabilab figures --paper charged 2 8 --out figures
+    """
+    from ..commands.papers import figures as answer
+    answer(numbers, paper, out)
