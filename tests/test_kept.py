@@ -2,6 +2,8 @@
 from __future__ import annotations
 
 import json
+import subprocess
+import sys
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from hashlib import sha256
@@ -94,6 +96,31 @@ def test_equations_from_disk_are_those_derived(folder):
         if files == 5:
             euler = [500 * 0.06 / 2000, (-1000 * 0.03 - 100 * 0.3) / 1500, (500 * 0.02 + 100 * 0.2 + 20) / 1000]
             np.testing.assert_allclose(seen[0][-1], euler, rtol=1e-14)
+
+
+def test_what_an_integrator_steps_is_read_where_effects_take_long_to_multiply_out(folder, monkeypatch):
+    """A liquid's monomials are worked out once for all runs; the quadratic rates of a gyrostat are no file more."""
+    def formed(*effects):
+        equations._physical.cache_clear()
+        to_numpy._system.cache_clear()
+        system = to_numpy.to_numpy(stabilab.derive(Scene(Body((2000, 1500, 1003)), *effects)))
+        return system.motion, system.motion_and_laws, system.motion_and_rates
+
+    formed(Gyrostat((100, 0, 0)))
+    assert len(list(folder.rglob("*.json"))) == 1
+    derived = formed(Gyrostat((100, 0, 0)), LiquidCavity(1000, 1e-4, 1e-9))
+    monkeypatch.setattr(to_numpy, "form", None)
+    assert formed(Gyrostat((100, 0, 0)), LiquidCavity(1000, 1e-4, 1e-9)) == derived
+    counts = [len(one.expressions) for one in derived]
+    assert counts == [3, 5, 6]  # three rates; two laws, energy and momentum; the rates once more
+
+
+def test_compiled_rates_load_none_of_numpys_tools():
+    """A star import of NumPy loads its tests and its reader of Fortran, a fifth of a small command's time."""
+    code = ("import sys, stabilab; from stabilab.physics.to_numpy import to_numpy; "
+            "to_numpy(stabilab.derive(stabilab.Scene(stabilab.Body((3, 2, 1.5)))))([1, 2, 3]); "
+            "print(*{'numpy.f2py', 'numpy.testing'} & set(sys.modules))")
+    assert subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True).stdout == "\n"
 
 
 def test_numbers_that_are_equal_as_doubles_alone_have_equations_of_their_own(folder):

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..physics.states import equations_and_start
-from ..physics.to_numpy import form, to_numpy
+from ..physics.to_numpy import to_numpy
 from .motion_units import in_unit, mass_unit, own_unit
 from .stand_in import floor, root_between, sign_changes, stand_in
 from .to_heyoka import TAYLOR_TOLERANCE, heyoka_available, taylor_events
@@ -74,8 +74,7 @@ def _in_unit(scene, state, t_end, tolerance, unit, mass) -> RateRoots:
 
 
 def _taylor_roots(equations, state, t_end, tolerance):
-    forms = form(equations, (*equations.rhs, *equations.rhs))
-    with taylor_events(forms, tolerance) as (integrator, found), np.errstate(all="ignore"):
+    with taylor_events(to_numpy(equations).motion_and_rates, tolerance) as (integrator, found), np.errstate(all="ignore"):
         integrator.time = 0.0
         integrator.state[:] = state
         outcome, _, _, steps, *_ = integrator.propagate_until(t_end, max_steps=STEP_LIMIT)

@@ -24,6 +24,8 @@ from .scene import AnyScene
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
+QUICK = {"inertia", "gyrostat", "constant_torque"}  # torques of which the rates are quadratic
+
 Known: TypeAlias = tuple[tuple[Symbolic, Symbolic], ...]  # parameters and their numbers
 
 
@@ -161,12 +163,23 @@ class System:
     @cached_property
     def motion(self) -> Form:
         """The rates of the state alone: what an integrator steps."""
-        return form(self.equations, self.equations.rhs)
+        return self._stepped("motion")
 
     @cached_property
     def motion_and_laws(self) -> Form:
         """`motion`, and the rates of the laws' quantities with it."""
-        return form(self.equations, (*self.equations.rhs, *(law.rate for law in self.equations.balances)))
+        return self._stepped("motion and laws", lambda: [law.rate for law in self.equations.balances])
+
+    @cached_property
+    def motion_and_rates(self) -> Form:
+        """`motion`, and the rates once more: what an integrator steps that looks for their roots."""
+        return self._stepped("motion and rates", lambda: self.equations.rhs)
+
+    def _stepped(self, name: str, beside: Callable[[], Iterable[Symbolic]] = tuple) -> Form:
+        """The rates of the state and what rides along; kept on disk only with effects that take long to multiply out."""
+        if QUICK.issuperset(self.equations.torques):
+            return form(self.equations, (*self.equations.rhs, *beside()))
+        return self._formed(name, lambda: (*self.equations.rhs, *beside()))
 
     def _formed(self, name: str, expressions: Callable[[], Iterable[Symbolic]], drop_constants: bool = False) -> Form:
         """A part, from the disk where the equations may be kept there."""
@@ -256,7 +269,7 @@ def lambdified(arguments: Sequence[Symbolic], expressions: Sequence[Symbolic], c
     SymPy collects for the first function half collected."""
     from sympy import lambdify
     with _NAMES:
-        return lambdify(arguments, expressions, "numpy", cse=cse)
+        return lambdify(arguments, expressions, [np], cse=cse)  # of the word "numpy" SymPy would make a star import, which loads NumPy's tests
 
 
 _NAMES = RLock()
