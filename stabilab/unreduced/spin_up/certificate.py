@@ -28,7 +28,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .elimination import sizes
+from .elimination import corrected, sizes
 from .terms import Terms
 
 ORDERS = ((4, 6),)                  # of energy and amplitude: tested always; what (0, 2) decides it decides as well
@@ -92,11 +92,11 @@ class Found:
 
 
 class Certifier:
-    """The test in one field (`FixedCentre`, `MovingCentre`) at one pair of orders."""
+    """The test in one field (`FixedCentre`, `MovingCentre`) at one pair of orders; by: what takes away what oscillates about a moving centre."""
 
-    def __init__(self, field, orders: tuple[int, int]):
+    def __init__(self, field, orders: tuple[int, int], by=corrected):
         self.field, self.orders = field, orders
-        energy, amplitude = field.energy(orders[0]), field.amplitude(orders[1])
+        energy, amplitude = field.energy(orders[0], by), field.amplitude(orders[1], by)
         turn = field.algebra.turn
         self.e, self.b, self.r = (Sums(terms, sizes(terms)) for terms in (energy.added, amplitude.added, amplitude.rate))
         self.k = Sums(energy.rate, sizes(energy.rate) / field.turn_size, (-turn[0], -turn[1]))

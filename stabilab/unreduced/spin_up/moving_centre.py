@@ -80,13 +80,13 @@ class MovingCentre:
                 out[j, k, a, 0] = out.get((j, k, a, 0), 0) + c * self.c ** (-b / 4)
         return out
 
-    def energy(self, order):
-        """D1 int sqrt(p q) dx, corrected; the drive sqrt(p q) G0 is left out of its rate."""
+    def energy(self, order, by=corrected):
+        """D1 int sqrt(p q) dx, corrected; the drive sqrt(p q) G0 is left out of its rate. by: `corrected`, or what stands for it."""
         a, b = self.algebra.turn
         start = {(j, k, m + a, n + b): c * self.turn_size for (j, k, m, n), c in (self.swing | self.pull).items()}
-        return self._corrected("energy", terms_of(start), order)
+        return self._corrected("energy", terms_of(start), order, by)
 
-    def amplitude(self, order):
+    def amplitude(self, order, by=corrected):
         """G0/M1 |eta|^2, corrected. D1 M1 times its rate is (D1 x' - G0) G0' |eta|^2 + 2 G0 [...], each bracket's products of oscillating
         factors written out, without the mean part."""
         G0, swing, pull, k, r, f = map(terms_of, (self.G0, self.swing, self.pull, self.k, self.r, self.f))
@@ -97,16 +97,16 @@ class MovingCentre:
         slope = self.algebra.slope(G0)
         around = product(product(gathered(swing, pull), slope), terms_of({(1, 1, 0, 0): 1.0}))
         rate = gathered(product(G0.times(2.0), gathered(*inner)), around).times(1 / (self.M1 * self.D1))
-        return self._corrected("amplitude", rate, order)
+        return self._corrected("amplitude", rate, order, by)
 
-    def _corrected(self, name, rate, order):
+    def _corrected(self, name, rate, order, by):
         """`corrected`, by way of the order that is asked first and kept: a higher one goes on from there."""
         if order < FIRST_ORDERS[name]:
-            return corrected(self.algebra, rate, order)
-        if name not in self._kept:
-            self._kept[name] = corrected(self.algebra, rate, FIRST_ORDERS[name])
-        kept = self._kept[name]
-        return kept if order == FIRST_ORDERS[name] else corrected(self.algebra, kept.rate, order, kept.added)
+            return by(self.algebra, rate, order)
+        if (name, by) not in self._kept:  # apart from what others made, so that an answer does not depend on what was asked before
+            self._kept[name, by] = by(self.algebra, rate, FIRST_ORDERS[name])
+        kept = self._kept[name, by]
+        return kept if order == FIRST_ORDERS[name] else by(self.algebra, kept.rate, order, kept.added)
 
     def _pq(self, x):
         return self.a3 * x + self.c, self.a2 * x + self.c

@@ -12,8 +12,9 @@ import pytest
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.unreduced.spin_up import certificate, elimination, fixed_centre, moving_centre
 from stabilab.unreduced.spin_up.certificate import Certifier
-from stabilab.unreduced.spin_up.compiled import kernel, lanes, moving_kernel, steps
+from stabilab.unreduced.spin_up.compiled import eliminated, elimination_kernel, kernel, lanes, moving_kernel, steps
 from stabilab.unreduced.spin_up.compiled.door import FixedCertifier, MovingCertifier
+from stabilab.unreduced.spin_up.compiled.eliminated import Eliminated
 from stabilab.unreduced.spin_up.compiled.runs import CompiledRuns
 from stabilab.unreduced.spin_up.fields import tests_of as certificates
 from stabilab.unreduced.spin_up.follow import spin_up
@@ -68,6 +69,42 @@ def test_loops_about_the_moving_centre_find_what_the_arrays_find(wheel):
         assert_alike(found, MovingCertifier(field, (2, 4), vars(moving_kernel))(places, 1e-9))
         good += found.good.sum()
     assert good
+
+
+def fields_with_a_moving_centre():
+    """With a wheel and without one, and about the equator of a body of revolution, where q is constant."""
+    found = [field for wheel in (0, 0.3) for field in certificates(random_scene(random.Random(31), wheel)).moving]
+    round_ = Scene(Body((2, 2, 1)), Gyrostat((0.3, 0, 0.2)), ConstantTorque((0.5, 0.3, 0.2)))
+    return found + certificates(round_).equatorial
+
+
+def assert_like_terms(found, expected):
+    """The same terms, each within the rounding of its own majorant."""
+    order, other = np.argsort(found.keys), np.argsort(expected.keys)
+    assert np.array_equal(found.keys[order], expected.keys[other])
+    assert (np.abs(found.c[order] - expected.c[other]) <= 1e-13 * expected.m[other]).all()
+    assert np.allclose(found.m[order], expected.m[other], rtol=1e-12, atol=0)
+
+
+def test_loops_take_away_what_the_arrays_take_away(monkeypatch):
+    """Expected: `elimination.corrected`, from the start and from an order that is kept; the loops answer themselves."""
+    fields, by = fields_with_a_moving_centre(), Eliminated(vars(elimination_kernel))
+    assert any(field.a2 == 0 for field in fields) and len(fields) > 3
+    expected = [(field.energy(2), field.energy(5), field.amplitude(7)) for field in fields]
+    monkeypatch.setattr(eliminated, "corrected", None)
+    for field, wanted in zip(fields, expected):
+        for one, other in zip((field.energy(2, by), field.energy(5, by), field.amplitude(7, by)), wanted):
+            assert_like_terms(one.added, other.added)
+            assert_like_terms(one.rate, other.rate)
+
+
+@pytest.mark.parametrize("room", ["ROWS", "SPAN"])
+def test_where_the_loops_have_no_room_the_arrays_answer(room, monkeypatch):
+    field = fields_with_a_moving_centre()[0]
+    monkeypatch.setattr(elimination_kernel, room, 16)
+    found, expected = field.energy(2, Eliminated(vars(elimination_kernel))), field.energy(2)
+    assert_like_terms(found.added, expected.added)
+    assert_like_terms(found.rate, expected.rate)
 
 
 @numba

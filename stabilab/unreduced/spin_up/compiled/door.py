@@ -7,16 +7,25 @@ import numpy as np
 
 from ....numbers.numba_door import compiled
 from ..certificate import Certifier, Found
+from ..elimination import corrected
 from ..fixed_centre import BLUR
-from . import kernel, lanes, moving_kernel
+from . import elimination_kernel, kernel, lanes, moving_kernel
+from .eliminated import Eliminated
 
-INLINED = {kernel: {"put", "columns", "total", "falling", "value_of", "blurred", "search"}, moving_kernel: {"greatest"}}
+INLINED = {kernel: {"put", "columns", "total", "falling", "value_of", "blurred", "search"}, moving_kernel: {"greatest"},
+           elimination_kernel: {"cell"}}
 
 
-@lru_cache(maxsize=3)
+@lru_cache(maxsize=4)
 def functions(module) -> dict:
     """A kernel's functions by name, compiled; kept on disk where there is a place for it."""
-    return compiled(module, INLINED.get(module, ()), **{} if module is moving_kernel else lanes.vectors())
+    return compiled(module, INLINED.get(module, ()), **{} if module in (moving_kernel, elimination_kernel) else lanes.vectors())
+
+
+@lru_cache(maxsize=1)
+def eliminated() -> Eliminated:
+    """What takes away what oscillates about a moving centre, one for the process."""
+    return Eliminated(functions(elimination_kernel))
 
 
 def fast_certifier(field, orders: tuple[int, int]):
@@ -99,7 +108,7 @@ class MovingCertifier:
     """`certificate.Certifier` in a field about the moving centre: its tables, and the kernel's search."""
 
     def __init__(self, field, orders: tuple[int, int], table: dict | None = None):
-        plain, self.field, self.orders = Certifier(field, orders), field, orders
+        plain, self.field, self.orders = Certifier(field, orders, eliminated() if table is None else corrected), field, orders
         self.kernel = functions(moving_kernel) if table is None else table
         pairs = lambda sums: np.array([sums.a, sums.b]).astype(np.int64)
         e, b, r, k = plain.e, plain.b, plain.r, plain.k
