@@ -13,8 +13,8 @@ increasing (the rate of the phase up to a constant), V >= drive from z on, and l
 then at all later times |zeta| < A and x >= z + eta t/D1, x <= z+ + eta+ t/D1 with D1 int_x^(z+) Om = added + e, eta+ = greatest V + k.
 
 For the fixed centre Om = x, V = M1 + m*/x, and orders (0, 2) without the weight w = 1 + m*/(M1 x) are the classical
-E + Im/X and B + R/(om X) + Psi/(D1 om^2 X^3), with k formed from the sums as they come out. Then also D1 y' >= M1 - c/y with
-c = max(0, -m*) + z k, for k x falls: the sharper clock (`clock`). Since Om is concave, int_z^x Om >= (x - z)(Om(x) + Om(z))/2, which is what is
+E + Im/X and B + R/(om X) + Psi/(D1 om^2 X^3), with k formed from the sums as they come out. Then also D1 y' >= M1 + (m* - z k)/y and
+D1 y+' <= M1 + (m* + z k)/y+, for k x falls: the sharper clock (`clock`). Since Om is concave, int_z^x Om >= (x - z)(Om(x) + Om(z))/2, which is what is
 tested (equal for the fixed centre), and int_x^(z+) Om >= (z+ - x) Om(x) gives z+.
 
 Rounding. The place of a state is known within its blur (rounding and, asked for, a ball of states about it): x and |zeta| are

@@ -67,12 +67,12 @@ class Trap:
         return (x - self.z_up) * D1 / self.eta_up, (x - self.z) * D1 / self.eta
 
     def _sharp(self, x):
+        """From D1 y' = M1 + (m* -+ c)/y: the drive's own m* counts on both sides, with its sign."""
         f = self.field.form
         c = self.k * self.z * (1 + 1e-9)  # the rest of Y' over Om falls at least like 1/x
-        low, high = (max(0.0, -f.drag) + c) / f.M1, (max(0.0, f.drag) + c) / f.M1
         early, late = x - self.z_up, x - self.z
-        early -= high * math.log1p((x - self.z_up) / (self.z_up + high)) if early > 0 else 0.0
-        late += low * math.log1p((x - self.z) / (self.z - low)) if late > 0 else 0.0
+        early -= _delay(f.drag + c, f.M1, self.z_up, early) if early > 0 else 0.0
+        late -= _delay(f.drag - c, f.M1, self.z, late) if late > 0 else 0.0
         return f.D1 / f.M1 * early, f.D1 / f.M1 * late
 
     @property
@@ -109,6 +109,11 @@ class SteadyTrap:
         """(earliest, latest) time at which the spin reaches `rate`."""
         blur = WIDER * (abs(rate) + abs(self.start)) / self.gain
         return max(0.0, (rate - self.start) / self.gain - blur), max(0.0, (rate - self.start) / self.gain + blur)
+
+
+def _delay(c, M1, start, rise):
+    """What c/y in D1 y' = M1 + c/y takes off the rise over M1/D1: (c/M1) ln of how M1 y + c grows. It is positive from the start on: eta of the theorem is."""
+    return c / M1 * math.log1p(rise / (start + c / M1))
 
 
 def _down(value: float) -> float:

@@ -5,7 +5,7 @@ import random
 import numpy as np
 import pytest
 
-from stabilab import Body, ConstantTorque, Scene
+from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.unreduced.spin_up.follow import spin_up
 
 from .scenes import EXAMPLE, random_scene, rates_of, run, sphere
@@ -48,6 +48,19 @@ def test_clock_shrinks_when_the_trap_is_a_later_one():
     assert widths[1] < 0.5 * widths[0] and widths[2] < 0.5 * widths[1]
 
 
+@pytest.mark.parametrize("sign", [1, -1])
+def test_a_wheel_that_helps_or_hinders_widens_no_time(sign):
+    """The drive is M1 + m*/x: over a hundredfold of rates m* moves the time by m* D1/M1^2 ln 100, known to both ends whatever its sign, but
+    for the trap's z k, here a twelfth of it."""
+    D, l, M = (1.4, 1, .6), tuple(sign * v for v in (.2, .1, -.3)), (.5, .6, .62)
+    trap = spin_up(Scene(Body(D), Gyrostat(l), ConstantTorque(M)), (6, 1, -1), after=200).trap
+    mean = l[1] * M[1] / (D[0] - D[1]) + l[2] * M[2] / (D[0] - D[2])  # m* of the averaged motion, by hand
+    moved = mean * D[0] / M[0] ** 2 * math.log(100)
+    (early, late), (earlier, later) = trap.clock(1e6), trap.clock(1e4)
+    for gone in (early - earlier, late - later):
+        assert gone - (1e6 - 1e4) * D[0] / M[0] == pytest.approx(-moved, rel=0.15)
+
+
 def test_a_rate_already_reached_has_no_earliest_time():
     trap = spin_up(EXAMPLE, (6, 1, -1)).trap
     assert trap.clock(1.0) == (0.0, trap.t)
@@ -64,7 +77,6 @@ def test_clock_of_a_body_of_revolution_is_the_linear_law():
 @pytest.mark.parametrize("scale", [2.0**-20, 2.0**15])
 def test_clock_keeps_units(scale):
     """The same motion in another unit of time: powers of two, exact."""
-    from stabilab import Gyrostat
     other = Scene(Body((1.4, 1, .6)), Gyrostat([scale * v for v in (.2, .1, -.3)]), ConstantTorque([scale**2 * v for v in (.5, .6, .62)]))
     one, two = spin_up(EXAMPLE, (6, 1, -1)), spin_up(other, [scale * v for v in (6, 1, -1)])
     assert np.allclose(two.trap.clock(100 * scale), np.array(one.trap.clock(100)) / scale, rtol=1e-9)
