@@ -40,9 +40,9 @@ TWICE = 2.0  # times the largest rate of the bounded motion: the limit where non
 class Tilt:
     """angle: half-angle of the cone, rad; of: what is tilted; limit: rad/s, of |omega|, or the least of three components; stated: whether the case
     gives it. not_before: no torque of the cone reaches the limit before (s, proved). low, high, level: of the shortest time found, as of `TimeTo`,
-    at azimuth (rad) under torque (3,) N m, principal axes; None where none was found, and followed says how long. azimuths, times: (n,) of all that were
-    looked at, inf where the limit was not reached. untilted: (low, high) of the time at which the bounded motion itself reaches the limit, None where it
-    never does."""
+    at azimuth (rad) under torque (3,) N m, principal axes; None where none was found, and followed says how long. azimuths, times: (n,) of those that were
+    looked at (one, where a run falls short of not_before), inf where the limit was not reached. untilted: (low, high) of the time at which the bounded
+    motion itself reaches the limit, None where it never does."""
 
     angle: float
     of: str
@@ -88,7 +88,7 @@ def tilt(scene: AnyScene, state: Any, angle: float | None = None, rate: Any = No
     least = min(math.sqrt(float(most)) for _, most in limit.parts)
     exactly = time_to(scene, state, **question, exact=exact, work=WORK)
     not_before = stays_below(scene, state, least, *cone.reach())
-    azimuths, times, followed = _search(scene, state, limit, cone)
+    azimuths, times, followed = _search(scene, state, limit, cone, not_before)
     found: dict[str, Any] = {"low": None, "high": None, "level": "run", "azimuth": None, "torque": None}
     if np.isfinite(times).any():
         azimuth = float(azimuths[np.argmin(times)])
@@ -120,8 +120,9 @@ def _question(scene: AnyScene, state: Any, rate: Any, case: Any) -> Any:
     return {"rate": TWICE * float(np.linalg.norm(largest))}, False
 
 
-def _search(scene: Scene, state: Any, limit: Limit, cone: Cone) -> Any:
-    """Look for crossings round the cone, then more closely about the azimuth with the shortest time.
+def _search(scene: Scene, state: Any, limit: Limit, cone: Cone, not_before: float) -> Any:
+    """Look for crossings round the cone, then more closely about the azimuth with the shortest time; at one azimuth alone where a run falls
+    short of the time before which there is none.
 
     Return the azimuths, the times, and how long the shortest run without a crossing went on.
     """
@@ -131,6 +132,9 @@ def _search(scene: Scene, state: Any, limit: Limit, cone: Cone) -> Any:
         t, until = _time(scene, state, limit, cone, azimuth)
         times.append(t)
         followed = min(followed, until)
+        if until < not_before:  # so do runs of as many steps at the other azimuths, or nearly
+            azimuths = azimuths[:len(times)]
+            break
     step = math.pi / AZIMUTHS
     for _ in range(REFINED if np.isfinite(times).any() else 0):
         best = azimuths[int(np.argmin(times))]

@@ -10,6 +10,7 @@ import pytest
 import stabilab as package
 from stabilab.answers.passage.cone import cone_of
 from stabilab.answers.passage.drift import stays_below
+from stabilab.answers.passage.run import run_once
 from stabilab.answers.tilt import tilt
 from stabilab.errors import InputError
 from tests.oracles.first_crossing import REAL, first_crossing
@@ -94,6 +95,16 @@ def test_a_tilt_of_one_degree_ends_the_bounded_motion_of_the_readme():
     assert 0.15 * found.low < found.not_before < found.low == pytest.approx(found.times.min(), rel=1e-9)
     assert found.untilted is None and abs(math.hypot(*found.torque) - 0.02) < 1e-15  # turned, not longer
     assert math.degrees(math.atan2(math.hypot(*found.torque[:2]), found.torque[2])) == pytest.approx(1)
+
+
+def test_one_azimuth_is_followed_where_runs_end_before_the_limit_can_be_reached(monkeypatch):
+    """By a count of the runs; far beyond the steps of a run, no azimuth shows more than the bound does."""
+    runs, once = [], run_once
+    monkeypatch.setattr("stabilab.answers.tilt.run_once", lambda *given: runs.append(given) or once(*given))
+    weak = package.Scene(BODY, WHEEL, package.ConstantTorque((0, 0, 2e-5)))
+    found = tilt(weak, STATE, math.radians(0.01), rate=2)
+    assert not found.ends and found.followed < found.not_before and len(runs) == len(found.azimuths) == len(found.times) == 1
+    assert len(tilt(ON_AXIS, STATE, math.radians(1), rate=2).times) == len(runs) - 1 > 12
 
 
 def test_a_limit_that_the_bounded_motion_reaches_by_itself_is_told_so():

@@ -104,7 +104,9 @@ def tilt_lines(case, motion, units: Units, proofs: bool = False) -> list[str]:
         if proofs:
             lines.append(f"    at azimuth            {_angle(found.azimuth)}, torque {units.vector(found.torque, units.plain('N m'))}")
     else:
-        lines.append(f"    shortest time found   none: {len(found.times)} azimuths were followed for {units.time(found.followed)} or more")
+        many, far = len(found.times), units.time(found.followed)
+        told = f"{many} azimuths were followed for {far} or more" if many > 1 else f"one azimuth was followed for {far}, which is before it can be reached"
+        lines.append(f"    shortest time found   none: {told}")
     return [*lines, f"    not before            {units.time(found.not_before)}, whatever the azimuth and for any smaller tilt (proved)"]
 
 
