@@ -178,7 +178,9 @@ def bound_of_flow(M, G):
     for i in range(3):
         norm = max(norm, M[i, 0] + M[i, 1] + M[i, 2])
     if not norm < 512.0:
-        G[:] = inf
+        for i in range(3):  # a slice would take the compiler a second
+            for j in range(3):
+                G[i, j] = inf
         return
     while norm > 0.25:
         norm, halves = norm * 0.5, halves + 1

@@ -16,7 +16,6 @@ import numpy as np
 
 from ...asked import checked_scene
 from ...numbers.exact import exact_vector
-from ...numbers.numba_door import installed
 from ...physics.coefficients import effective
 from ..spin_up.clock import Trap
 from ..spin_up.fields import natural, tests_of
@@ -29,16 +28,17 @@ LATER = (1.0, 1.0625, 1.25, 1.5, 2.0)  # times, over that of the certified run, 
 WIDER = 1 + 2.0**-40
 
 
-def proved(scene, state, found: SpinUp, steps: int | None = None, bits: int | None = None) -> SpinUp:
+def proved(scene, state, found: SpinUp, steps: int | None = None, bits: int | None = None, fast: bool = False) -> SpinUp:
     """The answer of `spin_up` for the motion from a state (three exact numbers: floats at their word, Fractions, decimals in strings), with
     level "proved" where its way can be enclosed in so many validated steps and the inequality holds for the whole set there; else as it was
-    found, its cause told what hindered. bits: as of `enclosure.run.Course`."""
+    found, its cause told what hindered. bits: as of `enclosure.run.Course`. fast: ask the inequality by compiled loops, for which the first of an
+    installation waits some seconds: where those that found it have loaded them."""
     if found.level != "certified":
         return found
     before: Any = found.trap  # of a motion off the axes of symmetry
     scene = effective(checked_scene(scene))
     own, unit = natural(scene)
-    test = tests_of(own).certifier(before.field, before.orders, installed())
+    test = tests_of(own).certifier(before.field, before.orders, fast)
     way = _Way(scene, state, found.t * LATER[-1], bits)
     for later in LATER:
         reached = way.to(found.t * later, steps)

@@ -51,10 +51,11 @@ def spin_up(scene: AnyScene, state: Any, t_max: float | None = None, budget: int
     if not follows(state, unit):
         words = f"a rate exceeds {FARTHEST:g} natural units of {unit:.3g} 1/{scene.time_unit}: no run in doubles holds it"
         return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, 0.0, state, 0, words, 1.0)
+    loops = wanted(1, fast, proof, 2, 1)
     found = chase(own, tests, np.array([state]) / unit, NATURAL_TIMES if t_max is None else t_max * unit, BUDGET if budget is None else budget, after * unit,
-                  tell and (lambda t, steps, left: tell(t / unit, steps, left)), wanted(1, fast, proof, 2, 1))
+                  tell and (lambda t, steps, left: tell(t / unit, steps, left)), loops)
     answer = answer_of(scene, unit, found, 0)
-    return proved(scene, given if isinstance(given, (list, tuple)) else state, answer) if proof else answer
+    return proved(scene, given if isinstance(given, (list, tuple)) else state, answer, fast=loops) if proof else answer
 
 
 def follows(state, unit: float) -> bool:

@@ -58,18 +58,19 @@ def spin_up_many(scene, states, t_max: float | None = None, budget: int | None =
     closed = bool(len(states)) and exactly(covered, states[0].tolist()) is not None  # of all states of the scene or of none
     if closed or not tests or not (np.abs(states) / FARTHEST < unit).all():
         return _one_by_one(scene, states, t_max=t_max, budget=budget, fast=fast, proof=proof)
+    loops = wanted(len(states), fast, False, COLD, COLD)
     found = chase(own, tests, states / unit, NATURAL_TIMES if t_max is None else t_max * unit, BUDGET if budget is None else budget,
-                  tell=tell and (lambda t, steps, left: tell(t / unit, steps, left)), fast=wanted(len(states), fast, False, COLD, COLD))
+                  tell=tell and (lambda t, steps, left: tell(t / unit, steps, left)), fast=loops)
     good = found.fired >= 0
     axes = np.array([0 if field.axis is None else field.axis + 1 for field, _ in tests.asked] + [0])
     senses = np.array([field.sense for field, _ in tests.asked] + [0])
     out = SpinUps(np.where(good, Fate.SPIN_UP, Fate.UNDECIDED).astype(np.int8), axes[found.fired].astype(np.int8), senses[found.fired].astype(np.int8),
                   good.astype(np.int8), found.t / unit, found.steps, found.condition, found.states * unit, scene, unit, found, ())
-    return _proved(scene, states, out) if proof else out
+    return _proved(scene, states, out, loops) if proof else out
 
 
-def _proved(scene, states, found: SpinUps) -> SpinUps:
-    rows = tuple(proved(scene, state, found.row(number)) for number, state in enumerate(states.tolist()))
+def _proved(scene, states, found: SpinUps, fast: bool) -> SpinUps:
+    rows = tuple(proved(scene, state, found.row(number), fast=fast) for number, state in enumerate(states.tolist()))
     columns = {name: np.array([getattr(row, name) for row in rows]) for name in ("t", "state")}
     return replace(found, level=np.array([LEVELS.index(row.level) for row in rows], np.int8), t=columns["t"], states=columns["state"].reshape(-1, 3),
                    chased=None, exact=rows)

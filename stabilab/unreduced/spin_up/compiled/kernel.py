@@ -227,7 +227,8 @@ def search_all(x, zeta, dx, dz, D1, M1, drag, weights_e, real_e, imaginary_e, we
         if search(x[n], zeta[n], dx[n], dz[n], D1, M1, drag, weights_e, real_e, imaginary_e, weights_b, real_b, imaginary_b, e_sums, e_most, b_sums,
                   b_most, r_tails, k_sums, spans, powers, kept, row, constants):
             good[n] = True
-            out[:, n] = constants
+            for i in range(6):
+                out[i, n] = constants[i]
 
 
 def decide(rows, states, reach, fired, number, found, order, frame, D1, M1, drag, weights_e, real_e, imaginary_e, weights_b, real_b, imaginary_b, e_sums,
@@ -247,4 +248,5 @@ def decide(rows, states, reach, fired, number, found, order, frame, D1, M1, drag
         if search(x, zeta, BLUR * (abs(w1) + abs(frame[3])) + near, most * (BLUR * size + near), D1, M1, drag, weights_e, real_e, imaginary_e, weights_b,
                   real_b, imaginary_b, e_sums, e_most, b_sums, b_most, r_tails, k_sums, spans, powers, kept, row, constants):
             fired[n] = number
-            found[:, n] = constants
+            for i in range(6):
+                found[i, n] = constants[i]

@@ -197,7 +197,8 @@ def search_all(x, zeta, dx, dz, D1, M1, a2, a3, c, reach, drive, value_e, degree
         if search(x[n], zeta[n], dx[n], dz[n], D1, M1, a2, a3, c, reach, drive, value_e, degrees_e, value_b, degrees_b, pairs_e, e_sums,
                   e_most, pairs_b, b_sums, b_most, pairs_r, r_sums, pairs_k, k_sums, rows, powers, constants):
             good[n] = True
-            out[:, n] = constants
+            for i in range(6):
+                out[i, n] = constants[i]
 
 
 def decide(chosen, states, reach, fired, number, found, basis, frame, D1, M1, a2, a3, c, reach_of_powers, drive, value_e, degrees_e, value_b, degrees_b,
@@ -224,4 +225,5 @@ def decide(chosen, states, reach, fired, number, found, basis, frame, D1, M1, a2
         if search(x, eta, near, dz, D1, M1, a2, a3, c, reach_of_powers, drive, value_e, degrees_e, value_b, degrees_b, pairs_e, e_sums, e_most, pairs_b,
                   b_sums, b_most, pairs_r, r_sums, pairs_k, k_sums, rows, powers, constants):
             fired[n] = number
-            found[:, n] = constants
+            for i in range(6):
+                found[i, n] = constants[i]
