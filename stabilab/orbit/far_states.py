@@ -29,7 +29,7 @@ def in_range(what: str = "state"):
     try:
         yield
     except OverflowError:
-        raise InputError(f"{what}: the squares of rates this large, or of moments, are {BEYOND}: choose other units") from None
+        raise InputError(f"{what}: the squares of rates, moments or momenta this large are {BEYOND}: choose other units") from None
 
 
 def scene_exponent(scene) -> int | None:

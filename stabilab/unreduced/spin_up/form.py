@@ -29,6 +29,7 @@ from fractions import Fraction
 from typing import Any
 
 from ...numbers.vectors import Number
+from ...orbit.far_states import in_range
 
 HALF_TURN = (-1, 1, -1)  # about axis 2: a rotation of the body, so every vector takes part
 
@@ -131,8 +132,9 @@ def scaled_normal_form(a, b, mu, axis: int, kind=Floats) -> NormalForm | None:
 
 def forms_of(scene, kind=Floats) -> list[NormalForm]:
     """The normal forms of a scene (gyrostat and constant torque): one for each extremal axis that bears a torque."""
-    if scene.variables == "scaled":
-        forms = [scaled_normal_form(*scene.exact_ab, scene.exact_mu, i, kind) for i in range(3)]  # type: ignore[call-arg]
-    else:
-        forms = [normal_form(scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque"), i, kind) for i in range(3)]
+    with in_range("scene"):
+        if scene.variables == "scaled":
+            forms = [scaled_normal_form(*scene.exact_ab, scene.exact_mu, i, kind) for i in range(3)]  # type: ignore[call-arg]
+        else:
+            forms = [normal_form(scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque"), i, kind) for i in range(3)]
     return [form for form in forms if form]
