@@ -27,12 +27,13 @@ from ..orbit.result import Fate, Motion, finite, judged, pairs, repeats
 from ..physics.alignment import aligned
 from ..physics.quadratic import rests
 from ..physics.state import three_floats
-from .evidence import evidence, length_of
+from .evidence import extremes_over, seen_over
 from .growth import law
 from .growth.law import captured_fate, unbounded
 from .near_rest import beside_rest, small_loop
 
 TURN_ROUNDINGS = 16  # units of rounding that turning a state costs: nine products and sums
+NO_SPAN = "this motion does not repeat, and its torque acts between the axes: give span=T ({unit}), or a span in the case's [motion]"
 TURN_SHARE = 1e-36  # of the energies: half the digits of a turn by irrational numbers
 
 
@@ -44,8 +45,11 @@ def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
     decided = aligned_fate(scene, given, orbit)
     time = turned_period(orbit, decided.label)
     fields = {**judged(state, decided), "margin_energy": finite(decided.margin), "period": repeats(time)}
-    if span is not None or decided.label == Fate.EQUILIBRIUM or repeats(time) is not None:
-        fields["extremes"] = pairs(turned_extremes(scene, given, decided.label, time, length_of(span)))
+    if decided.label == Fate.EQUILIBRIUM or repeats(time) is not None:
+        box = turned_extremes(scene, given, decided.label, time, None)
+        fields |= {"extremes": pairs(box)} if np.isfinite(box).all() else {"extremes_over": "none: a run of one period was too long"}
+    else:
+        fields |= {"extremes_over": f"none: {NO_SPAN.format(unit=scene.time_unit)}"} if span is None else seen_over(scene, state, span)
     return Motion(**fields, **({} if brief else turned_apart(aligned(scene), orbit, state, decided)))
 
 
@@ -137,10 +141,10 @@ def turned_extremes(scene, state, label, time, span):
         return np.array([[float(v) for v in pair] for pair in loop[1]])
     state = [float(v) for v in state]
     if label == Fate.BOUNDED and np.isfinite(time):
-        return evidence(scene, state, 1.02 * time).extremes
+        return extremes_over(scene, state, 1.02 * time)
     if span is None:
-        raise InputError("this motion does not repeat, and its torque acts between the axes: give span=T for its extremes")
-    return evidence(scene, state, span).extremes
+        raise InputError(f"extremes: {NO_SPAN.format(unit=scene.time_unit)}")
+    return extremes_over(scene, state, span)
 
 
 def periods(scene, states, fast: bool | None = None):

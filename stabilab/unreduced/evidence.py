@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import InputError
-from ..integrate.extrema import roots_of_rates
+from ..integrate.extrema import RateRoots, roots_of_rates
 from ..integrate.trajectory import integrated
 from ..orbit.result import Fate, pairs
 from ..physics.states import three_numbers
@@ -60,10 +60,7 @@ def evidence(scene, state, span) -> Evidence:
     """The evidence of one run: `state` (three numbers) at its start; span: its length, or its two ends."""
     state = three_numbers(state)
     start, end = (0.0, span) if np.ndim(span) == 0 else span
-    length = float(end) - float(start)
-    if not math.isfinite(length) or length == 0:
-        raise InputError(f"span: expected a finite length other than 0, got {span!r}")
-    roots = roots_of_rates(scene, state, length)
+    roots = _searched(scene, state, float(end) - float(start))
     run = integrated(scene, state, np.linspace(0, roots.t_reached, 65)[1:] if roots.t_reached else [0.0])
     points = np.vstack([state, run.states])
     energy = _energy(scene, points)
@@ -73,6 +70,18 @@ def evidence(scene, state, span) -> Evidence:
     return Evidence(Fate.UNDECIDED, _why_undecided(scene) + (f"; {roots.reason}" if roots.reason else ""), roots.t_reached,
                     roots.extremes(), over, (float(sizes[0]), float(sizes[len(points) - 1]), float(sizes.max())),
                     (float(energy[0]), float(energy[-1])), _trend(energy), run.invariant_drift, roots.steps)
+
+
+def extremes_over(scene, state, length: float) -> np.ndarray:
+    """(3, 2) extremes from `state` (three numbers) over a span of this length; NaN where the run ends before the span does."""
+    roots = _searched(scene, three_numbers(state), length)
+    return np.full((3, 2), np.nan) if roots.reason else roots.extremes()
+
+
+def _searched(scene, state, length: float) -> RateRoots:
+    if not math.isfinite(length) or length == 0:
+        raise InputError(f"span: expected a finite length other than 0, got {length!r}")
+    return roots_of_rates(scene, state, length)
 
 
 def _why_undecided(scene):

@@ -205,9 +205,14 @@ def fates(scene, states, fast: bool | None = None):
 
 
 def extremes(scene, states, span=None, fast: bool | None = None):
-    """(n, 3, 2) over all time."""
+    """(n, 3, 2) over all time; NaN on a separatrix and next to it, where a run shows its own span alone (`extremes_over_period`)."""
     rest = equilibrium_mask(scene, states)
-    return np.array([np.stack([s, s], axis=1) if still else extremes_over_period(scene, s).extremes for s, still in zip(states, rest)]).reshape(-1, 3, 2)
+    known = (np.stack([s, s], axis=1) if still else _for_all_time(extremes_over_period(scene, s)) for s, still in zip(states, rest))
+    return np.array(list(known)).reshape(-1, 3, 2)
+
+
+def _for_all_time(found: PeriodExtremes) -> np.ndarray:
+    return found.extremes if found.over == "all time" else np.full((3, 2), np.nan)
 
 
 def periods(scene, states, fast: bool | None = None):

@@ -21,7 +21,7 @@ from ..physics.quadratic import rests
 from ..physics.state import three_floats
 from ..physics.states import equilibrium_mask
 from .enclosure.ranges import ranges_until
-from .evidence import evidence, seen_over, size_words
+from .evidence import extremes_over, seen_over, size_words
 from .periodic import in_the_middle
 from .spin_up.follow import spin_up
 from .spin_up.many import LEVELS, SpinUps, spin_up_many
@@ -170,12 +170,12 @@ def periods(scene, states, fast: bool | None = None):
 
 
 def extremes(scene, states, span=None, fast: bool | None = None, follow: float | None = None, tell=None):
-    """(n, 3, 2) over the span [0, span]; without it bounds for all t >= 0 of the motions whose spin-up is certified, NaN for the others
-    (InputError where there is nothing else)."""
+    """(n, 3, 2) over the span [0, span], NaN where a run ends before it; without it bounds for all t >= 0 of the motions whose spin-up is
+    certified, NaN for the others (InputError where there is nothing else)."""
     rest = equilibrium_mask(scene, states)
     still = np.stack([states, states], axis=2)
     if span is not None:
-        return np.array([one if at else evidence(scene, s, span).extremes for s, one, at in zip(states, still, rest)]).reshape(-1, 3, 2)
+        return np.array([one if at else extremes_over(scene, s, span) for s, one, at in zip(states, still, rest)]).reshape(-1, 3, 2)
     moving = np.flatnonzero(~rest)
     found = spin_up_many(scene, states[moving], **_limits(follow), tell=tell, fast=fast)
     if len(moving) and not (found.fate == Fate.SPIN_UP).any():

@@ -19,7 +19,7 @@ def fate(case, motion, told, units: Units, all_digits: bool, say: bool, proofs: 
     rows = [row(name, words) for name, words in (("margin, rate", rate_margin(motion, units, DIGITS)), ("margin, energy", margin)) if words]
     bounds = bound_lines(case, replace(motion, extremes=None), units)
     return "\n".join([f"{case.name}: {headline(case, motion, units)}", *rows, *bounds, *tilt_lines(case, motion, units, proofs),
-                      *why(case, motion, units, proofs), *framed(case), *([_said(told)] * say)])
+                      *why(case, motion, units, proofs), *framed(case), *([_said(told)] * (say))])
 
 
 def _energy(told, units, all_digits):
@@ -33,17 +33,17 @@ def extremes(case, motion, told, units: Units, all_digits: bool, say: bool, proo
     shown = motion if told.values is None else replace(motion, extremes=tuple(tuple(map(float, pair)) for pair in told.values))
     parts = [fate_words(case, shown, units), cause(shown)]
     parts = [*parts, largest(shown, units)] if motion.fate.word == "spin-up" else [largest(shown, units), *parts]
-    rows = _all_digits(case, shown, told) if all_digits else extreme_lines(
-        case, shown.extremes or ((None, None),) * 3, shown.extremes_over, units)
+    rows = [f"  extremes: {shown.extremes_over}"]
+    if shown.extremes is not None:
+        rows = _all_digits(case, shown, told) if all_digits else extreme_lines(case, shown.extremes, shown.extremes_over, units)
     return "\n".join([f"{case.name}: {'; '.join(filter(None, parts))}", *rows, *bound_lines(case, motion, units),
-                      *(why(case, motion, units, proofs) if proofs else ()), *framed(case), *([_said(told)] * say)])
+                      *(why(case, motion, units, proofs) if proofs else ()), *framed(case), *([_said(told)] * (say and told.because != shown.extremes_over))])
 
 
 def _all_digits(case, motion, told):
     """A line a component, every digit that was asked for; in rad/s, in which they were checked."""
     unit = "" if case.variables == "scaled" else "rad/s"
-    pairs = told.decimals or [["unknown" if v is None else number(v, max(SHOWN, told.asked)) for v in pair]
-                              for pair in (motion.extremes or ((None, None),) * 3)]
+    pairs = told.decimals or [[number(v, max(SHOWN, told.asked)) for v in pair] for pair in motion.extremes]
     wide = max(24, told.asked + 8)
     return [f"  over {motion.extremes_over}, least and greatest:", *(f"  {greek(name):<8}{_word(low):>{wide}}{_word(high):>{wide}}  {unit}".rstrip()
                                                            for name, (low, high) in zip(case.scene.components, pairs))]

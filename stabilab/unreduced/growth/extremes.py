@@ -32,11 +32,12 @@ FOREVER = "all time"
 @dataclass(frozen=True)
 class GrowthExtremes:
     """box: (3, 2) least and greatest of each component, +-inf where it grows; over: in words, what they are known over; span: length of
-    the run that the finite entries come from, None where no run was needed."""
+    the run that the finite entries come from, None where no run was needed; whole: whether it came to its end."""
 
     box: np.ndarray
     over: str
     span: float | None
+    whole: bool = True
 
 
 def captured_extremes(scene, state, answer, span: float | None = None, exact=None) -> GrowthExtremes:
@@ -54,13 +55,13 @@ def captured_extremes(scene, state, answer, span: float | None = None, exact=Non
     span = max(1.5 * (answer.t_certificate or 0.0), 20 * unit) if span is None else span
     roots, certain = _run_to_floor(scene, state, change, answer, span)
     box = roots.extremes()
+    over, whole = f"{scene.time_unit} in [0, {roots.t_reached:g}]", not roots.reason
     if span < 0:  # nothing is known of what was before
-        return GrowthExtremes(box, f"{scene.time_unit} in [0, {roots.t_reached:g}]", roots.t_reached)
-    over = f"{scene.time_unit} in [0, {roots.t_reached:g}]"
+        return GrowthExtremes(box, over, roots.t_reached, whole)
     if answer.certificate in ("spin-up", "bound", "well"):
         box[answer.axis - 1, 1 if answer.sense > 0 else 0] = answer.sense * np.inf
         over = f"axis {answer.axis} for all time, the others over {over}" if certain else f"finite entries over {over}"
-    return GrowthExtremes(box, over, roots.t_reached)
+    return GrowthExtremes(box, over, roots.t_reached, whole)
 
 
 def _run_to_floor(scene, state, change, answer, span):

@@ -183,11 +183,13 @@ def _for_ever(found) -> bool:
 
 
 def extremes(scene, states, span=None, fast: bool | None = None):
-    """(n, 3, 2), as of `captured_extremes`; InputError where they are not known for all time and no span is named."""
+    """(n, 3, 2), as of `captured_extremes`, NaN where the run ends before its span does; InputError where they are not known for all
+    time and no span is named."""
     found = [captured_fate(scene, state) for state in states]
     if span is None and not all(map(_for_ever, found)):
         raise span_needed(scene)
-    return np.array([captured_extremes(scene, *row, span).box for row in zip(states, found)]).reshape(-1, 3, 2)
+    known = [captured_extremes(scene, *row, span) for row in zip(states, found)]
+    return np.array([one.box if one.whole else np.where(np.isinf(one.box), one.box, np.nan) for one in known]).reshape(-1, 3, 2)
 
 
 def periods(scene, states, fast: bool | None = None):

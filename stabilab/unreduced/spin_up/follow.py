@@ -1,6 +1,7 @@
 """One motion under a torque of any direction, followed until its spin-up is certified."""
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -67,6 +68,9 @@ def answer_of(scene, unit: float, found: Chased, row: int) -> SpinUp:
     """The answer of one row of what `chase` found."""
     t, state = float(found.t[row]) / unit, tuple((found.states[row] * unit).tolist())
     steps, condition, passed = int(found.steps[row]), float(found.condition[row]), float(found.passed[row])
+    if found.fired[row] < 0 and not math.isfinite(t):
+        words = f"a run in doubles broke off after {steps} steps, as its numbers left their range: nothing is seen of the motion"
+        return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, t, state, steps, words, condition, passed)
     if found.fired[row] < 0:
         recurrent = recurs(found.largest[row].tolist(), found.least[row].tolist(), steps)
         words = (f"{seen(scene, state, island_words(scene, t) if recurrent else '')}; followed for {t:.6g} {scene.time_unit}, {steps} steps, over which a "
