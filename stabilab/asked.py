@@ -33,6 +33,12 @@ def checked_span(span) -> tuple[float, float] | None:
     raise InputError(f"span: expected two finite times (from, to), or one length, got {span!r:.80}")
 
 
+def reach_of(span) -> float | None:
+    """How far a span (from, to) reaches from the state, which is that of time 0: to its end, or back to its beginning where it ends by then;
+    None without a span. Extremes are searched over all of that way, as the motion takes it."""
+    return None if span is None else float(span[1] if span[1] > 0 or not span[0] else span[0])
+
+
 def real(values, name: str):
     """The values, if they are no complex numbers: NumPy would drop their imaginary parts."""
     if getattr(getattr(values, "dtype", None), "kind", "") == "c":

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..asked import checked_span
+from ..asked import checked_span, reach_of
 from ..physics.coefficients import effective
 from ..physics.scene import AnyScene
 from ..physics.states import checked_states
@@ -21,24 +21,18 @@ def extremes(scene: AnyScene, states: ArrayLike, span: Any = None, digits: int |
     """Smallest and largest value of each component over all t >= 0: array (..., 3, 2) in the scene's variables.
 
     +-inf where a component grows without bound; at an equilibrium both are the state. Scenes without a reduction need
-    `span`, a time: their extremes hold over [0, span]. Without it they have bounds for all t >= 0 where spin-up is certified
-    (follow: as of `fate`) and NaN elsewhere, InputError where no state has any. digits (1 to 50): reach so many and check
-    them (ToleranceNotMet otherwise); without it eleven, by the formulas' own bound. fast: whether numba (the extra `fast`)
-    may compile the work; None where it is installed and pays. Raises InputError as `fate` does, and where fast=True
-    finds no numba.
+    `span`, a time, or two (from, to): their extremes hold from the start, at time 0, to its end. Without it they have bounds
+    for all t >= 0 where spin-up is certified (follow: as of `fate`) and NaN elsewhere, InputError where no state has any.
+    digits (1 to 50): reach so many and check them (ToleranceNotMet otherwise); without it eleven, by the formulas' own
+    bound. fast: whether numba (the extra `fast`) may compile the work; None where it is installed and pays. Raises InputError
+    as `fate` does, and where fast=True finds no numba.
     """
-    span = _length(span)
+    span = reach_of(checked_span(span))
     if digits is not None:
         return ask_all("extremes", scene, states, digits, extremes(scene, states, span, follow=follow), span).required().values
     scene, array = effective(scene), checked_states(states)
     rows = np.ascontiguousarray(array.reshape(-1, 3))
     return many(scene).extremes(scene, rows, span, fast, **following(scene, follow)).reshape(array.shape + (2,))
-
-
-def _length(span: Any) -> float | None:
-    """Return the length of a span, or None where no span is given."""
-    ends = checked_span(span)
-    return None if ends is None else ends[1] - ends[0]
 
 
 def period(scene: AnyScene, states: ArrayLike, digits: int | None = None, fast: bool | None = None) -> np.ndarray:

@@ -20,8 +20,8 @@ def motion(scene: AnyScene, state: Any, span: Any = None, brief: bool = False, e
            follow: float | None = None, tell: Callable[..., Any] | None = None, proof: bool = False) -> Motion:
     """All that is known of the motion from `state` (three numbers in the scene's variables) at time 0.
 
-    Where gamma is part of the state: six numbers (omega, gamma), or a dict of blocks. span: (from, to), the times over
-    which extremes are searched where the motion is not integrable. brief: fate and extremes will do; what else costs
+    Where gamma is part of the state: six numbers (omega, gamma), or a dict of blocks. span: (from, to), in whose times, and from
+    the start to them, extremes are searched where the motion is not integrable. brief: fate and extremes will do; what else costs
     time (period, margin_velocity, invariants) may be left out. exact: the three rates as they were given (Fractions), of
     which `state` is the rounding: where the motion has a reduction the answer is theirs. follow, tell: as of `fate`.
     proof: enclose the way of a motion that is followed, so that its fate is proved where it can be. Raises InputError as `fate` does.

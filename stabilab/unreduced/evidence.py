@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..asked import reach_of
 from ..errors import InputError
 from ..integrate.extrema import RateRoots, roots_of_rates
 from ..integrate.trajectory import integrated
@@ -57,16 +58,15 @@ class Growth:
 
 
 def evidence(scene, state, span) -> Evidence:
-    """The evidence of one run: `state` (three numbers) at its start; span: its length, or its two ends."""
+    """The evidence of one run of length `span` from `state` (three numbers)."""
     state = three_numbers(state)
-    start, end = (0.0, span) if np.ndim(span) == 0 else span
-    roots = _searched(scene, state, float(end) - float(start))
+    roots = _searched(scene, state, float(span))
     run = integrated(scene, state, np.linspace(0, roots.t_reached, 65)[1:] if roots.t_reached else [0.0])
     points = np.vstack([state, run.states])
     energy = _energy(scene, points)
     sizes = np.linalg.norm(np.vstack([points, roots.states]), axis=1)
     unit = scene.time_unit
-    over = f"{unit} in [{float(start):g}, {float(start) + roots.t_reached:g}]"
+    over = f"{unit} in [0, {roots.t_reached:g}]"
     return Evidence(Fate.UNDECIDED, _why_undecided(scene) + (f"; {roots.reason}" if roots.reason else ""), roots.t_reached,
                     roots.extremes(), over, (float(sizes[0]), float(sizes[len(points) - 1]), float(sizes.max())),
                     (float(energy[0]), float(energy[-1])), _trend(energy), run.invariant_drift, roots.steps)
@@ -141,7 +141,7 @@ def span_needed(scene) -> InputError:
 
 def seen_over(scene, state, span) -> dict:
     """The fields of a Motion that a run over the span fills."""
-    seen = evidence(scene, state, (0.0, length_of(span)))
+    seen = evidence(scene, state, reach_of(span))
     return {"extremes": pairs(seen.extremes), "extremes_over": seen.extremes_over,
             "evidence": {"span": seen.span, "size_start": seen.size[0], "size_end": seen.size[1],
                          "size_largest": seen.size[2], "energy_start": seen.energy[0], "energy_end": seen.energy[1],
@@ -153,7 +153,3 @@ def size_words(evidence) -> str:
     return (f"from {evidence['size_start']:.6g} to {evidence['size_end']:.6g} (largest {evidence['size_largest']:.6g}), "
             f"and its energy {evidence['energy_trend']}")
 
-
-def length_of(span) -> float | None:
-    """The end of a span that starts at 0; None without one."""
-    return None if span is None else float(span[1])

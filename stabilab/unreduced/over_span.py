@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..asked import reach_of
 from ..integrate.extrema import roots_of_rates
 from ..physics.approximate import limits_of
 from ..physics.scene import Scene
@@ -13,16 +14,16 @@ STIFF = 1e5  # fastest decay times span beyond which a search for extremes would
 
 
 def seen_over(scene, omega, gamma, span) -> dict:
-    """Extremes as roots of the rates over the length of the span, and how the energy went; empty where the decay is too fast."""
+    """Extremes as roots of the rates from the start to the end of the span, and how the energy went; empty where the decay is too fast."""
     start = {"omega": omega} | ({"gamma": gamma} if gamma else {})
     turning = Scene(scene.body, *(e for e in scene.effects if e.name != "body_force"))
     equations, state = equations_and_start(turning, start)
-    system, length = to_numpy(equations), float(span[1]) - float(span[0])
+    system, length = to_numpy(equations), reach_of(span)
     J = system.jacobian(state)
     if not np.isfinite(J).all() or abs(np.linalg.eigvals(J).real).max() * length > STIFF:
         return {"extremes_over": "none: the decay is too fast for a search over the span"}
     found = roots_of_rates(turning, start, length)
-    over = f"s in [{float(span[0]):g}, {float(span[0]) + found.t_reached:g}]"
+    over = f"s in [0, {found.t_reached:g}]"
     ends = system.invariants(np.vstack([found.start, found.end]))["energy"]
     return {"extremes": tuple((float(a), float(b)) for a, b in found.extremes()),
             "extremes_over": over,

@@ -2,7 +2,7 @@
 import numpy as np
 import pytest
 
-from stabilab import Body, ConstantTorque, Gyrostat, Scene, extremes, motion
+from stabilab import Body, ConstantTorque, Gyrostat, LiquidCavity, Scene, extremes, motion
 from stabilab.integrate import extrema
 
 STATES = [[0.05, 0.01, 0.01], [0.0, 0.0, 0.0]]
@@ -49,3 +49,18 @@ def test_a_growing_motion_between_equal_axes_has_no_extremes_for_all_time():
 def test_a_run_that_breaks_off_is_told_in_words():
     found = motion(SCENES["off axis"], STATES[0])
     assert "broke off" in found.because and "nan" not in found.because
+
+
+@pytest.mark.parametrize("span, reach", [((2.0, 5.0), 5.0), ((-1.0, 5.0), 5.0), ((-5.0, 0.0), -5.0)])
+@pytest.mark.parametrize("wheel, torque", [*CUT.values(), ((.5, 0, 0), (.1, 0, 0))])
+def test_a_span_is_searched_from_the_start_at_time_0_for_one_state_and_for_arrays(wheel, torque, span, reach):
+    scene, state = Scene(Body((10, 10, 6)), Gyrostat(wheel), ConstantTorque(torque)), (.05, .01, .01)
+    whole = np.array(motion(scene, state, (0.0, reach)).extremes)
+    assert np.array_equal(motion(scene, state, span).extremes, whole)
+    assert np.array_equal(extremes(scene, state, span=span), whole) and np.array_equal(extremes(scene, state, span=reach), whole)
+
+
+def test_extremes_of_a_liquid_are_those_of_the_way_that_its_words_name():
+    scene = Scene(Body((12, 9, 5)), LiquidCavity.of_sphere(970, "0.1", "0.2"))
+    late, whole = (motion(scene, (.5, .3, .2), span) for span in ((2.0, 5.0), (0.0, 5.0)))
+    assert late.extremes == whole.extremes and late.extremes_over == whole.extremes_over == "s in [0, 5]"

@@ -67,7 +67,7 @@ def test_overflowing_start_is_reported():
 
 
 def test_evidence_off_the_axes_stays_undecided_and_names_its_span():
-    seen = evidence(OFF, (0.5, 2.6, 0.06), (0, 50))
+    seen = evidence(OFF, (0.5, 2.6, 0.06), 50)
     assert seen.fate is Fate.UNDECIDED and "axis 1 and axis 3" in seen.reason
     assert seen.span == 50 and seen.extremes_over == "s in [0, 50]" and seen.extremes.shape == (3, 2)
     assert seen.trend == "rises" and seen.energy[1] > seen.energy[0] and max(seen.drift.values()) < 1e-13

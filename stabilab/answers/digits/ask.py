@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from ...asked import reach_of
 from ...integrate.extrema import roots_of_rates
 from ...integrate.reference import DIGITS, GUARD, WORK, reference
 from ...integrate.taylor_digits import Exhausted, Recursion, steps, widen
@@ -240,7 +241,7 @@ def _over_span(scene: AnyScene, state: Any, span: Any, known: Motion, digits: in
         return nothing("extremes", digits, known.extremes_over)
     if scene.variables != "scaled":  # a force at the centre of mass does not turn the body
         scene = Scene(scene.body, *(e for e in scene.effects if e.name != "body_force"))
-    length = float(span[1]) - (0.0 if scene.plain else float(span[0])) if span is not None else 0.0
+    length = reach_of(span) or 0.0
     equations, start = equations_and_start(scene, known.at)
     length = max(length, known.evidence.get("span", length))  # a spin-up may have been run on to where its least rate is certain
     values = np.array(known.extremes)

@@ -26,6 +26,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...asked import reach_of
 from ...errors import InputError
 from ...numbers.vectors import CYCLE
 from ...orbit.far_states import in_range
@@ -37,7 +38,7 @@ from ...orbit.result import Fate, Motion, judged, pairs
 from ...physics.state import three_floats
 from ...physics.states import three_numbers
 from ..evidence import growth as seen_growth
-from ..evidence import length_of, seen_over, span_needed
+from ..evidence import seen_over, span_needed
 from .certificates import angle_of, release_estimate
 from .extremes import captured_extremes
 from .form import growth_law, standard_form
@@ -171,9 +172,9 @@ def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
              "release_estimate": found.release_estimate, "steps": found.steps}
     fields, seen = {**judged(state, unbounded(found)), "because": found.because, "level": LEVEL.get(found.certificate, "undecided")}, {}
     if span is not None or _for_ever(found):
-        grown = captured_extremes(scene, state, found, length_of(span), exact)
+        grown = captured_extremes(scene, state, found, reach_of(span), exact)
         fields |= {"extremes": pairs(grown.box), "extremes_over": grown.over}
-        seen = {} if span is None else seen_over(scene, state, (0.0, grown.span or length_of(span)))["evidence"]
+        seen = {} if span is None else seen_over(scene, state, (0.0, grown.span or reach_of(span)))["evidence"]
     return Motion(**fields, invariants={"J": found.J0, "J_rate": found.J_rate}, evidence={**seen, **known})
 
 
