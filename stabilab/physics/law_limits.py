@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import reduce
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from ..asked import checked_scene
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 
 States: TypeAlias = Any  # an array (..., N), a sequence of floats, or a dict of blocks
 Blocks: TypeAlias = dict[str, tuple[Number, ...]]
-BEYOND, WITHIN = "BEYOND THE LAW", "within the law"
+BEYOND, WITHIN, OPEN = "BEYOND THE LAW", "within the law", "law not judged"
 ROWS = 4096  # of a run that are looked at together
 
 
@@ -29,16 +30,17 @@ ROWS = 4096  # of a run that are looked at together
 class Validity:
     """One number of one effect, the most exceeded of the scene (the first declared where none is); `also`: its other numbers, the same way.
 
-    value: its largest value over the motion, a float; for several motions an array, one each. limit: what it must not exceed.
-    holds: whether no number of the scene exceeds its limit (an array likewise). over: where the value was looked for. follows: what a
+    value: its largest value over the motion, a float; for several motions an array, one each; None where it hangs on a part of
+    the state that was not given. limit: what it must not exceed. holds: whether no number of the scene exceeds its limit (an array likewise,
+    which has True too where no known one does; None: no known one does, and not all are known). over: where the value was looked for. follows: what a
     number beyond the limit means; source: of the law.
     """
 
     effect: str
     number: str
-    value: float | np.ndarray
+    value: float | np.ndarray | None
     limit: float
-    holds: bool | np.ndarray
+    holds: bool | np.ndarray | None
     over: str
     follows: str
     source: str
@@ -46,24 +48,28 @@ class Validity:
 
     @property
     def held(self) -> bool:
-        """Whether it holds for every motion."""
-        return bool(self.holds) if isinstance(self.holds, bool) else bool(self.holds.all())
+        """Whether it holds for every motion, as far as it could be judged."""
+        return self.holds is None or bool(self.holds if isinstance(self.holds, bool) else self.holds.all())
 
     @property
     def status(self) -> str:
-        """"within the law" or "beyond the law", for all motions together."""
-        return WITHIN if self.held else BEYOND.lower()
+        """"within the law", "beyond the law" or "law not judged", for all motions together."""
+        return self._head.lower()
+
+    @property
+    def _head(self) -> str:
+        return BEYOND if not self.held else OPEN if self.holds is None else WITHIN
 
     @property
     def words(self) -> str:
         """One line: status, effect, number, value, limit, and what follows."""
-        told = "; also ".join(v._told() for v in (self, *(v for v in self.also if not v.held)))
-        return f"{WITHIN if self.held else BEYOND}: {self.effect.replace('_', ' ')}: {told}"
+        told = "; also ".join(v._told() for v in (self, *(v for v in self.also if not v.held or v.value is None)))
+        return f"{self._head}: {self.effect.replace('_', ' ')}: {told}"
 
     @property
     def short(self) -> str:
         """Status, number, value and limit, without what follows."""
-        return f"{WITHIN if self.held else BEYOND}: {self._measured()}"
+        return f"{self._head}: {self._measured()}"
 
     @property
     def excess(self) -> float:
@@ -76,6 +82,8 @@ class Validity:
         return named | {"also": [v.as_dict() for v in self.also]}
 
     def _measured(self) -> str:
+        if self.value is None:
+            return f"{self.number}: it needs a part of the state that is not given, limit {self.limit:g}"
         size = "unbounded" if math.isinf(_largest(self.value)) else f"{_largest(self.value):.3g}"
         return f"{self.number}, {size} {self.over}, limit {self.limit:g}"
 
@@ -83,7 +91,9 @@ class Validity:
         return self._measured() if self.excess <= 1 else f"{self._measured()}: {self.follows}"
 
 
-def _largest(value: float | np.ndarray) -> float:
+def _largest(value: float | np.ndarray | None) -> float:
+    if value is None:
+        return 0.0
     return value if isinstance(value, float) else float(value.max())
 
 
@@ -155,7 +165,7 @@ def _larger(one: Validity | None, two: Validity | None) -> Validity | None:
     if one is None or two is None:
         return one or two
     pairs = {(v.effect, v.number): v for v in (replace(two, also=()), *two.also)}
-    best = [max(v, pairs[v.effect, v.number], key=lambda v: v.value) for v in (replace(one, also=()), *one.also)]
+    best = [max(v, pairs[v.effect, v.number], key=lambda v: -1.0 if v.value is None else v.value) for v in (replace(one, also=()), *one.also)]
     return _together(best)
 
 
@@ -182,9 +192,8 @@ def _judged(scene: AnyScene, blocks: Blocks, over: str, axis: int | None) -> Val
     for effect in scene.approximate:
         for limit in effect.limits(scene):
             value = _value(limit, blocks, axis)
-            if value is not None:
-                holds = value <= limit.limit
-                found.append(Validity(effect.name, limit.number, value, limit.limit, holds, over, limit.follows, limit.source))
+            holds = None if value is None else value <= limit.limit
+            found.append(Validity(effect.name, limit.number, value, limit.limit, holds, over, limit.follows, limit.source))
     return _together(found)
 
 
@@ -208,10 +217,15 @@ def _together(found: Sequence[Validity]) -> Validity | None:
     """The most exceeded number first, or, where none is, the first declared; the others beside it."""
     if not found:
         return None
-    first = max(found, key=lambda v: max(v.excess, 1.0))
-    others = tuple(v for v in found if v is not first)
-    holds = first.holds
-    for other in others:
-        holds = holds & other.holds
-    return replace(first, holds=holds, also=others)
+    first = max(found, key=lambda v: (max(v.excess, 1.0), v.value is not None))
+    holds = reduce(_both, (v.holds for v in found))
+    return replace(first, holds=holds, also=tuple(v for v in found if v is not first))
+
+
+def _both(one: bool | np.ndarray | None, two: bool | np.ndarray | None) -> bool | np.ndarray | None:
+    """Whether both hold; of one that is not known the other decides only where it does not hold."""
+    if one is None or two is None:
+        known = two if one is None else one
+        return known if known is not None and not (known if isinstance(known, bool) else known.all()) else None
+    return one & two
 

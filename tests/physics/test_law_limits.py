@@ -122,12 +122,32 @@ def test_weight_tells_the_mass_that_the_field_needs():
 
 def test_constant_angle_of_a_charge_is_judged_where_the_attitude_is_known():
     scene = Scene(Body((8, 8, 11)), Charge("0.1", 1, 1, 0), ConstantTorque((4, 0, 0)))
-    assert stabilab.validity(scene, (0, 0, 1)) is None
+    open_ = stabilab.validity(scene, (0, 0, 1))  # None would read as: all its laws are exact
+    assert open_.status == "law not judged" and open_.value is None and open_.holds is None and open_.held
     half = np.deg2rad(60) / 2
     tilted = {"omega": (0, 0, 1), "attitude": (np.cos(half), np.sin(half), 0, 0)}
     found = stabilab.validity(scene, tilted)
     assert found.value == pytest.approx(0.5, rel=1e-14) and not found.holds  # cos 60 degrees against cos 0
     assert stabilab.validity(Scene(Body((8, 8, 11)), Charge("0.1", 1, 1, "attitude")), tilted) is None
+
+
+def test_a_number_that_is_not_known_leaves_the_law_open_unless_another_is_exceeded():
+    charge, radius = Charge("0.1", 1, 1, 0), LiquidCavity("0.001", 10, "0.0001")
+    scene = Scene(Body((8, 8, 11)), charge, radius)
+    slow, fast = stabilab.validity(scene, (0, 0, 1e-9)), stabilab.validity(scene, (0, 0, 1e9))
+    assert slow.holds is None and slow.value is not None and [v.value for v in slow.also if v.effect == "charge"] == [None]
+    assert fast.holds is False and fast.status == "beyond the law"
+    several = stabilab.validity(scene, np.array([[0, 0, 1e-9], [0, 0, 1e9]]))
+    assert several.holds.tolist() == [True, False]  # of the first row no known number is exceeded
+
+
+@pytest.mark.parametrize("command", ["fate", "classify", "extremes", "period"])
+def test_a_constant_angle_is_judged_along_the_run_of_a_case_that_gives_an_attitude(stabilab, command):
+    code, out, _ = stabilab(command, CASES / "charged-body.toml", "--json")
+    found = json.loads(out)
+    held = (found[0] if isinstance(found, list) else found)["validity"]
+    assert code == 0 and held["holds"] is False and held["value"] == pytest.approx(1.86, abs=0.01)  # as `simulate` over the same span
+    assert stabilab(command, CASES / "charged-body.toml", "--strict")[0] == 3
 
 
 # -- along a motion ----------------------------------------------------------------------------------------------------------

@@ -4,6 +4,7 @@ from __future__ import annotations
 from ...answers.motion import motion
 from ...case.read import blamed_on
 from ...errors import printable
+from ...show.text import law
 from ...streams import Progress
 from .cases import time_asked
 
@@ -13,7 +14,8 @@ def motion_of(case, brief=False, follow=None, proof=False):
     long = time_asked(follow, case)
     with blamed_on(case), Progress() as progress:
         words = lambda t, steps, left: progress(f"{printable(case.name)}: followed to {t:.4g} {case.scene.time_unit}, {steps} steps")
-        return motion(case.scene, case.start, case.span, brief, case.exact_state, long, words if progress.wanted else None, proof)
+        found = motion(case.scene, case.start, case.span, brief, case.exact_state, long, words if progress.wanted else None, proof)
+        return law.judged(case, found)
 
 
 def tilted(case, motion, angle: str | None):

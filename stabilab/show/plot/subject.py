@@ -14,6 +14,7 @@ from ...orbit.result import Motion
 from ...physics.coefficients import effective
 from ...physics.scene import AnyScene, Scene
 from ...physics.states import checked_states, start_of
+from ..text import law
 
 DEFAULT_SPAN = (0.0, 15.0)  # in the scene's time, where nothing else says how far
 
@@ -73,7 +74,8 @@ class Subject:
     def motion(self) -> Motion:
         """What is known of the motion: its fate, period and extremes."""
         gamma = tuple(self.blocks.get("gamma", ())) if "gamma" in self.scene.blocks else ()
-        return motion(self.scene, (*self.state, *gamma), self.span, exact=self.exact_state)
+        found = motion(self.scene, (*self.state, *gamma), self.span, exact=self.exact_state)
+        return found if self.case is None else law.judged(self.case, found)
 
 
 def subject(given: Any, state: Any = None, span: Any = None) -> Subject:

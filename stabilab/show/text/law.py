@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 from ...errors import printable
 from ...physics.approximate import limits_of
@@ -46,6 +47,13 @@ def of_case(case):
         return limits.validity(case.scene, (0.0,) * 3, "at rest")
     from ...answers.simulate import simulate
     return simulate(case.scene, case.state, case.span or (0.0, 15.0), case.blocks).validity
+
+
+def judged(case, motion):
+    """The motion with its law judged along the case's own run, where that hangs on the attitude and the case gives one; else as it is."""
+    if motion is None or motion.validity is None or motion.validity.holds is not None or "attitude" not in case.blocks:
+        return motion
+    return replace(motion, validity=of_case(case))
 
 
 def of_cases(cases) -> str:

@@ -13,6 +13,7 @@ from ...plot.path import along
 from ...plot.subject import subject
 from ...terminal.letters import some
 from ...terminal.sweep import key_columns
+from ...text.law import judged
 from ...units import units_of
 from . import pictures, verdict
 from .equations import equations
@@ -47,7 +48,7 @@ def headline(rows) -> str:
 def _answer(case):
     """(the motion or None, why there is none)."""
     try:
-        return (None, "no motion is given") if case.state is None else (motion(case.scene, case.start, case.span, True, case.exact_state), "")
+        return (None, "no motion is given") if case.state is None else (judged(case, motion(case.scene, case.start, case.span, True, case.exact_state)), "")
     except StabilabError as error:
         return None, str(error)
 
