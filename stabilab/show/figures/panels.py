@@ -207,12 +207,18 @@ def _panel(ax, row, column, limits):
     if row.equal:
         ax.set_aspect("equal", adjustable="box")
     for (name, top), (x, y, side, edge) in zip(far, CORNERS):
-        ax.text(x, y, f"cut: reaches {plain(top)}", color=INK[name], ha=side, va=edge, fontsize=7.2, transform=ax.transAxes)
+        quantity = "" if row.over_time else f"{_bare(row.ylabel)} = "
+        ax.text(x, y, f"cut: reaches {quantity}{plain(top)}", color=INK[name], ha=side, va=edge, fontsize=7.2, transform=ax.transAxes)
 
 
 def plain(value) -> str:
     """Three digits without a power of ten where that reads better."""
-    return f"{value:.0f}" if 1000 <= abs(value) < 1e5 else f"{value:.3g}"
+    return (f"{value:.0f}" if 1000 <= abs(value) < 1e5 else f"{value:.3g}").replace("-", "−")
+
+
+def _bare(label) -> str:
+    """The label of an axis without its unit."""
+    return label.split(" (")[0]
 
 
 def _clipped(x, y, limits):

@@ -101,7 +101,7 @@ def _figures():
                                                       "six. ")),
             (3, "lz", HISTORIES, "Histories", _unit), (4, "lx", PLANES, "Phase planes", _free), (5, "lz", PLANES, "Phase planes", _free),
             (6, "lx", ANGLES, "Euler angles", _nutation), (7, "lz", ANGLES, "Euler angles", _nutation)):
-        name = "lx = 30, 60, 90" if family == "lx" else "lz = 30, 60, 90"
+        name = f"{family} = 30, 60, 90 kg m²/s"
         more = "; rates by central differences" if rows is PLANES else ""
         yield Figure(n, f"{title}: {name}", partial(words, family), partial(_family, family=family, rows=rows, title=title),
                      partial(_exactness, family, more), "top", partial(_lines, family, rows))

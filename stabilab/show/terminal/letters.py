@@ -15,6 +15,7 @@ PLAIN = {letter: name for name, letter in ALPHABET.items()} | {
 NAMES = re.compile(r"(?<![\w./\\])(?<![\w-]-)(omega|lambda|Lambda|mu|gamma|alpha|sigma|zeta)(?=(?:[123]|_[ijk])\b(?!\\|/[A-Za-z]|\.\w))"
                    r"|(?<=\|)(?:omega|gamma)(?= ?[xyz]?\|)|\bomega(?= \. \()|\bgamma(?= = \()|(?<=[\d )=] )tau\b|(?<=\bin )tau\b(?! \[)|(?<=\bof )tau\b")
 LETTER = re.compile(r"(?<![A-Za-z_])(" + "|".join(sorted(ALPHABET, key=len, reverse=True)) + r")(?:_?(?=\d)|(?![\w-]))|(?<![A-Za-z])l_(?=[xyz]\b)")
+MINUS = re.compile(r"(?<![\w)\]./-])-(?=\d)")
 POWER = re.compile(r"\^(\d)(?!\d)|sqrt(?=\()")
 SIGNS = {"+-": "±", "-+": "∓", "<=": "≤", ">=": "≥"}
 RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -24,6 +25,7 @@ def written(text: str) -> str:
     """A caption or a claim as a paper sets it: lambda3 becomes λ3, r0^2 becomes r0², sqrt(x) becomes √(x), l_x becomes lx, +- becomes ±."""
     for plain, sign in SIGNS.items():
         text = text.replace(plain, sign)
+    text = MINUS.sub("−", text)
     text = LETTER.sub(lambda found: ALPHABET.get(found[1], "l"), text)
     return POWER.sub(lambda found: found[1].translate(RAISED) if found[1] else "√", text)
 

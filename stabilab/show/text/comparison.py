@@ -99,8 +99,9 @@ def _curves(ax, runs, part, column):
     wide = half * REACH or 1e-9 * max(abs(middle), 1)
     if half and (high - low) > 6 * half:  # a model far off must not flatten the motion itself
         ax.set_ylim(middle - 2 * wide, middle + 2 * wide)
-        out = [name for name, run in runs.items() if part in run.state and _leaves(np.asarray(run.state[part])[:, column], ax.get_ylim())]
-        ax.set_title(f"cut: {', '.join(WORDS[name] for name in out)}", loc="right", fontsize=8)
+        drawn = {name: np.asarray(run.state[part])[:, column] for name, run in runs.items() if part in run.state}
+        out = [f"{WORDS[name]}, {values.min():.3g} to {values.max():.3g}" for name, values in drawn.items() if _leaves(values, ax.get_ylim())]
+        ax.set_title(f"cut: {'; '.join(out)}".replace("-", "−"), loc="right", fontsize=8)
 
 
 def _leaves(values, limits):
