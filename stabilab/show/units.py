@@ -103,7 +103,8 @@ def units_of(case: Case, asked: str | None = None) -> Units:
     return SCALED if case.variables == "scaled" else SYSTEMS[asked or case.units or "deg"]
 
 
-PARAMETERS = (("lambda", "N m s"), ("D", "kg m^2"), ("M", "N m"), ("mass", "kg"), ("f", "N"))
+PARAMETERS = (("lambda", "N m s"), ("D", "kg m^2"), ("M", "N m"), ("mass", "kg"), ("f", "N"), ("k", "N m s"), ("eHl2", "N m s"),
+              ("kappa", "N m s^3"), ("zeta", "1/s"), ("Mgx", "N m"), ("Mgy", "N m"), ("Mgz", "N m"), ("N", "1/s^2"))
 
 
 def parameter_unit(name: str) -> str:

@@ -150,3 +150,53 @@ def test_the_rates_of_a_sweep_on_an_unstable_plane_stay_on_it(tmp_path, monkeypa
     for t, size in (rows.T for rows in kept):
         late = t > 3
         assert t[-1] == 8 and np.abs(np.diff(size[late]) / np.diff(t[late]) - 1).max() < 0.02
+
+
+def test_a_long_sum_goes_on_in_the_next_line_with_its_sign():
+    from sympy import Add, Symbol, sympify
+
+    from stabilab.show.report import typeset
+    short, long = sympify("a + b"), Add(*(sympify(f"1.2345678*w{n}**2") for n in range(6))) - 9 * Symbol("z") ** 2
+    assert "<mtr>" not in typeset.in_lines(short)
+    lines = typeset.in_lines(long).split("<mtr>")[1:]
+    assert len(lines) > 1 and sum(line.count("1.2345678") for line in lines) == 6
+    assert all(line.split("<mrow>", 1)[1].startswith(("<mo>+</mo>", "<mo>&#x2212;</mo>", "<mrow><mo>&#x2212;</mo>")) for line in lines[1:])
+
+
+def test_parameters_whose_names_are_products_are_set_as_products_and_minus_is_a_minus():
+    from sympy import Integer, Symbol
+
+    from stabilab.show.report import typeset
+    assert typeset.inner(Symbol("Mgx")) == "<mi>M</mi><mi>g</mi><msub><mi>x</mi><mi>c</mi></msub>"
+    assert typeset.inner(Integer(-3)) == "<mn>&#x2212;3</mn>" or "-" not in typeset.inner(Integer(-3))
+
+
+@pytest.mark.parametrize("name", ["top-fast", "liquid-base", "charged-body-attitude"])
+def test_every_parameter_of_the_equations_has_its_unit(name, tmp_path):
+    from stabilab.show.report.one_case.equations import equations
+    assert [str(symbol) for symbol, value in equations(load(CASES / f"{name}.toml"))["parameters"] if " " not in value] == []
+
+
+def test_a_page_tells_scaled_numbers_as_x_and_a_law_that_needs_no_run_has_no_steps(tmp_path):
+    page = _sections("major-axis-captured", tmp_path)
+    facts = dict(page["facts"])
+    assert facts["start"] == "(−1, 0, 3) at τ = 0"
+    assert "|x| at the start" in facts and not any("ω" in name for name in facts) and "steps of the run" not in facts
+    assert page["over"] == "the finite ones over 0 to 50 of τ" and dict(page["invariants"])["J changes by"] == "2 per unit of τ"
+
+
+def test_the_reason_of_an_undecided_fate_does_not_repeat_that_it_is_undecided(tmp_path):
+    assert not dict(_sections("charged-body-attitude", tmp_path)["facts"])["because"].startswith("undecided")
+
+
+def test_limits_about_the_axes_of_the_file_have_a_caption_that_says_so(tmp_path):
+    captions = {name: _sections(name, tmp_path)["pictures"][0]["caption"] for name in ("geostationary-22n", "cubesat-3u")}
+    assert captions == {"geostationary-22n": "The rates along the axes of the file, about which its limits are.",
+                        "cubesat-3u": "The rates along the principal axes."}
+
+
+def test_the_legend_of_the_space_names_only_what_is_in_its_box():
+    """The plane of degenerate equilibria of this body, omega3 = 0, lies below the box about the motion at omega3 = 57 deg/s."""
+    drawn = _space(load(CASES / "symmetric-body.toml"))[1]
+    assert not any("degenerate" in words for words, _ in drawn["legend"])
+    assert all((np.abs(_places(row["at"])) <= 1.0).all(axis=-1).any() for row in drawn["drawn"]["curves"])

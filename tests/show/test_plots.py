@@ -117,6 +117,21 @@ def test_a_scene_alone_is_drawn_on_its_unstable_plane_too():
     assert t[-1] == 6 and abs(x[:, 0] + 1 + x[:, 2]).max() < 1e-15
 
 
+@pytest.mark.parametrize("name", ["charged-body", "middle-axis-100"])
+def test_a_phase_plane_without_saddles_fills_its_picture(name):
+    ax = stabilab.plot.phase(load(name))
+    ax.figure.draw_without_rendering()
+    box = ax.get_position()
+    assert box.x0 < 0.12 and box.y0 < 0.2 and box.x1 > 0.97
+
+
+def test_parts_of_a_state_that_turn_often_are_shown_over_their_first_turns():
+    """The top turns some 24 times a second over its 2 s; a span that is asked for is shown whole."""
+    one = load("top-fast")
+    ends = [plt.gcf().axes[0].get_lines()[0].get_xdata()[-1] for span in (None, 2.0) if stabilab.plot.state(one, span=span) is not None]
+    assert ends[0] < 0.6 and ends[1] == 2.0
+
+
 def test_a_motion_that_never_turns_has_one_branch_in_its_plane():
     """torque-free-body goes right round axis 1 (H^2 > 2 T D2), so omega1 keeps its sign; one in a well has both."""
     def signs(name):

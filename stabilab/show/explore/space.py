@@ -22,7 +22,7 @@ ROOM = 1.9       # half of the box, of the farthest point of the motion from its
 SMALL = 0.22     # of the box: a motion that fills less gets a box of its own
 LATEST = 3.0     # times its first size, up to which a motion that spins up is drawn
 SHEETS = (style.SKY, style.GREEN, style.PURPLE, style.YELLOW)  # orange is the motion's
-KINDS = {"stable": "stable equilibria", "unstable": "unstable equilibria", "degenerate": "equilibria of a fold"}
+KINDS = {"stable": "stable equilibria", "unstable": "unstable equilibria", "degenerate": "degenerate equilibria"}
 
 Point = Sequence[float]
 

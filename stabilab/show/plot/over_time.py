@@ -43,7 +43,7 @@ def time(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None,
     scale, reached = measures(one, units), _reached(one)
     low, high = _span(one, span is not None, reached)
     t, omega = path(one, low, high)
-    turned = _file_axes(one)
+    turned = file_axes(one)
     omega = omega if turned is None else omega @ turned.T
     (time_unit, per_time), (rate_unit, per_rate) = scale.time(high - low), scale.rate
     names = scale.names if turned is None else tuple(rf"$\omega_{axis}$" for axis in "xyz")
@@ -120,7 +120,7 @@ def _reached(one: Subject):
     return time_of_case(one.case, limit.ask, limit.until)
 
 
-def _file_axes(one: Subject):
+def file_axes(one: Subject):
     """Rows that turn rates to the axes of the file, where limits are about those and they are not the principal ones."""
     case = one.case
     if case is None or case.limits is None or case.limits.rate is not None or case.frame is None or case.frame.as_given:

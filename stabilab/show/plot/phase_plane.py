@@ -89,7 +89,8 @@ def draw(ax, plane: PhasePlane, scale=1.0, offset=0.0, rate_scale=1.0, span=None
         ax.plot([offset], [rate_scale * plane.rate(plane.W0)], zorder=5, **style.MARKER["start"])
     for kind, places in (("centre", plane.centres), ("saddle", plane.saddles)):
         shown = np.array(plane.repeated(places, low, high))
-        ax.plot(offset + scale * shown, rate_scale * plane.rate(np.zeros(shown.shape)), zorder=5, clip_on=False, **style.MARKER[kind])
+        if len(shown):  # an empty line that is not clipped lies at the corner of the picture for a layout, which keeps room for it
+            ax.plot(offset + scale * shown, rate_scale * plane.rate(np.zeros(shown.shape)), zorder=5, clip_on=False, **style.MARKER[kind])
     ax.set_xlim(*sorted((offset + scale * low, offset + scale * high)))
     ends = rate_scale * plane.rate(np.array([-top, top]))
     ax.set_ylim(min(ends), max(ends))

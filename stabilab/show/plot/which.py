@@ -68,7 +68,7 @@ def _far(one: Subject) -> str:
 
 def _phase(one: Subject) -> str:
     if not one.twin.plain:
-        return f"{_beyond(one)} leaves no motion of one degree of freedom"
+        return f"with {_beyond(one)} the motion does not reduce to one degree of freedom"
     if reduce(one.twin) is None:
         return "the motion does not reduce to one degree of freedom (torque off the principal axes, or a wheel along it)"
     return _far(one)
@@ -122,7 +122,9 @@ def free(one: Subject) -> bool:
 
 
 def _beyond(one: Subject) -> str:
-    return " and ".join(effect.name.replace("_", " ") for effect in one.scene.effects if effect.name not in ("gyrostat", "constant_torque"))
+    *others, last = (effect.name.replace("_", " ").replace("newtonian", "Newtonian") for effect in one.scene.effects
+                     if effect.name not in ("gyrostat", "constant_torque"))
+    return f"{', '.join(others)} and {last}" if others else last
 
 
 _REASONS = {"phase": _phase, "sphere": _sphere, "state": _state, "attitude": _attitude, "budget": _budget, "time": _far, "space": _far, "section": _section}

@@ -1,11 +1,14 @@
 """Formulas as MathML, which a browser sets by itself: no script, no font, nothing from a network."""
 from __future__ import annotations
 
+import re
 from functools import lru_cache
 
 from ...physics.equations import Equations
 from ..text.notation import right_side
 
+LINE = 46  # symbols and digits or so of a sum that fit beside each other on a page; a longer one goes on in the next line
+PRODUCTS = {"Mgx": "M g x_c", "Mgy": "M g y_c", "Mgz": "M g z_c", "eHl2": "e H l^2"}  # parameters whose names are products
 LONG = 40  # operations: a law of more is told in words alone
 
 
@@ -14,7 +17,7 @@ def equations_of_motion(equations: Equations) -> list:
     rows = []
     for number, (moment, part) in enumerate(zip(equations.inertia, equations.state)):
         left = ("" if moment == 1 else inner(moment)) + f"<mover>{inner(part)}<mo>&#x2D9;</mo></mover>"
-        rows.append(display(f"{left}<mo>=</mo>{inner(right_side(equations, number))}"))
+        rows.append(display(f"{left}<mo>=</mo>{in_lines(right_side(equations, number))}"))
     return rows
 
 
@@ -48,7 +51,7 @@ def law(balance) -> str:
     if count_ops(quantity) + count_ops(rate) > LONG:
         return ""
     changes = "<mtext>&#x2009;constant</mtext>" if rate == 0 else f"<mo>)</mo><mo>&#x2D9;</mo><mo>=</mo>{inner(rate)}"
-    return display(f"{'' if rate == 0 else '<mo>(</mo>'}{inner(quantity)}{changes}")
+    return display(f"{'' if rate == 0 else '<mo>(</mo>'}{in_lines(quantity)}{changes}")
 
 
 def rounded(expression):
@@ -58,8 +61,44 @@ def rounded(expression):
     return expression.xreplace({number: Float(number, 6) for number in expression.atoms(Rational) if len(str(number)) > 8})
 
 
+def in_lines(expression) -> str:
+    """A sum in as many lines as it takes, one below the other; everything else as `inner`."""
+    from sympy import Add, Integer
+    expression = Integer(0) + expression
+    if not isinstance(expression, Add) or sum(map(_width, expression.args)) <= LINE:
+        return inner(expression)
+    lines: list[list] = [[]]
+    for term in expression.as_ordered_terms():
+        if lines[-1] and sum(map(_width, lines[-1])) + _width(term) > LINE:
+            lines.append([])
+        lines[-1].append(term)
+    rows = "".join(f'<mtr><mtd style="text-align: left">{_continued(line, n)}</mtd></mtr>' for n, line in enumerate(lines))
+    return f'<mtable displaystyle="true">{rows}</mtable>'
+
+
+def _continued(terms, number) -> str:
+    """A line of a sum: the later ones begin with their sign."""
+    from sympy import Add
+    sign = "<mo>+</mo>" if number and not terms[0].could_extract_minus_sign() else ""
+    return f"<mrow>{sign}{inner(Add(*terms))}</mrow>"
+
+
+def _width(term) -> float:
+    """How many symbols and digits stand beside each other in a term: a fraction is as wide as its wider part."""
+    from sympy import fraction
+    return max(sum(len(word) if word[0].isdigit() else 1.3 for word in re.findall(r"[A-Za-z]\w*|[\d.]+|[-+(]", str(part))) for part in fraction(term))
+
+
 def inner(expression) -> str:
     """The expression as presentation MathML, without the element around it."""
     from sympy import Integer
     from sympy.printing.mathml import mathml
-    return mathml(Integer(0) + expression, printer="presentation").replace("<mo>-</mo>", "<mo>&#x2212;</mo>")
+    text = mathml(Integer(0) + expression, printer="presentation").replace("<mo>-</mo>", "<mo>&#x2212;</mo>").replace("<mn>-", "<mn>&#x2212;")
+    return re.sub(r"<mi>(\w+)</mi>", lambda found: _product(PRODUCTS[found[1]]) if found[1] in PRODUCTS else found[0], text)
+
+
+def _product(words) -> str:
+    """A product of letters, those with an index or a power included."""
+    made = (re.split("([_^])", word) for word in words.split())
+    return "".join(f"<m{'sub' if part[1] == '_' else 'sup'}><mi>{part[0]}</mi><mi>{part[2]}</mi></m{'sub' if part[1] == '_' else 'sup'}>"
+                   if len(part) > 1 else f"<mi>{part[0]}</mi>" for part in made)

@@ -19,4 +19,4 @@ def equations(case) -> dict:
 
 
 def _unit(case, name):
-    return parameter_unit(name).replace("^2", "²") if case.variables == "physical" else ""
+    return parameter_unit(name).replace("^2", "²").replace("^3", "³") if case.variables == "physical" else ""

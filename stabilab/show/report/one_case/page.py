@@ -39,7 +39,7 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
             "facts": [], "extremes": [], "invariants": [], "over": "", "pictures": [], "sensitivity": None, "certificate": None,
             "equilibria": found and table(found, measures), "equations": _tried(absent, "Equations", lambda: equations(case))}
     if moved is not None:
-        over = "for all times" if moved.extremes_over == "all time" else f"over {spoken(moved.extremes_over)}"
+        over = _over(spoken(moved.extremes_over))
         page |= {"facts": verdict.rows(case, moved, measures), "extremes": verdict.extremes(case, moved, measures), "over": over,
                  "invariants": verdict.invariants(moved, measures)}
         page["pictures"] = _tried(absent, "Pictures", lambda: pictures(one, folder, stem, deep, "deg" if units.scaled else units.name)) or []
@@ -50,6 +50,13 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
     if certify:
         page["certificate"] = _tried(absent, "Certificate", lambda: certified.certificate_of(case, folder, stem))
     return page | {"absent": [(what, spoken(why)) for what, why in absent]}
+
+
+def _over(words) -> str:
+    """Over which times extremes are known, as the end of a heading."""
+    if words == "all time":
+        return "for all times"
+    return words.replace("finite entries over", "the finite ones over") if words.startswith(("finite", "axis")) else f"over {words}"
 
 
 def _tried(absent, what, made):

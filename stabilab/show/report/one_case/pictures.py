@@ -5,15 +5,17 @@ import math
 from pathlib import Path
 
 from ...plot import to_file, which
+from ...plot.over_time import file_axes
 
 # kind -> (title, caption)
 SHOWN = {
     "time": ("Rates over time", "The rates along the principal axes."),
-    "phase": ("Phase plane", "Turn about the axis of the torque since the start, and the rate about it. A motion stays on its curve; black curves part "
-                             "motions of different fate."),
+    "phase": ("Phase plane", "Turn about one axis since the start, and the rate about it. A motion stays on its curve; black curves, where there are any, "
+                             "part motions of different kinds."),
     "sphere": ("The surface on which the motion stays", "With the other motions on it."),
     "equilibria": ("All equilibria", "Stable and unstable ones in the space of the rates."),
     "state": ("Analytic models beside the exact motion", "Each part of the state over time; stabilab compare tells when a model is off by 1 % and 10 %.")}
+OF_THE_FILE = "The rates along the axes of the file, about which its limits are."
 BRIEF = ("time", "phase", "state")  # on a page among many
 PERIODS = 5.0    # of a motion that repeats, where the span of the case would crowd a picture of several motions
 CROWDED = 25.0
@@ -27,6 +29,8 @@ def pictures(one, folder: Path, stem: str, deep: bool, units: str = "deg") -> li
     for kind in which.offered(one):
         if kind in (SHOWN if deep else BRIEF):
             title, caption = SHOWN[kind]
+            if kind == "time" and file_axes(one) is not None:
+                caption = OF_THE_FILE
             made = to_file.write(one, folder / f"{stem}-{kind}.png", kind, units=units)
             found.append(described(made, caption) | {"kind": kind, "title": title, "command": f"stabilab plot {one.path} --kind {kind}"})
     return found

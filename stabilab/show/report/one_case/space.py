@@ -27,7 +27,7 @@ STEPS = 900          # points of the motion
 LINES, FEWEST = 1600, 60  # points of all curves of equilibria, of each at least
 LATEST = 3.0         # times its first size, up to which a motion that spins up is drawn
 SHEETS = (style.SKY, style.GREEN, style.PURPLE, style.YELLOW)  # orange is the motion's
-KINDS = {"stable": "stable equilibria", "unstable": "unstable equilibria", "degenerate": "equilibria of a fold"}
+KINDS = {"stable": "stable equilibria", "unstable": "unstable equilibria", "degenerate": "degenerate equilibria"}
 
 
 def space(case, motion, found_equilibria, measures, shape=SHAPE) -> dict:
@@ -124,6 +124,7 @@ def _about(points, room):
 def _curves(curves, curve, box):
     size = float(np.abs(np.asarray(box[0])).max()) + 2 * box[1]
     lines = equilibrium_lines(curves, size, max(FEWEST, LINES // (1 + sum(len(one.segments) for one in curves))))
+    lines = [(kind, points) for kind, points in lines if _seen(points[:, :3], box)]
     rows = [{"kind": KINDS.get(kind, kind), "colour": _colour(kind), "at": packed(points[:, :3], box)} for kind, points in lines]  # a field adds the vertical
     return rows + ([] if curve is None else [{"kind": "this motion", "colour": style.MEANING["this motion"]["color"], "at": packed(curve, box)}])
 

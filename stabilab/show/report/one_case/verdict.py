@@ -43,9 +43,9 @@ def margin(motion, measures) -> str:
 def rows(case, motion, measures) -> list[tuple[str, str]]:
     """(what, its value) of everything known of the motion, in the order in which one asks."""
     found = [] if motion.validity is None or not motion.validity.held else [("law", spoken(motion.validity.words))]
-    found += [("start", f"{_rates(motion.at[:3], measures)} at t = 0")]
+    found += [("start", f"{_rates(motion.at[:3], measures)} at {'t' if measures.physical else 'τ'} = 0")]
     found += [("vertical at t = 0", vector(motion.at[3:]))] if len(motion.at) > 3 else []
-    found += [("because", spoken(motion.because))]
+    found += [("because", spoken(motion.because.removeprefix("undecided: ")))]
     if motion.margin_energy is not None:
         found.append(("margin in energy", f"{measures.energy(motion.margin_energy)} below the barrier ahead"
                       if motion.margin_energy >= 0 else f"{measures.energy(-motion.margin_energy)} above the barrier ahead"))
@@ -55,8 +55,10 @@ def rows(case, motion, measures) -> list[tuple[str, str]]:
         found.append(("margin in rate", spoken(motion.velocity_because)))
     if motion.period is not None:
         found.append(("period", period(motion, measures)))
-    found += [(f"frame, {n}" if n else "frame", spoken(line.strip().removeprefix("frame: "))) for n, line in enumerate(frame.lines(case))]
-    return found + [_evidence(name, value, measures) for name, value in motion.evidence.items() if value is not None]
+    found += [(f"axis {n}" if n else "frame", spoken(line.strip().removeprefix(f"axis {n}" if n else "frame: ").strip()))
+              for n, line in enumerate(frame.lines(case))]
+    seen = {name: value for name, value in motion.evidence.items() if value is not None and (name, value) != ("steps", 0)}  # a law needed no run
+    return found + [_evidence(name, value, measures) for name, value in seen.items()]
 
 
 def _rates(values, measures):
@@ -82,6 +84,7 @@ EVIDENCE = {  # key of what a run showed -> (words, what it is)
 
 def _evidence(name, value, measures):
     words, kind = EVIDENCE.get(name, (name.replace("_", " "), ""))
+    words = words if measures.physical else words.replace("ω", "x")
     if kind == "rates":
         return words, _rates(value, measures)
     if kind:
@@ -107,7 +110,7 @@ def invariants(motion, measures) -> list[tuple[str, str]]:
     known = {"energy": measures.energy, "rate_bound": measures.rate, "late_rate_bound": measures.rate,
              "Q": lambda v: measures.units.Q(v, DIGITS).replace("^2", "²"),
              "momentum": lambda v: measures.units.momentum(v, DIGITS), "J": lambda v: told(v, "(N m s)²" * measures.physical),
-             "J_rate": lambda v: told(v, "(N m s)²/s" * measures.physical)}
-    words = {"rate_bound": "|ω| never exceeds", "late_rate_bound": "|ω| in the end at most", "Q": "invariant Q", "J_rate": "J changes by",
-             "momentum": "angular momentum"}
+             "J_rate": lambda v: told(v, "(N m s)²/s" if measures.physical else "per unit of τ")}
+    words = {"rate_bound": "|ω| never exceeds", "late_rate_bound": "|ω| in the end at most", "Q": "invariant Q", "J": "J of the law below",
+             "J_rate": "J changes by", "momentum": "angular momentum"}
     return [(words.get(name, name.replace("_", " ")), known.get(name, lambda v: told(v, digits=6))(value)) for name, value in motion.invariants.items()]
