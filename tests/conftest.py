@@ -1,5 +1,6 @@
 """What all tests share: hypothesis that draws the same examples every time, no picture left open, and the commands run in this process."""
 import atexit
+import gc
 import os
 import shutil
 import sys
@@ -9,11 +10,18 @@ import pytest
 from hypothesis import settings
 
 from stabilab import cli
+from stabilab.__main__ import OBJECTS_BETWEEN_COLLECTIONS
 
 os.environ["XDG_CACHE_HOME"] = tempfile.mkdtemp()  # nothing that a run left is an answer of the next one
 atexit.register(shutil.rmtree, os.environ["XDG_CACHE_HOME"], ignore_errors=True)
 settings.register_profile("same", derandomize=True, deadline=None)
 settings.load_profile("same")
+
+
+def pytest_collection_finish():
+    """All modules and tests are there and stay: the collector need not look through them again, and comes as seldom as in the program itself."""
+    gc.freeze()
+    gc.set_threshold(OBJECTS_BETWEEN_COLLECTIONS)
 
 
 @pytest.fixture(autouse=True)
