@@ -104,8 +104,8 @@ def test_a_motion_on_an_unstable_plane_is_drawn_where_it_stays():
     """By hand: on the plane x1 + 1 = -x3 of this scene x3' = -x2 x3 and x2' = 1 + x3/2 + x3^2, so x3 dies out and x2 grows with the time. A run in doubles is
     thrown off the plane by rounding at tau = 8."""
     one = subject.subject(stabilab.load(f"{CASES}/middle-axis-spin-up.toml"))
-    t, x = path.path(one, 0.0, 20.0)
-    assert t[-1] == 20 and abs(x[:, 0] + 1 + x[:, 2]).max() < 1e-15
+    t, x = path.path(one, 0.0, 12.0)
+    assert t[-1] == 12 and abs(x[:, 0] + 1 + x[:, 2]).max() < 1e-15
     late = t > 3
     assert abs(x[late, 2]).max() < 0.01 and abs(np.diff(x[late, 1]) / np.diff(t[late]) - 1).max() < 0.02
 
