@@ -36,7 +36,7 @@ FOLLOWED = "over all time, or over the span of the case where no law holds and t
 # what may be asked -> its columns
 ANSWERS: dict[str, tuple[Column, ...]] = {
     "fate": (Column("fate", "i1", "", "what becomes of the motion", (*(fate.word for fate in Fate), "no_case")),
-             Column("spin_axis", "i1", "", "axis of a spin-up with its sense as a sign", note="0 where there is none, or it is no principal axis")),
+             Column("spin_axis", "i1", "", "axis of a spin-up with its sense as a sign", note="0 where there is none, or it lies between equal moments")),
     "level": (Column("level", "i1", "", "how well the fate is known", LEVELS, note="-1: no case"),),
     "reason": (Column("reason", "i1", "", "why the fate is known", tuple(reason.name.lower() for reason in Reason),
                       note="-1 where a motion is answered by itself: stabilab fate tells why"),),

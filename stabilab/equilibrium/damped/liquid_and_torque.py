@@ -33,9 +33,10 @@ def balanced_equilibria(parts: Content) -> Equilibria:
     """Equilibria with a liquid and resistance or torque: all of them below a bound that the reason names."""
     from ...numbers.krawczyk import zeros
     reach, words = _region(parts)
-    if reach is None:
-        return Equilibria("undecided", words)
     polynomials = [_dictionary(p) for p in balance(parts)]
+    if reach is None:
+        rest = () if any(parts.M) else (_point(parts, polynomials, (0.0, 0.0, 0.0)),)
+        return Equilibria("undecided", f"{words}; rest is one, as no torque acts on it" if rest else words, rest)
     found = zeros(polynomials, reach)
     points = tuple(_point(parts, polynomials, x) for x in sorted(map(tuple, found.points.tolist())))
     if not found.complete:

@@ -76,7 +76,7 @@ def _details(found: Swept) -> list[str]:
     cases = found.records[found.records["valid"] == 1]
     if "spin_axis" in names and (found.records["fate"] == Fate.SPIN_UP).any():
         about = found.records["spin_axis"][found.records["fate"] == Fate.SPIN_UP]
-        lines.append("  spin-up about " + _listed(about, lambda axis: f"{axis:+d}" if axis else "no principal axis"))
+        lines.append("  spin-up about " + _listed(about, lambda axis: f"{axis:+d}" if axis else "an axis between equal moments"))
     if "level" in names:
         flags = next(c.flags for c in columns_of(found.plan.answers) if c.name == "level")
         lines.append("  the fate is known as " + _listed(cases["level"], lambda level: flags[level]))

@@ -28,8 +28,10 @@ def text(case, equilibria, motion, units: Units, proofs: bool = False) -> str:
 
 def resting(equilibria) -> str:
     """How many states of equilibrium there are, and how many of them are stable, in one line."""
-    if equilibria.kind in ("none", "all", "undecided"):
-        return {"none": "none", "all": "every state is one", "undecided": "UNDECIDED"}[equilibria.kind]
+    if equilibria.kind == "undecided":
+        return f"UNDECIDED, {len(equilibria.points)} known ({_count(p.verdict for p in equilibria.points)})" if equilibria.points else "UNDECIDED"
+    if equilibria.kind in ("none", "all"):
+        return {"none": "none", "all": "every state is one"}[equilibria.kind]
     parts = [f"{len(equilibria.points)} isolated ({_count(p.verdict for p in equilibria.points)})"] if equilibria.points else []
     told = [(curve.name, _along(curve)) for curve in equilibria.curves]
     if len(told) > FEW:

@@ -3,12 +3,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from ...asked import checked_scene
 from ...numbers.numba_door import wanted
+from ...orbit import one_state as law
+from ...orbit.reduction import reduce
 from ...orbit.result import Fate
 from ...physics.coefficients import effective
 from ...physics.scene import AnyScene
@@ -55,8 +58,18 @@ def spin_up(scene: AnyScene, state: Any, t_max: float | None = None, budget: int
     loops = wanted(1, fast, proof, 2, 1)
     found = chase(own, tests, np.array([state]) / unit, NATURAL_TIMES if t_max is None else t_max * unit, BUDGET if budget is None else budget, after * unit,
                   tell and (lambda t, steps, left: tell(t / unit, steps, left)), loops)
-    answer = answer_of(scene, unit, found, 0)
+    answer = kept_by_law(scene, state, answer_of(scene, unit, found, 0))
     return proved(scene, given if isinstance(given, (list, tuple)) else state, answer, fast=loops) if proof else answer
+
+
+def kept_by_law(scene: AnyScene, state: tuple[float, ...], answer: SpinUp) -> SpinUp:
+    """The answer, or, where no inequality came true and the law of a torque along a principal axis keeps the motion bounded, that."""
+    if answer.fate != Fate.UNDECIDED or reduce(scene) is None:
+        return answer
+    known = law.motion(scene, state, brief=True)
+    if known.fate not in (Fate.BOUNDED, Fate.EQUILIBRIUM):
+        return answer
+    return replace(answer, fate=Fate.BOUNDED, level="exact", cause=f"bounded by the law of a torque along a principal axis: {known.because}")
 
 
 def follows(state, unit: float) -> bool:

@@ -7,6 +7,7 @@ import numpy as np
 
 from ...asked import checked_scene
 from ...numbers.numba_door import wanted
+from ...orbit.reduction import reduce
 from ...orbit.result import Fate
 from ...physics.coefficients import effective
 from ...physics.scene import AnyScene
@@ -14,7 +15,7 @@ from ...physics.states import checked_states
 from ..enclosure.proof import proved
 from .chase import Chased, chase
 from .fields import natural, tests_of
-from .follow import BUDGET, FARTHEST, NATURAL_TIMES, answer_of, spin_up
+from .follow import BUDGET, FARTHEST, NATURAL_TIMES, answer_of, kept_by_law, spin_up
 from .result import SpinUp
 from .symmetric import exactly
 
@@ -66,7 +67,15 @@ def spin_up_many(scene, states, t_max: float | None = None, budget: int | None =
     senses = np.array([field.sense for field, _ in tests.asked] + [0])
     out = SpinUps(np.where(good, Fate.SPIN_UP, Fate.UNDECIDED).astype(np.int8), axes[found.fired].astype(np.int8), senses[found.fired].astype(np.int8),
                   good.astype(np.int8), found.t / unit, found.steps, found.condition, found.states * unit, scene, unit, found, ())
+    if not good.all() and reduce(covered) is not None:
+        return _with_rows(out, tuple(kept_by_law(covered, state, out.row(number)) for number, state in enumerate(states.tolist())))
     return _proved(scene, states, out, loops) if proof else out
+
+
+def _with_rows(found: SpinUps, rows) -> SpinUps:
+    """The answers with these rows in place of what a run found."""
+    return replace(found, fate=np.array([row.fate for row in rows], np.int8), level=np.array([LEVELS.index(row.level) for row in rows], np.int8),
+                   chased=None, exact=rows)
 
 
 def _proved(scene, states, found: SpinUps, fast: bool) -> SpinUps:

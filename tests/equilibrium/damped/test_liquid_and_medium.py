@@ -306,3 +306,19 @@ def test_classification_of_a_case_is_complete_json(name):
     text = answers.as_json(answers.classification(case, found, told))
     assert "NaN" not in text and told.because and told.extremes is not None
     assert classification.text(case, found, told, units_of(case), proofs=True)
+
+
+def test_rest_is_told_where_the_list_of_equilibria_is_undecided():
+    """By hand: at omega = 0 no torque acts. Its spectrum beside NumPy's of finite differences of the rates."""
+    scene = Scene(Body((3, 2, "1.5")), Gyrostat((0, 10, 10)), LiquidCavity(1, "0.1", 10), Resistance("0.001"))
+    found = equilibria(scene)
+    assert found.kind == "undecided" and "nothing bounds the equilibria; rest is one" in found.reason
+    (rest,) = found.points
+    h = 1e-6
+    parts = content(scene)
+    slopes = np.array([(np.array(rates(parts, tuple(h * e), None)[0], float) - np.array(rates(parts, tuple(-h * e), None)[0], float)) / (2 * h)
+                       for e in np.eye(3)]).T
+    assert rest.at == (0, 0, 0) and rest.verdict == "asymptotically stable"
+    assert np.sort(np.linalg.eigvals(slopes).real) == pytest.approx(np.sort([z.real for z in rest.eigenvalues]), rel=1e-4)
+    from stabilab.show.terminal.classification import resting
+    assert resting(found) == "UNDECIDED, 1 known (1 asymptotically stable)"

@@ -199,3 +199,15 @@ def test_a_test_has_its_number_before_another_thread_may_find_it(monkeypatch):
     for asked in tests.high:
         tests.certifier(*asked)
     assert seen_ == [True] * len(tests.high)
+
+
+def test_a_motion_that_a_law_keeps_bounded_is_no_open_question_of_spin_up():
+    """Table 2 of the paper has the first of these motions periodic, with extremes; the second goes round axis 3 and spins up."""
+    scene = ScaledGyrostat("0.2", "0.4", (0, 0, 1))
+    states = [(2.5, 4.0, 0.1), (2.5, 4.0, 30.0)]
+    one = [spin_up(scene, state, 20) for state in states]
+    assert [(answer.fate, answer.level) for answer in one] == [(Fate.BOUNDED, "exact"), (Fate.SPIN_UP, "certified")]
+    assert one[0].cause.startswith("bounded by the law of a torque along a principal axis: ")
+    many = spin_up_many(scene, np.array(states), 20)
+    assert many.fate.tolist() == [Fate.BOUNDED, Fate.SPIN_UP] and [many.row(n).cause for n in range(2)] == [answer.cause for answer in one]
+    assert many.row(1).trap is not None

@@ -19,7 +19,7 @@ SMOOTH = 0.1  # of the dimension: less than this above 1 is told as smooth where
 
 def basin_name(label: int) -> str:
     """What motions of a basin do."""
-    return {BOUNDED: "bounded", UNDECIDED: "undecided", NO_AXIS: "spin-up about no principal axis"}.get(label) or f"spin-up about {label:+d}"
+    return {BOUNDED: "bounded", UNDECIDED: "undecided", NO_AXIS: "spin-up about an axis between equal moments"}.get(label) or f"spin-up about {label:+d}"
 
 
 def text(found: Basins) -> str:
