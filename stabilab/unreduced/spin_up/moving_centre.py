@@ -70,6 +70,12 @@ class MovingCentre:
         self.algebra = Algebra(1j / (om * self.turn_size), tuple(turn), (-self.a3 / 4, -self.a2 / 4), rate, terms_of({}), carried,
                                (1, 1 if self.a2 else 0))
 
+    @property
+    def least_fall(self) -> float | None:
+        """S: every factor that falls, a monomial of level 1 or more in p and q, falls at least like 1/(x + S), the slower of 1/p and 1/q; None where
+        q is constant."""
+        return max(self.c / self.a3, self.c / self.a2) if self.a2 else None
+
     def _folded(self, terms):
         """Terms without those that vanish; a constant q becomes part of their numbers."""
         if self.a2:

@@ -61,6 +61,23 @@ def test_a_wheel_that_helps_or_hinders_widens_no_time(sign):
         assert gone - (1e6 - 1e4) * D[0] / M[0] == pytest.approx(-moved, rel=0.15)
 
 
+@pytest.mark.parametrize("D, l, M, w", [((1.1, .58, 1.32), (2.17, -.87, 9.72), (.06, .86, .51), (2.56, 5.02, 8.26)),
+                                        ((1.48, .67, .84), (3.2, -4.8, 8.17), (-.6, .69, -.4), (-.75, -2.06, -2.05))])
+def test_about_the_moving_centre_far_times_are_known_as_well(D, l, M, w):
+    """What is beside M1 in the drive falls like 1/x, so far limits take M1/D1 alone but for a logarithm; near ones by DOP853."""
+    scene = Scene(Body(D), Gyrostat(l), ConstantTorque(M))
+    answer = spin_up(scene, w, 2000, 30_000)
+    trap, spin = answer.trap, np.dot(answer.state, answer.direction)
+    assert trap.form == "moving centre"
+    early, late = trap.clock(1e6)
+    assert early < 1e6 * D[answer.axis - 1] / abs(M[answer.axis - 1]) < late and late - early < 0.005 * late
+    limit = spin + 6.0
+    early, late = trap.clock(limit)
+    times = np.linspace(answer.t, late, 4001)
+    reached = times[np.argmax(run(rates_of(scene), answer.state, times) @ np.array(answer.direction) >= limit)]
+    assert early <= reached <= late + 1e-9
+
+
 def test_a_rate_already_reached_has_no_earliest_time():
     trap = spin_up(EXAMPLE, (6, 1, -1)).trap
     assert trap.clock(1.0) == (0.0, trap.t)
