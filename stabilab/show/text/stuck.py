@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
+from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 
 from ...errors import printable
 from ..units import DIGITS, SHORT, Units
@@ -17,6 +18,7 @@ CSV = ("case,thrusters,torque_x,torque_y,torque_z,torque_1,torque_2,torque_3,fat
 WORDS = {"rate": "rate", "wheel": "wheel momentum", "torque": "torque"}
 FATES = {"bounded": "STAYS BOUNDED", "spin-up": "SPINS UP", "equilibrium": "AT REST in the body's frame", "separatrix": "ON THE SEPARATRIX",
          "undecided": "UNDECIDED"}
+PRECISE = Context(prec=40)  # digits in which ends are rounded
 FIRST = 5  # lines of the answer at most
 SOON = 2  # times a margin: the fate is back before a change as great
 
@@ -226,9 +228,21 @@ def _interval(ends) -> str:
         return f"{_number(low, 12)} N m s alone"
     if math.isinf(low) and math.isinf(high):
         return "any momentum"
+    for digits in (DIGITS, 9, 12):
+        least, most = _inward(low, ROUND_CEILING, digits), _inward(high, ROUND_FLOOR, digits)
+        if not float(least) > float(most):
+            break
     if math.isinf(low):
-        return f"up to {_number(high, 9)} N m s"
-    return f"{_number(low, 9)} N m s or more" if math.isinf(high) else f"{_number(low, 9)} to {_number(high, 9)} N m s"
+        return f"up to {most} N m s"
+    return f"{least} N m s or more" if math.isinf(high) else f"{least} to {most} N m s"
+
+
+def _inward(value: float, way: str, digits: int) -> str:
+    """A number of so many digits that is inside an interval with this end."""
+    if not value or math.isinf(value):
+        return str(value)
+    exact = Decimal(value)
+    return _number(float(exact.quantize(Decimal(1).scaleb(exact.adjusted() + 1 - digits), way, context=PRECISE)), digits)
 
 
 def _helper(helper, units) -> str:
@@ -249,6 +263,8 @@ def _details(row, units) -> list[str]:
     for name, margin in row.margins.items():
         told = margin.because
         if margin.size is not None:
+            if name == "rate" and margin.until is not None and math.isfinite(margin.until):  # its words are those of JSON, in rad/s
+                told = told.replace(f"{margin.until:.6g} rad/s", _amount(name, margin.until, units, DIGITS))
             told = f"{_amount(name, margin.size, units, DIGITS)} along {_vector(margin.direction)}" + (f": {told}" if told else "")
         lines.append(f"  {'margin, ' + name:<24} {told}")
     if row.tilt is not None:

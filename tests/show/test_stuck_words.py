@@ -1,0 +1,33 @@
+"""The words of a stuck thruster: numbers that hold what they promise, each in the unit of the page."""
+import json
+import re
+
+SATELLITE = """title = "Small satellite, thruster stuck open"
+[body]
+inertia = [12.0, 9.0, 5.0]
+centre_of_mass = [0, 0, 0]
+[[wheels]]
+name = "W1"
+axis = [1, 0, 0]
+momentum = "0.8 N m s"
+[[thrusters]]
+name = "T1"
+position = [0.5, 0, 0]
+direction = [0, 1, 0]
+force = "40 mN"
+stuck = true
+[motion]
+angular_velocity = ["5.7 deg/s", "2.9 deg/s", "1.1 deg/s"]
+"""
+
+
+def test_an_interval_that_keeps_the_motion_bounded_is_told_in_six_digits_and_lies_inside_the_exact_one(stabilab, tmp_path):
+    case = tmp_path / "satellite.toml"
+    case.write_text(SATELLITE)
+    text = stabilab("stuck", case)[1]
+    told = json.loads(stabilab("stuck", case, "--json")[1])
+    (wheel,) = (told[0] if isinstance(told, list) else told)["rows"][0]["wheel_intervals"]
+    (_, most), (least, _) = wheel["keeps_bounded"]
+    words = re.search(r"keeps it bounded at up to (\S+) N m s or (\S+) N m s or more", text)
+    assert float(words[1]) <= most < float(words[1]) + 1e-6 and float(words[2]) - 1e-7 < least <= float(words[2])
+    assert "rad/s" not in text and re.search(r"margin, rate +\S+ deg/s along .* from 25\.58\d* deg/s along the same line", text)  # 0.44654 rad/s
