@@ -2,6 +2,9 @@
 import json
 import re
 
+from stabilab.case.read import load
+from stabilab.show.report.one_case.page import sections
+
 SATELLITE = """title = "Small satellite, thruster stuck open"
 [body]
 inertia = [12.0, 9.0, 5.0]
@@ -30,4 +33,6 @@ def test_an_interval_that_keeps_the_motion_bounded_is_told_in_six_digits_and_lie
     (_, most), (least, _) = wheel["keeps_bounded"]
     words = re.search(r"keeps it bounded at up to (\S+) N m s or (\S+) N m s or more", text)
     assert float(words[1]) <= most < float(words[1]) + 1e-6 and float(words[2]) - 1e-7 < least <= float(words[2])
+    page = sections(load(case), tmp_path, "satellite", deep=False)["sensitivity"]["rows"][0]["because"]
+    assert "rad/s" not in page and "from 25.58" in page
     assert "rad/s" not in text and re.search(r"margin, rate +\S+ deg/s along .* from 25\.58\d* deg/s along the same line", text)  # 0.44654 rad/s

@@ -205,6 +205,13 @@ def _amount(name, size, units, digits=4) -> str:
     return f"{_number(size * one, digits)} {unit}"
 
 
+def holds_for(name, margin, units) -> str:
+    """What a margin holds for: the words of JSON, which are in rad/s, with a rate in the unit of the page."""
+    if name != "rate" or margin.until is None or math.isinf(margin.until):
+        return str(margin.because)
+    return str(margin.because.replace(f"{margin.until:.6g} rad/s", _amount(name, margin.until, units, DIGITS)))
+
+
 def _unit(name, units):
     return {"rate": units.rates, "wheel": ("N m s", 1.0), "torque": ("N m", 1.0)}[name]
 
@@ -261,10 +268,8 @@ def _details(row, units) -> list[str]:
              f"  fate                     {row.fate} ({row.level})",
              f"  because                  {row.because}"]
     for name, margin in row.margins.items():
-        told = margin.because
+        told = holds_for(name, margin, units)
         if margin.size is not None:
-            if name == "rate" and margin.until is not None and math.isfinite(margin.until):  # its words are those of JSON, in rad/s
-                told = told.replace(f"{margin.until:.6g} rad/s", _amount(name, margin.until, units, DIGITS))
             told = f"{_amount(name, margin.size, units, DIGITS)} along {_vector(margin.direction)}" + (f": {told}" if told else "")
         lines.append(f"  {'margin, ' + name:<24} {told}")
     if row.tilt is not None:

@@ -7,6 +7,7 @@ from ....answers.stuck.ask import stuck
 from ....errors import InputError
 from ....orbit.result import Fate
 from ....physics.alignment import torque_axis
+from ...text.stuck import holds_for
 from ...text.when import unreached
 from .measures import spoken, told, vector
 
@@ -63,7 +64,8 @@ def _of_motion(motion, measures):
 
 def _margin(name, margin, measures):
     size = "" if margin.size is None else measures.rate(margin.size) if name == "rate" else told(margin.size, UNITS[name])
-    return {"what": OF[name], "size": size, "direction": vector(margin.direction) if margin.direction else "", "because": spoken(margin.because)}
+    return {"what": OF[name], "size": size, "direction": vector(margin.direction) if margin.direction else "",
+            "because": spoken(holds_for(name, margin, measures.units))}
 
 
 def _wheel(wheel):
