@@ -200,3 +200,9 @@ def test_the_legend_of_the_space_names_only_what_is_in_its_box():
     drawn = _space(load(CASES / "symmetric-body.toml"))[1]
     assert not any("degenerate" in words for words, _ in drawn["legend"])
     assert all((np.abs(_places(row["at"])) <= 1.0).all(axis=-1).any() for row in drawn["drawn"]["curves"])
+
+
+def test_an_extreme_that_is_zero_but_for_rounding_is_told_as_zero(tmp_path):
+    """The start has omega2 = 0, where omega2' = 0 too, and the motion comes back to it from above: by hand the least omega2 is 0."""
+    rows = _sections("charged-body", tmp_path)["extremes"]
+    assert (rows[1]["name"], rows[1]["least"]) == ("ω2", "0 deg/s")

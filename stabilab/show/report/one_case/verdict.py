@@ -1,6 +1,8 @@
 """The first line of a page, and the table of what is known of the motion."""
 from __future__ import annotations
 
+import math
+
 from ....orbit.result import Fate
 from ...text import frame
 from ...text.headline import greatest, rate_and_height, rate_margin, with_height
@@ -100,9 +102,15 @@ def extremes(case, motion, measures) -> list[dict]:
         return []
     unit, one = measures.rate_unit
     bounds = motion.bounds if motion.bounds is not None and motion.bounds != motion.extremes else [None] * 3
-    return [{"name": spoken(name), "least": told(low * one, unit), "greatest": told(high * one, unit),
+    known = (motion.tolerance or 0.0) * max((abs(v) for pair in motion.extremes for v in pair if math.isfinite(v)), default=0.0)
+    return [{"name": spoken(name), "least": told(_beyond(low, known) * one, unit), "greatest": told(_beyond(high, known) * one, unit),
              "within": "" if pair is None else f"{told(pair[0] * one, unit)} to {told(pair[1] * one, unit)}"}
             for name, (low, high), pair in zip(case.scene.components, motion.extremes, bounds)]
+
+
+def _beyond(value, known):
+    """A number, or 0 where it is no more than the rounding up to which it is known."""
+    return value if abs(value) > known else 0.0
 
 
 def invariants(motion, measures) -> list[tuple[str, str]]:
