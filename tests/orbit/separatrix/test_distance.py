@@ -274,3 +274,32 @@ def test_a_state_in_the_middle_of_its_circles_has_a_settled_distance():
 def test_a_state_exactly_on_the_separatrix_is_at_no_distance_from_it(scene, state):
     """Saddles, and states whose energy equals a barrier's in rational numbers: the search crept towards 1e-80, or hung."""
     assert distance_of(reduce(scene), state) == (0.0, 0.0, tuple(map(float, state)), "", 0)
+
+
+FAR = [((12, 9, 5), (0.8, 0, 0), (0, 0, 0.02), (0.1, None, 0.02)), ((12, 9, 5), (0, 0.3, 0.2), (0.02, 0, 0), (0.1, None, 0.02)),
+       ((12, 9, 5), (0.8, 0.3, 0), (0, 0, 0.02), (0.1, None, 0.02)), ((3, 2, 1), (0, 0, 0.5), (1, 0, 0), (0.1, None, 0.02))]
+
+
+@pytest.mark.parametrize("size", [1e3, 5e8, 1e13])
+@pytest.mark.parametrize("moments, wheel, torque, state", FAR)
+def test_a_state_far_from_the_centre_of_its_circles_has_a_settled_distance(moments, wheel, torque, state, size):
+    """A branch of saddles was halved down to the state's own circle once for every part of the loops: a bracket from zero up after 3 s. The
+    witness parts the fates by the oracle's energy in 60 digits, and no place just nearer than the lower bound does."""
+    state = [size if v is None else v for v in state]
+    scene, problem = physical(moments, wheel, torque)
+    found, rng = distance_of(reduce(scene), state), np.random.default_rng(2)
+    assert found.settled and found.boxes < 2000
+    side = energy.margin(problem, tuple(map(Fraction, state)), 60) > 0
+    axis, step = next(i for i in range(3) if torque[i]), np.array(found.witness) - state
+    for share in (0.999999, 1.000001):
+        at = [Fraction(v) + Fraction(share) * Fraction(s) for v, s in zip(state, step)]
+        beyond = energy.margin(problem, tuple(at), 60) > 0
+        assert (beyond == side) == (share < 1) or step[axis] == -state[axis]  # at a saddle itself the way ends at the rim of a sheet
+    for way in rng.normal(size=(12, 3)):
+        at = [Fraction(v) + Fraction(float(0.999999 * found.lower * w / np.linalg.norm(way))) for v, w in zip(state, way)]
+        assert (energy.margin(problem, tuple(at), 60) > 0) == side
+
+
+def test_a_state_out_of_reach_of_doubles_is_told_at_once():
+    """Rates of 1e200: their squares are no doubles."""
+    assert distance_of(reduce(physical(*FAR[0][:3])[0]), (0.1, 1e200, 0.02)) == UNKNOWN

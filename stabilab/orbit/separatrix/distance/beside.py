@@ -62,7 +62,10 @@ class Beside:
 
     def on_sheet(self, t, y):
         """The chart that this one is a part of, and where on it a point lies to doubles."""
-        return self.chart, self.near[0] + t, self.near[1] + y
+        return self.chart.on_sheet(*self._on_chart(t, y))
+
+    def _on_chart(self, t, y):
+        return self.near[0] + t, self.near[1] + y
 
     def exact_point(self, t, y):
         return self.chart.exact_point(self.t0 + Fraction(t), self.y0 + Fraction(y))
@@ -73,7 +76,7 @@ class Beside:
         return self.chart.exact_place(self.t0 + Fraction(t), self.y0 + Fraction(y))
 
     def _box(self, t, dt, y, dy):
-        _, t, y = self.on_sheet(t, y)
+        t, y = self._on_chart(t, y)
         return t, dt + 2 * EPS * abs(t), y, dy + 2 * EPS * abs(y)
 
     def bends(self, t, dt, y, dy):
@@ -92,7 +95,7 @@ class Beside:
         return self.chart.steep(*self._box(t, dt, y, dy))
 
     def holds(self, t, y):
-        return self.chart.holds(*self.on_sheet(t, y)[1:])
+        return self.chart.holds(*self._on_chart(t, y))
 
 
 def _within(place, size, low, high):

@@ -18,14 +18,17 @@ from ...conic import conic_of
 from ...fate.balls import decide
 from ...potential import slope_at
 from ..result import NO_SEPARATRIX, Apart
+from .annulus import within
 from .charts.long_loops import loops_of, planes_met
 from .charts.loop_chart import Chart
+from .charts.round_charts import OppositeChart, TurnedChart, mirrored
 from .curves import Hyperbola, Straight
 from .point import UNIT, Seen
 from .search import nearest
 from .shade import Shade
 
 INF = math.inf
+QUARTER = 0.5 * math.pi * (1 + 1e-15)
 
 
 def on_conic(reduction, state, orbit) -> Apart:
@@ -39,6 +42,7 @@ def on_conic(reduction, state, orbit) -> Apart:
     if start[0] == 0:  # at the end of a branch
         return Apart(0.0, 0.0, (float(state[0]), float(state[1]), float(state[2])))
     charts = [chart for arc in arcs for chart in arc.charts(seen, reduction.sense, start[0])]
+    charts += way.opposite(lambda other: _arcs(way, conic_of(reduction), other), seen, start[0])
     found = nearest(charts, seen.plain["w"], start[0] * (1 + 1e-14) + 1e-300, genuine=shade, start=_on_chart(charts, *start[2:]))
     place = start[1] if found.chart is None else found.chart.place(found.t, found.y)
     return Apart(found.lower, found.upper, _rates(reduction, seen, place, state), "", found.boxes)
@@ -46,7 +50,8 @@ def on_conic(reduction, state, orbit) -> Apart:
 
 def _on_chart(charts, saddle=None):
     """(chart, t, y) of a saddle (branch, t)."""
-    on = [chart for chart in charts if saddle and chart.curve is saddle[0] and chart.t[0] <= saddle[1] <= chart.t[1] and chart.y[0] <= 0 <= chart.y[1]]
+    on = [chart for chart in charts if saddle and chart.from_saddle and chart.curve is saddle[0] and chart.t[0] <= saddle[1] <= chart.t[1]
+          and chart.y[0] <= 0 <= chart.y[1]]
     return (on[0], saddle[1], 0.0) if on else None
 
 
@@ -62,13 +67,24 @@ class _OnCircles(_Arc):
     """Of circles."""
 
     def charts(self, seen, sense, upper):
-        """Charts of the loops that come within `upper` of the state."""
+        """Charts of the loops that come within `upper` of the state, beside their saddles."""
+        for piece in self._pieces(seen, upper):
+            yield Chart(seen, self.curve, piece, (-QUARTER, 0.0 if sense else QUARTER))
+            if sense:
+                yield TurnedChart(seen, self.curve, piece, (0.0, QUARTER))
+
+    @staticmethod
+    def opposite(arcs_of, seen, upper):
+        """Charts of the same loops opposite to their saddles; arcs_of: the branches as told from another place."""
+        image = mirrored(seen)
+        return [OppositeChart(image, arc.curve, piece, (-QUARTER, QUARTER)) for arc in arcs_of(image) for piece in arc._pieces(image, upper)]
+
+    def _pieces(self, seen, upper):
         g = seen.plain
         reach = math.hypot(g["X"], g["Z"]) + upper * (1 + 1e-9) / math.sqrt(min(g["a"], g["b"]))
         low, high = self.curve.window(reach)
-        t = max(self.low, low), min(self.high, high)
-        if t[0] <= t[1]:
-            yield Chart(seen, self.curve, t, (-2 * math.pi, 0.0) if sense else (-math.pi, math.pi))
+        low, high = max(self.low, low), min(self.high, high)
+        return within(seen, self.curve, low, high, upper) if low <= high else []
 
     @staticmethod
     def flat(seen, sense, arcs):
@@ -91,6 +107,11 @@ class _OnHyperbolas(_Arc):
     def charts(self, seen, sense, upper):
         if self.low <= self.high:
             yield from loops_of(seen, self.curve, self.low, self.high, upper)
+
+    @staticmethod
+    def opposite(arcs_of, seen, upper):
+        """Nothing: no hyperbola comes round."""
+        return []
 
     @staticmethod
     def flat(seen, sense, arcs):

@@ -56,10 +56,23 @@ class Span:
         return self.m, self.r * (1 + 1e-9)
 
 
+def widened(bends):
+    """(middle, radius) with the radii's own rounding."""
+    return tuple((m, r * OUTWARD + 1e-9 * abs(m)) for m, r in bends)
+
+
 def shrinking(y, dy):
     """e^-y over a span."""
     base = math.exp(-y)
     return Span(base * math.cosh(dy), base * math.sinh(dy)) if dy < 600 else Span(0.5 * math.exp(dy - y), 0.5 * math.exp(dy - y))
+
+
+def turned(e, turn, p, rp, o, ro):
+    """p C + o S and o C + e p S with radii; turn: (S, C) with theirs."""
+    s, q, rs, rq = turn
+    ms, mq = abs(s) + rs, abs(q) + rq
+    return (p * q + o * s, rp * mq + abs(p) * rq + ro * ms + abs(o) * rs,
+            o * q + e * p * s, ro * mq + abs(o) * rq + rp * ms + abs(p) * rs)
 
 
 def loop_bends(seen, curve, t, dt, y, dy):
@@ -69,19 +82,14 @@ def loop_bends(seen, curve, t, dt, y, dy):
     x, rx, z, rz, x1, rx1, z1, rz1, x2, rx2, z2, rz2, u, v, su, sv = curve.over(t, dt)
     s, q, half, rs, rq = seen.geometry.turns(y, dy)
     less = 2 * e * half * half
-    ms, mq = abs(s) + rs, abs(q) + rq
-
-    def turned(p, rp, o, ro):
-        """p C + o S and o C + e p S with radii."""
-        return (p * q + o * s, rp * mq + abs(p) * rq + ro * ms + abs(o) * rs,
-                o * q + e * p * s, ro * mq + abs(o) * rq + rp * ms + abs(p) * rs)
+    turn = s, q, rs, rq
 
     def on(p, rp, o, ro):
         """What the way y itself adds: p (C - 1) + o S; a short way adds little, so it is no difference of two."""
         return p * less + o * s, rp * abs(less) + ro * abs(s) + ROUNDING * (abs(p * less) + abs(o * s))
-    X, rX, Z, rZ = turned(x, rx, z, rz)
-    X1, rX1, Z1, rZ1 = turned(x1, rx1, z1, rz1)
-    X2, rX2, Z2, rZ2 = turned(x2, rx2, z2, rz2)
+    X, rX, Z, rZ = turned(e, turn, x, rx, z, rz)
+    X1, rX1, Z1, rZ1 = turned(e, turn, x1, rx1, z1, rz1)
+    X2, rX2, Z2, rZ2 = turned(e, turn, x2, rx2, z2, rz2)
     xb, zs, zb, xs = x * less, z * s, z * less, e * x * s
     u, v = u + (xb + zs), v + (zb + xs)
     rX, rZ = rX + ROUNDING * (abs(X) + su + abs(xb) + abs(zs)), rZ + ROUNDING * (abs(Z) + sv + abs(zb) + abs(xs))
@@ -106,4 +114,4 @@ def loop_bends(seen, curve, t, dt, y, dy):
     rpty = k * (abs(G) * rZ * mX1 + abs(G * Z + d) * rX1 + rpull * mZ1 + abs(pull) * rZ1)
     pyy = k * slope_at(G, c, d, e, X, Z)
     rpyy = k * (abs(G) * (rZ * (mZ + abs(Z)) + rX * (mX + abs(X))) + abs(c) * rX + abs(d) * rZ)
-    return tuple((m, r * OUTWARD + 1e-9 * abs(m)) for m, r in ((tt, rtt), (ty, rty), (yy, ryy), (ptt, rptt), (pty, rpty), (pyy, rpyy)))
+    return widened(((tt, rtt), (ty, rty), (yy, ryy), (ptt, rptt), (pty, rpty), (pyy, rpyy)))

@@ -24,6 +24,7 @@ class Chart:
 
     sharpest = False  # whether its points are exact in any case
     from_saddle = True  # whether y = 0 is the saddle, where phi and its slope vanish
+    turns: float = 0  # turns from the saddle to y = 0, on circles
 
     def __init__(self, seen, curve, t, y):
         self.seen, self.curve, self.t, self.y, self.here = seen, curve, t, y, seen.plain
@@ -55,9 +56,9 @@ class Chart:
     def on_sheet(self, t, y):
         return self, t, y
 
-    def at_one(self, t):
-        """The same chart at one t alone."""
-        return Chart(self.seen, self.curve, (t, t), self.y)
+    def at_one(self, t, y):
+        """The same chart at one t alone, and the point there."""
+        return Chart(self.seen, self.curve, (t, t), self.y), t, y
 
     def place(self, t, y):
         """(X, Z, W/n) in floats, X and Z less the state's."""
@@ -71,7 +72,7 @@ class Chart:
         G, c, d, mu, n2, a, b2 = g["G"], g["c"], g["d"], g["mu"], g["n2"], g["a"], g["b"]
         x, z, xt, zt, sx, sz, u, v, su, sv, p, r, sp, sr = self.curve.at(t)
         s, half = self.seen.geometry.turn(y)
-        b, lag = 2 * e * half * half, self.seen.geometry.lag(y, s)
+        b, lag = 2 * e * half * half, self.seen.geometry.lag(y, s) + 2 * math.pi * self.turns
         q = 1 + b
         X, Z, Xt, Zt = x * q + z * s, z * q + e * x * s, xt * q + zt * s, zt * q + e * xt * s
         big_s, big_b = abs(s), abs(b)
@@ -104,7 +105,7 @@ class Chart:
         return sharp_place(self, t, y)
 
     def sharp(self, numbers, g, t, y):
-        return loop_place(g, self.seen.geometry, self.curve.sharp(numbers, g, t), y)
+        return loop_place(g, self.seen.geometry, self.curve.sharp(numbers, g, t), y, 2 * self.turns * numbers.pi())
 
     @staticmethod
     def metric(g):

@@ -6,7 +6,7 @@ Fractions beside a point that doubles do not resolve. The formulas are the plain
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from .....numbers.balls import working
 from ....potential import force_at
@@ -72,15 +72,22 @@ def _double(ball):
     return value, (float(ball.rad()) + EPS * abs(value)) * (1 + 4 * EPS)
 
 
-def loop_place(g, geometry, saddle, y) -> Place:
-    """On a circle or hyperbola, from a saddle (x, z, x_t, z_t)."""
+def loop_place(g, geometry, saddle, y, turned=0) -> Place:
+    """On a circle or hyperbola, from a saddle (x, z, x_t, z_t); turned: the angle of whole turns from it to y = 0."""
     x, z, xt, zt = saddle
     e, (C, S) = geometry.e, geometry.turned(y)
     X, Z, Xt, Zt = x * C + z * S, z * C + e * x * S, xt * C + zt * S, zt * C + e * xt * S
     G, c, d, mu, k = g["G"], g["c"], g["d"], g["mu"], 2 / g["n2"]
-    phi = k * (mu * y + G * (X * X - x * x) / 2 + c * (X - x) + e * d * (Z - z))
+    phi = k * (mu * (y + turned) + G * (X * X - x * x) / 2 + c * (X - x) + e * d * (Z - z))
     phi_t = k * (G * (X * Xt - x * xt) + c * (Xt - xt) + e * d * (Zt - zt))
     return Place(X - g["X"], Z - g["Z"], Xt, Z, Zt, e * X, phi, phi_t, k * force_at(G, c, d, mu, X, Z))
+
+
+def opposite_place(g, geometry, saddle, y, turned) -> Place:
+    """On a circle beside the place opposite to its saddle, where y = 0; g: of the state's mirror image in the centre."""
+    p: Any = loop_place(g, geometry, saddle, y, turned)
+    k, c, d, X, Z = 4 / g["n2"], g["c"], g["d"], p.u + g["X"], p.v + g["Z"]
+    return Place(-p.u, -p.v, -p.ut, -p.uy, -p.vt, -p.vy, p.phi + k * (d * Z - c * X), p.phi_t + k * (d * p.vt - c * p.ut), p.phi_y + k * (d * p.vy - c * p.uy))
 
 
 def far_place(numbers, g, reach, flip, t, y) -> Place:
