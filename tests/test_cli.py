@@ -235,6 +235,13 @@ def test_simulate_follows_the_closed_form_of_the_ball(stabilab):
     assert max(answer["invariant_drift"].values()) < 1e-13 and answer["counters"]["steps"] > 0
 
 
+def test_every_at_is_taken_and_a_time_named_twice_is_said_to_be_shown_once(stabilab):
+    code, out, err = stabilab("simulate", MINOR, "--at", "1,0.5", "--at", "1.0", "--at", "2", "--json")
+    assert code == 0 and strict_json(out)["t"] == [0.5, 1, 2] and "--at: named more than once and shown once: 1\n" in err
+    assert "--at" not in stabilab("simulate", MINOR, "--at", "1,0.5", "--at", "2", "--json")[2]
+    assert "--at: named more than once and shown once: 1\n" in stabilab("reference", MINOR, "--at", "1,1", "--digits", "8", "--json")[2]
+
+
 def test_simulate_takes_201_times_over_the_span_by_default(stabilab, tmp_path):
     code, out, err = stabilab("simulate", MINOR, "--out", tmp_path / "run.csv")
     rows = list(csv.reader((tmp_path / "run.csv").read_text().splitlines()))
@@ -258,7 +265,7 @@ def test_simulate_writes_netcdf_that_reads_back_to_the_last_bit(stabilab, tmp_pa
     (("--at", "0,soon"), "--at: expected a decimal"),
     (("--at", ""), "--at: expected a decimal"),
     (("--method", "RK54"), "did you mean"),
-    (("--rtol", "-1"), "rtol"),
+    (("--rtol", "-1"), "rtol"), (("--rtol", "0"), "rtol: expected a number between 0 and 1, got 0"),
     (("--rtol", "much"), "--rtol"),
     (("--wrong",), "No such option"),
 ])

@@ -96,8 +96,8 @@ def _chosen(scene: AnyScene, start: Mapping[str, Sequence[float]], times: np.nda
     turn = float(np.linalg.norm(start["omega"])) if len(equations.blocks) > 1 else 0.0
     if stiffness <= STIFF or fastest < TURNING * turn:
         return "taylor", rtol, ""
-    return STIFF_METHOD, rtol or STIFF_RTOL, (f"stiff: the fastest decay, {fastest:.3g}/s, runs down {stiffness:.2g} times "
-                                              f"over the span, so the implicit method {STIFF_METHOD} was taken")
+    return STIFF_METHOD, STIFF_RTOL if rtol is None else rtol, (f"stiff: the fastest decay, {fastest:.3g}/s, runs down {stiffness:.2g} times "
+                                                                       f"over the span, so the implicit method {STIFF_METHOD} was taken")
 
 
 def _with_attitude(scene: Scene, start: Any, first: Any, times: np.ndarray, method: str, rtol: float | None, why: str) -> Simulation:

@@ -30,7 +30,7 @@ def verify(certificate: Annotated[Path, typer.Argument(metavar="CERTIFICATE", he
 
 @commands.command()
 def reference(case: CaseFile,
-              at: Annotated[str | None, typer.Option(metavar="T1,T2,...", help="Times from 0 on, with a unit or in that of the case. "
+              at: Annotated[list[str] | None, typer.Option(metavar="T1,T2,...", help="Times from 0 on, with a unit or in that of the case. "
                                                                                    "Default: 201 times over the span.")] = None,
               digits: Annotated[int, typer.Option(metavar="N", help="Digits (1 to 50) of every state.")] = 30,
               out: Annotated[Path | None, typer.Option(metavar="FILE.csv|.json", help="Write to a file.")] = None, json: Json = False):

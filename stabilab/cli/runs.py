@@ -14,7 +14,7 @@ commands = typer.Typer()
 
 @commands.command()
 def simulate(case: CaseFile,
-             at: Annotated[str | None, typer.Option(metavar="T1,T2,...", help="Times, with a unit (\"2 min\") or in that of the case; the state is at 0. "
+             at: Annotated[list[str] | None, typer.Option(metavar="T1,T2,...", help="Times, with a unit (\"2 min\") or in that of the case; the state is at 0. "
                                                        "Default: 201 times over the span of the case.")] = None,
              model: Annotated[str, typer.Option(autocompletion=completion.models,
                                                 help="exact, or an analytic solution that applies: linear, corrected, printed, "

@@ -16,7 +16,7 @@ from ..show.text import answers, law
 from ..theories.follow import follow
 from ..theories.theory import lines, theory
 from ..theories.top.run_angles import with_euler_angles
-from .common.cases import exact_times_asked, load_cases, one_by_one, times_asked, units_asked
+from .common.cases import exact_times_asked, load_cases, one_by_one, say_repeated, times_asked, units_asked
 from .common.output import all_reached, hold_laws, say, say_laws, tell, write, write_each, write_json
 
 
@@ -24,6 +24,7 @@ def simulate(case, at, model, order, method, rtol, digits, angles, out, json, st
     """Follow the motion of a case, of every combination where it has a [sweep]."""
     loaded = load_cases([case], motion=True)
     systems = units_asked(loaded, units)
+    say_repeated(loaded[0], at)
     if out:
         trajectory_files.checked(out)
     runs = [(one, *_followed(one, times_asked(one, at), model, method, rtol, order, digits)) for one in one_by_one(loaded)]
@@ -49,7 +50,7 @@ def _followed(case, times, model, method, rtol, order, digits):
 
 
 def _run_or_best(case, times, model, method, rtol, order, digits):
-    chosen = model != "exact" or method or rtol or order
+    chosen = model != "exact" or not (method is None and rtol is None and order is None)
     if digits is None and chosen:
         return follow(case, times, model, method, rtol, order), None
     if chosen:
@@ -102,6 +103,7 @@ def _judge(runs, digits):
 def reference(case, at, digits, out, json):
     """Write the states of a case, of every combination where it has a [sweep]."""
     loaded, made = load_cases([case], motion=True), []
+    say_repeated(loaded[0], at)
     if out:
         outside.checked(out)
     for one in loaded:

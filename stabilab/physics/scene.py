@@ -34,10 +34,10 @@ class Scene:
     components = ("omega1", "omega2", "omega3")
     time_unit = "s"
 
-    def __init__(self, body: Body, *effects: Effect):
+    def __init__(self, body: Body | None = None, *effects: Effect):
         flat = tuple(effects[0]) if len(effects) == 1 and isinstance(effects[0], (tuple, list)) else tuple(effects)
         if not isinstance(body, Body):
-            raise InputError(f"scene: expected a Body first, got {body!r:.80}")
+            raise InputError(f"scene: expected a Body first, such as Scene(Body((3, 2, 1)), ...), got {'nothing' if body is None else f'{body!r:.80}'}")
         for effect in flat:
             if not isinstance(effect, Effect):
                 raise InputError(f"scene: expected effects after the body, such as Gyrostat or ConstantTorque, got {effect!r:.80}")

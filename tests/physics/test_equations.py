@@ -8,6 +8,7 @@ import pytest
 import sympy as sp
 
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
+from stabilab.errors import InputError
 from stabilab.integrate.to_heyoka import heyoka_available, to_taylor
 from stabilab.physics.effects.body_force import BodyForce
 from stabilab.physics.effects.charge import Charge
@@ -183,3 +184,9 @@ def test_a_run_with_its_laws_forms_no_jacobian():
     assert "jacobian" not in vars(system.equations) and "entries" not in vars(system)
     by_hand = [[0, (9 - 5) * 0.3 / 12 - 2 / 12, (9 - 5) * 0.2 / 12]]  # 12 w1' = (9 - 5) w2 w3 - 2 w2
     np.testing.assert_allclose(system.jacobian(np.array([0.1, 0.2, 0.3]))[:1], by_hand, rtol=1e-14)
+
+
+@pytest.mark.parametrize("wrong, got", [((), "nothing"), ((5,), "5"), ((ConstantTorque((1, 2, 3)),), "ConstantTorque")])
+def test_a_scene_without_a_body_is_refused_in_words(wrong, got):
+    with pytest.raises(InputError, match=f"scene: expected a Body first, such as .*, got {got}"):
+        Scene(*wrong)

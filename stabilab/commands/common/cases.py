@@ -63,17 +63,17 @@ def time_asked(text: str | None, case: Case, option: str = "follow") -> float | 
     return float(time)
 
 
-def times_asked(case: Case, at: str | None) -> list[float]:
+def times_asked(case: Case, at: Sequence[str] | None) -> list[float]:
     """The times asked for, in order; without any, 201 over the span of the case."""
-    if at is None:
+    if not at:
         start, end = _span(case)
         return [start + (end - start) * i / 200 for i in range(200)] + [end]
     return sorted({float(time) for time in _each(at, case)})
 
 
-def exact_times_asked(case: Case, at: str | None) -> list[Fraction]:
+def exact_times_asked(case: Case, at: Sequence[str] | None) -> list[Fraction]:
     """The times asked for as rationals, as they are written; without any, 201 over the span of the case."""
-    if at is None:
+    if not at:
         start, end = (Fraction(repr(t)) for t in _span(case))
         return [start + (end - start) * i / 200 for i in range(201)]
     return sorted(set(_each(at, case)))
@@ -85,9 +85,17 @@ def _span(case: Case) -> tuple[float, ...]:
     return case.span
 
 
-def _each(at: str, case: Case) -> list[Fraction]:
-    """The times between the commas, exact as they are written."""
-    return [_time(word, case, "at") for word in at.split(",")]
+def _each(at: Sequence[str], case: Case) -> list[Fraction]:
+    """The times between the commas of every --at, exact as they are written."""
+    return [_time(word, case, "at") for one in at for word in one.split(",")]
+
+
+def say_repeated(case: Case, at: Sequence[str] | None):
+    """A message where --at names a time more than once: it is shown once."""
+    given = _each(at or (), case)
+    twice = sorted({time for time in given if given.count(time) > 1})
+    if twice:
+        say(f"--at: named more than once and shown once: {', '.join(f'{float(time):.6g}' for time in twice)}")
 
 
 def _time(text: str, case: Case, option: str) -> Fraction:
