@@ -12,7 +12,7 @@ import numpy as np
 
 from ...numbers.numba_door import compiled
 from . import circle_kernel as circle_loops
-from .grid import DENSE, FLOOR, MIXTURES, MOST, ROUNDS, STRAIGHT, TRIAL, UNIFORM, fewest_cells, finer, shrinks
+from .grid import DENSE, FLOOR, MIXTURES, MOST, ROUNDS, STRAIGHT, TRIAL, UNIFORM, USUAL, fewest_cells, finer, shrinks
 
 GRADING = (FLOOR, STRAIGHT, UNIFORM, DENSE, MIXTURES)
 EVEN = np.linspace(0, 1, TRIAL)
@@ -44,7 +44,8 @@ def sheets_by_kernel(land, strips, shape, accuracy, names=None):
     """(points (k, n, m, 3) all round, residual (k, n, m), saddle and centre places (k, n, 2) each, found (k, n), cut, error (k,))
     of strips, pairs (branch, side), in the shape (rows, columns of a half) or, where it is None, within `accuracy`.
 
-    names: of the functions, compiled or plain."""
+    names: of the functions, compiled or plain. None where the grading is to be made anew, as `grid` does.
+    """
     names = names or kernel()
     scene = kernel_input(land)
     k = len(strips)
@@ -53,7 +54,7 @@ def sheets_by_kernel(land, strips, shape, accuracy, names=None):
     s, columns, rows, numbers = (np.empty(size) for size in ((k, TRIAL), (k, TRIAL), (k, TRIAL), (len(MIXTURES), 2, 2)))
     names["trial"](*scene, where, sides, GRADING, accuracy or 0.0, s, columns, rows, numbers, _room(k))
     shape = shape or fewest_cells(numbers[..., 0], numbers[..., 1])
-    for _ in range(ROUNDS):
+    for attempt in range(ROUNDS):
         n, m = shape
         found, places, points = np.empty((k, n), np.bool_), np.empty((k, n, 5)), np.empty((k, n, 2 * m - 1, 3))
         residual, strays = np.empty((k, n, 2 * m - 1)), np.empty((2, k))
@@ -63,6 +64,8 @@ def sheets_by_kernel(land, strips, shape, accuracy, names=None):
         best = int(np.argmin(each))
         if accuracy is None or each[best] <= accuracy or min(shape) == MOST:
             break
+        if attempt >= USUAL:
+            return None
         shape = finer(shape, each[best], accuracy)
     return points, residual, places[..., :2], places[..., 2:4], found, (1, -1)[best], strays[best]
 

@@ -14,6 +14,7 @@ import numpy as np
 
 from .homoclinic_arrays import Loops, loops
 from .saddles import PLANE
+from .seams import Part, parted
 
 TRIAL = 17              # rows and columns of the trial grid
 FLOOR = 0.3             # of the mean density: no gap where a sheet happens to be straight
@@ -23,43 +24,92 @@ TAIL = 10.0 ** -np.arange(3, 6.1, 0.5)  # 1 - s of the last trial rows towards a
 NEAR = 1e-6             # a first row this near to the fold where the loop there is no point
 DENSE = 129             # steps along a branch that trial rows are chosen from
 UNIFORM = 0.2           # of the fold's radius: up to there trial rows are uniform
+USUAL = 2               # attempts that more rows and columns are enough for; then these are graded anew
+GROWTH = 2.0            # in cells at least, where loops at half the steps show a bend that second differences miss
 SAFETY, ROUNDS, MOST = 1.03, 12, 1025  # rows and columns grow by that much more than asked, so often, up to there
 
 
 @dataclass(frozen=True)
 class Grid:
-    """Loops of k strips; cut: +1 where quads of the first half are cut from (row, column) to (row + 1, column + 1), -1
+    """Loops of k strips or parts of strips; cut: +1 where quads of the first half are cut from (row, column) to (row + 1, column + 1), -1
     the other way; error: (k,) largest distance of facets from the surface."""
 
     loops: Loops
     cut: int
     error: np.ndarray
+    parts: list[Part]
 
 
 def grid(land, strips, shape=None, accuracy=None) -> Grid:
-    """The graded loops of strips (see `loops`): shape (rows, columns of a half), or, without one, as few of both as keep
-    facets within `accuracy` of the sheets."""
-    trial = np.array([_trial_rows(land, *strip) for strip in strips])
-    even = np.linspace(0, 1, TRIAL)
-    first, edge = _measured_loops(land, strips, trial, np.broadcast_to(even, trial.shape))
-    across, twist, down = _second_forms(land, first)
-    straight = STRAIGHT * np.abs(first.points).max()
-    seen = across if accuracy else np.concatenate([across, _outline(land, first)[:, None]], axis=1)
-    dense_columns, columns = _density(seen, 1, ((0, 0), (1, 0)), straight)
-    dense_rows, rows = _density(down, 2, ((0, 0), (1, 1)), straight, 8 * edge)
-    if shape is None:
-        c, r = dense_columns[:, None, 1:], dense_rows[:, 1:-1, None]
-        shape = _numbers(across / (c * c), twist / (c * r), down / (r * r), columns[:, -1], rows[:, -1], accuracy)
-    for _ in range(ROUNDS):
-        s = _even_steps(rows, trial, shape[0])
-        made, edge = _measured_loops(land, strips, s, _even_steps(columns, np.broadcast_to(even, trial.shape), shape[1]))
-        strays = np.maximum(_stray(*_second_forms(land, made), np.array([1, -1])[:, None, None, None]), edge)  # type: ignore[call-arg]
+    """The graded loops of strips, pairs (branch, side): shape (rows, columns of a half), or, without one, as few of both as keep
+    facets within `accuracy` of the sheets, each of which is cut at its seam then."""
+    parts, rows = [Part(*strip) for strip in strips], np.array([_trial_rows(land, *strip) for strip in strips])
+    if accuracy and len(cut := parted(land, strips, rows[:, 0])) > len(parts):
+        parts, rows = cut, np.array([_trial_rows_of(land, part) for part in cut])
+    columns = np.broadcast_to(np.linspace(0, 1, TRIAL), rows.shape)
+    made, edge = _measured_loops(land, parts, rows, columns)
+    forms, bends = _second_forms(land, made), _bends(land, made, parts, accuracy)
+    grading, needed = _grading(made, forms, bends, edge, rows, columns, accuracy)
+    shape, anew = shape or needed, len(parts) > len(strips)
+    for attempt in range(ROUNDS):
+        rows, columns = (_even_steps(length, at, number) for (length, at), number in zip(grading, shape))
+        made, edge = _measured_loops(land, parts, rows, columns)
+        forms, bends = _second_forms(land, made), _bends(land, made, parts, accuracy)
+        strays = np.maximum(_stray(*forms, np.array([1, -1])[:, None, None, None]), edge)  # type: ignore[call-arg]
+        strays = np.maximum(strays, bends.max(axis=1) / 8) if accuracy else strays
+        told = strays.max(axis=1).min()
+        if anew and told <= accuracy:
+            strays = np.maximum(strays, _halved(land, parts, rows, columns))
         best = int(np.argmin(strays.max(axis=1)))
         worst = strays[best].max()
         if accuracy is None or worst <= accuracy or min(shape) == MOST:
             break
-        shape = finer(shape, worst, accuracy)
-    return Grid(made, (1, -1)[best], strays[best])
+        if told > accuracy and attempt >= USUAL:  # the rows and columns before missed a bend
+            anew = True
+            grading, shape = _grading(made, forms, bends, edge, rows, columns, accuracy)
+        else:
+            shape = finer(shape, max(worst, GROWTH * accuracy) if told <= accuracy else worst, accuracy)  # narrow bends
+    return Grid(made, (1, -1)[best], strays[best], parts)
+
+
+def _halved(land, parts, rows, columns):
+    """(2, k) how far edges and diagonals of a grid at parameters rows and columns, cut either way, stray from the surface in their middles, by loops at
+    half the steps: where bends are as narrow as a step, second differences do not tell."""
+    made = loops(land, parts, np.array([part.rows(row) for part, row in zip(parts, _between(rows))]), _between(columns))
+    p, corner = made.points, made.points[:, ::2, ::2]
+    normal = np.cross(np.gradient(p, axis=1), np.gradient(p, axis=2))
+    normal /= np.maximum(np.linalg.norm(normal, axis=-1, keepdims=True), np.finfo(float).tiny)
+
+    def off(a, b, at):
+        return np.abs(np.einsum("kijx,kijx->kij", 0.5 * (a + b) - p[at], normal[at])).max(axis=(1, 2))
+
+    centre = np.s_[:, 1::2, 1::2]
+    edges = np.maximum(off(corner[:, 1:], corner[:, :-1], np.s_[:, 1::2, ::2]), off(corner[:, :, 1:], corner[:, :, :-1], np.s_[:, ::2, 1::2]))
+    diagonals = np.array([off(corner[:, 1:, 1:], corner[:, :-1, :-1], centre), off(corner[:, 1:, :-1], corner[:, :-1, 1:], centre)])
+    return np.where(made.found.all(axis=1), np.maximum(diagonals, edges), 0.0)
+
+
+def _between(at):
+    """(k, 2 n - 1) numbers at (k, n), and the middles between neighbours."""
+    out = np.empty((len(at), 2 * at.shape[1] - 1))
+    out[:, ::2], out[:, 1::2] = at, 0.5 * (at[:, 1:] + at[:, :-1])
+    return out
+
+
+def _grading(made, forms, bends, edge, rows, columns, accuracy):
+    """((lengths of rows and their parameters, those of columns), the shape that `accuracy` needs, None without one), from the
+    second forms of a grid at parameters rows (k, n) and columns (k, m), and from the bends of edges."""
+    across, twist, down = forms
+    straight = STRAIGHT * np.abs(made.points).max() * (TRIAL / max(rows.shape[1], columns.shape[1])) ** 2
+    dense_columns, long_columns = _density(np.concatenate([across, bends[:, None]], axis=1), 1, ((0, 0), (1, 0)), straight)
+    dense_rows, long_rows = _density(down, 2, ((0, 0), (1, 1)), straight, 8 * edge)
+    shape = None
+    if accuracy:
+        c, r = dense_columns[:, None, 1:], dense_rows[:, 1:-1, None]
+        shape = _numbers(across / (c * c), twist / (c * r), down / (r * r), long_columns[:, -1], long_rows[:, -1], accuracy)
+        edges = np.sqrt((bends / dense_columns[:, 1:] ** 2).max(axis=1) / 8 / accuracy) * long_columns[:, -1]
+        shape = shape[0], min(max(shape[1], int(np.ceil(SAFETY * edges.max())) + 1), MOST)
+    return ((long_rows, rows), (long_columns, columns)), shape
 
 
 def _numbers(across, twist, down, columns, rows, accuracy):
@@ -83,11 +133,11 @@ def finer(shape, worst, accuracy):
     return tuple(min(int(np.ceil((number - 1) * grow)) + 1, MOST) for number in shape)
 
 
-def _measured_loops(land, strips, s, u):
+def _measured_loops(land, parts, s, u):
     """(loops at rows s, how far the chords between the last two rows stray from the sheet (k,)): towards a plane Q = 0 the
     bend grows beyond what inner rows tell, so a row in between is measured."""
     more = np.concatenate([s[:, :-1], 0.5 * (s[:, -2:-1] + s[:, -1:]), s[:, -1:]], axis=1)
-    all_ = loops(land, strips, more, u)
+    all_ = loops(land, parts, np.array([part.rows(row) for part, row in zip(parts, more)]), u)
     before, between, last = (all_.points[:, row] for row in (-3, -2, -1))
     chord, way = (last - before)[:, 1:-1], (between - before)[:, 1:-1]
     normal = np.cross(chord, between[:, 2:] - between[:, :-2])
@@ -127,12 +177,24 @@ def _past_far_end(land, points):
     return r
 
 
-def _outline(land, loops):
-    """(k, m - 1) how the last rows bend, in the sheet too: their chords are the outline of a picture."""
-    r = np.moveaxis(_past_far_end(land, loops.points[:, -1]), 0, -1)
+def _bends(land, loops, parts, accuracy):
+    """(k, m - 1) how edges bend per step of the columns, in the sheet too: without an accuracy the last rows, whose chords are the outline of a
+    picture; with one the rows at a seam, where two parts meet. 0 beside other rows."""
+    edge = np.array([0 if part.seam < 0 else -1 for part in parts])
+    bends = _outline(land, loops, edge)
+    if accuracy:
+        bends[[not part.seam for part in parts]] = 0
+        bends[[part.seam != 0 and not part.over for part in parts], -1] = 0  # the second saddle, a corner and no bend
+    return bends
+
+
+def _outline(land, loops, edge):
+    """(k, m - 1) how the rows edge (k,) bend."""
+    strips = np.arange(len(edge))
+    r = np.moveaxis(_past_far_end(land, loops.points[strips, edge]), 0, -1)
     bend, way = r[:, 2:] - 2 * r[:, 1:-1] + r[:, :-2], r[:, 2:] - r[:, :-2]
     across = np.linalg.norm(np.cross(bend, way), axis=-1) / np.maximum(np.linalg.norm(way, axis=-1), np.finfo(float).tiny)
-    return np.where(loops.found[:, -1:], across, 0.0)
+    return np.where(loops.found[strips, edge][:, None], across, 0.0)
 
 
 def _stray(across, twist, down, cut):
@@ -169,19 +231,36 @@ def shrinks(land, branch, side) -> bool:
     return not ahead - behind > NEAR * NEAR * pot.terms(fold)
 
 
-def _trial_rows(land, branch, side, dense=DENSE):
+def _trial_rows(land, branch, side):
     """(TRIAL,) parameters s of rows: the saddle moves on by equal steps near the fold and by equal factors far out, where
     the sheet only grows and hardly bends."""
-    s = 0.5 - 0.5 * np.cos(np.linspace(0, np.pi, dense))
-    place = np.broadcast_arrays(*branch.place(s))
-    way = np.zeros(dense)
-    np.cumsum(np.hypot(np.diff(place[0]), np.diff(place[1])), out=way[1:])
-    q = land.invariant((place[0][[0, -1]], place[1][[0, -1]]))
-    start = max(UNIFORM * np.sqrt(abs(q[0])), 0.03 * way[-1])
-    stretched = np.log1p(way / start)
+    stretched, s = _stretched(land, branch)
     s = np.interp(np.linspace(0, stretched[-1], TRIAL), stretched, s)
     s[0], s[-1] = 0.0 if shrinks(land, branch, side) else NEAR, 1.0
     if branch.far == PLANE:  # there a loop need not close; on the way it grows like the root of log 1/(1 - s), without bound
         inner = np.interp(np.linspace(0, 1, TRIAL - len(TAIL)), np.linspace(0, 1, TRIAL), s * (1 - 10 * TAIL[0]))
         s = np.concatenate([inner, 1 - TAIL])
     return s
+
+
+def _trial_rows_of(land, part):
+    """(TRIAL,) parameters of a part's rows (`Part.rows`): those of the strip between its ends, closer by squares towards a seam."""
+    if not part.seam:
+        return _trial_rows(land, part.branch, part.side)
+    stretched, s = _stretched(land, part.branch)
+    low, high = np.interp((part.low, part.high), s, stretched)
+    even = np.linspace(0, 1, TRIAL)
+    t = part.parameters(np.interp(low + (high - low) * (even**2 if part.seam < 0 else 1 - (1 - even) ** 2), stretched, s))
+    t[0], t[-1] = 0.0, 1.0
+    return t
+
+
+def _stretched(land, branch, dense=DENSE):
+    """(lengths, parameters s) along a branch: a length grows with the way near the fold, and with its logarithm far out."""
+    s = 0.5 - 0.5 * np.cos(np.linspace(0, np.pi, dense))
+    place = np.broadcast_arrays(*branch.place(s))
+    way = np.zeros(dense)
+    np.cumsum(np.hypot(np.diff(place[0]), np.diff(place[1])), out=way[1:])
+    q = land.invariant((place[0][[0, -1]], place[1][[0, -1]]))
+    start = max(UNIFORM * np.sqrt(abs(q[0])), 0.03 * way[-1])
+    return np.log1p(way / start), s

@@ -11,6 +11,7 @@ import numpy as np
 
 from .circle_kernel import NONE, SHARED, SHARPEST
 from .homoclinic import loop_end
+from .seams import PINCH, pinched_shares
 
 
 def polished(land, saddle, s):
@@ -54,14 +55,14 @@ class Loops:
 
 
 def loops(land, strips, s, u) -> Loops:
-    """The loops of strips, pairs (branch, side), at parameters s (k, n) along them and u (k, m) round them.
+    """The loops of strips (`seams.Part`, or pairs of branch and side) at parameters s (k, n) along them and u (k, m) round them.
 
     A loop shared with the saddle at its far end is found from the left one only; at s = 0, the fold, it is a point.
     """
     k, n = s.shape
-    place = np.array([np.broadcast_arrays(*branch.place(row)) for (branch, _), row in zip(strips, s)], float)
+    place = np.array([np.broadcast_arrays(*strip[0].place(row)) for strip, row in zip(strips, s)], float)
     saddle = np.array(polished(land, (place[:, 0].ravel(), place[:, 1].ravel()), s.ravel())).reshape(2, k, n)
-    sides = np.array([side for _, side in strips])
+    sides = np.array([strip[1] for strip in strips])
     end, centre, found, shared = np.empty((k, n)), np.empty((2, k, n)), np.empty((k, n), bool), np.empty((k, n), bool)
     for side in set(sides.tolist()):  # one search for all strips of a side
         pick = sides == side
@@ -73,7 +74,11 @@ def loops(land, strips, s, u) -> Loops:
     found |= fold
     end = np.where(fold | ~found, 0.0, end)
     centre = np.where(fold, saddle, centre)
-    offset = end[:, :, None] * _shares(land, saddle, end, shared, u[:, None, :])
+    cut = [len(strip) > 2 and strip.seam != 0 for strip in strips]
+    shares = _shares(land, saddle, end, shared, u[:, None, :], np.where(cut, 1 / PINCH, SHARPEST))
+    for strip in (n for n, part in enumerate(strips) if cut[n] and part.over):
+        shares[strip] = pinched_shares(land.potential, saddle[:, strip], end[strip], sides[strip], u[strip])
+    offset = end[:, :, None] * shares
     spot = saddle[0][:, :, None], saddle[1][:, :, None]
     with np.errstate(all="ignore"):
         w = np.sqrt(2 * np.maximum(-land.potential.rise(offset, spot), 0))
@@ -82,19 +87,20 @@ def loops(land, strips, s, u) -> Loops:
     return Loops(saddle, centre, end, found, shared, offset, w, points)
 
 
-def _shares(land, saddle, end, shared, u):
+def _shares(land, saddle, end, shared, u, sharpest):
     """(k, n, m) shares of the way to the far end at which columns u (k, 1, m), 0 to 1, stand.
 
     At the far end, distance t away, W^2 = 2 F t + K t^2 + ...: F the force there, K its slope. That is a hyperbola with
     t = (F/K)(cosh q - 1), and equal steps of q turn the loop's direction evenly, however sharp the bend; columns then
-    run along the bend from row to row. Where the far end is a saddle itself, columns crowd at both ends alike.
+    run along the bend from row to row. No bend tighter than the way over
+    sharpest (k,) is followed. Where the far end is a saddle itself, columns crowd at both ends alike.
     """
     if shared.any():
         return np.broadcast_to(np.sin(0.5 * np.pi * u) ** 2, end.shape + u.shape[-1:])
     far = land.potential.move(saddle, end)
     with np.errstate(all="ignore"):
         sharp = np.abs(end) * land.potential.slope(far) / np.abs(land.potential.force(far))
-        sharp = np.clip(np.nan_to_num(sharp), 1e-8, SHARPEST)
+        sharp = np.clip(np.nan_to_num(sharp), 1e-8, sharpest[:, None])
         half = 0.5 * np.log1p(sharp + np.sqrt(sharp * (sharp + 2)))[:, :, None]  # arccosh(1 + sharp)
     return 1 - (np.sinh(half * (1 - u)) / np.sinh(half)) ** 2
 

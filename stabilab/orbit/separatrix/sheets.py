@@ -23,6 +23,7 @@ from .grid import grid
 from .homoclinic_arrays import residual
 from .result import Separatrix, Sheet
 from .saddles import limit_of, saddle_branches
+from .seams import Part, seam_of
 from .words import NO_REDUCTION, what_it_parts, why_none, why_parabolic
 
 SHAPE = (96, 129)  # fine enough for pictures
@@ -36,7 +37,8 @@ def separatrix(scene: AnyScene, reach: float | None = None, shape: tuple[int, in
     is no fold, of the smallest saddle's); must exceed 1. shape: (rows, columns) of each grid, at least (3, 5), an even
     number of columns becomes the next odd one (default (96, 129)). accuracy: in place of a shape, the largest distance
     allowed between the sheets and the flat facets of their meshes, in the unit of the points: the grids get as few rows
-    and columns as that needs, and every sheet tells as `error` what its facets were found to reach (more than asked for
+    and columns as that needs, a sheet whose loops reach a second saddle as high comes in two parts that meet there,
+    and every sheet tells as `error` what its facets were found to reach (more than asked for
     only where the largest grids, of 1025 rows, still bend as much). fast: on circles with a torque compile the work with numba
     (the extra `fast`); points agree to rounding, and loading numba costs more than some hundred surfaces. Points are in the
     scene's variables. A scene without saddles gives no sheets and the reason. Raises InputError for a shape, reach or accuracy
@@ -60,15 +62,15 @@ def _separatrix(scene, reach, shape, accuracy, fast) -> Separatrix:
     strips = [(branch, side) for branch in branches for side, _ in land.conic.sides(land.sense)]
     rows, columns = shape or SHAPE
     half = None if accuracy else (rows, columns // 2 + 1)
-    made = _by_kernel(land, strips, half, accuracy) if _goes_fast(land, strips, fast) else _by_arrays(land, strips, half, accuracy)
-    return Separatrix(tuple(_sheets(land, strips, *made)), what_it_parts(land.potential, land.sense))
+    made = _by_kernel(land, strips, half, accuracy) if _goes_fast(land, strips, fast, accuracy) else None
+    return Separatrix(tuple(_sheets(land, *(made or _by_arrays(land, strips, half, accuracy)))), what_it_parts(land.potential, land.sense))
 
 
-def _goes_fast(land, strips, fast) -> bool:
+def _goes_fast(land, strips, fast, accuracy) -> bool:
     # never on its own: the same case must give the same bytes, whatever was loaded before
     if not fast:
         return False
-    return wanted(1, True, False, 1, 1) and serves(land, strips)
+    return wanted(1, True, False, 1, 1) and serves(land, strips) and not (accuracy and any(seam_of(land, *strip) for strip in strips))
 
 
 def _check(reach, shape, accuracy):
@@ -83,12 +85,15 @@ def _check(reach, shape, accuracy):
 
 
 def _by_kernel(land, strips, shape, accuracy):
-    points, residual, *places, found, cut, error = sheets_by_kernel(land, strips, shape, accuracy)
-    return points, residual, *(np.moveaxis(place, -1, 0) for place in places), found, cut, error
+    made = sheets_by_kernel(land, strips, shape, accuracy)
+    if made is None:
+        return None
+    points, residual, *places, found, cut, error = made
+    return [Part(*strip) for strip in strips], points, residual, *(np.moveaxis(place, -1, 0) for place in places), found, cut, error
 
 
 def _by_arrays(land, strips, shape, accuracy):
-    """(points (k, n, m, 3), residual (k, n, m), places (2, k, n) of saddles and of centres, found (k, n), cut, error (k,)): the
+    """(parts (k), points (k, n, m, 3), residual (k, n, m), places (2, k, n) of saddles and of centres, found (k, n), cut, error (k,)): the
     second half of a loop mirrors the first, with W of the other sign."""
     made = grid(land, strips, shape, accuracy)
     loops, mirror, axis = made.loops, slice(-2, None, -1), land.reduction.axis
@@ -97,21 +102,22 @@ def _by_arrays(land, strips, shape, accuracy):
     back *= -1
     back += 2 * land.reduction.component_i(0.0)
     off = residual(land, loops)
-    return (points, np.concatenate([off, off[:, :, mirror]], axis=2), loops.saddle, loops.centre, loops.found, made.cut,
+    return (made.parts, points, np.concatenate([off, off[:, :, mirror]], axis=2), loops.saddle, loops.centre, loops.found, made.cut,
             made.error)
 
 
-def _sheets(land, strips, points, off, saddles, centres, found, cut, error):
-    """A Sheet of every strip in which loops close."""
+def _sheets(land, parts, points, off, saddles, centres, found, cut, error):
+    """A Sheet of every strip, or part of one, in which loops close."""
     still = np.zeros(found.shape)
     saddle, centre = (land.components(place, still) for place in (saddles, centres))
     invariant = land.invariant(saddles)
-    words = [word for _, word in land.conic.sides(land.sense)]
-    per = len(words)
-    for first in range(0, len(strips), per):
-        kept = [strip for strip in range(first, first + per) if np.count_nonzero(found[strip]) > 1]
+    words = dict(land.conic.sides(land.sense))
+    branches = list(dict.fromkeys(part.branch for part in parts))
+    for number, branch in enumerate(branches, 1):
+        kept = [n for n, part in enumerate(parts) if part.branch is branch and np.count_nonzero(found[n]) > 1]
         for strip in kept:
-            rows = found[strip] if not found[strip].all() else slice(None)
-            name = f"sheet {first // per + 1}{words[strip - first] if len(kept) > 1 else ''}"
+            rows, part = found[strip] if not found[strip].all() else slice(None), parts[strip]
+            word = words[part.side] if len({parts[n].side for n in kept}) > 1 else ""
+            name = f"sheet {number}{word}{f', part {part.number}' if part.number else ''}"
             yield Sheet(name, points[strip, rows], off[strip, rows], saddle[strip, rows], centre[strip, rows],
                         invariant[strip, rows], float(error[strip]), cut)

@@ -1,0 +1,109 @@
+"""Sheets whose loops reach a second saddle as high, or bend where few rows look: cut there, and graded anew."""
+import numpy as np
+import pytest
+
+from stabilab import Body, ConstantTorque, Gyrostat, Scene, fate, separatrix
+from stabilab.orbit.landscape import landscape_in_doubles
+from stabilab.orbit.separatrix.saddles import limit_of, saddle_branches
+from stabilab.orbit.separatrix.seams import pinched_shares, seam_of
+from stabilab.show.surface.mesh import triangulate
+
+SEAMS = {  # the distance of facets that is asked for
+    "nearly equal": (Scene(Body(("5.771", "4.602", "4.74")), Gyrostat((0, 0, "-0.126")), ConstantTorque((0, "0.5517", 0))), 1e-2),
+    "far apart": (Scene(Body(("2.867", "1.661", "3.9")), Gyrostat(("0.15", 0, 0)), ConstantTorque((0, 0, "0.3348"))), 7e-3),
+}
+BENDS = {
+    "second saddle just below": (Scene(Body(("2.808", "2.114", "4.282")), Gyrostat(("0.128", "-0.319", 0)), ConstantTorque((0, 0, "-0.0794"))), 2e-3),
+    "rod": (Scene(Body(("2.889", "2.883", "0.161")), Gyrostat(("1.525", 0, 0)), ConstantTorque((0, 0, "0.0172"))), 0.25),
+}
+
+
+def strip_of(scene):
+    """(landscape, the one strip that has a seam, what the seam is)."""
+    land = landscape_in_doubles(scene)
+    found = [(branch, -1, seam) for branch in saddle_branches(land.conic, land.potential, limit_of(land.conic, 4.0))
+             if (seam := seam_of(land, branch, -1))]
+    (branch, side, seam), = found
+    return land, (branch, side), seam
+
+
+@pytest.mark.parametrize("name", ["nearly equal", "far apart"])
+def test_facets_keep_to_the_surface_on_few_rows_and_columns(name):
+    """The distance from the surface is that of `fate`, by a search over all saddles that knows of no grid; other sheets stand where no fate changes."""
+    scene, accuracy = SEAMS[name]
+    sheets = separatrix(scene, accuracy=accuracy).sheets
+    assert max(sheet.error for sheet in sheets) <= accuracy
+    assert all(np.prod(sheet.points.shape[:2]) < 25_000 for sheet in sheets)  # without the cut, or a new grading, two million
+    rng = np.random.default_rng(3)
+    for sheet in (sheet for sheet in sheets if "part" in sheet.name):
+        mesh = triangulate(sheet)
+        corner = mesh.points[mesh.triangles[rng.permutation(len(mesh.triangles))[:12]]]
+        between = np.concatenate([corner.mean(axis=1), corner[:, :2].mean(axis=1)])
+        assert fate(scene, between).velocity_margins.max() <= 1.1 * accuracy
+
+
+def test_a_sheet_that_bends_where_few_rows_look_is_graded_anew():
+    """As above, at the edge of a rod's sheet: without, the largest grids of two million places strayed by 0.44."""
+    scene, accuracy = BENDS["rod"]
+    sheet = separatrix(scene, accuracy=accuracy).sheets[0]
+    mesh = triangulate(sheet)
+    corner = mesh.points[mesh.triangles[np.random.default_rng(3).permutation(len(mesh.triangles))[:24]]]
+    assert sheet.error <= accuracy and np.prod(sheet.points.shape[:2]) < 25_000
+    assert fate(scene, corner.mean(axis=1)).velocity_margins.max() <= 1.1 * accuracy
+
+
+@pytest.mark.parametrize("name", SEAMS)
+def test_the_parts_of_a_sheet_meet_in_the_second_saddle(name):
+    scene, accuracy = SEAMS[name]
+    first, second = (sheet for sheet in separatrix(scene, accuracy=accuracy).sheets if "part" in sheet.name)
+    assert (first.name[-6:], second.name[-6:]) == ("part 1", "part 2")
+    shorter, longer = first.points[-1], second.points[0]
+    far_end = shorter[len(shorter) // 2]
+    size = np.abs(longer).max()
+    assert np.abs(scene.quadratic().rate(far_end.tolist())).max() < 1e-6 * size**2  # Euler's rates: it rests there
+    chord, way = np.diff(longer, axis=0), far_end - longer[:-1]
+    share = np.clip((way * chord).sum(axis=1) / (chord * chord).sum(axis=1), 0, 1)
+    assert np.linalg.norm(way - share[:, None] * chord, axis=1).min() < accuracy
+    assert np.linalg.norm(longer[0] - shorter[0]) < 1e-6 * size and np.abs(second.invariant[0] - first.invariant[-1]) < 1e-9 * size**2
+    assert max(first.residual.max(), second.residual.max()) < 1e-13
+
+
+@pytest.mark.parametrize("name", SEAMS)
+def test_a_seam_is_placed_to_twelve_digits_and_one_side_passes_over(name):
+    """There the second saddle is as high as the first: the rise between them, by the potential, is that of rounding."""
+    land, (branch, side), (before, behind, over) = strip_of(SEAMS[name][0])
+    assert 0 < behind - before < 3e-12 and over == 1
+    end = [abs(_end(land, branch, side, s)) for s in (before, behind)]
+    assert end[1] > 1.1 * end[0]
+    saddle = tuple(map(float, branch.place(before)))
+    wells = abs(land.potential.rise(side * 0.5 * end[0], saddle))
+    assert abs(land.potential.rise(side * end[0], saddle)) < 1e-9 * wells
+
+
+def _end(land, branch, side, s):
+    from stabilab.orbit.separatrix.homoclinic import loop_end
+    return loop_end(land.potential, land.sense, tuple(map(float, branch.place(s))), side)[0]
+
+
+def test_columns_of_a_pinched_loop_rise_from_the_saddle_to_the_far_end_and_crowd_at_the_second():
+    land, (branch, side), (_, behind, _) = strip_of(SEAMS["far apart"][0])
+    end, u = np.array([_end(land, branch, side, behind)]), np.linspace(0, 1, 41)
+    saddle = np.array([[float(v)] for v in branch.place(behind)])
+    share, = pinched_shares(land.potential, saddle, end, side, u)
+    steps = np.diff(share)
+    assert share[0] == 0 and share[-1] == pytest.approx(1, abs=1e-15) and (steps > 0).all()
+    assert 19 <= steps.argmin() <= 20 and steps.min() < 0.03 * steps.max()
+
+
+def test_smooth_sheets_are_not_cut():
+    for scene, _ in BENDS.values():
+        land = landscape_in_doubles(scene)
+        assert not any(seam_of(land, branch, -1) for branch in saddle_branches(land.conic, land.potential, limit_of(land.conic, 4.0)))
+
+
+def test_compiled_sheets_with_a_seam_are_those_of_the_arrays():
+    pytest.importorskip("numba")
+    scene, accuracy = SEAMS["far apart"]
+    ours, fast = (separatrix(scene, accuracy=accuracy, fast=fast).sheets for fast in (False, True))
+    assert [sheet.name for sheet in ours] == [sheet.name for sheet in fast]
+    assert all((a.points == b.points).all() for a, b in zip(ours, fast))  # by the same code: the kernel knows of no seam
