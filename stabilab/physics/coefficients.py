@@ -61,7 +61,7 @@ class Content:
     def note(self) -> str:
         """What was put aside or taken together, for the reader; empty where nothing was."""
         parts = ["the charge turns the body as a gyrostatic moment -k e3 would: Lambda = lambda - k e3, as long as the angle of axis 3 to the "
-                 "field is the constant one: simulate and compare judge that where an attitude is given"] * self.charged
+                 "field is the constant one, which is judged where an attitude is given"] * self.charged
         parts += ["the force at the centre of mass does not turn the body: the rotation is judged as if it were absent"] * self.forced
         return "; ".join(parts)
 
