@@ -12,6 +12,7 @@ from hypothesis import settings
 from stabilab import cli
 from stabilab.__main__ import OBJECTS_BETWEEN_COLLECTIONS
 
+os.environ.pop("STABILAB_CACHE", None)
 os.environ["XDG_CACHE_HOME"] = tempfile.mkdtemp()  # nothing that a run left is an answer of the next one
 atexit.register(shutil.rmtree, os.environ["XDG_CACHE_HOME"], ignore_errors=True)
 settings.register_profile("same", derandomize=True, deadline=None)
