@@ -14,6 +14,7 @@ import numpy as np
 from .circle_kernel import loop_end, others, settled
 
 JUMP = 1e-3    # of its length, by which a loop grows at least where a seam is; so near to it a smooth far end moves by less than a millionth
+LOOK = 24      # halvings, after which a smooth far end, which begins like a root of s, moves by a quarter of JUMP at most between the ends
 BEGIN = 1e-9   # s next to the fold
 BESIDE = 1e-12  # of s: so far from the seam the second saddle's height is known beside the first one's, and the parts' edges lie within a millionth of the loop
 PINCH = 0.02      # of a lobe's length: no bend at the second saddle is resolved below
@@ -69,11 +70,20 @@ def seam_of(land, branch, side) -> tuple[float, float, int] | None:
     before, behind = (_passes(pot, branch, side, s) for s in (low, high))
     if before == behind:
         return None
+    halvings = 0
     while low < (middle := 0.5 * (low + high)) < high:
         low, high = (middle, high) if _passes(pot, branch, side, middle) == before else (low, middle)
+        halvings += 1
+        if halvings == LOOK and not _jumps(land, branch, side, low, high):
+            return None  # as of most strips: the second half of the halvings is for seams alone
     low, high = low * (1 - BESIDE), high * (1 + BESIDE)
+    return (low, high, 1 if behind else -1) if high < 1 and _jumps(land, branch, side, low, high) else None
+
+
+def _jumps(land, branch, side, low, high) -> bool:
+    """Whether the far end of the loop jumps between two rows."""
     ends = [_far_end(land, branch, side, s) for s in (low, high)]
-    return (low, high, 1 if behind else -1) if high < 1 and abs(ends[1] - ends[0]) > JUMP * max(ends) else None
+    return abs(ends[1] - ends[0]) > JUMP * max(ends)
 
 
 def _far_end(land, branch, side, s) -> float:
