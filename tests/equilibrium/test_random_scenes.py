@@ -103,8 +103,10 @@ def in_plane(plane, x) -> bool:
 
 
 def piece_disagrees(piece, model, tops, bottom):
-    """At three places of a piece: at rest, n = 0, and m < 0 unstable, m > 0 a centre."""
+    """At three places of a piece: at rest, n = 0, and m < 0 unstable, m > 0 a centre. A piece whose ends' brackets overlap names no place for sure."""
     low, high = (None if end is None else numbers(end) for end in piece["t"])
+    if low and high and not low[1] < high[0]:
+        return
     steps = [Fraction(2)**k for k in (-8, 0, 8)]
     shares = [Fraction(n, 7) for n in (1, 3, 6)]
     places = ([low[1] + (high[0] - low[1]) * f for f in shares] if low and high else [low[1] + s for s in steps] if low else
