@@ -152,4 +152,3 @@ def seen_over(scene, state, span) -> dict:
 def size_words(evidence) -> str:
     return (f"from {evidence['size_start']:.6g} to {evidence['size_end']:.6g} (largest {evidence['size_largest']:.6g}), "
             f"and its energy {evidence['energy_trend']}")
-

@@ -4,24 +4,9 @@ import re
 
 from stabilab.case.read import load
 from stabilab.show.report.one_case.page import sections
+from tests.shared import craft_file
 
-SATELLITE = """title = "Small satellite, thruster stuck open"
-[body]
-inertia = [12.0, 9.0, 5.0]
-centre_of_mass = [0, 0, 0]
-[[wheels]]
-name = "W1"
-axis = [1, 0, 0]
-momentum = "0.8 N m s"
-[[thrusters]]
-name = "T1"
-position = [0.5, 0, 0]
-direction = [0, 1, 0]
-force = "40 mN"
-stuck = true
-[motion]
-angular_velocity = ["5.7 deg/s", "2.9 deg/s", "1.1 deg/s"]
-"""
+SATELLITE = craft_file([12.0, 9.0, 5.0], ([0.5, 0, 0], [0, 1, 0], "40 mN"), [([1, 0, 0], "0.8 N m s")], ["5.7 deg/s", "2.9 deg/s", "1.1 deg/s"])
 
 
 def test_an_interval_that_keeps_the_motion_bounded_is_told_in_six_digits_and_lies_inside_the_exact_one(stabilab, tmp_path):

@@ -4,6 +4,7 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
+from ....asked import reach_of
 from ...plot import to_file, which
 from ...plot.over_time import file_axes
 
@@ -38,7 +39,7 @@ def pictures(one, folder: Path, stem: str, deep: bool, units: str = "deg") -> li
 
 def length(one, motion) -> float:
     """How far to follow a motion that is drawn with others, in its own time."""
-    span = None if one.span is None else one.span[1] if one.span[1] > 0 else -one.span[0]
+    span = None if one.span is None else abs(reach_of(one.span))
     if motion.period and (span is None or span > CROWDED * motion.period):
         return PERIODS * motion.period
     return span or natural(one.scene, one.state)
