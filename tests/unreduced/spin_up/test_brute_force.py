@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from benchmarks.spin_up import random_scene
+from benchmarks.spin_up_sample import scenes
 from stabilab.unreduced.spin_up.follow import spin_up
 
 from .scenes import EXAMPLE, euler
@@ -113,6 +114,23 @@ def test_a_wrong_answer_is_contradicted(brute):
         assert contradictions(EXAMPLE, state, replace(answer, trap=replace(answer.trap, **change)), brute)
     assert contradictions(EXAMPLE, state, replace(answer, sense=-answer.sense), brute)
     assert contradictions(EXAMPLE, state, replace(answer, state=tuple(1.01 * v for v in answer.state)), brute)
+
+
+LATE = {8080: 6709.69, 3639: 6647.67, 10808: 9225.56, 16266: 13529.61}  # scenes of the sample: their spin's last zero (heyoka, tolerance 1e-18)
+
+
+@numba
+@pytest.mark.parametrize("number", [number if number == 8080 else pytest.param(number, marks=pytest.mark.slow) for number in LATE])
+def test_the_latest_without_a_wheel_still_change_the_sign_of_their_spin_after_5000_natural_times(brute, number):
+    """The inequality keeps the spin above z > 0 for ever (l = 0: X is the spin), so at no time before its last zero can it hold."""
+    (_, scene, state, _, wheel), = scenes(number, 1)
+    answer, last = spin_up(scene, state, fast=True), LATE[number]
+    D, l, M = parts(scene)
+    times = np.append(last + np.linspace(-2, 2, 801), np.linspace(last + 2, answer.t, 20_001))  # 0.005 apart, then 0.012 at most
+    spin = brute(D, l, M, np.array(state), np.append(0.0, times))[1:] @ np.array(answer.direction)
+    zero = times[np.flatnonzero(spin < 0)[-1]]
+    assert wheel == 0 and answer.level == "certified" and 5000 < last
+    assert abs(zero - last) < 0.02 and zero < answer.t < zero + 240
 
 
 @numba
