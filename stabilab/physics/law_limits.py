@@ -6,7 +6,7 @@ then neither called nor imported.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -188,10 +188,15 @@ def _components(values: Any) -> tuple[Number, ...]:
 
 
 def _judged(scene: AnyScene, blocks: Blocks, over: str, axis: int | None) -> Validity | None:
+    return of_values(scene, lambda limit: _value(limit, blocks, axis), over)
+
+
+def of_values(scene: AnyScene, value_of: Callable[[Limit], float | np.ndarray | None], over: str) -> Validity | None:
+    """The validity of a scene whose limits have the values that `value_of` tells of each, found over what `over` says in words."""
     found = []
     for effect in scene.approximate:
         for limit in effect.limits(scene):
-            value = _value(limit, blocks, axis)
+            value = value_of(limit)
             holds = None if value is None else value <= limit.limit
             found.append(Validity(effect.name, limit.number, value, limit.limit, holds, over, limit.follows, limit.source))
     return _together(found)

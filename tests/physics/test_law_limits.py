@@ -128,6 +128,8 @@ def test_constant_angle_of_a_charge_is_judged_where_the_attitude_is_known():
     tilted = {"omega": (0, 0, 1), "attitude": (np.cos(half), np.sin(half), 0, 0)}
     found = stabilab.validity(scene, tilted)
     assert found.value == pytest.approx(0.5, rel=1e-14) and not found.holds  # cos 60 degrees against cos 0
+    along = {"omega": (0, 0, 1), "gamma": (0, np.sin(np.deg2rad(60)), 0.5)}  # axis 3 of space in the body, as that attitude has it
+    assert stabilab.validity(scene, along).value == pytest.approx(0.5, rel=1e-14)
     assert stabilab.validity(Scene(Body((8, 8, 11)), Charge("0.1", 1, 1, "attitude")), tilted) is None
 
 

@@ -70,16 +70,17 @@ class Charge(Effect):
         return not self.follows_attitude
 
     def limits(self, scene: Any) -> tuple[Limit, ...]:
-        """How far cos sigma of the motion, e3 . (axis 3 of space, the field's), is from the constant one; told where the attitude is known."""
+        """How far cos sigma of the motion, e3 . (axis 3 of space, the field's), is from the constant one; told where the attitude is known, or gamma,
+        which is axis 3 of space in the body."""
         if self.follows_attitude:
             return ()
         constant = float(precise("cos", exact(self.angle)))
 
         def departure(state: Mapping[str, Sequence[Number]]) -> Number | None:
-            if "attitude" not in state:
-                return None
-            a, b, c, d = state["attitude"]
-            return abs((a * a - b * b - c * c + d * d) / constant - 1)
+            if "attitude" in state:
+                a, b, c, d = state["attitude"]
+                return abs((a * a - b * b - c * c + d * d) / constant - 1)
+            return abs(state["gamma"][2] / constant - 1) if "gamma" in state else None
         return (Limit("change of cos sigma, held constant, with the attitude", SHARE, departure,
                       "axis 3 turns away from the field, and the charge's torque with it: angle = \"attitude\" follows that",
                       "Galal et al., charged body: eq. (3) ff."),)

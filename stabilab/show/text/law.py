@@ -4,6 +4,7 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 
+from ...case.attitude import vertical_of
 from ...errors import printable
 from ...physics.approximate import limits_of
 
@@ -45,8 +46,14 @@ def of_case(case):
         return None
     if case.state is None:
         return limits.validity(case.scene, (0.0,) * 3, "at rest")
+    span = case.span or (0.0, 15.0)
+    if "attitude" in case.blocks:
+        from ...integrate.limits_along import law_along
+        found = law_along(case.scene, case.state, vertical_of(*case.blocks["attitude"]), span)
+        if found is not None:
+            return found
     from ...answers.simulate import simulate
-    return simulate(case.scene, case.state, case.span or (0.0, 15.0), case.blocks).validity
+    return simulate(case.scene, case.state, span, case.blocks).validity
 
 
 def judged(case, motion):

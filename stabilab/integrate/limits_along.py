@@ -1,0 +1,104 @@
+"""How far approximate laws hold along a motion of a gyrostat whose attitude is given: its rates, and axis 3 of space in its body, by power series in
+plain floats. A small command asks for no more of the run, and would spend its time on loading what compiles a step.
+"""
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from operator import mul
+
+from ..numbers.roots import golden_section
+from ..numbers.vectors import CYCLE
+from ..physics.coefficients import content, gyrostat_scene
+from ..physics.law_limits import Validity, of_values
+from ..physics.quadratic import QuadraticForm
+from ..physics.scene import AnyScene
+
+ORDER = 20
+SHARE = 1e-12  # of the size of the state: the last term of a step
+STEPS = 300  # at most, some hundred revolutions: beyond, compiling a step is sooner done
+INSIDE = 6  # points a step at which the limits are looked at
+NEAR = 0.9  # of the largest value yet: a point so high may stand beside a greater one, which is looked for
+FINER = 25  # of the golden section: 6e-6 of the way between two points, and the square of that of the value
+
+
+def law_along(scene: AnyScene, omega: Sequence[float], gamma: Sequence[float], span: tuple[float, float]) -> Validity | None:
+    """The validity of a scene along its motion from time 0 to both ends of `span` (s): rates at time 0 in rad/s and axis 3 of space, a unit vector, in
+    the frame of the body. None where another way must be taken: effects that turn the body otherwise than a wheel and a constant torque do, a motion
+    longer than STEPS or too fast for doubles.
+    """
+    parts = content(scene)
+    if parts is None or parts.kind != "gyrostat":
+        return None
+    form, pieces = gyrostat_scene(parts).quadratic(), []
+    for end in (min(span[0], 0.0), max(span[1], 0.0)):
+        found = _pieces(form, (*map(float, omega), *gamma), end)
+        if found is None:
+            return None
+        pieces += found
+    return of_values(scene, lambda limit: _largest(limit.value, pieces), "along the run")
+
+
+def _pieces(form: QuadraticForm, x: Sequence[float], end: float) -> list | None:
+    """(length, series of the six components) of each step from time 0 to `end`, which may lie before it; None where these are too many."""
+    t, pieces = 0.0, []
+    while t != end:
+        series = _series(form, x)
+        if len(pieces) == STEPS or not all(math.isfinite(v) for one in series for v in one):
+            return None
+        length = _length(series)
+        h = end - t if length >= abs(end - t) else math.copysign(length, end)
+        x, t = [_value(one, h) for one in series], end if h == end - t else t + h
+        pieces.append((h, series))
+    return pieces
+
+
+def _series(form: QuadraticForm, x: Sequence[float]) -> list[list[float]]:
+    """The coefficients of the powers of time from 0 to ORDER: of three rates, and of a direction n at rest in space, n' = n x omega."""
+    kappa, rho, sigma, m = form.coefficients
+    rates, n = [[v] for v in x[:3]], [[v] for v in x[3:]]
+    for power in range(ORDER):
+        back = [one[::-1] for one in rates]
+        new = [kappa[i] * sum(map(mul, rates[j], back[k])) + rho[i] * rates[k][power] + sigma[i] * rates[j][power] + (m[i] if power == 0 else 0.0)
+               for i, (j, k) in enumerate(CYCLE)]
+        new += [sum(map(mul, n[j], back[k])) - sum(map(mul, n[k], back[j])) for j, k in CYCLE]
+        for one, value in zip((*rates, *n), new):
+            one.append(value / (power + 1))
+    return rates + n
+
+
+def _length(series: list[list[float]]) -> float:
+    """A length over which the last two terms stay below SHARE of the rates' size and of the direction's."""
+    lengths = []
+    for part in (series[:3], series[3:]):
+        size = max(abs(one[0]) for one in part) or max(abs(one[1]) for one in part)
+        for n in (ORDER - 1, ORDER):
+            last = max(abs(one[n]) for one in part)
+            if last > 0:
+                lengths.append((SHARE * size / last) ** (1 / n))
+    return min(lengths, default=math.inf)
+
+
+def _value(one: list[float], t: float) -> float:
+    total = 0.0
+    for c in reversed(one):
+        total = total * t + c
+    return total
+
+
+def _largest(value_at, pieces) -> float | None:
+    """The largest value of a limit along the pieces; None where it hangs on a part of the state beside rates and direction."""
+    best = -math.inf
+    for h, series in pieces:
+        def at(t, series=series):
+            state = [_value(one, t) for one in series]
+            return value_at({"omega": state[:3], "gamma": state[3:]})
+        values = [at(h * n / INSIDE) for n in range(INSIDE + 1)]
+        if None in values:
+            return None
+        best = max(best, *values)
+        for n, value in enumerate(values):
+            first, last = max(n - 1, 0), min(n + 1, INSIDE)
+            if value >= NEAR * best and value >= max(values[first], values[last]):
+                best = max(best, *(-size for _, size in golden_section(lambda t: -at(t), h * first / INSIDE, h * last / INSIDE, FINER)))
+    return best if pieces else None
