@@ -212,6 +212,35 @@ def off_axis_rates(inertia, moment, torque):
             (r, (D1 - D2) / D3 * p * q + h1 / D3 * q - h2 / D3 * p + M3 / D3)]
 
 
+def with_effects(inertia, moment, torque, c=0.0, kappa=0.0, centre=(0.0, 0.0, 0.0), turning=0.0):
+    """The same with more effects, as one writes them by hand, only those asked for: c of a medium, kappa of a liquid (omega'' + omega x omega'
+    along the motion without small effects), `centre` the weight times the centre of mass, `turning` e H l^2 of a charge whose angle follows the
+    attitude. gamma rides along where needed."""
+    import heyoka
+    system = off_axis_rates(inertia, moment, torque)
+    w = [variable for variable, _ in system]
+    more = [[] for _ in w]
+    cross = lambda a, b: [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    if c:
+        more = [[-c * one] for one in w]
+    g = heyoka.make_vars("f", "g", "h") if any(centre) or turning else ()
+    pulls = cross(centre, g) if any(centre) else ()
+    for terms, D, pull in zip(more, inertia, pulls):
+        terms.append(pull / D)
+    if kappa:
+        free = [rate for _, rate in off_axis_rates(inertia, moment, (0.0, 0.0, 0.0))]
+        H = [D * one + h for D, one, h in zip(inertia, w, moment)]
+        free = [rate + pull / D for rate, pull, D in zip(free, pulls, inertia)] if pulls else free
+        bent = [a + b for a, b in zip(cross([D * one for D, one in zip(inertia, free)], w), cross(H, free))]
+        bent = [a + b for a, b in zip(bent, cross(centre, cross(g, w)))] if pulls else bent
+        for terms, D, a, b in zip(more, inertia, bent, cross(w, free)):
+            terms.append(kappa / D * (a / D + b))
+    if turning:
+        more[0].append(turning / inertia[0] * g[2] * w[1])
+        more[1].append(-turning / inertia[1] * g[2] * w[0])
+    return [*((one, sum(terms, rate)) for (one, rate), terms in zip(system, more)), *zip(g, cross(g, w) if g else ())]
+
+
 class BatchSpinUp:
     """Follow motions off the axes in batches until the largest rate passes HIGH, and name its axis with the sign. Decided motions leave their lane at once
     (compaction)."""

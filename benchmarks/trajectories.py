@@ -1,26 +1,39 @@
 """Motions that only numbers can follow: one against heyoka and SciPy, many against heyoka's batch mode."""
 from __future__ import annotations
 
+import math
+import time
+
 import numpy as np
 
-from stabilab import Body, ConstantTorque, Gyrostat, Scene, ensemble, trajectory
+from stabilab import Body, Charge, ConstantTorque, Gravity, Gyrostat, LiquidCavity, Resistance, Scene, ensemble, trajectory
 from stabilab.integrate.reference import reference, relative_errors
 from stabilab.integrate.to_heyoka import TAYLOR_TOLERANCE
 
-from .contestants import BatchRuns, ScalarRuns, off_axis_rates
+from .contestants import BatchRuns, ScalarRuns, off_axis_rates, with_effects
 from .rows import Row, each
 from .timing import side_by_side
 
 INERTIA, MOMENT, TORQUE = (3.0, 2.0, 1.5), (0.3, -0.2, 0.5), (0.1, 0.2, 0.1)  # no axis or plane is singled out
 OFF_AXIS = Scene(Body(INERTIA), Gyrostat(("0.3", "-0.2", "0.5")), ConstantTorque(("0.1", "0.2", "0.1")))
+PLAIN = OFF_AXIS.effects
+LIQUID, CHARGE, CENTRE = LiquidCavity("0.05", 1000, "0.01"), 0.2, (0.3, 0.1, 0.2)
+OTHERS = {  # what they do besides -> (scene, what the rates by hand need)
+    "with a charge": (Scene(Body(INERTIA), *PLAIN, Charge(CHARGE, 1, 1, "0.5")), {"moment": (0.3, -0.2, 0.5 - CHARGE * math.cos(0.5))}),
+    "with a charge that follows the attitude": (Scene(Body(INERTIA), *PLAIN, Charge(CHARGE, 1, 1, "attitude")), {"turning": CHARGE}),
+    "in a resisting medium": (Scene(Body(INERTIA), *PLAIN, Resistance("0.01")), {"c": 0.01}),
+    "with a liquid in a resisting medium": (Scene(Body(INERTIA), *PLAIN, LIQUID, Resistance("0.01")), {"c": 0.01, "kappa": float(LIQUID.exact)}),
+    "with weight": (Scene(Body(INERTIA), *PLAIN, Gravity(1, CENTRE)), {"centre": CENTRE}),
+    "with weight, liquid and medium": (Scene(Body(INERTIA), *PLAIN, Gravity(1, CENTRE), LIQUID, Resistance("0.01")),
+                                       {"c": 0.01, "kappa": float(LIQUID.exact), "centre": CENTRE})}
 START = (0.1, 0.2, 0.3)
 SCIPY_RTOL = 1e-12
 
 
 def rows(small=False) -> list[Row]:
     if small:
-        return [*against_heyoka(20.0, 5, 1, 2), against_scipy(5.0, 1, 2), *against_batch(20, 5.0, 3, 2)]
-    return [*against_heyoka(1000.0, 1000, 1), *against_heyoka(100.0, 100, 20), against_scipy(), *against_batch()]
+        return [*against_heyoka(20.0, 5, 1, 2), against_scipy(5.0, 1, 2), *against_batch(20, 5.0, 3, 2), *with_other_effects(20, 2.0, 3, 2)]
+    return [*against_heyoka(1000.0, 1000, 1), *against_heyoka(100.0, 100, 20), against_scipy(), *against_batch(), *with_other_effects()]
 
 
 def against_heyoka(span, count, repeats, rounds=7) -> list[Row]:
@@ -71,4 +84,20 @@ def against_batch(size=256, span=200.0, count=21, rounds=7) -> list[Row]:
         found.append(Row(f"ensemble of {size} motions off the axes, {span:g} s, {count} times, {workers} worker{'s' * (workers > 1)}",
                          each(timed.ours), f"{each(timed.theirs)} heyoka batch by hand", timed.ratio, (timed.low, timed.high),
                          f"same tolerance; states {apart:.0e} apart", 1 / 1.1, "a row holds motions of like pace" if workers == 1 else ""))
+    return found
+
+
+def with_other_effects(size=256, span=50.0, count=21, rounds=7) -> list[Row]:
+    """The same with one worker, of scenes with other effects; by hand with the rates of `with_effects`, in processor time of the one thread."""
+    omega, times, found = np.random.default_rng(1).normal(size=(size, 3)) * 0.5, np.linspace(0, span, count), []
+    for name, (scene, by_hand) in OTHERS.items():
+        states = np.hstack([omega, np.tile((0.6, 0.0, 0.8), (size, 1))]) if "gamma" in scene.blocks else omega
+        raw = BatchRuns(with_effects(**{"inertia": INERTIA, "moment": MOMENT, "torque": TORQUE} | by_hand), TAYLOR_TOLERANCE)
+        theirs, ours = raw(states, times), ensemble(scene, states, times).states
+        apart = np.abs(ours - theirs).max() / np.abs(theirs).max()
+        timed = side_by_side(lambda scene=scene, states=states: ensemble(scene, states, times), lambda raw=raw, states=states: raw(states, times),
+                             size, size, rounds, time.thread_time)
+        found.append(Row(f"ensemble of {size} motions off the axes {name}, {span:g} s, {count} times, 1 worker", each(timed.ours),
+                         f"{each(timed.theirs)} heyoka batch by hand", timed.ratio, (timed.low, timed.high), f"same tolerance; states {apart:.0e} apart",
+                         1 / 1.1, "in processor time of one thread; a row holds motions of like pace"))
     return found

@@ -19,7 +19,7 @@ from ..physics.blocks import slices
 from ..physics.scene import AnyScene
 from ..physics.states import checked_rtol, checked_starts, checked_times
 from ..physics.to_numpy import equations_of, to_numpy
-from .motion_units import in_unit, own_unit
+from .motion_units import FAST, SLOW, in_unit, own_unit
 from .to_heyoka import TAYLOR_TOLERANCE, borrowed_taylor, heyoka_available
 from .trajectory import STEP_LIMIT, integrated
 
@@ -77,8 +77,7 @@ def ensemble(scene: AnyScene, states: ArrayLike, times: ArrayLike, rtol: float |
     system = to_numpy(equations)
     if equations.blocks == ("omega",):
         with np.errstate(all="ignore"):
-            rates = system(starts)
-        units = np.array([own_unit(scene, *one) for one in zip(starts.tolist(), rates.tolist())])
+            units = _units(scene, starts, system(starts))
         if (units != 1).any():
             return _by_units(scene, starts, times, rtol, workers, units)
     run = _Rows(scene, system.motion, rtol, starts, times)
@@ -87,6 +86,14 @@ def ensemble(scene: AnyScene, states: ArrayLike, times: ArrayLike, rtol: float |
         steps = sum((pool.map if pool else map)(run, (groups[i::workers] for i in range(workers))))
     return Ensemble(times, run.out, np.isfinite(run.out).all(axis=2), dict(sorted(run.stopped.items())), "taylor", rtol,
                     {"steps": steps}, scene)
+
+
+def _units(scene, starts, rates):
+    """(n,) `own_unit` of each motion: most are ordinary, which a look at all of them together shows."""
+    size, units = np.maximum(np.abs(starts).max(axis=1), np.sqrt(np.abs(rates).max(axis=1))), np.ones(len(starts))
+    for n in np.flatnonzero(~((size >= SLOW) & (size <= FAST))):
+        units[n] = own_unit(scene, starts[n].tolist(), rates[n].tolist())
+    return units
 
 
 def _by_units(scene, starts, times, rtol, workers, units):
