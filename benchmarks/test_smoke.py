@@ -5,8 +5,10 @@ pytest.importorskip("heyoka")
 
 from . import fates, orbit_extremes, spin_up, spin_up_sample, suite
 
+SLOW = ("scenes", "surfaces", "orbit_extremes")  # they compile kernels, for half a minute and more where no cache is
 
-@pytest.mark.parametrize("topic", suite.TOPICS)
+
+@pytest.mark.parametrize("topic", [pytest.param(topic, marks=pytest.mark.slow if topic in SLOW else ()) for topic in suite.TOPICS])
 def test_topic_gives_rows(topic):
     if topic == "surfaces":
         pytest.importorskip("pyvista")

@@ -275,9 +275,8 @@ def test_the_walls_of_a_parabola_may_stand_half_a_million_away():
 
 
 @pytest.mark.parametrize("fast", [False, True])
-def test_a_spin_up_that_just_passes_a_barrier_far_from_its_frame_keeps_its_slowest_rate(fast):
+def test_a_spin_up_that_just_passes_a_barrier_far_from_its_frame_keeps_its_slowest_rate(fast, kernels):
     """The shift to canonical variables cost the place three digits, and the least rate, the root of a difference, four more."""
-    pytest.importorskip("numba")
     scene, problem = physical((25.062883526084562, 25.092819511166038, 0.10986270773540596), (1.2106455579057087, 0, 0.017087026406052554),
                               (0, -0.1219558847478546, 0))
     state = exactly("0x1.433801c3b82afp+5", "-0x1.61275ce4683f0p+1", "0x1.68877e4141140p-6")

@@ -270,20 +270,18 @@ def test_the_compiled_kernel_equals_its_plain_python():
         np.testing.assert_allclose(compiled[1][:30][known], periods[known], rtol=1e-12)
 
 
-def test_equilibria_between_two_folds_have_no_kernel_and_the_same_extremes():
-    from stabilab.orbit.extremes.circle_numba import kernel_input
-    from stabilab.orbit.landscape import landscape
+def test_equilibria_between_two_folds_have_no_kernel_and_the_same_extremes(kernels):
+    """Asked for the fast way, rows that this kernel does not serve go to that of twofold numbers."""
     scene, problem = physical((1.28, 2.85, 1.98), (5.59, 0, -1.92), (0, 14.32, 0))
-    assert len(landscape(scene).conic.folds) == 4 and kernel_input(landscape(scene)) is None
+    assert len(landscape(scene).conic.folds) == 4 and fast_extremes.kernel_input(landscape(scene)) is None
     states = np.random.default_rng(1).normal(size=(12, 3)) * 3
     found = stabilab.extremes(scene, states, fast=True)
     for n, state in enumerate(states.tolist()):
         assert_extremes(found[n], energy.extremes(problem, state), 1e-11)
 
 
-def test_the_compiled_kernel_serves_circles_without_a_fold():
-    """Moment along both equal axes, D1 = D3, torque about the other: an empty tuple of folds, which numba refused to loop over."""
-    pytest.importorskip("numba")
+def test_the_kernel_serves_circles_without_a_fold(kernels):
+    """Moment along both equal axes, D1 = D3, torque about the other: an empty tuple of folds, over which numba refused to loop."""
     scene, problem = physical((31.654399378285476, 0.063245553203366, 31.654399378285476), (-100, 0, -100), (0, -1000, 0))
     state = exactly("0x1.96c946803cb76p+1", "-0x1.9c092949740b8p-7", "0x1.952d3d56f3435p+1")
     assert_extremes(stabilab.extremes(scene, np.array(state), fast=True), energy.extremes(problem, state), 1e-11)
