@@ -27,6 +27,7 @@ VARIANTS = [Scene(BODY, effect_class("charge")("0.01", 100, "0.01", "attitude"),
             for others in ((), ("gyrostat",), ("gyrostat", "liquid_cavity"))] + [
     Scene(BODY, effect_class("liquid_cavity").of_sphere(1250, 1, "0.3", "printed"), example("gyrostat"))]
 SCENES = [Scene(BODY, *map(example, names)) for names in SUBSETS] + VARIANTS + [ScaledGyrostat("0.3", "-2/7", (1, -2, "0.7"))]
+PAIRS = range(1 + len(REGISTRY), len(SUBSETS) - 1)  # of two effects
 IDS = ["+".join(names) or "free" for names in SUBSETS] + [f"variant {i}" for i in range(len(VARIANTS))] + ["scaled"]
 QUADRATIC = ("gyrostat", "constant_torque")
 SPECIAL = [Scene(BODY, *(effect_class(name)(v) for name in QUADRATIC)) for v in ((0, 0, 3), (2, 0, 0), (0, 1, 0), (1, 0, 2))] + [
@@ -81,7 +82,7 @@ def test_scaled_work_and_energy_is_the_combination_of_its_two_laws():
     assert not sp.expand((b * circle.quantity - a * hyperbola.quantity) / 2 - energy.quantity).free_symbols & set(equations.state)
 
 
-@pytest.mark.parametrize("scene", SCENES, ids=IDS)
+@pytest.mark.parametrize("scene", [pytest.param(scene, marks=pytest.mark.slow if n in PAIRS else ()) for n, scene in enumerate(SCENES)], ids=IDS)
 def test_compiled_law_rates_are_gradients_along_the_motion(scene):
     """Complex step of the compiled quantity along the compiled rates."""
     system = to_numpy(derive(scene))
