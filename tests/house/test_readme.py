@@ -31,7 +31,7 @@ CHAPTERS = [page for page in sorted((ROOT / "docs/mathematics").glob("*.md")) if
 PAGES = [README, *(page for page in sorted((ROOT / "docs").glob("*.md")) if page.name not in MADE | LISTS), *CHAPTERS]
 NAMES = [page.relative_to(ROOT).as_posix() for page in PAGES]
 SECONDS = 1800  # a command that takes so long hangs: the report takes some four minutes on one core, more where others work beside it
-SLOW = ("stabilab report", "python -m pytest")  # run by the slow test
+SLOW = ("stabilab report", "stabilab precision", "python -m pytest")  # run by the slow tests
 HEYOKA = importlib.util.find_spec("heyoka") is not None
 
 
@@ -194,6 +194,11 @@ def test_commands_of_the_guide_print_what_it_shows(guide):
     assert all(any(command.startswith(f"stabilab {name} ") for command in done) for name in needed)
     for name in ("my.csv", "my.png", "surfaces/my.vtp", "surfaces/my.glb", "surfaces/my.stl", "tables/table-4.tex"):
         assert (folder / name).stat().st_size > 0
+
+
+@pytest.mark.slow
+def test_the_precision_of_the_guide_is_what_it_shows(guide):
+    assert follow(*guide, lambda command: command.startswith("stabilab precision"))
 
 
 @pytest.mark.slow
