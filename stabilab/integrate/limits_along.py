@@ -19,7 +19,7 @@ SHARE = 1e-12  # of the size of the state: the last term of a step
 STEPS = 300  # at most, some hundred revolutions: beyond, compiling a step is sooner done
 INSIDE = 6  # points a step at which the limits are looked at
 NEAR = 0.9  # of the largest value yet: a point so high may stand beside a greater one, which is looked for
-FINER = 25  # of the golden section: 6e-6 of the way between two points, and the square of that of the value
+FINER = 20  # of the golden section: 7e-5 of the way between two points, and the square of that of the value
 
 
 def law_along(scene: AnyScene, omega: Sequence[float], gamma: Sequence[float], span: tuple[float, float]) -> Validity | None:
@@ -86,13 +86,25 @@ def _value(one: list[float], t: float) -> float:
     return total
 
 
+class _State:
+    """The blocks of the state at a time within a step, by name; each is formed when it is asked for."""
+
+    def __init__(self, series: list[list[float]], t: float) -> None:
+        self.parts, self.t = {"omega": series[:3], "gamma": series[3:]}, t
+
+    def __contains__(self, name: str) -> bool:
+        return name in self.parts
+
+    def __getitem__(self, name: str) -> list[float]:
+        return [_value(one, self.t) for one in self.parts[name]]
+
+
 def _largest(value_at, pieces) -> float | None:
     """The largest value of a limit along the pieces; None where it hangs on a part of the state beside rates and direction."""
     best = -math.inf
     for h, series in pieces:
         def at(t, series=series):
-            state = [_value(one, t) for one in series]
-            return value_at({"omega": state[:3], "gamma": state[3:]})
+            return value_at(_State(series, t))
         values = [at(h * n / INSIDE) for n in range(INSIDE + 1)]
         if None in values:
             return None

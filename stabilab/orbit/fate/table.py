@@ -19,7 +19,7 @@ from .table_kernel import DEGREE
 
 CELLS = (512, 2048, 8192)  # tried in turn
 FAR_ASYMPTOTES = 100  # times the fold's radius
-GAPS = 0.01  # share of cells that may be left out before more cells are tried, at a tenth of a second
+GAPS = 0.01, 0.02, 1.0  # share of cells that may be left out before more are tried: 8192 cost a tenth of a second, a row left out a microsecond
 LOSS = 4.0  # units of rounding: polynomial and general formula take two each
 WORTH = 0.5  # of the gaps: where four times as many cells leave more of these, they are rounding, and no more cells are tried
 ANGLE_LOSS = 1e-5  # turns; a tenth of the distance at which an angle is trusted
@@ -106,11 +106,11 @@ def _out_from(conic, piece, fold):
 def _tabulated(land, spans):
     """(ranges (B, 11), cells (B, N, 8), share of cells left out) with as many cells as it takes."""
     before = np.inf
-    for count in CELLS:
+    for count, allowed in zip(CELLS, GAPS):
         made = [_stretch(land, span, count) for span in spans]
         cells = np.array([c for _, c in made]).reshape(len(spans), count, DEGREE + 3)
         gaps = float(np.isnan(cells).any(axis=2).mean()) if spans else 0.0
-        if gaps <= GAPS or gaps > WORTH * before:
+        if gaps <= allowed or gaps > WORTH * before:
             break
         before = gaps
     return np.array([r for r, _ in made]).reshape(len(spans), 11), cells, gaps

@@ -207,10 +207,17 @@ def test_a_table_has_as_few_cells_as_leave_few_gaps(scene, tries, monkeypatch):
     module = importlib.import_module("stabilab.orbit.fate.table")
     table, sizes = barrier_table(scene), list(module.CELLS)
     count = table.cells.shape[1]
-    assert count == sizes[tries - 1] and table.gaps <= module.GAPS
-    for fewer in sizes[:tries - 1]:
+    assert count == sizes[tries - 1] and table.gaps <= module.GAPS[tries - 1]
+    for fewer, allowed in zip(sizes[:tries - 1], module.GAPS):
         monkeypatch.setattr(module, "CELLS", (fewer,))
-        assert module.barrier_table.__wrapped__(scene).gaps > module.GAPS
+        assert module.barrier_table.__wrapped__(scene).gaps > allowed
+
+
+def test_a_hundredth_of_the_cells_is_no_reason_for_a_table_of_8192():
+    """Next to the fold of this body 1 % of 2048 cells are left out; its states are answered as fast as with 0.2 % of 8192, which cost four times as much."""
+    module = importlib.import_module("stabilab.orbit.fate.table")
+    table = barrier_table(stabilab.Scene(stabilab.Body((2.536, 2.5, 1.821)), stabilab.Gyrostat((-0.955, 0, 0.128)), stabilab.ConstantTorque((0, -0.2426, 0))))
+    assert table.cells.shape[1] == module.CELLS[1] and table.gaps <= module.GAPS[1]
 
 
 @pytest.mark.parametrize("scene", FAR_ASYMPTOTES)
