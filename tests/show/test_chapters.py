@@ -89,7 +89,7 @@ def test_a_plane_says_of_which_of_its_two_quantities_a_cut_curve_goes_so_far():
     plane = panels.Row("$v_1$ (m/s)", "$v_2$ (m/s)", lambda run: (run[1], -run[1] - 1))
     with style.drawing() as plt:
         words = [text.get_text() for ax in panels.draw_lines(plt, "", [(plane, [_column(np.sin, np.exp)])]).axes for text in ax.texts]
-    assert words == [f"cut: reaches $v_2$ = −{math.exp(10) + 1:.0f}"]
+    assert words == [f"cut: $v_2$ to −{math.exp(10) + 1:.0f}"]
 
 
 def test_where_a_printed_curve_leaves_its_panel_it_is_also_shown_whole():

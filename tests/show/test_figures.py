@@ -68,6 +68,14 @@ def test_a_panel_without_a_model_says_why(plt):
     assert ["averaging needs small" in heading for heading in headings] == [False, False, True] and "averaged, second order" in headings[2]
 
 
+def test_words_on_cut_curves_stand_side_by_side(plt):
+    drawn = figure(5, "top").draw(plt)
+    drawn.draw_without_rendering()
+    rows = [[text.get_window_extent() for text in ax.texts] for ax in drawn.axes]
+    assert sum(len(boxes) > 1 for boxes in rows) >= 5  # rows whose printed and corrected curves both leave the panel
+    assert not [1 for boxes in rows for n, box in enumerate(boxes) for other in boxes[:n] if box.overlaps(other)]
+
+
 def test_every_line_looks_as_the_legend_says(plt):
     for row in (figure(2, "top"), figure(2, "charged")):
         drawn = row.draw(plt)

@@ -95,8 +95,9 @@ def _legend(figure, start, extra=()):
 def space(start):
     """Figs 8 and 12: the motions in (x1, x2, x3), coloured by time."""
     def picture(plt):
+        from matplotlib.ticker import MaxNLocator
         rows = _rows(start)
-        figure = plt.figure(figsize=(12.6, 0.9 + 4.3 * len(rows)), layout="constrained")
+        figure = plt.figure(figsize=(12.6, 0.9 + 3.4 * len(rows)), layout="constrained")
         for i, (words, runs) in enumerate(rows):
             shared = i > 0 or not captured(start)
             limits = _limits([states for states, *_ in runs.values()]) if shared else None
@@ -109,7 +110,7 @@ def space(start):
                     ax.plot(*states[release:release + 1].T, zorder=9, **RELEASE)
                 scale = "one scale" if shared else "own scale"
                 ax.set_title(rf"$\lambda_1={lam}$, {words}; {scale}", fontsize=9.5)
-            bar = figure.colorbar(pieces, ax=panels, shrink=0.6, pad=0.05)
+            bar = figure.colorbar(pieces, ax=panels, shrink=0.6, pad=0.05, ticks=MaxNLocator(8, integer=True))
             bar.ax.set_title(r"$\tau$")
         _title(figure, start)
         _legend(figure, start)
@@ -129,7 +130,7 @@ def _coloured(ax, states, end, limits):
     for setter, pair in zip((ax.set_xlim, ax.set_ylim, ax.set_zlim), limits):
         setter(*pair)
     ax.view_init(22, -62)
-    style.name_space(ax, 1.0)
+    style.name_space(ax, 1.05)
     return pieces
 
 

@@ -19,7 +19,7 @@ from .. import style
 from ..text import comparison
 from ..text.table import cases_folder
 
-TIME = "t (s)"
+TIME = "$t$ (s)"
 # How each model is drawn: the pale ones are broad and lie under the exact motion, the others over it, so that two that agree are both seen.
 LOOKS: dict[str, dict] = {
     "linear": {"color": "#A9D6F0", "linewidth": 4.6, "zorder": 1.6}, "corrected": {"color": "#E3B5D0", "linewidth": 2.8, "zorder": 1.7},
@@ -142,7 +142,7 @@ def _headings(lines) -> int:
 def _refused(column, words) -> str:
     """Which models have no curve in a column, and why, as lines of its heading."""
     why = {reason.split(": ")[0]: [words[m] for m, other in column.refused.items() if other == reason] for reason in column.refused.values()}
-    return "".join("\n" + fill(f"no curve {'; '.join(models)}: {reason}", 48) for reason, models in why.items())
+    return "".join("\n" + fill(f"{', '.join(f'no “{model}”' for model in models)}: {reason}", 48) for reason, models in why.items())
 
 
 def _ending(ax, column):
@@ -207,8 +207,8 @@ def _panel(ax, row, column, limits):
     if row.equal:
         ax.set_aspect("equal", adjustable="box")
     for (name, top), (x, y, side, edge) in zip(far, CORNERS):
-        quantity = "" if row.over_time else f"{_bare(row.ylabel)} = "
-        ax.text(x, y, f"cut: reaches {quantity}{plain(top)}", color=INK[name], ha=side, va=edge, fontsize=7.2, transform=ax.transAxes)
+        words = "cut: reaches" if row.over_time else f"cut: {_bare(row.ylabel)} to"  # short, so that two have room side by side
+        ax.text(x, y, f"{words} {plain(top)}", color=INK[name], ha=side, va=edge, fontsize=7.2, transform=ax.transAxes)
 
 
 def plain(value) -> str:
@@ -273,7 +273,9 @@ def phase(part, component, label, unit):
             return None
         y = np.asarray(run.state[part])[:, component]
         return y, np.gradient(y, run.t, edge_order=2)
-    dot = rf"$\dot{{{label.strip('$')}}}$"
+    letter = label.strip("$")
+    name = letter.rstrip("'")
+    dot = rf"$\dot{{{name}}}{letter[len(name):]}$"  # over the letter, not over its primes
     return Row(f"{label} ({unit})" if unit else label, f"{dot} ({unit + '/s' if unit else '1/s'})".replace("rad/s/s", r"rad/s$^2$"), pick)
 
 
