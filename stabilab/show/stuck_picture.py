@@ -30,7 +30,7 @@ def draw(case, found, path, units: Units) -> Path:
         figure, axes = plt.subplots(len(rows), 1, figsize=(7.6, 1.0 + 3.4 * len(rows)), layout="constrained", squeeze=False)
         for ax, row in zip(axes[:, 0], rows):
             _panel(ax, scenario, row, units, axis_words(found.principal))
-        figure.suptitle(case.heading, fontsize=10.5, parse_math=False, wrap=True)
+        figure.suptitle(style.literal(case.heading), fontsize=10.5, wrap=True)
         style.legend(figure, _meanings(rows), columns=6)
         return style.save(figure, path)
 
@@ -62,7 +62,7 @@ def _panel(ax, scenario, row, units, words):
     ax.set_xlabel(f"time ({time})")
     ax.set_ylabel(f"rate, frame of the file ({rate})")
     short = answer_line(row, units, words).rsplit(" (", 1)[0]
-    ax.set_title(f"{row_name(row)}: {short}", wrap=True, parse_math=False, fontsize=9.5)
+    ax.set_title(style.literal(f"{row_name(row)}: {short}"), wrap=True, fontsize=9.5)
 
 
 def _limit(ax, row, t, values, per_time, per_rate):

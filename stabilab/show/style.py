@@ -1,6 +1,7 @@
 """One visual style for every picture: colours, markers and line styles by meaning, and bytes that do not change."""
 from __future__ import annotations
 
+import re
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -8,6 +9,7 @@ from typing import Any
 from ..files import whole_file
 from ..packages import demand
 from .files import endings
+from .terminal.letters import written
 
 # Okabe-Ito: told apart by colour-blind readers, and by their lightness in a grey print.
 BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILION, PURPLE, GREY = (
@@ -42,6 +44,8 @@ PACKAGES = ("matplotlib", "PIL")  # of every picture
 DPI = 110
 QUICK = 6        # level at which a PNG is packed; the most of 9 takes ten times as long for 3 to 8 % less, which only the large ones are worth:
 LARGE = 100_000  # bytes
+LETTER, KEY = 0.08, 0.7  # inches that a letter of a legend, and its key with the gap, take
+ROOMY, SMALLEST = (5.6, 3.8), 0.7  # inches from which on letters have their full size; the least share of it in smaller figures: 7 points
 RC: dict[Any, Any] = {  # of Matplotlib
     "figure.dpi": DPI, "savefig.dpi": DPI, "figure.facecolor": "white", "axes.facecolor": "white",
     "font.family": "DejaVu Sans", "font.size": 10, "axes.titlesize": 10.5, "axes.labelsize": 10.5,
@@ -150,8 +154,38 @@ def _nearest(colours, palette):
 def legend(figure, rows, columns=4):
     """One legend below the picture: rows of (name, look)."""
     from matplotlib.lines import Line2D
-    figure.legend([Line2D([], [], **look) for _, look in rows], [name for name, _ in rows], loc="outside lower center",
-                  ncols=min(columns, len(rows)))
+    names = [name for name, _ in rows]
+    figure.legend([Line2D([], [], **look) for _, look in rows], names, loc="outside lower center", ncols=min(columns, len(rows)))
+
+
+def letters(size: tuple[float, float] | None) -> dict[str, float]:
+    """The sizes of letters in a figure of so many inches: smaller in a small one, of which words would leave nothing else."""
+    share = 1.0 if size is None else max(SMALLEST, min(1.0, *(given / roomy for given, roomy in zip(size, ROOMY))))
+    return {key: share * value for key, value in RC.items() if key.endswith("size")}
+
+
+def share() -> float:
+    """The size of letters as a share of the full one."""
+    import matplotlib
+    return float(matplotlib.rcParams["legend.fontsize"]) / float(RC["legend.fontsize"])
+
+
+def fitting(names: list[str], width: float) -> int:
+    """The most columns of a legend that fit below a figure of so many inches; it is filled column by column."""
+    room = (width - 0.3) / share()
+    widths = [KEY + LETTER * len(re.sub(r"[$_\\]|\\\w+", "", name)) for name in names]
+    for count in range(len(names), 1, -1):
+        rows, longer = divmod(len(names), count)  # the first columns take one more
+        ends = [n * rows + min(n, longer) for n in range(count + 1)]
+        if sum(max(widths[low:high]) for low, high in zip(ends, ends[1:])) <= room:
+            return count
+    return 1
+
+
+def literal(text: str) -> str:
+    """A title of the user's as it is drawn: its names as letters (lambda1 becomes λ1), and a dollar is a dollar, which begins no formula.
+    (Matplotlib's parse_math=False does not reach the lines that it wraps.)"""
+    return written(text).replace("$", r"\$")
 
 
 def name_space(ax, zoom=0.92, order=(1, 2, 3)):
@@ -163,6 +197,6 @@ def name_space(ax, zoom=0.92, order=(1, 2, 3)):
     for axis in (ax.xaxis, ax.yaxis, ax.zaxis):
         axis.set_rotate_label(False)  # upright from every side
         axis.set_major_locator(MaxNLocator(5))
-        axis.set_pane_color((1, 1, 1, 1))
-    ax.patch.set_visible(False)  # it would cover a label of the panel before
+        axis.set_pane_color((1, 1, 1, 0))  # white would cover a label of the panel before
+    ax.patch.set_visible(False)
     ax.set_box_aspect(None, zoom=zoom)

@@ -8,6 +8,7 @@ import pytest
 
 import stabilab
 from stabilab import errors
+from stabilab.show import style
 from stabilab.show.plot import path, subject, to_file, which
 
 matplotlib.use("Agg")
@@ -45,6 +46,34 @@ def test_a_plot_returns_the_axes_it_was_given():
     assert stabilab.plot.time(load("minor-axis-100"), ax=ax) is ax
     _, ax = plt.subplots()
     assert stabilab.plot.phase(load("minor-axis-100"), ax=ax) is ax
+
+
+@pytest.mark.parametrize("title", [r"thrust at $\\foo$, lambda1 = 100", "5 $ of 7 $", r"x_1 \\$ {y}^", "$x$ " * 40])
+def test_a_dollar_in_a_title_is_drawn_as_a_dollar(tmp_path, title):
+    """Matplotlib takes what stands between dollars for a formula, and stops at one that it cannot read."""
+    case = case_of(tmp_path, f'title = "{title}"\n' + MOVING)
+    found = stabilab.basin(case, {"angular_velocity[1]": "-1:1:3", "angular_velocity[2]": "-1:1:3"}, depth=0)
+    _, ax = plt.subplots()
+    for axes in (stabilab.plot.time(case, ax=ax), stabilab.plot.basin(found)):
+        axes.figure.draw_without_rendering()
+        assert axes.title.get_text().replace(r"\$", "").count("$") == 0 and axes.title.get_text().count(r"\$") == title.count("$")
+
+
+def test_a_small_figure_has_small_letters_and_room_for_the_curves(tmp_path):
+    """Oracle: Matplotlib's own boxes after the layout. With letters of full size the axes took a sixth of such a figure's height."""
+    case = case_of(tmp_path, MOVING)
+    with style.drawing():
+        figure = to_file.DRAWN["time"](subject.subject(case), None, (3.6, 3.0), plt)
+        figure.draw_without_rendering()
+        (ax,), (below,) = figure.axes, figure.legends
+        assert ax.get_window_extent().height > figure.bbox.height / 3
+        assert below.get_texts()[0].get_fontsize() == pytest.approx(0.7 * style.RC["legend.fontsize"])
+        assert 0 <= below.get_window_extent().x0 and below.get_window_extent().x1 <= figure.bbox.width
+
+
+def test_letters_alone_stand_upright_on_every_axis(tmp_path):
+    ax = stabilab.plot.sphere(load("minor-axis-100"))
+    assert [(axis.get_rotate_label(axis.label.get_text()), axis.label.get_rotation()) for axis in (ax.xaxis, ax.yaxis, ax.zaxis)] == [(False, 0)] * 3
 
 
 def test_rates_are_drawn_in_degrees_and_components_make_the_size(tmp_path):

@@ -6,7 +6,6 @@ from typing import Any
 import numpy as np
 
 from .. import style
-from ..terminal.letters import written
 from .shades import FLAGS, flag_legend, label, light, looks, own_value, scale_axes, short_label
 
 TOGETHER = (("margin",), ("distance",), ("least", "greatest"), ("period",), ("when_low", "when_high"), ("equilibria", "stable", "unstable", "open"))
@@ -26,7 +25,7 @@ def curves(data: Any, plan: Any, kind: str, along: str, size: Any, plt: Any) -> 
         ax.set_xlim(x.min(), x.max())
         scale_axes(ax, x)
     axes[-1, 0].set_xlabel(label(data, along))
-    axes[0, 0].set_title(written(data.attrs.get("title", "")), loc="left", wrap=True)
+    axes[0, 0].set_title(style.literal(data.attrs.get("title", "")), loc="left", wrap=True)
     own = own_value(plan, next(n for n, axis in enumerate(plan.axes) if axis.key.name == data[along].attrs["long_name"]))
     if own is not None and x.min() <= own <= x.max():
         for ax in axes[:, 0]:

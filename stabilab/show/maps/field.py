@@ -10,7 +10,6 @@ from ...maps.boundary import changes, known_exactly
 from ...maps.columns import ENDLESS, NONE, OPEN
 from ...orbit.result import Fate
 from .. import style
-from ..terminal.letters import written
 from .shades import FLAGS, flag_legend, label, light, looks, own_value, scale_axes, spoken_key
 
 COUNTS = ("equilibria", "stable", "unstable", "open")
@@ -44,7 +43,7 @@ def fields(data: Any, plan: Any, kind: str, moving: list[str], panels: list[dict
         ax.xaxis.set_tick_params(labelbottom=True)
     for ax in axes[:, 0]:
         ax.set_ylabel(label(data, moving[1]))
-    figure.suptitle(written(str(data.attrs.get("title", ""))) + _of_all(data, panels), fontsize=10.5, wrap=True)
+    figure.suptitle(style.literal(str(data.attrs.get("title", ""))) + _of_all(data, panels), fontsize=10.5, wrap=True)
     if kind not in FLAGS:
         of_axes = f", {'least' if kind == 'least' else 'greatest'} of the three axes" if "axis" in data[kind].dims else ""
         bar = figure.colorbar(shown, ax=axes, label=label(data, kind) + of_axes)

@@ -8,7 +8,6 @@ import numpy as np
 from ...errors import InputError
 from ...orbit.result import Fate
 from .. import style
-from ..terminal.letters import written
 from .labels import SAMPLE
 from .shades import FATES, label, light, scale_axes, short_label
 
@@ -45,7 +44,7 @@ def _histograms(data, plan, kind, size, plt):
         ax.set_ylabel("samples")
         if "fate" in data:
             ax.legend(loc="best")
-    axes[0, 0].set_title(f"{written(data.attrs.get('title', ''))}: {data.sizes[SAMPLE]:,} samples", loc="left", wrap=True)
+    axes[0, 0].set_title(f"{style.literal(data.attrs.get('title', ''))}: {data.sizes[SAMPLE]:,} samples", loc="left", wrap=True)
     return figure
 
 
@@ -63,7 +62,7 @@ def _shares(data, moving, size, plt):
     scale_axes(ax, x)
     ax.set_xlabel(label(data, moving[0]))
     ax.set_ylabel(f"share of {data.sizes[SAMPLE]:,} samples (%)")
-    ax.set_title(written(data.attrs.get("title", "")), loc="left", wrap=True)
+    ax.set_title(style.literal(data.attrs.get("title", "")), loc="left", wrap=True)
     figure.legend(loc="outside lower center", ncols=4)
     return figure
 
@@ -81,5 +80,5 @@ def _share_map(data, moving, size, plt):
     scale_axes(ax, x, y)
     ax.set_xlabel(label(data, moving[0]))
     ax.set_ylabel(label(data, moving[1]))
-    ax.set_title(written(data.attrs.get("title", "")), loc="left", wrap=True)
+    ax.set_title(style.literal(data.attrs.get("title", "")), loc="left", wrap=True)
     return figure

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import math
+import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,7 +13,7 @@ from ...packages import demand
 from .. import style
 from ..files import endings
 from ..maps.basins.words import basin_name, cells_of
-from ..maps.labels import dimensions
+from ..maps.labels import dimensions, said
 from ..maps.shades import light, own_value
 from . import canvas
 
@@ -31,9 +32,8 @@ def basin(found: Basins, ax: Axes | None = None, size: tuple[float, float] | Non
     with canvas.on(ax, size or canvas.SQUARE) as target:
         rows = _areas(target, found) + _line(target, found) + _own(target, found)
         target.grid(False)
-        names = [axis.key.name for axis in found.plan.axes]
-        for setter, axis, name in zip((target.set_xlabel, target.set_ylabel), found.plan.axes, names):
-            setter(name.removeprefix("motion.").replace("_", " ") + ("" if axis.shown_unit == "1" else f" ({axis.shown_unit})"))
+        for setter, axis, name in zip((target.set_xlabel, target.set_ylabel), found.plan.axes, said([axis.key.name for axis in found.plan.axes])):
+            setter(re.sub(r"^(.*)\[([123])\]$", r"$\1_\2$", name) + ("" if axis.shown_unit == "1" else f" ({axis.shown_unit})"))
         for setter, axis, (_, text) in zip((target.set_xscale, target.set_yscale), found.plan.axes, found.plan.vary):
             setter("log" if text.count(":") == 3 and axis.values[0] > 0 else "linear")
         rough = found.dimension

@@ -1,7 +1,6 @@
 """Where a plot goes: onto axes that the caller gives, or into a figure of its own in the style of the house."""
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -9,11 +8,9 @@ from typing import Any
 from ...errors import InputError
 from ...packages import demand
 from .. import style
-from ..terminal.letters import written
 
 SIZE = (7.6, 4.8)  # inches
 SQUARE = (7.0, 6.4)
-LETTER, KEY = 0.08, 0.7  # inches that a letter of a legend, and its key with the gap, take
 
 
 @contextmanager
@@ -25,7 +22,7 @@ def on(ax: Any, size: tuple[float, float] | None = None, space: bool = False) ->
         return
     import matplotlib
     import matplotlib.pyplot as plt
-    with matplotlib.rc_context(style.RC):
+    with matplotlib.rc_context(style.RC | style.letters(size)):
         figure = plt.figure(figsize=size or (SQUARE if space else SIZE), layout="constrained")
         yield figure.add_subplot(projection="3d" if space else None)
 
@@ -50,21 +47,10 @@ def legend(ax: Any, rows: list[tuple[str, dict[str, Any]]], own: bool) -> None:
     if not own:
         ax.legend(handles, names, loc="best", fontsize="small")
         return
-    ax.figure.legend(handles, names, loc="outside lower center", ncols=_columns(names, ax.figure.get_figwidth() - 0.3))
-
-
-def _columns(names: list[str], room: float) -> int:
-    """The most columns of a legend that fit into so many inches; it is filled column by column."""
-    widths = [KEY + LETTER * len(re.sub(r"[$_\\]|\\\w+", "", name)) for name in names]
-    for columns in range(len(names), 1, -1):
-        rows, longer = divmod(len(names), columns)  # the first columns take one more
-        ends = [n * rows + min(n, longer) for n in range(columns + 1)]
-        if sum(max(widths[low:high]) for low, high in zip(ends, ends[1:])) <= room:
-            return columns
-    return 1
+    ax.figure.legend(handles, names, loc="outside lower center", ncols=style.fitting(names, ax.figure.get_figwidth()))
 
 
 def title(ax: Any, *lines: str) -> None:
     """The lines that are not empty, above the axes; the first is the title of the case."""
     heading, *others = lines
-    ax.set_title("\n".join(filter(None, map(written, (heading, *others)))), wrap=True, parse_math=False)
+    ax.set_title("\n".join(filter(None, map(style.literal, (heading, *others)))), wrap=True)

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from ...theories.comparison import side_by_side
-from ..terminal.letters import written
+from .. import style
 from ..text import comparison
 from . import which
 from .path import SEEN, turning
@@ -16,10 +16,11 @@ POINTS = 801
 CROWDED = 24  # turns of a rate: more of them are shown over the first so many, unless a span is asked for
 
 
-def state(case: Any, start: Any = None, span: Any = None) -> Any:
+def state(case: Any, start: Any = None, span: Any = None, size: tuple[float, float] | None = None) -> Any:
     """Draw every part of the state over time, a row a part and a column a component, and return the figure: rates, direction of the vertical,
     attitude, momentum, velocity, place, as far as the scene has them; the analytic models that apply are beside the exact motion. Of a case whose
-    rates turn very often over its span the first turns are shown."""
+    rates turn very often over its span the first turns are shown. size: (width, height) in inches; None: as many as the rows need."""
+    import matplotlib
     from matplotlib import pyplot as plt
     one = subject(case, start, span)
     which.check("state", one)
@@ -28,9 +29,11 @@ def state(case: Any, start: Any = None, span: Any = None) -> Any:
     if span is None and (turns := _turns(runs["exact"].state["omega"])) > CROWDED:
         runs, _ = side_by_side(one, np.linspace(begin, begin + (end - begin) * CROWDED / turns, POINTS))
     parts = [name for name in comparison.NAMES if name in runs["exact"].state]
-    figure, law = comparison.picture(plt, one, runs, parts), runs["exact"].validity
-    if law is not None and not law.held:
-        figure.suptitle(written(f"{one.heading}\n{law.short}"), fontsize=10, parse_math=False, wrap=True)
+    law = runs["exact"].validity
+    with matplotlib.rc_context(style.RC | style.letters(size)):
+        figure = comparison.picture(plt, one, runs, parts, size)
+        if law is not None and not law.held:
+            figure.suptitle(style.literal(f"{one.heading}\n{law.short}"), fontsize=10 * style.share(), wrap=True)
     return figure
 
 

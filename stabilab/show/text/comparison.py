@@ -72,10 +72,10 @@ def write(case, found, path) -> Path:
     return path
 
 
-def picture(plt, case, runs, parts=("omega",)):
+def picture(plt, case, runs, parts=("omega",), size=None):
     """A figure: one row per part of the state, one column per component, every model of `runs` over the exact motion."""
     parts = [p for p in parts if p in runs["exact"].state]
-    figure, axes = plt.subplots(len(parts), 3, figsize=(10.5, 0.9 + 2.3 * len(parts)), layout="constrained", squeeze=False,
+    figure, axes = plt.subplots(len(parts), 3, figsize=size or (10.5, 0.9 + 2.3 * len(parts)), layout="constrained", squeeze=False,
                                 sharex=True)
     for row, part in zip(axes, parts):
         for column, ax in enumerate(row):
@@ -83,9 +83,9 @@ def picture(plt, case, runs, parts=("omega",)):
             unit = PARTS[part].unit.replace("m^2", "m$^2$")
             ax.set_ylabel(f"{NAMES[part][column]}{f' ({unit})' if unit else ''}")
     for ax in axes[-1]:
-        ax.set_xlabel("t (s)")
-    figure.suptitle(written(case.heading), fontsize=10, parse_math=False, wrap=True)
-    style.legend(figure, [(WORDS[name], LOOKS[name]) for name in runs], columns=6)
+        ax.set_xlabel("$t$ (s)")
+    figure.suptitle(style.literal(case.heading), fontsize=10 * style.share(), wrap=True)
+    style.legend(figure, [(WORDS[name], LOOKS[name]) for name in runs], columns=style.fitting([WORDS[name] for name in runs], figure.get_figwidth()))
     return figure
 
 

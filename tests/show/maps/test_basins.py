@@ -81,7 +81,7 @@ def test_the_picture_shows_each_basin_where_its_states_are(minor):
     expected = np.where(stabilab.fate(stabilab.load(MINOR).scene, states).labels == stabilab.Fate.SPIN_UP, 3, 0)
     assert (shown != expected).mean() < minor.blur
     ax = stabilab.plot.basin(minor)
-    assert (ax.get_xlabel(), ax.get_ylabel()) == ("x[1]", "x[3]") and len(ax.collections[-1].get_segments()) == len(minor.boundary)
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("$x_1$", "$x_3$") and len(ax.collections[-1].get_segments()) == len(minor.boundary)
     legend = ax.figure.legends[0]
     assert [text.get_text() for text in legend.get_texts()] == ["spin-up about +3", "bounded", "separatrix (exact)", "the case itself"]
     plt.close("all")

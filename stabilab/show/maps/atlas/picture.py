@@ -59,7 +59,7 @@ def drawn(atlas: Atlas, units: Units, shown: tuple[str, ...], size: tuple[float,
     for m, kind in enumerate(shown):
         below = [axes[m, 0]] if alone else list(axes[:, m])
         _explained(figure, below, atlas, kind, times, units)
-    figure.suptitle(f"{atlas.asked.case.title or atlas.asked.case.name}\ntorque of {units.torque(float(atlas.asked.torque))} in every direction",
+    figure.suptitle(f"{style.literal(atlas.asked.case.title or atlas.asked.case.name)}\ntorque of {units.torque(float(atlas.asked.torque))} in every direction",
                     fontsize=10.5, wrap=True)
     return figure
 

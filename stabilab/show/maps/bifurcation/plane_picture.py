@@ -51,7 +51,8 @@ def drawn(found: Plane, size: tuple[float, float] | None, plt: Any) -> Any:
     for told, span in ((ax.set_xlabel, first), (ax.set_ylabel, second)):
         told(f"{span.label}{'' if span.shown_unit == '1' else f' ({span.shown_unit})'}")
     case = found.family.case
-    ax.set_title(f"{case.title or case.name}\n{'changes of stability' if found.kind == 'borders' else 'number of equilibria'}", loc="left", wrap=True)
+    shown = "changes of stability" if found.kind == "borders" else "number of equilibria"
+    ax.set_title(f"{style.literal(case.title or case.name)}\n{shown}", loc="left", wrap=True)
     handles, words = ax.get_legend_handles_labels()
     kept = dict(zip(words, handles))
     if kept:

@@ -44,7 +44,7 @@ def _over_time(ax: Any, case: Any, found: Chaos) -> None:
     ax.set_xscale("log")
     ax.set_xlabel(f"followed for ({case.scene.time_unit})")
     ax.set_ylabel("MEGNO (2 on tori)")
-    ax.set_title(f"{case.title or case.name}\n{Order(int(found.labels)).word}", wrap=True)
+    ax.set_title(style.literal(f"{case.title or case.name}\n{Order(int(found.labels)).word}"), wrap=True)
 
 
 def _map(figure: Any, ax: Any, beside: Any, one: Subject, until: float) -> None:

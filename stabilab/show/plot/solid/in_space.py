@@ -117,18 +117,23 @@ def polygon(ax: Any, rim: np.ndarray, colour: str, alpha: float) -> None:
 def furnish(ax: Any, box: Box, labels: tuple[str, ...], view: tuple[float, float] = VIEW) -> None:
     """Limits, labels, ticks and the point of view."""
     from matplotlib.ticker import MaxNLocator
+    small = style.share()
     ax.computed_zorder = False  # lines before surfaces: what is behind one is to be seen, too
     for letter, low, high in zip("xyz", box.low, box.high):
         getattr(ax, f"set_{letter}lim")(low, high)
-    for setter, words in zip((ax.set_xlabel, ax.set_ylabel, ax.set_zlabel), labels):
-        setter(words, labelpad=6)
+    for setter, words, near in zip((ax.set_xlabel, ax.set_ylabel, ax.set_zlabel), labels, (25, 25, 12)):
+        setter(words, labelpad=6 - near * (1 - small))  # near the ticks where the figure is small, else below its edge
+    for axis, words in zip((ax.xaxis, ax.yaxis, ax.zaxis), labels):
+        if " " not in words:  # a letter alone stands upright from every side; with its unit it goes along the axis
+            axis.set_rotate_label(False)
+            axis.label.set_rotation(0)
     for axis in (ax.xaxis, ax.yaxis, ax.zaxis):
         axis.set_major_locator(MaxNLocator(5))
         axis.set_pane_color((1, 1, 1, 1))
-    ax.tick_params(labelsize=8)
+    ax.tick_params(labelsize=8 * small, pad=3.5 * small)
     lengths = box.high - box.low
     sides = np.maximum(lengths / lengths.max(), FLATTEST)
-    ax.set_box_aspect(sides, zoom=ZOOM * float(np.linalg.norm(sides)) / math.sqrt(3))  # the longest side as of a cube
+    ax.set_box_aspect(sides, zoom=ZOOM * (1 - (1 - small) / 3) * float(np.linalg.norm(sides)) / math.sqrt(3))  # the longest side as of a cube
     ax.view_init(*view)
 
 
