@@ -25,7 +25,7 @@ def show(case: CaseFile):
 
 @commands.command()
 def compare(case: CaseFile,
-            order: Annotated[int | None, typer.Option(min=1, help="Order of the lindstedt expansion.")] = None,
+            order: Annotated[int | None, typer.Option(metavar="N", min=1, help="Order of the lindstedt expansion.")] = None,
             out: Annotated[Path | None, typer.Option(metavar="FILE.csv", help="Write the errors over time.")] = None,
             json: Json = False, strict: Strict = False):
     """Set the analytic models of a case beside its exact motion.

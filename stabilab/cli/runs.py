@@ -16,13 +16,14 @@ commands = typer.Typer()
 def simulate(case: CaseFile,
              at: Annotated[list[str] | None, typer.Option(metavar="T1,T2,...", help="Times, with a unit (\"2 min\") or in that of the case; the state is at 0. "
                                                        "Default: 201 times over the span of the case.")] = None,
-             model: Annotated[str, typer.Option(autocompletion=completion.models,
+             model: Annotated[str, typer.Option(metavar="NAME", autocompletion=completion.models,
                                                 help="exact, or an analytic solution that applies: linear, corrected, printed, "
                                                      "averaged1, averaged2, lindstedt.")] = "exact",
-             order: Annotated[int | None, typer.Option(min=1, help="Order of the lindstedt expansion.")] = None,
-             method: Annotated[str | None, typer.Option(autocompletion=completion.methods, help="taylor (default), a method of SciPy's solve_ivp by name, or "
+             order: Annotated[int | None, typer.Option(metavar="N", min=1, help="Order of the lindstedt expansion.")] = None,
+             method: Annotated[str | None, typer.Option(metavar="NAME", autocompletion=completion.methods,
+                                                        help="taylor (default), a method of SciPy's solve_ivp by name, or "
                                                                 "reduced (any time at one cost); for the exact model.")] = None,
-             rtol: Annotated[float | None, typer.Option(help="Relative tolerance; default: the method's own.")] = None,
+             rtol: Annotated[float | None, typer.Option(metavar="TOL", help="Relative tolerance; default: the method's own.")] = None,
              digits: Annotated[int | None, typer.Option(metavar="N", help="Reach N digits (1 to 15) the cheapest way, check "
                                                            "them, or exit with 5. Without it 10 are the aim, unless "
                                                            "--model, --method or --rtol is given.")] = None,

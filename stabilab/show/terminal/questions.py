@@ -56,7 +56,10 @@ def _word(decimal) -> str:
 def _said(told) -> str:
     if told.digits is None:
         return f"  {told.because}"
-    return f"  exact: {told.because}" if math.isinf(told.digits) else f"  {min(told.digits, 99.0):.1f} digits: {told.because}"
+    if math.isinf(told.digits):
+        return f"  exact: {told.because}"
+    reached = f"{min(told.digits, 99.0):.1f}".removesuffix(".0")
+    return f"  {reached} digits: {told.because}"
 
 
 def period(case, motion, told, units: Units, all_digits: bool, say: bool, proofs: bool = False) -> str:
