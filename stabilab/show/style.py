@@ -165,9 +165,9 @@ def letters(size: tuple[float, float] | None) -> dict[str, float]:
 
 
 def share() -> float:
-    """The size of letters as a share of the full one."""
+    """The size of letters now, as a share of that of the house; 1 where a caller has larger ones."""
     import matplotlib
-    return float(matplotlib.rcParams["legend.fontsize"]) / float(RC["legend.fontsize"])
+    return min(1.0, float(matplotlib.rcParams["font.size"]) / float(RC["font.size"]))
 
 
 def fitting(names: list[str], width: float) -> int:

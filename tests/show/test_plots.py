@@ -1,6 +1,7 @@
 """Plots of cases: what is drawn, of what there is no plot, and files that are what their names say."""
 import math
 from fractions import Fraction
+from types import SimpleNamespace
 
 import matplotlib
 import numpy as np
@@ -10,6 +11,7 @@ import stabilab
 from stabilab import errors
 from stabilab.show import style
 from stabilab.show.plot import path, subject, to_file, which
+from stabilab.show.text import comparison
 
 matplotlib.use("Agg")
 from matplotlib import pyplot as plt  # after the back end is chosen
@@ -69,6 +71,19 @@ def test_a_small_figure_has_small_letters_and_room_for_the_curves(tmp_path):
         assert ax.get_window_extent().height > figure.bbox.height / 3
         assert below.get_texts()[0].get_fontsize() == pytest.approx(0.7 * style.RC["legend.fontsize"])
         assert 0 <= below.get_window_extent().x0 and below.get_window_extent().x1 <= figure.bbox.width
+
+
+def test_words_on_cut_models_stand_side_by_side():
+    t = np.linspace(0, 9, 50)
+    bent = {"exact": np.sin(t), "linear": np.exp(t), "corrected": -1e3 * np.exp(t), "printed": 10 * np.exp(t)}
+    runs = {name: SimpleNamespace(t=t, state={"omega": np.column_stack([curve] * 3)}) for name, curve in bent.items()}
+    with style.drawing():
+        figure = comparison.picture(plt, load("minor-axis-100"), runs)
+        figure.draw_without_rendering()
+        for ax in figure.axes:
+            boxes = [text.get_window_extent() for text in ax.texts]
+            assert {text.get_text() for text in ax.texts} == {"cut: to 8.1e+03", "cut: to −8.1e+06", "cut: to 8.1e+04"}  # e^9 = 8103
+            assert not [1 for n, box in enumerate(boxes) for other in boxes[:n] if box.overlaps(other)]
 
 
 def test_letters_alone_stand_upright_on_every_axis(tmp_path):

@@ -16,7 +16,7 @@ LOOKS = {"exact": {"color": style.BLACK, "linewidth": 2.2}, "linear": {"color": 
          "printed": {"color": style.ORANGE, "linewidth": 1.6, "linestyle": ":"},
          "averaged1": {"color": style.GREEN, "linewidth": 1.4, "linestyle": "-."},
          "averaged2": {"color": style.BLUE, "linewidth": 1.4, "linestyle": "--"},
-         "lindstedt": {"color": style.BLUE, "linewidth": 1.4, "linestyle": "--"}}
+         "lindstedt": {"color": style.SKY, "linewidth": 0.6, "antialiased": False, "zorder": 1.9}}  # it turns so often that it would bury the others
 NAMES = {"omega": (r"$\omega_1$", r"$\omega_2$", r"$\omega_3$"), "gamma": (r"$\gamma_1$", r"$\gamma_2$", r"$\gamma_3$"),
          "angles": (r"$\psi$", r"$\phi$", r"$\theta$"), "momentum": (r"$H_1$", r"$H_2$", r"$H_3$"),
          "velocity": (r"$v_1$", r"$v_2$", r"$v_3$"), "position": (r"$x_1$", r"$x_2$", r"$x_3$")}
@@ -100,8 +100,16 @@ def _curves(ax, runs, part, column):
     if half and (high - low) > 6 * half:  # a model far off must not flatten the motion itself
         ax.set_ylim(middle - 2 * wide, middle + 2 * wide)
         drawn = {name: np.asarray(run.state[part])[:, column] for name, run in runs.items() if part in run.state}
-        out = [f"{WORDS[name]}, {values.min():.3g} to {values.max():.3g}" for name, values in drawn.items() if _leaves(values, ax.get_ylim())]
-        ax.set_title(f"cut: {'; '.join(out)}".replace("-", "−"), loc="right", fontsize=8)
+        _tell_cut(ax, [(name, values) for name, values in drawn.items() if _leaves(values, ax.get_ylim())])
+
+
+def _tell_cut(ax, models):
+    """Above a panel how far the curves go that leave it, each in its colour: a third of the width for each, which is not much."""
+    low, high = ax.get_ylim()
+    for (name, values), (x, side) in zip(models, ((0.0, "left"), (1.0, "right"), (0.5, "center"))):
+        far = values.max() if values.max() - high > low - values.min() else values.min()
+        ax.text(x, 1.01, f"cut: to {far:.3g}".replace("-", "−"), color=LOOKS[name]["color"], ha=side, va="bottom", fontsize=7.5 * style.share(),
+                transform=ax.transAxes)
 
 
 def _leaves(values, limits):
