@@ -11,7 +11,7 @@ import pytest
 import stabilab
 from stabilab.show.figures import catalogue as figures
 from stabilab.show.files import manifest
-from stabilab.show.report import audit_page, chapters, own, report, surfaces, whole
+from stabilab.show.report import audit_page, chapters, html, own, report, surfaces, whole
 from stabilab.show.surface import render_probe
 from stabilab.theories.audit import findings_of
 
@@ -185,8 +185,8 @@ def test_the_certificate_of_a_page_is_proved_by_the_other_code(alone):
 
 
 def test_the_pages_of_costs_that_were_made_are_linked_and_the_others_left_out(everything):
-    html = (everything.parent / "cost.html").read_text(encoding="utf-8")
-    assert '<a href="small.html">What it costs &lt;b&gt;</a><br>in time.' in html and "Nothing" not in html
+    told = (everything.parent / "cost.html").read_text(encoding="utf-8")
+    assert '<a href="small.html">What it costs &lt;b&gt;</a><br>in time.' in told and "Nothing" not in told
     assert (everything.parent / "small.html").read_text(encoding="utf-8").endswith("<title>1</title>")
     assert [title for title, _, _ in whole.COSTS] == ["What accuracy costs", "How cost grows", "What each effect costs"]
 
@@ -309,3 +309,10 @@ def test_letters_of_printed_formulas_are_typeset_whole():
         shown = unescape(str(audit_page.mathml(Symbol(name), Symbol("kc"))))
         assert f"<mi>{letter}</mi>" in shown.replace("ϕ", "φ") and ("<msub>" in shown.split("<mo>")[0]) == name[-1].isdigit(), name
     assert "<mi>k</mi><mi>c</mi>" in shown
+
+
+@pytest.mark.parametrize("plain, page", [
+    ("defines I_omega and mu_j", "defines I<sub>ω</sub> and μ<sub>j</sub>"), ("e^(-i r0 t) <b>", "e<sup>−i r0 t</sup> &lt;b&gt;"),
+    ("kg m^2 s^-1", "kg m² s<sup>−1</sup>"), ("|H|^2/2 - D_M T", "|H|²/2 - D<sub>M</sub> T"), ("liquid_cavity in a/x_y.toml", "liquid_cavity in a/x_y.toml")])
+def test_indices_and_powers_are_set_as_in_a_book(plain, page):
+    assert str(html.book(plain)) == page

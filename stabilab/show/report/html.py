@@ -6,7 +6,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from ...files import whole_file
-from ..terminal.letters import written
+from ..terminal.letters import ALPHABET, written
 
 TEMPLATES = Path(__file__).parents[1] / "templates"
 ALONE = {"nav": (), "here": "", "up": "", "title": ""}  # of a page that is no part of a folder
@@ -16,8 +16,19 @@ ALONE = {"nav": (), "here": "", "up": "", "title": ""}  # of a page that is no p
 def _environment():
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
     environment = Environment(loader=FileSystemLoader(TEMPLATES), autoescape=True, undefined=StrictUndefined)
-    environment.filters |= {"written": written, "sentence": sentence, "typed": typed, "formula": formula}
+    environment.filters |= {"written": written, "sentence": sentence, "typed": typed, "formula": formula, "book": book}
     return environment
+
+
+INDEXED = re.compile(r"(?<![\w/.])([A-Za-zΑ-Ωα-ω]|" + "|".join(ALPHABET) + r")_(\w+)")  # I_omega, x_j, mu_j
+RAISED = re.compile(r"\^(?:\(([^()]*)\)|([-−]?\w+))")
+
+
+def book(text: str):
+    """Words with names and powers as a book sets them: I_omega becomes I with the index ω below it, e^(i r0 t) has its exponent raised."""
+    from markupsafe import Markup, escape
+    below = INDEXED.sub(lambda found: f"{ALPHABET.get(found[1], found[1])}<sub>{ALPHABET.get(found[2], found[2])}</sub>", str(escape(text)))
+    return Markup(RAISED.sub(lambda found: f"<sup>{(found[1] or found[2]).replace('-', '−')}</sup>", written(below)))  # escaped above
 
 
 def formula(text):
