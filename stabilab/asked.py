@@ -2,8 +2,26 @@
 from __future__ import annotations
 
 import math
+from inspect import signature
+from typing import Any
 
 from .errors import InputError
+
+
+class Asked(type):
+    """The class of what users make by its name: a call that gives it too much, too little or what it does not know is bad input."""
+
+    def __call__(cls, *given: Any, **named: Any) -> Any:
+        try:
+            return super().__call__(*given, **named)
+        except TypeError:
+            takes = signature(cls.__init__)  # type: ignore[misc]  # the very class that was called
+            try:
+                takes.bind(None, *given, **named)
+            except TypeError as error:
+                names = [str(one.replace(annotation=one.empty)) for one in list(takes.parameters.values())[1:]]
+                raise InputError(f"{cls.__name__}: {error}; expected {cls.__name__}({', '.join(names)})") from None
+            raise
 
 
 def checked_scene(scene):
@@ -28,7 +46,7 @@ def checked_span(span) -> tuple[float, float] | None:
         ends = tuple(map(float, span)) if hasattr(span, "__len__") else (0.0, float(span))
         if len(ends) == 2 and all(map(math.isfinite, ends)):
             return ends
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         pass
     raise InputError(f"span: expected two finite times (from, to), or one length, got {span!r:.80}")
 

@@ -1,7 +1,6 @@
 """Whether motions are regular or chaotic, as far as they are followed: an indicator with its history, not a proof."""
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import IntEnum
@@ -15,7 +14,7 @@ from ..orbit.result import Fate
 from ..physics.blocks import slices
 from ..physics.coefficients import effective
 from ..physics.scene import AnyScene
-from ..physics.states import checked_starts, start_of
+from ..physics.states import checked_starts, float_array, start_of
 from ..physics.to_numpy import equations_of
 from ..unreduced.chaos import TURNS, growth, turn_of
 from .fate import fate
@@ -88,9 +87,10 @@ def chaos(scene: AnyScene, states: ArrayLike, until: float | None = None, tell: 
     no proof, the slowest chaos takes longer. tell(motions done) is called on the way. Raises InputError for other shapes and numbers.
     """
     checked_scene(scene)
-    array = np.asarray(states)
-    rows = checked_starts(equations_of(scene), array.reshape(-1, array.shape[-1]) if array.ndim and array.size else array)
-    if until is not None and not (isinstance(until, (int, float, np.number)) and 0 < until < math.inf):
+    equations = equations_of(scene)
+    array = float_array(states, f"states: expected rows of {len(equations.state)} numbers, got {states!r:.80}")
+    rows = checked_starts(equations, array.reshape(-1, array.shape[-1]) if array.ndim and array.size else array)
+    if until is not None and not (isinstance(until, (int, float, np.number)) and 0 < until <= float(np.finfo(float).max)):
         raise InputError(f"until: expected a time above zero, got {until!r:.40}")
     if effective(scene).plain:  # attitude and path follow from the rates, and say nothing of them
         scene, rows = effective(scene), rows[:, :3].copy()

@@ -57,7 +57,7 @@ def fate_grid(scene: AnyScene, axes: Sequence[ArrayLike]) -> np.ndarray:
 def _checked_axes(axes: Sequence[ArrayLike]) -> list[np.ndarray]:
     try:
         arrays = [np.asarray(a, dtype=float) for a in axes]
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise InputError("axes: expected three arrays of numbers") from None
     if len(arrays) != 3 or any(a.ndim != 1 for a in arrays):
         raise InputError(f"axes: expected three one-dimensional arrays, got shapes {[a.shape for a in arrays]}")

@@ -11,7 +11,7 @@ from ..asked import checked_scene
 from ..integrate.trajectory import Trajectory
 from ..physics.attitude import angles, beyond, body_momentum, to_space, unwrapped
 from ..physics.scene import AnyScene, Scene
-from ..physics.states import equations_and_start, start_of
+from ..physics.states import checked_times, equations_and_start, start_of
 from ..physics.to_numpy import to_numpy
 from ..shown import Shown
 from .trajectory import trajectory
@@ -60,11 +60,12 @@ def simulate(scene: AnyScene, omega: Sequence[float], times: ArrayLike, blocks: 
     is "taylor", or Radau where the decay is so fast that an explicit method would crawl (the reason says so). Raises
     InputError as `trajectory` does.
     """
-    scene, times = checked_scene(scene), np.atleast_1d(np.asarray(times, float))
+    scene, times = checked_scene(scene), checked_times(times)
     if scene.variables == "scaled":
-        run = trajectory(scene, omega, times, method or "taylor", rtol)
+        run = trajectory(scene, omega, times, "taylor" if method is None else method, rtol)
         return _simulation(run, {"x": run.states})
-    start = start_of(scene, omega, blocks or {})
+    blocks = {} if blocks is None else blocks
+    start = start_of(scene, omega, blocks)
     method, rtol, why = _chosen(scene, start, times, method, rtol)
     if len(start) == 1 and scene.blocks == ("omega",):
         run = trajectory(scene, omega, times, method, rtol)
@@ -72,7 +73,7 @@ def simulate(scene: AnyScene, omega: Sequence[float], times: ArrayLike, blocks: 
     if "attitude" not in start:
         run = trajectory(scene, start, times, method, rtol)
         return _simulation(run, {name: run.block(name) for name in run.blocks}, why)
-    return _with_attitude(scene, start, (blocks or {}).get("attitude", (0.0, 0.0, 0.0)), times, method, rtol, why)
+    return _with_attitude(scene, start, blocks.get("attitude", (0.0, 0.0, 0.0)), times, method, rtol, why)
 
 
 def _simulation(run: Trajectory, state: dict[str, np.ndarray], why: str = "") -> Simulation:
@@ -89,7 +90,7 @@ def _reason(run: Trajectory, *why: str) -> str:
 def _chosen(scene: AnyScene, start: Mapping[str, Sequence[float]], times: np.ndarray, method: str | None, rtol: float | None) -> tuple[str, float | None, str]:
     """(method, rtol, why) with the stiff method where nothing was asked for and the decay is too fast."""
     if method is not None or not any(not e.keeps_volume for e in scene.effects):
-        return method or "taylor", rtol, ""
+        return "taylor" if method is None else method, rtol, ""
     equations, state = equations_and_start(scene, start)
     fastest = float(np.max(-np.linalg.eigvals(to_numpy(equations).jacobian(state)).real, initial=0.0))
     stiffness = fastest * float(np.abs(times).max(initial=0.0))

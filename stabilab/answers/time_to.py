@@ -14,7 +14,7 @@ from ..errors import InputError
 from ..numbers.exact import exact_vector
 from ..physics.coefficients import content, effective
 from ..physics.scene import AnyScene
-from ..physics.states import checked_states, equations_and_start, start_of
+from ..physics.states import checked_states, equations_and_start, float_array, start_of
 from .passage.banded import STEPS as BAND_STEPS
 from .passage.banded import banded
 from .passage.clock import by_clock
@@ -45,6 +45,8 @@ def time_to(scene: AnyScene, states: Any, rate: Any = None, component: Any = Non
     """
     given, scene = scene, effective(checked_scene(scene))
     limit, end = asked(scene, rate, component, energy, tilt), _end(t_max)
+    if isinstance(work, bool) or not isinstance(work, (int, np.integer)) or work < 0:
+        raise InputError(f"work: expected a whole number of multiplications, 0 for no proof, got {work!r:.80}")
     if scene.plain and isinstance(states, dict):  # neither place nor attitude turns the body here, and a tilt counts from the start
         states = states.get("omega", ())
     if not scene.plain:
@@ -74,10 +76,7 @@ def _rows(states: Any) -> Any:
     """(one start for each motion, shape of the answer) of a scene whose state may be more than three rates."""
     if isinstance(states, dict):
         return [states], ()
-    try:
-        array = np.asarray(states, float)
-    except (TypeError, ValueError):
-        raise InputError(f"states: expected numbers in rows, or a dict of blocks, got {states!r:.80}") from None
+    array = float_array(states, f"states: expected numbers in rows, or a dict of blocks, got {states!r:.80}")
     return list(array.reshape(-1, array.shape[-1])) if array.ndim else [array], array.shape[:-1]
 
 
@@ -87,7 +86,7 @@ def _end(t_max: float | Fraction | None) -> Fraction | None:
     try:
         if (value := float(t_max)) > 0:
             return None if value == math.inf else Fraction(t_max)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         pass
     raise InputError(f"t_max: expected a positive time, got {t_max!r:.80}")
 

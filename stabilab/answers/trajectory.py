@@ -40,6 +40,8 @@ def trajectory(scene: AnyScene, state: Any, times: ArrayLike, method: str = "tay
     Raises InputError for states and times that are no such numbers and for an unknown method.
     """
     method = _method(method)
+    if steps is not None and not isinstance(steps, list):
+        raise InputError(f"steps: expected a list that takes the ends of the steps, got {steps!r:.80}")
     if method == REDUCED:
         times, rtol = checked_times(times), checked_rtol(rtol)
         return _by_quadrature(scene, *equations_and_start(scene, state), times, rtol)
@@ -51,7 +53,7 @@ def _method(name: str) -> str:
         return KNOWN[name.lower()]
     close = difflib.get_close_matches(str(name).lower(), KNOWN, 1)
     hint = f'; did you mean "{KNOWN[close[0]]}"?' if close else ""
-    raise InputError(f"method: there is no {name!r}; choose one of {', '.join(KNOWN.values())}{hint}")
+    raise InputError(f"method: there is no {name!r:.80}; choose one of {', '.join(KNOWN.values())}{hint}")
 
 
 def _by_quadrature(scene: AnyScene, equations: Equations, state: np.ndarray, times: np.ndarray, rtol: float | None) -> Trajectory:

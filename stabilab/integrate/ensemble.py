@@ -83,6 +83,7 @@ def ensemble(scene: AnyScene, states: ArrayLike, times: ArrayLike, rtol: float |
     run = _Rows(scene, system.motion, rtol, starts, times)
     groups = _groups(system, starts)
     with ThreadPoolExecutor(workers) if workers > 1 else nullcontext() as pool:
+    workers = min(workers, len(groups))  # more would have nothing to do
         steps = sum((pool.map if pool else map)(run, (groups[i::workers] for i in range(workers))))
     return Ensemble(times, run.out, np.isfinite(run.out).all(axis=2), dict(sorted(run.stopped.items())), "taylor", rtol,
                     {"steps": steps}, scene)
@@ -109,7 +110,7 @@ def _by_units(scene, starts, times, rtol, workers, units):
 
 def _workers(workers):
     if isinstance(workers, bool) or not isinstance(workers, (int, np.integer)) or workers < 0:
-        raise InputError(f"workers: expected a whole number, 0 for all cores, got {workers!r}")
+        raise InputError(f"workers: expected a whole number, 0 for all cores, got {workers!r:.80}")
     return int(workers) or os.cpu_count() or 1
 
 

@@ -19,10 +19,15 @@ _DECIMAL = re.compile(rf"\s*[+-]?(?:{_DIGITS}(?:\.(?:{_DIGITS})?)?|\.{_DIGITS})(
 _RATIO = re.compile(r"\s*[+-]?\d+\s*/\s*\d+\s*", re.ASCII)
 
 
-def exact(value: object) -> Fraction:
+def exact(value: object, name: str = "") -> Fraction:
     """The rational number that `value` denotes: int, float (its binary value), Fraction, or a string holding a
     decimal or a ratio ("0.1", "2/3"). Raises InputError for anything else, and where the double nearest to the
-    value would be infinite or would lose a nonzero value to zero."""
+    value would be infinite or would lose a nonzero value to zero; its words begin with `name`, where there is one."""
+    if name:
+        try:
+            return exact(value)
+        except InputError as error:
+            raise InputError(f"{name}: {error}") from None
     number = _parse(value)
     try:
         rounded = float(number)

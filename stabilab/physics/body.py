@@ -4,6 +4,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import field
 
+from ..asked import Asked
 from ..errors import InputError
 from ..numbers.exact import exact, exact_vector, floats
 from ..numbers.vectors import Exact3, Given
@@ -11,7 +12,7 @@ from ..record import record
 
 
 @record
-class Body:
+class Body(metaclass=Asked):
     """A rigid body seen from its principal axes 1, 2, 3.
 
     inertia: three principal moments of inertia about the centre of mass or a fixed point, kg m^2, in any order,
@@ -35,7 +36,7 @@ class Body:
                 f"inertia: the triangle inequality is broken: {float(largest):.17g} exceeds the sum of the other two, "
                 f"{float(sum(moments) - largest):.17g}, by {float(2 * largest - sum(moments)):.6g}; no rigid body has these moments")
         if self.mass is not None:
-            mass = exact(self.mass)
+            mass = exact(self.mass, "mass")
             if mass <= 0:
                 raise InputError(f"mass: expected a positive number of kg, got {float(mass):g}")
             object.__setattr__(self, "mass", float(mass))

@@ -7,6 +7,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any, ClassVar, Literal, TypeAlias
 
+from ..asked import Asked
 from ..errors import InputError
 from ..numbers.exact import exact, exact_vector, floats
 from ..numbers.vectors import Exact3, Given
@@ -20,7 +21,7 @@ ZERO3 = (Fraction(0),) * 3
 
 
 @record
-class Scene:
+class Scene(metaclass=Asked):
     """A body and its effects, each at most once. Effects not named here do not exist for any later step, and one of zero
     strength is not kept: it equals an absent one in every answer because it is absent.
 
@@ -84,7 +85,7 @@ class Scene:
 
 
 @record
-class ScaledGyrostat:
+class ScaledGyrostat(metaclass=Asked):
     """The dimensionless system of Amer et al. 2024, eq. (5), for any real a, b, mu; accepted wherever a scene is.
 
     x1' = x2 x3 + mu1,  x2' = -x3 (x1 + a) + mu2,  x3' = x2 (x1 + b) + mu3, the dash for d/dtau
@@ -106,7 +107,7 @@ class ScaledGyrostat:
     plain = True
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "exact_ab", (exact(self.a), exact(self.b)))
+        object.__setattr__(self, "exact_ab", (exact(self.a, "a"), exact(self.b, "b")))
         object.__setattr__(self, "exact_mu", exact_vector(self.mu, "mu"))
         object.__setattr__(self, "a", float(self.exact_ab[0]))
         object.__setattr__(self, "b", float(self.exact_ab[1]))

@@ -41,7 +41,10 @@ def three_floats(state: Any) -> Float3:
         values = tuple(map(float, real(state, "states")))
         if len(values) == 3 and all(map(math.isfinite, values)):
             return values
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         pass
     from .states import checked_states  # other shapes that hold one state, and the words for what is none
-    return tuple(checked_states(state).reshape(3).tolist())
+    array = checked_states(state)
+    if array.size != 3:
+        raise InputError(f"state: expected one state, three numbers, got the shape {array.shape}")
+    return tuple(array.reshape(3).tolist())

@@ -20,21 +20,26 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
 
-def numbers_in_a_row(values: Any, name: str) -> np.ndarray:
+def float_array(values: Any, words: str) -> np.ndarray:
+    """The values as an array of doubles; InputError with these words for what has none: no numbers, rows of unlike length, larger than any double."""
     try:
-        array = np.asarray(real(np.asarray(values), name), float)
-    except (TypeError, ValueError):
-        raise InputError(f"{name}: expected numbers, got {values!r}") from None
+        return np.asarray(real(np.asarray(values), words.partition(":")[0]), float)
+    except (TypeError, ValueError, OverflowError):
+        raise InputError(words) from None
+
+
+def numbers_in_a_row(values: Any, name: str) -> np.ndarray:
+    array = float_array(values, f"{name}: expected numbers, got {values!r:.80}")
     array = array if array.ndim else array.reshape(1)
     if array.ndim != 1 or not array.size or not np.isfinite(array).all():
-        raise InputError(f"{name}: expected finite numbers in one row, got {values!r}")
+        raise InputError(f"{name}: expected finite numbers in one row, got {values!r:.80}")
     return array
 
 
-def three_numbers(state: Any) -> np.ndarray:
-    array = numbers_in_a_row(state, "state")
+def three_numbers(state: Any, name: str = "state") -> np.ndarray:
+    array = numbers_in_a_row(state, name)
     if array.size != 3:
-        raise InputError(f"state: expected three numbers, got {array.size} of them")
+        raise InputError(f"{name}: expected three numbers, got {array.size} of them")
     return array
 
 REST = {"gamma": (0.0, 0.0, 1.0), "attitude": (1.0, 0.0, 0.0, 0.0), "velocity": (0.0,) * 3, "position": (0.0,) * 3}
@@ -72,7 +77,7 @@ def checked_times(times: Any) -> np.ndarray:
 
 def checked_rtol(rtol: float | None) -> float | None:
     if rtol is not None and not (isinstance(rtol, (int, float)) and 0 < rtol < 1):
-        raise InputError(f"rtol: expected a number between 0 and 1, got {rtol!r}")
+        raise InputError(f"rtol: expected a number between 0 and 1, got {rtol!r:.80}")
     return rtol
 
 LAST_PLACE = 2.0**-52
@@ -89,10 +94,7 @@ UNDERFLOW = 2.0**-1060  # what four terms may lose that are no normal doubles
 
 def checked_states(states: Any) -> np.ndarray:
     """States as a float array (..., 3); InputError otherwise."""
-    try:
-        array = np.asarray(real(np.asarray(states), "states"), dtype=float)
-    except (TypeError, ValueError):
-        raise InputError("states: expected numbers in an array of shape (..., 3)") from None
+    array = float_array(states, "states: expected numbers in an array of shape (..., 3)")
     if array.ndim < 1 or array.shape[-1] != 3:
         raise InputError(f"states: expected an array of shape (..., 3), got shape {array.shape}")
     if not np.isfinite(array).all():
@@ -119,10 +121,7 @@ def equilibrium_mask(scene: AnyScene, states: np.ndarray) -> np.ndarray:
 
 def checked_starts(equations: Equations, states: Any) -> np.ndarray:
     wanted = len(equations.state)
-    try:
-        array = np.asarray(real(np.asarray(states), "states"), float)
-    except (TypeError, ValueError):
-        raise InputError(f"states: expected rows of {wanted} numbers, got {states!r}") from None
+    array = float_array(states, f"states: expected rows of {wanted} numbers, got {states!r:.80}")
     if array.ndim != 2 or array.shape[1] != wanted or not len(array):
         raise InputError(f"states: expected rows of {wanted} numbers ({', '.join(map(str, equations.state))}), got the shape {array.shape}")
     if not np.isfinite(array).all():
@@ -132,8 +131,10 @@ def checked_starts(equations: Equations, states: Any) -> np.ndarray:
 
 def start_of(scene: AnyScene, omega: Sequence[float], blocks: Mapping[str, Sequence[float]]) -> dict[str, Sequence[float]]:
     """The blocks of the state at time 0 as `trajectory` takes them; attitude from its 3-1-2 angles."""
+    if not isinstance(blocks, Mapping):
+        raise InputError(f"blocks: expected blocks of the state by name, such as {{'gamma': (0, 0, 1)}}, got {blocks!r:.80}")
     start = {"omega": omega, **blocks}
     for name in ordered((*scene.blocks, *blocks)):
         if name == "attitude":
-            start[name] = tuple(quaternion(*blocks.get("attitude", (0.0, 0.0, 0.0))))
+            start[name] = tuple(quaternion(*three_numbers(blocks.get("attitude", (0.0, 0.0, 0.0)), "state: attitude").tolist()))
     return start

@@ -63,10 +63,10 @@ def compare(case: Any, times: ArrayLike | None = None, order: int | None = None)
     """
     if order is not None and "lindstedt" not in models_of(checked_case(case).scene):
         raise InputError(f"order: belongs to the model \"lindstedt\"; this scene has {', '.join(models_of(case.scene))}")
-    if times is None and checked_case(case).span is None:
+    if checked_case(case).span is None and times is None:
         raise InputError("compare: the case states no span: give it times")
-    times = np.linspace(case.span[0], case.span[1], GRID) if times is None else np.asarray(times, float)
-    runs, refused = side_by_side(checked_case(case), times, order)
+    times = np.linspace(case.span[0], case.span[1], GRID) if times is None else checked_times(times)
+    runs, refused = side_by_side(case, times, order)
     exact, found = runs["exact"], []
     for name, run in list(runs.items())[1:]:
         for part in (p for p in SHARED if p in run.state and p in exact.state):

@@ -76,12 +76,13 @@ def _goes_fast(land, strips, fast, accuracy) -> bool:
 def _check(reach, shape, accuracy):
     if shape is not None and accuracy is not None:
         raise InputError("separatrix: got both a shape and an accuracy; expected one of them, as an accuracy chooses the shape")
-    if shape is not None and (shape[0] < 3 or shape[1] < 5):
-        raise InputError(f"shape: expected at least (3, 5), got {tuple(shape)}")
-    if reach is not None and not reach > 1:
-        raise InputError(f"reach: expected a multiple of the fold's radius above 1, got {reach}")
-    if accuracy is not None and not 0 < accuracy < np.inf:
-        raise InputError(f"accuracy: expected a distance above 0 in the unit of the sheet's points, got {accuracy}")
+    if shape is not None and not (isinstance(shape, (tuple, list)) and len(shape) == 2 and all(isinstance(n, (int, np.integer)) for n in shape)
+                                  and shape[0] >= 3 and shape[1] >= 5):
+        raise InputError(f"shape: expected (rows, columns), at least (3, 5), got {shape!r:.80}")
+    if reach is not None and not (isinstance(reach, (int, float, np.integer, np.floating)) and 1 < reach < np.inf):
+        raise InputError(f"reach: expected a multiple of the fold's radius above 1, got {reach!r:.80}")
+    if accuracy is not None and not (isinstance(accuracy, (int, float, np.integer, np.floating)) and 0 < accuracy < np.inf):
+        raise InputError(f"accuracy: expected a distance above 0 in the unit of the sheet's points, got {accuracy!r:.80}")
 
 
 def _by_kernel(land, strips, shape, accuracy):

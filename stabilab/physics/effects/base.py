@@ -9,6 +9,7 @@ from collections.abc import Callable, Mapping
 from fractions import Fraction
 from typing import Any, ClassVar
 
+from ...asked import Asked
 from ...numbers.principal import PrincipalAxes
 from ...numbers.vectors import Number, Triple
 from ...record import record
@@ -30,7 +31,7 @@ class Limit:
 
 
 @record
-class Effect:
+class Effect(metaclass=Asked):
     """Base of every effect. `name` is its table in a case file; `keys` its keys there."""
 
     name: ClassVar[str] = ""

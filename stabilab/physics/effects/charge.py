@@ -36,14 +36,14 @@ class Charge(Effect):
     strength: float = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        scale = exact(self.charge) * exact(self.field_strength) * exact(self.arm) ** 2
-        if self.angle != "attitude":
-            scale *= precise("cos", exact(self.angle))
+        scale = exact(self.charge, "charge") * exact(self.field_strength, "field") * exact(self.arm, "arm") ** 2
+        if not self.follows_attitude:
+            scale *= precise("cos", exact(self.angle, "angle"))
         object.__setattr__(self, "exact", scale)
         if abs(scale) >= 2**1024:
             raise InputError("charge x field x arm^2 is larger than the largest double (about 1.8e308)")
         object.__setattr__(self, "strength", float(scale))
-        for name in ("charge", "field_strength", "arm", *(() if self.angle == "attitude" else ("angle",))):
+        for name in ("charge", "field_strength", "arm", *(() if self.follows_attitude else ("angle",))):
             object.__setattr__(self, name, float(exact(getattr(self, name))))
 
     @classmethod
@@ -62,7 +62,7 @@ class Charge(Effect):
     @property
     def follows_attitude(self) -> bool:
         """Whether cos sigma comes from the motion."""
-        return self.angle == "attitude"
+        return isinstance(self.angle, str) and self.angle == "attitude"
 
     @property
     def approximate(self) -> bool:  # type: ignore[override]  # a constant of the other effects, here told by the values

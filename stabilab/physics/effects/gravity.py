@@ -27,7 +27,7 @@ class Gravity(Effect):
     exact: Exact3 = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        weight, centre = exact(self.weight), exact_vector(self.centre_of_mass, "centre_of_mass")
+        weight, centre = exact(self.weight, "weight"), exact_vector(self.centre_of_mass, "centre_of_mass")
         object.__setattr__(self, "exact", tuple(weight * c for c in centre))
         object.__setattr__(self, "weight", float(weight))
         object.__setattr__(self, "centre_of_mass", floats(centre))

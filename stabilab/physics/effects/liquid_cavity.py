@@ -43,11 +43,11 @@ class LiquidCavity(Effect):
     exact: Fraction = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        density, viscosity, P0 = exact(self.density), exact(self.viscosity), exact(self.P0)
+        density, viscosity, P0 = exact(self.density, "density"), exact(self.viscosity, "viscosity"), exact(self.P0, "P0")
         for name, value in (("density", density), ("viscosity", viscosity), ("P0", P0)):
             if value < 0 or (value == 0 and name == "viscosity"):
                 raise InputError(f"{name}: expected a positive number, got {float(value):g}")
-        if self.law not in TORQUES:
+        if not isinstance(self.law, str) or self.law not in TORQUES:
             raise InputError(f'torque: expected "consistent" or "printed", got {self.law!r}')
         object.__setattr__(self, "exact", density * P0 / viscosity)
         for name, value in (("density", density), ("viscosity", viscosity), ("P0", P0)):
@@ -56,7 +56,10 @@ class LiquidCavity(Effect):
     @classmethod
     def of_sphere(cls, density: float, viscosity: float, radius: float, law: str = "consistent") -> LiquidCavity:
         """The cavity as a sphere of this radius, m."""
-        return cls(density, viscosity, 8 * precise("pi") * exact(radius) ** 7 / 525, law)
+        length = exact(radius, "radius")
+        if length < 0:
+            raise InputError(f"radius: expected a positive number, got {float(length):g}")
+        return cls(density, viscosity, 8 * precise("pi") * length**7 / 525, law)
 
     @classmethod
     def from_case(cls, table: Any, context: Any) -> LiquidCavity | None:

@@ -6,6 +6,7 @@ from dataclasses import field
 from fractions import Fraction
 from typing import Any, ClassVar
 
+from ...errors import InputError
 from ...numbers.exact import exact
 from ...numbers.principal import PrincipalAxes
 from ...numbers.vectors import Given, Number, Triple, cross
@@ -30,10 +31,13 @@ class NewtonianField(Effect):
     exact: Fraction = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "exact", exact(self.strength))
+        object.__setattr__(self, "exact", exact(self.strength, "strength"))
         object.__setattr__(self, "strength", float(self.exact))
         if self.distance is not None:
-            object.__setattr__(self, "distance", float(exact(self.distance)))
+            distance = float(exact(self.distance, "distance"))
+            if distance <= 0:
+                raise InputError(f"distance: expected a positive number of m, got {distance:g}")
+            object.__setattr__(self, "distance", distance)
 
     @classmethod
     def from_case(cls, table: Any, context: Any) -> NewtonianField | None:

@@ -27,7 +27,7 @@ class Resistance(Effect):
     exact: Fraction = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        value = exact(self.coefficient)
+        value = exact(self.coefficient, "coefficient")
         if value < 0:
             raise InputError(f"coefficient: expected a number that is not negative, got {float(value):g}")
         object.__setattr__(self, "exact", value)
