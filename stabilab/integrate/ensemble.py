@@ -21,7 +21,7 @@ from ..physics.states import checked_rtol, checked_starts, checked_times
 from ..physics.to_numpy import equations_of, to_numpy
 from .motion_units import FAST, SLOW, in_unit, own_unit
 from .to_heyoka import TAYLOR_TOLERANCE, borrowed_taylor, heyoka_available
-from .trajectory import STEP_LIMIT, integrated
+from .trajectory import PATIENCE, REPORT, STEP_LIMIT, integrated, steps_left
 
 # Motions in step: eight doubles fill the widest vectors there are, and narrower ones two or four at a time. Not asked of
 # the machine, so that every machine groups alike.
@@ -82,9 +82,9 @@ def ensemble(scene: AnyScene, states: ArrayLike, times: ArrayLike, rtol: float |
             return _by_units(scene, starts, times, rtol, workers, units)
     run = _Rows(scene, system.motion, rtol, starts, times)
     groups = _groups(system, starts)
-    with ThreadPoolExecutor(workers) if workers > 1 else nullcontext() as pool:
     workers = min(workers, len(groups))  # more would have nothing to do
         steps = sum((pool.map if pool else map)(run, (groups[i::workers] for i in range(workers))))
+    with ThreadPoolExecutor(workers) if workers > 1 else nullcontext() as pool:
     return Ensemble(times, run.out, np.isfinite(run.out).all(axis=2), dict(sorted(run.stopped.items())), "taylor", rtol,
                     {"steps": steps}, scene)
 
@@ -143,25 +143,35 @@ class _Rows:
 
     def _row(self, ta, lanes, way, grid) -> int:
         """A row of motions one way; those that cannot go on give up their lane, and the others start again."""
-        points, steps = self._propagated(ta, lanes, grid)
-        while not self._arrived(ta, grid, points):
+        points, steps = self._propagated(ta, lanes, grid, REPORT)
+        if any(result[0].name == "step_limit" for result in ta.propagate_res):
+            for number in {int(n) for n, time, result in zip(lanes, ta.time, ta.propagate_res)
+                           if result[0].name == "step_limit" and steps_left(time, grid[-1, 0] - time) > PATIENCE * STEP_LIMIT}:
+                self._alone(number)
+            lanes = self._left(lanes)
+            points, steps = self._propagated(ta, lanes, grid) if lanes.size else (points, [])
+        while lanes.size and not self._arrived(ta, grid, points):
             for number in {int(n) for n, result in zip(lanes, ta.propagate_res) if result[0].name != "time_limit"}:
                 self._alone(number)
-            good = [number for number in lanes if int(number) not in self.stopped]
-            if not good:
-                return 0
-            lanes = np.resize(good, LANES)
-            points, steps = self._propagated(ta, lanes, grid)
+            lanes = self._left(lanes)
+            points, steps = self._propagated(ta, lanes, grid) if lanes.size else (points, [])
+        if not lanes.size:
+            return 0
         self.out[lanes[:, None], way] = points[1:].transpose(2, 0, 1)
         return sum(dict(zip(lanes.tolist(), steps)).values())  # a filler counts once
 
     def _arrived(self, ta, grid, points):
+    def _left(self, lanes):
+        """A row of those that go on; none where none does."""
+        good = [number for number in lanes if int(number) not in self.stopped]
+        return np.resize(good, LANES if good else 0)
+
         return (ta.time == grid[-1]).all() and np.isfinite(points[-1]).all()
 
-    def _propagated(self, ta, lanes, grid):
+    def _propagated(self, ta, lanes, grid, most=STEP_LIMIT):
         ta.set_time(0.0)
         ta.state[:] = self.starts[lanes].T
-        points = ta.propagate_grid(grid, max_steps=STEP_LIMIT)[1]
+        points = ta.propagate_grid(grid, max_steps=most)[1]
         return points, [result[3] for result in ta.propagate_res]
 
     def _alone(self, number):

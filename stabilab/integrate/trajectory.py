@@ -119,6 +119,11 @@ def departures(system, state, points) -> dict[str, float]:
             for law, departure, size in zip(system.equations.balances, departed.tolist(), largest.tolist())}
 
 
+def steps_left(passed, ahead) -> float:
+    """How many more steps the time ahead would take at the pace of the last REPORT of them."""
+    return float(abs(ahead) / (abs(passed) or 1e-300) * REPORT)
+
+
 class _Taylor:
     """Runs of the Taylor series; counters add up over the runs."""
 
@@ -163,7 +168,7 @@ class _Taylor:
             rows.append(out.reshape(-1, size)[1:])
             if outcome.name != "step_limit":
                 return rows[0] if len(rows) == 1 else np.concatenate(rows), OUTCOMES.get(outcome.name, outcome.name)
-            left = abs(grid[-1] - ta.time) / (abs(ta.time - last) or 1e-300) * REPORT
+            left = steps_left(ta.time - last, grid[-1] - ta.time)
             if self.counters["steps"] - begun >= STEP_LIMIT or left > PATIENCE * STEP_LIMIT:
                 return np.concatenate(rows), (f"the last {REPORT} steps went from t = {last:.9g} to {ta.time:.9g}, the rest would "
                                               f"take some {left:.1g} steps")

@@ -7,6 +7,7 @@ import pytest
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, trajectory
 from stabilab.errors import InputError
 from stabilab.integrate import ensemble as ensembles
+from stabilab.integrate import trajectory as trajectories
 from stabilab.integrate.ensemble import LANES, ensemble
 from stabilab.integrate.to_heyoka import heyoka_available
 from stabilab.physics.effects import effect_class
@@ -108,3 +109,26 @@ def test_motions_of_very_different_pace_are_followed_each_in_its_own_unit():
     np.testing.assert_allclose(found.states[0], np.tile(states[0], (3, 1)), rtol=1e-15)
     alone = trajectory(scene, states[1], times)
     np.testing.assert_allclose(alone.states, found.states[1], rtol=1e-12)
+
+
+@needs_heyoka
+def test_a_motion_of_endless_turns_is_given_up_by_its_pace(monkeypatch):
+    """Its first steps tell how many there would be; the other motion of its row has the bytes that it has alone."""
+    steps, propagated = [], ensembles._Rows._propagated
+
+    def counted(*arguments):
+        steps.append(propagated(*arguments))
+        return steps[-1]
+    monkeypatch.setattr(ensembles._Rows, "_propagated", counted)
+    for module in (ensembles, trajectories):
+        monkeypatch.setattr(module, "REPORT", 1000)
+    scene, ends = Scene(Body((1.063, 1.569, 1.802)), Gyrostat((0, 53.99, 0))), [1.0, 1e9]
+    found = ensemble(scene, [(0, 0, -652), (0, 1, 0)], ends)
+    assert list(found.stopped) == [0] and "the rest would take some" in found.stopped[0] and found.reached.tolist() == [[True, False], [True, True]]
+    assert max(max(taken) for _, taken in steps) <= 1000
+    assert (found.states[1] == ensemble(scene, [(0, 1, 0)], ends).states[0]).all()
+
+
+def test_more_workers_than_there_are_rows_are_not_made(monkeypatch):
+    monkeypatch.setattr(ensembles, "ThreadPoolExecutor", lambda workers: pytest.fail(f"{workers} workers for one row"))
+    assert ensemble(SCENE, STATES[:LANES], TIMES, workers=10**400).status == "reached"
