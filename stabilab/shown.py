@@ -1,6 +1,7 @@
 """How results show themselves: the room that typesets them is asked by name, when a reader asks; no result knows it."""
 from __future__ import annotations
 
+from dataclasses import fields
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
@@ -9,6 +10,32 @@ if TYPE_CHECKING:
     import xarray
 
 ROOM = "stabilab.show.results"
+
+
+def same(one: Any, other: Any) -> bool:
+    """Whether two values hold the same: arrays with the same bytes, not a number as one that is none either."""
+    if type(one) is not type(other):
+        return False
+    if hasattr(one, "tobytes") and hasattr(one, "dtype"):
+        if one.shape != other.shape or one.dtype != other.dtype:
+            return False
+        return one.tobytes() == other.tobytes() if not one.dtype.hasobject else same(one.tolist(), other.tolist())
+    if isinstance(one, dict):
+        return one.keys() == other.keys() and all(same(value, other[key]) for key, value in one.items())
+    if isinstance(one, (list, tuple)):
+        return len(one) == len(other) and all(map(same, one, other))
+    return one is other or bool(one == other) or (isinstance(one, float) and one != one and other != other)
+
+
+class Compared:
+    """A data class that holds arrays: one is equal to another by what its fields hold, and has no hash, as arrays have none."""
+
+    def __eq__(self, other: object) -> Any:
+        if other.__class__ is not self.__class__:
+            return NotImplemented
+        return all(same(getattr(self, one.name), getattr(other, one.name)) for one in fields(self) if one.compare)  # type: ignore[arg-type]
+
+    __hash__ = None  # type: ignore[assignment]
 
 
 class Shown:

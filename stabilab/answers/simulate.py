@@ -13,7 +13,7 @@ from ..physics.attitude import angles, beyond, body_momentum, to_space, unwrappe
 from ..physics.scene import AnyScene, Scene
 from ..physics.states import checked_times, equations_and_start, start_of
 from ..physics.to_numpy import to_numpy
-from ..shown import Shown
+from ..shown import Compared, Shown
 from .trajectory import trajectory
 
 if TYPE_CHECKING:
@@ -29,8 +29,8 @@ ROUNDS, POINTS = 12, 400_000  # of refining the times between the asked-for ones
 INSIDE = 5  # points a step: a Taylor step to the last digit turns the body by up to three radians
 
 
-@dataclass(frozen=True, repr=False)
-class Simulation(Shown):
+@dataclass(frozen=True, repr=False, eq=False)
+class Simulation(Shown, Compared):
     """States of one model at the asked-for times.
 
     t: (n,), s (tau when scaled); state: name -> (n, m): omega (x when scaled), gamma, angles (psi, phi, theta,

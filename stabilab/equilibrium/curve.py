@@ -47,12 +47,13 @@ class RationalCurve:
 
     def float_point(self) -> Callable[[float], Float3]:
         """point(t) for a float t, each coordinate rounded once; InputError at a pole or a t that is not finite."""
-        def point(t: float) -> Float3:
-            try:
-                return tuple(float(v) for v in self.exact_point(Fraction(t)))
-            except (ZeroDivisionError, OverflowError, ValueError):
-                raise InputError(f"t = {t!r} lies at an end of the curve ({self.name}): no equilibrium there") from None
-        return point
+        return self._rounded_point  # a method of its own, unlike a function made here, can be sent to another process
+
+    def _rounded_point(self, t: float) -> Float3:
+        try:
+            return tuple(float(v) for v in self.exact_point(Fraction(t)))
+        except (ZeroDivisionError, OverflowError, ValueError):
+            raise InputError(f"t = {t!r} lies at an end of the curve ({self.name}): no equilibrium there") from None
 
 
 def straight_line(start: Sequence[Fraction], direction: Sequence[Fraction]) -> tuple[Poly, ...]:

@@ -19,6 +19,7 @@ from ..physics.blocks import slices
 from ..physics.scene import AnyScene
 from ..physics.states import checked_rtol, checked_starts, checked_times
 from ..physics.to_numpy import equations_of, to_numpy
+from ..shown import Compared
 from .motion_units import FAST, SLOW, in_unit, own_unit
 from .to_heyoka import TAYLOR_TOLERANCE, borrowed_taylor, heyoka_available
 from .trajectory import PATIENCE, REPORT, STEP_LIMIT, integrated, steps_left
@@ -28,8 +29,8 @@ from .trajectory import PATIENCE, REPORT, STEP_LIMIT, integrated, steps_left
 LANES = 8
 
 
-@dataclass(frozen=True)
-class Ensemble:
+@dataclass(frozen=True, eq=False)
+class Ensemble(Compared):
     """Motions of one scene at common times.
 
     t: (m,), s (tau when scaled); states: (n, m, N), one motion per row of the starts; reached: (n, m), False where a
@@ -83,8 +84,8 @@ def ensemble(scene: AnyScene, states: ArrayLike, times: ArrayLike, rtol: float |
     run = _Rows(scene, system.motion, rtol, starts, times)
     groups = _groups(system, starts)
     workers = min(workers, len(groups))  # more would have nothing to do
-        steps = sum((pool.map if pool else map)(run, (groups[i::workers] for i in range(workers))))
     with ThreadPoolExecutor(workers) if workers > 1 else nullcontext() as pool:
+        steps = sum((pool.map if pool else map)(run, (groups[i::workers] for i in range(workers))))
     return Ensemble(times, run.out, np.isfinite(run.out).all(axis=2), dict(sorted(run.stopped.items())), "taylor", rtol,
                     {"steps": steps}, scene)
 
@@ -160,12 +161,12 @@ class _Rows:
         self.out[lanes[:, None], way] = points[1:].transpose(2, 0, 1)
         return sum(dict(zip(lanes.tolist(), steps)).values())  # a filler counts once
 
-    def _arrived(self, ta, grid, points):
     def _left(self, lanes):
         """A row of those that go on; none where none does."""
         good = [number for number in lanes if int(number) not in self.stopped]
         return np.resize(good, LANES if good else 0)
 
+    def _arrived(self, ta, grid, points):
         return (ta.time == grid[-1]).all() and np.isfinite(points[-1]).all()
 
     def _propagated(self, ta, lanes, grid, most=STEP_LIMIT):

@@ -14,7 +14,7 @@ from ..physics.approximate import limits_of
 from ..physics.blocks import slices
 from ..physics.states import checked_rtol, checked_times, equations_and_start
 from ..physics.to_numpy import to_numpy
-from ..shown import Shown
+from ..shown import Compared, Shown
 from .motion_units import in_unit, mass_unit, own_unit
 from .to_heyoka import FEATHER, TAYLOR_TOLERANCE, borrowed_taylor, heyoka_available
 
@@ -254,8 +254,8 @@ def _stopped(points, grid, why):
     return f"the run stopped after {last}: {why}"
 
 
-@dataclass(frozen=True, repr=False)
-class Trajectory(Shown):
+@dataclass(frozen=True, repr=False, eq=False)
+class Trajectory(Shown, Compared):
     """States at the asked-for times.
 
     t: (n,) times; states: (n, N), blocks: where each block of the state stands in the N columns; invariant_drift: law name -> largest relative

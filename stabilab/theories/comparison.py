@@ -9,7 +9,8 @@ from numpy.typing import ArrayLike
 
 from ..asked import checked_case
 from ..errors import InputError
-from ..shown import Shown
+from ..physics.states import checked_times
+from ..shown import Compared, Shown
 from .follow import follow, models_of
 from .theory import theory
 
@@ -19,8 +20,8 @@ LEVELS = (0.01, 0.1)
 SHARED = ("omega", "gamma", "angles", "momentum", "velocity", "position")
 
 
-@dataclass(frozen=True)
-class Departure:
+@dataclass(frozen=True, eq=False)
+class Departure(Compared):
     """Error of one part of the state under one model.
 
     error: (n,) largest component's distance from the exact motion, inf where the model has stopped; scale: the largest
@@ -36,8 +37,8 @@ class Departure:
     first: dict
 
 
-@dataclass(frozen=True, repr=False)
-class Comparison(Shown):
+@dataclass(frozen=True, repr=False, eq=False)
+class Comparison(Shown, Compared):
     """t: (n,) times; runs: model -> Simulation, the exact one first; departures: one per model and part of the state;
     refused: model -> why it has no answer for this motion; theory: what else the theory says (`theory.theory`)."""
 

@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...physics.approximate import limits_of
-from ...shown import Shown
+from ...shown import Compared, Shown
 
 if TYPE_CHECKING:  # a scene of exact laws does not load it
     from ...physics.law_limits import Validity
 
 
-@dataclass(frozen=True, repr=False)
-class TimeTo(Shown):
+@dataclass(frozen=True, repr=False, eq=False)
+class TimeTo(Shown, Compared):
     """The first times (...,) at which states (..., 3) reach a limit, in the scene's time: each is between low and high.
 
     Both inf: never. high NaN: not known; then the limit is not reached before low. level (...,), texts: "exact" (a law, or all extremes), "proved"

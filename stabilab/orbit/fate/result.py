@@ -10,7 +10,7 @@ import numpy as np
 
 from ...physics.approximate import limits_of
 from ...physics.scene import AnyScene
-from ...shown import Shown
+from ...shown import Compared, Shown
 from ..far_states import BEYOND
 from ..result import Fate
 from ..separatrix.distance.ask import separatrix_distance
@@ -19,8 +19,8 @@ from .reasons import REASONS, Reason
 CHUNK = 16384  # states at a time: a dozen arrays of so many doubles stay in the processor's caches
 
 
-@dataclass(frozen=True, repr=False)
-class FateResult(Shown):
+@dataclass(frozen=True, repr=False, eq=False)
+class FateResult(Shown, Compared):
     """Labels and margins of states (..., 3).
 
     labels: (...,) int8 of `Fate`. margins: (...,) barrier minus energy in the scene's energy (J; or x_i^2/2 + U when

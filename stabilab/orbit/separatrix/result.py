@@ -5,7 +5,7 @@ import math
 from typing import TYPE_CHECKING, NamedTuple
 
 from ...record import record
-from ...shown import Shown
+from ...shown import Compared, Shown
 
 if TYPE_CHECKING:
     import numpy as np
@@ -14,7 +14,7 @@ AGREE = 1e-9  # relative: nearer than that, lower bound and witness are one numb
 
 
 @record
-class Sheet:
+class Sheet(Compared):
     """One sheet of the separatrix as a parametric grid.
 
     points: (n, m, 3) array; row r is the homoclinic curve at one value of the invariant, rows run from the fold
