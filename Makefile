@@ -3,6 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
+COMPILED := $(VENV)/.compiled
 
 .PHONY: report test check test-slow test-long floors figures docs bench fuzz hunt coverage mutate clean
 
@@ -12,8 +13,13 @@ report: $(STAMP)
 # ROOM=orbit/fate: the tests of one room or wing alone. A file stays with one of the two workers, which computes once what its tests share
 ROOM ?=
 test: export PYTHONDONTWRITEBYTECODE =  # where this is set, every process would compile all that it reads once more
-test: $(STAMP)
+test: $(STAMP) $(COMPILED)
 	$(BIN)/python -m pytest -n 2 --dist loadfile -m "not slow" $(if $(ROOM),tests/$(ROOM))
+
+# Once for both workers, which would each compile them; numba keeps them beside the sources
+$(COMPILED): $(STAMP) $(wildcard stabilab/unreduced/enclosure/kernel.py stabilab/unreduced/spin_up/compiled/*.py)
+	$(BIN)/python -m tests.compiled
+	touch $@
 
 # Ruff's rules, types, and who may import whom
 check: $(STAMP)
@@ -63,7 +69,7 @@ hunt: $(STAMP)
 	$(BIN)/python -W ignore -m tests.hunt $(HUNT_SECONDS) .hunt
 
 # Which lines and branches of the analysis the default suite runs; fails below 95 %
-coverage: $(STAMP)
+coverage: $(STAMP) $(COMPILED)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e ".[strength]"
 	$(BIN)/python -m pytest -n 2 --dist loadfile -m "not slow" --cov --cov-report=term:skip-covered tests
 
