@@ -51,10 +51,16 @@ OTHER = {"stable": "unstable", "unstable": "stable", "degenerate": "stable"}
 
 def proved(scene, state=None):
     """The certificate of a scene as read from its file; proved."""
-    claims = json.loads(json.dumps(certificate(scene, state)))
-    found = verify(claims)
+    return json.loads(_text_of(scene, state))
+
+
+@cache
+def _text_of(scene, state):
+    """Made and proved once for all tests, each of which reads, and changes, its own."""
+    text = json.dumps(certificate(scene, state))
+    found = verify(json.loads(text))
     assert found.status == "proved", found.findings
-    return claims
+    return text
 
 
 def status_of(claims):
@@ -157,13 +163,8 @@ CASES = Path(__file__).parents[2] / "cases"
 
 
 def case_proved(name):
-    return json.loads(_case_text(name))
-
-
-@cache
-def _case_text(name):
     case = load(CASES / f"{name}.toml")
-    return json.dumps(proved(case.scene, case.exact_state))
+    return proved(case.scene, case.exact_state)
 
 
 def test_boxes_without_a_zero_are_refuted():
@@ -358,10 +359,11 @@ OF_A_KIND = ("off-axis-one", "thruster-negative-minor-axis")  # of the files: ot
 
 
 @pytest.mark.parametrize("name", [*KINDS, *(pytest.param(name, marks=pytest.mark.slow if name in OF_A_KIND else ()) for name in FILES)])
-def test_what_a_machine_forges_is_never_proved(name):
+@pytest.mark.parametrize("paths", [2, pytest.param(4, marks=pytest.mark.slow)])
+def test_what_a_machine_forges_is_never_proved(name, paths):
     claims = case_proved(name) if name in FILES else proved(*KINDS[name])
-    made, wrong = forge_all(claims, name, 2, paths=4)
-    assert made > 300 and not wrong, wrong[:3]
+    made, wrong = forge_all(claims, name, 2, paths=paths)
+    assert made > 75 * paths and not wrong, wrong[:3]
 
 
 OF_EACH_SORT = ("two points", "an oblique line that is left slowly", "spin-up after turning", "free, steady rate", "on a decaying plane", "past a fold",
