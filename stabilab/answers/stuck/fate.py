@@ -21,6 +21,7 @@ from .scenario import Scenario
 
 BUDGET = 100_000  # steps of a run that looks for the largest rate
 LITTLE, FEW = 2_000_000, 3_000  # multiplications and compiled steps: some tenths of a second
+PLAIN = 32  # validated steps without the compiler, fifteen milliseconds each: as long as loading what is compiled takes; compiling it takes ten seconds
 TURN = 1.001  # of a period: a motion that repeats is followed for so long
 EXACT = ("axis", "law")  # certificates of growth that are closed solutions
 
@@ -71,7 +72,7 @@ def _at_rest(scenario: Scenario, kind: str) -> Found:
 
 def _off_axis(scenario: Scenario, scene: Scene) -> Found:
     certified = spin_up(scene, scenario.start)
-    seen = proved(scene, scenario.state, certified)
+    seen = proved(scene, scenario.state, certified, plain=PLAIN)
     spins = seen.fate == Fate.SPIN_UP
     about = (seen.axis, seen.sense, seen.direction) if spins else (0, 0, None)
     when = _when(scenario, scene, None if spins or seen.fate == Fate.BOUNDED else seen.t, spun=certified)

@@ -15,6 +15,16 @@ def functions() -> dict:
     return compiled(kernel, INLINED) if installed() else vars(kernel)
 
 
+def available() -> bool:
+    """Whether there is a compiler for the kernel; it is not loaded."""
+    return installed()
+
+
+def loaded() -> bool:
+    """Whether the kernel is at hand, without loading it."""
+    return bool(functions.cache_info().currsize)
+
+
 def advance():
     """`kernel.advance`, compiled; None without numba."""
     return functions()["advance"] if installed() else None

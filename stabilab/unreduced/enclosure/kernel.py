@@ -207,6 +207,11 @@ def bound_of_flow(M, G):
                 G[i, j] = new[i, j] * WIDER
 
 
+def length_of(x, y, z):
+    """The length of a vector. By products: a power of two is one for the compiler, and need not be for the interpreter."""
+    return sqrt(x * x + y * y + z * z)
+
+
 def judged(numbers, energy, fine, a, V, B, rad, h, x, error, spread, moved, E, P):
     """Bounds of one step of length h (x in the unit of the coefficients a, V): |w - p| (error), |u| (spread), what it is beside V's part
     (moved), the error of each column of V (E), the sums P; True where they hold. fine: what the recursion of a errs by."""
@@ -223,7 +228,7 @@ def judged(numbers, energy, fine, a, V, B, rad, h, x, error, spread, moved, E, P
                 vsum[i, c] += v[i, c, n]
         power *= x
     size, S = 0.0, np.zeros(3)
-    start = sqrt((a[0, 0] * energy[0]) ** 2 + (a[1, 0] * energy[1]) ** 2 + (a[2, 0] * energy[2]) ** 2) + energy[3] * h
+    start = length_of(a[0, 0] * energy[0], a[1, 0] * energy[1], a[2, 0] * energy[2]) + energy[3] * h
     for i in range(3):
         S[i] = P[i] * WIDER
         if energy[i] > 0.0:
@@ -274,7 +279,7 @@ def taken_along(M, rest, rad, B):
     and rad as they were, where these are too nearly parallel."""
     N, Y, new = np.empty((3, 3)), np.empty((3, 3)), np.empty(3)
     for c in range(3):
-        length = sqrt(M[0, c] ** 2 + M[1, c] ** 2 + M[2, c] ** 2) + TINY
+        length = length_of(M[0, c], M[1, c], M[2, c]) + TINY
         for i in range(3):
             N[i, c] = M[i, c] / length
     for i in range(3):
@@ -316,12 +321,12 @@ def turned(M, rest, rad, B):
     """New directions B and radii rad of the set {M r + rest}, |r| <= rad, |rest_i| <= rest: orthogonal, the longest edge first (Lohner)."""
     edges = np.empty(3)
     for c in range(3):
-        edges[c] = sqrt(M[0, c] ** 2 + M[1, c] ** 2 + M[2, c] ** 2) * rad[c]
+        edges[c] = length_of(M[0, c], M[1, c], M[2, c]) * rad[c]
     first = 0 if edges[0] >= edges[1] and edges[0] >= edges[2] else (1 if edges[1] >= edges[2] else 2)
     one, two = (first + 1) % 3, (first + 2) % 3
     second = one if edges[one] >= edges[two] else two
     q, r, s = np.empty(3), np.empty(3), np.empty(3)
-    length = sqrt(M[0, first] ** 2 + M[1, first] ** 2 + M[2, first] ** 2) + TINY
+    length = length_of(M[0, first], M[1, first], M[2, first]) + TINY
     for i in range(3):
         q[i] = M[i, first] / length
         r[i] = M[i, second]
@@ -329,7 +334,7 @@ def turned(M, rest, rad, B):
         along = q[0] * r[0] + q[1] * r[1] + q[2] * r[2]
         for i in range(3):
             r[i] -= along * q[i]
-        length = sqrt(r[0] ** 2 + r[1] ** 2 + r[2] ** 2) + TINY
+        length = length_of(r[0], r[1], r[2]) + TINY
         for i in range(3):
             r[i] /= length
     s[0], s[1], s[2] = q[1] * r[2] - q[2] * r[1], q[2] * r[0] - q[0] * r[2], q[0] * r[1] - q[1] * r[0]

@@ -28,10 +28,10 @@ LATER = (1.0, 1.0625, 1.25, 1.5, 2.0)  # times, over that of the certified run, 
 WIDER = 1 + 2.0**-40
 
 
-def proved(scene, state, found: SpinUp, steps: int | None = None, bits: int | None = None, fast: bool = False) -> SpinUp:
+def proved(scene, state, found: SpinUp, steps: int | None = None, bits: int | None = None, fast: bool = False, plain: int = 0) -> SpinUp:
     """The answer of `spin_up` for the motion from a state (three exact numbers: floats at their word, Fractions, decimals in strings), with
     level "proved" where its way can be enclosed in so many validated steps and the inequality holds for the whole set there; else as it was
-    found, its cause told what hindered. bits: as of `enclosure.run.Course`. fast: ask the inequality by compiled loops, for which the first of an
+    found, its cause told what hindered. bits, plain: as of `enclosure.run.Course`. fast: ask the inequality by compiled loops, for which the first of an
     installation waits some seconds: where those that found it have loaded them."""
     if found.level != "certified":
         return found
@@ -39,7 +39,7 @@ def proved(scene, state, found: SpinUp, steps: int | None = None, bits: int | No
     scene = effective(checked_scene(scene))
     own, unit = natural(scene)
     test = tests_of(own).certifier(before.field, before.orders, fast)
-    way = _Way(scene, state, found.t * LATER[-1], bits)
+    way = _Way(scene, state, found.t * LATER[-1], bits, plain)
     for later in LATER:
         reached = way.to(found.t * later, steps)
         if reached is None:
@@ -59,9 +59,9 @@ def proved(scene, state, found: SpinUp, steps: int | None = None, bits: int | No
 class _Way:
     """The motion at rising times, as the centre and radius of a ball."""
 
-    def __init__(self, scene, state, t_end, bits):
+    def __init__(self, scene, state, t_end, bits, plain):
         self.start = exact_vector(state, "state")
-        self.course = Course(scene, state, t_end, bits) if t_end else None
+        self.course = Course(scene, state, t_end, bits, plain) if t_end else None
         self.t, self.steps, self.why = 0.0, 0, ""
 
     def to(self, t, steps):

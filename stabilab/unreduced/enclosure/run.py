@@ -19,7 +19,7 @@ from ...physics.coefficients import effective
 from ..spin_up.fields import natural
 from . import kernel
 from .digits import DigitSteps
-from .door import advance
+from .door import advance, available, loaded
 from .scene import energy_of, rows_of, twofold
 
 STEPS, SLOW_STEPS = 200_000, 2_000  # at most, unless others are asked for: compiled some three seconds, else some ten
@@ -105,10 +105,11 @@ class Course:
     scene: gyrostat and constant torque, physical or scaled; state: three rates at t = 0, each an exact number (a double at its word, a Fraction,
     a decimal in a string). t_end: the end of what will be asked for; its last binary digit is the grain of time, and every step ends at a whole number of
     grains, so that times are exact. bits: None for the compiled steps
-    (104 bits, `digits` where numba is not installed), else of python-flint's.
+    (104 bits, `digits` where numba is not installed), else of python-flint's. plain: so many first ones of the compiled steps are taken by the
+    interpreter unless the compiled code is loaded, to the same bits (powers are those of one library): a motion may be at its end before that is.
     """
 
-    def __init__(self, scene, state, t_end: float, bits: int | None = None):
+    def __init__(self, scene, state, t_end: float, bits: int | None = None, plain: int = 0):
         scene = effective(checked_scene(scene))
         scene.quadratic()  # says which effect of the scene is not covered
         start = exact_vector(state, "state")
@@ -118,7 +119,7 @@ class Course:
         self.t, self.steps, self.status = 0.0, 0, kernel.GOING
         self._end = t_end * self.unit
         self._grain = math.ulp(self._end)
-        self._work = Doubles(own, start, self.unit) if bits is None and advance() else DigitSteps(own, start, self.unit, bits or 128)
+        self._work = Doubles(own, start, self.unit, plain) if bits is None and available() else DigitSteps(own, start, self.unit, bits or 128)
 
     def advance(self, t: float, steps: int | None = None, band: bool = False) -> Band | None:
         """Carry the motion on to the time t (taken down to the grain of time), by at most so many steps, at most CHUNK where the band is asked for.
@@ -159,18 +160,41 @@ class Doubles:
 
     bits = BITS
 
-    def __init__(self, own, start, unit):
+    def __init__(self, own, start, unit, plain: int = 0):
         self.numbers, self.low = twofold(rows_of(own))
         self.centre, self.low_centre = twofold([v / Fraction(unit) for v in start])
         self.energy = energy_of(own)
-        self.B, self.rad = np.eye(3), np.abs(self.centre) * 2.0**-104 + kernel.TINY
+        self.B, self.rad, self.plain = np.eye(3), np.abs(self.centre) * 2.0**-104 + kernel.TINY, plain
 
     def advance(self, t, t_end, grain, steps, times, polynomials, radii):
-        return advance()(self.numbers, self.low, self.energy, TOLERANCE, t, t_end, grain, steps, self.centre, self.low_centre, self.B, self.rad,
-                         times, polynomials, radii)
+        made = 0
+        if self.plain and not loaded():
+            first = min(steps, self.plain)
+            kept = [v.copy() for v in (self.centre, self.low_centre, self.B, self.rad)]
+            try:
+                status, t, made = self._advance(_plainly, t, t_end, grain, first, times[:first], polynomials[:first], radii[:first])
+            except (ArithmeticError, ValueError):  # what is no number has no whole part here; compiled code goes on
+                self.centre, self.low_centre, self.B, self.rad = kept
+                self.plain = 0
+            else:
+                self.plain -= made
+                if status != kernel.GOING or made == steps:
+                    return status, t, made
+        status, t, more = self._advance(advance(), t, t_end, grain, steps - made, times[made:], polynomials[made:], radii[made:])
+        return status, t, made + more
+
+    def _advance(self, by, t, t_end, grain, steps, times, polynomials, radii):
+        return by(self.numbers, self.low, self.energy, TOLERANCE, t, t_end, grain, steps, self.centre, self.low_centre, self.B, self.rad,
+                  times, polynomials, radii)
 
     def box(self):
         return self.centre.copy(), self.low_centre.copy(), np.abs(self.B) @ self.rad * kernel.WIDER
+
+
+def _plainly(*arguments):
+    """`kernel.advance` as it is written."""
+    with np.errstate(all="ignore"):  # as compiled code
+        return kernel.advance(*arguments)
 
 
 def enclose(scene, state, t: float, bits: int | None = None, steps: int | None = None, band: bool = False) -> Enclosed:

@@ -1,5 +1,7 @@
 """Enclosures hold the motions: judged by runs in 50 digits of another code, over bodies, sizes and kinds of numbers."""
 import random
+import subprocess
+import sys
 from fractions import Fraction
 
 import mpmath
@@ -158,3 +160,33 @@ def test_without_a_compiler_the_steps_are_those_of_many_bits(monkeypatch):
     finally:
         functions.cache_clear()
     assert worst <= 1 and found.bits == 128  # a run in 50 digits
+
+
+@pytest.mark.skipif(not installed(), reason="nothing is compiled without numba")
+@pytest.mark.parametrize("plain", [1, 5, 32])
+def test_steps_without_the_compiler_give_the_same_bits(plain, monkeypatch):
+    """The same set and the same bands, whether all steps are compiled, the first few are not, or none is."""
+    rng = random.Random(plain)
+    for _ in range(3):
+        scene, state = random_scene(rng, rng.choice((0, 1, 5))), sphere(rng, rng.choice((.1, 3, 30)))
+        told = []
+        for first in (0, plain):
+            monkeypatch.setattr("stabilab.unreduced.enclosure.run.loaded", lambda first=first: not first)
+            course = Course(scene, state, 40.0, plain=first)
+            bands = [course.advance(40.0, 12, band=True), course.advance(40.0, 3, band=True)]
+            told.append([course.t, course.steps, course.status, *(v.tobytes() for v in (course.now.middle, course.now.rest, course.now.radius)),
+                         *(v.tobytes() for band in bands if band for v in (band.times, band.polynomials, band.radii))])
+        assert told[0] == told[1] and told[0][1] > 5
+
+
+@pytest.mark.skipif(not installed(), reason="nothing is compiled without numba")
+def test_a_short_way_is_proved_without_the_compiler():
+    program = """
+import sys
+from stabilab import Body, ConstantTorque, Gyrostat, Scene
+from stabilab.unreduced.enclosure.proof import proved
+from stabilab.unreduced.spin_up.follow import spin_up
+scene = Scene(Body((1.4, 1, .6)), Gyrostat((.2, .1, -.3)), ConstantTorque((.5, .6, .62)))
+print(proved(scene, (.1, 1, 2), spin_up(scene, (.1, 1, 2)), plain=64).level, "numba" in sys.modules)
+"""
+    assert subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout.split() == ["proved", "False"]
