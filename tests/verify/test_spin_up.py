@@ -8,7 +8,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from stabilab import Body, ConstantTorque, ScaledGyrostat, Scene, load
+from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, load
 from stabilab.answers.certificate import certificate
 from stabilab.unreduced.spin_up.certificate import Certifier
 from stabilab.unreduced.spin_up.fixed_centre import FixedCentre
@@ -24,7 +24,9 @@ from stabilab.verify.spin_up.way import Lost, Way
 from stabilab.verify.zeros import above, below
 from tests.unreduced.enclosure.taylor import run
 from tests.unreduced.spin_up.scenes import EXAMPLE, random_scene, sphere
+from tests.verify.inequality_in_digits import holds
 from tests.verify.trapped import says_what_happens
+from tests.verify.true_values import DIGITS, number, state_at
 
 STATE = (F(1, 10), F(1), F(2))
 
@@ -211,3 +213,30 @@ def test_what_the_test_in_doubles_finds_holds_in_balls(orders):
                 cone, least, gain = (F(float(v[0])) for v in (found.A, found.z, found.eta))
                 faults, true = made.faults([ball(F(v)) for v in state.tolist()], cone / abs(F(form.scale[0])), least)
                 assert not faults and true >= ball(gain / F(form.D1) * (1 - F(1, 10**12)))
+
+
+EDGES = (("cone", 0), ("cone", 100), ("least", 100), ("gain", 10), ("t", 0))  # the number, and how many times it is surely too much or too little
+EDGED = {"trapped from the start": (EXAMPLE, (F(6), F(1), F(-1))), "trapped on the way": (EXAMPLE, STATE),
+         "in the other sense": (Scene(Body((3, 2, 1)), Gyrostat((0, 0, "0.1")), ConstantTorque(("-0.5", "0.2", -1))), (F(-1, 3), F(1), F(-5, 2))),
+         "no wheel": (Scene(Body((3, 2, 1)), ConstantTorque(("0.5", "0.2", -1))), (F(1, 3), F(-1), F(1, 2))),
+         "scaled": (ScaledGyrostat("0.2", "0.4", (-1, "0.5", "0.75")), (F(-2), F(1), F(1, 2)))}
+
+
+@pytest.mark.parametrize("name", ["trapped from the start", *(pytest.param(n, marks=pytest.mark.slow) for n in list(EDGED)[1:])])
+def test_what_is_accepted_ends_where_the_inequality_does(name):
+    """Each number of the claim on its own, halved in to the edge of what is proved: on the one side of it the inequality holds, on the other it fails,
+    by 60 digits of another code (`inequality_in_digits`) at the state of a run in 55 digits (`true_values`)."""
+    made, _ = certified(*EDGED[name])
+    said = made["motion"]["spin_up"]
+    for key, factor in EDGES:
+        good, bad = F(said[key]), F(said[key]) * factor
+        if good == bad:
+            continue  # trapped at t = 0
+        claim = lambda value, key=key: changed(made, **{key: str(value), "way": []})
+        assert verify(claim(good)).status == "proved" != verify(claim(bad)).status
+        while abs(good - bad) > abs(good) / 10**15:
+            middle = (good + bad) / 2
+            good, bad = (middle, bad) if verify(claim(middle)).status == "proved" else (good, middle)
+        with mpmath.workdps(DIGITS):
+            there = [holds(claim(value), state_at(made, number(value if key == "t" else said["t"]))) for value in (good, bad)]
+        assert there == [True, False], key
