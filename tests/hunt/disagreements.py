@@ -29,6 +29,8 @@ UNITS_A_STEP = 8  # roundings of three components, their rates and the sum of th
 EPS = float(np.finfo(float).eps)
 WRONG = math.inf
 NO_QUESTION = (0.0, "")
+ROWS_AND_COLUMNS = (7, 17)  # of a sheet whose places are asked
+ROUNDINGS = 64  # of a place and of the terms of its energy: some ten operations each for shift, place, turn and height
 
 
 def worst(*found):
@@ -309,4 +311,35 @@ def _twin(scene, problem, state, name, other, image, order, signs, rate, unit):
     return size, f"{name}: {words}"
 
 
-DISAGREEMENTS = {f.__name__: f for f in (certified, oracle, tables, one_state, methods, twins)}
+def surfaces(scene, problem, state):
+    """Places of the separatrix' sheets against the reduced potential in many digits: each has the energy of a saddle on its own orbit, up to what a
+    few roundings of the place, measured from the centre of its conic, and of the potential's terms do to that."""
+    acting = [i for i in range(3) if problem.m[i]]
+    if not acting:
+        return NO_QUESTION  # without a torque the axis of the reduction is a choice
+    found = [NO_QUESTION]
+    for sheet in stabilab.separatrix(scene, shape=ROWS_AND_COLUMNS).sheets:
+        rows, columns, _ = sheet.points.shape
+        for row, column in ((1, columns // 2), (rows // 2, columns // 4), (rows - 1, columns - 2)):
+            found.append(_off_surface(problem, acting[0], sheet, row, column))
+    return worst(*found)
+
+
+def _off_surface(problem, axis, sheet, row, column):
+    point, (j, k) = tuple(sheet.points[row, column].tolist()), CYCLE[axis]
+    if not all(map(math.isfinite, point)):
+        return WRONG, f"{sheet.name}, row {row}: {point}"
+    centre = abs(float(problem.sigma[k] / problem.kappa[k])), abs(float(problem.rho[j] / problem.kappa[j]))  # of omega_j, omega_k
+    u, v = abs(point[j]) + centre[0], abs(point[k]) + centre[1]
+    terms = float(problem.weight[axis]) * (abs(float(problem.kappa[axis])) * u * v + abs(float(problem.rho[axis])) * v
+                                           + abs(float(problem.sigma[axis])) * u + abs(float(problem.m[axis])) + point[axis] ** 2)
+    unit = EPS * max(u, v, abs(point[axis]))
+    beside = [tuple(v + sign * unit * (n == i) for i, v in enumerate(point)) for n in range(3) for sign in (-1, 1)]
+    gap, *moved = (energy.from_a_saddle(problem, p, digits=_digits(p)) for p in (point, *beside))
+    if gap is None or None in moved:
+        return NO_QUESTION  # of rates 1e11 times the wheel's, about nearly equal moments, rounding of the place unmakes the saddle of its orbit
+    shaken = float(sum(abs(other - gap) for other in moved)) + EPS * terms
+    return float(gap) / (ROUNDINGS * shaken), f"{sheet.name}, row {row}, column {column}: {point} is {float(gap):.3g} off in energy; rounding: {shaken:.3g}"
+
+
+DISAGREEMENTS = {f.__name__: f for f in (certified, oracle, tables, one_state, methods, twins, surfaces)}

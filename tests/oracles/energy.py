@@ -395,6 +395,15 @@ def margin(model, state, digits=DIGITS, axis=None):
 
 
 @_at(DIGITS)
+def from_a_saddle(model, state, digits=DIGITS, axis=None):
+    """The least distance in energy, in the unit of the model, of a motion from a saddle of its own orbit (elliptic: of three turns of it); None without any."""
+    motion = motion_of(model, tuple(state), digits, axis)
+    turns = (-1, 0, 1) if motion.kind == "elliptic" else (0,)
+    heights = [-motion.W(a + n * motion.turn if n else a) for a, kind in motion.stationary() if kind == "saddle" for n in turns]
+    return min((abs(motion.weight * (h - motion.w0 ** 2 / 2)) for h in heights), default=None)
+
+
+@_at(DIGITS)
 def extremes(model, state, digits=DIGITS, axis=None):
     """3 x 2 list of [min, max] over t >= 0, mpf; infinite where the component grows without bound."""
     motion = motion_of(model, tuple(state), digits, axis)
