@@ -87,7 +87,7 @@ def against_batch(size=256, span=200.0, count=21, rounds=7) -> list[Row]:
     return found
 
 
-def with_other_effects(size=256, span=50.0, count=21, rounds=7) -> list[Row]:
+def with_other_effects(size=256, span=200.0, count=21, rounds=7) -> list[Row]:
     """The same with one worker, of scenes with other effects; by hand with the rates of `with_effects`, in processor time of the one thread."""
     omega, times, found = np.random.default_rng(1).normal(size=(size, 3)) * 0.5, np.linspace(0, span, count), []
     for name, (scene, by_hand) in OTHERS.items():
