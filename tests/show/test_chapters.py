@@ -140,6 +140,12 @@ def test_the_top_of_table_1_is_not_fast():
     assert f"{2943 * math.sqrt(0.59) / 275:.2g} " in claims.top()[0]["is"].replace(";", " ;")
 
 
+def test_every_number_of_a_chapters_data_has_its_unit():
+    told = chapters._parameters(panels.sweep("liquid-base")[""])
+    assert told.startswith("D1 = 9.51 kg m², ") and "M3 = −0.06 N m; at t = 0: ω = (1, 0, 1) rad/s" in told
+    assert all(re.search(r"= \S+ [A-Za-z1]", part) for part in told.split("; ")[0].split(", "))
+
+
 def test_a_chapter_whose_case_is_missing_says_so_in_words(tmp_path, monkeypatch):
     monkeypatch.setattr(figures, "write", lambda *_: [])
     monkeypatch.setattr(figures, "of_paper", lambda *_: ())

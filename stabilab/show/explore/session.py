@@ -92,7 +92,7 @@ class Session:
         times, path = self._once("line", (case.scene, case.state, case.span, moving), lambda: line(case, form, _length(case, form), moving))
         picture = self._space(bag, case, twin, found, at_rest, path, asked.get("box"), moving)
         made = {"headline": greek(words), "fate": "undecided" if found is None else found.fate.word, "moving": moving, "start": clicked,
-                "note": " ".join(filter(None, (note, self._swept, _beyond(found)))),
+                "note": " ".join(filter(None, (note, self._swept, _law(found)))),
                 "toml": case.text, "rows": [] if found is None else tables.rows(case, found, self.units), "space": picture,
                 "plane": None if twin is None else planes.drawn(bag, twin, case.state, self.units),
                 "time": planes.over_time(bag, case, found, times, path, self.units)}
@@ -184,9 +184,9 @@ def _surface(scene: AnyScene, reach: float, moving: bool) -> tuple[Sequence[Plai
     return [PlainSheet(sheet.name, *sheet.points.shape[:2], sheet.points.reshape(-1, 3).tolist()) for sheet in found.sheets], found.reason
 
 
-def _beyond(found: Motion | None) -> str:
-    """What is to be said where an approximate law does not hold along the motion."""
-    return "" if found is None or found.validity is None or found.validity.held else greek(found.validity.words)
+def _law(found: Motion | None) -> str:
+    """What an approximate law of the scene says of itself along the motion: that it holds, that it does not, or that it was not judged."""
+    return "" if found is None or found.validity is None else _capital(greek(found.validity.words))
 
 
 def _capital(words: str) -> str:

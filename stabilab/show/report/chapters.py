@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from ...errors import StabilabError
+from ...physics.blocks import PARTS
 from ...physics.equations import derive
 from ...theories.comparison import compare, side_by_side
 from .. import style
@@ -20,6 +21,7 @@ from ..figures import panels
 from ..figures.difference import words
 from ..terminal.letters import written
 from ..text import comparison
+from ..units import parameter_unit
 from . import claims
 
 
@@ -98,10 +100,11 @@ def section(name: str, folder: Path, tell=lambda words: None) -> dict:
 
 
 def _parameters(case):
-    """Parameters and start of a case in words."""
-    values = ", ".join(f"{name} = {float(value):.6g}" for name, value in derive(case.scene).parameters.items())
+    """Parameters and start of a case in words, with their units."""
+    values = ", ".join(f"{name} = {float(value):.6g} {parameter_unit(name)}".rstrip() for name, value in derive(case.scene).parameters.items())
     starts = {"omega": case.state, **case.blocks}
-    return written(f"{values}; at t = 0: " + ", ".join(f"{name} = ({', '.join(f'{v:.6g}' for v in row)})" for name, row in starts.items()))
+    return written(f"{values}; at t = 0: " + ", ".join(
+        f"{name} = ({', '.join(f'{v:.6g}' for v in row)}) {PARTS[name].unit if name in PARTS else ''}".rstrip() for name, row in starts.items()))
 
 
 def _errors(case, end, found=None):

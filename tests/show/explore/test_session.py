@@ -239,3 +239,11 @@ def test_a_motion_on_an_unstable_plane_is_drawn_on_it_to_its_end_once_the_hand_r
     told, numbers = ask(Session(read_text("plane.toml", "[scaled]\na = 0.5\nb = 1\nmu = [0, 1, 0]\n[motion]\nx = [5, 0, -6]\ntau = [0, 8]\n")), moving=moving)
     tau, (x1, x2, x3) = row(numbers, told["time"]["times"]), (row(numbers, one) for one in told["time"]["rates"])
     assert np.abs(x1 + 1 + x3).max() < 0.02 and (1 < tau[-1] < 5 if moving else tau[-1] == 8 and x2[-1] > 12)
+
+
+@pytest.mark.parametrize("name, words", [("liquid-sensible", "Within the law: liquid cavity: Reynolds number"),
+                                         ("liquid-base", "BEYOND THE LAW: liquid cavity"), ("minor-axis-100", "")])
+def test_a_law_that_is_judged_says_so(name, words):
+    """The Reynolds number of the sensible liquid is 0.215 < 1; 25 t of liquid in a body of 9 kg m^2 are beyond any law; a torque and a wheel have none."""
+    note = ask(Session(case_of(name)), moving=True)[0]["note"]
+    assert words in note and ("law" in note.lower()) == bool(words)

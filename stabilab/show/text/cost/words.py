@@ -129,7 +129,7 @@ def _model_words(found):
 def duration(seconds) -> str:
     """Seconds in a fitting unit, three digits."""
     for unit, factor in (("s", 1.0), ("ms", 1e-3), ("µs", 1e-6)):
-        if seconds >= factor:
+        if seconds >= 0.9995 * factor:  # what three digits round up to one of it
             return f"{seconds / factor:.3g} {unit}"
     return f"{seconds / 1e-9:.3g} ns"
 
