@@ -198,6 +198,12 @@ def test_a_motion_too_small_to_be_seen_beside_its_separatrix_is_shown_enlarged()
     assert not stabilab.plot.phase(load("minor-axis-100")).child_axes
 
 
+def test_a_motion_of_a_ten_thousandth_of_the_picture_is_shown_enlarged():
+    """Its turning points are known to 1e-14 of the picture, which leaves some 1e-6 of its rate there."""
+    small = stabilab.plot.phase(load("charged-body-small-torque"))
+    assert len(small.child_axes) == 1 and np.ptp(small.child_axes[0].get_ylim()) < 1e-3 * np.ptp(small.get_ylim())
+
+
 EVERYWHERE = {"time", "space", "budget"}
 KINDS = {"minor-axis-100": EVERYWHERE | {"phase", "sphere", "section", "equilibria"}, "off-axis-two": EVERYWHERE | {"equilibria"},
          "major-axis-100": EVERYWHERE, "torque-free-gyrostat": EVERYWHERE | {"phase", "sphere", "section", "equilibria"},

@@ -42,6 +42,7 @@ def phase(case: Any, state: Any = None, ax: Axes | None = None, units: str | Non
 
 RESTING = 1e-4  # of the walls: a motion below it would be a line, and the grid may miss the bottom of its well
 SMALL, AROUND = 0.07, 1.6  # of the picture's height: a motion below it is shown enlarged, in a window so much larger than itself
+CLOSED = 1e-3  # of the largest W: more of it at its ends has a motion that leaves the picture; at a turning point rounding of the place leaves some 1e-6
 
 
 def _enlarged(ax, plane, factors):
@@ -49,7 +50,7 @@ def _enlarged(ax, plane, factors):
     ys, Ws = motion_curve(plane, *window(plane))
     height = 2 * float(np.abs(factors["rate_scale"] * (plane.rate(Ws) - plane.rate(np.zeros(1)))).max())
     low, high = ax.get_ylim()
-    if not 0 < height < SMALL * (high - low) or Ws[[0, -1]].max() > 1e-6 * Ws.max():
+    if not 0 < height < SMALL * (high - low) or Ws[[0, -1]].max() > CLOSED * Ws.max():
         return
     right = plane.unit * (ys[0] + ys[-1]) < plane.unit * sum(window(plane))  # the emptier side
     inset = ax.inset_axes((0.64 if right else 0.07, 0.62, 0.34, 0.34))
