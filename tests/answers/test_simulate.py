@@ -146,3 +146,10 @@ def test_states_of_a_wrong_shape_are_refused_with_what_was_expected():
         simulate(Scene(BODY), (0, 0, 1), [1.0], {"gamma": (0.0, 1.0)})
     with pytest.raises(InputError, match="mass"):
         simulate(Scene(Body((3, 2, 2))), (0, 0, 1), [1.0], {"velocity": (0.0, 0.0, 1.0)})
+
+
+def test_times_out_of_order_are_refused_with_an_attitude_as_without():
+    body = Scene(Body((3, 2, 1)), ConstantTorque((0, 0, 1)))
+    for blocks in (None, {"attitude": (0.1, 0.2, 0.3)}):
+        with pytest.raises(InputError, match="times: expected strictly increasing or strictly decreasing"):
+            simulate(body, (1, 2, 3), [0, 2, 1], blocks)
