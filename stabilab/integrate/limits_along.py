@@ -13,6 +13,7 @@ from ..physics.coefficients import content, gyrostat_scene
 from ..physics.law_limits import Validity, of_values
 from ..physics.quadratic import QuadraticForm
 from ..physics.scene import AnyScene
+from .quadratic_series import coefficients, length, summed
 
 ORDER = 20
 SHARE = 1e-12  # of the size of the state: the last term of a step
@@ -46,44 +47,27 @@ def _pieces(form: QuadraticForm, x: Sequence[float], end: float) -> list | None:
         series = _series(form, x)
         if len(pieces) == STEPS or not all(math.isfinite(v) for one in series for v in one):
             return None
-        length = _length(series)
-        h = end - t if length >= abs(end - t) else math.copysign(length, end)
-        x, t = [_value(one, h) for one in series], end if h == end - t else t + h
+        step = _length(series)
+        h = end - t if step >= abs(end - t) else math.copysign(step, end)
+        x, t = [summed(one, h) for one in series], end if h == end - t else t + h
         pieces.append((h, series))
     return pieces
 
 
 def _series(form: QuadraticForm, x: Sequence[float]) -> list[list[float]]:
     """The coefficients of the powers of time from 0 to ORDER: of three rates, and of a direction n at rest in space, n' = n x omega."""
-    kappa, rho, sigma, m = form.coefficients
-    rates, n = [[v] for v in x[:3]], [[v] for v in x[3:]]
+    rates, n = coefficients(form, tuple(x[:3]), ORDER), [[v] for v in x[3:]]
     for power in range(ORDER):
-        back = [one[::-1] for one in rates]
-        new = [kappa[i] * sum(map(mul, rates[j], back[k])) + rho[i] * rates[k][power] + sigma[i] * rates[j][power] + (m[i] if power == 0 else 0.0)
-               for i, (j, k) in enumerate(CYCLE)]
-        new += [sum(map(mul, n[j], back[k])) - sum(map(mul, n[k], back[j])) for j, k in CYCLE]
-        for one, value in zip((*rates, *n), new):
+        back = [one[power::-1] for one in rates]
+        new = [sum(map(mul, n[j], back[k])) - sum(map(mul, n[k], back[j])) for j, k in CYCLE]
+        for one, value in zip(n, new):
             one.append(value / (power + 1))
     return rates + n
 
 
 def _length(series: list[list[float]]) -> float:
     """A length over which the last two terms stay below SHARE of the rates' size and of the direction's."""
-    lengths = []
-    for part in (series[:3], series[3:]):
-        size = max(abs(one[0]) for one in part) or max(abs(one[1]) for one in part)
-        for n in (ORDER - 1, ORDER):
-            last = max(abs(one[n]) for one in part)
-            if last > 0:
-                lengths.append((SHARE * size / last) ** (1 / n))
-    return min(lengths, default=math.inf)
-
-
-def _value(one: list[float], t: float) -> float:
-    total = 0.0
-    for c in reversed(one):
-        total = total * t + c
-    return total
+    return min(length(part, SHARE * (max(abs(one[0]) for one in part) or max(abs(one[1]) for one in part))) for part in (series[:3], series[3:]))
 
 
 class _State:
@@ -96,7 +80,7 @@ class _State:
         return name in self.parts
 
     def __getitem__(self, name: str) -> list[float]:
-        return [_value(one, self.t) for one in self.parts[name]]
+        return [summed(one, self.t) for one in self.parts[name]]
 
 
 def _largest(value_at, pieces) -> float | None:

@@ -34,11 +34,12 @@ def followed(form: QuadraticForm, start: tuple[float, ...], until: float, steps:
                 break
             raise InputError(f"this motion is too fast to be drawn: with a rate of {max(map(abs, x)):.3g} and these torques and momenta the powers of its "
                              "series exceed what a double holds (1.8e308); expected numbers of a body that can be built, in SI units")
-        h = min(_step(series, form), until - t)
+        size = max(abs(one[0]) for one in series) or max(map(abs, form.coefficients[3]))
+        h = min(length(series, SHARE * size), until - t)
         for n in range(1, INSIDE + 1):
             share = h * n / INSIDE
             times.append(t + share)
-            states.append(tuple(_value(one, share) for one in series))
+            states.append(tuple(summed(one, share) for one in series))
         t, x = times[-1], states[-1]
         if t >= until or not max(map(abs, x)) < LARGEST:
             break
@@ -53,7 +54,7 @@ def parting(form: QuadraticForm, path: Path, share: float = SHARE, seen: float =
     x = tuple(v * (1 + n * share) for v, n in zip(states[0], APART))
     for end in range(INSIDE, len(times), INSIDE):
         h = times[end] - times[end - INSIDE]
-        x = tuple(_value(one, h) for one in coefficients(form, x))
+        x = tuple(summed(one, h) for one in coefficients(form, x))
         if not all(abs(a - b) <= width for a, b in zip(x, states[end])):
             return end - INSIDE + 1
     return len(times)
@@ -71,18 +72,18 @@ def coefficients(form: QuadraticForm, x: tuple[float, ...], order: int = ORDER) 
     return a
 
 
-def _step(series: list[list[float]], form: QuadraticForm) -> float:
-    """A length over which the last two terms stay below SHARE of the state's size."""
-    size = max(abs(one[0]) for one in series) or max(map(abs, form.coefficients[3]))
-    lengths = []
-    for n in (ORDER - 1, ORDER):
+def length(series: list[list[float]], least: float) -> float:
+    """A length over which the last two terms stay below `least`; inf where there are none."""
+    lengths, order = [], len(series[0]) - 1
+    for n in (order - 1, order):
         last = max(abs(one[n]) for one in series)
         if 0 < last < math.inf:
-            lengths.append((SHARE * size / last) ** (1 / n))
+            lengths.append((least / last) ** (1 / n))
     return min(lengths, default=math.inf)
 
 
-def _value(series: list[float], t: float) -> float:
+def summed(series: list[float], t: float) -> float:
+    """The sum of a power series at a time."""
     total = 0.0
     for c in reversed(series):
         total = total * t + c
