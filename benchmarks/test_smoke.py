@@ -5,7 +5,8 @@ pytest.importorskip("heyoka")
 
 from . import fates, orbit_extremes, spin_up, spin_up_sample, suite
 
-SLOW = ("scenes", "surfaces", "orbit_extremes")  # they compile kernels, for half a minute and more where no cache is
+SLOW = ("scenes", "surfaces", "orbit_extremes",  # they compile kernels, for half a minute and more where no cache is
+        "trajectories")  # it runs many methods
 
 
 @pytest.mark.parametrize("topic", [pytest.param(topic, marks=pytest.mark.slow if topic in SLOW else ()) for topic in suite.TOPICS])

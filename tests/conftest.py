@@ -5,6 +5,7 @@ import os
 import shutil
 import sys
 import tempfile
+from collections import Counter
 
 import pytest
 from hypothesis import settings
@@ -18,6 +19,18 @@ if "PYTEST_XDIST_WORKER" not in os.environ:  # nothing that a run left is an ans
     atexit.register(shutil.rmtree, os.environ["XDG_CACHE_HOME"], ignore_errors=True)
 settings.register_profile("same", derandomize=True, deadline=None)
 settings.load_profile("same")
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items):
+    """One in n, and so that each of n values of another parameter comes up too: the 1st, then the 2nd of the next n, and so on."""
+    seen = Counter()
+    for item in items:
+        if mark := item.get_closest_marker("one_in"):
+            (n,), place = mark.args, seen[item.path, item.originalname]
+            seen[item.path, item.originalname] += 1
+            if place % n != place // n % n:
+                item.add_marker("slow")
 
 
 def pytest_collection_finish():

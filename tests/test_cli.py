@@ -1,5 +1,6 @@
 """The commands: what goes to stdout, what to stderr, and which exit code."""
 import csv
+import functools
 import itertools
 import json
 import math
@@ -30,19 +31,25 @@ def strict_json(text):
     return json.loads(text, parse_constant=lambda word: pytest.fail(f"{word} in the JSON"))
 
 
-@pytest.fixture(scope="module")
-def classified():
-    """The JSON objects of all cases, from one run of the program."""
-    run = subprocess.run([sys.executable, "-m", "stabilab", "classify", *map(str, CASES), "--json"], capture_output=True,
+@functools.cache
+def classified(third):
+    """The JSON objects of every third case, from one run of the program."""
+    run = subprocess.run([sys.executable, "-m", "stabilab", "classify", *map(str, CASES[third::3]), "--json"], capture_output=True,
                          text=True, cwd=ROOT)
     assert run.returncode == 0 and not run.stderr, run.stderr
     return {answer["case"]: answer for answer in strict_json(run.stdout)}
 
 
-def test_classify_answers_once_per_case_with_the_documented_keys(classified):
+LATER = pytest.mark.slow  # the second and the last third
+each_third = pytest.mark.parametrize("third", [0, pytest.param(1, marks=LATER), pytest.param(2, marks=LATER)])
+each_case = pytest.mark.parametrize("third, path", [pytest.param(n % 3, path, id=path.stem, marks=[LATER] * (n % 3 > 0)) for n, path in enumerate(CASES)])
+
+
+@each_third
+def test_classify_answers_once_per_case_with_the_documented_keys(third):
     from stabilab.case.read import load_all
-    assert list(classified) == [case.name for path in CASES for case in load_all(path)]
-    for answer in classified.values():
+    assert list(classified(third)) == [case.name for path in CASES[third::3] for case in load_all(path)]
+    for answer in classified(third).values():
         assert answer["schema"] == "stabilab.classify/1" and answer["variables"] in ("scaled", "physical")
         assert {"kind", "reason", "points", "curves"} <= answer["equilibria"].keys()
         assert {"at", "fate", "axis", "because", "margin", "period", "extremes", "invariants"} <= answer["motion"].keys()
@@ -55,11 +62,11 @@ def test_classify_answers_once_per_case_with_the_documented_keys(classified):
             assert {"name", "samples", "folds", "segments"} <= curve.keys()
 
 
-@pytest.mark.parametrize("path", CASES, ids=lambda p: p.stem)
-def test_case_meets_what_it_expects(classified, path):
+@each_case
+def test_case_meets_what_it_expects(third, path):
     # The expected facts are written in the case files with their proofs; they come from no run of this program.
     from stabilab.case.read import load, load_all
-    expect, answer = load(path).expect, classified[load_all(path)[0].name]
+    expect, answer = load(path).expect, classified(third)[load_all(path)[0].name]
     equilibria, motion = answer["equilibria"], answer["motion"]
     assert equilibria["kind"] == expect.get("kind", equilibria["kind"])
     if "points" in expect:
@@ -75,12 +82,12 @@ def test_case_meets_what_it_expects(classified, path):
         assert np.allclose(motion["extremes"], expect["extremes"], rtol=1e-14, atol=1e-15)
 
 
-@pytest.mark.parametrize("path", CASES, ids=lambda p: p.stem)
-def test_listed_equilibria_are_at_rest(classified, path):
+@each_case
+def test_listed_equilibria_are_at_rest(third, path):
     # Euler's equations written out here, from the numbers of the case alone.
     from stabilab.case.read import load_all
     for case in load_all(path):
-        found = classified[case.name]["equilibria"]
+        found = classified(third)[case.name]["equilibria"]
         points = [p["at"] for p in found["points"]] + [s["at"] for c in found["curves"] for s in c["samples"]]
         for at in points:
             rate, size = _rate_and_size(case.scene, np.array(at))
@@ -123,9 +130,10 @@ def _liquid(cavity, D, wheel, w):
     return torque, kappa * (spin / D.min()) ** 2 * np.linalg.norm(w) * np.ones(3)
 
 
-def test_every_invariant_and_number_of_a_run_has_its_unit_in_text(classified):
+@each_third
+def test_every_invariant_and_number_of_a_run_has_its_unit_in_text(third):
     from stabilab.show.terminal.motion import QUANTITIES
-    motions = [answer["motion"] for answer in classified.values()]
+    motions = [answer["motion"] for answer in classified(third).values()]
     assert {name for motion in motions for part in ("invariants", "evidence") for name in motion[part]} <= set(QUANTITIES)
 
 
@@ -365,6 +373,7 @@ def swept(tmp_path, monkeypatch):
     return tmp_path
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("command", [["classify"], ["extremes"], ["fate"], ["period"], ["simulate", "--at", "0,1"], ["compare"]])
 def test_every_combination_of_a_sweep_has_its_row_in_json(stabilab, swept, command):
     code, out, err = stabilab(command[0], "six.toml", *command[1:], "--json")
@@ -496,6 +505,7 @@ def test_every_command_has_help_with_an_example(stabilab):
         assert code == 0 and f"Example: stabilab {command}" in out
 
 
+@pytest.mark.slow
 def test_a_line_reads_the_options_of_its_own_command_alone_and_prints_what_all_commands_together_print(stabilab, monkeypatch):
     """Typer's building of all commands is the other way; reading the options of every one of them costs more than to import typer."""
     from typer.main import get_command
@@ -586,6 +596,7 @@ has_proc = pytest.mark.skipif(not Path("/proc/self/task").is_dir(), reason="watc
 
 
 # In turn while typer, numpy, sympy and heyoka are imported (which swallows exceptions), and inside compiled code.
+@pytest.mark.one_in(4)
 @has_proc
 @pytest.mark.parametrize("delay", [0, 0.03, 0.1, 0.2, 0.3, 0.4, 0.5, 0.7, 2.0])
 @pytest.mark.parametrize("program", [["-m", "stabilab"], console_script()], ids=["module", "script"])

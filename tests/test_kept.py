@@ -75,6 +75,7 @@ def test_where_nothing_can_be_written_or_is_to_be_kept_it_is_derived_each_time(t
     assert cache_folder() is None and [file.name for file in tmp_path.iterdir()] == ["file"]
 
 
+@pytest.mark.slow
 def test_the_folder_never_holds_many_files(folder):
     for n in range(MOST + 1):
         made(str(n), Fraction(n))

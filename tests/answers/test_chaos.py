@@ -19,6 +19,7 @@ from tests.shared import CASES, case
 from tests.unreduced.test_chaos import TAME, TOP, WILD
 
 
+@pytest.mark.slow
 def test_arrays_have_a_label_for_each_state():
     found = stabilab.chaos(TOP, [[WILD, TAME]])
     assert found.labels.tolist() == [[Order.CHAOTIC, Order.REGULAR]] and found.history.shape == (1, 2, 6) and found.megno.shape == (1, 2)
@@ -72,6 +73,7 @@ def test_the_command_says_it_in_words_json_and_csv():
     assert say("--csv").splitlines()[0] == "case,answer,time,megno" and len(say("--csv").splitlines()) == 7
 
 
+@pytest.mark.slow
 def test_the_picture_of_a_motion_that_passes_no_plane_is_its_number_over_time(tmp_path):
     from stabilab.show.maps.chaos import picture
     one = case("top-fast")

@@ -35,6 +35,7 @@ def on_plane(k, s, w):
     return [sorted((-1 + k * far / 3, -1.0)), [min(found), max(found)], sorted((1 + far, 1.0))]
 
 
+@pytest.mark.one_in(4)
 @pytest.mark.parametrize("k", [1, -1])
 @pytest.mark.parametrize("s", [3.0, -3.0])
 @pytest.mark.parametrize("w", [-3.0, -1.0, -0.25, 0.25, 1.0, 3.0])

@@ -67,6 +67,7 @@ def held(rng):
     return bound, true
 
 
+@pytest.mark.slow
 def test_no_torque_of_the_cone_reaches_the_limit_before_the_bound():
     pytest.importorskip("heyoka")
     rng = np.random.default_rng(3)
@@ -185,6 +186,7 @@ def test_the_headline_says_what_the_word_bounded_rests_on(stabilab, tmp_path, co
     assert json.loads(stabilab(command, path, "--json")[1])[0].get("motion", {"tilt": None})["tilt"] is None
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("command", ["fate", "stuck"])
 def test_the_headline_says_the_longer_of_what_is_proved_and_what_was_followed(stabilab, tmp_path, command):
     """A bound of days was told as "not found within hours" in the first line."""
@@ -199,6 +201,7 @@ def test_the_headline_says_the_longer_of_what_is_proved_and_what_was_followed(st
     assert float(first.split(" before ")[1].split()[0]) == pytest.approx(found["not_before"], rel=1e-3)
 
 
+@pytest.mark.slow
 def test_a_stated_limit_or_misalignment_brings_the_tilt_by_itself(stabilab, tmp_path):
     path = tmp_path / "limit.toml"
     path.write_text(CASE + '[limits]\nrate = "2 rad/s"\n')

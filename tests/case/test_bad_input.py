@@ -22,6 +22,7 @@ from tests.fuzz.judge import judged
 QUICK = settings(max_examples=400, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
 
 
+@pytest.mark.slow
 @QUICK
 @given(written_cases())
 def test_a_file_by_grammar_is_a_case_or_names_its_faults(tmp_path_factory, raw):
@@ -233,6 +234,7 @@ def test_latex_of_a_hostile_title_is_text():
     assert next(csv.reader(comma_separated(one).splitlines()))[0] == words
 
 
+@pytest.mark.slow
 def test_a_hostile_title_is_text_in_every_output_of_a_case(stabilab, tmp_path, monkeypatch):
     """Text, JSON, pictures (no mathematics is set in titles) and meshes; the report has its own test."""
     monkeypatch.chdir(tmp_path)

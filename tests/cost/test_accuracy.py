@@ -126,6 +126,7 @@ def test_recursion_forms_each_product_once():
 # -- the methods -------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("name", ["torque-free-body", "minor-axis-100", "middle-axis-double-well", "wheel-and-thruster",
                                   "symmetric-spin-up", "thruster-negative-minor-axis"])
 def test_reduced_form_gives_the_state_at_any_time_without_a_step(name):
@@ -188,6 +189,7 @@ def measured():
         return precision(FREE, "quick")
 
 
+@pytest.mark.slow
 def test_every_question_of_a_periodic_motion_is_measured(measured):
     assert measured.questions == ["span", "end", "extremes", "period"]
     for question in ("span", "end"):
@@ -357,6 +359,7 @@ def judged():
     return found
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("digits", [3, 6, 9, 12, 15])
 def test_digits_asked_for_are_reached(judged, digits, tmp_path, monkeypatch):
     # against the reference in many digits, which the check itself does not use below 15
@@ -447,6 +450,7 @@ def test_digits_that_make_no_sense_are_refused(stabilab, options):
     assert code == 2 and not out and "digits" in err
 
 
+@pytest.mark.slow
 def test_a_start_on_an_unstable_plane_is_beyond_doubles_but_not_beyond_many_digits(tmp_path, monkeypatch):
     # On the plane x1 + b = -x3 (a law of the equations, see `show`) the distance from pure spin obeys u' = -x2 u: it dies out.
     # Off it by rounding, the distance grows as fast.

@@ -75,6 +75,7 @@ def test_the_reached_digits_of_a_series_are_those_of_the_reference_at_least_up_t
     assert cost_growth._reached(off, exact) == pytest.approx(9, abs=0.5)
 
 
+@pytest.mark.slow
 def test_digits_are_measured_by_every_method_of_a_motion_that_repeats(monkeypatch):
     monkeypatch.setattr(cost_growth, "MANY", (12,))
     rows = with_digits(replace(MINOR, span=(0.0, 2.0)), "glance")

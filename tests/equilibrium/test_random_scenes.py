@@ -184,6 +184,7 @@ def test_the_elimination_sees_what_is_missed_or_wrong():
     assert min(seen[part] for part in ("points", "curves", "planes")) > 0, seen
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("degenerate", [False, True], ids=["generic", "degenerate"])
 @pytest.mark.parametrize("count, seed", [(150, 1), pytest.param(3000, 2, marks=pytest.mark.slow)])
 def test_no_verdict_is_wrong_and_no_equilibrium_missed_or_invented(degenerate, count, seed):
@@ -219,6 +220,7 @@ def one_wild_scene(seed, number, states, tabled, digits, scene_of=wild_scene, st
 WAYS = (False,) if find_spec("numba") is None else (False, True)  # NumPy, and compiled
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("scenes", [range(5), pytest.param(range(5, 100), marks=pytest.mark.slow)], ids=["five", "the others of a hundred"])
 def test_wild_scenes_have_one_answer_by_every_way_to_it(scenes):
     """One state, small arrays (NumPy and compiled), large ones (tables) and thirty digits, each within what it promises."""
@@ -226,6 +228,7 @@ def test_wild_scenes_have_one_answer_by_every_way_to_it(scenes):
     assert not found, f"{len(found)}, the first: {found[0]}"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scenes", [
     [*range(20), 95, 104, 114, 122, 1145], pytest.param(range(20, 1500), marks=pytest.mark.slow)], ids=["twenty and what once failed", "the others"])
 def test_scenes_of_small_numbers_have_one_answer_by_every_way_to_it(scenes):

@@ -31,6 +31,7 @@ def test_case_1_states_a_power_of_ten_off_the_separatrix_are_on_their_side(decad
 
 # 2. Large circles: A = 1e3 ... 1e8 -----------------------------------------------------------------------------------
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("decade", range(3, 9))
 @pytest.mark.parametrize("sign", [1, -1])
 def test_case_2_a_tilt_of_order_one_decides_on_a_circle_of_any_radius(decade, sign):
@@ -59,6 +60,7 @@ def test_case_2_extremes_on_large_circles_keep_their_digits(decade):
 
 # 3. Folds: saddle and centre merging ---------------------------------------------------------------------------------
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("decade", [1, 3, 5, *(pytest.param(n, marks=pytest.mark.slow) for n in (2, 4))])
 @pytest.mark.parametrize("a, b", [(0.0, 0.0), (0.25, 1.0), (1.5, 0.25)])
 def test_case_3_the_well_that_is_about_to_vanish_still_holds_its_states(decade, a, b):
@@ -99,6 +101,7 @@ def test_case_4_a_near_b_and_gyrostats_of_any_size_and_sign(a, b, mu, count):
     agrees(scaled(a, b, mu), (rng.normal(size=(4, 3)) * 2 + centre)[:count])
 
 
+@pytest.mark.one_in(4)
 @pytest.mark.parametrize("decade", [-12, -6, 6, 12, *(pytest.param(d, marks=pytest.mark.slow) for d in (-9, -3, 3, 9))])
 @pytest.mark.parametrize("axis", [0, 1, 2])
 @pytest.mark.parametrize("sign", [1, -1])
@@ -123,6 +126,7 @@ BODIES = {
 }
 
 
+@pytest.mark.one_in(4)
 @pytest.mark.parametrize("body", BODIES)
 @pytest.mark.parametrize("axis, count", [(0, 2), (1, 2), (2, 2), *(pytest.param(axis, 4, marks=pytest.mark.slow) for axis in (0, 1, 2))])
 def test_case_6_symmetric_rod_like_and_flat_bodies(body, axis, count):

@@ -15,6 +15,7 @@ each = pytest.mark.parametrize("n", [pytest.param(n, marks=[pytest.mark.slow] * 
                                      for n, (name, (*_, slow)) in enumerate(zip(NAMES, ROWS))])
 
 
+@pytest.mark.one_in(4)
 @each
 def test_the_program_is_right_and_as_good_as_its_inputs_allow(n):
     row = row_of(n)

@@ -176,6 +176,7 @@ def test_readme_commands_print_what_it_shows(readme):
     assert len(done) >= 4 and (folder / "my.png").stat().st_size > 0
 
 
+@pytest.mark.slow
 def test_the_three_doors_print_what_they_show(tmp_path, monkeypatch):
     text, folder = prepared((ROOT / "docs/start.md").read_text(), tmp_path)
     assert len(follow(text, folder, lambda command: True)) == len(commands(text))
@@ -187,6 +188,7 @@ def test_readme_is_not_longer_than_three_screens():
     assert len(README.read_text().splitlines()) <= 150
 
 
+@pytest.mark.slow
 def test_commands_of_the_guide_print_what_it_shows(guide):
     text, folder = guide
     done = follow(text, folder, lambda command: not command.startswith(SLOW))
@@ -235,6 +237,7 @@ def test_sessions_in_python_give_what_they_show(page, request, monkeypatch):
     in_python(text)
 
 
+@pytest.mark.one_in(4)
 @pytest.mark.parametrize("chapter", CHAPTERS, ids=[page.stem for page in CHAPTERS])
 def test_formulas_of_a_chapter_of_mathematics_are_those_of_the_program(chapter, monkeypatch):
     """Its sessions compare the formulas with the program, in fractions or by derivatives along the motion."""

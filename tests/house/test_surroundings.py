@@ -80,6 +80,7 @@ def test_a_disk_that_fills_up_ends_with_2_and_leaves_what_was_there(tmp_path, na
     assert written(tmp_path) == before
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("name", ["simulate csv", "tables", *(pytest.param(n, marks=pytest.mark.slow) for n in ("simulate nc", "plot", "figures"))])
 def test_a_target_below_a_file_or_in_a_special_folder_ends_with_2(tmp_path, name):
     (tmp_path / "file").write_text("x")
@@ -166,6 +167,7 @@ def without(module, folder, *arguments):
     return subprocess.run([sys.executable, "-m", "stabilab", *map(str, arguments)], capture_output=True, text=True, cwd=folder, env=around)
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("module", [pytest.param(name, marks=pytest.mark.slow) if name.endswith(".") else name for name in LACKING])
 def test_a_package_that_is_missing_is_named_with_what_to_install(tmp_path, module):
     package, code, arguments = LACKING[module]
@@ -181,6 +183,7 @@ def test_without_a_package_that_draws_the_meshes_are_written_all_the_same(tmp_pa
     assert {p.name for p in (tmp_path / "s").iterdir()} == {f"{MINOR.stem}.{kind}" for kind in kinds} | {manifest.NAME}
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("module", ["heyoka", "numba"])
 def test_a_package_that_only_makes_it_faster_may_be_missing(tmp_path, module):
     run = without(module, tmp_path, "simulate", MINOR, "--at", "0,1")
@@ -418,6 +421,7 @@ def test_the_files_of_a_run_that_is_alive_are_left_alone(tmp_path):
     assert set(written(tmp_path)) == {"wanted.txt", "out/a.txt", "out/b.txt", "out/manifest.json"}
 
 
+@pytest.mark.slow
 def test_a_run_waits_while_another_puts_its_files_in_place(tmp_path):
     (tmp_path / "out").mkdir()
     holding = started("from stabilab.files import alone_in\nwith alone_in('out'): stop()", tmp_path, "print('here', flush=True); input()")

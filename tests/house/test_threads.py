@@ -127,6 +127,7 @@ def wrong(count, each, alone):
     return told
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("count, each", [(2, len(QUESTIONS)), (8, len(QUESTIONS) // 5)])
 def test_threads_have_the_answers_of_one_to_the_bit(count, each, alone, restless):
     assert wrong(count, each, alone) == []
@@ -138,6 +139,7 @@ def test_three_thousand_questions_of_threads_have_the_answers_of_one(count, alon
     assert wrong(count, 3000 // count, alone) == []
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("bits", [10, 2000])
 def test_no_answer_depends_on_the_precision_that_flint_happens_to_have(bits, alone):
     """What a thread finds outside the lock may be any other's."""

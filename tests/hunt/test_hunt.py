@@ -13,6 +13,7 @@ from tests.hunt.disagreements import DISAGREEMENTS
 from tests.hunt.problems import KNOBS, problem_of
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("how", [evolve, aim], ids=["differential evolution", "hypothesis"])
 def test_the_search_finds_a_disagreement_that_was_put_there(how, tmp_path):
     """A function that exceeds its promise where |x1| is within a tenth of a decade of 10^2.5 only, with a slope towards it."""
@@ -33,6 +34,7 @@ def test_an_answer_that_ends_in_a_traceback_is_found(tmp_path):
     assert "ZeroDivisionError: here" in hunt.kept[0]["words"] and hunt.kept[0]["size"] == math.inf
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("name", DISAGREEMENTS)
 def test_two_ways_to_an_answer_keep_their_promise_on_random_problems(name):
     rng, asked = np.random.default_rng(5), 0

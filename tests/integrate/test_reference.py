@@ -4,6 +4,7 @@ from __future__ import annotations
 from fractions import Fraction
 
 import numpy as np
+import pytest
 
 from stabilab import Body, ConstantTorque, ScaledGyrostat, Scene
 from stabilab.integrate.reference import reference
@@ -14,6 +15,7 @@ def test_a_motion_from_rest_in_many_digits_starts_by_the_torque():
     np.testing.assert_array_equal(found.states, [[0, 0, 0.5], [0, 0, 3]])  # omega3 = M3 t/D3, by hand
 
 
+@pytest.mark.slow
 def test_a_motion_that_grows_a_change_by_ninety_powers_of_ten_keeps_its_digits():
     """By hand: x1' = x2 x3, x2' = 1 - x3 (x1 + 1/2), x3' = x2 (x1 + 1), so (x1 + 1 + x3)' = x2 (x1 + 1 + x3): a change off the plane on which this is 0 grows
     as exp(integral of x2), some e^210, and runs in 84 and 168 digits part. On the plane x3' = -x2 x3."""

@@ -39,6 +39,7 @@ def reference(case, times):
     return np.array([[float(v) for v in row] for row in taylor.integrate(case[1], case[2], times, digits=30)])
 
 
+@pytest.mark.one_in(3)
 @needs_heyoka
 @pytest.mark.parametrize("case", CASES)
 def test_states_agree_with_thirty_digit_integration(case):
@@ -49,6 +50,7 @@ def test_states_agree_with_thirty_digit_integration(case):
         assert run.status == "reached" and max(run.invariant_drift.values()) < 1e-14
 
 
+@pytest.mark.slow
 @needs_heyoka
 def test_spin_up_over_a_long_time_keeps_its_phase():
     """The phase is about t^2/2; forty ulps of it are allowed, the rounding of some thousand steps."""
@@ -57,6 +59,7 @@ def test_spin_up_over_a_long_time_keeps_its_phase():
     assert run.states[0] == pytest.approx([float(v) for v in exact[0]], abs=40 * 2.2e-16 * t * t / 2)
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("case", CASES[:4])
 def test_without_heyoka_dop853_takes_over_and_says_so(case, without_heyoka):
     assert not heyoka_available()

@@ -97,6 +97,7 @@ def test_a_period_that_nobody_knows_is_none_and_the_words_say_so():
     assert told.count("not known") == 3 and "nan" not in told and "inf" not in told
 
 
+@pytest.mark.slow
 def test_a_limit_is_asked_of_scenes_without_arrays_too():
     found = swept("top-fast", {"lambda": "0.5, 1"}, answer="when", component="1 = 100")
     for n, share in enumerate(("0.5", "1")):

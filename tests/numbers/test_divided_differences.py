@@ -49,6 +49,7 @@ def check(nodes, t):
     assert error_in_half_units(value, nodes, t) <= ALLOWED, (nodes, t)
 
 
+@pytest.mark.one_in(4)
 @pytest.mark.parametrize("distance", [0.0, *(10.0**-n for n in range(2, 15))])
 @pytest.mark.parametrize("nodes", [lambda d: (0, 0, 0, 1j * d, 1.3j, 0.7j), lambda d: (0, 1j, 1j * (1 + d), -1j),
                                    lambda d: (0, 0, 0, 2j, 2j + d, 2j - d), lambda d: (d, -d, 0, 0, 0.4j)],

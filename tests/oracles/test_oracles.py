@@ -29,6 +29,7 @@ def problems(seed, count):
             yield model.physical(inertia.tolist(), lam.tolist(), torque.tolist()), tuple(rng.normal(size=3) * 2)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [0, pytest.param(1, marks=pytest.mark.slow)])
 def test_potential_and_integration_agree_on_fate_period_and_extremes(seed):
     for problem, state in problems(seed, 12):
@@ -46,6 +47,7 @@ def test_potential_and_integration_agree_on_fate_period_and_extremes(seed):
             assert np.all(np.abs(run[~finite]) > 3)
 
 
+@pytest.mark.slow
 def test_a_taylor_run_over_one_exact_period_returns_to_its_start():
     for problem, state in list(problems(7, 12)):
         if energy.label(problem, state, digits=60) != "bounded":

@@ -17,6 +17,7 @@ CENTRE = (0.0, 3.6095480380989766, -0.5331175463238882)  # the pure spin to whic
 FEW = {(0.0, 0.0), (0.0, 1e-12), (1e-30, 0.0), (1e-18, 1e-15), (-1e-17, 0.0), (1e-15, 1e-12)}  # each torque and each distance; all pairs are slow
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("torque, off", [pytest.param(*pair, marks=() if pair in FEW else pytest.mark.slow)
                                          for pair in product((0.0, 1e-30, 1e-18, -1e-17, 1e-15), (0.0, 1e-15, 1e-12))])
 def test_extremes_and_period_beside_the_centre_of_a_hyperbola(torque, off):

@@ -16,6 +16,7 @@ ALMOST_A_LINE = physical((31.487138417043845, 31.488743806858277, 31.48713841704
                          (0.0, 6.0953162715989465e-06, 0.0))
 
 
+@pytest.mark.slow
 def test_the_fold_of_a_conic_that_is_almost_a_line_is_where_exact_arithmetic_has_it():
     scene, problem = ALMOST_A_LINE
     state = (-1.887612743896219, -1.6198272930050313e-09, 29.8634883216673)

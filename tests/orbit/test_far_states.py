@@ -63,6 +63,7 @@ def test_margins_of_far_motions_go_with_the_square_of_the_unit(name):
     assert one is None and far is None or far / float(u) ** 2 == pytest.approx(one, rel=1e-11) == many / float(u) ** 2
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("effects", [(Gyrostat((1, 2, 3)),), (ConstantTorque((1, 1, 0)),), (Gyrostat((1, 0, 0)), ConstantTorque((1, 0, 0)))])
 @pytest.mark.parametrize("power", [-300, -160, 160, 200])
 def test_scenes_without_a_reduction_answer_or_refuse_any_rate(effects, power):
@@ -78,6 +79,7 @@ def test_scenes_without_a_reduction_answer_or_refuse_any_rate(effects, power):
 ORDERS, TORQUES = ((0, 1, 2), (2, 0, 1), (1, 2, 0)), ((1.0, 1.0), (1e-5, 1e8), (0.0, 1e300))
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("order, beside, torque", [pytest.param(order, *pair, marks=() if m == n else pytest.mark.slow)  # each of both comes up
                                                    for m, order in enumerate(ORDERS) for n, pair in enumerate(TORQUES)])
 def test_rows_of_a_wheel_as_large_as_doubles_go_round_it(beside, torque, order):

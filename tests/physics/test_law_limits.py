@@ -169,6 +169,7 @@ def test_value_of_a_run_by_scipy_is_the_same(method):
     assert run.validity.value == pytest.approx(1.44 * 4 / 1000, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_every_result_carries_it():
     scene = ball("1e-6", ConstantTorque((0, 0, 500)))
     states = np.array([[0, 0, 0], [0, 0, 0.1]])
@@ -221,6 +222,7 @@ def measured_once(measured, monkeypatch):
 COMMANDS = ["classify", "fate", "extremes", "period", "simulate --at 10", "precision --quick --until 2", "compare", "plot --out picture.png"]
 
 
+@pytest.mark.one_in(4)
 @pytest.mark.usefixtures("measured_once")
 @pytest.mark.parametrize("command", COMMANDS)
 def test_commands_say_first_that_a_liquid_is_too_thin_for_its_law(stabilab, tmp_path, monkeypatch, command):
@@ -243,6 +245,7 @@ def test_commands_say_first_that_a_thick_liquid_is_within_its_law(stabilab, tmp_
     assert "within the law: liquid cavity: " in out.splitlines()[0]
 
 
+@pytest.mark.one_in(4)
 @pytest.mark.usefixtures("measured_once")
 @pytest.mark.parametrize("command", [c for c in COMMANDS if "plot" not in c])
 def test_json_carries_number_value_and_limit_and_strict_ends_with_3(stabilab, tmp_path, command):

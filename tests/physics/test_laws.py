@@ -36,6 +36,7 @@ SPECIAL = [Scene(BODY, *(effect_class(name)(v) for name in QUADRATIC)) for v in 
     ScaledGyrostat(a, b, mu) for a, b in ((1, 2), (1, 1), (0, 0)) for mu in ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 2, 1), (1, 0, -1))]
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("scene", SCENES, ids=IDS)
 def test_balance_laws_hold_identically(scene):
     """Work and energy, momentum (circle, hyperbola when scaled): in all states and parameters."""
@@ -45,6 +46,7 @@ def test_balance_laws_hold_identically(scene):
         assert sp.expand(equations.derivative(law.quantity) - law.rate) == 0, law.name
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("scene", SCENES, ids=IDS)
 def test_flow_preserves_volume_but_for_effects_that_say_otherwise(scene):
     trace = sp.expand(derive(scene).jacobian.trace())
@@ -66,6 +68,7 @@ def test_effects_that_promise_no_work_do_none(name):
     assert power != 0 or not effect_class(name).works  # the promise is given where it can be
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("scene", SPECIAL + SCENES)
 def test_every_stated_invariant_is_one(scene):
     """Identically in the state, this scene's numbers put in; turn angles differentiate to the rates they integrate."""
@@ -82,6 +85,7 @@ def test_scaled_work_and_energy_is_the_combination_of_its_two_laws():
     assert not sp.expand((b * circle.quantity - a * hyperbola.quantity) / 2 - energy.quantity).free_symbols & set(equations.state)
 
 
+@pytest.mark.one_in(4)
 @pytest.mark.parametrize("scene", [pytest.param(scene, marks=pytest.mark.slow if n in PAIRS else ()) for n, scene in enumerate(SCENES)], ids=IDS)
 def test_compiled_law_rates_are_gradients_along_the_motion(scene):
     """Complex step of the compiled quantity along the compiled rates."""

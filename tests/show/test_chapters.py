@@ -156,6 +156,7 @@ def test_a_chapter_whose_case_is_missing_says_so_in_words(tmp_path, monkeypatch)
     assert "top-that-is-not-there.toml" in section["problem"] and section["sensible"] is None
 
 
+@pytest.mark.slow
 def test_a_chapter_stands_in_the_report_with_claims_errors_and_variant(tmp_path, monkeypatch):
     row = figures_top.FIGURES[4]
     monkeypatch.setattr(figures_top, "FIGURES", (row,))

@@ -137,6 +137,7 @@ def test_the_curve_of_a_motion_on_an_unstable_plane_stays_on_it():
     assert np.abs(x[:, 0] + 1 + x[:, 2]).max() < drawn["half"] / 4095 * 1.01 and x[-1, 1] > 12
 
 
+@pytest.mark.slow
 def test_the_rates_of_a_sweep_on_an_unstable_plane_stay_on_it(tmp_path, monkeypatch):
     """By hand: the plane x1 + 1 + x3 = 0 is one of every a, x3 dies out on it and x2 grows with the time: |x| goes along with it."""
     file = tmp_path / "plane.toml"
@@ -185,10 +186,12 @@ def test_a_page_tells_scaled_numbers_as_x_and_a_law_that_needs_no_run_has_no_ste
     assert page["over"] == "the finite ones over 0 to 50 of τ" and dict(page["invariants"])["J changes by"] == "2 per unit of τ"
 
 
+@pytest.mark.slow
 def test_the_reason_of_an_undecided_fate_does_not_repeat_that_it_is_undecided(tmp_path):
     assert not dict(_sections("charged-body-attitude", tmp_path)["facts"])["because"].startswith("undecided")
 
 
+@pytest.mark.slow
 def test_limits_about_the_axes_of_the_file_have_a_caption_that_says_so(tmp_path):
     captions = {name: _sections(name, tmp_path)["pictures"][0]["caption"] for name in ("geostationary-22n", "cubesat-3u")}
     assert captions == {"geostationary-22n": "The rates along the axes of the file, about which its limits are.",
@@ -202,6 +205,7 @@ def test_the_legend_of_the_space_names_only_what_is_in_its_box():
     assert all((np.abs(_places(row["at"])) <= 1.0).all(axis=-1).any() for row in drawn["drawn"]["curves"])
 
 
+@pytest.mark.slow
 def test_an_extreme_that_is_zero_but_for_rounding_is_told_as_zero(tmp_path):
     """The start has omega2 = 0, where omega2' = 0 too, and the motion comes back to it from above: by hand the least omega2 is 0."""
     rows = _sections("charged-body", tmp_path)["extremes"]

@@ -287,6 +287,7 @@ def test_a_scene_without_separatrix_is_answered_with_the_reason_and_no_file(tmp_
 BEGINS = {".png": b"\x89PNG\r\n\x1a\n", ".svg": b"<?xml", ".pdf": b"%PDF-"}
 
 
+@pytest.mark.one_in(4)
 @pytest.mark.parametrize("name", ["plane.png", "plane.svg", "plane.pdf", "PLANE.SVG"])
 def test_a_picture_is_what_its_ending_says_and_the_same_bytes_again(name, tmp_path):
     import stabilab
@@ -326,6 +327,7 @@ def test_surface_points_lie_on_the_level_of_their_saddle(tmp_path):
         assert np.ptp(energy, axis=1).max() < 1e-11 * scale
 
 
+@pytest.mark.slow
 def test_in_a_surface_picture_the_colours_of_equilibria_are_theirs_alone_and_no_label_floats_over_a_sheet():
     if not render_probe.probe().available:
         pytest.skip(render_probe.probe().words)

@@ -50,6 +50,7 @@ def test_a_plot_returns_the_axes_it_was_given():
     assert stabilab.plot.phase(load("minor-axis-100"), ax=ax) is ax
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("title", [r"thrust at $\\foo$, lambda1 = 100", "5 $ of 7 $", r"x_1 \\$ {y}^", "$x$ " * 40])
 def test_a_dollar_in_a_title_is_drawn_as_a_dollar(tmp_path, title):
     """Matplotlib takes what stands between dollars for a formula, and stops at one that it cannot read."""
@@ -144,6 +145,7 @@ def test_a_curve_with_more_turns_than_columns_becomes_a_band_that_holds_it():
     assert path.turning(values) == 2000 and low.max() < -0.99 and high.min() > 0.99
 
 
+@pytest.mark.slow
 def test_a_motion_on_an_unstable_plane_is_drawn_where_it_stays():
     """By hand: on the plane x1 + 1 = -x3 of this scene x3' = -x2 x3 and x2' = 1 + x3/2 + x3^2, so x3 dies out and x2 grows with the time. A run in doubles is
     thrown off the plane by rounding at tau = 8."""
@@ -211,6 +213,7 @@ KINDS = {"minor-axis-100": EVERYWHERE | {"phase", "sphere", "section", "equilibr
          "top-fast": EVERYWHERE | {"state", "equilibria"}}
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("name", KINDS)
 def test_every_kind_of_scene_knows_its_kinds_of_plot(name):
     one = subject.subject(load(name))
@@ -221,6 +224,7 @@ def test_every_kind_of_scene_knows_its_kinds_of_plot(name):
             which.check(kind, one)
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("ending", ["png", "svg", "pdf"])
 def test_the_same_case_gives_the_same_bytes_in_every_format(ending, tmp_path):
     case = load("middle-axis-100")
@@ -305,6 +309,7 @@ def test_under_a_torque_on_the_minor_axis_all_lines_stay_on_the_circle_of_the_pa
         assert np.hypot(line[:, 0] + case.scene.a, line[:, 1])[np.isfinite(line[:, 0])] == pytest.approx(radius)
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("name", ["thruster-stuck-major-axis", "minor-axis-100", "wheel-and-thruster", "torque-free-gyrostat", "off-axis-two", "liquid-base"])
 def test_the_box_of_the_space_of_rates_is_scaled_to_the_motion(name):
     """Not to a surface that reaches a hundred times as far."""

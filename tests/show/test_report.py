@@ -215,6 +215,7 @@ def test_a_sweep_is_one_table_with_a_column_for_its_key(several):
     assert shown == [["0", "0.1"], ["0", "0.2"], ["0.1", "0"]]  # the components that the file varies, of its three torques
 
 
+@pytest.mark.slow
 def test_any_number_of_workers_gives_the_same_bytes(several, tmp_path_factory):
     made, cases = several
     again = _written(tmp_path_factory, "again", cases, workers=1, alike=True)

@@ -70,6 +70,7 @@ def test_a_passage_that_is_undone_within_the_same_step_is_found():
         assert found is not None and run.t[last] <= found[0] <= run.t[top]
 
 
+@pytest.mark.slow
 def test_passages_in_an_island_go_round_the_marked_periodic_motion(island):
     """The mark is a fixed point of the map (DOP853 brings it back), and the motion's passages surround it."""
     (mark,), own = dots(island, BLUE), dots(island, ORANGE)
@@ -81,6 +82,7 @@ def test_passages_in_an_island_go_round_the_marked_periodic_motion(island):
     assert len(own) == 60 and np.diff(angles).max() < 1 and angles[0] + 2 * math.pi - angles[-1] < 1
 
 
+@pytest.mark.slow
 def test_neighbours_inside_the_island_stay_and_those_far_outside_leave(island):
     """By DOP853 until a rate is more than twice as large as any of this motion: the two neighbours inside never come so far, the last one outside does."""
     from scipy.integrate import solve_ivp
@@ -96,14 +98,15 @@ def test_neighbours_inside_the_island_stay_and_those_far_outside_leave(island):
     assert ended == [0, 0, 1]
 
 
-def test_axes_have_the_two_other_rates_in_the_units_asked_for(island):
-    assert (island.get_xlabel(), island.get_ylabel()) == (r"$\omega_1$ (rad/s)", r"$\omega_2$ (rad/s)")
+def test_axes_have_the_two_other_rates_in_the_units_asked_for():
     case = load("torque-free-gyrostat")
     deg, si = (stabilab.plot.section(case, units=units, passages=5) for units in ("deg", "si"))
+    assert (si.get_xlabel(), si.get_ylabel()) == (r"$\omega_1$ (rad/s)", r"$\omega_2$ (rad/s)")  # passages of the third
     assert dots(deg, ORANGE) == pytest.approx(np.degrees(dots(si, ORANGE))) and "(deg/s)" in deg.get_xlabel()
     plt.close("all")
 
 
+@pytest.mark.slow
 def test_a_periodic_motion_passes_at_one_place_once_a_period_and_neighbours_each_at_theirs():
     """A motion that reduces to one degree of freedom and is bounded repeats; its period by the integral of the reduced motion."""
     case = load("minor-axis-100")
@@ -116,6 +119,7 @@ def test_a_periodic_motion_passes_at_one_place_once_a_period_and_neighbours_each
     plt.close("all")
 
 
+@pytest.mark.slow
 def test_of_a_motion_that_spins_up_the_passages_until_that_is_certain_are_drawn():
     """cubesat-3u: its certificate holds from 109.7 s on; the passage after the last one that is drawn is later."""
     one = subject.subject(load("cubesat-3u"))
@@ -144,6 +148,7 @@ def test_what_has_no_section_is_refused_with_the_reason():
             stabilab.plot.section(load("minor-axis-100"), **options)
 
 
+@pytest.mark.slow
 def test_a_section_with_neighbours_is_written_the_same_again_and_other_kinds_have_none(tmp_path, monkeypatch):
     monkeypatch.setattr(plane_section, "PASSAGES", 6)
     case = load("torque-free-body")

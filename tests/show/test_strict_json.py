@@ -102,6 +102,7 @@ def slow(command, name):
     return command == "precision" or name == SLOW and command not in ("fate", "simulate")
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("command, name", [pytest.param(command, name, marks=pytest.mark.slow if slow(command, name) else [])
                                            for command, (_, names) in ASKED.items() for name in names])
 def test_what_a_command_says_in_json_is_read_by_strict_readers(stabilab, tmp_path, command, name):

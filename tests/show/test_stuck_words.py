@@ -2,6 +2,8 @@
 import json
 import re
 
+import pytest
+
 from stabilab.case.read import load
 from stabilab.show.report.one_case.page import sections
 from tests.shared import craft_file
@@ -9,6 +11,7 @@ from tests.shared import craft_file
 SATELLITE = craft_file([12.0, 9.0, 5.0], ([0.5, 0, 0], [0, 1, 0], "40 mN"), [([1, 0, 0], "0.8 N m s")], ["5.7 deg/s", "2.9 deg/s", "1.1 deg/s"])
 
 
+@pytest.mark.slow
 def test_an_interval_that_keeps_the_motion_bounded_is_told_in_six_digits_and_lies_inside_the_exact_one(stabilab, tmp_path):
     case = tmp_path / "satellite.toml"
     case.write_text(SATELLITE)

@@ -30,6 +30,7 @@ def row_of(name, equation):
     return next(row for row in PAPERS[name].rows if row.equation == equation)
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("name", PAPERS)
 def test_every_row_is_decided_and_every_correction_passes_the_check_that_the_print_fails(name):
     prove_systems(PAPERS[name])
@@ -73,6 +74,7 @@ def holding(name):
             yield paper, row, system_of(paper, row.system), bound_of(paper, row)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", [pytest.param(name, marks=[] if name == "newtonian-field-top" else pytest.mark.slow) for name in PAPERS])
 def test_every_flipped_sign_in_every_formula_that_holds_is_found(name):
     missed, tried = [], 0

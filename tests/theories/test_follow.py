@@ -81,6 +81,7 @@ def _written(text):
     return load(path)
 
 
+@pytest.mark.slow
 def test_the_first_time_of_an_error_is_where_the_error_passes_it():
     case = load(CHARGED)
     for departure in compare(case, np.linspace(0, 12, 241)).departures:

@@ -21,6 +21,7 @@ def megno(scene, state, turns=400):
     return growth(scene, states, turns * turn, turn)
 
 
+@pytest.mark.one_in(4)
 @pytest.mark.parametrize("name", ["torque-free-body", "torque-free-gyrostat", "minor-axis-100", "middle-axis-100"])
 def test_a_motion_of_one_degree_of_freedom_tends_to_two(name):
     """Neighbours on the orbits of an integrable motion part in proportion to time, and then MEGNO -> 2 (Cincotta, Giordano, Simo 2003)."""
@@ -30,6 +31,7 @@ def test_a_motion_of_one_degree_of_freedom_tends_to_two(name):
     assert away[-1] < 0.1 and away[-1] < away[-2] < away[-3]
 
 
+@pytest.mark.slow
 def test_the_equations_of_a_change_are_those_that_heyoka_derives_by_itself():
     heyoka = pytest.importorskip("heyoka")
     from stabilab.integrate.to_heyoka import heyoka_form, to_taylor
@@ -80,6 +82,7 @@ def test_the_same_top_near_its_rest_is_regular():
     assert (megno(TOP, TAME).megno[0, -3:] < 2.3).all()
 
 
+@pytest.mark.slow
 def test_neighbours_that_come_together_have_ever_lower_numbers():
     one = case("liquid-base")
     history = megno(one.scene, one.state, 200).megno[0]

@@ -47,6 +47,7 @@ def rotations(D, lam, h2, digits=50):
     return found
 
 
+@pytest.mark.one_in(4)
 @pytest.mark.parametrize("D, lam", [((4, 3, 2), (1, 2, -1)), ((4, 3, 2), (1e-3, 1e-2, -1e-3)), ((3, 3, 2), (1, 2, 3)), ((2, 2, 2), (1, 2, 3)),
                                     ((4, 3, 2), (30, 1, 2))])
 @pytest.mark.parametrize("state", [(1.0, 0.5, -0.25), (0.125, 2.0, 0.25)])
@@ -87,6 +88,7 @@ def energies(D, lam, state, margin):
     return own + abs(own + margin)
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("decades", [0.0, 3.0])
 def test_margins_of_free_bodies_and_gyrostats_are_those_of_the_nearest_saddle_in_many_digits(decades):
     # oracle: mpmath's roots of |H|^2 = h^2 and the second derivative as a matrix (tests/oracles/sphere.py)
@@ -229,6 +231,7 @@ def test_arrays_beside_a_turned_separatrix_get_the_labels_of_exact_arithmetic():
     assert 0 < found.precise < len(states)
 
 
+@pytest.mark.slow
 def test_a_gyrostatic_component_along_a_torque_between_equal_axes_leaves_no_motion_bounded():
     """Found by the search: decimals of a moment across the torque leave a hair along it, and the turned scene has no reduction.
     Law: |H|^2/2 - D T grows at the rate lambda.M, D the equal moments (from D omega.M = (D omega).M)."""

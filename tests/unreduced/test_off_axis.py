@@ -31,6 +31,7 @@ def either(request, monkeypatch):
     return request.param
 
 
+@pytest.mark.one_in(4)
 @pytest.mark.parametrize("t_end", [20.0, -20.0])
 def test_every_sign_change_of_a_rate_is_a_root(either, t_end):
     """Counted on 20,000 samples of the motion, rates from the hand-written form."""
@@ -214,6 +215,7 @@ def test_fates_of_an_array_are_proved_on_request():
     assert np.array_equal(asked.axis, plain.axis) and [stabilab.spin_up(scene, state, proof=True).level for state in states.tolist()] == ["proved", "proved"]
 
 
+@pytest.mark.slow
 def test_the_period_of_an_undecided_motion_is_no_number_and_the_command_says_why(stabilab, tmp_path):
     """Inside a bounded island (followed for 1e6 s by an integrator) no certificate is met: inf would say that the motion never repeats."""
     scene = Scene(Body((4.936, 3.555, 1.537)), Gyrostat((-1.151, 0, 0)), ConstantTorque((-1.405, -1.744, -0.091)))

@@ -2,6 +2,7 @@
 import math
 
 import numpy as np
+import pytest
 from scipy.integrate import solve_ivp
 
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
@@ -44,6 +45,7 @@ def test_the_periodic_motion_at_the_centre_of_averaging_is_elliptic():
     assert abs(orbit.state[0] - centre.spin) < 0.15 * abs(centre.spin)  # leading order
 
 
+@pytest.mark.slow
 def test_a_small_change_turns_about_an_elliptic_motion_by_its_angle():
     """The angle that a neighbour's passages gain about the fixed point is that of the multipliers, and it stays near."""
     scene = scene_of(*ISLANDS["A"][0])
@@ -60,12 +62,14 @@ def test_a_small_change_turns_about_an_elliptic_motion_by_its_angle():
     assert abs(turns - 200 * orbit.angle / (2 * math.pi)) <= 1
 
 
+@pytest.mark.slow
 def test_the_middle_of_a_small_island_is_found_from_a_motion_in_it():
     scene = scene_of(*ISLANDS["B"][0])
     orbit = in_the_middle(scene, ISLANDS["B"][1])
     assert orbit.elliptic and is_periodic(scene, orbit)
 
 
+@pytest.mark.slow
 def test_an_elliptic_motion_is_continued_to_another_body():
     first, state = ISLANDS["A"]
     last = (1.26, .40, 1.37), (.11, .84, .52), (-.52, .82, .2)

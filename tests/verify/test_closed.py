@@ -42,6 +42,7 @@ def test_a_closed_solution_is_certified_and_proved_anew(kind):
     assert verify(found).status == "proved"
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_run_keeps_what_the_closed_solution_says(kind):
     """DOP853 on Euler's equations: growth along the direction, sizes below the bound."""

@@ -50,6 +50,7 @@ def test_what_elimination_finds_is_what_trace_forms_count(tmp_path, seeds, degen
     assert proved > 0.7 * len(seeds)
 
 
+@pytest.mark.slow
 def test_two_hundred_forgeries_are_refuted(tmp_path):
     rng, tried = np.random.default_rng(1), 0
     for claims in (*map(made, KNOWN), *(drawn(tmp_path, seed, True) for seed in (0, 2, 3, 5, 7))):

@@ -124,6 +124,7 @@ def forgeries(claims):
         yield changed("planes", n, "centre", "verdict", to="unstable")
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("name", SCENES)
 def test_a_forged_claim_on_the_equilibria_is_never_proved(name):
     claims = proved(SCENES[name])
@@ -261,6 +262,7 @@ MOTIONS = {
     "torque in no axis, scaled": (ScaledGyrostat("0.2", "0.4", (-1, "0.5", "0.75")), (-2, 1, F(1, 2)))}
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("name", MOTIONS)
 def test_a_forged_claim_on_the_motion_is_refuted(name):
     claims = proved(*MOTIONS[name])
@@ -359,6 +361,7 @@ def forge_all(claims, seed, count, paths=None):
 OF_A_KIND = ("off-axis-one", "thruster-negative-minor-axis")  # of the files: others prove the same things
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("name", [*KINDS, *(pytest.param(name, marks=pytest.mark.slow if name in OF_A_KIND else ()) for name in FILES)])
 @pytest.mark.parametrize("paths", [2, pytest.param(4, marks=pytest.mark.slow)])
 def test_what_a_machine_forges_is_never_proved(name, paths):
@@ -371,6 +374,7 @@ OF_EACH_SORT = ("two points", "an oblique line that is left slowly", "spin-up af
                 "on a parabola")
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("name", [pytest.param(name, marks=() if name in OF_EACH_SORT else pytest.mark.slow) for name in (*KINDS, *FILES)])
 def test_every_bracket_holds_the_value_that_the_equations_give_in_fifty_digits(name):
     claims = case_proved(name) if name in FILES else proved(*KINDS[name])

@@ -156,6 +156,7 @@ def a_certificate(seed, about, orders=(2, 4)):
                    "motion": {"state": [str(F(str(v))) for v in state.tolist()], "fate": "spin-up", "axis": axis, "sense": sense, "spin_up": said}}
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("about", ["moving centre", "equator"])
 @pytest.mark.parametrize("count, least", [(1, 200), pytest.param(8, 1000, marks=pytest.mark.slow)])
 def test_what_a_machine_forges_of_a_spin_up_is_never_proved(about, count, least):

@@ -39,6 +39,7 @@ def test_an_infinite_extreme_has_every_digit(digits):
     assert (told.decimals is None) == (digits < 16) and (told.decimals is None or told.decimals[2][1] == "inf")
 
 
+@pytest.mark.slow
 def test_many_states_are_redone_one_by_one_where_the_formulas_cannot_hold_the_digits():
     rows = np.linspace((2.5, 4.0, 0.1), (2.6, 4.1, 0.2), 17)
     told = ask_all("period", MINOR, rows, 20, stabilab.period(MINOR, rows))

@@ -47,6 +47,7 @@ def apart(told, exact):
         return worst
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("digits", [3, 12, 30, *(pytest.param(n, marks=pytest.mark.slow) for n in (9, 15))])
 @pytest.mark.parametrize("name", ["minor-axis-100", "middle-axis-double-well", "two-wheels-minor-axis"])
 def test_extremes_period_and_margin_have_the_digits_asked_for(name, digits):

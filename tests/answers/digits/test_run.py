@@ -15,6 +15,7 @@ from stabilab.errors import InputError
 from tests.shared import case
 
 
+@pytest.mark.slow
 def test_a_measured_method_that_refuses_the_motion_is_passed_over(monkeypatch):
     one = case("charged-body-attitude")  # the reduced form has no attitude
     monkeypatch.setattr(precision_digits, "front", lambda case: (FrontPoint("reduced", 40, 14.0, 1e-6),))

@@ -67,6 +67,7 @@ def crossings_of(seed, count):
     return rows
 
 
+@pytest.mark.slow
 def test_first_times_of_random_scenes_hold_those_of_brute_force():
     pytest.importorskip("heyoka")
     rows = crossings_of(1, 25)

@@ -55,6 +55,7 @@ def test_a_component_counts_in_the_frame_of_the_file_or_along_principal_axes(sta
     assert abs(abs(at[1][2]) - math.radians(30)) < 1e-10
 
 
+@pytest.mark.slow
 def test_limits_of_three_components_are_those_of_the_file(tmp_path):
     text = CUBESAT.read_text().replace('rate = "60 deg/s"', 'rate = ["90 deg/s", "40 deg/s", "2 deg/s"]')
     path = tmp_path / "three.toml"

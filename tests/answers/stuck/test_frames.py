@@ -29,6 +29,7 @@ def a_rotation(numbers) -> np.ndarray:
                      [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("name", ["upper-stage", "cubesat-3u"])
 def test_ten_frames_give_one_answer(tmp_path, name):
     """A rotation of the whole file changes no moment, no fate, no time and no rate; vectors turn with it."""

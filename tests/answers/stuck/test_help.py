@@ -58,6 +58,7 @@ def asked(tmp_path):
     return ask
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("spin, fate", [("0.9", "spin-up"), ("0.02", "bounded")])
 def test_the_fate_changes_just_beyond_each_margin_and_not_before(asked, spin, fate):
     """Fates by `stabilab.fate` of the changed scene: rate, wheel and torque each moved along the direction told."""
@@ -140,6 +141,7 @@ def test_a_wheel_that_only_delays_delays_by_what_is_told(asked, tmp_path):
     assert all(craft.run(1e3, l=np.array([s, 0, 0]))[0] <= best * (1 + 1e-9) for s in np.linspace(-1.6, 1.6, 9))
 
 
+@pytest.mark.slow
 def test_a_bounded_motion_never_reaches_a_limit_above_its_largest_rate(asked):
     """The largest |omega| of a run over two periods by DOP853."""
     row = asked(CASE, "0.02").rows[0]
@@ -189,6 +191,7 @@ def test_a_terminal_is_told_what_is_being_asked_and_a_pipe_is_not(stabilab, tmp_
     assert any("own: A ..." in word for word in words) and words[-1].endswith("\x1b[K")
 
 
+@pytest.mark.slow
 def test_a_margin_into_a_narrow_gap_between_two_separatrices_says_where_the_fate_is_back(stabilab, tmp_path):
     """Beside the tip of a wedge of spin-up: by the balance of energy, whose least value ahead of the start has the sign of the fate."""
     text = craft_file([[0.74352, 0, 0.14064], [0, 0.887, 0], [0.14064, 0, 0.66148]], ([1.1, -0.2, 0.7], [0.6, 0, -0.8], 0.166), [([1.092, 0, -0.62], 0.643)],

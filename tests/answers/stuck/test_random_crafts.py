@@ -23,6 +23,7 @@ def asked(stabilab, tmp_path):
     return ask
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("n", [3, 4, 9, 11, *(pytest.param(n, marks=pytest.mark.slow) for n in range(12, 44))])
 def test_every_field_off_the_axes_is_that_of_a_run(asked, n):
     found, craft = asked(anywhere(np.random.default_rng([13, n]), n))
@@ -53,6 +54,7 @@ def moments_differ(found):
     return len(set(found["principal"]["moments"])) == 3
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("axis, n", [(0, 5), (2, 2), *(pytest.param(n % 3, n, marks=pytest.mark.slow) for n in range(6, 30))])
 def test_fate_margins_and_wheel_intervals_on_an_axis_are_those_of_runs(asked, axis, n):
     """A start, a wheel or a torque changed by 0.99 or 1.01 of a margin; a wheel's momentum on both sides of every end: by what runs prove

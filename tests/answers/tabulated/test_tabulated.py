@@ -126,6 +126,7 @@ def test_reference_says_what_is_missing_and_ends_with_5(stabilab, monkeypatch):
     assert code == 5 and "state,0.01" in out and "state,15" not in out and "proved up to 0.01" in err
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.skipif(not HEYOKA, reason="one column is heyoka's")
 @pytest.mark.parametrize("name", against_reference.CASES)
 def test_the_table_of_integrators_is_what_they_are_off(name):

@@ -87,6 +87,7 @@ def walls_ahead(box, points, axis, turns=1500):
     return best
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("seed", [0, 1, 2, *(pytest.param(n, marks=pytest.mark.slow) for n in (3, 4, 5))])
 @pytest.mark.parametrize("axis", (0, 2))
 def test_no_sampled_point_contradicts_what_holds_or_what_is_proved(tmp_path, seed, axis):
@@ -160,6 +161,7 @@ def test_a_start_on_the_separatrix_depends_with_both_sides(tmp_path):
     assert over.changes_at < 1e-3
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("scale", (1e-6, 1e6))
 def test_units_do_not_matter(tmp_path, scale):
     """Moments, momentum and torque in another unit of mass, and rates in another unit of time: the same dimensionless box."""
@@ -264,6 +266,7 @@ def test_without_a_torque_every_motion_is_bounded(tmp_path):
 # -- equilibria
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("seed", [0, 1, *(pytest.param(n, marks=pytest.mark.slow) for n in (2, 3))])
 @pytest.mark.parametrize("axes", ((2,), (1,), (0, 1), (0, 1, 2)))
 def test_sampled_bodies_have_the_equilibria_that_hold(tmp_path, seed, axes):

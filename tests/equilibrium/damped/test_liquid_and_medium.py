@@ -98,6 +98,7 @@ def test_rotations_with_wheel_and_liquid_are_equilibria_with_the_stated_spectrum
             assert (p.verdict == "unstable") == (rest.real.max() > 0)
 
 
+@pytest.mark.slow
 def test_motion_next_to_an_attracting_rotation_with_wheel_tends_to_a_rotation_of_its_curve():
     where = scene(Gyrostat((1, 2, "0.5")), LIQUID)
     chosen = [p for p in all_points(equilibria(where)) if p.linear == "stable" and 0.5 < np.abs(p.at).max() < 20][:2]
@@ -236,6 +237,7 @@ def test_newton_from_many_starts_finds_no_equilibrium_beyond_those_proved_with_l
         assert p.verdict == ("asymptotically stable" if max(z.real for z in p.eigenvalues) < 0 else "unstable")
 
 
+@pytest.mark.slow
 def test_energy_bound_with_wheel_liquid_and_torque_holds_along_a_run():
     where = scene(ConstantTorque((0, "0.5", "0.1")), Resistance("0.02"), Gyrostat((0, 0, "0.1")), LIQUID)
     state = (2.0, -1.0, 1.5)
@@ -254,6 +256,7 @@ def test_boxes_hold_all_zeros_of_a_product():
     assert found.complete and np.allclose(sorted(map(tuple, found.points)), wanted, atol=1e-14)
 
 
+@pytest.mark.slow
 def test_boxes_say_so_where_a_double_zero_cannot_be_told_apart():
     found = zeros([{(2, 0, 0): 1}, {(0, 1, 0): 1}, {(0, 0, 1): 1}], (1, 1, 1))
     assert not found.complete

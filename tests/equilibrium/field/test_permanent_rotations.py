@@ -66,6 +66,7 @@ def of_gamma(p):
     return float(np.dot(p.at[:3], gamma)), gamma
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("name", SCENES)
 def test_permanent_rotations_rest_and_have_the_stated_spectrum(name):
     system = to_numpy(derive(SCENES[name]))

@@ -133,6 +133,7 @@ def test_refinement_leaves_both_sides_of_every_boundary_at_the_last_depth():
     assert same.all()  # what was left whole differs from none of its neighbours
 
 
+@pytest.mark.slow
 def test_cells_beside_another_number_of_equilibria_are_cut_too():
     """A torque off the axes leaves two equilibria or none: the real roots of one quadratic."""
     found = made(case_of(wheel=(0.0, 0.2, 0.0)), level=2, refine=1)
@@ -168,6 +169,7 @@ def test_wheel_momenta_are_along_the_wheel_or_along_the_axis_that_is_named(spinn
     assert asked(case_of(), wheel="z=0.1:0.3:3").wheels[2][2] == pytest.approx(0.3) and asked(case_of(), wheel="1=0:1:2 mN m s").unit == "mN m s"
 
 
+@pytest.mark.slow
 def test_directions_of_a_full_tensor_are_told_in_the_frame_of_the_file():
     found = made(stabilab.load(CASES / "upper-stage.toml"), level=0)
     thruster = next(n for n, point in enumerate(found.named) if point.level == -2)

@@ -85,6 +85,7 @@ def _touch(one, other):
     return any(len(points(tuple(a)) & points(tuple(b))) > 1 for a in one for b in other)
 
 
+@pytest.mark.slow
 def test_cutting_follows_a_circle_to_the_last_depth():
     leaves, deepest, axis, height = whole(2), 6, np.array([0.36, 0.48, 0.8]), 0.35
     side = lambda of: np.concatenate([_side(level, number, axis, height) for level, number in zip(of.level, of.number)])

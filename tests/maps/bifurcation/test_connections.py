@@ -26,6 +26,7 @@ def dense(D, lam, M, omega, i, low, high):
     return found
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("seed", [0, 1, *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(2, 12))])
 def test_connections_are_those_that_a_grid_of_heights_brackets(tmp_path, seed):
     rng = np.random.default_rng(seed)
@@ -47,6 +48,7 @@ def test_connections_are_those_that_a_grid_of_heights_brackets(tmp_path, seed):
         assert any(u * v < 0 for u, v in zip(*sides)), value
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("ends", [pytest.param(("-0.5", "0.5"), marks=pytest.mark.slow), ("-0.5", "0.4"), ("-0.01", "0.013")])
 def test_mirrored_saddles_are_at_one_height_without_a_torque(tmp_path, ends):
     # by hand: with the wheel along axis 1 alone w2 -> -w2 maps the motion without a torque onto itself backwards, and one saddle onto the other
@@ -63,6 +65,7 @@ def sign_changes(rises_at, low, high, count=201):
     return [(p, q) for (p, before), (q, now) in zip(rows, rows[1:]) if before and now and any(u * v < 0 for u, v in zip(before, now))]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("lam, omega", [(("-0.75", "-0.75"), ("0.05", "-0.25", "-0.05")),
                                         pytest.param(("0.5", "0.125"), ("0.2", "0.3", "0"), marks=pytest.mark.slow)])
 def test_connections_are_those_of_a_grid_where_equilibria_pass_one_above_another(tmp_path, lam, omega):
@@ -74,6 +77,7 @@ def test_connections_are_those_of_a_grid_where_equilibria_pass_one_above_another
     assert all(a <= event.value <= b for event, (a, b) in zip(found.connections, brackets))
 
 
+@pytest.mark.slow
 def test_connections_are_looked_for_up_to_the_moment_of_inertia_at_which_the_circle_opens(tmp_path):
     lam, M, omega = ("1.75", "-1.75", 0), (0, 0, "-1.25"), ("-1.5", "1.625", "-0.5")
     found = stabilab.bifurcation(written(tmp_path, (2, "3.25", 2), lam, M, omega), {"inertia[3]": "3:4"})

@@ -50,6 +50,7 @@ def check(tmp_path):
     return one
 
 
+@pytest.mark.slow
 def test_equilibria_on_a_motions_curve_are_those_that_brute_force_counts(check):
     assert sum(check(seed) for seed in range(30)) > 10
 

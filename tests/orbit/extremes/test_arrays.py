@@ -70,6 +70,7 @@ def ends_of(problem, state, unit):
     return left, right, float(max(motion.g(a) for a in _inner(motion, *ends)) / 2 * unit ** 2)
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("name", ["minor scaled +", "minor on axis 1", "major without gyrostat", "middle scaled +",
                                   "middle physical, other sign", "first axis, other sign", "oblate"])
 def test_turning_points_and_the_greatest_speed_err_by_their_stated_rounding(name):
@@ -139,6 +140,7 @@ def test_motions_of_every_size_and_sense_have_the_extremes_of_the_potential(name
         assert_extremes(box, energy.extremes(problem, state, digits=40), 1e-11)
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("off", [-1e-6, 1e-8, 1e-13])
 def test_next_to_a_barrier_that_is_not_the_highest_extremes_and_period_keep_their_digits(off):
     """D = (6, 5, 3), lambda = (0, 3, 3), no torque: (-2, -3, -1) has the energy of the lower of two saddles, (0, -3, 3)."""
@@ -233,6 +235,7 @@ ON_TOP = {
 }
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("name", ON_TOP)
 def test_at_the_place_of_an_equilibrium_extremes_margin_and_period_are_right(name):
     (scene, problem), state = ON_TOP[name]

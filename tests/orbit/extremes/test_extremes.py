@@ -26,6 +26,7 @@ def assert_extremes(got, exact, tolerance):
         assert np.all(off <= tolerance * size), (row, got[row], exact[row], off)
 
 
+@pytest.mark.one_in(3)
 @families
 def test_extremes_of_random_states_equal_the_potential_oracle(name):
     scene, problem = FAMILIES[name]
@@ -36,6 +37,7 @@ def test_extremes_of_random_states_equal_the_potential_oracle(name):
         assert_extremes(answer, energy.extremes(problem, state, digits=60), 1e-11)
 
 
+@pytest.mark.one_in(3)
 @families
 def test_periods_of_random_states_equal_the_quadrature_oracle(name):
     scene, problem = FAMILIES[name]
@@ -82,6 +84,7 @@ def test_a_physical_case_has_the_extremes_of_its_scaled_twin_times_the_rates(lam
     assert stabilab.period(scene, state * rates) == pytest.approx(stabilab.period(twin, state) * np.sqrt(12), rel=1e-12)
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("name", ["minor scaled +", "minor physical", "major physical"])
 @pytest.mark.parametrize("decades", [3, 9, 15, *(pytest.param(n, marks=pytest.mark.slow) for n in (6, 12))])
 def test_extremes_and_period_just_inside_the_separatrix_keep_their_digits(name, decades):

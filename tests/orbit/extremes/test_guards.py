@@ -30,6 +30,7 @@ def flip_of(values, accepted):
     return values[np.nonzero(accepted)[0][-1]]
 
 
+@pytest.mark.one_in(4)
 @pytest.mark.parametrize("name", ["minor scaled +", "major physical", "middle scaled +", "middle physical, other sign",
                                   "first axis", "second axis"])
 @pytest.mark.parametrize("end", [0, 1])

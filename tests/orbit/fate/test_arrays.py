@@ -287,6 +287,7 @@ def test_generic_states_need_no_many_digits(name, monkeypatch):
     stabilab.extremes(scene, states, fast=False)
 
 
+@pytest.mark.one_in(4)
 @families
 def test_the_reason_is_whether_a_barrier_stands_ahead_and_how_high(name):
     """The potential at 60 digits: no barrier, one below the energy, one above it; on hyperbolas walls hold everything."""
@@ -321,6 +322,7 @@ def test_spin_about_a_torque_that_no_other_rate_disturbs_grows_for_ever(axis, mo
         assert box[1:].tolist() == [[0, 0], [0, 0]]
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("a, b, sign", [(0.25, 0.5, 1), (0.25, 0.5, -1), (0.0, 3.0, 1), (0.0, -3.0, 1), (0.5, 0.5, 1),
                                         (0.0, 3.0, -1)])
 @pytest.mark.parametrize("plane", [-1, 1])

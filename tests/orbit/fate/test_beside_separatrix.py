@@ -98,6 +98,7 @@ def test_energies_subtracted_in_doubles_do_mislabel():
     assert wrong > 0
 
 
+@pytest.mark.slow
 def test_a_state_at_rest_on_its_circle_next_to_a_saddle_next_to_a_fold_falls_to_the_side_that_its_torque_points_to():
     """A body of revolution with a wheel across its axis and a torque along it, released without spin: by hand, D2 w2' = M2 - lambda1 w3 turns the
     transverse rates about a fixed centre, and of the two places of equal height w3 = M2 / lambda1 the one beyond the centre is the saddle. Next to it

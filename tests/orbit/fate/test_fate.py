@@ -45,6 +45,7 @@ def sample(name, count, spread=2.5):
     return np.random.default_rng(sorted(FAMILIES).index(name)).normal(size=(count, 3)) * spread
 
 
+@pytest.mark.one_in(3)
 @families
 def test_labels_of_random_states_equal_the_potential_oracle(name):
     scene, problem = FAMILIES[name]
@@ -53,6 +54,7 @@ def test_labels_of_random_states_equal_the_potential_oracle(name):
     np.testing.assert_array_equal(stabilab.fate(scene, states).labels, expected)
 
 
+@pytest.mark.one_in(3)
 @families
 def test_margins_of_random_states_equal_the_potential_oracle(name):
     scene, problem = FAMILIES[name]
@@ -80,6 +82,7 @@ def test_labels_equal_tight_integration(name):
             assert WORDS[brute.label(problem, state)] == label, state
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("side", [-1, +1])
 @pytest.mark.parametrize("sense", [-1, +1])
 @pytest.mark.parametrize("every", [3, pytest.param(1, marks=pytest.mark.slow)])
@@ -141,6 +144,7 @@ def test_states_that_are_not_three_finite_numbers_are_refused(bad):
         stabilab.fate(FAMILIES["minor scaled +"][0], bad)
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("places", [2, pytest.param(6, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("name", ["minor scaled +", "middle scaled +", "minor scaled -", "minor physical", "major physical"])
 def test_the_doubles_next_to_an_equilibrium_have_the_fate_of_exact_arithmetic(name, places):
@@ -259,6 +263,7 @@ def test_labels_of_any_body_gyrostat_and_torque_equal_the_potential_oracle(parts
     assert int(stabilab.fate(scene, np.array(state)).labels) == WORDS[word]
 
 
+@pytest.mark.slow
 def test_random_problems_on_every_axis_agree_with_the_potential_oracle():
     rng = np.random.default_rng(2024)
     for n in range(60):

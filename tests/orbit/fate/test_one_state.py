@@ -91,6 +91,7 @@ def test_an_unclear_question_is_asked_again_in_many_digits():
     assert settled(question, DOUBLE_BITS) == 2 * START_BITS and asked == [DOUBLE_BITS, START_BITS, 2 * START_BITS]
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("name", SCENES)
 def test_one_state_has_the_fate_extremes_and_period_of_the_arrays(name):
     scene, rng = SCENES[name], np.random.default_rng(7)

@@ -70,6 +70,7 @@ def hard_states(name):
     return states, [WORDS[energy.label(FAMILIES[name][1], s)] for s in states.tolist()]
 
 
+@pytest.mark.one_in(4)
 @ways
 @pytest.mark.parametrize("name", [n for n in ELLIPTIC if "a=b" not in n])
 def test_labels_next_to_the_separatrix_equal_the_oracle(name, fast, tables_always):
@@ -139,6 +140,7 @@ def test_numba_and_numpy_give_the_same_bytes(name):
     assert one.precise == other.precise
 
 
+@pytest.mark.one_in(2)
 @ways
 def test_labels_of_random_bodies_over_twelve_decades_equal_the_oracle(fast, tables_always):
     rng = np.random.default_rng(11)

@@ -64,6 +64,7 @@ def root(value):
     return Fraction(top, bottom) if (top * top, bottom * bottom) == (value.numerator, value.denominator) else None
 
 
+@pytest.mark.slow
 def test_rational_states_on_a_parabolic_separatrix_are_ties():
     # built by hand: a barrier at a rational offset whose height above the start is half a rational square
     found = 0

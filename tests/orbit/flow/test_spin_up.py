@@ -19,6 +19,7 @@ def test_a_spin_up_right_after_its_start_keeps_its_digits():
         np.testing.assert_allclose(found, many_digits(problem, state, time), rtol=2e-15)
 
 
+@pytest.mark.slow
 def test_the_turn_of_a_weak_torque_is_found_however_far_the_closed_form_misses_it():
     """Kinetic energies that differ by 566 times a turn's work: the closed form put the state 34 turns off, and six steps were allowed,
     so that every time gave the same state."""

@@ -14,6 +14,7 @@ FOLD = (0.0, -1.1710078746600967, 1.1786044041487267)  # two equilibria of its p
 PERIOD_SHOWN = 2e-11  # ten to the minus eleven is promised
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("off", [(0, 0, 0), (0, -3e-15, 2e-16), (-1.4e-7, -1e-8, 0), (1e-4, -1e-3, 0),
                                  *(pytest.param(off, marks=pytest.mark.slow) for off in ((3e-9, 0, 1.5e-8), (0, 0, 1.7e-7), (0, -4.9e-7, 0)))])
 def test_margins_and_periods_beside_the_fold_of_a_parabola(off):

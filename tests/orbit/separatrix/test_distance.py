@@ -186,6 +186,7 @@ def touching(part):
 PARTS = [0, *(sign * Fraction(1, 10**n) for n in (3, 9, 15, 24) for sign in (1, -1))]
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("part", PARTS)
 def test_bound_and_witness_meet_where_a_fold_stands_on_an_invariant_plane_or_beside_it(part):
     """There xi of the saddles goes with a square, and no search ended from a share of 1e-8 on. An image has the same distance, as a reflection
@@ -280,6 +281,7 @@ FAR = [((12, 9, 5), (0.8, 0, 0), (0, 0, 0.02), (0.1, None, 0.02)), ((12, 9, 5), 
        ((12, 9, 5), (0.8, 0.3, 0), (0, 0, 0.02), (0.1, None, 0.02)), ((3, 2, 1), (0, 0, 0.5), (1, 0, 0), (0.1, None, 0.02))]
 
 
+@pytest.mark.one_in(4)
 @pytest.mark.parametrize("size", [1e3, 5e8, 1e13])
 @pytest.mark.parametrize("moments, wheel, torque, state", FAR)
 def test_a_state_far_from_the_centre_of_its_circles_has_a_settled_distance(moments, wheel, torque, state, size):

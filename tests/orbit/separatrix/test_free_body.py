@@ -76,6 +76,7 @@ def polhode(state):
         return rows, float(4 * mpmath.ellipk(number(k2)) / mpmath.sqrt(number(speed)))
 
 
+@pytest.mark.one_in(4)
 @pytest.mark.parametrize("order", ORDERS)
 @pytest.mark.parametrize("factor", [1 - 2**-30, 1 + 2**-30, 0.5, 2.0])
 def test_beside_the_separatrix_a_free_body_turns_as_jacobis_functions_say(order, factor):

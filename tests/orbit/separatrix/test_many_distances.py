@@ -106,6 +106,7 @@ def check_loops(number, seed):
     return known
 
 
+@pytest.mark.slow
 def test_no_point_of_a_loop_that_is_integrated_is_nearer_than_the_lower_bound():
     assert check_loops(12, 9) == 12
 

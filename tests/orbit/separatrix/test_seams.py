@@ -27,6 +27,7 @@ def strip_of(scene):
     return land, (branch, side), seam
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("name", ["nearly equal", "far apart"])
 def test_facets_keep_to_the_surface_on_few_rows_and_columns(name):
     """The distance from the surface is that of `fate`, by a search over all saddles that knows of no grid; other sheets stand where no fate changes."""
@@ -42,6 +43,7 @@ def test_facets_keep_to_the_surface_on_few_rows_and_columns(name):
         assert fate(scene, between).velocity_margins.max() <= 1.1 * accuracy
 
 
+@pytest.mark.slow
 def test_a_sheet_that_bends_where_few_rows_look_is_graded_anew():
     """As above, at the edge of a rod's sheet: without, the largest grids of two million places strayed by 0.44."""
     scene, accuracy = BENDS["rod"]

@@ -93,6 +93,7 @@ def test_every_scene_here_has_sheets_of_the_stated_shapes(name, sheets):
         assert np.all(np.isfinite(sheet.points))
 
 
+@pytest.mark.one_in(3)
 @scenes
 @pytest.mark.parametrize("rows, columns", [(3, 3), pytest.param(6, 9, marks=pytest.mark.slow)])
 def test_vertices_have_the_energy_of_their_saddle_to_rounding(name, rows, columns, sheets):
@@ -217,6 +218,7 @@ def test_the_reported_residual_sees_a_vertex_that_is_off_its_surface():
         assert 1e-11 < off[0, 0, 4] < 1e-8
 
 
+@pytest.mark.one_in(3)
 @scenes
 def test_points_inside_and_outside_a_sheet_have_the_fates_of_their_sides(name, sheets):
     scene, problem = SCENES[name]
@@ -297,6 +299,7 @@ FREE = {"no effect at all": ((3, 2, 1), (0, 0, 0)), "wheel on the major axis": (
         "wheel across the major axis": ((3.0, 2.0, 1.5), (0, 0.1, 0.2)), "wheel across the minor axis": ((3.0, 2.0, 1.5), (0.3, 0.2, 0))}
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("name", FREE)
 def test_without_torque_no_surface_comes_twice(name):
     """Without torque the potential has period 2 pi: barriers of one height on a circle share one level set, in which a

@@ -90,6 +90,7 @@ def test_a_click_in_the_phase_plane_starts_a_motion(page):
     assert start != [2.5, 4, 0.1] and read_text("saved.toml", page.run("shown.toml")).state == pytest.approx(start, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_the_phase_plane_is_reached_by_the_keyboard(page):
     page.run("document.querySelector('#plane').focus()")
     for _ in range(3):
@@ -98,6 +99,7 @@ def test_the_phase_plane_is_reached_by_the_keyboard(page):
     assert page.run("Number(fields.start2.field.value)") > 0.2
 
 
+@pytest.mark.slow
 def test_a_click_on_an_equilibrium_starts_there(page):
     place = page.run("""(() => { const best = shown.space.curves.find(c => c.kind.startsWith('stable')), all = Array.from(best.at);
       for (let i = 0; i < all.length; i += 3) { const p = all.slice(i, i + 3).map(v => v / 4095); if (p.every(v => Math.abs(v) < 0.9)) return p; } })()""")

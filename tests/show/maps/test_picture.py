@@ -25,6 +25,7 @@ def swept(tmp_path_factory):
     return path
 
 
+@pytest.mark.slow
 def test_the_boundary_of_states_lies_where_the_margin_of_the_energy_is_zero():
     """The boundary asks for labels alone; the margin in balls is another way to the same place."""
     plan = planned(MINOR, {"momentum[1]": "100, 200", "x[1]": "1:4:4", "x[3]": "-3:3:7"})

@@ -204,6 +204,7 @@ def test_orders_over_one_unit_of_slow_time():
     assert slopes(2, one) == pytest.approx([2, 2, 2], abs=0.2)
 
 
+@pytest.mark.slow
 def test_orders_over_the_time_of_the_slow_change():
     # an error e^k in r turns into a phase error e^k (1/e): one order less
     assert slopes(1, long) == pytest.approx([1, 1, 0], abs=0.2)
@@ -356,6 +357,7 @@ def test_printed_solution_ends_where_it_has_no_real_value():
         printed(case.scene, case.state, [2.0, 1.0])
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("path", sorted(CASES.glob("liquid-*.toml")), ids=lambda p: p.stem)
 def test_every_liquid_case_runs_in_every_model(path):
     case = load(path)

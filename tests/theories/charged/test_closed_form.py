@@ -55,6 +55,7 @@ def worst(v, values):
     return max(error[name] / s for name, s in zip(OUTPUTS, effect))
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("every", [3, pytest.param(1, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("name", ["r0 = 0", *RESONANT])
 def test_at_and_around_every_resonance_no_digit_is_lost(name, every):
@@ -63,6 +64,7 @@ def test_at_and_around_every_resonance_no_digit_is_lost(name, every):
         assert worst(v, twelve(solution(body_of(v), v["t"]))) <= ALLOWED, (name, distance, v["t"])
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("shape", [(8.7, 8.6, 11.1), (8.7, 8.7, 11.1), (8.7, 8.6, 0.3), (5.0, 1.0, 5.5)],
                          ids=["oblate", "symmetric", "rod", "flat"])
 def test_ordinary_bodies_keep_every_digit_from_1e_minus_12_to_1e9_s(shape):
@@ -272,6 +274,7 @@ def test_mean_angular_momentum_is_the_average_of_the_motion():
     assert pointing(body).momentum_error == pytest.approx(math.atan2(abs(mean), G[0, 2]), abs=1e-5)
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("torque, rates", [((0.0, 0.0), (0.5, -0.3)), ((1.0, 0.0), (0.5, -0.3)), ((0.0, 1.0), (0.0, 0.0))])
 def test_the_spin_angle_drifts_as_the_nonlinear_equations_do(torque, rates):
     """Euler's equations and the 3-1-2 kinematics (14), integrated by SciPy, minus r0 t; error of fourth order in 0.01."""

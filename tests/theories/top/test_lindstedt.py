@@ -127,6 +127,7 @@ def test_motion_solves_the_papers_equation_5_in_many_digits():
 FEW = {((0.8, 0, 0.6), 30.0), ((0.28, -0.96, 0), 1e-10), ((0, 0, 1), 30.0)}  # of the default suite; all pairs are slow
 
 
+@pytest.mark.one_in(3)
 @needs_heyoka
 @pytest.mark.parametrize("gamma, lx", [pytest.param(*pair, marks=() if pair in FEW else pytest.mark.slow) for pair in product(
     ((0.8, 0, 0.6), (0.28, -0.96, 0), (-0.48, 0.64, -0.6), (0, 0, 1), (1e-9, 0, 1), (0, 0, -1), (1, 0, 1e-6)), (30.0, 1e-10))])
@@ -289,6 +290,7 @@ def test_an_axis_that_never_leaves_the_vertical_has_no_precession():
         mean_precession(lindstedt(scene, upright, [0.0], 4))
 
 
+@pytest.mark.one_in(3)
 @needs_heyoka
 @pytest.mark.parametrize("gamma", [(0.8, 0, 0.6), (0.8, 0, -0.6), (0, 1, 0)])
 def test_precession_and_nutation_are_those_of_the_axis_in_space(gamma):

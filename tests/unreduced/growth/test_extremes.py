@@ -31,6 +31,7 @@ def drift(lam, M, x, times):
     return np.array(out)
 
 
+@pytest.mark.one_in(4)
 @pytest.mark.parametrize("seed", range(12))
 def test_a_body_of_three_equal_moments_has_its_extremes_for_all_time(seed):
     rng = np.random.default_rng(seed)
@@ -88,6 +89,7 @@ def test_one_state_and_arrays_have_the_same_extremes(name):
             stabilab.extremes(scene, [state])
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("name", GROWING)
 def test_digits_of_a_growing_motion_are_those_of_its_finite_entries(name):
     scene, state = GROWING[name]

@@ -65,6 +65,7 @@ def onto_boundary(c, y, rng):
     return low
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("count", [1000, pytest.param(3000, marks=pytest.mark.slow)])
 def test_no_certificate_misfires_against_brute_force(brute, count):
     fired = {"spin-up": 0, "well": 0}
@@ -192,6 +193,7 @@ def test_standard_form_maps_bodies_exactly(inertia, axis, sense):
         assert got == pytest.approx([y2 * y3 + 1, -y3 * (u - change.c / 2), y2 * (u + change.c / 2)], rel=1e-12, abs=1e-12)
 
 
+@pytest.mark.one_in(5)
 @pytest.mark.parametrize("torque, momentum", [((0, 0, -10), (0, 0, 30)), ((0, 0, 10), (0, 0, 30)), ((200, 0, 0), (-40, 0, 0)),
                                               ((0, 30, 0), (0, 100, 0)), ((0, 0, -40), (0, 100, 30))])
 def test_bodies_spin_up_about_the_answered_axis(torque, momentum):
@@ -226,6 +228,7 @@ def test_captured_axis_has_one_infinite_end():
     assert extremes[2, 0] == -np.inf and -6 < extremes[2, 1] < 0 and np.isfinite(extremes[:2]).all()  # the two others over the span alone
 
 
+@pytest.mark.slow
 def test_same_answers_without_heyoka(monkeypatch):
     cases = [("0.1", (0, -1, 5)), ("-0.3", (-6, 2, -1)), ("-3", (-5, 2, -1))]
     first = [captured_fate(paper(c), x) for c, x in cases]
@@ -305,6 +308,7 @@ def by_many_digits(c, state):
     raise AssertionError("neither fired")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("c, seed, decades", [(-0.5, 1, (3, 9, 16)), *(pytest.param(c, n, range(3, 17), marks=pytest.mark.slow) for n, c in
                                                                        enumerate((-0.5, -3.0, -1.0, -0.2), 1))])
 def test_no_state_beside_the_boundary_between_spin_up_and_capture_gets_the_wrong_axis(c, seed, decades):

@@ -119,6 +119,7 @@ def test_a_wrong_answer_is_contradicted(brute):
 LATE = {8080: 6709.69, 3639: 6647.67, 10808: 9225.56, 16266: 13529.61}  # scenes of the sample: their spin's last zero (heyoka, tolerance 1e-18)
 
 
+@pytest.mark.slow
 @numba
 @pytest.mark.parametrize("number", [number if number == 8080 else pytest.param(number, marks=pytest.mark.slow) for number in LATE])
 def test_the_latest_without_a_wheel_still_change_the_sign_of_their_spin_after_5000_natural_times(brute, number):

@@ -244,6 +244,7 @@ print(rows.tolist())
 """
 
 
+@pytest.mark.slow
 @numba
 def test_lanes_that_are_partly_kept_on_disk_are_those_that_are_compiled_anew(tmp_path):
     """A process that was killed, or asked for less, keeps some functions: the others, compiled beside them by the next one, take their values."""

@@ -28,6 +28,7 @@ def departures(scene, answer, span):
     return wrong + [n for n, (a, b) in enumerate(answer.trap.bounds()) if ((states[:, n] < a - 1e-6) | (states[:, n] > b + 1e-6)).any()]
 
 
+@pytest.mark.slow
 def test_certified_motions_keep_what_they_promise():
     rng, certified = random.Random(21), 0
     for _ in range(40):
@@ -70,6 +71,7 @@ def test_fate_agrees_with_a_long_run_by_brute_force():
             assert np.sign(end[-1, i]) == answer.sense and abs(end[-1, i]) > abs(end[1, i])
 
 
+@pytest.mark.slow
 def test_many_answer_as_one_by_one():
     scene = random_scene(random.Random(24), 1)
     states = np.random.default_rng(2).normal(size=(37, 3)) * 3
