@@ -23,6 +23,12 @@ def printable(text: str) -> str:
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in text)
 
 
+def told(value: object) -> str:
+    """What came instead of what was expected, as Python writes it: not more than 80 characters, and no address, which is another in every run."""
+    words = repr(value)
+    return (words if " at 0x" not in words else f"{type(value).__name__} that holds no numbers")[:80]
+
+
 @record
 class Problem:
     """One fault of a case file; `line` is 1-based, None where the file as a whole is meant."""

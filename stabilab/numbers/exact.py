@@ -65,7 +65,7 @@ def _parse(value: Any) -> Fraction:
 def exact_vector(values: Iterable[object], name: str) -> Exact3:
     """Three exact numbers; InputError names `name` otherwise."""
     try:
-        items = list(values) if not isinstance(values, str) else None
+        items = list(values) if not isinstance(values, (str, bytes, bytearray)) else None
     except TypeError:
         items = None
     if items is None or len(items) != 3:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..asked import real
-from ..errors import InputError
+from ..errors import InputError, told
 from ..numbers.constants import EPS
 from .attitude import quaternion
 from .blocks import BLOCKS, ORDER, ordered
@@ -29,10 +29,10 @@ def float_array(values: Any, words: str) -> np.ndarray:
 
 
 def numbers_in_a_row(values: Any, name: str) -> np.ndarray:
-    array = float_array(values, f"{name}: expected numbers, got {values!r:.80}")
+    array = float_array(values, f"{name}: expected numbers, got {told(values)}")
     array = array if array.ndim else array.reshape(1)
     if array.ndim != 1 or not array.size or not np.isfinite(array).all():
-        raise InputError(f"{name}: expected finite numbers in one row, got {values!r:.80}")
+        raise InputError(f"{name}: expected finite numbers in one row, got {told(values)}")
     return array
 
 

@@ -107,3 +107,16 @@ def test_what_is_no_number_no_state_and_no_time_is_bad_input_in_every_place_of_a
             assert len(str(error)) < 500
         else:
             assert not (given is None or isinstance(given, (float, complex)) or callable(given) or isinstance(given, str) and given != "1e999"), (place, given)
+
+
+@pytest.mark.parametrize("given", [iter([1.0, 2.0]), object(), lambda: 1, map(float, "12")], ids=["an iterator", "an object", "a function", "a map"])
+def test_what_is_told_of_an_object_without_numbers_is_the_same_in_every_run(given):
+    """Its address is another one each time."""
+    scene = stabilab.Scene(stabilab.Body((3, 2, 1)), stabilab.ConstantTorque((0, 0, 1)))
+    with pytest.raises(stabilab.InputError, match=f"^times: expected numbers, got {type(given).__name__} that holds no numbers$"):
+        stabilab.ensemble(scene, [STATE], given)
+
+
+def test_bytes_are_no_three_numbers():
+    with pytest.raises(stabilab.InputError, match="inertia: expected three numbers, got bytes"):
+        stabilab.Body(b"abc")

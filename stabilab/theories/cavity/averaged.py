@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from ...errors import InputError
+from ...errors import InputError, told
 from ...physics.to_numpy import lambdified
 from .normal_form import NAMES, check, constants, normal_form
 
@@ -89,9 +89,9 @@ def omega_of(state):
     try:
         array = np.array([float(v) for v in values])
     except (TypeError, ValueError):
-        raise InputError(f"state: expected three numbers or a block omega, got {state!r}") from None
+        raise InputError(f"state: expected three numbers or a block omega, got {told(state)}") from None
     if array.shape != (3,) or not np.isfinite(array).all():
-        raise InputError(f"state: expected three finite numbers, got {state!r}")
+        raise InputError(f"state: expected three finite numbers, got {told(state)}")
     return array
 
 
@@ -99,7 +99,7 @@ def times_row(times):
     try:
         array = np.array([float(v) for v in times])
     except (TypeError, ValueError):
-        raise InputError(f"times: expected finite numbers in one row, got {times!r}") from None
+        raise InputError(f"times: expected finite numbers in one row, got {told(times)}") from None
     if not array.size or not np.isfinite(array).all():
         raise InputError("times: expected finite numbers in one row")
     return array

@@ -17,7 +17,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ...errors import InputError
+from ...errors import InputError, told
 from ...numbers.double_double import Twofold, twofold
 
 Batch: TypeAlias = Any  # a number or an array of them, with leading batch axes
@@ -76,7 +76,7 @@ def _checked(name, value, components):
     try:
         value = np.array(value, float)  # a copy: what is made of a body is kept with it
     except (TypeError, ValueError):
-        raise InputError(f"{name}: expected numbers, got {value!r}") from None
+        raise InputError(f"{name}: expected numbers, got {told(value)}") from None
     if components and value.shape[-1:] != (components,):
         raise InputError(f"{name}: expected {components} components along the last axis, got the shape {value.shape}")
     if not np.all(np.isfinite(value)):

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ...errors import InputError
+from ...errors import InputError, told
 from .scaling import fast_top
 from .series import Expansion, expand
 
@@ -111,9 +111,9 @@ def times_row(times):
     try:
         array = np.atleast_1d(np.asarray(times, float))
     except (TypeError, ValueError):
-        raise InputError(f"times: expected numbers, got {times!r}") from None
+        raise InputError(f"times: expected numbers, got {told(times)}") from None
     if array.ndim != 1 or not np.isfinite(array).all():
-        raise InputError(f"times: expected finite numbers in one row, got {times!r}")
+        raise InputError(f"times: expected finite numbers in one row, got {told(times)}")
     return array
 
 

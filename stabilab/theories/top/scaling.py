@@ -8,7 +8,7 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction
 
-from ...errors import InputError
+from ...errors import InputError, told
 from ...numbers.exact import exact
 from ...numbers.vectors import Exact3
 
@@ -94,7 +94,7 @@ def _start(state):
         rows = (state["omega"], state["gamma"]) if isinstance(state, dict) else (state[:3], state[3:])
         omega, gamma = (tuple(exact(v) for v in row) for row in rows)
     except (KeyError, TypeError, IndexError):
-        raise InputError(f"{expected}; got {state!r}") from None
+        raise InputError(f"{expected}; got {told(state)}") from None
     if len(omega) != 3 or len(gamma) != 3:
         raise InputError(f"{expected}; got {len(omega)} and {len(gamma)}")
     length = math.hypot(*map(float, gamma))
