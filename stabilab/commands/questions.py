@@ -41,7 +41,8 @@ def _tell(question, loaded, answered, systems, digits, boxes, why):
     texts = [lambda n=n: told(*answered[n], systems[n], digits is not None, digits is not None or not answered[n][2].enough, why)
              for n in range(len(answered))]
     table = swept_extremes(loaded, motions, systems) if question == "extremes" else swept_motions(motions, systems)
-    tell_all(loaded, texts, [m.validity for m in motions], [uncertain.text(box) for box in boxes], why or digits is not None, "\n", table)
+    boxed = [uncertain.text(box) for box in boxes]
+    tell_all(loaded, texts, [m.validity for m in motions], boxed, why or digits is not None, "\n", table, systems)
 
 
 def _told(question, case, motion, digits):

@@ -74,7 +74,7 @@ def _as_text(case, run, reached, digits, units, width) -> str:
     checked = "checked to " if digits is None else ""
     last = f"\n# {checked}{reached.digits:.1f} digits: {reached.because}" if reached else ""
     told = "".join(f"\n# {line}" for line in _theory(case, run, words=True))
-    return law.first(run.validity, text(case, run, units, digits is not None, width) + last + told)
+    return law.first(run.validity, text(case, run, units, digits is not None, width) + last + told, units)
 
 
 def _theory(case, run, words=False):

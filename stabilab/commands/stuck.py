@@ -33,5 +33,5 @@ def stuck(case, all_thrusters, units, why, out, json, csv, strict):
     else:
         texts = [lambda n=n: shown.text(loaded[n], answers[n], systems[n]) for n in range(len(loaded))]
         tell_all(loaded, texts, [None] * len(loaded), [""] * len(loaded), all_thrusters or why, "\n\n",
-                 lambda of: shown.swept([answers[n] for n in of], systems[of[0]]))
+                 lambda of: shown.swept([answers[n] for n in of], systems[of[0]]), systems)
     leave_undecided(strict, any(row.fate == "undecided" for found in answers for row in found.rows))

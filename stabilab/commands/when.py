@@ -28,6 +28,6 @@ def when(cases, limits, units, json, csv, strict):
     else:
         texts = [lambda n=n: shown.text(*answered[n], systems[n]) for n in range(len(answered))]
         tell_all(loaded, texts, [found.validity for *_, found in answered], [""] * len(loaded), False, "\n",
-                 lambda of: shown.swept([answered[n] for n in of], systems[of[0]]))
+                 lambda of: shown.swept([answered[n] for n in of], systems[of[0]]), systems)
     leave_undecided(strict, any(shown.unknown(found) for *_, found in answered))
     hold_laws(strict, (found.validity for *_, found in answered))

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import math
+import re
 from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal, localcontext
 from typing import TYPE_CHECKING
 
@@ -15,6 +16,10 @@ DIGITS = 6  # of a number in a table
 SHORT = 4  # of a number within a sentence
 Unit = tuple[str, float]  # its name, and how many of it make one in SI
 TURN = 180 / math.pi
+NUMBER = r"(-?\d+(?:\.\d+)?(?:e[-+]?\d+)?)"
+SPAN = re.compile(r"\b(s|tau) in \[([^],]+), ([^]]+)\]")
+MOMENT = re.compile(rf"\bt = {NUMBER}(?!\w|\.\d|\s*[-+*/^])(?: (?:s|tau)\b)?")
+IN_RADIANS = re.compile(rf"(?<![\w.]){NUMBER} rad/s(?![\w^])")
 
 
 @record
@@ -83,6 +88,18 @@ class Units:
         name, one = unit
         return f"{number(value * one, digits)} {name}".rstrip()
 
+    def span(self, unit: str, start: float, end: float) -> str:
+        """A span of time, given in s, or in tau of a scaled case."""
+        name, one = ("tau", 1.0) if unit == "tau" else self.times(max(abs(start), abs(end)))
+        digits = SHORT if max(abs(start), abs(end)) * one < 10**SHORT else DIGITS
+        return f"{number(start * one, digits)} to {number(end * one, digits)} {name}"
+
+    def words(self, words: str) -> str:
+        """A sentence of the analysis, whose rates are in rad/s and whose times in s, with both in these units; "s in [0, 20]" becomes "0 to 20 s"."""
+        words = SPAN.sub(lambda found: self.span(found[1], float(found[2]), float(found[3])), words)
+        words = MOMENT.sub(lambda found: f"t = {self.time(float(found[1]), DIGITS - 1)}", words)
+        return words if self.rates[0] in ("rad/s", "") else IN_RADIANS.sub(lambda found: self.rate(float(found[1]), DIGITS - 1), words)
+
     def vector(self, values, unit: Unit, digits: int = DIGITS) -> str:
         """Several numbers in one unit: "(1, 2, 3) deg/s"."""
         name, one = unit
@@ -117,6 +134,14 @@ def number(value: float, digits: int = SHORT) -> str:
     if math.isinf(value):
         return "unbounded" if value > 0 else "-unbounded"
     return f"{value + 0.0:.{digits}g}"
+
+
+def but_for_rounding(pairs, tolerance: float | None):
+    """Least and greatest of each component, with 0 for what is no more than the tolerance of the largest of them, to which they are known."""
+    if pairs is None:
+        return None
+    known = (tolerance or 0.0) * max((abs(v) for pair in pairs for v in pair if v is not None and math.isfinite(v)), default=0.0)
+    return tuple(tuple(0.0 if v is not None and abs(v) <= known else v for v in pair) for pair in pairs)
 
 
 def bracket(low: float, high: float) -> tuple[str, str]:

@@ -6,7 +6,7 @@ energy and |gamma| = 1 are kept (field). Each proof comes with its numbers. Extr
 from __future__ import annotations
 
 from fractions import Fraction
-from math import hypot, sqrt
+from math import hypot, inf, sqrt
 from typing import Any
 
 from ..equilibrium.damped.liquid_and_torque import trap
@@ -110,7 +110,8 @@ def _wheel_and_liquid(parts: Content, T0) -> tuple[Fate, str, dict]:
                 "of either sign; no bound is proved for this state", {"energy": T0})
     x1, x2 = found
     least = sqrt(float(min(parts.D)))
-    words = (f"resistance outweighs torque and liquid: sqrt(2 T) falls wherever it is between {x1:.6g} and {x2:.6g}, so |omega| <= "
+    where = f"above {x1 * x1 / 2:.6g} J" if x2 == inf else f"between {x1 * x1 / 2:.6g} and {x2 * x2 / 2:.6g} J"
+    words = (f"resistance outweighs torque and liquid: the kinetic energy falls wherever it is {where}, so |omega| <= "
              f"{max(x0, x1) / least:.6g} rad/s always")
     end = f" and <= {x1 / least:.6g} rad/s in the end; where it tends is undecided" if x1 else "; the motion tends to rest"
     return Fate.BOUNDED, words + end, {"energy": T0, "rate_bound": max(x0, x1) / least, "late_rate_bound": x1 / least}

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from stabilab import cli
+from stabilab.show import units
 from stabilab.show.terminal import completion, letters, page
 from stabilab.show.terminal.groups import GROUPS
 
@@ -234,3 +235,35 @@ def test_an_angle_without_a_unit_is_told_in_degrees_before_the_answer(stabilab, 
                                       'torque = [0, 0, 0.02]\n[motion]\nangular_velocity = [0.1, 0.05, 0.02]\n')
     code, _, err = stabilab(words[0], tmp_path / "my.toml", *words[1:])
     assert code == 0 and err.strip() == told
+
+
+@pytest.mark.parametrize("command", ["classify", "fate"])
+def test_a_reason_tells_its_rates_in_the_unit_of_the_first_line(stabilab, command):
+    """|ω| ≤ sqrt(2 T_limit/D3) = 0.527551 rad/s: 0.527551 · 180/pi = 30.226 deg/s, by hand."""
+    case = ROOT / "cases/liquid-sensible.toml"
+    degrees, radians = (re.search("^why: .*$", stabilab(command, case, "--units", units)[1], re.MULTILINE)[0] for units in ("deg", "si"))
+    assert "|ω| ≤ 30.226 deg/s always" in degrees and "rad/s" not in degrees
+    assert "|ω| ≤ 0.527551 rad/s always" in radians and "deg" not in radians
+
+
+def test_times_within_sentences_have_the_unit_of_people():
+    assert units.DEG.words("0.2 over s in [0, 100000], certified from t = 600.5 s on, t = 3 and t = D1 + 2, t = 7 - x") == (
+        "0.2 over 0 to 27.78 h, certified from t = 10.008 min on, t = 3 s and t = D1 + 2, t = 7 - x")  # 100000/3600 = 27.78; 600.5/60 = 10.008
+    assert units.SI.words("over s in [0, 100000] at 2 rad/s") == "over 0 to 100000 s at 2 rad/s"
+    assert units.SCALED.words("over tau in [0, 63.9], proved from t = 63.9429 on") == "over 0 to 63.9 tau, proved from t = 63.943 tau on"
+
+
+@pytest.mark.parametrize("name", ["liquid-base", "charged-body-attitude", "top-lx30-lz30"])
+def test_no_name_of_a_greek_letter_stands_in_an_answer(stabilab, name):
+    text = stabilab("classify", ROOT / f"cases/{name}.toml", "--why")[1]
+    assert not re.findall(rf"(?<![\w-])(?:{'|'.join(letters.ALPHABET)})(?![\w-])|sqrt|<=|\binf\b", text)
+
+
+def test_a_least_rate_that_is_zero_but_for_rounding_is_told_as_zero(stabilab):
+    """A body at rest about axes 1 and 2, torque on axis 1: ω2 returns to the rest it left and goes no lower, as the motion runs back from there."""
+    text = stabilab("extremes", ROOT / "cases/charged-body.toml")[1]
+    assert re.search(r"ω2 +0 +232\.664 ", text)
+    swept = stabilab("extremes", ROOT / "cases/charged-sweep.toml")[1]
+    assert "ω2 least" in swept and not re.search(r"\de-\d", swept)
+    exact = stabilab("extremes", ROOT / "cases/charged-body.toml", "--json")[1]
+    assert '"extremes"' in exact and units.but_for_rounding([(1e-13, 2.0), (-1e-11, float("inf"))], 1e-12) == ((0.0, 2.0), (-1e-11, float("inf")))

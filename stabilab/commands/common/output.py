@@ -8,7 +8,7 @@ import typer
 from ...errors import UNDECIDED, ToleranceNotMet
 from ...show.files.endings import labelled
 from ...show.terminal import page
-from ...show.terminal.letters import greek
+from ...show.terminal.letters import lettered
 from ...show.text import answers, law
 
 
@@ -64,7 +64,7 @@ def say_laws(validities):
     """How far approximate laws hold, beside a table that has no place for it."""
     for validity in validities:
         if validity is not None:
-            say(greek(validity.words))
+            say(lettered(validity.words))
 
 
 def leave_undecided(strict: bool, open_: bool):

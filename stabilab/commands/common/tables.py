@@ -5,16 +5,16 @@ from ...show.terminal import page, sweep
 from ...show.text import law
 
 
-def tell_all(cases, texts, laws, boxes, full, between, swept):
+def tell_all(cases, texts, laws, boxes, full, between, swept, systems):
     """Text of every case to stdout; the combinations of a [sweep] as one table, unless all is asked for in full. texts: functions, a case each;
-    swept(indices): (answer in a line, columns, rows) of a table."""
+    swept(indices): (answer in a line, columns, rows) of a table; systems: the units of each."""
     if full or not any(case.variant for case in cases):
-        page.tell(between.join(law.first(held, text()) + box for text, held, box in zip(texts, laws, boxes)))
+        page.tell(between.join(law.first(held, text(), units) + box for text, held, box, units in zip(texts, laws, boxes, systems)))
         return
     told = []
     for of in sweep.groups(cases):
         words = sweep.text([cases[n] for n in of], *swept(of)) if cases[of[0]].variant else texts[of[0]]()
-        told.append(law.first(law.worst(*(laws[n] for n in of)), words) + "".join(boxes[n] for n in of))
+        told.append(law.first(law.worst(*(laws[n] for n in of)), words, systems[of[0]]) + "".join(boxes[n] for n in of))
     page.tell("\n\n".join(told))
 
 

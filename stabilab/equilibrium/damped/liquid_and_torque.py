@@ -23,7 +23,7 @@ from .liquid import validity
 
 ROUND = 1 + 1e-9  # more than all roundings of a bound
 RADIUS = 1e-45    # relative radius of the ball in which the sharpened zero is proved to lie
-EVERYWHERE = "sqrt(2 T) lies below the value from which the energy falls (above it there is none)"
+EVERYWHERE = "the kinetic energy T lies below the value from which it falls (above it there is none)"
 STABLE = ("asymptotically stable", "p2, p0 > 0 and p2 p1 > p0 in z^3 + p2 z^2 + p1 z + p0 (Routh and Hurwitz): all roots lie on the left")
 UNSTABLE = ("unstable", "p0 < 0, p2 < 0 or p2 p1 < p0 in z^3 + p2 z^2 + p1 z + p0 (Routh and Hurwitz): a root with positive real part")
 OPEN = ("undecided", "Routh and Hurwitz leave the roots open: one of the conditions is an equality to some forty digits")
@@ -100,8 +100,7 @@ def _region(parts: Content):
         x1, x2 = found
         if x1 == 0:
             x1 = min(1.0, x2 / 2)  # rest alone lies below x2; the search proves it again
-        beyond = "" if x2 == inf else f" (T < {x2 * x2 / 2:.6g} J; beyond it the torque of the liquid may outweigh the medium's)"
-        words = EVERYWHERE if x2 == inf else f"sqrt(2 T) < {x2:.6g}{beyond}"
+        words = EVERYWHERE if x2 == inf else f"T < {x2 * x2 / 2:.6g} J (beyond it the torque of the liquid may outweigh the medium's)"
         return [x1 / sqrt(float(d)) * ROUND for d in parts.D], words
     limit = max(float(validity(parts)), 0.0)
     balance = sqrt(sum(float(m / d) ** 2 for m, d in zip(parts.M, parts.D))) / float(parts.c) if parts.c else 0.0

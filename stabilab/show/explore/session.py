@@ -23,7 +23,7 @@ from ...physics.coefficients import content, gyrostat_scene
 from ...physics.effects import effect_class
 from ...physics.quadratic import QuadraticForm
 from ...physics.scene import AnyScene, ScaledGyrostat, Scene
-from ..terminal.letters import greek, written
+from ..terminal.letters import greek, lettered, written
 from ..text.headline import headline
 from ..units import units_of
 from . import controls, other, planes, space, tables
@@ -186,7 +186,7 @@ def _surface(scene: AnyScene, reach: float, moving: bool) -> tuple[Sequence[Plai
 
 def _law(found: Motion | None) -> str:
     """What an approximate law of the scene says of itself along the motion: that it holds, that it does not, or that it was not judged."""
-    return "" if found is None or found.validity is None else _capital(greek(found.validity.words))
+    return "" if found is None or found.validity is None else _capital(lettered(found.validity.words))
 
 
 def _capital(words: str) -> str:

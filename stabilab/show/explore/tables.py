@@ -8,9 +8,9 @@ from typing import Any
 from ...case.read import Case
 from ...equilibrium.result import Equilibria
 from ...orbit.result import Motion
-from ..terminal.letters import greek
+from ..terminal.letters import lettered
 from ..text.headline import rate_margin
-from ..units import Units
+from ..units import Units, but_for_rounding
 
 DIGITS = 5
 MOST = 12  # rows of equilibria
@@ -27,9 +27,9 @@ def rows(case: Case, motion: Motion, units: Units) -> list[list[str]]:
     if motion.period is not None:
         found.append(["period", units.time(motion.period, DIGITS)])
     if motion.extremes is not None and not any(map(math.isnan, sum(map(list, motion.extremes), []))):
-        for component, pair in zip(case.scene.components, motion.extremes):
+        for component, pair in zip(case.scene.components, but_for_rounding(motion.extremes, motion.tolerance)):
             found.append([component.replace("omega", "ω"), _range(*pair, units)])
-    return [*found, ["why", greek(motion.because)]]
+    return [*found, ["why", lettered(units.words(motion.because))]]
 
 
 def _range(low: float, high: float, units: Units) -> str:
@@ -46,6 +46,6 @@ def equilibria(found: Equilibria, units: Units) -> dict[str, Any]:
     for curve in found.curves:
         for verdict, samples in groupby(curve.samples, lambda sample: sample.verdict):
             slowest = min(samples, key=lambda sample: max(map(abs, sample.at[:3])))
-            told.append([greek(f"{curve.name}, such as {units.vector(slowest.at[:3], units.rates, DIGITS)}"), verdict])
+            told.append([lettered(f"{curve.name}, such as {units.vector(slowest.at[:3], units.rates, DIGITS)}"), verdict])
     more = len(told) - MOST
-    return {"reason": greek(found.reason), "rows": told[:MOST] + ([[f"and {more} more", ""]] if more > 0 else [])}
+    return {"reason": lettered(units.words(found.reason)), "rows": told[:MOST] + ([[f"and {more} more", ""]] if more > 0 else [])}

@@ -8,8 +8,8 @@ from itertools import groupby
 from ..text import frame
 from ..text.headline import headline
 from ..units import Units, number
-from .letters import written
-from .motion import row, state, table, tilt_lines, why
+from .letters import lettered, written
+from .motion import reason, row, state, table, tilt_lines, why
 
 FEW = 3  # curves that one line has room for
 WORDS = ("stable", "asymptotically stable", "unstable", "undecided")
@@ -37,7 +37,7 @@ def resting(equilibria) -> str:
     if len(told) > FEW:
         counts = Counter(words for _, words in told)
         return "; ".join([*parts, f"{len(told)} curves ({', '.join(f'{n} {words}' for words, n in counts.items())})"])
-    return "; ".join([*parts, *(f"{name} ({words})" for name, words in told)])
+    return "; ".join([*parts, *(f"{lettered(name)} ({words})" for name, words in told)])
 
 
 def _along(curve) -> str:
@@ -57,7 +57,7 @@ def _ordered(verdicts):
 
 
 def _equilibria(equilibria, units, proofs):
-    lines = [f"  {equilibria.reason}"] if proofs or equilibria.kind == "undecided" else []
+    lines = [f"  {reason(equilibria.reason, units)}"] if proofs or equilibria.kind == "undecided" else []
     for point in equilibria.points:
         lines += _point(point, units, proofs)
     for curve in equilibria.curves:
@@ -69,13 +69,13 @@ def _point(point, units, proofs):
     lines = [row(point.verdict, state(point.at, units))]
     if proofs:
         roots = ", ".join(_complex(z) for z in point.eigenvalues)
-        lines += [f"    linear: {point.linear}; eigenvalues {roots} {'' if units.scaled else '1/s'}".rstrip(), f"    {point.because}"]
+        lines += [f"    linear: {point.linear}; eigenvalues {roots} {'' if units.scaled else '1/s'}".rstrip(), f"    {reason(point.because, units)}"]
     return lines
 
 
 def _curve(curve, units):
     """A state on every piece with its verdict; neighbours of one verdict are told together."""
-    lines = [f"  {curve.name}, along it:"]
+    lines = [f"  {lettered(curve.name)}, along it:"]
     for verdict, samples in groupby(curve.samples, lambda sample: sample.verdict):
         near = min(samples, key=lambda sample: max(map(abs, sample.at[:3])))  # of all that are as good, the slowest
         lines.append(f"    {verdict:<22}such as {state(near.at, units)}")
@@ -84,10 +84,10 @@ def _curve(curve, units):
 
 def _proved_curve(curve, units):
     """All pieces with their reasons. The equations are in the scene's own variables, rad/s and s of a physical one."""
-    own = "" if units.scaled else "  (omega in rad/s)"
-    lines = [f"  {curve.name}: {curve.equation}{own}", f"    {curve.parametrisation}"]
+    own = "" if units.scaled else "  (ω in rad/s)"
+    lines = [f"  {lettered(f'{curve.name}: {curve.equation}')}{own}", f"    {lettered(curve.parametrisation)}"]
     for piece in curve.segments:
-        lines += [f"    t from {_end(piece.t[0])} to {_end(piece.t[1])}: {piece.verdict} (linear: {piece.linear})", f"      {piece.because}"]
+        lines += [f"    t from {_end(piece.t[0])} to {_end(piece.t[1])}: {piece.verdict} (linear: {piece.linear})", f"      {lettered(piece.because)}"]
     return lines + [f"    fold at {state(fold, units)}" for fold in curve.folds]
 
 

@@ -14,19 +14,30 @@ PLAIN = {letter: name for name, letter in ALPHABET.items()} | {
 # A name with its number, between bars, or the time of a scaled case; not part of a path, a key or an option.
 NAMES = re.compile(r"(?<![\w./\\])(?<![\w-]-)(omega|lambda|Lambda|mu|gamma|alpha|sigma|zeta)(?=(?:[123]|_[ijk])\b(?!\\|/[A-Za-z]|\.\w))"
                    r"|(?<=\|)(?:omega|gamma)(?= ?[xyz]?\|)|\bomega(?= \. \()|\bgamma(?= = \()|(?<=[\d )=] )tau\b|(?<=\bin )tau\b(?! \[)|(?<=\bof )tau\b")
-LETTER = re.compile(r"(?<![A-Za-z_])(" + "|".join(sorted(ALPHABET, key=len, reverse=True)) + r")(?:_?(?=\d)|(?![\w-]))|(?<![A-Za-z])l_(?=[xyz]\b)")
+LETTER = re.compile(r"(?<![A-Za-z_])(" + "|".join(sorted(ALPHABET, key=len, reverse=True)) + r")(?:_?(?=\d)|(?=_[ijk]\b)|(?![\w-]))|(?<![A-Za-z])l_(?=[xyz]\b)")
 MINUS = re.compile(r"(?<![\w)\]./-])-(?=\d)")
+LONG = re.compile(r"(?<![\w.])\d+\.\d{6,}(?:e[+-]?\d+)?")
+INDEX = re.compile(r"(?<=[^\W\d_])_([ijk])\b")
+INDICES = {"i": "ᵢ", "j": "ⱼ", "k": "ₖ"}
 POWER = re.compile(r"\^(\d)(?!\d)|sqrt(?=\()")
-SIGNS = {"+-": "±", "-+": "∓", "<=": "≤", ">=": "≥"}
+SIGNS = {"+-": "±", "-+": "∓", "<=": "≤", ">=": "≥", "-inf ": "-∞ ", " inf ": " ∞ "}
 RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def written(text: str) -> str:
     """A caption or a claim as a paper sets it: lambda3 becomes λ3, r0^2 becomes r0², sqrt(x) becomes √(x), l_x becomes lx, +- becomes ±."""
+    return _in_letters(MINUS.sub("−", text.replace("+-", "±").replace("-+", "∓")))
+
+
+def lettered(text: str) -> str:
+    """Words of the analysis for a reader at a terminal: letters as `written`, six digits, and the minus of the numbers in the lines about them."""
+    return _in_letters(LONG.sub(lambda found: f"{float(found[0]):.6g}", text))
+
+
+def _in_letters(text):
     for plain, sign in SIGNS.items():
         text = text.replace(plain, sign)
-    text = MINUS.sub("−", text)
-    text = LETTER.sub(lambda found: ALPHABET.get(found[1], "l"), text)
+    text = INDEX.sub(lambda found: INDICES[found[1]], LETTER.sub(lambda found: ALPHABET.get(found[1], "l"), text))
     return POWER.sub(lambda found: found[1].translate(RAISED) if found[1] else "√", text)
 
 

@@ -5,8 +5,8 @@ import math
 
 from ..text import frame
 from ..text.headline import rate_margin, span_words, while_on_axis
-from ..units import DEG, DIGITS, Units, bracket, number
-from .letters import greek
+from ..units import DEG, DIGITS, Units, bracket, but_for_rounding, number
+from .letters import greek, lettered
 
 WIDE = 24  # columns of a name
 QUANTITIES = {  # of invariants and of what a run showed: which number of `Units` it is; "" for a plain number
@@ -24,7 +24,7 @@ def row(name: str, words: str) -> str:
 
 def table(case, motion, units: Units) -> list[str]:
     """The start, the extremes, the bounds for all times, margins and period, a line each."""
-    lines = [row("start", state(motion.at, units)), *extreme_lines(case, motion.extremes, motion.extremes_over, units), *bound_lines(case, motion, units)]
+    lines = [row("start", state(motion.at, units)), *extreme_lines(case, motion, units), *bound_lines(case, motion, units)]
     for name, words in (("margin, rate", rate_margin(motion, units, DIGITS)), ("margin, energy", _told(motion.margin_energy, units.energy)),
                         ("period", _told(motion.period, units.time))):
         lines += [row(name, words)] if words else []
@@ -41,12 +41,19 @@ def _told(value, words) -> str:
     return "" if value is None else words(value)
 
 
-def extreme_lines(case, pairs, over: str, units: Units) -> list[str]:
+def extreme_lines(case, motion, units: Units) -> list[str]:
     """Least and greatest of every component under a head that says over which time."""
+    pairs, over = but_for_rounding(motion.extremes, motion.tolerance), motion.extremes_over
     if pairs is None:
         return []
     when = over if over == "all time" else span_words(over, units).removeprefix("over ")
-    return [f"  {'over ' + when + ',' if over == 'all time' else when + ',':<{WIDE}}{'least':>12}{'greatest':>14}", *pair_lines(case, pairs, units)]
+    return [*_head(f"over {when}" if over == "all time" else when), *pair_lines(case, pairs, units)]
+
+
+def _head(when: str) -> list[str]:
+    """Over which time, beside the heads of the columns, or above them where it is longer than its column."""
+    told = [] if len(when) < WIDE else [f"  {when}:"]
+    return [*told, f"  {'' if told else when + ',':<{WIDE}}{'least':>12}{'greatest':>14}"]
 
 
 def pair_lines(case, pairs, units: Units) -> list[str]:
@@ -67,18 +74,23 @@ def bound_lines(case, motion, units: Units) -> list[str]:
     """The bounds of the rates for all times, where they are not the extremes told already."""
     if motion.bounds is None or motion.bounds == motion.extremes:
         return []
-    return [f"  {'bounds for all times,':<{WIDE}}{'least':>12}{'greatest':>14}", *pair_lines(case, motion.bounds, units)]
+    return [*_head("bounds for all times"), *pair_lines(case, motion.bounds, units)]
 
 
 def why(case, motion, units: Units, proofs: bool) -> list[str]:
     """The reason; with `proofs` also what is not known of the margin, the invariants, and what a run showed."""
-    lines = [f"why: {motion.because}"]
+    lines = [f"why: {reason(motion.because, units)}"]
     if proofs and motion.velocity_because:
-        lines.append(f"  {'' if motion.velocity_bounds else 'margin, rate unknown: '}{motion.velocity_because}")
+        lines.append(f"  {'' if motion.velocity_bounds else 'margin, rate unknown: '}{reason(motion.velocity_because, units)}")
     if proofs:
         lines += [row(name.replace("_", " "), quantity(name, value, units)) for found in (motion.invariants, motion.evidence)
                   for name, value in found.items() if value is not None]
     return lines
+
+
+def reason(words: str, units: Units) -> str:
+    """What the analysis says of a motion: names as letters, rates and times in the units of the lines about it."""
+    return lettered(units.words(words))
 
 
 def quantity(name: str, value, units: Units) -> str:

@@ -7,7 +7,7 @@ from dataclasses import replace
 from ...orbit.result import Fate, no_period
 from ..text.headline import cause, fate_words, headline, largest, rate_margin
 from ..units import DIGITS, Units, number
-from .letters import greek
+from .letters import greek, lettered
 from .motion import bound_lines, extreme_lines, framed, row, tilt_lines, why
 
 SHOWN = 12  # digits of a number that is not written out, where more than a table's were asked for
@@ -31,11 +31,11 @@ def _energy(told, units, all_digits):
 def extremes(case, motion, told, units: Units, all_digits: bool, say: bool, proofs: bool = False) -> str:
     """The largest rate and the fate, a line a component, and bounds for all times."""
     shown = motion if told.values is None else replace(motion, extremes=tuple(tuple(map(float, pair)) for pair in told.values))
-    parts = [fate_words(case, shown, units), cause(shown)]
+    parts = [fate_words(case, shown, units), cause(shown, units)]
     parts = [*parts, largest(shown, units)] if motion.fate.word == "spin-up" else [largest(shown, units), *parts]
     rows = [f"  extremes: {shown.extremes_over}"]
     if shown.extremes is not None:
-        rows = _all_digits(case, shown, told) if all_digits else extreme_lines(case, shown.extremes, shown.extremes_over, units)
+        rows = _all_digits(case, shown, told) if all_digits else extreme_lines(case, shown, units)
     return "\n".join([f"{case.name}: {'; '.join(filter(None, parts))}", *rows, *bound_lines(case, motion, units),
                       *(why(case, motion, units, proofs) if proofs else ()), *framed(case), *([_said(told)] * (say and told.because != shown.extremes_over))])
 
@@ -55,11 +55,11 @@ def _word(decimal) -> str:
 
 def _said(told) -> str:
     if told.digits is None:
-        return f"  {told.because}"
+        return f"  {lettered(told.because)}"
     if math.isinf(told.digits):
-        return f"  exact: {told.because}"
+        return f"  exact: {lettered(told.because)}"
     reached = f"{min(told.digits, 99.0):.1f}".removesuffix(".0")
-    return f"  {reached} digits: {told.because}"
+    return f"  {reached} digits: {lettered(told.because)}"
 
 
 def period(case, motion, told, units: Units, all_digits: bool, say: bool, proofs: bool = False) -> str:

@@ -4,10 +4,11 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 from ...case.units import DIMENSIONS, NAMES
 from ..text.headline import WORDS, known_as, rate_margin
-from ..units import SHORT, Units, number
+from ..units import SHORT, Units, but_for_rounding, number
 from .letters import greek, some
 from .motion import shown
 
@@ -106,6 +107,7 @@ def of_motions(motions: Sequence, units: Units) -> tuple[list[tuple[str, str]], 
 def of_extremes(motions: Sequence, names: Sequence[str], units: Units) -> tuple[list[tuple[str, str]], list[list[str]]]:
     """Columns and rows of the fate, and of least and greatest of every component."""
     name, one = units.rates
+    motions = [replace(m, extremes=but_for_rounding(m.extremes, m.tolerance)) for m in motions]
     table: list[Column] = [("fate", "", lambda m: m.fate.word + known_as(m))]
     for i, component in enumerate(names):
         for end, word in enumerate(("least", "most")):

@@ -7,7 +7,8 @@ from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal, localcontext
 from typing import TYPE_CHECKING, Any, cast
 
 from ...physics.alignment import torque_axis
-from ..units import SHORT, Units, number, units_of
+from ..terminal.letters import lettered
+from ..units import SHORT, SPAN, Units, number, units_of
 from .when import unreached
 
 if TYPE_CHECKING:
@@ -23,7 +24,7 @@ CLAUSE = 110  # letters of a cause that the line has room for
 def headline(case: Case, motion: Motion, units: Units | None = None) -> str:
     """One line, without the name of the case. units: of the case where None."""
     units = units or units_of(case)
-    parts = [fate_words(case, motion, units), cause(motion), largest(motion, units), margin(motion, units), period(motion, units)]
+    parts = [fate_words(case, motion, units), cause(motion, units), largest(motion, units), margin(motion, units), period(motion, units)]
     return "; ".join(part for part in parts if part)
 
 
@@ -42,12 +43,13 @@ def known_as(motion: Motion) -> str:
     return "" if motion.level == "exact" or motion.fate.word == "undecided" else f" ({LEVELS.get(motion.level, motion.level)})"
 
 
-def cause(motion: Motion) -> str:
+def cause(motion: Motion, units: Units) -> str:
     """Why nothing is decided, or what it means to be on the separatrix or at rest."""
     fate = motion.fate.word
     if fate == "undecided":
         words = motion.because.removeprefix("undecided: ")
         words = re.split(r"; |: ", motion.cause.removeprefix("undecided: "))[0] if motion.cause and len(words) > CLAUSE else words.split("; ")[0]
+        words = lettered(units.words(words))
         return words if len(words) <= CLAUSE else words[:CLAUSE].rsplit(" ", 1)[0] + " ..."
     return {"separatrix": "the smallest change decides what becomes of it", "equilibrium": "every rate stays as it is"}.get(fate, "")
 
@@ -89,13 +91,8 @@ def _pairs(motion, units):
 
 
 def span_words(over: str, units: Units) -> str:
-    """What extremes are known over, with the units of people: "s in [0, 1200]" is "in 0 to 20 min"."""
-    found = re.fullmatch(r"(s|tau) in \[(\S+), (\S+)\]", over)
-    if not found:
-        return f"over {over}"
-    start, end = map(float, found.groups()[1:])
-    name, one = units.times(max(abs(start), abs(end)))
-    return f"within {number(start * one)} to {number(end * one)} {name}"
+    """What extremes are known over, with the units of people: "s in [0, 1200]" is "within 0 to 20 min"."""
+    return f"{'within' if SPAN.fullmatch(over) else 'over'} {units.words(over)}"
 
 
 def margin(motion: Motion, units: Units) -> str:

@@ -1,27 +1,23 @@
 """How far approximate laws hold: the first line of a text, a key of JSON, a line of a picture, an exit code."""
 from __future__ import annotations
 
-import re
 from dataclasses import replace
 
 from ...case.attitude import vertical_of
 from ...errors import printable
 from ...physics.approximate import limits_of
+from ..terminal.letters import lettered
+from ..units import SI, Units
 
 
-def first(validity, text: str) -> str:
+def first(validity, text: str, units: Units = SI) -> str:
     """The text with what is to be said of its law in its first line: behind the answer where the law holds, before it where it does not, as
-    what follows is then no motion of such a body. The text as it is where all laws are exact."""
+    what follows is then no motion of such a body. The text as it is where all laws are exact. units: in which times are told."""
     if validity is None:
         return text
     answer, *rest = text.split("\n")
-    words = _spans(printable(validity.words))
+    words = lettered(units.words(printable(validity.words)))
     return "\n".join([f"{answer}; {words}" if validity.held else f"{words}; by that law: {answer}", *rest])
-
-
-def _spans(words: str) -> str:
-    """The words with "over s in [0, 20]" as "over 0 to 20 s"."""
-    return re.sub(r"\b(s|tau) in \[([^],]+), ([^]]+)\]", r"\2 to \3 \1", words)
 
 
 def key(validity) -> dict:

@@ -6,6 +6,7 @@ from collections import Counter
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 
 from ...errors import printable
+from ..terminal.letters import lettered
 from ..units import DIGITS, SHORT, Units
 from ..units import bracket as _bracket
 from ..units import number as _number
@@ -186,7 +187,7 @@ def _margins(row, units) -> str:
     known = {name: m for name, m in row.margins.items() if m.size is not None}
     if not known:
         because = next((row.margins[name].because for name in ("wheel", "rate", "torque") if name in row.margins), "")
-        return f"margin: none: {because}" if because else ""
+        return f"margin: none: {lettered(because)}" if because else ""
     told = [" or ".join(f"{_span(name, m, units)} of {WORDS[name]}" for name, m in known.items() if m.beyond == beyond) for beyond in (True, False)]
     return "; ".join(words + sizes for words, sizes in zip(("the fate changes with ", "only on a separatrix the fate is another, nearest "), told) if sizes)
 
@@ -266,9 +267,9 @@ def _details(row, units) -> list[str]:
              f"  torque, principal axes   {_vector(row.torque_principal)} N m",
              f"  torque, frame of file    {_vector(row.torque)} N m",
              f"  fate                     {row.fate} ({row.level})",
-             f"  because                  {row.because}"]
+             f"  because                  {lettered(units.words(row.because))}"]
     for name, margin in row.margins.items():
-        told = holds_for(name, margin, units)
+        told = lettered(holds_for(name, margin, units))
         if margin.size is not None:
             told = f"{_amount(name, margin.size, units, DIGITS)} along {_vector(margin.direction)}" + (f": {told}" if told else "")
         lines.append(f"  {'margin, ' + name:<24} {told}")

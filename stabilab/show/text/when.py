@@ -6,6 +6,7 @@ import re
 
 from ...errors import printable
 from ..files import comma
+from ..terminal.letters import lettered
 from ..units import DIGITS, Units, bracket, number
 from . import frame
 
@@ -36,7 +37,8 @@ def text(case, limit, found, units: Units) -> str:
     lines = [f"{printable(case.name)}: {_answer(limit, found, low, high, units)}"]
     if math.isfinite(high) and high > 0:
         lines += [f"  between   {low!r} {unit}", f"      and   {high!r} {unit}"]
-    return "\n".join([*lines, f"  {re.sub(r'^[^:]* = [^:]*: ', '', str(found.words))}"])  # the limit stands above, in the units asked for
+    reason = re.sub(r"^[^:]* = [^:]*: ", "", str(found.words))  # the limit stands above, in the units asked for
+    return "\n".join([*lines, f"  {lettered(units.words(reason))}"])
 
 
 def swept(answers, units: Units):

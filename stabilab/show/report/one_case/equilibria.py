@@ -9,13 +9,13 @@ def table(found, measures) -> dict:
     """kind, reason and rows; places in the unit of the page's rates, equations of curves and their parameter t in rad/s, or scaled."""
     unit, one = measures.rate_unit
     unit = f" {unit}" if unit else ""
-    rows = [_row(vector([v * one for v in p.at[:3]]) + unit, p) for p in found.points]
+    rows = [_row(vector([v * one for v in p.at[:3]]) + unit, p, measures.reason(p.because)) for p in found.points]
     for curve in found.curves:
         for segment in curve.segments:
-            rows.append(_row(f"{spoken(curve.name)}, t from {_ends(segment.t)}", segment))
+            rows.append(_row(f"{spoken(curve.name)}, t from {_ends(segment.t)}", segment, spoken(segment.because)))
         rows += [{"where": f"fold at {vector([v * one for v in fold[:3]])}{unit}", "linear": "degenerate", "verdict": "", "because": "", "css": ""}
                  for fold in curve.folds]
-    return {"kind": found.kind, "reason": spoken(found.reason), "rows": rows, "curve_unit": " (rad/s)" if unit else "",
+    return {"kind": found.kind, "reason": measures.reason(found.reason), "rows": rows, "curve_unit": " (rad/s)" if unit else "",
             "curves": [(spoken(_together(group)), *_of(group)) for group in _alike(found.curves)]}
 
 
@@ -43,5 +43,5 @@ def _ends(pair):
     return " to ".join(found)
 
 
-def _row(where, part):
-    return {"where": where, "linear": part.linear, "verdict": part.verdict, "because": spoken(part.because), "css": css(part.verdict)}
+def _row(where, part, because):
+    return {"where": where, "linear": part.linear, "verdict": part.verdict, "because": because, "css": css(part.verdict)}

@@ -5,11 +5,10 @@ import math
 import re
 from dataclasses import dataclass
 
-from ...terminal.letters import ALPHABET, greek
+from ...terminal.letters import ALPHABET, INDICES, greek
 from ...units import Units
 
 DIGITS = 5
-INDICES = {"i": "ᵢ", "j": "ⱼ", "k": "ₖ"}
 SIGNS = ((r"\^2(?!\d)", "²"), (r"\^3(?!\d)", "³"), (r"\^4(?!\d)", "⁴"), (r"\bsqrt(?=\()", "√"), (r"<=", "≤"), (r">=", "≥"), (r"(?<=\s)x(?=\s[\w(]+\s=)", "×"),
          (r"(?<![\w)])-inf\b", "−∞"), (r"\binf\b", "∞"), (r"(?<![\w)\]-])-(?=[\d.])|(?<=[ (])-(?=[\w(])", "−"), (r"(?<=[\w)²³]) - (?=[\w(])", " − "),
          (r"(?<=[\w)]) \. (?=[\w(])", " · "), (r"\+-", "±"), (r"-\+", "∓"), (r"\^T\b", "ᵀ"))
@@ -34,6 +33,10 @@ class Measures:
     def time_unit(self, longest: float) -> tuple[str, float]:
         """(name, how many of it make one) for times up to the longest."""
         return self.units.times(longest) if self.physical else ("τ", 1.0)
+
+    def reason(self, words: str) -> str:
+        """What the analysis says, in the letters of a page and with rates and times in its units."""
+        return spoken(self.units.words(words))
 
     def rate(self, value) -> str:
         """A rate with its unit."""

@@ -59,7 +59,7 @@ def _of_motion(motion, measures):
     change = [b - a for a, b in zip(motion.at[:3], motion.velocity_witness)]
     size = math.hypot(*change)
     return [{"what": OF["rate"], "size": measures.rate(motion.margin_velocity), "direction": vector([v / size for v in change]) if size else "",
-             "because": motion.velocity_because}]
+             "because": measures.reason(motion.velocity_because)}]
 
 
 def _margin(name, margin, measures):

@@ -1,12 +1,11 @@
 """The first line of a page, and the table of what is known of the motion."""
 from __future__ import annotations
 
-import math
-
 from ....orbit.result import Fate
 from ...text import frame
 from ...text.headline import greatest, rate_and_height, rate_margin, with_height
 from ...text.headline import headline as answer
+from ...units import but_for_rounding
 from .measures import DIGITS, spoken, told, vector
 
 
@@ -47,14 +46,14 @@ def rows(case, motion, measures) -> list[tuple[str, str]]:
     found = [] if motion.validity is None or not motion.validity.held else [("law", spoken(motion.validity.words))]
     found += [("start", f"{_rates(motion.at[:3], measures)} at {'t' if measures.physical else 'τ'} = 0")]
     found += [("vertical at t = 0", vector(motion.at[3:]))] if len(motion.at) > 3 else []
-    found += [("because", spoken(motion.because.removeprefix("undecided: ")))]
+    found += [("because", measures.reason(motion.because.removeprefix("undecided: ")))]
     if motion.margin_energy is not None:
         found.append(("margin in energy", f"{measures.energy(motion.margin_energy)} below the barrier ahead"
                       if motion.margin_energy >= 0 else f"{measures.energy(-motion.margin_energy)} above the barrier ahead"))
     if motion.margin_velocity is not None:
         found.append(("margin in rate", _distance(motion, measures)))
     elif motion.velocity_because:
-        found.append(("margin in rate", spoken(motion.velocity_because)))
+        found.append(("margin in rate", measures.reason(motion.velocity_because)))
     if motion.period is not None:
         found.append(("period", period(motion, measures)))
     found += [(f"axis {n}" if n else "frame", spoken(line.strip().removeprefix(f"axis {n}" if n else "frame: ").strip()))
@@ -70,7 +69,7 @@ def _rates(values, measures):
 
 def _distance(motion, measures):
     if motion.velocity_because and motion.velocity_bounds:
-        return f"{spoken(rate_margin(motion, measures.units, DIGITS))}: {spoken(motion.velocity_because)}"
+        return f"{spoken(rate_margin(motion, measures.units, DIGITS))}: {measures.reason(motion.velocity_because)}"
     return f"{measures.rate(motion.margin_velocity)}: the smallest change of the rates that reaches the separatrix"
 
 
@@ -102,15 +101,9 @@ def extremes(case, motion, measures) -> list[dict]:
         return []
     unit, one = measures.rate_unit
     bounds = motion.bounds if motion.bounds is not None and motion.bounds != motion.extremes else [None] * 3
-    known = (motion.tolerance or 0.0) * max((abs(v) for pair in motion.extremes for v in pair if math.isfinite(v)), default=0.0)
-    return [{"name": spoken(name), "least": told(_beyond(low, known) * one, unit), "greatest": told(_beyond(high, known) * one, unit),
+    return [{"name": spoken(name), "least": told(low * one, unit), "greatest": told(high * one, unit),
              "within": "" if pair is None else f"{told(pair[0] * one, unit)} to {told(pair[1] * one, unit)}"}
-            for name, (low, high), pair in zip(case.scene.components, motion.extremes, bounds)]
-
-
-def _beyond(value, known):
-    """A number, or 0 where it is no more than the rounding up to which it is known."""
-    return value if abs(value) > known else 0.0
+            for name, (low, high), pair in zip(case.scene.components, but_for_rounding(motion.extremes, motion.tolerance), bounds)]
 
 
 def invariants(motion, measures) -> list[tuple[str, str]]:
