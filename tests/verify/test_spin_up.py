@@ -25,6 +25,7 @@ from stabilab.verify.zeros import above, below
 from tests.unreduced.enclosure.taylor import run
 from tests.unreduced.spin_up.scenes import EXAMPLE, random_scene, sphere
 from tests.verify.inequality_in_digits import holds
+from tests.verify.kept_way import keeping
 from tests.verify.trapped import says_what_happens
 from tests.verify.true_values import DIGITS, number, state_at
 
@@ -59,6 +60,17 @@ def test_the_way_holds_the_motion(n):
             for v, x in zip(state, true):
                 low, high = (mpmath.mpf(e.numerator) / e.denominator for e in (below(v), above(v)))
                 assert low <= x <= high and high - low < 1e-20
+
+
+def test_a_way_with_kept_steps_is_the_way_whatever_was_asked_before():
+    """To the bit, with times between those that were asked first, and with fewer steps allowed."""
+    rates, kept = rates_of(EXAMPLE), keeping()
+    sets = lambda made, times, allowed: [[(str(v.mid()), str(v.rad())) for v in way.to(F(t))] for way in [made(rates, STATE, 96, allowed)] for t in times]
+    for times in (("1", "5/2"), ("1", "5/2"), ("1/3", "1", "5/2"), ("1", "3/2")):
+        assert sets(kept, times, 400) == sets(Way, times, 400)
+    for made in (kept, Way):
+        with pytest.raises(Lost, match="not followed"):
+            sets(made, ("1", "5/2"), 3)
 
 
 def test_a_way_without_enough_bits_gets_lost_or_wide():

@@ -1,6 +1,7 @@
 """What a certificate says of a spin-up, against a long run by SciPy: the formulas of the forms written out for a body, and for the scaled gyrostat."""
 import math
 from fractions import Fraction as F
+from functools import lru_cache
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -19,14 +20,23 @@ def rates_of(scene, number=lambda text: float(F(text))):
             [-l[k] / D[i] for i, (j, k) in enumerate(turn)], [M[i] / D[i] for i in range(3)])
 
 
+def rates_at(kappa, rho, sigma, m):
+    return lambda _, x: [kappa[i] * x[(i + 1) % 3] * x[(i + 2) % 3] + rho[i] * x[(i + 2) % 3] + sigma[i] * x[(i + 1) % 3] + m[i] for i in range(3)]
+
+
+@lru_cache(64)  # many forgeries leave the motion as it is
+def run_of(rates, state, end):
+    return solve_ivp(rates_at(*rates), (0, end), state, "DOP853", rtol=1e-12, atol=1e-12, dense_output=True)
+
+
 def says_what_happens(claims) -> bool:
     """Whether no claim of motion.spin_up is against the run, with room for the run's own error."""
     said, scene, state = claims["motion"]["spin_up"], claims["scene"], [float(F(v)) for v in claims["motion"]["state"]]
     kappa, rho, sigma, m = rates_of(scene)
-    f = lambda _, x: [kappa[i] * x[(i + 1) % 3] * x[(i + 2) % 3] + rho[i] * x[(i + 2) % 3] + sigma[i] * x[(i + 1) % 3] + m[i] for i in range(3)]
+    f = rates_at(*map(tuple, (kappa, rho, sigma, m)))
     t = float(F(said["t"]))
     end = t + LATER / math.sqrt(max(map(abs, m)))
-    run = solve_ivp(f, (0, end), state, "DOP853", rtol=1e-12, atol=1e-12, dense_output=True)
+    run = run_of(tuple(map(tuple, (kappa, rho, sigma, m))), tuple(state), end)
     for entry in said.get("way") or ():
         x = run.sol(float(F(entry["t"]))) if F(entry["t"]) else state
         if any(not float(F(low)) - 1e-6 <= v <= float(F(high)) + 1e-6 for v, (low, high) in zip(x, entry["box"])):
