@@ -379,6 +379,35 @@ def test_the_box_turns_as_a_body_that_keeps_its_momentum_in_space():
     assert found.edges == pytest.approx([THINNEST, math.sqrt(0.5), 1.0])
 
 
+def test_the_vertical_of_a_top_stands_upright_in_space_all_the_time():
+    """R gamma is the third axis of space, with gamma of a run of its own equations (Poisson), which know no attitude."""
+    from stabilab.answers.simulate import simulate
+    from stabilab.show.plot.turning.turn import turn
+    case = load("top-lx30-lz30")
+    found = turn(subject.subject(case), 20)
+    gamma = simulate(case.scene, case.state, found.t, case.blocks).state["gamma"]
+    assert gamma[0] == pytest.approx([1, 0, 0.001], abs=1e-6)
+    assert np.abs(np.einsum("nij,nj->ni", found.rotations, gamma) - (0, 0, 1)).max() < 1e-9  # both runs are good to some 1e-12
+
+
+def test_an_axis_that_leaves_by_a_hidden_face_is_drawn_before_the_box():
+    """Hidden: the middle of its face lies farther from the eye than that of the box, by Matplotlib's own projection; but where both are near the same."""
+    from mpl_toolkits.mplot3d.proj3d import proj_transform
+    moving = stabilab.plot.attitude(load("torque-free-gyrostat"), frames=30)
+    (ax,), seen = moving._fig.axes, set()
+    box, = ax.collections
+    for frame in range(0, 30, 3):
+        moving._func(frame)
+        for line in ax.lines[:3]:
+            *_, depth = proj_transform(*(v[0] for v in line.get_data_3d()), ax.get_proj())
+            *_, middle = proj_transform(0, 0, 0, ax.get_proj())
+            if abs(depth - middle) > 0.1 * abs(middle - proj_transform(0, 0, 1, ax.get_proj())[2]):
+                seen.add(hidden := depth > middle)
+                assert (line.get_zorder() < box.get_zorder()) == hidden
+    moving._draw_was_started = True  # else it warns that nobody looked
+    assert seen == {True, False}
+
+
 def test_a_film_shows_no_step_in_which_the_eye_would_see_the_body_turn_backwards():
     from stabilab.show.plot.turning.turn import turn
     found = turn(subject.subject(load("cubesat-3u")), 40)

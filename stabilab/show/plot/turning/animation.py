@@ -27,6 +27,8 @@ DPI = 80
 COLOURS = (style.VERMILION, style.GREEN, style.BLUE)  # faces across axes 1, 2, 3, and these axes
 FAR = 1.75  # half the picture, in half edges
 OUT = 1.5  # length of the body's axes
+DISTANCE = 10 * 2 * FAR / (1.1 * 25 / 18)  # of the eye, in half edges: ten units of Matplotlib, in which the box of the axes is zoom * 25/18 wide
+BEHIND, BEFORE = 1, 3  # the box
 
 
 def attitude(case: Any, state: Any = None, ax: Any = None, span: Any = None, frames: int = FRAMES, units: str | None = None,
@@ -34,9 +36,9 @@ def attitude(case: Any, state: Any = None, ax: Any = None, span: Any = None, fra
     """The body turning in space, as an animation of Matplotlib (keep it, or nothing moves).
 
     The box is the even one with the body's moments of inertia; its faces and axes have the colours of the principal axes 1, 2 and 3, and the line
-    is the way of the tip of the axis about which the body turns most at the start. The start has the attitude of the case, else body and space
-    are aligned. Where the span would need more pictures than `frames` at 15 degrees each, its first part is shown. Raises InputError for
-    scaled variables.
+    is the way of the tip of the axis about which the body turns most at the start. The start has the attitude of the case, else one that holds
+    its vertical upright, else body and space are aligned. Where the span would need more pictures than `frames` at 15 degrees each, its first
+    part is shown. Raises InputError for scaled variables.
     """
     from matplotlib.animation import FuncAnimation
     one = subject(case, state, span)
@@ -74,14 +76,15 @@ def film(one: Any, path: Path, units: str | None = None, size: tuple[float, floa
 def _stage(ax, found: Turn, heading: str, scale):
     """The scene of the animation; draw(frame) moves it."""
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
-    box = Poly3DCollection(_faces(found, 0), facecolors=[in_space.pale(COLOURS[n // 2]) for n in range(6)], edgecolors=style.BLACK, linewidths=0.8)
+    box = Poly3DCollection(_faces(found, 0), facecolors=[in_space.pale(COLOURS[n // 2]) for n in range(6)], edgecolors=style.BLACK, linewidths=0.8,
+                           zorder=(BEHIND + BEFORE) / 2)
     ax.add_collection3d(box)
-    ax.computed_zorder = True
+    ax.computed_zorder = False  # it sorts whole artists by their middles, and drew axes that leave by a hidden face before the box
     axes = [ax.plot([], [], [], color=colour, linewidth=2.2)[0] for colour in COLOURS]
     names = [ax.text(0, 0, 0, str(n), color=colour, fontsize=11, weight="bold") for n, colour in enumerate(COLOURS, 1)]
     now = ax.text2D(0.5, 0.97, "", transform=ax.transAxes, ha="center")
     canvas.title(ax, heading)
-    way, = ax.plot([], [], [], color=style.GREY, linewidth=0.9)
+    ways = [ax.plot([], [], [], color=style.GREY, linewidth=0.9, zorder=order)[0] for order in (BEHIND, BEFORE)]
     tips = found.rotations[:, :, int(np.argmax(np.abs(found.omega[0])))] * OUT
     for setter in (ax.set_xlim, ax.set_ylim, ax.set_zlim):
         setter(-FAR, FAR)
@@ -96,16 +99,35 @@ def _stage(ax, found: Turn, heading: str, scale):
 
     def draw(frame):
         box.set_verts(_faces(found, frame))
+        eye = _eye(ax)
         for n, (line, name) in enumerate(zip(axes, names)):
             tip = found.rotations[frame][:, n] * OUT
             line.set_data_3d(*zip(tip * found.edges[n] / OUT, tip))  # from its face on
             name.set_position_3d(tip * 1.1)
-        way.set_data_3d(*tips[:frame + 1].T)
+            seen = found.rotations[frame][:, n] @ eye > found.edges[n]  # the face that it leaves by
+            line.set_zorder(BEFORE if seen else BEHIND)
+            name.set_zorder(BEFORE if seen else BEHIND)
+        gone = tips[:frame + 1]
+        for way, shown in zip(ways, (gone @ eye <= 0, gone @ eye > 0)):
+            way.set_data_3d(*np.where(_with_ends(shown)[:, None], gone, np.nan).T)
         now.set_text(f"{found.t[frame] * per:.4g} {unit}, |ω| = {rates[frame]:.4g} {scale.rate[0]}")
-        return [box, *axes, *names, way, now]
+        return [box, *axes, *names, *ways, now]
 
     draw(0)
     return draw
+
+
+def _eye(ax) -> np.ndarray:
+    """Where the picture is seen from."""
+    up, round_ = np.deg2rad((ax.elev, ax.azim))
+    return DISTANCE * np.array([np.cos(up) * np.cos(round_), np.cos(up) * np.sin(round_), np.sin(up)])
+
+
+def _with_ends(shown):
+    """Points of a line, and those next to them, so that no piece between the two halves is missing."""
+    found = shown.copy()
+    found[1:] |= shown[:-1]
+    return found
 
 
 def _faces(found: Turn, frame: int) -> list[np.ndarray]:

@@ -8,6 +8,7 @@ import numpy as np
 
 from ....answers.simulate import simulate
 from ....answers.trajectory import trajectory
+from ....case.attitude import attitude_of
 from ....errors import InputError
 from ....physics.attitude import quaternion
 from ....physics.equations import rotation
@@ -53,7 +54,8 @@ def turn(one: Subject, frames: int = FRAMES) -> Turn:
 
 def _at(one, times):
     """(times, rotations, rates), as far as the run goes."""
-    first = tuple(one.blocks.get("attitude", (0.0, 0.0, 0.0)))
+    upright = attitude_of(one.blocks["gamma"]) if "gamma" in one.blocks else (0.0, 0.0, 0.0)
+    first = tuple(one.blocks.get("attitude", upright))
     blocks = {**one.blocks, "attitude": first}
     if one.scene.plain:
         run = trajectory(one.scene, start_of(one.scene, one.state, blocks), times, laws=False)
