@@ -31,6 +31,11 @@ def said(keys: Sequence[str]) -> list[str]:
     return list(keys)
 
 
+def drawn(name: str) -> str:
+    """The same on an axis of a picture: a letter with its index set as in formulas, ω[1] as ω with 1 below it; other keys as they are."""
+    return re.sub(r"^([ωμx])\[([123])\]$", r"$\1_\2$", name)
+
+
 def _plain(text: str) -> str:
     plain = re.sub(r"[^0-9A-Za-z]+", "_", text).strip("_") or "key"
     return plain if plain[0].isalpha() else f"key_{plain}"

@@ -12,7 +12,7 @@ from ...maps.keys import value_at
 from ...maps.plan import Plan
 from ...orbit.result import Fate
 from .. import style
-from .labels import SAMPLE, said
+from .labels import SAMPLE, drawn, said
 
 # fate -> (its name in a legend, its colour)
 FATES = {Fate.BOUNDED: ("bounded", style.BLUE), Fate.SPIN_UP: ("spins up", style.VERMILION), Fate.SEPARATRIX: ("on the separatrix", style.BLACK),
@@ -30,7 +30,7 @@ def light(colour: str, share: float = LIGHT) -> tuple[float, float, float]:
 def label(data: Any, name: str) -> str:
     """The name of a dimension or column with its unit; of a dimension as few of its last words as tell it from the others of the sweep."""
     attrs = data[name].attrs
-    words, unit = spoken_key(data, name) if name in data.dims else str(attrs.get("long_name", name)), attrs.get("units", "1")
+    words, unit = drawn(spoken_key(data, name)) if name in data.dims else str(attrs.get("long_name", name)), attrs.get("units", "1")
     return words if unit == "1" else f"{words} ({unit})"
 
 

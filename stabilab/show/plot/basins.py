@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 import math
-import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,7 +12,7 @@ from ...packages import demand
 from .. import style
 from ..files import endings
 from ..maps.basins.words import basin_name, cells_of
-from ..maps.labels import dimensions, said
+from ..maps.labels import dimensions, drawn, said
 from ..maps.shades import light, own_value
 from . import canvas
 
@@ -33,7 +32,7 @@ def basin(found: Basins, ax: Axes | None = None, size: tuple[float, float] | Non
         rows = _areas(target, found) + _line(target, found) + _own(target, found)
         target.grid(False)
         for setter, axis, name in zip((target.set_xlabel, target.set_ylabel), found.plan.axes, said([axis.key.name for axis in found.plan.axes])):
-            setter(re.sub(r"^(.*)\[([123])\]$", r"$\1_\2$", name) + ("" if axis.shown_unit == "1" else f" ({axis.shown_unit})"))
+            setter(drawn(name) + ("" if axis.shown_unit == "1" else f" ({axis.shown_unit})"))
         for setter, axis, (_, text) in zip((target.set_xscale, target.set_yscale), found.plan.axes, found.plan.vary):
             setter("log" if text.count(":") == 3 and axis.values[0] > 0 else "linear")
         rough = found.dimension

@@ -151,6 +151,7 @@ def test_every_kind_of_sweep_has_its_picture(tmp_path, case, vary, options):
 
 def test_keys_are_as_short_as_the_others_allow():
     assert labels.said(["effects.constant_torque.torque[3]", "motion.angular_velocity[1]"]) == ["torque[3]", "ω[1]"]
+    assert list(map(labels.drawn, ("torque[3]", "ω[1]", "x[3]", "charge"))) == ["torque[3]", "$ω_1$", "$x_3$", "charge"]
     assert labels.said(["wheels.a.speed", "wheels.b.speed", "scaled.mu[1]"]) == ["a.speed", "b.speed", "scaled.μ[1]"]
 
 
