@@ -138,6 +138,12 @@ def test_the_curve_of_a_motion_on_an_unstable_plane_stays_on_it():
 
 
 @pytest.mark.slow
+def test_a_column_of_a_sweep_that_says_nothing_is_left_out(tmp_path):
+    """A charged body's motion has no separatrix to be apart from: a column of empty margins was shown."""
+    page = sweep.sections(load_all(CASES / "charged-sweep.toml")[:2], tmp_path, "charged-sweep")
+    assert page["heads"] == ["largest rate", "period"] and all(len(row["told"]) == 2 and all(row["told"]) for row in page["rows"])
+
+
 def test_the_rates_of_a_sweep_on_an_unstable_plane_stay_on_it(tmp_path, monkeypatch):
     """By hand: the plane x1 + 1 + x3 = 0 is one of every a, x3 dies out on it and x2 grows with the time: |x| goes along with it."""
     file = tmp_path / "plane.toml"

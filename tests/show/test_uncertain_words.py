@@ -1,11 +1,23 @@
 """How uncertain numbers are told to a reader."""
+import json
 import math
+import re
 from fractions import Fraction
+from pathlib import Path
 
 from stabilab.show.text import uncertain
+
+CASES = Path(__file__).parents[2] / "cases"
 
 
 def test_an_uncertain_rate_in_degrees_is_told_in_digits_and_not_as_a_long_ratio():
     half, middle = Fraction(math.pi) / 360, Fraction(math.pi) * 57 / 1800  # 5.7 +- 0.5 deg in rad, with the digits of a double of pi
-    assert uncertain.rounded(middle) == "0.0994837673637" and uncertain.rounded(half) == "0.00872664625997"
+    assert uncertain.rounded(middle) == "0.0994838" and uncertain.rounded(half) == "0.00872665"
     assert uncertain.rounded(Fraction(1, 3)) == "1/3" and uncertain.rounded(Fraction(1, 8)) == "0.125"
+
+
+def test_a_place_of_the_box_is_told_in_six_digits_and_json_has_them_all(stabilab):
+    case = CASES / "uncertain-minor-axis.toml"
+    text, told = stabilab("fate", case)[1], json.loads(stabilab("fate", case, "--json")[1])[0]["uncertain"]["fate"]["witnesses"][-1]
+    assert not re.search(r"\d\.\d{6,}", text.split("uncertain:")[1]) and re.search(r"inertia = \d+\.\d\d, ", text)
+    assert max(map(len, told["inertia"])) > 12 and f"inertia = {float(told['inertia'][0]):.6g}, " in text

@@ -4,8 +4,12 @@ from __future__ import annotations
 import math
 from fractions import Fraction
 
+from ..terminal.letters import lettered
+from ..units import DIGITS
+from ..units import number as told
+
 SUBJECTS = {"equilibria": ("hold", "depend"), "fate": ("holds", "depends")}
-LONG = 24  # letters of a number in a line
+LONG = 8  # letters of a number in a line
 
 
 def as_dict(found) -> dict:
@@ -41,7 +45,7 @@ def number(value: Fraction) -> str:
 def rounded(value: Fraction) -> str:
     """The same for a reader: rounded where the ratio is long (degrees bring digits of pi)."""
     exact = number(value)
-    return exact if len(exact) <= LONG else f"{float(value):.12g}"
+    return exact if len(exact) <= LONG else told(float(value), DIGITS)
 
 
 def _numbers(witness) -> dict[str, list[str]]:
@@ -56,7 +60,7 @@ def text(found) -> str:
     """Lines that follow what a command says of a case; nothing where no number is uncertain."""
     if found is None:
         return ""
-    lines = ["uncertain: " + ", ".join(f"{key(u)} = {rounded(u.middle)} +- {rounded(u.half)}" for u in found.numbers)]
+    lines = ["uncertain: " + ", ".join(f"{key(u)} = {rounded(u.middle)} ± {rounded(u.half)}" for u in found.numbers)]
     for name in SUBJECTS:
         over = getattr(found, name)
         lines += [] if over is None else _lines(name, over)
@@ -66,7 +70,7 @@ def text(found) -> str:
 def _lines(subject, over) -> list[str]:
     holds, depends = SUBJECTS[subject]
     lead = {"holds": f"{holds} all over the box", "depends": f"{depends} on them", "undecided": "undecided over the box"}
-    lines = [f"  {subject}: {lead[over.answer]}" + (f": {over.verdict}" if over.answer == "holds" else ""), f"    {over.because}"]
+    lines = [f"  {subject}: {lead[over.answer]}" + (f": {over.verdict}" if over.answer == "holds" else ""), f"    {lettered(over.because)}"]
     if over.but:
         lines.append(f"    but for a set of measure zero: {over.but}")
     if over.proved and math.isfinite(over.proved):
@@ -79,7 +83,8 @@ def _lines(subject, over) -> list[str]:
 
 
 def _witness(w) -> list[str]:
-    numbers = "; ".join(f"{name} = {', '.join(values)}" for name, values in _numbers(w).items())
+    """A place of the box, to six digits: JSON has them all."""
+    numbers = "; ".join(f"{name} = {', '.join(told(float(v), DIGITS) for v in values)}" for name, values in w.values.items())
     return [f"    {w.verdict} at {numbers}"]
 
 

@@ -22,6 +22,7 @@ from .measures import Measures
 STYLES = ("-", "--", ":", "-.")
 WIDTHS = (1.0, 1.8, 2.6)
 POINTS = 801
+HEADS = ("largest rate", "margin", "period")
 
 
 def sections(cases, folder: Path, stem: str) -> dict:
@@ -31,7 +32,10 @@ def sections(cases, folder: Path, stem: str) -> dict:
     answered = [(case, *_answer(case)) for case in cases]
     rows = [_row(case, found, why, [cells[n] for key in keys for _, _, cells in key], measures) for n, (case, found, why) in enumerate(answered)]
     moved = [(case, found) for case, found, _ in answered if found is not None]
-    return {"name": stem, "title": first.title or stem, "source": first.source, "path": first.path, "text": first.text, "rows": rows,
+    kept = [n for n in range(len(HEADS)) if any(row["told"][n] for row in rows)]  # no column that says nothing
+    rows = [row | {"told": [row["told"][n] for n in kept]} for row in rows]
+    return {"name": stem, "heads": [HEADS[n] for n in kept], "title": first.title or stem,
+            "source": first.source, "path": first.path, "text": first.text, "rows": rows,
             "keys": [_head(label, unit) for key in keys for label, unit, _ in key], "equations": _equations(first),
             "picture": _picture(moved, keys, cases, measures, folder / f"{stem}-sweep.png") if moved else None,
             "headline": headline(rows),
