@@ -39,7 +39,7 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
             "facts": [], "extremes": [], "invariants": [], "over": "", "pictures": [], "sensitivity": None, "certificate": None,
             "equilibria": found and table(found, measures), "equations": _tried(absent, "Equations", lambda: equations(case))}
     if moved is not None:
-        over = _over(spoken(moved.extremes_over))
+        over = _over((measures.reason if measures.physical else spoken)(moved.extremes_over))
         page |= {"facts": verdict.rows(case, moved, measures), "extremes": verdict.extremes(case, moved, measures), "over": over,
                  "invariants": verdict.invariants(moved, measures)}
         page["pictures"] = _tried(absent, "Pictures", lambda: pictures(one, folder, stem, deep, "deg" if units.scaled else units.name)) or []
