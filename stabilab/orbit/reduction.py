@@ -20,7 +20,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any, NamedTuple
 
 from ..numbers.exact import sqrt_fraction
@@ -230,8 +230,9 @@ def _common_shift(form: QuadraticForm, j: int, k: int) -> Fraction | None:
     return s
 
 
+@lru_cache(maxsize=64)  # every question asks for it several times, and its rationals cost more than a few states
 def reduce(scene: AnyScene) -> Reduction | None:
-    """The reduction that serves `scene`: about the torque's axis, or, without torque, about any axis that allows one
+    """The reduction that serves `scene` (cached): about the torque's axis, or, without torque, about any axis that allows one
     (elliptic preferred: its circle is compact). None where there is none."""
     form = scene.quadratic()
     weights = scene.body.exact if scene.variables == "physical" else (Fraction(1),) * 3

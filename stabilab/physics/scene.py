@@ -78,6 +78,11 @@ class Scene(metaclass=Asked):
 
     def quadratic(self) -> QuadraticForm:
         """The rates with exact coefficients. Raises InputError for effects outside gyrostat and constant torque."""
+        return self._form
+
+    @cached_property
+    def _form(self) -> QuadraticForm:
+        """Kept, for every question asks for it several times."""
         other = self._beyond()
         if other:
             raise InputError(f"this analysis covers a gyrostat and a constant torque; the scene also has {', '.join(name.replace('_', ' ') for name in other)}")
@@ -115,6 +120,11 @@ class ScaledGyrostat(metaclass=Asked):
 
     def quadratic(self) -> QuadraticForm:
         """The rates with exact coefficients."""
+        return self._form
+
+    @cached_property
+    def _form(self) -> QuadraticForm:
+        """Kept, as of `Scene`."""
         return scaled_form(*self.exact_ab, self.exact_mu)
 
 
