@@ -11,7 +11,7 @@ from ..numbers.constants import TURN
 from .landscape_base import EPS, LOST, ConicLandscape, Landscape
 from .reduction import reduce
 
-DOUBLE_ROOT = 1e-10  # share of a cubic's discriminant: eigenvalues tell two roots 1e-7 apart, whose discriminant is 1e-14 and more
+DOUBLE_ROOT = 1e-10  # share of a cubic's discriminant: two roots 1e-7 apart, hardly told in doubles, leave 1e-14 of it and more
 ROUNDINGS = 64  # units of rounding allowed for in the error bound of a margin: some thirty operations, each counted twice
 CENTRE = 1e-10  # of the asymptotes' distance from a hyperbola's centre: nearer to it the conic's doubles place no equilibrium
 
@@ -24,6 +24,23 @@ def angle_between(place, spot):
 def _discriminant(a, b, c, d):
     """The terms of the discriminant of a cubic, highest power first."""
     return 18 * a * b * c * d, -4 * b**3 * d, b**2 * c**2, -4 * a * c**3, -27 * a**2 * d**2
+
+
+def _real_roots(a, b, c, d):
+    """(n, 3) the real roots of cubics, to the rounding of their coefficients: three, or one and NaN. Those that a cosine gives, or Cardano's formula
+    in the order that does not cancel; eigenvalues of companion matrices would cost ten times as much."""
+    with np.errstate(all="ignore"):
+        middle = -b / (3 * a)
+        p, q = (c + b * middle) / a, (d + middle * (c + 2 * b * middle / 3)) / a
+        three = 4 * p**3 + 27 * q * q < 0
+        reach = np.sqrt(-p / 3)
+        third = np.arccos(np.clip(-q / (2 * reach**3), -1, 1)) / 3
+        roots = np.array([2 * reach * np.cos(third - k * TURN / 3) for k in range(3)])
+        one = -np.copysign(np.cbrt(0.5 * np.abs(q) + np.sqrt(np.maximum(0.25 * q * q + p**3 / 27, 0))), q)
+        other = np.where(one == 0, 0.0, -p / (3 * one))
+        alone = np.where(p > 0, -q / (one * one + p / 3 + other * other), one + other)  # where p > 0 the sum would cancel
+        lone = np.array([np.where((p == 0) & (q == 0), 0.0, alone), *np.full((2, *alone.shape), np.nan)])
+        return (middle + np.where(three, roots, lone)).T
 
 
 class CircleLandscape(ConicLandscape):
@@ -182,19 +199,12 @@ class ParabolaLandscape(Landscape):
     def critical(self, place, barriers_only=False):
         force = self.potential.force(place)
         first, second, third = self.potential.derivatives(place)
-        n = np.size(force)
         cubic = np.array(np.broadcast_arrays(third / 6, second / 2, first, force), float)
         if not np.any(cubic[0]):
             with np.errstate(all="ignore"):
                 roots = np.where(cubic[2] != 0, -cubic[3] / cubic[2], np.nan)[:, None]
         else:
-            companion = np.zeros((n, 3, 3))
-            companion[:, 0, :] = -(cubic[1:] / cubic[0]).T
-            companion[:, 1, 0] = companion[:, 2, 1] = 1
-            eigen = np.linalg.eigvals(companion)
-            real = np.abs(eigen.imag) <= 1e-7 * np.abs(eigen)
-            real[np.arange(n), np.argmin(np.abs(eigen.imag), axis=1)] = True  # a cubic has a real root
-            roots = np.where(real, eigen.real, np.nan)
+            roots = _real_roots(*cubic)
             for _ in range(3):
                 value = ((cubic[0][:, None] * roots + cubic[1][:, None]) * roots + cubic[2][:, None]) * roots + cubic[3][:, None]
                 slope = (3 * cubic[0][:, None] * roots + 2 * cubic[1][:, None]) * roots + cubic[2][:, None]

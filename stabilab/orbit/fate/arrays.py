@@ -225,7 +225,7 @@ def _valley_margins(land, states, place, w, size):
         doubtful |= land.beside_fold(place) | land.beside_centre(place)
     signs = np.sign(margins)
     rows = np.nonzero(doubtful)[0]
-    if rows.size and land.conic is not None:
+    if rows.size:
         found, sure = valley_margins(land, states[rows])
         margins[rows[sure]], signs[rows[sure]], doubtful[rows[sure]] = found[sure], np.sign(found[sure]), False
     for index in np.nonzero(doubtful)[0]:

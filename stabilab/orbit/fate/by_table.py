@@ -129,6 +129,21 @@ def hyperbola_heights(table, x, z):
     return height, scale, clear
 
 
+def _parabolas(table, states, out):
+    u, v, w = canonical(table, states)
+    energy = 0.5 * w * w
+    with np.errstate(all="ignore"):
+        height, scale, clear = parabola_heights(table, u, v)
+        margin = height - energy
+        np.multiply(margin, table.unit, out=out["margins"])
+        return ~(clear & (np.isposinf(height) | arithmetic.trusted(margin, height, energy, scale, arithmetic.PARABOLA_MARGIN_BOUND)))
+
+
+def parabola_heights(table, u, v):
+    """As `hyperbola_heights`, for places on parabolas: by a formula, no table."""
+    return arithmetic.parabola_height(u, v, table.form, tuple(table.ranges[0]))
+
+
 class _Way(NamedTuple):
     """Of a geometry: heights over places, how a chunk is labelled, and whether a state above its height spins up."""
 
@@ -137,7 +152,8 @@ class _Way(NamedTuple):
     spins_up: bool
 
 
-GEOMETRIES = {-1: _Way(circle_heights, _circles, True), 1: _Way(hyperbola_heights, _hyperbolas, False)}
+GEOMETRIES = {-1: _Way(circle_heights, _circles, True), 1: _Way(hyperbola_heights, _hyperbolas, False),
+              0: _Way(parabola_heights, _parabolas, False)}
 
 
 def way_of(table: BarrierTable) -> _Way:

@@ -30,7 +30,8 @@ CHECKS = np.array([-0.985, -0.85, -0.55, -0.2, 0.3, 0.7, 0.93])  # none of them 
 class BarrierTable:
     """The barriers of a scene as arrays (see `barrier_heights`).
 
-    e: -1 circles, +1 hyperbolas. axes: indices (i, j, k) of the state's columns. frame: shifts, factors and the rounding
+    e: -1 circles, +1 hyperbolas, 0 parabolas, which have neither ranges nor cells: there `ranges` holds (p, p0, b) of a place's way, u' = p v + p0,
+    v' = b, and form kappa, rho, sigma, m of the force. axes: indices (i, j, k) of the state's columns. frame: shifts, factors and the rounding
     of the place; form: G, c, d, mu. ranges (B, 11); cells (B, N, 8), NaN where left out. unit: energy of the scene per
     canonical unit. axis, sense: of a spin-up. gaps: share of the cells that were left out.
     """
@@ -54,10 +55,11 @@ class BarrierTable:
 
 @lru_cache(maxsize=16)
 def barrier_table(scene) -> BarrierTable | None:
-    """The table of a scene (cached); None without a torque that has a reduction to circles or hyperbolas, and where the
-    equilibria lie on straight lines."""
+    """The table of a scene (cached); None without a torque that has a reduction, and where the equilibria lie on straight lines."""
     land = landscape(scene)
-    if land is None or land.sense == 0 or land.conic is None or land.conic.lines or not land.conic.pieces:
+    if land is not None and land.sense and land.conic is None:
+        return _without_cells(land)
+    if land is None or land.sense == 0 or land.conic.lines or not land.conic.pieces:
         return None
     spans = list(_spans(land))
     if any(span is None for span in spans):
@@ -69,6 +71,20 @@ def barrier_table(scene) -> BarrierTable | None:
              abs(g["sj"] / g["rx"]) + abs(g["sk"] / g["rz"]))
     return BarrierTable(land.e, (r.axis, r.j, r.k), frame, tuple(g[n] for n in ("G", "c", "d", "mu")), ranges, cells,
                         r.energy_unit, r.axis + 1, land.sense, gaps)
+
+
+def _without_cells(land: Landscape) -> BarrierTable | None:
+    """What parabolas have instead of a table, whose barriers a formula gives; None where the force along them is no cubic."""
+    r = land.reduction
+    if not r.kappa or not (r.p and r.q0 or r.q and r.p0):
+        return None
+    j, k, form, numbers = r.j, r.k, (r.kappa, r.rho, r.sigma, r.m), (r.p, r.p0, r.q0)
+    if r.q:  # the component with a steady rate comes second
+        j, k, form, numbers = r.k, r.j, (r.kappa, r.sigma, r.rho, r.m), (r.q, r.q0, r.p0)
+    if numbers[0] * r.kappa > 0:
+        return None
+    return BarrierTable(land.e, (r.axis, j, k), (0.0, 1.0, 0.0, 1.0, float(r.s), 1.0, 0.0), tuple(map(float, form)),  # type: ignore[arg-type]  # four
+                        np.array([numbers], float), np.empty((1, 0, DEGREE + 3)), r.energy_unit, r.axis + 1, land.sense, 0.0)
 
 
 def _spans(land: Landscape):

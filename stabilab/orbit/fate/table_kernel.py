@@ -27,6 +27,11 @@ FORCE_BOUND = 1e-11  # a force so small may be an equilibrium's
 PLANE_BOUND = 1e-9  # so near to an invariant plane the general formula answers
 FAR = 1e6  # rounding of the place may be this many times the radius
 
+# Of a parabola, whose height has a dozen and a half roundings; of the distance from the fold, relative, what its rounding may be; and of the last step
+# of Newton's method beside that distance, which leaves less than its square.
+PARABOLA_MARGIN_BOUND, PAIR_BOUND, STEP_BOUND = 4e-3, 1e6 * 2.0**-52, 1e-3
+STEP_LEFT = 1e-6  # of the energy that the last step is worth, as much as its rounding could matter
+
 TURN, TURNS = 2 * math.pi, 1 / (2 * math.pi)
 _TAN_PI_8, _PI_4, _PI_2, _PI = math.tan(math.pi / 8), math.pi / 4, math.pi / 2, math.pi
 _SQRT_HALF, _LOG_2 = math.sqrt(0.5), math.log(2.0)
@@ -116,6 +121,53 @@ def trusted(margin, height, energy, scale, margin_bound):
 
 def fold_is_clear(size, origin, rounding):
     return np.abs(size - origin) > FOLD_BOUND * (rounding + abs(origin))
+
+
+def middle_root(g):
+    """1 - x for the root x in (0, 1) of x^3 - 3 x + 2 s = 0, 0 <= s < 1; g = 2 (1 - s): that of e^2 (3 - e) = g.
+
+    A polynomial in sqrt(g/3) (Chebyshev, 3e-5), then a step of Newton's method.
+    """
+    z = np.sqrt(g / 3)
+    e = z * (0.9999789403426903 + z * (0.16839955168602871 + z * (0.04686614963071462
+              + z * (0.1405440318552184 + z * (-0.1767290819337927 + z * 0.1599218763072062)))))
+    return e - (e * e * (3 - e) - g) / (3 * e * (2 - e))
+
+
+def parabola_height(u, v, form, numbers):
+    """(height of the barrier over a place, +inf without one; size of its terms; whether all that is certain) on parabolas.
+
+    The place moves with u' = p v + p0, v' = b. The force along it is a cubic that falls at both ends: the middle one of three roots is the barrier. A
+    cosine would give it; in correctly rounded operations it is taken from its distance from the fold.
+    """
+    kappa, rho, sigma, m = form
+    p, p0, b = numbers
+    a, ks, hs = p * v + p0, kappa * v + sigma, kappa * u + rho
+    f0, f1, f2, f3 = ks * u + (rho * v + m), ks * a + hs * b, b * (2 * kappa * a + p * ks), 3 * kappa * p * b * b
+    a_size, k_size = np.abs(p * v) + abs(p0), np.abs(kappa * v) + abs(sigma)
+    s0 = k_size * np.abs(u) + (np.abs(rho * v) + abs(m))
+    s1 = k_size * a_size + (np.abs(kappa * u) + abs(rho)) * abs(b)
+    s2, s3 = abs(b) * (2 * abs(kappa) * a_size + abs(p) * k_size), abs(f3)
+    # about the middle of the roots: r + d t + (f3/6) t^3
+    middle, far = -f2 / f3, s2 / s3
+    d, r = f1 + 0.5 * middle * f2, f0 + middle * (f1 + middle * f2 / 3)
+    cubed, square = 4 * d * d * d, -4.5 * f3 * r * r
+    apart = cubed - square
+    told = np.abs(apart) > PAIR_BOUND * (12 * d * d * (s1 + 0.5 * far * s2) - 9 * f3 * np.abs(r) * (s0 + far * (s1 + far * s2 / 3)))
+    three = (d > 0) & (apart > 0)
+    reach = np.sqrt(-2 * d / f3)
+    s = 1.5 * np.abs(r) / (d * reach)
+    e = middle_root(2 * (apart / cubed) / (1 + s))
+    root = reach * (1 - e)
+    y = middle - pick(r > 0, root, -root)
+    slope = f1 + y * (f2 + y * (0.5 * f3))
+    step = (f0 + y * (f1 + y * (0.5 * f2 + y * (f3 / 6)))) / slope
+    y = y - step
+    height = -y * (f0 + y * (0.5 * f1 + y * (f2 / 6 + y * (f3 / 24))))
+    way = np.abs(y)
+    scale = way * (s0 + way * (0.5 * s1 + way * (s2 / 6 + way * (s3 / 24)))) + STEP_LEFT * slope * step * step
+    clear = told & (np.abs(f0) > FORCE_BOUND * s0) & ((np.abs(step) < STEP_BOUND * reach * e) | (three ^ True))
+    return pick(three, height, np.inf), pick(three, scale, 0.0), clear
 
 
 # --- loops for the compiler: short passes over blocks that stay in the cache, each simple enough to run on whole vectors
@@ -269,3 +321,16 @@ def lower_nearest(x, z, energy, size, span, cells, shift, form, inside, nearest,
 
 def hyperbola_scale(scale, tilt, rounding, place, mu, steep, bulk):
     return scale + np.abs(tilt) + mu * (1 + rounding / np.abs(place)) + steep * rounding * rounding + bulk
+
+
+def parabola_loop(states, axes, frame, form, ranges, cells, unit, margins, labels, reasons, unsure):
+    """As `hyperbola_loop`, on parabolas, whose barriers need no table: `ranges` holds the numbers along which a place moves."""
+    i, j, k = axes
+    numbers = ranges[0, 0], ranges[0, 1], ranges[0, 2]
+    for n in range(states.shape[0]):
+        w = (states[n, i] + frame[4]) * frame[5]
+        energy = 0.5 * w * w
+        height, scale, clear = parabola_height((states[n, j] + frame[0]) * frame[1], (states[n, k] + frame[2]) * frame[3], form, numbers)
+        margin = height - energy
+        margins[n] = margin * unit
+        unsure[n] = (clear & ((height == np.inf) | trusted(margin, height, energy, scale, PARABOLA_MARGIN_BOUND))) ^ True

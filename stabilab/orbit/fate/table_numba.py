@@ -9,13 +9,13 @@ from . import table_kernel as arithmetic
 HELPERS = ("angle", "logarithm", "cell_position", "height_polynomial", "angle_polynomial", "circle_height",
            "force", "terms", "ahead", "trusted", "fold_is_clear", "hyperbola_scale", "places", "polar", "positions",
            "looked_up", "raise_best", "keep_off_fold", "circle_margins", "circle_labels",
-           "cone", "keep_off_cone_fold", "on_range", "lower_nearest")
+           "cone", "keep_off_cone_fold", "on_range", "lower_nearest", "middle_root", "parabola_height")
 LARGE = 1_000_000  # loading numba costs half a second, what NumPy needs for some millions of states
 LOADED = 20_000  # once it is loaded
 
 
 def compiled_loops(n: int, fast: bool | None):
-    """{-1: loop for circles, +1: for hyperbolas}, or None where NumPy is to answer for n states.
+    """{-1: loop for circles, +1: for hyperbolas, 0: for parabolas}, or None where NumPy is to answer for n states.
 
     fast: True always, False never, None for large arrays where numba is installed. InputError: fast=True without numba.
     """
@@ -31,4 +31,4 @@ def _loops():
         return lambda condition, yes, no: yes if condition else no
     for name in HELPERS:
         register_jitable(getattr(arithmetic, name))
-    return {-1: compiled_function(arithmetic.circle_loop), 1: compiled_function(arithmetic.hyperbola_loop)}
+    return {-1: compiled_function(arithmetic.circle_loop), 1: compiled_function(arithmetic.hyperbola_loop), 0: compiled_function(arithmetic.parabola_loop)}

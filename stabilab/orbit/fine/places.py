@@ -27,10 +27,12 @@ class TwofoldConstants(NamedTuple):
 def twofold_constants(reduction) -> TwofoldConstants:
     """Those of a reduction to circles or hyperbolas."""
     g = reduction.exact_constants
-    return TwofoldConstants(*(_twofold(g[name]) for name in ("G", "c", "d", "mu", "sj", "sk")), _twofold(g["flip"] / g["rx"]), _twofold(1 / g["rz"]))
+    exact = *(g[name] for name in ("G", "c", "d", "mu", "sj", "sk")), g["flip"] / g["rx"], 1 / g["rz"]
+    return TwofoldConstants(*map(twofold_constant, exact))
 
 
-def _twofold(value: Fraction) -> Twofold:
+def twofold_constant(value: Fraction) -> Twofold:
+    """A rational, or an exact root of many bits, to 32 digits."""
     high = float(value)
     return Twofold(np.float64(high), np.float64(float(value - Fraction(high))))  # type: ignore[arg-type]  # a double broadcasts as an array does
 
