@@ -226,7 +226,7 @@ def _valley_margins(land, states, place, w, size):
     signs = np.sign(margins)
     rows = np.nonzero(doubtful)[0]
     if rows.size:
-        found, sure = valley_margins(land, states[rows])
+        found, sure = valley_margins(land, states[rows], (offsets[rows], spots[:, rows], barrier[rows]))
         margins[rows[sure]], signs[rows[sure]], doubtful[rows[sure]] = found[sure], np.sign(found[sure]), False
     for index in np.nonzero(doubtful)[0]:
         tie = decide(Orbit(land.reduction, states[index]))

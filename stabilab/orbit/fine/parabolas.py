@@ -26,8 +26,9 @@ def constants(reduction) -> SimpleNamespace:
     return SimpleNamespace(**{name: twofold_constant(getattr(reduction, name)) for name in NAMES})
 
 
-def parabola_margins(land: Landscape, states):
-    """(margins (n,), +inf without a barrier; kinetic energies; errors; where it is certain which equilibria there are) of states (n, 3) on parabolas.
+def parabola_margins(land: Landscape, states, critical):
+    """(margins (n,), +inf without a barrier; kinetic energies; errors; where it is certain which equilibria there are) of states (n, 3) on parabolas;
+    critical: as of `valley_margins`.
 
     The potential is stationary at the barrier, so the double of the way to it serves: what it leaves open is of second order. A force that is a
     cubic with walls on both sides has one barrier at most.
@@ -35,7 +36,7 @@ def parabola_margins(land: Landscape, states):
     r, pot, none = constants(land.reduction), land.potential, np.zeros(len(states))
     place, w, _ = land.start(states)
     with np.errstate(all="ignore"):
-        offsets, _, barrier = land.critical(place, barriers_only=True)
+        offsets, _, barrier = critical
         there = barrier.any(axis=1)
         y = offsets[np.arange(len(states)), np.argmax(barrier, axis=1)]
         u, v, speed = Twofold(place[0], none), Twofold(place[1], none), r.s + states[:, land.reduction.axis]

@@ -37,10 +37,10 @@ class FineSpots:
     place: tuple[np.ndarray, ...]  # as the landscape takes it: next to a plane doubles of x and z would have lost the smaller of xi and eta
 
 
-def fine_spots(land: Landscape, states) -> FineSpots:
-    """Those of states (n, 3) on circles or hyperbolas."""
+def fine_spots(land: Landscape, states, rough: Spots | None = None) -> FineSpots:
+    """Those of states (n, 3) on circles or hyperbolas; rough: those to be placed, as doubles have them (None: all)."""
     place, w, size = land.start(states)
-    rough = spots_along(land, place, w)
+    rough = spots_along(land, place, w) if rough is None else rough
     constants = land.twofold  # type: ignore[attr-defined]  # of circles and hyperbolas
     x, z = twofold_places(constants, land.reduction.j, land.reduction.k, states)
     with np.errstate(all="ignore"):

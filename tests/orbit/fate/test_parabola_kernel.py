@@ -84,7 +84,7 @@ def test_of_a_parabola_s_states_one_in_a_hundred_takes_twofold_numbers_and_none_
     """Number 87 of the random scenes: a row in 230 went to balls, and of each a companion matrix had its eigenvalues found."""
     one, asked = drawn(88)[87], []
     fine = fate.valley_margins
-    monkeypatch.setattr(fate, "valley_margins", lambda land, rows: asked.append(len(rows)) or fine(land, rows))
+    monkeypatch.setattr(fate, "valley_margins", lambda land, rows, known: asked.append(len(rows)) or fine(land, rows, known))
     states = one.states(20_000)
     assert stabilab.fate(one.scene, states, fast=False).precise == 0 and sum(asked) <= 100
     asked.clear()

@@ -35,7 +35,7 @@ AWAY = 10.0 ** np.arange(-7, -17, -0.125)  # relative distances from the separat
 def doubtful(scene, states, monkeypatch):
     """(n,) True where doubles leave a state to longer arithmetic; twofold numbers, which would decide most, leave it to balls here."""
     asked = []
-    monkeypatch.setattr(fate, "valley_margins", lambda land, rows: (np.zeros(len(rows)), np.zeros(len(rows), bool)))
+    monkeypatch.setattr(fate, "valley_margins", lambda land, rows, known: (np.zeros(len(rows)), np.zeros(len(rows), bool)))
     monkeypatch.setattr(fate, "decide", lambda orbit: asked.append(tuple(orbit.state)) or SimpleNamespace(sign=1, margin=1.0))
     stabilab.fate(scene, states)
     monkeypatch.undo()

@@ -10,9 +10,11 @@ from stabilab.orbit.extremes import arrays as extremes_arrays
 from stabilab.orbit.extremes.balls import precise_extremes
 from stabilab.orbit.fate import arrays as fate_arrays
 from stabilab.orbit.fate.balls import decide
+from stabilab.orbit.fine import margins
 from stabilab.orbit.fine.anchored import Anchored
 from stabilab.orbit.fine.margins import MARGIN_SHARE, valley_margins
 from stabilab.orbit.fine.motion import fine_boxes, fine_interval, fine_periods
+from stabilab.orbit.fine.spots import fine_spots
 from stabilab.orbit.landscape import landscape
 from stabilab.orbit.period.balls import precise_period
 
@@ -74,14 +76,23 @@ def test_periods_of_motions_that_just_pass_a_barrier_are_those_of_balls(name):
 @pytest.mark.parametrize("name", HYPERBOLAS)
 def test_margins_from_twofold_numbers_are_those_of_balls(name):
     land, states = landscape(SCENES[name]), states_of(name, 60)
-    margins, sure = valley_margins(land, states)
+    found, sure = valley_margins(land, states)
     assert sure.mean() > 0.9
-    for state, margin in zip(states[sure], margins[sure]):
+    for state, margin in zip(states[sure], found[sure]):
         tie, energy = decide(Orbit(land.reduction, state)), 0.5 * land.reduction.canonical(state)[2] ** 2
         if not np.isfinite(tie.margin):  # no barrier: balls say -inf on either geometry
             assert margin == np.inf
             continue
         assert tie.sign == np.sign(margin) and abs(margin - tie.margin) <= 2 * MARGIN_SHARE * (energy + abs(tie.margin + energy))
+
+
+@pytest.mark.parametrize("name", HYPERBOLAS[:2])
+def test_for_margins_barriers_alone_are_placed_in_twofold_numbers(name, monkeypatch):
+    """Two wells stand beside each: they took two thirds of the time."""
+    placed, states = [], states_of(name, 6000)
+    monkeypatch.setattr(margins, "fine_spots", lambda land, rows, rough: placed.append((int(rough.there.sum()), len(rows))) or fine_spots(land, rows, rough))
+    fate(SCENES[name], states, fast=False)
+    assert placed and all(0 < spots <= rows for spots, rows in placed)
 
 
 @pytest.mark.parametrize("name", SCENES)
@@ -114,7 +125,7 @@ def test_rows_that_twofold_numbers_leave_open_go_to_balls_as_before(monkeypatch)
     fine = extremes(one, states, fast=False), period(one, states, fast=False), fate(one, states).margins
     nothing = lambda land, rows: (np.full((len(rows), 3, 2), np.nan), np.zeros(len(rows), bool))
     monkeypatch.setattr(extremes_arrays, "fine_boxes", nothing)
-    monkeypatch.setattr(fate_arrays, "valley_margins", lambda land, rows: (np.full(len(rows), np.nan), np.zeros(len(rows), bool)))
+    monkeypatch.setattr(fate_arrays, "valley_margins", lambda land, rows, known: (np.full(len(rows), np.nan), np.zeros(len(rows), bool)))
     np.testing.assert_allclose(extremes(one, states, fast=False), fine[0], rtol=0, atol=1e-12 * np.abs(fine[0]).max())
     np.testing.assert_allclose(fate(one, states).margins, fine[2], rtol=1e-11)
 
