@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import cached_property
 
 from ..numbers.polynomial import Poly
 from .ball_base import BallOrbit
@@ -51,8 +52,13 @@ class BallConic(BallOrbit):
 
     def _height_nearby(self, y):
         """The same with the exact force at the state taken out, so that a short way keeps its digits."""
-        swing, force = self._swing(y), self.flip * self.n * self.numbers.ball(self.force_here)
-        return rise_at(self.G, self.c, self.d, self.mu, self.r.e, (self.x, self.z), swing, y - swing[0], force)
+        swing = self._swing(y)
+        return rise_at(self.G, self.c, self.d, self.mu, self.r.e, (self.x, self.z), swing, y - swing[0], self._pull)
+
+    @cached_property
+    def _pull(self):
+        """The force at the state."""
+        return self.flip * self.n * self.numbers.ball(self.force_here)
 
     def force(self, y):
         return force_at(self.G, self.c, self.d, self.mu, *self.place(y))

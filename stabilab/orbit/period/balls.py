@@ -2,6 +2,7 @@
 equilibrium that the motion passes, where the rate is least or largest."""
 from __future__ import annotations
 
+import math
 from functools import lru_cache
 
 from ...numbers.balls import sign, working
@@ -13,6 +14,7 @@ from ..result import Fate, without_return
 DIGITS = 14  # two steps agree to so many; the rule doubles its digits with every halving, so the second is exact to a double
 SPARE = 8  # digits beyond those: terms that are smaller are left out
 AGREED = 9  # the same for a double alone: the next step, twice as many digits, is not taken to see it
+WEIGHT = 1.7  # log(pi cosh t)/pi, which the weights of the last nodes have beside an exponential
 FINEST = 9  # halvings of the step; the seventh serves a double
 
 
@@ -29,8 +31,15 @@ def period_ball(orbit: Orbit, digits: int = DIGITS):
         if not 10 ** digits * found.rad() < found:
             raise Unclear
         return found
-    # nodes come within 10^-2(digits + SPARE) of the turning points, where E - V must keep its digits
-    return orbit.settled(question, int(3.33 * (3 * digits + 2 * SPARE + 20)))
+    return orbit.settled(question, _bits(digits))
+
+
+def _bits(digits: int) -> int:
+    """Bits for so many digits: of the first two rows of nodes, whole steps from 0 and from a half, the last stands up to a step beyond where terms vanish,
+    and so near a turning point E - V, which goes with the square of the distance, must keep its digits."""
+    vanishing = math.asinh((digits + SPARE) * math.log(10) / math.pi + WEIGHT)
+    last = max(math.ceil(vanishing), math.ceil(vanishing - 0.5) + 0.5)
+    return int(2 * math.pi * math.sinh(last) / math.log(2) + 3.33 * (digits + 2 * SPARE))
 
 
 def _libration(orbit, left, right, digits):
