@@ -5,6 +5,7 @@ import itertools
 import json
 import math
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -323,6 +324,13 @@ def test_show_prints_equations_and_laws(stabilab):
 def test_show_names_no_symbol_of_an_effect_that_is_not_there(stabilab):
     code, out, _ = stabilab("show", ROOT / "cases/off-axis-two.toml")
     assert code == 0 and "M1" in out and "lambda" not in out.split("Laws that hold for every value")[0]
+
+
+def test_show_sets_factors_side_by_side_and_names_as_letters(stabilab):
+    """-(λ x ω) and the torque of gravity, (M g r) x γ up to its sign, by hand."""
+    told = "".join(stabilab("show", ROOT / f"cases/{name}.toml")[1].split("In LaTeX")[0] for name in ("top-lx30-lz30", "liquid-base"))
+    assert "  D3 ω3' = Mgx γ2 - Mgy γ1 + " in told and "+ λ1 ω2 + ω1 ω2 (D1 - D2)\n" in told and "D1² κ" in told and "  ζ = 1/50" in told
+    assert "*" not in told and not re.search(r"kappa|zeta|lambda|gamma", told)
 
 
 def test_plot_writes_a_picture_and_says_where(stabilab, tmp_path):

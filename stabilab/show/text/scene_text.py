@@ -5,7 +5,7 @@ import math
 
 from ...physics.equations import derive
 from ...physics.laws import invariants
-from ..terminal.letters import written
+from ..terminal.letters import lettered, written
 from ..units import parameter_unit
 from . import frame
 from .notation import latex, lines
@@ -14,9 +14,10 @@ from .notation import latex, lines
 def text(case) -> str:
     """Scene, parameters, equations of motion as text and LaTeX, invariants: what `stabilab show` prints."""
     equations = derive(case.scene)
-    parts = [_head(case), _parameters(equations, case.variables == "physical"), "Equations of motion", *(f"  {line}" for line in lines(equations)), "",
+    parts = [_head(case), _parameters(equations, case.variables == "physical"), "Equations of motion",
+             *(f"  {lettered(_products(line))}" for line in lines(equations)), "",
              "In LaTeX", latex(equations), "", "Laws that hold for every value of the parameters"]
-    parts += [f"  {law.words}" for law in equations.balances]
+    parts += [f"  {lettered(law.words)}" for law in equations.balances]
     own = invariants(case.scene)
     effects = " and ".join(", ".join(effect.name.replace("_", " ") for effect in case.scene.effects).rsplit(", ", 1)) or "no effect"
     answer = f"{case.name}: a {'scaled gyrostat' if case.variables == 'scaled' else 'body with ' + effects}; laws known of this scene: {len(own)}"
@@ -66,12 +67,12 @@ def _triple(vector) -> str:
 
 
 def _values(effect) -> str:
-    return ", ".join(f"{name} = {float(v):.15g} {parameter_unit(name)}".rstrip() for name, v in effect.parameters().items())
+    return ", ".join(f"{written(name)} = {float(v):.15g} {parameter_unit(name)}".rstrip() for name, v in effect.parameters().items())
 
 
 def _parameters(equations, physical) -> str:
     units = {name: parameter_unit(name) if physical else "" for name in equations.parameters}
-    return "Parameters\n" + "\n".join(f"  {name} = {_value(v)} {units[name]}".rstrip() for name, v in equations.parameters.items()) + "\n"
+    return "Parameters\n" + "\n".join(f"  {written(name)} = {_value(v)} {units[name]}".rstrip() for name, v in equations.parameters.items()) + "\n"
 
 
 def _value(v) -> str:
@@ -83,7 +84,7 @@ def _value(v) -> str:
 
 
 def _laws(laws) -> list[str]:
-    return [row for law in laws for row in (f"  {law.words}", f"    {_short(law.quantity)}"
+    return [row for law in laws for row in (f"  {lettered(law.words)}", f"    {_short(law.quantity)}"
                                             + ("" if law.rate == 0 else f"   at the rate {_short(law.rate)}"))]
 
 
@@ -91,4 +92,9 @@ def _short(expression) -> str:
     """The expression with rationals that are long rounded to 15 digits."""
     from sympy import Rational
     long = {r: r.evalf(15) for r in expression.atoms(Rational) if len(str(r)) > 24}
-    return str(expression.xreplace(long)).replace("**", "^")
+    return written(_products(str(expression.xreplace(long))))
+
+
+def _products(formula: str) -> str:
+    """A formula of SymPy with its factors side by side and ^ before powers."""
+    return formula.replace("**", "^").replace("*", " ")
