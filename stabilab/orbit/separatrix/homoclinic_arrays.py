@@ -10,9 +10,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from .circle_kernel import NONE, SHARED, SHARPEST
+from .ends_in_arrays import ends_on_circles
 from .homoclinic import loop_end
 from .seams import PINCH, pinched_shares
 
+MANY = 48  # saddles, from which on arrays find the ends of loops on circles sooner than one by one
 
 def polished(land, saddle, s):
     """Return the points of the conic after each was moved along its orbit to where the force vanishes. The fold itself stays where it is."""
@@ -21,14 +23,18 @@ def polished(land, saddle, s):
 
 
 def loop_ends(land, saddle, side):
-    """(offset of the far end of the loop (n,), centre place (2, n), found (n,), shared (n,)) for saddles (2, n), one side;
+    """(offset of the far end of the loop (n,), centre place (2, n), found (n,), shared (n,)) for saddles (2, n), each on its side, or all on one;
     shared: it ends at a saddle there, for which this is the loop on the other side."""
     pot, n = land.potential, len(saddle[0])
-    ends, centres, kind = np.zeros(n), np.zeros(n), np.zeros(n, int)
-    for row, place in enumerate(zip(*(v.tolist() for v in saddle))):
-        found = loop_end(pot, land.sense, place, side)
-        if found:
-            ends[row], centres[row], kind[row] = found
+    side = np.broadcast_to(np.asarray(side, float), n)
+    if n >= MANY and land.turn < np.inf:  # orbits that close, on circles
+        ends, centres, kind = ends_on_circles(pot, land.sense, saddle, side)
+    else:
+        ends, centres, kind = np.zeros(n), np.zeros(n), np.zeros(n, int)
+        for row, (x, z, toward) in enumerate(zip(*(v.tolist() for v in (*saddle, side)))):
+            found = loop_end(pot, land.sense, (x, z), toward)
+            if found:
+                ends[row], centres[row], kind[row] = found
     return side * ends, np.array(land.polished(pot.move(saddle, side * centres))), kind != NONE, kind == SHARED
 
 
@@ -53,6 +59,10 @@ class Loops:
         """The loops of some rows only."""
         return Loops(*(v[:, :, rows] if name in ("saddle", "centre") else v[:, rows] for name, v in vars(self).items()))
 
+    def of(self, strip) -> Loops:
+        """The loops of one strip only."""
+        return Loops(*(v[:, strip:strip + 1] if name in ("saddle", "centre") else v[strip:strip + 1] for name, v in vars(self).items()))
+
 
 def loops(land, strips, s, u) -> Loops:
     """The loops of strips (`seams.Part`, or pairs of branch and side) at parameters s (k, n) along them and u (k, m) round them.
@@ -63,12 +73,8 @@ def loops(land, strips, s, u) -> Loops:
     place = np.array([np.broadcast_arrays(*strip[0].place(row)) for strip, row in zip(strips, s)], float)
     saddle = np.array(polished(land, (place[:, 0].ravel(), place[:, 1].ravel()), s.ravel())).reshape(2, k, n)
     sides = np.array([strip[1] for strip in strips])
-    end, centre, found, shared = np.empty((k, n)), np.empty((2, k, n)), np.empty((k, n), bool), np.empty((k, n), bool)
-    for side in set(sides.tolist()):  # one search for all strips of a side
-        pick = sides == side
-        one = loop_ends(land, tuple(saddle[:, pick].reshape(2, -1)), side)
-        end[pick], found[pick], shared[pick] = (v.reshape(-1, n) for v in (one[0], one[2], one[3]))
-        centre[:, pick] = one[1].reshape(2, -1, n)
+    end, centre, found, shared = loop_ends(land, tuple(saddle.reshape(2, -1)), np.repeat(sides, n))
+    end, centre, found, shared = end.reshape(k, n), centre.reshape(2, k, n), found.reshape(k, n), shared.reshape(k, n)
     found &= ~(shared & (sides[:, None] > 0))
     fold = s == 0
     found |= fold

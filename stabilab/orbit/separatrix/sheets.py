@@ -24,6 +24,7 @@ from .homoclinic_arrays import residual
 from .result import Separatrix, Sheet
 from .saddles import limit_of, saddle_branches
 from .seams import Part, seam_of
+from .within import grids_within
 from .words import NO_REDUCTION, what_it_parts, why_none, why_parabolic
 
 SHAPE = (96, 129)  # fine enough for pictures
@@ -36,13 +37,13 @@ def separatrix(scene: AnyScene, reach: float | None = None, shape: tuple[int, in
     reach: how far out the sheets go, as a multiple of the radius sqrt|Q| of the outermost fold (default 4; where there
     is no fold, of the smallest saddle's); must exceed 1. shape: (rows, columns) of each grid, at least (3, 5), an even
     number of columns becomes the next odd one (default (96, 129)). accuracy: in place of a shape, the largest distance
-    allowed between the sheets and the flat facets of their meshes, in the unit of the points: the grids get as few rows
+    allowed between the sheets and the flat facets of their meshes, in the unit of the points: each grid gets as few rows
     and columns as that needs, a sheet whose loops reach a second saddle as high comes in two parts that meet there,
     and every sheet tells as `error` what its facets were found to reach (more than asked for
     only where the largest grids, of 1025 rows, still bend as much). fast: on circles with a torque compile the work with numba
-    (the extra `fast`); points agree to rounding, and loading numba costs more than some hundred surfaces. Points are in the
-    scene's variables. A scene without saddles gives no sheets and the reason. Raises InputError for a shape, reach or accuracy
-    out of range, and for fast=True without numba.
+    (the extra `fast`): in a given shape points agree to rounding, within an accuracy sheets share one shape; loading numba
+    costs more than some hundred surfaces. Points are in the scene's variables. A scene without saddles gives no sheets and
+    the reason. Raises InputError for a shape, reach or accuracy out of range, and for fast=True without numba.
     """
     _check(reach, shape, accuracy)
     scene = effective(scene)
@@ -63,7 +64,7 @@ def _separatrix(scene, reach, shape, accuracy, fast) -> Separatrix:
     rows, columns = shape or SHAPE
     half = None if accuracy else (rows, columns // 2 + 1)
     made = _by_kernel(land, strips, half, accuracy) if _goes_fast(land, strips, fast, accuracy) else None
-    return Separatrix(tuple(_sheets(land, *(made or _by_arrays(land, strips, half, accuracy)))), what_it_parts(land.potential, land.sense))
+    return Separatrix(tuple(_sheets(land, made or _by_arrays(land, strips, half, accuracy))), what_it_parts(land.potential, land.sense))
 
 
 def _goes_fast(land, strips, fast, accuracy) -> bool:
@@ -90,35 +91,34 @@ def _by_kernel(land, strips, shape, accuracy):
     if made is None:
         return None
     points, residual, *places, found, cut, error = made
-    return [Part(*strip) for strip in strips], points, residual, *(np.moveaxis(place, -1, 0) for place in places), found, cut, error
+    return [(Part(*strip), points[k], residual[k], *(place[k].T for place in places), found[k], cut, error[k]) for k, strip in enumerate(strips)]
 
 
 def _by_arrays(land, strips, shape, accuracy):
-    """(parts (k), points (k, n, m, 3), residual (k, n, m), places (2, k, n) of saddles and of centres, found (k, n), cut, error (k,)): the
+    """[(part, points (n, m, 3), residual (n, m), places (2, n) of saddles and of centres, found (n,), cut, error)] of every strip or part of one: the
     second half of a loop mirrors the first, with W of the other sign."""
-    made = grid(land, strips, shape, accuracy)
-    loops, mirror, axis = made.loops, slice(-2, None, -1), land.reduction.axis
-    points = np.concatenate([loops.points, loops.points[:, :, mirror]], axis=2)
-    back = points[:, :, loops.w.shape[2]:, axis]
-    back *= -1
-    back += 2 * land.reduction.component_i(0.0)
-    off = residual(land, loops)
-    return (made.parts, points, np.concatenate([off, off[:, :, mirror]], axis=2), loops.saddle, loops.centre, loops.found, made.cut,
-            made.error)
+    out = []
+    for made in grids_within(land, strips, accuracy) if accuracy else [grid(land, strips, shape)]:
+        loops, mirror, axis = made.loops, slice(-2, None, -1), land.reduction.axis
+        points = np.concatenate([loops.points, loops.points[:, :, mirror]], axis=2)
+        back = points[:, :, loops.w.shape[2]:, axis]
+        back *= -1
+        back += 2 * land.reduction.component_i(0.0)
+        off = residual(land, loops)
+        off = np.concatenate([off, off[:, :, mirror]], axis=2)
+        out += [(part, points[k], off[k], loops.saddle[:, k], loops.centre[:, k], loops.found[k], made.cut, made.error[k])
+                for k, part in enumerate(made.parts)]
+    return out
 
 
-def _sheets(land, parts, points, off, saddles, centres, found, cut, error):
+def _sheets(land, made):
     """A Sheet of every strip, or part of one, in which loops close."""
-    still = np.zeros(found.shape)
-    saddle, centre = (land.components(place, still) for place in (saddles, centres))
-    invariant = land.invariant(saddles)
     words = dict(land.conic.sides(land.sense))
-    branches = list(dict.fromkeys(part.branch for part in parts))
-    for number, branch in enumerate(branches, 1):
-        kept = [n for n, part in enumerate(parts) if part.branch is branch and np.count_nonzero(found[n]) > 1]
-        for strip in kept:
-            rows, part = found[strip] if not found[strip].all() else slice(None), parts[strip]
-            word = words[part.side] if len({parts[n].side for n in kept}) > 1 else ""
-            name = f"sheet {number}{word}{f', part {part.number}' if part.number else ''}"
-            yield Sheet(name, points[strip, rows], off[strip, rows], saddle[strip, rows], centre[strip, rows],
-                        invariant[strip, rows], float(error[strip]), cut)
+    for number, branch in enumerate(dict.fromkeys(one[0].branch for one in made), 1):
+        kept = [one for one in made if one[0].branch is branch and np.count_nonzero(one[5]) > 1]
+        several = len({one[0].side for one in kept}) > 1
+        for part, points, off, saddle, centre, found, cut, error in kept:
+            rows, still = found if not found.all() else slice(None), np.zeros(len(found))
+            name = f"sheet {number}{words[part.side] if several else ''}{f', part {part.number}' if part.number else ''}"
+            yield Sheet(name, points[rows], off[rows], land.components(saddle, still)[rows], land.components(centre, still)[rows],
+                        land.invariant(saddle)[rows], float(error), cut)
