@@ -17,6 +17,7 @@ from ..show.maps.chaos import words as chaos_words
 from ..show.plot import to_file
 from ..show.surface import words
 from ..show.surface.write import write_all
+from ..show.terminal.letters import lettered
 from ..show.text import law
 from .common.cases import load_cases, one_by_one, time_asked, units_asked
 from .common.output import answer, hold_laws, leave_undecided, say, tell, write, write_each, write_json
@@ -59,7 +60,7 @@ def plot(case, kind, out, size, dpi, until, neighbours, units, strict):
             end = time_asked(until, one, "until")
             drawn.append(to_file.write(one, endings.labelled(target, one), kind, to_file.inches(size), dpi, units, end, neighbours))
     laws = [law.of_case(one) for one in loaded]
-    write("\n".join(words for held, path in zip(laws, drawn) for words in (held and held.words, str(path)) if words))
+    write("\n".join(words for held, path in zip(laws, drawn) for words in (held and lettered(held.words), str(path)) if words))
     hold_laws(strict, laws)
 
 

@@ -230,7 +230,7 @@ def test_commands_say_first_that_a_liquid_is_too_thin_for_its_law(stabilab, tmp_
     name, *more = command.split()
     code, out, _ = stabilab(name, water(tmp_path, "1e-6"), *more)
     assert code == 0
-    assert out.startswith("BEYOND THE LAW: liquid cavity: Reynolds number n h^2/nu of the liquid, ")
+    assert out.startswith("BEYOND THE LAW: liquid cavity: Reynolds number n h²/ν of the liquid, ")
     assert "limit 1: " in out.splitlines()[0]
     if name == "plot":  # the others with JSON, below
         assert stabilab(name, tmp_path / "water.toml", *more, "--strict")[0] == 3

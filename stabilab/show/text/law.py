@@ -81,7 +81,8 @@ def _of_alike(group, cases) -> str:
     """A line on a case, or on the combinations of one file that leave the same limit: the most exceeded of them."""
     case, _ = group[0]
     found = worst(*(one for _, one in group))
+    words = lettered(found.words)
     if not case.variant:
-        return f"{found.words} ({printable(case.name)})"
+        return f"{words} ({printable(case.name)})"
     of = sum(other.path == case.path for other in cases)
-    return f"{found.words} ({printable(case.name.removesuffix(case.variant))}: {len(group)} of {of} combinations, the farthest of them told)"
+    return f"{words} ({printable(case.name.removesuffix(case.variant))}: {len(group)} of {of} combinations, the farthest of them told)"
