@@ -161,8 +161,11 @@ def test_too_few_digits_end_with_5_after_the_answer(stabilab, monkeypatch):
 # -- the paper's cases -------------------------------------------------------------------------------------------------
 
 
+LATER = [pytest.param(name, marks=pytest.mark.long) for name in (*PAPER[1:], *MAJOR[1:])]  # half a minute each
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize("name", [*PAPER, *MAJOR, "major-axis-captured", "middle-axis-double-well"])
+@pytest.mark.parametrize("name", [PAPER[0], MAJOR[0], "major-axis-captured", "middle-axis-double-well", *LATER])
 def test_every_ladder_of_digits_is_reached_on_the_papers_cases_and_costs_as_the_picture_says(name, tmp_path, monkeypatch):
     # states: against the Taylor series in many digits. Cost: of the measured front the cheapest point that has the digits to spare is
     # taken, and along Taylor series and formulas of Runge and Kutta more digits take more evaluations.

@@ -41,6 +41,7 @@ def test_a_scene_and_its_image_have_one_distance_known_to_1e_9():
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_bound_and_witness_meet_on_two_thousand_random_scenes():
     assert images_agree(1000, 2026) == 1000
 
@@ -112,5 +113,6 @@ def test_no_point_of_a_loop_that_is_integrated_is_nearer_than_the_lower_bound():
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_no_point_of_many_loops_that_are_integrated_is_nearer_than_the_lower_bound():
     assert check_loops(300, 10) == 300

@@ -455,6 +455,7 @@ def test_no_margin_changes_its_sign_nearer_than_the_lower_bound():
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_no_margin_of_many_random_scenes_changes_its_sign_nearer_than_the_lower_bound():
     assert check_distances(2000, 6) >= 1900
 
