@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -95,15 +96,15 @@ def _looked_up(columns, r, size):
     return [np.take(c, cell, mode="clip") for c in columns], 2 * (position - cell) - 1
 
 
-def _hyperbolas(table, states, out):
+def _valleys(table, states, out, heights, bound):
+    """On hyperbolas and parabolas, whose heights are +inf without a barrier."""
     x, z, w = canonical(table, states)
     energy = 0.5 * w * w
     with np.errstate(all="ignore"):
-        height, scale, clear = hyperbola_heights(table, x, z)
+        height, scale, clear = heights(table, x, z)
         margin = height - energy
         np.multiply(margin, table.unit, out=out["margins"])
-        return ~(clear & (np.isposinf(height)
-                          | arithmetic.trusted(margin, height, energy, scale, arithmetic.CONE_MARGIN_BOUND)))
+        return ~(clear & (np.isposinf(height) | arithmetic.trusted(margin, height, energy, scale, bound)))
 
 
 def hyperbola_heights(table, x, z):
@@ -129,16 +130,6 @@ def hyperbola_heights(table, x, z):
     return height, scale, clear
 
 
-def _parabolas(table, states, out):
-    u, v, w = canonical(table, states)
-    energy = 0.5 * w * w
-    with np.errstate(all="ignore"):
-        height, scale, clear = parabola_heights(table, u, v)
-        margin = height - energy
-        np.multiply(margin, table.unit, out=out["margins"])
-        return ~(clear & (np.isposinf(height) | arithmetic.trusted(margin, height, energy, scale, arithmetic.PARABOLA_MARGIN_BOUND)))
-
-
 def parabola_heights(table, u, v):
     """As `hyperbola_heights`, for places on parabolas: by a formula, no table."""
     return arithmetic.parabola_height(u, v, table.form, tuple(table.ranges[0]))
@@ -152,8 +143,9 @@ class _Way(NamedTuple):
     spins_up: bool
 
 
-GEOMETRIES = {-1: _Way(circle_heights, _circles, True), 1: _Way(hyperbola_heights, _hyperbolas, False),
-              0: _Way(parabola_heights, _parabolas, False)}
+GEOMETRIES = {-1: _Way(circle_heights, _circles, True),
+              1: _Way(hyperbola_heights, partial(_valleys, heights=hyperbola_heights, bound=arithmetic.CONE_MARGIN_BOUND), False),
+              0: _Way(parabola_heights, partial(_valleys, heights=parabola_heights, bound=arithmetic.PARABOLA_MARGIN_BOUND), False)}
 
 
 def way_of(table: BarrierTable) -> _Way:

@@ -16,6 +16,7 @@ from .seams import PINCH, pinched_shares
 
 MANY = 48  # saddles, from which on arrays find the ends of loops on circles sooner than one by one
 
+
 def polished(land, saddle, s):
     """Return the points of the conic after each was moved along its orbit to where the force vanishes. The fold itself stays where it is."""
     moved = land.polished(saddle)
