@@ -5,10 +5,9 @@ import re
 from functools import lru_cache
 
 from ...physics.equations import Equations
-from ..text.notation import right_side
+from ..text.notation import PRODUCTS, right_side
 
 LINE = 46  # symbols and digits or so of a sum that fit beside each other on a page; a longer one goes on in the next line
-PRODUCTS = {"Mgx": "M g x_c", "Mgy": "M g y_c", "Mgz": "M g z_c", "eHl2": "e H l^2"}  # parameters whose names are products
 LONG = 40  # operations: a law of more is told in words alone
 
 

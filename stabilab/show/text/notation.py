@@ -3,6 +3,9 @@ from __future__ import annotations
 
 from ...physics.equations import Equations, Symbolic
 
+PRODUCTS = {"Mgx": "M g x_c", "Mgy": "M g y_c", "Mgz": "M g z_c", "eHl2": "e H l^2"}  # parameters whose names are products
+WORDS = ("mass",)  # parameters whose names are words
+
 
 def lines(equations: Equations) -> tuple[str, ...]:
     """The equations of motion as plain text, one line each."""
@@ -26,7 +29,17 @@ def right_side(equations: Equations, i: int) -> Symbolic:
 
 def latex(equations: Equations) -> str:
     """The equations of motion as a LaTeX align* environment."""
-    from sympy import latex as tex
     rows = [rf"{'' if d == 1 else tex(d) + ' '}\dot{{{tex(x)}}} &= {tex(right_side(equations, i))}"
             for i, (d, x) in enumerate(zip(equations.inertia, equations.state))]
     return "\\begin{align*}\n" + " \\\\\n".join(rows) + "\n\\end{align*}"
+
+
+def tex(expression: Symbolic) -> str:
+    """A formula in LaTeX: words upright, and names that stand for a product as that product."""
+    from sympy import latex as of_sympy
+    names = {symbol: rf"\mathrm{{{symbol.name}}}" if symbol.name in WORDS else f"{{{PRODUCTS[symbol.name]}}}"
+             for symbol in expression.free_symbols if symbol.name in PRODUCTS or symbol.name in WORDS}
+    made = of_sympy(expression, symbol_names=names)
+    for product in PRODUCTS.values():  # a power is that of all its letters
+        made = made.replace(f"{{{product}}}^", rf"\left({product}\right)^").replace(f"{{{product}}}", product)
+    return made
