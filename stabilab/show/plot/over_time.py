@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -24,6 +25,8 @@ EXTREME = {"linestyle": (0, (1, 2)), "linewidth": 1.1}
 LIMIT = {"color": style.VERMILION, "linestyle": "--", "linewidth": 1.5}
 REACHED = {"marker": "o", "color": style.VERMILION, "markersize": 6.5, "linestyle": "none"}
 PERIOD = {"color": style.GREY, "linestyle": "-", "linewidth": 0.8}
+ALIKE = 0.004  # of the height of all curves: no more than the width of a line
+BROKEN = ((0, (6, 6)), (0, (3, 9)))  # dashes of a curve over one or two others: each leaves some of those below
 PERIODS = 10  # a motion that repeats is shown for so many at most, unless a span is asked for
 BEYOND = 1.25  # of the time to the limit: how far the picture goes at least
 
@@ -48,11 +51,12 @@ def time(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None,
     (time_unit, per_time), (rate_unit, per_rate) = scale.time(high - low), scale.rate
     names = scale.names if turned is None else tuple(rf"$\omega_{axis}$" for axis in "xyz")
     with canvas.on(ax, size) as target:
-        rows = list(zip(names, COMPONENTS))
+        looks = told_apart(COMPONENTS, list(omega.T))
+        rows = list(zip(names, looks))
         if scale.size:
-            rows.insert(0, (scale.size, SIZE_LOOK))
+            rows.insert(0, (scale.size, SIZE_LOOK))  # so wide that a component on it leaves its edges
             _curve(target, t * per_time, np.linalg.norm(omega, axis=1) * per_rate, SIZE_LOOK)
-        for values, look in zip(omega.T, COMPONENTS):
+        for values, look in zip(omega.T, looks):
             _curve(target, t * per_time, values * per_rate, look)
         rows += _extremes(target, one, per_rate) if turned is None else []
         rows += _periods(target, one, low, high, per_time, scale)
@@ -65,6 +69,16 @@ def time(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None,
         if legend:
             canvas.legend(target, rows, ax is None)
     return target
+
+
+def told_apart(looks: Sequence[dict[str, Any]], curves: Sequence[np.ndarray]) -> list[dict[str, Any]]:
+    """The looks of curves (n,) in the order in which they are drawn: one that lies on an earlier one is broken, so that both are seen."""
+    near = ALIKE * (max(values.max() for values in curves) - min(values.min() for values in curves))
+    told = []
+    for n, (look, values) in enumerate(zip(looks, curves)):
+        below = sum(bool(np.abs(values - earlier).max() <= near) for earlier in curves[:n])
+        told.append(look | {"linestyle": BROKEN[below - 1]} if below else look)
+    return told
 
 
 def _curve(ax, t, values, look):
