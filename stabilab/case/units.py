@@ -127,6 +127,11 @@ def dimension_of(path: tuple) -> Dimension:
     return DIMENSIONS.get(".".join(key for key in path if isinstance(key, str)), NONE)
 
 
+def unit_of_key(path: tuple) -> str:
+    """The SI unit of the number at this path; nothing where it has none."""
+    return NAMES.get(dimension_of(path), "").partition("(")[2].rstrip(")")
+
+
 def named(dimension: Dimension) -> str:
     """The name of a dimension, with its SI unit."""
     found = NAMES.get(dimension)

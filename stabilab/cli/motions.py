@@ -64,7 +64,7 @@ def period(cases: CaseFiles, json: Json = False, digits: Digits = None, strict: 
 
 @commands.command()
 def when(cases: CaseFiles,
-         rate: Annotated[str | None, typer.Option(metavar="RATE", help='Of |omega|: "30 deg/s". Default: the limit of [limits].')] = None,
+         rate: Annotated[str | None, typer.Option(metavar="RATE", help='Of |ω|: "30 deg/s". Default: the limit of [limits].')] = None,
          component: Annotated[str | None, typer.Option(metavar="AXIS=RATE", help='Of one component\'s size: "z = 30 deg/s"; x, y, z of the file, '
                                                                                  '1, 2, 3 for principal axes.')] = None,
          energy: Annotated[str | None, typer.Option(metavar="ENERGY", help='Of the kinetic energy: "5 J".')] = None,

@@ -6,7 +6,7 @@ from typing import Annotated  # typer reads the annotations at run time
 
 import typer
 
-from .options import CaseFile, Csv, Json, Strict, either_json_or_csv
+from .options import CaseFile, Csv, Json, Strict, UnitsOption, either_json_or_csv
 
 commands = typer.Typer()
 
@@ -27,7 +27,7 @@ def show(case: CaseFile):
 def compare(case: CaseFile,
             order: Annotated[int | None, typer.Option(metavar="N", min=1, help="Order of the lindstedt expansion.")] = None,
             out: Annotated[Path | None, typer.Option(metavar="FILE.csv", help="Write the errors over time.")] = None,
-            json: Json = False, strict: Strict = False):
+            json: Json = False, strict: Strict = False, units: UnitsOption = None):
     """Set the analytic models of a case beside its exact motion.
 
     Error over time, and when it first reaches 1 % and 10 %.
@@ -35,7 +35,7 @@ def compare(case: CaseFile,
     Example: stabilab compare cases/charged-body.toml
     """
     from ..commands.accuracy import compare as answer
-    answer(case, order, out, json, strict)
+    answer(case, order, out, json, strict, units)
 
 
 @commands.command()

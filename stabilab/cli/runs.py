@@ -27,7 +27,7 @@ def simulate(case: CaseFile,
              digits: Annotated[int | None, typer.Option(metavar="N", help="Reach N digits (1 to 15) the cheapest way, check "
                                                            "them, or exit with 5. Without it 10 are the aim, unless "
                                                            "--model, --method or --rtol is given.")] = None,
-             angles: Annotated[bool, typer.Option("--angles", help="Euler angles psi, theta, phi of the vertical, too.")] = False,
+             angles: Annotated[bool, typer.Option("--angles", help="Euler angles ψ, θ, φ of the vertical, too.")] = False,
              out: Annotated[Path | None, typer.Option(metavar="FILE.nc|.csv", help="Write the states to a file.")] = None,
              json: Json = False, strict: Strict = False, units: UnitsOption = None):
     """Follow a motion in time.

@@ -11,13 +11,14 @@ from ..show.text import comparison, law
 from ..show.text.cost import precision as shown
 from ..theories.comparison import compare as set_side_by_side
 from ..theories.follow import models_of
-from .common.cases import load_cases, one_by_one, time_asked
+from .common.cases import load_cases, one_by_one, time_asked, units_asked
 from .common.output import all_reached, hold_laws, say_laws, tell, write, write_each, write_json
 
 
-def compare(case, order, out, json, strict):
+def compare(case, order, out, json, strict, units):
     """Set the models of a case beside its exact motion."""
     loaded = load_cases([case], motion=True)
+    systems = units_asked(loaded, units)
     if out:
         comparison.checked(out)
     compared = [(one, _compared(one, order)) for one in one_by_one(loaded)]
@@ -26,7 +27,7 @@ def compare(case, order, out, json, strict):
     if json:
         write_json(loaded, [comparison.as_dict(one, found) | law.key(found.validity) for one, found in compared])
     else:
-        tell("\n\n".join(law.first(found.validity, comparison.text(one, found)) for one, found in compared))
+        tell("\n\n".join(law.first(found.validity, comparison.text(one, found, system), system) for (one, found), system in zip(compared, systems)))
     hold_laws(strict, (found.validity for _, found in compared))
 
 
@@ -53,7 +54,7 @@ def precision(case, json, csv, out, until, quick, strict):
     if json:
         write_json(loaded, [shown.as_dict(found) | law.key(found.validity) for found in measured])
     elif csv:
-        say_laws(found.validity for found in measured)
+        say_laws([(found.case, found.validity) for found in measured])
         write(shown.csv(*measured))
     else:
         tell("\n\n".join(law.first(found.validity, shown.text(found)) for found in measured))

@@ -25,7 +25,7 @@ def answer(question, paths, digits, json, strict, csv=False, follow=None, tilt=N
         write(answers.as_json([getattr(shown, question)(*answer) | law.key(answer[1].validity) | uncertain.as_dict(box)
                                for answer, box in zip(answered, boxes)]))
     elif csv:
-        say_laws(motion.validity for _, motion, _ in answered)
+        say_laws([(case, motion.validity) for case, motion, _ in answered])
         write(shown.extremes_csv(answered))
     else:
         _tell(question, loaded, answered, systems, digits, boxes, why)

@@ -11,6 +11,7 @@ from ..errors import InputError, ToleranceNotMet
 from ..show.files import trajectory_files
 from ..show.outside import reference as outside
 from ..show.terminal import page
+from ..show.terminal.letters import lettered
 from ..show.terminal.run import text
 from ..show.text import answers, law
 from ..theories.follow import follow
@@ -37,7 +38,7 @@ def simulate(case, at, model, order, method, rtol, digits, angles, out, json, st
     elif not out:
         tell("\n\n".join(_as_text(*followed, digits, system, page.width()) for followed, system in zip(runs, systems)))
     else:
-        say_laws(run.validity for _, run, _ in runs)
+        say_laws([(case, run.validity) for case, run, _ in runs])
         _say_digits(runs)
     _judge(runs, digits)
     hold_laws(strict, (run.validity for _, run, _ in runs))
@@ -73,7 +74,7 @@ def _as_dict(case, run, reached) -> dict:
 def _as_text(case, run, reached, digits, units, width) -> str:
     checked = "checked to " if digits is None else ""
     last = f"\n# {checked}{reached.digits:.1f} digits: {reached.because}" if reached else ""
-    told = "".join(f"\n# {line}" for line in _theory(case, run, words=True))
+    told = "".join(f"\n# {lettered(units.words(line))}" for line in _theory(case, run, words=True))
     return law.first(run.validity, text(case, run, units, digits is not None, width) + last + told, units)
 
 

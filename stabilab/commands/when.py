@@ -23,7 +23,7 @@ def when(cases, limits, units, json, csv, strict):
     if json:
         write(answers.as_json([shown.as_dict(*one) | law.key(one[2].validity) for one in answered]))
     elif csv:
-        say_laws(found.validity for *_, found in answered)
+        say_laws([(case, found.validity) for case, _, found in answered])
         write(shown.csv(answered))
     else:
         texts = [lambda n=n: shown.text(*answered[n], systems[n]) for n in range(len(answered))]

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from ..asked import checked_scene
 from ..numbers.vectors import Number
 from .blocks import slices
-from .effects.base import Limit
+from .effects.base import Limit, effect_words
 from .scene import AnyScene
 
 if TYPE_CHECKING:
@@ -64,7 +64,7 @@ class Validity:
     def words(self) -> str:
         """One line: status, effect, number, value, limit, and what follows."""
         told = "; also ".join(v._told() for v in (self, *(v for v in self.also if not v.held or v.value is None)))
-        return f"{self._head}: {self.effect.replace('_', ' ')}: {told}"
+        return f"{self._head}: {effect_words(self.effect)}: {told}"
 
     @property
     def short(self) -> str:

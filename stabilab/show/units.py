@@ -19,7 +19,8 @@ TURN = 180 / math.pi
 NUMBER = r"(-?\d+(?:\.\d+)?(?:e[-+]?\d+)?)"
 SPAN = re.compile(r"\b(s|tau) in \[([^],]+), ([^]]+)\]")
 MOMENT = re.compile(rf"\bt = {NUMBER}(?!\w|\.\d|\s*[-+*/^])(?: (?:s|tau)\b)?")
-IN_RADIANS = re.compile(rf"(?<![\w.]){NUMBER} rad/s(?![\w^])")
+IN_RADIANS = re.compile(rf"(?<![\w.])(?:{NUMBER}( to | and ))?{NUMBER} rad(/s\^2|/s)?(?![\w/^])")
+OF_RATES = re.compile(r"\((-?\d[-+.\de]*(?:, -?\d[-+.\de]*)+)\) rad/s(?![\w^])")
 
 
 @record
@@ -95,10 +96,25 @@ class Units:
         return f"{number(start * one, digits)} to {number(end * one, digits)} {name}"
 
     def words(self, words: str) -> str:
-        """A sentence of the analysis, whose rates are in rad/s and whose times in s, with both in these units; "s in [0, 20]" becomes "0 to 20 s"."""
+        """A sentence of the analysis, whose angles and rates are in rad and rad/s and whose times in s, with all in these units; "s in [0, 20]" becomes
+        "0 to 20 s"."""
         words = SPAN.sub(lambda found: self.span(found[1], float(found[2]), float(found[3])), words)
         words = MOMENT.sub(lambda found: f"t = {self.time(float(found[1]), DIGITS - 1)}", words)
-        return words if self.rates[0] in ("rad/s", "") else IN_RADIANS.sub(lambda found: self.rate(float(found[1]), DIGITS - 1), words)
+        if self.rates[0] in ("rad/s", ""):
+            return words
+        words = OF_RATES.sub(lambda found: self.vector(found[1].split(", "), self.rates, DIGITS - 1), words)
+        return IN_RADIANS.sub(self._turned, words)
+
+    def _turned(self, found: re.Match[str]) -> str:
+        """One number of radians, or "1 to 2" of them, by a time or its square, in these units."""
+        first, between, last, per = found.groups(default="")
+        name, one = self.angles
+        before = f"{number(float(first) * one, DIGITS - 1)}{between}" if first else ""
+        return before + self.told(float(last), (name + per, one), DIGITS - 1)
+
+    def of(self, unit: str) -> Unit:
+        """The unit in which numbers of this SI unit are told."""
+        return {"rad/s": self.rates, "rad": self.angles}.get(unit, (unit, 1.0))
 
     def vector(self, values, unit: Unit, digits: int = DIGITS) -> str:
         """Several numbers in one unit: "(1, 2, 3) deg/s"."""

@@ -295,3 +295,13 @@ def test_combinations_of_a_file_that_leave_one_limit_are_one_line():
 
 def test_one_reason_of_several_cases_is_one_line_that_names_them():
     assert law.together(["no body (3) does (one)", "too fast (two)", "no body (3) does (three)"]) == ["no body (3) does (one, three)", "too fast (two)"]
+
+
+def test_a_table_of_a_sweep_has_one_line_on_a_law_and_says_of_how_many_combinations(stabilab):
+    """As the report of the same file; of two files that say the same, one line with both names."""
+    _, out, err = stabilab("extremes", CASES / "charged-sweep.toml", "--csv")
+    assert len(out.splitlines()) == 82 and err.count("BEYOND THE LAW") == 1 and "(charged-sweep: 27 of 27 combinations, the farthest of them told)" in err
+    farthest = max(row["validity"]["value"] for row in json.loads(stabilab("extremes", CASES / "charged-sweep.toml", "--json")[1]))
+    assert f"with the attitude, {farthest:.3g} along" in err
+    _, _, err = stabilab("extremes", CASES / "liquid-base.toml", CASES / "liquid-zeta-1_5.toml", "--csv")
+    assert err.count("BEYOND THE LAW") == 1 and "(liquid-base, liquid-zeta-1_5)" in err and "s in [" not in err

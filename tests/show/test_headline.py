@@ -1,4 +1,5 @@
 """The first line of an answer: what becomes of the motion, in words and in the units of engineers."""
+import json
 import math
 import re
 from dataclasses import replace
@@ -112,7 +113,7 @@ def test_proofs_and_algebra_stand_behind_why(stabilab, own):
     for words in ("(ω1 + 0.26", "eigenvalue", "Q  ", "t from", "fold at"):
         assert words not in short and words in long
     assert long == stabilab("classify", path, "-v")[1] and short.splitlines()[0] == long.splitlines()[0]
-    assert "(deg/s)^2" in long and "\n  energy " in long and long.count(" J\n") == 2
+    assert "(deg/s)²" in long and "\n  energy " in long and long.count(" J\n") == 2
 
 
 def test_a_page_of_a_sweep_tells_margin_and_rate_as_the_first_line_does_and_open_bounds_as_two_numbers(own):
@@ -129,3 +130,14 @@ def test_a_page_of_a_sweep_tells_margin_and_rate_as_the_first_line_does_and_open
 def test_open_bounds_are_rounded_outward_with_the_digits_that_tell_them_apart(low, high, words):
     """By hand: two digits of the difference, four digits at least."""
     assert bracketed(low, high, "deg/s", 4) == words
+
+
+def test_energy_of_a_spin_up_is_told_as_above_the_barrier_in_every_line(stabilab):
+    """-910.036 J of barrier minus energy by JSON."""
+    path = CASES / "wheel-and-thruster.toml"
+    margin = json.loads(stabilab("fate", path, "--json")[1])[0]["margin"]
+    assert margin < 0
+    for words in (("fate",), ("classify",), ("fate", "--digits", "12")):
+        text = stabilab(words[0], path, *words[1:])[1]
+        (told,) = re.findall(r"margin, energy +(\S+) J above the barrier\n", text)
+        assert float(told) == pytest.approx(-margin, rel=1e-5) and "above the barrier)" in text.splitlines()[0]

@@ -83,7 +83,7 @@ def test_words_on_cut_models_stand_side_by_side():
         figure.draw_without_rendering()
         for ax in figure.axes:
             boxes = [text.get_window_extent() for text in ax.texts]
-            assert {text.get_text() for text in ax.texts} == {"cut: to 8.1e+03", "cut: to −8.1e+06", "cut: to 8.1e+04"}  # e^9 = 8103
+            assert {text.get_text() for text in ax.texts} == {"cut: to 8103", "cut: to −8.1e+06", "cut: to 81031"}  # e^9 = 8103
             assert not [1 for n, box in enumerate(boxes) for other in boxes[:n] if box.overlaps(other)]
 
 
@@ -99,6 +99,33 @@ def test_rates_are_drawn_in_degrees_and_components_make_the_size(tmp_path):
     assert size == pytest.approx(np.linalg.norm(parts, axis=0))
     _, si, *_ = (line.get_ydata() for line in lines(stabilab.plot.time(case, units="si")))
     assert si[0] == pytest.approx(0.1)
+
+
+def test_of_curves_on_each_other_the_later_ones_are_broken_so_that_all_are_seen(tmp_path):
+    """Oracle: the pixels of the picture. At rest x2 = x3 = -1; of a spin about axis 3 |omega| = omega3 and omega1 = omega2 = 0."""
+    rest = stabilab.plot.time(load("off-axis-fold"))
+    spin = stabilab.plot.time(case_of(tmp_path, "[body]\ninertia = [12, 9, 5]\n[motion]\nangular_velocity = [0, 0, 0.1]\nspan = [0, 9]\n"))
+    moving = stabilab.plot.time(case_of(tmp_path, MOVING))
+    for ax, together in ((rest, 3), (spin, 4), (moving, 4)):
+        ax.figure.canvas.draw()
+        colours = {tuple(round(255 * c) for c in matplotlib.colors.to_rgb(line.get_color())) for line in ax.get_lines()[:together]}
+        box = ax.get_window_extent()
+        drawn = np.asarray(ax.figure.canvas.buffer_rgba())[::-1][int(box.y0):int(box.y1), int(box.x0):int(box.x1), :3]
+        seen = {colour: int((np.abs(drawn.astype(int) - colour).max(axis=2) < 12).sum()) for colour in colours}
+        assert len(colours) == together and min(seen.values()) > 100, seen
+    assert all(line.get_linestyle() == "-" for line in moving.get_lines()[:4])
+
+
+@pytest.mark.parametrize("units, unit, one", [("deg", "deg", 180 / math.pi), ("si", "rad", 1.0)])
+def test_every_part_of_a_state_is_drawn_in_the_units_of_the_other_plots(units, unit, one):
+    """Oracle: the states of `simulate`, in rad and s, at the ends."""
+    case = load("charged-body-small-torque")
+    figure, found = stabilab.plot.state(case, units=units), stabilab.simulate(case.scene, case.state, case.span, case.blocks)
+    panels = {ax.get_ylabel(): ax.get_lines()[0].get_ydata()[-1] for ax in figure.axes}
+    for n in range(3):
+        assert panels[rf"$\omega_{n + 1}$ ({unit}/s)"] == pytest.approx(found.state["omega"][-1, n] * one)
+        assert panels[f"$H_{n + 1}$ (kg m²/s)"] == pytest.approx(found.state["momentum"][-1, n])
+    assert panels[rf"$\theta$ ({unit})"] == pytest.approx(found.state["angles"][-1, 2] * one, rel=1e-6)
 
 
 def test_drawn_rates_are_those_of_the_motion(tmp_path):

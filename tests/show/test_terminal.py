@@ -91,7 +91,8 @@ def test_letters_that_an_encoding_lacks_are_written_out(shown):
     ("period 1.8 tau", "period 1.8 τ"), ("torque on axis 3, lambda1 = 100", "torque on axis 3, λ1 = 100"),
     ("cases/liquid-lambda3-20.toml", "cases/liquid-lambda3-20.toml"), ("liquid-lambda3-0_15: BOUNDED", "liquid-lambda3-0_15: BOUNDED"),
     ("lambda3.toml", "lambda3.toml"), (r"\dot{\omega_{1}}", r"\dot{\omega_{1}}"), ("omega10 mu12", "omega10 mu12"), ("--tau", "--tau"),
-    ("my_omega1", "my_omega1")])
+    ("my_omega1", "my_omega1"), ("12 kg m^2", "12 kg m²"), ("4 kg m^2/s", "4 kg m²/s"), ("0.5 (deg/s)^2", "0.5 (deg/s)²"), ("2 (N m s)^2/s", "2 (N m s)²/s"),
+    ("1 N m s^3", "1 N m s³"), ("3 kg/m^3", "3 kg/m³"), ("P0 = 2 m^7", "P0 = 2 m⁷"), ("axes^2", "axes^2"), (r"\mathrm{m}^{2}", r"\mathrm{m}^{2}")])
 def test_names_become_letters_and_files_and_tex_do_not(plain, people):
     assert letters.greek(plain) == people
 

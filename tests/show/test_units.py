@@ -29,6 +29,16 @@ def test_quantities_without_a_turn_are_the_same_in_both_systems():
     assert (SCALED.energy(0.5), SCALED.Q(4.0), SCALED.time(7.0)) == ("0.5", "4", "7 tau")
 
 
+def test_a_sentence_has_its_angles_rates_and_times_in_these_units():
+    """90 deg are pi/2 rad."""
+    words = "turns at -1.5707963267948966 rad/s from 3.141592653589793 rad, by (0, 1.5707963267948966) rad/s and 1.5707963267948966 rad/s^2, at t = 600"
+    assert DEG.words(words) == "turns at -90 deg/s from 180 deg, by (0, 90) deg/s and 90 deg/s^2, at t = 10 min"
+    pairs = "between 1.5707963267948966 and 3.141592653589793 rad, from -1.5707963267948966 to 0 rad/s"
+    assert DEG.words(pairs) == "between 90 and 180 deg, from -90 to 0 deg/s"
+    assert SI.words(words) == words + " s" and DEG.words("0.7 rad^2/s^2") == "0.7 rad^2/s^2"
+    assert (DEG.of("rad"), SI.of("rad/s"), DEG.of("m")) == (("deg", 180 / math.pi), ("rad/s", 1.0), ("m", 1.0))
+
+
 @pytest.mark.parametrize("seconds, words", [(0.25, "0.25 s"), (32.84379, "32.8438 s"), (119.5, "119.5 s"), (120, "2 min"), (5400, "90 min"), (7200, "2 h"),
                                             (86400, "24 h"), (864000, "10 day"), (0, "0 s"), (-600, "-10 min")])
 def test_a_time_is_told_in_the_unit_that_suits_it(seconds, words):

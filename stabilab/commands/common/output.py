@@ -8,7 +8,6 @@ import typer
 from ...errors import UNDECIDED, ToleranceNotMet
 from ...show.files.endings import labelled
 from ...show.terminal import page
-from ...show.terminal.letters import lettered
 from ...show.text import answers, law
 
 
@@ -60,11 +59,11 @@ def write_each(out, writers):
         say(f"written: {writer(labelled(out, case))}")
 
 
-def say_laws(validities):
-    """How far approximate laws hold, beside a table that has no place for it."""
-    for validity in validities:
-        if validity is not None:
-            say(lettered(validity.words))
+def say_laws(judged):
+    """How far approximate laws hold, beside a table that has no place for it. judged: (case, validity or None), each; the combinations of a [sweep] that
+    stand the same way to the same limit share a line."""
+    for line in law.lines_of(judged):
+        say(line)
 
 
 def leave_undecided(strict: bool, open_: bool):

@@ -15,6 +15,11 @@ from ...numbers.vectors import Number, Triple
 from ...record import record
 
 
+def effect_words(name: str) -> str:
+    """The name of an effect as one says it: "liquid cavity", "Newtonian field"."""
+    return name.replace("_", " ").replace("newtonian", "Newtonian")
+
+
 @record
 class Limit:
     """Up to where an approximate law may be used: a dimensionless number that must not exceed `limit`.

@@ -12,6 +12,7 @@ from ...errors import InputError, StabilabError
 from ...integrate.quadratic_series import Path
 from ...packages import demand
 from ...physics.coefficients import content
+from ...physics.effects.base import effect_words
 from ...physics.scene import AnyScene, Scene
 
 POINTS = 1200  # of a motion that is drawn
@@ -48,7 +49,7 @@ def why(scene: AnyScene) -> str:
 
 
 def _names(scene: AnyScene) -> str:
-    return " and ".join(effect.name.replace("_", " ") for effect in scene.effects if effect.name not in ("gyrostat", "constant_torque"))
+    return " and ".join(effect_words(effect.name) for effect in scene.effects if effect.name not in ("gyrostat", "constant_torque"))
 
 
 def path(case: Case, until: float) -> Path:

@@ -12,6 +12,7 @@ from ...maps.columns import ENDLESS, NO_CASE, NONE, OPEN, Column, columns_of
 from ...maps.run import Swept
 from ...orbit.result import Fate
 from ..files import comma
+from ..terminal.letters import greek
 from ..text.answers import Endless, as_json
 from .labels import SAMPLE, said, unit
 
@@ -168,7 +169,7 @@ def _table(found: Swept) -> list[str]:
         ends = ("1", "2", "3") if column.shape else ("",)
         titles += [SHORT.get(column.name, column.name.replace("_", " ")) + (f" {end}" if end else "") for end in ends]
         units += [unit(plan, column)] * len(ends)
-    units = ["" if of == "1" else of for of in units]
+    units = ["" if of == "1" else greek(of) for of in units]
     cells = [[_cell(value) for value in row] for row in rows(found)]
     wide = [max(map(len, column)) for column in zip(titles, units, *cells)]
     return ["".join(f"{cell:>{size + 2}}" for cell, size in zip(row, wide)).rstrip() for row in (titles, *([units] if any(units) else []), *cells)]

@@ -34,7 +34,7 @@ DRAWN: dict[str, Callable[..., Any]] = {
     "section": lambda one, units, size, plt: section(one, units=units, size=size).figure,
     "equilibria": lambda one, units, size, plt: equilibria(one, units=units, size=size).figure,
     "budget": lambda one, units, size, plt: budget(one, plt),
-    "state": lambda one, units, size, plt: state(one, size=size),
+    "state": lambda one, units, size, plt: state(one, units=units, size=size),
 }
 
 

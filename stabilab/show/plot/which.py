@@ -8,6 +8,7 @@ from ...errors import InputError, printable
 from ...orbit.far_states import far_exponent
 from ...orbit.reduction import reduce
 from ...orbit.result import Fate
+from ...physics.effects.base import effect_words
 from ...unreduced.section import LEAST, crossed
 from .subject import Subject
 
@@ -122,7 +123,7 @@ def free(one: Subject) -> bool:
 
 
 def _beyond(one: Subject) -> str:
-    *others, last = (effect.name.replace("_", " ").replace("newtonian", "Newtonian") for effect in one.scene.effects
+    *others, last = (effect_words(effect.name) for effect in one.scene.effects
                      if effect.name not in ("gyrostat", "constant_torque"))
     return f"{', '.join(others)} and {last}" if others else last
 

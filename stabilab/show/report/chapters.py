@@ -21,7 +21,7 @@ from ..figures import panels
 from ..figures.difference import words
 from ..terminal.letters import written
 from ..text import comparison
-from ..units import parameter_unit
+from ..units import SI, parameter_unit
 from . import claims
 
 
@@ -126,7 +126,7 @@ def _sensible(chapter, folder):
     found = compare(case, np.linspace(0.0, chapter.sensible_end, POINTS))
     runs, _ = side_by_side(case, np.linspace(0.0, chapter.window, 1001))
     with style.drawing() as plt:
-        path = style.save(comparison.picture(plt, case, runs, chapter.parts), folder / "figures" / f"{chapter.paper}-sensible.png")
+        path = style.save(comparison.picture(plt, case, runs, chapter.parts, units=SI), folder / "figures" / f"{chapter.paper}-sensible.png")
     return {"case": case.name, "title": written(case.title), "why": written(chapter.why), "end": chapter.sensible_end, "rows": _errors(case, None, found),
             "parameters": _parameters(case), "file": f"figures/{path.name}", "size": size(path), "path": f"cases/{case.name}.toml"}
 

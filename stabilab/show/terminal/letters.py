@@ -17,6 +17,7 @@ NAMES = re.compile(r"(?<![\w./\\])(?<![\w-]-)(omega|lambda|Lambda|mu|gamma|alpha
 LETTER = re.compile(r"(?<![A-Za-z_])(" + "|".join(sorted(ALPHABET, key=len, reverse=True)) + r")(?:_?(?=\d)|(?=_[ijk]\b)|(?![\w-]))|(?<![A-Za-z])l_(?=[xyz]\b)")
 MINUS = re.compile(r"(?<![\w)\]./-])-(?=\d)")
 LONG = re.compile(r"(?<![\w.])\d+\.\d{6,}(?:e[+-]?\d+)?")
+UNIT = re.compile(r"(?<![\w\\^])(kg m|rad/s|deg/s|m/s|1/s|N m s|s|m|\((?:deg/s|rad/s|N m s)\))\^([2-9])(?!\w)")
 INDEX = re.compile(r"(?<=[^\W\d_])_([ijk])\b")
 INDICES = {"i": "ᵢ", "j": "ⱼ", "k": "ₖ"}
 POWER = re.compile(r"\^(\d)(?!\d)|sqrt(?=\()")
@@ -47,8 +48,8 @@ def some(count: int, noun: str) -> str:
 
 
 def greek(text: str) -> str:
-    """The text with the names of angular velocities, momenta and torques as letters: omega1 becomes ω1."""
-    return NAMES.sub(lambda found: GREEK[found[0]], text)
+    """The text with the names of angular velocities, momenta and torques as letters, omega1 becomes ω1, and with powers of units raised."""
+    return UNIT.sub(lambda found: found[1] + found[2].translate(RAISED), NAMES.sub(lambda found: GREEK[found[0]], text))
 
 
 def plain(text: str) -> str:

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 
 from ..text import frame
 from ..text.headline import rate_margin, span_words, while_on_axis
@@ -25,7 +26,8 @@ def row(name: str, words: str) -> str:
 def table(case, motion, units: Units) -> list[str]:
     """The start, the extremes, the bounds for all times, margins and period, a line each."""
     lines = [row("start", state(motion.at, units)), *extreme_lines(case, motion, units), *bound_lines(case, motion, units)]
-    for name, words in (("margin, rate", rate_margin(motion, units, DIGITS)), ("margin, energy", _told(motion.margin_energy, units.energy)),
+    height = partial(energy_margin, tell=units.energy)
+    for name, words in (("margin, rate", rate_margin(motion, units, DIGITS)), ("margin, energy", _told(motion.margin_energy, height)),
                         ("period", _told(motion.period, units.time))):
         lines += [row(name, words)] if words else []
     return lines
@@ -35,6 +37,11 @@ def state(at, units: Units) -> str:
     """The rates of a state with their unit; the vertical after them, where it is part of the state."""
     vertical = f", gamma = {units.vector(at[3:], ('', 1.0))}" if len(at) > 3 else ""
     return units.vector(at[:3], units.rates) + vertical
+
+
+def energy_margin(value, tell) -> str:
+    """The energy that is missing to the barrier, or by how much it is above. tell: of a size, with its unit."""
+    return f"{tell(-value)} above the barrier" if value < 0 else tell(value)
 
 
 def _told(value, words) -> str:

@@ -8,7 +8,7 @@ from ...orbit.result import Fate, no_period
 from ..text.headline import cause, fate_words, headline, largest, rate_margin
 from ..units import DIGITS, Units, number
 from .letters import greek, lettered
-from .motion import bound_lines, extreme_lines, framed, row, tilt_lines, why
+from .motion import bound_lines, energy_margin, extreme_lines, framed, row, tilt_lines, why
 
 SHOWN = 12  # digits of a number that is not written out, where more than a table's were asked for
 
@@ -24,8 +24,9 @@ def fate(case, motion, told, units: Units, all_digits: bool, say: bool, proofs: 
 
 def _energy(told, units, all_digits):
     if not all_digits:
-        return units.energy(told.values)
-    return f"{told.decimals or number(told.values, max(SHOWN, told.asked))} {units.plain('J')[0]}".rstrip()
+        return energy_margin(told.values, units.energy)
+    decimals = told.decimals or number(told.values, max(SHOWN, told.asked))
+    return energy_margin(told.values, lambda _: f"{decimals.removeprefix('-')} {units.plain('J')[0]}".rstrip())
 
 
 def extremes(case, motion, told, units: Units, all_digits: bool, say: bool, proofs: bool = False) -> str:

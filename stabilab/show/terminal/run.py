@@ -4,7 +4,7 @@ from __future__ import annotations
 from ...physics.blocks import PARTS
 from ..text import answers, frame
 from ..units import DIGITS, SHORT, Units
-from .letters import greek
+from .letters import lettered, written
 
 ALL = 16  # digits of a double
 GAP = 2
@@ -15,13 +15,13 @@ def text(case, run, units: Units, all_digits: bool = False, width: int | None = 
     digits = ALL if all_digits else DIGITS
     names, rows = answers.columns(run)
     factors = _factors(run, units)
-    head, scale = [f"t ({case.scene.time_unit})"], [1.0]
-    head += [f"{greek(name)} ({unit})" if unit else greek(name) for name, (unit, _) in zip(names, factors)]
+    head, scale = [f"t ({written(case.scene.time_unit)})"], [1.0]
+    head += [lettered(f"{name} ({unit})" if unit else name) for name, (unit, _) in zip(names, factors)]
     scale += [one for _, one in factors]
     cells = [[f"{value * one + 0.0:.{digits}g}" for value, one in zip((t, *row), scale)] for t, row in zip(run.t, rows)]
-    laws = [f"# {name}: largest relative departure {value:.3g}" for name, value in run.invariant_drift.items()]
-    how = f"# {run.method}, rtol {run.rtol:.3g}" if run.rtol else f"# {run.model}: {run.method}"
-    notes = [f"# {run.reason}"] if run.reason and run.reason != "all times reached" else []
+    laws = [f"# {lettered(name)}: largest relative departure {value:.3g}" for name, value in run.invariant_drift.items()]
+    how = f"# {run.method}, rtol {run.rtol:.3g}" if run.rtol else f"# {run.model}: {lettered(run.method)}"
+    notes = [f"# {lettered(units.words(run.reason))}"] if run.reason and run.reason != "all times reached" else []
     return "\n".join([f"{case.name}: {headline(case, run, units)}", *_columns(head, cells, width, max(digits + 7, 13)), how, *laws, *notes,
                       *(f"# {line.strip()}" for line in frame.note(case))])
 
@@ -41,7 +41,7 @@ def _sizes(run, units):
     if rates is None:
         return ""
     first, last = (units.rate(math.hypot(*map(float, rates[n])), SHORT) for n in (0, -1))
-    name = "|x|" if units.scaled else "|omega|"
+    name = "|x|" if units.scaled else "|ω|"
     return f"; {name} = {last} there" if len(run.t) == 1 else f"; {name} = {first} first, {last} last"
 
 
@@ -49,8 +49,7 @@ def _factors(run, units) -> list[tuple[str, float]]:
     """(unit, how many of it make one of the run's own) of every column."""
     found: list[tuple[str, float]] = []
     for name in run.state:
-        unit = PARTS[name].unit
-        found += [{"rad/s": units.rates, "rad": units.angles}.get(unit, (unit, 1.0))] * len(PARTS[name].components)
+        found += [units.of(PARTS[name].unit)] * len(PARTS[name].components)
     return found
 
 

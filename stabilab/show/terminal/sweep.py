@@ -63,7 +63,7 @@ def _unit(key: str, values) -> str:
     of = DIMENSIONS.get(".".join([path[0], path[-1]]) if path[0] in ("thrusters", "wheels") else key)
     if of is None or not all(re.fullmatch(r"[-+.\d_eE/ ]+", str(value)) for value in values):
         return ""
-    return NAMES[of].partition("(")[2].rstrip(")")
+    return greek(NAMES[of].partition("(")[2].rstrip(")"))
 
 
 def _alone(key, swept) -> bool:
@@ -99,7 +99,7 @@ def of_motions(motions: Sequence, units: Units) -> tuple[list[tuple[str, str]], 
     table = [("fate", "", lambda m: m.fate.word + known_as(m)), ("axis", "", _axis),
              ("largest rate", name, lambda m: "" if _largest(m) is None else number(_largest(m) * one, 6)),
              ("margin", name, lambda m: rate_margin(m, units, 6).removesuffix(f" {name}") if name else rate_margin(m, units, 6)),
-             ("energy", units.plain("J")[0], lambda m: "" if m.margin_energy is None else shown(m.margin_energy)),
+             ("to barrier", units.plain("J")[0], lambda m: "" if m.margin_energy is None else shown(m.margin_energy)),
              ("period", time, lambda m: "" if m.period is None else number(m.period * per_time, 6))]
     return filled(table, motions)
 

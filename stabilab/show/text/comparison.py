@@ -9,7 +9,8 @@ from ...physics.blocks import PARTS
 from ...theories.theory import lines as told
 from .. import style
 from ..files import comma, endings
-from ..terminal.letters import written
+from ..terminal.letters import lettered, written
+from ..units import SHORT, Units, number, units_of
 
 LOOKS = {"exact": {"color": style.BLACK, "linewidth": 2.2}, "linear": {"color": style.BLUE, "linewidth": 1.4, "linestyle": "--"},
          "corrected": {"color": style.PURPLE, "linewidth": 1.5, "linestyle": "-."},
@@ -22,6 +23,7 @@ NAMES = {"omega": (r"$\omega_1$", r"$\omega_2$", r"$\omega_3$"), "gamma": (r"$\g
          "velocity": (r"$v_1$", r"$v_2$", r"$v_3$"), "position": (r"$x_1$", r"$x_2$", r"$x_3$")}
 WORDS = {"exact": "exact motion", "printed": "as printed", "linear": "linear model, both rates", "corrected": "corrected integrals",
          "averaged1": "averaged, first order", "averaged2": "averaged, second order", "lindstedt": "corrected expansion"}
+TIMES = 10  # the share of a motion's size from which on an error is told as so many times that size
 REACH = 1.6  # a model that leaves the exact motion's range by more than this factor is cut off, and the panel says so
 
 
@@ -35,18 +37,30 @@ def as_dict(case, found) -> dict:
             "theory": list(found.theory)}
 
 
-def text(case, found) -> str:
+def text(case, found, units: Units) -> str:
     """The closest model, a line per model and part of the state, then what each model says of itself."""
-    unit = case.scene.time_unit
-    lines = [f"{case.name}: {_closest(found)}; {', '.join(list(found.runs)[1:]) or 'no model'} against the exact motion, {found.t[0]:g} to "
-             f"{found.t[-1]:g} {unit}",
-             f"  {'model':<11}{'part':<10}{'largest error':>13}{'of':>12}{'1 % from':>15}{'10 % from':>15}"]
+    lines = [f"{case.name}: {_closest(found)}; {', '.join(list(found.runs)[1:]) or 'no model'} against the exact motion, "
+             f"{units.span(case.scene.time_unit, found.t[0], found.t[-1])}",
+             f"  {'model':<10}{'part':<9}{'largest error':>13}{'of':>10}  {'':<8}{'1 % from':>12}{'10 % from':>12}"]
     for d in found.departures:
-        first = [f"{time:.4g} {unit}" if time is not None else "never" for time in d.first.values()]
-        lines.append(f"  {d.model:<11}{written(d.part):<10}{d.largest:>13.4g}{d.scale:>12.4g}{first[0]:>15}{first[1]:>15}")
-    notes = [f"  {name}: {run.reason}" for name, run in found.runs.items() if run.reason and run.reason != "all times reached"]
-    notes += [f"  {name}: no answer: {why}" for name, why in found.refused.items()]
-    return "\n".join(lines + notes + [f"  {line}" for line in told(found.theory)])
+        unit, one = units.of(PARTS[d.part].unit)
+        first = ["never" if time is None else units.time(time, SHORT) for time in d.first.values()]
+        row = f"  {d.model:<10}{written(d.part):<9}{number(d.largest * one):>13}{number(d.scale * one):>10}  {written(unit):<8}{first[0]:>12}{first[1]:>12}"
+        lines.append(row)
+    return "\n".join([*lines, *(f"  {note}" for note in _notes(found, units))])
+
+
+def _notes(found, units) -> list[str]:
+    """What the models say of themselves, once where several say the same, then what the theory says beyond that."""
+    by_words: dict[str, list[str]] = {}
+    for name, run in found.runs.items():
+        if run.reason and run.reason != "all times reached":
+            by_words.setdefault(run.reason, []).append(name)
+    for name, why in found.refused.items():
+        by_words.setdefault(f"no answer: {why}", []).append(name)
+    notes = [f"{', '.join(names)}: {words}" for words, names in by_words.items()]
+    beyond = [row for row in found.theory if row["words"] not in by_words]
+    return [lettered(units.words(note)) for note in (*notes, *told(beyond))]
 
 
 def _closest(found) -> str:
@@ -55,7 +69,9 @@ def _closest(found) -> str:
     if not rates:
         return "no model has an answer"
     best = min(rates, key=lambda d: d.largest / d.scale)
-    return f"{best.model} is closest, its {written(best.part)} off by {100 * best.largest / best.scale:.3g} % at most"
+    off = best.largest / best.scale
+    by = f"{100 * off:.3g} %" if off < TIMES else f"{off:.3g} times its size"
+    return f"{best.model} is closest, its {written(best.part)} off by {by} at most"
 
 
 def checked(path) -> Path:
@@ -72,35 +88,38 @@ def write(case, found, path) -> Path:
     return path
 
 
-def picture(plt, case, runs, parts=("omega",), size=None):
-    """A figure: one row per part of the state, one column per component, every model of `runs` over the exact motion."""
+def picture(plt, case, runs, parts=("omega",), size=None, units: Units | None = None):
+    """A figure: one row per part of the state, one column per component, every model of `runs` over the exact motion. units: None is those of the
+    case."""
+    units = units or units_of(case)
+    clock, second = units.times(runs["exact"].t[-1])
     parts = [p for p in parts if p in runs["exact"].state]
     figure, axes = plt.subplots(len(parts), 3, figsize=size or (10.5, 0.9 + 2.3 * len(parts)), layout="constrained", squeeze=False,
                                 sharex=True)
     for row, part in zip(axes, parts):
         for column, ax in enumerate(row):
-            _curves(ax, runs, part, column)
-            unit = PARTS[part].unit.replace("m^2", "m$^2$")
-            ax.set_ylabel(f"{NAMES[part][column]}{f' ({unit})' if unit else ''}")
+            unit, one = units.of(PARTS[part].unit)
+            _curves(ax, {name: (np.asarray(run.t) * second, np.asarray(run.state[part])[:, column] * one)
+                         for name, run in runs.items() if part in run.state})
+            ax.set_ylabel(f"{NAMES[part][column]}{f' ({written(unit)})' if unit else ''}")
     for ax in axes[-1]:
-        ax.set_xlabel("$t$ (s)")
+        ax.set_xlabel(f"$t$ ({written(clock)})")
     figure.suptitle(style.literal(case.heading), fontsize=10 * style.share(), wrap=True)
     style.legend(figure, [(WORDS[name], LOOKS[name]) for name in runs], columns=style.fitting([WORDS[name] for name in runs], figure.get_figwidth()))
     return figure
 
 
-def _curves(ax, runs, part, column):
-    exact = np.asarray(runs["exact"].state[part])[:, column]
-    for name, run in runs.items():
-        if part in run.state:
-            ax.plot(run.t, np.asarray(run.state[part])[:, column], **LOOKS[name])
+def _curves(ax, runs):
+    """The curves, (times, values) by the names of the models."""
+    exact = runs["exact"][1]
+    for name, (t, values) in runs.items():
+        ax.plot(t, values, **LOOKS[name])
     middle, half = (exact.max() + exact.min()) / 2, (exact.max() - exact.min()) / 2
     low, high = ax.get_ylim()
     wide = half * REACH or 1e-9 * max(abs(middle), 1)
     if half and (high - low) > 6 * half:  # a model far off must not flatten the motion itself
         ax.set_ylim(middle - 2 * wide, middle + 2 * wide)
-        drawn = {name: np.asarray(run.state[part])[:, column] for name, run in runs.items() if part in run.state}
-        _tell_cut(ax, [(name, values) for name, values in drawn.items() if _leaves(values, ax.get_ylim())])
+        _tell_cut(ax, [(name, values) for name, (_, values) in runs.items() if _leaves(values, ax.get_ylim())])
 
 
 def _tell_cut(ax, models):
@@ -108,7 +127,8 @@ def _tell_cut(ax, models):
     low, high = ax.get_ylim()
     for (name, values), (x, side) in zip(models, ((0.0, "left"), (1.0, "right"), (0.5, "center"))):
         far = values.max() if values.max() - high > low - values.min() else values.min()
-        ax.text(x, 1.01, f"cut: to {far:.3g}".replace("-", "−"), color=LOOKS[name]["color"], ha=side, va="bottom", fontsize=7.5 * style.share(),
+        told = (f"{far:.0f}" if 1000 <= abs(far) < 1e5 else f"{far:.3g}").replace("-", "−")
+        ax.text(x, 1.01, f"cut: to {told}", color=LOOKS[name]["color"], ha=side, va="bottom", fontsize=7.5 * style.share(),
                 transform=ax.transAxes)
 
 

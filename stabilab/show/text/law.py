@@ -61,11 +61,30 @@ def judged(case, motion):
 
 def of_cases(cases) -> str:
     """A line for every law among cases that one of them leaves; empty where there is none."""
+    judged = [(case, of_case(case)) for case in cases]
+    beyond = [(case, found) for case, found in judged if found is not None and not found.held]
+    return "\n".join(_of_alike(group, cases) for group in _alike(beyond))
+
+
+def lines_of(judged) -> list[str]:
+    """A line for every (case, validity) that has a law to be told, one for all combinations of a file that stand the same way to the same limit, and
+    one for all cases that say the same; without a name where there is one case."""
+    groups, cases = _alike([(case, found) for case, found in judged if found is not None]), [case for case, _ in judged]
+    if len(cases) == 1:
+        return [_told(found) for group in groups for _, found in group]
+    return together([_of_alike(group, cases) for group in groups])
+
+
+def _told(found) -> str:
+    return lettered(SI.words(found.words))
+
+
+def _alike(judged) -> list:
+    """The (case, validity) in groups: each alone, or all combinations of one file that stand the same way to the same limit."""
     told: dict = {}
-    for case in cases:
-        if (found := of_case(case)) is not None and not found.held:
-            told.setdefault((case.path, found.effect, found.number) if case.variant else case.name, []).append((case, found))
-    return "\n".join(_of_alike(group, cases) for group in told.values())
+    for n, (case, found) in enumerate(judged):
+        told.setdefault((case.path, found.status, found.effect, found.number) if case.variant else n, []).append((case, found))
+    return list(told.values())
 
 
 def together(lines) -> list[str]:
@@ -78,11 +97,12 @@ def together(lines) -> list[str]:
 
 
 def _of_alike(group, cases) -> str:
-    """A line on a case, or on the combinations of one file that leave the same limit: the most exceeded of them."""
+    """A line on a case, or on the combinations of one file that stand the same way to the same limit: the most exceeded of them."""
     case, _ = group[0]
     found = worst(*(one for _, one in group))
-    words = lettered(found.words)
+    words = _told(found)
     if not case.variant:
         return f"{words} ({printable(case.name)})"
+    farthest = "" if found.value is None else ", the farthest of them told"
     of = sum(other.path == case.path for other in cases)
-    return f"{words} ({printable(case.name.removesuffix(case.variant))}: {len(group)} of {of} combinations, the farthest of them told)"
+    return f"{words} ({printable(case.name.removesuffix(case.variant))}: {len(group)} of {of} combinations{farthest})"

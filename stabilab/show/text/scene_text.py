@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import math
 
+from ...physics.effects.base import effect_words
 from ...physics.equations import derive
 from ...physics.laws import invariants
 from ..terminal.letters import lettered, written
@@ -19,7 +20,7 @@ def text(case) -> str:
              "In LaTeX", latex(equations), "", "Laws that hold for every value of the parameters"]
     parts += [f"  {lettered(law.words)}" for law in equations.balances]
     own = invariants(case.scene)
-    effects = " and ".join(", ".join(effect.name.replace("_", " ") for effect in case.scene.effects).rsplit(", ", 1)) or "no effect"
+    effects = " and ".join(", ".join(effect_words(effect.name) for effect in case.scene.effects).rsplit(", ", 1)) or "no effect"
     answer = f"{case.name}: a {'scaled gyrostat' if case.variables == 'scaled' else 'body with ' + effects}; laws known of this scene: {len(own)}"
     return "\n".join([answer, *parts, "", "Laws of this scene", *(_laws(own) or ["  none is known"])])
 
@@ -30,7 +31,7 @@ def _head(case) -> str:
     rows += [f"  variables: {case.variables} ({', '.join(case.scene.components)}; time in {case.scene.time_unit})"]
     if case.physical:
         rows.append(f"  body with inertia {_triple(case.physical.body.inertia)} kg m^2")
-        rows += [f"  {effect.name.replace('_', ' ')}: {_values(effect)}" for effect in case.physical.effects]
+        rows += [f"  {effect_words(effect.name)}: {_values(effect)}" for effect in case.physical.effects]
     rows += [f"  {line}" for line in frame.lines(case)]
     rows += [f"  {line}" for line in _craft(case)]
     if case.scaling:
@@ -47,7 +48,7 @@ def _craft(case) -> list[str]:
     lines = []
     for t in case.thrusters:
         cone = "" if t.misalignment is None else f", within {math.degrees(t.misalignment):.6g} deg"
-        off = "" if t.force_tolerance is None else f" +- {float(t.force_tolerance):.6g}"
+        off = "" if t.force_tolerance is None else f" ± {float(t.force_tolerance):.6g}"
         lines.append(f"thruster {t.name}{' (stuck)' if t.stuck else ''}: {float(t.force):.12g}{off} N along {_triple(t.direction)}{cone} at "
                      f"{_triple(t.position)} m, torque {_triple(t.torque)} N m, all in the frame of the file")
     lines += [f"wheel {w.name}: {float(w.momentum):.12g} N m s about {_triple(w.axis)} in the frame of the file" for w in case.wheels]

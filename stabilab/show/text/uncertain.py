@@ -4,12 +4,14 @@ from __future__ import annotations
 import math
 from fractions import Fraction
 
+from ...case.units import unit_of_key
 from ..terminal.letters import lettered
 from ..units import DIGITS
 from ..units import number as told
 
 SUBJECTS = {"equilibria": ("hold", "depend"), "fate": ("holds", "depends")}
 LONG = 8  # letters of a number in a line
+UNITS = {"inertia": "kg m^2", "momentum": "N m s", "torque": "N m"}  # of the numbers of a witness
 
 
 def as_dict(found) -> dict:
@@ -60,7 +62,7 @@ def text(found) -> str:
     """Lines that follow what a command says of a case; nothing where no number is uncertain."""
     if found is None:
         return ""
-    lines = ["uncertain: " + ", ".join(f"{key(u)} = {rounded(u.middle)} ± {rounded(u.half)}" for u in found.numbers)]
+    lines = ["uncertain: " + ", ".join(f"{key(u)} = {rounded(u.middle)} ± {rounded(u.half)} {unit_of_key(u.path)}".rstrip() for u in found.numbers)]
     for name in SUBJECTS:
         over = getattr(found, name)
         lines += [] if over is None else _lines(name, over)
@@ -84,7 +86,8 @@ def _lines(subject, over) -> list[str]:
 
 def _witness(w) -> list[str]:
     """A place of the box, to six digits: JSON has them all."""
-    numbers = "; ".join(f"{name} = {', '.join(told(float(v), DIGITS) for v in values)}" for name, values in w.values.items())
+    units = UNITS | ({"state": "rad/s"} if "torque" in w.values else {})
+    numbers = "; ".join(f"{name} = {', '.join(told(float(v), DIGITS) for v in values)} {units.get(name, '')}".rstrip() for name, values in w.values.items())
     return [f"    {w.verdict} at {numbers}"]
 
 

@@ -29,8 +29,8 @@ def minor():
 
 def test_the_first_line_tells_the_shares_and_the_others_the_boundary(minor):
     first, *rest = words.text(minor).splitlines()
-    assert first.startswith("minor-axis-100: 2 kinds of motion in this plane: 57.5 % spin-up about +3, 42.5 % bounded")
-    assert "the exact separatrix passes through each" in rest[0] and "that of a smooth line" in rest[1] and "known as exact" in rest[2]
+    assert first.startswith("minor-axis-100: 2 kinds of motion in this plane: 57.5 % spin-up about +3, 42.5 % bounded (± ")
+    assert "the exact separatrix passes through each" in rest[0] and "that of a smooth line" in rest[1] and " ± " in rest[1] and "known as exact" in rest[2]
     assert f"{len(minor.records):,} states asked, of 28,497" in rest[3]
 
 

@@ -38,7 +38,7 @@ def _answer(found: Basins) -> str:
     parts = [f"{_percent(share, found.blur)} {basin_name(label)}" for label, share in found.shares.items()]
     if len(parts) == 1:
         return f"one basin in this plane: all of it {basin_name(next(iter(found.shares)))}"
-    return f"{len(parts)} kinds of motion in this plane: {', '.join(parts)} (+- {_digits(100 * found.blur)} %: the cells on the boundaries)"
+    return f"{len(parts)} kinds of motion in this plane: {', '.join(parts)} (± {_digits(100 * found.blur)} %: the cells on the boundaries)"
 
 
 def _percent(share: float, blur: float) -> str:
@@ -63,7 +63,7 @@ def _boundary(found: Basins) -> list[str]:
         lines.append(f"besides {found.unclear:,} cells between what is decided and what is undecided")
     if math.isnan(rough.value):
         return [*lines, f"its box dimension is not known: {rough.reason}"]
-    lines.append(f"its box dimension: {rough.value:.4f} +- {rough.uncertainty:.4f}, {_roughness(rough)} ({rough.reason.partition(';')[0]})")
+    lines.append(f"its box dimension: {rough.value:.4f} ± {rough.uncertainty:.4f}, {_roughness(rough)} ({rough.reason.partition(';')[0]})")
     return lines
 
 

@@ -8,6 +8,7 @@ from ....maps.bifurcation.result import CURVES, ENDLESS, Diagram, Event, Piece, 
 from ....maps.bifurcation.system import BORDERS
 from ....maps.span import Span
 from ...files import comma
+from ...terminal.letters import greek
 from ...text import frame
 from ...text.answers import as_json
 from ...units import Units, units_of
@@ -20,7 +21,7 @@ NAMES = {"fold": "fold", "pitchfork": "pitchfork", "crossing": "crossing", "touc
 
 def text(found: Diagram) -> str:
     """The answer first, then what is counted, the table, notes."""
-    lines = [f"{found.family.case.name}: {answer(found)}", f"  {found.what}"]
+    lines = [f"{found.family.case.name}: {answer(found).replace('<=', '≤')}", f"  {found.what}"]
     lines += [f"  {note}" for note in found.notes]
     return "\n".join([*lines, *_table(found), *frame.note(found.family.case)])
 
@@ -64,7 +65,7 @@ def _uniform(found: Diagram, count: int) -> str:
     """The answer where the number is the same in all pieces."""
     span, digits = found.family.spans[0], _digits(found)
     told = f"{_things(found, count)} for {number(float(span.low), digits)} <= {span.label} <= {number(float(span.high), digits)}{unit(span)}"
-    other = [f"{_things(found, event.count)} at {number(event.value, digits)}" for event in found.events if event.count != count]
+    other = [f"{_things(found, event.count)} at {number(event.value, digits)}{unit(span)}" for event in found.events if event.count != count]
     events = "" if other and found.kind == CURVES else _events_told(found)
     return told + (f", but {_and(other)}" if other else "") + (f": {events}" if events else "")
 
@@ -82,11 +83,11 @@ def _range(found: Diagram, piece: Piece, name: str) -> str:
 
 def _events_told(found: Diagram) -> str:
     by_kind: dict[str, list[str]] = {}
-    digits = _digits(found)
+    digits, of = _digits(found), unit(found.family.spans[0])
     for event in (*found.events, *found.connections):
         by_kind.setdefault(event.kinds[0], []).append(number(event.value, digits))
     names = NAMES | ({"curve": "other curves"} if found.kind == CURVES else {})
-    return ", ".join(f"{names[kind]}{'s' if len(values) > 1 and kind not in ('infinity', 'axis', 'curve') else ''} at {_and(values)}"
+    return ", ".join(f"{names[kind]}{'s' if len(values) > 1 and kind not in ('infinity', 'axis', 'curve') else ''} at {_and(values)}{of}"
                      for kind, values in by_kind.items())
 
 
@@ -97,7 +98,7 @@ def _and(values: list[str]) -> str:
 def _table(found: Diagram) -> list[str]:
     span = found.family.spans[0]
     units, digits = units_of(found.family.case), _digits(found)
-    name = span.label + ("" if span.shown_unit == "1" else f" ({span.shown_unit})")
+    name = span.label + ("" if span.shown_unit == "1" else f" ({greek(span.shown_unit)})")
     rows = [[name, "changes" if found.kind == BORDERS else "equilibria", *([] if found.kind == BORDERS else ["stable"]), "what"]]
     for _, one in _in_order(found):
         if isinstance(one, Piece):

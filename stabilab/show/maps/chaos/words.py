@@ -24,7 +24,7 @@ def _of_one(case: Any, found: Chaos) -> str:
     lines = [f"{printable(case.name)}: {FIRST[label]}: {found.because}"]
     if label == Order.CHAOTIC:
         rate, error = float(found.lyapunov), float(found.lyapunov_error)
-        lines.append(f"  neighbours part at {rate:.3g} +- {error:.1g} per {unit}: a small change doubles in {math.log(2) / rate:.3g} {unit}")
+        lines.append(f"  neighbours part at {rate:.3g} ± {error:.1g} per {unit}: a small change doubles in {math.log(2) / rate:.3g} {unit}")
     if label != Order.SPIN_UP:
         lines.append("  an indicator of a finite time, no proof; time and MEGNO:")
         lines += [f"  {time:12.6g} {unit}  {0.0 if abs(value) < 5e-5 else value:9.4f}" for time, value in zip(found.times.tolist(), found.history.tolist())]

@@ -32,11 +32,12 @@ def text(found) -> str:
 
 
 def _left_out(found):
-    """A line per method and reason: the coarsest setting that it holds for."""
-    first = {}
+    """A line per reason: the methods that it holds for, each from its coarsest setting on."""
+    first: dict = {}
     for name, value, why in found.left_out:
-        first.setdefault((name, why), []).append(value)
-    return [f"{name}, {values[0]:g}{' and finer' if len(values) > 1 else ''}: {why}" for (name, why), values in first.items()]
+        first.setdefault(why, {}).setdefault(name, []).append(value)
+    words = {why: [f"{name}, {values[0]:g}{' and finer' if len(values) > 1 else ''}" for name, values in methods.items()] for why, methods in first.items()}
+    return [f"{'; '.join(methods)}: {why}" for why, methods in words.items()]
 
 
 def _line(p, best) -> str:

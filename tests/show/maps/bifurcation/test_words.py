@@ -27,8 +27,8 @@ def plane():
 
 def test_the_first_line_is_the_answer(line, plane):
     first, second = (told.splitlines()[0] for told in (words.text(line), plane_words.text(plane)))
-    assert first == ("wheel-and-thruster: 4 equilibria for 0 <= torque[3] < 1084.686668 N m, 2 for 1084.686668 < torque[3] < 1281.113057, none above: "
-                     "folds at 1084.686668 and 1281.113057")
+    assert first == ("wheel-and-thruster: 4 equilibria for 0 ≤ torque[3] < 1084.686668 N m, 2 for 1084.686668 < torque[3] < 1281.113057, none above: "
+                     "folds at 1084.686668 and 1281.113057 N m")
     assert second == "middle-axis-double-well: 2 or 4 equilibria over b and x[1]; curves: fold; cusp at (1.754765351, -0.2799433883)"
 
 
@@ -69,7 +69,7 @@ def test_where_curves_of_equilibria_are_no_number_of_changes_is_told(tmp_path):
     path = tmp_path / "case.toml"
     path.write_text("[body]\ninertia = [12.0, 9.0, 5.0]\n[effects.gyrostat]\nmomentum = [0.8, 0, 0]\n[effects.constant_torque]\ntorque = [0, 0, 0.02]\n")
     told = words.text(stabilab.bifurcation(path, {"torque[3]": "-1:1"})).splitlines()[0]
-    assert told == "case: 2 changes of stability for -1 <= torque[3] <= 1 N m, but curves of equilibria at 0: on a principal axis at 0"
+    assert told == "case: 2 changes of stability for -1 ≤ torque[3] ≤ 1 N m, but curves of equilibria at 0 N m: on a principal axis at 0 N m"
 
 
 def test_values_that_stand_near_each_other_are_both_told_above_the_picture_and_apart():

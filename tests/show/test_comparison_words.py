@@ -1,0 +1,44 @@
+"""What `compare` prints. Expected numbers: of its own JSON, which has every digit in SI."""
+import json
+import math
+import re
+from pathlib import Path
+
+import pytest
+
+CASES = Path(__file__).parents[2] / "cases"
+
+
+def rows(text):
+    """(model, part) -> (largest error, of, what follows)."""
+    found = re.findall(r"^  (\w+) +(\S+) +([\d.e+-]+) +([\d.e+-]+)  (.*)$", text, re.M)
+    return {(model, part): (float(largest), float(of), rest) for model, part, largest, of, rest in found}
+
+
+@pytest.mark.parametrize("units, angle", [("deg", "deg"), ("si", "rad")])
+def test_errors_have_the_units_of_the_other_answers(stabilab, units, angle):
+    path, one = CASES / "charged-body-small-torque.toml", math.degrees(1) if units == "deg" else 1.0
+    text, found = stabilab("compare", path, "--units", units)[1], json.loads(stabilab("compare", path, "--json")[1])["departures"]
+    expected = {"omega": ("ω", one, f"{angle}/s"), "angles": ("angles", one, angle), "momentum": ("momentum", 1, "kg m²/s"), "velocity": ("velocity", 1, "m/s"),
+                "position": ("position", 1, "m")}
+    shown = rows(text)
+    assert len(shown) == len(found) == 15
+    for row in found:
+        name, factor, unit = expected[row["part"]]
+        largest, of, in_unit = shown[row["model"], name]
+        assert (largest, of) == pytest.approx((row["largest"] * factor, row["scale"] * factor), rel=1e-3) and in_unit.startswith(f"{unit} ")
+
+
+@pytest.mark.parametrize("name", ["charged-body", "liquid-base", "top-lx30-lz30", "top-fast"])
+def test_notes_are_told_once_with_letters_and_in_one_system_of_units(stabilab, name):
+    text = stabilab("compare", CASES / f"{name}.toml")[1]
+    notes = [line.split(": ", 1)[1] for line in text.splitlines()[2:] if ": " in line]
+    assert notes and len(set(notes)) == len(notes)
+    assert not re.search(r"\brad\b|\^|\b(theta|psi|phi|nu|kappa|eps|rho|alpha|omega|Gamma|newtonian)(?![a-z])", text)
+
+
+def test_a_model_that_is_nowhere_near_is_so_many_times_off(stabilab):
+    first = stabilab("compare", CASES / "top-lx30-lz30.toml")[1].splitlines()[0]
+    (best,) = re.findall(r"off by ([\d.]+) times its size", first)
+    found = json.loads(stabilab("compare", CASES / "top-lx30-lz30.toml", "--json")[1])["departures"]
+    assert float(best) == pytest.approx(min(row["largest"] / row["scale"] for row in found if row["part"] == "omega"), rel=0.01)
