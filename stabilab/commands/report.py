@@ -20,5 +20,4 @@ def report(cases, out, papers, precision, certify, workers, strict):
 
 def rerun(manifest, out):
     """Repeat what a manifest says."""
-    *lines, verdict = repetition.rerun(manifest, out)
-    tell("\n".join([verdict, *lines]))
+    tell("\n".join(repetition.rerun(manifest, out)))

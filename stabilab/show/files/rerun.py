@@ -18,8 +18,8 @@ ENDED = (OK, NO_RENDERING)  # without a renderer everything but the pictures is 
 
 
 def rerun(path, out=None) -> list[str]:
-    """Repeat every command of the manifest (or folder) `path`, into the folder `out` or one that vanishes; lines that say
-    what became of each file. Raises InputError where inputs are missing or changed, ToleranceNotMet (with the lines) where
+    """Repeat every command of the manifest (or folder) `path`, into the folder `out` or one that vanishes; the answer in a line, then
+    then what became of each file, those that differ first. Raises InputError where inputs are missing or changed, ToleranceNotMet (with the lines) where
     files differ."""
     path = Path(path)
     runs = manifest.read(path)
@@ -31,7 +31,8 @@ def rerun(path, out=None) -> list[str]:
             known = ", ".join(name for name, in COMMANDS)
             raise InputError(f"{path}: expected a command that fills a folder ({known}), got {run['command']!r}")
     starts = [_start(run, folder) for run in runs]
-    lines, differ = [], 0
+    lines: list[str] = []
+    words: list[tuple[bool, str]] = []
     with _target(out) as target:
         for run, start in zip(runs, starts):
             _repeat(run["arguments"], start, target)
@@ -39,14 +40,13 @@ def rerun(path, out=None) -> list[str]:
         made = {row["path"]: row["sha256"] for run in manifest.read(target) for row in run["outputs"]}
         for row in (row for run in runs for row in run["outputs"]):
             word = _compared(row, made)
-            differ += word not in ("identical", TIMED)
-            lines.append(f"  {row['path']}: {word}")
+            words.append((word in ("identical", TIMED), f"  {row['path']}: {word}"))
         paths = {row["path"] for run in runs for row in run["outputs"]}
-        lines += [f"  {new}: new" for new in made if new not in paths]
-    count = sum(len(run["outputs"]) for run in runs)
+        lines += [line for _, line in sorted(words, key=lambda one: one[0])] + [f"  {new}: new" for new in made if new not in paths]
+    differ, count = sum(not same for same, _ in words), len(words)
     if differ:
-        raise ToleranceNotMet("\n".join([*lines, f"{differ} of {count} files differ"]))
-    return [*lines, f"all {count} files are accounted for: none differs"]
+        raise ToleranceNotMet("\n".join([f"{differ} of {count} files {'differs' if differ == 1 else 'differ'}", *lines]))
+    return [f"all {count} files are accounted for: none differs", *lines]
 
 
 TIMED = "not compared: it shows measured times"

@@ -9,11 +9,15 @@ import numpy as np
 
 from ...errors import printable
 from ...maps.columns import ENDLESS, NO_CASE, NONE, OPEN, Column, columns_of
+from ...maps.plan import Plan
 from ...maps.run import Swept
 from ...orbit.result import Fate
 from ..files import comma
+from ..terminal import page
+from ..terminal.columns import table
 from ..terminal.letters import greek
 from ..text.answers import Endless, as_json
+from ..units import Unit, units_of
 from .labels import SAMPLE, said, unit
 
 SCHEMA = "stabilab.sweep/1"
@@ -23,7 +27,7 @@ FEW = 100  # points that are counted; of more their share is told
 DOES = {Fate.BOUNDED: ("stay bounded", "stays bounded"), Fate.SPIN_UP: ("spin up", "spins up"),
         Fate.SEPARATRIX: ("lie on the separatrix", "lies on the separatrix"), Fate.EQUILIBRIUM: ("are at rest", "is at rest"),
         Fate.UNDECIDED: ("are undecided", "is undecided"), NO_CASE: ("are no case", "is no case")}
-SHORT = {"spin_axis": "axis"}  # names of columns in a table
+SHORT = {"spin_axis": "axis", "greatest": "most"}  # names of columns in a table
 COUNTS = {ENDLESS: "curves of equilibria", OPEN: "equilibria not all known", NONE: "no case"}
 
 
@@ -83,7 +87,7 @@ def _details(found: Swept) -> list[str]:
         lines.append("  the fate is known as " + _listed(cases["level"], lambda level: flags[level]))
     for column in columns_of(found.plan.answers):
         if column.kind == "f8":
-            lines.append(_range(cases[column.name], column, unit(found.plan, column)))
+            lines.append(_range(cases[column.name], column, *_unit(found.plan, column)))
         elif column.kind == "i4":
             lines.append(f"  {column.words}: " + _listed(cases[column.name], lambda value: COUNTS.get(value, str(value))))
     return lines
@@ -94,12 +98,18 @@ def _listed(values: np.ndarray, words: Any) -> str:
     return ", ".join(f"{words(int(kind))} ({count:,})" for kind, count in sorted(zip(kinds.tolist(), counts.tolist()), key=lambda pair: -pair[1]))
 
 
-def _range(values: np.ndarray, column: Column, of: str) -> str:
+def _unit(plan: Plan, column: Column) -> Unit:
+    """In what people are told the numbers of a column: rates in the units of the case."""
+    of = unit(plan, column)
+    return ("", 1.0) if of == "1" else units_of(plan.case).of(of)
+
+
+def _range(values: np.ndarray, column: Column, of: str, one: float) -> str:
     finite, name = values[np.isfinite(values)], column.name.replace("_", " ")
     rest = [f"{words} at {count:,}" for words, count in (("-inf", np.isneginf(values).sum()), ("+inf", np.isposinf(values).sum()),
                                                          ("not known", np.isnan(values).sum())) if count]
-    ends = list(dict.fromkeys(f"{end + 0.0:.6g}" for end in (finite.min(), finite.max()))) if finite.size else []
-    told = " to ".join(ends) + ("" if of == "1" else f" {of}") if ends else "no finite value"
+    ends = list(dict.fromkeys(f"{end * one + 0.0:.6g}" for end in (finite.min(), finite.max()))) if finite.size else []
+    told = " to ".join(ends) + (f" {of}" if of else "") if ends else "no finite value"
     return f"  {name}: {told}" + (f" ({', '.join(rest)})" if rest else "")
 
 
@@ -158,24 +168,27 @@ def _plain(values: np.ndarray) -> list[Any]:
 
 
 def _table(found: Swept) -> list[str]:
-    """A row a point under short names and units, as narrow as a terminal."""
+    """A row a point under short names and units, rates in the units of the case."""
     plan, columns = found.plan, columns_of(found.plan.answers)[1:]
     keys = [(axis.key.name, axis.shown_unit) for axis in plan.axes]
     sampled = [(key.name, plan.sampled.unit(n)) for n, key in enumerate(plan.sampled.keys)] if plan.sampled else []
     names = said([key for key, _ in keys + sampled])
     titles = names[:len(keys)] + ([SAMPLE, *names[len(keys):]] if sampled else [])
     units = [of for _, of in keys] + (["1", *(of for _, of in sampled)] if sampled else [])
+    units, factors, kinds = ["" if of == "1" else greek(of) for of in units], [1.0] * len(units), [""] * len(units)
     for column in columns:
-        ends = ("1", "2", "3") if column.shape else ("",)
-        titles += [SHORT.get(column.name, column.name.replace("_", " ")) + (f" {end}" if end else "") for end in ends]
-        units += [unit(plan, column)] * len(ends)
-    units = ["" if of == "1" else greek(of) for of in units]
-    cells = [[_cell(value) for value in row] for row in rows(found)]
-    wide = [max(map(len, column)) for column in zip(titles, units, *cells)]
-    return ["".join(f"{cell:>{size + 2}}" for cell, size in zip(row, wide)).rstrip() for row in (titles, *([units] if any(units) else []), *cells)]
+        (of, one), name = _unit(plan, column), SHORT.get(column.name, column.name.replace("_", " "))
+        titles += [f"{greek(component)} {name}" for component in plan.case.scene.components] if column.shape else [name]
+        places = math.prod(column.shape)
+        units, factors, kinds = units + [of] * places, factors + [one] * places, kinds + [column.name] * places
+    cells = [[_cell(value, one, kind) for value, one, kind in zip(row, factors, kinds)] for row in rows(found)]
+    said_of = [n for n in range(len(titles)) if any(row[n] for row in cells)]
+    return table([[row[n] for n in said_of] for row in (titles, units, *cells)], len(keys + sampled), page.width())
 
 
-def _cell(value: Any) -> str:
+def _cell(value: Any, one: float, kind: str) -> str:
+    if kind == "spin_axis":
+        return f"{value:+d}" if value else ""
     if not isinstance(value, float):
         return str(value)
-    return "not known" if math.isnan(value) else f"{value + 0.0:.6g}"
+    return "not known" if math.isnan(value) else f"{value * one + 0.0:.6g}"

@@ -9,10 +9,10 @@ from dataclasses import replace
 from ...case.units import DIMENSIONS, NAMES
 from ..text.headline import WORDS, known_as, rate_margin
 from ..units import SHORT, Units, but_for_rounding, number
+from . import page
 from .letters import greek, some
 from .motion import shown
 
-GAP = 2
 LETTERS = {"angular_velocity": "ω", "mu": "μ"}  # keys with a shorter name
 Column = tuple[str, str, Callable]  # its head, its unit, and what it says of a motion
 
@@ -30,12 +30,12 @@ def groups(cases: Sequence) -> list[list[int]]:
 
 def text(cases: Sequence, answer: str, columns: Sequence[tuple[str, str]], rows: Sequence[Sequence[str]]) -> str:
     """The answer in a line, then the table. columns: (head, unit) of what follows the swept keys; rows: its cells, one for each case."""
+    from .columns import table
     keys = swept_columns(cases)
     heads = [name for name, *_ in keys] + [head for head, _ in columns]
     units = [unit for _, unit, _ in keys] + [unit for _, unit in columns]
     cells = [[values[n] for *_, values in keys] + list(row) for n, row in enumerate(rows)]
-    sizes = [max(map(len, column)) for column in zip(heads, units, *cells)]
-    lines = ["".join(f"{cell:>{size + GAP}}" for cell, size in zip(row, sizes)).rstrip() for row in (heads, units, *cells)]
+    lines = table([heads, units, *cells], len(keys), page.width())
     name = cases[0].name.removesuffix(cases[0].variant)
     return "\n".join([f"{name}: {some(len(cases), 'combination')}: {answer}", *lines])
 
@@ -96,27 +96,27 @@ def of_motions(motions: Sequence, units: Units) -> tuple[list[tuple[str, str]], 
     name, one = units.rates
     longest = max((m.period for m in motions if m.period is not None), default=0.0)
     time, per_time = units.times(longest)
-    table = [("fate", "", lambda m: m.fate.word + known_as(m)), ("axis", "", _axis),
+    columns = [("fate", "", lambda m: m.fate.word + known_as(m)), ("axis", "", _axis),
              ("largest rate", name, lambda m: "" if _largest(m) is None else number(_largest(m) * one, 6)),
              ("margin", name, lambda m: rate_margin(m, units, 6).removesuffix(f" {name}") if name else rate_margin(m, units, 6)),
              ("to barrier", units.plain("J")[0], lambda m: "" if m.margin_energy is None else shown(m.margin_energy)),
              ("period", time, lambda m: "" if m.period is None else number(m.period * per_time, 6))]
-    return filled(table, motions)
+    return filled(columns, motions)
 
 
 def of_extremes(motions: Sequence, names: Sequence[str], units: Units) -> tuple[list[tuple[str, str]], list[list[str]]]:
     """Columns and rows of the fate, and of least and greatest of every component."""
     name, one = units.rates
     motions = [replace(m, extremes=but_for_rounding(m.extremes, m.tolerance)) for m in motions]
-    table: list[Column] = [("fate", "", lambda m: m.fate.word + known_as(m))]
+    columns: list[Column] = [("fate", "", lambda m: m.fate.word + known_as(m))]
     for i, component in enumerate(names):
         for end, word in enumerate(("least", "most")):
-            table.append((f"{greek(component)} {word}", name, lambda m, i=i, end=end: "" if m.extremes is None else shown(m.extremes[i][end], one)))
-    return filled(table, motions)
+            columns.append((f"{greek(component)} {word}", name, lambda m, i=i, end=end: "" if m.extremes is None else shown(m.extremes[i][end], one)))
+    return filled(columns, motions)
 
 
-def filled(table: Sequence[Column], answers: Sequence) -> tuple[list[tuple[str, str]], list[list[str]]]:
+def filled(columns: Sequence[Column], answers: Sequence) -> tuple[list[tuple[str, str]], list[list[str]]]:
     """(columns, rows) of those columns that say something of an answer."""
-    rows = [[words(one) for _, _, words in table] for one in answers]
-    kept = [n for n in range(len(table)) if any(row[n] for row in rows)]
-    return [table[n][:2] for n in kept], [[row[n] for n in kept] for row in rows]
+    rows = [[words(one) for _, _, words in columns] for one in answers]
+    kept = [n for n in range(len(columns)) if any(row[n] for row in rows)]
+    return [columns[n][:2] for n in kept], [[row[n] for n in kept] for row in rows]
