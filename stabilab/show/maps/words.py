@@ -14,7 +14,6 @@ from ...maps.run import Swept
 from ...orbit.result import Fate
 from ..files import comma
 from ..terminal import page
-from ..terminal.columns import table
 from ..terminal.letters import greek
 from ..text.answers import Endless, as_json
 from ..units import Unit, units_of
@@ -183,7 +182,7 @@ def _table(found: Swept) -> list[str]:
         units, factors, kinds = units + [of] * places, factors + [one] * places, kinds + [column.name] * places
     cells = [[_cell(value, one, kind) for value, one, kind in zip(row, factors, kinds)] for row in rows(found)]
     said_of = [n for n in range(len(titles)) if any(row[n] for row in cells)]
-    return table([[row[n] for n in said_of] for row in (titles, units, *cells)], len(keys + sampled), page.width())
+    return page.table([[row[n] for n in said_of] for row in (titles, units, *cells)], len(keys + sampled), page.width())
 
 
 def _cell(value: Any, one: float, kind: str) -> str:

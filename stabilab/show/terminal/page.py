@@ -1,13 +1,15 @@
-"""Text for people on stdout and stderr: wrapped to a terminal and coloured there, and the plain lines anywhere else."""
+"""Text for people on stdout and stderr: wrapped to a terminal and coloured there, tables in columns, and the plain lines anywhere else."""
 from __future__ import annotations
 
 import os
 import re
 import sys
+from collections.abc import Sequence
 
 from .letters import encodable, for_people
 
 USUAL = 80   # columns of a terminal that does not say how wide it is
+GAP = 2      # columns between those of a table
 NARROW = 40  # columns below which nothing is wrapped any narrower
 COLOURS = {r"\bBOUNDED\b|\bNEVER\b|\bAT REST\b|\bPROVED\b": "bold green", r"\bSPINS UP\b|BEYOND THE LAW|\bREFUTED\b": "bold red",
            r"\bUNDECIDED\b|ON THE SEPARATRIX|NOT KNOWN": "bold yellow"}
@@ -58,6 +60,23 @@ def _hang(line, columns):
     if named and len(named[1]) <= columns // 2:
         return len(named[1])
     return len(line) - len(line.lstrip()) + 2
+
+
+def table(rows: Sequence[Sequence[str]], keys: int = 1, width: int | None = None) -> list[str]:
+    """Lines of right-aligned cells, two columns apart. width: of a terminal; where the columns do not fit, the others go on in a table below, with the
+    first `keys` columns again, or with the first alone where these fill half a line."""
+    sizes = [GAP + max(map(len, column)) for column in zip(*rows)]
+    fits = max(width, NARROW) if width is not None else sum(sizes)
+    again = range(keys if sum(sizes[:keys]) <= fits // 2 else 1)
+    lines: list[str] = []
+    left = list(range(len(sizes)))
+    while left:
+        chosen = [] if not lines else list(again)
+        while left and (sum(sizes[n] for n in [*chosen, left[0]]) <= fits or len(chosen) == (len(again) if lines else 0)):
+            chosen.append(left.pop(0))
+        lines += [""] * bool(lines)
+        lines += filter(None, ("".join(f"{row[n]:>{sizes[n]}}" for n in chosen).rstrip() for row in rows))
+    return lines
 
 
 def width(stream=None) -> int | None:

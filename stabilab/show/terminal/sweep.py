@@ -30,12 +30,11 @@ def groups(cases: Sequence) -> list[list[int]]:
 
 def text(cases: Sequence, answer: str, columns: Sequence[tuple[str, str]], rows: Sequence[Sequence[str]]) -> str:
     """The answer in a line, then the table. columns: (head, unit) of what follows the swept keys; rows: its cells, one for each case."""
-    from .columns import table
     keys = swept_columns(cases)
     heads = [name for name, *_ in keys] + [head for head, _ in columns]
     units = [unit for _, unit, _ in keys] + [unit for _, unit in columns]
     cells = [[values[n] for *_, values in keys] + list(row) for n, row in enumerate(rows)]
-    lines = table([heads, units, *cells], len(keys), page.width())
+    lines = page.table([heads, units, *cells], len(keys), page.width())
     name = cases[0].name.removesuffix(cases[0].variant)
     return "\n".join([f"{name}: {some(len(cases), 'combination')}: {answer}", *lines])
 
