@@ -14,7 +14,7 @@ from ..numbers.vectors import Exact3, Given
 from ..record import record
 from .blocks import ordered
 from .body import Body
-from .effects.base import Effect
+from .effects.base import Effect, effect_words
 from .quadratic import QuadraticForm, euler_form, scaled_form
 
 ZERO3 = (Fraction(0),) * 3
@@ -85,7 +85,7 @@ class Scene(metaclass=Asked):
         """Kept, for every question asks for it several times."""
         other = self._beyond()
         if other:
-            raise InputError(f"this analysis covers a gyrostat and a constant torque; the scene also has {', '.join(name.replace('_', ' ') for name in other)}")
+            raise InputError(f"this analysis covers a gyrostat and a constant torque; the scene also has {', '.join(map(effect_words, other))}")
         return euler_form(self.body.exact, self.vector("gyrostat"), self.vector("constant_torque"))
 
 

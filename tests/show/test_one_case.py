@@ -216,3 +216,11 @@ def test_an_extreme_that_is_zero_but_for_rounding_is_told_as_zero(tmp_path):
     """The start has omega2 = 0, where omega2' = 0 too, and the motion comes back to it from above: by hand the least omega2 is 0."""
     rows = _sections("charged-body", tmp_path)["extremes"]
     assert (rows[1]["name"], rows[1]["least"]) == ("ω2", "0 deg/s")
+
+
+def test_a_page_of_a_sweep_begins_with_the_answer_of_the_commands_and_tells_the_farthest_of_its_laws(stabilab, tmp_path):
+    path = CASES / "charged-sweep.toml"
+    found = sweep.sections(load_all(path), tmp_path, "charged-sweep")
+    first, (_, _, told) = stabilab("fate", path)[1].splitlines()[0], stabilab("extremes", path, "--csv")
+    assert first.endswith(f"; by that law: charged-sweep: {found['headline']}") and found["headline"].startswith("27 combinations: each BOUNDED for ever")
+    assert told.strip() == found["law"] and "27 of 27 combinations" in found["law"]

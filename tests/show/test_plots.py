@@ -469,3 +469,14 @@ def test_a_film_is_a_gif_and_what_cannot_be_written_names_what_is_missing(tmp_pa
     with pytest.raises(errors.InputError, match=r"ends in .html, .gif or .mp4, got .png"):
         to_file.write(case, tmp_path / "a.png", "attitude")
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.gif", "case.toml"]
+
+
+def test_a_rate_that_turns_often_by_little_is_drawn_as_its_line_and_not_as_a_band_too_thin_to_be_seen():
+    """|omega| of this body sways by 0.1 % some hundred times; its legend shows a wide black line. Oracle: the run itself."""
+    case = load("liquid-sensible")
+    ax = stabilab.plot.time(case)
+    (size,) = [line for line in ax.get_lines() if line.get_color() == style.BLACK and line.get_linewidth() > 2]
+    run = stabilab.simulate(case.scene, case.state, np.linspace(*case.span, 50))
+    expected = np.degrees(np.linalg.norm(run.state["omega"], axis=1))
+    assert size.get_ydata()[0] == pytest.approx(expected[0], rel=2e-3) and size.get_ydata()[-1] == pytest.approx(expected[-1], rel=2e-3)
+    assert len(ax.collections) == 2  # omega1 and omega2, which fill bands

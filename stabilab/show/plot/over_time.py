@@ -26,6 +26,7 @@ LIMIT = {"color": style.VERMILION, "linestyle": "--", "linewidth": 1.5}
 REACHED = {"marker": "o", "color": style.VERMILION, "markersize": 6.5, "linestyle": "none"}
 PERIOD = {"color": style.GREY, "linestyle": "-", "linewidth": 0.8}
 ALIKE = 0.004  # of the height of all curves: no more than the width of a line
+THIN = 0.02  # of the height of all curves: as high as a few lines
 BROKEN = ((0, (6, 6)), (0, (3, 9)))  # dashes of a curve over one or two others: each leaves some of those below
 PERIODS = 10  # a motion that repeats is shown for so many at most, unless a span is asked for
 BEYOND = 1.25  # of the time to the limit: how far the picture goes at least
@@ -51,13 +52,14 @@ def time(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None,
     (time_unit, per_time), (rate_unit, per_rate) = scale.time(high - low), scale.rate
     names = scale.names if turned is None else tuple(rf"$\omega_{axis}$" for axis in "xyz")
     with canvas.on(ax, size) as target:
+        height = (max(omega.max(), np.linalg.norm(omega, axis=1).max() if scale.size else -math.inf) - omega.min()) * per_rate
         looks = told_apart(COMPONENTS, list(omega.T))
         rows = list(zip(names, looks))
         if scale.size:
             rows.insert(0, (scale.size, SIZE_LOOK))  # so wide that a component on it leaves its edges
-            _curve(target, t * per_time, np.linalg.norm(omega, axis=1) * per_rate, SIZE_LOOK)
+            _curve(target, t * per_time, np.linalg.norm(omega, axis=1) * per_rate, SIZE_LOOK, height)
         for values, look in zip(omega.T, looks):
-            _curve(target, t * per_time, values * per_rate, look)
+            _curve(target, t * per_time, values * per_rate, look, height)
         rows += _extremes(target, one, per_rate) if turned is None else []
         rows += _periods(target, one, low, high, per_time, scale)
         rows += _limits(target, one, reached, t, omega, (time_unit, per_time), scale.rate)
@@ -81,11 +83,16 @@ def told_apart(looks: Sequence[dict[str, Any]], curves: Sequence[np.ndarray]) ->
     return told
 
 
-def _curve(ax, t, values, look):
+def _curve(ax, t, values, look, height):
+    """A rate over time; one that turns more often than a picture has columns as the band that it fills. height: of all curves."""
     if turning(values) <= SOLID:
         ax.plot(t, values, **look)
         return
-    ax.fill_between(*band(t, values), color=look["color"], alpha=0.45, linewidth=0.3)
+    times, low, high = band(t, values)
+    if (high - low).max() < height * THIN:  # a band that would be too narrow to be seen is the curve itself
+        ax.plot(times, (low + high) / 2, **look)
+    else:
+        ax.fill_between(times, low, high, color=look["color"], alpha=0.45, linewidth=0.3)
 
 
 def _span(one: Subject, asked: bool, reached) -> tuple[float, float]:

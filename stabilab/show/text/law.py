@@ -66,17 +66,17 @@ def of_cases(cases) -> str:
     return "\n".join(_of_alike(group, cases) for group in _alike(beyond))
 
 
-def lines_of(judged) -> list[str]:
+def lines_of(judged, units: Units = SI) -> list[str]:
     """A line for every (case, validity) that has a law to be told, one for all combinations of a file that stand the same way to the same limit, and
-    one for all cases that say the same; without a name where there is one case."""
+    one for all cases that say the same; without a name where there is one case. units: in which times are told."""
     groups, cases = _alike([(case, found) for case, found in judged if found is not None]), [case for case, _ in judged]
     if len(cases) == 1:
-        return [_told(found) for group in groups for _, found in group]
-    return together([_of_alike(group, cases) for group in groups])
+        return [_told(found, units) for group in groups for _, found in group]
+    return together([_of_alike(group, cases, units) for group in groups])
 
 
-def _told(found) -> str:
-    return lettered(SI.words(found.words))
+def _told(found, units) -> str:
+    return lettered(units.words(found.words))
 
 
 def _alike(judged) -> list:
@@ -96,11 +96,11 @@ def together(lines) -> list[str]:
     return [f"{words} ({', '.join(names)})" for words, names in told.items()]
 
 
-def _of_alike(group, cases) -> str:
+def _of_alike(group, cases, units: Units = SI) -> str:
     """A line on a case, or on the combinations of one file that stand the same way to the same limit: the most exceeded of them."""
     case, _ = group[0]
     found = worst(*(one for _, one in group))
-    words = _told(found)
+    words = _told(found, units)
     if not case.variant:
         return f"{words} ({printable(case.name)})"
     farthest = "" if found.value is None else ", the farthest of them told"

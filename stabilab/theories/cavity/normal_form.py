@@ -17,6 +17,7 @@ from functools import lru_cache
 
 from ...errors import InputError
 from ...numbers.vectors import Number
+from ...physics.effects.base import effect_words
 from ...physics.equations import derive
 
 ORDERS = 3  # X0, X1, X2
@@ -57,7 +58,7 @@ def check(scene):
         raise InputError("averaging needs a physical scene (a body with a liquid, resistance, small torques), got a scaled one")
     other = [e.name for e in scene.effects if e.name not in ALLOWED]
     if other:
-        raise InputError(f"averaging covers {', '.join(sorted(ALLOWED))}; the scene also has {', '.join(other)}")
+        raise InputError(f"averaging covers {', '.join(map(effect_words, sorted(ALLOWED)))}; the scene also has {', '.join(map(effect_words, other))}")
     if len(scene.blocks) > 1:
         raise InputError('averaging needs a constant angle of the charge (the angular velocity alone as state), got angle = '
                          '"attitude": give the angle in rad')

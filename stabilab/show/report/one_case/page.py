@@ -35,7 +35,7 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
     if case.state is None:
         absent.append(("Motion", "the case states none: no fate, margins and pictures of it"))
     page = {"name": case.name, "title": case.heading, "source": case.source, "path": case.path, "text": case.text,
-            "headline": verdict.headline(case, moved, found, measures), "law": verdict.law(moved), "fate": "" if moved is None else moved.fate.word,
+            "headline": verdict.headline(case, moved, found, measures), "law": verdict.law(moved, measures), "fate": "" if moved is None else moved.fate.word,
             "facts": [], "extremes": [], "invariants": [], "over": "", "pictures": [], "sensitivity": None, "certificate": None,
             "equilibria": found and table(found, measures), "equations": _tried(absent, "Equations", lambda: equations(case))}
     if moved is not None:

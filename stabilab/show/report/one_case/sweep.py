@@ -12,8 +12,8 @@ from ... import style
 from ...plot.path import along
 from ...plot.subject import subject
 from ...terminal.letters import some
-from ...terminal.sweep import key_columns
-from ...text.law import judged
+from ...terminal.sweep import fates, key_columns
+from ...text.law import judged, lines_of
 from ...units import units_of
 from . import pictures, verdict
 from .equations import equations
@@ -38,15 +38,16 @@ def sections(cases, folder: Path, stem: str) -> dict:
             "source": first.source, "path": first.path, "text": first.text, "rows": rows,
             "keys": [_head(label, unit) for key in keys for label, unit, _ in key], "equations": _equations(first),
             "picture": _picture(moved, keys, cases, measures, folder / f"{stem}-sweep.png") if moved else None,
-            "headline": headline(rows),
-            "law": next((row["law"] for row in rows if row["law"]), "")}
+            "headline": f"{some(len(rows), 'combination')}: {_answer_of_all([found for _, found, _ in answered], measures)}",
+            "law": "; ".join(lines_of([(case, None if found is None or found.validity is None or found.validity.held else found.validity)
+                                       for case, found, _ in answered], measures.units))}
 
 
-def headline(rows) -> str:
-    """How many combinations have which fate."""
-    words = [row["fate"] for row in rows]
-    told = ", ".join(f"{words.count(word)} {word or 'without a motion'}" for word in dict.fromkeys(words))
-    return f"{some(len(rows), 'combination')}: {told}"
+def _answer_of_all(motions, measures) -> str:
+    """Which fates there are and how large the rates grow, as the commands tell it; how many state no motion or are not answered."""
+    known = [motion for motion in motions if motion is not None]
+    without = len(motions) - len(known)
+    return "; ".join(filter(None, [fates(known, measures.units) if known else "", f"without a motion: {without}" if without else ""]))
 
 
 def _answer(case):
@@ -60,7 +61,6 @@ def _answer(case):
 def _row(case, found, why, values, measures):
     return {"name": case.name, "values": values,
             "fate": "" if found is None else found.fate.word, "css": "" if found is None else verdict.css(found.fate.word),
-            "law": verdict.law(found),
             "told": [why, "", ""] if found is None else [of(found, measures) for of in (verdict.largest, verdict.margin, verdict.period)]}
 
 

@@ -21,9 +21,9 @@ def period(motion, measures) -> str:
     return "" if motion.period is None else measures.time(motion.period)
 
 
-def law(motion) -> str:
+def law(motion, measures) -> str:
     """What is to be said before the verdict where an approximate law does not hold along the motion."""
-    return "" if motion is None or motion.validity is None or motion.validity.held else spoken(motion.validity.words)
+    return "" if motion is None or motion.validity is None or motion.validity.held else measures.reason(motion.validity.words)
 
 
 def css(fate: str) -> str:
@@ -43,7 +43,7 @@ def margin(motion, measures) -> str:
 
 def rows(case, motion, measures) -> list[tuple[str, str]]:
     """(what, its value) of everything known of the motion, in the order in which one asks."""
-    found = [] if motion.validity is None or not motion.validity.held else [("law", spoken(motion.validity.words))]
+    found = [] if motion.validity is None or not motion.validity.held else [("law", measures.reason(motion.validity.words))]
     found += [("start", f"{_rates(motion.at[:3], measures)} at {'t' if measures.physical else 'τ'} = 0")]
     found += [("vertical at t = 0", vector(motion.at[3:]))] if len(motion.at) > 3 else []
     found += [("because", measures.reason(motion.because.removeprefix("undecided: ")))]

@@ -4,6 +4,7 @@ from __future__ import annotations
 from ....cost.accuracy import EPS, digit_price
 from ....integrate.trajectory import SCIPY_METHODS
 from ....machine import machine, versions
+from ...terminal.letters import written
 
 FORMULAS = ("linear", "corrected", "printed", "averaged1", "averaged2", "lindstedt")
 WANTED = (3, 6, 9, 12, 15)  # digits whose price the words tell
@@ -121,7 +122,7 @@ def _model_words(found):
         if points:
             best = min(points, key=lambda p: p.error)
             yield (f"The model {name}{setting(best)}: its own error is {best.error:.2g} of the state, whatever is spent on it"
-                   f"{f' (of {best.parts} alone)' if best.parts else ''}.")
+                   f"{f' (of {written(best.parts)} alone)' if best.parts else ''}.")
         elif any(m == name for m, *_ in found.left_out):
             yield f"The model {name} has no answer over the whole span."
 
