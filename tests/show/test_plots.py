@@ -480,3 +480,36 @@ def test_a_rate_that_turns_often_by_little_is_drawn_as_its_line_and_not_as_a_ban
     expected = np.degrees(np.linalg.norm(run.state["omega"], axis=1))
     assert size.get_ydata()[0] == pytest.approx(expected[0], rel=2e-3) and size.get_ydata()[-1] == pytest.approx(expected[-1], rel=2e-3)
     assert len(ax.collections) == 2  # omega1 and omega2, which fill bands
+
+
+@pytest.mark.parametrize("size, panels", [((3.6, 3.0), 1), ((7, 6), 4)])
+def test_a_small_picture_of_costs_has_as_many_questions_as_have_room_and_nothing_is_cut_off(size, panels):
+    """Oracle: Matplotlib's own boxes after the layout."""
+    with style.drawing():
+        figure = to_file.DRAWN["budget"](subject.subject(load("middle-axis-double-well")), None, size, plt)
+        figure.draw_without_rendering()
+        shown, (below,) = [ax for ax in figure.axes if ax.get_visible()], figure.legends
+        assert len(shown) == panels and tuple(figure.get_size_inches()) == size
+        for box in (below.get_window_extent(), below.get_title().get_window_extent(), *(ax.get_window_extent() for ax in shown)):
+            assert 0 <= box.x0 + 2 and box.x1 <= figure.bbox.width + 2 and 0 <= box.y0 + 2 and box.y1 <= figure.bbox.height + 2
+        assert all(ax.get_window_extent().height > figure.bbox.height / 8 for ax in shown)
+
+
+def test_the_third_axis_is_named_upwards_and_an_axis_seen_from_its_end_has_fewer_ticks():
+    """Oracle: the ticks' own boxes, of which no two lie on each other."""
+    for name in ("two-wheels-minor-axis", "torque-free-gyrostat", "middle-axis-double-well"):
+        for size in (None, (3.6, 3.0)):
+            ax = stabilab.plot.sphere(load(name), size=size)
+            ax.figure.draw_without_rendering()
+            assert ax.zaxis.label.get_rotation() == (90 if " " in ax.get_zlabel() else 0)
+            for axis in (ax.xaxis, ax.yaxis, ax.zaxis):
+                low, high = sorted(axis.get_view_interval())
+                boxes = [tick.label1.get_window_extent() for tick in axis.get_major_ticks() if low <= tick.get_loc() <= high]
+                assert len(boxes) >= 2 and not [1 for n, box in enumerate(boxes) for other in boxes[:n] if _deep(box, other)], (name, size)
+            plt.close("all")
+
+
+def _deep(box, other):
+    """Whether two boxes share more than a fifth of the smaller one."""
+    wide, high = min(box.x1, other.x1) - max(box.x0, other.x0), min(box.y1, other.y1) - max(box.y0, other.y0)
+    return wide > 0 and high > 0 and wide * high > 0.2 * min(box.width * box.height, other.width * other.height)

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 from ...cost.accuracy import Precision, precision
 from ...errors import InputError
+from .. import style
 from ..report.precision_picture import meanings, panel, picture
 from . import canvas, which
 from .subject import subject
@@ -43,6 +44,8 @@ def measured(case: Any, state: Any = None, span: Any = None, effort: str = "quic
     return precision(one, effort)
 
 
-def whole(case: Any, plt: Any) -> Any:
-    """The figure with a panel for every question that the motion has."""
-    return picture(plt, measured(case))
+def whole(case: Any, plt: Any, size: tuple[float, float] | None = None) -> Any:
+    """The figure with a panel for every question that the motion has, or for as many as a figure of this size has room for."""
+    import matplotlib
+    with matplotlib.rc_context(style.RC | style.letters(size)):
+        return picture(plt, measured(case), size)

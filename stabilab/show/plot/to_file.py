@@ -33,7 +33,7 @@ DRAWN: dict[str, Callable[..., Any]] = {
     "space": lambda one, units, size, plt: space(one, units=units, size=size).figure,
     "section": lambda one, units, size, plt: section(one, units=units, size=size).figure,
     "equilibria": lambda one, units, size, plt: equilibria(one, units=units, size=size).figure,
-    "budget": lambda one, units, size, plt: budget(one, plt),
+    "budget": lambda one, units, size, plt: budget(one, plt, size),
     "state": lambda one, units, size, plt: state(one, units=units, size=size),
 }
 

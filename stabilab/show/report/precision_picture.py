@@ -22,25 +22,34 @@ LOOKS = {  # method -> how its line is drawn; the same in every picture
     "averaged2": {"color": style.BLUE, "marker": "3", "linestyle": "none"},
     "lindstedt": {"color": style.GREEN, "marker": "4", "linestyle": ":"}}
 WORST, LEAST = 10.0, 1e-17  # errors beyond are drawn at the edge
+PANEL = (3.4, 2.6)  # inches that a panel needs at least
 NOTED = 1.5  # digits: stretches of the front at least so long have their price written on them
 
 
-def picture(plt, found):
-    """Time against error, both logarithmic: a panel per question, a line per method, the front as a grey band."""
+def picture(plt, found, size=None):
+    """Time against error, both logarithmic: a panel per question, a line per method, the front as a grey band. size: (width, height) in inches; a
+    figure of that size has as many of the questions, in their order, as have room."""
     questions = found.questions
     if not questions:
         raise InputError(f"{found.case.name}: nothing to draw: {found.reference.reason}")
     columns = min(2, len(questions))
+    if size is not None:
+        columns = max(1, min(columns, int(size[0] / PANEL[0])))
+        questions = questions[:columns * max(1, int(size[1] / PANEL[1]))]
     rows = -(-len(questions) // columns)
-    figure, axes = plt.subplots(rows, columns, figsize=(5.6 * columns, 4.0 * rows + (1.3 if columns == 2 else 2.1)), layout="constrained", squeeze=False)
+    usual = (5.6 * columns, 4.0 * rows + (1.3 if columns == 2 else 2.1))
+    figure, axes = plt.subplots(rows, columns, figsize=size or usual, layout="constrained", squeeze=False)
     for ax, question in zip(axes.flat, questions):
         panel(ax, found, question)
     for ax in axes.flat[len(questions):]:
         ax.set_visible(False)
-    style.legend(figure, meanings(found), columns=4 if columns == 2 else 2)
-    figure.suptitle(f"{found.case.name}: what accuracy costs", fontsize=11, parse_math=False)
+    looks = meanings(found, questions, size is None or size[0] >= usual[0])
+    style.legend(figure, looks, columns=(4 if columns == 2 else 2) if size is None else style.fitting([name for name, _ in looks], size[0]))
+    figure.suptitle(f"{found.case.name}: what accuracy costs", fontsize=11 * style.share(), parse_math=False)
+    if size is not None and style.share() < 1:
+        return figure  # without the note, which a small figure has no room for
     note = f"Reference error {found.reference.error.max():.0e}. {caption()}"
-    width = 150 if columns == 2 else 84
+    width = int((150 if columns == 2 else 84) * figure.get_figwidth() / usual[0])
     figure.legends[0].set_title("\n".join(textwrap.wrap(note, width)), prop={"size": 7.5})
     figure.legends[0].get_title().set(color=style.GREY, parse_math=False)
     return figure
@@ -49,10 +58,11 @@ def picture(plt, found):
 FRONT = {"color": "#CDD5DA", "linewidth": 7, "marker": "o", "markersize": 11, "markeredgewidth": 0, "solid_joinstyle": "round"}
 
 
-def meanings(found, questions=None) -> list[tuple[str, dict]]:
-    """Rows (name, look) of the legend: the methods that were measured, of some questions or of all, and the front."""
+def meanings(found, questions=None, prices=True) -> list[tuple[str, dict]]:
+    """Rows (name, look) of the legend: the methods that were measured, of some questions or of all, with the price of a digit or alone, and the front."""
     asked = [p.method for p in found.points if questions is None or p.question in questions]
-    return [*((_legend(found, m), LOOKS[m]) for m in LOOKS if m in asked), ("front: none is both faster and better", FRONT)]
+    methods_drawn = [(_legend(found, m) if prices else m, LOOKS[m]) for m in LOOKS if m in asked]
+    return [*methods_drawn, ("front: none is both faster and better" if prices else "front", FRONT)]
 
 
 def _legend(found, method) -> str:
@@ -76,13 +86,13 @@ def panel(ax, found, question):
     if question in ("span", "end") and found.sensitivity is not None:
         ax.axvline(_clipped(found.sensitivity * EPS), color=style.GREY, linestyle="--", linewidth=0.9)
         ax.annotate("last place of the start", (_clipped(found.sensitivity * EPS), 0.98), xycoords=("data", "axes fraction"),
-                    rotation=90, va="top", ha="right", fontsize=7, color=style.GREY)
+                    rotation=90, va="top", ha="right", fontsize=7 * style.share(), color=style.GREY)
     ax.invert_xaxis()  # better to the right
     for one, two in zip(front, front[1:]):
         if two.digits - one.digits >= NOTED:
             factor = (two.seconds / one.seconds) ** (1 / (two.digits - one.digits))
             ax.annotate(f"{price(factor)} a digit", (math.sqrt(_clipped(one.error) * _clipped(two.error)),
-                        math.sqrt(one.seconds * two.seconds)), xytext=(0, 9), textcoords="offset points", ha="center", fontsize=7.5)
+                        math.sqrt(one.seconds * two.seconds)), xytext=(0, 9), textcoords="offset points", ha="center", fontsize=7.5 * style.share())
 
 
 def _clipped(error) -> float:

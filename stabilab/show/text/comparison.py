@@ -24,6 +24,7 @@ NAMES = {"omega": (r"$\omega_1$", r"$\omega_2$", r"$\omega_3$"), "gamma": (r"$\g
 WORDS = {"exact": "exact motion", "printed": "as printed", "linear": "linear model, both rates", "corrected": "corrected integrals",
          "averaged1": "averaged, first order", "averaged2": "averaged, second order", "lindstedt": "corrected expansion"}
 TIMES = 10  # the share of a motion's size from which on an error is told as so many times that size
+BRIEF = 8.0  # inches of a figure of letters of full size, below which there is no room for numbers on each panel
 REACH = 1.6  # a model that leaves the exact motion's range by more than this factor is cut off, and the panel says so
 
 
@@ -125,10 +126,11 @@ def _curves(ax, runs):
 def _tell_cut(ax, models):
     """Above a panel how far the curves go that leave it, each in its colour: a third of the width for each, which is not much."""
     low, high = ax.get_ylim()
+    brief = ax.figure.get_figwidth() < BRIEF * style.share()
     for (name, values), (x, side) in zip(models, ((0.0, "left"), (1.0, "right"), (0.5, "center"))):
         far = values.max() if values.max() - high > low - values.min() else values.min()
         told = (f"{far:.0f}" if 1000 <= abs(far) < 1e5 else f"{far:.3g}").replace("-", "−")
-        ax.text(x, 1.01, f"cut: to {told}", color=LOOKS[name]["color"], ha=side, va="bottom", fontsize=7.5 * style.share(),
+        ax.text(x, 1.01, "cut" if brief else f"cut: to {told}", color=LOOKS[name]["color"], ha=side, va="bottom", fontsize=7.5 * style.share(),
                 transform=ax.transAxes)
 
 

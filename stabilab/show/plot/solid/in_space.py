@@ -13,6 +13,7 @@ ZOOM = 0.98  # leaves room for the labels
 PALE = 0.75  # share of its colour that a surface has
 LIGHT = np.array([0.35, -0.55, 0.76])
 DARKEST = 0.62  # share of its colour that a facet keeps which the light only grazes
+TICKS, SEEN = 5, 0.45  # of an axis that is seen in at least this share of the longest side; of a shorter one fewer, lest they lie on each other
 FLATTEST = 0.75  # of the longest side of a box whose sides are in different scales
 MARGIN = 1.08  # of a box about the things in it
 
@@ -114,6 +115,13 @@ def polygon(ax: Any, rim: np.ndarray, colour: str, alpha: float) -> None:
     ax.add_collection3d(Poly3DCollection([rim], facecolors=colour, alpha=alpha, edgecolors="none"))
 
 
+def _seen(view: tuple[float, float]) -> np.ndarray:
+    """(3,) what is seen of the length of each axis from this side: 1 of one across the line of sight."""
+    height, turn = map(math.radians, view)
+    return np.array([math.hypot(math.sin(turn), math.sin(height) * math.cos(turn)), math.hypot(math.cos(turn), math.sin(height) * math.sin(turn)),
+                     math.cos(height)])
+
+
 def furnish(ax: Any, box: Box, labels: tuple[str, ...], view: tuple[float, float] = VIEW) -> None:
     """Limits, labels, ticks and the point of view."""
     from matplotlib.ticker import MaxNLocator
@@ -127,12 +135,15 @@ def furnish(ax: Any, box: Box, labels: tuple[str, ...], view: tuple[float, float
         if " " not in words:  # a letter alone stands upright from every side; with its unit it goes along the axis
             axis.set_rotate_label(False)
             axis.label.set_rotation(0)
-    for axis in (ax.xaxis, ax.yaxis, ax.zaxis):
-        axis.set_major_locator(MaxNLocator(5))
-        axis.set_pane_color((1, 1, 1, 1))
+        elif axis is ax.zaxis:  # upwards on either side of the box
+            axis.set_rotate_label(False)
+            axis.label.set_rotation(90)
     ax.tick_params(labelsize=8 * small, pad=3.5 * small)
     lengths = box.high - box.low
     sides = np.maximum(lengths / lengths.max(), FLATTEST)
+    for axis, seen in zip((ax.xaxis, ax.yaxis, ax.zaxis), sides / sides.max() * _seen(view)):
+        axis.set_major_locator(MaxNLocator(max(2, min(TICKS, round(TICKS * small * seen / SEEN)))))
+        axis.set_pane_color((1, 1, 1, 1))
     ax.set_box_aspect(sides, zoom=ZOOM * (1 - (1 - small) / 3) * float(np.linalg.norm(sides)) / math.sqrt(3))  # the longest side as of a cube
     ax.view_init(*view)
 
