@@ -152,7 +152,7 @@ def test_compare_and_simulate_name_resonances_and_the_unstable_band(stabilab, tm
 
 def test_the_model_printed_says_what_is_misprinted(stabilab):
     code, out, _ = stabilab("simulate", CHARGED, "--model", "printed", "--at", "0,1")
-    assert code == 0 and "misprint, (46): I2 omega: sign of both exponential terms; a second zeta" in out
+    assert code == 0 and "misprint, (46): I2 ω: sign of both exponential terms; a second ζ" in out
     assert "the phase is off; the model corrected takes it as it stands" in out and "right: as printed" not in out
     assert "misprint" not in stabilab("simulate", CHARGED, "--model", "linear", "--at", "0,1")[1]
 

@@ -75,13 +75,15 @@ def film(one: Any, path: Path, units: str | None = None, size: tuple[float, floa
 
 def _stage(ax, found: Turn, heading: str, scale):
     """The scene of the animation; draw(frame) moves it."""
+    from matplotlib.patheffects import withStroke
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
     box = Poly3DCollection(_faces(found, 0), facecolors=[in_space.pale(COLOURS[n // 2]) for n in range(6)], edgecolors=style.BLACK, linewidths=0.8,
                            zorder=(BEHIND + BEFORE) / 2)
     ax.add_collection3d(box)
     ax.computed_zorder = False  # it sorts whole artists by their middles, and drew axes that leave by a hidden face before the box
     axes = [ax.plot([], [], [], color=colour, linewidth=2.2)[0] for colour in COLOURS]
-    names = [ax.text(0, 0, 0, str(n), color=colour, fontsize=11, weight="bold") for n, colour in enumerate(COLOURS, 1)]
+    halo = [withStroke(linewidth=3, foreground="white")]  # a name is to be read on a face of its colour
+    names = [ax.text(0, 0, 0, str(n), color=colour, fontsize=11, weight="bold", path_effects=halo) for n, colour in enumerate(COLOURS, 1)]
     now = ax.text2D(0.5, 0.97, "", transform=ax.transAxes, ha="center")
     canvas.title(ax, heading)
     ways = [ax.plot([], [], [], color=style.GREY, linewidth=0.9, zorder=order)[0] for order in (BEHIND, BEFORE)]
