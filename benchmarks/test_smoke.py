@@ -9,6 +9,7 @@ SLOW = ("scenes", "surfaces", "orbit_extremes",  # they compile kernels, for hal
         "trajectories")  # it runs many methods
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("topic", [pytest.param(topic, marks=pytest.mark.slow if topic in SLOW else ()) for topic in suite.TOPICS])
 def test_topic_gives_rows(topic):
     if topic == "surfaces":
@@ -33,6 +34,7 @@ def test_spin_up_is_timed_beside_heyokas_own_batches(capsys):
     assert ours > 0 and raw > 0 and "times the raw integration" in capsys.readouterr().out
 
 
+@pytest.mark.slow
 def test_the_sample_of_scenes_is_gathered_in_pieces_and_told_as_a_table(tmp_path, monkeypatch):
     pieces, page = [tmp_path / name for name in ("late", "early")], tmp_path / "page.md"
     for path, first in zip(pieces, (2, 0)):

@@ -33,24 +33,24 @@ def strict_json(text):
 
 
 @functools.cache
-def classified(third):
-    """The JSON objects of every third case, from one run of the program."""
-    run = subprocess.run([sys.executable, "-m", "stabilab", "classify", *map(str, CASES[third::3]), "--json"], capture_output=True,
+def classified(fifth):
+    """The JSON objects of every fifth case, from one run of the program."""
+    run = subprocess.run([sys.executable, "-m", "stabilab", "classify", *map(str, CASES[fifth::5]), "--json"], capture_output=True,
                          text=True, cwd=ROOT)
     assert run.returncode == 0 and not run.stderr, run.stderr
     return {answer["case"]: answer for answer in strict_json(run.stdout)}
 
 
-LATER = pytest.mark.slow  # the second and the last third
-each_third = pytest.mark.parametrize("third", [0, pytest.param(1, marks=LATER), pytest.param(2, marks=LATER)])
-each_case = pytest.mark.parametrize("third, path", [pytest.param(n % 3, path, id=path.stem, marks=[LATER] * (n % 3 > 0)) for n, path in enumerate(CASES)])
+LATER = pytest.mark.slow  # from the second fifth on
+each_fifth = pytest.mark.parametrize("fifth", [0, *(pytest.param(n, marks=LATER) for n in range(1, 5))])
+each_case = pytest.mark.parametrize("fifth, path", [pytest.param(n % 5, path, id=path.stem, marks=[LATER] * (n % 5 > 0)) for n, path in enumerate(CASES)])
 
 
-@each_third
-def test_classify_answers_once_per_case_with_the_documented_keys(third):
+@each_fifth
+def test_classify_answers_once_per_case_with_the_documented_keys(fifth):
     from stabilab.case.read import load_all
-    assert list(classified(third)) == [case.name for path in CASES[third::3] for case in load_all(path)]
-    for answer in classified(third).values():
+    assert list(classified(fifth)) == [case.name for path in CASES[fifth::5] for case in load_all(path)]
+    for answer in classified(fifth).values():
         assert answer["schema"] == "stabilab.classify/1" and answer["variables"] in ("scaled", "physical")
         assert {"kind", "reason", "points", "curves"} <= answer["equilibria"].keys()
         assert {"at", "fate", "axis", "because", "margin", "period", "extremes", "invariants"} <= answer["motion"].keys()
@@ -64,10 +64,10 @@ def test_classify_answers_once_per_case_with_the_documented_keys(third):
 
 
 @each_case
-def test_case_meets_what_it_expects(third, path):
+def test_case_meets_what_it_expects(fifth, path):
     # The expected facts are written in the case files with their proofs; they come from no run of this program.
     from stabilab.case.read import load, load_all
-    expect, answer = load(path).expect, classified(third)[load_all(path)[0].name]
+    expect, answer = load(path).expect, classified(fifth)[load_all(path)[0].name]
     equilibria, motion = answer["equilibria"], answer["motion"]
     assert equilibria["kind"] == expect.get("kind", equilibria["kind"])
     if "points" in expect:
@@ -84,11 +84,11 @@ def test_case_meets_what_it_expects(third, path):
 
 
 @each_case
-def test_listed_equilibria_are_at_rest(third, path):
+def test_listed_equilibria_are_at_rest(fifth, path):
     # Euler's equations written out here, from the numbers of the case alone.
     from stabilab.case.read import load_all
     for case in load_all(path):
-        found = classified(third)[case.name]["equilibria"]
+        found = classified(fifth)[case.name]["equilibria"]
         points = [p["at"] for p in found["points"]] + [s["at"] for c in found["curves"] for s in c["samples"]]
         for at in points:
             rate, size = _rate_and_size(case.scene, np.array(at))
@@ -131,10 +131,10 @@ def _liquid(cavity, D, wheel, w):
     return torque, kappa * (spin / D.min()) ** 2 * np.linalg.norm(w) * np.ones(3)
 
 
-@each_third
-def test_every_invariant_and_number_of_a_run_has_its_unit_in_text(third):
+@each_fifth
+def test_every_invariant_and_number_of_a_run_has_its_unit_in_text(fifth):
     from stabilab.show.terminal.motion import QUANTITIES
-    motions = [answer["motion"] for answer in classified(third).values()]
+    motions = [answer["motion"] for answer in classified(fifth).values()]
     assert {name for motion in motions for part in ("invariants", "evidence") for name in motion[part]} <= set(QUANTITIES)
 
 
@@ -389,12 +389,14 @@ def test_every_combination_of_a_sweep_has_its_row_in_json(stabilab, swept, comma
     assert [row["case"] for row in strict_json(out)] == [f"six{label}" for label in LABELS]
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("command", [["show"], ["classify", "--why"], ["fate", "--digits", "6"], ["simulate", "--at", "0,1"], ["compare"]])
 def test_every_combination_of_a_sweep_that_is_told_in_full_is_named(stabilab, swept, command):
     code, out, err = stabilab(command[0], "six.toml", *command[1:])
     assert code == 0 and all(f"six{label}" in out for label in LABELS), err
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("command", ["classify", "extremes", "fate", "period"])
 def test_a_sweep_is_one_table_with_a_column_for_each_swept_key(stabilab, swept, command):
     """The answer, two lines of heads, and a row a combination that begins with what varies, as the file has it; no line is wider than a terminal."""
@@ -413,6 +415,7 @@ def test_a_combination_of_a_sweep_is_followed_from_its_own_start(stabilab, swept
     assert [row["state"]["omega"][0] for row in rows] == [[0.1, 0.2, 0.3]] * 3 + [[0.3, 0.2, 0.1]] * 3
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("command, ending", [
     (["simulate", "six.toml", "--at", "0,1"], "csv"), (["compare", "six.toml"], "csv"), (["plot", "two.toml"], "svg"),
     (["classify", "two.toml", "--certify"], "json"),
@@ -604,7 +607,7 @@ has_proc = pytest.mark.skipif(not Path("/proc/self/task").is_dir(), reason="watc
 
 
 # In turn while typer, numpy, sympy and heyoka are imported (which swallows exceptions), and inside compiled code.
-@pytest.mark.one_in(4)
+@pytest.mark.one_in(7)
 @has_proc
 @pytest.mark.parametrize("delay", [0, 0.03, 0.1, 0.2, 0.3, 0.4, 0.5, 0.7, 2.0])
 @pytest.mark.parametrize("program", [["-m", "stabilab"], console_script()], ids=["module", "script"])
@@ -614,12 +617,13 @@ def test_interrupt_ends_with_130_and_no_traceback(program, delay):
 
 
 @has_proc
-@pytest.mark.parametrize("delay", [0.1, 1.0])
+@pytest.mark.parametrize("delay", [0.1, pytest.param(1.0, marks=pytest.mark.slow)])
 def test_interrupt_of_a_run_in_python_ends_with_130_too(delay):
     arguments = ["-m", "stabilab", "simulate", str(ROOT / "cases/major-axis-100.toml"), "--at", "1e6", "--method", "RK45"]
     assert interrupted(arguments, delay) == (130, b"", b"")
 
 
+@pytest.mark.one_in(2)
 @has_proc
 @pytest.mark.parametrize("busy", ["while True: pass", "time.sleep(1000)", "deaf()"])
 def test_interrupt_leaves_no_half_written_file(tmp_path, busy):

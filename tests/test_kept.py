@@ -58,6 +58,7 @@ STRANGE = [["+", "__import__('os').mkdir('made')"], ["+", "x", ["q", 1, 2]], ["q
            ["record", "Path", {}], ["^", ["q", 1, 2]], ["eval", "1"], [], {"a": 1}]
 
 
+@pytest.mark.one_in(4)
 @pytest.mark.parametrize("data", [b"", b"x" * 100, whole(b"no JSON"), b"\n" + json.dumps(["record", "Made", {"value": 3}]).encode(), whole(b"3"),
                                   *(whole(json.dumps(wrapped).encode()) for one in STRANGE for wrapped in (one, ["record", "Made", {"value": one}]))])
 def test_a_broken_or_a_strange_file_is_no_answer_and_is_written_anew(folder, data):

@@ -18,6 +18,7 @@ ASK = {"fate": lambda scene, x: stabilab.fate(scene, [x, STATE]), "equilibria": 
        "simulate": lambda scene, x: stabilab.simulate(scene, x, [0, 1]), "spin_up": stabilab.spin_up}
 
 
+@pytest.mark.one_in(4)
 @pytest.mark.parametrize("scene", SCENES)
 @pytest.mark.parametrize("name", ASK)
 def test_a_result_survives_another_process_and_equals_itself_and_no_other(name, scene):

@@ -79,17 +79,20 @@ def test_compiled_rates_hold_no_condition():
     assert "omega1" in source and not any(word in source for word in ("if ", "where", "select", "piecewise"))
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("names", [(), ("gravity",), ("gyrostat", "charge")], ids=lambda names: "+".join(names) or "none")
 def test_only_the_named_effects_are_imported(names):
     assert set(imported(*names)) == set(names)
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_zero_strength_is_absence_to_the_last_bit(name):
     assert all(zero_is_absent(name).values())
     assert Scene(BODY, example(name, zero=True)) == Scene(BODY)
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("name", ["constant_torque", "gyrostat", "charge", "resistance"])
 def test_the_comparison_sees_an_effect_that_acts(name):
     base = without(name)

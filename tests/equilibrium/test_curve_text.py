@@ -55,6 +55,7 @@ def test_the_words_about_a_curve_of_equilibria_name_its_points(D, lam, M):
                 assert x[name] == pytest.approx(t, rel=1e-13)
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("D, lam, M, expected", [
     ((5, 4, 2), (2, 3, 0), (0, 0, -6), "unstable"), ((2, 5, 4), (0, 2, 3), (-6, 0, 0), "unstable"),
     ((7, 4, 6), (3, 2, 0), (0, 0, -2), "unstable"),

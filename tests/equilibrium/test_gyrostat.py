@@ -72,6 +72,7 @@ def random_body(rng):
     return tuple(D)
 
 
+@pytest.mark.one_in(4)
 @pytest.mark.parametrize("seed", range(30))
 def test_isolated_equilibria_are_those_of_exact_elimination(seed):
     rng = random.Random(seed)
@@ -105,6 +106,7 @@ CURVED = [  # D, lambda, M: hyperbola, lines that cross, one line, oblique torqu
     ((5, 4, 2), (0, 0, 0), (0, 0, 0)), ((3, 3, 3), (1, 2, 3), (0, 0, 0)), ((5, 4, 2), (0, 1, 2), (3, 0, 0))]
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("D, lam, M", CURVED)
 def test_curves_meet_any_plane_where_exact_elimination_says(D, lam, M):
     import sympy as sp

@@ -209,6 +209,7 @@ def test_one_state_that_doubles_cannot_settle_loads_the_library_for_many_digits_
     assert "flint" in loaded and not loaded & (HEAVY - {"flint"} | {"numpy"})
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("arguments, needed", [
     (("show", "cases/minor-axis-100.toml"), {"sympy", "mpmath"}),  # sympy brings mpmath, and both look for gmpy2 and flint
     (("simulate", "cases/minor-axis-100.toml", "--at", "0,1"), {"heyoka", "sympy", "mpmath", "flint"}),

@@ -245,6 +245,7 @@ def test_formulas_of_a_chapter_of_mathematics_are_those_of_the_program(chapter, 
     in_python(chapter.read_text(encoding="utf-8"))
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("page", PAGES, ids=NAMES)
 def test_commands_that_are_not_run_are_listed_and_checked(page):
     """Every command is one of the program's or of its tests, or stands in the list above."""

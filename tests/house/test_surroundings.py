@@ -110,6 +110,7 @@ def in_shell(name, redirected, folder):
     return run.returncode, run.stdout, run.stderr
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("name", EVERY)
 @pytest.mark.parametrize("redirected, words", [(">&-", "it is closed"), (">/dev/full", "No space left on device")], ids=["closed", "full"])
 def test_an_answer_that_cannot_be_written_ends_with_2_and_says_so(tmp_path, name, redirected, words):
@@ -126,6 +127,7 @@ def test_an_answer_without_a_reader_ends_quietly_with_141(tmp_path, name):
     assert (run.returncode, run.stderr) == (141, b"")
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("redirected", ["2>&-", "2>/dev/full", "<&- 2>&-"], ids=["closed", "full", "closed with stdin"])
 def test_messages_that_nobody_can_read_change_no_answer(tmp_path, redirected):
     assert in_shell("csv", redirected, tmp_path) == in_shell("csv", "", tmp_path)
@@ -369,6 +371,7 @@ def finished(code, folder):
     assert done.returncode == 0, done.stderr
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("how, code", [(signal.SIGINT, INTERRUPTED), (signal.SIGKILL, -signal.SIGKILL)], ids=["interrupt", "kill"])
 def test_half_a_file_never_bears_its_name_and_a_rerun_completes(tmp_path, how, code):
     (tmp_path / "wanted.txt").write_text("of yesterday")
@@ -379,6 +382,7 @@ def test_half_a_file_never_bears_its_name_and_a_rerun_completes(tmp_path, how, c
     assert written(tmp_path) == {"wanted.txt": b"whole"}
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("how, code", [(signal.SIGINT, INTERRUPTED), (signal.SIGKILL, -signal.SIGKILL)], ids=["interrupt", "kill"])
 def test_a_folder_stays_as_it_was_until_all_of_it_is_made(tmp_path, how, code):
     finished(HALF_FOLDER.replace("'new'", "'old'"), tmp_path)

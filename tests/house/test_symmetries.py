@@ -53,6 +53,7 @@ def signed(boxes, signs):
     return np.sort(out, axis=-1)
 
 
+@pytest.mark.one_in(2)
 @cases
 @how_many
 @pytest.mark.parametrize("order", [(0, 2, 1), (1, 2, 0), *(pytest.param(order, marks=pytest.mark.slow) for order in ((1, 0, 2), (2, 0, 1), (2, 1, 0)))])
@@ -189,6 +190,7 @@ SCALED = [((1, -1, -1), 1, (1, -1, -1), False), ((-1, 1, -1), -1, (-1, 1, -1), F
           ((1, -1, 1), 1, (-1, 1, -1), True), ((1, 1, -1), 1, (-1, -1, 1), True), ((-1, 1, 1), -1, (1, -1, -1), True)]
 
 
+@pytest.mark.one_in(4)
 @pytest.mark.parametrize("signs, moment_sign, torque_signs, reverses", SCALED)
 @pytest.mark.parametrize("mu", [(0, 0, 1.0), (0, 1.0, 0), (0, 0, -0.3), (0, -2.0, 0)])
 def test_discrete_symmetries_of_the_scaled_system_keep_fate_margin_period_and_extremes(mu, signs, moment_sign, torque_signs,
@@ -229,6 +231,7 @@ def test_a_heavier_body_of_the_same_shape_moves_alike(name, decade):
     compare(scene, STATES, other, STATES, factor, box=lambda b: b)
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("power", [-40, 40])
 @cases
 def test_binary_units_give_the_very_same_labels(name, power):

@@ -128,7 +128,7 @@ def wrong(count, each, alone):
 
 
 @pytest.mark.one_in(2)
-@pytest.mark.parametrize("count, each", [(2, len(QUESTIONS)), (8, len(QUESTIONS) // 5)])
+@pytest.mark.parametrize("count, each", [(2, len(QUESTIONS) // 2), (8, len(QUESTIONS) // 5), pytest.param(2, len(QUESTIONS), marks=pytest.mark.slow)])
 def test_threads_have_the_answers_of_one_to_the_bit(count, each, alone, restless):
     assert wrong(count, each, alone) == []
 

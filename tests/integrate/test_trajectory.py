@@ -69,6 +69,7 @@ def test_without_heyoka_dop853_takes_over_and_says_so(case, without_heyoka):
     assert np.abs(run.states - exact).max() <= 2e-11 * np.abs(exact).max()
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("method", SCIPY_METHODS)
 def test_scipy_methods_agree_within_their_tolerance(method):
     """Global error against the tolerance: 1e3 local tolerances over some twenty swings (more for low order)."""
@@ -197,6 +198,7 @@ def test_a_run_that_would_crawl_for_ever_stops_and_says_what_is_left(monkeypatch
     assert 5_000 <= run.counters["steps"] <= 100_000
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("method", ["taylor", "DOP853"])
 @pytest.mark.parametrize("case", CASES)
 def test_leaving_the_laws_unchecked_leaves_steps_and_states(case, method):
@@ -241,6 +243,7 @@ def test_times_are_parted_at_zero_and_each_part_leaves_from_there(times, way):
     assert still == times.count(0)
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("scale", [2.0**-9, 2.0**-20, 2.0**-33])
 def test_slow_rates_are_followed_to_the_same_digits(scale):
     # rates, momentum and the root of the torque in a smaller unit of 1/s: the same motion, exactly (Euler's equations are homogeneous)
@@ -250,6 +253,7 @@ def test_slow_rates_are_followed_to_the_same_digits(scale):
     np.testing.assert_allclose(followed(scale), followed(1.0), rtol=0, atol=1e-11)
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("mass", [1.0, 1e-140, 1e-160, 1e150])
 def test_the_laws_of_a_very_light_or_heavy_body_hold_in_its_run(mass):
     """A unit of mass changes no motion, so no drift."""

@@ -31,6 +31,7 @@ def test_a_question_that_stays_unclear_is_unclear_in_the_end():
     assert asked[3:] == [DOUBLE_BITS] and Digits.real_roots([Fraction(3)]) == [] and Digits.real_roots([]) == []
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("power", [200, 600, pytest.param(1200, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("way, known", [(2, 4), (-2, 2)])
 def test_roots_that_nearly_meet_are_found_by_sturms_theorem_and_not_by_an_iteration_of_seconds(way, known, power, monkeypatch):

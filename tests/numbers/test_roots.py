@@ -96,6 +96,7 @@ def assert_roots(coefficients, roots):
         assert abs(F(got) - root) <= F(math.ulp(float(root)))
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("decades", [0, 3, 12])
 @pytest.mark.parametrize("degree", [1, 2, 3, 4, 6])
 def test_products_of_linear_factors_have_their_roots_to_a_unit_in_the_last_place(degree, decades):

@@ -38,6 +38,7 @@ def states_of(name, count):
     return (np.random.default_rng(21).normal(size=(count, 3)) * (0.7 if name in LINES else 2.0)).tolist()
 
 
+@pytest.mark.one_in(4)
 @pytest.mark.parametrize("bits", [DOUBLE_BITS, START_BITS])
 @pytest.mark.parametrize("name", ALL)
 def test_the_margin_of_balls_is_that_of_the_potential(name, bits):

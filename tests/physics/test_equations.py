@@ -70,6 +70,7 @@ ZEROS = [  # effects with components that are zero, the same with none, the symb
      {"lambda1", "lambda2", "M1", "M2"})]
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("effects, full, absent", ZEROS)
 def test_zero_components_leave_no_symbol_and_the_same_equations(effects, full, absent):
     few, many = (derive(Scene(Body(BODY.inertia, 10), *chosen)) for chosen in (effects, full))
@@ -113,6 +114,7 @@ def test_numpy_rates_are_the_exact_rates_rounded(scene):
     assert system.rate(batch[0, 0].tolist()) == system(batch)[0, 0].tolist()
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.skipif(not heyoka_available(), reason="heyoka is not installed")
 @pytest.mark.parametrize("scene", SCENES)
 def test_numpy_and_heyoka_rates_agree(scene):

@@ -53,6 +53,7 @@ def test_flow_preserves_volume_but_for_effects_that_say_otherwise(scene):
     assert (trace == 0) == all(effect.keeps_volume for effect in scene.effects)
 
 
+@pytest.mark.one_in(4)
 @pytest.mark.parametrize("scene", SCENES, ids=IDS)
 def test_parts_of_the_torque_add_up(scene):
     equations = derive(scene)

@@ -178,6 +178,7 @@ def test_parameters_whose_names_are_products_are_set_as_products_and_minus_is_a_
     assert typeset.inner(Integer(-3)) == "<mn>&#x2212;3</mn>" or "-" not in typeset.inner(Integer(-3))
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("name", ["top-fast", "liquid-base", "charged-body-attitude"])
 def test_every_parameter_of_the_equations_has_its_unit(name, tmp_path):
     from stabilab.show.report.one_case.equations import equations

@@ -75,6 +75,7 @@ def test_the_case_files_of_the_tables_hold_the_papers_data(number):
                 assert case.state[0] + case.scene.b == pytest.approx(case.state[2], abs=1e-15)
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("number", table.EXTREMES)
 def test_tables_agree_with_a_tight_run(number):
     """Oracle: SciPy's DOP853 at 1e-12 over three periods, extremes of its dense output; no code of the package."""
@@ -147,6 +148,7 @@ def test_the_motion_of_a_middle_axis_case_closes():
     assert W[0] == pytest.approx(0, abs=1e-6) and W[-1] == pytest.approx(0, abs=1e-6)
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("name", ["minor-axis-100", "middle-axis-300", "major-axis-500"])
 def test_plot_writes_a_picture_of_any_case(name, tmp_path):
     import stabilab

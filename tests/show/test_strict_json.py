@@ -112,6 +112,7 @@ def test_what_a_command_says_in_json_is_read_by_strict_readers(stabilab, tmp_pat
     assert code in (0, 3, 5) or (name, code) == (SLOW, 2), said
 
 
+@pytest.mark.slow  # a renderer of its own starts, for seconds
 def test_what_surface_writes_and_the_manifest_are_read_by_strict_readers(stabilab, tmp_path):
     code, out, said = stabilab("surface", *source("bounded", tmp_path, stabilab), "--out", tmp_path / "made", "--json")
     assert code in (0, 4), said

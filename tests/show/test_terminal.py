@@ -55,6 +55,7 @@ def without_colour(text):
     return re.sub(r"\x1b\[[0-9;]*m", "", text)
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("columns", [60, 80, 120])
 @pytest.mark.parametrize("words", [("classify", OFF_AXIS), ("fate", MINOR), ("classify", MINOR, "--why")])
 def test_no_line_is_wider_than_the_terminal_and_no_word_is_lost(shown, words, columns):
@@ -225,6 +226,7 @@ def test_a_component_without_a_lower_end_is_told_in_a_word(stabilab, tmp_path):
     assert re.search(r"ω3\s+unbounded\s+5\.72958\s+deg/s", out) and "-unbounded" not in out
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("words, told", [
     (("fate", "--tilt", "1"), '--tilt: 1 alone is in rad: 57.2958 deg; for degrees write "1 deg"'),
     (("when", "--rate", "1/2"), '--rate: 1/2 alone is in rad/s: 28.6479 deg/s; for degrees write "1/2 deg/s"'),
@@ -254,6 +256,7 @@ def test_times_within_sentences_have_the_unit_of_people():
     assert units.SCALED.words("over tau in [0, 63.9], proved from t = 63.9429 on") == "over 0 to 63.9 tau, proved from t = 63.943 tau on"
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("name", ["liquid-base", "charged-body-attitude", "top-lx30-lz30"])
 def test_no_name_of_a_greek_letter_stands_in_an_answer(stabilab, name):
     text = stabilab("classify", ROOT / f"cases/{name}.toml", "--why")[1]

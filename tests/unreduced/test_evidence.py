@@ -14,6 +14,7 @@ SCENES = {
 }
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("kind", SCENES)
 def test_extremes_that_no_run_has_seen_are_nan(kind):
     """A wheel of 1e150 turns the transverse rates some 1e149 times a second (Euler's equations: D2 omega2' = -l1 omega3 + ..), so a least and a
@@ -52,6 +53,7 @@ def test_a_run_that_breaks_off_is_told_in_words():
     assert "broke off" in found.because and "nan" not in found.because
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("span, reach", [((2.0, 5.0), 5.0), ((-1.0, 5.0), 5.0), ((-5.0, 0.0), -5.0)])
 @pytest.mark.parametrize("wheel, torque", [*CUT.values(), ((.5, 0, 0), (.1, 0, 0))])
 def test_a_span_is_searched_from_the_start_at_time_0_for_one_state_and_for_arrays(wheel, torque, span, reach):

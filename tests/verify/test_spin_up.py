@@ -48,6 +48,7 @@ def rows(rates):
     return rates.kappa, rates.rho, rates.sigma, rates.m
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("n", range(6))
 def test_the_way_holds_the_motion(n):
     rng = random.Random(n)
@@ -207,6 +208,7 @@ def test_what_is_no_spin_up_is_malformed(bad):
 
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("orders", [(4, 6), (12, 14), (16, 18)])
 def test_what_the_test_in_doubles_finds_holds_in_balls(orders):
     """Constants found by the analysis' test, whose rounding is bounded beforehand, put into the checker's inequality, in balls."""

@@ -48,6 +48,7 @@ def random_motions(count, seed):
         yield D, tuple(map(float, lam)), tuple(map(float, M)), rng.normal(size=3) * 10 ** rng.uniform(-1, 1.5)
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("seed", range(4))
 def test_fast_answers_are_proved_by_separate_code(seed):
     # the checker shares nothing with fate, extremes and period: other variables, other potential, other quadrature
@@ -73,6 +74,7 @@ def test_a_motion_of_small_numbers_is_proved_where_signs_vanish_at_the_ends_of_a
 
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("change", [
     {"fate": "spin-up", "axis": 3, "sense": 1}, {"fate": "equilibrium"}, {"period": ["2", "30"]},
     {"extremes": [[["-9", "9"], ["-9", "9"]]] * 2 + [[["-9", "9"], None]]},

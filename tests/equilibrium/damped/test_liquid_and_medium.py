@@ -81,6 +81,7 @@ def test_plane_of_rotations_of_a_symmetric_body_attracts_iff_its_moment_is_large
 WHEELS = [(Gyrostat((0, 0, "0.5")), Body(("8.7", "8.6", "11.1"))), (Gyrostat((1, 2, "0.5")), BODY), (Gyrostat((1, 0, 2)), BODY)]
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("wheel, body", WHEELS)
 def test_rotations_with_wheel_and_liquid_are_equilibria_with_the_stated_spectrum(wheel, body):
     where = scene(wheel, LIQUID, body=body)
@@ -160,6 +161,7 @@ def real_solutions(equations):
     return sorted(set(out))
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("effects", RESISTED)
 def test_resistance_has_exactly_the_equilibria_of_a_groebner_basis(effects):
     where = scene(*effects)
@@ -168,6 +170,7 @@ def test_resistance_has_exactly_the_equilibria_of_a_groebner_basis(effects):
     assert np.allclose(found, wanted, rtol=1e-12, atol=1e-14)
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("effects", RESISTED)
 def test_resisted_equilibria_attract_or_repel_as_told(effects):
     where = scene(*effects)
@@ -301,6 +304,7 @@ def test_force_at_the_centre_of_mass_leaves_the_verdicts_as_they_are():
     assert "as if it were absent" in pushed.because
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("name", ["liquid-base", "liquid-lambda3-25", "charged-body", "charged-body-attitude"])
 def test_classification_of_a_case_is_complete_json(name):
     case = stabilab.load(ROOT / "cases" / f"{name}.toml")

@@ -95,6 +95,7 @@ def by_groebner(scene, Omega):
     return sum(1 for _ in set(sp.real_roots(last)))
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("name, values", [("paper", ("-12", "1/2", "24")), ("charged", ("-3", "7")), ("weight on an axis", ("-2", "1/3", "3")),
                                           ("constant charge", ("-2", "1"))])
 def test_each_rate_has_exactly_the_rotations_of_a_groebner_basis(name, values):
@@ -105,6 +106,7 @@ def test_each_rate_has_exactly_the_rotations_of_a_groebner_basis(name, values):
         assert count == by_groebner(SCENES[name], value)
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("name", SCENES)
 def test_branches_hold_every_rotation_of_every_rate(name):
     field = Field.of(content(SCENES[name]))

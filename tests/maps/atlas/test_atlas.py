@@ -236,6 +236,7 @@ def test_a_case_that_has_no_atlas_says_why():
         asked(read_text("still.toml", BODY.partition("[motion]")[0].format(inertia=[3, 2, 1.5], wheel=[0, 0, 0], torque=[1, 0, 0])))
 
 
+@pytest.mark.slow
 def test_a_motion_on_an_island_is_marked_where_its_torque_points():
     """The island of docs/spin-up.md, whose elliptic periodic motion `unreduced.periodic` finds by Newton's method."""
     case = case_of((1.2412, 0.3937, 1.3650), (-0.5224, 0.8309, 0.1914), (0.0987, 0.8450, 0.5255), (-1.572, 0.657, 0.738))

@@ -33,6 +33,7 @@ def librations(name, count, low, high):
     return states[stabilab.fate(scene, states).labels == Fate.BOUNDED][:count]
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("name", ["minor scaled +", "minor scaled -", "minor physical", "minor on axis 1", "major physical"])
 def test_a_small_libration_keeps_its_digits_on_either_side_of_its_well(name):
     """A well just behind the state is not a whole turn ahead: over a turn 2 pi mu swamps the small energy above it."""
@@ -288,6 +289,7 @@ def test_a_spin_up_that_just_passes_a_barrier_far_from_its_frame_keeps_its_slowe
     assert_extremes(found, exact, 1e-11)
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("name", PARABOLIC)
 def test_motions_along_parabolas_have_the_fate_and_extremes_of_the_potential(name):
     scene, problem = PARABOLIC[name]

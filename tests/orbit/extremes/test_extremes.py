@@ -46,6 +46,7 @@ def test_periods_of_random_states_equal_the_quadrature_oracle(name):
         assert got == pytest.approx(float(energy.period(problem, state)), rel=1e-11)
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("name", ["minor scaled +", "middle scaled +", "major physical"])
 def test_extremes_and_period_equal_tight_integration(name):
     pytest.importorskip("heyoka")
@@ -64,6 +65,7 @@ def test_extremes_and_period_equal_tight_integration(name):
 TABLES = [((2.5, 4.0, 0.1), (0, 0, 1)), ((1.7, 1.1, -0.2), (0, 1, 0)), ((2.5, 1.3, 2.5), (0, 1, 0))]
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("lambda1", [100, 300, 500])
 @pytest.mark.parametrize("state, mu", TABLES)
 def test_states_of_the_tables_have_twelve_correct_digits(state, mu, lambda1):
@@ -140,6 +142,7 @@ def test_an_exact_equilibrium_stays_where_it_is_with_period_zero():
     assert stabilab.period(scene, state) == 0
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("name", ["minor scaled +", "middle scaled -, |c| above the cusp", "major physical"])
 def test_a_batch_answers_as_its_states_one_by_one(name):
     scene, _ = FAMILIES[name]

@@ -141,6 +141,7 @@ def edge_states(name):
     return np.concatenate([states, np.array(near)])
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("name", FAMILIES)
 def test_arrays_and_loops_leave_the_same_states_to_the_general_formula_and_agree_with_it(name):
     """At folds, planes, centres and barriers too; the loops run as plain Python."""
@@ -164,6 +165,7 @@ def test_arrays_and_loops_leave_the_same_states_to_the_general_formula_and_agree
     assert (apart[finite] <= 1e-12 * (np.abs(general.margins[certain] + kinetic) + kinetic)[finite]).all()
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("a, b, sign", [(0.25, 0.5, 1), (0.25, 0.5, -1), (0.0, 3.0, 1), (0.0, -3.0, -1)])
 @pytest.mark.parametrize("plane", [-1, 1])
 def test_a_spin_up_on_an_invariant_plane_tells_its_axis_sense_reason_and_margin(a, b, sign, plane):
@@ -336,6 +338,7 @@ def test_motions_on_the_invariant_planes_have_the_fate_and_extremes_of_the_poten
         assert_extremes(boxes[n], energy.extremes(problem, state, digits=60), 1e-11)
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("name", ["minor scaled +", "minor scaled -", "minor physical", "major physical, other sign",
                                   "middle scaled, |c| far above"])
 def test_states_within_rounding_of_a_saddle_are_labelled_by_the_side_they_are_on(name):

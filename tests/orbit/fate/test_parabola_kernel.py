@@ -41,6 +41,7 @@ def test_the_middle_root_stands_at_its_distance_from_the_fold():
     assert np.abs(e * e * (3 - e) / g - 1).max() < 1e-8 and e.max() <= 1 + 1e-9
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("name", CUBIC)
 def test_margins_by_the_formula_keep_twelve_digits_next_to_the_separatrix_too(name):
     """Against the potential at 60 digits."""
@@ -72,6 +73,7 @@ def test_on_parabolas_the_loop_for_the_compiler_gives_the_bytes_of_the_arrays_as
     assert answers[0] == answers[1] and len(certain) > 200
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.skipif(not installed(), reason="the extra `fast` is not installed")
 @pytest.mark.parametrize("name", CUBIC)
 def test_on_parabolas_numba_gives_the_bytes_of_numpy(name):

@@ -75,6 +75,7 @@ BARRIERS = {"far centre": scaled(1e5, 1e5 + 0.25, (0, 0, 1)),
                 "first axis, other sign", "second axis", "third axis", "oblate")}}
 
 
+@pytest.mark.one_in(4)
 @pytest.mark.parametrize("name", BARRIERS)
 def test_states_within_some_fifty_roundings_of_a_separatrix_are_decided_exactly_and_no_others(name, monkeypatch):
     scene, problem = BARRIERS[name]
@@ -170,6 +171,7 @@ def test_next_to_the_centre_or_a_plane_places_come_from_longer_arithmetic_and_ke
     assert [s[0] for s in size] == pytest.approx([near[0] + sj, near[1] + sk], rel=1e-12)
 
 
+@pytest.mark.one_in(4)
 @pytest.mark.parametrize("name", [*FAMILIES, *PARABOLIC])
 def test_the_equilibria_of_an_orbit_are_those_of_the_potential_at_sixty_digits(name):
     """Places and offsets to rounding, with which of them are barriers."""
@@ -243,6 +245,7 @@ def test_margins_near_the_poles_of_circles_of_any_size_keep_twelve_digits_and_se
     assert asked <= 0.1 * count
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("name", ["middle scaled -, |c| above the cusp", "middle scaled, |c| far above", *PARABOLIC])
 def test_margins_of_slow_motions_nearly_as_high_as_a_barrier_keep_twelve_digits_of_their_terms(name):
     """At rest in the torque's coordinate the terms of a margin are the height itself, however large those it is made of."""

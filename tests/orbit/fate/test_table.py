@@ -94,6 +94,7 @@ def test_the_sign_of_a_table_s_margin_alone_mislabels_next_to_the_separatrix():
     assert wrong > 0
 
 
+@pytest.mark.one_in(2)
 @ways
 @pytest.mark.parametrize("name", EASY)
 def test_labels_and_margins_of_random_states_equal_the_oracle(name, fast, tables_always):
@@ -277,6 +278,7 @@ def test_compiled_loops_work_where_no_folder_can_be_written():
     assert done.stdout.strip() == "True", done.stderr
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("gap", [0.0, 1e-15, 1e-10, 1e-4, *(pytest.param(gap, marks=pytest.mark.slow) for gap in (1e-14, 1e-12, 1e-8, 1e-6))])
 def test_tables_hold_however_nearly_equal_two_moments_are(gap):
     """The curve of equilibria led from a point 1e15 away to the well instead of the barrier: spin-up for bounded."""

@@ -40,6 +40,7 @@ def states_of(name, count, seed=4, label=None):
     return states if label is None else states[fate(one, states).labels == label]
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("name", SCENES)
 def test_extremes_from_twofold_numbers_are_those_of_balls(name):
     land, states = landscape(SCENES[name]), states_of(name, 400, label=Fate.BOUNDED)
@@ -50,6 +51,7 @@ def test_extremes_from_twofold_numbers_are_those_of_balls(name):
     assert (np.abs(boxes[rows] - exact).max(axis=2) <= 1e-12 * np.abs(exact).max(axis=2)).all()
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("name", SCENES)
 def test_periods_from_twofold_numbers_are_those_of_balls(name):
     land, states = landscape(SCENES[name]), states_of(name, 400, label=Fate.BOUNDED)

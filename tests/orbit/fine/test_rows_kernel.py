@@ -33,6 +33,7 @@ def bounded(number, count):
     return one.scene, states[fate(one.scene, states).labels == Fate.BOUNDED][:count]
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("name", SCENES)
 def test_rows_of_nearly_equal_moments_have_the_extremes_and_periods_of_balls(name):
     one, states = SCENES[name], states_of(name, 40, label=Fate.BOUNDED)[:12]
@@ -45,6 +46,7 @@ def test_rows_of_nearly_equal_moments_have_the_extremes_and_periods_of_balls(nam
         assert time == pytest.approx(precise_period(orbit, Fate.BOUNDED), rel=1e-11)
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("number", SAMPLE)
 def test_rows_of_random_scenes_have_the_extremes_and_periods_of_arrays(number):
     one, states = bounded(number, 80)

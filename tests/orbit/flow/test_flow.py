@@ -43,6 +43,7 @@ def turning_speed(x1, x2):
 # -- motions that repeat
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("scene, state", [(MINOR, HELD), (MINOR, (4.5, -4.9, -1.4)), (MIDDLE, (1.0, 2.0, 0.5)),
                                           (MIDDLE, (-1.0, -2.0, 5.0)),
                                           (Scene(Body((2000, 1500, 1000)), Gyrostat((100, 0, 0))), (1.0, 2.0, -1.0)),
@@ -61,6 +62,7 @@ def test_scales_and_signs_of_the_torque_keep_the_digits(scale, sign):
         assert error_of(scene, state, np.array([0.3, 3.0]) / scale).max() < 2e-15
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("distance", [1e-3, 1e-12, pytest.param(1e-6, marks=pytest.mark.slow),
                                       pytest.param(1e-9, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("side", [1, -1])
@@ -280,6 +282,7 @@ def test_random_bodies_agree_with_the_stepping_method():
     assert {BySeries, SpinUp} <= kinds
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("moments, momentum, torque", [
     ((2, 2, 1), (0.1, 0.2, 0), (0, 0, 0.3)), ((2, 1, 1), (0, 0.2, 0), (0, 0, 0.3)), ((2, 1, 1), (0, 0.2, 0.3), (0, 0, 0)),
     ((1, 1, 1), (0, 0.2, 0), (0.3, 0, 0.0)), ((2, 1.9999, 1), (0.1, 0.2, 0), (0, 0, 0.3)),

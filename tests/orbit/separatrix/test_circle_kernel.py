@@ -42,6 +42,7 @@ def test_the_kernel_in_plain_python_gives_the_sheets_of_the_arrays(name, shape):
     np.testing.assert_allclose(error, expected[6], rtol=1e-9)
 
 
+@pytest.mark.slow  # plain Python, point by point
 def test_within_an_accuracy_the_kernel_places_the_same_loops_on_rows_of_its_own():
     """Saddles and far ends by one loop in floats at the kernel's own rows, which shares no code with its grading."""
     scene, accuracy = SCENES["minor, other sign"], 0.1

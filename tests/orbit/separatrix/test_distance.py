@@ -85,6 +85,7 @@ def exact_point(mp, curve, t, y):
     return g["a"] * (X - g["X"]) ** 2 + g["b"] * (Z - g["Z"]) ** 2, 2 * (V(0, x, z) - V(mp.mpf(y), X, Z)) / g["n2"]
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("lift", [1e-5, -1e-7, 1e-9, -1e-11, 1e-12])
 @pytest.mark.parametrize("pair, state", [((0, 1), (0.4, 0.3, 0.5)), ((1, 0), (-1.0, 0.3, 2.0))])
 def test_bound_and_witness_meet_however_alike_two_moments_are(lift, pair, state):
@@ -100,6 +101,7 @@ def test_bound_and_witness_meet_however_alike_two_moments_are(lift, pair, state)
     assert signs[0] * signs[1] < 0
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("inertia, wheel, torque, state", [
     ((1.49736644, 0.44230883, 1.49736648), (-1.367, 0, 0), (0, 0, 0), (0.0977, -0.00325, 0.2235)),
     ((1.6706906974740514, 1.6706906974740514, 1.236882267730723), (0.2887157196510496, 0.6707558503088299, 0), (0, 0, 0),
@@ -196,6 +198,7 @@ def test_bound_and_witness_meet_where_a_fold_stands_on_an_invariant_plane_or_bes
         assert found.settled and image.settled and found.boxes < 2500 and abs(found.upper - image.upper) <= 1.1e-9 * found.upper
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("part", PARTS)
 def test_charts_about_such_a_fold_err_by_less_than_their_bounds(part):
     """Against the potential and the moved saddle, told by its h, in 80 digits: another formula than that by the square."""

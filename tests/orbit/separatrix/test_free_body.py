@@ -41,6 +41,7 @@ def sech_extremes(state):
     return [rows[0], middle, rows[1]]
 
 
+@pytest.mark.one_in(4)
 @pytest.mark.parametrize("place", PLACES)
 @pytest.mark.parametrize("order", ORDERS)
 def test_a_free_body_on_the_separatrix_tends_to_its_middle_axis(order, place):

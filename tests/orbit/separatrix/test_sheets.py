@@ -340,6 +340,7 @@ def test_sheets_of_the_free_body_are_its_two_planes_through_the_middle_axis():
     assert len(quarters[0] | quarters[1]) == 4 and not quarters[0] & quarters[1]
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("spread", [0.002, 0.01, 0.1])
 def test_distance_next_to_a_fold_is_that_of_a_dense_cloud_of_vertices(spread):
     """The search for the nearest point shares the loops with the vertices, not the way to the nearest of them."""
@@ -355,6 +356,7 @@ def test_distance_next_to_a_fold_is_that_of_a_dense_cloud_of_vertices(spread):
     assert np.all(margins >= nearest - 0.1 * spread)
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("rows", [100, pytest.param(300, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("name", ["minor a<b", "both components", "middle, c = 3"])
 def test_no_vertex_is_nearer_than_the_distance_says(name, rows):

@@ -38,6 +38,7 @@ def test_numbers_come_out_of_a_message_as_they_went_in():
     assert header["ä"] is None and [row(numbers, one).tolist() for one in header["rows"]] == [[1, -2, 3], [0.5, float("inf")], [1]]
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("name", ["minor-axis-100", "thruster-stuck-major-axis", "torque-free-gyrostat", "wheel-and-thruster", "symmetric-body",
                                   "off-axis-two"])
 def test_the_verdict_of_a_resting_hand_is_that_of_the_questions(name):
@@ -139,6 +140,7 @@ def test_a_question_that_is_none_is_answered_in_words(asked):
     assert "expected" in told["error"] or "click" in told["error"]
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("size, refused", [("1e8", False), ("-1e8", False), ("1e-300", False), ("1.1e8", True), ("1e200", True)])
 def test_numbers_of_any_size_are_drawn_or_refused_in_words(size, refused):
     session = Session(case_of("thruster-stuck-major-axis"))
@@ -241,6 +243,7 @@ def test_a_motion_on_an_unstable_plane_is_drawn_on_it_to_its_end_once_the_hand_r
     assert np.abs(x1 + 1 + x3).max() < 0.02 and (1 < tau[-1] < 5 if moving else tau[-1] == 8 and x2[-1] > 12)
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("name, words", [("liquid-sensible", "Within the law: liquid cavity: Reynolds number"),
                                          ("liquid-base", "BEYOND THE LAW: liquid cavity"), ("minor-axis-100", "")])
 def test_a_law_that_is_judged_says_so(name, words):

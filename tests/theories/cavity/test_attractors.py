@@ -25,6 +25,7 @@ def test_cross_torques_average_out_of_the_steady_states_and_the_reason_says_so()
     assert "M1, M2 average out" in crossed.reason and "M1, M2" not in alone.reason
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("effects, words", [
     ((Gyrostat((0, 0, "0.1")),), "every amplitude and spin"), ((Charge("0.1", 2, 1, 0),), "every amplitude and spin"),
     ((LIQUID, Gyrostat((0, 0, "0.1"))), "r = 0.2"), ((LIQUID,), "r = 0 ")])  # nu = (d r - Gamma)/J0 = 0 at r = 0.1/0.5

@@ -274,6 +274,7 @@ def test_first_order_says_that_it_leaves_a_torque_across_a_ball_out():
 
 # --- where the motion ends ----------------------------------------------------------------------------------------
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("name", ["base", "lambda3-15", "torque-9"])
 def test_exact_motions_end_on_the_attracting_spin_at_its_rate(name):
     case = load(CASES / f"liquid-{name}.toml")

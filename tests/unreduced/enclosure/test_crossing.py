@@ -22,6 +22,7 @@ def by_events(scene, state, end, value):
     return run.t_events[0][0] if run.t_events[0].size else math.inf
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("n", range(6))
 def test_the_first_time_is_between_its_bounds(n):
     rng = random.Random(n)

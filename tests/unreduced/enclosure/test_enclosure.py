@@ -61,6 +61,7 @@ def holds(scene, start, end, rng, bits=None):
     return max(worst), found
 
 
+@pytest.mark.one_in(3)
 @pytest.mark.parametrize("n", range(12))
 def test_random_motions_lie_within_their_radii(n):
     rng = random.Random(40 + n)
@@ -162,6 +163,7 @@ def test_without_a_compiler_the_steps_are_those_of_many_bits(monkeypatch):
     assert worst <= 1 and found.bits == 128  # a run in 50 digits
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.skipif(not installed(), reason="nothing is compiled without numba")
 @pytest.mark.parametrize("plain", [1, 5, 32])
 def test_steps_without_the_compiler_give_the_same_bits(plain, monkeypatch):

@@ -19,6 +19,7 @@ from .taylor import run
 from .test_enclosure import rows
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("n", (0, 1, 2, 4))
 def test_random_motions_are_proved_to_spin_up_and_do(n):
     rng = random.Random(60 + n)

@@ -31,6 +31,7 @@ def energy_terms(c, y):
     return phi - mp.pi * mp.floor(phi / mp.pi), P, J, V
 
 
+@pytest.mark.one_in(4)
 @pytest.mark.parametrize("c, y", STATES)
 def test_a_well_is_as_deep_as_the_highest_barrier_that_the_proof_admits(c, y):
     """max V(b) - V(p) - P^2/2 over b in [max(p, pi - p), pi], by a fine grid and thirds of its best cell."""

@@ -74,6 +74,7 @@ GROWING = {"axis": (Scene(Body((3, 2, 1)), Gyrostat((0, 1, 0)), ConstantTorque((
            "well": (ScaledGyrostat(1, 0, (1, 0, 0)), (-1.0, 0.0, 3.0))}
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("name", GROWING)
 def test_one_state_and_arrays_have_the_same_extremes(name):
     scene, state = GROWING[name]

@@ -20,6 +20,7 @@ def growth(small, end):
     return runs.twins.growth[0], runs.twins.most[0]
 
 
+@pytest.mark.one_in(4)
 @pytest.mark.parametrize("taylor", [True, False])
 @pytest.mark.parametrize("small", [1e-30, 1e-45])
 @pytest.mark.parametrize("end", [1.0, 2.0, 3.5, 4.0, 6.0])
