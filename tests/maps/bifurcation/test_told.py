@@ -29,7 +29,7 @@ def test_without_a_torque_lines_merge_where_two_moments_become_equal(tmp_path):
 
 def test_without_a_torque_a_start_changes_nothing(tmp_path):
     found = told(tmp_path, (9, 8, 5), (1, 0, 0), FREE, {"angular_velocity[1]": "-1:1"})
-    assert len(found.pieces) == 1 and not found.events and words.text(found).startswith("case: curves of equilibria for -1 <= angular_velocity[1] <= 1")
+    assert len(found.pieces) == 1 and not found.events and words.text(found).startswith("case: curves of equilibria for -1 ≤ angular_velocity[1] ≤ 1 rad/s")
 
 
 def test_a_conic_of_a_torque_along_equal_moments_falls_apart_where_its_determinant_vanishes(tmp_path):
