@@ -13,6 +13,7 @@ from typing import NamedTuple
 from ..numbers.roots import bracketed_newton, real_polynomial_roots
 
 SHORT = 1e-9  # a last step of Newton's method that leaves its square
+BESIDE = 0.1  # of |h|: nearer to the centre of the orbits than that
 
 
 class Piece(NamedTuple):
@@ -193,7 +194,13 @@ class Conic:
             h = sign * lo * np.exp(t - 1)
             x, z = (K / h - c) / G, h - s
             return self.invariant_at(x, z) - Q, 2 * (z * h + self.e * x * K / (h * G))
-        t = bracketed_newton(fun, np.ones(Q.shape), 1 + np.log(hi / lo), 1 + np.log(start / lo), (Q, lo), rising=piece.rising, enough=SHORT)
+        ends = np.ones(Q.shape), 1 + np.log(hi / lo)
+        t = bracketed_newton(fun, *ends, 1 + np.log(start / lo), (Q, lo), rising=piece.rising, enough=SHORT)
+        h = sign * lo * np.exp(t - 1)
+        near = np.hypot((K / h - c) / G, h - s) < BESIDE * np.abs(h)
+        if near.any():  # there Q bends within the orbit's size, and a step that is short against h is none against that
+            some = tuple(v[near] for v in (*ends, t, Q, lo))
+            t[near] = bracketed_newton(fun, *some[:3], some[3:], rising=piece.rising)
         return lo * np.exp(t - 1)
 
     def _meet_line(self, line, Q):
@@ -254,7 +261,7 @@ class CircleConic(Conic):
                     x, z = ratio - c, h - s
                     step = (z * z + x * x * scale - Q) / (2 * (z - x * ratio / h * scale))
                     h = h - step
-                last, size = np.abs(step / h), h * piece.sign
+                last, size = np.abs(step) / np.minimum(np.abs(h), root), h * piece.sign
             else:  # in y = K/h: (K/y - s)^2 + (y - c)^2/G^2 = Q from y = c +- |G| sqrt Q
                 side = piece.sign * (1 if K > 0 else -1)
                 y = c + side * abs(G) * root
@@ -264,8 +271,8 @@ class CircleConic(Conic):
                     z, x = ratio - s, y - c
                     step = (z * z + x * x * scale - Q) / (2 * (x * scale - z * ratio / y))
                     y = y - step
-                last, size = np.abs(step / y), piece.sign * K / y
-            # a last step of 1e-9 leaves 1e-18 where convergence is quadratic, as it is away from the fold
+                last, size = np.abs(step) / np.minimum(np.abs(y), abs(G) * root), piece.sign * K / y
+            # a last step of 1e-9, of the circle's radius too, leaves 1e-18 where convergence is quadratic, as it is away from the fold
             return size, (last < 1e-9) & (size > piece.inner * (1 + 1e-4)) & (size < piece.outer * (1 - 1e-4))
 
 

@@ -112,7 +112,7 @@ def fine_periods(land: Landscape, states):
             modes = (TaylorModes.between(Anchored(land.reduction), spots.place[:, rows, anchor][:, some], left[some], right[some]) if which is fits
                      else _modes_of_intervals(land, span, some))
             modes = _held(modes, span, some, half)
-            values[some], shape = librations(modes, half)
+            values[some], shape, _ = librations(modes, half)
             unknown = spots.place[3:, rows, anchor][:, some].sum(axis=0)
             sure[some] = np.isfinite(values[some]) & _vouched(modes, half, span.blur[:, some], shape) & (unknown <= PERIOD_DIGITS * shape.min(axis=0))
     return values, sure

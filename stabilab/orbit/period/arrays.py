@@ -56,9 +56,21 @@ def libration_period(land: Landscape, place, w, span=None):
     span = interval(land, place, w) if span is None else span
     half = np.maximum(span.half, 1e-300)
     modes = modes_of(land, span.middle)
-    values, shape = librations(modes, half)
-    clear = span.ok & clear_of_barriers(land, place, w, span, PERIOD_SHARE)
-    return values, clear & np.isfinite(values) & _sharp(modes, half, shape) & _well_placed(half, span.blur, shape)
+    values, shape, peaks = librations(modes, half)
+    good = span.ok & clear_of_barriers(land, place, w, span, PERIOD_SHARE)
+    good &= np.isfinite(values) & _sharp(modes, half, shape) & _well_placed(half, span.blur, shape)
+    good[peaks.rows] &= _over_barriers(modes, half, span.blur, shape, peaks)
+    return values, good
+
+
+def _over_barriers(modes, rho, blur, shape, peaks):
+    """(k,) True of rows with a peak where rounding of H there, of its terms and of the ends, costs the period less than `DIGITS`: on a long hyperbola H over a
+    barrier may be far less than at both ends and in the middle, and the terms of the energy at the state tell nothing of those at the ends."""
+    rows = peaks.rows
+    one, half, left = modes.take(rows), rho[rows], peaks.share
+    with np.errstate(all="ignore"):
+        terms = np.maximum(one.terms(half, left, 1 - left), one.rounding(half, left, 1 - left))
+        return (EPS * terms + blur[:, rows].sum(axis=0) * np.ptp(shape[:, rows], axis=0) / half) * peaks.weight <= DIGITS
 
 
 def _well_placed(rho, blur, shape):

@@ -6,6 +6,7 @@ at an end or inside, the integrand has a peak; the double-exponential rule takes
 from __future__ import annotations
 
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,12 +23,24 @@ CLOSER = 4  # steps towards it, each to the bottom of a parabola through three p
 
 
 def librations(modes: Modes, half):
-    """(periods (n,), H (3, n) at the left end, in the middle and at the right end); NaN where no rule settles."""
+    """(periods (n,), H (3, n) at the left end, in the middle and at the right end, `Peaks` of the rows where H is small beside that); NaN where no rule
+    settles."""
     values, shape = trapezoidal(modes, half)
     rest = np.nonzero(np.isnan(values))[0]
+    peaks = Peaks(rest, np.empty(0), np.empty(0))
     if rest.size:
-        values[rest] = double_exponential(modes.take(rest), half[rest])
-    return values, shape
+        values[rest], cut, weight = double_exponential(modes.take(rest), half[rest])
+        peaks = Peaks(rest, np.sin(0.5 * cut) ** 2, weight)
+    return values, shape, peaks
+
+
+class Peaks(NamedTuple):
+    """Rows whose integrand has a peak; the share of the interval to the left of it; how much of the period, as a share, one unit of H takes away there
+    and everywhere else: the mean of 1/(2 H) over the motion's time."""
+
+    rows: np.ndarray
+    share: np.ndarray
+    weight: np.ndarray
 
 
 def trapezoidal(modes: Modes, half):
@@ -72,15 +85,16 @@ def _pair_sums(modes, rho, narrow):
 
 
 def double_exponential(modes: Modes, rho):
-    """(n,) periods by the tanh-sinh rule on both sides of the place where H is least, the step halved until a row's sums agree; NaN where they never do."""
+    """By the tanh-sinh rule on both sides of the place where H is least: periods (n,), the step halved until a row's sums agree, NaN where they never do;
+    the angles phi of that place; the means of 1/(2 H) over the motion's time."""
     cut, n = _least(modes, rho), len(rho)
     side = np.repeat([False, True], n)  # whether a piece begins at the right end
     length, both = np.concatenate([cut, np.pi - cut]), np.concatenate([np.arange(n)] * 2)
-    total, before, values = np.zeros(2 * n), np.full(2 * n, np.nan), np.full(2 * n, np.nan)
+    total, before, values = np.zeros((2, 2 * n)), np.full(2 * n, np.nan), np.full(2 * n, np.nan)
     live = np.arange(2 * n)
     for level in range(FIRST_LEVEL, LAST_LEVEL + 1):
-        total[live] += _level_sums(modes, rho, both[live], length[live], side[live], level)
-        now = length[live] * total[live] * 2.0**-level
+        total[:, live] += _level_sums(modes, rho, both[live], length[live], side[live], level)
+        now = length[live] * total[0, live] * 2.0**-level
         with np.errstate(invalid="ignore"):  # a sum that is no number never settles
             done = np.abs(now - before[live]) <= ENOUGH * now
         values[live[done]] = now[done]
@@ -88,13 +102,16 @@ def double_exponential(modes: Modes, rho):
         live = live[~done]
         if not live.size:
             break
-    return 2 * (values[:n] + values[n:])
+    with np.errstate(all="ignore"):
+        weight = total[1] / total[0]  # a piece's; the sums of both come from as many nodes
+        share = values[:n] / (values[:n] + values[n:])
+        return 2 * (values[:n] + values[n:]), cut, weight[:n] * share + weight[n:] * (1 - share)
 
 
 def _level_sums(modes, rho, rows, length, side, level):
-    """(m,) sums over the nodes that a level adds, of pieces of rows that begin at an end."""
+    """(2, m) sums of 1/sqrt(2 H) and of its cube over the nodes that a level adds, of pieces of rows that begin at an end."""
     near, weight, inner = nodes_of(level)
-    out = np.empty(len(rows))
+    out = np.empty((2, len(rows)))
     wide = max(1, BLOCK // len(near))
     for start in range(0, len(rows), wide):
         part = slice(start, start + wide)
@@ -103,7 +120,10 @@ def _level_sums(modes, rho, rows, length, side, level):
         angle = np.where(inner[:, None], length[part] - way, way)
         small, large = np.sin(0.5 * angle) ** 2, np.cos(0.5 * angle) ** 2
         left, right = np.where(side[part], large, small), np.where(side[part], small, large)
-        out[part] = weight @ inverse_speed(some, rho[rows[part]], left, right)
+        inverse = inverse_speed(some, rho[rows[part]], left, right)
+        out[0, part] = weight @ inverse
+        with np.errstate(all="ignore"):
+            out[1, part] = weight @ (inverse * inverse * inverse)
     return out
 
 

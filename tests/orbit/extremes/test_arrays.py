@@ -306,3 +306,11 @@ def test_motions_along_parabolas_have_the_fate_and_extremes_of_the_potential(nam
         assert_extremes(boxes[n], energy.extremes(problem, state, digits=60), 1e-11)
         if n < 3:
             assert times[n] == pytest.approx(float(energy.period(problem, state)), rel=1e-11)
+
+
+def test_equilibria_beside_the_centre_of_a_hyperbola_stand_where_they_stand():
+    """They are 1e-10 from it: a search for them on their curve that ends by steps of 1e-9 of the curve's size ends anywhere. The motion passes over the barrier
+    there into a well of its own size; the oracle has 120 digits."""
+    scene, problem = scaled(-5.237000681110598, -5.346498528384807, (0.0, 9.052067096902745e-12, 0.0))
+    state = tuple(map(float.fromhex, ("0x1.562d0829e194cp+2", "-0x1.c48ca697a8c75p-17", "0x1.951d823f7c0c2p-43")))
+    assert_extremes(stabilab.extremes(scene, np.array([state]))[0], energy.extremes(problem, state, digits=120), 1e-11)

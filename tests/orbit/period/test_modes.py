@@ -13,6 +13,8 @@ from stabilab.orbit.period import arrays as quadrature
 from stabilab.orbit.period import modes as period_modes
 from stabilab.orbit.period import rules
 from stabilab.orbit.period.balls import precise_period
+from tests.oracles import energy
+from tests.oracles.pairs import scaled
 from tests.orbit.fate.test_fate import FAMILIES
 from tests.shared import PARABOLIC
 
@@ -69,7 +71,7 @@ def test_the_trapezoidal_and_the_double_exponential_rule_give_the_same_periods(n
     place, w, _ = land.start(states)
     span = interval(land, place, w)
     modes = period_modes.modes_of(land, span.middle)
-    (plain, _), peaked = rules.trapezoidal(modes, span.half), rules.double_exponential(modes, span.half)
+    (plain, _), peaked = rules.trapezoidal(modes, span.half), rules.double_exponential(modes, span.half)[0]
     values, found = quadrature.libration_period(land, place, w)
     assert found.all()
     easy = np.isfinite(plain)  # a row with a peak is left to the other rule
@@ -126,3 +128,31 @@ def test_rows_that_settle_early_are_not_carried_on_with_the_slow_ones():
         rules.double_exponential(counted(modes.data[:, rows], modes.sizes[:, rows]), span.half[rows])
         return sum(seen)
     assert len(slow) > 10 and places(slow) == sum(places(slow[n:n + 1]) for n in range(len(slow)))
+
+
+@pytest.mark.parametrize("a, b, state", [
+    (3.846545761245209, 25.295513736469676, ("-0x1.94ba667b95571p+4", "0x1.f595dad344cb2p+1", "0x1.520cbec7a148ap-17")),
+    (0.31323180931136274, -29.568055273764834, ("0x1.d916c1102ce7dp+4", "-0x1.59eddc4d730c7p+2", "0x1.a85885ae4c3a0p-25"))])
+def test_a_barrier_on_the_way_of_a_long_hyperbola_costs_the_period_no_digits(a, b, state):
+    """From beside the centre, where the terms of the energy are small, over a barrier to places where they are large; the oracle in 60 digits."""
+    scene, problem = scaled(a, b, (0, -1, 0))
+    state = tuple(map(float.fromhex, state))
+    exact = float(energy.period(problem, state))
+    assert stabilab.period(scene, np.array([state]))[0] == pytest.approx(exact, rel=1e-11)
+
+
+def test_the_weight_of_a_peak_is_what_a_change_of_h_does_to_the_period():
+    land, states = landscape(THIN), np.random.default_rng(5).normal(size=(1000, 3)) * [3, 1, 30]
+    place, w, _ = land.start(states[stabilab.fate(THIN, states).labels == 0])
+    span = interval(land, place, w)
+    modes = period_modes.modes_of(land, span.middle)
+
+    class Lifted(type(modes)):
+        def second_difference(self, rho, left, right):
+            return super().second_difference(rho, left, right) + 1e-5
+    some = np.flatnonzero(span.ok)[:40]
+    plain, _, weight = rules.double_exponential(modes.take(some), span.half[some])
+    lifted, *_ = rules.double_exponential(Lifted(modes.data[:, some], modes.sizes[:, some]), span.half[some])
+    small = weight * 1e-5 < 1e-2
+    assert small.sum() > 10
+    np.testing.assert_allclose((plain - lifted)[small] / plain[small], 1e-5 * weight[small], rtol=0.03)
