@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .homoclinic_arrays import Loops, loops
-from .saddles import PLANE
+from .saddles import FOLD, PLANE
 from .seams import Part, parted
 
 TRIAL = 17              # rows and columns of the trial grid
@@ -23,6 +23,7 @@ TAIL = 10.0 ** -np.arange(3, 6.1, 0.5)  # 1 - s of the last trial rows towards a
 NEAR = 1e-6             # a first row this near to the fold where the loop there is no point
 DENSE = 129             # steps along a branch that trial rows are chosen from
 UNIFORM = 0.2           # of the fold's radius: up to there trial rows are uniform
+RIM = 0.1               # of how far its outline strays counts where a sheet is cut off
 MOST = 1025             # rows and columns, at most, of a grid within an accuracy
 
 
@@ -115,11 +116,16 @@ def past_far_end(land, points):
     return r
 
 
-def seam_bends(land, loops, parts):
-    """(k, m - 1) how edges bend per step of the columns, in the sheet too, at the seams where two parts meet; 0 of other parts."""
-    bends = _outline(land, loops, np.array([0 if part.seam < 0 else -1 for part in parts]))
-    bends[[not part.seam for part in parts]] = 0
-    bends[[part.seam != 0 and not part.over for part in parts], -1] = 0  # the second saddle, a corner and no bend
+def rim_bends(land, loops, parts):
+    """(k, m - 1) how edges bend per step of the columns, in the sheet too, in the first row, a point or a rim, and in the last one; only a share `RIM` of that
+    where `reach` cuts off a sheet that goes on, or a plane Q = 0."""
+    first = _outline(land, loops, np.zeros(len(parts), int))
+    last = _outline(land, loops, np.full(len(parts), -1))
+    last[[part.seam <= 0 and part.branch.far != FOLD for part in parts]] *= RIM
+    for bends, seam in ((first, -1), (last, 1)):
+        bends[[part.seam == seam and not part.over for part in parts], -1] = 0  # the second saddle, a corner and no bend
+    bends = np.maximum(first, last)
+    bends[loops.shared.any(axis=1)] = 0  # without torque: the edges of loops from saddle to saddle follow no outline
     return bends
 
 

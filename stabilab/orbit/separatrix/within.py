@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .grid import MOST, STRAIGHT, TRIAL, Grid, even_steps, measured_loops, past_far_end, seam_bends, trial_parts
+from .grid import MOST, STRAIGHT, TRIAL, Grid, even_steps, measured_loops, past_far_end, rim_bends, trial_parts
 
 FLOOR = 0.1        # of the mean density: no gap where a sheet happens to be straight
 MIXTURES = np.array([0.7, 1.0, 1.5, 2.0])  # columns against rows, relative to where both alone stray equally
@@ -78,6 +78,18 @@ def _gathered(c, axis):
     return np.moveaxis(1 + 3 * (1 - share * share) / (1 + 35 * share), -1, axis)
 
 
+def _crease(r, found):
+    """(k, n - 1) how far edges along a column of saddles r (k, n, 3) stray from it, in the sheet too, which has a crease there and does not go on."""
+    step = np.diff(r, axis=1)
+    size = np.maximum(np.linalg.norm(step, axis=-1), TINY)
+    whole = found[:, 2:] & found[:, 1:-1] & found[:, :-2]
+    way = step / size[..., None]
+    bend = np.where(whole, 2 * np.linalg.norm(np.cross(way[:, 1:], way[:, :-1]), axis=-1) / (size[:, 1:] + size[:, :-1]), 0.0)
+    bend = np.concatenate([bend[:, :1], bend, bend[:, -1:]], axis=1)
+    beyond = np.concatenate([bend[:, :1], bend, bend[:, -1:]], axis=1)
+    return (bend[:, 1:] + bend[:, :-1]) * size * size / 16 * _gathered(beyond, 1)
+
+
 class _Forms:
     """How edges of grids bend, (k, n, m - 1) along rows and (k, n - 1, m) along columns, what follows for their facets, and better rows and columns."""
 
@@ -97,7 +109,11 @@ class _Forms:
         beyond_s = np.abs(np.concatenate([s[:, :1], s, s[:, -1:]], axis=1))
         self.edge_u, self.edge_s = even_u * _gathered(beyond_u, 2), even_s * _gathered(beyond_s, 1)
         self.edge_s[:, [0, -1]] = edge.T[:, :, None]  # measured: the rows beside do not tell it
-        bends = seam_bends(land, made, parts) / 8
+        crease = made.shared.any(axis=1)
+        for column in (0, -1):
+            along = _crease(made.points[:, :, column], made.found)
+            self.edge_s[:, :, column] = np.maximum(self.edge_s[:, :, column], along if column == 0 else np.where(crease[:, None], along, 0.0))
+        bends = rim_bends(land, made, parts) / 8
         self.outline = np.maximum(bends, np.concatenate([bends[:, :1], bends[:, :-1]], axis=1))
         # of quads: eight times how their edges stray, signed, the twist, and what narrow bends add
         even_u, even_s = 0.5 * (u[..., 1:] + u[..., :-1]) * wide, 0.5 * (s[:, 1:] + s[:, :-1]) * long
