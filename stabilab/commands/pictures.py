@@ -20,7 +20,8 @@ from ..show.surface.write import write_all
 from ..show.terminal.letters import lettered
 from ..show.text import law
 from .common.cases import load_cases, one_by_one, time_asked, units_asked
-from .common.output import answer, hold_laws, leave_undecided, say, tell, write, write_each, write_json
+from .common.output import hold_laws, leave_undecided, say, say_laws, tell, write, write_each, write_json
+from .common.tables import tell_all
 
 AN_EXAMPLE = Path(__file__).parents[1] / "cases" / "thruster-stuck-major-axis.toml"
 
@@ -81,8 +82,17 @@ def chaos(cases, until, out, csv, json, strict):
             rows.append((case, ask_chaos(case.scene, row_of(case.scene, case.state, case.blocks), time_asked(until, case, "until"))))
     if out:
         write_each(out, [(case, partial(chaos_picture.write, case, found)) for case, found in rows])
-    answer(chaos_words, rows, json, csv)
+    laws = [law.of_case(case) for case in loaded]
+    if json:
+        write(chaos_words.json(rows, laws))
+    elif csv:
+        say_laws(list(zip(loaded, laws)))
+        write(chaos_words.csv(rows))
+    else:
+        texts = [partial(chaos_words.text, [row]) for row in rows]
+        tell_all(loaded, texts, laws, [""] * len(rows), False, "\n", lambda of: chaos_words.swept([rows[n] for n in of]), units_asked(loaded, None))
     leave_undecided(strict, any(int(found.labels) == Order.UNDECIDED for _, found in rows))
+    hold_laws(strict, laws)
 
 
 def explore(case, port, browser, static, pyodide):

@@ -73,6 +73,42 @@ def test_the_command_says_it_in_words_json_and_csv():
     assert say("--csv").splitlines()[0] == "case,answer,time,megno" and len(say("--csv").splitlines()) == 7
 
 
+SWEPT = """
+[body]
+inertia = [12, 10, 7]
+[effects.gyrostat]
+momentum = [1, 0, 0]
+[effects.charge]
+charge = 0.01
+field = 1
+arm = 1
+angle = 0
+[motion]
+angular_velocity = [0.1, 1, 0.2]
+attitude = [0, 0, 0]
+span = [0, 9]
+[sweep]
+"motion.angular_velocity" = [[0.1, 1, 0.2], [0.1, 2, 0.2], [1, 0, 0]]
+"""
+
+
+def test_a_sweep_is_one_table_and_the_law_is_told_first(stabilab, tmp_path):
+    path = tmp_path / "three.toml"
+    path.write_text(SWEPT)
+    code, out, _ = stabilab("chaos", path, "--until", "60")
+    lines = out.splitlines()
+    assert code == 0 and len(lines) == 6 and lines[0].startswith("BEYOND THE LAW: charge")
+    assert lines[0].endswith("by that law: three: 3 combinations: 3 REGULAR as far as it was followed")
+    assert lines[1].split() == ["ω[1]", "ω[2]", "ω[3]", "motion", "turns", "MEGNO"] and {line.split()[3] for line in lines[3:]} == {"REGULAR"}
+    told = json.loads(stabilab("chaos", path, "--until", "60", "--json")[1])
+    assert [one["validity"]["effect"] for one in told] == ["charge"] * 3
+    assert [f"{one['megno']:.4f}" for one in told] == [line.split()[-1] for line in lines[3:]]
+    assert stabilab("chaos", path, "--until", "60", "--strict")[0] == 3
+    rows = [(SimpleNamespace(scene=SimpleNamespace(time_unit="s")), Chaos(np.array(label), np.array(6.0), np.array([1.0, 2.0]), np.array([3.0, 6.0]),
+                                                                         np.array(0.5), np.array(0.1), 1.0, None)) for label in (Order.CHAOTIC, Order.REGULAR)]
+    assert words.swept(rows)[1][-1] == ("doubles in", "s") and [row[-1] for row in words.swept(rows)[2]] == ["1.39", ""]  # ln 2/0.5
+
+
 @pytest.mark.slow
 def test_the_picture_of_a_motion_that_passes_no_plane_is_its_number_over_time(tmp_path):
     from stabilab.show.maps.chaos import picture

@@ -2,11 +2,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 from ....answers.chaos import Chaos, Order
 from ....errors import printable
 from ...files import comma
+from ...text import law
 from ...text.answers import as_json
 
 SCHEMA = "stabilab.chaos/1"
@@ -31,6 +33,23 @@ def _of_one(case: Any, found: Chaos) -> str:
     return "\n".join(lines)
 
 
+def swept(rows: list[tuple[Any, Chaos]]) -> tuple[str, list[tuple[str, str]], list[list[str]]]:
+    """(the answer in a line, columns, rows) of a sweep: how many motions are what, and of each MEGNO at the last time; where one
+    is chaotic, also how soon neighbours part."""
+    labels = [Order(int(found.labels)) for _, found in rows]
+    told = ", ".join(f"{labels.count(one)} {FIRST[one]}" for one in Order if one in labels)
+    cells = [[FIRST[label].split()[0], f"{found.times[-1] / found.turn:,.0f}", _number(float(found.megno), ".4f"),
+              _number(math.log(2) / float(found.lyapunov) if label == Order.CHAOTIC else math.nan, ".3g")] for label, (_, found) in zip(labels, rows)]
+    columns = [("motion", ""), ("turns", ""), ("MEGNO", ""), ("doubles in", _unit(rows[0][0]))]
+    shown = len(columns) if Order.CHAOTIC in labels else -1
+    return told, columns[:shown], [row[:shown] for row in cells]
+
+
+def _number(value: float, form: str) -> str:
+    """Nothing where it is not known, and no sign where it rounds to zero."""
+    return "" if math.isnan(value) else format(0.0 if abs(value) < 5e-5 else value, form)
+
+
 def _unit(case: Any) -> str:
     return str(case.scene.time_unit)
 
@@ -42,9 +61,9 @@ def as_dict(case: Any, found: Chaos) -> dict[str, Any]:
             "turn": found.turn, "times": found.times.tolist(), "history": found.history.tolist()}
 
 
-def json(rows: list[tuple[Any, Chaos]]) -> str:
-    """One object a case, a list of them for several."""
-    told = [as_dict(*row) for row in rows]
+def json(rows: list[tuple[Any, Chaos]], laws: Sequence[Any]) -> str:
+    """One object a case, a list of them for several. laws: how far the approximate laws of each hold, or None."""
+    told = [as_dict(*row) | law.key(held) for row, held in zip(rows, laws)]
     return as_json(told if len(told) > 1 else told[0])
 
 
