@@ -7,8 +7,8 @@ curve. The work-energy law makes T - M_i alpha a constant, and D_i w_i' = F = (D
 equilibrium of the motion along the curve is F = 0, y^2 F a quartic in y = exp(kappa alpha), and it is a saddle where F grows with alpha.
 
 The separatrix is made of the loops that leave a saddle and come back to it: on closed curves against the torque, where the potential rises from turn to
-turn; on open ones on either side. `Curves` holds the curves of many states in doubles, `lobes` give places of the surface, `in_digits` tells in 50 digits how far
-a place lies from it to first order.
+turn; on open ones on either side. `Curves` holds the curves of many states in doubles, `lobes` give places of the surface, `in_digits` tells in 50
+digits how far a place lies from it to first order.
 """
 from __future__ import annotations
 

@@ -41,7 +41,8 @@ def separatrix(scene: AnyScene, reach: float | None = None, shape: tuple[int, in
     and columns as that needs (in a sheet, its rim where `reach` cuts it off may stray by ten times as much), a sheet whose
     loops reach a second saddle as high comes in two parts that meet there, and every sheet tells as `error` what its
     facets were found to reach (more than asked for only where the largest grids, of 1025 rows, still bend as much).
-    fast: on circles with a torque compile the work with numba (the extra `fast`): in a given shape points agree to rounding, within an accuracy sheets share one shape; loading numba
+    fast: on circles with a torque compile the work with numba (the extra `fast`): in a given shape points agree to rounding,
+    within an accuracy sheets share one shape; loading numba
     costs more than some hundred surfaces. Points are in the scene's variables. A scene without saddles gives no sheets and
     the reason. Raises InputError for a shape, reach or accuracy out of range, and for fast=True without numba.
     """
