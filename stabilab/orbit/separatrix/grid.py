@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .homoclinic_arrays import Loops, loops
-from .saddles import FOLD, PLANE
+from .saddles import PLANE
 from .seams import Part, parted
 
 TRIAL = 17              # rows and columns of the trial grid
@@ -23,7 +23,6 @@ TAIL = 10.0 ** -np.arange(3, 6.1, 0.5)  # 1 - s of the last trial rows towards a
 NEAR = 1e-6             # a first row this near to the fold where the loop there is no point
 DENSE = 129             # steps along a branch that trial rows are chosen from
 UNIFORM = 0.2           # of the fold's radius: up to there trial rows are uniform
-RIM = 0.1               # of how far its outline strays counts where a sheet is cut off
 MOST = 1025             # rows and columns, at most, of a grid within an accuracy
 
 
@@ -114,19 +113,6 @@ def past_far_end(land, points):
     r[..., -1] = r[..., -3]
     r[axis, ..., -1] = 2 * r[axis, ..., -2] - r[axis, ..., -3]
     return r
-
-
-def rim_bends(land, loops, parts):
-    """(k, m - 1) how edges bend per step of the columns, in the sheet too, in the first row, a point or a rim, and in the last one; only a share `RIM` of that
-    where `reach` cuts off a sheet that goes on, or a plane Q = 0."""
-    first = _outline(land, loops, np.zeros(len(parts), int))
-    last = _outline(land, loops, np.full(len(parts), -1))
-    last[[part.seam <= 0 and part.branch.far != FOLD for part in parts]] *= RIM
-    for bends, seam in ((first, -1), (last, 1)):
-        bends[[part.seam == seam and not part.over for part in parts], -1] = 0  # the second saddle, a corner and no bend
-    bends = np.maximum(first, last)
-    bends[loops.shared.any(axis=1)] = 0  # without torque: the edges of loops from saddle to saddle follow no outline
-    return bends
 
 
 def _outline(land, loops, edge):

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from .grid import MOST, STRAIGHT, TRIAL, Grid, even_steps, measured_loops, past_far_end, rim_bends, trial_parts
+from .grid import MOST, STRAIGHT, TRIAL, Grid, even_steps, measured_loops, past_far_end, trial_parts
+from .saddles import OPEN
 
 FLOOR = 0.1        # of the mean density: no gap where a sheet happens to be straight
 MIXTURES = np.array([0.7, 1.0, 1.5, 2.0])  # columns against rows, relative to where both alone stray equally
@@ -17,6 +18,7 @@ SAFETY = 1.05      # rows and columns grow by that much more than asked, by its 
 GROW = 6.0         # cells, at most, against those of the grid before
 ROUNDS = 14
 SHARE = 4000       # points: strips of unequal shapes are computed as one array where no more are wasted
+RIM = 0.1          # of how far its outline strays counts where `reach` cuts a sheet off
 TINY, SMALL = np.finfo(float).tiny, 1e-200
 
 
@@ -78,14 +80,26 @@ def _gathered(c, axis):
     return np.moveaxis(1 + 3 * (1 - share * share) / (1 + 35 * share), -1, axis)
 
 
-def _crease(r, found):
-    """(k, n - 1) how far edges along a column of saddles r (k, n, 3) stray from it, in the sheet too, which has a crease there and does not go on."""
+def _rims(made, r, parts):
+    """(k, m - 1) how far edges stray from the outline of a sheet, in the sheet too, where it ends, from grids r (k, n, m + 1, 3): in the first row, a point or
+    a rim, and in the last one; only a share `RIM` of that where `reach` cuts off a sheet that goes on."""
+    first, last = (_along(r[:, row], np.ones((len(r), r.shape[2]), bool) & made.found[:, row, None])[:, :-1] for row in (0, -1))
+    last[[part.seam <= 0 and part.branch.far == OPEN for part in parts]] *= RIM
+    for strays, seam in ((first, -1), (last, 1)):
+        strays[[part.seam == seam and not part.over for part in parts], -1] = 0  # the second saddle, a corner and no bend
+    strays = np.maximum(first, last)
+    strays[made.shared.any(axis=1)] = 0  # without torque: the edges of loops from saddle to saddle follow no outline
+    return strays
+
+
+def _along(r, found):
+    """(k, n - 1) how far the edges between points r (k, n, 3) of curves stray from them, by curvatures and lengths of edges."""
     step = np.diff(r, axis=1)
     size = np.maximum(np.linalg.norm(step, axis=-1), TINY)
     whole = found[:, 2:] & found[:, 1:-1] & found[:, :-2]
     way = step / size[..., None]
     bend = np.where(whole, 2 * np.linalg.norm(np.cross(way[:, 1:], way[:, :-1]), axis=-1) / (size[:, 1:] + size[:, :-1]), 0.0)
-    bend = np.concatenate([bend[:, :1], bend, bend[:, -1:]], axis=1)
+    bend = np.concatenate([_before(bend[:, 0], bend[:, 1 if bend.shape[1] > 1 else 0])[:, None], bend, bend[:, -1:]], axis=1)
     beyond = np.concatenate([bend[:, :1], bend, bend[:, -1:]], axis=1)
     return (bend[:, 1:] + bend[:, :-1]) * size * size / 16 * _gathered(beyond, 1)
 
@@ -111,10 +125,9 @@ class _Forms:
         self.edge_s[:, [0, -1]] = edge.T[:, :, None]  # measured: the rows beside do not tell it
         crease = made.shared.any(axis=1)
         for column in (0, -1):
-            along = _crease(made.points[:, :, column], made.found)
+            along = _along(made.points[:, :, column], made.found)
             self.edge_s[:, :, column] = np.maximum(self.edge_s[:, :, column], along if column == 0 else np.where(crease[:, None], along, 0.0))
-        bends = rim_bends(land, made, parts) / 8
-        self.outline = np.maximum(bends, np.concatenate([bends[:, :1], bends[:, :-1]], axis=1))
+        self.outline = _rims(made, np.moveaxis(r, 0, -1), parts)
         # of quads: eight times how their edges stray, signed, the twist, and what narrow bends add
         even_u, even_s = 0.5 * (u[..., 1:] + u[..., :-1]) * wide, 0.5 * (s[:, 1:] + s[:, :-1]) * long
         even_s[:, [0, -1]] = np.clip(even_s[:, [0, -1]], -8 * edge.T[:, :, None], 8 * edge.T[:, :, None])
