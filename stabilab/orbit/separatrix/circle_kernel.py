@@ -346,12 +346,11 @@ def lengths(density, floor, straight, out):
         out[a] = out[a - 1] + 0.5 * (density[a] + density[a - 1])
 
 
-def trial(g, conic, sense, units, strips, sides, grading, accuracy, s, columns, rows, numbers, room):
-    """Fill s, columns, rows (k, t): trial rows and the integrals of the densities; numbers (mixtures, 2, 2): rows and columns
-    that `accuracy` (0: not asked) needs for each mixture and cut. grading: (floor, straight, fold's size, dense, mixtures);
-    room: arrays for a strip."""
-    floor, share, fold_size, dense, mixtures = grading
-    u, way, found, places, points, off, spare, forms, density = room
+def trial(g, conic, sense, units, strips, sides, grading, s, columns, rows, room):
+    """Fill s, columns, rows (k, t): trial rows and the integrals of the densities. grading: (floor, straight, fold's size, dense); room: arrays for
+    a strip."""
+    floor, share, fold_size, dense = grading
+    u, way, found, places, points, off, spare, density = room
     k, t = s.shape
     largest = 0.0
     for strip in range(k):
@@ -364,44 +363,22 @@ def trial(g, conic, sense, units, strips, sides, grading, accuracy, s, columns, 
                 for c in range(3):
                     largest = max(largest, abs(points[strip, row, a, c]))
     straight = share * largest
-    numbers[:] = 0.0
     for strip in range(k):
         edge = density[strip, 0, 0]
         density[strip] = 0.0
         for row in range(1, t - 1):
             whole = found[strip, row - 1] and found[strip, row] and found[strip, row + 1]
             for a in range(1, t):
-                across, twist, down = second_forms(points[strip], row, a, units[8]) if whole else (0.0, 0.0, 0.0)
-                forms[strip, 0, row, a], forms[strip, 1, row, a], forms[strip, 2, row, a] = across, twist, down
+                across, _, down = second_forms(points[strip], row, a, units[8]) if whole else (0.0, 0.0, 0.0)
                 density[strip, 0, a] = max(density[strip, 0, a], sqrt(abs(across)))
                 density[strip, 1, row] = max(density[strip, 1, row], sqrt(abs(down)))
-        if accuracy == 0 and found[strip, t - 1]:
+        if found[strip, t - 1]:
             for a in range(1, t):
                 density[strip, 0, a] = max(density[strip, 0, a], sqrt(outline_bend(points[strip, t - 1], a, units[8])))
         density[strip, 0, 0], density[strip, 1, 0] = density[strip, 0, 1], density[strip, 1, 1]
         density[strip, 1, t - 1] = max(density[strip, 1, t - 2], sqrt(8 * edge))
         lengths(density[strip, 0], floor, straight, columns[strip])
         lengths(density[strip, 1], floor, straight, rows[strip])
-        if accuracy > 0:
-            need(forms[strip], density[strip], columns[strip, t - 1], rows[strip, t - 1], mixtures, accuracy, numbers)
-
-
-def need(forms, density, columns, rows, mixtures, accuracy, numbers):
-    """Raise numbers to the rows and columns that one strip needs."""
-    t = density.shape[1]
-    for which in range(len(mixtures)):
-        mix = mixtures[which]
-        for cut in range(2):
-            worst = 0.0
-            for row in range(1, t - 1):
-                r = density[1, row]
-                for a in range(1, t):
-                    c = density[0, a] * mix
-                    worst = max(worst, stray(forms[0, row, a] / (c * c), forms[1, row, a] / (c * r), forms[2, row, a] / (r * r),
-                                             1.0 - 2.0 * cut))
-            size = sqrt(worst / accuracy)
-            numbers[which, cut, 0] = max(numbers[which, cut, 0], size * rows)
-            numbers[which, cut, 1] = max(numbers[which, cut, 1], size * columns * mix)
 
 
 def even_steps(length, at, out):

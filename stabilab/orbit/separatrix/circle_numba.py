@@ -1,9 +1,8 @@
 """Sheets of the separatrix on circles by a compiled kernel: the door of numba (the extra `fast`) to `circle_kernel`.
 
-In a given shape the grading is that of `grid`, number by number, and points agree with those of the arrays to rounding. Within an accuracy all
-sheets have one shape, and second differences alone tell how far facets stray: a scene that takes more than a few attempts is left to `within`.
-It stays beside the arrays although these take some 5 ms a surface: a view that draws the surface anew at every move of a hand has 16 ms
-a picture for everything, and this leaves it 15 of them.
+The grading is that of `grid`, number by number, and points agree with those of the arrays to rounding; an accuracy in place of a shape is left to
+`within`, which knows better how far facets stray. It stays beside the arrays although these take some 5 ms a surface: a view that draws the surface
+anew at every move of a hand has 16 ms a picture for everything, and this leaves it 15 of them.
 """
 from __future__ import annotations
 
@@ -13,11 +12,9 @@ import numpy as np
 
 from ...numbers.numba_door import compiled
 from . import circle_kernel as circle_loops
-from .grid import DENSE, FLOOR, MOST, STRAIGHT, TRIAL, UNIFORM, shrinks
+from .grid import DENSE, FLOOR, STRAIGHT, TRIAL, UNIFORM, shrinks
 
-MIXTURES = np.array([1.0, 1.5, 2.0])  # columns against rows, relative to where both alone stray equally
-SAFETY, USUAL = 1.03, 3               # rows and columns grow by that much more than asked; attempts that are enough for that
-GRADING = (FLOOR, STRAIGHT, UNIFORM, DENSE, MIXTURES)
+GRADING = (FLOOR, STRAIGHT, UNIFORM, DENSE)
 EVEN = np.linspace(0, 1, TRIAL)
 
 
@@ -43,49 +40,26 @@ def kernel_input(land):
             tuple(float(v) for v in (conic.G, conic.c, conic.K, conic.shift)), int(land.sense), (*units, r.j, r.k, r.axis))
 
 
-def sheets_by_kernel(land, strips, shape, accuracy, names=None):
+def sheets_by_kernel(land, strips, shape, names=None):
     """(points (k, n, m, 3) all round, residual (k, n, m), saddle and centre places (k, n, 2) each, found (k, n), cut, error (k,))
-    of strips, pairs (branch, side), in the shape (rows, columns of a half) or, where it is None, within `accuracy`.
-
-    names: of the functions, compiled or plain. None where rows and columns are to be graded anew, as `within` does.
-    """
+    of strips, pairs (branch, side), in the shape (rows, columns of a half). names: of the functions, compiled or plain."""
     names = names or kernel()
     scene = kernel_input(land)
     k = len(strips)
     lines = [(branch.start, branch.end, *((1.0, *branch.line) if branch.line else (0.0,) * 5)) for branch, _ in strips]
     where, sides = np.array(lines), np.array([float(side) for _, side in strips])
-    s, columns, rows, numbers = (np.empty(size) for size in ((k, TRIAL), (k, TRIAL), (k, TRIAL), (len(MIXTURES), 2, 2)))
-    names["trial"](*scene, where, sides, GRADING, accuracy or 0.0, s, columns, rows, numbers, _room(k))
-    shape = shape or _fewest_cells(numbers[..., 0], numbers[..., 1])
-    for _ in range(USUAL):
-        n, m = shape
-        found, places, points = np.empty((k, n), np.bool_), np.empty((k, n, 5)), np.empty((k, n, 2 * m - 1, 3))
-        residual, strays = np.empty((k, n, 2 * m - 1)), np.empty((2, k))
-        names["finished"](*scene, where, sides, s, EVEN, columns, rows, np.empty(n), np.empty(m), found, places, points, residual,
-                          strays, np.empty((m + 1, 5)))
-        each = strays.max(axis=1)
-        best = int(np.argmin(each))
-        if accuracy is None or each[best] <= accuracy or min(shape) == MOST:
-            break
-        shape = _finer(shape, each[best], accuracy)
-    else:
-        return None
+    s, columns, rows = (np.empty((k, TRIAL)) for _ in range(3))
+    names["trial"](*scene, where, sides, GRADING, s, columns, rows, _room(k))
+    n, m = shape
+    found, places, points = np.empty((k, n), np.bool_), np.empty((k, n, 5)), np.empty((k, n, 2 * m - 1, 3))
+    residual, strays = np.empty((k, n, 2 * m - 1)), np.empty((2, k))
+    names["finished"](*scene, where, sides, s, EVEN, columns, rows, np.empty(n), np.empty(m), found, places, points, residual,
+                      strays, np.empty((m + 1, 5)))
+    best = int(np.argmin(strays.max(axis=1)))
     return points, residual, places[..., :2], places[..., 2:4], found, (1, -1)[best], strays[best]
 
 
-def _fewest_cells(rows, columns):
-    """(rows, columns of a half) of the grid with the fewest cells among steps (mixtures, cuts) of both."""
-    best = np.unravel_index(np.argmin(columns * rows), rows.shape)
-    return tuple(min(max(int(np.ceil(SAFETY * number[best])) + 1, 3), MOST) for number in (rows, columns))
-
-
-def _finer(shape, worst, accuracy):
-    """The shape to try next, after one whose facets stray from the surface by `worst`."""
-    grow = max(SAFETY * np.sqrt(worst / accuracy), 1.1)
-    return tuple(min(int(np.ceil((number - 1) * grow)) + 1, MOST) for number in shape)
-
-
 def _room(k):
-    """Arrays for `circle_loops.trial`: columns, dense way, found, places, points, no residual, a row to spare, forms, densities."""
+    """Arrays for `circle_loops.trial`: columns, dense way, found, places, points, no residual, a row to spare, densities."""
     return (EVEN, np.empty(DENSE), np.empty((k, TRIAL), np.bool_), np.empty((TRIAL, 5)), np.empty((k, TRIAL, TRIAL, 3)),
-            np.empty((TRIAL, 0)), np.empty((TRIAL + 1, 5)), np.empty((k, 3, TRIAL, TRIAL)), np.empty((k, 2, TRIAL)))
+            np.empty((TRIAL, 0)), np.empty((TRIAL + 1, 5)), np.empty((k, 2, TRIAL)))

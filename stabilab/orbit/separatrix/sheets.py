@@ -23,7 +23,7 @@ from .grid import grid
 from .homoclinic_arrays import residual
 from .result import Separatrix, Sheet
 from .saddles import limit_of, saddle_branches
-from .seams import Part, seam_of
+from .seams import Part
 from .within import grids_within
 from .words import NO_REDUCTION, what_it_parts, why_none, why_parabolic
 
@@ -41,9 +41,9 @@ def separatrix(scene: AnyScene, reach: float | None = None, shape: tuple[int, in
     and columns as that needs (in a sheet, its rim where `reach` cuts it off may stray by ten times as much), a sheet whose
     loops reach a second saddle as high comes in two parts that meet there, and every sheet tells as `error` what its
     facets were found to reach (more than asked for only where the largest grids, of 1025 rows, still bend as much).
-    fast: on circles with a torque compile the work with numba (the extra `fast`): in a given shape points agree to rounding,
-    within an accuracy sheets share one shape; loading numba
-    costs more than some hundred surfaces. Points are in the scene's variables. A scene without saddles gives no sheets and
+    fast: on circles with a torque compile the work with numba (the extra `fast`) in a given shape, where points agree to
+    rounding; loading numba costs more than some hundred surfaces. Within an accuracy it changes nothing. Points are in
+    the scene's variables. A scene without saddles gives no sheets and
     the reason. Raises InputError for a shape, reach or accuracy out of range, and for fast=True without numba.
     """
     _check(reach, shape, accuracy)
@@ -64,15 +64,15 @@ def _separatrix(scene, reach, shape, accuracy, fast) -> Separatrix:
     strips = [(branch, side) for branch in branches for side, _ in land.conic.sides(land.sense)]
     rows, columns = shape or SHAPE
     half = None if accuracy else (rows, columns // 2 + 1)
-    made = _by_kernel(land, strips, half, accuracy) if _goes_fast(land, strips, fast, accuracy) else None
-    return Separatrix(tuple(_sheets(land, made or _by_arrays(land, strips, half, accuracy))), what_it_parts(land.potential, land.sense))
+    made = _by_kernel(land, strips, half) if _goes_fast(land, strips, fast, accuracy) else _by_arrays(land, strips, half, accuracy)
+    return Separatrix(tuple(_sheets(land, made)), what_it_parts(land.potential, land.sense))
 
 
 def _goes_fast(land, strips, fast, accuracy) -> bool:
     # never on its own: the same case must give the same bytes, whatever was loaded before
     if not fast:
         return False
-    return wanted(1, True, False, 1, 1) and serves(land, strips) and not (accuracy and any(seam_of(land, *strip) for strip in strips))
+    return wanted(1, True, False, 1, 1) and accuracy is None and serves(land, strips)
 
 
 def _check(reach, shape, accuracy):
@@ -87,11 +87,8 @@ def _check(reach, shape, accuracy):
         raise InputError(f"accuracy: expected a distance above 0 in the unit of the sheet's points, got {accuracy!r:.80}")
 
 
-def _by_kernel(land, strips, shape, accuracy):
-    made = sheets_by_kernel(land, strips, shape, accuracy)
-    if made is None:
-        return None
-    points, residual, *places, found, cut, error = made
+def _by_kernel(land, strips, shape):
+    points, residual, *places, found, cut, error = sheets_by_kernel(land, strips, shape)
     return [(Part(*strip), points[k], residual[k], *(place[k].T for place in places), found[k], cut, error[k]) for k, strip in enumerate(strips)]
 
 
