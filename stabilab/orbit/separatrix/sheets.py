@@ -2,7 +2,8 @@
 
 A sheet sweeps one branch of saddles outward from its fold, where the loop shrinks to a point. On a circle the loop runs
 from its saddle against the torque and back; on a hyperbola (and without torque) each saddle has a loop on either side: a
-figure eight.
+figure eight. The lower of two saddles on a circle may have a second loop there too, towards the torque, where the higher
+one turns it back: that parts a well from one twice as wide, no fate changes at it, and it is not drawn.
 
 Without torque the potential is periodic, so a saddle may see another one at its own height ahead (or itself, one turn
 on). The loop then runs from saddle to saddle and back, and the saddle at its far end sees the same closed curve on its
