@@ -513,3 +513,16 @@ def _deep(box, other):
     """Whether two boxes share more than a fifth of the smaller one."""
     wide, high = min(box.x1, other.x1) - max(box.x0, other.x0), min(box.y1, other.y1) - max(box.y0, other.y0)
     return wide > 0 and high > 0 and wide * high > 0.2 * min(box.width * box.height, other.width * other.height)
+
+
+def test_a_model_that_turns_too_often_to_be_followed_is_a_ground_below_the_exact_motion():
+    """Oracle: Matplotlib's own lines; the expansion of a slow top turns more than a hundred times, that of a fast one as often as the motion."""
+    t = np.linspace(0, 4, 801)
+    for turns, buried in ((400, True), (20, False)):
+        bent = {"exact": np.sin(5 * t), "lindstedt": 50 * np.sin(np.pi * turns / 4 * t)}
+        runs = {name: SimpleNamespace(t=t, state={"omega": np.column_stack([curve] * 3)}) for name, curve in bent.items()}
+        with style.drawing():
+            figure = comparison.picture(plt, load("minor-axis-100"), runs)
+            exact, model = figure.axes[0].lines
+            assert (model.get_zorder() < exact.get_zorder() and (model.get_alpha() or 1) < 0.5) == buried
+            assert figure.legends[0].get_lines()[1].get_alpha() == model.get_alpha()

@@ -17,7 +17,9 @@ LOOKS = {"exact": {"color": style.BLACK, "linewidth": 2.2}, "linear": {"color": 
          "printed": {"color": style.ORANGE, "linewidth": 1.6, "linestyle": ":"},
          "averaged1": {"color": style.GREEN, "linewidth": 1.4, "linestyle": "-."},
          "averaged2": {"color": style.BLUE, "linewidth": 1.4, "linestyle": "--"},
-         "lindstedt": {"color": style.SKY, "linewidth": 0.6, "antialiased": False, "zorder": 1.9}}  # it turns so often that it would bury the others
+         "lindstedt": {"color": style.SKY, "linewidth": 1.2, "linestyle": (0, (5, 2))}}
+BURIED = {"linestyle": "-", "linewidth": 0.6, "antialiased": False, "alpha": 0.35, "zorder": 1.9}  # of a model that would bury the others: a ground below them
+DENSE = 100  # turns of a model in a panel from which on it would
 NAMES = {"omega": (r"$\omega_1$", r"$\omega_2$", r"$\omega_3$"), "gamma": (r"$\gamma_1$", r"$\gamma_2$", r"$\gamma_3$"),
          "angles": (r"$\psi$", r"$\phi$", r"$\theta$"), "momentum": (r"$H_1$", r"$H_2$", r"$H_3$"),
          "velocity": (r"$v_1$", r"$v_2$", r"$v_3$"), "position": (r"$x_1$", r"$x_2$", r"$x_3$")}
@@ -97,24 +99,33 @@ def picture(plt, case, runs, parts=("omega",), size=None, units: Units | None = 
     parts = [p for p in parts if p in runs["exact"].state]
     figure, axes = plt.subplots(len(parts), 3, figsize=size or (10.5, 0.9 + 2.3 * len(parts)), layout="constrained", squeeze=False,
                                 sharex=True)
+    looks = {name: LOOKS[name] | (BURIED if name != "exact" and _dense(run, parts) else {}) for name, run in runs.items()}
     for row, part in zip(axes, parts):
         for column, ax in enumerate(row):
             unit, one = units.of(PARTS[part].unit)
             _curves(ax, {name: (np.asarray(run.t) * second, np.asarray(run.state[part])[:, column] * one)
-                         for name, run in runs.items() if part in run.state})
+                         for name, run in runs.items() if part in run.state}, looks)
             ax.set_ylabel(f"{NAMES[part][column]}{f' ({written(unit)})' if unit else ''}")
     for ax in axes[-1]:
         ax.set_xlabel(f"$t$ ({written(clock)})")
     figure.suptitle(style.literal(case.heading), fontsize=10 * style.share(), wrap=True)
-    style.legend(figure, [(WORDS[name], LOOKS[name]) for name in runs], columns=style.fitting([WORDS[name] for name in runs], figure.get_figwidth()))
+    style.legend(figure, [(WORDS[name], looks[name]) for name in runs], columns=style.fitting([WORDS[name] for name in runs], figure.get_figwidth()))
     return figure
 
 
-def _curves(ax, runs):
+def _dense(run, parts) -> bool:
+    """Whether some component of a run turns so often that its curve is a ground and no line."""
+    def turns(values):
+        up = np.sign(np.diff(values))
+        return int((up[1:] * up[:-1] < 0).sum())
+    return any(turns(row) > DENSE for part in parts if part in run.state for row in np.asarray(run.state[part]).T)
+
+
+def _curves(ax, runs, looks):
     """The curves, (times, values) by the names of the models."""
     exact = runs["exact"][1]
     for name, (t, values) in runs.items():
-        ax.plot(t, values, **LOOKS[name])
+        ax.plot(t, values, **looks[name])
     middle, half = (exact.max() + exact.min()) / 2, (exact.max() - exact.min()) / 2
     low, high = ax.get_ylim()
     wide = half * REACH or 1e-9 * max(abs(middle), 1)
