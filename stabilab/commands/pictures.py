@@ -69,7 +69,7 @@ def _of_file(case, target, kind, size, dpi, units):
     """The picture of what a sweep or an atlas wrote."""
     if atlas_files.is_atlas(case):
         return atlas_files.redrawn(case, target, kind, size, dpi, units)
-    return picture.write(case, target, kind, size, dpi)
+    return picture.write(case, target, kind, size, dpi, units)
 
 
 def chaos(cases, until, out, csv, json, strict):

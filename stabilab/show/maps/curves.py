@@ -52,10 +52,10 @@ def _lines(ax, data, x, order, names):
             ax.step(x[order], np.where(values < 0, np.nan, values), where="mid", color=style.SERIES[n], linestyle=("-", "--", ":", "-.")[n], label=name)
             ax.yaxis.get_major_locator().set_params(integer=True)
         elif values.ndim == 1:
-            ax.plot(x[order], values, color=style.SERIES[n], label=short_label(data, name))
+            ax.plot(x[order], values, color=style.SERIES[n], linestyle=(0, (6, 6)) if n else "-", label=short_label(data, name))  # two may be one line
         else:
             for i in range(3):
-                ax.plot(x[order], values[:, i], color=style.SERIES[i], linestyle="--" if n else "-", label=f"{name} {i + 1}")
+                ax.plot(x[order], values[:, i], color=style.SERIES[i], linestyle="--" if n else "-", label=f"{name}, axis {i + 1}")
     if names:
         of = data[names[0]].attrs.get("units", "1")
         told = {"least": "extremes", "when_low": "time to the limit", "equilibria": "number"}.get(names[0], names[0])
@@ -79,7 +79,7 @@ def _legend(figure, rows, axes):
         handles, words = ax.get_legend_handles_labels()
         if len(words) > 1 + ("the case itself" in words):
             kept = [(h, w) for h, w in zip(handles, words) if w != "the case itself"]
-            ax.legend(*zip(*kept), loc="best", ncols=2)
+            ax.legend(*zip(*kept), loc="center left", bbox_to_anchor=(1.0, 0.5))  # beside the panel, whose curves it would cover
         rows += [(h, w) for h, w in zip(handles, words) if w == "the case itself" and w not in [w for _, w in rows]]
     if rows:
         figure.legend(*zip(*rows), loc="outside lower center", ncols=min(5, len(rows)))

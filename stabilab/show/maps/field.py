@@ -13,6 +13,7 @@ from .. import style
 from .shades import FLAGS, flag_legend, label, light, looks, own_value, scale_axes, spoken_key
 
 COUNTS = ("equilibria", "stable", "unstable", "open")
+ENDS = {"period": "never repeats", "least": "unbounded", "greatest": "unbounded", "when_low": "never", "when_high": "never"}  # what an infinite value means
 WITHOUT = {ENDLESS: "curves", OPEN: "open", NONE: "no case"}
 
 
@@ -45,6 +46,7 @@ def fields(data: Any, plan: Any, kind: str, moving: list[str], panels: list[dict
         ax.set_ylabel(label(data, moving[1]))
     figure.suptitle(style.literal(str(data.attrs.get("title", ""))) + _of_all(data, panels), fontsize=10.5, wrap=True)
     if kind not in FLAGS:
+        rows |= _blank(data, kind)
         of_axes = f", {'least' if kind == 'least' else 'greatest'} of the three axes" if "axis" in data[kind].dims else ""
         bar = figure.colorbar(shown, ax=axes, label=label(data, kind) + of_axes)
         if kind in COUNTS:
@@ -80,6 +82,14 @@ def values_of(data, kind) -> np.ndarray:
     if "axis" in array.dims:
         array = array.min("axis") if kind == "least" else array.max("axis")
     return np.asarray(array)
+
+
+def _blank(data, kind) -> dict[str, Any]:
+    """What the cells mean that are left white."""
+    from matplotlib.patches import Patch
+    values = values_of(data, kind)
+    told = [words for words, there in ((ENDS.get(kind, "without end"), np.isinf(values)), ("not known", np.isnan(values))) if there.any()]
+    return {f"white: {' or '.join(told)}": Patch(facecolor="white", edgecolor=style.GREY)} if told else {}
 
 
 def _own(ax, data, plan, moving) -> dict[str, Any]:
@@ -129,6 +139,8 @@ def _levels(ax, data, moving) -> dict[str, Any]:
     if np.isfinite(margin).sum() < 9 or min(margin.shape) < 5 or not np.nanmax(margin) > 0:
         return {}
     drawn = ax.contour(x, y, margin.T, levels=np.linspace(0, np.nanmax(margin), 7)[1:-1], colors=style.GREY, linewidths=0.6)
+    if not any(len(line) for level in drawn.allsegs for line in level):  # finite margins here and there make no line
+        return {}
     ax.clabel(drawn, fontsize=7, fmt="%.3g")
     unit = _unit(data, "margin")
     return {f"equal margin{f' ({unit})' if unit else ''}": _line("level", 0.6)}

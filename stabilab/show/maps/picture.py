@@ -14,9 +14,11 @@ from .. import style
 from ..files import endings
 from ..plot import basins as basin_picture
 from ..plot.to_file import check_size
+from ..terminal.letters import written
+from ..units import Units, units_of
 from .basins import dataset as basin_data
 from .curves import curves
-from .field import fields
+from .field import fields, values_of
 from .labels import SAMPLE, dimensions
 from .spread import spread
 
@@ -27,9 +29,11 @@ PANELS = 12  # small maps of a picture
 NUMBERS = ("margin", "distance", "least", "greatest", "period", "when_low", "when_high", "equilibria", "stable", "unstable", "open", "megno", "lyapunov")
 
 
-def write(path: str | Path, out: str | Path, kind: str | None = None, size: tuple[float, float] | None = None, dpi: float | None = None) -> Path:
+def write(path: str | Path, out: str | Path, kind: str | None = None, size: tuple[float, float] | None = None, dpi: float | None = None,
+          units: str | None = None) -> Path:
     """Draw a file of `stabilab sweep` and write the picture; returns its path. kind: the name of a column; None: the fate, with the margin, or the
-    first number that there is. Raises InputError for a file that is none, and for a column that it has not."""
+    first number that there is. units: of rates and times that were answered, "deg" or "si"; None for those of the case; an axis keeps the unit in which it was
+    varied. Raises InputError for a file that is none, and for a column that it has not."""
     demand("xarray", "scipy", *style.PACKAGES)
     target = endings.file(out, endings.PICTURES)
     check_size(size, dpi)
@@ -37,9 +41,21 @@ def write(path: str | Path, out: str | Path, kind: str | None = None, size: tupl
     if "basin" in data.attrs:
         return _basin(data, Path(path), target, kind, size, dpi)
     plan = _plan(data, Path(path))
+    data = in_units(data, units_of(plan.case, units))
     with style.drawing() as plt:
         figure = drawn(data, plan, chosen(data, kind), size, plt)
         return style.save(figure, target, dpi)
+
+
+def in_units(data: xarray.Dataset, units: Units) -> xarray.Dataset:
+    """The same with the columns of rates and times in what people are told."""
+    of = {name: str(data[name].attrs.get("units", "1")) for name in map(str, data.data_vars)}
+    told = {name: units.of(unit) for name, unit in of.items()}
+    for names in (("period",), ("when_low", "when_high")):
+        known = [np.abs(values[np.isfinite(values)]).max(initial=0.0) for values in (np.asarray(data[name]) for name in names if name in of)]
+        told |= {name: units.times(max(known)) for name in names if name in of}
+    return data.assign({name: (data[name] * one).assign_attrs(data[name].attrs | {"units": written(unit)}) for name, (unit, one) in told.items()
+                        if unit != of[name]})
 
 
 def _basin(data, path, target, kind, size, dpi) -> Path:
@@ -148,6 +164,8 @@ def drawn(data: xarray.Dataset, plan: Plan, kind: str, size: tuple[float, float]
         if not moving:
             raise InputError("a sweep of one point has no picture: stabilab plot draws its case")
         return curves(data, plan, kind, moving[0], size, plt)
+    if not np.isfinite(values_of(data, kind)).any():  # of three axes one may be finite where the greatest is not
+        raise InputError(f"plot: nothing to draw: no point has a finite value of {kind}")
     panels = _panels(data, moving)
     return fields(data, plan, kind, moving, panels, size, plt)
 

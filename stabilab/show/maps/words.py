@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ...errors import printable
-from ...maps.columns import ENDLESS, NO_CASE, NONE, OPEN, Column, columns_of
+from ...maps.columns import ENDLESS, NO_CASE, NONE, OPEN, TIME, Column, columns_of
 from ...maps.plan import Plan
 from ...maps.run import Swept
 from ...orbit.result import Fate
@@ -100,7 +100,9 @@ def _listed(values: np.ndarray, words: Any) -> str:
 def _unit(plan: Plan, column: Column) -> Unit:
     """In what people are told the numbers of a column: rates in the units of the case."""
     of = unit(plan, column)
-    return ("", 1.0) if of == "1" else units_of(plan.case).of(of)
+    if of == "1":
+        return ("τ" if column.unit == TIME else "", 1.0)
+    return units_of(plan.case).of(of)
 
 
 def _range(values: np.ndarray, column: Column, of: str, one: float) -> str:

@@ -158,3 +158,60 @@ def test_keys_are_as_short_as_the_others_allow():
 def test_a_size_of_which_no_picture_can_be_made_is_refused_for_maps_too(tmp_path):
     with pytest.raises(InputError, match="1 to 60 inches, got 100 x 100"):
         picture.write(tmp_path / "none.nc", tmp_path / "a.png", size=(100.0, 100.0))
+
+
+BODY = """title = "t"
+[body]
+inertia = [12.0, 9.0, 5.0]
+[effects.gyrostat]
+momentum = [0.8, 0.0, 0.0]
+[effects.constant_torque]
+torque = [0.0, 0.0, 0.02]
+[motion]
+angular_velocity = [0.10, 0.05, 0.02]
+span = [0.0, 300.0]
+"""
+
+
+def test_rates_and_times_of_a_map_have_the_units_of_the_case_or_those_asked_for(tmp_path):
+    """Oracle: the file itself, in SI units; a turn is 2 pi, an hour 3600 s."""
+    (tmp_path / "my.toml").write_text(BODY)
+    data = sweep(tmp_path / "my.toml", {"angular_velocity[1]": "1:3:3 deg/s"}, answer="fate,extremes,period,when", rate="10 deg/s", out=tmp_path / "a.nc")
+    plan = picture.opened(tmp_path / "a.nc")[1]
+    told = picture.in_units(data, picture.units_of(plan.case, None))
+    assert (told.least.attrs["units"], told.period.attrs["units"], data.least.attrs["units"]) == ("deg/s", "s", "rad/s")
+    assert told.least.values == pytest.approx(np.degrees(data.least.values)) and told.period.values == pytest.approx(data.period.values)
+    slow = picture.in_units(data.assign(period=(data.period * 1000).assign_attrs(data.period.attrs)), picture.units_of(plan.case, "deg"))
+    assert slow.period.attrs["units"] == "h" and slow.period.values == pytest.approx(data.period.values / 3.6)
+    si = picture.in_units(data, picture.units_of(plan.case, "si"))
+    assert si.least.attrs["units"] == "rad/s" and (si.least.values == data.least.values).all()
+    with style.drawing() as plt:
+        assert curves.curves(told, plan, "least", data.least.dims[0], None, plt).axes[0].get_ylabel() == "extremes (deg/s)"
+
+
+def test_a_period_of_a_scaled_case_is_in_tau_on_a_map(swept):
+    data = sweep(MINOR, {"x[1]": "1:2:2"}, answer="period")
+    assert picture.in_units(data, picture.units_of(stabilab.load(MINOR))).period.attrs["units"] == "τ"
+
+
+def test_a_map_says_what_its_white_cells_mean_and_is_refused_where_all_are(tmp_path):
+    data = sweep(MINOR, {"x[1]": "0:4:3", "x[3]": "0:100:3"}, answer="fate,period,extremes", out=tmp_path / "two.nc")
+    plan = picture.opened(tmp_path / "two.nc")[1]
+    assert {0, 1} == set(data.fate.values.ravel().tolist())  # some stay, some spin up and have no period
+    with style.drawing() as plt:
+        figure = picture.drawn(data, plan, "period", None, plt)
+        assert "white: never repeats" in [text.get_text() for text in figure.legends[0].get_texts()]
+    sweep(MINOR, {"x[1]": "1, 2", "x[3]": "100, 101"}, answer="fate,extremes", out=tmp_path / "up.nc")
+    with pytest.raises(InputError, match="no point has a finite value of greatest"):  # axes 1 and 2 have one, of three the greatest is without end
+        picture.write(tmp_path / "up.nc", tmp_path / "x.png", "greatest")
+
+
+def test_a_legend_of_many_curves_stands_beside_its_panel(tmp_path):
+    """Oracle: Matplotlib's own boxes."""
+    data = sweep(MINOR, {"x[1]": "1:2:3"}, answer="fate,extremes", out=tmp_path / "line.nc")
+    with style.drawing() as plt:
+        figure = curves.curves(data, picture.opened(tmp_path / "line.nc")[1], "fate", "x_1", None, plt)
+        figure.canvas.draw()
+        (ax,) = figure.axes
+        box = ax.get_legend().get_window_extent()
+        assert box.x0 >= ax.get_window_extent().x1 and box.x1 <= figure.bbox.width
