@@ -32,11 +32,12 @@ def csv(answers) -> str:
 
 
 def text(case, limit, found, units: Units) -> str:
-    """The answer in one line, then its two ends with all digits and the reason."""
-    low, high, unit = float(found.low), float(found.high), case.scene.time_unit
+    """The answer in one line with its two ends, how far these are apart, and the reason; `as_dict` has all digits of the ends."""
+    low, high = float(found.low), float(found.high)
     lines = [f"{printable(case.name)}: {_answer(limit, found, low, high, units)}"]
     if math.isfinite(high) and high > 0:
-        lines += [f"  between   {low!r} {unit}", f"      and   {high!r} {unit}"]
+        apart = f"{units.time(high - low, 2)} apart" if high > low else "the same number"
+        lines.append(f"  its two ends are {apart}; --json tells all digits")
     reason = re.sub(r"^[^:]* = [^:]*: ", "", str(found.words))  # the limit stands above, in the units asked for
     return "\n".join([*lines, f"  {lettered(units.words(reason))}"])
 
