@@ -13,6 +13,7 @@ import pytest
 from stabilab.errors import InputError
 from stabilab.numbers.balls import working
 from stabilab.show.outside import validation as shown
+from stabilab.show.terminal.letters import written
 from stabilab.theories.validation import findings, source, sources
 from stabilab.theories.validation.enclose import at
 from stabilab.theories.validation.integrators import ab2, rk4, run
@@ -120,7 +121,16 @@ def test_json_names_file_value_and_cause(stabilab):
 
 def test_the_page_shows_every_value(validated, tmp_path):
     text = shown.page(validated.values(), tmp_path / "page.html").read_text(encoding="utf-8")
-    assert all(one.ours in text and one.theirs in text for _, found in validated.values() for one in found)
+    assert all(number.replace("-", "−") in text for _, found in validated.values() for one in found for number in (one.ours, one.theirs))
+
+
+def test_page_and_text_begin_with_a_source_that_has_values_and_a_minus_is_no_hyphen(validated, tmp_path, stabilab):
+    text, page = stabilab("validate")[1], shown.page(validated.values(), tmp_path / "page.html").read_text(encoding="utf-8")
+    first, last = (next(name for name, (_, found) in validated.items() if bool(found) is have) for have in (True, False))
+    assert page.index(f'id="{first}"') < page.index(f'id="{last}"') and text.index(f"\n{first}: ") < text.index(f"\n{last}: ")
+    assert not re.search(r">-\d|\de-\d", re.sub(r"href=.*?>", "", page))
+    total = sum(len(found) for _, found in validated.values())
+    assert sum(map(int, re.findall(r"(\d+) (?:agree|differ)", text.splitlines()[0]))) == total
 
 
 def test_numbers_of_the_page_of_docs_are_those_of_the_findings(validated):
@@ -134,8 +144,9 @@ def rows_of(validated) -> list[str]:
     for given, found in validated.values():
         for group in shown.grouped(found):
             worst = max(group, key=lambda one: one.difference / one.tolerance)
-            rows.append(f"| {given.name} | {group[0].printed.tool} | {len(group)} | {worst.component} at {worst.time} s | {worst.ours} | {worst.theirs} | "
-                        f"{worst.difference:.1e} | {worst.tolerance:.0e} | {worst.verdict} | {shown.cause(group) or '-'} |")
+            numbers = shown.signed(f"{worst.ours} | {worst.theirs} | {worst.difference:.1e} | {worst.tolerance:.0e}")
+            rows.append(f"| {given.name} | {group[0].printed.tool} | {len(group)} | {written(worst.component)} at {worst.time} s | {numbers} | "
+                        f"{worst.verdict} | {shown.signed(written(shown.cause(group))) or '–'} |")
     return rows
 
 

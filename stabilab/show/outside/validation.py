@@ -1,12 +1,14 @@
 """Findings of the validation as text, JSON and an HTML page."""
 from __future__ import annotations
 
+import re
 from collections import Counter
 from pathlib import Path
 
 from ...theories.validation.findings import VERDICTS
 from ..report import html
 
+MINUS = re.compile(r"(?<![\w)])-(?=\d)|(?<=\de)-(?=\d)")
 SCHEMA = "stabilab.validate/1"
 
 
@@ -35,8 +37,14 @@ def counts(found) -> str:
 
 
 def text(validated) -> str:
-    """A table a source: a row a value, and what explains a tool's differences below its rows."""
-    return "\n\n".join("\n".join(_lines(source, found)) for source, found in validated)
+    """How many values agree, then a table a source: a row a value, and what explains a tool's differences below its rows."""
+    all_of = [f"{len(validated)} sources: {counts([one for _, found in validated for one in found])}"] if len(validated) > 1 else []
+    return "\n\n".join([*all_of, *("\n".join(_lines(source, found)) for source, found in told(validated))])
+
+
+def told(validated) -> list:
+    """The sources in the order in which people read them: those without values last."""
+    return sorted(validated, key=lambda pair: not pair[1])
 
 
 def _lines(source, found):
@@ -91,8 +99,13 @@ def cause(group) -> str:
 
 def page(validated, path, **around) -> Path:
     """The page of (source, findings) pairs as a file; around: of the pages beside it (`html.render`)."""
-    sources = [{"source": source, "count": counts(found), "groups": [_group(source, group) for group in grouped(found)]} for source, found in validated]
-    return html.write(Path(path), "validation.html", title="Numbers of other tools beside ours", sources=sources, **around)
+    sources = [{"source": source, "count": counts(found), "groups": [_group(source, group) for group in grouped(found)]} for source, found in told(validated)]
+    return html.write(Path(path), "validation.html", title="Numbers of other tools beside ours", sources=sources, signed=signed, **around)
+
+
+def signed(text: str) -> str:
+    """The text with the minus of a book before numbers and in their exponents."""
+    return MINUS.sub("−", text)
 
 
 def _group(source, group):
