@@ -84,7 +84,7 @@ class Validity:
     def _measured(self) -> str:
         if self.value is None:
             return f"{self.number}: it needs a part of the state that is not given, limit {self.limit:g}"
-        size = "unbounded" if math.isinf(_largest(self.value)) else f"{_largest(self.value):.3g}"
+        size = "unbounded" if math.isinf(_largest(self.value)) else f"{float(f'{_largest(self.value):.3g}'):g}"
         return f"{self.number}, {size} {self.over}, limit {self.limit:g}"
 
     def _told(self) -> str:

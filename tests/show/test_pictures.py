@@ -3,6 +3,7 @@ import csv
 import io
 import json
 import math
+import re
 import struct
 from pathlib import Path
 
@@ -59,6 +60,11 @@ def test_table_1_has_every_sign_pattern_with_and_without_the_wheel():
     rows = table.torque_signs().rows
     patterns = [row[1] for row in rows]
     assert len(rows) == 54 and len(set(patterns)) == 27 and patterns[:27] == patterns[27:]
+
+
+def test_a_minus_of_table_1_is_no_hyphen():
+    words = [value for row in table.torque_signs().rows for value in row if value]
+    assert not [value for value in words if re.search(r"\W-|-\W|-[ab]\b|\d-", value)] and any("energy-Casimir" in value for value in words)
 
 
 @pytest.mark.parametrize("number", table.EXTREMES)

@@ -314,6 +314,7 @@ def test_letters_of_printed_formulas_are_typeset_whole():
 
 @pytest.mark.parametrize("plain, page", [
     ("defines I_omega and mu_j", "defines I<sub>ω</sub> and μ<sub>j</sub>"), ("e^(-i r0 t) <b>", "e<sup>−i r0 t</sup> &lt;b&gt;"),
-    ("kg m^2 s^-1", "kg m² s<sup>−1</sup>"), ("|H|^2/2 - D_M T", "|H|²/2 - D<sub>M</sub> T"), ("liquid_cavity in a/x_y.toml", "liquid_cavity in a/x_y.toml")])
+    ("kg m^2 s^-1", "kg m² s<sup>−1</sup>"), ("|H|^2/2 - D_M T", "|H|²/2 − D<sub>M</sub> T"),
+    ("(-M2, M1), x = -y >= 0, 3-1-2", "(−M2, M1), x = −y ≥ 0, 3-1-2"), ("liquid_cavity in a/x_y.toml", "liquid_cavity in a/x_y.toml")])
 def test_indices_and_powers_are_set_as_in_a_book(plain, page):
     assert str(html.book(plain)) == page

@@ -13,6 +13,7 @@ import pytest
 from stabilab.errors import InputError
 from stabilab.numbers.balls import working
 from stabilab.show.outside import validation as shown
+from stabilab.show.report.html import signed
 from stabilab.show.terminal.letters import written
 from stabilab.theories.validation import findings, source, sources
 from stabilab.theories.validation.enclose import at
@@ -144,9 +145,9 @@ def rows_of(validated) -> list[str]:
     for given, found in validated.values():
         for group in shown.grouped(found):
             worst = max(group, key=lambda one: one.difference / one.tolerance)
-            numbers = shown.signed(f"{worst.ours} | {worst.theirs} | {worst.difference:.1e} | {worst.tolerance:.0e}")
+            numbers = signed(f"{worst.ours} | {worst.theirs} | {worst.difference:.1e} | {worst.tolerance:.0e}")
             rows.append(f"| {given.name} | {group[0].printed.tool} | {len(group)} | {written(worst.component)} at {worst.time} s | {numbers} | "
-                        f"{worst.verdict} | {shown.signed(written(shown.cause(group))) or '–'} |")
+                        f"{worst.verdict} | {signed(written(shown.cause(group))) or '–'} |")
     return rows
 
 

@@ -1,14 +1,12 @@
 """Findings of the validation as text, JSON and an HTML page."""
 from __future__ import annotations
 
-import re
 from collections import Counter
 from pathlib import Path
 
 from ...theories.validation.findings import VERDICTS
 from ..report import html
 
-MINUS = re.compile(r"(?<![\w)])-(?=\d)|(?<=\de)-(?=\d)")
 SCHEMA = "stabilab.validate/1"
 
 
@@ -100,12 +98,7 @@ def cause(group) -> str:
 def page(validated, path, **around) -> Path:
     """The page of (source, findings) pairs as a file; around: of the pages beside it (`html.render`)."""
     sources = [{"source": source, "count": counts(found), "groups": [_group(source, group) for group in grouped(found)]} for source, found in told(validated)]
-    return html.write(Path(path), "validation.html", title="Numbers of other tools beside ours", sources=sources, signed=signed, **around)
-
-
-def signed(text: str) -> str:
-    """The text with the minus of a book before numbers and in their exponents."""
-    return MINUS.sub("−", text)
+    return html.write(Path(path), "validation.html", title="Numbers of other tools beside ours", sources=sources, **around)
 
 
 def _group(source, group):

@@ -21,6 +21,7 @@ from ..figures import panels
 from ..figures.difference import words
 from ..terminal.letters import written
 from ..text import comparison
+from ..text.cost.words import so_many
 from ..units import SI, parameter_unit
 from . import claims
 
@@ -111,13 +112,13 @@ def _errors(case, end, found=None):
     """A row per model and part of the state: first times of 1 % and 10 %, and the largest error."""
     found = found or compare(case, np.linspace(0.0, end, POINTS))
     rows = [{"case": case.name, "model": panels.WORDS[d.model], "part": written(d.part), "one": _time(d.first[0.01]), "ten": _time(d.first[0.1]),
-             "largest": f"{d.largest / d.scale:.2g}" if d.scale else f"{d.largest:.2g}"} for d in found.departures]
+             "largest": so_many(d.largest / d.scale if d.scale else d.largest, 2)} for d in found.departures]
     return rows + [{"case": case.name, "model": panels.WORDS[name], "part": "", "one": "no answer", "ten": written(why), "largest": ""}
                    for name, why in found.refused.items()]
 
 
 def _time(value):
-    return "never" if value is None else f"{value:.3g} s"
+    return "never" if value is None else f"{so_many(value, 3)} s".replace("e-0", "e−")
 
 
 def _sensible(chapter, folder):

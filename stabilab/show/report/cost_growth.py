@@ -89,8 +89,8 @@ def words(rows, about) -> str:
     pick = lambda question, method=None: sorted((r for r in mine if r.question == question and method in (None, r.method)), key=lambda r: r.x)
     if about == "states":
         ends = [(q, m, pick(q, m)) for q, m in dict.fromkeys((r.question, r.method) for r in mine)]
-        return ("Random states (seeded). " + "; ".join(f"{q}, {m}: {duration(p[0].seconds / p[0].x)} a state at {p[0].x:g}, "
-                f"{duration(p[-1].seconds / p[-1].x)} at {p[-1].x:g}" for q, m, p in ends) + ".")
+        return ("Random states (seeded). " + "; ".join(f"{q}, {m}: {duration(p[0].seconds / p[0].x)} a state at {p[0].x:,.0f}, "
+                f"{duration(p[-1].seconds / p[-1].x)} at {p[-1].x:,.0f}" for q, m, p in ends) + ".")
     if about == "digits":
         many, periods = pick("states over the span", "Taylor in many digits"), pick("period", "balls")
         return (f"A Taylor series in many digits takes {duration(many[0].seconds)} for {many[0].x:.0f} digits and {duration(many[-1].seconds)} for "

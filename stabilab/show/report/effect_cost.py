@@ -35,7 +35,7 @@ def page(folder, tell=None, **around) -> Path:
 
 def spoken(name: str) -> str:
     """An effect's name as words."""
-    return name.replace("_", " ")
+    return name.replace("_", " ").replace("newtonian", "Newtonian")
 
 
 def _row(cost, seconds) -> dict:

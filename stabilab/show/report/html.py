@@ -16,11 +16,14 @@ ALONE = {"nav": (), "here": "", "up": "", "title": ""}  # of a page that is no p
 def _environment():
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
     environment = Environment(loader=FileSystemLoader(TEMPLATES), autoescape=True, undefined=StrictUndefined)
-    environment.filters |= {"written": written, "sentence": sentence, "typed": typed, "formula": formula, "book": book}
+    environment.filters |= {"written": written, "sentence": sentence, "typed": typed, "formula": formula, "book": book, "signed": signed, "together": together}
     return environment
 
 
+MINUS = re.compile(r"(?<![\w)])-(?=\d)|(?<=\de)-(?=\d)")
+MEASURED = re.compile(r"(?<=\d) (?=(?:deg/s|rad/s|deg|rad|days?|min|h|s|J|τ)\b)")
 INDEXED = re.compile(r"(?<![\w/.])([A-Za-zΑ-Ωα-ω]|" + "|".join(ALPHABET) + r")_(\w+)")  # I_omega, x_j, mu_j
+SUBTRACTED = re.compile(r"(?<=[\w)²³']) - (?=[\w(])|(?:(?<=[(=,\[] )|(?<=[(\[=])|^)-(?=[\w(])")  # b - a, (-M2, x = -y
 RAISED = re.compile(r"\^(?:\(([^()]*)\)|([-−]?\w+))")
 
 
@@ -28,7 +31,18 @@ def book(text: str):
     """Words with names and powers as a book sets them: I_omega becomes I with the index ω below it, e^(i r0 t) has its exponent raised."""
     from markupsafe import Markup, escape
     below = INDEXED.sub(lambda found: f"{ALPHABET.get(found[1], found[1])}<sub>{ALPHABET.get(found[2], found[2])}</sub>", str(escape(text)))
+    below = SUBTRACTED.sub(lambda found: found[0].replace("-", "−"), below.replace("&gt;=", "≥").replace("&lt;=", "≤"))
     return Markup(RAISED.sub(lambda found: f"<sup>{(found[1] or found[2]).replace('-', '−')}</sup>", written(below)))  # escaped above
+
+
+def signed(text: str) -> str:
+    """The text with the minus of a book before numbers and in their exponents."""
+    return type(text)(MINUS.sub("−", text))  # what is escaped stays so
+
+
+def together(text: str) -> str:
+    """The text with no end of a line between a number and its unit."""
+    return MEASURED.sub("\u00a0", text)
 
 
 def formula(text):

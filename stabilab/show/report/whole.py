@@ -152,7 +152,7 @@ def _audit(folder, found, nav):
 def _validation(folder, found, nav):
     findings = found["numbers of other tools"]
     validation.page(findings, folder / "validation.html", nav=nav, here="validation.html")
-    return "; ".join(f"{source.title}: {validation.counts(rows)}" for source, rows in findings)
+    return "; ".join(f"{source.title}: {validation.counts(rows)}" for source, rows in validation.told(findings))
 
 
 # -- what measures times -----------------------------------------------------------------------------------------------------

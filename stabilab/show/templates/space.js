@@ -96,8 +96,8 @@ function spaceView(canvas, {glass = 1, near = 1} = {}) {
   }
 
   const first = {turn: -0.95, lift: 0.42, near}; let now = {...first};
-  function step(half) {  // a round number that divides the box into some four parts
-    const rough = half / 1.9, ten = 10 ** Math.floor(Math.log10(rough)); return ten * [1, 2, 5, 10].find(k => k * ten >= rough);
+  function step(half) {  // the largest round number of which every axis shows three multiples at least
+    const most = 0.62 * half, ten = 10 ** Math.floor(Math.log10(most)); return ten * [5, 2, 1].find(k => k * ten <= most * (1 + 1e-9));
   }
   function look() {
     const {turn, lift, near} = now, ct = Math.cos(turn), st = Math.sin(turn), cl = Math.cos(lift), sl = Math.sin(lift);

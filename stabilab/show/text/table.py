@@ -4,6 +4,7 @@ from __future__ import annotations
 import html
 import math
 import os
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -54,6 +55,7 @@ TORQUE_COLUMNS = {"wheel": "gyrostat", "torque signs": "mu", "equilibria": "numb
                   "linear": "linear", "nonlinear": "nonlinear"}
 _SIGNS = {"mu1": "μ1", "mu2": "μ2", "mu3": "μ3", "!=": "≠", "+-": "±", "-+": "∓", " - ": " − ", "= -": "= −", "(-": "(−", "sqrt": "√",
           "^2": "²", "^3": "³", "^4": "⁴", "<=": "≤", ">=": "≥"}
+_MINUS = re.compile(r"(?<=\bb)-(?=a\b)|(?<![^ (,/|])-(?=[\wμ(])")  # b-a, and before a number, a letter or a bracket; not within a word
 
 
 def torque_signs() -> Table:
@@ -71,9 +73,11 @@ def _signs(value) -> str | None:
     """Words with the usual mathematical signs; None for the dash that stands for nothing."""
     if isinstance(value, tuple):
         return f"({', '.join(value)})".replace("-", "−")
+    if value == "-":
+        return None
     for plain, sign in _SIGNS.items():
         value = value.replace(plain, sign)
-    return None if value == "-" else value
+    return _MINUS.sub("−", value)
 
 
 EXTREMES_HEADER = ("case", "λ1", "a", "b", "x1(0)", "x2(0)", "x3(0)", "fate", "period", "x1 min", "x1 max", "x2 min",
@@ -196,10 +200,15 @@ def html_fragment(table: Table) -> str:
     """A <table> with everything escaped."""
     head = "".join(f'<th scope="col">{html.escape(h)}</th>' for h in table.header)
     body = "\n".join("<tr>" + "".join(
-        f'<td class="{"words" if table.wide or isinstance(v, str) else "number"}">{html.escape(cell(v))}</td>' for v in row) + "</tr>"
+        f'<td class="{"words" if table.wide or isinstance(v, str) else "number"}">{html.escape(_signed(v))}</td>' for v in row) + "</tr>"
         for row in table.rows)
     return (f'<table id="table-{table.number}">\n<caption>Table {table.number}. {html.escape(table.title)}</caption>\n'
             f"<thead><tr>{head}</tr></thead>\n<tbody>\n{body}\n</tbody>\n</table>\n<p class=\"note\">{html.escape(table.caption)}</p>\n")
+
+
+def _signed(value) -> str:
+    """A cell with the minus of a book before a number."""
+    return cell(value) if isinstance(value, str) else cell(value).replace("-", "−")
 
 
 def html_page(table: Table) -> str:

@@ -1,6 +1,8 @@
 """What accuracy costs, in plain words made from the measured front."""
 from __future__ import annotations
 
+import re
+
 from ....cost.accuracy import EPS, digit_price
 from ....integrate.trajectory import SCIPY_METHODS
 from ....machine import machine, versions
@@ -8,6 +10,7 @@ from ...terminal.letters import written
 
 FORMULAS = ("linear", "corrected", "printed", "averaged1", "averaged2", "lindstedt")
 WANTED = (3, 6, 9, 12, 15)  # digits whose price the words tell
+SPAN = re.compile(r"(up to t = [\d.e+-]+ of [\d.e+-]*\d)")
 BLAMED = 20  # an error this many times the effect of the start's last place has other causes
 
 
@@ -21,7 +24,8 @@ def _reference_words(found) -> str:
     r = found.reference
     if not len(r.t):
         return f"Nothing was measured: {r.reason}."
-    reach = "" if r.status == "agrees" else f" Only so far: {r.reason}; the rest of the span is not judged."
+    whole = r.reason if found.case.variables == "scaled" else SPAN.sub(r"\1 s", r.reason)
+    reach = "" if r.status == "agrees" else f" Only so far: {whole}; the rest of the span is not judged."
     return (f"Judged at {len(r.t)} times up to {_moment(found)} by a Taylor series run in {r.digits[0]} and in {r.digits[1]} "
             f"digits; the two differ by {r.error.max():.0e} of the state, which is the reference's error.{reach}")
 
@@ -83,7 +87,7 @@ def _against(points, prices) -> str:
         if others and p.method not in SCIPY_METHODS:
             other = min(others, key=lambda q: q.seconds)
             return (f" SciPy's best for {digits} digits among the settings tried, {other.method}, takes "
-                    f"{other.seconds / p.seconds:.3g} times as long ({duration(other.seconds)}).")
+                    f"{so_many(other.seconds / p.seconds, 3)} times as long ({duration(other.seconds)}).")
     return ""
 
 
@@ -121,10 +125,20 @@ def _model_words(found):
         points = found.of("span", name)
         if points:
             best = min(points, key=lambda p: p.error)
-            yield (f"The model {name}{setting(best)}: its own error is {best.error:.2g} of the state, whatever is spent on it"
+            yield (f"The model {name}{setting(best)}: its own error is {share(best.error)} the state, whatever is spent on it"
                    f"{f' (of {written(best.parts)} alone)' if best.parts else ''}.")
         elif any(m == name for m, *_ in found.left_out):
             yield f"The model {name} has no answer over the whole span."
+
+
+def so_many(value: float, digits: int) -> str:
+    """A number of so many digits, without an exponent where it is no more than a million."""
+    return f"{float(f'{value:.{digits}g}'):,.0f}" if 10**digits <= value <= 1e6 else f"{value:.{digits}g}"
+
+
+def share(error: float) -> str:
+    """An error beside what it is of: 0.02 of, 18 times."""
+    return f"{error:.2g} of" if error < 1 else f"{so_many(error, 2)} times"
 
 
 def duration(seconds) -> str:
