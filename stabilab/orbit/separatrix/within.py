@@ -112,9 +112,10 @@ class _Forms:
         down, across = np.diff(r[..., :-1], axis=2), np.diff(r, axis=3)
         normal = _normals(made, down, across)
         wide, long = _dot(across, across), _dot(down, down)
-        # curvatures at vertices, by the lengths of the edges, whose steps need not be even; at the saddles and at the first and last row as beside them
-        u = 2 * _dot(np.diff(across, axis=3), normal[..., 1:]) / np.maximum(wide[..., 1:] + wide[..., :-1], TINY)
-        s = 2 * _dot(np.diff(down, axis=2), normal[:, :, 1:-1]) / np.maximum(long[:, 1:] + long[:, :-1], TINY)
+        # curvatures at vertices, by the lengths h, k of the edges, whose steps need not be even: normals stand on the chord from neighbour to neighbour,
+        # and along these a bend c shows as c h k; at the saddles and at the first and last row as beside them
+        u = _dot(np.diff(across, axis=3), normal[..., 1:]) / np.maximum(np.sqrt(wide[..., 1:] * wide[..., :-1]), TINY)
+        s = _dot(np.diff(down, axis=2), normal[:, :, 1:-1]) / np.maximum(np.sqrt(long[:, 1:] * long[:, :-1]), TINY)
         u = np.concatenate([_before(u[..., 0], u[..., 1])[..., None], u], axis=-1)
         s = np.concatenate([s[:, :1], s, s[:, -1:]], axis=1)
         wide, self.size = wide[..., :-1], np.abs(made.points).max()

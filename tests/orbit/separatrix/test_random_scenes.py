@@ -4,6 +4,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+import stabilab
 from benchmarks.random_scenes import drawn
 from stabilab import separatrix
 from stabilab.show.surface.mesh import triangulate
@@ -59,6 +60,17 @@ def test_facets_stray_by_no_more_than_asked(number):
                 beyond += far == homoclinic.mp.inf
                 assert far <= 1.05 * accuracy or far == homoclinic.mp.inf, (sheet.name, row, column)
     assert beyond <= 0.2 * asked  # next to a fold an edge's middle may lie on a curve without a saddle
+
+
+def test_rows_of_a_long_hyperbola_whose_steps_grow_tenfold_stray_by_no_more_than_asked():
+    """A wheel of some fold's size and rows out to a thousand times as far: as above, at mid-points of edges between rows of very unequal distances."""
+    body = homoclinic.Gyrostat((0.1619448155909737, 0.045896896851083835, 0.16184929154606645), (-3.542460467595858, -0.27482217382798146, 0.0),
+                               (0, 0, -0.6218782672186429))
+    scene = stabilab.Scene(stabilab.Body(body.inertia), stabilab.Gyrostat(body.wheel), stabilab.ConstantTorque(body.torque))
+    accuracy = 13.185715550973878
+    sheet = separatrix(scene, 2.2623282727111005, accuracy=accuracy).sheets[-1]
+    far = sheet.points[1:9, sheet.points.shape[1] // 2]
+    assert max(float(homoclinic.in_digits(body, place.tolist())) for place in 0.5 * (far[1:] + far[:-1])) <= 1.05 * accuracy
 
 
 @numbers
