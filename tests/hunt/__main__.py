@@ -13,13 +13,16 @@ from time import monotonic
 import numpy as np
 
 from stabilab.errors import InputError
+from tests.hunt import facets, parabolas, unreduced
 from tests.hunt.disagreements import DISAGREEMENTS, WRONG
 from tests.hunt.problems import KNOBS, problem_of
-from tests.hunt.unreduced import problem_of as unreduced_problem
-from tests.hunt.unreduced import unreduced
+from tests.hunt.returns import returns
+from tests.hunt.threads import threads
 
 KEPT = 8  # of each disagreement, the worst
-SEARCHES = {name: (function, problem_of) for name, function in DISAGREEMENTS.items()} | {"unreduced": (unreduced, unreduced_problem)}
+SEARCHES = {name: (function, problem_of) for name, function in {**DISAGREEMENTS, "returns": returns, "threads": threads}.items()} | {
+    "unreduced": (unreduced.unreduced, unreduced.problem_of), "parabolas": (parabolas.parabolas, parabolas.problem_of),
+    "facets": (facets.facets, facets.problem_of)}
 CEILING = 30.0  # of the logarithm: what an optimiser sees of a wrong label
 
 

@@ -200,26 +200,29 @@ def _against_many_digits(problem, state, time, found, effect):
 
 def many_digits(problem, state, time):
     """The state at a time by a Taylor series of `BITS`, rounded."""
-    return _flow(_series(problem), state, time)
+    return _flow(series_of(problem), state, time)
 
 
-def _series(problem):
+def series_of(problem, bits=BITS):
+    """Euler's equations as a Taylor series of so many bits."""
     import heyoka as hy
+    of = lambda value: number_of(value, bits)
     x = hy.make_vars("x", "y", "z")
-    rates = [_number(problem.kappa[i]) * x[j] * x[k] + _number(problem.rho[i]) * x[k] + _number(problem.sigma[i]) * x[j]
-             + _number(problem.m[i]) for i, (j, k) in enumerate(CYCLE)]
-    return hy.taylor_adaptive(list(zip(x, rates)), [_number(0)] * 3, fp_type=hy.real, prec=BITS, tol=hy.real(2.0 ** (20 - BITS), BITS))
+    rates = [of(problem.kappa[i]) * x[j] * x[k] + of(problem.rho[i]) * x[k] + of(problem.sigma[i]) * x[j]
+             + of(problem.m[i]) for i, (j, k) in enumerate(CYCLE)]
+    return hy.taylor_adaptive(list(zip(x, rates)), [of(0)] * 3, fp_type=hy.real, prec=bits, tol=hy.real(2.0 ** (20 - bits), bits))
 
 
-def _number(value):
+def number_of(value, bits=BITS):
+    """A Fraction, float or integer in so many bits."""
     import heyoka as hy
     value = Fraction(value)
-    return hy.real(str(value.numerator), BITS) / hy.real(str(value.denominator), BITS)
+    return hy.real(str(value.numerator), bits) / hy.real(str(value.denominator), bits)
 
 
 def _flow(series, state, time):
-    series.time, series.state[:] = _number(0), [_number(v) for v in state]
-    series.propagate_until(_number(time))
+    series.time, series.state[:] = number_of(0), [number_of(v) for v in state]
+    series.propagate_until(number_of(time))
     return np.array([float(v) for v in series.state])
 
 
@@ -230,7 +233,7 @@ def _step_by_step(scene, problem, state, time):
     count = min(steps, MOST_STEPS)
     times = np.linspace(0, time / steps * count, count + 1)
     ends = stabilab.trajectory(scene, state, times[1:], laws=False).states
-    series, found = _series(problem), [NO_QUESTION]
+    series, found = series_of(problem), [NO_QUESTION]
     for start, end, length in zip([state, *ends.tolist()], ends, np.diff(times)):
         start = np.array(start)
         exact, *beside = (_flow(series, start + off, length) for off in (0, *np.eye(3) * EPS * np.abs(start).max()))
@@ -318,10 +321,11 @@ def surfaces(scene, problem, state):
     if not acting:
         return NO_QUESTION  # without a torque the axis of the reduction is a choice
     found = [NO_QUESTION]
-    for sheet in stabilab.separatrix(scene, shape=ROWS_AND_COLUMNS).sheets:
-        rows, columns, _ = sheet.points.shape
-        for row, column in ((1, columns // 2), (rows // 2, columns // 4), (rows - 1, columns - 2)):
-            found.append(_off_surface(problem, acting[0], sheet, row, column))
+    for fast in (False, True):
+        for sheet in stabilab.separatrix(scene, shape=ROWS_AND_COLUMNS, fast=fast).sheets:
+            rows, columns, _ = sheet.points.shape
+            for row, column in ((1, columns // 2), (rows // 2, columns // 4), (rows - 1, columns - 2)):
+                found.append(_off_surface(problem, acting[0], sheet, row, column))
     return worst(*found)
 
 

@@ -21,7 +21,7 @@ def problem_of(knobs):
     """(scene, oracle's model, state) of a point in [0, 1]^14. Raises stabilab's InputError where there is no such body."""
     pick = [min(max(float(v), 0.0), 1.0) for v in knobs]
     scene, problem = _scaled(pick) if pick[0] < 0.5 else _physical(pick)
-    return scene, problem, _state(scene, problem, pick)
+    return scene, problem, state_of(scene, problem, pick)
 
 
 def wide(knob, decades):
@@ -54,7 +54,7 @@ def _physical(pick):
     return physical(inertia, momentum, torque)
 
 
-def _state(scene, problem, pick):
+def state_of(scene, problem, pick):
     """A state round the centre of its conic: anywhere, next to a separatrix, an equilibrium, or an invariant plane."""
     acting = [i for i in range(3) if problem.m[i]]
     axis = acting[0] if acting else min(int(3 * pick[0]), 2)

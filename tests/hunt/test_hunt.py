@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 
 import stabilab.errors
-from tests.hunt.__main__ import Hunt, aim, evolve
-from tests.hunt.disagreements import DISAGREEMENTS
-from tests.hunt.problems import KNOBS, problem_of
+from tests.hunt.__main__ import SEARCHES, Hunt, aim, evolve
+from tests.hunt.problems import KNOBS
 
 
 @pytest.mark.one_in(2)
@@ -35,14 +34,14 @@ def test_an_answer_that_ends_in_a_traceback_is_found(tmp_path):
 
 
 @pytest.mark.one_in(2)
-@pytest.mark.parametrize("name", DISAGREEMENTS)
+@pytest.mark.parametrize("name", SEARCHES)
 def test_two_ways_to_an_answer_keep_their_promise_on_random_problems(name):
-    rng, asked = np.random.default_rng(5), 0
+    (function, make), rng, asked = SEARCHES[name], np.random.default_rng(5), 0
     while asked < 4:
         try:
-            scene, problem, state = problem_of(rng.random(KNOBS))
+            scene, problem, state = make(rng.random(KNOBS))
         except stabilab.errors.InputError:
             continue
-        size, words = DISAGREEMENTS[name](scene, problem, state)
+        size, words = function(scene, problem, state)
         assert size <= 1, words
         asked += 1
