@@ -30,6 +30,7 @@ EPS = float(np.finfo(float).eps)
 WRONG = math.inf
 NO_QUESTION = (0.0, "")
 ROWS_AND_COLUMNS = (7, 17)  # of a sheet whose places are asked
+FAR_CENTRE = 1e3  # times a place: so far from the centre of its conic, ten times as far as the program asks for, the way there costs it no digits
 ROUNDINGS = 64  # of a place and of the terms of its energy: some ten operations each for shift, place, turn and height
 
 
@@ -334,6 +335,9 @@ def _off_surface(problem, axis, sheet, row, column):
     if not all(map(math.isfinite, point)):
         return WRONG, f"{sheet.name}, row {row}: {point}"
     centre = abs(float(problem.sigma[k] / problem.kappa[k])), abs(float(problem.rho[j] / problem.kappa[j]))  # of omega_j, omega_k
+    asymptotes = abs(problem.rho[axis] / problem.kappa[axis]) + abs(problem.sigma[axis] / problem.kappa[axis]) if problem.kappa[axis] else math.inf
+    if max(centre) > FAR_CENTRE * (abs(point[j]) + abs(point[k]) + float(asymptotes)):
+        centre = 0.0, 0.0  # there places are told from their saddles
     u, v = abs(point[j]) + centre[0], abs(point[k]) + centre[1]
     terms = float(problem.weight[axis]) * (abs(float(problem.kappa[axis])) * u * v + abs(float(problem.rho[axis])) * v
                                            + abs(float(problem.sigma[axis])) * u + abs(float(problem.m[axis])) + point[axis] ** 2)

@@ -12,6 +12,7 @@ import numpy as np
 
 from ...numbers.numba_door import compiled
 from . import circle_kernel as circle_loops
+from .far_centre import saddles_of
 from .grid import DENSE, FLOOR, STRAIGHT, TRIAL, UNIFORM, shrinks
 
 GRADING = (FLOOR, STRAIGHT, UNIFORM, DENSE)
@@ -20,8 +21,10 @@ EVEN = np.linspace(0, 1, TRIAL)
 
 def serves(land, strips) -> bool:
     """Whether the kernel draws a landscape's sheets: circles with a torque, where each saddle has one loop, a point at the
-    fold."""
-    return len(land.conic.sides(land.sense)) == 1 and all(shrinks(land, *strip) for strip in strips)
+    fold, and no centre is so far that `far_centre` tells them."""
+    if len(land.conic.sides(land.sense)) > 1 or any(saddles_of(land, branch, np.zeros(1))[1][0] for branch, _ in strips):
+        return False
+    return all(shrinks(land, *strip) for strip in strips)
 
 
 @lru_cache(maxsize=1)

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .far_centre import shrinks_far
 from .homoclinic_arrays import Loops, loops
 from .saddles import PLANE
 from .seams import Part, parted
@@ -153,6 +154,8 @@ def even_steps(length, at, number):
 def shrinks(land, branch, side) -> bool:
     """Whether the loop on one side of a saddle shrinks to a point at the fold: it does around the well that the saddle meets
     there, on the side where the force's slope falls. The loop on the other side, of a figure eight, keeps its size."""
+    if (told := shrinks_far(land, branch, side)) is not None:
+        return told
     pot, fold = land.potential, branch.place(0.0)
     ahead, behind = (pot.slope(pot.move(fold, side * y)) for y in (NEAR, -NEAR))
     return not ahead - behind > NEAR * NEAR * pot.terms(fold)

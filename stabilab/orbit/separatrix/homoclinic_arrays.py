@@ -11,6 +11,7 @@ import numpy as np
 
 from .circle_kernel import NONE, SHARED, SHARPEST
 from .ends_in_arrays import ends_on_circles
+from .far_centre import replaced, residual_far
 from .homoclinic import loop_end
 from .seams import PINCH, pinched_shares
 
@@ -45,6 +46,8 @@ class Loops:
 
     saddle, centre: places (2, k, n); end: (k, n) offsets of the far ends; found: (k, n) whether there is a loop;
     shared: (k, n) whether the far end is a saddle too; offset, w: (k, n, m) offsets and W; points: (k, n, m, 3).
+    saddle_state, centre_state: (k, n, 3) the same as states; ways: (k, n, 2) those of `far_centre.Orbits` where states
+    and points are told from them, and not from places; else nan.
     """
 
     saddle: np.ndarray
@@ -55,6 +58,14 @@ class Loops:
     offset: np.ndarray
     w: np.ndarray
     points: np.ndarray
+    saddle_state: np.ndarray
+    centre_state: np.ndarray
+    ways: np.ndarray
+
+    @property
+    def far(self) -> np.ndarray:
+        """(k, n) True where `far_centre` told the loop."""
+        return np.isfinite(self.ways[..., 0])
 
     def at_rows(self, rows) -> Loops:
         """The loops of some rows only."""
@@ -82,7 +93,8 @@ def loops(land, strips, s, u) -> Loops:
     end = np.where(fold | ~found, 0.0, end)
     centre = np.where(fold, saddle, centre)
     cut = [len(strip) > 2 and strip.seam != 0 for strip in strips]
-    shares = _shares(land, saddle, end, shared, u[:, None, :], np.where(cut, 1 / PINCH, SHARPEST))
+    sharpest = np.where(cut, 1 / PINCH, SHARPEST)
+    shares = _shares(land, saddle, end, shared, u[:, None, :], sharpest)
     for strip in (n for n, part in enumerate(strips) if cut[n] and part.over):
         shares[strip] = pinched_shares(land.potential, saddle[:, strip], end[strip], sides[strip], u[strip])
     offset = end[:, :, None] * shares
@@ -91,7 +103,9 @@ def loops(land, strips, s, u) -> Loops:
         w = np.sqrt(2 * np.maximum(-land.potential.rise(offset, spot), 0))
     w[:, :, 0] = w[:, :, -1] = 0.0
     points = land.components(land.potential.move(spot, offset), sides[:, None, None] * w)
-    return Loops(saddle, centre, end, found, shared, offset, w, points)
+    states = (land.components(one, np.zeros((k, n))) for one in (saddle, centre))
+    made = Loops(saddle, centre, end, found, shared, offset, w, points, *states, np.full((k, n, 2), np.nan))
+    return replaced(land, strips, s, u, made, lambda sharp, at, rows: _by_turning(sharp, at, sharpest[rows]))
 
 
 def _shares(land, saddle, end, shared, u, sharpest):
@@ -107,8 +121,13 @@ def _shares(land, saddle, end, shared, u, sharpest):
     far = land.potential.move(saddle, end)
     with np.errstate(all="ignore"):
         sharp = np.abs(end) * land.potential.slope(far) / np.abs(land.potential.force(far))
-        sharp = np.clip(np.nan_to_num(sharp), 1e-8, sharpest[:, None])
-        half = 0.5 * np.log1p(sharp + np.sqrt(sharp * (sharp + 2)))[:, :, None]  # arccosh(1 + sharp)
+    return _by_turning(sharp, u, sharpest[:, None])
+
+
+def _by_turning(sharp, u, sharpest):
+    """(..., m) shares at columns u, from K/F times the way to the far end, (...,)."""
+    sharp = np.clip(np.nan_to_num(sharp), 1e-8, sharpest)
+    half = 0.5 * np.log1p(sharp + np.sqrt(sharp * (sharp + 2)))[..., None]  # arccosh(1 + sharp)
     return 1 - (np.sinh(half * (1 - u)) / np.sinh(half)) ** 2
 
 
@@ -125,4 +144,7 @@ def residual(land, loops):
         departure = np.abs(0.5 * w * w + pot.rise(land.way(spot, place, loops.offset), spot))
         shaken, beside = land.blurred(spot, place, size)
         scale = 0.5 * w * w + np.abs(pot.G) * (size[0] ** 2 + size[1] ** 2) + pot.slopes * (size[0] + size[1]) + pot.mu + shaken
-        return np.fmax(np.where(departure > 0, departure / scale, 0.0), beside)
+        found = np.fmax(np.where(departure > 0, departure / scale, 0.0), beside)
+    if loops.far.any():
+        found[loops.far] = residual_far(land, loops)
+    return found

@@ -90,11 +90,13 @@ def _check(reach, shape, accuracy):
 
 def _by_kernel(land, strips, shape):
     points, residual, *places, found, cut, error = sheets_by_kernel(land, strips, shape)
-    return [(Part(*strip), points[k], residual[k], *(place[k].T for place in places), found[k], cut, error[k]) for k, strip in enumerate(strips)]
+    states = [land.components(place.transpose(2, 0, 1), np.zeros(found.shape)) for place in places]
+    invariants = land.invariant(places[0].transpose(2, 0, 1))
+    return [(Part(*strip), points[k], residual[k], *(state[k] for state in states), invariants[k], found[k], cut, error[k]) for k, strip in enumerate(strips)]
 
 
 def _by_arrays(land, strips, shape, accuracy):
-    """[(part, points (n, m, 3), residual (n, m), places (2, n) of saddles and of centres, found (n,), cut, error)] of every strip or part of one: the
+    """[(part, points (n, m, 3), residual (n, m), saddles and centres (n, 3), invariants (n,), found (n,), cut, error)] of every strip or part of one: the
     second half of a loop mirrors the first, with W of the other sign."""
     out = []
     for made in grids_within(land, strips, accuracy) if accuracy else [grid(land, strips, shape)]:
@@ -105,8 +107,8 @@ def _by_arrays(land, strips, shape, accuracy):
         back += 2 * land.reduction.component_i(0.0)
         off = residual(land, loops)
         off = np.concatenate([off, off[:, :, mirror]], axis=2)
-        out += [(part, points[k], off[k], loops.saddle[:, k], loops.centre[:, k], loops.found[k], made.cut, made.error[k])
-                for k, part in enumerate(made.parts)]
+        out += [(part, points[k], off[k], loops.saddle_state[k], loops.centre_state[k], land.invariant(loops.saddle[:, k]), loops.found[k], made.cut,
+                 made.error[k]) for k, part in enumerate(made.parts)]
     return out
 
 
@@ -114,10 +116,9 @@ def _sheets(land, made):
     """A Sheet of every strip, or part of one, in which loops close."""
     words = dict(land.conic.sides(land.sense))
     for number, branch in enumerate(dict.fromkeys(one[0].branch for one in made), 1):
-        kept = [one for one in made if one[0].branch is branch and np.count_nonzero(one[5]) > 1]
+        kept = [one for one in made if one[0].branch is branch and np.count_nonzero(one[6]) > 1]
         several = len({one[0].side for one in kept}) > 1
-        for part, points, off, saddle, centre, found, cut, error in kept:
-            rows, still = found if not found.all() else slice(None), np.zeros(len(found))
+        for part, points, off, saddle, centre, invariant, found, cut, error in kept:
+            rows = found if not found.all() else slice(None)
             name = f"sheet {number}{words[part.side] if several else ''}{f', part {part.number}' if part.number else ''}"
-            yield Sheet(name, points[rows], off[rows], land.components(saddle, still)[rows], land.components(centre, still)[rows],
-                        land.invariant(saddle)[rows], float(error), cut)
+            yield Sheet(name, points[rows], off[rows], saddle[rows], centre[rows], invariant[rows], float(error), cut)

@@ -31,15 +31,15 @@ def test_the_kernel_in_plain_python_gives_the_sheets_of_the_arrays(name, shape):
     assert strips and serves(land, strips)
     points, residual, saddle, centre, found, cut, error = sheets_by_kernel(land, strips, shape, vars(circle_loops))
     made = _by_arrays(land, strips, shape, None)
-    expected = [np.array([one[column] for one in made]) for column in range(1, 8)]
-    expected[2:4] = [np.moveaxis(places, 1, 0) for places in expected[2:4]]
-    size = np.abs(expected[0]).max()
-    np.testing.assert_array_equal(found, expected[4])
-    np.testing.assert_allclose(points, expected[0], atol=DIGITS * size, rtol=0)
-    np.testing.assert_allclose(np.moveaxis(saddle, -1, 0), expected[2], atol=DIGITS * size)
-    np.testing.assert_allclose(np.moveaxis(centre, -1, 0), expected[3], atol=DIGITS * size)
-    assert (cut == expected[5]).all() and residual.max() < 1e-14
-    np.testing.assert_allclose(error, expected[6], rtol=1e-9)
+    there, _, *states, invariant, looped, cuts, strays = (np.array([one[column] for one in made]) for column in range(1, 9))
+    size = np.abs(there).max()
+    np.testing.assert_array_equal(found, looped)
+    np.testing.assert_allclose(points, there, atol=DIGITS * size, rtol=0)
+    for places, expected in zip((saddle, centre), states):
+        np.testing.assert_allclose(land.components(np.moveaxis(places, -1, 0), np.zeros(found.shape)), expected, atol=DIGITS * size, rtol=0)
+    np.testing.assert_allclose(land.invariant(np.moveaxis(saddle, -1, 0)), invariant, rtol=DIGITS)
+    assert (cut == cuts).all() and residual.max() < 1e-14
+    np.testing.assert_allclose(error, strays, rtol=1e-9)
 
 
 @pytest.mark.slow  # compiling takes some ten seconds where numba's cache is empty

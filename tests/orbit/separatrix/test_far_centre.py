@@ -1,0 +1,97 @@
+"""Sheets of nearly equal moments, whose orbits are centred far away, against Euler's equations in 80 digits."""
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import stabilab
+from stabilab.orbit.landscape import landscape
+from stabilab.orbit.separatrix.far_centre import Orbits
+from stabilab.orbit.separatrix.homoclinic_arrays import loops, residual
+from stabilab.orbit.separatrix.saddles import limit_of, saddle_branches
+from tests.oracles import homoclinic
+
+EPS = 2.0**-52
+SCENES = {  # moments, wheel, torque; the centre is 1e11, 1e12, 1e7 and 1e4 times the size of loops away; on hyperbolas and a circle
+    "slow wheel, moments equal to 1e-15": ((5.456456129673027, 6.928705469657129, 6.928705469657137), (-0.000911389824785606, 0.0, -0.0013736390275602755),
+                                           (0.0, 2.0250834995008057e-05, 0.0)),
+    "fast wheel, moments equal to 3e-12": ((18.20049062417707, 18.200490624214233, 1.4728292681191526), (0.0, -113.85443677306515, 0.2007990610339373),
+                                           (0.08717046823027266, 0.0, 0.0)),
+    "moments equal to 1e-8, a hyperbola": ((3.0, 3.00000003, 2.0), (0.0, 2.5, 0.4), (0.3, 0.0, 0.0)),
+    "moments equal to 1e-8, a circle": ((3.00000003, 3.0, 2.0), (0.0, 2.5, 0.4), (0.3, 0.0, 0.0)),
+    "moments equal to 1e-5": ((3.00003, 3.0, 2.0), (0.0, 2.5, 0.4), (0.3, 0.0, 0.0))}
+scenes = pytest.mark.parametrize("name", SCENES)
+
+
+def scene_of(name):
+    moments, wheel, torque = SCENES[name]
+    return stabilab.Scene(stabilab.Body(moments), stabilab.Gyrostat(wheel), stabilab.ConstantTorque(torque)), homoclinic.Gyrostat(moments, wheel, torque)
+
+
+@scenes
+def test_places_keep_the_digits_of_their_own_size_however_far_the_centre_is(name):
+    """To first order; a unit in the last place of the components moves a place by as much."""
+    scene, body = scene_of(name)
+    asked = 0
+    for sheet in stabilab.separatrix(scene, shape=(9, 17)).sheets:
+        for row, column in ((1, 8), (2, 3), (4, 8), (5, 2), (8, 8), (8, 15)):
+            place = sheet.points[row, column]
+            if np.abs(sheet.points[row]).max() < 1e-3 * np.abs(body.coefficients()[2:]).max():
+                asked += 1
+                assert homoclinic.in_digits(body, place.tolist(), digits=80) < 16 * EPS * np.abs(place).max(), (sheet.name, row, column)
+    assert asked > 0
+
+
+@scenes
+def test_saddles_and_centres_are_equilibria_to_the_digits_of_their_own_size(name):
+    scene, body = scene_of(name)
+    for sheet in stabilab.separatrix(scene, shape=(9, 17)).sheets:
+        for states in (sheet.saddle, sheet.centre):
+            small = states[np.abs(sheet.points).max(axis=(1, 2)) < 1e-3 * np.abs(body.coefficients()[2:]).max()]
+            D, spin = np.array(body.inertia), np.array(body.inertia) * small + np.array(body.wheel)
+            terms = (np.abs(spin).max(axis=1) * np.abs(small).max(axis=1) + max(map(abs, body.torque)))[:, None]
+            assert (np.abs(np.cross(spin, small) + np.array(body.torque)) < 16 * EPS * terms * D.max() / D.min()).all()
+
+
+def test_a_loop_about_a_centre_nearby_is_the_same_told_from_its_saddle():
+    """The formula holds for any centre; canonical places tell the same loop with another one."""
+    scene, _ = scene_of("moments equal to 1e-5")
+    land = landscape(stabilab.Scene(stabilab.Body((3.2, 3.0, 2.0)), *scene.effects))
+    branch = saddle_branches(land.conic, land.potential, limit_of(land.conic, 4.0))[0]
+    (side, _), *_ = land.conic.sides(land.sense)
+    made = loops(land, [(branch, side)], np.array([[1e-3, 3e-3]]), np.linspace(0, 1, 9)[None])
+    assert not made.far.any()
+    r = land.reduction
+    saddle = made.saddle_state[0]
+    orbits = Orbits(r, saddle[:, r.j] + float(r.rho / r.kappa), saddle[:, r.k] + float(r.sigma / r.kappa), np.sign(made.end[0] * land.unit))
+    alpha = made.offset[0] * land.unit
+    np.testing.assert_allclose(orbits.ends(), made.end[0] * land.unit, rtol=1e-8)
+    np.testing.assert_allclose(np.moveaxis(orbits.moved(alpha), 0, -1), made.points[0][..., [r.j, r.k]], rtol=0, atol=1e-13)
+    np.testing.assert_allclose(np.abs(alpha) * np.sqrt(2 * np.maximum(orbits.fall(alpha), 0)), np.abs(made.points[0][..., r.axis]), atol=1e-8)
+
+
+def test_the_reported_residual_sees_a_vertex_that_is_off_a_surface_with_a_far_centre():
+    scene, _ = scene_of("slow wheel, moments equal to 1e-15")
+    land = landscape(scene)
+    branch = saddle_branches(land.conic, land.potential, limit_of(land.conic, 4.0))[0]
+    found = loops(land, [(branch, 1)], np.array([[0.5]]), np.linspace(0, 1, 9)[None])
+    assert found.far.all() and (residual(land, found) < 8 * EPS).all()
+    size = np.abs(found.points).max()
+    for n in range(3):
+        off = residual(land, replace(found, points=found.points + 1e-9 * size * np.eye(3)[n]))
+        assert 1e-11 < off[0, 0, 4] < 1e-8
+
+
+@pytest.mark.parametrize("fast", [False, True])
+def test_facets_of_nearly_equal_moments_stray_by_no_more_than_asked(fast):
+    """At mid-points of edges, to first order."""
+    scene, body = scene_of("slow wheel, moments equal to 1e-15")
+    sheets = stabilab.separatrix(scene, accuracy=1.0, fast=fast).sheets
+    for sheet in sheets:
+        assert sheet.error <= 1.0
+        middles = 0.5 * (sheet.points[2:, 3:20] + sheet.points[1:-1, 3:20])
+        rng = np.random.default_rng(1)
+        for place in middles.reshape(-1, 3)[rng.integers(0, middles.size // 3, 12)]:
+            assert homoclinic.in_digits(body, place.tolist(), digits=80) <= 1.05

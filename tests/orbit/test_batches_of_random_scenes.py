@@ -1,0 +1,89 @@
+"""Arrays of states of random scenes, by NumPy and compiled, against each state alone in balls: labels, margins, extremes and periods keep what they promise,
+at every closeness to a separatrix."""
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+import stabilab
+from benchmarks.random_scenes import SEED, drawn
+from stabilab import Fate
+from stabilab.numbers.numba_door import installed
+from stabilab.orbit.ball_orbit import Orbit
+from stabilab.orbit.extremes.balls import precise_extremes
+from stabilab.orbit.extremes_and_periods import extremes_and_periods
+from stabilab.orbit.fate.balls import decide
+from stabilab.orbit.fate.one_state import fate_of
+from stabilab.orbit.period.balls import precise_period
+from stabilab.orbit.reduction import reduce
+
+DIGITS, MARGIN = 1e-11, 1e-12  # promised of extremes and periods, relative to themselves, and of margins, relative to kinetic energy and barrier
+SCENES, STATES, FEW = 200, 300, 24
+FAST = (False, True) if installed() else (False,)
+DEFAULT = range(0, SCENES, 17)
+numbers = pytest.mark.parametrize("number", [*DEFAULT, *(pytest.param(n, marks=pytest.mark.slow) for n in range(SCENES) if n not in DEFAULT)])
+
+
+def beside_and_anywhere(one, count):
+    """(count, 3) states: a half of the sample's, a half of which has the rate about the torque's axis with which its barrier is just reached, off by 1e-3 to
+    1e-12 of itself; all where there is a barrier that high."""
+    states, rng, axis = one.states(count), np.random.default_rng([SEED, one.number, 1]), next(i for i in range(3) if one.torque[i])
+    still = states.copy()
+    still[:, axis] = 0.0
+    height = stabilab.fate(one.scene, still).margins
+    near = (np.arange(count) % 2 == 0) & np.isfinite(height) & (height > 0)
+    off = 1 + rng.choice((-1, 1), count) * 10.0 ** rng.uniform(-12, -3, count)
+    states[near, axis] = (np.copysign(np.sqrt(2 * np.abs(height) / one.moments[axis]), states[:, axis]) * off)[near]
+    return states
+
+
+def alone(scene, state):
+    """(label, axis, sense, margin, extremes, period) of one state, all but the label from balls."""
+    orbit = Orbit(reduce(scene), state)
+    told = fate_of(scene, orbit)
+    margin = decide(orbit).margin * reduce(scene).energy_unit if told.label != Fate.EQUILIBRIUM else 0.0
+    box = [(v, v) for v in state] if told.label == Fate.EQUILIBRIUM else precise_extremes(orbit, told.label)
+    return told, margin, np.array(box, float), precise_period(orbit, told.label)
+
+
+def disagreements(number, count):
+    """[(size in units of what is promised, words)] of the rows that part by more than that; the largest size of all."""
+    one = drawn(number + 1)[number]
+    scene, axis = one.scene, next(i for i in range(3) if one.torque[i])
+    states = beside_and_anywhere(one, count)
+    singles = [alone(scene, state) for state in states.tolist()]
+    wrong, largest = [], 0.0
+    for fast in FAST:
+        many, (boxes, periods) = stabilab.fate(scene, states, fast=fast), extremes_and_periods(scene, states, fast=fast)
+        for n, (told, margin, box, period) in enumerate(singles):
+            sizes = [_margins(many.margins[n], margin, 0.5 * one.moments[axis] * states[n, axis] ** 2), *map(_pair, boxes[n], box), _pair(periods[n], period)]
+            if (told.label, told.axis, told.sense) != (many.labels[n], many.axis[n], many.sense[n]):
+                sizes.append(math.inf)
+            largest = max(largest, *sizes)
+            if max(sizes) > 1:
+                wrong.append((max(sizes), f"{one.name} from {states[n].tolist()}, fast={fast}: {told.label.word}, {Fate(int(many.labels[n])).word}; margins"
+                                          f" {margin, many.margins[n]}, extremes {box.tolist(), boxes[n].tolist()}, periods {period, periods[n]}"))
+    return wrong, largest
+
+
+def _margins(one, other, kinetic):
+    if math.isfinite(one) and math.isfinite(other):
+        return abs(one - other) / (MARGIN * (kinetic + abs(other + kinetic)))
+    return 0.0 if math.isinf(one) == math.isinf(other) else math.inf
+
+
+def _pair(one, other):
+    one, other = np.atleast_1d(one), np.atleast_1d(other)
+    finite = np.isfinite(other)
+    if (np.isfinite(one) != finite).any() or (one[~finite] != other[~finite]).any():
+        return math.inf
+    size = np.abs(other[finite]).max(initial=0.0)
+    return float(np.abs(one[finite] - other[finite]).max(initial=0.0) / (DIGITS * size)) if size else 0.0
+
+
+@numbers
+def test_arrays_of_a_random_scene_answer_as_each_state_alone_in_balls(number):
+    wrong, _ = disagreements(number, FEW)
+    assert not wrong, wrong[0]
