@@ -174,7 +174,10 @@ def look_ahead(m, numbers, lane, spot):
         lift = -0.5 * last * last
         sx, sz = sx + (sz * last + sx * lift), sz + (sz * lift - sx * last)
         curved = G * (sz - sx) * (sz + sx) - c * sx + d * sz
-        sure = abs(step) < FAR_STEP and abs(last) < LAST_STEP
+        terms = mu + abs(G * sx * sz) + abs(c * sz) + abs(d * sx)
+        # where the force bends within the steps they leave more of it than rounding, over which heights and turning points would be told
+        settled = abs(mu + G * sx * sz + c * sz + d * sx) <= ROUNDINGS * EPS * terms
+        sure = settled and abs(step) < FAR_STEP and abs(last) < LAST_STEP
         unclear[a] = 1.0 if there and not sure else unclear[a]
         sine, cosine = (sx * z[a] - sz * x[a]), (sx * x[a] + sz * z[a])
         angle = angle_of(sine, cosine)

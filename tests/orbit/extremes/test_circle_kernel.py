@@ -294,3 +294,13 @@ def test_a_torque_along_an_axis_of_symmetry_needs_no_kernel():
     found = stabilab.extremes(scene, np.array([[3.0, 2.0, 4.0]] * 3), fast=True)
     np.testing.assert_allclose(found, [[[-5, 5], [-np.inf, 2], [-5, 5]]] * 3, rtol=1e-14)  # the circle of radius 5; omega2 falls steadily
     assert np.isinf(stabilab.period(scene, np.array([[3.0, 2.0, 4.0]]), fast=True)).all()
+
+
+def test_a_well_beside_which_the_force_bends_sharply_is_found_to_rounding_or_left_open():
+    """Two moments equal to 6e-4 and a circle of some hundreds of its well's width: two steps of Newton's method leave 1e-9 there; against balls."""
+    scene, _ = physical((4.845, 4.842, 3.945), (0, -0.849, 0.291), (1.0328, 0, 0))
+    land, state = landscape(scene), (0.08901751458670247, -1.249736256580412, -0.1355491972910896)
+    box, period = np.empty((1, 3, 2)), np.empty(1)
+    left_open = fast_extremes.run_kernel(circle_kernel.orbits, land, np.array([state]), circle_kernel.BOX | circle_kernel.PERIOD, box, period)
+    exact = np.array(precise_extremes(Orbit(land.reduction, state), Fate.BOUNDED), float)
+    assert left_open[0] & circle_kernel.BOX or (np.abs(box[0] - exact) <= 1e-11 * np.abs(exact).max(axis=1, keepdims=True)).all()
