@@ -14,7 +14,7 @@ from tests.oracles.pairs import physical
 from tests.orbit.separatrix.test_random_scenes import beside_a_plane, distance_to_facets
 
 ESTIMATED = 1.1  # of the accuracy: it is held by second differences, and the third ones of neighbours are up to a tenth of these
-SCAN = 41  # places of a lobe each way, from the nearest of which the way to the nearest one begins
+FIRST, ROUND, SCAN, BASINS = 401, 201, 21, 4  # saddles and columns of a lobe, and of finer scans about its nearest few places
 WORST, OTHERS = 3, 1  # places that look worst are asked for; and so many at random, on each rim, fold and crease
 LOOKS = 6  # places of each lobe that a facet must be near to
 
@@ -120,17 +120,27 @@ def _off(body, lobes, place, allowed):
 
 
 def _from_lobe(lobe, place):
-    """An upper bound on the distance of a place from a lobe: the best of a scan, then of finer ones about it."""
-    low, high = np.array([lobe.stretch.low, 0.0]), np.array([lobe.stretch.high, 1.0])
-    centre, width, best = 0.5 * (low + high), 0.5 * (high - low), math.inf
-    while width.max() > 1e-7:
-        t, turned = (np.clip(c + w * np.linspace(-1, 1, SCAN), a, b) for c, w, a, b in zip(centre, width, low, high))
-        saddle = lobe.stretch.saddle(t)
-        ends = homoclinic.far_ends(lobe.stretch.body, saddle, lobe.side)
-        grid = np.repeat(saddle, SCAN, axis=0), np.repeat(ends, SCAN), np.tile(np.sin(0.5 * np.pi * turned) ** 2, SCAN)
-        apart = np.linalg.norm(homoclinic.loop_places(lobe.stretch.body, *grid, lobe.way) - place, axis=1)
-        if not np.isfinite(apart).any():
-            return best
-        n = int(np.nanargmin(apart))
-        best, centre, width = min(best, float(apart[n])), np.array([t[n // SCAN], turned[n % SCAN]]), width * 0.15
+    """An upper bound on the distance of a place from a lobe: the best of a scan that is closer towards the stretch's ends, where folds may be, and of finer
+    ones about its best places."""
+    low, high, best = np.array([lobe.stretch.low, 0.0]), np.array([lobe.stretch.high, 1.0]), math.inf
+    t = low[0] + (high[0] - low[0]) * (0.5 - 0.5 * np.cos(np.linspace(0, np.pi, FIRST)))
+    turned = np.linspace(0, 1, ROUND)
+    first = _apart(lobe, place, t, turned)
+    if not np.isfinite(first).any():
+        return best
+    for n in np.argsort(np.nanmin(first, axis=1))[:BASINS]:
+        centre, width = np.array([t[n], turned[np.nanargmin(first[n])]]), np.array([t[min(n + 2, FIRST - 1)] - t[max(n - 2, 0)], 5 / ROUND])
+        while width.max() > 1e-7:
+            near = [np.clip(c + w * np.linspace(-1, 1, SCAN), a, b) for c, w, a, b in zip(centre, width, low, high)]
+            apart = _apart(lobe, place, *near)
+            i, j = np.unravel_index(np.nanargmin(apart), apart.shape)
+            best, centre, width = min(best, float(apart[i, j])), np.array([near[0][i], near[1][j]]), width * 0.3
     return best
+
+
+def _apart(lobe, place, t, turned):
+    """(len(t), len(turned)) distances of a place from those of a lobe; nan where no loop closes."""
+    saddle = lobe.stretch.saddle(t)
+    ends = homoclinic.far_ends(lobe.stretch.body, saddle, lobe.side)
+    grid = np.repeat(saddle, len(turned), axis=0), np.repeat(ends, len(turned)), np.tile(np.sin(0.5 * np.pi * turned) ** 2, len(t))
+    return np.linalg.norm(homoclinic.loop_places(lobe.stretch.body, *grid, lobe.way) - place, axis=1).reshape(len(t), len(turned))

@@ -22,7 +22,7 @@ def problem_of(knobs):
     j, k = CYCLE[axis]
     equal, third = (j, k) if pick[1] > 0.5 else (k, j)
     inertia, momentum, torque = [1.0] * 3, [0.0] * 3, [0.0] * 3
-    inertia[third] = 2 * 10.0 ** (-8 * (pick[2] - 0.25)) if pick[2] > 0.25 else 8 * pick[2]  # a needle's, or any up to the flat disc's
+    inertia[third] = 2 * 10.0 ** (-10 * (pick[2] - 0.25)) if pick[2] > 0.25 else 2e-3 + 7.99 * pick[2]  # a needle's, or any up to the flat disc's
     if pick[3] > 0.9:
         inertia = [v * 10.0 ** (80 * (pick[3] - 0.95)) for v in inertia]
     rate = 10.0 ** (12 * (pick[6] - 0.5)) if pick[3] < 0.2 else 1.0
