@@ -326,11 +326,11 @@ def surfaces(scene, problem, state):
         for sheet in stabilab.separatrix(scene, shape=ROWS_AND_COLUMNS, fast=fast).sheets:
             rows, columns, _ = sheet.points.shape
             for row, column in ((1, columns // 2), (rows // 2, columns // 4), (rows - 1, columns - 2)):
-                found.append(_off_surface(problem, acting[0], sheet, row, column))
+                found.append(off_surface(problem, acting[0], sheet, row, column))
     return worst(*found)
 
 
-def _off_surface(problem, axis, sheet, row, column):
+def off_surface(problem, axis, sheet, row, column):
     point, (j, k) = tuple(sheet.points[row, column].tolist()), CYCLE[axis]
     if not all(map(math.isfinite, point)):
         return WRONG, f"{sheet.name}, row {row}: {point}"

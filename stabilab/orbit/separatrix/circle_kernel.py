@@ -13,6 +13,8 @@ TURN = 2 * pi
 NONE, ENDS, SHARED = 0, 1, 2  # what a loop does: it is none, it ends at a turning point, or at a saddle as high
 OWN = 1e-9                    # offsets below this are the saddle itself
 LEVEL = 64 * EPS              # barriers that differ less from the saddle's height, relative to the energy's terms, are as high
+SPREAD = 1e-3                 # of the largest root of a cubic: smaller ones the closed form, a difference of numbers of its size, loses digits of
+LOST = 1e-4                   # of a cubic's terms: a discriminant that is less may have the other sign
 SHARPEST = 1e3                # bends tighter than the loop's length over this are not resolved
 TINY = 2.2250738585072014e-308
 # of a strip: where its branch begins and ends, on which line (ON_LINE 0: on the hyperbola)
@@ -109,10 +111,28 @@ def real_cubic(a, b, c, d):
     if rest < 0:
         size = sqrt(square)
         angle = acos(max(-1.0, min(1.0, half / (size * size * size)))) / 3
-        return (better(p, q, r, -2 * size * cos(angle) - third), better(p, q, r, -2 * size * cos(angle + TURN / 3) - third),
-                better(p, q, r, -2 * size * cos(angle - TURN / 3) - third))
+        first, second, last = (better(p, q, r, -2 * size * cos(angle) - third), better(p, q, r, -2 * size * cos(angle + TURN / 3) - third),
+                               better(p, q, r, -2 * size * cos(angle - TURN / 3) - third))
+        most = first if abs(first) >= max(abs(second), abs(last)) else second if abs(second) >= abs(last) else last
+        if min(abs(first), abs(second), abs(last)) < SPREAD * abs(most):
+            return beside_largest(p, q, r, most)
+        return first, second, last
     single = -copysign((abs(half) + sqrt(rest)) ** (1 / 3), half)
-    return better(p, q, r, single + (square / single if single != 0 else 0.0) - third), nan, nan
+    only = better(p, q, r, single + (square / single if single != 0 else 0.0) - third)
+    return beside_largest(p, q, r, only) if rest <= LOST * half * half and only * only * abs(only) * SPREAD > abs(r) else (only, nan, nan)
+
+
+def beside_largest(p, q, r, t):
+    """The largest root t of t^3 + p t^2 + q t + r with the two much smaller ones, of which the closed form keeps no digit: those of the quadratic that is left,
+    from its low powers up. nan where they are not real."""
+    nan = float("nan")
+    product = -r / t
+    total = (q - product) / t
+    disc = total * total - 4 * product
+    if disc < 0:
+        return t, nan, nan
+    far = 0.5 * (total + copysign(sqrt(disc), total))
+    return t, better(p, q, r, far), better(p, q, r, product / far) if far != 0 else 0.0
 
 
 def better(p, q, r, t):

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...numbers.constants import TURN
 from ..potential import y_minus_sin
-from .circle_kernel import ENDS, LEVEL, NONE, OWN, SHARED, crossing
+from .circle_kernel import ENDS, LEVEL, LOST, NONE, OWN, SHARED, SPREAD, crossing, real_cubic
 
 TINY_STEP = 1e-9   # relative: convergence is quadratic, the next step would be its square
 MOST_STEPS = 12    # of all rows together; of the few that are left each goes on by itself
@@ -121,6 +121,9 @@ def real_cubics(a, b, c, d):
         roots[1:, one] = np.nan
         step = (((roots + p) * roots + q) * roots + r) / ((3 * roots + 2 * p) * roots + q)
         roots = np.where(np.abs(step) < 1e-4 * np.abs(roots), roots - step, roots)
+        least, most = np.fmin.reduce(np.abs(roots)), np.fmax.reduce(np.abs(roots))
+        for row in np.flatnonzero((a != 0) & ((least < SPREAD * most) | one & (rest <= LOST * half * half))).tolist():  # few
+            roots[:, row] = real_cubic(*(float(v[row]) for v in (a, b, c, d)))
         flat = a == 0
         if flat.any():
             roots[:, flat] = _real_quadratics(b[flat], c[flat], d[flat])
