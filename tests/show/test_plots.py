@@ -443,6 +443,16 @@ def test_a_film_shows_no_step_in_which_the_eye_would_see_the_body_turn_backwards
     assert math.degrees(angles.max()) < 16 and not found.whole
 
 
+@pytest.mark.parametrize("frames", [40, 100])
+def test_a_film_of_a_spin_up_goes_on_for_as_long_as_its_pictures_show_each_step(frames):
+    """Oracle: a run of its own; the rate at the film's end, which is about the greatest so far, times a step of it is some 15 degrees."""
+    from stabilab.show.plot.turning.turn import turn
+    case = load("cubesat-3u")
+    found = turn(subject.subject(case), frames)
+    rates = np.linalg.norm(stabilab.trajectory(case.scene, case.state, np.linspace(0, found.t[-1], 2001)).states, axis=1)
+    assert 15 / 1.2 < math.degrees(rates.max()) * (found.t[1] - found.t[0]) < 16 and not found.whole
+
+
 def test_the_page_of_an_attitude_needs_nothing_else_and_no_title_ends_its_script(tmp_path):
     case = case_of(tmp_path, 'title = "</script><b>x"\n' + MOVING)
     one, two = (to_file.write(case, tmp_path / name).read_bytes() for name in ("a.html", "b.html"))

@@ -1,6 +1,7 @@
 """The attitude of a body at the times of the pictures of a film, and the box that stands for the body."""
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,6 +18,7 @@ from ..subject import DEFAULT_SPAN, Subject
 
 FRAMES = 150
 STEP = np.radians(15)  # a body turns by no more from one picture to the next: the eye would see it turn backwards
+ROUNDED, NEAR, TRIES = 1.02, 1.1, 20  # of a step's width; of the length of a film, to which its longest is found, in so many runs
 THINNEST = 0.06  # of the longest edge
 CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
 FACES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))  # across axes 1, 1, 2, 2, 3, 3
@@ -39,17 +41,29 @@ def turn(one: Subject, frames: int = FRAMES) -> Turn:
     if not 2 <= frames <= 5000:
         raise InputError(f"frames: expected 2 to 5000, got {frames!r:.40}")
     low, high = one.span or DEFAULT_SPAN
-    end, wanted = high, high
-    for _ in range(8):
-        found = _at(one, np.linspace(low, end, frames))
-        fastest = float(np.linalg.norm(found[2], axis=1).max(initial=0.0))
-        reach = low + np.sign(high - low) * STEP * (frames - 1) / fastest if fastest else high
-        if abs(end - low) <= 1.02 * abs(reach - low):
-            break
-        end = reach
-    t, rotations, omega = found
+    (t, rotations, omega), whole = _reached(one, low, high, frames)
     scene: Any = one.scene  # physical: `which` refuses the others
-    return Turn(t, rotations, omega, edges(scene.body.inertia), end == wanted)
+    return Turn(t, rotations, omega, edges(scene.body.inertia), whole)
+
+
+def _reached(one, low, high, frames):
+    """(the motion at the times of the pictures, whether they reach the end of the span). The greatest rate up to an end grows with it, so the ends at which
+    no step is too wide are those up to one; it is enclosed between one that is short enough and one that is too long."""
+    length, direction, short, long, kept = abs(high - low), float(np.sign(high - low)), 0.0, math.inf, None
+    for _ in range(TRIES):
+        found = _at(one, low + direction * np.linspace(0.0, length, frames))
+        fastest = float(np.linalg.norm(found[2], axis=1).max(initial=0.0))
+        reach = STEP * (frames - 1) / fastest if fastest else math.inf
+        if length <= ROUNDED * reach:
+            if math.isinf(long):
+                return found, True
+            short, kept = length, found
+        else:
+            short, long = max(short, reach), length  # a shorter way meets no greater rate
+        if kept is not None and long <= NEAR * short:
+            break
+        length = math.sqrt(short * long)
+    return kept or _at(one, low + direction * np.linspace(0.0, short, frames)), False
 
 
 def _at(one, times):
