@@ -1,7 +1,7 @@
 // Flat pictures: axes with units, level curves of a potential, curves over time.
 const INK = {motion: "#E69F00", separatrix: "#000000", level: "#B5B5B5", stable: "#0072B2", unstable: "#D55E00", components: ["#0072B2", "#E69F00", "#009E73"]};
 
-function rounded(value) { return String(+value.toPrecision(6) || 0).replace("-", "\u2212"); }
+function rounded(value) { return (Math.abs(value) < 1e5 ? String(+value.toPrecision(6) || 0) : value.toExponential().replace("e+", "e")).replace("-", "\u2212"); }
 
 function ticks(low, high, number) {
   const rough = (high - low) / number, ten = 10 ** Math.floor(Math.log10(rough)), every = ten * [1, 2, 5, 10].find(k => k * ten >= rough), found = [];

@@ -106,6 +106,7 @@ function fill(id, told, children) {  // what says the same as before stays, and 
   place.dataset.told = key; place.replaceChildren(...children(told));
 }
 
+const signed = words => words.replace(/(^|[\s(\[=,])-(?=[\w(])/g, "$1\u2212").replace(/(?<=[\w)²³]) - (?=[\w(])/g, " \u2212 ").replace(/\^([23T])(?!\w)/g, (_, one) => ({2: "²", 3: "³", T: "ᵀ"})[one]);
 function trouble(words) { $("note").hidden = !words; $("note").textContent = words; $("headline").classList.toggle("stale", Boolean(words)); }
 
 function show(answer) {
@@ -114,15 +115,15 @@ function show(answer) {
   $("headline").textContent = answer.headline; $("headline").className = `verdict-line ${answer.fate}`;
   view.show(answer.space);
   fill("legend", answer.space.legend, rows => rows.map(([words, colour]) => { const mark = element("i", {}); mark.style.background = colour; return element("span", {}, mark, words); }));
-  fill("space-words", `${answer.space.words}. Drag to turn; click a curve or a point to start there; double click: as at first.`, words => [words]);
+  fill("space-words", `${answer.space.words}. Drag to turn; click a curve or a point to start there; double click: as at first.`, words => [signed(words)]);
   drawFlat();
   fill("plane-words", answer.plane ? "Orange: this motion; black: separatrix; grey: other energies; filled: centre; open: saddle. Click to start a motion there."
-    : "This scene does not reduce to one degree of freedom, so it has no phase plane.", words => [words]);
+    : "This scene does not reduce to one degree of freedom, so it has no phase plane.", words => [signed(words)]);
   fill("time-words", [answer.time.names, answer.time.extremes ? "Dotted: least and greatest for ever." : ""], ([names, words]) => [...names.map((name, n) => {
     const mark = element("span", {textContent: `${name} `}); mark.style.color = INK.components[n]; mark.style.fontWeight = 600; return mark; }), words]);
-  fill("facts", answer.rows, rows => rows.flatMap(([words, value]) => [element("dt", {textContent: words}), element("dd", {textContent: value})]));
-  fill("equilibria-words", answer.equilibria.reason, words => [words]);
-  fill("equilibria", answer.equilibria.rows, rows => rows.map(row => element("tr", {}, ...row.map(text => element("td", {textContent: text})))));
+  fill("facts", answer.rows, rows => rows.flatMap(([words, value]) => [element("dt", {textContent: words}), element("dd", {textContent: signed(value)})]));
+  fill("equilibria-words", answer.equilibria.reason, words => [signed(words)]);
+  fill("equilibria", answer.equilibria.rows, rows => rows.map(row => element("tr", {}, ...row.map(text => element("td", {textContent: signed(text)})))));
   document.documentElement.dataset.answers = latest; document.documentElement.dataset.moving = answer.moving;
 }
 

@@ -96,8 +96,10 @@ function spaceView(canvas, {glass = 1, near = 1} = {}) {
   }
 
   const first = {turn: -0.95, lift: 0.42, near}; let now = {...first};
-  function step(half) {  // the largest round number of which every axis shows three multiples at least
-    const most = 0.62 * half, ten = 10 ** Math.floor(Math.log10(most)); return ten * [5, 2, 1].find(k => k * ten <= most * (1 + 1e-9));
+  const rim = 0.93;  // of half the box: up to here numbers stand, the corners are crowded
+  function step({half, middle}) {  // the largest round number of which every axis shows three multiples
+    const ten = 10 ** Math.floor(Math.log10(half)), shown = (m, every) => Math.floor((m + rim * half) / every) - Math.ceil((m - rim * half) / every) + 1;
+    return ten * [10, 5, 2, 1, 0.5, 0.2].find(k => middle.every(m => shown(m, k * ten) >= 3));
   }
   function look() {
     const {turn, lift, near} = now, ct = Math.cos(turn), st = Math.sin(turn), cl = Math.cos(lift), sl = Math.sin(lift);
@@ -138,10 +140,10 @@ function spaceView(canvas, {glass = 1, near = 1} = {}) {
       const edge = edges.reduce((a, b) => out(b) > out(a) ? b : a), [mx, my] = at(edge(0));
       const ends = [at(edge(-1)), at(edge(1))], [ex, ey] = [ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]], size = Math.hypot(ex, ey) || 1;
       const side = Math.sign(-ey * (mx - middle[0]) + ex * (my - middle[1])) || 1, away = [-side * ey / size, side * ex / size];  // across the edge, outwards
-      const every = step(data.half), low = data.middle[k] - data.half, high = data.middle[k] + data.half;
+      const every = step(data), low = data.middle[k] - data.half, high = data.middle[k] + data.half;
       pen.fillStyle = "#333"; pen.font = `${small}px sans-serif`; let widest = 0;
       for (let v = Math.ceil(low / every) * every; v <= high; v += every) {
-        if (Math.abs(v - data.middle[k]) > 0.93 * data.half) continue;  // the corners are crowded
+        if (Math.abs(v - data.middle[k]) > rim * data.half) continue;
         const [x, y] = at(edge((v - data.middle[k]) / data.half));
         const told = String(+v.toPrecision(6) || 0).replace("-", "\u2212"), wide = pen.measureText(told).width;
         widest = Math.max(widest, wide);

@@ -83,6 +83,11 @@ def test_a_tilt_is_followed_once_the_hand_rests(page):
     assert "without the tilt" in page.run("document.querySelector('#legend').textContent")
 
 
+def test_numbers_beside_the_pictures_have_the_minus_of_a_book(page):
+    told = page.run("document.querySelector('#facts').textContent + document.querySelector('#equilibria').textContent")
+    assert "\u2212" in told and "(-" not in told and " -" not in told
+
+
 def test_a_click_in_the_phase_plane_starts_a_motion(page):
     said = page.run(HEADLINE)
     assert next_answer(page, lambda: page.click("#plane", 0.5, 0.12)) != said
