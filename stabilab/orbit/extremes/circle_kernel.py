@@ -8,7 +8,7 @@ A block is a table: one row a quantity, one column a lane. All in one file: numb
 """
 from __future__ import annotations
 
-from math import cos, pi, sin, sqrt
+from math import cos, exp, pi, sin, sqrt
 
 import numpy as np
 
@@ -19,11 +19,12 @@ BOX, PERIOD = 1, 2  # bits: wanted, and left to the arrays' path
 LINE = 2.0  # kind of a piece of the conic: 0 solved from Z's asymptote, 1 from X's, 2 a straight line
 BOX_SHARE, SPIN_UP_SHARE, PERIOD_SHARE = 1e-7, 1e-4, 1e-5  # as in `extremes` and `quadrature`
 DIGITS, PERIOD_DIGITS = 1e-12, 1e-11  # as in `extremes` and `quadrature`
-ENOUGH = 1e-9  # relative change from n to 2n nodes: doubling squares the error
+ENOUGH, SETTLED, FLOOR = 1e-9, 1e-13, 1e-15  # relative, of sums over nodes: the last change, the error by estimate, a change that is nothing but rounding
 ROUNDINGS = 64  # units of rounding allowed for in a margin, as in `fate`
 SHIFT_LIMIT = 1e4  # as in `extremes`
 FAR_STEP, LAST_STEP = 1e-3, 1e-5  # largest first and second Newton step along the orbit: cubic errors, 1e-10, then 1e-16
 NEWTON_STEPS, HALLEY_STEPS = 9, 4
+SOLVED, HELD_STEPS = 1e-6, 60  # relative last step along a piece of the conic, which two steps along the orbit follow; most steps in a bracket
 LANES = 256
 
 # rows of a block: the orbit
@@ -39,7 +40,7 @@ R_BARRIER, L_BARRIER, R_WELL, L_WELL = range(4)
 NARROW = 0.5  # half-widths below it take series where closed forms cancel
 BOUNDED, SPINNING, OTHER = 0.0, 1.0, 2.0
 # rows of the period's table
-P1, Q1, P2, Q2, RHO, SINE, COSINE, SUM, BEFORE, LEAST, MIDDLE, ROW, TERMS, MOST, OFF = range(15)
+P1, Q1, P2, Q2, RHO, SINE, COSINE, SUM, BEFORE, LEAST, MIDDLE, ROW, TERMS, MOST, OFF, CHANGE, EARLIER = range(17)
 
 
 def sinc_cos(u):
@@ -143,16 +144,44 @@ def meet(m, piece, K, lane, spot):
     begin = side / abs(a1)
     for a in range(m):
         t[a] = a0 + begin * radius[a]
+    step = spot[OVER]
     for _ in range(NEWTON_STEPS):
         for a in range(m):
             inverse = 1 / t[a]
             ratio = K * inverse
             f, g = (t[a] - a0) * a1, (ratio - b0) * b1
-            t[a] -= 0.5 * (f * f + g * g - q[a]) / (f * a1 - g * b1 * ratio * inverse)
+            step[a] = 0.5 * (f * f + g * g - q[a]) / (f * a1 - g * b1 * ratio * inverse)
+            t[a] -= step[a]
     for a in range(m):
-        offset[a] = 0.0 if q[a] > least else INFINITY
+        there = q[a] > least
+        # not from the asymptote where the piece turns a corner on the way to its fold
+        if there and not (abs(step[a]) <= SOLVED * abs(t[a]) and t[a] * side > guard):
+            t[a] = side * beyond_fold(side * a0, abs(a1), side * K, b0, b1, q[a], guard, radius[a])
+        offset[a] = 0.0 if there else INFINITY
         first[a], second[a] = (t[a] - a0) * a1, (K / t[a] - b0) * b1
-        unclear[a] = 1.0 if q[a] > least and not t[a] * side > guard else unclear[a]
+        unclear[a] = 1.0 if there and not t[a] * side > guard else unclear[a]
+
+
+def beyond_fold(a, A, K, b, B, q, fold, radius):
+    """h > fold where ((h - a) A)^2 + ((K/h - b) B)^2, which grows with h, is q: Newton's method in log h, held in a bracket; the fold where it is no more."""
+    low, high, before = fold, max(abs(a) + radius / A, 2 * fold), INFINITY
+    h = high
+    for _ in range(HELD_STEPS):
+        f, g = (h - a) * A, (K / h - b) * B
+        value = f * f + g * g - q
+        if value > 0:
+            high = h
+        else:
+            low = h
+        step = 0.5 * value / (f * A * h - g * B * K / h)
+        new = h - h * step if abs(step) < 0.1 else h * exp(-step)
+        if not low <= new <= high or not abs(step) < before:
+            new, step = sqrt(low) * sqrt(high), 2.0
+        before = 0.7 * abs(step) if step < 1.0 else INFINITY
+        h = new
+        if abs(step) < SOLVED or high - low <= SOLVED * low:
+            break
+    return h
 
 
 def look_ahead(m, numbers, lane, spot):
@@ -283,15 +312,17 @@ def turn(m, side, numbers, barrier, well, lane, end):
             # a step may not leave the way between barrier and well: half-way to its end instead
             new = min(max(here - step * last, 0.5 * here), 0.5 * (here + reach))
             # Newton's step counts: Halley's is 0 at a barrier too
-            y[a], at_x[a], at_z[a], blur[a], haze[a] = new, ex, ez, abs(first), abs(value / first)
-    for a in range(m):  # the step that was not taken any more counts as an error
-        x, z, far, step = anchor_x[a], anchor_z[a], y[a], haze[a]
+            y[a], at_x[a], at_z[a], blur[a], haze[a] = new, ex, ez, abs(first), value / first
+    for a in range(m):  # the last step is Newton's: it leaves its square over the way to where the force vanishes, at most some four times
+        x, z, far, step = anchor_x[a], anchor_z[a], y[a], abs(haze[a])
+        on = -towards[a] * haze[a]
+        at_x[a], at_z[a] = at_x[a] + at_z[a] * on, at_z[a] - at_x[a] * on
         terms = mu + abs(G * x * z) + abs(c * z) + abs(d * x)  # of the force; where they vanish the potential still has its own
         bulk = abs(G) * (x * x + z * z) + (abs(c) + abs(d)) * (abs(x) + abs(z))
         found = (step < LAST_STEP * far) & (w_over[a] > 0) & (level[a] != 0)
         noise = EPS * (terms * (abs(start[a]) + far) + bulk * (min(start[a] * start[a], 2.0) + min(far * far, 2.0)))
-        place = start[a] + towards[a] * far
-        haze[a], blur[a] = noise, noise / blur[a] + EPS * abs(start[a]) + step
+        place = start[a] + towards[a] * far + on
+        haze[a], blur[a] = noise, noise / blur[a] + EPS * abs(start[a]) + 4 * step * step / far
         at[a] = place if found else np.nan
 
 
@@ -426,12 +457,13 @@ def gather_modes(m, numbers, lane, left_end, right_end, kind, left_open, narrow,
             table[P1, count], table[Q1, count] = -c * u + d * v, -c * v - d * u
             table[P2, count], table[Q2, count] = -0.25 * G * (u - v) * (u + v), -0.5 * G * u * v
             table[RHO, count], table[ROW, count], table[OFF, count] = rho, a, left_end[BLUR, a] + right_end[BLUR, a]
+            table[TERMS, count] = (abs(c) + abs(d)) * (abs(u) + abs(v))  # what the first modes are sums of
             count += 1
     for a in range(count):
         f, k = sinc_cos(0.5 * table[RHO, a])
         sh = 0.5 * table[RHO, a] * f
         table[SINE, a], table[COSINE, a], table[SUM, a] = 2 * sh * k, 1 - 2 * sh * sh, 0.0
-        table[TERMS, a] = abs(table[P1, a]) + abs(table[Q1, a]) + 4 * (abs(table[P2, a]) + abs(table[Q2, a]))
+        table[TERMS, a] += 4 * (abs(table[P2, a]) + abs(table[Q2, a]))
     return count
 
 
@@ -451,6 +483,20 @@ def divided_pair(u, fu, cu, rho, whole_s, whole_c, p1, q1, p2, q2, narrow):
     else:
         odd = (0.5 * q1 * (cu * fv - fu * cv) + q2 * ((cu * cu - su * su) * fv * cv - fu * cu * (cv * cv - sv * sv))) / rho
     return even, odd
+
+
+def converged(now, last, middle, first):
+    """Whether a sum over nodes is its integral, given what it changed by as its nodes were doubled: the last, the middle and the first of three
+    such changes; any numbers.
+
+    Doubling squares the error of the trapezoidal rule, C r^n for n nodes, and of the double-exponential one, so a last change of `ENOUGH` leaves nothing. But
+    the sign of an error goes round, and it may be next to nothing by chance. So the rate r^n is told by either ratio of changes too, and a size by its own
+    change or by the one before; the larger counts each time, and what these leave must be `SETTLED`: four products, asked without a division.
+    """
+    c, b, a = last / now, middle / now + FLOOR, first / now + FLOOR
+    a2, b2 = a * a, b * b
+    return (c <= ENOUGH) & (c * c * c <= SETTLED * b2) & (c * b2 * b2 <= SETTLED * a2 * a2) & (b * c * c <= SETTLED * a2) & (
+        b2 * b2 * b2 * b <= SETTLED * a2 * a2 * a2)
 
 
 def add_node(count, share, weight, narrow, table):
@@ -482,19 +528,27 @@ def librations(count, nodes, narrow, table, periods, left_open):
         add_node(count, nodes[0], 0.5, False, table)
     for a in range(count):
         table[BEFORE, a], table[MOST, a] = table[LEAST, a], 2 * table[MIDDLE, a] - table[LEAST, a]
-    add_nodes(count, 1, 4, nodes, narrow, table)
     if narrow:
         add_node(count, nodes[4], 0.5, True, table)
     else:
         add_node(count, nodes[4], 0.5, False, table)
     for a in range(count):  # at the ends and in the middle H must keep its digits
         noise, ends, middle = EPS * table[TERMS, a], table[BEFORE, a], table[MIDDLE, a]
-        sharp = (noise <= PERIOD_DIGITS * ends) & (noise * table[TERMS, a] <= PERIOD_DIGITS * middle * middle)
+        sharp = (noise <= PERIOD_DIGITS * ends) & (noise <= PERIOD_DIGITS * middle)
         # and the errors of the turning points must move it by little, as far as it changes on the way between them
         change, least = max(table[MOST, a], middle) - min(ends, middle), min(ends, middle)
         if not sharp & (table[OFF, a] * change <= PERIOD_DIGITS * table[RHO, a] * least):
             left_open[int(table[ROW, a])] |= PERIOD
-        table[BEFORE, a] = table[SUM, a] * (0.125 * TURN)
+        table[BEFORE, a] = table[SUM, a] * (0.5 * TURN)
+    add_nodes(count, 2, 3, nodes, narrow, table)
+    for a in range(count):
+        now = table[SUM, a] * (0.25 * TURN)
+        table[EARLIER, a], table[BEFORE, a] = abs(now - table[BEFORE, a]), now
+    add_nodes(count, 1, 2, nodes, narrow, table)
+    add_nodes(count, 3, 4, nodes, narrow, table)
+    for a in range(count):
+        now = table[SUM, a] * (0.125 * TURN)
+        table[CHANGE, a], table[BEFORE, a] = abs(now - table[BEFORE, a]), now
     size, first = 8, 5
     while first < len(nodes) and count:
         add_nodes(count, first, first + size // 2, nodes, narrow, table)
@@ -502,11 +556,12 @@ def librations(count, nodes, narrow, table, periods, left_open):
         kept = 0
         for a in range(count):
             now = table[SUM, a] * (TURN / size)
-            if abs(now - table[BEFORE, a]) <= ENOUGH * now:
+            change = abs(now - table[BEFORE, a])
+            if converged(now, change, table[CHANGE, a], table[EARLIER, a]):
                 periods[int(table[ROW, a])] = now
             else:
-                table[BEFORE, a] = now
-                for row in (P1, Q1, P2, Q2, RHO, SINE, COSINE, SUM, BEFORE, ROW):
+                table[EARLIER, a], table[CHANGE, a], table[BEFORE, a] = table[CHANGE, a], change, now
+                for row in (P1, Q1, P2, Q2, RHO, SINE, COSINE, SUM, BEFORE, ROW, CHANGE, EARLIER):
                     table[row, kept] = table[row, a]
                 kept += 1
         count = kept
@@ -518,7 +573,7 @@ def orbits(states, numbers, jki, pieces, folds, wanted, nodes, boxes, periods, l
     """Fill boxes (n, 3, 2) and periods (n,) as far as wanted; left_open (n,): the bits that stay open."""
     mu, count = numbers[3], len(pieces)
     lane, spots, ends = np.empty((14, LANES)), np.empty((count, 7, LANES)), np.zeros((4, 5, LANES))
-    turns, out, table, kind = np.empty((2, 11, LANES)), np.empty((7, LANES)), np.empty((15, LANES)), np.empty(LANES)
+    turns, out, table, kind = np.empty((2, 11, LANES)), np.empty((7, LANES)), np.empty((17, LANES)), np.empty(LANES)
     for begin in range(0, len(states), LANES):
         end = min(begin + LANES, len(states))
         m, part, open_ = end - begin, states[begin:end], left_open[begin:end]

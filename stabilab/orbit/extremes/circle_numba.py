@@ -17,7 +17,7 @@ from .circle_kernel import BOX, LINE, NODES, PERIOD
 # Loading numba and its cached code costs 1 to 2 s, compiling it once per machine some ten; NumPy takes some 5 us an orbit.
 COLD, WARM = 1_000_000, 20_000
 INLINED = {"shifted", "sinc_cos", "sinc_minus_cos", "y_minus_sin", "angle_of", "contains", "divided_pair",
-           "way_of_cosine"}  # else no loop vectorises
+           "way_of_cosine", "converged"}  # else no loop vectorises
 FOLD_GUARD = 1e-4  # this close to a fold, relative, Newton's plain steps are not trusted
 
 

@@ -6,6 +6,9 @@ digits do not settle is marked and left to the arrays' path. Every function is p
 """
 from __future__ import annotations
 
+from fractions import Fraction
+from math import factorial
+
 import numpy as np
 
 EPS = 2.220446049250313e-16
@@ -17,16 +20,23 @@ ROUNDINGS = 64.0  # units of rounding allowed for beside a fold, as in `landscap
 STEPS, SETTLED, ENOUGH, TWOFOLD, DRIFT, SURE = 6, 1e-15, 1e-12, 2.0**-100, 1e-3, 1e-20  # as in `spots` and `places`
 ROUNDED, LAG = 8.0, 0.3  # as in `anchored`
 CLEAR, FAR, SCATTERED = 64.0, 1.5, 1e-9  # as in `motion`
-DIGITS, PERIOD_DIGITS, PERIOD_SHARE = 1e-12, 1e-11, 1e-5  # as in `extremes.guards` and `period.arrays`
-ROOT, SUM = 1e-9, 1e-9  # relative: the last step to a turning point, and from n nodes to 2 n; both leave the square
+DIGITS, PERIOD_DIGITS = 1e-12, 1e-11  # as in `extremes.guards` and `period.arrays`
+PERIOD_SHARE = 1e-4  # of the energy terms: nearer to a barrier an energy in doubles leaves the period no eleven digits
+ROOT = 1e-9  # relative, the last step to a turning point, which leaves its square
+ALIKE, CONVERGED, FLOOR = 1e-9, 1e-13, 1e-15  # of sums over nodes, as in `extremes.circle_kernel`
 NARROW = 0.5  # half-widths below it take series where closed forms cancel
 TERMS = 30  # of a series about an equilibrium
 LOOKS, CLOSER = 64, 4  # as in `period.rules`
+FINE = 2.0**-92  # of the terms of an energy in twofold numbers: a dozen sums and a series of twenty terms, with room to spare
+PIECE_DIGITS = 3e-12  # relative, of E - V at a stop and half-way between two; the period's promise is `PERIOD_DIGITS`
+HALVINGS, SERIES = 6, 12  # of a way, before its sine is summed; terms of the sum: 0.2^24/24! is 1e-41
 # columns of a spot: its offset from the state, E - V there, whether it is a barrier, the place, dF/dtheta, modes (A, B) about it; what its force,
 # its slope, the energy and the offset may be off by
 OFFSET, OVER, BARRIER, AT_X, AT_Z, BEND, MODE_A, MODE_B, PULL, TILT, ERROR, ASTRAY = range(12)
-# an end of a motion: offset, force there, error of the offset, error of the energy
-END, FORCE, BLUR, HAZE = range(4)
+# an end of a motion: offset, force there, error of the offset, error of the energy; E - V at the equilibrium that it is told from; dF/dtheta and modes there
+END, FORCE, BLUR, HAZE, LEVEL, END_BEND, END_A, END_B = range(8)
+# a stop of a motion, an end or an equilibrium that it passes: offset, E - V, force, dF/dtheta, modes
+STOP, STOP_OVER, STOP_FORCE, STOP_BEND, STOP_A, STOP_B = range(6)
 
 
 def exact_sum(x, y):
@@ -73,6 +83,42 @@ def value(a):
     return a[0] + a[1]
 
 
+def _parts(values):
+    """The high and low parts of rationals."""
+    highs = [float(value) for value in values]
+    return np.array([(high, float(value - Fraction(high))) for high, value in zip(highs, values)])
+
+
+OVER_FACTORIALS = _parts([Fraction(1, factorial(n)) for n in range(2 * SERIES + 1)])
+
+
+def sine_and_lag(y):
+    """(sin y, 1 - cos y) of a double, |y| <= 4 pi, as twofold numbers."""
+    x = y / 2.0**HALVINGS
+    t, s, lag = exact_product(x, x), (0.0 * y, 0.0 * y), (0.0 * y, 0.0 * y)
+    t = -t[0], -t[1]
+    for n in range(SERIES - 1, -1, -1):
+        s = add(times(s, t), (OVER_FACTORIALS[2 * n + 1, 0], OVER_FACTORIALS[2 * n + 1, 1]))
+        lag = add(times(lag, t), (OVER_FACTORIALS[2 * n + 2, 0], OVER_FACTORIALS[2 * n + 2, 1]))
+    s, lag = scaled(s, x), times(lag, (-t[0], -t[1]))
+    for _ in range(HALVINGS):
+        twice = times(s, s)
+        s, lag = add(s, s), less(s, times(s, lag))
+        s, lag = add(lag, lag), add(twice, twice)
+    return s, lag
+
+
+def exponential(y):
+    """exp y of a double as a twofold number."""
+    halvings = max(0, int(np.ceil(np.log2(max(abs(y), 0.1) * 10))))
+    x, total = y / 2.0**halvings, (0.0 * y, 0.0 * y)
+    for n in range(2 * SERIES, -1, -1):
+        total = add(scaled(total, x), (OVER_FACTORIALS[n, 0], OVER_FACTORIALS[n, 1]))
+    for _ in range(halvings):
+        total = times(total, total)
+    return total
+
+
 class Circle:
     """What rows on circles ask of their geometry; of `Hyperbola` the same names."""
 
@@ -100,6 +146,13 @@ class Circle:
     def way_between(u, v, X, Z, Q):
         """theta from a state (X, Z) to a place (u, v) of its orbit, the short way round; all twofold, Q a double."""
         return np.arctan2(value(less(times(u, Z), times(v, X))) / Q, value(add(times(u, X), times(v, Z))) / Q)
+
+    @staticmethod
+    def whole_way(u, v, X, Z, Q, way):
+        """The same as a twofold number, given its double, be that some turns on."""
+        s, lag = sine_and_lag(way)
+        across, along = less(times(u, Z), times(v, X)), add(times(u, X), times(v, Z))
+        return exact_sum(way, value(less(less(across, times(across, lag)), times(along, s))) / Q)
 
     @staticmethod
     def swing(y):
@@ -216,6 +269,13 @@ class Hyperbola:
         start, end = add(X, scaled(Z, side)), add(u, scaled(v, side))
         grown = value(less(end, start)) / value(start)
         return side * (np.log1p(grown) if abs(grown) < 0.5 else np.log(value(end) / value(start)))
+
+    @staticmethod
+    def whole_way(u, v, X, Z, Q, way):
+        side = -1.0 if X[0] * Z[0] < 0 else 1.0
+        start, end = add(X, scaled(Z, side)), add(u, scaled(v, side))
+        off = value(less(times(end, exponential(-side * way)), start)) / value(start)
+        return exact_sum(way, side * off * (1 - 0.5 * off))
 
     @staticmethod
     def swing(y):
@@ -349,6 +409,14 @@ def rise_and_force(mu, y, slope, a, b):
     return one + two + three + four, force, abs(one) + abs(two) + abs(three) + abs(four), s, h
 
 
+def end_of_modes(mu, slope, a, b, s, h, end):
+    """dF/dtheta and modes where sin y and sin(y/2) from an equilibrium are s and h: derivatives of what `rise_and_force` says."""
+    h2 = h * h
+    q = 1 + 2 * E * h2
+    end[END_BEND] = slope * q + E * (0.5 * s * (6 * a - 2 * mu + 4 * b * s) + 4 * b * h2 * q) + 8 * a * h2 * s
+    end[END_A], end[END_B] = a * (q * q + E * s * s) + 2 * b * s * q, b * (q * q + E * s * s) + 2 * E * a * s * q
+
+
 def rounding_of(y, terms, s, h, pull, tilt):
     """Size of the error of a rise, as `Anchored.rounding`."""
     return (ROUNDED + 2 * abs(y)) * EPS * terms + pull * abs(s) + 2 * tilt * h * h
@@ -405,6 +473,25 @@ def spots_of_row(fine, conic, pieces, folds, X, Z, w, wide, spots):
         if i:  # wells and barriers take turns
             sure = sure and spots[i, OFFSET] > spots[i - 1, OFFSET] and spots[i, BARRIER] != spots[i - 1, BARRIER]
     return count, sure
+
+
+def sharpened(fine, conic, X, Z, turn, wide, count, spots):
+    """E - V at the equilibria along a row's orbit anew, as sums of twofold numbers: next to a separatrix doubles leave little of it.
+
+    turn: the rate about the axis, less its shift, twofold."""
+    G, c, d, mu = (fine[0], fine[1]), (fine[2], fine[3]), (fine[4], fine[5]), (fine[6], fine[7])
+    kinetic = times((fine[16], fine[17]), times(turn, turn))
+    Q = add(times(Z, Z), scaled(times(X, X), -E))
+    for i in range(count):
+        spot = spots[i]
+        u, v, slope, last, _ = settled(fine, spot[AT_X], spot[AT_Z], Q)
+        way = whole_way(u, v, X, Z, value(Q), spot[OFFSET])
+        half = times(G, scaled(add(u, X), 0.5))
+        over = add(add(kinetic, times(mu, way)), add(times(less(u, X), add(half, c)), scaled(times(d, less(v, Z)), E)))
+        far = abs(u[0]) + abs(v[0]) + wide
+        terms = kinetic[0] + mu[0] * (1 + abs(way[0])) + (abs(G[0]) * far + abs(c[0]) + abs(d[0])) * far
+        if abs(last) <= ENOUGH:
+            spot[OVER], spot[ERROR] = value(over), FINE * terms + spot[PULL] * spot[PULL] / abs(slope)
 
 
 def way_of_cosine(psi, near, far):
@@ -466,6 +553,8 @@ def turned(mu, count, spots, side, end):
     haze = rounding_of(y, terms, s, h, spot[PULL], spot[TILT])
     end[END], end[FORCE], end[HAZE] = spot[OFFSET] + y, force, haze
     end[BLUR] = haze / abs(force) + EPS * abs(spot[OFFSET])
+    end[LEVEL] = spot[OVER]
+    end_of_modes(mu, slope, mode_a, mode_b, s, h, end)
     return found and abs(end[END]) < INFINITY
 
 
@@ -640,9 +729,17 @@ def terms_at(series, count, data, sizes, rho, whole_s, whole_c, left):
     return modes_terms(data, 4 if sizes else 0, rho, whole_s, whole_c, left)
 
 
+def converged(now, last, middle, first):
+    """As in `extremes.circle_kernel`."""
+    c, b, a = last / now, middle / now + FLOOR, first / now + FLOOR
+    a2, b2 = a * a, b * b
+    return (c <= ALIKE) & (c * c * c <= CONVERGED * b2) & (c * b2 * b2 <= CONVERGED * a2 * a2) & (b * c * c <= CONVERGED * a2) & (
+        b2 * b2 * b2 * b <= CONVERGED * a2 * a2 * a2)
+
+
 def summed(series, count, data, held, rho, whole_s, whole_c, nodes, near, weights, levels):
     """The period by the trapezoidal rule over mirrored pairs of nodes; by the double-exponential one where that does not settle; NaN where none does."""
-    total, before, size, first = 0.0, np.nan, 8, 0
+    total, coarse, half, before, change, earlier, size, first = 0.0, 0.0, 0.0, np.nan, np.nan, np.nan, 8, 0
     while first < len(nodes):
         last = first + size // 2 if first else 5
         for n in range(first, last):
@@ -651,12 +748,21 @@ def summed(series, count, data, held, rho, whole_s, whole_c, nodes, near, weight
             even += 0.5 * (held[0] + held[2]) + share * (1 - share) * held[1]
             odd += (0.5 - share) * (held[0] - held[2])
             weight = 0.5 if n == 0 or n == 4 else 1.0
-            total += weight * (1 / np.sqrt(2 * (even + odd)) + 1 / np.sqrt(2 * (even - odd)))
+            term = weight * (1 / np.sqrt(2 * (even + odd)) + 1 / np.sqrt(2 * (even - odd)))
+            total += term
+            if n == 0 or n == 4:
+                half += term
+            elif n == 2:
+                coarse = term
+        if not first:
+            before = (coarse + half) * (TURN / 4)
+            change = abs(before - half * (TURN / 2))
         size, first = size * 2 if first else size, last
         now = total * (TURN / size)
-        if abs(now - before) <= SUM * now:
+        new = abs(now - before)
+        if converged(now, new, change, earlier):
             return now
-        before = now
+        before, change, earlier = now, new, change
     return peaked(series, count, data, held, rho, whole_s, whole_c, near, weights, levels)
 
 
@@ -665,7 +771,7 @@ def peaked(series, count, data, held, rho, whole_s, whole_c, near, weights, leve
     cut, period = least(series, count, data, held, rho, whole_s, whole_c), 0.0
     for side in range(2):
         length = PI - cut if side else cut
-        total, before, found = 0.0, np.nan, False
+        total, before, change, earlier, found = 0.0, np.nan, np.nan, np.nan, False
         for level in range(len(levels) - 1):
             for n in range(levels[level], levels[level + 1]):
                 way = length * abs(near[n])
@@ -674,11 +780,12 @@ def peaked(series, count, data, held, rho, whole_s, whole_c, near, weights, leve
                 small, large = small * small, large * large
                 left, right = (large, small) if side else (small, large)
                 total += weights[n] / np.sqrt(2 * difference(series, count, data, held, rho, whole_s, whole_c, left, right))
-            now = length * total * 2.0 ** -(level + 2)
-            if abs(now - before) <= SUM * now:
+            now = length * total * 2.0**-level
+            new = abs(now - before)
+            if converged(now, new, change, earlier):
                 period, found = period + 2 * now, True
                 break
-            before = now
+            before, change, earlier = now, new, change
         if not found:
             return np.nan
     return period
@@ -769,16 +876,74 @@ def timed(conic, x, z, xi, eta, w, count, spots, ends, closest, nodes, near, wei
     return period, period < INFINITY
 
 
+def kinetic_near(mu, stop, y):
+    """W^2/2 = E - V at the way y from a stop."""
+    s, h, behind = swing(y)
+    h2 = h * h
+    return stop[STOP_OVER] + stop[STOP_FORCE] * s + 2 * stop[STOP_BEND] * h2 + mu * behind + 2 * E * h2 * (stop[STOP_A] * s + 2 * stop[STOP_B] * h2)
+
+
+def stops_of(count, spots, ends, stops):
+    """Fill the stops of a motion in their order; how many there are, 0 where E - V is not known well at one of them."""
+    many, sure = 1, True
+    for i in range(count):
+        spot = spots[i]
+        if ends[0, END] < spot[OFFSET] < ends[1, END]:
+            stop = stops[many]
+            stop[STOP], stop[STOP_OVER], stop[STOP_FORCE] = spot[OFFSET], spot[OVER], 0.0
+            stop[STOP_BEND], stop[STOP_A], stop[STOP_B] = spot[BEND], spot[MODE_A], spot[MODE_B]
+            sure = sure and spot[ERROR] <= PIECE_DIGITS * spot[OVER] and spot[TILT] <= PIECE_DIGITS * abs(spot[BEND])
+            many += 1
+    for k in range(2):
+        stop, end = stops[k * many], ends[k]
+        stop[STOP], stop[STOP_OVER], stop[STOP_FORCE] = end[END], 0.0, end[FORCE]
+        stop[STOP_BEND], stop[STOP_A], stop[STOP_B] = end[END_BEND], end[END_A], end[END_B]
+        sure = sure and end[HAZE] <= PIECE_DIGITS * abs(end[LEVEL])
+    return many + 1 if sure else 0
+
+
+def in_pieces(mu, count, spots, ends, near, weights, levels, stops):
+    """(period, whether it has its digits): dtheta/W by the double-exponential rule from stop to stop, E - V told from the nearer one."""
+    many, period = stops_of(count, spots, ends, stops), 0.0
+    if many < 3:
+        return np.nan, False
+    for i in range(many - 1):
+        length = stops[i + 1, STOP] - stops[i, STOP]
+        here, there = kinetic_near(mu, stops[i], 0.5 * length), kinetic_near(mu, stops[i + 1], -0.5 * length)
+        if not (length > 0 and abs(here - there) <= PIECE_DIGITS * here):
+            return np.nan, False
+        total, before, change, earlier, found = 0.0, np.nan, np.nan, np.nan, False
+        for level in range(len(levels) - 1):
+            for n in range(levels[level], levels[level + 1]):
+                share, far = abs(near[n]), near[n] < 0  # from the stop at the far end
+                scale = 1.0
+                if i == 0 or i == many - 2:  # the way from a turning point is L u^2, which takes its root away
+                    at_turn = far == (i > 0)
+                    share, scale = (share * share, 2 * share) if at_turn else (share * (2 - share), 2 * (1 - share))
+                y = length * share
+                total += weights[n] * scale / np.sqrt(2 * (kinetic_near(mu, stops[i + 1], -y) if far else kinetic_near(mu, stops[i], y)))
+            now = length * total * 2.0**-level
+            new = abs(now - before)
+            if converged(now, new, change, earlier):
+                period, found = period + 2 * now, True
+                break
+            before, change, earlier = now, new, change
+        if not found:
+            return np.nan, False
+    return period, period < INFINITY
+
+
 def rows(states, open_rows, fine, form, axes, conic, pieces, folds, wanted, rules, boxes, periods, left_open):
     """Fill boxes (n, 3, 2) and periods (n,), as far as wanted, of those of the states (n, 3) that are open: their bits in left_open (n,) go where a
     row is settled.
 
-    fine: high and low parts of G, c, d, mu, sj, sk, flip/rx, 1/rz; form: factors of X and Z, flip/n, shift s of the third component and what its
+    fine: high and low parts of G, c, d, mu, sj, sk, flip/rx, 1/rz, (flip n)^2/2; form: factors of X and Z, flip/n, shift s of the third component and what its
     double leaves, least |xi|, |eta| or radius; conic: c, d, G, mu, K, shift, and how near a hyperbola's centre no row is settled.
     """
     nodes, near, weights, levels = rules
     j, k, i = axes
-    spots, ends, box = np.empty((2 * len(pieces) + 1, ASTRAY + 1)), np.empty((2, 4)), np.empty((3, 2))
+    spots, ends, box = np.empty((2 * len(pieces) + 1, ASTRAY + 1)), np.empty((2, END_B + 1)), np.empty((3, 2))
+    stops = np.empty((2 * len(pieces) + 3, STOP_B + 1))
     data, work, held = np.empty(2 * TERMS + 1), np.empty(TERMS), np.empty(3)
     extra = abs(fine[8] * fine[12]) + abs(fine[10] * fine[14])
     for row in open_rows:
@@ -799,17 +964,25 @@ def rows(states, open_rows, fine, form, axes, conic, pieces, folds, wanted, rule
         count, sure = spots_of_row(fine, conic, pieces, folds, X, Z, w, wide, spots)
         if not sure:
             continue
-        known, fastest, haze, closest = spanned(conic[3], w, count, spots, ends)
-        if not known:
-            continue
-        if asked & BOX and boxed(form, axes, state, x, z, xi, eta, ends, fastest, haze, box):
-            boxes[row] = box
-            asked -= BOX
-        if asked & PERIOD:
-            period, good = timed(conic, x, z, xi, eta, w, count, spots, ends, closest, nodes, near, weights, levels, data, work, held)
-            if good:
-                periods[row] = period
-                asked -= PERIOD
+        for sharp in range(2):
+            if sharp:
+                sharpened(fine, conic, X, Z, exact_sum(turn, rest + form[4]), wide, count, spots)
+            known, fastest, haze, closest = spanned(conic[3], w, count, spots, ends)
+            if not known:
+                continue
+            if asked & BOX and boxed(form, axes, state, x, z, xi, eta, ends, fastest, haze, box):
+                boxes[row] = box
+                asked -= BOX
+            if asked & PERIOD:
+                if sharp:
+                    period, good = in_pieces(conic[3], count, spots, ends, near, weights, levels, stops)
+                else:
+                    period, good = timed(conic, x, z, xi, eta, w, count, spots, ends, closest, nodes, near, weights, levels, data, work, held)
+                if good:
+                    periods[row] = period
+                    asked -= PERIOD
+            if not asked:
+                break
         left_open[row] = asked
 
 
@@ -820,7 +993,7 @@ def functions_of(geometry):
 
 GEOMETRIES = {"circle": Circle, "hyperbola": Hyperbola}
 E, ROUND, WALLED = Circle.E, Circle.ROUND, Circle.WALLED
-invariant, lost, onto, way_between, swing, bent, sizes_of_ways = (
-    Circle.invariant, Circle.lost, Circle.onto, Circle.way_between, Circle.swing, Circle.bent, Circle.sizes_of_ways)
+invariant, lost, onto, way_between, whole_way, swing, bent, sizes_of_ways = (
+    Circle.invariant, Circle.lost, Circle.onto, Circle.way_between, Circle.whole_way, Circle.swing, Circle.bent, Circle.sizes_of_ways)
 repeated, change, stationary, size_of_terms, middle_modes, whole, modes_pair, modes_terms = (
     Circle.repeated, Circle.change, Circle.stationary, Circle.size_of_terms, Circle.middle_modes, Circle.whole, Circle.modes_pair, Circle.modes_terms)

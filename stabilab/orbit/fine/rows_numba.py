@@ -14,10 +14,11 @@ from ..extremes.circle_kernel import NODES
 from ..landscape import CENTRE, Landscape
 from ..period.rules import FIRST_LEVEL, LAST_LEVEL, nodes_of
 from . import rows_kernel
+from .places import twofold_constant
 
 # Else loops call instead of adding
 INLINED = {"exact_sum", "exact_product", "add", "times", "scaled", "less", "value", "swing", "lag", "sinc_cos", "sinc_minus_cos", "sinhc_and_rest",
-           "way_of_cosine", "horner", "rounding_of"}
+           "way_of_cosine", "converged", "horner", "rounding_of"}
 # Loading the code from disk costs some 0.3 s of a processor, compiling it once per machine some ten for each geometry; arrays take 5 to 50 us a row.
 COLD, WARM = 1_000_000, 100
 STRAIGHT = 1e-6  # of the slopes, as in `conic`: a circle so small hardly sees the bend of its equilibria
@@ -49,7 +50,8 @@ def kernel_input(land: Landscape):
     thin = max(STRAIGHT * slopes / abs(conic.G), 1e-150) ** 2
     centre = CENTRE * (abs(conic.c) + abs(conic.d)) / abs(conic.G)
     beside = centre if conic.mu <= (abs(conic.c) + abs(conic.d)) * centre else 0.0
-    parts = np.array([part for number in fine for part in (float(number.high), float(number.low))])
+    kinetic = twofold_constant(r.exact_constants["n"] ** 2 / 2)
+    parts = np.array([part for number in (*fine, kinetic) for part in (float(number.high), float(number.low))])
     shift = float(r.s)
     form = g["flip"] * g["rx"], g["rz"], g["flip"] / g["n"], shift, float(r.s - Fraction(shift)), thin
     pieces = np.array([(piece.sign, piece.inner, piece.outer, piece.rising, piece.barrier, *_between(conic, piece)) for piece in conic.pieces], float)

@@ -11,13 +11,13 @@ from typing import NamedTuple
 import numpy as np
 
 from ...numbers.constants import TURN
-from ..extremes.circle_kernel import ENOUGH, NARROW, NODES
+from ..extremes.circle_kernel import NARROW, NODES, converged
 from .modes import Modes
 
 PAIR_CHUNK = 2048  # a dozen arrays of so many doubles stay in the processor's second cache
 BLOCK = 1 << 14  # elements of a block of nodes and rows, for the same reason
 REACH = 3.45  # of t: beyond, the weights are 1e-20
-FIRST_LEVEL, LAST_LEVEL = 2, 8  # steps of 2^-level
+FIRST_LEVEL, LAST_LEVEL = 0, 8  # steps of 2^-level
 LOOKS = 64  # places among which the least H is sought
 CLOSER = 4  # steps towards it, each to the bottom of a parabola through three places
 
@@ -57,7 +57,7 @@ def trapezoidal(modes: Modes, half):
 
 def _pair_sums(modes, rho, narrow):
     values, live, shape = np.full(len(rho), np.nan), np.arange(len(rho)), np.empty((3, len(rho)))
-    whole, total, before = modes.whole(rho), np.zeros(len(rho)), None
+    whole, total, sums = modes.whole(rho), np.zeros(len(rho)), []
     first, size = 0, 8
     while first < len(NODES):
         last = first + size // 2 if first else 5
@@ -65,22 +65,27 @@ def _pair_sums(modes, rho, narrow):
             even, odd = modes.pair(rho, whole, NODES[node], narrow)
             weight = 0.5 if node in (0, 4) else 1.0  # the ends of [0, pi], and its middle, which is its own mirror image
             with np.errstate(all="ignore"):
-                total += weight * (1 / np.sqrt(2 * (even + odd)) + 1 / np.sqrt(2 * (even - odd)))
+                term = weight * (1 / np.sqrt(2 * (even + odd)) + 1 / np.sqrt(2 * (even - odd)))
+            total += term
+            if not first:
+                sums.append(term)
             if node == 0:
                 shape[0], shape[2] = even + odd, even - odd
             elif node == 4:
                 shape[1] = even
         size, first = size * 2 if first else size, last
         now = total * (TURN / size)
-        if before is not None:
-            with np.errstate(invalid="ignore"):  # both infinite where rounding leaves no depth to the well: not settled here
-                done = np.abs(now - before) <= ENOUGH * now
-            values[live[done]] = now[done]
-            if done.all():
-                break
-            rest = ~done
-            live, now, rho, total, modes, whole = live[rest], now[rest], rho[rest], total[rest], modes.take(rest), whole[:, rest]
-        before = now
+        if last == 5:  # of these nodes there are also the sums over two and four intervals
+            sums = [(sums[0] + sums[4]) * (TURN / 2), (sums[0] + sums[2] + sums[4]) * (TURN / 4), now]
+            continue
+        with np.errstate(invalid="ignore"):  # infinite where rounding leaves no depth to the well: not settled here
+            done = converged(now, *(np.abs(late - early) for late, early in zip((now, *sums[:0:-1]), sums[::-1])))
+        values[live[done]] = now[done]
+        if done.all():
+            break
+        rest = ~done
+        live, rho, total, modes, whole = live[rest], rho[rest], total[rest], modes.take(rest), whole[:, rest]
+        sums = [before[rest] for before in (*sums[1:], now)]
     return values, shape
 
 
@@ -90,15 +95,16 @@ def double_exponential(modes: Modes, rho):
     cut, n = _least(modes, rho), len(rho)
     side = np.repeat([False, True], n)  # whether a piece begins at the right end
     length, both = np.concatenate([cut, np.pi - cut]), np.concatenate([np.arange(n)] * 2)
-    total, before, values = np.zeros((2, 2 * n)), np.full(2 * n, np.nan), np.full(2 * n, np.nan)
+    total, values, (before, change, earlier) = np.zeros((2, 2 * n)), np.full(2 * n, np.nan), np.full((3, 2 * n), np.nan)
     live = np.arange(2 * n)
     for level in range(FIRST_LEVEL, LAST_LEVEL + 1):
         total[:, live] += _level_sums(modes, rho, both[live], length[live], side[live], level)
         now = length[live] * total[0, live] * 2.0**-level
         with np.errstate(invalid="ignore"):  # a sum that is no number never settles
-            done = np.abs(now - before[live]) <= ENOUGH * now
+            new = np.abs(now - before[live])
+            done = converged(now, new, change[live], earlier[live])
         values[live[done]] = now[done]
-        before[live] = now
+        before[live], change[live], earlier[live] = now, new, change[live]
         live = live[~done]
         if not live.size:
             break

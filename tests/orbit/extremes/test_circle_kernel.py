@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import stabilab
+from benchmarks.random_scenes import drawn
 from stabilab import Fate
 from stabilab.errors import InputError
 from stabilab.numbers import numba_door
@@ -132,6 +133,28 @@ def test_next_to_the_separatrix_the_kernel_keeps_its_digits_or_lets_go(name, dec
             assert np.all(np.abs(np.where(finite, boxes[0] - exact, 0)) <= 2e-12 * size)
         if not left[0] & 2:
             assert periods[0] == pytest.approx(precise_period(Orbit(land.reduction, state), label), rel=1e-11)
+
+
+@pytest.mark.parametrize("number", [7, 24, 91])
+def test_a_piece_of_the_conic_that_turns_a_corner_on_the_way_to_its_fold_is_met_beyond_the_corner_and_before(number):
+    """Of the random scenes of the benchmarks: a conic that is nearly its asymptotes, whose crossing lies off the circles' centre. The arrays' search is held in
+    a bracket along the whole piece."""
+    one = drawn(number + 1)[number]
+    states = one.states(400)
+    states = states[stabilab.fate(one.scene, states).labels == Fate.BOUNDED][:200]
+    boxes, _, left = plain(one.scene, states)
+    known = (left & 1) == 0
+    assert known.mean() > 0.6
+    exact = stabilab.extremes(one.scene, states[known], fast=False)
+    assert np.all(np.abs(boxes[known] - exact).max(axis=2) <= 2e-12 * np.abs(exact).max(axis=2))
+
+
+def test_a_turning_point_found_by_a_last_step_of_1e_5_keeps_the_period():
+    """Halley's steps end 1e-10 away from the end on the left; ball arithmetic."""
+    one, state = drawn(24)[23].scene, np.array([0.062022077246017424, -2.40730533121281, 1.7694966114961876])
+    _, periods, left = plain(one, state[None])
+    exact = precise_period(Orbit(landscape(one).reduction, state), Fate.BOUNDED)
+    assert left[0] & 2 or periods[0] == pytest.approx(exact, rel=1e-11)
 
 
 def test_a_root_of_the_energy_difference_in_theta_loses_half_of_the_digits_next_to_the_separatrix():

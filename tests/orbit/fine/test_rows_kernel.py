@@ -1,6 +1,7 @@
 """The compiled kernel for rows in twofold numbers, as plain Python, against ball arithmetic and against the arrays. Nothing looks at the clock."""
 from __future__ import annotations
 
+import mpmath as mp
 import numpy as np
 import pytest
 
@@ -9,10 +10,12 @@ from stabilab import Fate, ScaledGyrostat, extremes, fate, period
 from stabilab.orbit.ball_orbit import Orbit
 from stabilab.orbit.extremes.balls import precise_extremes
 from stabilab.orbit.extremes_and_periods import extremes_and_periods
-from stabilab.orbit.fine import rows_numba
+from stabilab.orbit.fine import rows_kernel, rows_numba
 from stabilab.orbit.fine.rows_numba import kernel_input, settle_rows
 from stabilab.orbit.landscape import landscape
 from stabilab.orbit.period.balls import precise_period
+from tests.oracles.pairs import brink
+from tests.orbit.fate.test_fate import FAMILIES
 from tests.orbit.fine.test_fine import HYPERBOLAS, SCENES, scene, states_of
 
 # of the sample of random scenes: hyperbolas and circles, a rod, nearly equal moments, equilibria between two folds
@@ -90,6 +93,47 @@ def test_a_state_whose_only_equilibrium_is_told_too_blurred_stays_open():
     exact = np.array(precise_extremes(Orbit(landscape(one).reduction, state), Fate.BOUNDED))
     assert exact[1] == pytest.approx([-226.1618997146982, 226.1618997146982], rel=1e-12)
     assert left[0] & 1 or (np.abs(boxes[0] - exact).max(axis=1) <= 1e-12 * np.abs(exact).max(axis=1)).all()
+
+
+@pytest.mark.one_in(3)
+@pytest.mark.parametrize("number", [23, 86, 0, 39, 89, 24])
+def test_the_rows_of_random_scenes_nearest_to_a_separatrix_have_the_period_of_balls(number):
+    """Of 4,000 states: energies over the equilibria in twofold numbers, and the integral in pieces from one of them to the next."""
+    one, states = bounded(number, 4000)
+    near = states[np.argsort(np.abs(fate(one, states).margins) / (states**2).sum(axis=1))[:8]]
+    _, periods, left = plain(one, near)
+    assert not (left & 2).any()
+    exact = [precise_period(Orbit(landscape(one).reduction, state), Fate.BOUNDED) for state in near]
+    np.testing.assert_allclose(periods, exact, rtol=2e-12)
+
+
+@pytest.mark.parametrize("decades", [7, 9, 11, 13])
+@pytest.mark.parametrize("name", ["minor physical", "major physical"])
+def test_rows_so_many_decades_from_a_separatrix_have_the_period_of_balls(name, decades):
+    one, problem = FAMILIES[name]
+    rng, found = np.random.default_rng(decades), []
+    while len(found) < 3:
+        state = brink(problem, rng.normal(size=2) * 2, -(10.0**-decades))
+        if state is not None and int(fate(one, state).labels) == Fate.BOUNDED:
+            found.append(state)
+    _, periods, left = plain(one, np.array(found, float))
+    assert not (left & 2).any()
+    exact = [precise_period(Orbit(landscape(one).reduction, state), Fate.BOUNDED) for state in np.array(found, float)]
+    np.testing.assert_allclose(periods, exact, rtol=1e-11)
+
+
+@pytest.mark.parametrize("y", [0.0, 1e-9, -0.3, 1.7, -3.1, 6.5, -12.5])
+def test_the_sine_of_a_double_is_known_to_thirty_digits(y):
+    with mp.workdps(60):
+        for found, exact in zip(rows_kernel.sine_and_lag(y), (mp.sin(mp.mpf(y)), 1 - mp.cos(mp.mpf(y)))):
+            assert abs(mp.mpf(found[0]) + mp.mpf(found[1]) - exact) <= mp.mpf(10) ** -29
+
+
+@pytest.mark.parametrize("y", [0.0, 1e-9, -0.3, 1.7, 25.0, -80.5, 600.0])
+def test_the_exponential_of_a_double_is_known_to_twenty_seven_digits(y):
+    with mp.workdps(60):
+        found, exact = rows_kernel.exponential(y), mp.exp(mp.mpf(y))
+        assert abs(mp.mpf(float(found[0])) + mp.mpf(float(found[1])) - exact) <= mp.mpf(10) ** -27 * exact
 
 
 @pytest.mark.slow  # compiling takes half a minute where no cache is

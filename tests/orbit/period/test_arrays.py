@@ -1,11 +1,19 @@
 """Periods of arrays where doubles hardly know the well: in minute wells beside folds, and where rounding leaves no depth at all."""
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 
 import stabilab
+from benchmarks.random_scenes import drawn
+from stabilab import Fate
+from stabilab.orbit.ball_orbit import Orbit
+from stabilab.orbit.extremes.circle_kernel import converged
 from stabilab.orbit.extremes_and_periods import extremes_and_periods
+from stabilab.orbit.period.balls import precise_period
+from stabilab.orbit.reduction import reduce
 from tests.oracles import energy
 from tests.oracles.pairs import physical
 from tests.shared import PARABOLIC
@@ -49,3 +57,30 @@ def test_one_state_has_its_period_to_eleven_digits_where_rounding_comes_in_by_se
     true = float(energy.period(model, state))
     assert stabilab.motion(scene, state).period == pytest.approx(true, rel=1e-11)
     assert stabilab.period(scene, [state])[0] == pytest.approx(true, rel=1e-11)
+
+
+# Random scenes of the benchmarks and states at which one trapezoidal sum is off by next to nothing although the next, of twice as many nodes, is off by 1e-10
+# and more: the sign of the error goes round with the number of nodes
+CHANCES = [(71, (-4.369887196205277, -3.7053518586755274, -6.066612005004346)), (54, (15.840901695272883, -20.884161715455843, -3.563450267521607)),
+           (36, (-8.231244802341465, 6.754198759544569, 14.297228083012742)), (89, (7.369438363696288, -1.4192633006748567, 6.510306947190627)),
+           (26, (-1.8110733364538487, 1.8204595003467698, 1.4749630109219507)), (31, (-0.10294682392994503, 1.8798661423752032, 6.084326362940442)),
+           (19, (0.5718216380893093, -1.8594223696396366, 1.171774701482545))]
+
+
+@pytest.mark.parametrize("number, state", CHANCES)
+def test_a_sum_that_is_right_by_chance_does_not_end_the_doubling_of_its_nodes(number, state):
+    """Ball arithmetic cuts the integral at every equilibrium and takes the double-exponential rule."""
+    scene = drawn(number + 1)[number].scene
+    exact = precise_period(Orbit(reduce(scene), state), Fate.BOUNDED)
+    assert stabilab.period(scene, [state], fast=False)[0] == pytest.approx(exact, rel=1e-12)
+
+
+def test_changes_tell_convergence_unless_one_of_them_vanishes_by_chance():
+    """An error r^n, known at every n: two sums that nearly agree by chance, as none but the last of three changes would see, do not end it."""
+    changes = [abs(0.02**n - 0.02 ** (2 * n)) for n in (1, 2, 4)]
+    assert converged(1.0, changes[2] * 1e-3, changes[1] * 1e-2, changes[0] * 1e-1)
+    assert not converged(1.0, 1e-11, 1e-3, 3e-2)  # the last is 1e-6 by the two before
+    assert not converged(1.0, 1e-10, 1e-11, 1e-2)  # the middle one vanished, the last shows it
+    assert not converged(1.0, 2e-9, 1e-10, 1e-12)  # nothing so large is the last
+    assert converged(1.0, 0.0, 0.0, 0.0) and converged(1.0, 3e-16, 3e-16, 1e-16)  # rounding alone
+    assert not converged(1.0, math.nan, 0.0, 0.0)
