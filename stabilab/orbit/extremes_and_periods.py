@@ -34,12 +34,13 @@ def extremes_and_periods(scene, states, fast: bool | None = None, *, box=True, p
     land, left_open, tried = landscape(scene), None, False
     if fast is not False:
         left_open, tried = by_rows(land, flat, boxes, periods, fast, by_kernel(land, flat, boxes, periods, fast))
-    for start in range(0, len(flat), CHUNK):
-        rows = slice(start, start + CHUNK)
-        if left_open is None:
+    if left_open is None:
+        for start in range(0, len(flat), CHUNK):
+            rows = slice(start, start + CHUNK)
             _fill(land, scene, flat[rows], boxes[rows], periods[rows])
-        elif left_open[rows].any():
-            _fill_open(land, scene, flat[rows], boxes[rows], periods[rows], left_open[rows], not tried)
+    else:
+        for column, bit in ((boxes, 1), (periods, 2)):
+            _fill_open(land, scene, flat, column, np.nonzero(left_open & bit)[0] if len(column) else [], bit, not tried)
     return (boxes.reshape(array.shape + (2,)) if box else None, periods.reshape(array.shape[:-1]) if period else None)
 
 
@@ -64,11 +65,10 @@ def _fill(land, scene, states, boxes, periods, twofold=True):
         periods[:] = period_chunk(land, states, decided, start, span, twofold)
 
 
-def _fill_open(land, scene, states, boxes, periods, bits, twofold):
-    """The same for those states of a chunk that the compiled kernels left open."""
-    for column, bit in ((boxes, 1), (periods, 2)):
-        rows = np.nonzero(bits & bit)[0]
-        if len(column) and len(rows):
-            some, none = np.empty((len(rows),) + column.shape[1:]), np.empty(0)
-            _fill(land, scene, states[rows], *((some, none) if bit == 1 else (none, some)), twofold)
-            column[rows] = some
+def _fill_open(land, scene, states, column, rows, bit, twofold):
+    """Those rows of the boxes (bit 1) or the periods (bit 2) that the compiled kernels left open: together, for a handful costs as much as a thousand."""
+    for start in range(0, len(rows), CHUNK):
+        part, none = rows[start:start + CHUNK], np.empty(0)
+        some = np.empty((len(part),) + column.shape[1:])
+        _fill(land, scene, states[part], *((some, none) if bit == 1 else (none, some)), twofold)
+        column[part] = some
