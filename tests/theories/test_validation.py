@@ -13,7 +13,6 @@ import pytest
 from stabilab.errors import InputError
 from stabilab.numbers.balls import working
 from stabilab.show.outside import validation as shown
-from stabilab.show.report.html import signed
 from stabilab.show.terminal.letters import written
 from stabilab.theories.validation import findings, source, sources
 from stabilab.theories.validation.enclose import at
@@ -135,20 +134,29 @@ def test_page_and_text_begin_with_a_source_that_has_values_and_a_minus_is_no_hyp
 
 
 def test_numbers_of_the_page_of_docs_are_those_of_the_findings(validated):
-    """Every table row of docs/validation.md is what the program says of that tool."""
-    assert set(rows_of(validated)) <= set(PAGE.read_text(encoding="utf-8").splitlines())
+    """Every table row of docs/validation.md is what the program says of that tool, and below the table stands each cause."""
+    page = PAGE.read_text(encoding="utf-8").splitlines()
+    rows, causes = rows_of(validated)
+    assert set(rows + causes) <= set(page) and len(causes) == 6
 
 
-def rows_of(validated) -> list[str]:
-    """The rows of the table in docs/validation.md, a set of printed values each."""
-    rows = []
+def rows_of(validated) -> tuple[list[str], list[str]]:
+    """The rows of the table in docs/validation.md, a set of printed values each; the causes below it."""
+    rows, causes = [], []
     for given, found in validated.values():
         for group in shown.grouped(found):
-            worst = max(group, key=lambda one: one.difference / one.tolerance)
-            numbers = signed(f"{worst.ours} | {worst.theirs} | {worst.difference:.1e} | {worst.tolerance:.0e}")
-            rows.append(f"| {given.name} | {group[0].printed.tool} | {len(group)} | {written(worst.component)} at {worst.time} s | {numbers} | "
-                        f"{worst.verdict} | {signed(written(shown.cause(group))) or '–'} |")
-    return rows
+            worst, tool = max(group, key=lambda one: one.difference / one.tolerance), group[0].printed.tool
+            off = f"{_power(f'{worst.difference:.1e}')} | {_power(f'{worst.tolerance:.0e}')}"
+            rows.append(f"| {given.name} | {tool} | {len(group)} | {written(worst.component)} at {worst.time} s | "
+                        f"{re.sub('^-', '−', worst.ours)} | {re.sub('^-', '−', worst.theirs)} | {off} | {worst.verdict} |")
+            if cause := shown.cause(group):
+                causes.append(f"- {given.name}, {tool}: {_power(written(cause))}")
+    return rows, causes
+
+
+def _power(words: str) -> str:
+    """Powers of ten as the pages of docs write them: 4e-7."""
+    return re.sub(r"(?<=\d)e-0*(?=\d)", "e-", words)
 
 
 def test_a_source_without_numbers_says_why():
