@@ -52,7 +52,8 @@ def surfaces(plt):
 
 
 EIGHT_LINE = {"color": style.BLACK, "linewidth": 2.2}  # of the two loops of one saddle
-LOOPS = ("#8FBCD4", style.YELLOW, style.GREY, style.PURPLE)  # colours of the parts of the figure-eight
+LOOPS = (style.SKY, style.YELLOW, style.GREY, style.PURPLE)  # colours of the parts of the figure-eight
+OPAQUE, THIN = (1.0, 0.6, 0.45, 0.6), (0.1, 0.3, 0.1, 0.3)  # of each part, and the width of its mesh: the small loop of sheet 1 stands within that of sheet 2
 
 
 UPRIGHT = (1, 3, 2)  # the torque's axis stands upright in the 3-D panels
@@ -80,8 +81,8 @@ def _nested(ax, scene):
 def _figure_eight(ax):
     """The four parts of the separatrix; their names."""
     found = sheets(**EIGHT)
-    for sheet, colour in zip(found.sheets, LOOPS):
-        ax.plot_surface(*_upright(sheet.points), color=colour, alpha=0.6, rstride=4, cstride=6, linewidth=0.3, edgecolor="#333333", shade=False)
+    for sheet, colour, opaque, thin in zip(found.sheets, LOOPS, OPAQUE, THIN):
+        ax.plot_surface(*_upright(sheet.points), color=colour, alpha=opaque, rstride=4, cstride=6, linewidth=thin, edgecolor="#333333", shade=False)
         ax.plot(*_upright(sheet.saddle), **style.MEANING["unstable"])
         ax.plot(*_upright(sheet.centre), **style.MEANING["stable"])
     _one_eight(ax, *found.sheets[:2])
