@@ -1,6 +1,7 @@
 """The sections of a case's page: what applies is there, what does not is said."""
 import base64
 import math
+import re
 from pathlib import Path
 
 import numpy as np
@@ -126,6 +127,26 @@ def test_folds_of_a_field_are_told_as_rates_without_the_vertical_behind_them():
     folds = [row["where"] for row in told["rows"] if row["where"].startswith("fold")]
     assert folds and all(where.count(",") == 2 for where in folds)
     assert len(told["curves"]) == 1 and told["curves"][0][0] == "branch 1 to branch 10"  # one equation, told once
+
+
+def test_pieces_of_branches_are_told_by_the_rate_about_the_vertical_in_the_unit_of_the_page():
+    """Each end of a piece is a rotation at Omega about the vertical: by the file's numbers its rates, in deg/s, have the length that the row says."""
+    found = equilibria(load(CASES / "top-fast.toml").scene)
+    told = table(found, measures.Measures(DEG))
+    ends = [words for row in told["rows"] for words in re.findall(r"^branch 3, Ω below (.*) deg/s$", row["where"])]
+    assert ends and "t from" not in str(told["rows"])
+    rates = found.curves[2].point(found.curves[2].segments[0].t[1])[:3]
+    assert float(ends[0].replace("−", "-")) == pytest.approx(-math.degrees(math.hypot(*rates)), rel=1e-3)
+    assert any("t = Ω from −∞ to −1313.13 deg/s;" in words for words in told["curves"][0][2])  # -22.9184 rad/s
+    assert "rad/s" not in str(told["curves"][0][2]) and any("t = Ω from −∞ to ∞ deg/s;" in words for words in told["curves"][0][2])
+
+
+def test_a_parameter_that_is_a_rate_or_an_angle_has_its_unit():
+    (hyperbola,) = equilibria(load(CASES / "thruster-stuck-major-axis.toml").scene).curves
+    assert table(equilibria(load(CASES / "thruster-stuck-major-axis.toml").scene), measures.Measures(DEG))["rows"][0]["where"] == \
+        "equilibrium hyperbola, t below −0.030578 rad/s" and hyperbola.segments[0].t[1] == pytest.approx(-0.03058, abs=1e-5)
+    circles = table(equilibria(load(CASES / "charged-body-attitude.toml").scene), measures.Measures(DEG))["rows"]
+    assert any(row["where"].endswith("t from −3.1416 to −1.5708 rad") for row in circles)
 
 
 def test_the_curve_of_a_motion_on_an_unstable_plane_stays_on_it():
