@@ -46,12 +46,18 @@ def point_name(atlas: Atlas, point: Point) -> str:
     return "torque of the case" if point.level == OWN else atlas.asked.case.thrusters[point.number].name
 
 
+def shown_name(atlas: Atlas, point: Point) -> str:
+    """The name of a direction for a picture: that of an axis has the minus of a book."""
+    name = point_name(atlas, point)
+    return name.replace("-", "−") if point.level == AXES else name
+
+
 def kind_words(atlas: Atlas, fate: int, axis: int, island: int = 0) -> str:
-    """What a cell does, for a legend: "spins up about +3 (minor)"."""
+    """What a cell does, for a legend: "spins up about −3 (minor)"."""
     if fate == Fate.SPIN_UP:
         if not axis:
             return f"spins up about {other_axis(atlas)}"
-        return f"spins up about {axis:+d} ({axis_names(atlas)[abs(axis)].partition('(')[2]}"
+        return f"spins up about {axis:+d} ({axis_names(atlas)[abs(axis)].partition('(')[2]}".replace("-", "−")
     return FATES[Fate(fate)][0] + ("", ", an island may exist", ", an island is seen")[island]
 
 

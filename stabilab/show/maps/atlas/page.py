@@ -15,7 +15,7 @@ from ....packages import demand
 from ...report import html
 from ...units import SHORT, Units
 from ..words import COUNTS
-from .labels import kind_colour, kind_words, kinds, point_name, wheel_words
+from .labels import kind_colour, kind_words, kinds, shown_name, wheel_words
 from .picture import COUNTED, NEVER, UNKNOWN
 from .words import answer, does, in_time, limit_words
 from .words import text as in_words
@@ -114,8 +114,9 @@ def _named(atlas: Atlas, units: Units) -> list[dict[str, Any]]:
     rows = []
     for n, (point, direction) in enumerate(zip(atlas.named, atlas.named_directions.tolist())):
         record = atlas.named_records[n]
-        words = [does(atlas, n) + in_time(atlas, n, units), f"the fate is {LEVELS[record['level']]}", f"islands: {ISLANDS[record['island']].replace('_', ' ')}"]
-        rows.append({"name": printable(point_name(atlas, point)), "axis": point.level == AXES, "wheel": point.wheel, "direction": direction,
+        words = [html.signed(does(atlas, n) + in_time(atlas, n, units)), f"the fate is {LEVELS[record['level']]}",
+                 f"islands: {ISLANDS[record['island']].replace('_', ' ')}"]
+        rows.append({"name": printable(shown_name(atlas, point)), "axis": point.level == AXES, "wheel": point.wheel, "direction": direction,
                      "words": words[:2] if not record["island"] else words})
     return rows
 

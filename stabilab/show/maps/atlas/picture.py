@@ -16,7 +16,7 @@ from ...units import Units
 from ..shades import light
 from ..words import COUNTS
 from . import flat
-from .labels import axis_names, kind_colour, kind_words, kinds, point_name, wheel_words
+from .labels import axis_names, kind_colour, kind_words, kinds, shown_name, wheel_words
 from .words import limit_words
 
 PIXELS = 1500  # across one map
@@ -118,8 +118,8 @@ def _points(ax: Any, atlas: Atlas, wheel: int, plain: bool) -> None:
 def _label(atlas: Atlas, point: Any, plain: bool) -> str:
     """The name of a direction; of an axis with its place among the moments, where there is room."""
     if point.level != AXES or plain:
-        return point_name(atlas, point)
-    return f"{point_name(atlas, point)} {axis_names(atlas)[point.number // 2 + 1].partition('(')[2].rstrip(')')}"
+        return shown_name(atlas, point)
+    return f"{shown_name(atlas, point)} {axis_names(atlas)[point.number // 2 + 1].partition('(')[2].rstrip(')')}"
 
 
 def _times(atlas: Atlas, units: Units) -> Any:

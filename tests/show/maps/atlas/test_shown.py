@@ -55,8 +55,10 @@ def test_names_of_directions_that_are_one_stand_apart():
     with drawn(asked(case_of(torque=(0.0, 1.0, 0.0)), level=0, refine=0), workers=1) as atlas:
         figure = picture.drawn(atlas, DEG, ("fate",), None, plt)
     figure.canvas.draw()
-    boxes = [label.get_window_extent() for label in figure.axes[0].texts]
+    boxes, names = [label.get_window_extent() for label in figure.axes[0].texts], [label.get_text() for label in figure.axes[0].texts]
+    legend = [entry.get_text() for entry in figure.axes[0].get_legend().get_texts()]
     plt.close(figure)
+    assert not [name for name in names + legend if "-" in name] and {"−1 major", "+2 middle", "−3 minor"} < set(names)
     assert len(boxes) == 7 and not [1 for n, box in enumerate(boxes) for other in boxes[:n] if box.overlaps(other)]
 
 
