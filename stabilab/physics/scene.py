@@ -72,7 +72,7 @@ class Scene(metaclass=Asked):
         return next((e for e in self.effects if e.name == name), None)
 
     def vector(self, name: str) -> Exact3:
-        """Exact vector of the gyrostat or the constant torque; zero where the scene does not name it."""
+        """Exact vector of the gyrostat, the constant torque or the weight (N m, along its arm); zero where the scene does not name it."""
         found = self.effect(name)
         return ZERO3 if found is None else found.exact
 

@@ -93,11 +93,12 @@ def _start(case: Case, units: Units) -> list[Control]:
 
 
 def _torque(case: Case) -> float:
-    """A torque for a case that has none: it changes the rates of the start within some radians of turn."""
+    """A torque for a case that has none: it changes the rates of the start within some radians of turn, and is no larger than that of the weight."""
     if not isinstance(case.scene, Scene):
         return 1.0
     rate = math.hypot(*vector(case, "start")) or STILL
-    return sum(case.scene.body.inertia) / 3 * rate * rate / 4
+    turning, weight = sum(case.scene.body.inertia) / 3 * rate * rate / 4, case.scene.vector("gravity")
+    return min(turning, math.hypot(*map(float, weight))) if any(weight) else turning
 
 
 def _around(size: float) -> tuple[float, float]:

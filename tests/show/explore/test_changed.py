@@ -1,4 +1,5 @@
 """What sliders change: the new case is the text that is saved, and nothing else moves."""
+import math
 from fractions import Fraction
 from pathlib import Path
 
@@ -99,3 +100,11 @@ def test_every_slider_holds_the_number_of_its_case(path):
     for group in controls.groups(case, units_of(case)):
         for one in group["controls"]:
             assert one["low"] <= one["value"] <= one["high"] and one["low"] < one["high"], one
+
+
+def test_the_torque_of_a_fast_top_goes_as_far_as_that_of_its_weight():
+    """By hand: 2943 N at an arm of (0.7, 0.3, 0.1) m are 2261 N m; what turns 150 rad/s within some radians is 300,000 N m."""
+    case = load(NAMED["top-fast"])
+    size = controls.groups(case, units_of(case))[0]["controls"][0]
+    weight = 2943 * math.hypot(0.7, 0.3, 0.1)
+    assert weight == pytest.approx(2261, abs=1) and controls.ROOM * weight <= size["high"] == -size["low"] < 4 * weight
