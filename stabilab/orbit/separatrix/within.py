@@ -25,7 +25,7 @@ TINY, SMALL = np.finfo(float).tiny, 1e-200
 def grids_within(land, strips, accuracy) -> list[Grid]:
     """A grid for each strip, a pair (branch, side), or for each part of one that is cut at a seam, with as few rows and columns as keep facets
     within `accuracy` of the sheets."""
-    parts, rows = trial_parts(land, strips)
+    parts, rows = trial_parts(land, tuple(strips))
     todo, found = {n: (row, np.linspace(0, 1, TRIAL)) for n, row in enumerate(rows)}, {}
     for attempt in range(ROUNDS):
         following = {}
@@ -99,7 +99,7 @@ def _along(r, found):
     whole = found[:, 2:] & found[:, 1:-1] & found[:, :-2]
     way = step / size[..., None]
     bend = np.where(whole, 2 * np.linalg.norm(np.cross(way[:, 1:], way[:, :-1]), axis=-1) / (size[:, 1:] + size[:, :-1]), 0.0)
-    bend = np.concatenate([_before(bend[:, 0], bend[:, 1 if bend.shape[1] > 1 else 0])[:, None], bend, bend[:, -1:]], axis=1)
+    bend = np.concatenate([np.abs(_before(bend[:, 0], bend[:, 1 if bend.shape[1] > 1 else 0]))[:, None], bend, bend[:, -1:]], axis=1)
     beyond = np.concatenate([bend[:, :1], bend, bend[:, -1:]], axis=1)
     return (bend[:, 1:] + bend[:, :-1]) * size * size / 16 * _gathered(beyond, 1)
 

@@ -10,6 +10,7 @@ from stabilab.orbit.extremes.turning_points import spots_along
 from stabilab.orbit.landscape import landscape
 from stabilab.orbit.separatrix.homoclinic_arrays import loop_ends, polished
 from stabilab.orbit.separatrix.saddles import limit_of, saddle_branches
+from stabilab.orbit.separatrix.within import _along
 from stabilab.show.surface.mesh import triangulate
 from tests.oracles.pairs import PAPER_BODY, physical, scaled
 
@@ -117,3 +118,13 @@ def test_a_grid_without_repeated_points_gives_the_mesh_that_merging_gives():
     corners = lambda mesh: sorted(map(sorted, mesh.points[mesh.triangles].tolist()))
     assert len(plain.points) == len(merged.points) and corners(plain) == corners(merged)
     assert sorted(plain.residual) == sorted(merged.residual)
+
+
+def test_edges_of_a_rim_that_starts_straight_stray_by_no_less_than_they_do():
+    """On y = x^6 the edge from x0 to x1 strays by the largest distance of the curve from its chord, on a fine table; the curvature falls beyond zero if it is
+    taken on linearly."""
+    x = np.linspace(0, 1, 9)
+    told, = _along(np.stack([x, x**6, 0 * x], axis=-1)[None], np.ones((1, 9), bool))
+    for x0, x1, stray in zip(x, x[1:], told):
+        between, rise = np.linspace(x0, x1, 101), (x1**6 - x0**6) / (x1 - x0)
+        assert stray >= 0.9 * np.max(x0**6 + rise * (between - x0) - between**6) / np.hypot(1, rise)
