@@ -29,7 +29,7 @@ def triangulate(sheet) -> Mesh:
     if _coincide(points, kept):
         return _merged(sheet, points, residual)
     if closed:
-        residual = np.maximum(residual, residual[:, [-1, *range(1, residual.shape[1])]])
+        np.maximum(residual[:, 0], residual[:, -1], out=residual[:, 0])
     vertices, values = points[kept].reshape(-1, 3), residual[kept].ravel()
     if tip:
         vertices, values = np.concatenate([points[0, :1], vertices]), np.append(residual[0].max(), values)
@@ -46,9 +46,13 @@ def _coincide(points, kept) -> bool:
 
 
 def _same(a, b) -> bool:
-    """Whether any point of a (..., 3) is that of b in its place."""
-    equal = a[..., 0] == b[..., 0]
-    return bool(equal.any() and (equal & (a[..., 1] == b[..., 1]) & (a[..., 2] == b[..., 2])).any())
+    """Whether any point of a (n, m, 3) is that of b in its place; the component that is most likely to tell them apart is asked first."""
+    if not a.size:
+        return False
+    one = a[-1, a.shape[1] // 2] - b[-1, a.shape[1] // 2]
+    first, second, third = np.argsort(-np.abs(one))
+    equal = a[..., first] == b[..., first]
+    return bool(equal.any() and (equal & (a[..., second] == b[..., second]) & (a[..., third] == b[..., third])).any())
 
 
 def _merged(sheet, points, residual) -> Mesh:
