@@ -10,6 +10,7 @@ import statistics
 import sys
 import time
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -29,7 +30,7 @@ PATIENCE = 0.4      # s for a call: of slower questions fewer states are asked
 LONG = 0.05         # s
 CELLS = 256         # of Flying Edges along each side
 WANTED = {"fate, NumPy": 100, "fate, numba": 400, "extremes, NumPy": 5, "extremes, numba": 20, "period, NumPy": 2, "period, numba": 8,
-          "separatrix surfaces": 50}
+          "separatrix surfaces, NumPy": 50, "separatrix surfaces, numba": 50}
 
 
 @dataclass(frozen=True)
@@ -158,8 +159,16 @@ def _surface(scene, name, rounds, cells):
     theirs = _contour(scene, axes)
     their_time = time.process_time() - at
     error = _error(scene, theirs, max(axis[1] - axis[0] for axis in axes))
-    ours = statistics.median(_time_of(lambda: [triangulate(sheet) for sheet in separatrix(scene, accuracy=error).sheets]) for _ in range(rounds + 1))
-    return [Measured("separatrix surfaces", name, ours, their_time)]
+    found = []
+    for way in ways():
+        mesh = partial(_mesh, scene, error, way == "numba")
+        ours = statistics.median(_time_of(mesh) for _ in range(rounds + 1))
+        found.append(Measured(f"separatrix surfaces, {way}", name, ours, their_time))
+    return found
+
+
+def _mesh(scene, accuracy, fast):
+    return [triangulate(sheet) for sheet in separatrix(scene, accuracy=accuracy, fast=fast).sheets]
 
 
 def _contour(scene, axes):

@@ -36,14 +36,14 @@ def against_flying_edges(cells=512, rounds=7, sample=200_000, checked=24) -> lis
     theirs = _contour(grid)
     their_error = _largest_distance(_between(np.asarray(theirs.points, float), theirs.faces.reshape(-1, 4)[:, 1:]), sample, checked)
     found = []
-    for shape, note in ((None, ARRAYS), (_shape(), FAST))[:1 + numba_available()]:
-        ours = partial(_mesh, shape)
+    for fast, note in ((False, ARRAYS), (True, FAST))[:1 + numba_available()]:
+        ours = partial(_mesh, fast)
         meshes = ours()
         assert all(np.linalg.norm(m.points[:, :2] + [A, 0], axis=1).max() > np.hypot(HALF + A, HALF) for m in meshes)
         our_error = _largest_distance(np.concatenate([_between(m.points, m.triangles) for m in meshes]), sample, checked)
         error = f"largest distance of the triangles from the surface: ours {our_error:.1e}, theirs {their_error:.1e}"
         count = sum(len(m.triangles) for m in meshes)
-        name = f"separatrix mesh{', fast' if shape else ''}, {count} triangles (1/{theirs.n_cells / count:.0f} of theirs)"
+        name = f"separatrix mesh{', fast' if fast else ''}, {count} triangles (1/{theirs.n_cells / count:.0f} of theirs)"
         for other, what in ((lambda: _contour(grid), "contouring alone"),
                             (lambda: _contour(_field(axis)), "margins and contouring")):
             timed = side_by_side(ours, other, 1, 1, rounds)
@@ -52,14 +52,8 @@ def against_flying_edges(cells=512, rounds=7, sample=200_000, checked=24) -> lis
     return found
 
 
-def _mesh(shape):
-    choice = {"accuracy": ACCURACY} if shape is None else {"shape": shape, "fast": True}
-    return [triangulate(sheet) for sheet in separatrix(SCENE, reach=REACH, **choice).sheets]
-
-
-def _shape():
-    """Rows and columns of the largest sheet within the accuracy, for the kernel, which takes a shape."""
-    return tuple(np.max([sheet.points.shape[:2] for sheet in separatrix(SCENE, reach=REACH, accuracy=ACCURACY).sheets], axis=0).tolist())
+def _mesh(fast):
+    return [triangulate(sheet) for sheet in separatrix(SCENE, reach=REACH, accuracy=ACCURACY, fast=fast).sheets]
 
 
 def _contour(grid):

@@ -1,11 +1,13 @@
 """When the extra `fast` (numba) is to answer: asked for, or so many states that loading it pays."""
 from __future__ import annotations
 
-from collections.abc import Callable, Container
+from collections.abc import Callable, Container, Sequence
 from functools import lru_cache
 from importlib.util import find_spec
+from pathlib import Path
 from types import FunctionType, ModuleType
 from typing import Any
+from zlib import crc32
 
 from ..errors import InputError
 
@@ -32,14 +34,34 @@ def compiled(module: ModuleType, inlined: Container[str], variant: str = "", **i
     """The names of a module of straight-line kernels with all its functions compiled; kept on disk where there is a place for it.
 
     instead: what stands for names of the module, for compiled code; variant: names the code that has these, which the disk keeps apart."""
-    return _kept(lambda cache: _compiled(module, inlined, cache, variant, instead))
+    return _kept(lambda cache: _compiled([module], inlined, cache, variant, instead))
+
+
+def compiled_together(modules: Sequence[ModuleType], inlined: Container[str], variant: str) -> dict[str, Any]:
+    """The same of modules whose functions call one another: of names that several have, those of the last. The disk, which watches the file of each function
+    alone, keeps apart what any of the files says."""
+    said = b"".join(Path(str(module.__file__)).read_bytes() for module in modules)
+    return _kept(lambda cache: _compiled(modules, inlined, cache, f"{variant}{crc32(said):08x}", {}))
 
 
 def twins(module: ModuleType, make: Callable[[str, FunctionType], Any], variant: str = "", **instead: Any) -> dict[str, Any]:
     """The names of a module with `make` of a twin of each of its functions, which sees these names; instead, variant: as of `compiled`."""
-    names = vars(module) | instead
+    return _twins([module], make, variant, instead)
+
+
+def plain_together(modules: Sequence[ModuleType]) -> dict[str, Any]:
+    """What `compiled_together` compiles, as plain Python."""
+    return _twins(modules, lambda name, twin: twin, "", {})
+
+
+def _twins(modules: Sequence[ModuleType], make: Callable[[str, FunctionType], Any], variant: str, instead: dict[str, Any]) -> dict[str, Any]:
+    names: dict[str, Any] = {}
+    for module in modules:
+        names |= vars(module)
+    names |= instead
+    homes = {module.__name__ for module in modules}
     for name, function in list(names.items()):
-        if isinstance(function, FunctionType) and function.__module__ == module.__name__:
+        if isinstance(function, FunctionType) and function.__module__ in homes:
             twin = FunctionType(function.__code__, names, name)
             twin.__qualname__ += variant
             names[name] = make(name, twin)
@@ -60,6 +82,6 @@ def _kept(make: Callable[[bool], Any]) -> Any:
         return make(False)
 
 
-def _compiled(module: ModuleType, inlined: Container[str], cache: bool, variant: str, instead: dict[str, Any]) -> dict[str, Any]:
+def _compiled(modules: Sequence[ModuleType], inlined: Container[str], cache: bool, variant: str, instead: dict[str, Any]) -> dict[str, Any]:
     from numba import njit
-    return twins(module, lambda name, twin: njit(cache=cache, error_model="numpy", forceinline=name in inlined)(twin), variant, **instead)
+    return _twins(modules, lambda name, twin: njit(cache=cache, error_model="numpy", forceinline=name in inlined)(twin), variant, instead)

@@ -53,6 +53,66 @@ def rise(g, x, z, y):
     return -g[3] * y_minus_sin(y) - b * (g[0] * x * x + g[1] * x - g[2] * z) - 0.5 * g[0] * dx * dx
 
 
+def risen(g, x, z, y):
+    """(`rise`, the place there), with one sine and one cosine."""
+    half = 0.5 * y
+    sine = sin(half)
+    s, b = 2 * sine * cos(half), -2 * sine * sine
+    dx = z * s + x * b
+    lag = y - s if abs(y) >= 0.7 else y_minus_sin(y)
+    return -g[3] * lag - b * (g[0] * x * x + g[1] * x - g[2] * z) - 0.5 * g[0] * dx * dx, x + dx, z + (z * b - x * s)
+
+
+def risen_row(g, x, z, y, height, there_x, there_z):
+    """Fill height, there_x and there_z (m,) with `risen` of offsets y (m,) up to a turn; sine and cosine of a quarter by their series, which, having no
+    branch, are formed four at a time."""
+    curved, half_G, mu = g[0] * x * x + g[1] * x - g[2] * z, 0.5 * g[0], g[3]
+    for a in range(len(y)):
+        v = 0.25 * y[a]
+        q = v * v
+        sine = v * (1 - q * (1 / 6) * (1 - q * (1 / 20) * (1 - q * (1 / 42) * (1 - q * (1 / 72) * (1 - q * (1 / 110) * (1 - q * (1 / 156) * (
+            1 - q * (1 / 210) * (1 - q * (1 / 272) * (1 - q * (1 / 342) * (1 - q * (1 / 420) * (1 - q * (1 / 506))))))))))))
+        cosine = 1 - q * (1 / 2) * (1 - q * (1 / 12) * (1 - q * (1 / 30) * (1 - q * (1 / 56) * (1 - q * (1 / 90) * (1 - q * (1 / 132) * (
+            1 - q * (1 / 182) * (1 - q * (1 / 240) * (1 - q * (1 / 306) * (1 - q * (1 / 380) * (1 - q * (1 / 462)))))))))))
+        half_sine, half_cosine = 2 * sine * cosine, 1 - 2 * sine * sine
+        s, b = 2 * half_sine * half_cosine, -2 * half_sine * half_sine
+        w = y[a] * y[a]
+        near = y[a] * w * (1 / 6) * (1 - w * (1 / 20) * (1 - w * (1 / 42) * (1 - w * (1 / 72) * (1 - w * (1 / 110) * (1 - w * (1 / 156))))))
+        lag = near if w < 0.49 else y[a] - s
+        dx = z * s + x * b
+        height[a] = -mu * lag - b * curved - half_G * dx * dx
+        there_x[a], there_z[a] = x + dx, z + (z * b - x * s)
+
+
+def departure_row(g, x, z, y, there_x, there_z, here_x, here_z, w, size_x, size_z, out):
+    """Fill out (m,) with the energy of rounded places (here_x, here_z) with W w above the saddle's, relative to the size of the energy's terms; they lie
+    beside the places there_x, there_z at the offsets y, and their sizes are those of the places and of the shifts size_x, size_z."""
+    Q = x * x + z * z
+    inverse, curved, half_G, mu = 1 / Q if Q > 0 else 0.0, g[0] * x * x + g[1] * x - g[2] * z, 0.5 * g[0], g[3]
+    size_G, slopes = abs(g[0]), abs(g[1]) + abs(g[2])
+    for a in range(len(y)):
+        px, pz = here_x[a], here_z[a]
+        s, b = (px * z - pz * x) * inverse, (px * x + pz * z) * inverse - 1
+        seen = y[a] + (px * there_z[a] - pz * there_x[a]) * inverse
+        dx = px - x
+        kinetic = 0.5 * w[a] * w[a]
+        off = abs(kinetic - mu * (seen - s) - b * curved - half_G * dx * dx)
+        wide, high = abs(px) + size_x, abs(pz) + size_z
+        out[a] = off / (kinetic + size_G * (wide * wide + high * high) + slopes * (wide + high) + abs(mu))
+
+
+def place_of(x, z):
+    return x, z
+
+
+def xz(x, z):
+    return x, z
+
+
+def invariant(x, z):
+    return x * x + z * z
+
+
 def settled(g, x, z):
     """The place moved along its circle to where the force vanishes, if that is near."""
     for _ in range(3):

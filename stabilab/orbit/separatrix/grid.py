@@ -9,6 +9,7 @@ with the same trial rows.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -51,8 +52,9 @@ def grid(land, strips, shape) -> Grid:
     return Grid(made, (1, -1)[best], strays[best], parts)
 
 
+@lru_cache(maxsize=64)
 def trial_parts(land, strips):
-    """(parts of strips, cut at their seams, trial rows of each)."""
+    """(parts of strips, cut at their seams, trial rows of each). They are kept, for the next surface of the same scene."""
     parts, rows = [Part(*strip) for strip in strips], np.array([_trial_rows(land, *strip) for strip in strips])
     if len(cut := parted(land, strips, rows[:, 0])) > len(parts):
         parts, rows = cut, np.array([_trial_rows_of(land, part) for part in cut])

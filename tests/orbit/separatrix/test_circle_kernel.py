@@ -7,7 +7,7 @@ import pytest
 import stabilab
 from stabilab.orbit.landscape import landscape
 from stabilab.orbit.separatrix import circle_kernel as circle_loops
-from stabilab.orbit.separatrix.circle_numba import serves, sheets_by_kernel
+from stabilab.orbit.separatrix.compiled.sheets_numba import serves, sheets_by_kernel
 from stabilab.orbit.separatrix.saddles import limit_of, saddle_branches
 from stabilab.orbit.separatrix.sheets import _by_arrays
 from tests.oracles.pairs import physical, scaled
@@ -46,7 +46,7 @@ def test_the_kernel_in_plain_python_gives_the_sheets_of_the_arrays(name, shape):
 @pytest.mark.parametrize("name", SCENES)
 def test_compiled_sheets_are_those_of_the_arrays(name):
     pytest.importorskip("numba")
-    for choice in (dict(shape=(24, 33)), {}, dict(accuracy=0.1)):
+    for choice in (dict(shape=(24, 33)), {}):
         plain, fast = (stabilab.separatrix(SCENES[name], fast=f, **choice).sheets for f in (False, True))
         for one, other in zip(plain, fast, strict=True):
             assert one.name == other.name and one.cut == other.cut

@@ -1,0 +1,1 @@
+"""Sheets of the separatrix as straight lines of floats, which numba compiles."""
