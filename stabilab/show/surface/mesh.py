@@ -49,10 +49,9 @@ def _same(a, b) -> bool:
     """Whether any point of a (n, m, 3) is that of b in its place; the component that is most likely to tell them apart is asked first."""
     if not a.size:
         return False
-    one = a[-1, a.shape[1] // 2] - b[-1, a.shape[1] // 2]
-    first, second, third = np.argsort(-np.abs(one))
+    first = int(np.abs(a[-1, a.shape[1] // 2] - b[-1, a.shape[1] // 2]).argmax())
     equal = a[..., first] == b[..., first]
-    return bool(equal.any() and (equal & (a[..., second] == b[..., second]) & (a[..., third] == b[..., third])).any())
+    return bool(equal.any() and (equal & (a[..., first - 1] == b[..., first - 1]) & (a[..., first - 2] == b[..., first - 2])).any())
 
 
 def _merged(sheet, points, residual) -> Mesh:
