@@ -14,6 +14,7 @@ from ..result import Fate, without_return
 DIGITS = 14  # two steps agree to so many; the rule doubles its digits with every halving, so the second is exact to a double
 SPARE = 8  # digits beyond those: terms that are smaller are left out
 AGREED = 9  # the same for a double alone: the next step, twice as many digits, is not taken to see it
+LEFT = 5  # digits that the last step must have beyond those in which it agrees with the one before, by the rate at which the steps draw together
 WEIGHT = 1.7  # log(pi cosh t)/pi, which the weights of the last nodes have beside an exponential
 FINEST = 9  # halvings of the step; the seventh serves a double
 
@@ -79,7 +80,7 @@ def _sum_over(integrand, knots, digits):
 def _tanh_sinh(integrand, a, b, digits):
     """Integral over (a, b); the step is halved until two results agree, each row goes on until its terms vanish."""
     from flint import arb
-    length, rows, before = (b - a).mid(), arb(0), None
+    length, rows, before, changes = (b - a).mid(), arb(0), None, []
     least, agree = arb(10) ** -(digits + SPARE), arb(10) ** -digits
     for level in range(FINEST + 1):
         for row in _rows(level, digits):
@@ -91,10 +92,27 @@ def _tanh_sinh(integrand, a, b, digits):
             else:
                 raise Unclear
         now = rows * arb(2) ** -level
-        if before is not None and level > 2 and abs(now - before) <= agree * now:
-            return now * length
+        if before is not None:
+            change = abs(now - before)
+            changes.append(_power_of_ten((change / now).mid(), 1 - digits - SPARE))  # less than ten times what the rows leave out says nothing
+            if level > 2 and change <= agree * now and power_of_error(*changes[-3:]) <= -digits - LEFT:
+                return now * length
         before = now
     raise Unclear
+
+
+def _power_of_ten(value, least) -> float:
+    return max(least, float(value.log_base(10))) if value > 0 else least
+
+
+def power_of_error(first, middle, last) -> float:
+    """Power of ten of the error of a sum over nodes, given the powers of ten of its last three changes as its nodes were doubled.
+
+    The error is C r^n for n nodes, but its sign goes round, and two sums may agree by chance. So the rate is told by either ratio of changes, the size by
+    its own change or by the one before, and the largest error counts; as `converged` in `extremes.circle_kernel`, which needs NumPy.
+    """
+    a, b, c = first, middle, last
+    return max(3 * c - 2 * b, c + 4 * (b - a), b + 2 * (c - a), 7 * b - 6 * a)
 
 
 @lru_cache(maxsize=64)

@@ -15,10 +15,11 @@ from ..ball_orbit import Orbit
 from ..extremes.balls import turning_points
 from ..potential import potential
 from ..result import Fate, without_return
-from .balls import precise_period
+from .balls import power_of_error, precise_period
 
-NODES = (16, 32, 64, 128, 256, 512)
+NODES = (4, 8, 16, 32, 64, 128, 256, 512)
 AGREE = 1e-11  # two rules agree to this: the error of a geometric rule is squared by doubling its nodes
+LEFT, FLOOR = -13.0, 4e-15  # power of ten of the error by the rate of three changes, for two rules may agree by chance; a change that is but rounding
 ENDS = 1e-11  # change of the force over the rounding of an end, as far as it tells on the period: next to a barrier it is the energy's
 SHARP = 1e-11  # relative error that rounding may leave in E - V, as for the periods of arrays
 
@@ -91,11 +92,14 @@ def _demand_sharp(orbit, spot):
 
 
 def _midpoint(integrand, length) -> float:
-    before = None
+    before, changes = None, []
     for n in NODES:
         step = length / n
         now = step * math.fsum(integrand((k + 0.5) * step) for k in range(n))
-        if before is not None and abs(now - before) <= AGREE * abs(now):
-            return now
+        if before is not None:
+            change = abs(now - before) / abs(now)
+            changes.append(math.log10(change + FLOOR))
+            if n > NODES[2] and change <= AGREE and power_of_error(*changes[-3:]) <= LEFT:
+                return now
         before = now
     raise Unclear
