@@ -34,9 +34,9 @@ class Drawn:
         axis = next(i for i in range(3) if self.torque[i])
         return f"D = {self.moments}, lambda = {self.wheel}, M{axis + 1} = {self.torque[axis]}".replace(".0,", ",").replace(".0)", ")")
 
-    def states(self, count: int) -> np.ndarray:
-        """(count, 3) states, from a tenth of the rates that wheel and torque bring about to ten times these, all directions alike."""
-        rng = np.random.default_rng([SEED, self.number])
+    def states(self, count: int, again: int = 0) -> np.ndarray:
+        """(count, 3) states, from a tenth of the rates that wheel and torque bring about to ten times these, all directions alike; others when drawn again."""
+        rng = np.random.default_rng([SEED, self.number, again] if again else [SEED, self.number])
         wheel, torque, least = math.hypot(*self.wheel), math.hypot(*self.torque), min(self.moments)
         rate = wheel / least + math.sqrt(torque / least)
         way = rng.normal(size=(count, 3))

@@ -24,6 +24,8 @@ from .rows import Row, numba_available
 SCENES = 200
 STATES = 20_000     # of ours; theirs are asked of `SAMPLE` of them
 SAMPLE = 32
+HELD = 1000         # bounded motions at least: where a scene has few, of as many states as it takes, for a call has costs of its own
+DRAWS = 500         # times that states are drawn for that
 CLEAR = 1e-6        # of the kinetic energy: nearer to the separatrix heyoka's run may pass it by rounding, and never ends
 ROUNDS = 3
 PATIENCE = 0.4      # s for a call: of slower questions fewer states are asked
@@ -107,6 +109,8 @@ def _scene(one: Drawn, small, told):
     found[0] = Measured(found[0].question, name, max(found[0].ours - found[1].ours * len(states), 1e-6), float("nan"))
     bounded = decided.labels == Fate.BOUNDED
     held, part = states[bounded], states[bounded & clear][:8 if small else SAMPLE]
+    if not small:
+        held = _enough(one, held)
     if len(part) > 3:
         for question, ask, other in (("extremes", extremes, SceneEvents(scene)), ("period", period, TurningTimes(scene))):
             theirs = _pace(other, part, rounds)
@@ -117,6 +121,17 @@ def _scene(one: Drawn, small, told):
     if told:
         print(one.number, one.kind, ", ".join(f"{m.question} {_time(m.ours)} ({m.ratio:.3g})" for m in found), file=told, flush=True)
     return found
+
+
+def _enough(one, held):
+    """At least `HELD` bounded states of the scene's own sort, beginning with these."""
+    found = [held]
+    for again in range(1, DRAWS):
+        if not sum(map(len, found)) or sum(map(len, found)) >= HELD:
+            break
+        more = one.states(STATES, again)
+        found.append(more[fate(one.scene, more).labels == Fate.BOUNDED])
+    return np.concatenate(found)
 
 
 def ways():
