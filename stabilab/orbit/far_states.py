@@ -52,6 +52,9 @@ def far_rows(scene, states):
     """(n,) True for the states (n, 3) that `far_exponent` has a unit for."""
     import numpy as np
     own = scene_exponent(scene)
+    # wheel or torque of ordinary size, and no larger rate: all of them are ordinary, told without a row's own size
+    if own is not None and abs(own) <= ORDINARY and len(states) and max(states.max(), -states.min()) < 2.0**ORDINARY:
+        return np.zeros(len(states), bool)
     sizes = np.abs(states).max(axis=1, initial=0.0)
     moving = sizes > 0
     exponents = np.where(moving, np.frexp(sizes)[1], ORDINARY if own is None else own)

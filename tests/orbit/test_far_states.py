@@ -10,6 +10,7 @@ import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.answers.motion import motion
 from stabilab.errors import InputError
+from stabilab.orbit.far_states import far_exponent, far_rows
 from stabilab.orbit.flow.flow import reduced_motion
 from stabilab.orbit.phase_plane import phase_plane
 
@@ -154,3 +155,12 @@ def test_a_command_answers_or_says_what_it_does_not_reach_beyond_the_squares_of_
     assert "fault of the program" not in said and code == (5 if command[0] == "simulate" and rate == 1e160 else 0), said
     assert {"simulate": "followed to 1 s", "1e201": "NEVER", "1e300": "starts at or beyond"}[command[0] if command[0] == "simulate" else command[2]] in out
     assert not any("-" in row.split()[1][1:] for row in out.splitlines()[2:4] if command[0] == "simulate"), "two columns are one"
+
+
+@pytest.mark.parametrize("scene", [Scene(Body((3, 2, 1)), Gyrostat((0, 0.5, 0)), ConstantTorque((1, 0, 0))), Scene(Body((3, 2, 1))),
+                                   Scene(Body((3, 2, 1)), ConstantTorque((2.0**-300, 0, 0)))])
+def test_rows_have_a_unit_of_their_own_where_single_states_have(scene):
+    """Also where no row is large, which is told without a row's own size. At the edge itself the two count exponents from 1/2 and from 1."""
+    rows = [(0.0, 0.0, 0.0), (1.0, -2.0, 0.5), (2.0**98, 0, 0), (-(2.0**102), 1, 1), (0, 2.0**-103, 0), (0, 0, -(2.0**102)), (2.0**-300, 0, 0)]
+    for some in (rows, rows[:3], rows[1:2], rows[:2], rows[3:4], rows[:0]):
+        assert far_rows(scene, np.array(some).reshape(-1, 3)).tolist() == [far_exponent(scene, state) is not None for state in some]
