@@ -14,7 +14,7 @@ from .anchored import ROUNDED, Anchored
 from .places import twofold_places
 
 STEPS = 4
-SETTLED = 1e-15  # of a radian: the next step would be its square
+SETTLED = 1e-13  # of a radian: the next step would be some 1e-26, of which the energy's error takes account
 ENOUGH = 1e-12  # of the way to the nearest other equilibrium, or of a radian: the last step leaves its square
 TWOFOLD = 2.0**-100  # units of rounding of a twofold sum of some terms, by their size
 DRIFT = 1e-3  # of a radian: farther from the doubles' place another equilibrium may have been found
