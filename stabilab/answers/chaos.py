@@ -69,6 +69,8 @@ class Chaos:
             return ("its numbers leave the doubles" if not np.isfinite(self.megno) else
                     f"after {after} MEGNO is {_shown(float(self.megno))}, neither near 2 nor growing with time: follow it for longer")
         before = f"{_shown(self.history[-2])} at half that time"
+        if label == Order.REGULAR and not self.megno < FLAT:
+            return f"it is at rest in the body's frame and stays so, whatever becomes of its neighbours: of them MEGNO tells, {_shown(float(self.megno))} after {after}"
         if label == Order.REGULAR:
             return f"after {after} MEGNO is {_shown(float(self.megno))} ({before}); it tends to 2 on tori, to less where neighbours stay or come together"
         return f"after {after} MEGNO is {_shown(float(self.megno))} ({before}): it grows with time, neighbours part exponentially"
@@ -83,7 +85,8 @@ def chaos(scene: AnyScene, states: ArrayLike, until: float | None = None, tell: 
     """Whether the motions from states (..., N) of a scene are regular or chaotic: three rates, or all blocks of a longer state in order.
 
     By MEGNO, from variational equations derived from the scene's own (see `unreduced.chaos`), followed until a time of the scene (None: a thousand turns of a
-    motion of middling pace). Motions whose fate is spin-up are not followed. Works for every effect. A label is what was seen up to that time: "regular" is
+    motion of middling pace). Motions whose fate is spin-up are not followed; a state at rest is regular, however fast its neighbours part. Works for every
+    effect. A label is what was seen up to that time: "regular" is
     no proof, the slowest chaos takes longer. tell(motions done) is called on the way. Raises InputError for other shapes and numbers.
     """
     checked_scene(scene)
@@ -96,13 +99,14 @@ def chaos(scene: AnyScene, states: ArrayLike, until: float | None = None, tell: 
         scene, rows = effective(scene), rows[:, :3].copy()
     turn = turn_of(scene, rows)
     end = TURNS * turn if until is None else float(until)
-    leaving = _leaving(scene, rows, end)
+    fates = _fates(scene, rows, end)
+    leaving = fates == Fate.SPIN_UP
     found = growth(scene, rows[~leaving], end, turn, tell) if not leaving.all() else None
     times = end / 2.0 ** np.arange(5, -1, -1) if found is None else found.times
     history = np.full((len(rows), len(times)), np.nan)
     if found is not None:
         history[~leaving] = found.megno
-    labels = np.where(leaving, Order.SPIN_UP, _labels(history))
+    labels = np.where(leaving, Order.SPIN_UP, np.where(fates == Fate.EQUILIBRIUM, Order.REGULAR, _labels(history)))
     rate, error = _rates(history, times, labels)
     shaped = lambda values: values.reshape(array.shape[:-1] + values.shape[1:])[()]
     return Chaos(shaped(labels), shaped(history[:, -1]), times, shaped(history), shaped(rate), shaped(error), turn, scene)
@@ -121,12 +125,12 @@ def row_of(scene: AnyScene, state: Sequence[float], blocks: Mapping[str, Sequenc
     return [float(value) for name in scene.blocks for value in parts[name]]
 
 
-def _leaving(scene: AnyScene, rows: np.ndarray, end: float) -> np.ndarray:
-    """(n,): whether a motion is known to spin up."""
+def _fates(scene: AnyScene, rows: np.ndarray, end: float) -> np.ndarray:
+    """(n,): what becomes of each motion."""
     if scene.plain:
-        return np.asarray(fate(scene, rows, follow=end).labels == Fate.SPIN_UP)
+        return np.asarray(fate(scene, rows, follow=end).labels)
     parts = slices(scene.blocks)
-    return np.array([motion(scene, {name: row[part].tolist() for name, part in parts.items()}, brief=True).fate == Fate.SPIN_UP for row in rows], bool)
+    return np.array([motion(scene, {name: row[part].tolist() for name, part in parts.items()}, brief=True).fate for row in rows], int)
 
 
 def _labels(history: np.ndarray) -> np.ndarray:

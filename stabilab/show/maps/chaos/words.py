@@ -5,7 +5,7 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from ....answers.chaos import Chaos, Order
+from ....answers.chaos import FLAT, Chaos, Order
 from ....errors import printable
 from ...files import comma
 from ...text import law
@@ -23,10 +23,11 @@ def text(rows: list[tuple[Any, Chaos]]) -> str:
 def _of_one(case: Any, found: Chaos) -> str:
     """The answer first; then what it means for a small change, and MEGNO at each doubling of the time."""
     label, unit = Order(int(found.labels)), _unit(case)
-    lines = [f"{printable(case.name)}: {FIRST[label]}: {found.because}"]
+    resting = label == Order.REGULAR and not found.megno < FLAT
+    lines = [f"{printable(case.name)}: {'REGULAR' if resting else FIRST[label]}: {found.because}"]
     if label == Order.CHAOTIC:
         rate, error = float(found.lyapunov), float(found.lyapunov_error)
-        lines.append(f"  neighbours part at {rate:.3g} ± {error:.1g} per {unit}: a small change doubles in {math.log(2) / rate:.3g} {unit}")
+        lines.append(f"  neighbours part at {rate:.3g} ± {error:.1g} 1/{unit}: a small change doubles in {math.log(2) / rate:.3g} {unit}")
     if label != Order.SPIN_UP:
         lines.append("  an indicator of a finite time, no proof; time and MEGNO:")
         lines += [f"  {time:12.6g} {unit}  {0.0 if abs(value) < 5e-5 else value:9.4f}" for time, value in zip(found.times.tolist(), found.history.tolist())]
