@@ -20,18 +20,20 @@ def verify(certificate, case, json, strict):
     except (Malformed, UnicodeDecodeError) as error:
         raise InputError(f"{certificate}: {error}; expected a certificate of stabilab classify --certify or stabilab bifurcation --certify") from None
     told = about(claims)
-    either(json, lambda: certification.as_dict(found, told), lambda: certification.text(found, line(told)))
+    other = _of_another(cases, told, certificate)
+    either(json, lambda: certification.as_dict(found, told), lambda: certification.text(found, line(told), case if other else ""))
     if found.status == "refuted":
         raise ToleranceNotMet(f"{certificate}: a claim is wrong")
-    if cases:
-        _about_one_of(cases, told, certificate)
+    if other:
+        raise ToleranceNotMet(other)
     leave_undecided(strict, found.status != "proved")
 
 
-def _about_one_of(cases, told, certificate):
-    """Exit with 5 where a certificate is of none of the cases."""
+def _of_another(cases, told, certificate):
+    """What differs where a certificate is of none of the cases; empty where it is of one, or none is named."""
+    if not cases:
+        return ""
     from ..answers.certificate import subject
     apart = [(case, differences(told, subject(case.scene, case.exact_state))) for case in cases]
-    if all(differing for _, differing in apart):
-        raise ToleranceNotMet("\n".join(f"{printable(str(certificate))}: of another case than {case.place}: {words}"
-                                        for case, differing in apart for words in differing))
+    return "" if not all(differing for _, differing in apart) else "\n".join(
+        f"{printable(str(certificate))}: of another case than {case.place}: {words}" for case, differing in apart for words in differing)

@@ -6,6 +6,7 @@ from .form import SCENES
 from .numbers import number, shown
 
 WORDS = {"inertia": "moments", "momentum": "wheel"}
+UNITS = {"inertia": "kg m^2", "momentum": "N m s", "torque": "N m", "state": "rad/s"}  # of a scene that is not scaled
 
 
 def about(certificate: dict) -> dict:
@@ -23,7 +24,8 @@ def line(told: dict) -> str:
     """The line that `stabilab verify` prints first."""
     if "number" in told:
         return diagram.line(told)
-    parts = [f"{WORDS.get(key, key)} {_short(value)}" for key, value in told.items() if key != "variables"]
+    units = UNITS if told.get("variables") == "physical" else {}
+    parts = [f"{WORDS.get(key, key)} {_short(value)} {units.get(key, '')}".rstrip() for key, value in told.items() if key != "variables"]
     return f"about: {', '.join(parts) or 'no scene'}" + ("" if "state" in told or not told else ", no state")
 
 

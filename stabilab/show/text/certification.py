@@ -3,6 +3,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from ...errors import printable
 from ...files import whole_file
 from ..files import endings
 from ..terminal.letters import some
@@ -40,11 +41,12 @@ def summary(certificate: dict) -> str:
     return "\n".join(lines + [f"not certified: {why}" for why in certificate["uncertified"]])
 
 
-def text(found, first: str) -> str:
-    """The verdict on the whole, what it is about, then one line a claim."""
+def text(found, first: str, other: str = "") -> str:
+    """The verdict on the whole, what it is about, then one line a claim. other: the case that it should be of and is not."""
     lines = [*(f"{f.status:<12} {f.claim}{f': {f.reason}' if f.reason else ''}" for f in found.findings)]
     silent = f"; nothing is claimed of: {', '.join(found.silent)}" if found.silent else ""
-    return "\n".join([f"{found.status.upper()}: {_count(found)}{silent}", first, *lines])
+    another = f"OF ANOTHER CASE than {printable(str(other))}; its own claims: " if other else ""
+    return "\n".join([f"{another}{found.status.upper()}: {_count(found)}{silent}", first, *lines])
 
 
 def _count(found) -> str:
