@@ -20,14 +20,15 @@ def when(cases, limits, units, json, csv, strict):
         limit = stated_limit(case, **limits)
         with blamed_on(case):
             answered.append((case, limit, time_of_case(case, limit.ask, limit.until)))
+    laws = [law.until(case, found.validity, float(found.high)) for case, _, found in answered]
     if json:
-        write(answers.as_json([shown.as_dict(*one) | law.key(one[2].validity) for one in answered]))
+        write(answers.as_json([shown.as_dict(*one) | law.key(held) for one, held in zip(answered, laws)]))
     elif csv:
-        say_laws([(case, found.validity) for case, _, found in answered])
+        say_laws([(case, held) for (case, *_), held in zip(answered, laws)])
         write(shown.csv(answered))
     else:
         texts = [lambda n=n: shown.text(*answered[n], systems[n]) for n in range(len(answered))]
-        tell_all(loaded, texts, [found.validity for *_, found in answered], [""] * len(loaded), False, "\n",
+        tell_all(loaded, texts, laws, [""] * len(loaded), False, "\n",
                  lambda of: shown.swept([answered[n] for n in of], systems[of[0]]), systems)
     leave_undecided(strict, any(shown.unknown(found) for *_, found in answered))
-    hold_laws(strict, (found.validity for *_, found in answered))
+    hold_laws(strict, laws)

@@ -30,6 +30,12 @@ def angles(q: ArrayLike) -> np.ndarray:
     return np.stack([np.arctan2(r[2][1], across), np.arctan2(-r[2][0], r[2][2]), np.arctan2(-r[0][1], r[1][1])], axis=-1)
 
 
+def vertical(found: ArrayLike) -> np.ndarray:
+    """Inertial axis 3 in the body (..., 3) at 3-1-2 angles (..., 3), rad: the third row of Rz Rx Ry."""
+    psi, phi, _ = np.moveaxis(np.asarray(found, float), -1, 0)
+    return np.stack([-np.cos(psi) * np.sin(phi), np.sin(psi), np.cos(psi) * np.cos(phi)], axis=-1)
+
+
 def beyond(found: ArrayLike) -> np.ndarray:
     """The other 3-1-2 angles (..., 3) of the same attitudes, with cos psi < 0 where `found` has cos psi > 0."""
     psi, phi, theta = np.moveaxis(np.asarray(found, float), -1, 0)

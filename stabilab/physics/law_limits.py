@@ -33,7 +33,7 @@ class Validity:
     value: its largest value over the motion, a float; for several motions an array, one each; None where it hangs on a part of
     the state that was not given. limit: what it must not exceed. holds: whether no number of the scene exceeds its limit (an array likewise,
     which has True too where no known one does; None: no known one does, and not all are known). over: where the value was looked for. follows: what a
-    number beyond the limit means; source: of the law.
+    number beyond the limit means; source: of the law; needs: what of the state it hangs on.
     """
 
     effect: str
@@ -44,6 +44,7 @@ class Validity:
     over: str
     follows: str
     source: str
+    needs: str = "a part of the state"
     also: tuple[Validity, ...] = ()
 
     @property
@@ -83,7 +84,7 @@ class Validity:
 
     def _measured(self) -> str:
         if self.value is None:
-            return f"{self.number}: it needs a part of the state that is not given, limit {self.limit:g}"
+            return f"{self.number}: it needs {self.needs}, which is not given, limit {self.limit:g}"
         size = "unbounded" if math.isinf(_largest(self.value)) else f"{float(f'{_largest(self.value):.3g}'):g}"
         return f"{self.number}, {size} {self.over}, limit {self.limit:g}"
 
@@ -198,7 +199,7 @@ def of_values(scene: AnyScene, value_of: Callable[[Limit], float | np.ndarray | 
         for limit in effect.limits(scene):
             value = value_of(limit)
             holds = None if value is None else value <= limit.limit
-            found.append(Validity(effect.name, limit.number, value, limit.limit, holds, over, limit.follows, limit.source))
+            found.append(Validity(effect.name, limit.number, value, limit.limit, holds, over, limit.follows, limit.source, limit.needs))
     return _together(found)
 
 

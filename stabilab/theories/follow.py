@@ -8,6 +8,7 @@ from importlib import import_module
 from ..answers.simulate import Simulation, simulate
 from ..errors import InputError
 from ..physics.approximate import limits_of
+from ..physics.attitude import vertical
 
 # model -> the modules that may have it, each with `applies(scene)` and `follow(model, case, times, order)`
 FAMILIES = ("charged.model", "cavity.model", "top.model")
@@ -54,4 +55,5 @@ def follow(case, times, model: str = "exact", method: str | None = None, rtol: f
     limits = limits_of(case.scene)
     if limits is None or "omega" not in run.state or not len(run.t):
         return run
-    return replace(run, validity=limits.along(case.scene, run.state, "at the times told"))
+    known = {"gamma": vertical(run.state["angles"])} if "angles" in run.state else {}
+    return replace(run, validity=limits.along(case.scene, known | run.state, "at the times told"))

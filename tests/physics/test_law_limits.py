@@ -306,3 +306,16 @@ def test_a_table_of_a_sweep_has_one_line_on_a_law_and_says_of_how_many_combinati
     assert f"with the attitude, {farthest:.3g} along" in err
     _, _, err = stabilab("extremes", CASES / "liquid-base.toml", CASES / "liquid-zeta-1_5.toml", "--csv")
     assert err.count("BEYOND THE LAW") == 1 and "(liquid-base, liquid-zeta-1_5)" in err and "s in [" not in err
+
+
+def test_a_charge_is_judged_by_the_attitude_that_a_case_gives_in_every_question(stabilab):
+    """At the start the attitude is the unit one, so cos sigma departs from the constant by 1/cos 0.37 - 1 = 0.0726; the body soon turns farther."""
+    path = CASES / "charged-body.toml"
+    _, soon, _ = stabilab("when", path, "--rate", "20 deg/s")
+    _, late, _ = stabilab("when", path, "--rate", "100 deg/s", "--strict")
+    assert "within the law" in soon and "0.0726 along the run" in soon and late.startswith("BEYOND THE LAW: charge")
+    assert stabilab("when", path, "--rate", "100 deg/s", "--strict")[0] == 3
+    _, modelled, _ = stabilab("simulate", path, "--at", "0,0.5", "--model", "corrected")
+    assert "within the law" in modelled.split("\n")[0] and "0.0726 at the times told" in modelled
+    _, unknown, _ = stabilab("fate", CASES / "liquid-base.toml")
+    assert "it needs the attitude, which is not given" in unknown

@@ -25,7 +25,7 @@ class Limit:
     """Up to where an approximate law may be used: a dimensionless number that must not exceed `limit`.
 
     number: its name and formula; value: {block of the state: its components} -> the number, for components of any shape alike, None
-    where the state has no block that it asks for; follows: what follows beyond the limit, in words; source: of law and limit.
+    where the state has no block that it asks for; follows: what follows beyond the limit, in words; source: of law and limit; needs: of the state, in words.
     """
 
     number: str
@@ -33,6 +33,7 @@ class Limit:
     value: Callable[[Mapping[str, tuple[Number, ...]]], Number | None]
     follows: str
     source: str
+    needs: str = "a part of the state"
 
 
 @record

@@ -83,7 +83,7 @@ class Charge(Effect):
             return abs(state["gamma"][2] / constant - 1) if "gamma" in state else None
         return (Limit("change of cos sigma, held constant, with the attitude", SHARE, departure,
                       "axis 3 turns away from the field, and the charge's torque with it: angle = \"attitude\" follows that",
-                      "Galal et al., charged body: eq. (3) ff."),)
+                      "Galal et al., charged body: eq. (3) ff.", "the attitude"),)
 
     @property
     def needs(self) -> tuple[str, ...]:  # type: ignore[override]  # a constant of the other effects, here told by the values

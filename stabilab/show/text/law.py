@@ -1,6 +1,7 @@
 """How far approximate laws hold: the first line of a text, a key of JSON, a line of a picture, an exit code."""
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 from ...case.attitude import vertical_of
@@ -35,14 +36,15 @@ def beyond(*found) -> bool:
     return any(v is not None and not v.held for v in found)
 
 
-def of_case(case):
-    """Of a case's own motion over its span (15 units of time without one), at rest where it has none; None where all laws are exact."""
+def of_case(case, span=None):
+    """Of a case's own motion over a span, its own where None is given (15 units of time without one), at rest where it has none; None where all laws
+    are exact."""
     limits = limits_of(case.scene)
     if limits is None:
         return None
     if case.state is None:
         return limits.validity(case.scene, (0.0,) * 3, "at rest")
-    span = case.span or (0.0, 15.0)
+    span = span or case.span or (0.0, 15.0)
     if "attitude" in case.blocks:
         from ...integrate.limits_along import law_along
         found = law_along(case.scene, case.state, vertical_of(*case.blocks["attitude"]), span)
@@ -54,9 +56,17 @@ def of_case(case):
 
 def judged(case, motion):
     """The motion with its law judged along the case's own run, where that hangs on the attitude and the case gives one; else as it is."""
-    if motion is None or motion.validity is None or motion.validity.holds is not None or "attitude" not in case.blocks:
-        return motion
-    return replace(motion, validity=of_case(case))
+    return motion if motion is None or not _open(case, motion.validity) else replace(motion, validity=of_case(case))
+
+
+def until(case, found, end: float):
+    """The validity `found`, or that along the case's own run up to a time `end` (its span where that is none) where it hangs on the attitude and the
+    case gives one."""
+    return of_case(case, (0.0, end) if 0 < end < math.inf else None) if _open(case, found) else found
+
+
+def _open(case, validity) -> bool:
+    return validity is not None and validity.holds is None and "attitude" in case.blocks
 
 
 def of_cases(cases) -> str:
