@@ -27,7 +27,7 @@ def classify(cases, json, strict, certify, out, follow, tilt, units, why):
         write(answers.as_json([answers.classification(*answer) | law.key(held) | uncertain.as_dict(box)
                                for answer, held, box in zip(answered, laws, boxes)]))
     else:
-        texts = [lambda n=n: classification.text(*answered[n], systems[n], why) for n in range(len(answered))]
+        texts = [lambda n=n: uncertain.first(boxes[n], classification.text(*answered[n], systems[n], why)) for n in range(len(answered))]
         tell_all(loaded, texts, laws, [uncertain.text(box) for box in boxes], why, "\n\n", swept_motions([m for *_, m in answered], systems), systems)
     certified = all([proof.certified(case, out) for case in loaded]) if certify else True
     undecided = any(answers.undecided(found, motion) for _, found, motion in answered) or any(map(uncertain.undecided, boxes))

@@ -30,3 +30,13 @@ def test_every_uncertain_number_and_every_place_has_its_unit(stabilab):
         assert words in text
     scaled = stabilab("fate", CASES / "uncertain-minor-axis.toml")[1]
     assert "mu[3] = 1 ± 0.01, motion.x[1] = 2.5 ± 0.025," in scaled and "state = 2.5, 4, 0.1\n" in scaled
+
+
+def test_the_first_line_says_whether_the_answer_holds_for_all_that_the_numbers_may_be(stabilab):
+    first = lambda command, name: stabilab(command, CASES / f"{name}.toml")[1].split("\n")[0]
+    for command in ("fate", "classify"):
+        assert first(command, "uncertain-separatrix").endswith("; BUT within the uncertainties also spin-up about axis 3, positive sense")
+        assert first(command, "uncertain-minor-axis").endswith("; the fate is the same for all that the uncertain numbers may be")
+    for command in (("extremes",), ("period",), ("when", "--rate", "1.5")):
+        assert "middles of the uncertain numbers" in stabilab(command[0], CASES / "uncertain-separatrix.toml", *command[1:])[1]
+    assert "uncertain" not in stabilab("period", CASES / "minor-axis-100.toml")[1]

@@ -14,7 +14,7 @@ def tell_all(cases, texts, laws, boxes, full, between, swept, systems):
     told = []
     for of in sweep.groups(cases):
         words = sweep.text([cases[n] for n in of], *swept(of)) if cases[of[0]].variant else texts[of[0]]()
-        told.append(law.first(law.worst(*(laws[n] for n in of)), words, systems[of[0]]) + "".join(boxes[n] for n in of))
+        told.append(law.first(law.worst(*(laws[n] for n in of)), words, systems[of[0]]) + "".join(dict.fromkeys(boxes[n] for n in of)))
     page.tell("\n\n".join(told))
 
 

@@ -69,6 +69,25 @@ def text(found) -> str:
     return "\n" + "\n".join(lines)
 
 
+def first(found, told: str) -> str:
+    """The text with what the box does to its answer at the end of the first line: whoever reads no further knows whether it holds."""
+    over = found and (found.fate or found.equilibria)
+    if not over:
+        return told
+    answer, *rest = told.split("\n")
+    others = list(dict.fromkeys(w.verdict for w in over.witnesses[1:] if w.verdict != over.witnesses[0].verdict)) if over is found.fate else []
+    subject = "the fate is" if over is found.fate else "they are"
+    words = {"holds": f"{subject} the same for all that the uncertain numbers may be" + (", but for a set of measure zero" if over.but else ""),
+             "depends": f"BUT within the uncertainties also {' or '.join(others) or 'another answer'}",
+             "undecided": f"{subject} undecided within the uncertainties"}[over.answer]
+    return "\n".join([f"{answer}; {words}", *rest])
+
+
+def middles(case) -> str:
+    """A line that follows an answer which the box is not asked for."""
+    return "\n  of the middles of the uncertain numbers; stabilab fate says what their box does" if case.uncertain else ""
+
+
 def _lines(subject, over) -> list[str]:
     holds, depends = SUBJECTS[subject]
     lead = {"holds": f"{holds} all over the box", "depends": f"{depends} on them", "undecided": "undecided over the box"}
