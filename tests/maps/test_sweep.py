@@ -98,6 +98,20 @@ def test_a_period_that_nobody_knows_is_none_and_the_words_say_so():
 
 
 @pytest.mark.slow
+def test_what_has_no_end_and_what_has_no_number_are_told_in_words():
+    """The torque of the case spins this body up: its rates have no end; beside a wheel and a torque on an axis equilibria fill curves."""
+    told = words.text(swept("wheel-and-thruster", {"torque[3]": "0, 204.1, 2000"}, answer="fate,margin,extremes,period,when,equilibria", rate="5000 deg/s"))
+    table = told.split("torque[3]")[1]
+    assert "inf" not in told and "unbounded at 2" in told and "no barrier ahead at 1" in told and "no barrier" in table and "never at 1" in told
+    assert "curves" in table and " -1" not in table
+
+
+def test_a_law_that_does_not_hold_of_the_case_is_told_beside_the_answers():
+    told = words.text(swept("charged-body", {"charge": "0.002, 0.003"}))
+    assert "laws are not judged at every point; of the case as it stands: BEYOND THE LAW: charge: change of cos σ" in told
+    assert "law" not in words.text(swept("minor-axis-100", {"x[1]": "1, 2"}))
+
+
 def test_a_limit_is_asked_of_scenes_without_arrays_too():
     found = swept("top-fast", {"lambda": "0.5, 1"}, answer="when", component="1 = 100")
     for n, share in enumerate(("0.5", "1")):

@@ -15,6 +15,7 @@ from ...orbit.result import Fate
 from ..files import comma
 from ..terminal import page
 from ..terminal.letters import greek
+from ..text import law
 from ..text.answers import Endless, as_json
 from ..units import Unit, units_of
 from .labels import SAMPLE, said, unit
@@ -27,6 +28,11 @@ DOES = {Fate.BOUNDED: ("stay bounded", "stays bounded"), Fate.SPIN_UP: ("spin up
         Fate.SEPARATRIX: ("lie on the separatrix", "lies on the separatrix"), Fate.EQUILIBRIUM: ("are at rest", "is at rest"),
         Fate.UNDECIDED: ("are undecided", "is undecided"), NO_CASE: ("are no case", "is no case")}
 SHORT = {"spin_axis": "axis", "greatest": "most"}  # names of columns in a table
+# what numbers without end mean, the negative first: in a sentence, and in a cell where that is shorter
+INFINITE = {"margin": (("no barrier ahead", "no barrier"), ("no end to the barrier", "endless")), "distance": (("no separatrix",), ("no separatrix",)),
+            "least": (("unbounded",), ("unbounded",)), "greatest": (("unbounded",), ("unbounded",)), "period": (("no period", "none"), ("no period", "none")),
+            "when_low": (("never",), ("never",)), "when_high": (("never",), ("never",))}
+CELLS = {ENDLESS: "curves", OPEN: "not known", NONE: "no case"}
 COUNTS = {ENDLESS: "curves of equilibria", OPEN: "equilibria not all known", NONE: "no case"}
 
 
@@ -34,6 +40,7 @@ def text(found: Swept) -> str:
     """The answer first; then what else was asked, in ranges; a table of the points where there are few."""
     plan = found.plan
     lines = [f"{plan.case.name}: {_answer(found)}", *_details(found)]
+    lines += law.beside(plan.case)
     if found.broken:
         told = f"{found.broken:,} points are no case; the first" if found.broken > 1 else "one point is no case"
         lines.append(f"  {told}: {printable(found.why)}")
@@ -107,7 +114,8 @@ def _unit(plan: Plan, column: Column) -> Unit:
 
 def _range(values: np.ndarray, column: Column, of: str, one: float) -> str:
     finite, name = values[np.isfinite(values)], column.name.replace("_", " ")
-    rest = [f"{words} at {count:,}" for words, count in (("-inf", np.isneginf(values).sum()), ("+inf", np.isposinf(values).sum()),
+    (below, *_), (above, *_) = INFINITE.get(column.name, (("-∞",), ("∞",)))
+    rest = [f"{words} at {count:,}" for words, count in ((below, np.isneginf(values).sum()), (above, np.isposinf(values).sum()),
                                                          ("not known", np.isnan(values).sum())) if count]
     ends = list(dict.fromkeys(f"{end * one + 0.0:.6g}" for end in (finite.min(), finite.max()))) if finite.size else []
     told = " to ".join(ends) + (f" {of}" if of else "") if ends else "no finite value"
@@ -190,6 +198,10 @@ def _table(found: Swept) -> list[str]:
 def _cell(value: Any, one: float, kind: str) -> str:
     if kind == "spin_axis":
         return f"{value:+d}" if value else ""
+    if isinstance(value, int) and kind in ("equilibria", "stable", "unstable", "open"):
+        return CELLS.get(value, str(value))
     if not isinstance(value, float):
         return str(value)
+    if math.isinf(value) and kind in INFINITE:
+        return INFINITE[kind][value > 0][-1]
     return "not known" if math.isnan(value) else f"{value * one + 0.0:.6g}"

@@ -8,7 +8,7 @@ from ...case.attitude import vertical_of
 from ...errors import printable
 from ...physics.approximate import limits_of
 from ..terminal.letters import lettered
-from ..units import SI, Units
+from ..units import SI, Units, units_of
 
 
 def first(validity, text: str, units: Units = SI) -> str:
@@ -67,6 +67,12 @@ def until(case, found, end: float):
 
 def _open(case, validity) -> bool:
     return validity is not None and validity.holds is None and "attitude" in case.blocks
+
+
+def beside(case) -> list[str]:
+    """A line beside answers at many points, where a law is not judged; none where all are exact."""
+    found = of_case(case)
+    return [] if found is None else [f"  laws are not judged at every point; of the case as it stands: {_told(found, units_of(case))}"]
 
 
 def of_cases(cases) -> str:

@@ -11,6 +11,7 @@ from ....maps.basins.ask import BOUNDED, NO_AXIS, UNDECIDED, Basins
 from ....maps.basins.mesh import leaves
 from ....maps.columns import LEVELS
 from ...files import comma
+from ...text import law
 from ...text.answers import as_json
 
 SCHEMA = "stabilab.basin/1"
@@ -29,6 +30,7 @@ def text(found: Basins) -> str:
     lines += [f"  {line}" for line in (*_boundary(found), _known(found))]
     full = (mesh.cells[0] << mesh.depth) + 1, (mesh.cells[1] << mesh.depth) + 1
     lines.append(f"  {len(mesh.keys):,} states asked, of {full[0] * full[1]:,} of the grid of finest cells ({full[0]:,} x {full[1]:,})")
+    lines += law.beside(found.plan.case)
     if mesh.full:
         lines.append("  refinement ended before the depth asked for: more than the largest number of states would be needed; take a smaller depth or plane")
     return "\n".join(lines)
