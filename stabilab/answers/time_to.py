@@ -103,7 +103,7 @@ def of_one(scene: AnyScene, state: Any, start: Any, limit: Limit, end: Fraction 
     last = end if repeats is None or (end is not None and end < repeats) else Fraction(repeats)
     before = earliest(scene, start, limit)
     if last is not None and before > last:
-        return after_a_period(limit) if last is not end else Found(_down(last), math.nan, "proved", f"{limit.words}: not reached by t_max: the torque "
+        return after_a_period(limit) if last is not end else Found(_down(last), math.nan, "proved", f"{limit.words}: not reached by the end of the search: the torque "
                                                                    "could not bring the energy for it sooner")
     proof = enclosed(scene, start, limit, last, work, before)
     if proof.high is not None:
@@ -120,7 +120,7 @@ def _at_the_end(proof: Any, limit: Limit, whole: Any, unit: Any) -> Found:
                                                            "whether it is reached cannot be told")
     if whole:
         return after_a_period(limit)
-    return Found(_down(proof.until), math.nan, "proved", f"{limit.words}: not reached by t_max, the motion enclosed")
+    return Found(_down(proof.until), math.nan, "proved", f"{limit.words}: not reached by the end of the search, the motion enclosed")
 
 
 def _beyond_integers(scene: AnyScene, state: Any, start: Any, limit: Limit, end: Fraction | None, known: float, bands: int, spun: Any) -> Found:

@@ -72,7 +72,7 @@ def _resisted(parts: Content, T0) -> tuple[Fate, str, dict]:
     found = resisted_equilibria(parts)
     drawn = [p for p in found.points if GLOBAL in p.because]
     if drawn:
-        where = "it tends to the equilibrium (" + ", ".join(f"{v:.12g}" for v in drawn[0].at) + "), as every motion does"
+        where = "it tends to the equilibrium (" + ", ".join(f"{v:.12g}" for v in drawn[0].at) + ") rad/s, as every motion does"
     else:
         attracting = sum(p.verdict == "asymptotically stable" for p in found.points)
         where = f"where it tends is undecided: {attracting} of {len(found.points)} equilibria attract their neighbourhood, and no proof covers all motions"

@@ -149,6 +149,7 @@ def seen_over(scene, state, span) -> dict:
                          "invariant_drift": max(seen.drift.values(), default=0.0)}}
 
 
-def size_words(evidence) -> str:
-    return (f"from {evidence['size_start']:.6g} to {evidence['size_end']:.6g} (largest {evidence['size_largest']:.6g}), "
+def size_words(evidence, unit: str) -> str:
+    """How the size of the rates went. unit: with a space before, or nothing of a scaled case."""
+    return (f"from {evidence['size_start']:.6g} to {evidence['size_end']:.6g}{unit} (largest {evidence['size_largest']:.6g}{unit}), "
             f"and its energy {evidence['energy_trend']}")

@@ -56,7 +56,7 @@ def motion(scene, state, span=None, exact=None, brief: bool = False, follow: flo
     if found.fate == Fate.UNDECIDED and "an island is seen" in found.cause:
         fields["because"] += _middle(scene, found.state)
     if seen and found.fate == Fate.UNDECIDED:
-        fields["because"] += "; over the span its size went " + size_words(seen["evidence"])
+        fields["because"] += "; over the span the size of its rates went " + size_words(seen["evidence"], "" if scene.variables == "scaled" else " rad/s")
     return Motion(**fields | seen | {"evidence": {**seen.get("evidence", {}), **known}})
 
 

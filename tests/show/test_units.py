@@ -1,5 +1,6 @@
 """The units of people: one home, the definitions of degree, minute and hour, and the decimals that tell two bounds apart."""
 import math
+import re
 from fractions import Fraction
 
 import pytest
@@ -7,6 +8,7 @@ import pytest
 from stabilab import load
 from stabilab.errors import InputError
 from stabilab.show.units import DEG, SCALED, SI, bracket, number, units_of
+from tests.shared import CASES
 
 CASE = """[body]
 inertia = [12, 9, 5]
@@ -79,3 +81,17 @@ def test_a_scaled_case_has_no_units():
     with pytest.raises(InputError, match="--units"):
         units_of(load("cases/minor-axis-100.toml"), "grad")
     assert units_of(load("cases/minor-axis-100.toml"), "si") is SCALED
+
+
+def test_an_equilibrium_and_a_size_in_the_reasons_are_in_the_units_of_the_rest(stabilab, tmp_path):
+    """The place where the motion ends is told twice on this page, once in the reason: both in the units asked for."""
+    path = tmp_path / "resisted.toml"
+    path.write_text("[body]\ninertia = [9.5, 9.3, 9.0]\n[effects.resistance]\ncoefficient = 0.02\n[effects.constant_torque]\ntorque = [0.01, 0, -0.06]\n"
+                    "[motion]\nangular_velocity = [0.1, 0, 1]\nspan = [0, 20]\n", encoding="utf-8")
+    for units, name, digits in (("deg", "deg/s", 5), ("si", "rad/s", 6)):
+        out = stabilab("classify", path, "--units", units)[1]
+        reason, place = (re.search(rf"{before}\((\S+), (\S+), (\S+)\) {name}", out) for before in ("tends to the equilibrium ", "stable   "))
+        assert [f"{float(v):.{digits - 1}g}" for v in reason.groups()] == [f"{float(v):.{digits - 1}g}" for v in place.groups()]
+    out = stabilab("fate", CASES / "off-axis-one.toml", "--follow", "20 s")[1]
+    start = math.degrees(math.hypot(0.9, 0.5, 0.3))
+    assert f"the size of its rates went from {start:.5g} to" in out and "times the spin" in out

@@ -38,6 +38,7 @@ def proved(scene, state, found: SpinUp, steps: int | None = None, bits: int | No
     before: Any = found.trap  # of a motion off the axes of symmetry
     scene = effective(checked_scene(scene))
     own, unit = natural(scene)
+    rates = "" if scene.variables == "scaled" else " rad/s"
     test = tests_of(own).certifier(before.field, before.orders, fast)
     way = _Way(scene, state, found.t * LATER[-1], bits, plain)
     for later in LATER:
@@ -49,7 +50,7 @@ def proved(scene, state, found: SpinUp, steps: int | None = None, bits: int | No
         if got.good[0]:
             constants = (float(getattr(got, name)[0]) for name in ("A", "z", "eta", "z_up", "eta_up", "k"))
             trap = Trap(before.field, before.form, before.orders, *constants, unit, way.t)  # type: ignore[call-arg]  # six constants
-            words = found.cause.replace("is certified", "is proved") + f"; the way there is enclosed, within {near:.2g} at t = {way.t:.6g}"
+            words = found.cause.replace("is certified", "is proved") + f"; the way there is enclosed, within {near:.2g}{rates} at t = {way.t:.6g}"
             return replace(found, level="proved", trap=trap, t=way.t, state=tuple(middle.tolist()), cause=words)
         if not found.t:
             break

@@ -44,7 +44,7 @@ def _look(form, state, unit):
         return 4, ""
     if cone > WIDE:
         return 4, ""
-    return (2, f"wide cone about axis {axis}: the transverse motion is {cone:.2g} of the spin, which gains only in the mean") if cone > 0.3 else (
+    return (2, f"wide cone about axis {axis}: the transverse motion is {cone:.2g} times the spin, which gains only in the mean") if cone > 0.3 else (
         3, f"spin along the torque about axis {axis}, whose rate swings by much more than the torque gives it")
 
 
