@@ -70,7 +70,8 @@ class Chaos:
                     f"after {after} MEGNO is {_shown(float(self.megno))}, neither near 2 nor growing with time: follow it for longer")
         before = f"{_shown(self.history[-2])} at half that time"
         if label == Order.REGULAR and not self.megno < FLAT:
-            return f"it is at rest in the body's frame and stays so, whatever becomes of its neighbours: of them MEGNO tells, {_shown(float(self.megno))} after {after}"
+            return (f"it is at rest in the body's frame and stays so, whatever becomes of its neighbours: of them MEGNO tells, "
+                    f"{_shown(float(self.megno))} after {after}")
         if label == Order.REGULAR:
             return f"after {after} MEGNO is {_shown(float(self.megno))} ({before}); it tends to 2 on tori, to less where neighbours stay or come together"
         return f"after {after} MEGNO is {_shown(float(self.megno))} ({before}): it grows with time, neighbours part exponentially"

@@ -103,8 +103,8 @@ def of_one(scene: AnyScene, state: Any, start: Any, limit: Limit, end: Fraction 
     last = end if repeats is None or (end is not None and end < repeats) else Fraction(repeats)
     before = earliest(scene, start, limit)
     if last is not None and before > last:
-        return after_a_period(limit) if last is not end else Found(_down(last), math.nan, "proved", f"{limit.words}: not reached by the end of the search: the torque "
-                                                                   "could not bring the energy for it sooner")
+        return after_a_period(limit) if last is not end else Found(
+            _down(last), math.nan, "proved", f"{limit.words}: not reached by the end of the search: the torque could not bring the energy for it sooner")
     proof = enclosed(scene, start, limit, last, work, before)
     if proof.high is not None:
         return Found(_down(proof.low), _up(proof.high), "proved", f"{limit.words}: the motion enclosed, its first crossing by roots")

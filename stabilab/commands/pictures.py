@@ -61,7 +61,10 @@ def plot(case, kind, out, size, dpi, until, neighbours, units, strict):
             end = time_asked(until, one, "until")
             drawn.append(to_file.write(one, endings.labelled(target, one), kind, to_file.inches(size), dpi, units, end, neighbours))
     laws = [law.of_case(one) for one in loaded]
-    write("\n".join(words for held, path in zip(laws, drawn) for words in (held and lettered(held.words), str(path)) if words))
+    for held, path in zip(laws, drawn):
+        if held is not None:
+            tell(lettered(held.words))
+        write(str(path))
     hold_laws(strict, laws)
 
 

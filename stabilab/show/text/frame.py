@@ -41,8 +41,8 @@ def lines(case) -> list[str]:
     for number, (moment, axis) in enumerate(zip(frame.moments, frame.axes), 1):
         nearest = max(range(3), key=lambda j: abs(axis[j]))
         angle = math.degrees(math.atan2(math.sqrt(sum(float(v) ** 2 for j, v in enumerate(axis) if j != nearest)), abs(float(axis[nearest]))))
-        told.append(f"  axis {number}  ({', '.join(f'{float(v):.12g}' for v in axis)}), {angle:.6g} deg from {'+' if axis[nearest] > 0 else '-'}"
-                    f"{'xyz'[nearest]}, moment {float(moment):.12g} kg m^2")
+        told.append(f"  axis {number}  ({', '.join(f'{float(v):.6g}' for v in axis)}), {angle:.6g} deg from {'+' if axis[nearest] > 0 else '-'}"
+                    f"{'xyz'[nearest]}, moment {float(moment):.6g} kg m^2")
     return told
 
 

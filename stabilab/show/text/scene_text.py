@@ -2,14 +2,17 @@
 from __future__ import annotations
 
 import math
+from fractions import Fraction
 
 from ...physics.effects.base import effect_words
 from ...physics.equations import derive
 from ...physics.laws import invariants
 from ..terminal.letters import lettered, written
-from ..units import parameter_unit
+from ..units import DIGITS, number, parameter_unit, units_of
 from . import frame
 from .notation import latex, lines
+
+SHORT = 12  # letters of a ratio that is told as such
 
 
 def text(case) -> str:
@@ -37,7 +40,8 @@ def _head(case) -> str:
     if case.scaling:
         rows.append(f"  one unit of tau is {float(case.scaling.time):.6g} s; "
                     f"omega_j = {', '.join(f'{float(r):.6g}' for r in case.scaling.rate)} times x_j (rad/s)")
-    rows += [f"  motion from {case.state}"] if case.state else []
+    units = units_of(case)
+    rows += [f"  motion from {units.vector(case.state[:3], units.rates, DIGITS)}"] if case.state else []
     rows += [f"  good to 240 bits, as their unit holds pi: {', '.join(case.inexact)}"] if case.inexact else []
     rows += [f"  note: {note}" for note in case.notes]
     return "\n".join(rows) + "\n"
@@ -49,9 +53,9 @@ def _craft(case) -> list[str]:
     for t in case.thrusters:
         cone = "" if t.misalignment is None else f", within {math.degrees(t.misalignment):.6g} deg"
         off = "" if t.force_tolerance is None else f" ± {float(t.force_tolerance):.6g}"
-        lines.append(f"thruster {t.name}{' (stuck)' if t.stuck else ''}: {float(t.force):.12g}{off} N along {_triple(t.direction)}{cone} at "
+        lines.append(f"thruster {t.name}{' (stuck)' if t.stuck else ''}: {_number(t.force)}{off} N along {_triple(t.direction)}{cone} at "
                      f"{_triple(t.position)} m, torque {_triple(t.torque)} N m, all in the frame of the file")
-    lines += [f"wheel {w.name}: {float(w.momentum):.12g} N m s about {_triple(w.axis)} in the frame of the file" for w in case.wheels]
+    lines += [f"wheel {w.name}: {_number(w.momentum)} N m s about {_triple(w.axis)} in the frame of the file" for w in case.wheels]
     if case.limits:
         words = f"|omega| up to {_degrees(case.limits.rate)}" if case.limits.rate is not None else (
             f"components up to {', '.join(map(_degrees, case.limits.rates))} in the frame of the file")
@@ -60,15 +64,21 @@ def _craft(case) -> list[str]:
 
 
 def _degrees(rate) -> str:
-    return f"{math.degrees(rate):.12g} deg/s"
+    return f"{math.degrees(rate):.6g} deg/s"
 
 
 def _triple(vector) -> str:
-    return f"({', '.join(f'{float(v):.9g}' for v in vector)})"
+    return f"({', '.join(map(_number, vector))})"
+
+
+def _number(value) -> str:
+    """A number as it was given, where that is a short decimal; six digits of any other."""
+    given = f"{float(value):.9g}"
+    return given if Fraction(given) == Fraction(str(value)) else number(float(value), DIGITS)
 
 
 def _values(effect) -> str:
-    return ", ".join(f"{written(name)} = {float(v):.15g} {parameter_unit(name)}".rstrip() for name, v in effect.parameters().items())
+    return ", ".join(f"{written(name)} = {_number(v)} {parameter_unit(name)}".rstrip() for name, v in effect.parameters().items())
 
 
 def _parameters(equations, physical) -> str:
@@ -77,11 +87,9 @@ def _parameters(equations, physical) -> str:
 
 
 def _value(v) -> str:
-    """Exact where that is short; else its nearest double."""
-    written = str(v)
-    if "/" not in written:
-        return written
-    return f"{written} = {float(v)!r}" if len(written) <= 24 else f"{float(v)!r}"
+    """Exact where that is short, with its decimal; else the decimal alone."""
+    exact = str(v)
+    return exact if "/" not in exact and len(exact) <= SHORT else f"{exact} = {_number(v)}" if len(exact) <= SHORT else _number(v)
 
 
 def _laws(laws) -> list[str]:
@@ -90,10 +98,10 @@ def _laws(laws) -> list[str]:
 
 
 def _short(expression) -> str:
-    """The expression with rationals that are long rounded to 15 digits."""
+    """The expression with rationals that are long rounded to six digits."""
     from sympy import Rational
-    long = {r: r.evalf(15) for r in expression.atoms(Rational) if len(str(r)) > 24}
-    return written(_products(str(expression.xreplace(long))))
+    long = {r: r.evalf(DIGITS) for r in expression.atoms(Rational) if len(str(r)) > SHORT}
+    return lettered(_products(str(expression.xreplace(long))))
 
 
 def _products(formula: str) -> str:
