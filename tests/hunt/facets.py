@@ -128,7 +128,7 @@ def _from_lobe(lobe, place):
     first = _apart(lobe, place, t, turned)
     if not np.isfinite(first).any():
         return best
-    for n in np.argsort(np.nanmin(first, axis=1))[:BASINS]:
+    for n in np.argsort(np.fmin.reduce(first, axis=1))[:BASINS]:  # rows that are no numbers come last
         centre, width = np.array([t[n], turned[np.nanargmin(first[n])]]), np.array([t[min(n + 2, FIRST - 1)] - t[max(n - 2, 0)], 5 / ROUND])
         while width.max() > 1e-7:
             near = [np.clip(c + w * np.linspace(-1, 1, SCAN), a, b) for c, w, a, b in zip(centre, width, low, high)]
