@@ -167,13 +167,23 @@ class HyperbolaLandscape(ConicLandscape):
     def beside_centre(self, place):
         """(n,) True where an equilibrium may stand so near the centre of a place's hyperbola that the conic, which is known by its
         distance from its asymptotes, loses or invents it."""
-        if not self.conic.pieces:
-            return np.zeros(np.shape(place[0]), bool)
-        c, d, G = (abs(getattr(self.conic, name)) for name in ("c", "d", "G"))
-        near = CENTRE * (c + d) / G  # the force of the wheel there is at most (c + d) times as much
-        if not self.conic.mu <= (c + d) * near:
+        near = self._near_centre()
+        if near is None:
             return np.zeros(np.shape(place[0]), bool)
         return np.sqrt(np.abs(place[0])) * np.sqrt(np.abs(place[1])) <= near
+
+    @property
+    def least_invariant(self) -> float:
+        """The size of Q, in canonical units, above which a place is not `beside_centre`; 0 where none is."""
+        return (self._near_centre() or 0.0) ** 2
+
+    def _near_centre(self):
+        """How near the centre the conic is not to be trusted; None where no equilibrium stands there."""
+        if not self.conic.pieces:
+            return None
+        c, d, G = (abs(getattr(self.conic, name)) for name in ("c", "d", "G"))
+        near = CENTRE * (c + d) / G  # the force of the wheel there is at most (c + d) times as much
+        return near if self.conic.mu <= (c + d) * near else None
 
 
 class ParabolaLandscape(Landscape):

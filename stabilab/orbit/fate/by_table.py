@@ -34,14 +34,69 @@ def label_by_table(table: BarrierTable, states, out, compiled=None) -> np.ndarra
         columns["axis"][:] = columns["labels"] * np.int8(table.axis)
         columns["sense"][:] = columns["labels"] * np.int8(table.sense)
         unsure.append(np.nonzero(found)[0] + start)
-    return np.concatenate(unsure)
+    rows = np.concatenate(unsure)
+    return _looked_at_again(table, states, rows, out["margins"]) if table.fine.size and not compiled else rows
 
 
 def _compiled(table, states, out, compiled):
     unsure = np.empty(len(states), bool)
+    numbers = (table.fine,) if table.fine.size else ()
     compiled[table.e](states, table.axes, table.frame, table.form, table.ranges, table.cells, table.unit, out["margins"],
-                      out["labels"], out["reasons"], unsure)
+                      out["labels"], out["reasons"], unsure, *numbers)
     return unsure
+
+
+def _looked_at_again(table, states, rows, margins):
+    """Of rows (m,) on hyperbolas that the table's doubles leave open, fill the margins that twofold numbers settle, and return the others."""
+    left = [np.zeros(0, np.intp)]
+    for start in range(0, len(rows), CHUNK):
+        part = rows[start:start + CHUNK]
+        found, sure = _fine_margins(table, states[part])
+        margins[part[sure]] = found[sure] * table.unit
+        left.append(part[~sure])
+    return np.concatenate(left)
+
+
+def _fine_margins(table, states):
+    """(margins (m,) in canonical units, which of them are certain) of states on hyperbolas, against the barrier whose place the table knows."""
+    i, j, k = table.axes
+    x, z, w = canonical(table, states)
+    rounding = np.abs(x) + np.abs(z) + table.frame[6]
+    found, sure = np.full(len(states), np.inf), np.zeros(len(states), bool)
+    with np.errstate(all="ignore"):
+        size, clear = _off_edges(table, x, z, rounding)
+        for r, columns in zip(table.ranges, table.columns):
+            rows = _on_range(r, x, z, size, clear)
+            if not rows.size:
+                continue
+            (slope, t), fine, near = _looked_up(columns[ANGLE:], r, size[rows]), table.fine, rounding[rows]
+            X, Z, kinetic = arithmetic.fine_place(*(states[rows, axis] for axis in (i, j, k)), fine)
+            Q = arithmetic.fine_invariant(X, Z)
+            u, v = arithmetic.guessed(arithmetic.angle_polynomial(*slope, t), r[LEAD], Q[0])
+            for _ in range(2):
+                u, v = arithmetic.double_step(u, v, Q[0], table.form)
+            u, v, step, slope = arithmetic.fine_step(u, v, Q, fine)
+            side, end, grown = arithmetic.ratio_of(X, Z, u, v)
+            found[rows], good = arithmetic.fine_margin(X, Z, kinetic, u, v, step, slope, side, end, grown, *np.frexp(1 + grown[0]), near, fine)
+            sure[rows] = good & (np.abs(Q[0]) > fine[20])
+    return found, sure
+
+
+def _off_edges(table, x, z, rounding):
+    """(invariants, whether a place is far from planes, folds and equilibria) of places on hyperbolas."""
+    xi, eta = x + z, x - z
+    size, mu = -xi * eta, table.form[3]
+    clear = np.minimum(np.abs(xi), np.abs(eta)) > arithmetic.PLANE_BOUND * rounding
+    clear &= np.abs(arithmetic.force(x, z, table.form)) > arithmetic.FORCE_BOUND * (arithmetic.terms(rounding, table.form) + mu)
+    for r in table.ranges:
+        clear &= arithmetic.fold_is_clear(size, r[ORIGIN], rounding * rounding)
+    return size, clear
+
+
+def _on_range(r, x, z, size, clear=True):
+    """The rows on whose orbits the barrier of a range stands."""
+    place = x + z if r[LEAD] > 0 else x - z
+    return np.nonzero(clear & (r[LOW] < size) & (size <= r[HIGH]) & (place * r[SIGN] > 0))[0]
 
 
 def canonical(table, states):
@@ -112,17 +167,14 @@ def hyperbola_heights(table, x, z):
     three wells between and beside them, and five equilibria."""
     form, mu = table.form, table.form[3]
     G, c, d, _ = form
-    xi, eta, rounding = x + z, x - z, np.abs(x) + np.abs(z) + table.frame[6]
-    size, scale = -xi * eta, arithmetic.terms(rounding, form)
-    clear = np.minimum(np.abs(xi), np.abs(eta)) > arithmetic.PLANE_BOUND * rounding
-    clear &= np.abs(arithmetic.force(x, z, form)) > arithmetic.FORCE_BOUND * (scale + mu)
-    height = np.full(x.shape, np.inf)
+    rounding = np.abs(x) + np.abs(z) + table.frame[6]
+    size, clear = _off_edges(table, x, z, rounding)
+    scale, height = arithmetic.terms(rounding, form), np.full(x.shape, np.inf)
     for r, columns in zip(table.ranges, table.columns):
-        clear &= arithmetic.fold_is_clear(size, r[ORIGIN], rounding * rounding)
-        place = xi if r[LEAD] > 0 else eta
-        inside = np.nonzero((r[LOW] < size) & (size <= r[HIGH]) & (place * r[SIGN] > 0))[0]
+        inside = _on_range(r, x, z, size)
         coefficients, t = _looked_up(columns, r, size[inside])
-        place, u, v = place[inside], x[inside], z[inside]
+        u, v = x[inside], z[inside]
+        place = u + v if r[LEAD] > 0 else u - v
         tilt = mu * r[LEAD] * arithmetic.logarithm(*np.frexp(np.abs(place)))
         here = arithmetic.height_polynomial(*coefficients[:ANGLE], t) + tilt
         height[inside] = here + ((0.5 * G * u + c) * u + d * v)

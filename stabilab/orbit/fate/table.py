@@ -4,7 +4,8 @@ A barrier's place and height are analytic in u = sqrt|size - fold|, size the rad
 hyperbola, and, where its branch of equilibria runs to infinity, in v = u/(u + width) up to v = 1. Cells of equal length
 in v hold polynomials through Chebyshev points; each cell is checked between its points against the general formula, and
 one that misses by more than `LOSS` units of rounding of the potential's terms is left out: states in it, like all that
-are near a tie, a fold or an equilibrium, are answered by the general formula.
+are near a tie, a fold or an equilibrium, are answered by the general formula. On hyperbolas a cell knows the barrier's place
+too, from which twofold numbers answer what its height leaves open.
 """
 from __future__ import annotations
 
@@ -14,6 +15,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from ...numbers.constants import EPS, TURN
+from ..fine.places import twofold_constant
 from ..landscape import Landscape, landscape
 from .table_kernel import DEGREE
 
@@ -23,6 +25,7 @@ GAPS = 0.01, 0.02, 1.0  # share of cells that may be left out before more are tr
 LOSS = 4.0  # units of rounding: polynomial and general formula take two each
 WORTH = 0.5  # of the gaps: where four times as many cells leave more of these, they are rounding, and no more cells are tried
 ANGLE_LOSS = 1e-5  # turns; a tenth of the distance at which an angle is trusted
+PLACE_LOSS = 1e-4  # relative, of a place on a hyperbola that two steps of Newton's method follow
 CHECKS = np.array([-0.985, -0.85, -0.55, -0.2, 0.3, 0.7, 0.93])  # none of them a Chebyshev point
 
 
@@ -33,7 +36,8 @@ class BarrierTable:
     e: -1 circles, +1 hyperbolas, 0 parabolas, which have neither ranges nor cells: there `ranges` holds (p, p0, b) of a place's way, u' = p v + p0,
     v' = b, and form kappa, rho, sigma, m of the force. axes: indices (i, j, k) of the state's columns. frame: shifts, factors and the rounding
     of the place; form: G, c, d, mu. ranges (B, 11); cells (B, N, 8), NaN where left out. unit: energy of the scene per
-    canonical unit. axis, sense: of a spin-up. gaps: share of the cells that were left out.
+    canonical unit. axis, sense: of a spin-up. gaps: share of the cells that were left out. fine (21,): of hyperbolas, the constants in 32 digits; else
+    empty.
     """
 
     e: int
@@ -46,6 +50,7 @@ class BarrierTable:
     axis: int
     sense: int
     gaps: float
+    fine: np.ndarray
 
     @cached_property
     def columns(self) -> np.ndarray:
@@ -70,7 +75,7 @@ def barrier_table(scene) -> BarrierTable | None:
     frame = (g["sj"], g["flip"] / g["rx"], g["sk"], 1 / g["rz"], float(r.s), g["flip"] * g["n"],
              abs(g["sj"] / g["rx"]) + abs(g["sk"] / g["rz"]))
     return BarrierTable(land.e, (r.axis, r.j, r.k), frame, tuple(g[n] for n in ("G", "c", "d", "mu")), ranges, cells,
-                        r.energy_unit, r.axis + 1, land.sense, gaps)
+                        r.energy_unit, r.axis + 1, land.sense, gaps, _curve_of(land).fine(land))
 
 
 def _without_cells(land: Landscape) -> BarrierTable | None:
@@ -84,7 +89,7 @@ def _without_cells(land: Landscape) -> BarrierTable | None:
     if numbers[0] * r.kappa > 0:
         return None
     return BarrierTable(land.e, (r.axis, j, k), (0.0, 1.0, 0.0, 1.0, float(r.s), 1.0, 0.0), tuple(map(float, form)),  # type: ignore[arg-type]  # four
-                        np.array([numbers], float), np.empty((1, 0, DEGREE + 3)), r.energy_unit, r.axis + 1, land.sense, 0.0)
+                        np.array([numbers], float), np.empty((1, 0, DEGREE + 3)), r.energy_unit, r.axis + 1, land.sense, 0.0, np.empty(0))
 
 
 def _spans(land: Landscape):
@@ -125,7 +130,7 @@ def _tabulated(land, spans):
     for count, allowed in zip(CELLS, GAPS):
         made = [_stretch(land, span, count) for span in spans]
         cells = np.array([c for _, c in made]).reshape(len(spans), count, DEGREE + 3)
-        gaps = float(np.isnan(cells).any(axis=2).mean()) if spans else 0.0
+        gaps = float(np.isnan(cells[:, :, 0]).mean()) if spans else 0.0
         if gaps <= allowed or gaps > WORTH * before:
             break
         before = gaps
@@ -140,13 +145,14 @@ def _stretch(land, span, count):
     v = (np.arange(count)[:, None] + 0.5 * (1 + t)) / count
     size = origin + side * (width * v / (1 - bend * v)) ** 2
     curve = _curve_of(land)(land, piece, np.isinf(high))
-    height, turns, scale = curve.values(size)
+    height, second, scale = curve.values(size)
     at, between = slice(None, DEGREE + 1), slice(DEGREE + 1, None)
-    coefficients = _fit(nodes, height[:, at], DEGREE), _fit(nodes, turns[:, at], 1)
-    miss = np.abs(_value(coefficients[0], t[between]) - height[:, between]).max(axis=1)
-    turn_miss = np.abs(_value(coefficients[1], t[between]) - turns[:, between]).max(axis=1)
-    good = (miss <= LOSS * EPS * scale.min(axis=1)) & (turn_miss <= ANGLE_LOSS)
-    cells = np.where(good[:, None], np.concatenate(coefficients, axis=1), np.nan)
+    heights, seconds = _fit(nodes, height[:, at], DEGREE), _fit(nodes, second[:, at], 1)
+    good = np.abs(_value(heights, t[between]) - height[:, between]).max(axis=1) <= LOSS * EPS * scale.min(axis=1)
+    near = (np.abs(_value(seconds, t[between]) - second[:, between]) <= curve.second_loss(second[:, between])).all(axis=1)
+    good &= near | ~curve.both  # on hyperbolas either serves without the other
+    near &= good | ~curve.both
+    cells = np.concatenate([np.where(good[:, None], heights, np.nan), np.where(near[:, None], seconds, np.nan)], axis=1)
     return [low, high, origin, side, bend, width, curve.growth, *curve.lead_sign_steep_bulk], cells
 
 
@@ -171,6 +177,7 @@ class _Circle:
     lead_sign_steep_bulk = (0.0, 0.0, 0.0, 0.0)
     reaches_out = True  # an open end is tabulated too
     sizes = np.sqrt  # an orbit's size of its invariant
+    both = np.bool_(True)  # whether a cell is of no use without the angle
 
     def __init__(self, land, piece, is_open):
         self.land, self.piece, self.is_open, self.growth = land, piece, is_open, 0.0
@@ -190,6 +197,16 @@ class _Circle:
         height = -pot.mu * offset + self._bounded(x, z, flat)
         scale = TURN * pot.mu + flat * (abs(pot.G) * flat + abs(pot.c) + abs(pot.d))
         return tuple(v.reshape(size.shape) for v in (height, offset / TURN, scale))
+
+    @staticmethod
+    def second_loss(turns):
+        """What a barrier's angle may be off by."""
+        return ANGLE_LOSS
+
+    @staticmethod
+    def fine(land):
+        """No numbers for a second look."""
+        return np.empty(0)
 
     def _on_line(self, Q):
         """(X, Z, exists) where the conic is nearly a line, as `Conic.critical_places` finds it: the barrier of its two points."""
@@ -212,11 +229,12 @@ class _Circle:
 
 
 class _Hyperbola:
-    """Height of a barrier branch over the invariant, tilt measured by the logarithm of the coordinate that keeps its sign."""
+    """Height of a barrier branch over the invariant, tilt measured by the logarithm of the coordinate that keeps its sign; and that coordinate."""
 
     growth = 0.0
     reaches_out = False
     sizes = np.asarray
+    both = np.bool_(False)
 
     def __init__(self, land, piece, is_open):
         self.land, self.piece = land, piece
@@ -236,7 +254,19 @@ class _Hyperbola:
         steep = (np.abs(pot.G * x) + abs(g["c"]) + abs(g["d"])) / np.abs(place)
         sign = float(np.sign(np.nanmedian(place)))
         self.lead_sign_steep_bulk = (lead, sign, float(np.nanmax(steep)), float(np.nanmax(scale)))
-        return tuple(v.reshape(size.shape) for v in (height, np.zeros(flat.shape), scale))
+        return tuple(v.reshape(size.shape) for v in (height, place, scale))
+
+    @staticmethod
+    def second_loss(place):
+        """What a barrier's place may be off by."""
+        return PLACE_LOSS * np.abs(place)
+
+    @staticmethod
+    def fine(land):
+        """The numbers of `table_kernel.fine_margin`."""
+        r = land.reduction
+        numbers = *land.twofold, twofold_constant(r.exact_constants["n"] ** 2 / 2), twofold_constant(r.s)
+        return np.array([*(part for number in numbers for part in (float(number.high), float(number.low))), land.least_invariant])
 
 
 def _curve_of(land):

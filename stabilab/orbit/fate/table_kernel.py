@@ -2,6 +2,7 @@
 
 Every function here is made of correctly rounded operations alone (+ - * / sqrt floor, comparisons) in a fixed order, so
 that both ways of running it give the same bytes; the angle and the logarithm are therefore written out as polynomials.
+On hyperbolas a margin that doubles leave less than twelve digits is formed in twofold numbers, from the barrier's place.
 """
 from __future__ import annotations
 
@@ -14,7 +15,7 @@ import numpy as np
 # growth: the part of the height that is linear in A. Hyperbola: lead = +1 where xi keeps the sign `sign`, -1 where
 # eta does; steep: bound of d height/dQ; bulk: size of the height's terms.
 LOW, HIGH, ORIGIN, SIDE, BEND, WIDTH, GROWTH, LEAD, SIGN, STEEP, BULK = range(11)
-DEGREE, ANGLE = 5, 6  # coefficients 0..5 of a height, then 6..7 of the barrier's angle in turns: one cache line
+DEGREE, ANGLE = 5, 6  # coefficients 0..5 of a height, then 6..7 of the barrier's angle in turns, on hyperbolas of its place: one cache line
 
 SIGN_BOUND = 320 * 2.0**-52  # five times the units of rounding that the general formula allows for
 # Terms smaller than these shares of the rounding's scale are left to the general formula, to keep a margin to 1e-12 of its
@@ -31,6 +32,15 @@ FAR = 1e6  # rounding of the place may be this many times the radius
 # of Newton's method beside that distance, which leaves less than its square.
 PARABOLA_MARGIN_BOUND, PAIR_BOUND, STEP_BOUND = 4e-3, 1e6 * 2.0**-52, 1e-3
 STEP_LEFT = 1e-6  # of the energy that the last step is worth, as much as its rounding could matter
+
+# Of a margin in twofold numbers: what it may be off by, against the kinetic energy and the barrier's height (half of what `fate` admits), and against itself;
+# the last step to the barrier, which leaves its square; the units of rounding of a product and of y - sinh y, whose y is a logarithm; those of a place
+# and of a sum of products in twofold numbers; |y| up to which y - sinh y is a series.
+FINE_SHARE, FINE_ROUNDINGS, FINE_STEP, FINE_ROUNDED, LAG_ROUNDED, TWOFOLD, FINE, LAG = 5e-13, 64.0, 1e-12, 4.0, 12.0, 2.0**-100, 2.0**-96, 1.0
+# The 21 numbers of `fine`: high parts, each before its low part, of G, c, d, mu, sj, sk, the factors of X and Z, (flip n)^2/2 and the shift of the third
+# component; and how small an invariant Q is not to be answered, because an equilibrium may stand by the centre.
+SPLITTER = 134217729.0  # 2^27 + 1
+EPS = 2.0**-52
 
 TURN, TURNS = 2 * math.pi, 1 / (2 * math.pi)
 _TAN_PI_8, _PI_4, _PI_2, _PI = math.tan(math.pi / 8), math.pi / 4, math.pi / 2, math.pi
@@ -121,6 +131,150 @@ def trusted(margin, height, energy, scale, margin_bound):
 
 def fold_is_clear(size, origin, rounding):
     return np.abs(size - origin) > FOLD_BOUND * (rounding + abs(origin))
+
+
+def exact_sum(x, y):
+    s = x + y
+    back = s - x
+    return s, (x - (s - back)) + (y - back)
+
+
+def exact_product(x, y):
+    p = x * y
+    big = SPLITTER * x
+    xh = big - (big - x)
+    xl = x - xh
+    big = SPLITTER * y
+    yh = big - (big - y)
+    yl = y - yh
+    return p, ((xh * yh - p) + xh * yl + xl * yh) + xl * yl
+
+
+def add(a, b):
+    """Of twofold numbers, pairs of a high and a low part."""
+    s, e = exact_sum(a[0], b[0])
+    t, f = exact_sum(a[1], b[1])
+    s, e = exact_sum(s, e + t)
+    return exact_sum(s, e + f)
+
+
+def less(a, b):
+    return add(a, (-b[0], -b[1]))
+
+
+def times(a, b):
+    p, e = exact_product(a[0], b[0])
+    return exact_sum(p, e + (a[0] * b[1] + a[1] * b[0]))
+
+
+def scaled(a, factor):
+    """A twofold number times a double."""
+    p, e = exact_product(a[0], factor)
+    return exact_sum(p, e + a[1] * factor)
+
+
+def fine_place(state_i, state_j, state_k, fine):
+    """(X, Z, kinetic energy) of a state, twofold."""
+    x = times(add((fine[8], fine[9]), (state_j, 0.0 * state_j)), (fine[12], fine[13]))
+    z = times(add((fine[10], fine[11]), (state_k, 0.0 * state_k)), (fine[14], fine[15]))
+    turn = add((fine[18], fine[19]), (state_i, 0.0 * state_i))
+    return x, z, times((fine[16], fine[17]), times(turn, turn))
+
+
+def double_step(u, v, size, form):
+    """(u, v) brought onto the hyperbola Z^2 - X^2 = size and then nearer to an equilibrium by a step of Newton's method, in doubles."""
+    G, c, d, mu = form
+    off = ((v - u) * (v + u) - size) / (2 * (u * u + v * v))
+    u, v = u + off * u, v - off * v
+    step = -(mu + (G * u + c) * v + d * u) / (v * (G * v + d) + u * (G * u + c))
+    half = 0.5 * step * step
+    return u + v * step + u * half, v + u * step + v * half
+
+
+def fine_step(u, v, Q, fine):
+    """(u, v, step, slope of the force there) after such a step in twofold numbers from the doubles (u, v); the step is a double."""
+    G, c, d, mu = (fine[0], fine[1]), (fine[2], fine[3]), (fine[4], fine[5]), (fine[6], fine[7])
+    u, v = (u, 0.0 * u), (v, 0.0 * v)
+    beside = less(less(times(v, v), times(u, u)), Q)
+    off = (beside[0] + beside[1]) / (2 * (u[0] * u[0] + v[0] * v[0]))
+    u, v = add(u, exact_product(off, u[0])), add(v, exact_product(-off, v[0]))
+    across, pull = fine_force(u, v, G, c, d, mu)
+    slope = fine_slope(u, v, G, d, across)
+    step = -(pull[0] + pull[1]) / (slope[0] + slope[1])
+    half = 0.5 * step * step
+    u, v = add(add(u, scaled(v, step)), scaled(u, half)), add(add(v, scaled(u, step)), scaled(v, half))
+    return u, v, step, fine_slope(u, v, G, d, add(times(G, u), c))
+
+
+def fine_force(u, v, G, c, d, mu):
+    """(G u + c, force) at a place."""
+    across = add(times(G, u), c)
+    return across, add(add(times(v, across), mu), times(d, u))
+
+
+def fine_slope(u, v, G, d, across):
+    """Slope of the force at a place, across: G u + c."""
+    return add(times(v, add(times(G, v), d)), times(u, across))
+
+
+def over(a, b):
+    """A twofold number over another."""
+    first = a[0] / b[0]
+    rest = less(a, scaled(b, first))
+    return exact_sum(first, (rest[0] + rest[1]) / b[0])
+
+
+def ratio_of(X, Z, u, v):
+    """(which of the two coordinates that grow and decay is larger, +1 or -1; it at (u, v), a double; it at (X, Z) as a share of that, less 1, twofold)."""
+    side = pick(X[0] * Z[0] < 0, -1.0, 1.0)
+    start, end = add(X, (side * Z[0], side * Z[1])), add(u, (side * v[0], side * v[1]))
+    return side, end[0], over(less(start, end), end)
+
+
+def fine_margin(X, Z, kinetic, u, v, step, slope, side, end, grown, mantissa, exponent, rounding, fine):
+    """(margin, whether it is certain) of a state on a hyperbola against a barrier (u, v), as `fine.spots` and `fine.anchored` tell it.
+
+    From the barrier, y away, the potential falls by 2 h^2 (F' + A S + 2 B h^2) + mu (y - S) with S = sinh y and h = sinh(y/2), which the ratio of the
+    places' larger coordinates, 1 + grown = mantissa 2^exponent, gives without an exponential. The sum in brackets may cancel, and is twofold.
+    """
+    G, c, d, mu, x, z, at_x, at_z = fine[0], fine[2], fine[4], fine[6], X[0], Z[0], u[0], v[0]
+    one, g = (1.0 + 0.0 * side, 0.0 * side), grown[0]
+    ratio = add(grown, one)
+    half = over(one, add(ratio, ratio))
+    s, bow = times(times(grown, add(ratio, one)), half), times(times(grown, grown), half)  # |sinh y|, 2 sinh(y/2)^2
+    s = side * s[0], side * s[1]
+    y = side * pick(np.abs(g) < 0.25, logarithm_of(g / (2 + g)), logarithm(mantissa, exponent))
+    twist, bend = times(times((fine[0], fine[1]), times(u, v)), s), times(times((0.5 * fine[0], 0.5 * fine[1]), add(times(u, u), times(v, v))), bow)
+    inner = add(add(slope, twist), bend)
+    fall, tilt, energy = bow[0] * (inner[0] + inner[1]), mu * less_sinh(y, s[0]), kinetic[0]
+    margin = (fall + tilt) - energy
+    far = np.abs(at_x) + np.abs(at_z)
+    steep = abs(G) * far + abs(c) + abs(d)
+    off = TWOFOLD * (far + rounding * rounding / far)
+    pull = steep * off + TWOFOLD * mu + (2 * abs(G) * far + steep) * far * step * step
+    astray = TWOFOLD * rounding / np.abs(x + side * z) + off / np.abs(end)
+    error = EPS * (FINE_ROUNDED * (np.abs(fall) + energy) + (LAG_ROUNDED + 2 * np.abs(y)) * np.abs(tilt)) + pull * np.abs(s[0])
+    error = error + bow[0] * ((abs(G) * far + steep) * off + FINE * (steep * far + np.abs(twist[0]) + np.abs(bend[0])))
+    error = error + np.abs(mu + (G * x + c) * z + d * x) * astray
+    sure = (slope[0] > 0) & (np.abs(step) <= FINE_STEP) & (ratio[0] > 0) & (np.abs(margin) > FINE_ROUNDINGS * error)
+    return margin, sure & (error <= FINE_SHARE * (np.abs(margin + energy) + energy))
+
+
+def logarithm_of(q):
+    """2 artanh q for |q| <= 0.1716, as in `logarithm`."""
+    t = q * q
+    p = 0.15331710618210773 + t * 0.14616585424888623
+    p = 0.22222211130259878 + t * (0.18182889455674947 + t * p)
+    p = 0.39999999999899444 + t * (0.2857142862600327 + t * p)
+    return 2 * q + q * (t * (0.666666666666667 + t * p))
+
+
+def less_sinh(y, s):
+    """y - sinh y; s = sinh y."""
+    t = y * y
+    series = 1 + t * (1 / 110) * (1 + t * (1 / 156) * (1 + t * (1 / 210) * (1 + t * (1 / 272))))
+    series = -y * t * (1 / 6) * (1 + t * (1 / 20) * (1 + t * (1 / 42) * (1 + t * (1 / 72) * series)))
+    return pick(np.abs(y) < LAG, series, y - s)
 
 
 def middle_root(g):
@@ -259,8 +413,8 @@ def circle_labels(margins, best, clear, labels, reasons, unsure):
         unsure[n] = not clear[n]
 
 
-def hyperbola_loop(states, axes, frame, form, ranges, cells, unit, margins, labels, reasons, unsure):
-    """As `circle_loop`, on hyperbolas: margins to the barrier nearest in height, +inf without one; all are bounded."""
+def hyperbola_loop(states, axes, frame, form, ranges, cells, unit, margins, labels, reasons, unsure, fine):
+    """As `circle_loop`, on hyperbolas: margins to the barrier nearest in height, +inf without one; all are bounded. fine: the constants in 32 digits."""
     x, z, energy, size, nearest = np.empty(BLOCK), np.empty(BLOCK), np.empty(BLOCK), np.empty(BLOCK), np.empty(BLOCK)
     clear, inside = np.empty(BLOCK, np.bool_), np.empty(BLOCK, np.bool_)
     for start in range(0, states.shape[0], BLOCK):
@@ -270,7 +424,7 @@ def hyperbola_loop(states, axes, frame, form, ranges, cells, unit, margins, labe
         for b in range(ranges.shape[0]):
             keep_off_cone_fold(x, z, size, ranges[b, ORIGIN], frame[6], clear, m)
             on_range(x, z, size, ranges[b], inside, m)
-            lower_nearest(x, z, energy, size, ranges[b], cells[b], frame[6], form, inside, nearest, clear, m)
+            lower_nearest(states[start:start + m], axes, x, z, energy, size, ranges[b], cells[b], frame[6], form, fine, inside, nearest, clear, m)
         for n in range(m):
             margins[start + n] = nearest[n] * unit
             unsure[start + n] = clear[n] ^ True
@@ -296,7 +450,7 @@ def on_range(x, z, size, span, inside, m):
         inside[n] = (low < size[n]) & (size[n] <= high) & ((x[n] + lead * z[n]) * sign > 0)
 
 
-def lower_nearest(x, z, energy, size, span, cells, shift, form, inside, nearest, clear, m):
+def lower_nearest(states, axes, x, z, energy, size, span, cells, shift, form, fine, inside, nearest, clear, m):
     """Bring the margin of this barrier into `nearest` where it stands: few states, so one by one."""
     G, c, d, mu = form
     lead = span[LEAD]
@@ -314,9 +468,35 @@ def lower_nearest(x, z, energy, size, span, cells, shift, form, inside, nearest,
             height = height + ((0.5 * G * x[n] + c) * x[n] + d * z[n])
             margin = height - energy[n]
             scale = hyperbola_scale(terms(rounding, form), tilt, rounding, place, mu, span[STEEP], span[BULK])
-            clear[n] = clear[n] & trusted(margin, height, energy[n], scale, CONE_MARGIN_BOUND)
+            if not trusted(margin, height, energy[n], scale, CONE_MARGIN_BOUND) and clear[n]:
+                margin, clear[n] = fine_one(states[n], axes, angle_polynomial(cells[cell, 6], cells[cell, 7], t), lead, rounding, form, fine)
             if np.abs(margin) < np.abs(nearest[n]):
                 nearest[n] = margin
+
+
+def fine_one(state, axes, place, lead, rounding, form, fine):
+    """`fine_margin` of one state against the barrier of this place, whatever rounding left of the state's own."""
+    i, j, k = axes
+    X, Z, kinetic = fine_place(state[i], state[j], state[k], fine)
+    Q = fine_invariant(X, Z)
+    u, v = guessed(place, lead, Q[0])
+    u, v = double_step(u, v, Q[0], form)
+    u, v = double_step(u, v, Q[0], form)
+    at_x, at_z, step, slope = fine_step(u, v, Q, fine)
+    side, end, grown = ratio_of(X, Z, at_x, at_z)
+    mantissa, exponent = math.frexp(1 + grown[0])
+    margin, sure = fine_margin(X, Z, kinetic, at_x, at_z, step, slope, side, end, grown, mantissa, exponent, rounding, fine)
+    return margin, sure & (np.abs(Q[0]) > fine[20])
+
+
+def fine_invariant(X, Z):
+    return less(times(Z, Z), times(X, X))
+
+
+def guessed(place, lead, size):
+    """(u, v) of the barrier whose coordinate that keeps its sign is `place`, on the hyperbola of this size."""
+    other = -size / place
+    return 0.5 * (place + other), 0.5 * lead * (place - other)
 
 
 def hyperbola_scale(scale, tilt, rounding, place, mu, steep, bulk):

@@ -10,11 +10,16 @@ from stabilab.orbit.fate.by_table import label_by_table
 from stabilab.orbit.fate.table import barrier_table
 from tests.orbit.fate.test_fate import FAMILIES, sample
 
+NEARLY_EQUAL = stabilab.Scene(stabilab.Body((0.544, 2.2, 2.199)), stabilab.Gyrostat((-1.021, 2.296, 0)), stabilab.ConstantTorque((0, 0, -0.0843)))
 
-@pytest.mark.parametrize("name", ["minor scaled +", "major physical, other sign", "middle scaled -, |c| above the cusp"])
+
+@pytest.mark.parametrize("name", ["minor scaled +", "major physical, other sign", "middle scaled -, |c| above the cusp", "nearly equal"])
 def test_the_loops_for_the_compiler_run_as_plain_python_give_the_bytes_of_the_arrays(name):
-    """Two ways to write the same arithmetic; 600 states are more than one block of the loops."""
-    scene, states = FAMILIES[name][0], sample(name, 600)
+    """Two ways to write the same arithmetic; 600 states are more than one block of the loops. Of nearly equal moments most take twofold numbers."""
+    if name == "nearly equal":
+        scene, states = NEARLY_EQUAL, np.random.default_rng(2).normal(size=(600, 3))
+    else:
+        scene, states = FAMILIES[name][0], sample(name, 600)
     table, answers = barrier_table(scene), []
     for loops in (None, {-1: barrier_heights.circle_loop, 1: barrier_heights.hyperbola_loop}):
         out = {"margins": np.zeros(600), **{key: np.zeros(600, np.int8) for key in ("labels", "axis", "sense", "reasons")}}
