@@ -91,7 +91,7 @@ class Orbits:
 
 
 @lru_cache(maxsize=64)
-def _asymptotes(land):
+def asymptotes(land):
     """(omega_j, omega_k) of the hyperbola of equilibria far out, and the product of the ways from them; None without one, or with an asymptote that is far."""
     r, conic, g = land.reduction, land.conic, land.reduction.constants
     if not conic.pieces or r.parabolic_shift_size == 0:
@@ -101,7 +101,7 @@ def _asymptotes(land):
 
 def saddles_of(land, branch, s):
     """((u, v) of the saddles of a branch at s (n,) as of `Orbits`, (n,) whether they are much nearer than the centre)."""
-    found = _asymptotes(land)
+    found = asymptotes(land)
     if found is None or branch.line is not None:
         return (np.zeros(len(s)), np.zeros(len(s))), np.zeros(len(s), bool)
     (first, second, product), rz = found, land.reduction.constants["rz"]

@@ -75,7 +75,7 @@ def _goes_fast(land, strips, fast, accuracy) -> bool:
     # never on its own: the same case must give the same bytes, whatever was loaded before
     if not fast:
         return False
-    return wanted(1, True, False, 1, 1) and (serves(land, strips) if accuracy is None else serves_within(land, tuple(strips)))
+    return wanted(1, True, False, 1, 1) and (serves(land, strips) if accuracy is None else serves_within(land))
 
 
 def _check(reach, shape, accuracy):

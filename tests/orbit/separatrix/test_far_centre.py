@@ -1,14 +1,21 @@
 """Sheets of nearly equal moments, whose orbits are centred far away, against Euler's equations in 80 digits."""
 from __future__ import annotations
 
+import math
+import random
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import stabilab
+from benchmarks.random_scenes import drawn
+from stabilab.numbers.numba_door import plain_together
 from stabilab.orbit.landscape import landscape
-from stabilab.orbit.separatrix.far_centre import Orbits
+from stabilab.orbit.separatrix import within
+from stabilab.orbit.separatrix.compiled.sheets_numba import WITHIN, serves_within, sheet_by_kernel
+from stabilab.orbit.separatrix.far_centre import Orbits, saddles_of
+from stabilab.orbit.separatrix.grid import trial_parts
 from stabilab.orbit.separatrix.homoclinic_arrays import loops, residual
 from stabilab.orbit.separatrix.saddles import limit_of, saddle_branches
 from tests.oracles import homoclinic
@@ -25,8 +32,12 @@ SCENES = {  # moments, wheel, torque; the centre is 1e11, 1e12, 1e7 and 1e4 time
 scenes = pytest.mark.parametrize("name", SCENES)
 
 
-def scene_of(name):
-    moments, wheel, torque = SCENES[name]
+def scene_of(name, *numbers):
+    """(scene, oracle's gyrostat) of a name above, or `number N` of the benchmarks' sample, or of moments, wheel and torque."""
+    if name.startswith("number"):
+        one = drawn(int(name[7:]) + 1)[-1]
+        numbers = one.moments, one.wheel, one.torque
+    moments, wheel, torque = numbers or SCENES[name]
     return stabilab.Scene(stabilab.Body(moments), stabilab.Gyrostat(wheel), stabilab.ConstantTorque(torque)), homoclinic.Gyrostat(moments, wheel, torque)
 
 
@@ -82,6 +93,82 @@ def test_the_reported_residual_sees_a_vertex_that_is_off_a_surface_with_a_far_ce
     for n in range(3):
         off = residual(land, replace(found, points=found.points + 1e-9 * size * np.eye(3)[n]))
         assert 1e-11 < off[0, 0, 4] < 1e-8
+
+
+def nearly_equal(count, seed=5):
+    """{name: (moments, wheel, torque)}: two scenes of the benchmarks' sample, and as many as asked from another seed, two of their moments made equal to 3 to
+    12 digits, that have a saddle much nearer than the centre."""
+    found = {f"number {n}": (one.moments, one.wheel, one.torque) for n in (82, 89) for one in drawn(n + 1)[n:]}
+    rng = random.Random(seed)
+    for one in drawn(40 * count, seed):
+        moments, (first, second) = list(one.moments), rng.sample(range(3), 2)
+        moments[second] = moments[first] * (1 + 10 ** rng.uniform(-12, -3) * rng.choice((-1, 1)))
+        if 2 * max(moments) >= sum(moments):
+            continue  # no body
+        numbers = tuple(moments), one.wheel, one.torque
+        if any(saddles_of(land, branch, np.linspace(0, 1, 9))[1].any() for land, branch, _ in strips_of(scene_of("", *numbers)[0])):
+            found[f"seed {seed}, scene {one.number}"] = numbers
+        if len(found) == count + 2:
+            return found
+    raise AssertionError("too few scenes")
+
+
+def strips_of(scene):
+    """[(landscape, branch, side)] of a scene."""
+    land = landscape(scene)
+    if land is None or land.conic is None:
+        return []
+    branches = saddle_branches(land.conic, land.potential, limit_of(land.conic, 4.0))
+    return [(land, branch, side) for branch in branches for side, _ in land.conic.sides(land.sense)]
+
+
+@pytest.mark.parametrize("name", [*SCENES, "number 82", "number 89"])
+def test_the_kernel_in_plain_python_gives_each_sheet_the_grid_of_the_arrays(name, monkeypatch):
+    monkeypatch.setattr(within, "SHARE", -1)  # no sheet takes the shape of another
+    scene = scene_of(name)[0]
+    accuracy, far = 3e-3 * max(np.abs(sheet.points).max() for sheet in stabilab.separatrix(scene, shape=(9, 17)).sheets), 0
+    for land, branch, side in strips_of(scene):
+        assert serves_within(land)
+        strip = branch, side
+        parts, rows = trial_parts(land, (strip,))
+        for made, part, row in zip(within.grids_within(land, [strip], accuracy), parts, rows, strict=True):
+            points, off, (saddle, centre), _, found, cut, error = sheet_by_kernel(land, part, row, accuracy, plain_together(WITHIN[land.base]))
+            expected, far = made.loops, far + made.loops.far.sum()
+            np.testing.assert_array_equal(found, expected.found[0])
+            for places, there in ((points[:, :expected.points.shape[2]], expected.points[0]), (saddle, expected.saddle_state[0]),
+                                  (centre, expected.centre_state[0])):
+                np.testing.assert_allclose(places[found], there[found], atol=1e-9 * np.abs(there).max(), rtol=0)
+            assert cut == made.cut and error == pytest.approx(made.error[0], rel=1e-6) and error <= accuracy
+            assert off[found].max() < 1e-14
+    assert far > 0
+
+
+@pytest.mark.slow  # compiling takes half a minute for each geometry; twenty-two scenes in 80 digits
+@pytest.mark.parametrize("fast", [False, True])
+def test_sheets_of_random_nearly_equal_moments_lie_on_the_surface_and_their_facets_near_it(fast):
+    """To first order, at mid-points of edges away from folds and saddles, where no slope leads to the surface, and from rims, which may be coarser."""
+    if fast:
+        pytest.importorskip("numba")
+    asked = {"vertices": 0, "edges": 0, "beyond": 0}
+    for name, (moments, wheel, torque) in nearly_equal(20).items():
+        scene, body, rng = *scene_of(name, moments, wheel, torque), np.random.default_rng(1)
+        accuracy = 3e-4 * max(np.abs(sheet.points - sheet.points.mean(axis=(0, 1))).max() for sheet in stabilab.separatrix(scene, shape=(9, 17)).sheets)
+        for sheet in stabilab.separatrix(scene, accuracy=accuracy, fast=fast).sheets:
+            assert sheet.error <= accuracy, name
+            half, centre = sheet.points.shape[1] // 2, np.abs(body.coefficients()[2:]).max()
+            for row, column in zip(rng.integers(1, len(sheet.points), 4), rng.integers(1, half + 1, 4)):
+                place, size = sheet.points[row, column], np.abs(sheet.points[row]).max()
+                if size < 1e-3 * centre and np.ptp(sheet.points[row], axis=0).max() > 1e-6 * size:  # a loop, and no fold
+                    asked["vertices"] += 1
+                    assert homoclinic.in_digits(body, place.tolist(), digits=80) < 16 * EPS * np.abs(place).max(), (name, sheet.name, row, column)
+            for row, column in zip(rng.integers(1, len(sheet.points) - 1, 4) if len(sheet.points) > 2 else (), rng.integers(min(3, half - 1), half, 4)):
+                for beside in ((row, column + 1), (row + 1, column)):
+                    middle = 0.5 * (sheet.points[row, column] + sheet.points[beside])
+                    stray = homoclinic.in_digits(body, middle.tolist(), digits=80)
+                    asked["edges"] += 1
+                    asked["beyond"] += math.isinf(stray)
+                    assert stray <= 1.05 * accuracy or math.isinf(stray), (name, sheet.name, row, column, stray / accuracy)
+    assert asked["vertices"] > 20 and asked["beyond"] < 0.2 * asked["edges"], asked
 
 
 @pytest.mark.parametrize("fast", [False, True])

@@ -44,7 +44,7 @@ def test_the_kernel_in_plain_python_gives_each_sheet_the_grid_of_the_arrays(name
     monkeypatch.setattr(within, "SHARE", -1)  # no sheet takes the shape of another
     scene, accuracy = SCENES[name]
     land = landscape(scene)
-    assert serves_within(land, tuple(strips_of(land)))
+    assert serves_within(land)
     for strip in strips_of(land):
         parts, rows = trial_parts(land, (strip,))
         for made, part, row in zip(within.grids_within(land, [strip], accuracy), parts, rows, strict=True):
@@ -151,7 +151,7 @@ def test_without_a_torque_arrays_answer_circles_however_asked():
     pytest.importorskip("numba")
     scene = physical((3.0, 2.0, 1.5), (0, 0, 0.7), (0, 0, 0))[0]
     land = landscape(scene)
-    assert not serves_within(land, tuple(strips_of(land)))
+    assert not serves_within(land)
     plain_, fast = (stabilab.separatrix(scene, accuracy=0.05, fast=f).sheets for f in (False, True))
     for one, other in zip(plain_, fast, strict=True):
         np.testing.assert_array_equal(one.points, other.points)

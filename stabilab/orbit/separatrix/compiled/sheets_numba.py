@@ -2,7 +2,7 @@
 
 In a given shape, on circles with a torque, the grading is that of `grid`, number by number, and points agree with those of the arrays to rounding. Within an
 accuracy, on circles with a torque and on hyperbolas, each sheet is graded as `within` grades a sheet that is alone: the same rows and columns to rounding,
-in a tenth to a twentieth of the time.
+in a tenth to a twentieth of the time; rows whose orbits are centred far away are told as `far_centre` tells them.
 """
 from __future__ import annotations
 
@@ -11,17 +11,19 @@ from functools import lru_cache
 import numpy as np
 
 from ....numbers.numba_door import compiled, compiled_together
+from ...potential import Parabola
 from .. import circle_kernel as circle_loops
-from ..far_centre import saddles_of
+from ..far_centre import FAR, asymptotes, saddles_of
 from ..grid import DENSE, FLOOR, STRAIGHT, TRIAL, UNIFORM, shrinks
 from ..saddles import OPEN
+from . import far_kernel as far_loops
 from . import hyperbola_kernel
 from . import within_kernel as within_loops
 
 GRADING = (FLOOR, STRAIGHT, UNIFORM, DENSE)
-WITHIN = {"circle": (circle_loops, within_loops), "hyperbola": (circle_loops, within_loops, hyperbola_kernel)}
-INLINED = {"force", "slope", "moved", "y_minus_sin", "rise", "risen", "xz", "place_of", "invariant"}
-EVEN, ALONG = np.linspace(0, 1, TRIAL), np.linspace(0, 1, 65)
+WITHIN = {"circle": (circle_loops, far_loops, within_loops), "hyperbola": (circle_loops, far_loops, within_loops, hyperbola_kernel)}
+INLINED = {"force", "slope", "moved", "y_minus_sin", "rise", "risen", "xz", "place_of", "invariant", "far_series"}
+EVEN = np.linspace(0, 1, TRIAL)
 
 
 def serves(land, strips) -> bool:
@@ -72,11 +74,19 @@ def _room(k):
             np.empty((TRIAL, 0)), np.empty((TRIAL + 1, 5)), np.empty((k, 2, TRIAL)))
 
 
+def serves_within(land) -> bool:
+    """Whether the kernel draws a landscape's sheets within an accuracy: without a torque loops on circles run from saddle to saddle."""
+    return land.sense != 0 or land.turn == np.inf
+
+
 @lru_cache(maxsize=64)
-def serves_within(land, strips) -> bool:
-    """Whether the kernel draws a landscape's sheets within an accuracy: without a torque loops on circles run from saddle to saddle, and `far_centre` tells
-    loops whose centre is far."""
-    return (land.sense != 0 or land.turn == np.inf) and not any(saddles_of(land, branch, ALONG)[1].any() for branch, _ in strips)
+def far_input(land):
+    """What `far_kernel` takes of a landscape."""
+    r, c, found = Parabola(land.reduction), land.reduction.constants, asymptotes(land)
+    first, second, product = found or (0.0, 0.0, 0.0)
+    near = land.reduction.parabolic_shift_size / FAR if found else -1.0
+    return tuple(map(float, (r.p, r.q, r.p0, r.q0, r.kappa, r.rho, r.sigma, r.m, first, second, product, c["rz"], near, 2 * (abs(first) + abs(second)),
+                             c["n"], c["flip"])))
 
 
 @lru_cache(maxsize=2)
@@ -91,7 +101,7 @@ def sheet_by_kernel(land, part, rows, accuracy, names=None):
     names = names or kernel_within(land.base)
     cut_off = part.seam <= 0 and part.branch.far == OPEN
     numbers = np.array((part.side, part.low, part.high, part.seam, part.over, cut_off), float)
-    return names["sheet"](*kernel_input(land), np.array(_line(part.branch)), numbers, rows, EVEN, float(accuracy))
+    return names["sheet"](*kernel_input(land), far_input(land), np.array(_line(part.branch)), numbers, rows, EVEN, float(accuracy))
 
 
 def _line(branch):

@@ -11,9 +11,12 @@ from math import ceil, log1p, sinh, sqrt
 import numpy as np
 
 from ..circle_kernel import (
+    END,
     ENDS,
     NONE,
+    ON_LINE,
     SHARPEST,
+    START,
     departure_row,
     force,
     invariant,
@@ -28,14 +31,16 @@ from ..circle_kernel import (
     slope,
     xz,
 )
+from .far_kernel import FLIP, NEAR_CENTRE, RATE, far_departures, far_ends, far_orbit, far_row, far_sharpness, far_way, far_well
 
 GAP, SAFER, GROWTH, MOST_ROUNDS, RIM_SHARE, MOST_LINES, SAG, FIRST, NARROW = 0.1, 1.05, 6.0, 14, 0.1, 1025, 1e-6, 17, 0.02
 TINY, SMALL = 2.2250738585072014e-308, 1e-200
 MIXES = (0.7, 1.0, 1.5, 2.0)
 # of a part: which side, its first and last row, -1 or +1 where one of these is a seam, whether loops pass a second saddle, whether `reach` cuts it off
 SIDE, LOW, HIGH, SEAM, OVER, CUT_OFF = range(6)
-# of a row: saddle, centre, far end, whether there is a loop
-SADDLE, CENTRE, FAR_END, FOUND = 0, 2, 4, 5
+# of a row: saddle, centre, far end, whether there is a loop; whether it is told by `far_kernel`, the way to its saddle, the well's alpha, and its side there
+SADDLE, CENTRE, FAR_END, FOUND, TOLD_FAR, WAY, DEEP, TURNED = 0, 2, 4, 5, 6, 7, 9, 10
+ROW_NUMBERS = 11
 
 
 def row_at(part, t):
@@ -47,8 +52,8 @@ def row_at(part, t):
     return part[HIGH] - (part[HIGH] - part[LOW]) * (1 - t) * (1 - t)
 
 
-def loop_points(g, conic, sense, units, strip, part, t, u, place, x_j, x_k, x_i, offset, first, second):
-    """Fill place (6,), components x_j, x_k, x_i (m,), offset (m,) and coordinates of places first, second (m,) with one loop at the parameter t and
+def loop_points(g, conic, sense, units, far, strip, part, t, u, place, x_j, x_k, x_i, offset, first, second):
+    """Fill place (ROW_NUMBERS,), components x_j, x_k, x_i (m,), offset (m,) and coordinates of places first, second (m,) with one loop at the parameter t and
     columns u."""
     side, s = part[SIDE], row_at(part, t)
     x, z = saddle_at(conic, strip, s)
@@ -56,6 +61,12 @@ def loop_points(g, conic, sense, units, strip, part, t, u, place, x_j, x_k, x_i,
     end, deep, kind = 0.0, 0.0, ENDS
     if s > 0:
         x, z = settled(g, x, z)
+    place[TOLD_FAR] = 0.0
+    if far[NEAR_CENTRE] > 0 and strip[ON_LINE] == 0:
+        place[SADDLE], place[SADDLE + 1] = x, z
+        if far_points(units, far, part, strip[START] + (strip[END] - strip[START]) * s, s == 0, u, place, x_j, x_k, x_i, offset, first, second):
+            return
+    if s > 0:
         end, deep, kind = loop_end(g, sense, x, z, side)
     cx, cz = x, z
     if deep > 0:
@@ -75,6 +86,29 @@ def loop_points(g, conic, sense, units, strip, part, t, u, place, x_j, x_k, x_i,
     x_i[0] = x_i[last] = -shift_i
 
 
+def far_points(units, far, part, h, rests, u, place, x_j, x_k, x_i, offset, first, second):
+    """The same of a loop whose orbit is centred far away, from its saddle at h: whether it is one. The offsets are those of `far_kernel`, the places the
+    components themselves."""
+    x, z, told = far_way(far, h)
+    if not told:
+        return False
+    turned = 1.0 if part[SIDE] * far[FLIP] > 0 else -1.0
+    end, deep, told = far_ends(far, x, z, turned, rests)
+    if not told:
+        return False
+    orbit = far_orbit(far, x, z)
+    sharpest = SHARPEST if part[SEAM] == 0 else 1 / NARROW
+    sharp = 0.0 if rests else far_sharpness(far, orbit, end)
+    by_turning(sharp, sharpest, end, u, offset)
+    far_row(far, orbit, turned, offset, first, second, x_i)
+    shift_i = units[5]
+    for a in range(len(u)):
+        x_j[a], x_k[a], x_i[a] = first[a], second[a], x_i[a] - shift_i
+    place[FAR_END], place[FOUND], place[TOLD_FAR], place[WAY], place[WAY + 1] = end * far[RATE] * far[FLIP], 1.0, 1.0, x, z
+    place[DEEP], place[TURNED] = deep, turned
+    return True
+
+
 def columns(g, part, x, z, end, u, offset):
     """Fill offset (m,): where columns u of a loop stand (`homoclinic_arrays._shares`, `seams.pinched_shares`)."""
     if part[SEAM] != 0 and part[OVER] != 0:
@@ -84,6 +118,11 @@ def columns(g, part, x, z, end, u, offset):
     pull = abs(force(g, far_x, far_z))
     sharpest = SHARPEST if part[SEAM] == 0 else 1 / NARROW
     sharp = abs(end) * slope(g, far_x, far_z) / pull if pull > 0 else 0.0 if end == 0 else sharpest
+    by_turning(sharp, sharpest, end, u, offset)
+
+
+def by_turning(sharp, sharpest, end, u, offset):
+    """Fill offset (m,) with ways to a far end that turn the loop evenly (`homoclinic_arrays._by_turning`)."""
     sharp = min(max(sharp, 1e-8), sharpest)
     half = 0.5 * log1p(sharp + sqrt(sharp * (sharp + 2)))
     inverse = 1 / sinh(half)
@@ -406,33 +445,33 @@ def graded(forms, across, downward, s, u, straight, accuracy, safety, worst):
     return placed(q, s, rows * less), placed(c, u, columns_ * less)
 
 
-def points_of(g, conic, sense, units, strip, part, s, u, places, r, offsets, spots, edges):
-    """Fill places (n, 6), r (3, n, m + 1), the last column beyond the far end, offsets (n, m), coordinates of places spots (2, n, m), and edges (2,) with
-    the loops at rows s and columns u."""
+def points_of(g, conic, sense, units, far, strip, part, s, u, places, r, offsets, spots, edges):
+    """Fill places (n, ROW_NUMBERS), r (3, n, m + 1), the last column beyond the far end, offsets (n, m), coordinates of places spots (2, n, m), and edges (2,)
+    with the loops at rows s and columns u."""
     n, m, j, k, i = len(s), len(u), units[6], units[7], units[8]
     for row in range(n):
-        loop_points(g, conic, sense, units, strip, part, s[row], u, places[row], r[j, row, :m], r[k, row, :m], r[i, row, :m], offsets[row], spots[0, row],
+        loop_points(g, conic, sense, units, far, strip, part, s[row], u, places[row], r[j, row, :m], r[k, row, :m], r[i, row, :m], offsets[row], spots[0, row],
                     spots[1, row])
         for c in range(3):
             r[c, row, m] = r[c, row, m - 2]
         r[i, row, m] = 2 * r[i, row, m - 1] - r[i, row, m - 2]
-    between, spare, place = np.empty((3, 1, m)), np.empty((3, m)), np.empty(6)
+    between, spare, place = np.empty((3, 1, m)), np.empty((3, m)), np.empty(ROW_NUMBERS)
     for which in range(2):
         first, last = (0, 1) if which == 0 else (n - 1, n - 2)
-        loop_points(g, conic, sense, units, strip, part, 0.5 * (s[first] + s[last]), u, place, between[j, 0], between[k, 0], between[i, 0], spare[0],
+        loop_points(g, conic, sense, units, far, strip, part, 0.5 * (s[first] + s[last]), u, place, between[j, 0], between[k, 0], between[i, 0], spare[0],
                     spare[1], spare[2])
         whole = places[first, FOUND] > 0 and places[last, FOUND] > 0 and place[FOUND] > 0
         edges[which] = sag(r, first, last, between, m) if whole else 0.0
 
 
-def sheet(g, conic, sense, units, strip, part, s, u, accuracy):
+def sheet(g, conic, sense, units, far, strip, part, s, u, accuracy):
     """(points (n, 2 m - 1, 3) of the loops all round, their residual, equilibria (2, n, 3), saddles and centres, invariants (n,), found (n,), cut, how far
     facets stray) of a part of a sheet, from its trial rows s and columns u on."""
     safety, best, stray = 1.0, 1.0, 0.0
     for attempt in range(MOST_ROUNDS):
         n, m = len(s), len(u)
-        places, r, offsets, spots, edges = np.empty((n, 6)), np.empty((3, n, m + 1)), np.empty((n, m)), np.empty((2, n, m)), np.empty(2)
-        points_of(g, conic, sense, units, strip, part, s, u, places, r, offsets, spots, edges)
+        places, r, offsets, spots, edges = np.empty((n, ROW_NUMBERS)), np.empty((3, n, m + 1)), np.empty((n, m)), np.empty((2, n, m)), np.empty(2)
+        points_of(g, conic, sense, units, far, strip, part, s, u, places, r, offsets, spots, edges)
         normal, bends, forms = np.empty((3, n, m)), np.empty((n, m)), np.empty((5, n - 1, m - 1))
         across, downward, outline = np.empty(m - 1), np.empty(n - 1), np.empty(m - 1)
         room = np.empty((7, 2 * max(n, m) + 2))
@@ -451,13 +490,19 @@ def sheet(g, conic, sense, units, strip, part, s, u, accuracy):
         straight = sqrt(8 * SAG * largest(r, m, room[0])) * FIRST / max(n, m)
         s, u = graded(forms, across, downward, s, u, straight, accuracy, safety, room[0])
     points, residual = np.empty((n, 2 * m - 1, 3)), np.empty((n, 2 * m - 1))
-    all_round(g, units, places, r, offsets, spots, points, residual)
+    all_round(g, units, far, places, r, offsets, spots, points, residual)
     equilibria, invariants, found = np.empty((2, n, 3)), np.empty(n), np.empty(n, np.bool_)
     per_x, shift_j, per_z, shift_k, _, shift_i, j, k, i = units
     for row in range(n):
-        for which in range(2):
-            px, pz = xz(places[row, 2 * which], places[row, 2 * which + 1])
-            equilibria[which, row, j], equilibria[which, row, k], equilibria[which, row, i] = per_x * px - shift_j, per_z * pz - shift_k, -shift_i
+        equilibria[:, row, i] = -shift_i
+        if places[row, TOLD_FAR] > 0:
+            orbit = far_orbit(far, places[row, WAY], places[row, WAY + 1])
+            equilibria[0, row, j], equilibria[0, row, k] = orbit[0], orbit[1]
+            equilibria[1, row, j], equilibria[1, row, k] = far_well(far, orbit, places[row, DEEP])
+        else:
+            for which in range(2):
+                px, pz = xz(places[row, 2 * which], places[row, 2 * which + 1])
+                equilibria[which, row, j], equilibria[which, row, k] = per_x * px - shift_j, per_z * pz - shift_k
         invariants[row], found[row] = invariant(places[row, 0], places[row, 1]), places[row, FOUND] > 0
     return points, residual, equilibria, invariants, found, best, stray
 
@@ -473,7 +518,7 @@ def largest(r, m, worst):
     return most_of(worst[:m])
 
 
-def all_round(g, units, places, r, offsets, spots, points, residual):
+def all_round(g, units, far, places, r, offsets, spots, points, residual):
     """Fill points (n, 2 m - 1, 3) and residual (n, 2 m - 1): the second half of a loop mirrors the first."""
     n, m = offsets.shape
     per_x, shift_j, per_z, shift_k, per_w, shift_i, j, k, i = units
@@ -482,10 +527,15 @@ def all_round(g, units, places, r, offsets, spots, points, residual):
     first, second, w = np.empty(m), np.empty(m), np.empty(m)
     for row in range(n):
         x_j, x_k, x_i, off = r[j, row], r[k, row], r[i, row], residual[row]
-        for a in range(m):
-            first[a], second[a] = place_of((x_j[a] + shift_j) * to_x, (x_k[a] + shift_k) * to_z)
-            w[a] = (x_i[a] + shift_i) * to_w
-        departure_row(g, places[row, 0], places[row, 1], offsets[row], spots[0, row], spots[1, row], first, second, w, size_x, size_z, off[:m])
+        if places[row, TOLD_FAR] > 0:
+            for a in range(m):
+                w[a] = x_i[a] + shift_i
+            far_departures(far, far_orbit(far, places[row, WAY], places[row, WAY + 1]), offsets[row], spots[0, row], spots[1, row], x_j, x_k, w, off)
+        else:
+            for a in range(m):
+                first[a], second[a] = place_of((x_j[a] + shift_j) * to_x, (x_k[a] + shift_k) * to_z)
+                w[a] = (x_i[a] + shift_i) * to_w
+            departure_row(g, places[row, 0], places[row, 1], offsets[row], spots[0, row], spots[1, row], first, second, w, size_x, size_z, off[:m])
         for a in range(m - 1):
             off[2 * m - 2 - a] = off[a]
         for a in range(m):
