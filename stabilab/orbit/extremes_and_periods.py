@@ -6,8 +6,8 @@ import numpy as np
 from ..errors import InputError
 from ..physics.coefficients import effective
 from ..physics.states import checked_states
+from .extremes import circle_numba, hyperbola_numba
 from .extremes.arrays import extremes_of_chunk
-from .extremes.circle_numba import by_kernel
 from .extremes.guards import picked, trapped_rows
 from .extremes.turning_points import interval
 from .far_states import far_numbers
@@ -17,6 +17,8 @@ from .fine.rows_numba import by_rows
 from .landscape import landscape
 from .period.arrays import period_chunk
 from .reduction import reduce
+
+KERNELS = {"circle": circle_numba.by_kernel, "hyperbola": hyperbola_numba.by_kernel}  # of lanes in doubles; the rows that these leave open go on one by one
 
 
 def extremes_and_periods(scene, states, fast: bool | None = None, *, box=True, period=True):
@@ -33,7 +35,8 @@ def extremes_and_periods(scene, states, fast: bool | None = None, *, box=True, p
         return boxes.reshape(array.shape + (2,)) if box else None, periods.reshape(array.shape[:-1]) if period else None
     land, left_open, tried = landscape(scene), None, False
     if fast is not False:
-        left_open, tried = by_rows(land, flat, boxes, periods, fast, by_kernel(land, flat, boxes, periods, fast))
+        settled = KERNELS[land.base](land, flat, boxes, periods, fast) if land.base in KERNELS else None
+        left_open, tried = by_rows(land, flat, boxes, periods, fast, settled)
     if left_open is None:
         for start in range(0, len(flat), CHUNK):
             rows = slice(start, start + CHUNK)
