@@ -6,7 +6,7 @@ import numpy as np
 from ..errors import InputError
 from ..physics.coefficients import effective
 from ..physics.states import checked_states
-from .extremes import circle_numba, hyperbola_numba
+from .extremes import circle_numba, hyperbola_numba, parabola_numba
 from .extremes.arrays import extremes_of_chunk
 from .extremes.guards import picked, trapped_rows
 from .extremes.turning_points import interval
@@ -18,7 +18,8 @@ from .landscape import landscape
 from .period.arrays import period_chunk
 from .reduction import reduce
 
-KERNELS = {"circle": circle_numba.by_kernel, "hyperbola": hyperbola_numba.by_kernel}  # of lanes in doubles; the rows that these leave open go on one by one
+# Of lanes in doubles, on parabolas of rows; what these leave open on circles and hyperbolas goes on row by row
+KERNELS = {"circle": circle_numba.by_kernel, "hyperbola": hyperbola_numba.by_kernel, "parabola": parabola_numba.by_kernel}
 
 
 def extremes_and_periods(scene, states, fast: bool | None = None, *, box=True, period=True):

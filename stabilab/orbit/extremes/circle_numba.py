@@ -1,7 +1,7 @@
 """Extremes and periods of many orbits by a compiled kernel: the door of numba (the extra `fast`).
 
-Scenes whose orbits run on circles have a kernel (`circle_kernel`); every orbit that it leaves open, and every other
-scene, goes the way of the arrays.
+Scenes whose orbits run on circles have this kernel (`circle_kernel`), hyperbolas and parabolas their own; what a kernel
+leaves open goes the way of rows in twofold numbers, and from there of the arrays.
 """
 from __future__ import annotations
 
