@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
 DIGITS = 6  # of a number in a table
 SHORT = 4  # of a number within a sentence
+WHOLE = 1e6  # below it no power of ten: 15904 and not 1.59e+04
 Unit = tuple[str, float]  # its name, and how many of it make one in SI
 TURN = 180 / math.pi
 NUMBER = r"(-?\d+(?:\.\d+)?(?:e[-+]?\d+)?)"
@@ -146,10 +147,11 @@ def parameter_unit(name: str) -> str:
 
 
 def number(value: float, digits: int = SHORT) -> str:
-    """So many significant digits at most; a word where it has none."""
+    """So many significant digits at most, below a million whole where these do not reach the point; a word where it has none."""
     if math.isinf(value):
         return "unbounded" if value > 0 else "-unbounded"
-    return f"{value + 0.0:.{digits}g}"
+    told = f"{value + 0.0:.{digits}g}"
+    return f"{value:.0f}" if "e+" in told and abs(value) < WHOLE else told
 
 
 def but_for_rounding(pairs, tolerance: float | None):

@@ -49,6 +49,7 @@ def test_a_time_is_told_in_the_unit_that_suits_it(seconds, words):
 
 def test_a_number_that_is_unbounded_is_told_by_a_word_and_zero_has_no_sign():
     assert number(math.inf) == "unbounded" and number(-math.inf) == "-unbounded" and number(-0.0) == "0" and DEG.rate(math.inf) == "unbounded deg/s"
+    assert number(15904.7) == "15905" and number(-15904.7, 3) == "-15905" and number(1.5e6) == "1.5e+06" and number(0.00012) == "0.00012"
 
 
 @pytest.mark.parametrize("low, high", [(16.947771205157505, 16.94777120515751), (1.0, 1.0), (0.1, 0.2), (99.99999, 100.00001), (1e-7, 1.5e-7), (1 / 3, 1 / 3)])

@@ -7,7 +7,7 @@ import textwrap
 from collections import Counter
 
 from ...theories.audit.findings import VERDICTS
-from ..terminal.letters import some
+from ..terminal.letters import lettered, some
 
 SCHEMA = "stabilab.audit/1"
 
@@ -78,5 +78,5 @@ def _paragraph(finding, width, paper=""):
         lines.append(f"units: {finding.unit_fault}")
     if command := figures_changed(row, paper):
         lines.append(f"changes figures, drawn both ways with the size of the difference by: {command}")
-    wrapped = [textwrap.fill(line, width, subsequent_indent=" " * 15, initial_indent=" " * (13 if n else 0)) for n, line in enumerate(lines)]
+    wrapped = [textwrap.fill(lettered(line), width, subsequent_indent=" " * 15, initial_indent=" " * (13 if n else 0)) for n, line in enumerate(lines)]
     return "\n".join(wrapped)

@@ -77,7 +77,12 @@ def _answer(limit, found, low, high, units):
 
 def _asked(limit, units):
     unit = {"energy": units.plain("J"), "tilt": units.angles}.get(limit.kind, units.rates)
-    return " or ".join(f"{name} = {units.told(most, unit, DIGITS)}" for name, most in zip(limit.names, limit.limits))
+    return " or ".join(f"{name} = {units.told(most, unit, DIGITS)}" for name, most in zip(map(_named, limit.names), limit.limits))
+
+
+def _named(quantity):
+    """The rate about a principal axis as everywhere else: "|omega 3|" is |ω3|."""
+    return re.sub(r"\|(omega|x) ([123])\|", r"|\1\2|", quantity)
 
 
 def unreached(found, limit: str, time) -> str:

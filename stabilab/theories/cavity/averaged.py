@@ -149,7 +149,7 @@ class Smallness:
         """How far the answer may be trusted, in words."""
         ratios = self.ratios | (self.soft if order == 1 else {})
         largest = max(ratios, key=ratios.get)
-        worst, reach = ratios[largest], f"{1 / self.slow:.3g} s" if self.slow else "all times"
+        worst, reach = ratios[largest], f"t = {1 / self.slow:.3g} s" if self.slow else "all times"
         doubt = f"; doubtful here, for {largest} is {worst:.2g}" if worst > 0.3 else ""
         return (f"errors of order eps^{order} (eps = {self.eps:.3g}) in amplitude and spin up to about {reach} (the time of "
                 f"the slow change), in the phase they grow with time{doubt}")
