@@ -654,3 +654,4 @@ def test_output_has_no_escape_codes(stabilab, monkeypatch):
 def test_doctor_names_versions_renderer_and_processor(stabilab):
     code, out, _ = stabilab("doctor")
     assert code == 0 and all(word in out for word in ("stabilab", "numpy", np.__version__, "rendering", "processor"))
+    assert out.startswith(("all that stabilab needs is installed", "NOT INSTALLED")) and "be drawn\nstabilab " in out
