@@ -20,7 +20,7 @@ from ..show.maps.bifurcation import plane_picture, plane_words
 from ..show.maps.bifurcation import words as diagram_words
 from ..show.text import certification
 from ..show.units import units_of
-from .common.output import answer, leave_undecided, say
+from .common.output import answer, leave_undecided, say, say_written
 
 
 def sweep(case, vary, samples, seed, answers, follow, limits, out, workers, scheduler, csv, json, strict):
@@ -29,9 +29,9 @@ def sweep(case, vary, samples, seed, answers, follow, limits, out, workers, sche
     if out:
         dataset.checked(out)
     with run(plan, out, workers, scheduler) as found:
-        if out:
-            say(f"written: {dataset.write(dataset.dataset(found), out)}")
+        files = [dataset.write(dataset.dataset(found), out)] if out else []
     answer(words, found, json, csv)
+    say_written(files)
     leave_undecided(strict, strict and words.undecided(found))
 
 
@@ -44,16 +44,16 @@ def bifurcation(case, vary, curve, out, certify, csv, json):
         certification.checked(certify)
         certifiable(spans)
     found = ask(case, spans, curve)
-    if certify:
-        _certified(found, certify)
+    made = diagram_certificate(found) if certify else None
     shown, picture = (diagram_words, diagram_picture) if isinstance(found, Diagram) else (plane_words, plane_picture)
-    if out:
-        say(f"written: {picture.write(found, out)}")
+    files = [picture.write(found, out)] if out else []
     answer(shown, found, json, csv)
+    say_written(files)
+    if made:
+        _certified(made, certify)
 
 
-def _certified(found, path):
-    made = diagram_certificate(found)
+def _certified(made, path):
     say("\n".join([f"written: {certification.write(made, path)}", f"certified: {len(made['events'])} values, {len(made['pieces'])} counts between them",
                    *(f"not certified: {why}" for why in made["uncertified"])]))
 
@@ -62,9 +62,9 @@ def basin(case, vary, depth, out, workers, scheduler, follow, csv, json, strict)
     """Show which initial states of a plane spin up, and how rough the boundary is."""
     targets = basin_files.checked(out or [])
     with basins(case, split_keys(vary or [], "KEY=FROM:TO or KEY=FROM:TO:N"), depth, targets.data, workers, scheduler, follow) as found:
-        for path in targets.paths:
-            say(f"written: {basin_files.write(found, path)}")
+        files = [basin_files.write(found, path) for path in targets.paths]
     answer(basin_words, found, json, csv)
+    say_written(files)
     leave_undecided(strict, strict and basin_words.undecided(found))
 
 
@@ -73,7 +73,7 @@ def atlas(case, torque, wheel, level, refine, certify, follow, timed, limits, ou
     plan = asked(case, torque, wheel, level, refine, certify, follow, timed, **limits)
     system, targets = units_of(plan.case, units), atlas_files.checked(out or [])
     with drawn(plan, targets[0] if targets else None, workers, scheduler) as found:
-        for target in targets:
-            say(f"written: {atlas_files.write(found, target, system)}")
+        files = [atlas_files.write(found, target, system) for target in targets]
     answer(atlas_words, found, json, csv, system)
+    say_written(files)
     leave_undecided(strict, strict and atlas_words.undecided(found))

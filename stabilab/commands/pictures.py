@@ -20,7 +20,7 @@ from ..show.surface.write import write_all
 from ..show.terminal.letters import lettered
 from ..show.text import law
 from .common.cases import load_cases, one_by_one, time_asked, units_asked
-from .common.output import hold_laws, leave_undecided, say, say_laws, tell, write, write_each, write_json
+from .common.output import hold_laws, leave_undecided, say, say_laws, say_written, tell, write, write_json, written
 from .common.tables import tell_all
 
 AN_EXAMPLE = Path(__file__).parents[1] / "cases" / "thruster-stuck-major-axis.toml"
@@ -83,8 +83,7 @@ def chaos(cases, until, out, csv, json, strict):
     for case in one_by_one(loaded):
         with blamed_on(case):
             rows.append((case, ask_chaos(case.scene, row_of(case.scene, case.state, case.blocks), time_asked(until, case, "until"))))
-    if out:
-        write_each(out, [(case, partial(chaos_picture.write, case, found)) for case, found in rows])
+    drawn = written(out, [(case, partial(chaos_picture.write, case, found)) for case, found in rows])
     laws = [law.of_case(case) for case in loaded]
     if json:
         write(chaos_words.json(rows, laws))
@@ -94,6 +93,7 @@ def chaos(cases, until, out, csv, json, strict):
     else:
         texts = [partial(chaos_words.text, [row]) for row in rows]
         tell_all(loaded, texts, laws, [""] * len(rows), False, "\n", lambda of: chaos_words.swept([rows[n] for n in of]), units_asked(loaded, None))
+    say_written(drawn)
     leave_undecided(strict, any(int(found.labels) == Order.UNDECIDED for _, found in rows))
     hold_laws(strict, laws)
 

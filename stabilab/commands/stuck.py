@@ -10,7 +10,7 @@ from ..show.progress import told
 from ..show.stuck_picture import draw
 from ..show.text import stuck as shown
 from .common.cases import load_cases, units_asked
-from .common.output import leave_undecided, write, write_each, write_json
+from .common.output import leave_undecided, say_written, write, write_json, written
 from .common.tables import tell_all
 
 
@@ -24,8 +24,7 @@ def stuck(case, all_thrusters, units, why, out, json, csv, strict):
         for one in loaded:
             with blamed_on(one):
                 answers.append(ask(one, all_thrusters, tell))
-    if out:
-        write_each(out, [(one, partial(draw, one, found, units=system)) for one, found, system in zip(loaded, answers, systems)])
+    drawn = written(out, [(one, partial(draw, one, found, units=system)) for one, found, system in zip(loaded, answers, systems)])
     if json:
         write_json(loaded, list(map(shown.as_dict, answers)))
     elif csv:
@@ -34,4 +33,5 @@ def stuck(case, all_thrusters, units, why, out, json, csv, strict):
         texts = [lambda n=n: shown.text(loaded[n], answers[n], systems[n]) for n in range(len(loaded))]
         tell_all(loaded, texts, [None] * len(loaded), [""] * len(loaded), all_thrusters or why, "\n\n",
                  lambda of: shown.swept([answers[n] for n in of], systems[of[0]]), systems)
+    say_written(drawn)
     leave_undecided(strict, any(row.fate == "undecided" for found in answers for row in found.rows))

@@ -55,8 +55,18 @@ def write_paths(paths, otherwise):
 
 def write_each(out, writers):
     """Let write(path) of every (case, write) make its file; each is named."""
-    for case, writer in writers:
-        say(f"written: {writer(labelled(out, case))}")
+    say_written(written(out, writers))
+
+
+def written(out, writers) -> list:
+    """Let write(path) of every (case, write) make its file where `out` is a name: the files, to be named after the answer."""
+    return [writer(labelled(out, case)) for case, writer in writers] if out else []
+
+
+def say_written(files):
+    """Name files that were written, a line each."""
+    for file in files:
+        say(f"written: {file}")
 
 
 def say_laws(judged):
