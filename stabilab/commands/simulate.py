@@ -75,7 +75,12 @@ def _as_text(case, run, reached, digits, units, width) -> str:
     checked = "checked to " if digits is None else ""
     last = f"\n# {checked}{reached.digits:.1f} digits: {reached.because}" if reached else ""
     told = "".join(f"\n# {lettered(units.words(line))}" for line in _theory(case, run, words=True))
-    return law.first(run.validity, text(case, run, units, digits is not None, width) + last + told, units)
+    return law.first(run.validity, text(case, run, units, None if digits is None else _known(reached, digits), width) + last + told, units)
+
+
+def _known(reached, digits) -> int:
+    """Digits of a state that are told: as many as the check vouches for, those asked for at least; exit code 5 says where they are not reached."""
+    return max(digits, int(min(reached.digits, 99.0)))
 
 
 def _theory(case, run, words=False):

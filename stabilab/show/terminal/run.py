@@ -10,9 +10,10 @@ ALL = 16  # digits of a double
 GAP = 2
 
 
-def text(case, run, units: Units, all_digits: bool = False, width: int | None = None) -> str:
-    """The lines for one run. width: of a terminal, where the columns are told part by part if they do not fit."""
-    digits = ALL if all_digits else DIGITS
+def text(case, run, units: Units, known: int | None = None, width: int | None = None) -> str:
+    """The lines for one run. known: digits that a check vouches for, where more than a table's were asked for; width: of a terminal, where the
+    columns are told part by part if they do not fit."""
+    digits = DIGITS if known is None else min(ALL, known)
     names, rows = answers.columns(run)
     factors = _factors(run, units)
     head, scale = [f"t ({written(case.scene.time_unit)})"], [1.0]
@@ -22,7 +23,7 @@ def text(case, run, units: Units, all_digits: bool = False, width: int | None = 
     laws = [f"# {lettered(name)}: largest relative departure {value:.3g}" for name, value in run.invariant_drift.items()]
     how = f"# {run.method}, rtol {run.rtol:.3g}" if run.rtol else f"# {run.model}: {lettered(run.method)}"
     notes = [f"# {lettered(units.words(run.reason))}"] if run.reason and run.reason != "all times reached" else []
-    return "\n".join([f"{case.name}: {headline(case, run, units)}", *_columns(head, cells, width, max(digits + 7, 13)), how, *laws, *notes,
+    return "\n".join([f"{case.name}: {headline(case, run, units)}", *_columns(head, cells, width, 13 if known is None else ALL + 7), how, *laws, *notes,
                       *(f"# {line.strip()}" for line in frame.note(case))])
 
 
