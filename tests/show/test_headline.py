@@ -79,7 +79,8 @@ def test_units_are_those_that_are_asked_for(own):
 
 
 @pytest.mark.parametrize("name, words", [
-    ("minor-axis-100", r"BOUNDED for ever while the torque is exactly along axis 3; largest rate 4.626 about axis 1; margin \S+ \(1.632\); period 1.804 tau"),
+    ("minor-axis-100",
+     r"BOUNDED for ever while the torque is exactly along axis 3; largest rate 4.626 about axis 1; margin \S+ in x, 1.632 in energy; period 1.804 tau"),
     ("middle-axis-spin-up", r"SPINS UP about axis 2, positive sense; about the other axes at most \S+"),
     ("off-axis-two", r"SPINS UP about axis 3, positive sense \(certified\); about the other axes at most \S+ deg/s"),
     ("torque-free-body", r"BOUNDED for ever; largest rate 28.65 deg/s about axis [23]; margin \S+ deg/s \(0.0075 J\); period 33.33 s"),

@@ -282,3 +282,37 @@ def test_show_has_no_number_of_more_digits_than_a_person_reads_and_none_of_the_m
     long = [digits for digits in re.findall(r"\d+\.\d+", told) if len(digits.replace(".", "").strip("0")) > 6 and digits not in given]
     assert not long
     assert all(("deg/s" in line) == (name != "minor-axis-100") for line in told.splitlines() if "motion from" in line)
+
+
+def test_the_answer_comes_first_and_the_files_after_it(tmp_path):
+    """On a terminal stderr and stdout are one: what stands first there is read as the answer."""
+    case, file = CASES / "wheel-and-thruster.toml", tmp_path / "drawn.png"
+    run = subprocess.run([sys.executable, "-m", "stabilab", "bifurcation", case, "--vary", "torque[3]=0:2000", "--out", file], stdout=subprocess.PIPE,
+                         stderr=subprocess.STDOUT, text=True, encoding="utf-8")
+    first, *_, last = run.stdout.splitlines()
+    assert first.startswith("wheel-and-thruster: 4 equilibria") and last == f"written: {file}" and file.exists()
+
+
+def test_a_case_without_motion_says_that_no_fate_is_told(stabilab, tmp_path):
+    path = tmp_path / "still.toml"
+    path.write_text("[body]\ninertia = [12, 9, 5]\n[effects.constant_torque]\ntorque = [0, 0, 0.02]\n", encoding="utf-8")
+    assert stabilab("classify", path)[1].split("\n")[0].endswith("; no [motion], so no fate")
+
+
+def test_a_run_shows_no_digit_that_its_check_does_not_vouch_for(stabilab, tmp_path):
+    """6 deg/s at the start is 6 and not 6.000000000000001, as the last place of a double has it after the turn from rad/s."""
+    path = tmp_path / "run.toml"
+    path.write_text("[body]\ninertia = [12, 9, 5]\n[effects.constant_torque]\ntorque = [0, 0, 0.02]\n"
+                    '[motion]\nangular_velocity = ["6 deg/s", 0, "1 deg/s"]\n', encoding="utf-8")
+    out = stabilab("simulate", path, "--at", "0,30", "--digits", "12")[1]
+    reached = int(float(re.search(r"^# ([\d.]+) digits", out, re.MULTILINE)[1]))
+    assert re.search(r"^ +0 +6 +0 +1$", out, re.MULTILINE)
+    last = re.search(r"^ +30 +(\S+)", out, re.MULTILINE)[1]
+    assert 12 <= len(last.replace(".", "").lstrip("-0")) <= reached < 16
+
+
+def test_names_of_rates_and_torques_are_letters_in_limits_and_in_formulas_of_papers(stabilab):
+    assert "|ω3| = 30 deg/s" in stabilab("when", CASES / "cubesat-3u.toml", "--component", "3 = 30 deg/s")[1]
+    told = stabilab("audit", "constant-torque-gyrostat", "--equation", "9")[1]
+    assert "μ2 μ3/μ1" in told and "mu" not in told.replace("must", "")
+    assert "margin 1.315 in x, 4.259 in energy" in stabilab("fate", CASES / "minor-axis-300.toml")[1]

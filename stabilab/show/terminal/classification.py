@@ -17,7 +17,7 @@ WORDS = ("stable", "asymptotically stable", "unstable", "undecided")
 
 def text(case, equilibria, motion, units: Units, proofs: bool = False) -> str:
     """The lines for one case. proofs: with eigenvalues, equations of curves, reasons of every verdict and the principal axes."""
-    answer = resting(equilibria) if motion is None else headline(case, motion, units)
+    answer = f"{resting(equilibria)}; no [motion], so no fate" if motion is None else headline(case, motion, units)
     lines = [f"{case.name}: {answer}", *([written(case.title)] if case.title else [])]
     if motion is not None:
         lines += [*table(case, motion, units), *tilt_lines(case, motion, units, proofs), *why(case, motion, units, proofs)]
@@ -60,6 +60,8 @@ def _equilibria(equilibria, units, proofs):
     lines = [f"  {reason(equilibria.reason, units)}"] if proofs or equilibria.kind == "undecided" else []
     for point in equilibria.points:
         lines += _point(point, units, proofs)
+    if not proofs and (turning := [curve for curve in equilibria.curves if " Omega for t" in curve.name]):
+        lines.append(lettered(f"  {turning[0].parametrisation.split(', omega')[0]}: the vertical gamma, about which the body turns at the rate Omega"))
     for curve in equilibria.curves:
         lines += _proved_curve(curve, units) if proofs else _curve(curve, units)
     return lines

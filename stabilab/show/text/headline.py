@@ -100,6 +100,8 @@ def margin(motion: Motion, units: Units) -> str:
     rate, height = rate_and_height(motion, units)
     if motion.fate.word == "spin-up":
         return f"{rate} from the separatrix" + (f" ({height})" if height else "") if rate else height
+    if units.scaled and rate and height:  # two numbers without units are told apart by names
+        return f"margin {rate} in x, {height} in energy"
     return f"margin {with_height(rate, height)}" if rate or height else ""
 
 
