@@ -82,7 +82,7 @@ def _by_scipy(equations, forms, state, t_max, steps, tolerance):
 def _of_step(values, dense, begin, end):
     """The first sign change of each expression within one step."""
     times, roots = np.linspace(begin, end, SUBSAMPLES + 1), []
-    for n, row in enumerate(np.array([values(dense(t)) for t in times]).T):
+    for n, row in enumerate(np.array([values(y) for y in dense(times).T]).T):
         for left in sign_changes(row)[:1]:
             roots.append(root_between(lambda y, n=n: values(y)[n], dense, times[left], times[left + 1]))
     return roots
