@@ -2,6 +2,7 @@
 import re
 import shutil
 import subprocess
+from html import unescape as html_text
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -150,6 +151,22 @@ def test_no_page_loads_anything_from_a_network(pages):
         assert not [one for one in Page(text).loads if re.match(r"(https?:|wss?:)?//", one)], path
         scripts = "".join(re.findall(r"(?s)<script.*?</script>|<style.*?</style>", text))
         assert not re.search(r"https?:|wss?:|url\(|@import|fetch\(|XMLHttpRequest", scripts), path
+
+
+def test_numbers_and_names_have_the_minus_of_a_book(pages):
+    """Outside of commands and files as they are typed."""
+    plain = set()
+    for path, text in pages.items():
+        shown = re.sub(r"(?s)<(script|style|code|pre)\b.*?</\1>", "", text)
+        words = html_text(re.sub(r"<[^>]*>", "\n", shown))
+        plain |= {(path.name, one) for one in re.findall(r".{0,30}(?:(?:^|[\s(\[=,])-[\w(]|\de-\d|(?<= \w) - \w\b|\([a-z]-[a-z]\)).{0,20}", words)}
+    assert not plain
+
+
+def test_a_minus_in_a_command_stays_as_it_is_typed():
+    from markupsafe import Markup
+    told = html.signed(Markup("x = -a, (-h, b - a, r0 - W, 2(b-a), 1e-5: <code>f -5 (-x) --tilt</code>"))
+    assert told == "x = −a, (−h, b − a, r0 − W, 2(b−a), 1e−5: <code>f -5 (-x) --tilt</code>"
 
 
 def test_a_page_is_small(pages):

@@ -12,6 +12,7 @@ from ...theories.audit.formulas import FormulaError
 from ..terminal.letters import ALPHABET
 from ..text.audit import counted, figures_changed
 from . import html
+from .typeset import numbered
 
 SHORT = {"al": "alpha", "th": "theta", "ps": "psi", "ph": "phi", "gam": "gamma", "Gam": "Gamma", "om": "omega", "Om": "Omega", "lam": "lambda",
          "Lam": "Lambda", "ep": "eps"}
@@ -80,7 +81,7 @@ def mathml(left, right):
 
     names = {s: sp.Symbol(_name(s.name)) for s in left.free_symbols | right.free_symbols}
     equation = sp.Eq(_readable(left.xreplace(names)), _readable(right.xreplace(names)), evaluate=False)
-    return Markup(f'<math xmlns="http://www.w3.org/1998/Math/MathML">{printed(equation, printer="presentation")}</math>')
+    return Markup(f'<math xmlns="http://www.w3.org/1998/Math/MathML">{numbered(printed(equation, printer="presentation"))}</math>')
 
 
 def _readable(expression):

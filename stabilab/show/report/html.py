@@ -20,10 +20,11 @@ def _environment():
     return environment
 
 
-MINUS = re.compile(r"(?<![\w)])-(?=\d)|(?<=\de)-(?=\d)")
+MINUS = re.compile(r"(?<![\w)])-(?=\d)|(?<=\de)-(?=\d)|(?<=[(\[])-(?=\w)|(?<=[(,=] )-(?=\w)"  # -5, 1e-5, (-h, = -a
+                   r"|(?<=\b[a-z])-(?=[a-z]\))|(?:(?<=\b\w )|(?<=\b\w\d ))-(?= \w\d?\b)")  # (b-a), b - a, r0 - W
 MEASURED = re.compile(r"(?<=\d) (?=(?:deg/s|rad/s|deg|rad|days?|min|h|s|J|τ)\b)")
 INDEXED = re.compile(r"(?<![\w/.])([A-Za-zΑ-Ωα-ω]|" + "|".join(ALPHABET) + r")_(\w+)")  # I_omega, x_j, mu_j
-SUBTRACTED = re.compile(r"(?<=[\w)²³']) - (?=[\w(])|(?:(?<=[(=,\[] )|(?<=[(\[=])|^)-(?=[\w(])")  # b - a, (-M2, x = -y
+SUBTRACTED = re.compile(r"(?<=[\w)²³*;]) - (?=[\w(])|(?:(?<=[(=,\[] )|(?<=[(\[=])|^)-(?=[\w(])")  # b - a, (-M2, x = -y
 RAISED = re.compile(r"\^(?:\(([^()]*)\)|([-−]?\w+))")
 
 
@@ -36,8 +37,9 @@ def book(text: str):
 
 
 def signed(text: str) -> str:
-    """The text with the minus of a book before numbers and in their exponents."""
-    return type(text)(MINUS.sub("−", text))  # what is escaped stays so
+    """The text with the minus of a book: before numbers and in their exponents, before a name and between two. Commands stay as they are typed."""
+    parts = re.split(r"(<code>.*?</code>)", text)
+    return type(text)("".join(part if part.startswith("<code>") else MINUS.sub("−", part) for part in parts))  # what is escaped stays so
 
 
 def together(text: str) -> str:

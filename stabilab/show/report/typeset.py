@@ -92,8 +92,14 @@ def inner(expression) -> str:
     """The expression as presentation MathML, without the element around it."""
     from sympy import Integer
     from sympy.printing.mathml import mathml
-    text = mathml(Integer(0) + expression, printer="presentation").replace("<mo>-</mo>", "<mo>&#x2212;</mo>").replace("<mn>-", "<mn>&#x2212;")
+    text = numbered(mathml(Integer(0) + expression, printer="presentation"))
     return re.sub(r"<mi>(\w+)</mi>", lambda found: _product(PRODUCTS[found[1]]) if found[1] in PRODUCTS else found[0], text)
+
+
+def numbered(mathml: str) -> str:
+    """MathML of SymPy with the minus of a book, and whole numbers of six digits without a zero behind their point."""
+    mathml = mathml.replace("<mo>-</mo>", "<mo>&#x2212;</mo>").replace("<mn>-", "<mn>&#x2212;")
+    return re.sub(r"<mn>([^<>]*\d)\.0</mn>", r"<mn>\1</mn>", mathml)
 
 
 def _product(words) -> str:

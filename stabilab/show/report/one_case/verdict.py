@@ -109,7 +109,7 @@ def extremes(case, motion, measures) -> list[dict]:
 def invariants(motion, measures) -> list[tuple[str, str]]:
     """(name, value with its unit where it is known what it is) of the constants of this motion."""
     known = {"energy": measures.energy, "rate_bound": measures.rate, "late_rate_bound": measures.rate,
-             "Q": lambda v: measures.units.Q(v, DIGITS).replace("^2", "²"),
+             "Q": lambda v: told(v * measures.units.squares[1], measures.units.squares[0].replace("^2", "²")),
              "momentum": lambda v: measures.units.momentum(v, DIGITS), "J": lambda v: told(v, "(N m s)²" * measures.physical),
              "J_rate": lambda v: told(v, "(N m s)²/s" if measures.physical else "per unit of τ")}
     words = {"rate_bound": "|ω| never exceeds", "late_rate_bound": "|ω| in the end at most", "Q": "invariant Q", "J": "J of the law below",
