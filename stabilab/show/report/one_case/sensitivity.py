@@ -12,6 +12,7 @@ from ...text.when import unreached
 from .measures import spoken, told, vector
 
 UNITS = {"wheel": "N m s", "torque": "N m"}
+ROUNDING = 1e-12  # of a unit vector from the difference of two states of doubles that are no nearer than a thousandth of their size
 OF = {"rate": "rates at the start", "wheel": "wheel momentum", "torque": "torque"}
 
 
@@ -58,14 +59,19 @@ def _of_motion(motion, measures):
         return []
     change = [b - a for a, b in zip(motion.at[:3], motion.velocity_witness)]
     size = math.hypot(*change)
-    return [{"what": OF["rate"], "size": measures.rate(motion.margin_velocity), "direction": vector([v / size for v in change]) if size else "",
+    return [{"what": OF["rate"], "size": measures.rate(motion.margin_velocity), "direction": _direction([v / size for v in change]) if size else "",
              "because": measures.reason(motion.velocity_because)}]
 
 
 def _margin(name, margin, measures):
     size = "" if margin.size is None else measures.rate(margin.size) if name == "rate" else told(margin.size, UNITS[name])
-    return {"what": OF[name], "size": size, "direction": vector(margin.direction) if margin.direction else "",
+    return {"what": OF[name], "size": size, "direction": _direction(margin.direction) if margin.direction else "",
             "because": spoken(holds_for(name, margin, measures.units))}
+
+
+def _direction(unit_vector):
+    """A direction; what the difference of two states leaves of a component that is zero, by rounding, is told as zero."""
+    return vector([0.0 if abs(v) < ROUNDING else v for v in unit_vector])
 
 
 def _wheel(wheel):
