@@ -6,7 +6,7 @@ import re
 from ....cost.accuracy import EPS, digit_price
 from ....integrate.trajectory import SCIPY_METHODS
 from ....machine import machine, versions
-from ...terminal.letters import written
+from ...terminal.letters import some, written
 
 FORMULAS = ("linear", "corrected", "printed", "averaged1", "averaged2", "lindstedt")
 WANTED = (3, 6, 9, 12, 15)  # digits whose price the words tell
@@ -26,7 +26,7 @@ def _reference_words(found) -> str:
         return f"Nothing was measured: {r.reason}."
     whole = r.reason if found.case.variables == "scaled" else SPAN.sub(r"\1 s", r.reason)
     reach = "" if r.status == "agrees" else f" Only so far: {whole}; the rest of the span is not judged."
-    return (f"Judged at {len(r.t)} times up to {_moment(found)} by a Taylor series run in {r.digits[0]} and in {r.digits[1]} "
+    return (f"Judged at {some(len(r.t), 'time')} up to {_moment(found)} by a Taylor series run in {r.digits[0]} and in {r.digits[1]} "
             f"digits; the two differ by {r.error.max():.0e} of the state, which is the reference's error.{reach}")
 
 
@@ -65,7 +65,7 @@ def _six(found, points, head):
 
 def title(found, question) -> str:
     """The question of this case, as a heading."""
-    named = {"span": f"States at {len(found.reference.t)} times up to {_moment(found)}", "end": f"The state at {_moment(found)}"}
+    named = {"span": f"States at {some(len(found.reference.t), 'time')} up to {_moment(found)}", "end": f"The state at {_moment(found)}"}
     return named.get(question, f"The {question}")
 
 
