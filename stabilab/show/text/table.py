@@ -198,10 +198,9 @@ def _is_text(table, column):
 
 def html_fragment(table: Table) -> str:
     """A <table> with everything escaped."""
-    head = "".join(f'<th scope="col">{html.escape(h)}</th>' for h in table.header)
-    body = "\n".join("<tr>" + "".join(
-        f'<td class="{"words" if table.wide or isinstance(v, str) else "number"}">{html.escape(_signed(v))}</td>' for v in row) + "</tr>"
-        for row in table.rows)
+    kinds = ["sentence" if table.wide else "words" if _is_text(table, n) else "number" for n in range(len(table.header))]
+    head = "".join(f'<th scope="col" class="{kind}">{html.escape(h)}</th>' for kind, h in zip(kinds, table.header))
+    body = "\n".join("<tr>" + "".join(f'<td class="{kind}">{html.escape(_signed(v))}</td>' for kind, v in zip(kinds, row)) + "</tr>" for row in table.rows)
     return (f'<table id="table-{table.number}">\n<caption>Table {table.number}. {html.escape(table.title)}</caption>\n'
             f"<thead><tr>{head}</tr></thead>\n<tbody>\n{body}\n</tbody>\n</table>\n<p class=\"note\">{html.escape(table.caption)}</p>\n")
 
@@ -217,7 +216,9 @@ def html_page(table: Table) -> str:
             '<meta name="viewport" content="width=device-width, initial-scale=1"><link rel="icon" href="data:,"><title>'
             f"Table {table.number}. {html.escape(table.title)}</title>\n<style>"
             "body{font:14px sans-serif;margin:1em}div{overflow-x:auto}table{border-collapse:collapse}caption{text-align:left;font-weight:600}"
-            "td,th{padding:.25em .6em;border-bottom:1px solid #ccc;text-align:right;vertical-align:top}td.words,th{text-align:left;min-width:4.5em}</style>"
+            "td,th{padding:.25em .6em;border-bottom:1px solid #ccc;text-align:right;vertical-align:top}"
+            ".words,.sentence{text-align:left}.words{white-space:nowrap}.sentence{min-width:4.5em}"
+            "@media(max-width:36rem){td.sentence:nth-child(n+4){min-width:13em}}</style>"
             f"</head>\n<body>\n<div>{html_fragment(table)}</div></body></html>\n")
 
 
