@@ -106,12 +106,13 @@ function fill(id, told, children) {  // what says the same as before stays, and 
   place.dataset.told = key; place.replaceChildren(...children(told));
 }
 
-const signed = words => words.replace(/(^|[\s(\[=,])-(?=[\w(])/g, "$1\u2212").replace(/(?<=[\w)²³]) - (?=[\w(])/g, " \u2212 ").replace(/\^([23T])(?!\w)/g, (_, one) => ({2: "²", 3: "³", T: "ᵀ"})[one]);
-function trouble(words) { $("note").hidden = !words; $("note").textContent = words; $("headline").classList.toggle("stale", Boolean(words)); }
+const signed = words => words.replace(/(^|[\s(\[=,])-(?=[\p{L}\d(])/gu, "$1\u2212").replace(/(?<=[\p{L}\d)²³]) - (?=[\p{L}\d(])/gu, " \u2212 ").replace(/(?<=\de)-(?=\d)/g, "\u2212").replace(/(?<=[\p{L}\d)]) \. (?=[\p{L}(])/gu, " · ").replace(/(?<=[MHωλγ])\.(?=[(MHDωλγ])/g, "·").replace(/\^([23T])(?!\w)/g, (_, one) => ({2: "²", 3: "³", T: "ᵀ"})[one]);
+function trouble(words) { $("note").className = "warning"; $("note").hidden = !words; $("note").textContent = words; $("headline").classList.toggle("stale", Boolean(words)); }
 
 function show(answer) {
   if (answer.error) { trouble(answer.error); return; }
   trouble(""); $("note").hidden = !answer.note; $("note").textContent = answer.note; shown = answer;
+  $("note").className = answer.note.startsWith("Within") ? "note" : "warning";  // a law that holds is no warning
   $("headline").textContent = answer.headline; $("headline").className = `verdict-line ${answer.fate}`;
   view.show(answer.space);
   fill("legend", answer.space.legend, rows => rows.map(([words, colour]) => { const mark = element("i", {}); mark.style.background = colour; return element("span", {}, mark, words); }));
@@ -152,8 +153,8 @@ async function check(file) {
   $("checked").textContent = `Checking ${file.name} ...`;
   try {
     const found = unpacked(await ask("verify", {text: await file.text()}));
-    const rows = (found.findings || []).map(one => element("tr", {}, element("td", {textContent: one.claim}), element("td", {className: one.status, textContent: one.status}), element("td", {textContent: one.reason})));
-    $("checked").replaceChildren(element("p", {className: found.status || "refuted", textContent: found.error ? found.error : `${file.name}: ${found.status}`}), element("p", {className: "quiet", textContent: found.about || ""}),
+    const rows = (found.findings || []).map(one => element("tr", {}, element("td", {textContent: signed(one.claim)}), element("td", {className: one.status, textContent: one.status}), element("td", {textContent: signed(one.reason)})));
+    $("checked").replaceChildren(element("p", {className: found.status || "refuted", textContent: found.error ? found.error : `${file.name}: ${found.status}`}), element("p", {className: "quiet", textContent: signed(found.about || "")}),
       element("div", {className: "scroll"}, element("table", {}, ...rows)));
   } catch (error) { $("checked").textContent = error.message; }
 }
