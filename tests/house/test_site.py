@@ -1,6 +1,7 @@
 """The site of the documentation: `make docs` builds it and ends at a warning; what its pages hold is told here without Sphinx."""
 import inspect
 import re
+import runpy
 import sys
 
 import pytest
@@ -127,3 +128,19 @@ def test_a_cell_shows_what_it_prints_its_value_and_its_own_figures():
 def test_a_notebook_that_is_run_today_prints_what_it_shows(path):
     kept = notebooks.read(path)
     assert notebooks.texts(notebooks.executed(kept)) == notebooks.texts(kept)
+
+
+def test_words_have_the_minus_of_a_book_and_tables_of_many_columns_low_rows(monkeypatch):
+    """What conf.py does to a page that Sphinx has read; commands stay as they are typed."""
+    pytest.importorskip("sphinx")
+    from docutils import nodes
+    from docutils.utils import new_document
+    monkeypatch.setattr(sys, "path", list(sys.path))  # conf.py puts its own folders there
+    conf = runpy.run_path(str(ROOT / "docs/conf.py"))
+    row = nodes.row("", *(nodes.entry("", nodes.paragraph("", words)) for words in ("1e-5", "a" * 40, "b" * 200, "c", "d")))
+    table = nodes.table("", nodes.tgroup("", *(nodes.colspec() for _ in range(5)), nodes.tbody("", row)))
+    page = new_document("page")
+    page += [nodes.paragraph("", "", nodes.Text("x is -5, to "), nodes.literal("", "f -5")), table]
+    conf["set_as_a_book"](None, page)
+    assert page[0].astext() == "x is −5, to f -5" and row[0].astext() == "1e−5"
+    assert "many" in table["classes"] and [cell["classes"] for cell in row] == [["whole"], ["words"], ["paragraph"], ["whole"], ["whole"]]
