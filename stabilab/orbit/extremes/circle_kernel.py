@@ -190,7 +190,7 @@ def look_ahead(m, numbers, lane, spot):
     x, z, q, energy, unclear = lane[X], lane[Z], lane[Q], lane[ENERGY], lane[UNCLEAR]
     closest, lowest = lane[CLOSEST], lane[LOWEST]
     offset, over, spot_x, spot_z, bend = spot[OFFSET], spot[OVER], spot[SPOT_X], spot[SPOT_Z], spot[BEND]
-    back_offset, back_over, fall = spot[BACK_OFFSET], spot[BACK_OVER], TURN * mu
+    back_offset, back_over, fall, bad = spot[BACK_OFFSET], spot[BACK_OVER], TURN * mu, lane[T]
     for a in range(m):
         there = offset[a] == 0.0
         sx, sz = spot_x[a], spot_z[a]
@@ -207,7 +207,7 @@ def look_ahead(m, numbers, lane, spot):
         # where the force bends within the steps they leave more of it than rounding, over which heights and turning points would be told
         settled = abs(mu + G * sx * sz + c * sz + d * sx) <= ROUNDINGS * EPS * terms
         sure = settled and abs(step) < FAR_STEP and abs(last) < LAST_STEP
-        unclear[a] = 1.0 if there and not sure else unclear[a]
+        bad[a] = 1.0 if there and not sure else 0.0
         sine, cosine = (sx * z[a] - sz * x[a]), (sx * x[a] + sz * z[a])
         angle = angle_of(sine, cosine)
         norm = 1 / q[a]
@@ -223,10 +223,11 @@ def look_ahead(m, numbers, lane, spot):
         e = (e if ahead else e + fall) if there else INFINITY
         over[a], back_over[a], spot_x[a], spot_z[a] = e, back_e, sx, sz
         bend[a] = curved if there else 0.0
-        barrier = curved > 0
-        near = min(abs(e), abs(back_e))
-        closest[a] = near if barrier and near < closest[a] else closest[a]
-        lowest[a] = e if e < lowest[a] else lowest[a]
+    for a in range(m):  # apart from the loop above, which does not vectorise with what it both reads and writes
+        near = min(abs(over[a]), abs(back_over[a]))
+        closest[a] = near if bend[a] > 0 and near < closest[a] else closest[a]
+        lowest[a] = over[a] if over[a] < lowest[a] else lowest[a]
+        unclear[a] = bad[a] if bad[a] > 0 else unclear[a]
 
 
 def keep(m, better, spot, kept, offset, over):
