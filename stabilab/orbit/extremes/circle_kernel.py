@@ -341,13 +341,14 @@ def contains(angle, left, right, at):
     return whole * TURN + at <= angle + right
 
 
-def _rules():
-    """sin(phi/2)^2 <= 1/2 at the trapezoidal nodes of 8 intervals, then at the midpoints of 8, 16, 32, 64."""
-    phi = [np.arange(5) * (np.pi / 8)] + [(np.arange(n // 2) + 0.5) * (np.pi / n) for n in (8, 16, 32, 64)]
+def _rules(*halved):
+    """sin(phi/2)^2 <= 1/2 at the trapezoidal nodes of 8 intervals, then at the midpoints of so many, each twice as many as before."""
+    phi = [np.arange(5) * (np.pi / 8)] + [(np.arange(n // 2) + 0.5) * (np.pi / n) for n in halved]
     return np.sin(0.5 * np.concatenate(phi)) ** 2
 
 
-NODES = _rules()
+NODES = _rules(8, 16, 32, 64)
+LANE_NODES = _rules(8, 16, 32, 64, 128, 256, 512)  # in lanes a pair of nodes costs some 4 ns: all of these take less than the double-exponential rule
 
 
 def sinc_minus_cos(t):
@@ -522,7 +523,7 @@ def add_nodes(count, first, last, nodes, narrow, table):
 
 
 def librations(count, nodes, narrow, table, periods, left_open):
-    """Periods of the packed lanes, written to their places; what is not settled by 128 nodes stays open."""
+    """Periods of the packed lanes, written to their places; what is not settled by 1024 nodes stays open."""
     if narrow:
         add_node(count, nodes[0], 0.5, True, table)
     else:

@@ -12,7 +12,7 @@ import numpy as np
 from ...numbers.numba_door import compiled, wanted
 from ..landscape import Landscape
 from . import circle_kernel
-from .circle_kernel import BOX, LINE, NODES, PERIOD
+from .circle_kernel import BOX, LANE_NODES, LINE, PERIOD
 
 # Loading numba and its cached code costs 1 to 2 s, compiling it once per machine some ten; NumPy takes some 5 us an orbit.
 COLD, WARM = 1_000_000, 20_000
@@ -74,5 +74,5 @@ def run_kernel(orbits, land, states, wanted, boxes, periods):
     numbers, axes, pieces, folds = kernel_input(land)
     left_open = np.zeros(len(states), np.uint8)
     folds = np.array(folds, float)  # numba compiles no loop over an empty tuple: a scene without folds
-    orbits(states, numbers, axes, pieces, folds, wanted, NODES, boxes, periods, left_open)
+    orbits(states, numbers, axes, pieces, folds, wanted, LANE_NODES, boxes, periods, left_open)
     return left_open

@@ -514,7 +514,7 @@ def add_nodes(count, nodes, first, last, mu, narrow, table):
 
 
 def librations(count, nodes, mu, narrow, table, periods, left_open):
-    """Periods of the packed lanes, written to their places; what is not settled by 128 nodes stays open."""
+    """Periods of the packed lanes, written to their places; what is not settled by 1024 nodes stays open."""
     if narrow:
         begin(count, mu, True, table)
     else:

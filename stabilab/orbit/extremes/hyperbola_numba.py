@@ -14,7 +14,7 @@ from ..fine.places import twofold_constant
 from ..fine.rows_numba import kernel_input as rows_input
 from ..landscape import Landscape
 from . import hyperbola_kernel
-from .circle_kernel import NODES
+from .circle_kernel import LANE_NODES
 from .circle_numba import COLD, WARM
 from .hyperbola_kernel import BOX, CELLS, COLUMNS, OCTAVES, PERIOD
 
@@ -100,5 +100,5 @@ def kernel():
 def run_kernel(orbits, land, states, asked, boxes, periods):
     """Call `hyperbola_kernel.orbits`, compiled or plain; (n,) bits of what it left open."""
     left_open = np.zeros(len(states), np.uint8)
-    orbits(states, *kernel_input(land), asked, NODES, boxes, periods, left_open)
+    orbits(states, *kernel_input(land), asked, LANE_NODES, boxes, periods, left_open)
     return left_open

@@ -11,7 +11,7 @@ from stabilab import Fate
 from stabilab.errors import InputError
 from stabilab.numbers import numba_door
 from stabilab.orbit.ball_orbit import Orbit
-from stabilab.orbit.extremes import circle_kernel
+from stabilab.orbit.extremes import circle_kernel, hyperbola_kernel, hyperbola_numba
 from stabilab.orbit.extremes import circle_numba as fast_extremes
 from stabilab.orbit.extremes.balls import precise_extremes
 from stabilab.orbit.extremes_and_periods import extremes_and_periods
@@ -155,6 +155,25 @@ def test_a_turning_point_found_by_a_last_step_of_1e_5_keeps_the_period():
     _, periods, left = plain(one, state[None])
     exact = precise_period(Orbit(landscape(one).reduction, state), Fate.BOUNDED)
     assert left[0] & 2 or periods[0] == pytest.approx(exact, rel=1e-11)
+
+
+@pytest.mark.parametrize("number", [33, 39])
+def test_rows_that_take_more_than_128_nodes_have_the_period_of_balls(number, monkeypatch):
+    """Next to a separatrix; on a circle and on a hyperbola."""
+    one = drawn(number + 1)[number]
+    door, loops = ((fast_extremes, circle_kernel), (hyperbola_numba, hyperbola_kernel))[landscape(one.scene).e > 0]
+    states = one.states(1200)
+    states = states[stabilab.fate(one.scene, states).labels == Fate.BOUNDED][:300]
+    periods, coarse, none = np.empty(len(states)), np.empty(len(states)), np.empty((0, 3, 2))
+    with np.errstate(all="ignore"):
+        left = door.run_kernel(loops.orbits, landscape(one.scene), states, 2, none, periods)
+        monkeypatch.setattr(door, "LANE_NODES", circle_kernel.NODES)
+        before = door.run_kernel(loops.orbits, landscape(one.scene), states, 2, none, coarse)
+    more = np.nonzero((before > 0) & (left == 0))[0]
+    np.testing.assert_array_equal(periods[before == 0], coarse[before == 0])
+    assert len(more) >= 3 and not ((before == 0) & (left > 0)).any()
+    exact = [precise_period(Orbit(landscape(one.scene).reduction, states[n]), Fate.BOUNDED) for n in more]
+    np.testing.assert_allclose(periods[more], exact, rtol=1e-11)
 
 
 def test_a_root_of_the_energy_difference_in_theta_loses_half_of_the_digits_next_to_the_separatrix():
