@@ -42,9 +42,10 @@ AT_XI, WAY, GROWN, LOG_WAY, GROW, GROW_2, DECAY, DECAY_2, OVER, HAZE, BEND, LEFT
 LEFT, BARRIER, RIGHT = range(3)
 # rows of a turning point: the coefficients of the rise about its anchor, towards it; the level; t - 1 there and as far as it may go; |F|, dF/dtheta, errors of
 # theta there and of the energy; of the state its way, t - 1 and t from the anchor; the way from it to the end, t - 1 and t there; whether the end is
-# ahead; sizes of the terms of the rise, then of F by F; the last step; the force that is left at the anchor
+# ahead; sizes of the terms of the rise, then of F by F; the last step; the force that is left at the anchor;
+# the way from there
 (E_GROW, E_GROW_2, E_DECAY, E_DECAY_2, E_BEND, LEVEL, SIGN, AT, REACH, PULL, END_BEND, BLUR, FOG, BASE, BASE_WAY, BASE_GROWN, OFFSET, CHANGED, RATIO, TOWARDS,
- TERMS, STEP, REST) = range(23)
+ TERMS, STEP, REST, WAY_THERE) = range(24)
 # rows of the period's table: half the interval, then of either end |F|, dF/dtheta and the coefficients of the rise, towards the other
 (RHO, L_PULL, L_BEND, L_GROW, L_GROW_2, L_DECAY, L_DECAY_2, R_PULL, R_BEND, R_GROW, R_GROW_2, R_DECAY, R_DECAY_2, SUM, BEFORE, CHANGE, EARLIER, ROW, GOOD,
  LEAST) = range(20)
@@ -182,12 +183,15 @@ def looked_up(m, lane, cells, first_cell, knots, graded, spots, three):
         three[a] = 1.0 if table[branch, cell, 0] == 3.0 else 0.0
 
 
-def place(m, barrier, twofold, numbers, lane, spot, three):
-    """Polish an equilibrium along the orbits, at last in twofold numbers, and tell E - V there from the state."""
+def place(m, barrier, twofold, numbers, lane, spot):
+    """Polish an equilibrium along the orbits, at last in twofold numbers, and tell E - V there from the state; without end is the error where it is none."""
     half_grow, half_decay, eighth, mu = numbers[7], numbers[8], numbers[9], numbers[3]
-    at, left_over, bend = spot[AT_XI], spot[LEFT_OVER], spot[BEND]
+    mu_low, grow_high, grow_low, decay_high, decay_low, quarter, quarter_low = twofold[1:]
+    at, left_over, bend, way, grown_by = spot[AT_XI], spot[LEFT_OVER], spot[BEND], spot[WAY], spot[GROWN]
+    at_grow, at_grow_2, at_decay, at_decay_2 = spot[GROW], spot[GROW_2], spot[DECAY], spot[DECAY_2]
+    at_xi, xi_low, at_eta, eta_low = lane[XI], lane[XI_LOW], lane[ETA], lane[ETA_LOW]
     for a in range(m):
-        xi, eta = lane[XI, a], lane[ETA, a]
+        xi, eta = at_xi[a], at_eta[a]
         x = at[a] if xi > 0 else -at[a]
         q = xi * eta
         y = q / x
@@ -198,16 +202,16 @@ def place(m, barrier, twofold, numbers, lane, spot, three):
             y = q / x
         at[a] = x
     for a in range(m):
-        xi, x = (lane[XI, a], lane[XI_LOW, a]), at[a]
-        q = times(xi, (lane[ETA, a], lane[ETA_LOW, a]))
+        xi, x = (at_xi[a], xi_low[a]), at[a]
+        q = times(xi, (at_eta[a], eta_low[a]))
         y = q[0] / x
         p, e = exact_product(y, x)
         y = exact_sum(y, ((q[0] - p) - e + q[1]) / x)
-        p, e = exact_product(twofold[2], x)
-        grow, decay = exact_sum(p, e + twofold[3] * x), times((twofold[4], twofold[5]), y)
+        p, e = exact_product(grow_high, x)
+        grow, decay = exact_sum(p, e + grow_low * x), times((decay_high, decay_low), y)
         square, other = exact_product(x, x), times(y, y)
-        square, other = times((twofold[6], twofold[7]), square), times((twofold[6], twofold[7]), other)
-        force = add(add((twofold[0], twofold[1]), add(grow, decay)), add(square, (-other[0], -other[1])))
+        square, other = times((quarter, quarter_low), square), times((quarter, quarter_low), other)
+        force = add(add((mu, mu_low), add(grow, decay)), add(square, (-other[0], -other[1])))
         slope = add(add(grow, (-decay[0], -decay[1])), (2 * square[0], 2 * square[1]))
         slope = add(slope, (2 * other[0], 2 * other[1]))
         one, two, three_, four = grow[0], decay[0], square[0], other[0]
@@ -217,17 +221,15 @@ def place(m, barrier, twofold, numbers, lane, spot, three):
         move -= 0.5 * second / slope[0] * move * move
         bent = slope[0] + move * (second + 0.5 * move * third)
         good = (abs(move) < TWOFOLD_STEP) & ((bent > 0) == barrier)
-        wanted = three[a] > 0 or not barrier
-        lane[UNCLEAR, a] = 1.0 if wanted and not good else lane[UNCLEAR, a]
         # t of the state, where x is the place before the last move
         t, off, back = xi[0] / x, ((xi[0] - x) + xi[1]) / x, move * (1 - 0.5 * move)
-        spot[GROWN, a], spot[WAY, a] = t - t * back, off - t * back
+        grown_by[a], way[a] = t - t * back, off - t * back
         x += x * move
-        at[a], bend[a], left_over[a] = x, bent, FINE * terms + 8 * terms * abs(move * move * move)
+        at[a], bend[a], left_over[a] = x, bent, (FINE * terms + 8 * terms * abs(move * move * move) if good else INFINITY)
         move = 2 * move
         three_, four = three_ * (1 + move), four * (1 - move)
-        spot[GROW, a], spot[GROW_2, a] = one * (1 + 0.5 * move) + three_, 0.5 * three_
-        spot[DECAY, a], spot[DECAY_2, a] = four - two * (1 - 0.5 * move), 0.5 * four
+        at_grow[a], at_grow_2[a] = one * (1 + 0.5 * move) + three_, 0.5 * three_
+        at_decay[a], at_decay_2[a] = four - two * (1 - 0.5 * move), 0.5 * four
     for a in range(m):
         way, t = spot[WAY, a], spot[GROWN, a]
         log_way = log_of(way, t)
@@ -348,35 +350,50 @@ def turn(m, side, mu, lane, spots, three, end):
             y = log_of(at[a], t)
             up, end[TERMS, a] = rise(at[a], t, y, mu * towards[a], bend[a], grow[a], grow_2[a], decay[a], decay_2[a])
             step[a] = -(sign[a] * up - level[a]) / (sign[a] * at[a] * (grow[a] + 2 * grow_2[a] * t + (decay[a] + 2 * decay_2[a] / t) / t))
-    for a in range(m):  # the last step is Newton's: it leaves its square over the way to where the force vanishes, at most some four times
+    settle_end(m, mu, end)
+
+
+def settle_end(m, mu, end):
+    """The last step of an end, which is Newton's: it leaves its square over the way to where the force vanishes, at most some four times. Then what is known
+    of the end; a few quantities a loop, else none vectorises."""
+    at, way, step, towards, bend = end[AT], end[WAY_THERE], end[STEP], end[TOWARDS], end[E_BEND]
+    grow, grow_2, decay, decay_2 = end[E_GROW], end[E_GROW_2], end[E_DECAY], end[E_DECAY_2]
+    pull, end_bend, blur, fog, terms = end[PULL], end[END_BEND], end[BLUR], end[FOG], end[TERMS]
+    for a in range(m):
         before, move = at[a], -step[a]
-        y = log_of(before, 1 + before) + move
-        n = before + (1 + before) * move * (1 + 0.5 * move)
+        way[a], at[a] = log_of(before, 1 + before) + move, before + (1 + before) * move * (1 + 0.5 * move)
+    for a in range(m):  # F, as the fall of the rise over short ways and over long ones
+        n, slope, mu_on = at[a], bend[a], mu * towards[a]
         t, inverse = 1 + n, 1 / (1 + n)
         back = n * inverse
-        near = y < NARROW
-        mu_on = mu * towards[a]
-        slope = bend[a]
-        short = slope * (1 - 0.5 * back) - 0.5 * mu_on * back + 2 * grow_2[a] * (n + 0.5 * back) - 2 * decay_2[a] * back * (inverse + 0.5)
-        sizes_short = abs(slope) + 0.5 * mu * back + 2 * abs(grow_2[a]) * (n + 0.5 * back) + 2 * abs(decay_2[a]) * back * (inverse + 0.5)
-        one, two, three_, four = grow[a], 2 * grow_2[a] * t, inverse * decay[a], 2 * decay_2[a] * inverse * inverse
-        inside = short if near else one + two + three_ + four
-        sizes = sizes_short if near else abs(one) + abs(two) + abs(three_) + abs(four)
-        pull = abs(n * inside)
-        # dF/dtheta, of short ways
+        near = way[a] < NARROW
+        first, second = 2 * grow_2[a] * (n + 0.5 * back), 2 * decay_2[a] * back * (inverse + 0.5)
+        one, two, three, four = grow[a], 2 * grow_2[a] * t, inverse * decay[a], 2 * decay_2[a] * inverse * inverse
+        inside = slope * (1 - 0.5 * back) - 0.5 * mu_on * back + first - second if near else one + two + three + four
+        sizes = abs(slope) + 0.5 * mu * back + abs(first) + abs(second) if near else abs(one) + abs(two) + abs(three) + abs(four)
+        pull[a], blur[a] = abs(n * inside), sizes / abs(inside)
+    for a in range(m):  # dF/dtheta, of short ways
+        n, mu_on = at[a], mu * towards[a]
+        t, inverse = 1 + n, 1 / (1 + n)
+        back = n * inverse
         fold, s = 0.5 * n * back, 0.5 * (n + back)
-        end[END_BEND, a] = slope * (1 + fold) - mu_on * s + 2 * grow_2[a] * ((1 + fold) * n + (2 * s + fold) * t) - 2 * decay_2[a] * (
+        end_bend[a] = bend[a] * (1 + fold) - mu_on * s + 2 * grow_2[a] * ((1 + fold) * n + (2 * s + fold) * t) - 2 * decay_2[a] * (
             (1 + fold) * back + (2 * s - fold) * inverse)
-        fog = end[FOG, a] + SLACK * EPS * (1 + y) * end[TERMS, a] + end[REST, a] * y
-        found = (abs(move) < LAST_STEP * min(y, 1.0)) & (level[a] > CLEAR * end[FOG, a]) & (y > 0)
-        way, base = (n if towards[a] > 0 else -back), end[BASE_WAY, a]
-        ratio = (t if towards[a] > 0 else inverse) / end[BASE_GROWN, a]
-        end[CHANGED, a] = (way - base) / end[BASE_GROWN, a] if abs(base) < 0.5 else ratio - 1
-        end[RATIO, a], end[OFFSET, a] = ratio, end[BASE, a] + towards[a] * y
-        end[PULL, a], end[FOG, a] = pull, fog
-        end[BLUR, a] = fog / pull + 2 * EPS * (abs(end[BASE, a]) + y) + 4 * move * move / y
-        end[TERMS, a] = sizes / abs(inside)
-        at[a] = n if found else np.nan
+    base, base_way, base_grown, offset, ratio, changed = end[BASE], end[BASE_WAY], end[BASE_GROWN], end[OFFSET], end[RATIO], end[CHANGED]
+    for a in range(m):
+        n, inverse, ahead = at[a], 1 / (1 + at[a]), towards[a] > 0
+        by = (1 + n if ahead else inverse) / base_grown[a]
+        changed[a] = ((n if ahead else -n * inverse) - base_way[a]) / base_grown[a] if abs(base_way[a]) < 0.5 else by - 1
+        ratio[a], offset[a] = by, base[a] + towards[a] * way[a]
+    level, rest = end[LEVEL], end[REST]
+    for a in range(m):
+        y, move, known = way[a], step[a], fog[a]
+        found = (abs(move) < LAST_STEP * min(y, 1.0)) & (level[a] > CLEAR * known) & (y > 0)
+        fog[a] = known + SLACK * EPS * (1 + y) * terms[a] + rest[a] * y
+        at[a] = at[a] if found else np.nan
+    for a in range(m):
+        y, move = way[a], step[a]
+        terms[a], blur[a] = blur[a], fog[a] / pull[a] + 2 * EPS * (abs(base[a]) + y) + 4 * move * move / y
 
 
 def sort_out(m, wanted, lane, left_end, right_end, left_open):
@@ -561,7 +578,7 @@ def orbits(states, fine, form, axes, numbers, twofold, cells, first_cell, knots,
     fine, form, axes and the first of numbers: as `rows_kernel.rows` takes them, then (c + d)/2, (d - c)/2 and G/8; twofold: high and low parts of mu, of these
     two and of G/4; cells and knots, graded: the tables of equilibria.
     """
-    lane, spots, ends, table = np.empty((13, LANES)), np.empty((3, 12, LANES)), np.empty((2, 23, LANES)), np.empty((20, LANES))
+    lane, spots, ends, table = np.empty((13, LANES)), np.empty((3, 12, LANES)), np.empty((2, 24, LANES)), np.empty((20, LANES))
     three, mu = np.empty(LANES), numbers[3]
     for start in range(0, len(states), LANES):
         stop = min(start + LANES, len(states))
@@ -569,7 +586,7 @@ def orbits(states, fine, form, axes, numbers, twofold, cells, first_cell, knots,
         orbit_rows(m, part, fine, form, axes, numbers, lane)
         looked_up(m, lane, cells, first_cell, knots, graded, spots, three)
         for s in range(3):
-            place(m, s == BARRIER, twofold, numbers, lane, spots[s], three)
+            place(m, s == BARRIER, twofold, numbers, lane, spots[s])
         enclose(m, lane, spots, three)
         turn(m, -1.0, mu, lane, spots, three, ends[0])
         turn(m, 1.0, mu, lane, spots, three, ends[1])

@@ -41,7 +41,7 @@ def kernel_input(land: Landscape):
     g = land.reduction.exact_constants
     numbers = *numbers, float((g["c"] + g["d"]) / 2), float((g["d"] - g["c"]) / 2), float(g["G"] / 8)
     exact = map(twofold_constant, (g["mu"], (g["c"] + g["d"]) / 2, (g["d"] - g["c"]) / 2, g["G"] / 4))
-    twofold = np.array([float(part) for number in exact for part in (number.high, number.low)])
+    twofold = tuple(float(part) for number in exact for part in (number.high, number.low))
     return fine, form, axes, numbers, twofold, *_table(land.conic, folds)
 
 
