@@ -27,7 +27,8 @@ LOOKS: dict[str, dict] = {
     "averaged1": {"color": style.GREEN, "linewidth": 1.4, "linestyle": "-.", "zorder": 2.1},
     "averaged2": {"color": style.SKY, "linewidth": 1.4, "linestyle": "--", "zorder": 2.2},
     "printed": {"color": style.ORANGE, "linewidth": 1.6, "linestyle": ":", "zorder": 2.3}}
-INK = {name: look["color"] for name, look in LOOKS.items()} | {"linear": style.BLUE, "lindstedt": style.BLUE, "corrected": style.PURPLE}  # of words
+# Of words: darker, to be read
+INK = {name: look["color"] for name, look in LOOKS.items()} | {"linear": style.BLUE, "lindstedt": style.BLUE, "corrected": "#9C4A7B", "printed": "#946300"}
 END = {"marker": "X", "markersize": 7, "linestyle": "none", "zorder": 5}
 WIDE = 3.0  # a model may stretch the axis to this many times the exact motion's range; beyond that it is cut
 TALL = 1.45  # a plane of one scale, against a history
@@ -207,8 +208,9 @@ def _panel(ax, row, column, limits):
     if row.equal:
         ax.set_aspect("equal", adjustable="box")
     for (name, top), (x, y, side, edge) in zip(far, CORNERS):
-        words = "cut: reaches" if row.over_time else f"cut: {_bare(row.ylabel)} to"  # short, so that two have room side by side
-        ax.text(x, y, f"{words} {plain(top)}", color=INK[name], ha=side, va=edge, fontsize=7.2, transform=ax.transAxes)
+        reaches = "reaches" if len(far) > 1 else "cut: reaches"  # short, so that several have room side by side
+        words = reaches if row.over_time else f"cut: {_bare(row.ylabel)} to"
+        ax.text(x, y, f"{words} {plain(top)}", color=INK[name], ha=side, va=edge, fontsize=8.6, transform=ax.transAxes)
 
 
 def plain(value) -> str:
