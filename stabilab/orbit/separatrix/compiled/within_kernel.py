@@ -291,7 +291,7 @@ def shapes(r, part, found, edges, normal, bend_s, forms, across, downward, outli
                 more[a] = 0.0
             downward[row] = max(downward[row], limit)
         pairs(signed, more, forms[1, row], forms[4, row])
-        twists(r, normal, row, forms[2, row], room)
+        twists(r, normal, row, forms[2, row])
     rims(r, part, found, kept, room[4], room[5], outline)
 
 
@@ -330,24 +330,16 @@ def pairs(signed, more, mean, most):
         most[a] = max(more[a + 1], more[a])
 
 
-def twists(r, normal, row, out, room):
+def twists(r, normal, row, out):
     """Fill out (m - 1,) with the twist of quads between two rows."""
-    for c in range(3):
-        turn, side = room[2 * c, :len(out)], room[2 * c + 1, :len(out)]
-        differences(r[c, row], r[c, row + 1], turn)
-        sums(normal[c, row], normal[c, row + 1], side)
     for a in range(len(out)):
-        out[a] = 0.25 * (room[0, a] * room[1, a] + room[2, a] * room[3, a] + room[4, a] * room[5, a])
-
-
-def differences(first, second, out):
-    for a in range(len(out)):
-        out[a] = (second[a + 1] - second[a]) - (first[a + 1] - first[a])
-
-
-def sums(first, second, out):
-    for a in range(len(out)):
-        out[a] = (second[a + 1] + first[a + 1]) + (second[a] + first[a])
+        d0 = (r[0, row + 1, a + 1] - r[0, row + 1, a]) - (r[0, row, a + 1] - r[0, row, a])
+        d1 = (r[1, row + 1, a + 1] - r[1, row + 1, a]) - (r[1, row, a + 1] - r[1, row, a])
+        d2 = (r[2, row + 1, a + 1] - r[2, row + 1, a]) - (r[2, row, a + 1] - r[2, row, a])
+        n0 = (normal[0, row + 1, a + 1] + normal[0, row, a + 1]) + (normal[0, row + 1, a] + normal[0, row, a])
+        n1 = (normal[1, row + 1, a + 1] + normal[1, row, a + 1]) + (normal[1, row + 1, a] + normal[1, row, a])
+        n2 = (normal[2, row + 1, a + 1] + normal[2, row, a + 1]) + (normal[2, row + 1, a] + normal[2, row, a])
+        out[a] = 0.25 * (d0 * n0 + d1 * n1 + d2 * n2)
 
 
 def rims(r, part, found, kept, bend, first, last):
@@ -368,21 +360,23 @@ def rims(r, part, found, kept, bend, first, last):
         last[a] = max(first[a], share * beyond_rim[a])
 
 
-def facets(forms, p, q, cut, worst):
-    """How far diagonals and facets' centres of quads stray at most where columns are denser by p (m - 1,) and rows by q (n - 1,); worst: room."""
+def facets(forms, p, q, worst):
+    """How far diagonals and facets' centres of quads stray at most, for the cut 1 and for the cut -1, where columns are denser by p (m - 1,) and rows by
+    q (n - 1,); worst: two rows of room."""
     n, m = forms.shape[1:]
     for a in range(m):
-        worst[a] = 0.0
+        worst[0, a] = worst[1, a] = 0.0
     for row in range(n):
         t = 1 / q[row]
         for a in range(m):
             v = 1 / p[a]
             u, s = forms[0, row, a] * (v * v), forms[1, row, a] * (t * t)
-            both = u + s
-            diagonal = both + 2 * cut * (forms[2, row, a] * (v * t))
+            both, twist = u + s, 2 * (forms[2, row, a] * (v * t))
             more = forms[3, row, a] * (v * v) + forms[4, row, a] * (t * t)
-            worst[a] = max(worst[a], max(abs(diagonal) / 8, abs(both + diagonal) / 18) + more)
-    return most_of(worst[:m])
+            first, second = both + twist, both - twist
+            worst[0, a] = max(worst[0, a], max(abs(first) / 8, abs(both + first) / 18) + more)
+            worst[1, a] = max(worst[1, a], max(abs(second) / 8, abs(both + second) / 18) + more)
+    return most_of(worst[0, :m]), most_of(worst[1, :m])
 
 
 def most_of(values):
@@ -436,9 +430,12 @@ def graded(forms, across, downward, s, u, straight, accuracy, safety, worst):
             least = max(least, across[a] / p[a]**2)
         for a in range(len(q)):
             least = max(least, downward[a] / q[a]**2)
-        for cut in (1.0, -1.0):
-            size = safety * sqrt(max(least, facets(forms, p, q, cut, worst)) / accuracy)
-            down, round_ = size * q.sum() + 1, size * p.sum() + 1
+        total_q, total_p, size = q.sum(), p.sum(), safety * sqrt(least / accuracy)
+        if (size * total_q + 1) * (size * total_p + 1) >= fewest:
+            continue  # facets can but ask for more
+        for stray in facets(forms, p, q, worst):
+            size = safety * sqrt(max(least, stray) / accuracy)
+            down, round_ = size * total_q + 1, size * total_p + 1
             if down * round_ < fewest:
                 rows, columns_, fewest = down, round_, down * round_
     less = min(sqrt(GROWTH * len(s) * len(u) / (rows * columns_)), 1.0)
@@ -479,8 +476,7 @@ def sheet(g, conic, sense, units, far, strip, part, s, u, accuracy):
         for a in range(m - 1):
             across[a] = max(across[a], outline[a])
         rim = max(across.max(), downward.max())
-        even_rows, even_columns = np.ones(n - 1), np.ones(m - 1)
-        first, second = facets(forms, even_columns, even_rows, 1.0, room[0]), facets(forms, even_columns, even_rows, -1.0, room[0])
+        first, second = facets(forms, np.ones(m - 1), np.ones(n - 1), room)
         best, stray = (1.0, max(rim, first)) if max(rim, first) <= max(rim, second) else (-1.0, max(rim, second))
         if attempt > 0 and (stray <= accuracy or min(n, m) == MOST_LINES):
             break
@@ -488,7 +484,7 @@ def sheet(g, conic, sense, units, far, strip, part, s, u, accuracy):
             break
         safety *= SAFER
         straight = sqrt(8 * SAG * largest(r, m, room[0])) * FIRST / max(n, m)
-        s, u = graded(forms, across, downward, s, u, straight, accuracy, safety, room[0])
+        s, u = graded(forms, across, downward, s, u, straight, accuracy, safety, room)
     points, residual = np.empty((n, 2 * m - 1, 3)), np.empty((n, 2 * m - 1))
     all_round(g, units, far, places, r, offsets, spots, points, residual)
     equilibria, invariants, found = np.empty((2, n, 3)), np.empty(n), np.empty(n, np.bool_)
