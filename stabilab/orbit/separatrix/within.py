@@ -19,6 +19,7 @@ GROW = 6.0         # cells, at most, against those of the grid before
 ROUNDS = 14
 SHARE = 4000       # points: strips of unequal shapes are computed as one array where no more are wasted
 RIM = 0.1          # of how far its outline strays counts where `reach` cuts a sheet off
+BENT = 0.25        # where a sheet bends within a cell, edges stray like their length and not its square: by that power denser than the root of how far tells
 TINY, SMALL = np.finfo(float).tiny, 1e-200
 
 
@@ -39,7 +40,7 @@ def grids_within(land, strips, accuracy) -> list[Grid]:
                 if attempt and (strays[best, k] <= accuracy or min(s.shape[1], u.shape[1]) == MOST or attempt == ROUNDS - 1):
                     found[n] = Grid(made.of(k), (1, -1)[best], strays[best, k:k + 1], [parts[n]])
                 else:
-                    following[n] = forms.graded(k, s[k], u[k], accuracy, SAFETY ** (attempt + 1))
+                    following[n] = forms.graded(k, s[k], u[k], accuracy, attempt)
         todo = following
     return [found[n] for n in range(len(parts))]
 
@@ -108,6 +109,7 @@ class _Forms:
     """How edges of grids bend, (k, n, m - 1) along rows and (k, n - 1, m) along columns, what follows for their facets, and better rows and columns."""
 
     def __init__(self, land, made, parts, edge):
+        self.first = edge[0]
         r = past_far_end(land, made.points)
         down, across = np.diff(r[..., :-1], axis=2), np.diff(r, axis=3)
         normal = _normals(made, down, across)
@@ -144,13 +146,16 @@ class _Forms:
         edges = np.maximum(np.maximum(self.edge_u.max(axis=(1, 2)), self.edge_s.max(axis=(1, 2))), self.outline.max(axis=1))
         return np.maximum(edges, _facets(self.quad_u, self.quad_s, self.twist, self.more_u + self.more_s, cut).max(axis=(1, 2)))
 
-    def graded(self, k, s, u, accuracy, safety):
+    def graded(self, k, s, u, accuracy, attempt):
         """(rows, columns) that `accuracy` needs of the part k, as far as its grid at rows s and columns u tells: of the mixtures and cuts the one with the
         fewest cells."""
         straight = np.sqrt(8 * STRAIGHT * self.size) * TRIAL / max(len(s), len(u))
         across, along = np.maximum(self.edge_u[k].max(axis=0), self.outline[k]), self.edge_s[k].max(axis=1)
         c, r = _density(across, straight), _density(along, straight)
-        shapes = []
+        r[0] *= max(self.first[k] / accuracy, 1.0) ** BENT  # measured, and mostly beside a fold
+        if attempt:  # an earlier grading was to keep rows to the accuracy, but knew less of their bends
+            r *= np.maximum(along / accuracy, 1.0) ** BENT
+        shapes, safety = [], SAFETY ** (attempt + 1)
         for mix in MIXTURES:
             p, t = mix * c, r[:, None]
             least = max((across / p**2).max(), (along / r**2).max())

@@ -52,14 +52,15 @@ def test_cells_grow_like_the_inverse_of_the_accuracy():
     assert 0.8**2 < flat[1] / flat[0] < 1.3**2 and fine.error < 0.015 * coarse.error
 
 
-@pytest.mark.parametrize("number, most", [(51, 75_000), (177, 80_000), (33, 8_000), (98, 3_000)])
+@pytest.mark.parametrize("number, most", [(51, 45_000), (177, 57_000), (32, 55_000), (88, 50_000), (33, 8_000), (98, 3_000)])
 def test_random_scenes_take_few_places_and_their_sheets_keep_shapes_of_their_own(monkeypatch, number, most):
-    """Places computed in all attempts; with one shape for all sheets, and more of both where facets strayed, number 51 took two million."""
+    """Places computed in all attempts; with one shape for all sheets, and more of both where facets strayed, number 51 took two million. With steps like the
+    root of how far edges stray where they bend within a cell too, the first four took 63,000 to 73,000."""
     from benchmarks.random_scenes import drawn
     from stabilab.orbit.separatrix import grid
     counted, loops = [], grid.loops
     monkeypatch.setattr(grid, "loops", lambda land, parts, s, u: counted.append(s.size * u.shape[1]) or loops(land, parts, s, u))
-    accuracy = {51: 1.05e-3, 177: 0.142, 33: 6.64e-3, 98: 5.23e-4}[number]  # of Flying Edges at 256^3 there
+    accuracy = {51: 1.05e-3, 177: 0.142, 32: 1.705e-2, 88: 1.765e-3, 33: 6.64e-3, 98: 5.23e-4}[number]  # of Flying Edges at 256^3 there
     sheets = stabilab.separatrix(drawn(number + 1)[number].scene, accuracy=accuracy).sheets
     assert sum(counted) < most and max(sheet.error for sheet in sheets) <= accuracy
     assert len({sheet.points.shape for sheet in sheets}) > 1 or number == 98  # alike enough to be computed as one

@@ -33,7 +33,7 @@ from ..circle_kernel import (
 )
 from .far_kernel import FLIP, NEAR_CENTRE, RATE, far_departures, far_ends, far_orbit, far_row, far_sharpness, far_way, far_well
 
-GAP, SAFER, GROWTH, MOST_ROUNDS, RIM_SHARE, MOST_LINES, SAG, FIRST, NARROW = 0.1, 1.05, 6.0, 14, 0.1, 1025, 1e-6, 17, 0.02
+GAP, SAFER, GROWTH, MOST_ROUNDS, RIM_SHARE, MOST_LINES, SAG, FIRST, NARROW, BEND = 0.1, 1.05, 6.0, 14, 0.1, 1025, 1e-6, 17, 0.02, 0.25
 TINY, SMALL = 2.2250738585072014e-308, 1e-200
 MIXES = (0.7, 1.0, 1.5, 2.0)
 # of a part: which side, its first and last row, -1 or +1 where one of these is a seam, whether loops pass a second saddle, whether `reach` cuts it off
@@ -417,11 +417,16 @@ def placed(weights, at, number):
     return out
 
 
-def graded(forms, across, downward, s, u, straight, accuracy, safety, worst):
-    """(rows, columns) that `accuracy` needs, as far as a grid tells (`within._Forms.graded`); across: with the outline."""
+def graded(forms, across, downward, s, u, straight, accuracy, safety, first, again, worst):
+    """(rows, columns) that `accuracy` needs, as far as a grid tells (`within._Forms.graded`); across: with the outline; first: how far the first row's edges
+    stray, measured; again: whether an earlier grading was to keep to the accuracy."""
     c, q = np.empty(len(u) - 1), np.empty(len(s) - 1)
     density(across, straight, c)
     density(downward, straight, q)
+    q[0] *= max(first / accuracy, 1.0)**BEND
+    if again:
+        for a in range(len(q)):
+            q[a] *= max(downward[a] / accuracy, 1.0)**BEND
     p, rows, columns_, fewest = np.empty(len(c)), 0.0, 0.0, float("inf")
     for mix in MIXES:
         least = 0.0
@@ -484,7 +489,7 @@ def sheet(g, conic, sense, units, far, strip, part, s, u, accuracy):
             break
         safety *= SAFER
         straight = sqrt(8 * SAG * largest(r, m, room[0])) * FIRST / max(n, m)
-        s, u = graded(forms, across, downward, s, u, straight, accuracy, safety, room)
+        s, u = graded(forms, across, downward, s, u, straight, accuracy, safety, edges[0], attempt > 0, room)
     points, residual = np.empty((n, 2 * m - 1, 3)), np.empty((n, 2 * m - 1))
     all_round(g, units, far, places, r, offsets, spots, points, residual)
     equilibria, invariants, found = np.empty((2, n, 3)), np.empty(n), np.empty(n, np.bool_)
