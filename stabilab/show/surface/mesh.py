@@ -22,17 +22,19 @@ class Mesh:
 def triangulate(sheet) -> Mesh:
     """The mesh of a sheet. Points of the grid that coincide (a row shrunk to the fold; columns 0 and -1 at the
     saddle) become one vertex, and triangles that lost a corner or their area are dropped."""
-    points = np.ascontiguousarray(sheet.points, dtype=float) + 0.0  # -0.0 and 0.0 are one place
-    residual = np.abs(np.asarray(sheet.residual, float))
+    points, residual = np.asarray(sheet.points, float), np.abs(np.asarray(sheet.residual, float))
     tip, closed = bool((points[0] == points[0, 0]).all()), bool((points[:, 0] == points[:, -1]).all())
     kept = np.s_[int(tip):, :points.shape[1] - int(closed)]
     if _coincide(points, kept):
-        return _merged(sheet, points, residual)
+        return _merged(sheet, points + 0.0, residual)  # -0.0 and 0.0 are one place, here and below
     if closed:
         np.maximum(residual[:, 0], residual[:, -1], out=residual[:, 0])
-    vertices, values = points[kept].reshape(-1, 3), residual[kept].ravel()
+    rest = points[kept]
+    vertices, values = np.empty((tip + rest.shape[0] * rest.shape[1], 3)), np.empty(tip + rest.shape[0] * rest.shape[1])
+    np.add(rest, 0.0, out=vertices[int(tip):].reshape(rest.shape))
+    values[int(tip):].reshape(rest.shape[:2])[:] = residual[kept]
     if tip:
-        vertices, values = np.concatenate([points[0, :1], vertices]), np.append(residual[0].max(), values)
+        vertices[0], values[0] = points[0, 0] + 0.0, residual[0].max()
     return Mesh(sheet.name, vertices, _plain_triangles(*points.shape[:2], tip, closed, sheet.cut), values)
 
 
