@@ -7,6 +7,7 @@ in a tenth to a twentieth of the time; rows whose orbits are centred far away ar
 from __future__ import annotations
 
 from functools import lru_cache
+from threading import local
 
 import numpy as np
 
@@ -24,6 +25,8 @@ GRADING = (FLOOR, STRAIGHT, UNIFORM, DENSE)
 WITHIN = {"circle": (circle_loops, far_loops, within_loops), "hyperbola": (circle_loops, far_loops, within_loops, hyperbola_kernel)}
 INLINED = {"force", "slope", "moved", "y_minus_sin", "rise", "risen", "xz", "place_of", "invariant", "far_series"}
 EVEN = np.linspace(0, 1, TRIAL)
+KEPT = 2**19  # numbers, 4 MB: a grid of 35,000 places
+_THREAD = local()
 
 
 def serves(land, strips) -> bool:
@@ -101,7 +104,14 @@ def sheet_by_kernel(land, part, rows, accuracy, names=None):
     names = names or kernel_within(land.base)
     cut_off = part.seam <= 0 and part.branch.far == OPEN
     numbers = np.array((part.side, part.low, part.high, part.seam, part.over, cut_off), float)
-    return names["sheet"](*kernel_input(land), far_input(land), np.array(_line(part.branch)), numbers, rows, EVEN, float(accuracy))
+    return names["sheet"](*kernel_input(land), far_input(land), np.array(_line(part.branch)), numbers, rows, EVEN, float(accuracy), _kept_room())
+
+
+def _kept_room():
+    """Room for the grids of a sheet, kept for the next one of the same thread: the system takes as long to give it as the kernel to fill it."""
+    if not hasattr(_THREAD, "room"):
+        _THREAD.room = np.empty(KEPT)
+    return _THREAD.room
 
 
 def _line(branch):

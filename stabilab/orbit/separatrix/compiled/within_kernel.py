@@ -466,15 +466,19 @@ def points_of(g, conic, sense, units, far, strip, part, s, u, places, r, offsets
         edges[which] = sag(r, first, last, between, m) if whole else 0.0
 
 
-def sheet(g, conic, sense, units, far, strip, part, s, u, accuracy):
+def sheet(g, conic, sense, units, far, strip, part, s, u, accuracy, kept):
     """(points (n, 2 m - 1, 3) of the loops all round, their residual, equilibria (2, n, 3), saddles and centres, invariants (n,), found (n,), cut, how far
-    facets stray) of a part of a sheet, from its trial rows s and columns u on."""
+    facets stray) of a part of a sheet, from its trial rows s and columns u on; kept: room for grids, as large as one may keep."""
     safety, best, stray = 1.0, 1.0, 0.0
     for attempt in range(MOST_ROUNDS):
         n, m = len(s), len(u)
-        places, r, offsets, spots, edges = np.empty((n, ROW_NUMBERS)), np.empty((3, n, m + 1)), np.empty((n, m)), np.empty((2, n, m)), np.empty(2)
+        whole = n * m
+        if 15 * whole + 3 * n > len(kept):
+            kept = np.empty(15 * whole + 3 * n)
+        r, normal, spots = kept[:3 * (whole + n)].reshape(3, n, m + 1), cut_out(kept, 3 * n, 3, 6, n, m), cut_out(kept, 3 * n, 6, 8, n, m)
+        places, offsets, edges = np.empty((n, ROW_NUMBERS)), cut_out(kept, 3 * n, 8, 9, n, m)[0], np.empty(2)
         points_of(g, conic, sense, units, far, strip, part, s, u, places, r, offsets, spots, edges)
-        normal, bends, forms = np.empty((3, n, m)), np.empty((n, m)), np.empty((5, n - 1, m - 1))
+        bends, forms = cut_out(kept, 3 * n, 9, 10, n, m)[0], kept[3 * n + 10 * whole:][:5 * (n - 1) * (m - 1)].reshape(5, n - 1, m - 1)
         across, downward, outline = np.empty(m - 1), np.empty(n - 1), np.empty(m - 1)
         room = np.empty((7, 2 * max(n, m) + 2))
         shapes(r, part, places[:, FOUND], edges, normal, bends, forms, across, downward, outline, room)
@@ -506,6 +510,11 @@ def sheet(g, conic, sense, units, far, strip, part, s, u, accuracy):
                 equilibria[which, row, j], equilibria[which, row, k] = per_x * px - shift_j, per_z * pz - shift_k
         invariants[row], found[row] = invariant(places[row, 0], places[row, 1]), places[row, FOUND] > 0
     return points, residual, equilibria, invariants, found, best, stray
+
+
+def cut_out(kept, start, first, last, n, m):
+    """(last - first, n, m) of a room, whose arrays (n, m) are numbered from `start` on."""
+    return kept[start + first * n * m:start + last * n * m].reshape(last - first, n, m)
 
 
 def largest(r, m, worst):
