@@ -12,6 +12,7 @@ from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.numbers.numba_door import plain_together
 from stabilab.orbit.landscape import landscape
 from stabilab.orbit.separatrix import within
+from stabilab.orbit.separatrix.compiled import sheets_numba
 from stabilab.orbit.separatrix.compiled.sheets_numba import WITHIN, kernel_input, serves_within, sheet_by_kernel
 from stabilab.orbit.separatrix.grid import trial_parts
 from stabilab.orbit.separatrix.homoclinic import loop_end
@@ -72,6 +73,18 @@ def test_the_second_half_of_a_loop_mirrors_the_first(name):
     np.testing.assert_array_equal(np.delete(points, axis, axis=-1), there)
     np.testing.assert_allclose(points[:, :middle, axis] + points[:, :middle:-1, axis], 2 * land.reduction.component_i(0.0), atol=1e-15 * np.abs(points).max())
     np.testing.assert_array_equal(residual, residual[:, ::-1])
+
+
+@names
+def test_a_grid_larger_than_the_room_that_is_kept_is_the_same(name, monkeypatch):
+    scene, accuracy = SCENES[name]
+    land = landscape(scene)
+    parts, rows = trial_parts(land, tuple(strips_of(land)))
+    kept = sheet_by_kernel(land, parts[0], rows[0], 4 * accuracy, plain(land))
+    for room in (0, 6000):  # none for any grid; for the trial rows alone
+        monkeypatch.setattr(sheets_numba, "_kept_room", lambda room=room: np.full(room, np.nan))
+        for one, other in zip(kept, sheet_by_kernel(land, parts[0], rows[0], 4 * accuracy, plain(land)), strict=True):
+            np.testing.assert_array_equal(one, other)
 
 
 @pytest.mark.parametrize("name", ["minor a<b", "figure eight"])
