@@ -9,6 +9,7 @@ import math
 from contextlib import contextmanager
 from dataclasses import replace
 from fractions import Fraction
+from functools import lru_cache
 
 from ..errors import InputError
 from .ball_orbit import Orbit
@@ -32,6 +33,7 @@ def in_range(what: str = "state"):
         raise InputError(f"{what}: the squares of rates, moments or momenta this large are {BEYOND}: choose other units") from None
 
 
+@lru_cache(maxsize=64)
 def scene_exponent(scene) -> int | None:
     """log2 of the size of the rates that wheel and torque bring about, to a unit or two; None without either."""
     form = scene.quadratic()
@@ -55,6 +57,8 @@ def far_rows(scene, states):
     # wheel or torque of ordinary size, and no larger rate: all of them are ordinary, told without a row's own size
     if own is not None and abs(own) <= ORDINARY and len(states) and max(states.max(), -states.min()) < 2.0**ORDINARY:
         return np.zeros(len(states), bool)
+    if own is not None and -ORDINARY <= own <= ORDINARY and np.abs(states).max(initial=0.0) < 2.0 ** (ORDINARY - 1):
+        return np.zeros(len(states), bool)  # as below, with a third of the calls, which few states notice
     sizes = np.abs(states).max(axis=1, initial=0.0)
     moving = sizes > 0
     exponents = np.where(moving, np.frexp(sizes)[1], ORDINARY if own is None else own)
