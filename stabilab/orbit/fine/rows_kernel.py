@@ -29,6 +29,7 @@ TERMS = 30  # of a series about an equilibrium
 LOOKS, CLOSER = 64, 4  # as in `period.rules`
 FINE = 2.0**-92  # of the terms of an energy in twofold numbers: a dozen sums and a series of twenty terms, with room to spare
 PIECE_DIGITS = 3e-12  # relative, of E - V at a stop and half-way between two; the period's promise is `PERIOD_DIGITS`
+NEAR = 1e-6  # of the force at an end: what a step there may change it by, whose square is left
 HALVINGS, SERIES = 6, 12  # of a way, before its sine is summed; terms of the sum: 0.2^24/24! is 1e-41
 # columns of a spot: its offset from the state, E - V there, whether it is a barrier, the place, dF/dtheta, modes (A, B) about it; what its force,
 # its slope, the energy and the offset may be off by
@@ -155,6 +156,12 @@ class Circle:
         return exact_sum(way, value(less(less(across, times(across, lag)), times(along, s))) / Q)
 
     @staticmethod
+    def moved(X, Z, y):
+        """The place a way y from (X, Z), twofold."""
+        s, lag = sine_and_lag(y)
+        return add(X, less(times(Z, s), times(X, lag))), less(Z, add(times(Z, lag), times(X, s)))
+
+    @staticmethod
     def swing(y):
         """(sin y, sin(y/2), y less the first without cancellation)."""
         h, t = np.sin(0.5 * y), y * y
@@ -276,6 +283,11 @@ class Hyperbola:
         start, end = add(X, scaled(Z, side)), add(u, scaled(v, side))
         off = value(less(times(end, exponential(-side * way)), start)) / value(start)
         return exact_sum(way, side * off * (1 - 0.5 * off))
+
+    @staticmethod
+    def moved(X, Z, y):
+        grown, decayed = times(add(X, Z), exponential(y)), times(less(X, Z), exponential(-y))
+        return scaled(add(grown, decayed), 0.5), scaled(less(grown, decayed), 0.5)
 
     @staticmethod
     def swing(y):
@@ -492,6 +504,26 @@ def sharpened(fine, conic, X, Z, turn, wide, count, spots):
         terms = kinetic[0] + mu[0] * (1 + abs(way[0])) + (abs(G[0]) * far + abs(c[0]) + abs(d[0])) * far
         if abs(last) <= ENOUGH:
             spot[OVER], spot[ERROR] = value(over), FINE * terms + spot[PULL] * spot[PULL] / abs(slope)
+
+
+def sharpened_ends(fine, X, Z, turn, wide, ends, turns):
+    """Fill turns with the ends after a step of Newton's method each, E - V there a sum of twofold numbers: where the force is small, doubles leave few digits.
+
+    They are told from the state. The period tells E - V from equilibria, and keeps the ends that are told from these."""
+    G, c, d, mu = (fine[0], fine[1]), (fine[2], fine[3]), (fine[4], fine[5]), (fine[6], fine[7])
+    kinetic = times((fine[16], fine[17]), times(turn, turn))
+    for k in range(2):
+        turns[k] = ends[k]
+        end = turns[k]
+        u, v = moved(X, Z, end[END])
+        half = times(G, scaled(add(u, X), 0.5))
+        over = value(add(add(kinetic, scaled(mu, end[END])), add(times(less(u, X), add(half, c)), scaled(times(d, less(v, Z)), E))))
+        far = abs(u[0]) + abs(v[0]) + wide
+        terms = kinetic[0] + mu[0] * (1 + abs(end[END])) + (abs(G[0]) * far + abs(c[0]) + abs(d[0])) * far
+        step, steep = -over / end[FORCE], abs(end[END_BEND] / end[FORCE])
+        if abs(step) * steep <= NEAR:
+            end[END] += step
+            end[BLUR] = FINE * terms / abs(end[FORCE]) + step * step * steep + EPS * abs(end[END])
 
 
 def way_of_cosine(psi, near, far):
@@ -942,7 +974,8 @@ def rows(states, open_rows, fine, form, axes, conic, pieces, folds, wanted, rule
     """
     nodes, near, weights, levels = rules
     j, k, i = axes
-    spots, ends, box = np.empty((2 * len(pieces) + 1, ASTRAY + 1)), np.empty((2, END_B + 1)), np.empty((3, 2))
+    spots, box = np.empty((2 * len(pieces) + 1, ASTRAY + 1)), np.empty((3, 2))
+    ends, turns = np.empty((2, END_B + 1)), np.empty((2, END_B + 1))
     stops = np.empty((2 * len(pieces) + 3, STOP_B + 1))
     data, work, held = np.empty(2 * TERMS + 1), np.empty(TERMS), np.empty(3)
     extra = abs(fine[8] * fine[12]) + abs(fine[10] * fine[14])
@@ -970,7 +1003,9 @@ def rows(states, open_rows, fine, form, axes, conic, pieces, folds, wanted, rule
             known, fastest, haze, closest = spanned(conic[3], w, count, spots, ends)
             if not known:
                 continue
-            if asked & BOX and boxed(form, axes, state, x, z, xi, eta, ends, fastest, haze, box):
+            if sharp and asked & BOX:
+                sharpened_ends(fine, X, Z, exact_sum(turn, rest + form[4]), wide, ends, turns)
+            if asked & BOX and boxed(form, axes, state, x, z, xi, eta, turns if sharp else ends, fastest, haze, box):
                 boxes[row] = box
                 asked -= BOX
             if asked & PERIOD:
@@ -993,7 +1028,7 @@ def functions_of(geometry):
 
 GEOMETRIES = {"circle": Circle, "hyperbola": Hyperbola}
 E, ROUND, WALLED = Circle.E, Circle.ROUND, Circle.WALLED
-invariant, lost, onto, way_between, whole_way, swing, bent, sizes_of_ways = (
-    Circle.invariant, Circle.lost, Circle.onto, Circle.way_between, Circle.whole_way, Circle.swing, Circle.bent, Circle.sizes_of_ways)
+invariant, lost, onto, way_between, whole_way, moved, swing, bent, sizes_of_ways = (
+    Circle.invariant, Circle.lost, Circle.onto, Circle.way_between, Circle.whole_way, Circle.moved, Circle.swing, Circle.bent, Circle.sizes_of_ways)
 repeated, change, stationary, size_of_terms, middle_modes, whole, modes_pair, modes_terms = (
     Circle.repeated, Circle.change, Circle.stationary, Circle.size_of_terms, Circle.middle_modes, Circle.whole, Circle.modes_pair, Circle.modes_terms)

@@ -7,6 +7,7 @@ import pytest
 
 from benchmarks.random_scenes import drawn
 from stabilab import Fate, ScaledGyrostat, extremes, fate, period
+from stabilab.numbers.numba_door import twins
 from stabilab.orbit.ball_orbit import Orbit
 from stabilab.orbit.extremes.balls import precise_extremes
 from stabilab.orbit.extremes_and_periods import extremes_and_periods
@@ -154,3 +155,37 @@ def test_the_compiled_rows_are_those_of_plain_python_and_of_the_arrays(number):
 def test_scenes_without_a_torque_or_with_lines_of_equilibria_have_no_kernel():
     assert kernel_input(landscape(scene((3, 2, 1), (0, 0, 1), 1, 0.0))) is None
     assert all(kernel_input(landscape(SCENES[name])) is not None for name in HYPERBOLAS)
+
+
+def test_an_end_where_the_force_is_small_has_its_digits():
+    """The force at an end is a thousandth of its terms here, and doubles left the end too few digits: the row went to balls, at nine milliseconds."""
+    one, state = drawn(186)[185].scene, (0.7065480824112208, -0.4458277770271243, 0.007785850961628301)
+    box, time, left = plain(one, np.array([state]))
+    exact = np.array(precise_extremes(Orbit(landscape(one).reduction, state), Fate.BOUNDED))
+    assert left[0] == 0 and (np.abs(box[0] - exact).max(axis=1) <= 1e-12 * np.abs(exact).max(axis=1)).all()
+    assert time[0] == pytest.approx(precise_period(Orbit(landscape(one).reduction, state), Fate.BOUNDED), rel=1e-11)
+
+
+@pytest.mark.parametrize("number", SAMPLE)
+def test_ends_in_twofold_numbers_are_those_of_balls(number):
+    """Of rows that would not need them too: the first look at a box is made to fail."""
+    one, states = bounded(number, 12)
+    land, looks = landscape(one), []
+
+    def make(name, twin):
+        if name != "boxed":
+            return twin
+
+        def boxed(*given):
+            looks.append(0)
+            return len(looks) % 2 == 0 and twin(*given)
+        return boxed
+    rows = twins(rows_kernel, make, **rows_kernel.functions_of(rows_kernel.GEOMETRIES[land.base]))["rows"]
+    boxes, none, left = np.empty((len(states), 3, 2)), np.empty(0), np.full(len(states), 1, np.uint8)
+    for n in range(len(states)):
+        looks.clear()
+        rows(states, np.array([n]), *kernel_input(land), 1, rows_numba.rules(), boxes, none, left)
+    assert np.count_nonzero(left == 0) >= 0.9 * len(states)
+    for state, box in zip(states[left == 0], boxes[left == 0]):
+        exact = np.array(precise_extremes(Orbit(land.reduction, state), Fate.BOUNDED))
+        assert (np.abs(box - exact).max(axis=1) <= 1e-12 * np.abs(exact).max(axis=1)).all()
