@@ -492,7 +492,7 @@ def test_a_rate_that_turns_often_by_little_is_drawn_as_its_line_and_not_as_a_ban
     assert len(ax.collections) == 2  # omega1 and omega2, which fill bands
 
 
-@pytest.mark.parametrize("size, panels", [((3.6, 3.0), 1), ((7, 6), 4)])
+@pytest.mark.parametrize("size, panels", [((3.6, 3.0), 1), pytest.param((7, 6), 4, marks=pytest.mark.slow)])
 def test_a_small_picture_of_costs_has_as_many_questions_as_have_room_and_nothing_is_cut_off(size, panels):
     """Oracle: Matplotlib's own boxes after the layout."""
     with style.drawing():

@@ -99,7 +99,7 @@ def test_euler_is_written_alike_twice():
 
 
 @numba
-@pytest.mark.parametrize("count", [8, pytest.param(30, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [4, pytest.param(30, marks=pytest.mark.slow)])
 def test_no_random_scene_that_is_decided_is_contradicted_by_brute_force(brute, count):
     assert checked(51, count, brute, True) == (count, [])
 
