@@ -10,6 +10,8 @@ import numpy as np
 from ...numbers.roots import bracketed_newton
 from ..ball_orbit import Orbit
 from ..fine.motion import fine_boxes
+from ..fine.rows_kernel import BOX
+from ..fine.rows_numba import one_by_one
 from ..landscape import Landscape
 from ..result import Fate
 from .balls import precise_extremes
@@ -40,6 +42,9 @@ def extremes_of_chunk(land: Landscape, states, decided, start, span=None, twofol
         if fine.size:
             values, found = fine_boxes(land, states[fine])
             out[fine[found]], precise[fine[found]] = values[found], False
+            rest = fine[~found]
+            values, found = one_by_one(land, states[rest], BOX)
+            out[rest[found]], precise[rest[found]] = values[found], False
         for index in np.nonzero(precise)[0]:
             out[index] = precise_extremes(Orbit(land.reduction, states[index]), int(decided.labels[index]))
     out[:, :, 0] = np.minimum(out[:, :, 0], states)  # rounding must not exclude the state itself

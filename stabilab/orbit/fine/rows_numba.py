@@ -82,6 +82,18 @@ def kernel(base: str):
     return compiled(rows_kernel, INLINED, geometry.__name__, **rows_kernel.functions_of(geometry))["rows"]
 
 
+def one_by_one(land: Landscape, states, asked):
+    """(boxes (n, 3, 2) or periods (n,), as asked; which of them are settled (n,)) of the few rows that arrays leave open, in plain Python: two milliseconds
+    for a row of which balls take three to thirty."""
+    none, left_open = np.empty(0), np.full(len(states), asked, np.uint8)
+    values = np.empty((len(states), 3, 2) if asked == rows_kernel.BOX else len(states))
+    if len(states) and kernel_input(land) is not None:
+        with np.errstate(all="ignore"):
+            settle_rows(plain, land, states, *((values, none) if asked == rows_kernel.BOX else (none, values)), left_open)
+    return values, left_open == 0
+
+
+@lru_cache(maxsize=2)
 def plain(base: str):
     """The same in plain Python."""
     return twins(rows_kernel, lambda name, twin: twin, **rows_kernel.functions_of(rows_kernel.GEOMETRIES[base]))["rows"]

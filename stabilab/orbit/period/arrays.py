@@ -13,6 +13,8 @@ from ..ball_orbit import Orbit
 from ..extremes.guards import clear_of_barriers, near_separatrix, needs_digits, picked, trapped_rows
 from ..extremes.turning_points import interval
 from ..fine.motion import fine_periods
+from ..fine.rows_kernel import PERIOD
+from ..fine.rows_numba import one_by_one
 from ..landscape import Landscape
 from ..result import Fate
 from .balls import precise_period
@@ -44,6 +46,9 @@ def period_chunk(land: Landscape, states, decided, start, span=None, twofold=Tru
         if fine.size:
             values, found = fine_periods(land, states[fine])
             out[fine[found]], precise[fine[found]] = values[found], False
+            rest = fine[~found]
+            values, found = one_by_one(land, states[rest], PERIOD)
+            out[rest[found]], precise[rest[found]] = values[found], False
         for index in np.nonzero(precise)[0]:
             out[index] = precise_period(Orbit(land.reduction, states[index]), int(decided.labels[index]))
     return out
