@@ -147,7 +147,8 @@ def test_extremes_and_periods_leave_to_balls_what_is_within_their_share_of_the_s
     user = f"stabilab.orbit.{module.__name__.split('.')[-2]}.arrays.{name}"
     monkeypatch.setattr(user, lambda orbit, label: asked.append(tuple(orbit.state)) or real(orbit, label))
     # rows in twofold numbers, which are asked before balls, settle none here
-    monkeypatch.setattr(user.replace(name, "one_by_one"), lambda land, rows, bit: (np.empty((len(rows), 3, 2)[:3 if bit == 1 else 1]), np.zeros(len(rows), bool)))
+    none = lambda land, rows, bit: (np.empty((len(rows), 3, 2)[:3 if bit == 1 else 1]), np.zeros(len(rows), bool))
+    monkeypatch.setattr(user.replace(name, "one_by_one"), none)
     off = 10.0 ** np.arange(-9, -1.5, 0.5)
     edge = np.array(brink(problem, (-3.0, 1.0), 0.0))
     states = np.array([[*edge[:2], edge[2] * (1 + (-d if inside else d))] for d in off])
