@@ -1,5 +1,6 @@
 """Results show themselves: in a line, in a notebook, as data sets and tables."""
 import math
+import re
 from pathlib import Path
 
 import numpy as np
@@ -61,6 +62,17 @@ def test_tables_of_a_stuck_thruster_of_models_and_of_a_spin_up_hold_their_number
 def test_a_notebook_gets_a_table_in_which_nothing_is_a_tag(results, name):
     page = results[name]._repr_html_()
     assert page.count("<table>") == page.count("</table>") == 1 and page.count("<tr>") <= 12 and "<script" not in page
+
+
+@pytest.mark.parametrize("name", RESULTS)
+def test_the_minus_of_a_number_in_a_notebook_is_that_of_print(results, name):
+    cells = re.findall(r"<(?:t[hd]|b)>(.*?)</", results[name]._repr_html_())
+    assert cells and not [cell for cell in cells if re.search(r"(?:^|[\s(\[,=e])-\d|^-", cell)]
+
+
+def test_a_negative_rate_and_a_small_one_keep_their_values_in_a_notebook():
+    page = stabilab.simulate(SCENE, (-0.25, 1e-7, 0.5), [0.0])._repr_html_()
+    assert "<td>−0.25</td><td>1e−07</td><td>0.5</td>" in page
 
 
 def test_what_is_in_a_result_is_escaped_in_a_notebook():
