@@ -26,6 +26,9 @@ def returns(scene, problem, state):
     time = float(stabilab.period(scene, np.array(state)))
     if not 0 < time * rate < MOST_TURNS * max(map(abs, state)):
         return NO_QUESTION  # the series would take minutes
+    sizes = np.abs(stabilab.extremes(scene, np.array(state)))
+    if not sizes[sizes > 0].min(initial=1.0) > 10.0**-LOST * sizes.max():
+        return NO_QUESTION  # beside a plane the series would lose as many digits as the least rate has zeros: of 1e-167 beside 200, some 340
     digits = random.Random(repr(state)).choice(ASKED)
     ball = period_ball(Orbit(reduce(scene), state), digits)
     bits = int(3.33 * 2 * (digits + LOST)) + 64
