@@ -181,16 +181,18 @@ def orbits(states, axes, form, wanted, spots, hazes, boxes, periods, left_open):
         t1 = abs(kappa) * (a_size * abs(v) + abs(u) * b_size) + abs(rho) * b_size + abs(sigma) * a_size
         t2 = abs(kappa) * (2 * a_size * b_size + abs(p * v) * b_size + abs(u * q) * a_size) + abs(rho * q) * a_size + abs(sigma * p) * b_size
         t3 = 3 * abs(kappa) * (abs(q) * a_size * a_size + abs(p) * b_size * b_size)
-        # whether a state is at rest is decided exactly, elsewhere
-        still = abs(w) <= CLEAR * EPS * (abs(states[row, i]) + abs(shift)) and abs(f0) <= CLEAR * EPS * t0
-        if still or not (f3 < -CLEAR * ROUNDED * EPS * t3 and t3 < INFINITY and k0 < INFINITY):
+        # at the place of an equilibrium to rounding doubles do not tell on which side of it a state is, nor whether it is at rest
+        if abs(f0) <= CLEAR * ROUNDED * EPS * t0 or not (f3 < -CLEAR * ROUNDED * EPS * t3 and t3 < INFINITY and k0 < INFINITY):
             continue
         count, sure = equilibria(f0, f1, f2, f3, spots)
         if not sure:
             continue
         fastest, fog = k0, EPS * k0
         for n in range(count):
-            hazes[n] = haze_of(spots[n], k0, t0, t1, t2, t3)
+            blurred = blur_of_force(spots[n], t0, t1, t2, t3)
+            hazes[n] = haze_of(spots[n], k0, t0, t1, t2, t3) + blurred * blurred / abs(bend(spots[n], f1, f2, f3))
+        if count == 3 and not abs(quartic(spots[1], k0, f0, f1, f2, f3)) > CLEAR * hazes[1]:
+            continue
         left, clear = end(-1.0, k0, f0, f1, f2, f3, count, spots, hazes)
         right, other = end(1.0, k0, f0, f1, f2, f3, count, spots, hazes)
         if not (min(clear, other) > CLEAR and left <= 0 <= right and right - left < INFINITY):

@@ -133,3 +133,24 @@ def test_the_bytes_do_not_depend_on_how_rows_are_split():
     states = states_of("disc", 3000)
     whole = stabilab.extremes(SCENES["disc"], states, fast=True).tobytes()
     assert whole == b"".join(stabilab.extremes(SCENES["disc"], part, fast=True).tobytes() for part in (states[:7], states[7:1100], states[1100:]))
+
+
+def test_states_at_the_place_of_an_equilibrium_to_rounding_are_left_to_exact_arithmetic():
+    """Found by the search of `hunt/parabolas`: at a barrier, with a rate of 1e-17, doubles put the energy above it, and exact arithmetic below."""
+    scene = Scene(Body((0.9772121786953248, 1, 1)), Gyrostat((-1.127222631044502, 0, 1.5683903018982321)), ConstantTorque((0, 615.1464762599369, 0)))
+    state = tuple(map(float.fromhex, ("-0x1.036b6becc30acp-3", "-0x1.3e7b05dd99639p-57", "-0x1.1178b59885828p+9")))
+    land, box, period = landscape(scene), np.empty((1, 3, 2)), np.empty(1)
+    assert run_kernel(parabola_kernel.orbits, land, np.array([state]), BOX | PERIOD, box, period)[0] == BOX | PERIOD
+    exact = np.array(precise_extremes(Orbit(land.reduction, state), Fate.BOUNDED))
+    assert exact[0, 0] == pytest.approx(state[0], rel=1e-12)  # it turns there; over the barrier it would reach -466
+    for name in SCENES:  # and every equilibrium of these, with the least rates about the axis
+        some = landscape(SCENES[name])
+        states = states_of(name, 30)
+        offsets, spots, _ = some.critical(some.start(states)[0])
+        for column in range(offsets.shape[1]):
+            at = states[~np.isnan(offsets[:, column])]
+            at[:, some.reduction.j], at[:, some.reduction.k] = spots[:, ~np.isnan(offsets[:, column]), column]
+            at[:, some.reduction.axis] = -float(some.reduction.s) + 1e-17
+            boxes, periods, left_open = settled(name, at)
+            for n in np.nonzero(left_open != BOX | PERIOD)[0]:
+                against_balls(name, at[n], boxes[n], periods[n], left_open[n])
