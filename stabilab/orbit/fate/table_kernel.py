@@ -76,12 +76,7 @@ def logarithm(mantissa, exponent):
     low = mantissa < _SQRT_HALF
     m = pick(low, 2 * mantissa, mantissa)
     n = pick(low, exponent - 1.0, exponent + 0.0)
-    q = (m - 1) / (m + 1)
-    t = q * q
-    p = 0.15331710618210773 + t * 0.14616585424888623
-    p = 0.22222211130259878 + t * (0.18182889455674947 + t * p)
-    p = 0.39999999999899444 + t * (0.2857142862600327 + t * p)
-    return n * _LOG_2 + (2 * q + q * (t * (0.666666666666667 + t * p)))
+    return n * _LOG_2 + logarithm_of((m - 1) / (m + 1))
 
 
 def cell_position(size, side, origin, bend, width, count):
@@ -261,7 +256,7 @@ def fine_margin(X, Z, kinetic, u, v, step, slope, side, end, grown, mantissa, ex
 
 
 def logarithm_of(q):
-    """2 artanh q for |q| <= 0.1716, as in `logarithm`."""
+    """2 artanh q, log((1 + q)/(1 - q)), for |q| <= 0.1716."""
     t = q * q
     p = 0.15331710618210773 + t * 0.14616585424888623
     p = 0.22222211130259878 + t * (0.18182889455674947 + t * p)

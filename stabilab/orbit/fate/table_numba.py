@@ -6,12 +6,12 @@ from functools import lru_cache
 from ...numbers.numba_door import compiled_function, wanted
 from . import table_kernel as arithmetic
 
-HELPERS = ("angle", "logarithm", "cell_position", "height_polynomial", "angle_polynomial", "circle_height",
+HELPERS = ("angle", "logarithm_of", "logarithm", "cell_position", "height_polynomial", "angle_polynomial", "circle_height",
            "force", "terms", "ahead", "trusted", "fold_is_clear", "places", "polar", "positions",
            "looked_up", "raise_best", "keep_off_fold", "circle_margins", "circle_labels",
            "cone", "keep_off_cone_fold", "on_range", "lower_nearest", "middle_root", "parabola_height",
            "exact_sum", "exact_product", "add", "less", "times", "scaled", "over", "fine_place", "double_step", "fine_force", "fine_slope", "fine_step",
-           "ratio_of", "logarithm_of", "less_sinh", "fine_margin", "fine_invariant", "guessed", "fine_one", "hyperbola_scale")
+           "ratio_of", "less_sinh", "fine_margin", "fine_invariant", "guessed", "fine_one", "hyperbola_scale")
 LARGE = 1_000_000  # loading numba costs half a second, what NumPy needs for some millions of states
 LOADED = 20_000  # once it is loaded
 
