@@ -5,9 +5,11 @@ import numpy as np
 import pytest
 
 import stabilab
+from stabilab.orbit.extremes import parabola_kernel
 from stabilab.orbit.fate import table_kernel as barrier_heights
 from stabilab.orbit.fate.by_table import label_by_table
 from stabilab.orbit.fate.table import barrier_table
+from stabilab.orbit.fine import rows_kernel
 from tests.orbit.fate.test_fate import FAMILIES, sample
 
 NEARLY_EQUAL = stabilab.Scene(stabilab.Body((0.544, 2.2, 2.199)), stabilab.Gyrostat((-1.021, 2.296, 0)), stabilab.ConstantTorque((0, 0, -0.0843)))
@@ -31,3 +33,16 @@ def test_the_loops_for_the_compiler_run_as_plain_python_give_the_bytes_of_the_ar
     assert answers[0] == answers[1] and len(certain) > 500
     # and the general formula, which has no table, agrees
     np.testing.assert_array_equal(out["labels"][certain], stabilab.fate(scene, states).labels[certain])
+
+
+def test_the_copies_are_those_of_the_rows_in_twofold_numbers():
+    """Numba's cache on disk watches one file, so each kernel holds its own; here to the bit."""
+    rng = np.random.default_rng(4)
+    for _ in range(50):
+        a, b = ((float(v), float(v * 1e-17 * rng.normal())) for v in rng.normal(size=2) * 10.0 ** rng.integers(-5, 5, 2))
+        for name, asked in (("exact_sum", (a[0], b[0])), ("exact_product", (a[0], b[0])), ("add", (a, b)), ("less", (a, b)), ("times", (a, b)),
+                            ("scaled", (a, b[0]))):
+            assert getattr(barrier_heights, name)(*asked) == getattr(rows_kernel, name)(*asked)
+        assert parabola_kernel.exact_sum(a[0], b[0]) == rows_kernel.exact_sum(a[0], b[0])
+    assert (barrier_heights.TWOFOLD, barrier_heights.SPLITTER) == (rows_kernel.TWOFOLD, rows_kernel.SPLITTER)
+    assert (parabola_kernel.DIGITS, parabola_kernel.PERIOD_DIGITS) == (rows_kernel.DIGITS, rows_kernel.PERIOD_DIGITS)
