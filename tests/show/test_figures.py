@@ -3,6 +3,7 @@ import re
 
 import numpy as np
 import pytest
+from matplotlib.colors import rgb_to_hsv, to_rgb
 
 from stabilab.show import style
 from stabilab.show.figures import catalogue, cavity, major_axis, middle_axis, minor_axis, paper
@@ -81,6 +82,40 @@ def test_every_line_looks_as_the_legend_says(plt):
         drawn = row.draw(plt)
         legend = {(h.get_color(), h.get_linestyle(), h.get_linewidth()) for h in drawn.legends[0].legend_handles}
         assert {(line.get_color(), line.get_linestyle(), line.get_linewidth()) for ax in drawn.axes for line in ax.lines} <= legend
+
+
+def _hue(colour):
+    """Where a colour stands on the wheel, in degrees; None of black, white and grey."""
+    hue, saturation, _ = rgb_to_hsv(to_rgb(colour))
+    return 360 * hue if saturation > 0.2 else None
+
+
+def _named(drawn):
+    """[(name, colour)] of a legend."""
+    return [(text.get_text(), handle.get_color()) for text, handle in zip(drawn.legends[0].get_texts(), drawn.legends[0].legend_handles)]
+
+
+def _model(name):
+    return "corrected" if "corrected integrals" in name else "printed" if name.startswith(("alone", "as printed")) else name
+
+
+def test_no_colour_of_a_figure_means_two_things(plt):
+    """In the column of printed curves alone the shades are those of the model that they show beside it; no other line has their hue."""
+    for row in (figure(3, "cavity"), figure(18, "charged"), figure(6, "top")):
+        named = [(_model(name), _hue(colour)) for name, colour in _named(row.draw(plt))]
+        assert sum(model == "printed" for model, _ in named) == 4
+        for model, hue in named:
+            assert [other for other, at in named if other != model and None not in (hue, at) and model in ("printed", "corrected")
+                    and abs((hue - at + 180) % 360 - 180) < 15] == []
+    colours = dict(_named(middle_axis.projections(plt)))
+    assert colours.pop("motion of Table 3") not in colours.values()
+
+
+@pytest.mark.parametrize("name, number", [("cavity", n) for n in (2, 3, 11, 13)])
+def test_a_caption_speaks_of_a_column_of_printed_curves_only_where_one_may_stand(name, number, plt):
+    row = figure(number, name)
+    alone = any("alone" in ax.get_title() for ax in row.draw(plt).axes)
+    assert alone <= ("the first column has them alone" in row.caption) and (number not in (11, 13) or "column" not in row.caption)
 
 
 @pytest.mark.parametrize("plain, letters", [

@@ -111,10 +111,11 @@ def projections(plt):
                      (r"plane $x_1+b=x_3$ (periodic)", style.MEANING["dividing"]),
                      (r"plane $x_1+b=-x_3$ (spin-up)", style.MEANING["spin-up"]),
                      ("motion of Table 3", style.MEANING["this motion"]), ("start", style.MARKER["start"]),
-                     ("folds", style.MARKER["degenerate"]), (r"printed: $x_1=x_3$", style.MEANING["printed"])])
+                     ("folds", style.MARKER["degenerate"]), (r"printed: $x_1=x_3$", PRINTED)])
     return figure
 
 
+PRINTED = style.MEANING["printed"] | {"color": style.PURPLE}  # orange is the motion's
 VIEW = ((-8.0, 4.5), (-6.25, 6.25))  # of x1 and x3, in every panel of Fig. 17
 
 
@@ -128,7 +129,7 @@ def _projection(ax, scene, draw_motion):
     ends = np.array([-20.0, 20.0])
     ax.plot(ends, ends + b, **style.MEANING["dividing"])
     ax.plot(ends, -ends - b, **style.MEANING["spin-up"])
-    ax.plot(ends, ends, **style.MEANING["printed"])
+    ax.plot(ends, ends, **PRINTED)
     if draw_motion:
         states = _tube(scene, paper.START_MIDDLE)
         ax.plot(states[:, 0], states[:, 2], **style.MEANING["this motion"])
