@@ -27,7 +27,8 @@ def test_words_name_quantity_value_size_and_time():
 
 
 @pytest.mark.parametrize("label, text", [
-    (r"$\dot{p}$ (rad/s$^2$)", "p' (rad/s²)"), (r"$\lambda_3=15$ kg m$^2$/s", "λ3=15 kg m²/s"), (r"$\gamma\,''$", "γ''"),
+    (r"$\dot{p}$ (rad/s$^2$)", "dp/dt (rad/s²)"), (r"$\dot{\gamma}''$ (1/s)", "dγ''/dt (1/s)"), ("$M_3=-3$ N m", "M3=−3 N m"),
+    (r"$\lambda_3=15$ kg m$^2$/s", "λ3=15 kg m²/s"), (r"$\gamma\,''$", "γ''"),
     (r"$\omega_1/\omega_3$", "ω1/ω3")])
 def test_labels_are_told_in_plain_text(label, text):
     assert plain(label) == text

@@ -85,19 +85,20 @@ def radius(liquid) -> float:
     return (525 * liquid.P0 / (8 * math.pi)) ** (1 / 7)
 
 
-def _done(words=""):
+def _done(words="", own=False):
+    """own: whether each panel has limits of its own, and no column shows the printed curves alone."""
     scene = panels.sweep("liquid-base")[""].scene
     liquid, body = scene.effect("liquid_cavity"), scene.body.inertia[2]
     return (f"{words}Completed data: values in the title where the paper gives none; P0 = {float(liquid.P0):g} m^7 means "
             f"{liquid_mass(liquid) / 1000:.2g} t of liquid in a body of {float(body):g} kg m^2. Models are drawn to where they leave the exact "
-            "motion's range; where printed ones do, the first column has them alone.")
+            f"motion's range{'' if own else '; where printed ones do, the first column has them alone'}.")
 
 
 def _real(family):
     """Fig. 2: where the printed q loses its real value."""
     ends = {value: runs["printed"].t[-1] for value, runs in zip(FAMILIES[family][2], runs_of(family))
             if runs["printed"].status != "reached"}
-    return _done("Exact: a = sqrt(p^2 + q^2) and the angle of (p, -q); averaged, second order: the averaged variables, which start beside "
+    return _done("Exact: a = sqrt(p^2 + q^2) and the angle of (p, −q); averaged, second order: the averaged variables, which start beside "
                  f"them. At lambda3 = {listed(ends, '{:g}')} the printed q loses its real value at {listed(ends.values())} s, where "
                  "d2 r = Gamma/eps; the true motion is regular there. ")
 
@@ -121,9 +122,9 @@ def _few(family):
                  "lambda3 = 0.1 there are no waves. The print must have taken a lambda3 it does not state. ")
 
 
-def _charge(family, more=""):
+def _charge(family, more="", own=False):
     return _done("1000 and 10,000 C are not charges that a body can hold. At 10,000 C the liquid's own time exceeds that of the turn: "
-                 f"averaging refuses, and the law of the liquid torque itself no longer holds. {more}")
+                 f"averaging refuses, and the law of the liquid torque itself no longer holds. {more}", own)
 
 
 def _exactness(family, more=""):
@@ -139,10 +140,10 @@ def _figures():
                                                          "turn. ")),
             (5, "zeta", slow, three, _short), (6, "zeta", rates, "Angular velocities", _few), (7, "zeta", planes, "Phase planes", _arcs),
             (8, "M3", slow, three, _short), (9, "M3", rates, "Angular velocities", _few), (10, "M3", planes, "Phase planes", _arcs),
-            (11, "e", partial(slow, own=True), three, _charge),
+            (11, "e", partial(slow, own=True), three, partial(_charge, own=True)),
             (12, "e", rates, "Angular velocities", partial(_charge, more="The text says that the charge acts slightly: the printed liquid "
                                                            "torque does not know of it. ")),
-            (13, "e", partial(planes, own=True), "Phase planes", _charge)):
+            (13, "e", partial(planes, own=True), "Phase planes", partial(_charge, own=True))):
         more = "; rates by central differences" if title == "Phase planes" else ""
         yield Figure(n, f"{title}: {NAMES[family]}", partial(words, family), partial(draw, family=family, title=title),
                      partial(_exactness, family, more), "cavity", partial(_lines, family, draw.keywords["rows"]))

@@ -146,8 +146,8 @@ def _misprinted(family, part, unit):
     off = [np.abs(a - b).max() for a, b in zip(_state(family, "printed", part), _state(family, "corrected", part))]
     down = [float(b.spin) - abs(float(one_frequency(b).root.value())) for b in _bodies(family)]
     return (f"The misprinted integrals are off by up to {listed(off)} {unit} from those that (44) and (49) define, the more the smaller "
-            f"r0 - W is ({listed(dict.fromkeys(f'{d:.2g}' for d in down), '{}')} 1/s), whose powers divide them"
-            + ("; how the text has the curves change fits the corrected ones. " if family != "M1" else ". "))
+            f"r0 − W is ({listed(dict.fromkeys(f'{d:.2g}' for d in down), '{}')} 1/s), whose powers divide them"
+            + ("; the changes that the text describes fit the corrected ones. " if family != "M1" else ". "))
 
 
 def _speed(family, more=""):

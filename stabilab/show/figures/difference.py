@@ -74,8 +74,9 @@ def _words(d: Difference) -> str:
 
 
 def plain(label: str) -> str:
-    """A label of Matplotlib as text: its letters in Unicode, without dollars and braces; a dot over a letter as a prime."""
-    label = re.sub(r"\\dot\{(.*?)\}", r"\1'", label)
+    """A label of Matplotlib as text: its letters in Unicode, without dollars and braces; a dot over a letter as d/dt, as primes belong to names; a hyphen
+    as a minus."""
+    label = re.sub(r"\\dot\{(.*?)\}('*)", r"d\1\2/dt", label)
     for pattern, letter in LETTERS.items():
         label = re.sub(pattern, letter, label)
-    return re.sub(r"[${}]|_(?=\w)", "", label)
+    return re.sub(r"[${}]|_(?=\w)", "", label).replace("-", "−")
