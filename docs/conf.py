@@ -27,11 +27,15 @@ CHECKED = "Evaluated against the program"
 # What stands outside of docs/ has its page here under another name
 PAGES = {"README.md": "readme.md", "benchmarks/RESULTS.md": "results.md", "CONTRIBUTING.md": "contributing.md", "CHANGELOG.md": "changelog.md"}
 
+# A link that is named by its file, as the repository needs it: here by the page's heading. All pages together have none
+FILES = re.compile(r"\[[\w./-]+\.md\]\(((?!index\.md)[\w./-]+\.md(?:#[\w-]+)?)\)")
+
 
 def setup(app):
     app.connect("builder-inited", write_pages)
     app.connect("source-read", point_inside)
     app.connect("autodoc-process-docstring", reference.as_rst)
+    app.connect("autodoc-process-signature", reference.of_fields)
     app.connect("doctree-read", set_as_a_book)
 
 
@@ -50,6 +54,7 @@ def point_inside(app, name, source):
     for outside, inside in PAGES.items():
         source[0] = source[0].replace(f"](../{outside}", f"]({inside}").replace(f"]({outside}", f"]({inside}")
     source[0] = source[0].replace(".ipynb)", ".md)")
+    source[0] = FILES.sub(r"[](\1)", source[0])
     if name.startswith("mathematics/"):  # the formulas first, what checks them at a click
         source[0] = re.sub(r"^```python\n.*?^```$", rf"<details><summary>{CHECKED}</summary>\n\n\\g<0>\n\n</details>", source[0], flags=re.M | re.S)
 
@@ -59,17 +64,39 @@ TYPED = (nodes.literal, nodes.literal_block, nodes.math, nodes.math_block, nodes
 MANY, SHORT, LONG = 5, 26, 120
 
 
+# Derivatives, whose primes have become quotation marks; a minus between two things; powers
+PRIMES = re.compile(r"(?<![\w’])((?:[A-Za-zα-ω]|alpha|gamma|psi)\d?)(’{1,3})(?!\w)")
+MINUS = re.compile(r"(?<=[\w)²³]) - (?=[\w(])")
+POWER = re.compile(r"\^(?:([-−]?\d+|[a-z]\b)|\(([^()]+)\))")
+
+
+def printed(words):
+    """Words with the signs of a book: minus, primes, micro."""
+    words = PRIMES.sub(lambda found: found[1] + "′″‴"[len(found[2]) - 1], signed(words))
+    return re.sub(r"(?<=\d) us\b", " µs", MINUS.sub(" − ", words))
+
+
 def set_as_a_book(app, document):
-    """The minus of a book in words, which no line ends behind; a table of many columns keeps its rows low (site.css)."""
+    """Signs and powers of a book in words; a table of many columns keeps its rows low (site.css), with a long last cell in a row of its own below."""
     for text in list(document.findall(nodes.Text)):
         around = text.parent
         while around is not None and not isinstance(around, TYPED):
             around = around.parent
-        if around is None and signed(str(text)) != str(text):
-            text.parent.replace(text, nodes.Text(signed(str(text))))
+        if around is None and (POWER.search(text) or printed(str(text)) != str(text)):
+            words, powers = POWER.split(printed(str(text)))[::3], [one[1] or one[2] for one in POWER.finditer(printed(str(text)))]
+            made = [nodes.Text(words[0])]
+            for power, after in zip(powers, words[1:], strict=True):
+                made += [nodes.superscript("", power.replace("-", "−")), nodes.Text(after)]
+            text.parent.replace(text, [one for one in made if one.astext()])
     for table in document.findall(nodes.table):
-        if len(list(table.findall(nodes.colspec))) >= MANY:
+        columns = len(list(table.findall(nodes.colspec)))
+        if columns >= MANY:
             table["classes"].append("many")
-            for cell in table.findall(nodes.entry):
-                size = len(cell.astext())
-                cell["classes"].append("whole" if size <= SHORT else "words" if size <= LONG else "paragraph")
+            for row in list(table.findall(nodes.row)):
+                for cell in row:
+                    size = len(cell.astext())
+                    cell["classes"].append("whole" if size <= SHORT else "words" if size <= LONG else "paragraph")
+                if len(row) == columns and "paragraph" in row[-1]["classes"]:
+                    note = nodes.entry("", *row[-1].children, morecols=columns - 1, classes=["note"])
+                    row.replace(row[-1], nodes.entry("", classes=["whole"]))
+                    row.parent.insert(row.parent.index(row) + 1, nodes.row("", note))

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import inspect
 import re
+from dataclasses import MISSING, fields, is_dataclass
 from importlib import import_module
 
 GROUPS = {
@@ -50,3 +51,15 @@ def as_rst(app, what, name, obj, options, lines):
     found = re.sub(r"(?<!`)`([^`\n]+)`(?!`)", r"``\1``", "\n".join(lines))
     parts = re.split(r"(``[^`]+``)", found)
     lines[:] = "".join(part if part.startswith("``") else re.sub(r"([*|\\]|_(?=\W|$))", r"\\\1", part) for part in parts).split("\n")
+
+
+def of_fields(app, what, name, obj, options, signature, returned):
+    """The signature of a record by its fields: what makes them takes anything, to say in words what is missing, or has defaults that are no expressions."""
+    if what != "class" or not is_dataclass(obj):
+        return None
+    given = []
+    for one in fields(obj):
+        if one.init:
+            made = f" = {one.default_factory.__name__}()" if one.default_factory is not MISSING else f" = {one.default!r}" if one.default is not MISSING else ""
+            given.append(f"{one.name}: {one.type}{made}")
+    return f"({', '.join(given)})", returned

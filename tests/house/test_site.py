@@ -130,17 +130,59 @@ def test_a_notebook_that_is_run_today_prints_what_it_shows(path):
     assert notebooks.texts(notebooks.executed(kept)) == notebooks.texts(kept)
 
 
-def test_words_have_the_minus_of_a_book_and_tables_of_many_columns_low_rows(monkeypatch):
-    """What conf.py does to a page that Sphinx has read; commands stay as they are typed."""
+@pytest.fixture
+def conf(monkeypatch):
+    """What docs/conf.py defines."""
     pytest.importorskip("sphinx")
+    monkeypatch.setattr(sys, "path", list(sys.path))  # conf.py puts its own folders there
+    return runpy.run_path(str(ROOT / "docs/conf.py"))
+
+
+def a_table(*words):
+    from docutils import nodes
+    row = nodes.row("", *(nodes.entry("", nodes.paragraph("", said)) for said in words))
+    return row, nodes.table("", nodes.tgroup("", *(nodes.colspec() for _ in words), nodes.tbody("", row)))
+
+
+def test_words_have_the_signs_of_a_book_and_commands_stay_as_they_are_typed(conf):
     from docutils import nodes
     from docutils.utils import new_document
-    monkeypatch.setattr(sys, "path", list(sys.path))  # conf.py puts its own folders there
-    conf = runpy.run_path(str(ROOT / "docs/conf.py"))
-    row = nodes.row("", *(nodes.entry("", nodes.paragraph("", words)) for words in ("1e-5", "a" * 40, "b" * 200, "c", "d")))
-    table = nodes.table("", nodes.tgroup("", *(nodes.colspec() for _ in range(5)), nodes.tbody("", row)))
     page = new_document("page")
-    page += [nodes.paragraph("", "", nodes.Text("x is -5, to "), nodes.literal("", "f -5")), table]
+    page += [nodes.paragraph("", "", nodes.Text("x is -5, to "), nodes.literal("", "f -5")),
+             nodes.paragraph("", "alpha’’ = U’, the papers’ 1 - x1’, 0.25 us with us, x^2 + A^(1/2) in N m^-1, 2 of test_x - one - by the bodies’"),
+             nodes.paragraph("", "one-sided - as ever")]
     conf["set_as_a_book"](None, page)
-    assert page[0].astext() == "x is −5, to f -5" and row[0].astext() == "1e−5"
-    assert "many" in table["classes"] and [cell["classes"] for cell in row] == [["whole"], ["words"], ["paragraph"], ["whole"], ["whole"]]
+    assert page[0].astext() == "x is −5, to f -5"
+    assert page[1].astext() == "alpha″ = U′, the papers’ 1 − x1′, 0.25 µs with us, x2 + A1/2 in N m−1, 2 of test_x − one − by the bodies’"
+    assert [one.astext() for one in page[1].findall(nodes.superscript)] == ["2", "1/2", "−1"]
+
+
+def test_a_table_of_many_columns_has_low_rows_and_a_long_last_cell_stands_below_its_row(conf):
+    from docutils import nodes
+    from docutils.utils import new_document
+    page = new_document("page")
+    row, table = a_table("1e-5", "a" * 40, "b" * 200, "c", "d")
+    long, other = a_table("1", "2", "3", "4", "e" * 200)
+    page += [table, other]
+    conf["set_as_a_book"](None, page)
+    assert row[0].astext() == "1e−5" and "many" in table["classes"]
+    assert [cell["classes"] for cell in row] == [["whole"], ["words"], ["paragraph"], ["whole"], ["whole"]]
+    above, below = other.findall(nodes.row)
+    assert [cell.astext() for cell in above] == ["1", "2", "3", "4", ""]
+    assert below.astext() == "e" * 200 and below[0]["morecols"] == 4 and below[0]["classes"] == ["note"]
+
+
+@pytest.mark.parametrize(("written", "told"), [
+    ("[docs/atlas.md](atlas.md) and [benchmarks/RESULTS.md](../benchmarks/RESULTS.md)", "[](atlas.md) and [](results.md)"),
+    ("[the README](../README.md), [docs/index.md](index.md)", "[the README](readme.md), [docs/index.md](index.md)")])
+def test_a_link_that_a_file_names_has_the_heading_of_the_page(conf, written, told):
+    source = [written]
+    conf["point_inside"](None, "page", source)
+    assert source == [told]
+
+
+def test_a_record_shows_its_fields_as_its_signature():
+    shown, returned = reference.of_fields(None, "class", "stabilab.Body", stabilab.Body, None, "(*given: Any, **named: Any)", "Any")
+    assert re.fullmatch(r"\(inertia: [^,]+, mass: [^,]+ = None\)", shown) and returned == "Any"  # and not what the class works out of them
+    assert reference.of_fields(None, "class", "", stabilab.Fate, None, "", "") is None
+    assert "expect: dict = dict()" in reference.of_fields(None, "class", "stabilab.Case", stabilab.Case, None, "", "")[0]
