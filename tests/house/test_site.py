@@ -3,6 +3,7 @@ import inspect
 import re
 import runpy
 import sys
+from xml.etree import ElementTree
 
 import pytest
 
@@ -186,3 +187,19 @@ def test_a_record_shows_its_fields_as_its_signature():
     assert re.fullmatch(r"\(inertia: [^,]+, mass: [^,]+ = None\)", shown) and returned == "Any"  # and not what the class works out of them
     assert reference.of_fields(None, "class", "", stabilab.Fate, None, "", "") is None
     assert "expect: dict = dict()" in reference.of_fields(None, "class", "stabilab.Case", stabilab.Case, None, "", "")[0]
+
+
+def plain(made):
+    """The signs of a formula in MathML, in order; a thin space as a blank."""
+    return "".join(" " if sign.tag.endswith("mspace") else (sign.text or "").strip() for sign in ElementTree.fromstring(made).iter())
+
+
+def test_formulas_are_set_as_latex_sets_them():
+    pytest.importorskip("latex2mathml")
+    from making import mathml
+    made = mathml.formula("8c^3 + 2cm - n > 0")
+    assert plain(made) == "8c3+2cm−n>0" and "<mn>2</mn>" in made  # two times c times m, no centimetres
+    assert plain(mathml.formula(r"A\cos\varphi\sin^2(x)")) == "A cos φ sin2(x)"
+    assert plain(mathml.formula(r"L := \infty")) == "L≔∞" and "<mi>∞</mi>" in mathml.formula(r"s = \infty")
+    assert mathml.formula("|c|/x").count('lspace="0" rspace="0"') == 3
+    assert [plain(one) for one in mathml.equations(r"a = b, \qquad \left(c \quad d\right) = e, \quad f")] == ["a=b,", "(c d)=e,", "f"]
