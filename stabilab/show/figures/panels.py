@@ -34,11 +34,11 @@ WIDE = 3.0  # a model may stretch the axis to this many times the exact motion's
 TALL = 1.45  # a plane of one scale, against a history
 MARGIN = 0.06
 NARROW, SHRUNK = 0.95, 0.85  # width of the column of printed curves alone, against the others; of all columns then
-DASHES = ("-", "--", ":")
-# Of the values of a parameter in the column of printed curves alone: shades of the hue that stands for the model beside it, a dash each, so that no colour
-# means two things in a picture.
-ALONE = tuple({"color": c, "linewidth": 1.6, "linestyle": s} for c, s in zip((style.ORANGE, "#9A5B00", "#4A2C00"), DASHES))
-BESIDE = tuple({"color": c, "linewidth": 0.8, "linestyle": s} for c, s in zip((style.PURPLE, "#9C4A7B", "#4F2440"), DASHES))
+# Of the values of a parameter in the column of printed curves alone: shades of the hue that stands for the model beside it, so that no colour means two
+# things in a picture, and a dash each, the sparser over the fuller, so that curves that agree are all seen.
+DASHES = ((":", 2.3), ("--", 2.2), ("-", 2.1))
+ALONE = tuple({"color": c, "linewidth": 1.6, "linestyle": s, "zorder": z} for c, (s, z) in zip((style.ORANGE, "#9A5B00", "#4A2C00"), DASHES))
+BESIDE = tuple({"color": c, "linewidth": 0.8, "linestyle": s, "zorder": z - 0.5} for c, (s, z) in zip((style.PURPLE, "#9C4A7B", "#4F2440"), DASHES))
 CORNERS = ((1.0, 1.01, "right", "bottom"), (0.0, 1.01, "left", "bottom"), (0.5, 1.01, "center", "bottom"))  # of the words on cuts
 ORDER = ("printed", "corrected", "averaged1", "linear", "averaged2", "lindstedt")  # in the legend, after the exact motion
 WORDS = comparison.WORDS | {"corrected": "corrected integrals, frequency (8)"}
@@ -133,7 +133,7 @@ def draw_lines(plt, title, lines, width=3.5, height=2.05, words=None, mark_words
         entries.append((mark_words, style.MEANING["crossing"]))
     if alone:
         entries += [(f"alone: {c.heading}", look) for c, look in zip(lines[0][1], ALONE)]
-        entries += [("alone, thin: corrected integrals", BESIDE[0])] * ("corrected" in lines[0][1][0].runs)
+        entries += [("alone, thin: corrected integrals", BESIDE[1])] * ("corrected" in lines[0][1][0].runs)
     style.legend(figure, entries)
     return figure
 
