@@ -195,11 +195,11 @@ def test_one_state_reads_no_more_than_its_answer_needs():
     files and a folder, whether a state is on it exactly, which takes one, and of circles far wider than the distance which pieces of a branch count, and the
     charts where a loop comes round, which take two. Of the command: its group and the options that groups share, in place of
     one long file of all commands. The door to what tells how far approximate laws hold; of a charge of constant angle the series along which its law
-    is judged."""
+    is judged. Of curves of equilibria: their words in the unit of rates, which the report shares."""
     code = ("import sys, atexit\nsys.argv = ['stabilab', 'classify', sys.argv[1]]\n"
             "atexit.register(lambda: print('LOADED', sum(m.split('.')[0] == 'stabilab' for m in sys.modules), file=sys.stderr))\n"
             "from stabilab.__main__ import main\nmain()\n")
-    for name, most in (("minor-axis-100", 140), ("charged-body", 146)):
+    for name, most in (("minor-axis-100", 141), ("charged-body", 147)):
         run = subprocess.run([sys.executable, "-c", code, f"cases/{name}.toml"], capture_output=True, text=True, cwd=ROOT)
         assert int(run.stderr.split("LOADED ")[1]) <= most, name
 

@@ -144,9 +144,21 @@ def test_pieces_of_branches_are_told_by_the_rate_about_the_vertical_in_the_unit_
 def test_a_parameter_that_is_a_rate_or_an_angle_has_its_unit():
     (hyperbola,) = equilibria(load(CASES / "thruster-stuck-major-axis.toml").scene).curves
     assert table(equilibria(load(CASES / "thruster-stuck-major-axis.toml").scene), measures.Measures(DEG))["rows"][0]["where"] == \
-        "equilibrium hyperbola, t below −0.030578 rad/s" and hyperbola.segments[0].t[1] == pytest.approx(-0.03058, abs=1e-5)
+        "equilibrium hyperbola, t below −1.752 deg/s" and hyperbola.segments[0].t[1] == pytest.approx(-0.03058, abs=1e-5)
     circles = table(equilibria(load(CASES / "charged-body-attitude.toml").scene), measures.Measures(DEG))["rows"]
     assert any(row["where"].endswith("t from −3.1416 to −1.5708 rad") for row in circles)
+
+
+@pytest.mark.parametrize("name, expected", [
+    ("torque-free-gyrostat", {"meeting point at (−34.377, 0, 0) deg/s": "unstable", "meeting point at (−17.189, 0, 0) deg/s": "stable"}),
+    ("torque-free-body", {"meeting point at (0, 0, 0) deg/s": "stable"}),
+    ("two-wheels-minor-axis", {"fold at (−16.174, −23.969, 0) deg/s": "unstable", "fold at (−59.134, 57.396, 0) deg/s": "unstable"})])
+def test_a_point_between_two_pieces_of_a_curve_is_told_once_with_its_verdict(name, expected):
+    """docs/mathematics/stability.md: rest of a free body is stable, a fold of a hyperbola is not; a pitchfork as m on the rest of its line. At the two
+    points of the gyrostat the wheel's line meets the lines of the middle and of the minor axis."""
+    rows = table(equilibria(load(CASES / f"{name}.toml").scene), measures.Measures(DEG))["rows"]
+    points = [row for row in rows if " at (" in row["where"]]
+    assert {row["where"]: row["verdict"] for row in points} == expected and len(points) == len(expected) and all(row["because"] for row in points)
 
 
 def test_the_curve_of_a_motion_on_an_unstable_plane_stays_on_it():

@@ -5,6 +5,7 @@ import math
 from collections import Counter
 from itertools import groupby
 
+from ..curve_units import in_units
 from ..text import frame
 from ..text.headline import headline
 from ..units import Units, number
@@ -85,11 +86,12 @@ def _curve(curve, units):
 
 
 def _proved_curve(curve, units):
-    """All pieces with their reasons. The equations are in the scene's own variables, rad/s and s of a physical one."""
-    own = "" if units.scaled else "  (ω in rad/s)"
-    lines = [f"  {lettered(f'{curve.name}: {curve.equation}')}{own}", f"    {lettered(curve.parametrisation)}"]
+    """All pieces with their reasons; equations in rates are in the unit of rates, those of a field in rad/s and s."""
+    told = in_units(curve, units)
+    lines = [f"  {lettered(f'{told.name}: {told.equation}')}" + (f"  (ω in {told.unit})" if told.unit else ""), f"    {lettered(told.parametrisation)}"]
     for piece in curve.segments:
-        lines += [f"    t from {_end(piece.t[0])} to {_end(piece.t[1])}: {piece.verdict} (linear: {piece.linear})", f"      {lettered(piece.because)}"]
+        low, high = (_end(t * told.one) for t in piece.t)
+        lines += [f"    t from {low} to {high}: {piece.verdict} (linear: {piece.linear})", f"      {lettered(piece.because)}"]
     return lines + [f"    fold at {state(fold, units)}" for fold in curve.folds]
 
 

@@ -4,23 +4,32 @@ from __future__ import annotations
 import math
 import re
 
+from ...curve_units import in_units
 from .measures import DIGITS, spoken, told, vector
 from .verdict import css
 
 
 def table(found, measures) -> dict:
-    """kind, reason and rows; places, and Omega where it is a curve's parameter, in the unit of the page's rates; equations of curves and a
-    parameter t of theirs that is a rate in rad/s; or scaled."""
+    """kind, reason and rows; places, equations of curves in rates and a parameter of theirs that is one in the unit of the page's rates."""
     unit, one = measures.rate_unit
     unit = f" {unit}" if unit else ""
     rows = [_row(vector([v * one for v in p.at[:3]]) + unit, p, measures.reason(p.because)) for p in found.points]
     for curve in found.curves:
         for segment in curve.segments:
-            rows.append(_row(f"{spoken(curve.name)}, {_piece(curve, segment.t, measures)}", segment, spoken(segment.because)))
-        rows += [{"where": f"fold at {vector([v * one for v in fold[:3]])}{unit}", "linear": "degenerate", "verdict": "", "because": "", "css": ""}
-                 for fold in curve.folds]
-    return {"kind": found.kind, "reason": measures.reason(found.reason), "rows": rows, "curve_unit": " (rad/s)" if unit else "",
-            "curves": [(spoken(_together(group)), *_of(group, measures)) for group in _alike(found.curves)]}
+            rows.append(_row(f"{spoken(in_units(curve, measures.units).name)}, {_piece(curve, segment.t, measures)}", segment, spoken(segment.because)))
+        for fold in curve.folds:
+            row = _fold(curve, fold, f"{vector([v * one for v in fold[:3]])}{unit}")
+            rows += [] if row in rows else [row]  # a point where curves meet is one of each
+    return {"kind": found.kind, "reason": measures.reason(found.reason), "rows": rows,
+            "curves": [(spoken(_together(group, measures)), *_of(group, measures)) for group in _alike(found.curves)]}
+
+
+def _fold(curve, at, where):
+    """A point between two pieces of a curve, with its verdict where it has one."""
+    found = next((sample for sample in curve.samples if tuple(sample.at[:3]) == tuple(at[:3]) and sample.linear == "degenerate"), None)
+    if found is None:
+        return {"where": f"fold at {where}", "linear": "degenerate", "verdict": "", "because": "", "css": ""}
+    return _row(f"{'fold' if found.because.startswith('fold') else 'meeting point'} at {where}", found, spoken(found.because))
 
 
 def _alike(curves):
@@ -31,19 +40,21 @@ def _alike(curves):
     return groups.values()
 
 
-def _together(group):
+def _together(group, measures):
     """The name of a group: that of its curve, or of the first and the last."""
-    return group[0].name if len(group) == 1 else f"{group[0].name} to {group[-1].name}"
+    first, last = (in_units(curve, measures.units).name for curve in (group[0], group[-1]))
+    return first if len(group) == 1 else f"{first} to {last}"
 
 
 def _of(group, measures):
-    """(the equation that a group shares, its parametrisations, each once)."""
+    """(the equation that a group shares, with its unit, its parametrisations, each once)."""
     unit, one = measures.rate_unit
 
     def in_unit(span):
         return "from {} to {} {}".format(*(f"{float(end) * one:.6g}" for end in span.groups()), unit)
-    words = [re.sub(r"(?<=^t = Omega )from (\S+) to (\S+) rad/s", in_unit, curve.parametrisation) for curve in group]
-    return spoken(group[0].equation), list(dict.fromkeys(map(spoken, words)))
+    told = [in_units(curve, measures.units) for curve in group]
+    words = [re.sub(r"(?<=^t = Omega )from (\S+) to (\S+) rad/s", in_unit, curve.parametrisation) for curve in told]
+    return spoken(told[0].equation) + (f" ({told[0].unit})" if told[0].unit else ""), list(dict.fromkeys(map(spoken, words)))
 
 
 def _by_omega(curve):
@@ -56,8 +67,10 @@ def _piece(curve, pair, measures):
     if _by_omega(curve):
         unit, one = measures.rate_unit
         return _between("Ω", [t * one for t in pair], unit)
-    a_rate = re.search(r"\b(?:omega|x)\d = [^,]*\bt\b", curve.parametrisation)
-    return _between("t", pair, ("rad/s" if a_rate else "rad" if re.search(r"cos t\b|: angle", curve.parametrisation) else "") if measures.physical else "")
+    if re.search(r"\b(?:omega|x)\d = [^,]*\bt\b", curve.parametrisation):
+        told = in_units(curve, measures.units)
+        return _between("t", [t * told.one for t in pair], told.unit)
+    return _between("t", pair, "rad" if measures.physical and re.search(r"cos t\b|: angle", curve.parametrisation) else "")
 
 
 def _between(name, pair, unit):
