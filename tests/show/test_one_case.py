@@ -115,6 +115,17 @@ def test_formulas_in_words_have_the_signs_of_a_book_and_commands_stay(plain, tol
     assert measures.spoken(plain) == told
 
 
+def test_the_first_line_of_a_page_says_what_the_uncertain_numbers_change_and_the_page_has_one_unit_of_rates(tmp_path):
+    """The file's 1.7 +- 0.02 rad/s are 97.403 +- 1.1459 deg/s by hand."""
+    page = sections(load(CASES / "uncertain-separatrix.toml"), tmp_path, "x", deep=False)
+    assert page["headline"].endswith("; BUT within the uncertainties also spin-up about axis 3, positive sense") and page["fate"] == "undecided"
+    told = page["uncertain"]
+    assert "motion.angular_velocity[3] = 97.4028 ± 1.14592 deg/s" in told and "20 ± 0.2 kg m²" in told
+    assert "rad/s" not in told and "^2" not in told and "state = 11.4592, 8.59437, 97.4028 deg/s" in told
+    held = sections(load(CASES / "uncertain-minor-axis.toml"), tmp_path, "y", deep=False)
+    assert held["headline"].endswith("; the fate is the same for all that the uncertain numbers may be") and held["fate"] == "bounded"
+
+
 def test_a_sentence_of_a_page_has_a_capital_and_its_commands_are_code():
     from stabilab.show.report.html import sentence
     assert sentence('the rest: `a --b <c>`') == 'The rest: <code>a <span class="nowrap">--b</span> &lt;c&gt;</code>'

@@ -6,7 +6,7 @@ from fractions import Fraction
 
 from ...case.units import unit_of_key
 from ..terminal.letters import lettered
-from ..units import DIGITS
+from ..units import DIGITS, SI, Units
 from ..units import number as told
 
 SUBJECTS = {"equilibria": ("hold", "depend"), "fate": ("holds", "depends")}
@@ -58,29 +58,42 @@ def _numbers(witness) -> dict[str, list[str]]:
     return shown
 
 
-def text(found) -> str:
-    """Lines that follow what a command says of a case; nothing where no number is uncertain."""
+def text(found, units: Units = SI) -> str:
+    """Lines that follow what a command says of a case; nothing where no number is uncertain. units: of rates and angles; in SI, as a file can state
+    them."""
     if found is None:
         return ""
-    lines = ["uncertain: " + ", ".join(f"{key(u)} = {rounded(u.middle)} ± {rounded(u.half)} {unit_of_key(u.path)}".rstrip() for u in found.numbers)]
+    lines = ["uncertain: " + ", ".join(f"{key(u)} = {_measured(u, units)}" for u in found.numbers)]
     for name in SUBJECTS:
         over = getattr(found, name)
-        lines += [] if over is None else _lines(name, over)
+        lines += [] if over is None else _lines(name, over, units)
     return "\n" + "\n".join(lines)
+
+
+def _measured(uncertain, units):
+    """The middle and half the width of a number with its unit."""
+    name, one = units.of(unit_of_key(uncertain.path))
+    middle, half = (rounded(v) if one == 1.0 else told(float(v) * one, DIGITS) for v in (uncertain.middle, uncertain.half))
+    return f"{middle} ± {half} {name}".rstrip()
 
 
 def first(found, told: str) -> str:
     """The text with what the box does to its answer at the end of the first line: whoever reads no further knows whether it holds."""
+    words = what_changes(found)
+    answer, *rest = told.split("\n")
+    return "\n".join([f"{answer}; {words}", *rest]) if words else told
+
+
+def what_changes(found) -> str:
+    """Whether the answer holds for all that the uncertain numbers may be, as a clause; nothing where all are certain."""
     over = found and (found.fate or found.equilibria)
     if not over:
-        return told
-    answer, *rest = told.split("\n")
+        return ""
     others = list(dict.fromkeys(w.verdict for w in over.witnesses[1:] if w.verdict != over.witnesses[0].verdict)) if over is found.fate else []
     subject = "the fate is" if over is found.fate else "they are"
-    words = {"holds": f"{subject} the same for all that the uncertain numbers may be" + (", but for a set of measure zero" if over.but else ""),
+    return {"holds": f"{subject} the same for all that the uncertain numbers may be" + (", but for a set of measure zero" if over.but else ""),
              "depends": f"BUT within the uncertainties also {' or '.join(others) or 'another answer'}",
              "undecided": f"{subject} undecided within the uncertainties"}[over.answer]
-    return "\n".join([f"{answer}; {words}", *rest])
 
 
 def middles(case) -> str:
@@ -88,7 +101,7 @@ def middles(case) -> str:
     return "\n  of the middles of the uncertain numbers; stabilab fate says what their box does" if case.uncertain else ""
 
 
-def _lines(subject, over) -> list[str]:
+def _lines(subject, over, units) -> list[str]:
     holds, depends = SUBJECTS[subject]
     lead = {"holds": f"{holds} all over the box", "depends": f"{depends} on them", "undecided": "undecided over the box"}
     lines = [f"  {subject}: {lead[over.answer]}" + (f": {over.verdict}" if over.answer == "holds" else ""), f"    {lettered(over.because)}"]
@@ -100,14 +113,21 @@ def _lines(subject, over) -> list[str]:
         lines.append(f"    flips at {over.changes_at:.6g} times the uncertainties (found by search, checked exactly)")
     elif over.answer == "holds" and over.proved < math.inf:
         lines.append("    no change was found up to 100 times the uncertainties")
-    return lines + [line for w in over.witnesses for line in _witness(w)]
+    return lines + [line for w in over.witnesses for line in _witness(w, units)]
 
 
-def _witness(w) -> list[str]:
+def _witness(w, units) -> list[str]:
     """A place of the box, to six digits: JSON has them all."""
-    units = UNITS | ({"state": "rad/s"} if "torque" in w.values else {})
-    numbers = "; ".join(f"{name} = {', '.join(told(float(v), DIGITS) for v in values)} {units.get(name, '')}".rstrip() for name, values in w.values.items())
+    known = UNITS | ({"state": "rad/s"} if "torque" in w.values else {})
+    measures = {name: units.of(known.get(name, "")) for name in w.values}
+    numbers = "; ".join(f"{name} = {', '.join(told(float(v) * measures[name][1], DIGITS) for v in values)} {measures[name][0]}".rstrip()
+                        for name, values in w.values.items())
     return [f"    {w.verdict} at {numbers}"]
+
+
+def open_fate(found) -> bool:
+    """Whether the fate is not the same all over the box."""
+    return found is not None and found.fate is not None and found.fate.answer != "holds"
 
 
 def undecided(found) -> bool:

@@ -9,6 +9,7 @@ from ....answers.uncertain.verdicts import uncertain
 from ....errors import StabilabError
 from ...plot import which
 from ...plot.subject import subject
+from ...terminal.letters import greek
 from ...text import uncertain as shown
 from ...units import units_of
 from . import certified, verdict
@@ -34,8 +35,11 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
         moved = _tried(absent, "Tilt of the torque", lambda: with_tilt(case, moved)) or moved
     if case.state is None:
         absent.append(("Motion", "the case states none: no fate, margins and pictures of it"))
-    page = {"name": case.name, "title": case.heading, "source": case.source, "path": case.path, "text": case.text,
-            "headline": verdict.headline(case, moved, found, measures), "law": verdict.law(moved, measures), "fate": "" if moved is None else moved.fate.word,
+    asked = ("equilibria", "fate") if case.state else ("equilibria",)
+    box = _tried(absent, "Uncertain numbers", lambda: uncertain(case, asked)) if case.uncertain else None
+    answer = "; ".join(filter(None, (verdict.headline(case, moved, found, measures), shown.what_changes(box))))
+    page = {"name": case.name, "title": case.heading, "source": case.source, "path": case.path, "text": case.text, "headline": answer,
+            "law": verdict.law(moved, measures), "fate": "" if moved is None else "undecided" if shown.open_fate(box) else moved.fate.word,
             "facts": [], "extremes": [], "invariants": [], "over": "", "pictures": [], "sensitivity": None, "certificate": None,
             "equilibria": found and table(found, measures), "equations": _tried(absent, "Equations", lambda: equations(case))}
     if moved is not None:
@@ -46,7 +50,7 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
         absent += [(title, why) for kind, (title, _) in SHOWN.items() if (why := which.why_not(kind, one))]
         page["sensitivity"] = _tried(absent, "Sensitivity", lambda: sensitivity(case, moved, measures))
     page["space"] = _tried(absent, "Space of the rates", lambda: space(case, moved, found, measures))
-    page["uncertain"] = _uncertain(case, absent)
+    page["uncertain"] = greek(shown.text(box, units))
     if certify:
         page["certificate"] = _tried(absent, "Certificate", lambda: certified.certificate_of(case, folder, stem))
     return page | {"absent": [(what, spoken(why)) for what, why in absent]}
@@ -66,10 +70,3 @@ def _tried(absent, what, made):
     except StabilabError as error:
         absent.append((what, str(error)))
         return None
-
-
-def _uncertain(case, absent) -> str:
-    """What uncertain numbers do to the verdicts, in words; empty where all are certain."""
-    if not case.uncertain:
-        return ""
-    return _tried(absent, "Uncertain numbers", lambda: shown.text(uncertain(case, ("equilibria", "fate") if case.state else ("equilibria",)))) or ""
