@@ -37,6 +37,8 @@ MARKER = {
     "start": {"marker": "s", "color": BLACK, "markersize": 5, "linestyle": "none"},
     "turning": {"marker": "^", "color": GREEN, "markersize": 6, "linestyle": "none"},
 }
+EQUILIBRIA = {"stable": "stable equilibria", "unstable": "unstable equilibria", "degenerate": "degenerate equilibria",
+              "undecided": "equilibria of undecided stability"}  # kind -> its words in a legend
 SHEETS = (SKY, ORANGE, GREEN, PURPLE, YELLOW, BLUE, VERMILION)  # surfaces, in order
 SERIES = (BLUE, ORANGE, GREEN, PURPLE, VERMILION)               # one curve each for a list of parameters
 
@@ -54,6 +56,18 @@ RC: dict[Any, Any] = {  # of Matplotlib
     "legend.frameon": True, "legend.framealpha": 0.92, "legend.edgecolor": "#BBBBBB", "lines.solid_capstyle": "round",
     "mathtext.fontset": "dejavusans", "axes.formatter.use_mathtext": True, "svg.hashsalt": "stabilab",
 }
+
+
+def kind_of(part: Any) -> str:
+    """Which of EQUILIBRIA an equilibrium or a piece of a curve of them is: as its verdict has it, which a linear centre in a field does not decide."""
+    if part.linear == "stable" and part.verdict == "undecided":
+        return "undecided"
+    return part.linear if part.linear in EQUILIBRIA else "degenerate"
+
+
+def colour_of(kind: str) -> str:
+    """The colour of one of EQUILIBRIA."""
+    return GREY if kind == "undecided" else str(MEANING["fold" if kind == "degenerate" else kind]["color"])
 
 
 @contextmanager

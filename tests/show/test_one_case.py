@@ -269,3 +269,12 @@ def test_a_page_of_a_sweep_begins_with_the_answer_of_the_commands_and_tells_the_
     first, (_, _, told) = stabilab("fate", path)[1].splitlines()[0], stabilab("extremes", path, "--csv")
     assert first.endswith(f"; by that law: charged-sweep: {found['headline']}") and found["headline"].startswith("27 combinations: each BOUNDED for ever")
     assert told.strip() == found["law"] and "27 of 27 combinations" in found["law"]
+
+
+def test_equilibria_of_undecided_stability_are_not_drawn_as_stable():
+    """Oracle: the verdicts of all pieces, which are undecided, though their linear ones are centres."""
+    case = load(CASES / "charged-body-attitude.toml")
+    found = equilibria(case.scene)
+    assert {(piece.linear, piece.verdict) for curve in found.curves for piece in curve.segments} == {("stable", "undecided")}
+    legend = dict(_space(case)[1]["legend"])
+    assert "equilibria of undecided stability" in legend and "stable equilibria" not in legend

@@ -157,14 +157,14 @@ def polydata(meshes):
 
 
 def equilibrium_lines(curves, size, number=240):
-    """[("stable" | "unstable" | "degenerate", points (n, 3))] of the equilibrium curves within `size` of the origin."""
+    """[(one of style.EQUILIBRIA, points (n, 3))] of the equilibrium curves within `size` of the origin."""
     lines = []
     for curve in curves:
         for segment in curve.segments:
             points = np.array([curve.point(float(t)) for t in spread(*segment.t, number)], float)
             points = points[np.all(np.isfinite(points), axis=1) & (np.linalg.norm(points, axis=1) < size)]
             if len(points) > 1:
-                lines.append((segment.linear, points))
+                lines.append((style.kind_of(segment), points))
     return lines
 
 
@@ -183,7 +183,7 @@ def plotter(scene, found, meshes):
                            diffuse=0.7, specular=0.1, name=f"sheet {number}")
     size = 1.15 * max([np.abs(m.points).max(initial=0.0) for m in meshes] or [0.0]) or 5.0
     for number, (kind, points) in enumerate(equilibrium_lines(equilibria(scene).curves, size)):
-        stage.add_mesh(pyvista.lines_from_points(points).tube(radius=size * 0.008), color=_colour(kind), name=f"line {number}")
+        stage.add_mesh(pyvista.lines_from_points(points).tube(radius=size * 0.008), color=style.colour_of(kind), name=f"line {number}")
     for axis in range(3):
         ends = np.zeros((2, 3))
         ends[:, axis] = (-size, size)
@@ -204,19 +204,15 @@ def _name_axes(stage, scene, size):
                       color=style.GREY, font_size=14, use_3d_text=False, **dict(zip(("xtitle", "ytitle", "ztitle"), names)))
 
 
-def _colour(kind):
-    return style.MEANING["fold" if kind == "degenerate" else kind]["color"]
-
-
 def _write_legend(image, scene, meshes):
     """Into the upper corners of a picture: what the colours stand for, and the unit of the axes."""
     from matplotlib import get_data_path
     from PIL import ImageDraw, ImageFont
     font = ImageFont.truetype(str(Path(get_data_path()) / "fonts/ttf/DejaVuSans.ttf"), 16)
     pen, width = ImageDraw.Draw(image), image.width
-    kinds = {segment.linear for curve in equilibria(scene).curves for segment in curve.segments}
+    kinds = {style.kind_of(segment) for curve in equilibria(scene).curves for segment in curve.segments}
     rows = [(mesh.name, style.SHEETS[number % len(style.SHEETS)]) for number, mesh in enumerate(meshes)]
-    rows += [(f"{kind} equilibria", _colour(kind)) for kind in sorted(kinds)]
+    rows += [(style.EQUILIBRIA[kind], style.colour_of(kind)) for kind in sorted(kinds)]
     left = width - 44 - max((pen.textlength(words, font) for words, _ in rows), default=0)
     for number, (words, colour) in enumerate(rows):
         top = 20 + 24 * number

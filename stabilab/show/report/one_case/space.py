@@ -27,7 +27,6 @@ STEPS = 900          # points of the motion
 LINES, FEWEST = 1600, 60  # points of all curves of equilibria, of each at least
 LATEST = 3.0         # times its first size, up to which a motion that spins up is drawn
 SHEETS = (style.SKY, style.GREEN, style.PURPLE, style.YELLOW)  # orange is the motion's
-KINDS = {"stable": "stable equilibria", "unstable": "unstable equilibria", "degenerate": "degenerate equilibria"}
 
 
 def space(case, motion, found_equilibria, measures, shape=SHAPE) -> dict:
@@ -96,8 +95,8 @@ def _marks(motion, found):
     if motion is not None and motion.velocity_witness is not None:
         marks.append({"kind": "nearest point of the separatrix", "colour": style.YELLOW, "at": motion.velocity_witness})
     for point in found.points if found is not None else ():
-        kind = point.linear if point.linear in KINDS else "degenerate"
-        marks.append({"kind": KINDS[kind], "colour": _colour(kind), "at": point.at[:3]})
+        kind = style.kind_of(point)
+        marks.append({"kind": style.EQUILIBRIA[kind], "colour": style.colour_of(kind), "at": point.at[:3]})
     return marks
 
 
@@ -125,12 +124,9 @@ def _curves(curves, curve, box):
     size = float(np.abs(np.asarray(box[0])).max()) + 2 * box[1]
     lines = equilibrium_lines(curves, size, max(FEWEST, LINES // (1 + sum(len(one.segments) for one in curves))))
     lines = [(kind, points) for kind, points in lines if _seen(points[:, :3], box)]
-    rows = [{"kind": KINDS.get(kind, kind), "colour": _colour(kind), "at": packed(points[:, :3], box)} for kind, points in lines]  # a field adds the vertical
+    rows = [{"kind": style.EQUILIBRIA[kind], "colour": style.colour_of(kind), "at": packed(points[:, :3], box)}  # a field adds the vertical
+            for kind, points in lines]
     return rows + ([] if curve is None else [{"kind": "this motion", "colour": style.MEANING["this motion"]["color"], "at": packed(curve, box)}])
-
-
-def _colour(kind):
-    return style.MEANING["fold" if kind == "degenerate" else kind]["color"]
 
 
 def _legend(drawn):
