@@ -24,6 +24,7 @@ from ...physics.effects import effect_class
 from ...physics.quadratic import QuadraticForm
 from ...physics.scene import AnyScene, ScaledGyrostat, Scene
 from ..terminal.letters import greek, lettered, written
+from ..text import law
 from ..text.headline import headline
 from ..units import units_of
 from . import controls, other, planes, space, tables
@@ -41,6 +42,7 @@ FOLLOWED = "the torque is off the principal axes: keep still, and the motion is 
 WORKED_OUT = "keep still, and this motion is worked out"
 NO_ARRAYS = "this motion has to be followed, which needs NumPy, and that is not here"
 SWEPT = "The file has a [sweep]: the page is about the numbers in its body; stabilab fate and report answer every combination."
+UNCERTAIN = "Numbers of the file are uncertain: the page is about the middles; stabilab classify answers for all that they may be."
 PATIENCE = 0.12  # s: a motion whose kind took longer the last time waits until the hand rests
 
 
@@ -85,6 +87,9 @@ class Session:
             clicked = planes.clicked(self._twin(case), case.state, asked["click"], self.units)
             case, note = changed(self.case, asked | {"start": clicked, "click": None}, self.units)
         found, words = self._motion(case, moving, stopped)
+        found = law.judged(case, found, brief=True)
+        if found is not None and law.beyond(found.validity):
+            words = f"BEYOND THE LAW; by that law: {words}"
         settled = time.process_time()
         twin = self._twin(case)
         at_rest = self._at_rest(case, twin, moving)
@@ -92,7 +97,7 @@ class Session:
         times, path = self._once("line", (case.scene, case.state, case.span, moving), lambda: line(case, form, _length(case, form), moving))
         picture = self._space(bag, case, twin, found, at_rest, path, asked.get("box"), moving)
         made = {"headline": greek(words), "fate": "undecided" if found is None else found.fate.word, "moving": moving, "start": clicked,
-                "note": " ".join(filter(None, (note, self._swept, _law(found)))),
+                "note": " ".join(filter(None, (note, self._swept, UNCERTAIN if case.uncertain else "", _law(found)))),
                 "toml": case.text, "rows": [] if found is None else tables.rows(case, found, self.units), "space": picture,
                 "plane": None if twin is None else planes.drawn(bag, twin, case.state, self.units),
                 "time": planes.over_time(bag, case, found, times, path, self.units)}
@@ -139,13 +144,13 @@ class Session:
         marks = space.marks_of(case.state, found, at_rest)
         box = space.box_of(asked, [*near, *(m["at"] for m in marks if m["kind"].startswith(("start", "nearest")))], moving or ghost)
         sheets, words = ((), other.why(case.scene)) if bare is None else self._sheets(bare, box, moving)
-        sheets = [sheet for sheet in sheets if space.seen(sheet, box)]
+        shown = [(number, sheet) for number, sheet in enumerate(sheets) if space.seen(sheet, box)]
         if ghost:
-            words = "No separatrix is known for a torque off the axes" + (": the surface drawn is that of the torque without its tilt" if sheets else "")
+            words = "No separatrix is known for a torque off the axes" + (": the surface drawn is that of the torque without its tilt" if shown else "")
         names = [planes.labelled(component.replace("omega", "ω"), self.units.rates[0]) for component in case.scene.components]
         number = POINTS[moving]
         rests = self._once("lines", (case.scene, box, number, at_rest is None), lambda: space.lines(at_rest, box, *number))
-        made = space.drawn(bag, box, names, self.units.rates[1], sheets, rests, near, marks, ghost)
+        made = space.drawn(bag, box, names, self.units.rates[1], shown, rests, near, marks, ghost)
         return made | {"words": words, "box": {"middle": box.middle, "half": box.half}}
 
     def _sheets(self, scene: AnyScene, box: space.Box, moving: bool) -> tuple[Sequence[PlainSheet], str]:

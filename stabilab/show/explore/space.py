@@ -22,7 +22,6 @@ ROOM = 1.9       # half of the box, of the farthest point of the motion from its
 SMALL = 0.22     # of the box: a motion that fills less gets a box of its own
 LATEST = 3.0     # times its first size, up to which a motion that spins up is drawn
 SHEETS = (style.SKY, style.GREEN, style.PURPLE, style.YELLOW)  # orange is the motion's
-KINDS = {"stable": "stable equilibria", "unstable": "unstable equilibria", "degenerate": "degenerate equilibria"}
 
 Point = Sequence[float]
 
@@ -92,16 +91,16 @@ def seen(sheet: PlainSheet, box: Box) -> bool:
     return any(box.holds(p) for p in sheet.points)
 
 
-def drawn(bag: Bag, box: Box, names: list[str], one: float, sheets: Sequence[PlainSheet], rests: list[tuple[str, list[Point]]], path: list[tuple[float, ...]],
-          marks: list[dict[str, Any]], ghost: bool) -> dict[str, Any]:
-    """What the view takes. one: how many of the unit of the labels make one of the scene's; ghost: the sheets are those of the torque without its tilt;
-    rests: of `lines`."""
-    curves: list[dict[str, Any]] = [{"kind": KINDS[kind], "colour": colour(kind), "at": bag.add("int16", packed(places, box))}
+def drawn(bag: Bag, box: Box, names: list[str], one: float, sheets: Sequence[tuple[int, PlainSheet]], rests: list[tuple[str, list[Point]]],
+          path: list[tuple[float, ...]], marks: list[dict[str, Any]], ghost: bool) -> dict[str, Any]:
+    """What the view takes. one: how many of the unit of the labels make one of the scene's; sheets: each with its number among all that there are, which
+    tells its colour; ghost: they are those of the torque without its tilt; rests: of `lines`."""
+    curves: list[dict[str, Any]] = [{"kind": style.EQUILIBRIA[kind], "colour": style.colour_of(kind), "at": bag.add("int16", packed(places, box))}
                                     for kind, places in rests]
     if path:
         curves.append({"kind": "this motion", "colour": style.MEANING["this motion"]["color"], "at": bag.add("int16", packed(path, box))})
     surfaces = [{"name": _sheet_name(sheet, ghost), "colour": SHEETS[n % len(SHEETS)], "rows": sheet.rows, "columns": sheet.columns,
-                 "at": bag.add("int16", packed(sheet.points, box))} for n, sheet in enumerate(sheets)]
+                 "at": bag.add("int16", packed(sheet.points, box))} for n, sheet in sheets]
     points = [mark | {"at": [round(v, 5) for v in box.share(mark["at"])]} for mark in marks if box.holds(mark["at"])]
     legend: dict[str, str] = {row.get("name") or row["kind"]: row["colour"] for row in (*surfaces, *curves, *points)}
     return {"names": names, "middle": [v * one for v in box.middle], "half": box.half * one, "sheets": surfaces, "curves": curves, "points": points,
@@ -118,14 +117,9 @@ def marks_of(start: Point, motion: Motion | None, found: Equilibria | None) -> l
     if motion is not None and motion.velocity_witness is not None:
         marks.append({"kind": "nearest point of the separatrix", "colour": style.YELLOW, "at": list(motion.velocity_witness)})
     for point in found.points if found is not None else ():
-        kind = point.linear if point.linear in KINDS else "degenerate"
-        marks.append({"kind": KINDS[kind], "colour": colour(kind), "at": list(point.at[:3])})
+        kind = style.kind_of(point)
+        marks.append({"kind": style.EQUILIBRIA[kind], "colour": style.colour_of(kind), "at": list(point.at[:3])})
     return marks
-
-
-def colour(kind: str) -> str:
-    """The colour of an equilibrium."""
-    return str(style.MEANING["fold" if kind == "degenerate" else kind]["color"])
 
 
 def lines(found: Equilibria | None, box: Box, coarse: int, fine: int) -> list[tuple[str, list[Point]]]:
@@ -134,7 +128,7 @@ def lines(found: Equilibria | None, box: Box, coarse: int, fine: int) -> list[tu
     out: list[tuple[str, list[Point]]] = []
     for curve in found.curves if found is not None else ():
         for segment in curve.segments:
-            kind = segment.linear if segment.linear in KINDS else "degenerate"
+            kind = style.kind_of(segment)
             for low, high in _inside(curve, _spread(*segment.t, coarse), box):
                 places = [_place(curve, low + (high - low) * n / fine) for n in range(fine + 1)]
                 out.append((kind, [at for at in places if at is not None]))

@@ -8,7 +8,7 @@ from typing import Any
 from ...case.read import Case
 from ...equilibrium.result import Equilibria
 from ...orbit.result import Motion
-from ..terminal.letters import lettered
+from ..terminal.letters import greek, lettered
 from ..text.headline import rate_margin
 from ..units import Units, but_for_rounding
 
@@ -25,7 +25,7 @@ def rows(case: Case, motion: Motion, units: Units) -> list[list[str]]:
     if apart := rate_margin(motion, units, DIGITS):
         found.append(["distance from the separatrix", apart])
     if motion.period is not None:
-        found.append(["period", units.time(motion.period, DIGITS)])
+        found.append(["period", greek(units.time(motion.period, DIGITS))])
     if motion.extremes is not None and not any(map(math.isnan, sum(map(list, motion.extremes), []))):
         for component, pair in zip(case.scene.components, but_for_rounding(motion.extremes, motion.tolerance)):
             found.append([component.replace("omega", "ω"), _range(*pair, units)])

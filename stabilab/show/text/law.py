@@ -36,9 +36,9 @@ def beyond(*found) -> bool:
     return any(v is not None and not v.held for v in found)
 
 
-def of_case(case, span=None):
+def of_case(case, span=None, brief=False):
     """Of a case's own motion over a span, its own where None is given (15 units of time without one), at rest where it has none; None where all laws
-    are exact."""
+    are exact, or, if brief, where more than a few power series were needed."""
     limits = limits_of(case.scene)
     if limits is None:
         return None
@@ -50,13 +50,17 @@ def of_case(case, span=None):
         found = law_along(case.scene, case.state, vertical_of(*case.blocks["attitude"]), span)
         if found is not None:
             return found
+    if brief:
+        return None
     from ...answers.simulate import simulate
     return simulate(case.scene, case.state, span, case.blocks).validity
 
 
-def judged(case, motion):
-    """The motion with its law judged along the case's own run, where that hangs on the attitude and the case gives one; else as it is."""
-    return motion if motion is None or not _open(case, motion.validity) else replace(motion, validity=of_case(case))
+def judged(case, motion, brief=False):
+    """The motion with its law judged along the case's own run, where that hangs on the attitude and the case gives one; else as it is. brief: of
+    `of_case`."""
+    found = None if motion is None or not _open(case, motion.validity) else of_case(case, brief=brief)
+    return motion if found is None else replace(motion, validity=found)
 
 
 def until(case, found, end: float):

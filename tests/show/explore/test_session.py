@@ -1,5 +1,6 @@
 """What a page is answered: the same as the questions answer, drawn in places that lie where they should."""
 import math
+import os
 import re
 import subprocess
 import sys
@@ -14,6 +15,7 @@ from stabilab.orbit.phase_plane import phase_plane
 from stabilab.show.explore.bag import Bag, unframed
 from stabilab.show.explore.plane import plane_of
 from stabilab.show.explore.session import FOLLOWED, Session, Stopped
+from stabilab.show.style import MEANING
 from stabilab.show.terminal.letters import greek
 from stabilab.show.text.headline import headline
 
@@ -189,6 +191,37 @@ def test_a_case_file_with_numbers_that_no_double_can_follow_is_refused_in_words(
 def test_a_file_with_a_sweep_is_told_of_whose_numbers_the_page_is():
     told, _ = ask(Session(case_of("charged-sweep")), moving=True)
     assert "[sweep]" in told["note"] and "sweep" not in ask(Session(case_of("minor-axis-100")), moving=True)[0]["note"]
+
+
+@pytest.mark.parametrize("name", ["uncertain-separatrix", "uncertain-minor-axis"])
+def test_a_file_with_uncertain_numbers_is_told_that_the_page_is_about_their_middles(name):
+    assert "uncertain" in ask(Session(case_of(name)), moving=True)[0]["note"]
+    assert "uncertain" not in ask(Session(case_of("minor-axis-100")), moving=True)[0]["note"]
+
+
+def test_an_approximate_law_is_judged_along_the_motion_as_classify_does():
+    """Oracle: classify, which follows the same motion; a smaller torque keeps within the law."""
+    for name, held in (("charged-body", False), ("charged-body-small-torque", True)):
+        told = ask(Session(case_of(name)), moving=True)[0]
+        line = subprocess.run([sys.executable, "-m", "stabilab", "classify", f"cases/{name}.toml"], capture_output=True, text=True, check=True,
+                              env={**os.environ, "COLUMNS": "400", "PYTHONIOENCODING": "utf-8"}).stdout.split("\n")[0]
+        assert told["note"].removeprefix("Within the law: ").removeprefix("BEYOND THE LAW: ") in line and "along the run" in told["note"]
+        assert told["headline"].startswith("BEYOND THE LAW; by that law: BOUNDED") != held and told["headline"].split("law: ")[-1] in line
+
+
+def test_no_equilibrium_of_undecided_stability_is_called_stable_by_its_colour():
+    """The table beside it and classify say undecided of each of this field's curves, whose linear verdict is a centre."""
+    told = ask(Session(case_of("charged-body-attitude")))[0]
+    assert {verdict for _, verdict in told["equilibria"]["rows"]} == {"undecided"}
+    names = dict(told["space"]["legend"])
+    assert "stable equilibria" not in names and names["equilibria of undecided stability"] not in (MEANING["stable"]["color"], MEANING["unstable"]["color"])
+
+
+def test_a_sheet_keeps_its_colour_while_others_come_into_the_box_and_go():
+    session = Session(case_of("thruster-stuck-major-axis"))
+    near, far = (dict(ask(session, **asked)[0]["space"]["legend"]) for asked in ({}, {"start": ["49.8", "118.5", "-53.6"]}))
+    sheets = [{name: colour for name, colour in legend.items() if name.startswith("Sheet")} for legend in (near, far)]
+    assert 0 < len(sheets[0]) < len(sheets[1]) and sheets[0].items() <= sheets[1].items()
 
 
 def test_a_tensor_that_is_not_diagonal_is_refused_beside_a_liquid_with_what_to_do():
