@@ -3,10 +3,13 @@ const INK = {motion: "#E69F00", separatrix: "#000000", level: "#B5B5B5", stable:
 
 function rounded(value) { return (Math.abs(value) < 1e5 ? String(+value.toPrecision(6) || 0) : value.toExponential().replace("e+", "e")).replace("-", "\u2212"); }
 
-function ticks(low, high, number) {
-  const rough = (high - low) / number, ten = 10 ** Math.floor(Math.log10(rough)), every = ten * [1, 2, 5, 10].find(k => k * ten >= rough), found = [];
-  for (let v = Math.ceil(low / every) * every; v <= high + 1e-9 * every; v += every) found.push(Math.abs(v) < 1e-9 * every ? 0 : v);
-  return found;
+function ticks(low, high, number, room) {  // round numbers, about so many; closer ones where that gives less than three, if their words have room
+  const rough = (high - low) / number, ten = 10 ** Math.floor(Math.log10(rough)), k = [1, 2, 5, 10].find(k => k * ten >= rough);
+  const spread = every => { const found = []; for (let v = Math.ceil(low / every) * every; v <= high + 1e-9 * every; v += every) found.push(Math.abs(v) < 1e-9 * every ? 0 : v); return found; };
+  const found = spread(k * ten);
+  if (found.length >= 3) return found;
+  const closer = spread({1: 0.5, 2: 1, 5: 2, 10: 5}[k] * ten);
+  return room(closer) ? closer : found;
 }
 
 // Clears a canvas and draws its axes; returns the pen, clipped to the picture, and the way from numbers to pixels and back. The processor draws
@@ -19,9 +22,10 @@ function picture(canvas, [left, right], [low, high], across, up) {
   const x = v => box.left + (v - left) / (right - left) * (box.right - box.left), y = v => box.bottom - (v - low) / (high - low) * (box.bottom - box.top);
   pen.font = "12px system-ui, sans-serif"; pen.lineWidth = 0.6; pen.strokeStyle = "#DDDDDD"; pen.fillStyle = "#333333";
   pen.textAlign = "center"; pen.textBaseline = "top";
-  for (const v of ticks(left, right, Math.max(3, wide / 90))) { pen.beginPath(); pen.moveTo(x(v), box.top); pen.lineTo(x(v), box.bottom); pen.stroke(); pen.fillText(rounded(v), x(v), box.bottom + 5); }
+  const beside = found => found.reduce((sum, v) => sum + pen.measureText(rounded(v)).width + 12, 0) < box.right - box.left;
+  for (const v of ticks(left, right, Math.max(3, wide / 90), beside)) { pen.beginPath(); pen.moveTo(x(v), box.top); pen.lineTo(x(v), box.bottom); pen.stroke(); pen.fillText(rounded(v), x(v), box.bottom + 5); }
   pen.textAlign = "right"; pen.textBaseline = "middle";
-  for (const v of ticks(low, high, Math.max(3, tall / 55))) { pen.beginPath(); pen.moveTo(box.left, y(v)); pen.lineTo(box.right, y(v)); pen.stroke(); pen.fillText(rounded(v), box.left - 5, y(v)); }
+  for (const v of ticks(low, high, Math.max(3, tall / 55), found => found.length * 20 < box.bottom - box.top)) { pen.beginPath(); pen.moveTo(box.left, y(v)); pen.lineTo(box.right, y(v)); pen.stroke(); pen.fillText(rounded(v), box.left - 5, y(v)); }
   pen.fillStyle = "#000000"; pen.textAlign = "center"; pen.textBaseline = "bottom"; pen.fillText(across, (box.left + box.right) / 2, tall - 4);
   pen.save(); pen.translate(12, (box.top + box.bottom) / 2); pen.rotate(-Math.PI / 2); pen.textBaseline = "middle"; pen.fillText(up, 0, 0); pen.restore();
   pen.strokeStyle = "#666666"; pen.lineWidth = 0.8; pen.strokeRect(box.left, box.top, box.right - box.left, box.bottom - box.top);
@@ -72,12 +76,18 @@ function drawPlane(canvas, plane, cross) {
   return {at: (px, py) => [art.left(px), art.up(py)], span: [first, last, low, high], start: [0, rate(plane.start)]};
 }
 
+// The ends of the periods that are drawn: not so many that they cover the curves.
+function periods({times, period}) {
+  const last = times[times.length - 1];
+  return period && last / period < 40 ? Array.from({length: Math.floor(last / period)}, (_, n) => (n + 1) * period) : [];
+}
+
 function drawTime(canvas, data) {
   const {times, rates, extremes} = data, all = rates.flatMap(row => [Math.min(...row), Math.max(...row)]);
   let low = Math.min(...all), high = Math.max(...all); const room = high - low || Math.abs(high) || 1;
   for (const pair of extremes || []) for (const v of pair) if (v !== null && v > low - 0.6 * room && v < high + 0.6 * room) { low = Math.min(low, v); high = Math.max(high, v); }
   const pad = 0.06 * (high - low || 2 * room), art = picture(canvas, [times[0], times[times.length - 1]], [low - pad, high + pad], data.x, data.y);
-  if (data.period && times[times.length - 1] / data.period < 40) for (let t = data.period; t <= times[times.length - 1]; t += data.period) line(art, [[t, low - pad], [t, high + pad]], "#999999", 0.9);
+  for (const t of periods(data)) line(art, [[t, low - pad], [t, high + pad]], "#999999", 0.9);
   (extremes || []).forEach((pair, n) => pair.forEach(v => v !== null && line(art, [[times[0], v], [times[times.length - 1], v]], INK.components[n], 1, [1, 3])));
   rates.forEach((row, n) => line(art, Array.from(times, (t, i) => [t, row[i]]), INK.components[n], 1.5));
   art.pen.restore();

@@ -106,21 +106,25 @@ function fill(id, told, children) {  // what says the same as before stays, and 
   place.dataset.told = key; place.replaceChildren(...children(told));
 }
 
-const signed = words => words.replace(/(^|[\s(\[=,])-(?=[\p{L}\d(])/gu, "$1\u2212").replace(/(?<=[\p{L}\d)²³]) - (?=[\p{L}\d(])/gu, " \u2212 ").replace(/(?<=\de)-(?=\d)/g, "\u2212").replace(/(?<=[\p{L}\d)]) \. (?=[\p{L}(])/gu, " · ").replace(/(?<=[MHωλγ])\.(?=[(MHDωλγ])/g, "·").replace(/\^([23T])(?!\w)/g, (_, one) => ({2: "²", 3: "³", T: "ᵀ"})[one]);
+const SUPER = {"-": "\u207b", 0: "\u2070", 1: "\u00b9", 2: "\u00b2", 3: "\u00b3", 4: "\u2074", 5: "\u2075", 6: "\u2076", 7: "\u2077", 8: "\u2078", 9: "\u2079"};
+const powers = words => words.replace(/(?<=\d)e([+-]?)0*(\d+)(?!\w)/g, (_, sign, power) => ` \u00d7 10${[...(sign === "-" ? sign : "") + power].map(one => SUPER[one]).join("")}`);
+const signed = words => powers(words).replace(/(^|[\s(\[=,])-(?=[\p{L}\d(])/gu, "$1\u2212").replace(/(?<=[\p{L}\d)²³]) - (?=[\p{L}\d(])/gu, " \u2212 ").replace(/(?<=[\p{L}\d)]) \. (?=[\p{L}(])/gu, " · ").replace(/(?<=[MHωλγ])\.(?=[(MHDωλγ])/g, "·").replace(/\^([23T])(?!\w)/g, (_, one) => ({2: "²", 3: "³", T: "ᵀ"})[one]);
 function trouble(words) { $("note").className = "warning"; $("note").hidden = !words; $("note").textContent = words; $("headline").classList.toggle("stale", Boolean(words)); }
 
 function show(answer) {
   if (answer.error) { trouble(answer.error); return; }
   trouble(""); $("note").hidden = !answer.note; $("note").textContent = answer.note; shown = answer;
   $("note").className = answer.note.startsWith("Within") ? "note" : "warning";  // a law that holds is no warning
-  $("headline").textContent = answer.headline; $("headline").className = `verdict-line ${answer.fate}`;
+  $("headline").textContent = answer.headline; $("headline").className = `verdict-line ${answer.headline.startsWith("BEYOND") ? "undecided" : answer.fate}`;
   view.show(answer.space);
   fill("legend", answer.space.legend, rows => rows.map(([words, colour]) => { const mark = element("i", {}); mark.style.background = colour; return element("span", {}, mark, words); }));
   fill("space-words", `${answer.space.words}. Drag to turn; click a curve or a point to start there; double click: as at first.`, words => [signed(words)]);
   drawFlat();
-  fill("plane-words", answer.plane ? "Orange: this motion; black: separatrix; grey: other energies; filled: centre; open: saddle. Click to start a motion there."
+  const saddle = answer.plane && answer.plane.rests.some(one => one.saddle), centre = answer.plane && answer.plane.rests.some(one => !one.saddle);
+  fill("plane-words", answer.plane ? `Orange: this motion;${saddle ? " black: separatrix;" : ""} grey: other energies${centre ? "; filled: centre" : ""}${saddle ? "; open: saddle" : ""}. Click to start a motion there.`
     : "This scene does not reduce to one degree of freedom, so it has no phase plane.", words => [signed(words)]);
-  fill("time-words", [answer.time.names, answer.time.extremes ? "Dotted: least and greatest for ever." : ""], ([names, words]) => [...names.map((name, n) => {
+  const told = [answer.time.extremes ? "Dotted: least and greatest for ever." : "", periods(answer.time).length ? "Grey: whole periods." : ""].join(" ").trim();
+  fill("time-words", [answer.time.names, told], ([names, words]) => [...names.map((name, n) => {
     const mark = element("span", {textContent: `${name} `}); mark.style.color = INK.components[n]; mark.style.fontWeight = 600; return mark; }), words]);
   fill("facts", answer.rows, rows => rows.flatMap(([words, value]) => [element("dt", {textContent: words}), element("dd", {textContent: signed(value)})]));
   fill("equilibria-words", answer.equilibria.reason, words => [signed(words)]);

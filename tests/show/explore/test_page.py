@@ -88,6 +88,22 @@ def test_numbers_beside_the_pictures_have_the_minus_of_a_book(page):
     assert "\u2212" in told and "(-" not in told and " -" not in told
 
 
+    assert page.run("signed('(3.8619e-05, -1.4176e+12) deg/s')") == "(3.8619 × 10⁻⁵, −1.4176 × 10¹²) deg/s"
+    assert " τ" in told and "tau" not in told
+
+
+def test_every_axis_has_a_scale_and_every_line_is_named(page):
+    """A scale takes two numbers; of an axis whose labels have no room for more, the round ones it has are kept."""
+    spans = [(-42, 42), (-50.1, 49.9), (0, 97), (-1000, 8600), (0, 1e-7), (3.9, 15)]
+    told = page.run(f"{json.dumps(spans)}.map(([low, high]) => [3, 4, 5].map(n => ticks(low, high, n, () => true)))")
+    for (low, high), rows in zip(spans, told):
+        assert all(len(marks) >= 3 and min(marks) >= low - 1e-6 and max(marks) <= high + 1e-6 for marks in rows)
+        assert all(len({round(b - a, 9) for a, b in zip(marks, marks[1:])}) == 1 for marks in rows)
+    assert page.run("ticks(-42, 42, 4, () => false)") == [0]
+    assert "Grey: whole periods" in page.run("$('time-words').textContent")
+    assert "black: separatrix" in page.run("$('plane-words').textContent") and "open: saddle" in page.run("$('plane-words').textContent")
+
+
 def test_a_click_in_the_phase_plane_starts_a_motion(page):
     said = page.run(HEADLINE)
     assert next_answer(page, lambda: page.click("#plane", 0.5, 0.12)) != said
