@@ -6,6 +6,7 @@ the printed curves alone and whole, as the paper's figure does.
 """
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 from functools import lru_cache
 from textwrap import fill
@@ -39,7 +40,10 @@ NARROW, SHRUNK = 0.95, 0.85  # width of the column of printed curves alone, agai
 DASHES = ((":", 2.3), ("--", 2.2), ("-", 2.1))
 ALONE = tuple({"color": c, "linewidth": 1.6, "linestyle": s, "zorder": z} for c, (s, z) in zip((style.ORANGE, "#9A5B00", "#4A2C00"), DASHES))
 BESIDE = tuple({"color": c, "linewidth": 0.8, "linestyle": s, "zorder": z - 0.5} for c, (s, z) in zip((style.PURPLE, "#9C4A7B", "#4F2440"), DASHES))
-CORNERS = ((1.0, 1.01, "right", "bottom"), (0.0, 1.01, "left", "bottom"), (0.5, 1.01, "center", "bottom"))  # of the words on cuts
+CORNERS = ((1.0, "right"), (0.0, "left"), (0.5, "center"))  # of the words on cuts, where they have room side by side
+LETTER, BESIDE_PANEL, SMALL = 0.062, 0.75, 0.88  # inches of a letter of these words, of what stands beside a panel; letters where room is short
+LINE = 13  # points from a line of such words to the next
+ENDS = "above a panel: from where to where a curve goes that is cut"  # in the legend where the words of a panel leave it out for want of room
 ORDER = ("printed", "corrected", "averaged1", "linear", "averaged2", "lindstedt")  # in the legend, after the exact motion
 WORDS = comparison.WORDS | {"corrected": "corrected integrals, frequency (8)"}
 
@@ -105,18 +109,22 @@ def draw_lines(plt, title, lines, width=3.5, height=2.05, words=None, mark_words
     words, count = WORDS | (words or {}), len(lines[0][1])
     heights = [height * (TALL if row.equal and len(lines) > 1 else 1) for row, _ in lines]
     alone = not own and any(_leaves(row, columns) for row, columns in lines)
-    size = (width * (count + NARROW * alone) * (SHRUNK if alone else 1), 1 + sum(heights))
+    room = (width * (SHRUNK if alone else 1) - BESIDE_PANEL) / LETTER
+    told = [[_words(row, _cuts(row, c, _window(row, [c] if own else columns)), room) for c in columns] for row, columns in lines]
+    stacked = [max(_height(words) for words in line) - 1 for line in told]
+    size = (width * (count + NARROW * alone) * (SHRUNK if alone else 1), 1 + sum(heights) + sum(stacked) * LINE / 72)
     figure, axes = plt.subplots(len(lines), count + alone, figsize=size, layout="constrained", squeeze=False,
                                 height_ratios=heights)
-    for i, ((row, columns), line) in enumerate(zip(lines, axes)):
+    for i, ((row, columns), line, more, above) in enumerate(zip(lines, axes, stacked, told)):
         headed = not i or [c.heading for c in columns] != [c.heading for c in lines[i - 1][1]]
         if alone:
             _printed_alone(line[0], row, columns, headed, words["printed"])
         shared = _window(row, columns)
-        for column, ax in zip(columns, line[int(alone):]):
+        for column, ax, cuts in zip(columns, line[int(alone):], above):
             _panel(ax, row, column, _window(row, [column]) if own else shared)
+            _tell_cuts(ax, cuts)
             if headed:
-                ax.set_title(column.heading + _refused(column, words), pad=14, fontsize=8 if column.refused else None)  # above the words on cuts
+                ax.set_title(column.heading + _refused(column, words), pad=14 + LINE * more, fontsize=8 if column.refused else None)  # above the words on cuts
             if not i:
                 _ending(ax, column)
             ax.tick_params(labelleft=own or column is columns[0])
@@ -134,6 +142,8 @@ def draw_lines(plt, title, lines, width=3.5, height=2.05, words=None, mark_words
     if alone:
         entries += [(f"alone: {c.heading}", look) for c, look in zip(lines[0][1], ALONE)]
         entries += [("alone, thin: corrected integrals", BESIDE[1])] * ("corrected" in lines[0][1][0].runs)
+    if any(short for line in told for _, short, _ in line):
+        entries.append((ENDS, {"linestyle": "none"}))
     style.legend(figure, entries)
     return figure
 
@@ -192,28 +202,83 @@ def _printed_alone(ax, row, columns, headed, words):
 
 
 def _panel(ax, row, column, limits):
-    far = []
     for name in ("exact", *reversed(ORDER)):
-        picked = row.pick(column.runs[name]) if name in column.runs else None
-        if picked is None:
+        if (picked := _curve(row, column, name)) is None:
             continue
-        x, y = (np.asarray(v, float) for v in picked)
+        x, y = picked
         ax.plot(*_clipped(x, y, limits), **LOOKS[name])
         if _stops(column.runs[name]) and len(x):
             ax.plot(x[-1:], y[-1:], color=LOOKS[name]["color"], **END)
-        low, high = (limits[1][0] - np.nanmin(y), np.nanmax(y) - limits[1][1]) if len(y) else (0, 0)
-        if max(low, high) > 0:
-            far.append((name, np.nanmax(y) if high > low else np.nanmin(y)))
     if column.mark is not None and row.over_time:
         ax.axvline(column.mark, **style.MEANING["crossing"])
     ax.set_xlim(*limits[0])
     ax.set_ylim(*limits[1])
     if row.equal:
         ax.set_aspect("equal", adjustable="box")
-    for (name, top), (x, y, side, edge) in zip(far, CORNERS):
-        reaches = "reaches" if len(far) > 1 else "cut: reaches"  # short, so that several have room side by side
-        words = reaches if row.over_time else f"cut: {_bare(row.ylabel)} to"
-        ax.text(x, y, f"{words} {plain(top)}", color=INK[name], ha=side, va=edge, fontsize=8.6, transform=ax.transAxes)
+
+
+def _curve(row, column, name):
+    """(x, y) of a model's curve in a column, or None where it has none."""
+    picked = row.pick(column.runs[name]) if name in column.runs else None
+    return None if picked is None else tuple(np.asarray(v, float) for v in picked)
+
+
+def _cuts(row, column, limits) -> list:
+    """(model, parts of the words how far) of every curve of a panel that leaves its limits, upwards, downwards or sideways: a part each quantity."""
+    found = []
+    for name in ("exact", *reversed(ORDER)):
+        picked = _curve(row, column, name)
+        if picked is None or not len(picked[0]):
+            continue
+        spans = [_beyond(v, *ends) for v, ends in zip(picked, limits)]
+        if row.over_time:
+            parts: list[tuple[str, ...]] = [(spans[1],)] if spans[1] else []
+        else:
+            parts = [(_bare(label), span) for label, span in zip((row.xlabel, row.ylabel), spans) if span]
+        found += [(name, parts)] if parts else []
+    return found
+
+
+def _beyond(values, low, high) -> str:
+    """How far values go beyond one end, or from where to where beyond both; empty where they stay between them."""
+    ends = [plain(end) for end, out in ((np.nanmin(values), np.nanmin(values) < low), (np.nanmax(values), np.nanmax(values) > high)) if out]
+    return " to ".join(ends)
+
+
+def _words(row, cuts, room) -> tuple:
+    """((model, its words) of every cut, whether these leave out that they tell of one, whether they stand side by side), as so many letters have room."""
+    def written(both, between):
+        return [between.join(" ".join([*label, both + span if " to " in span else ("to " if label else "reaches ") + span]) for *label, span in parts)
+                for _, parts in cuts]
+
+    def fits(words, share=1.0):
+        return sum(map(_letters, words)) + 2 * (len(words) - 1) <= room / share
+    names, whole, brief = [name for name, _ in cuts], written("from ", ", "), written("", "\n")
+    if len(cuts) > 1 and row.over_time and fits(whole):
+        return tuple(zip(names, whole)), False, True
+    if len(cuts) == 2 and not row.over_time or len(cuts) > 1 and row.over_time and fits(brief, SMALL):
+        return tuple(zip(names, brief)), True, True
+    return tuple((name, f"cut: {words}") for name, words in zip(names, whole)), False, False
+
+
+def _letters(words) -> int:
+    return len(re.sub(r"\\\w+|[${}^_]", "", words))
+
+
+def _height(words) -> int:
+    """How many lines the words of `_words` take."""
+    cuts, _, beside = words
+    heights = [text.count("\n") + 1 for _, text in cuts] or [1]
+    return max(heights) if beside else sum(heights)
+
+
+def _tell_cuts(ax, words):
+    """Above a panel, how far each curve goes that leaves it."""
+    cuts, short, beside = words
+    for n, (name, text) in enumerate(cuts):
+        x, side = CORNERS[n if beside else 0]
+        ax.annotate(text, (x, 1.01), (0, 0 if beside else LINE * n), xycoords="axes fraction", textcoords="offset points", color=INK[name], ha=side,
+                    va="bottom", ma=side, linespacing=1.25, fontsize=8.6 * (SMALL if short else 1))
 
 
 def plain(value) -> str:
