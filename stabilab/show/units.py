@@ -54,6 +54,10 @@ class Units:
         """A time, given in s, in the unit that suits its size."""
         return self.told(value, self.times(value), digits)
 
+    def moment(self, value: float, digits: int = DIGITS) -> str:
+        """A point in time: "t = 2.5 s", or "tau = 2.5" of a scaled case."""
+        return f"tau = {number(value, digits)}" if self.scaled else f"t = {self.time(value, digits)}"
+
     def momentum(self, value: float, digits: int = DIGITS) -> str:
         """An angular momentum, given in N m s."""
         return self.told(value, self.plain("N m s"), digits)
@@ -100,7 +104,7 @@ class Units:
         """A sentence of the analysis, whose angles and rates are in rad and rad/s and whose times in s, with all in these units; "s in [0, 20]" becomes
         "0 to 20 s"."""
         words = SPAN.sub(lambda found: self.span(found[1], float(found[2]), float(found[3])), words)
-        words = MOMENT.sub(lambda found: f"t = {self.time(float(found[1]), DIGITS - 1)}", words)
+        words = MOMENT.sub(lambda found: self.moment(float(found[1]), DIGITS - 1), words)
         if self.rates[0] in ("rad/s", ""):
             return words
         words = OF_RATES.sub(lambda found: self.vector(found[1].split(", "), self.rates, DIGITS - 1), words)

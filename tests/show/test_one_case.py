@@ -43,7 +43,7 @@ def test_a_top_has_its_fate_and_says_that_it_has_no_phase_plane(tmp_path):
     assert page["fate"] == "bounded" and [picture["title"] for picture in page["pictures"]] == ["Rates over time", "Analytic models beside the exact motion"]
     assert all((tmp_path / picture["file"]).exists() for picture in page["pictures"])
     assert [what for what, _ in page["absent"]] == ["Phase plane", "The surface on which the motion stays"]
-    assert page["space"]["reason"].startswith("no separatrix: ")
+    assert page["space"]["reason"].startswith("no separatrix is drawn: ")
 
 
 def test_a_torque_off_the_axes_is_certified_and_has_no_margins(tmp_path):
@@ -238,6 +238,20 @@ def test_a_page_tells_scaled_numbers_as_x_and_a_law_that_needs_no_run_has_no_ste
 
 
 @pytest.mark.slow
+def test_moments_certificates_limits_and_the_reduced_energy_are_told_as_what_they_are(tmp_path):
+    """The kinetic energy of the gyrostat is (2000·0.1² + 1500·0.2² + 1000·0.05²)/2 = 41.25 J; that of its reduced motion is another number."""
+    late = sections(load(CASES / "major-axis-spin3-100.toml"), tmp_path, "x", deep=False)
+    facts = dict(late["facts"])
+    assert facts["certificate holds from"].startswith("τ = 6") and facts["last reversal of the turn"].startswith("τ = 6")
+    assert "(proved from τ = 6" in facts["because"] and facts["how it is certified"] == "the turn can reverse no more"
+    captured = dict(sections(load(CASES / "major-axis-captured.toml"), tmp_path, "y", deep=False)["facts"])
+    assert captured["how it is certified"] == "the barrier ahead outgrows the energy"
+    free = sections(load(CASES / "torque-free-gyrostat.toml"), tmp_path, "z", deep=False)
+    assert "energy" not in dict(free["invariants"]) and dict(free["invariants"])["energy of the reduced motion"].startswith("−398.7")
+    small = sections(load(CASES / "cubesat-3u.toml"), tmp_path, "w", deep=False)
+    assert any(words.startswith("The limit of the case, |ω| = 60 deg/s, is reached after 16.9") for words in small["sensitivity"]["words"])
+
+
 def test_the_reason_of_an_undecided_fate_does_not_repeat_that_it_is_undecided(tmp_path):
     assert not dict(_sections("charged-body-attitude", tmp_path)["facts"])["because"].startswith("undecided")
 

@@ -63,7 +63,7 @@ def scenario_of(case: Any) -> Scenario:
     if not hasattr(case, "thrusters"):
         raise InputError(f"stuck: expected a case, as of stabilab.load(...), got {case!r:.80}")
     if case.variables == "scaled" or case.physical is None:
-        raise InputError("the motion is in scaled variables: a stuck thruster is asked of a body in kg m^2 and angular_velocity in rad/s")
+        raise InputError("the motion is in scaled variables; a stuck thruster is asked of a body in kg m^2 and angular_velocity in rad/s")
     if case.state is None:
         raise InputError("motion: expected angular_velocity in [motion]; a stuck thruster is asked of a motion")
     case.scene.quadratic()  # says which effect is not covered

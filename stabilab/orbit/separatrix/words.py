@@ -1,7 +1,7 @@
 """What a separatrix parts, or why there is none, in words."""
 from __future__ import annotations
 
-NO_REDUCTION = "no reduction to one degree of freedom: the separatrix of this scene is not known in closed form"
+NO_REDUCTION = "without a reduction to one degree of freedom the separatrix of this scene is not known in closed form"
 
 
 def what_it_parts(potential, sense: int) -> str:
@@ -17,7 +17,7 @@ def what_it_parts(potential, sense: int) -> str:
 def why_none(conic, sense: int) -> str:
     """Of a scene on circles or hyperbolas without sheets."""
     if conic.pieces or conic.lines:
-        return ("no equilibrium is a saddle of the reduced potential: each orbit has a single well, and there is no "
+        return ("no equilibrium is a saddle of the reduced potential, each orbit has a single well, and there is no "
                 "separatrix surface")
     if sense == 0:
         return "no force acts along any orbit: the rate about the axis of symmetry is constant, and there is no saddle and no separatrix surface"

@@ -48,7 +48,7 @@ def swept(answers, units: Units):
     counts = "; ".join(f"{words} {kinds.count(kind)}" for kind, words in WORDS.items() if kind in kinds)
     ends = [float(found.high) for *_, found in answers if math.isfinite(found.high)]
     name, one = units.times(max(ends, default=0.0))
-    told = f"{_asked(answers[0][1], units)}: {counts}" + (f"; first in {units.time(min(ends), 4)}" if ends else "")
+    told = f"{asked(answers[0][1], units)}: {counts}" + (f"; first in {units.time(min(ends), 4)}" if ends else "")
     rows = [[kind, number(float(found.high) * one, DIGITS) if kind == "yes" else "", str(found.level)] for kind, (*_, found) in zip(kinds, answers)]
     return told, [("reached", ""), ("time", name), ("level", "")], rows
 
@@ -63,19 +63,20 @@ def _reached(low, high):
 
 
 def _answer(limit, found, low, high, units):
-    asked = _asked(limit, units)
+    aim = asked(limit, units)
     if math.isinf(low):
-        return f"NEVER reaches {asked} ({found.level})"
+        return f"NEVER reaches {aim} ({found.level})"
     if math.isnan(high):
-        return f"NOT KNOWN when it reaches {asked}: not before {units.time(low)} ({found.level})"
+        return f"NOT KNOWN when it reaches {aim}: not before {units.time(low)} ({found.level})"
     if high == 0:
-        return f"starts at or beyond {asked}"
+        return f"starts at or beyond {aim}"
     name, one = units.times(high)
     a, b = bracket(low * one, high * one)
-    return f"reaches {asked} in {number((low + high) / 2 * one)} {name} ({found.level} {a} to {b})"
+    return f"reaches {aim} in {number((low + high) / 2 * one)} {name} ({found.level} {a} to {b})"
 
 
-def _asked(limit, units):
+def asked(limit, units):
+    """A limit in words: "|omega| = 60 deg/s"."""
     unit = {"energy": units.plain("J"), "tilt": units.angles}.get(limit.kind, units.rates)
     return " or ".join(f"{name} = {units.told(most, unit, DIGITS)}" for name, most in zip(map(_named, limit.names), limit.limits))
 

@@ -48,6 +48,10 @@ class Measures:
         unit, one = self.time_unit(value)
         return told(value * one, "of τ" if unit == "τ" else unit)
 
+    def moment(self, value) -> str:
+        """A point in time with its unit."""
+        return self.time(value) if self.physical else f"τ = {told(value)}"
+
     def energy(self, value) -> str:
         """An energy with its unit."""
         return told(value, "J" if self.physical else "")

@@ -4,11 +4,12 @@ from __future__ import annotations
 import math
 
 from ....answers.stuck.ask import stuck
+from ....case.limit_options import stated_limit
 from ....errors import InputError
 from ....orbit.result import Fate
 from ....physics.alignment import torque_axis
 from ...text.stuck import holds_for
-from ...text.when import unreached
+from ...text.when import asked, unreached
 from .measures import spoken, told, vector
 
 UNITS = {"wheel": "N m s", "torque": "N m"}
@@ -38,7 +39,8 @@ def sensitivity(case, motion, measures) -> dict:
     found["reason"] = " ".join(f"No margin in {_any_of(names)}: {spoken(because)}." for because, names in why.items())
     found["words"] = [_wheel(wheel) for wheel in row.wheels] + [_helper(helper, measures) for helper in row.helpers]
     if row.time_to_limit:
-        found["words"].insert(0, f"The limit of the case is reached after {_between_times(row.time_to_limit, measures)} ({row.time_level}).")
+        limit = spoken(asked(stated_limit(case), measures.units))
+        found["words"].insert(0, f"The limit of the case, {limit}, is reached after {_between_times(row.time_to_limit, measures)} ({row.time_level}).")
     found["words"] += _tilt(case, motion, measures, motion.tilt or row.tilt)
     return found
 

@@ -56,8 +56,8 @@ def _sheets(scene, shape):
     try:
         found = separatrix(scene, shape=shape)
     except StabilabError as error:
-        return (), f"no separatrix: {error}"
-    return found.sheets, found.reason if found.sheets else f"no separatrix: {found.reason}"
+        return (), f"no separatrix is drawn: {error}"
+    return found.sheets, found.reason if found.sheets else f"no separatrix is drawn: {found.reason}"
 
 
 def _reaching(scene, sheets, box, shape):

@@ -76,16 +76,20 @@ def _distance(motion, measures):
 EVIDENCE = {  # key of what a run showed -> (words, what it is)
     "span": ("followed for", "time"), "size_start": ("|ω| at the start", "rate"), "size_end": ("|ω| at the end", "rate"),
     "size_largest": ("largest |ω| seen", "rate"), "energy_start": ("energy at the start", "energy"), "energy_end": ("energy at the end", "energy"),
-    "energy_change": ("change of energy", "energy"), "t_certificate": ("certificate holds from", "time"), "followed_until": ("followed until", "time"),
-    "release_time": ("released at", "time"),
-    "release_estimate": ("released at about", "time"), "rate_end": ("rates at the end", "rates"), "energy_trend": ("the energy", ""),
-    "steps": ("steps of the run", ""), "invariant_drift": ("exact laws kept to", ""), "steps_followed": ("steps of the certified run", ""),
-    "small_change_grew": ("a small change grew by a factor of", "")}
+    "energy_change": ("change of energy", "energy"), "t_certificate": ("certificate holds from", "moment"),
+    "followed_until": ("followed until", "moment"), "release_time": ("last reversal of the turn", "moment"),
+    "release_estimate": ("barrier gone by about", "moment"), "rate_end": ("rates at the end", "rates"), "energy_trend": ("the energy", ""),
+    "certificate": ("how it is certified", ""), "steps": ("steps of the run", ""), "invariant_drift": ("exact laws kept to", ""),
+    "steps_followed": ("steps of the certified run", ""), "small_change_grew": ("a small change grew by a factor of", "")}
+CERTIFIED = {"well": "the barrier ahead outgrows the energy", "spin-up": "the turn can reverse no more", "bound": "a bound of the rate that grows for ever",
+             "axis": "a pure spin about the torque", "law": "an exact law of the motion", "none": "not at all"}
 
 
 def _evidence(name, value, measures):
     words, kind = EVIDENCE.get(name, (name.replace("_", " "), ""))
     words = words if measures.physical else words.replace("ω", "x")
+    if name == "certificate":
+        return words, CERTIFIED.get(value, value)
     if kind == "rates":
         return words, _rates(value, measures)
     if kind:
@@ -114,4 +118,6 @@ def invariants(motion, measures) -> list[tuple[str, str]]:
              "J_rate": lambda v: told(v, "(N m s)²/s" if measures.physical else "per unit of τ")}
     words = {"rate_bound": "|ω| never exceeds", "late_rate_bound": "|ω| in the end at most", "Q": "invariant Q", "J": "J of the law below",
              "J_rate": "J changes by", "momentum": "angular momentum"}
+    if "Q" in motion.invariants:  # a potential is in it, and none of its parts is that of the whole body
+        words["energy"] = "energy of the reduced motion"
     return [(words.get(name, name.replace("_", " ")), known.get(name, lambda v: told(v, digits=6))(value)) for name, value in motion.invariants.items()]
