@@ -125,13 +125,22 @@ def window(plane: PhasePlane) -> tuple[float, float]:
     if np.isfinite(plane.land.turn):
         marks = plane.saddles + plane.centres
         middle = float(np.mean(marks)) if marks else 0.0
-        return middle - 1.35 * np.pi, middle + 1.35 * np.pi
+        return _with_motion(plane, middle - 1.35 * np.pi, middle + 1.35 * np.pi)
     energy = plane.W0**2 / 2
     marks = [0.0, *plane.saddles, *plane.centres]
     heights = [float(plane.height(m)) for m in marks]
     lift = max(energy - min(heights), max(heights) - min(heights), 0.2)
     return tuple(_side(plane, edge, sense, min(heights) + 2.5 * lift, min(heights) - 6 * lift)
                  for edge, sense in ((min(marks), -1), (max(marks), 1)))
+
+
+def _with_motion(plane, low, high):
+    """The range with the whole of a motion that turns back on both sides; any other leaves it anyway."""
+    ys, Ws = motion_curve(plane, low - 2 * np.pi, high + 2 * np.pi)
+    if Ws[[0, -1]].max() > 1e-6 * Ws.max():
+        return low, high
+    room = 0.05 * (ys[-1] - ys[0])
+    return min(low, ys[0] - room), max(high, ys[-1] + room)
 
 
 def _side(plane, edge, sense, ceiling, cellar):

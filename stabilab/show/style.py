@@ -46,7 +46,8 @@ PACKAGES = ("matplotlib", "PIL")  # of every picture
 DPI = 110
 QUICK = 6        # level at which a PNG is packed; the most of 9 takes ten times as long for 3 to 8 % less, which only the large ones are worth:
 LARGE = 100_000  # bytes
-LETTER, KEY = 0.08, 0.7  # inches that a letter of a legend, and its key with the gap, take
+LETTER, KEY = 0.07, 0.7  # inches that a letter of a legend, and its key with the gap, take
+TITLE = 0.0075  # inches that a letter of a title takes, a point of its size
 ROOMY, SMALLEST = (5.6, 3.8), 0.7  # inches from which on letters have their full size; the least share of it in smaller figures: 7 points
 RC: dict[Any, Any] = {  # of Matplotlib
     "figure.dpi": DPI, "savefig.dpi": DPI, "figure.facecolor": "white", "axes.facecolor": "white",
@@ -194,6 +195,19 @@ def fitting(names: list[str], width: float) -> int:
         if sum(max(widths[low:high]) for low, high in zip(ends, ends[1:])) <= room:
             return count
     return 1
+
+
+def clauses(text: str, width: float) -> str:
+    """A title of clauses in lines that fit a figure of so many inches: each ends with a clause where one alone is no longer than a line."""
+    import matplotlib
+    from matplotlib.font_manager import FontProperties
+    most = (width - 0.3) / (TITLE * FontProperties(size=matplotlib.rcParams["axes.titlesize"]).get_size_in_points())
+    lines = [""]
+    for clause in re.split(r"(?<=; )", text):
+        if lines[-1] and len(lines[-1]) + len(clause.rstrip()) > most:
+            lines.append("")
+        lines[-1] += clause
+    return "\n".join(line.rstrip() for line in lines)
 
 
 def literal(text: str) -> str:

@@ -227,6 +227,51 @@ def test_a_motion_too_small_to_be_seen_beside_its_separatrix_is_shown_enlarged()
     assert not stabilab.plot.phase(load("minor-axis-100")).child_axes
 
 
+def test_the_axis_of_time_has_the_unit_of_the_period_whose_ends_are_marked():
+    """two-wheels-minor-axis repeats every 15.567 s over 120 s, which alone would be told in minutes."""
+    ax = stabilab.plot.time(load("two-wheels-minor-axis"))
+    assert ax.get_xlabel() == "time (s)" and ax.get_xlim() == (0, 120)
+    ends = sorted(float(line.get_xdata()[0]) for line in ax.get_lines() if line.get_color() == "#7A7A7A" and len(set(line.get_xdata())) == 1)
+    assert ends == pytest.approx([15.5672 * n for n in range(8)], rel=1e-4)
+    assert stabilab.plot.time(load("two-wheels-minor-axis"), span=(0, 3000)).get_xlabel() == "time (min)"  # 193 ends are not marked
+
+
+def test_lines_of_a_title_end_with_clauses_and_a_legend_of_five_has_one_row():
+    """A line broke between "period" and its number; the second component stood below the first."""
+    ax = stabilab.plot.time(load("middle-axis-equal-100"))
+    lines_of_title = ax.get_title().split("\n")
+    assert lines_of_title[1].endswith(" about axis 3;") and lines_of_title[2].startswith("period 3.117")
+    ax.figure.draw_without_rendering()
+    (legend,) = ax.figure.legends
+    assert len({round(text.get_window_extent().y0) for text in legend.get_texts()}) == 1
+    assert ax.title.get_window_extent().x0 >= 0 and ax.title.get_window_extent().x1 <= ax.figure.bbox.width
+    assert legend.get_window_extent().x0 >= 0 and legend.get_window_extent().x1 <= ax.figure.bbox.width
+
+
+def test_the_enlarged_window_holds_the_start_and_other_energies_up_to_its_edges_on_a_ground_of_its_own():
+    """The mark of the start hid the motion in the large picture, whose lines went through the numbers of the window."""
+    ax = stabilab.plot.phase(load("thruster-stuck-major-axis"))
+    (inset,), starts = ax.child_axes, lambda where: [line for line in where.get_lines() if line.get_marker() == "s"]
+    assert not starts(ax) and len(starts(inset)) == 1
+    (levels,) = inset.collections
+    drawn = np.concatenate([path.vertices for path in levels.get_paths()])
+    low, high = inset.get_ylim()
+    assert drawn[:, 1].max() > high - 0.02 * (high - low) and drawn[:, 1].min() < low + 0.02 * (high - low)
+    ax.figure.draw_without_rendering()
+    ground, = (patch for patch in ax.patches if patch.get_facecolor() == (1.0, 1.0, 1.0, 1.0) and patch.get_zorder() == 4.5)
+    box, numbers = ground.get_window_extent(), inset.get_tightbbox()
+    assert box.x0 <= numbers.x0 and box.y0 <= numbers.y0 and box.x1 >= numbers.x1 and box.y1 >= numbers.y1
+
+
+def test_a_bounded_motion_lies_in_its_phase_plane_whole():
+    """That of uncertain-separatrix swings to 95 % of the way to a saddle on one side, and farther than a turn and a third from the middle on the other."""
+    ax = stabilab.plot.phase(load("uncertain-separatrix"))
+    (low, high), motion = ax.get_xlim(), [line for line in ax.get_lines() if line.get_color() == "#E69F00"]
+    turns = np.concatenate([line.get_xdata() for line in motion])
+    ends = motion[0].get_ydata()[[0, -1]]
+    assert low < turns.min() and turns.max() < high and np.abs(ends).max() < 1e-3 * np.abs(motion[0].get_ydata()).max()
+
+
 def test_a_motion_of_a_ten_thousandth_of_the_picture_is_shown_enlarged():
     """Its turning points are known to 1e-14 of the picture, which leaves some 1e-6 of its rate there."""
     small = stabilab.plot.phase(load("charged-body-small-torque"))

@@ -52,5 +52,6 @@ def legend(ax: Any, rows: list[tuple[str, dict[str, Any]]], own: bool) -> None:
 
 def title(ax: Any, *lines: str) -> None:
     """The lines that are not empty, above the axes; the first is the title of the case."""
-    heading, *others = lines
-    ax.set_title("\n".join(filter(None, map(style.literal, (heading, *others)))), wrap=True)
+    width = ax.get_position().width if len(ax.figure.axes) > 1 else 1.0  # beside others it has its own share alone
+    told = (style.clauses(line, ax.figure.get_figwidth() * width) for line in lines if line)
+    ax.set_title("\n".join(map(style.literal, told)), wrap=True)

@@ -49,7 +49,7 @@ def time(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None,
     t, omega = path(one, low, high)
     turned = file_axes(one)
     omega = omega if turned is None else omega @ turned.T
-    (time_unit, per_time), (rate_unit, per_rate) = scale.time(high - low), scale.rate
+    (time_unit, per_time), (rate_unit, per_rate) = scale.time(_measured(one, low, high)), scale.rate
     names = scale.names if turned is None else tuple(rf"$\omega_{axis}$" for axis in "xyz")
     with canvas.on(ax, size) as target:
         height = (max(omega.max(), np.linalg.norm(omega, axis=1).max() if scale.size else -math.inf) - omega.min()) * per_rate
@@ -124,16 +124,26 @@ def _extremes(ax, one, per_rate):
     return [("least and greatest for ever", {"color": style.GREY, **EXTREME})] if drawn else []
 
 
+def _marked(one, low, high) -> bool:
+    """Whether the ends of the periods are drawn: there are some, and not so many that they would be a grey ground."""
+    period = one.motion.period
+    return bool(period) and period <= high - low <= 3 * PERIODS * period
+
+
+def _measured(one, low, high):
+    """The time whose unit is that of the axis: of the period where its ends are marked, else of the picture."""
+    return one.motion.period if _marked(one, low, high) else high - low
+
+
 def _periods(ax, one, low, high, per_time, scale):
     period = one.motion.period
     if not period or high - low < period:
         return []
     unit, per = scale.time(period)
     words = f"period {period * per:.5g} {unit}"
-    ends = np.arange(math.ceil(low / period), math.floor(high / period) + 1) * period
-    if len(ends) > 3 * PERIODS:
+    if not _marked(one, low, high):
         return [(words, {"linestyle": "none"})]
-    for end in ends:
+    for end in np.arange(math.ceil(low / period), math.floor(high / period) + 1) * period:
         ax.axvline(end * per_time, zorder=1, **PERIOD)
     return [(words, PERIOD)]
 

@@ -29,8 +29,10 @@ def phase(case: Any, state: Any = None, ax: Axes | None = None, units: str | Non
     i = plane.reduction.axis
     with canvas.on(ax, size) as target:
         factors = {"scale": plane.unit * scale.angle[1], "rate_scale": scale.rate[1]}
-        draw(target, plane, **factors)
-        _enlarged(target, plane, factors)
+        small = _small(plane)
+        draw(target, plane, start=not small, **factors)
+        if small:
+            _enlarged(target, plane, factors)
         target.set_xlabel(scale.label(rf"turn $\alpha_{i + 1}$ about axis {i + 1} from the start", scale.angle[0]))
         target.set_ylabel(scale.label(scale.names[i], scale.rate[0]))
         canvas.title(target, one.heading)
@@ -42,22 +44,30 @@ def phase(case: Any, state: Any = None, ax: Axes | None = None, units: str | Non
 
 RESTING = 1e-4  # of the walls: a motion below it would be a line, and the grid may miss the bottom of its well
 SMALL, AROUND = 0.07, 1.6  # of the picture's height: a motion below it is shown enlarged, in a window so much larger than itself
+INSET = (0.34, 0.34)  # of the axes: width and height of that window
+NUMBERS = (0.065, 0.06)  # of the axes: the room of its numbers, left and below
 CLOSED = 1e-3  # of the largest W: more of it at its ends has a motion that leaves the picture; at a turning point rounding of the place leaves some 1e-6
 
 
+def _small(plane) -> bool:
+    """Whether a motion that turns back is too small to be seen beside its separatrix: the mark of its start would hide it."""
+    span = window(plane)
+    _, Ws = motion_curve(plane, *span)
+    return 0 < Ws.max() < SMALL * highest(plane, *span) and bool(Ws[[0, -1]].max() <= CLOSED * Ws.max())
+
+
 def _enlarged(ax, plane, factors):
-    """A window with this motion alone, where it is too small to be seen beside its separatrix."""
+    """A window with this motion alone and its start, on a ground of its own."""
+    from matplotlib.patches import Rectangle
     ys, Ws = motion_curve(plane, *window(plane))
-    height = 2 * float(np.abs(factors["rate_scale"] * (plane.rate(Ws) - plane.rate(np.zeros(1)))).max())
-    low, high = ax.get_ylim()
-    if not 0 < height < SMALL * (high - low) or Ws[[0, -1]].max() > CLOSED * Ws.max():
-        return
     right = plane.unit * (ys[0] + ys[-1]) < plane.unit * sum(window(plane))  # the emptier side
-    inset = ax.inset_axes((0.64 if right else 0.07, 0.62, 0.34, 0.34))
+    (wide, tall), (left, below) = INSET, NUMBERS
+    at = (0.64 if right else 0.01 + left, 0.62)
+    ax.add_patch(Rectangle((at[0] - left, at[1] - below), wide + left + 0.01, tall + below + 0.02, transform=ax.transAxes,
+                           facecolor="white", edgecolor=style.GREY, linewidth=0.8, zorder=4.5))
+    inset = ax.inset_axes((*at, *INSET))
     middle, half = (ys[0] + ys[-1]) / 2, AROUND * (ys[-1] - ys[0]) / 2
-    draw(inset, plane, span=(middle - half, middle + half), levels=14, **factors)
-    rest = factors["rate_scale"] * float(plane.rate(np.zeros(1))[0])
-    inset.set_ylim(rest - AROUND * height / 2, rest + AROUND * height / 2)
+    draw(inset, plane, span=(middle - half, middle + half), levels=14, top=AROUND * float(Ws.max()), **factors)
     inset.tick_params(labelsize=7)
     inset.set_in_layout(False)  # it lies inside; the layout would keep room for it below
     ax.indicate_inset_zoom(inset, edgecolor=style.BLACK)
@@ -68,12 +78,13 @@ ROWS: list[tuple[str, dict]] = [
     ("other energies", style.MEANING["level"]), ("centre (stable)", style.MARKER["centre"]), ("saddle (unstable)", style.MARKER["saddle"])]
 
 
-def draw(ax, plane: PhasePlane, scale=1.0, offset=0.0, rate_scale=1.0, span=None, levels=22, motion=True, separatrices=True):
+def draw(ax, plane: PhasePlane, scale=1.0, offset=0.0, rate_scale=1.0, span=None, levels=22, motion=True, separatrices=True, start=True,
+         top=None):
     """Draw level curves, separatrices, equilibria and the motion on `ax`; x axis: offset + scale*y. separatrices: False where the caller
-    draws them himself, each in a look of its own."""
+    draws them himself, each in a look of its own. start: mark where the motion begins. top: the largest W, None for what is worth drawing."""
     low, high = span or window(plane)
     y = np.linspace(low, high, 700)
-    heights, top = plane.height(y), highest(plane, low, high)
+    heights, top = plane.height(y), highest(plane, low, high) if top is None else top
     W = np.linspace(-top, top, 500)
     energy = W[:, None] ** 2 / 2 + heights[None, :]
     limits = np.linspace(energy.min(), np.quantile(energy, 0.93), levels + 1)[1:]
@@ -87,7 +98,8 @@ def draw(ax, plane: PhasePlane, scale=1.0, offset=0.0, rate_scale=1.0, span=None
         ys, Ws = motion_curve(plane, low, high)
         for sign in ways(plane, Ws):
             ax.plot(offset + scale * ys, rate_scale * plane.rate(sign * Ws), **style.MEANING["this motion"])
-        ax.plot([offset], [rate_scale * plane.rate(plane.W0)], zorder=5, **style.MARKER["start"])
+        if start:
+            ax.plot([offset], [rate_scale * plane.rate(plane.W0)], zorder=5, **style.MARKER["start"])
     for kind, places in (("centre", plane.centres), ("saddle", plane.saddles)):
         shown = np.array(plane.repeated(places, low, high))
         if len(shown):  # an empty line that is not clipped lies at the corner of the picture for a layout, which keeps room for it
