@@ -88,8 +88,7 @@ class Session:
             case, note = changed(self.case, asked | {"start": clicked, "click": None}, self.units)
         found, words = self._motion(case, moving, stopped)
         found = law.judged(case, found, brief=True)
-        if found is not None and law.beyond(found.validity):
-            words = f"BEYOND THE LAW; by that law: {words}"
+        words = words if found is None else law.warned(found.validity, words)
         settled = time.process_time()
         twin = self._twin(case)
         at_rest = self._at_rest(case, twin, moving)

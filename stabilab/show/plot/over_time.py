@@ -10,6 +10,7 @@ import numpy as np
 from ...answers.time_to import time_of_case
 from ...case.limit_options import stated_limit
 from .. import style
+from ..text import law
 from ..text.headline import headline
 from . import canvas, which
 from .measures import measures
@@ -74,8 +75,9 @@ def time(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None,
 
 
 def _answer(one, scale):
-    """The answer in one line; of uncertain numbers only their middles are drawn."""
-    return headline(one.case, one.motion, scale.system) + ("; for the middles of the uncertain numbers" if one.case.uncertain else "")
+    """The answer in one line, and before it that an approximate law does not hold; of uncertain numbers only their middles are drawn."""
+    told = law.warned(one.motion.validity, headline(one.case, one.motion, scale.system))
+    return told + ("; for the middles of the uncertain numbers" if one.case.uncertain else "")
 
 
 def told_apart(looks: Sequence[dict[str, Any]], curves: Sequence[np.ndarray]) -> list[dict[str, Any]]:

@@ -7,6 +7,7 @@ from dataclasses import replace
 from ...case.attitude import vertical_of
 from ...errors import printable
 from ...physics.approximate import limits_of
+from ...physics.law_limits import BEYOND
 from ..terminal.letters import lettered
 from ..units import SI, Units, units_of
 
@@ -19,6 +20,11 @@ def first(validity, text: str, units: Units = SI) -> str:
     answer, *rest = text.split("\n")
     words = lettered(units.words(printable(validity.words)))
     return "\n".join([f"{answer}; {words}" if validity.held else f"{words}; by that law: {answer}", *rest])
+
+
+def warned(validity, answer: str) -> str:
+    """The answer, and before it that its law does not hold where it does not: of a line that has no room for more."""
+    return f"{BEYOND}; by that law: {answer}" if beyond(validity) else answer
 
 
 def key(validity) -> dict:
