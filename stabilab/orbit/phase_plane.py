@@ -120,6 +120,9 @@ def phase_plane(scene, state) -> PhasePlane | None:
     return PhasePlane(land, tuple(float(v) for v in place), float(w))
 
 
+RESTING = 1e-4  # of what the potential rises in a unit of y: a motion with less is shown in the well that it rests in
+
+
 def window(plane: PhasePlane) -> tuple[float, float]:
     """The range of y worth drawing: a turn and a half of a circle; between high walls of a hyperbola or parabola."""
     if np.isfinite(plane.land.turn):
@@ -129,7 +132,9 @@ def window(plane: PhasePlane) -> tuple[float, float]:
     energy = plane.W0**2 / 2
     marks = [0.0, *plane.saddles, *plane.centres]
     heights = [float(plane.height(m)) for m in marks]
-    lift = max(energy - min(heights), max(heights) - min(heights), 0.2)
+    steep = max(float(plane.height(m)) for m in (min(marks) - 1.0, max(marks) + 1.0)) - min(heights)
+    lift = max(energy, *heights) - min(heights)
+    lift = lift if lift > RESTING * steep else steep
     return tuple(_side(plane, edge, sense, min(heights) + 2.5 * lift, min(heights) - 6 * lift)
                  for edge, sense in ((min(marks), -1), (max(marks), 1)))
 

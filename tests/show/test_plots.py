@@ -9,6 +9,7 @@ import pytest
 
 import stabilab
 from stabilab import errors
+from stabilab.case.read import read_text
 from stabilab.show import style
 from stabilab.show.plot import path, subject, to_file, which
 from stabilab.show.text import comparison
@@ -219,6 +220,30 @@ def test_a_motion_all_but_at_rest_in_a_single_well_is_drawn_between_its_walls():
     stabilab.plot.phase(load("charged-body-small-torque"), ax=ax)
     low, high = ax.get_ylim()
     assert math.isfinite(low) and math.isfinite(high) and high - low > 1e3 * abs(np.ptp(lines(ax)[0].get_ydata()))
+
+
+@pytest.mark.parametrize("size", [1, 1e-2, 1e-4])
+def test_a_motion_between_walls_fills_its_phase_plane_whatever_its_size_in_rad_a_second(size):
+    """A slower body with a weaker torque moves alike (rates by a factor, torque by its square), and so does its picture."""
+    case = read_text("slow.toml", f"""[body]
+inertia = [8.7, 8.6, 11.1]
+[effects.gyrostat]
+momentum = [0, 0, {1.3 * size}]
+[effects.constant_torque]
+torque = [{4 * size**2}, 0, 0]
+[motion]
+angular_velocity = [0, 0, {0.28 * size}]
+""")
+    ax = stabilab.plot.phase(case)
+    motion = next(line for line in lines(ax) if line.get_color() == style.MEANING["this motion"]["color"])
+    low, high = ax.get_xlim()
+    assert 0.5 < np.ptp(motion.get_xdata()) / (high - low) < 0.9
+
+
+def test_a_title_says_that_an_approximate_law_does_not_hold():
+    """The charge's law holds while axis 3 keeps its direction, which it does not under the larger torque."""
+    titles = [stabilab.plot.time(load(name)).get_title() for name in ("charged-body", "charged-body-small-torque")]
+    assert ["BEYOND THE LAW; by that law: BOUNDED" in title for title in titles] == [True, False] and all("BOUNDED" in title for title in titles)
 
 
 def test_a_motion_too_small_to_be_seen_beside_its_separatrix_is_shown_enlarged():

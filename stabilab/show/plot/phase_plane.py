@@ -69,6 +69,8 @@ def _enlarged(ax, plane, factors):
     middle, half = (ys[0] + ys[-1]) / 2, AROUND * (ys[-1] - ys[0]) / 2
     draw(inset, plane, span=(middle - half, middle + half), levels=14, top=AROUND * float(Ws.max()), **factors)
     inset.tick_params(labelsize=7)
+    for label in (*inset.get_xticklabels(), *inset.get_yticklabels()):  # they stand on the lines of the picture
+        label.set_bbox({"facecolor": "white", "edgecolor": "none", "pad": 0.8})
     inset.set_in_layout(False)  # it lies inside; the layout would keep room for it below
     ax.indicate_inset_zoom(inset, edgecolor=style.BLACK)
 
