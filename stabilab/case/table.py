@@ -4,6 +4,7 @@ Written by hand rather than with pydantic, whose import alone takes longer than 
 """
 from __future__ import annotations
 
+import re
 from datetime import date, time
 from fractions import Fraction
 from typing import NamedTuple
@@ -144,7 +145,7 @@ class Table:
             return None
         words = {2: "two", 3: "three"}[count]
         if not isinstance(value, list):
-            self.fault(f"expected {words} numbers in square brackets, got {described(value)}", key)
+            self.fault(f"expected {words} numbers in square brackets, got {described(value)}{_in_brackets(value, count)}", key)
             return None
         if len(value) != count:
             self.fault(f"expected {words} numbers, got {len(value)}", key)
@@ -244,6 +245,20 @@ def described(value) -> str:
     if isinstance(value, (date, time)):
         return "a date or time"
     return "a table"
+
+
+def _in_brackets(value, count: int) -> str:
+    """"; write ..." where a text holds the numbers of a list, perhaps with one unit behind the last of them; of a span the end alone."""
+    if not isinstance(value, str) or isinstance(value, Written) or len(value) > 200:
+        return ""
+    parts = [re.fullmatch(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([^\d\s].*)?", part.strip()) for part in value.strip("()[] ").split(",")]
+    if None in parts or len(parts) != count and (len(parts), count) != (1, 2):
+        return ""
+    units = [part[2] for part in parts]
+    if any(units[:-1]) and not all(units):
+        return ""
+    whole = [f'"{part[1]} {unit or units[-1]}"' if units[-1] else part[1] for part, unit in zip(parts, units)]
+    return f"; write [{', '.join(map(printable, ['0'] * (count - len(whole)) + whole))}]"
 
 
 def did_you_mean(word: str, allowed) -> str:

@@ -90,6 +90,10 @@ FAULTS = [
     ("title = 3.5\n" + BODY, 1, "title", "expected a text in quotes, got the number 3.5"),
     ("[body]\n", 1, "body", "inertia is missing"),
     ("[body]\ninertia = 5.0\n", 2, "body.inertia", "expected three numbers in square brackets, got the number 5.0"),
+    (BODY + '[motion]\nangular_velocity = "0.1, -6e-2 , .3 deg/s"\n', 4, "motion.angular_velocity",
+     'got the text "0.1, -6e-2 , .3 deg/s"; write ["0.1 deg/s", "-6e-2 deg/s", ".3 deg/s"]'),
+    (BODY + '[motion]\nangular_velocity = "(1 deg/s, 2 rpm, 3 rad/s)"\n', 4, "motion.angular_velocity", '3 rad/s)"; write ["1 deg/s", "2 rpm", "3 rad/s"]'),
+    (BODY + '[motion]\nangular_velocity = [1, 2, 3]\nspan = "20 min"\n', 5, "motion.span", 'got the text "20 min"; write [0, "20 min"]'),
     ("[body]\ninertia = [1, 2]\n", 2, "body.inertia", "expected three numbers, got 2"),
     ("[body]\ninertia = [1,\n # half\n -2, 2]\n", 4, "body.inertia", "number 2 is -2.0; principal moments are positive"),
     ("[body]\ninertia = [1, 2, 3.5]\n", 2, "body.inertia", "the triangle inequality is broken"),
@@ -138,6 +142,12 @@ FAULTS = [
 def test_fault_names_line_key_and_reason(faults, text, line, key, words):
     found = faults(text)
     assert [(l, k) for l, k, message in found if words in message] == [(line, key)], found
+
+
+@pytest.mark.parametrize("text", ["3 2 1", "1 deg/s, 2 rpm, 3", "1, 2", "1, x, 3", "6 deg/s", ""])
+def test_a_text_that_is_no_list_of_three_is_not_written_as_one(faults, text):
+    ((_, _, words),) = faults(BODY + f'[motion]\nangular_velocity = "{text}"\n')
+    assert words.endswith(f'got the text "{text}"')
 
 
 def test_all_faults_of_a_file_come_at_once_in_the_order_of_lines(faults):
