@@ -6,7 +6,7 @@ import pytest
 
 from stabilab.case.read import load
 from stabilab.show.report.one_case.page import sections
-from tests.shared import craft_file
+from tests.shared import CASES, craft_file
 
 SATELLITE = craft_file([12.0, 9.0, 5.0], ([0.5, 0, 0], [0, 1, 0], "40 mN"), [([1, 0, 0], "0.8 N m s")], ["5.7 deg/s", "2.9 deg/s", "1.1 deg/s"])
 
@@ -24,3 +24,9 @@ def test_an_interval_that_keeps_the_motion_bounded_is_told_in_six_digits_and_lie
     page = sections(load(case), tmp_path, "satellite", deep=False)["sensitivity"]["rows"][0]["because"]
     assert "rad/s" not in page and "from 25.58" in page
     assert "rad/s" not in text and re.search(r"margin, rate +\S+ deg/s along .* from 25\.58\d* deg/s along the same line", text)  # 0.44654 rad/s
+
+
+def test_margins_of_which_nothing_is_known_have_one_line_and_known_ones_one_each(stabilab):
+    off, on = (stabilab("stuck", CASES / f"{name}.toml", "--why")[1].splitlines() for name in ("upper-stage", "thruster-stuck-major-axis"))
+    assert [line[:12] for line in off if line.startswith("  margin") and ":" not in line[:12]] == ["  margins   "]
+    assert [line.split()[1] for line in on if line.startswith("  margin, ")] == ["rate", "wheel", "torque"]

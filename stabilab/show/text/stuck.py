@@ -268,11 +268,16 @@ def _details(row, units) -> list[str]:
              f"  torque, frame of file    {_vector(row.torque)} N m",
              f"  fate                     {row.fate} ({row.level})",
              f"  because                  {lettered(units.words(row.because))}"]
+    margins = {}
     for name, margin in row.margins.items():
         told = lettered(holds_for(name, margin, units))
         if margin.size is not None:
             told = f"{_amount(name, margin.size, units, DIGITS)} along {_vector(margin.direction)}" + (f": {told}" if told else "")
-        lines.append(f"  {'margin, ' + name:<24} {told}")
+        margins[name] = told
+    if len(margins) > 1 and len(set(margins.values())) == 1:  # nothing is known of any, for one reason
+        lines.append(f"  {'margins':<24} {told}")
+    else:
+        lines += [f"  {'margin, ' + name:<24} {told}" for name, told in margins.items()]
     if row.tilt is not None:
         early = f"{units.time(row.tilt.not_before)}"
         lines.append(f"  {'tilted, not before':<24} {early}, whatever the azimuth and for any smaller tilt (proved)")
