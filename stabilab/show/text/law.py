@@ -7,7 +7,6 @@ from dataclasses import replace
 from ...case.attitude import vertical_of
 from ...errors import printable
 from ...physics.approximate import limits_of
-from ...physics.law_limits import BEYOND
 from ..terminal.letters import lettered
 from ..units import SI, Units, units_of
 
@@ -24,7 +23,7 @@ def first(validity, text: str, units: Units = SI) -> str:
 
 def warned(validity, answer: str) -> str:
     """The answer, and before it that its law does not hold where it does not: of a line that has no room for more."""
-    return f"{BEYOND}; by that law: {answer}" if beyond(validity) else answer
+    return f"{validity.status.upper()}; by that law: {answer}" if beyond(validity) else answer
 
 
 def key(validity) -> dict:
