@@ -12,6 +12,8 @@ from stabilab.answers.equilibria import equilibria
 from stabilab.answers.motion import motion
 from stabilab.case.read import load, load_all, read_text
 from stabilab.show import style
+from stabilab.show.plot.path import angular, thinned
+from stabilab.show.plot.subject import subject
 from stabilab.show.report.one_case import measures, space, sweep
 from stabilab.show.report.one_case.equilibria import table
 from stabilab.show.report.one_case.page import sections
@@ -91,6 +93,36 @@ def test_the_box_of_the_space_holds_the_motion_and_what_is_nearest_of_the_separa
     for axis, (low, high) in enumerate(moved.extremes):
         assert abs(places[:, axis].min() - low) < 2e-3 * drawn["half"] and abs(places[:, axis].max() - high) < 2e-3 * drawn["half"]
     assert {"start", "nearest point of the separatrix"} <= {p["kind"] for p in drawn["points"]}
+
+
+@pytest.mark.parametrize("name", ["charged-body", "major-axis-captured"])
+def test_the_space_draws_all_of_a_bounded_motion_and_of_a_spin_up_what_is_near_the_separatrix(name):
+    case = load(CASES / f"{name}.toml")
+    moved, found = _space(case)
+    (curve,) = [c for c in found["drawn"]["curves"] if c["kind"] == "this motion"]
+    size = np.linalg.norm(_places(curve["at"]) * found["drawn"]["half"] + found["drawn"]["middle"], axis=1).max()
+    one, first = measures.Measures(units_of(case)).rate_unit[1], math.hypot(*case.start[:3])
+    if name == "charged-body":  # bounded, and its largest rate is fourteen times that of its start
+        assert size > 3 * first * one and size == pytest.approx(max(abs(v) for row in moved.extremes for v in row) * one, rel=2e-2)
+    else:
+        assert size < 4 * max(first, moved.margin_velocity or 0.0) * one
+
+
+def test_a_motion_that_turns_often_is_drawn_as_it_is_and_not_by_chords_across_it():
+    """The rates of liquid-sensible go round axis 3 at 5.7 deg/s and more: even chords would cut across, down to less than half of that."""
+    case = load(CASES / "liquid-sensible.toml")
+    moved = subject(case).motion
+    across = np.hypot(*(line := np.degrees(space._curve(case, moved, False)))[:, :2].T)
+    middle = np.hypot(*(line[1:, :2] + line[:-1, :2]).T / 2)
+    assert len(line) <= space.MOST and across.min() > 5.7 and middle.min() > 5.5 and across.max() > 9
+
+
+def test_a_thinned_line_is_near_every_point_that_it_leaves_out():
+    angle = np.linspace(0, 2 * np.pi, 2001)
+    circle = np.column_stack([np.cos(angle), np.sin(angle), 0 * angle])
+    few = thinned(circle, 1e-3)
+    middles = (few[1:] + few[:-1]) / 2
+    assert 40 < len(few) < 160 and 1 - np.linalg.norm(middles, axis=1).min() < 1.01e-3 and not angular(circle, 1e-4) and angular(circle[::200], 1e-4)
 
 
 def test_the_sheets_of_the_space_are_those_of_the_separatrix():

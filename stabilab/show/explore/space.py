@@ -11,7 +11,7 @@ from typing import Any
 
 from ...equilibrium.result import Equilibria
 from ...errors import InputError
-from ...orbit.result import Motion
+from ...orbit.result import Fate, Motion
 from ...orbit.separatrix.plain_sheets import PlainSheet
 from .. import style
 from .bag import Bag
@@ -48,7 +48,9 @@ class Box:
 
 
 def near_part(path: list[tuple[float, ...]], motion: Motion | None) -> list[tuple[float, ...]]:
-    """The motion as long as it is near where it began; all of it where it stays so."""
+    """A motion that spins up as long as it is near where it began; all of it of any other, also where that goes far and comes back."""
+    if motion is not None and motion.fate is not Fate.SPIN_UP:
+        return path
     size = max(math.hypot(*x) for x in path[:max(2, len(path) // 20)])
     if motion is not None and motion.margin_velocity is not None and math.isfinite(motion.margin_velocity):
         size = max(size, motion.margin_velocity)

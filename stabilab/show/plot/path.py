@@ -1,6 +1,7 @@
 """The rates of a motion at times close enough to be drawn as a line."""
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -91,3 +92,30 @@ def band(t: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.
     edges = np.linspace(t[0], t[-1], BINS + 1)
     first = np.clip(np.searchsorted(t, edges[:-1]), 0, len(t) - 1)
     return 0.5 * (edges[:-1] + edges[1:]), np.minimum.reduceat(values, first), np.maximum.reduceat(values, first)
+
+
+def angular(points: np.ndarray, near: float) -> bool:
+    """Whether a line through points (n, d) shows corners: it bends by more than a tenth of a right angle in a place whose both sides are longer than `near`."""
+    way = np.diff(points, axis=0)
+    size = np.linalg.norm(way, axis=1)
+    long = (size[1:] > near) & (size[:-1] > near)
+    return bool((long & ((way[1:] * way[:-1]).sum(axis=1) < math.cos(0.05 * math.pi) * size[1:] * size[:-1])).any())
+
+
+def thinned(points: np.ndarray, near: float) -> np.ndarray:
+    """Of the points (n, d) of a line those without which it would be farther than `near` from some: of each stretch the farthest, until all are near."""
+    kept = np.zeros(len(points), bool)
+    kept[[0, -1]] = True
+    stretches = [(0, len(points) - 1)]
+    while stretches:
+        low, high = stretches.pop()
+        if high - low < 2:
+            continue
+        along, off = points[high] - points[low], points[low + 1:high] - points[low]
+        share = np.clip(off @ along / max(float(along @ along), np.finfo(float).tiny), 0.0, 1.0)
+        apart = np.linalg.norm(off - share[:, None] * along, axis=1)
+        far = int(apart.argmax())
+        if apart[far] > near:
+            kept[low + 1 + far] = True
+            stretches += [(low, low + 1 + far), (low + 1 + far, high)]
+    return points[kept]

@@ -11,9 +11,10 @@ from base64 import b64encode
 import numpy as np
 
 from ....errors import StabilabError
+from ....orbit.result import Fate
 from ....orbit.separatrix.sheets import separatrix
 from ... import style
-from ...plot.path import along
+from ...plot.path import along, angular, path, thinned
 from ...plot.subject import subject
 from ...surface.write import equilibrium_lines
 from . import pictures
@@ -23,7 +24,8 @@ SHAPE = (48, 97)     # rows and columns of a sheet
 ROOM = 1.9           # half of the box, of the farthest point of the motion from its middle
 WHOLE = 2.5          # boxes that a surface may fill at most to be shown whole
 BEYOND = 8.0         # boxes: what is farther off is moved in, outside what is drawn
-STEPS = 900          # points of the motion
+STEPS = 900          # points of the motion, where these make no corners
+SEEN, COARSEST, MOST = 1e-3, 16e-3, 6000  # of the motion's size: how far a line with fewer points may be from it, at most; points of such a line
 LINES, FEWEST = 1600, 60  # points of all curves of equilibria, of each at least
 LATEST = 3.0         # times its first size, up to which a motion that spins up is drawn
 SHEETS = (style.SKY, style.GREEN, style.PURPLE, style.YELLOW)  # orange is the motion's
@@ -32,7 +34,7 @@ SHEETS = (style.SKY, style.GREEN, style.PURPLE, style.YELLOW)  # orange is the m
 def space(case, motion, found_equilibria, measures, shape=SHAPE) -> dict:
     """What the script draws: box, ticks, sheets, curves and points, and the rows of the legend; `reason`: what is to be said of the separatrix."""
     sheets, reason = _sheets(case.scene, shape)
-    curve = None if motion is None or case.state is None else _curve(case, motion)
+    curve = None if motion is None or case.state is None else _curve(case, motion, bool(sheets))
     marks = _marks(motion, found_equilibria)
     box = _box(curve, sheets, marks)
     reaching = _reaching(case.scene, sheets, box, shape)
@@ -69,12 +71,20 @@ def _reaching(scene, sheets, box, shape):
     return separatrix(scene, reach=min(4.0 * 1.5 * needed / far, 1e4), shape=shape).sheets
 
 
-def _curve(case, motion):
-    """(n, 3) rates along the motion; a spin-up only while it is near where it began."""
+def _curve(case, motion, beside_sheets):
+    """(n, 3) rates along the motion; beside a separatrix a spin-up only while it is near where it began, which else would make it a dot."""
     until = pictures.length(case, motion)
     if motion.period:
         until = min(until, 1.02 * motion.period)
-    return along(subject(case), np.linspace(0.0, until, STEPS), drawn=lambda states: _near(states, motion))[1]
+    cut = beside_sheets and motion.fate is Fate.SPIN_UP
+    t, rates = along(one := subject(case), np.linspace(0.0, until, STEPS), drawn=(lambda states: _near(states, motion)) if cut else len)
+    size = float(np.ptp(rates, axis=0).max())
+    if not size or not angular(rates, 3 * SEEN * size):
+        return rates
+    near, (_, every) = SEEN, path(one, 0.0, float(t[-1]))
+    while len(rates := thinned(every, near * size)) > MOST and near < COARSEST:
+        near *= 2
+    return rates[:MOST]
 
 
 def _near(states, motion):
