@@ -250,7 +250,10 @@ def test_parameters_whose_names_are_products_are_set_as_products_and_minus_is_a_
     from sympy import Integer, Symbol
 
     from stabilab.show.report import typeset
-    assert typeset.inner(Symbol("Mgx")) == "<mi>M</mi><mi>g</mi><msub><mi>x</mi><mi>c</mi></msub>"
+    assert typeset.inner(Symbol("Mgx")) == "<mrow><mi>M</mi><mi>g</mi><msub><mi>x</mi><mi>c</mi></msub></mrow>"
+    assert typeset.inner(Symbol("eHl2")) == (charge := "<mrow><mi>e</mi><mi>H</mi><msup><mi>l</mi><mi>2</mi></msup></mrow>")  # 2 is a power, no index
+    assert f"<msup><mrow><mo>(</mo>{charge}<mo>)</mo></mrow><mn>2</mn></msup>" in typeset.inner(Symbol("eHl2") ** 2)
+    assert f"<mfrac>{charge}<mn>2</mn></mfrac>" in typeset.inner(Symbol("eHl2") / 2) and "<mrow><mo>(" not in typeset.inner(Symbol("Mgx") / 2)
     assert typeset.inner(Integer(-3)) == "<mn>&#x2212;3</mn>" or "-" not in typeset.inner(Integer(-3))
 
 

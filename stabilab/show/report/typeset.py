@@ -93,7 +93,14 @@ def inner(expression) -> str:
     from sympy import Integer
     from sympy.printing.mathml import mathml
     text = numbered(mathml(Integer(0) + expression, printer="presentation"))
-    return re.sub(r"<mi>(\w+)</mi>", lambda found: _product(PRODUCTS[found[1]]) if found[1] in PRODUCTS else found[0], text)
+    text = re.sub(r"<msub><mi>(\w+)</mi><mi>(\d)</mi></msub>", lambda found: _product(found[1] + found[2]) or found[0], text)  # eHl2: SymPy sees an index
+    text = re.sub(r"<mi>(\w+)</mi>", lambda found: _product(found[1]) or found[0], text)
+    return re.sub(r"<msup>(<mrow>.*?</mrow>)", lambda found: f"<msup>{_fenced(found[1])}" if found[1] in map(_product, PRODUCTS) else found[0], text)
+
+
+def _fenced(row) -> str:
+    """What a power is of, in parentheses."""
+    return f"<mrow><mo>(</mo>{row}<mo>)</mo></mrow>"
 
 
 def numbered(mathml: str) -> str:
@@ -102,8 +109,9 @@ def numbered(mathml: str) -> str:
     return re.sub(r"<mn>([^<>]*\d)\.0</mn>", r"<mn>\1</mn>", mathml)
 
 
-def _product(words) -> str:
-    """A product of letters, those with an index or a power included."""
-    made = (re.split("([_^])", word) for word in words.split())
-    return "".join(f"<m{'sub' if part[1] == '_' else 'sup'}><mi>{part[0]}</mi><mi>{part[2]}</mi></m{'sub' if part[1] == '_' else 'sup'}>"
-                   if len(part) > 1 else f"<mi>{part[0]}</mi>" for part in made)
+def _product(name) -> str:
+    """What a name stands for as a product of letters, those with an index or a power included; empty where it stands for itself."""
+    made = (re.split("([_^])", word) for word in PRODUCTS.get(name, "").split())
+    letters = "".join(f"<m{'sub' if part[1] == '_' else 'sup'}><mi>{part[0]}</mi><mi>{part[2]}</mi></m{'sub' if part[1] == '_' else 'sup'}>"
+                      if len(part) > 1 else f"<mi>{part[0]}</mi>" for part in made)
+    return letters and f"<mrow>{letters}</mrow>"
