@@ -56,7 +56,7 @@ class Page(HTMLParser):
             self.faults.append(f"stray </{tag}> at {self.getpos()}")
 
 
-def _small_page(cases, folder, nav):
+def _small_page(cases, folder, **around):
     path = folder / "small.html"
     path.write_text(f"<!DOCTYPE html><title>{len(cases)}</title>", encoding="utf-8")
     return path
@@ -111,13 +111,36 @@ def everything(tmp_path_factory, hostile):
     patch.setattr(figures, "FIGURES", (figures.figure(9),))
     patch.setattr(figures, "NUMBERS", (9,))
     patch.setattr(chapters, "CHAPTERS", ())
-    patch.setattr(whole, "COSTS", (("What it costs <b>", "in time", _small_page), ("Nothing", "here", lambda cases, folder, nav: None)))
+    patch.setattr(whole, "COSTS", (("What it costs <b>", "in time", _small_page), ("Nothing", "here", lambda cases, folder, **around: None)))
     patch.setattr(whole, "audited_papers", lambda: ("charged-axisymmetric",))
     patch.setattr(whole, "findings_of", lambda name: findings_of(name, "13"))
     try:
         return _written(tmp_path_factory, "everything", [hostile], papers=True, precision=True, workers=1)
     finally:
         patch.undo()
+
+
+def test_a_page_below_one_of_the_navigation_shows_to_which_it_belongs(everything, several):
+    (case,) = (everything.parent / "cases").glob("*.html")
+    assert '<a href="../cases.html" aria-current="true">Cases</a>' in case.read_text(encoding="utf-8")
+    assert "<b>Cases</b>" in (everything.parent / "cases.html").read_text(encoding="utf-8")
+    assert all('<a href="../index.html" aria-current="true">' in page.read_text(encoding="utf-8") for page in (several[0].parent / "cases").glob("*.html"))
+    told = []
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(whole, "COSTS", (("", "", lambda cases, folder, **around: told.append(around)),))
+        whole.costs((), everything.parent)
+    assert told[0]["below"] == "cost.html"
+
+
+def test_a_list_of_cases_says_by_how_much_a_law_is_left_and_a_law_that_holds_is_not_told():
+    law = "BEYOND THE LAW: charge: change of cos σ, held constant, with the attitude, 1.86 along the run, limit 0.1: axis 3 turns away"
+    made = {"case": {"title": "a <b>", "headline": "BOUNDED for ever", "fate": "bounded", "law": law}}
+    assert own.listed("one", made)["beyond"] == law.removesuffix(": axis 3 turns away")
+    made["case"]["law"] = ""
+    assert own.listed("one", made)["beyond"] == ""
+    rows = [own.listed("one", made), own.listed("two", {"case": made["case"] | {"law": law}})]
+    text = html.render("list.html", title="", groups=[{"title": "", "rows": rows}], extra=(), command="", versions=())
+    assert text.count('class="beyond"') == 1 and "limit 0.1<" in text
 
 
 def _pages(index):
@@ -203,7 +226,7 @@ def test_the_certificate_of_a_page_is_proved_by_the_other_code(alone):
 
 def test_the_pages_of_costs_that_were_made_are_linked_and_the_others_left_out(everything):
     told = (everything.parent / "cost.html").read_text(encoding="utf-8")
-    assert '<a href="small.html">What it costs &lt;b&gt;</a><br>in time.' in told and "Nothing" not in told
+    assert '<a href="small.html">What it costs &lt;b&gt;</a><br>In time.' in told and "Nothing" not in told
     assert (everything.parent / "small.html").read_text(encoding="utf-8").endswith("<title>1</title>")
     assert [title for title, _, _ in whole.COSTS] == ["What accuracy costs", "How cost grows", "What each effect costs"]
 

@@ -36,7 +36,7 @@ def by_tool(validated):
 
 def test_every_value_agrees_or_its_difference_is_explained(validated):
     assert {name: shown.counts(found) for name, (_, found) in validated.items()} == {
-        "42": "prints no values", "basilisk": "15 agree, 3 differ for a known cause", "nesc": "10 agree, 35 differ for a known cause", "orekit": "3 agree"}
+        "42": "no values are printed", "basilisk": "15 agree, 3 differ for a known cause", "nesc": "10 agree, 35 differ for a known cause", "orekit": "3 agree"}
 
 
 def test_sources_name_repository_commit_and_licence(validated):

@@ -31,7 +31,7 @@ def counts(found) -> str:
     number = Counter(one.verdict for one in found)
     told = {"agrees": "agree", "explained": "differ for a known cause", "differs": "differ"}
     words = {verdict: many if number[verdict] > 1 else many.replace("agree", "agrees").replace("differ", "differs") for verdict, many in told.items()}
-    return ", ".join(f"{number[verdict]} {words[verdict]}" for verdict in VERDICTS if number[verdict]) or "prints no values"
+    return ", ".join(f"{number[verdict]} {words[verdict]}" for verdict in VERDICTS if number[verdict]) or "no values are printed"
 
 
 def text(validated) -> str:

@@ -9,7 +9,7 @@ from ...files import whole_file
 from ..terminal.letters import ALPHABET, written
 
 TEMPLATES = Path(__file__).parents[1] / "templates"
-ALONE = {"nav": (), "here": "", "up": "", "title": ""}  # of a page that is no part of a folder
+ALONE = {"nav": (), "here": "", "below": "", "up": "", "title": ""}  # of a page that is no part of a folder
 
 
 @lru_cache(maxsize=1)
@@ -70,7 +70,8 @@ def typed(command: str):
 
 
 def render(template: str, **values) -> str:
-    """The HTML of a template. nav: rows {file, title} of the pages beside it, here: its own file, up: how it reaches their folder."""
+    """The HTML of a template. nav: rows {file, title} of the pages beside it, here: its own file, below: that of the page
+    among them that it belongs to, up: how it reaches their folder."""
     return _environment().get_template(template).render(**{**ALONE, **values})
 
 

@@ -1,6 +1,7 @@
 """The report on cases of one's own: a page a case, a page a sweep, and, where there are several, a first page that lists them."""
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -68,7 +69,9 @@ def of_one(made, around) -> dict:
 def listed(stem, made) -> dict:
     """The row of an entry in a list of pages."""
     found = made.get("sweep") or made["case"]
-    return {"file": f"{stem}.html", "name": stem, "title": found["title"], "headline": found["headline"], "css": verdict.css(found.get("fate", ""))}
+    beyond = re.match(r"BEYOND THE LAW: .*?, limit [\d.]+", found["law"])  # by how much; why that matters stands on the page
+    return {"file": f"{stem}.html", "name": stem, "title": found["title"], "headline": found["headline"], "css": verdict.css(found.get("fate", "")),
+            "beyond": beyond[0] if beyond else ""}
 
 
 def pages(cases, folder: Path, tell, wanted: Wanted, workers=None, **around) -> list[str]:
@@ -80,7 +83,7 @@ def pages(cases, folder: Path, tell, wanted: Wanted, workers=None, **around) -> 
         return [found[0]["beyond"]]
     nav = [{"file": "index.html", "title": "All cases"}]
     for (stem, _), made in zip(rows, found):
-        write(made, folder / FOLDER / f"{stem}.html", "", nav=nav, up="../", **of_one(made, around))
+        write(made, folder / FOLDER / f"{stem}.html", "", nav=nav, up="../", below="index.html", **of_one(made, around))
     listing = [row | {"file": f"{FOLDER}/{row['file']}"} for (stem, _), made in zip(rows, found) for row in [listed(stem, made)]]
     html.write(folder / "index.html", "list.html", title=f"{len(rows)} cases", groups=[{"title": "", "rows": listing}], **around)
     return [made["beyond"] for made in found]

@@ -130,7 +130,7 @@ def _cases(cases, folder, found, nav, around):
     rows: dict[str, list] = {title: [] for title, _ in GROUPS}
     for stem, members in own.entries(cases):
         made = found[f"case {stem}"]
-        own.write(made, folder / own.FOLDER / f"{stem}.html", "", nav=nav, up="../", here="", **own.of_one(made, around))
+        own.write(made, folder / own.FOLDER / f"{stem}.html", "", nav=nav, up="../", below="cases.html", **own.of_one(made, around))
         row = own.listed(stem, made)
         rows[group(members[0])].append(row | {"file": f"{own.FOLDER}/{row['file']}"})
     groups = [{"title": title, "rows": listed} for title, listed in rows.items() if listed]
@@ -186,7 +186,7 @@ COSTS = (("What accuracy costs", "every way to follow each motion: error against
 
 def costs(cases, folder: Path) -> list[dict]:
     """The pages that hold measured times, one after the other by one process: never two measurements at once."""
-    made = [(title, words, page(cases, folder, nav=_nav(True))) for title, words, page in COSTS]
+    made = [(title, words, page(cases, folder, nav=_nav(True), below="cost.html")) for title, words, page in COSTS]
     return [{"title": title, "words": words, "file": path.name} for title, words, path in made if path]
 
 
