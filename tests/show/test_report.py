@@ -188,8 +188,8 @@ def test_numbers_and_names_have_the_minus_of_a_book(pages):
 
 def test_a_minus_in_a_command_stays_as_it_is_typed():
     from markupsafe import Markup
-    told = html.signed(Markup("x = -a, (-h, b - a, r0 - W, 2(b-a), 1e-5: <code>f -5 (-x) --tilt</code>"))
-    assert told == "x = −a, (−h, b − a, r0 − W, 2(b−a), 1e−5: <code>f -5 (-x) --tilt</code>"
+    told = html.signed(Markup("x = -a, (-h, b - a, r0 - W, 2(b-a), 1e-5, 2.5e-08: <code>f -5 (-x) --tilt 1e-08</code>"))
+    assert told == "x = −a, (−h, b − a, r0 − W, 2(b−a), 1e−5, 2.5e−8: <code>f -5 (-x) --tilt 1e-08</code>"
 
 
 def test_a_page_is_small(pages):

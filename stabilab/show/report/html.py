@@ -22,6 +22,7 @@ def _environment():
 
 MINUS = re.compile(r"(?<![\w)])-(?=\d)|(?<=\de)-(?=\d)|(?<=[(\[])-(?=\s?\w)|(?<=[(,=] )-(?=\w)"  # -5, 1e-5, (-h, = -a
                    r"|(?<=\b[a-z])-(?=[a-z]\))|(?:(?<=\b\w )|(?<=\b\w\d ))-(?= \w\d?\b)")  # (b-a), b - a, r0 - W
+EXPONENT = re.compile(r"(?<=\de)([-−])0+(?=\d)")  # 1e-08, as Python prints it
 MEASURED = re.compile(r"(?<=\d) (?=(?:deg/s|rad/s|deg|rad|days?|min|h|s|J|τ)\b)")
 INDEXED = re.compile(r"(?<![\w/.])([A-Za-zΑ-Ωα-ω]|" + "|".join(ALPHABET) + r")_(\w+)")  # I_omega, x_j, mu_j
 SUBTRACTED = re.compile(r"(?<=[\w)²³*;]) - (?=[\w(])|(?:(?<=[(=,\[] )|(?<=[(\[=])|^)-(?=[\w(])")  # b - a, (-M2, x = -y
@@ -37,9 +38,10 @@ def book(text: str):
 
 
 def signed(text: str) -> str:
-    """The text with the minus of a book: before numbers and in their exponents, before a name and between two. Commands stay as they are typed."""
+    """The text with the minus of a book: before numbers and in their exponents, which begin with no zero, before a name and between two. Commands stay as
+    they are typed."""
     parts = re.split(r"(<code>.*?</code>)", text)
-    return type(text)("".join(part if part.startswith("<code>") else MINUS.sub("−", part) for part in parts))  # what is escaped stays so
+    return type(text)("".join(part if part.startswith("<code>") else MINUS.sub("−", EXPONENT.sub(r"\1", part)) for part in parts))  # what is escaped stays so
 
 
 def together(text: str) -> str:
