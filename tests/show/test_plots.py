@@ -1,5 +1,7 @@
 """Plots of cases: what is drawn, of what there is no plot, and files that are what their names say."""
+import json
 import math
+import re
 from fractions import Fraction
 from types import SimpleNamespace
 
@@ -521,6 +523,20 @@ def test_a_film_of_a_spin_up_goes_on_for_as_long_as_its_pictures_show_each_step(
     found = turn(subject.subject(case), frames)
     rates = np.linalg.norm(stabilab.trajectory(case.scene, case.state, np.linspace(0, found.t[-1], 2001)).states, axis=1)
     assert 15 / 1.2 < math.degrees(rates.max()) * (found.t[1] - found.t[0]) < 16 and not found.whole
+
+
+def test_a_film_that_ends_before_its_span_says_so(tmp_path):
+    """cubesat-3u is followed for 5 min, in which it comes to spin too fast for a film; the body without a torque is shown whole."""
+    for name, told in (("cubesat-3u", r"The first ([\d.]+) s of 5 min are shown\."), ("torque-free-body", "")):
+        moving = stabilab.plot.attitude(load(name), frames=150)
+        moving._draw_was_started = True
+        words = " ".join(text.get_text() for text in moving._fig.axes[0].texts)
+        page = to_file.write(load(name), tmp_path / f"{name}.html", "attitude").read_text(encoding="utf-8")
+        for shown in (words, page):
+            assert re.search(told, shown) and (told or "The first" not in shown)
+        if told:  # the page has more pictures, so it goes on for longer
+            ends = [float(re.search(told, shown)[1]) for shown in (words, page)]
+            assert 5 < ends[0] < ends[1] < 300 and ends[1] == pytest.approx(json.loads(re.search(r"const data = (.*?);\n", page)[1])["t"][-1], rel=1e-3)
 
 
 def test_the_page_of_an_attitude_needs_nothing_else_and_no_title_ends_its_script(tmp_path):

@@ -86,6 +86,7 @@ def _stage(ax, found: Turn, heading: str, scale):
     names = [ax.text(0, 0, 0, str(n), color=colour, fontsize=11, weight="bold", path_effects=halo) for n, colour in enumerate(COLOURS, 1)]
     now = ax.text2D(0.5, 0.97, "", transform=ax.transAxes, ha="center")
     canvas.title(ax, heading)
+    ax.text2D(0.5, -0.02, found.part(scale.system), transform=ax.transAxes, ha="center", fontsize="small")
     ways = [ax.plot([], [], [], color=style.GREY, linewidth=0.9, zorder=order)[0] for order in (BEHIND, BEFORE)]
     tips = found.rotations[:, :, int(np.argmax(np.abs(found.omega[0])))] * OUT
     for setter in (ax.set_xlim, ax.set_ylim, ax.set_zlim):

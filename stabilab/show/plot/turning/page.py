@@ -24,4 +24,4 @@ def page(one, found: Turn, scale, path) -> Path:
             "colours": [style.VERMILION, style.GREEN, style.BLUE],
             "tip": int(np.argmax(np.abs(found.omega[0]))), "real": float(abs(found.t[-1] - found.t[0]))}
     text = json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")  # nothing of it ends the script
-    return html.write(path, "attitude.html", title=printable(one.heading or "Attitude"), data=text, whole=found.whole)
+    return html.write(path, "attitude.html", title=printable(one.heading or "Attitude"), data=text, part=found.part(scale.system))

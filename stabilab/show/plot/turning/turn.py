@@ -14,6 +14,7 @@ from ....errors import InputError
 from ....physics.attitude import quaternion
 from ....physics.equations import rotation
 from ....physics.states import start_of
+from ...units import SHORT, Units
 from ..subject import DEFAULT_SPAN, Subject
 
 FRAMES = 150
@@ -27,13 +28,18 @@ FACES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (
 @dataclass(frozen=True)
 class Turn:
     """t: (n,) s; rotations: (n, 3, 3) from body to space; omega: (n, 3) rad/s; edges: (3,) half edges of the box, the longest 1;
-    whole: whether the span that was asked for is shown to its end."""
+    whole: whether the span that was asked for is shown to its end; asked: its length, s."""
 
     t: np.ndarray
     rotations: np.ndarray
     omega: np.ndarray
     edges: np.ndarray
     whole: bool
+    asked: float
+
+    def part(self, units: Units) -> str:
+        """What is said of a film that ends before its span."""
+        return "" if self.whole else f"The first {units.time(float(abs(self.t[-1] - self.t[0])), SHORT)} of {units.time(self.asked, SHORT)} are shown."
 
 
 def turn(one: Subject, frames: int = FRAMES) -> Turn:
@@ -43,7 +49,7 @@ def turn(one: Subject, frames: int = FRAMES) -> Turn:
     low, high = one.span or DEFAULT_SPAN
     (t, rotations, omega), whole = _reached(one, low, high, frames)
     scene: Any = one.scene  # physical: `which` refuses the others
-    return Turn(t, rotations, omega, edges(scene.body.inertia), whole)
+    return Turn(t, rotations, omega, edges(scene.body.inertia), whole, abs(high - low))
 
 
 def _reached(one, low, high, frames):
