@@ -78,7 +78,7 @@ function atlasView(canvas, data, say) {
     }
     pen.putImageData(image, 0, 0);
     lines(); points();
-    if (state.at) { const at = pixelOf(state.at); if (at) { pen.strokeStyle = "#000"; pen.lineWidth = 1.5; pen.strokeRect(at[0] - 5, at[1] - 5, 10, 10); } }
+    if (state.at) { const at = pixelOf(state.at); if (at) { pen.strokeStyle = "#000"; const k = large(); pen.lineWidth = 1.5 * k; pen.strokeRect(at[0] - 5 * k, at[1] - 5 * k, 10 * k, 10 * k); } }
   }
   function lines() {
     pen.strokeStyle = "rgba(0,0,0,.45)"; pen.lineWidth = 1;
@@ -96,29 +96,31 @@ function atlasView(canvas, data, say) {
     if (state.globe) pen.arc(width() / 2, height() / 2, radius(), 0, 7); else pen.ellipse(width() / 2, height() / 2, width() / 2.08, height() / 2.2, 0, 0, 7);
     pen.stroke();
   }
+  const large = () => Math.min(4, Math.max(1, 0.85 * width() / (canvas.clientWidth || width()))); // signs keep their size where the page shows the canvas small
   const named = () => data.named.filter(one => one.wheel === state.wheel);
   function points() {
-    pen.font = "bold 15px sans-serif"; pen.lineWidth = 3; pen.lineJoin = "round";
+    const k = large();
+    pen.font = `bold ${15 * k}px sans-serif`; pen.lineJoin = "round";
     const taken = [];  // boxes of names: two directions may be one, or beside each other
     for (const one of named()) {
       const at = pixelOf(one.direction);
       if (!at) continue;
-      pen.beginPath(); pen.arc(...at, one.axis ? 4.5 : 6.5, 0, 7); pen.fillStyle = one.axis ? "#fff" : "#ffd54a"; pen.fill();
-      pen.strokeStyle = "#000"; pen.lineWidth = 1.3; pen.stroke();
+      pen.beginPath(); pen.arc(...at, k * (one.axis ? 4.5 : 6.5), 0, 7); pen.fillStyle = one.axis ? "#fff" : "#ffd54a"; pen.fill();
+      pen.strokeStyle = "#000"; pen.lineWidth = 1.3 * k; pen.stroke();
       const right = at[0] < 0.86 * width(), wide = pen.measureText(one.name).width;
-      const boxes = [[right, -6], [right, 18], [!right, -6], [!right, 18]].map(([side, down]) => {
-        const left = at[0] + (side ? 9 : -9 - wide);
-        return {side, x: at[0] + (side ? 9 : -9), y: at[1] + down, box: [left, left + wide, at[1] + down - 13, at[1] + down + 3]};
+      const boxes = [[right, -6 * k], [right, 18 * k], [!right, -6 * k], [!right, 18 * k]].map(([side, down]) => {
+        const left = at[0] + (side ? 9 * k : -9 * k - wide), y = Math.max(at[1] + down, 14 * k); // within the picture
+        return {side, x: at[0] + k * (side ? 9 : -9), y, box: [left, left + wide, y - 13 * k, y + 3 * k]};
       });
       const free = box => !taken.some(other => box[0] < other[1] && other[0] < box[1] && box[2] < other[3] && other[2] < box[3]);
       const chosen = boxes.find(place => free(place.box)) || boxes[0];
       taken.push(chosen.box);
-      pen.textAlign = chosen.side ? "left" : "right"; pen.lineWidth = 3; pen.strokeStyle = "#fff";
+      pen.textAlign = chosen.side ? "left" : "right"; pen.lineWidth = 3 * k; pen.strokeStyle = "#fff";
       pen.strokeText(one.name, chosen.x, chosen.y); pen.fillStyle = "#000"; pen.fillText(one.name, chosen.x, chosen.y);
     }
   }
 
-  const three = d => "(" + d.map(v => Math.abs(v) < 5e-4 ? "0" : v.toPrecision(3)).join(", ") + ")";
+  const three = d => "(" + d.map(v => Math.abs(v) < 5e-4 ? "0" : v.toPrecision(3).replace("-", "\u2212")).join(", ") + ")";
   const inFile = d => data.axes ? [0, 1, 2].map(n => d[0] * data.axes[0][n] + d[1] * data.axes[1][n] + d[2] * data.axes[2][n]) : d;
   function words(d) {
     const near = named().find(one => one.direction[0] * d[0] + one.direction[1] * d[1] + one.direction[2] * d[2] > 1 - 2e-4);
@@ -131,7 +133,12 @@ function atlasView(canvas, data, say) {
   function show(d) { state.at = d; say(d ? words(d) : null); }
   const place = event => { const r = canvas.getBoundingClientRect(); return [(event.clientX - r.x) / r.width * width(), (event.clientY - r.y) / r.height * height()]; };
   const later = () => { if (!waiting) { waiting = true; requestAnimationFrame(() => { waiting = false; draw(); }); } };
-  canvas.addEventListener("pointerdown", event => { if (state.globe) { drag = [...place(event), ...state.turn]; canvas.setPointerCapture(event.pointerId); } });
+  canvas.addEventListener("pointerdown", event => {
+    const d = directionAt(...place(event));
+    if (event.pointerType !== "mouse" && d) { show(d); later(); } // a finger does not move before it is there
+    if (state.globe) { drag = [...place(event), ...state.turn]; canvas.setPointerCapture(event.pointerId); }
+  });
+  addEventListener("resize", later);
   canvas.addEventListener("pointerup", () => { if (drag) { drag = null; later(); } });
   canvas.addEventListener("pointermove", event => {
     const [x, y] = place(event);

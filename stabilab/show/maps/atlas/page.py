@@ -30,8 +30,9 @@ def write(atlas: Atlas, path: Path, units: Units) -> Path:
     demand("jinja2", "matplotlib")
     of = atlas.asked
     momenta = [wheel_words(atlas, n) for n in range(len(of.momenta))]
-    return html.write(path, "atlas.html", title=of.case.title or of.case.name, lead=f"Torque of {units.torque(float(of.torque), SHORT)} in every direction: "
-                      f"{answer(atlas, units)}.", momenta=momenta, words=in_words(atlas, units), command=of.command, drawn=_drawn(atlas, units, momenta))
+    lead = f"Torque of {units.torque(float(of.torque), SHORT)} in every direction: {answer(atlas, units)}."
+    return html.write(path, "atlas.html", title=of.case.title or of.case.name, lead=html.signed(lead), momenta=momenta,
+                      words=in_words(atlas, units), command=of.command, drawn=_drawn(atlas, units, momenta))
 
 
 def _drawn(atlas: Atlas, units: Units, momenta: list[str]) -> dict[str, Any]:
@@ -87,10 +88,20 @@ def _shaded(atlas: Atlas, units: Units) -> tuple[np.ndarray, dict[str, Any]]:
     which = np.where(np.isinf(low), SHADES, SHADES + 1)
     which[known] = np.round((heights - least) / step).astype(int)
     colours = [*(_bytes(matplotlib.colormaps["cividis_r"](n / (SHADES - 1))) for n in range(SHADES)), _bytes(NEVER), _bytes(UNKNOWN)]
-    marks = np.unique(np.linspace(0, round((most - least) / step), 6).round().astype(int)) if len(heights) else []
-    legend = [[units.time(float(np.exp(least + n * step)), 3), colours[n]] for n in marks]
+    name, one = units.times(float(np.exp(np.median(heights))) if len(heights) else 1.0)
+    marks = _marks(np.exp(least) * one, np.exp(most) * one) if len(heights) else []
+    legend = [[f"{mark:g} {name}", colours[int(np.clip(round((np.log(mark / one) - least) / step), 0, SHADES - 1))]] for mark in marks]
     legend += [[words, colours[n]] for n, words in ((SHADES, "never"), (SHADES + 1, "not known")) if (which == n).any()]
-    return which, {"words": [""] * len(colours), "colours": colours, "legend": [[f"{limit_words(atlas, units)} in", [255, 255, 255]], *legend]}
+    return which, {"words": [""] * len(colours), "colours": colours, "legend": [[f"{limit_words(atlas, units)} in", None], *legend]}
+
+
+def _marks(least: float, most: float) -> list[float]:
+    """Round numbers between two, 1, 2 and 5 of each ten; nearer ones where there are fewer than three."""
+    tens = range(int(np.floor(np.log10(least))) - 1, int(np.ceil(np.log10(most))) + 1) if 0 < least <= most else ()
+    within = [[one for one in (float(f"{part}e{ten}") for ten in tens for part in parts) if least <= one <= most]
+              for parts in ((1, 2, 5), range(1, 10), np.arange(1, 10, 0.1).round(1).tolist())]
+    chosen = next((marks for marks in within if len(marks) >= 3), within[-1]) or [float(f"{least:.3g}")]
+    return chosen[::max(1, -(-len(chosen) // 8))]
 
 
 def _times(atlas: Atlas, units: Units) -> list[str]:

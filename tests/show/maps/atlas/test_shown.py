@@ -4,6 +4,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+import re
 
 import numpy as np
 import pytest
@@ -115,6 +116,40 @@ def test_pictures_show_what_is_asked_and_refuse_others(found, tmp_path, monkeypa
 def test_the_page_needs_no_network_and_escapes_names(found, tmp_path):
     text = page.write(found, tmp_path / "sky.html", DEG).read_text(encoding="utf-8")
     assert "http" not in text.replace("http://www.w3.org", "") and "A <1>" not in text.partition("</pre>")[0]
+
+
+def test_the_page_has_the_minus_of_a_book_and_round_times_in_its_legend(found, tmp_path):
+    text = page.write(found, tmp_path / "sky.html", DEG).read_text(encoding="utf-8")
+    (lead,) = re.findall(r'<p class="lead">(.*?)</p>', text, re.S)
+    assert "−" in lead and not re.search(r"-[\d.]", lead)
+    (head, none), *marks = json.loads(re.search(r'id="atlas-data">(.*?)</script>', text, re.S)[1])["kinds"]["when"]["legend"]
+    times = [float(words.removesuffix(" s")) for words, _ in marks]
+    assert (head, none) == ("90 deg/s in", None) and len(times) >= 2 and times == sorted(times)
+    low, high = found.records["when_low"].min(), found.records["when_low"].max()
+    assert all(low <= time <= high and float(f"{time:.2g}") == time for time in times)
+
+
+@pytest.mark.parametrize(("least", "most", "marks"), [
+    (0.58, 114, [1, 2, 5, 10, 20, 50, 100]), (5.9, 74, [10, 20, 50]), (4.2, 9.1, [5, 6, 7, 8, 9]), (3.0, 3.4, [3.0, 3.1, 3.2, 3.3, 3.4]),
+    (3.011, 3.012, [3.01]), (1, 1e6, None)])
+def test_marks_are_round_and_few(least, most, marks):
+    found = page._marks(least, most)
+    assert found == marks if marks else 4 <= len(found) <= 8 and all(np.log10(found) % 1 == 0)
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(CHROMIUM is None, reason="Chromium is not installed")
+def test_a_narrow_page_has_names_to_be_read_and_a_tap_is_answered(found, tmp_path):
+    path = page.write(found, tmp_path / "sky.html", DEG)
+    with Browser(tmp_path / "profile", width=400, flags=["--host-resolver-rules=MAP * ~NOTFOUND"]) as browser:
+        browser.open(path.as_uri())
+        browser.until("window.atlas")
+        shown = browser.run("(() => { const c = document.querySelector('canvas'); "
+                            "return c.getContext('2d').font.match(/([\\d.]+)px/)[1] * c.clientWidth / c.width; })()")
+        assert 11 < shown < 16  # pixels of the page
+        browser.run("(() => { const c = document.querySelector('canvas'), r = c.getBoundingClientRect(); c.dispatchEvent(new PointerEvent('pointerdown', "
+                    "{pointerType: 'touch', pointerId: 1, clientX: r.x + 0.4 * r.width, clientY: r.y + 0.4 * r.height})); })()")
+        assert "spins up about" in browser.run("document.getElementById('told').innerText") and browser.console == []
 
 
 @pytest.mark.slow
