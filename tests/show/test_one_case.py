@@ -320,6 +320,13 @@ def test_a_page_of_a_sweep_begins_with_the_answer_of_the_commands_and_tells_the_
     assert told.strip() == found["law"] and "27 of 27 combinations" in found["law"]
 
 
+def test_the_legend_of_the_space_names_no_sheet_of_which_the_box_holds_only_the_crest():
+    """The two loops of a double well meet in its saddles, of which those in the box of this motion, in the left well, belong to both."""
+    names = [name for name, _ in _space(load(CASES / "middle-axis-double-well.toml"))[1]["legend"]]
+    assert "Sheet 1, left loop of the separatrix" in names and not any("right loop" in name for name in names)
+    assert "unstable equilibria" in names and "nearest point of the separatrix" in names
+
+
 def test_equilibria_of_undecided_stability_are_not_drawn_as_stable():
     """Oracle: the verdicts of all pieces, which are undecided, though their linear ones are centres."""
     case = load(CASES / "charged-body-attitude.toml")

@@ -28,6 +28,7 @@ STEPS = 900          # points of the motion, where these make no corners
 SEEN, COARSEST, MOST = 1e-3, 16e-3, 6000  # of the motion's size: how far a line with fewer points may be from it, at most; points of such a line
 LINES, FEWEST = 1600, 60  # points of all curves of equilibria, of each at least
 LATEST = 3.0         # times its first size, up to which a motion that spins up is drawn
+NARROW = 0.02        # halves of the box: a surface no wider than that is not seen in it
 SHEETS = (style.SKY, style.GREEN, style.PURPLE, style.YELLOW)  # orange is the motion's
 
 
@@ -38,7 +39,7 @@ def space(case, motion, found_equilibria, measures, shape=SHAPE) -> dict:
     marks = _marks(motion, found_equilibria)
     box = _box(curve, sheets, marks)
     reaching = _reaching(case.scene, sheets, box, shape)
-    sheets = [sheet for sheet in reaching if _seen(sheet.points, box)]
+    sheets = [sheet for sheet in reaching if _wide(sheet.points, box)]
     unit, one = measures.rate_unit
     curves = found_equilibria.curves if found_equilibria is not None else ()
     drawn = {"names": [f"{spoken(name)}{f' ({unit})' if unit else ''}" for name in case.scene.components],
@@ -162,6 +163,15 @@ def _inside(at, box):
 
 def _seen(points, box):
     return bool((np.abs(points - np.asarray(box[0])) <= box[1]).all(axis=-1).any())
+
+
+def _wide(points, box):
+    """Whether a surface has more than a line in the box: the crest along which a loop meets its neighbour is the neighbour's too."""
+    inside = ((points - np.asarray(box[0])) / box[1])[(np.abs(points - np.asarray(box[0])) <= box[1]).all(axis=-1)]
+    if not len(inside):
+        return False
+    _, _, directions = np.linalg.svd(inside - inside.mean(axis=0), full_matrices=False)
+    return len(directions) > 1 and float(np.ptp(inside @ directions[1])) > NARROW
 
 
 def _outside(points, box):
