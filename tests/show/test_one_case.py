@@ -277,8 +277,10 @@ def test_moments_certificates_limits_and_the_reduced_energy_are_told_as_what_the
     """The kinetic energy of the gyrostat is (2000·0.1² + 1500·0.2² + 1000·0.05²)/2 = 41.25 J; that of its reduced motion is another number."""
     late = sections(load(CASES / "major-axis-spin3-100.toml"), tmp_path, "x", deep=False)
     facts = dict(late["facts"])
+    assert late["pictures"][0]["caption"].endswith(f" The spin-up begins later: the turn reverses for the last time at {facts['last reversal of the turn']}.")
     assert facts["certificate holds from"].startswith("τ = 6") and facts["last reversal of the turn"].startswith("τ = 6")
     assert "(proved from τ = 6" in facts["because"] and facts["how it is certified"] == "the turn can reverse no more"
+    assert sections(load(CASES / "major-axis-spin3-500.toml"), tmp_path, "v", deep=False)["pictures"][0]["caption"].endswith("principal axes.")
     captured = dict(sections(load(CASES / "major-axis-captured.toml"), tmp_path, "y", deep=False)["facts"])
     assert captured["how it is certified"] == "the barrier ahead outgrows the energy"
     free = sections(load(CASES / "torque-free-gyrostat.toml"), tmp_path, "z", deep=False)

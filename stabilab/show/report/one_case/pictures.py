@@ -7,6 +7,8 @@ from pathlib import Path
 from ....asked import reach_of
 from ...plot import to_file, which
 from ...plot.over_time import file_axes
+from ...units import units_of
+from .measures import Measures
 
 # kind -> (title, caption)
 SHOWN = {
@@ -32,9 +34,19 @@ def pictures(one, folder: Path, stem: str, deep: bool, units: str = "deg") -> li
             title, caption = SHOWN[kind]
             if kind == "time" and file_axes(one) is not None:
                 caption = OF_THE_FILE
+            if kind == "time":
+                caption += _later(one)
             made = to_file.write(one, folder / f"{stem}-{kind}.png", kind, units=units)
             found.append(described(made, caption) | {"kind": kind, "title": title, "command": f"stabilab plot {one.path} --kind {kind}"})
     return found
+
+
+def _later(one) -> str:
+    """What a picture that ends before a spin-up begins has to say."""
+    release = one.motion.evidence.get("release_time")
+    if release is None or one.case is None or one.span is None or release <= max(one.span):
+        return ""
+    return f" The spin-up begins later: the turn reverses for the last time at {Measures(units_of(one.case)).moment(release)}."
 
 
 def length(one, motion) -> float:
