@@ -15,6 +15,7 @@ from stabilab.show import style
 from stabilab.show.plot.path import angular, thinned
 from stabilab.show.plot.subject import subject
 from stabilab.show.report.one_case import measures, space, sweep
+from stabilab.show.report.one_case.equations import equations
 from stabilab.show.report.one_case.equilibria import table
 from stabilab.show.report.one_case.page import sections
 from stabilab.show.units import DEG, SCALED, units_of
@@ -233,6 +234,11 @@ def test_the_rates_of_a_sweep_on_an_unstable_plane_stay_on_it(tmp_path, monkeypa
     for t, size in (rows.T for rows in kept):
         late = t > 3
         assert t[-1] == 8 and np.abs(np.diff(size[late]) / np.diff(t[late]) - 1).max() < 0.02
+
+
+def test_the_dot_of_a_rate_is_above_its_letter():
+    page = equations(load(CASES / "minor-axis-100.toml"))["equations"]
+    assert all(f"<msub><mover><mi>x</mi><mo>&#x2D9;</mo></mover><mi>{n}</mi></msub><mo>=</mo>" in line for n, line in enumerate(page, 1))
 
 
 def test_a_long_sum_goes_on_in_the_next_line_with_its_sign():

@@ -15,9 +15,14 @@ def equations_of_motion(equations: Equations) -> list:
     """An equation a component of the state, its rate with a dot: what multiplies it on the left, the sum on the right."""
     rows = []
     for number, (moment, part) in enumerate(zip(equations.inertia, equations.state)):
-        left = ("" if moment == 1 else inner(moment)) + f"<mover>{inner(part)}<mo>&#x2D9;</mo></mover>"
+        left = ("" if moment == 1 else inner(moment)) + _dotted(inner(part))
         rows.append(display(f"{left}<mo>=</mo>{in_lines(right_side(equations, number))}"))
     return rows
+
+
+def _dotted(mathml: str) -> str:
+    """A symbol with a dot above its letter, not above the middle of letter and index."""
+    return re.sub(r"<mi>[^<]*</mi>", lambda letter: f"<mover>{letter[0]}<mo>&#x2D9;</mo></mover>", mathml, count=1)
 
 
 def display(content: str):
