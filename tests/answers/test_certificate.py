@@ -1,5 +1,6 @@
 """Certificates of the program's answers are proved by the separate checker, on cases of every kind."""
 import json
+import re
 from fractions import Fraction
 from pathlib import Path
 
@@ -125,3 +126,12 @@ def test_planes_of_equilibria_are_claimed_with_their_centre():
     (plane,) = certificate(Scene(Body((2, 2, 1)), Gyrostat((0, 0, 3)), ConstantTorque((0, 0, 0))))["equilibria"]["planes"]
     assert plane["base"] == plane["centre"]["at"] == ["0", "0", "3"] and plane["directions"] == [["1", "0", "0"], ["0", "1", "0"]]
     assert plane["verdict"] == "unstable" and plane["centre"]["verdict"] == "stable"
+
+
+def test_the_check_of_a_physical_case_names_rates_and_verdicts_as_the_other_commands_do(stabilab, tmp_path):
+    told = {}
+    for name in ("torque-free-gyrostat", "middle-axis-100"):
+        stabilab("classify", CASES[0].with_name(f"{name}.toml"), "--certify", "--out", tmp_path / "it.json")
+        told[name] = stabilab("verify", tmp_path / "it.json")[1]
+    assert "least ω1: " in told["torque-free-gyrostat"] and "least x1: " in told["middle-axis-100"]
+    assert re.search(r"piece 2: linear unstable, verdict unstable: m < 0\n.*\n.*fold near t = -0\.6: linear degenerate, verdict unstable: ", told["torque-free-gyrostat"])

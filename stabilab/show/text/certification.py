@@ -1,6 +1,7 @@
 """Certificates as files, and what a check of one found, in words and as JSON."""
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 from ...errors import printable
@@ -41,9 +42,12 @@ def summary(certificate: dict) -> str:
     return "\n".join(lines + [f"not certified: {why}" for why in certificate["uncertified"]])
 
 
-def text(found, first: str, other: str = "") -> str:
-    """The verdict on the whole, what it is about, then one line a claim. other: the case that it should be of and is not."""
+def text(found, first: str, other: str = "", physical: bool = False) -> str:
+    """The verdict on the whole, what it is about, then one line a claim. other: the case that it should be of and is not. physical: the checker's x1 is a
+    rate in rad/s, which all other commands call ω1."""
     lines = [*(f"{f.status:<12} {f.claim}{f': {f.reason}' if f.reason else ''}" for f in found.findings)]
+    if physical:
+        lines = [re.sub(r"\bx(?=[123]\b)", "ω", line) for line in lines]
     silent = f"; nothing is claimed of: {', '.join(found.silent)}" if found.silent else ""
     another = f"OF ANOTHER CASE than {printable(str(other))}; its own claims: " if other else ""
     return "\n".join([f"{another}{found.status.upper()}: {_count(found)}{silent}", first, *lines])

@@ -90,7 +90,7 @@ def _check_box(rates, point, places, note):
     if signs:
         _say(point, *signs, None, note)
     else:
-        note(f"{point.claim}: {point.linear}, {point.verdict}", "not checked", f"the signs of m and n are not known with {BITS[-1]} bits")
+        note(f"{point.claim}: linear {point.linear}, verdict {point.verdict}", "not checked", f"the signs of m and n are not known with {BITS[-1]} bits")
 
 
 def _judge(rates, point, x, note):

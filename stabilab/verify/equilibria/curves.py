@@ -108,7 +108,7 @@ def check_curve(rates, curve, note):
 
 def _check_piece(along, note, where, piece, bounds, sign):
     ends, linear, verdict = piece
-    claim = f"{where} {linear}, {verdict}"
+    claim = f"{where}: linear {linear}, verdict {verdict}"
     if not all(_agrees(end, mark) for end, mark in zip(ends, bounds)):
         note(claim, "refuted", "its ends are not the zeros of m and the poles beside it")
     elif linear != ("stable" if sign > 0 else "unstable"):
@@ -120,7 +120,7 @@ def _check_piece(along, note, where, piece, bounds, sign):
 
 def _check_fold(along, note, zero, fold, signs):
     ends, linear, verdict = fold
-    claim = f"{along.curve.claim}: fold near t = {brief((zero.low + zero.high) / 2)} {linear}, {verdict}"
+    claim = f"{along.curve.claim}: fold near t = {brief((zero.low + zero.high) / 2)}: linear {linear}, verdict {verdict}"
     if not _agrees(ends, zero) or linear != "degenerate":
         note(claim, "refuted", "m vanishes elsewhere, or does vanish here")
     else:

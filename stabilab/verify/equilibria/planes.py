@@ -46,7 +46,7 @@ def check_plane(rates, plane, note):
         return
     note(plane.claim, "proved", "the rates vanish all over it")
     zero = not any(v for x in plane.grid(4) for v in characteristic(rates.jacobian(x)))  # m, n: of degree 3 at most
-    note(f"{plane.claim}: {plane.linear}", "proved" if zero and plane.linear == "degenerate" else "refuted",
+    note(f"{plane.claim}: linear {plane.linear}", "proved" if zero and plane.linear == "degenerate" else "refuted",
          "m and n vanish all over it" if zero else "m or n does not vanish all over it")
     proof = _turning(rates, plane)
     if proof is not None and not _at(rates, proof, plane.centre, plane):
