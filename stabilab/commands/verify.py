@@ -21,7 +21,8 @@ def verify(certificate, case, json, strict):
         raise InputError(f"{certificate}: {error}; expected a certificate of stabilab classify --certify or stabilab bifurcation --certify") from None
     told = about(claims)
     other = _of_another(cases, told, certificate)
-    either(json, lambda: certification.as_dict(found, told), lambda: certification.text(found, line(told), case if other else "", told.get("variables") == "physical"))
+    physical = told.get("variables") == "physical"
+    either(json, lambda: certification.as_dict(found, told), lambda: certification.text(found, line(told), case if other else "", physical))
     if found.status == "refuted":
         raise ToleranceNotMet(f"{certificate}: a claim is wrong")
     if other:
