@@ -16,7 +16,7 @@ def table(found, measures) -> dict:
     rows = [_row(vector([v * one for v in p.at[:3]]) + unit, p, measures.reason(p.because)) for p in found.points]
     for curve in found.curves:
         for segment in curve.segments:
-            rows.append(_row(f"{spoken(in_units(curve, measures.units).name)}, {_piece(curve, segment.t, measures)}", segment, spoken(segment.because)))
+            rows.append(_row(f"{spoken(_name(curve, measures))}, {_piece(curve, segment.t, measures)}", segment, spoken(segment.because)))
         for fold in curve.folds:
             row = _fold(curve, fold, f"{vector([v * one for v in fold[:3]])}{unit}")
             rows += [] if row in rows else [row]  # a point where curves meet is one of each
@@ -41,20 +41,22 @@ def _alike(curves):
 
 
 def _together(group, measures):
-    """The name of a group: that of its curve, or of the first and the last."""
-    first, last = (in_units(curve, measures.units).name for curve in (group[0], group[-1]))
-    return first if len(group) == 1 else f"{first} to {last}"
+    """The names of a group: both of two, the first and the last of more."""
+    names = list(dict.fromkeys(_name(curve, measures) for curve in group))
+    return " and ".join(names) if len(names) < 3 else f"{names[0]} to {names[-1]}"
+
+
+def _name(curve, measures):
+    """The name of a curve without the range of its parameter, which its pieces tell."""
+    return re.sub(r" for t in \(.*\)$", "", in_units(curve, measures.units).name)
 
 
 def _of(group, measures):
-    """(the equation that a group shares, with its unit, its parametrisations, each once)."""
-    unit, one = measures.rate_unit
-
-    def in_unit(span):
-        return "from {} to {} {}".format(*(f"{float(end) * one:.6g}" for end in span.groups()), unit)
+    """(the equation that a group shares, with the unit of its numbers, its parametrisations, each once without the range, which its pieces tell)."""
     told = [in_units(curve, measures.units) for curve in group]
-    words = [re.sub(r"(?<=^t = Omega )from (\S+) to (\S+) rad/s", in_unit, curve.parametrisation) for curve in told]
-    return spoken(told[0].equation) + (f" ({told[0].unit})" if told[0].unit else ""), list(dict.fromkeys(map(spoken, words)))
+    words = [re.sub(r"^t = Omega from \S+ to \S+ rad/s; ", "", curve.parametrisation) for curve in told]
+    unit = f" ({told[0].unit})" if told[0].unit and re.search(r"(?<![\w.^])(?!0(?![\d.]))\d", told[0].equation) else ""
+    return spoken(told[0].equation) + unit, list(dict.fromkeys(map(spoken, words)))
 
 
 def _by_omega(curve):
@@ -70,7 +72,8 @@ def _piece(curve, pair, measures):
     if re.search(r"\b(?:omega|x)\d = [^,]*\bt\b", curve.parametrisation):
         told = in_units(curve, measures.units)
         return _between("t", [t * told.one for t in pair], told.unit)
-    return _between("t", pair, "rad" if measures.physical and re.search(r"cos t\b|: angle", curve.parametrisation) else "")
+    unit, one = measures.units.angles if measures.physical and re.search(r"cos t\b|: angle", curve.parametrisation) else ("", 1.0)
+    return _between("t", [t * one for t in pair], unit)
 
 
 def _between(name, pair, unit):
