@@ -90,6 +90,31 @@ def test_words_on_cut_models_stand_side_by_side():
             assert not [1 for n, box in enumerate(boxes) for other in boxes[:n] if box.overlaps(other)]
 
 
+def test_an_axis_that_varies_by_little_counts_from_a_value_that_its_label_names():
+    with style.drawing():
+        figure = stabilab.plot.state(load("charged-body-small-torque"))  # omega3 stays within 7e-6 deg/s of 16.2
+        figure.draw_without_rendering()
+        (ax,) = [one for one in figure.axes if one.get_ylabel().startswith(r"$\omega_3$")]
+        found = re.fullmatch(r"\$\\omega_3\$ − ([\d.]+) \(\$10\^\{(-\d+)\}\$ deg/s\)", ax.get_ylabel())
+        told = [float(text.get_text().replace("−", "-")) for text in ax.get_yticklabels()]
+        assert float(found[1]) == 16.2 and not ax.yaxis.get_offset_text().get_text()
+        assert [float(found[1]) + one * 10.0 ** int(found[2]) for one in told] == pytest.approx(list(ax.get_yticks()), abs=1e-12)
+
+
+def test_a_model_that_ends_early_says_so_and_words_on_cuts_tell_both_sides():
+    t = np.linspace(0, 9, 50)
+    runs = {"exact": SimpleNamespace(t=t, state={"omega": np.column_stack([np.sin(t)] * 3)}),
+            "printed": SimpleNamespace(t=t[:40], state={"omega": np.column_stack([20 * np.cos(t[:40])] * 3)}, status="left")}
+    with style.drawing():
+        figure = comparison.picture(plt, load("minor-axis-100"), runs)
+        words = [text.get_text() for text in figure.legends[0].get_texts()]
+        told = {text.get_text() for ax in figure.axes for text in ax.texts}
+        marks = [line.get_xdata() for line in figure.axes[0].get_lines() if line.get_marker() == "X"]
+    assert words[1].startswith("as printed, ends at 7.16") and [list(one) for one in marks] == [[t[39]]]  # 39/49 of 9
+    low = (20 * np.cos(t[:40])).min()
+    assert told == {f"cut: −{-low:.3g} to 20"}
+
+
 def test_letters_alone_stand_upright_on_every_axis(tmp_path):
     ax = stabilab.plot.sphere(load("minor-axis-100"))
     assert [(axis.get_rotate_label(axis.label.get_text()), axis.label.get_rotation()) for axis in (ax.xaxis, ax.yaxis, ax.zaxis)] == [(False, 0)] * 3
@@ -124,7 +149,7 @@ def test_every_part_of_a_state_is_drawn_in_the_units_of_the_other_plots(units, u
     """Oracle: the states of `simulate`, in rad and s, at the ends."""
     case = load("charged-body-small-torque")
     figure, found = stabilab.plot.state(case, units=units), stabilab.simulate(case.scene, case.state, case.span, case.blocks)
-    panels = {ax.get_ylabel(): ax.get_lines()[0].get_ydata()[-1] for ax in figure.axes}
+    panels = {re.sub(r" [−+] [\d.]+ \(\$10\^\{-\d+\}\$ ", " (", ax.get_ylabel()): ax.get_lines()[0].get_ydata()[-1] for ax in figure.axes}
     for n in range(3):
         assert panels[rf"$\omega_{n + 1}$ ({unit}/s)"] == pytest.approx(found.state["omega"][-1, n] * one)
         assert panels[f"$H_{n + 1}$ (kg m²/s)"] == pytest.approx(found.state["momentum"][-1, n])

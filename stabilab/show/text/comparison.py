@@ -1,6 +1,7 @@
 """Models beside the exact motion: as text, JSON, CSV, and as a picture of histories."""
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import numpy as np
@@ -19,6 +20,9 @@ LOOKS = {"exact": {"color": style.BLACK, "linewidth": 2.2}, "linear": {"color": 
          "averaged2": {"color": style.BLUE, "linewidth": 1.4, "linestyle": "--"},
          "lindstedt": {"color": style.SKY, "linewidth": 1.2, "linestyle": (0, (5, 2))}}
 BURIED = {"linestyle": "-", "linewidth": 0.6, "antialiased": False, "alpha": 0.35, "zorder": 1.9}  # of a model that would bury the others: a ground below them
+DARK = {"printed": "#946300", "corrected": "#9C4A7B", "lindstedt": style.BLUE}  # of words, to be read
+END = {"marker": "X", "markersize": 6, "linestyle": "none", "zorder": 5}  # where a model ends before the motion does
+FLAT = 1e-4  # of its values, a range below which an axis counts from one of them
 DENSE = 100  # turns of a model in a panel from which on it would
 NAMES = {"omega": (r"$\omega_1$", r"$\omega_2$", r"$\omega_3$"), "gamma": (r"$\gamma_1$", r"$\gamma_2$", r"$\gamma_3$"),
          "angles": (r"$\psi$", r"$\phi$", r"$\theta$"), "momentum": (r"$H_1$", r"$H_2$", r"$H_3$"),
@@ -105,12 +109,41 @@ def picture(plt, case, runs, parts=("omega",), size=None, units: Units | None = 
             unit, one = units.of(PARTS[part].unit)
             _curves(ax, {name: (np.asarray(run.t) * second, np.asarray(run.state[part])[:, column] * one)
                          for name, run in runs.items() if part in run.state}, looks)
-            ax.set_ylabel(f"{NAMES[part][column]}{f' ({written(unit)})' if unit else ''}")
+            for name, run in runs.items():
+                if _ends(run) and part in run.state and len(run.t):
+                    ax.plot(run.t[-1] * second, run.state[part][-1][column] * one, color=LOOKS[name]["color"], scalex=False, scaley=False, **END)
+            ax.set_ylabel(_labelled(ax, NAMES[part][column], written(unit)))
     for ax in axes[-1]:
         ax.set_xlabel(f"$t$ ({written(clock)})")
     figure.suptitle(style.literal(case.heading), fontsize=10 * style.share(), wrap=True)
-    style.legend(figure, [(WORDS[name], looks[name]) for name in runs], columns=style.fitting([WORDS[name] for name in runs], figure.get_figwidth()))
+    rows = [(WORDS[name] + (f", ends at {run.t[-1] * second:.3g} {written(clock)}" if _ends(run) and len(run.t) else ""), _in_legend(looks[name]))
+            for name, run in runs.items()]
+    style.legend(figure, rows, columns=style.fitting([words for words, _ in rows], figure.get_figwidth()))
     return figure
+
+
+def _ends(run) -> bool:
+    """Whether a run ends before the last time that was asked for."""
+    return getattr(run, "status", "reached") != "reached"
+
+
+def _in_legend(look) -> dict:
+    """A look as the legend shows it: a ground of thin lines as a pale line that is seen."""
+    return look | {"linewidth": 2.4} if look["linewidth"] < 1 else look
+
+
+def _labelled(ax, name, unit) -> str:
+    """The label of a panel's axis. One whose range is a small part of its values counts from one of them, which the label names: an offset above the panel,
+    a power of ten plus a number, would have to be added in the head."""
+    low, high = ax.get_ylim()
+    if high - low > FLAT * max(abs(low), abs(high)):
+        return f"{name} ({unit})" if unit else name
+    from matplotlib.ticker import FuncFormatter
+    power = math.floor(math.log10((high - low) / 2))
+    whole = math.floor(low / 10.0 ** (power + 1) + 0.5) * 10.0 ** (power + 1)
+    ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{round((value - whole) / 10.0**power, 4) + 0.0:.6g}".replace("-", "−")))
+    ten = rf"$10^{{{power}}}$" + (f" {unit}" if unit else "")
+    return f"{name} {'−' if whole >= 0 else '+'} {abs(whole):.12g} ({ten})"
 
 
 def _dense(run, parts) -> bool:
@@ -139,10 +172,14 @@ def _tell_cut(ax, models):
     low, high = ax.get_ylim()
     brief = ax.figure.get_figwidth() < BRIEF * style.share()
     for (name, values), (x, side) in zip(models, ((0.0, "left"), (1.0, "right"), (0.5, "center"))):
-        far = values.max() if values.max() - high > low - values.min() else values.min()
-        told = (f"{far:.0f}" if 1000 <= abs(far) < 1e5 else f"{far:.3g}").replace("-", "−")
-        ax.text(x, 1.01, "cut" if brief else f"cut: to {told}", color=LOOKS[name]["color"], ha=side, va="bottom", fontsize=7.5 * style.share(),
-                transform=ax.transAxes)
+        ends = [_short(end) for end, out in ((values.min(), values.min() < low), (values.max(), values.max() > high)) if out]
+        told = f"to {ends[0]}" if len(ends) == 1 else " to ".join(ends)
+        ax.text(x, 1.01, "cut" if brief else f"cut: {told}", color=DARK.get(name, LOOKS[name]["color"]), ha=side, va="bottom",
+                fontsize=(7.5 if len(models) < 3 else 6.8) * style.share(), transform=ax.transAxes)
+
+
+def _short(value) -> str:
+    return (f"{value:.0f}" if 1000 <= abs(value) < 1e5 else f"{value:.3g}").replace("-", "−")
 
 
 def _leaves(values, limits):
