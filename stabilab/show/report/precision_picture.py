@@ -21,6 +21,7 @@ LOOKS = {  # method -> how its line is drawn; the same in every picture
     "averaged1": {"color": style.GREEN, "marker": "2", "linestyle": "none"},
     "averaged2": {"color": style.BLUE, "marker": "3", "linestyle": "none"},
     "lindstedt": {"color": style.GREEN, "marker": "4", "linestyle": ":"}}
+RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 WORST, LEAST = 10.0, 1e-17  # errors beyond are drawn at the edge
 PANEL = (3.4, 2.6)  # inches that a panel needs at least
 NOTED = 1.5  # digits: stretches of the front at least so long have their price written on them
@@ -48,7 +49,9 @@ def picture(plt, found, size=None):
     figure.suptitle(f"{found.case.name}: what accuracy costs", fontsize=11 * style.share(), parse_math=False)
     if size is not None and style.share() < 1:
         return figure  # without the note, which a small figure has no room for
-    note = f"Reference error {found.reference.error.max():.0e}. {caption()}"
+    formulas = "Dotted: the error of a formula, at whatever time. " if any(p.method in FORMULAS for p in found.points) else ""
+    power = math.ceil(math.log10(found.reference.error.max() or LEAST))
+    note = f"Thin lines reach up to the slowest of several runs. {formulas}Error of the reference at most 10{str(power).translate(RAISED)}. {caption()}"
     width = int((150 if columns == 2 else 84) * figure.get_figwidth() / usual[0])
     figure.legends[0].set_title("\n".join(textwrap.wrap(note, width)), prop={"size": 7.5})
     figure.legends[0].get_title().set(color=style.GREY, parse_math=False)
@@ -62,7 +65,7 @@ def meanings(found, questions=None, prices=True) -> list[tuple[str, dict]]:
     """Rows (name, look) of the legend: the methods that were measured, of some questions or of all, with the price of a digit or alone, and the front."""
     asked = [p.method for p in found.points if questions is None or p.question in questions]
     methods_drawn = [(_legend(found, m) if prices else m, LOOKS[m]) for m in LOOKS if m in asked]
-    return [*methods_drawn, ("front: none is both faster and better" if prices else "front", FRONT)]
+    return [*methods_drawn, ("front: no single run is both faster and better" if prices else "front", FRONT)]
 
 
 def _legend(found, method) -> str:
