@@ -40,7 +40,8 @@ def drawn(found: Diagram, size: tuple[float, float] | None, plt: Any) -> Any:
     axes[-1, 0].set_xlabel(f"{span.label}{f' ({span.shown_unit})' if unit(span) else ''}")
     _counts(axes[0, 0], found)
     case = found.family.case
-    figure.suptitle(style.literal(case.title or case.name), x=0.02, ha="left", fontsize=10.5, wrap=True)
+    counted = "changes of stability" if found.kind == BORDERS else "equilibria"
+    figure.suptitle(f"{style.literal(case.title or case.name)}\nin bold: the number of {counted}", x=0.02, ha="left", fontsize=10.5, wrap=True)
     handles, words = axes[0, 0].get_legend_handles_labels()
     kept = dict(zip(words, handles))
     if kept:

@@ -38,7 +38,7 @@ def drawn(found: Plane, size: tuple[float, float] | None, plt: Any) -> Any:
     for wall in found.walls:
         ax.plot([wall.value] * 2, [wall.low, wall.high], label=TOLD[wall.kinds[0]], **style.MEANING[LOOKS[wall.kinds[0]]])
     for cusp in found.cusps:
-        ax.plot(*cusp.at, label="cusp", zorder=5, **style.MARKER["degenerate"])
+        ax.plot(*cusp.at, label="cusp", zorder=5, clip_on=False, **style.MARKER["degenerate"])
     whole = float((first.high - first.low) * (second.high - second.low))
     for region in _regions(bands, float(second.high - second.low)):
         if sum(band["area"] for band in region) > SMALL * whole:

@@ -65,6 +65,18 @@ def test_pictures_are_the_same_bytes_each_time(line, plane, tmp_path, ending):
         assert first == second and len(first) > 3000
 
 
+def test_a_picture_says_what_it_counts_and_shows_a_cusp_on_its_edge_whole(line, plane):
+    from matplotlib import pyplot
+    figures = [picture.drawn(line, None, pyplot), plane_picture.drawn(plane, None, pyplot)]
+    try:
+        assert "number of equilibria" in figures[0].get_suptitle() and "number of equilibria" in figures[1].axes[0].get_title(loc="left")
+        cusps = [one for one in figures[1].axes[0].get_lines() if one.get_label() == "cusp"]
+        assert cusps and not any(one.get_clip_on() for one in cusps)
+    finally:
+        for figure in figures:
+            pyplot.close(figure)
+
+
 def test_where_curves_of_equilibria_are_no_number_of_changes_is_told(tmp_path):
     path = tmp_path / "case.toml"
     path.write_text("[body]\ninertia = [12.0, 9.0, 5.0]\n[effects.gyrostat]\nmomentum = [0.8, 0, 0]\n[effects.constant_torque]\ntorque = [0, 0, 0.02]\n")
