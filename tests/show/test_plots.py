@@ -191,6 +191,7 @@ def test_limits_about_axes_of_the_file_are_drawn_beside_the_rates_about_those():
     start = np.array([line.get_ydata()[0] for line in lines(ax)[1:4]])
     back = case.frame.back([Fraction(v) for v in case.state])
     assert start == pytest.approx([math.degrees(float(v)) for v in back], abs=1e-9) and "axes of the file" in ax.get_ylabel()
+    assert "axis 3" in ax.get_title() and "principal" in ax.get_title() and "principal" not in stabilab.plot.time(load("cubesat-3u")).get_title()
 
 
 def test_a_curve_with_more_turns_than_columns_becomes_a_band_that_holds_it():
@@ -619,7 +620,7 @@ def test_a_small_picture_of_costs_has_as_many_questions_as_have_room_and_nothing
 def test_the_third_axis_is_named_upwards_and_an_axis_seen_from_its_end_has_fewer_ticks():
     """Oracle: the ticks' own boxes, of which no two lie on each other."""
     for name in ("two-wheels-minor-axis", "torque-free-gyrostat", "middle-axis-double-well"):
-        for size in (None, (3.6, 3.0)):
+        for size in (None, (3.6, 3.0), (3.0, 3.0)):
             ax = stabilab.plot.sphere(load(name), size=size)
             ax.figure.draw_without_rendering()
             assert ax.zaxis.label.get_rotation() == (90 if " " in ax.get_zlabel() else 0)

@@ -13,6 +13,7 @@ ZOOM = 0.98  # leaves room for the labels
 PALE = 0.75  # share of its colour that a surface has
 LIGHT = np.array([0.35, -0.55, 0.76])
 DARKEST = 0.62  # share of its colour that a facet keeps which the light only grazes
+ROOMY = 3.8  # inches: axes that are smaller have fewer ticks
 TICKS, SEEN = 5, 0.45  # of an axis that is seen in at least this share of the longest side; of a shorter one fewer, lest they lie on each other
 FLATTEST = 0.75  # of the longest side of a box whose sides are in different scales
 MARGIN = 1.08  # of a box about the things in it
@@ -139,10 +140,11 @@ def furnish(ax: Any, box: Box, labels: tuple[str, ...], view: tuple[float, float
             axis.set_rotate_label(False)
             axis.label.set_rotation(90)
     ax.tick_params(labelsize=8 * small, pad=3.5 * small)
+    roomy = min(small, min(ax.bbox.width, ax.bbox.height) / ax.figure.dpi / ROOMY)  # letters have a least size, their number has none
     lengths = box.high - box.low
     sides = np.maximum(lengths / lengths.max(), FLATTEST)
     for axis, seen in zip((ax.xaxis, ax.yaxis, ax.zaxis), sides / sides.max() * _seen(view)):
-        axis.set_major_locator(MaxNLocator(max(2, min(TICKS, round(TICKS * small * seen / SEEN)))))
+        axis.set_major_locator(MaxNLocator(max(2, min(TICKS, round(TICKS * roomy * seen / SEEN)))))
         axis.set_pane_color((1, 1, 1, 1))
     ax.set_box_aspect(sides, zoom=ZOOM * (1 - (1 - small) / 3) * float(np.linalg.norm(sides)) / math.sqrt(3))  # the longest side as of a cube
     ax.view_init(*view)
