@@ -133,12 +133,14 @@ def _map(ax, data, whole, kind, moving, limits) -> Any:
 
 
 def _levels(ax, data, moving) -> dict[str, Any]:
-    """Lines of equal margin within what stays bounded."""
+    """Lines of equal margin within what stays bounded, at round numbers."""
+    from matplotlib.ticker import MaxNLocator
     x, y = (np.asarray(data[name]) for name in moving[:2])
     margin = np.where((np.asarray(data["fate"]) == Fate.BOUNDED) & np.isfinite(np.asarray(data["margin"])), np.asarray(data["margin"]), np.nan)
     if np.isfinite(margin).sum() < 9 or min(margin.shape) < 5 or not np.nanmax(margin) > 0:
         return {}
-    drawn = ax.contour(x, y, margin.T, levels=np.linspace(0, np.nanmax(margin), 7)[1:-1], colors=style.GREY, linewidths=0.6)
+    round_ones = MaxNLocator(6, steps=(1, 2, 2.5, 5, 10)).tick_values(0, np.nanmax(margin))
+    drawn = ax.contour(x, y, margin.T, levels=[level for level in round_ones if 0 < level < np.nanmax(margin)], colors=style.GREY, linewidths=0.6)
     if not any(len(line) for level in drawn.allsegs for line in level):  # finite margins here and there make no line
         return {}
     ax.clabel(drawn, fontsize=7, fmt="%.3g")

@@ -206,6 +206,19 @@ def test_a_map_says_what_its_white_cells_mean_and_is_refused_where_all_are(tmp_p
         picture.write(tmp_path / "up.nc", tmp_path / "x.png", "greatest")
 
 
+def test_lines_of_equal_margin_lie_at_round_numbers():
+    """Margins that grow evenly to 1.776, as those of the tug of docs/sweep.md: lines stood at 0.296, 0.592 and so on."""
+    import matplotlib.pyplot as plt
+    x, y = np.linspace(0, 1, 12), np.linspace(0, 1, 12)
+    margin = 1.776 * (x[:, None] + y) / 2
+    data = {"x": x, "y": y, "fate": np.full((12, 12), int(stabilab.Fate.BOUNDED)), "margin": xarray.DataArray(margin, attrs={"units": "J"})}
+    figure, ax = plt.subplots()
+    assert list(field._levels(ax, data, ("x", "y"))) == ["equal margin (J)"]
+    levels = [float(text.get_text()) for text in ax.texts]
+    plt.close(figure)
+    assert set(levels) >= {0.5, 1.0, 1.5} and all(round(4 * level, 9) == round(4 * level) for level in levels)
+
+
 def test_a_legend_of_many_curves_stands_beside_its_panel(tmp_path):
     """Oracle: Matplotlib's own boxes."""
     data = sweep(MINOR, {"x[1]": "1:2:3"}, answer="fate,extremes", out=tmp_path / "line.nc")
