@@ -126,6 +126,12 @@ def test_the_picture_of_a_motion_that_passes_no_plane_is_its_number_over_time(tm
     assert picture.write(one, found, tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")
 
 
+def test_the_picture_of_a_motion_that_spins_up_says_that_it_is_not_followed(stabilab, tmp_path):
+    """Its MEGNO is no number at all, of which no axis can be made."""
+    code, out, said = stabilab("chaos", CASES / "off-axis-one.toml", "--out", tmp_path / "a.png")
+    assert code == 0 and "SPIN-UP" in out and (tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")
+
+
 def test_a_megno_next_to_zero_has_no_minus():
     found = Chaos(np.array(Order.REGULAR), np.array(-1e-5), np.array([1.0, 2.0]), np.array([-2e-5, -1e-5]), np.array(0.0), np.array(0.0), 1.0, None)
     assert "MEGNO is 0.000 (0.000 at half" in found.because

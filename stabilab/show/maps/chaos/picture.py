@@ -41,6 +41,10 @@ def write(case: Any, found: Chaos, out: str | Path) -> Path:
 def _over_time(ax: Any, case: Any, found: Chaos) -> None:
     ax.plot(found.times, found.history, marker="o", color=style.BLUE)
     ax.axhline(2, color=style.GREY, linewidth=0.8)
+    if not np.isfinite(found.history).any():  # nothing that an axis could be made from
+        ax.set_xlim(found.times[0], found.times[-1])
+        ax.set_ylim(0, TOP)
+        ax.text(0.5, 0.25, "not followed: it does not come back", transform=ax.transAxes, ha="center")
     ax.set_xscale("log")
     ax.set_xlabel(f"followed for ({case.scene.time_unit})")
     ax.set_ylabel("MEGNO (2 on tori)")
@@ -74,4 +78,6 @@ def _map(figure: Any, ax: Any, beside: Any, one: Subject, until: float) -> None:
     told = beside.get_legend()
     handles, words = list(told.legend_handles), [text.get_text() for text in told.get_texts()]
     told.remove()
-    figure.legend([*handles, Patch(facecolor=light(style.VERMILION))], [*words, "spins up"], loc="outside lower center", ncols=5)
+    if np.isfinite(leaving).any():
+        handles, words = [*handles, Patch(facecolor=light(style.VERMILION))], [*words, "spins up"]
+    figure.legend(handles, words, loc="outside lower center", ncols=5)
