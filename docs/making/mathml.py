@@ -11,6 +11,8 @@ SPACE = "http://www.w3.org/1998/Math/MathML"
 ROWS = {"math", "mrow", "mtd", "msqrt", "mstyle"}  # what takes any number of children
 FUNCTIONS = {"cos", "sin", "ln", "exp", "arcosh", "atan", "det", "min", "max", "sup", "inf", "sgn"}
 TIGHT = {"|", "/"}  # LaTeX sets no space about them; a browser does, and more behind a bar than before it
+LENGTH = re.compile(r"(?<=\d)(?=(?:bp|cc|cm|dd|em|ex|in|mm|mu|pc|pt|sp))")
+PRIMED = re.compile(r"('+)(?:\^(?:\{([^{}]*)\}|(\w)))?")
 BREAKS = {"2em", "1em"}  # \qquad and \quad, which part the equations of a line
 
 
@@ -44,7 +46,7 @@ def equations(latex: str) -> list[str]:
 
 def _set(latex, display):
     # the converter would take "2cm" for a length of two centimetres
-    whole = ElementTree.fromstring(convert(re.sub(r"(?<=\d)(?=[a-z])", "{}", latex), display=display))
+    whole = ElementTree.fromstring(convert(PRIMED.sub(_primes, LENGTH.sub("{}", latex)), display=display))
     for row in list(whole.iter()):
         if _kind(row) in ROWS:
             _spaced(row)
@@ -74,6 +76,11 @@ def _spaced(row):
                 row.insert(list(row).index(child), _thin())
             if after is not None and after.text not in ("(", "[", ")", ","):
                 row.insert(list(row).index(child) + 1, _thin())
+
+
+def _primes(found):
+    """Primes and a power behind them as one superscript, of which the converter makes several."""
+    return "^{" + r"\prime" * len(found[1]) + f" {found[2] or found[3] or ''}}}"
 
 
 def _thin():

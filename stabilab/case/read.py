@@ -53,7 +53,7 @@ class Case:
     A file gives vectors in its own frame; scene, state and vertical are along the principal axes, which `frame` tells (None where
     the file gives [scaled]); where the tensor is diagonal the two frames are one. thrusters, wheels, limits: as stated, in the frame
     of the file; torques of the stuck ones and momenta of the wheels are in the scene. inexact: the keys whose unit holds pi, good to
-    240 bits. notes: what was taken for granted, in words. units: "deg" or "si", in which people want to read answers ("" where the file does not
+    240 bits. notes: what was taken for granted, in words. units: "deg" or "si", in which people want to read answers (empty where the file does not
     say); swept: (key, value as written) of every key of [sweep].
     """
 
@@ -97,7 +97,7 @@ class Case:
 
     @property
     def name(self) -> str:
-        """The file's stem, and which combination of its [sweep] this is ("-2-1": second value of the first key)."""
+        """The file's stem, and which combination of its [sweep] this is (`-2-1`: second value of the first key)."""
         return printable(Path(self.path).stem) + self.variant
 
     @property

@@ -199,6 +199,8 @@ def test_formulas_are_set_as_latex_sets_them():
     from making import mathml
     made = mathml.formula("8c^3 + 2cm - n > 0")
     assert plain(made) == "8c3+2cm−n>0" and "<mn>2</mn>" in made  # two times c times m, no centimetres
+    assert mathml.formula(r"\gamma_0''^2").count("<msubsup>") == 1 and plain(mathml.formula(r"\gamma_0''^2")) == "γ0′′2"
+    assert "<mfrac><mn>1</mn><mi>h</mi></mfrac>" in mathml.formula(r"c + \frac1h")
     assert plain(mathml.formula(r"A\cos\varphi\sin^2(x)")) == "A cos φ sin2(x)"
     assert plain(mathml.formula(r"L := \infty")) == "L≔∞" and "<mi>∞</mi>" in mathml.formula(r"s = \infty")
     assert mathml.formula("|c|/x").count('lspace="0" rspace="0"') == 3
