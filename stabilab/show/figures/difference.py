@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..text.cost.words import share
 from . import panels
 from .figure import Figure
 
@@ -69,8 +70,8 @@ def _words(d: Difference) -> str:
     head = f"{quantity}, {plain(d.column)}: "
     if d.status != "compared":
         return head + d.reason
-    share = f" ({d.share:.2g} of the exact motion's range)" if d.share is not None else ""
-    return f"{head}{panels.plain(d.largest)}{unit}{share} at t = {d.at:.3g} s"
+    part = f" ({share(d.share)} the exact motion's range)" if d.share is not None else ""
+    return f"{head}{panels.plain(d.largest)}{unit}{part} at t = {d.at:.3g} s"
 
 
 def plain(label: str) -> str:
