@@ -90,9 +90,17 @@ def why(case, motion, units: Units, proofs: bool) -> list[str]:
     if proofs and motion.velocity_because:
         lines.append(f"  {'' if motion.velocity_bounds else 'margin, rate unknown: '}{reason(motion.velocity_because, units)}")
     if proofs:
-        lines += [row(name.replace("_", " "), quantity(name, value, units)) for found in (motion.invariants, motion.evidence)
+        lines += [row(names(motion).get(name, name.replace("_", " ")), quantity(name, value, units)) for found in (motion.invariants, motion.evidence)
                   for name, value in found.items() if value is not None]
     return lines
+
+
+def names(motion) -> dict:
+    """What the constants of a motion are called where the name of the field does not say it; a potential is in the energy of a reduced motion, and none of
+    its parts is that of the whole body."""
+    own = {"rate_bound": "|ω| never exceeds", "late_rate_bound": "|ω| in the end at most", "Q": "invariant Q", "J": "J of the law", "J_rate": "J changes by",
+           "momentum": "angular momentum"}
+    return own | ({"energy": "energy, reduced motion"} if "Q" in motion.invariants else {})
 
 
 def reason(words: str, units: Units) -> str:

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 from ....orbit.result import Fate
+from ...terminal.motion import names
 from ...text import frame
 from ...text.headline import greatest, rate_and_height, rate_margin, with_height
 from ...text.headline import headline as answer
@@ -116,8 +117,5 @@ def invariants(motion, measures) -> list[tuple[str, str]]:
              "Q": lambda v: told(v * measures.units.squares[1], measures.units.squares[0].replace("^2", "²")),
              "momentum": lambda v: measures.units.momentum(v, DIGITS), "J": lambda v: told(v, "(N m s)²" * measures.physical),
              "J_rate": lambda v: told(v, "(N m s)²/s" if measures.physical else "per unit of τ")}
-    words = {"rate_bound": "|ω| never exceeds", "late_rate_bound": "|ω| in the end at most", "Q": "invariant Q", "J": "J of the law below",
-             "J_rate": "J changes by", "momentum": "angular momentum"}
-    if "Q" in motion.invariants:  # a potential is in it, and none of its parts is that of the whole body
-        words["energy"] = "energy of the reduced motion"
+    words = names(motion)
     return [(words.get(name, name.replace("_", " ")), known.get(name, lambda v: told(v, digits=6))(value)) for name, value in motion.invariants.items()]
