@@ -211,7 +211,7 @@ def _write_legend(image, scene, meshes):
     font = ImageFont.truetype(str(Path(get_data_path()) / "fonts/ttf/DejaVuSans.ttf"), 16)
     pen, width = ImageDraw.Draw(image), image.width
     kinds = {style.kind_of(segment) for curve in equilibria(scene).curves for segment in curve.segments}
-    rows = [(mesh.name, style.SHEETS[number % len(style.SHEETS)]) for number, mesh in enumerate(meshes)]
+    rows = [(f"separatrix, {mesh.name}", style.SHEETS[number % len(style.SHEETS)]) for number, mesh in enumerate(meshes)]
     rows += [(style.EQUILIBRIA[kind], style.colour_of(kind)) for kind in sorted(kinds)]
     left = width - 44 - max((pen.textlength(words, font) for words, _ in rows), default=0)
     for number, (words, colour) in enumerate(rows):
