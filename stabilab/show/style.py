@@ -40,6 +40,7 @@ MARKER = {
 EQUILIBRIA = {"stable": "stable equilibria", "unstable": "unstable equilibria", "degenerate": "degenerate equilibria",
               "undecided": "equilibria of undecided stability"}  # kind -> its words in a legend
 SHEETS = (SKY, ORANGE, GREEN, PURPLE, YELLOW, BLUE, VERMILION)  # surfaces, in order
+BESIDE = (SKY, GREEN, PURPLE, "#B59A6A")  # surfaces beside a motion, which is orange, and the nearest point of them, which is yellow
 SERIES = (BLUE, ORANGE, GREEN, PURPLE, VERMILION)               # one curve each for a list of parameters
 
 PACKAGES = ("matplotlib", "PIL")  # of every picture

@@ -21,7 +21,6 @@ BEYOND = 8.0     # boxes: what is farther off is moved in, outside what is drawn
 ROOM = 1.9       # half of the box, of the farthest point of the motion from its middle
 SMALL = 0.22     # of the box: a motion that fills less gets a box of its own
 LATEST = 3.0     # times its first size, up to which a motion that spins up is drawn
-SHEETS = (style.SKY, style.GREEN, style.PURPLE, style.YELLOW)  # orange is the motion's
 
 Point = Sequence[float]
 
@@ -101,7 +100,7 @@ def drawn(bag: Bag, box: Box, names: list[str], one: float, sheets: Sequence[tup
                                     for kind, places in rests]
     if path:
         curves.append({"kind": "this motion", "colour": style.MEANING["this motion"]["color"], "at": bag.add("int16", packed(path, box))})
-    surfaces = [{"name": _sheet_name(sheet, ghost), "colour": SHEETS[n % len(SHEETS)], "rows": sheet.rows, "columns": sheet.columns,
+    surfaces = [{"name": _sheet_name(sheet, ghost), "colour": style.BESIDE[n % len(style.BESIDE)], "rows": sheet.rows, "columns": sheet.columns,
                  "at": bag.add("int16", packed(sheet.points, box))} for n, sheet in sheets]
     points = [mark | {"at": [round(v, 5) for v in box.share(mark["at"])]} for mark in marks if box.holds(mark["at"])]
     legend: dict[str, str] = {row.get("name") or row["kind"]: row["colour"] for row in (*surfaces, *curves, *points)}

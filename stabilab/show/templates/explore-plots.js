@@ -19,13 +19,16 @@ function picture(canvas, [left, right], [low, high], across, up) {
   if (canvas.width !== Math.round(wide * sharp) || canvas.height !== Math.round(tall * sharp)) { canvas.width = Math.round(wide * sharp); canvas.height = Math.round(tall * sharp); }
   pen.setTransform(sharp, 0, 0, sharp, 0, 0); pen.clearRect(0, 0, wide, tall);
   const box = {left: 58, right: wide - 12, top: 10, bottom: tall - 42};
+  pen.font = "12px system-ui, sans-serif";
+  const upward = ticks(low, high, Math.max(3, tall / 55), found => found.length * 20 < box.bottom - box.top);
+  box.left = Math.max(box.left, 27 + Math.max(0, ...upward.map(v => pen.measureText(rounded(v)).width)));  // the label stands left of the widest number
   const x = v => box.left + (v - left) / (right - left) * (box.right - box.left), y = v => box.bottom - (v - low) / (high - low) * (box.bottom - box.top);
-  pen.font = "12px system-ui, sans-serif"; pen.lineWidth = 0.6; pen.strokeStyle = "#DDDDDD"; pen.fillStyle = "#333333";
+  pen.lineWidth = 0.6; pen.strokeStyle = "#DDDDDD"; pen.fillStyle = "#333333";
   pen.textAlign = "center"; pen.textBaseline = "top";
   const beside = found => found.reduce((sum, v) => sum + pen.measureText(rounded(v)).width + 12, 0) < box.right - box.left;
   for (const v of ticks(left, right, Math.max(3, wide / 90), beside)) { pen.beginPath(); pen.moveTo(x(v), box.top); pen.lineTo(x(v), box.bottom); pen.stroke(); pen.fillText(rounded(v), x(v), box.bottom + 5); }
   pen.textAlign = "right"; pen.textBaseline = "middle";
-  for (const v of ticks(low, high, Math.max(3, tall / 55), found => found.length * 20 < box.bottom - box.top)) { pen.beginPath(); pen.moveTo(box.left, y(v)); pen.lineTo(box.right, y(v)); pen.stroke(); pen.fillText(rounded(v), box.left - 5, y(v)); }
+  for (const v of upward) { pen.beginPath(); pen.moveTo(box.left, y(v)); pen.lineTo(box.right, y(v)); pen.stroke(); pen.fillText(rounded(v), box.left - 5, y(v)); }
   pen.fillStyle = "#000000"; pen.textAlign = "center"; pen.textBaseline = "bottom"; pen.fillText(across, (box.left + box.right) / 2, tall - 4);
   pen.save(); pen.translate(12, (box.top + box.bottom) / 2); pen.rotate(-Math.PI / 2); pen.textBaseline = "middle"; pen.fillText(up, 0, 0); pen.restore();
   pen.strokeStyle = "#666666"; pen.lineWidth = 0.8; pen.strokeRect(box.left, box.top, box.right - box.left, box.bottom - box.top);

@@ -100,6 +100,13 @@ def test_every_axis_has_a_scale_and_every_line_is_named(page):
         assert all(len(marks) >= 3 and min(marks) >= low - 1e-6 and max(marks) <= high + 1e-6 for marks in rows)
         assert all(len({round(b - a, 9) for a, b in zip(marks, marks[1:])}) == 1 for marks in rows)
     assert page.run("ticks(-42, 42, 4, () => false)") == [0]
+    drawn = page.run("""(() => {
+      const told = [], brush = CanvasRenderingContext2D.prototype, real = brush.fillText, made = $("time").cloneNode(); document.body.append(made);
+      brush.fillText = function (text, x) { told.push([text, this.textAlign, x, this.measureText(text).width]); real.apply(this, arguments); };
+      drawTime(made, {times: [0, 1], rates: [[8000, 34000], [0, 1], [0, 1]], x: "time", y: "rate"});
+      brush.fillText = real; made.remove();
+      return told; })()""")
+    assert min(x - wide for _, align, x, wide in drawn if align == "right") > 20  # right of the label, which stands upright at 12 and is 12 high
     assert "Grey: whole periods" in page.run("$('time-words').textContent")
     assert "black: separatrix" in page.run("$('plane-words').textContent") and "open: saddle" in page.run("$('plane-words').textContent")
 

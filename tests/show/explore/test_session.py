@@ -217,6 +217,11 @@ def test_no_equilibrium_of_undecided_stability_is_called_stable_by_its_colour():
     assert "stable equilibria" not in names and names["equilibria of undecided stability"] not in (MEANING["stable"]["color"], MEANING["unstable"]["color"])
 
 
+def test_no_two_things_in_space_have_one_colour():
+    legend = ask(Session(case_of("middle-axis-double-well")), start=["-1.57", "1.027", "0.43"])[0]["space"]["legend"]
+    assert len(legend) >= 8 and len({colour for _, colour in legend}) == len(legend)
+
+
 def test_a_sheet_keeps_its_colour_while_others_come_into_the_box_and_go():
     session = Session(case_of("thruster-stuck-major-axis"))
     near, far = (dict(ask(session, **asked)[0]["space"]["legend"]) for asked in ({}, {"start": ["49.8", "118.5", "-53.6"]}))

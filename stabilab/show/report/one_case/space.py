@@ -29,7 +29,6 @@ SEEN, COARSEST, MOST = 1e-3, 16e-3, 6000  # of the motion's size: how far a line
 LINES, FEWEST = 1600, 60  # points of all curves of equilibria, of each at least
 LATEST = 3.0         # times its first size, up to which a motion that spins up is drawn
 NARROW = 0.02        # halves of the box: a surface no wider than that is not seen in it
-SHEETS = (style.SKY, style.GREEN, style.PURPLE, style.YELLOW)  # orange is the motion's
 
 
 def space(case, motion, found_equilibria, measures, shape=SHAPE) -> dict:
@@ -44,7 +43,7 @@ def space(case, motion, found_equilibria, measures, shape=SHAPE) -> dict:
     curves = found_equilibria.curves if found_equilibria is not None else ()
     drawn = {"names": [f"{spoken(name)}{f' ({unit})' if unit else ''}" for name in case.scene.components],
              "middle": [v * one for v in box[0]], "half": box[1] * one,
-             "sheets": [_sheet(sheet, SHEETS[n % len(SHEETS)], box) for n, sheet in enumerate(sheets)],
+             "sheets": [_sheet(sheet, style.BESIDE[n % len(style.BESIDE)], box) for n, sheet in enumerate(sheets)],
              "curves": _curves(curves, curve, box), "points": [m | {"at": _share(m["at"], box)} for m in marks if _inside(m["at"], box)]}
     return {"drawn": drawn, "legend": _legend(drawn), "reason": spoken(reason), "clipped": any(_outside(s.points, box) for s in reaching)}
 
