@@ -69,7 +69,7 @@ def groups(rows):
     """(name, rows) by wheel and body."""
     yield from ((f"wheel {w}", [r for r in rows if r["wheel"] == w]) for w in WHEELS)
     yield from ((kind, [r for r in rows if r["kind"] == kind]) for kind in KINDS)
-    yield "generic, wheel <= 1", [r for r in rows if r["kind"] == "generic" and r["wheel"] <= 1]
+    yield "generic, wheel ≤ 1", [r for r in rows if r["kind"] == "generic" and r["wheel"] <= 1]
     yield "all", rows
 
 
@@ -97,9 +97,11 @@ def left(rows) -> str:
     first = [(" ".join(r["cause"].split(";")[0].split(",")[0].split(":")[0].split("about axis")[0].split()), r["number"]) for r in undecided]
     scenes = lambda cause: ", ".join(str(number) for named, number in first if named == cause)
     kinds = Counter((r["kind"], r["wheel"]) for r in undecided)
-    return "\n".join([f"Undecided: {len(undecided)} of {len(rows)}, by the first cause that their words name (scenes counted from 0):", ""]
-                     + [f"- {n}: {cause} ({scenes(cause)})" for cause, n in Counter(cause for cause, _ in first).most_common()]
-                     + ["", "By body and wheel: " + ", ".join(f"{kind} {wheel}: {n}" for (kind, wheel), n in kinds.most_common()) + "."])
+    causes = Counter(cause for cause, _ in first).most_common()
+    return "\n".join([f"Undecided: {len(undecided)} of {len(rows)}, by the first cause that their words name: "
+                      + ", ".join(f"{cause} {n}" for cause, n in causes) + ". By body and wheel: " + ", ".join(f"{kind} {wheel}: {n}" for (kind, wheel), n in kinds.most_common()) + ".", "",
+                      "<details><summary>Their numbers in the sample, counted from 0</summary>", ""] + [f"- {cause}: {scenes(cause)}" for cause, _ in causes]
+                     + ["", "</details>"])
 
 
 def write(*paths):
