@@ -20,6 +20,7 @@ HEAD = """# Cases
 Each picture is a case file of the folder `cases/`: a body, what acts on it, and one motion. A click leads to the answer, the file and the commands.
 
 """
+LEAD = "What becomes of each of these cases, in bold; its picture, the commands that give both, and its file.\n\n"
 
 
 def write(docs: Path, cases: list[Path] | None = None) -> list[str]:
@@ -34,7 +35,7 @@ def write(docs: Path, cases: list[Path] | None = None) -> list[str]:
         if path.name not in known:  # of a case or a group that is gone
             path.unlink()
     for title, rows in grouped.items():
-        page(docs / FOLDER / f"{slug(title)}.md", f"# {title}\n\n" + "\n".join(map(section, rows)))
+        page(docs / FOLDER / f"{slug(title)}.md", f"# {title}\n\n{LEAD}" + "\n".join(map(section, rows)))
     return [one["name"] for rows in grouped.values() for one in rows]
 
 
@@ -58,6 +59,7 @@ def made(path: Path, folder: Path) -> dict:
     from stabilab.show.plot.subject import subject
     from stabilab.show.report.whole import group
     from stabilab.show.terminal.letters import greek, written
+    from stabilab.show.text import law
     from stabilab.show.text.headline import headline
     case, *others = load_all(path)
     one = subject(case)
@@ -65,7 +67,7 @@ def made(path: Path, folder: Path) -> dict:
     write(one, folder / f"{path.stem}.png", dpi=SHARP)
     first = f"The first of {1 + len(others)} combinations is drawn: " if others else ""
     return {"title": written(case.title), "source": written(case.source or ""), "group": group(case), "kind": which.default(one),
-            "answer": first + greek(headline(case, one.motion))}
+            "answer": first + greek(law.warned(law.of_case(case), headline(case, one.motion)))}
 
 
 def program() -> str:

@@ -103,6 +103,11 @@ def test_a_case_of_the_gallery_has_picture_answer_file_and_commands_and_is_kept_
     assert drawn == [changed]
 
 
+def test_the_gallery_says_before_an_answer_that_it_leaves_its_law(tmp_path):
+    """25 t of liquid in a body of 9 kg m^2: "BOUNDED for ever" alone stood above a picture that says it."""
+    assert gallery.made(ROOT / "cases/liquid-base.toml", tmp_path)["answer"].startswith("BEYOND THE LAW; by that law: BOUNDED for ever")
+
+
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=[path.stem for path in NOTEBOOKS])
 def test_a_notebook_is_whole_and_its_page_has_every_cell_picture_and_link(path):
     notebook = notebooks.read(path)
