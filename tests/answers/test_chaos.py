@@ -105,12 +105,12 @@ def test_a_sweep_is_one_table_and_the_law_is_told_first(stabilab, tmp_path):
     path.write_text(SWEPT)
     code, out, _ = stabilab("chaos", path, "--until", "60")
     lines = out.splitlines()
-    assert code == 0 and len(lines) == 6 and lines[0].startswith("BEYOND THE LAW: charge")
-    assert lines[0].endswith("by that law: three: 3 combinations: 3 REGULAR as far as it was followed")
-    assert lines[1].split() == ["ω[1]", "ω[2]", "ω[3]", "motion", "turns", "MEGNO"] and {line.split()[3] for line in lines[3:]} == {"REGULAR"}
+    assert code == 0 and len(lines) == 7 and lines[1].startswith("law: charge: ")
+    assert lines[0] == "BEYOND THE LAW; by that law: three: 3 combinations: 3 REGULAR as far as it was followed"
+    assert lines[2].split() == ["ω[1]", "ω[2]", "ω[3]", "motion", "turns", "MEGNO"] and {line.split()[3] for line in lines[4:]} == {"REGULAR"}
     told = json.loads(stabilab("chaos", path, "--until", "60", "--json")[1])
     assert [one["validity"]["effect"] for one in told] == ["charge"] * 3
-    assert [f"{one['megno']:.4f}" for one in told] == [line.split()[-1] for line in lines[3:]]
+    assert [f"{one['megno']:.4f}" for one in told] == [line.split()[-1] for line in lines[4:]]
     assert stabilab("chaos", path, "--until", "60", "--strict")[0] == 3
     rows = [(SimpleNamespace(scene=SimpleNamespace(time_unit="s")), Chaos(np.array(label), np.array(6.0), np.array([1.0, 2.0]), np.array([3.0, 6.0]),
                                                                          np.array(0.5), np.array(0.1), 1.0, None)) for label in (Order.CHAOTIC, Order.REGULAR)]

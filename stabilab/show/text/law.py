@@ -12,13 +12,15 @@ from ..units import SI, Units, units_of
 
 
 def first(validity, text: str, units: Units = SI) -> str:
-    """The text with what is to be said of its law in its first line: behind the answer where the law holds, before it where it does not, as
-    what follows is then no motion of such a body. The text as it is where all laws are exact. units: in which times are told."""
+    """The text with what is to be said of its law: behind the answer where the law holds; where it does not, as what follows is then no motion of such
+    a body, that it does not before the answer, and by how much in a line below. The text as it is where all laws are exact. units: of times."""
     if validity is None:
         return text
     answer, *rest = text.split("\n")
     words = lettered(units.words(printable(validity.words)))
-    return "\n".join([f"{answer}; {words}" if validity.held else f"{words}; by that law: {answer}", *rest])
+    if validity.held:
+        return "\n".join([f"{answer}; {words}", *rest])
+    return "\n".join([warned(validity, answer), f"law: {words.removeprefix(f'{validity.status.upper()}: ')}", *rest])
 
 
 def warned(validity, answer: str) -> str:
