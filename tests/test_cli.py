@@ -42,6 +42,15 @@ def classified(fifth):
 
 
 LATER = pytest.mark.slow  # from the second fifth on
+MINOR_SWEPT = """[body]
+inertia = [3, 2, 1]
+[effects.gyrostat]
+momentum = [0.5, 0, 0]
+[effects.constant_torque]
+torque = [0, 0, 0.1]
+[sweep]
+"effects.gyrostat.momentum" = [[0.5, 0, 0], [0.8, 0, 0], [0, 0, 0]]
+"""
 each_fifth = pytest.mark.parametrize("fifth", [0, *(pytest.param(n, marks=LATER) for n in range(1, 5))])
 each_case = pytest.mark.parametrize("fifth, path", [pytest.param(n % 5, path, id=path.stem, marks=[LATER] * (n % 5 > 0)) for n, path in enumerate(CASES)])
 
@@ -324,6 +333,16 @@ def test_show_prints_equations_and_laws(stabilab):
 def test_show_names_no_symbol_of_an_effect_that_is_not_there(stabilab):
     code, out, _ = stabilab("show", ROOT / "cases/off-axis-two.toml")
     assert code == 0 and "M1" in out and "lambda" not in out.split("Laws that hold for every value")[0]
+
+
+def test_show_tells_equations_of_a_sweep_once_and_again_where_a_term_is_gone(stabilab, tmp_path):
+    path = tmp_path / "two.toml"
+    path.write_text(MINOR_SWEPT)
+    code, out, _ = stabilab("show", path)
+    assert code == 0 and out.count("Equations of motion") == 2 == out.count("In LaTeX")  # without the wheel there is a term less, and a law more
+    same, other = out.split("\n\ntwo-3: ")
+    assert "hold for 1 other combination" in same and "other combination" not in other
+    assert [line.split() for line in same.splitlines()[-2:]] == [["two-1", "0.5"], ["two-2", "0.8"]]
 
 
 def test_show_sets_factors_side_by_side_and_names_as_letters(stabilab):

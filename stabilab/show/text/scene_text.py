@@ -7,12 +7,33 @@ from fractions import Fraction
 from ...physics.effects.base import effect_words
 from ...physics.equations import derive
 from ...physics.laws import invariants
-from ..terminal.letters import lettered, written
+from ..terminal.letters import lettered, some, written
+from ..terminal.page import table, width
+from ..terminal.sweep import swept_columns
 from ..units import DIGITS, number, parameter_unit, units_of
 from . import frame
 from .notation import latex, lines
 
 SHORT = 12  # letters of a ratio that is told as such
+
+
+def of_all(cases) -> str:
+    """`text` of a case, or of all combinations of its [sweep]: those with the same equations and laws together, the first whole, the others by their values."""
+    kinds: dict[tuple, list] = {}
+    for case in cases:
+        equations = derive(case.scene)
+        laws = [law.words for law in (*equations.balances, *invariants(case.scene))]
+        kinds.setdefault((*lines(equations), *laws), []).append(case)
+    parts = []
+    for first, *others in kinds.values():
+        parts.append(text(first))
+        if others:
+            columns = swept_columns([first, *others])
+            rows = [["", *(head for head, _, _ in columns)], ["", *(unit for _, unit, _ in columns)],
+                    *([case.name, *(cells[n] for _, _, cells in columns)] for n, case in enumerate([first, *others]))]
+            told = f"The same equations and laws hold for {some(len(others), 'other combination')}; the numbers in them are those of {first.name}. Swept keys:"
+            parts.append("\n".join([told, *table(rows, 1, width())]))
+    return "\n\n".join(parts)
 
 
 def text(case) -> str:
