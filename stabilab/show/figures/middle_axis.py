@@ -56,6 +56,9 @@ LOOPS = (style.SKY, style.YELLOW, style.GREY, style.PURPLE)  # colours of the pa
 OPAQUE, THIN = (1.0, 0.6, 0.45, 0.6), (0.1, 0.3, 0.1, 0.3)  # of each part, and the width of its mesh: the small loop of sheet 1 stands within that of sheet 2
 
 
+FROM_BEHIND = (1.4, 1.2, 1.3, 1.1)  # of each part, seen from the side from which both loops are
+
+
 UPRIGHT = (1, 3, 2)  # the torque's axis stands upright in the 3-D panels
 
 
@@ -81,10 +84,11 @@ def _nested(ax, scene):
 def _figure_eight(ax):
     """The four parts of the separatrix; their names."""
     found = sheets(**EIGHT)
-    for sheet, colour, opaque, thin in zip(found.sheets, LOOPS, OPAQUE, THIN):
-        ax.plot_surface(*_upright(sheet.points), color=colour, alpha=opaque, rstride=4, cstride=6, linewidth=thin, edgecolor="#333333", shade=False)
-        ax.plot(*_upright(sheet.saddle), **style.MEANING["unstable"])
-        ax.plot(*_upright(sheet.centre), **style.MEANING["stable"])
+    ax.computed_zorder = False  # short lines of equilibria over the sheets that would hide them
+    for sheet, colour, opaque, thin, order in zip(found.sheets, LOOPS, OPAQUE, THIN, FROM_BEHIND):
+        ax.plot_surface(*_upright(sheet.points), color=colour, alpha=opaque, rstride=4, cstride=6, linewidth=thin, edgecolor="#333333", shade=False, zorder=order)
+        ax.plot(*_upright(sheet.saddle), zorder=6, **style.MEANING["unstable"])
+        ax.plot(*_upright(sheet.centre), zorder=6, **style.MEANING["stable"])
     _one_eight(ax, *found.sheets[:2])
     style.name_space(ax, 0.98, order=UPRIGHT)
     ax.view_init(26, -20)  # onto both loops: from other sides one hides the other
