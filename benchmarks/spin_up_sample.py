@@ -98,8 +98,9 @@ def left(rows) -> str:
     scenes = lambda cause: ", ".join(str(number) for named, number in first if named == cause)
     kinds = Counter((r["kind"], r["wheel"]) for r in undecided)
     causes = Counter(cause for cause, _ in first).most_common()
-    return "\n".join([f"Undecided: {len(undecided)} of {len(rows)}, by the first cause that their words name: "
-                      + ", ".join(f"{cause} {n}" for cause, n in causes) + ". By body and wheel: " + ", ".join(f"{kind} {wheel}: {n}" for (kind, wheel), n in kinds.most_common()) + ".", "",
+    counts = ", ".join(f"{cause} {n}" for cause, n in causes)
+    by_kind = ", ".join(f"{kind} {wheel}: {n}" for (kind, wheel), n in kinds.most_common())
+    return "\n".join([f"Undecided: {len(undecided)} of {len(rows)}, by the first cause that their words name: {counts}. By body and wheel: {by_kind}.", "",
                       "<details><summary>Their numbers in the sample, counted from 0</summary>", ""] + [f"- {cause}: {scenes(cause)}" for cause, _ in causes]
                      + ["", "</details>"])
 
