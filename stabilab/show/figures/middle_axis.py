@@ -86,7 +86,8 @@ def _figure_eight(ax):
     found = sheets(**EIGHT)
     ax.computed_zorder = False  # short lines of equilibria over the sheets that would hide them
     for sheet, colour, opaque, thin, order in zip(found.sheets, LOOPS, OPAQUE, THIN, FROM_BEHIND):
-        ax.plot_surface(*_upright(sheet.points), color=colour, alpha=opaque, rstride=4, cstride=6, linewidth=thin, edgecolor="#333333", shade=False, zorder=order)
+        ax.plot_surface(*_upright(sheet.points), color=colour, alpha=opaque, rstride=4, cstride=6, linewidth=thin, edgecolor="#333333", shade=False,
+                        zorder=order)
         ax.plot(*_upright(sheet.saddle), zorder=6, **style.MEANING["unstable"])
         ax.plot(*_upright(sheet.centre), zorder=6, **style.MEANING["stable"])
     _one_eight(ax, *found.sheets[:2])
