@@ -12,10 +12,11 @@ from .common.output import leave_undecided, tell, write
 def report(cases, out, papers, precision, certify, workers, strict):
     """Write the pages; the laws that do not hold are told beside the path."""
     beyond: list[str] = []
+    undecided: list[str] = []
     made = write_report(load_cases(cases or []), out, arguments=sys.argv[1:], papers=papers, precision=precision, certify=certify,
-                        workers=workers, beyond=beyond)
+                        workers=workers, beyond=beyond, undecided=undecided)
     write("\n".join([*beyond, str(made)]))
-    leave_undecided(strict, bool(beyond))
+    leave_undecided(strict, bool(beyond or undecided))
 
 
 def rerun(manifest, out):

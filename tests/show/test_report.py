@@ -143,6 +143,24 @@ def test_a_list_of_cases_says_by_how_much_a_law_is_left_and_a_law_that_holds_is_
     assert text.count('class="beyond"') == 1 and "limit 0.1<" in text
 
 
+@pytest.mark.parametrize("fate, strict, code", [("undecided", True, 3), ("undecided", False, 0), ("bounded", True, 0)])
+def test_a_strict_report_leaves_with_3_where_a_fate_is_undecided(fate, strict, code, monkeypatch, tmp_path, capsys):
+    import typer
+
+    from stabilab.commands import report as command
+    made = {"fate": fate, "path": "a.toml", "title": "", "headline": "", "law": ""}
+    monkeypatch.setattr(own.page, "sections", lambda *_: made)
+    monkeypatch.setattr(own.surfaces, "surface_of", lambda *_: None)
+    monkeypatch.setattr(own, "write", lambda made, place, prefix, **around: place.write_text("") and place)
+    monkeypatch.setattr(command, "sys", type("_", (), {"argv": ["stabilab", "report"]}))
+    try:
+        command.report([CASES / "symmetric-body.toml"], tmp_path / "report", False, False, False, 1, strict)
+        left = 0
+    except typer.Exit as end:
+        left = end.exit_code
+    assert left == code and capsys.readouterr().out.strip().endswith("index.html")
+
+
 def _pages(index):
     made = sorted(page for page in index.parent.rglob("*.html") if page.name != "small.html" and page.parent.name != "tables")
     return {page: page.read_text(encoding="utf-8") for page in made}

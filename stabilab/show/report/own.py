@@ -40,10 +40,11 @@ def entries(cases) -> list[tuple[str, list]]:
 def section(stem, cases, folder, wanted) -> dict:
     """Everything that a page says of one entry, its pictures and meshes written; done by whichever process is free."""
     if cases[0].variant:
-        return {"sweep": sweep.sections(cases, folder, stem), "surface": None, "beyond": law.of_cases(cases)}
+        found = sweep.sections(cases, folder, stem)
+        return {"sweep": found, "surface": None, "beyond": law.of_cases(cases), "open": any(row["fate"] == "undecided" for row in found["rows"])}
     (case,) = cases
     made = page.sections(case, folder, stem, wanted.deep, wanted.certify)
-    return {"case": made, "surface": surfaces.surface_of(case, stem, folder), "beyond": law.of_cases([case])}
+    return {"case": made, "surface": surfaces.surface_of(case, stem, folder), "beyond": law.of_cases([case]), "open": made["fate"] == "undecided"}
 
 
 def tasks(cases, folder: Path, wanted: Wanted) -> list[Task]:
@@ -74,16 +75,17 @@ def listed(stem, made) -> dict:
             "beyond": beyond[0] if beyond else ""}
 
 
-def pages(cases, folder: Path, tell, wanted: Wanted, workers=None, **around) -> list[str]:
-    """All pages of a report on these cases alone; index.html is the page of the one case, or the list of several. A line for each law left."""
+def pages(cases, folder: Path, tell, wanted: Wanted, workers=None, **around) -> list[tuple[str, bool]]:
+    """All pages of a report on these cases alone; index.html is the page of the one case, or the list of several. Of each entry a line for each law left,
+    and whether a fate is undecided."""
     rows = entries(cases)
     found = done(tasks(cases, folder, wanted), folder, tell, workers)
     if len(rows) == 1:
         write(found[0], folder / "index.html", f"{FOLDER}/", **around)
-        return [found[0]["beyond"]]
+        return [(found[0]["beyond"], found[0]["open"])]
     nav = [{"file": "index.html", "title": "All cases"}]
     for (stem, _), made in zip(rows, found):
         write(made, folder / FOLDER / f"{stem}.html", "", nav=nav, up="../", below="index.html", **of_one(made, around))
     listing = [row | {"file": f"{FOLDER}/{row['file']}"} for (stem, _), made in zip(rows, found) for row in [listed(stem, made)]]
     html.write(folder / "index.html", "list.html", title=f"{len(rows)} cases", groups=[{"title": "", "rows": listing}], **around)
-    return [made["beyond"] for made in found]
+    return [(made["beyond"], made["open"]) for made in found]

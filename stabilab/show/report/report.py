@@ -23,15 +23,15 @@ DEEP = 4  # pages up to which each also tells what takes seconds
 
 
 def write(cases=None, out="report", progress=None, arguments=None, papers=False, precision=False, certify=False, workers=None,
-          beyond: list | None = None) -> Path:
+          beyond: list | None = None, undecided: list | None = None) -> Path:
     """Write a report into the folder `out`: on `cases` (paths or Case), or, where there are none, on everything the package brings.
 
     papers: the papers' tables and figures, the audit and other tools' numbers as well; precision: what accuracy costs; certify: a certificate of each
     case, checked. workers: processes that share the work (None: one a core); the pages are the same for any number. Everything is made
     in a temporary folder inside `out` and renamed into place, index.html and manifest.json last; no renderer is needed. progress(words) is
     called before every step; by default a line on stderr where that is a terminal. arguments: of the command line, for the manifest. beyond: a list,
-    which gets a line for every approximate law that a motion leaves. Returns the path of index.html; raises CaseError for a case file with
-    faults, before anything is written.
+    which gets a line for every approximate law that a motion leaves; undecided: one that gets the stem of every file with an undecided fate. Returns the
+    path of index.html; raises CaseError for a case file with faults, before anything is written.
     """
     out = Path(out)
     demand("jinja2", *style.PACKAGES, "scipy", "sympy", "flint")  # what a report cannot do without, before its minutes of work
@@ -46,7 +46,9 @@ def write(cases=None, out="report", progress=None, arguments=None, papers=False,
             around["extra"] = _precision(loaded, folder, tell) if wanted.precision else ()
             left = own.pages(loaded, folder, tell, wanted, workers, **around)
     if beyond is not None:
-        beyond += law.together(line for lines in left for line in lines.splitlines())
+        beyond += law.together(line for lines, _ in left for line in lines.splitlines())
+    if undecided is not None:
+        undecided += [stem for (stem, _), (_, open_) in zip(own.entries(loaded), left) if open_]
     return out / "index.html"
 
 

@@ -65,8 +65,8 @@ def others() -> tuple:
 # -- the pages ---------------------------------------------------------------------------------------------------------------
 
 
-def pages(cases, folder: Path, tell, wanted: own.Wanted, workers=None, **around) -> list[str]:
-    """Everything: tasks first, by all processes, then the pages. A line for each law that a motion leaves."""
+def pages(cases, folder: Path, tell, wanted: own.Wanted, workers=None, **around) -> list[tuple[str, bool]]:
+    """Everything: tasks first, by all processes, then the pages. Of each entry a line for each law that a motion leaves, and whether a fate is undecided."""
     work = [Task("tables", "whole:tables", (folder,), 0.5), *own.tasks(cases, folder, wanted)]
     work += [Task(f"figure {row.number}", "whole:figure", (row.number, folder), 1.2) for row in figures.FIGURES]
     work += [Task(f"chapter {one.paper}", "whole:chapter", (one.paper, folder), one.weight) for one in chapters.CHAPTERS]
@@ -82,7 +82,7 @@ def pages(cases, folder: Path, tell, wanted: own.Wanted, workers=None, **around)
     if cost:
         html.write(folder / "cost.html", "cost.html", title="What answers cost", pages=cost, nav=nav, here="cost.html")
     _start(folder, found, nav, groups, audit, tools, cost, around)
-    return [made["beyond"] for name, made in found.items() if name.startswith("case ")]
+    return [(made["beyond"], made["open"]) for name, made in found.items() if name.startswith("case ")]
 
 
 def _nav(cost):
