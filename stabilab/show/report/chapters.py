@@ -22,6 +22,7 @@ from ..figures.difference import words
 from ..terminal.letters import written
 from ..text import comparison
 from ..text.cost.words import so_many
+from ..text.notation import PRODUCTS
 from ..units import SI, parameter_unit
 from . import claims
 
@@ -65,7 +66,8 @@ CHAPTERS = (
             "terms of a Taylor "
             "series of the averaged equations. No figure states all of its data; what is missing is completed as the titles "
             "of the figures "
-            "say.",
+            "say. They give zeta and M3 as the paper does, whose equations hold them times eps^2 = 0.01: 2 1/s stands for 0.02 1/s, "
+            "-6 N m for -0.06 N m.",
             tuple((f"liquid-{name}", "") for name in ("base", "lambda3-0_2", "lambda3-15", "lambda3-25", "zeta-2_5", "torque-9",
                                                       "charge-1e3", "charge-1e4")), 20.0, claims.cavity,
             "liquid-sensible", 20000.0, "the cavity fits into the body, and the liquid is slow and viscous enough for its "
@@ -102,7 +104,8 @@ def section(name: str, folder: Path, tell=lambda words: None) -> dict:
 
 def _parameters(case):
     """Parameters and start of a case in words, with their units."""
-    values = ", ".join(f"{name} = {float(value):.6g} {parameter_unit(name)}".rstrip() for name, value in derive(case.scene).parameters.items())
+    values = ", ".join(f"{PRODUCTS.get(name, name)} = {float(value):.6g} {parameter_unit(name)}".rstrip()
+                       for name, value in derive(case.scene).parameters.items())
     starts = {"omega": case.state, **case.blocks}
     return written(f"{values}; at t = 0: " + ", ".join(
         f"{name} = ({', '.join(f'{v:.6g}' for v in row)}) {PARTS[name].unit if name in PARTS else ''}".rstrip() for name, row in starts.items()))
