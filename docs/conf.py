@@ -23,6 +23,7 @@ html_show_copyright = False
 myst_heading_anchors = 3
 autodoc_typehints, autodoc_typehints_format, maximum_signature_line_length = "signature", "short", 90
 autodoc_member_order = "bysource"
+autodoc_type_aliases = {"ArrayLike": "ArrayLike"}  # else what it stands for, in private names of NumPy
 CHECKED = "Evaluated against the program"
 # What stands outside of docs/ has its page here under another name
 PAGES = {"README.md": "readme.md", "benchmarks/RESULTS.md": "results.md", "CONTRIBUTING.md": "contributing.md", "CHANGELOG.md": "changelog.md"}
