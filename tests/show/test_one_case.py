@@ -165,6 +165,18 @@ def test_a_sentence_of_a_page_has_a_capital_and_its_commands_are_code():
     assert sentence("ω = Ω γ") == "ω = Ω γ" and sentence("omega1_x < 2") == "omega1_x &lt; 2"
 
 
+def test_no_line_ends_between_a_number_and_its_unit_or_within_it():
+    from stabilab.show.report.html import together
+    assert together("from 6.8587 N m s on; 0.1 N m (2 J)") == "from 6.8587\u00a0N\u00a0m\u00a0s on; 0.1\u00a0N\u00a0m (2\u00a0J)"
+    assert together("5 deg/s and N m s") == "5\u00a0deg/s and N m s"
+
+
+def test_the_numbers_of_an_equation_have_the_unit_of_its_rates():
+    """(0.6 rad/s)(180/pi) = 34.3775 deg/s, and −0.26 (180/pi)² = −853.53, by hand."""
+    (curve,) = table(equilibria(load(CASES / "two-wheels-minor-axis.toml").scene), measures.Measures(DEG))["curves"]
+    assert curve[1] == "ω3 = 0, (ω1 + 34.3775) (ω2 − 22.9183) = −853.53 (ω in deg/s)"
+
+
 def test_folds_of_a_field_are_told_as_rates_without_the_vertical_behind_them():
     found = equilibria(load(CASES / "top-fast.toml").scene)
     told = table(found, measures.Measures(DEG))

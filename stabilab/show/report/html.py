@@ -23,7 +23,8 @@ def _environment():
 MINUS = re.compile(r"(?<![\w)])-(?=\d)|(?<=\de)-(?=\d)|(?<=[(\[])-(?=\s?\w)|(?<=[(,=] )-(?=\w)"  # -5, 1e-5, (-h, = -a
                    r"|(?<=\b[a-z])-(?=[a-z]\))|(?:(?<=\b\w )|(?<=\b\w\d ))-(?= \w\d?\b)")  # (b-a), b - a, r0 - W
 EXPONENT = re.compile(r"(?<=\de)([-−])0+(?=\d)")  # 1e-08, as Python prints it
-MEASURED = re.compile(r"(?<=\d) (?=(?:deg/s|rad/s|deg|rad|days?|min|h|s|J|τ)\b)")
+MEASURED = re.compile(r"(?<=\d) (?=(?:deg/s|rad/s|deg|rad|days?|min|h|s|J|τ|N m)\b)")
+COMPOUND = re.compile(r"(?<=\d\u00a0)N m(?: s)?\b")
 INDEXED = re.compile(r"(?<![\w/.])([A-Za-zΑ-Ωα-ω]|" + "|".join(ALPHABET) + r")_(\w+)")  # I_omega, x_j, mu_j
 SUBTRACTED = re.compile(r"(?<=[\w)²³*;]) - (?=[\w(])|(?:(?<=[(=,\[] )|(?<=[(\[=])|^)-(?=[\w(])")  # b - a, (-M2, x = -y
 RAISED = re.compile(r"\^(?:\(([^()]*)\)|([-−]?\w+))")
@@ -45,8 +46,8 @@ def signed(text: str) -> str:
 
 
 def together(text: str) -> str:
-    """The text with no end of a line between a number and its unit."""
-    return MEASURED.sub("\u00a0", text)
+    """The text with no end of a line between a number and its unit, or within one."""
+    return COMPOUND.sub(lambda unit: unit[0].replace(" ", "\u00a0"), MEASURED.sub("\u00a0", text))
 
 
 def formula(text):

@@ -55,7 +55,7 @@ def _of(group, measures):
     """(the equation that a group shares, with the unit of its numbers, its parametrisations, each once without the range, which its pieces tell)."""
     told = [in_units(curve, measures.units) for curve in group]
     words = [re.sub(r"^t = Omega from \S+ to \S+ rad/s; ", "", curve.parametrisation) for curve in told]
-    unit = f" ({told[0].unit})" if told[0].unit and re.search(r"(?<![\w.^])(?!0(?![\d.]))\d", told[0].equation) else ""
+    unit = f" (ω in {told[0].unit})" if told[0].unit and re.search(r"(?<![\w.^])(?!0(?![\d.]))\d", told[0].equation) else ""
     return spoken(told[0].equation) + unit, list(dict.fromkeys(map(spoken, words)))
 
 
