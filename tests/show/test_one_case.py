@@ -308,6 +308,13 @@ def test_moments_certificates_limits_and_the_reduced_energy_are_told_as_what_the
     assert any(words.startswith("The limit of the case, |ω| = 60 deg/s, is reached after 16.9") for words in small["sensitivity"]["words"])
 
 
+def test_a_limit_about_three_axes_is_named_once(tmp_path, stabilab):
+    """The limits of geostationary-22n are 5 deg/s about each axis of its file."""
+    page = sections(load(CASES / "geostationary-22n.toml"), tmp_path, "x", deep=False)
+    assert any(words.startswith("The limit of the case, |ωx|, |ωy| or |ωz| = 5 deg/s, is reached after 8.57") for words in page["sensitivity"]["words"])
+    assert "reaches |ωx|, |ωy| or |ωz| = 5 deg/s in 8.579 s" in stabilab("when", CASES / "geostationary-22n.toml")[1]
+
+
 def test_the_reason_of_an_undecided_fate_does_not_repeat_that_it_is_undecided(tmp_path):
     assert not dict(_sections("charged-body-attitude", tmp_path)["facts"])["because"].startswith("undecided")
 

@@ -76,14 +76,17 @@ def _answer(limit, found, low, high, units):
 
 
 def asked(limit, units):
-    """A limit in words: "|omega| = 60 deg/s"."""
+    """A limit in words: "|omega| = 60 deg/s", of several "|ωx| or |ωy| = 5 deg/s" where it is one number."""
     unit = {"energy": units.plain("J"), "tilt": units.angles}.get(limit.kind, units.rates)
-    return " or ".join(f"{name} = {units.told(most, unit, DIGITS)}" for name, most in zip(map(_named, limit.names), limit.limits))
+    names, told = list(map(_named, limit.names)), [units.told(most, unit, DIGITS) for most in limit.limits]
+    if len(set(told)) == 1:
+        return f"{' or '.join(filter(None, (', '.join(names[:-1]), names[-1])))} = {told[0]}"
+    return " or ".join(f"{name} = {most}" for name, most in zip(names, told))
 
 
 def _named(quantity):
-    """The rate about a principal axis as everywhere else: "|omega 3|" is |ω3|."""
-    return re.sub(r"\|(omega|x) ([123])\|", r"|\1\2|", quantity)
+    """The rate about an axis as everywhere else: "|omega 3|" is |ω3|, and "|omega z|" |ωz|."""
+    return re.sub(r"\|(omega|x) ([123xyz])\|", r"|\1\2|", quantity)
 
 
 def unreached(found, limit: str, time) -> str:
