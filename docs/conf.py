@@ -20,6 +20,7 @@ exclude_patterns = ["_site"]
 html_theme, html_title = "furo", "stabilab"
 html_static_path, html_css_files = ["static"], ["site.css"]
 html_show_copyright = False
+html_show_search_summary = False  # they are fetched page by page, which a browser refuses from the disk: an error for every result
 myst_heading_anchors = 3
 autodoc_typehints, autodoc_typehints_format, maximum_signature_line_length = "signature", "short", 90
 autodoc_member_order = "bysource"
