@@ -300,6 +300,7 @@ def test_moments_certificates_limits_and_the_reduced_energy_are_told_as_what_the
     assert facts["certificate holds from"].startswith("τ = 6") and facts["last reversal of the turn"].startswith("τ = 6")
     assert "(proved from τ = 6" in facts["because"] and facts["how it is certified"] == "the turn can reverse no more"
     assert sections(load(CASES / "major-axis-spin3-500.toml"), tmp_path, "v", deep=False)["pictures"][0]["caption"].endswith("principal axes.")
+    assert dict(sections(load(CASES / "major-axis-100.toml"), tmp_path, "u", deep=False)["facts"])["last reversal of the turn"] == "none after the start"
     captured = dict(sections(load(CASES / "major-axis-captured.toml"), tmp_path, "y", deep=False)["facts"])
     assert captured["how it is certified"] == "the barrier ahead outgrows the energy"
     free = sections(load(CASES / "torque-free-gyrostat.toml"), tmp_path, "z", deep=False)

@@ -89,6 +89,8 @@ CERTIFIED = {"well": "the barrier ahead outgrows the energy", "spin-up": "the tu
 def _evidence(name, value, measures):
     words, kind = EVIDENCE.get(name, (name.replace("_", " "), ""))
     words = words if measures.physical else words.replace("ω", "x")
+    if name == "release_time" and value == 0:
+        return words, "none after the start"
     if name == "certificate":
         return words, CERTIFIED.get(value, value)
     if kind == "rates":
