@@ -276,6 +276,14 @@ def test_parameters_whose_names_are_products_are_set_as_products_and_minus_is_a_
     assert typeset.inner(Integer(-3)) == "<mn>&#x2212;3</mn>" or "-" not in typeset.inner(Integer(-3))
 
 
+def test_the_imaginary_unit_and_the_base_of_the_exponential_are_plain_letters():
+    from sympy import I, Symbol, exp
+
+    from stabilab.show.report import typeset
+    told = typeset.inner(exp(I * Symbol("t")))
+    assert "<mi>e</mi>" in told and "<mi>i</mi>" in told and "ExponentialE" not in told and "ImaginaryI" not in told
+
+
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("name", ["top-fast", "liquid-base", "charged-body-attitude"])
 def test_every_parameter_of_the_equations_has_its_unit(name, tmp_path):
