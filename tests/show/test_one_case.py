@@ -276,6 +276,15 @@ def test_parameters_whose_names_are_products_are_set_as_products_and_minus_is_a_
     assert typeset.inner(Integer(-3)) == "<mn>&#x2212;3</mn>" or "-" not in typeset.inner(Integer(-3))
 
 
+@pytest.mark.parametrize("name, claims", [("top-fast", False), ("symmetric-body", True)])
+def test_a_certificate_without_claims_is_not_said_to_be_checked(name, claims, tmp_path):
+    from stabilab.show.report import html
+    page = sections(load(CASES / f"{name}.toml"), tmp_path, name, deep=False, certify=True)
+    text = html.render("case.html", case=page, surface=None, pictures="", extra=(), command="", versions=())
+    assert bool(page["certificate"]["findings"]) is claims
+    assert ("checked by code that shares nothing" in text) is claims and ("makes no claim that could be checked" in text) is not claims
+
+
 def test_the_imaginary_unit_and_the_base_of_the_exponential_are_plain_letters():
     from sympy import I, Symbol, exp
 
