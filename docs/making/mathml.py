@@ -11,6 +11,7 @@ SPACE = "http://www.w3.org/1998/Math/MathML"
 ROWS = {"math", "mrow", "mtd", "msqrt", "mstyle"}  # what takes any number of children
 FUNCTIONS = {"cos", "sin", "ln", "exp", "arcosh", "atan", "det", "min", "max", "sup", "inf", "sgn"}
 TIGHT = {"|", "/"}  # LaTeX sets no space about them; a browser does, and more behind a bar than before it
+RELATIONS = {"~", "∼"}  # of which a browser knows no space
 LENGTH = re.compile(r"(?<=\d)(?=(?:bp|cc|cm|dd|em|ex|in|mm|mu|pc|pt|sp))")
 PRIMED = re.compile(r"('+)(?:\^(?:\{([^{}]*)\}|(\w)))?")
 BREAKS = {"2em", "1em"}  # \qquad and \quad, which part the equations of a line
@@ -61,6 +62,10 @@ def _spaced(row):
         if child.text in TIGHT:
             child.set("lspace", "0")
             child.set("rspace", "0")
+        elif child.text in RELATIONS:
+            child.tag = child.tag.replace("mi", "mo")
+            child.set("lspace", "0.278em")
+            child.set("rspace", "0.278em")
         elif child.text == "∞":  # a number as it stands in a formula, no sign between two
             child.tag = child.tag.replace("mo", "mi")
         elif child.text == ":" and after is not None and after.text == "=":

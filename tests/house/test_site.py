@@ -208,5 +208,6 @@ def test_formulas_are_set_as_latex_sets_them():
     assert "<mfrac><mn>1</mn><mi>h</mi></mfrac>" in mathml.formula(r"c + \frac1h")
     assert plain(mathml.formula(r"A\cos\varphi\sin^2(x)")) == "A cos φ sin2(x)"
     assert plain(mathml.formula(r"L := \infty")) == "L≔∞" and "<mi>∞</mi>" in mathml.formula(r"s = \infty")
+    assert 'lspace="0.278em" rspace="0.278em"' in mathml.formula(r"c \sim v")
     assert mathml.formula("|c|/x").count('lspace="0" rspace="0"') == 3
     assert [plain(one) for one in mathml.equations(r"a = b, \qquad \left(c \quad d\right) = e, \quad f")] == ["a=b,", "(c d)=e,", "f"]
