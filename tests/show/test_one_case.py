@@ -380,3 +380,10 @@ def test_equilibria_of_undecided_stability_are_not_drawn_as_stable():
     assert {(piece.linear, piece.verdict) for curve in found.curves for piece in curve.segments} == {("stable", "undecided")}
     legend = dict(_space(case)[1]["legend"])
     assert "equilibria of undecided stability" in legend and "stable equilibria" not in legend
+
+
+def test_the_trend_of_an_energy_tells_what_it_compares(tmp_path):
+    """major-axis-spin3-500 spins up: its energy has turned before the end of the run, and yet is below that of the beginning."""
+    for name, words in (("major-axis-spin3-500", "lower in the last quarter of the run than ever in the first"),
+                        ("off-axis-one", "up and down: the last quarter of the run overlaps with the first")):
+        assert dict(_sections(name, tmp_path)["facts"])["the energy"] == words

@@ -358,6 +358,16 @@ def test_no_page_is_wider_than_a_telephone(several, everything, tmp_path):
         assert scroll <= client <= frame_itself == 400, page  # a bar to scroll down takes its 15 pixels of the frame, so there is less room, not more
 
 
+def test_formulas_of_the_audit_keep_rates_bars_and_squares():
+    """A rate as a factor cancels, browsers draw no menclose, and the top's (10) writes the squares of two frequencies by one name."""
+    from sympy import Function, Symbol, conjugate
+    a, b, rate = Symbol("x1"), Symbol("x2"), Function("rate")
+    shown = html_text(str(audit_page.mathml(rate(a) / rate(b), conjugate(Symbol("P1")) + Symbol("ep") + Symbol("Om"), ("Om",))))
+    assert shown.count("<mi>d\u209c</mi>") == 2 and "<mover" in shown and "menclose" not in shown and "<mi>\u03b5</mi>" in shown
+    assert "<msup><mi>\u03a9</mi><mn>2</mn></msup>" in shown and "<msup>" not in str(audit_page.mathml(a, Symbol("Om")))
+    assert html_text(str(audit_page.mathml(rate(a, 2), b))).count("<mi>d\u209c</mi>") == 2
+
+
 def test_letters_of_printed_formulas_are_typeset_whole():
     """A name is a Greek letter, whole or short, or a stem with its index; zeta is no zet with the index a."""
     from html import unescape

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
+from functools import reduce
 from pathlib import Path
 
 from ...theories.audit.checks import raw
@@ -39,8 +40,8 @@ def _row(paper, finding):
         "verdict": finding.verdict,
         "condition": _in_full(finding.condition),
         "says": row.says,
-        "printed": typeset(paper, row.printed),
-        "correction": typeset(paper, row.corrected) if row.corrected else [finding.correction] if finding.correction else [],
+        "printed": typeset(paper, row.printed, _squares(row)),
+        "correction": typeset(paper, row.corrected, _squares(row)) if row.corrected else [finding.correction] if finding.correction else [],
         "where": _texts(row.where),
         "corrected_where": _texts(row.corrected_where),
         "repairs": finding.repairs,
@@ -61,35 +62,40 @@ def _texts(table):
     return [f"{name} = {text}" for name, text in table.items()]
 
 
-def typeset(paper, formulas) -> list:
-    """Each formula as MathML where it can be read as one, else as its text."""
+def _squares(row) -> tuple[str, ...]:
+    """The names of a row that stand for the square of their letter: those of the top's (10), which tells the squares of two frequencies."""
+    return ("Om", "om") if row.where.get("Om") == "Om_10" else ()
+
+
+def typeset(paper, formulas, squares=()) -> list:
+    """Each formula as MathML where it can be read as one, else as its text. squares: names that stand for the square of their letter."""
     out = []
     for text in formulas:
         try:
             ((left, right),) = raw(paper, (text,))
-            out.append(mathml(left, right))
+            out.append(mathml(left, right, squares))
         except (FormulaError, ValueError):
             out.append(text)
     return out
 
 
-def mathml(left, right):
+def mathml(left, right, squares=()):
     """left = right as MathML for a page."""
     import sympy as sp
     from markupsafe import Markup
     from sympy.printing.mathml import mathml as printed
 
-    names = {s: sp.Symbol(_name(s.name)) for s in left.free_symbols | right.free_symbols}
+    names = {s: sp.Symbol(_name(s.name)) ** (2 if s.name in squares else 1) for s in left.free_symbols | right.free_symbols}
     equation = sp.Eq(_readable(left.xreplace(names)), _readable(right.xreplace(names)), evaluate=False)
     return Markup(f'<math xmlns="http://www.w3.org/1998/Math/MathML">{numbered(printed(equation, printer="presentation"))}</math>')
 
 
 def _readable(expression):
-    """rate(f) as the operator D_t before f; the other operators stand by their names."""
+    """rate(f) as the operator d_t on f, a function, for a factor would cancel where two rates are divided; the other operators stand by their names."""
     import sympy as sp
 
-    operator = lambda f, n=1: sp.Mul(sp.Symbol("D_t") if n == 1 else sp.Pow(sp.Symbol("D_t"), n), f, evaluate=False)
-    return expression.replace(sp.Function("rate"), operator)
+    rate = sp.Function("d\u209c")  # with t as its index
+    return expression.replace(sp.Function("rate"), lambda f, n=1: reduce(lambda of, _: rate(of), range(int(n)), f))
 
 
 def _name(name):
@@ -100,5 +106,5 @@ def _name(name):
     if stem not in ALPHABET:
         found = re.fullmatch(r"([A-Za-z]+?)_?(\d*|[a-z]?)", name)
         stem, index = found.groups() if found else (name, "")
-    stem = "varepsilon" if stem == "eps" else stem
+    stem = "\u03b5" if stem == "eps" else stem  # SymPy would write out the name of this form of the letter
     return f"{stem}_{index}" if index else stem

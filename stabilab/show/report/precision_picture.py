@@ -65,7 +65,7 @@ def meanings(found, questions=None, prices=True) -> list[tuple[str, dict]]:
     """Rows (name, look) of the legend: the methods that were measured, of some questions or of all, with the price of a digit or alone, and the front."""
     asked = [p.method for p in found.points if questions is None or p.question in questions]
     methods_drawn = [(_legend(found, m) if prices else m, LOOKS[m]) for m in LOOKS if m in asked]
-    return [*methods_drawn, ("front: no single run is both faster and better" if prices else "front", FRONT)]
+    return [*methods_drawn, ("front: no single run beats it" if prices else "front", FRONT)]
 
 
 def _legend(found, method) -> str:

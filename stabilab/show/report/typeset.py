@@ -109,10 +109,11 @@ def _fenced(row) -> str:
 
 
 def numbered(mathml: str) -> str:
-    """MathML of SymPy with the minus, the i and the e of a book, which SymPy has struck twice, and whole numbers of six digits without a zero behind
-    their point."""
+    """MathML of SymPy with the minus, the i and the e of a book, which SymPy has struck twice, with bars that browsers draw over conjugates, and whole
+    numbers of six digits without a zero behind their point."""
     mathml = mathml.replace("&ImaginaryI;", "i").replace("&ExponentialE;", "e")
     mathml = mathml.replace("<mo>-</mo>", "<mo>&#x2212;</mo>").replace("<mn>-", "<mn>&#x2212;")
+    mathml = re.sub(r'<menclose notation="top">(.*?)</menclose>', r'<mover accent="true"><mrow>\1</mrow><mo>&#xAF;</mo></mover>', mathml)
     return re.sub(r"<mn>([^<>]*\d)\.0</mn>", r"<mn>\1</mn>", mathml)
 
 

@@ -84,6 +84,8 @@ EVIDENCE = {  # key of what a run showed -> (words, what it is)
     "steps_followed": ("steps of the certified run", ""), "small_change_grew": ("a small change grew by a factor of", "")}
 CERTIFIED = {"well": "the barrier ahead outgrows the energy", "spin-up": "the turn can reverse no more", "bound": "a bound of the rate that grows for ever",
              "axis": "a pure spin about the torque", "law": "an exact law of the motion", "none": "not at all"}
+TRENDS = {"rises": "higher in the last quarter of the run than ever in the first", "falls": "lower in the last quarter of the run than ever in the first",
+          "oscillates": "up and down: the last quarter of the run overlaps with the first"}
 
 
 def _evidence(name, value, measures):
@@ -93,6 +95,8 @@ def _evidence(name, value, measures):
         return words, "none after the start"
     if name == "certificate":
         return words, CERTIFIED.get(value, value)
+    if name == "energy_trend":
+        return words, TRENDS[value]
     if kind == "rates":
         return words, _rates(value, measures)
     if kind:
