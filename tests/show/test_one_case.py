@@ -387,3 +387,10 @@ def test_the_trend_of_an_energy_tells_what_it_compares(tmp_path):
     for name, words in (("major-axis-spin3-500", "lower in the last quarter of the run than ever in the first"),
                         ("off-axis-one", "up and down: the last quarter of the run overlaps with the first")):
         assert dict(_sections(name, tmp_path)["facts"])["the energy"] == words
+
+
+def test_a_margin_to_other_bounded_motions_is_not_told_as_one_that_changes_the_fate(tmp_path):
+    """Without a torque, and about the middle axis with walls on both sides, every motion is bounded; beyond the barrier of a minor axis it spins up."""
+    for name, same in (("torque-free-body", True), ("middle-axis-double-well", True), ("minor-axis-100", False)):
+        (row,) = _sections(name, tmp_path)["sensitivity"]["rows"]
+        assert ("does not change the fate" in row["because"]) == same

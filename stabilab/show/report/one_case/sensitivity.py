@@ -6,8 +6,11 @@ import math
 from ....answers.stuck.ask import stuck
 from ....case.limit_options import stated_limit
 from ....errors import InputError
+from ....orbit.potential import potential
+from ....orbit.reduction import reduce
 from ....orbit.result import Fate
 from ....physics.alignment import torque_axis
+from ....physics.coefficients import effective
 from ...text.stuck import holds_for
 from ...text.when import asked, unreached
 from .measures import spoken, told, vector
@@ -26,7 +29,7 @@ def sensitivity(case, motion, measures) -> dict:
     try:
         answer = stuck(case)
     except InputError as error:
-        found["rows"] = _of_motion(motion, measures)
+        found["rows"] = _of_motion(case.scene, motion, measures)
         found["reason"] = f"No margin of wheel or torque: {spoken(str(error))}."
         return found
     row = answer.rows[0]
@@ -55,14 +58,22 @@ def _any_of(names) -> str:
     return " or ".join(filter(None, [", ".join(names[:-1]), names[-1]]))
 
 
-def _of_motion(motion, measures):
+def _beyond(scene) -> str:
+    """What is to be said of the margin of a motion where the other side of every separatrix is bounded as well."""
+    reduced = reduce(effective(scene))
+    if reduced is None or not reduced.geometry.centred or not (reduced.sense == 0 or potential(reduced).walled):
+        return ""
+    return "this does not change the fate: beyond the separatrix motions are bounded too, about other centres or round the axis"
+
+
+def _of_motion(scene, motion, measures):
     """The margin that the motion itself has, where nothing more can be asked."""
     if motion.margin_velocity is None or motion.velocity_witness is None:
         return []
     change = [b - a for a, b in zip(motion.at[:3], motion.velocity_witness)]
     size = math.hypot(*change)
     return [{"what": OF["rate"], "size": measures.rate(motion.margin_velocity), "direction": _direction([v / size for v in change]) if size else "",
-             "because": measures.reason(motion.velocity_because)}]
+             "because": "; ".join(filter(None, [measures.reason(motion.velocity_because), _beyond(scene)]))}]
 
 
 def _margin(name, margin, measures):
