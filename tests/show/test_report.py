@@ -386,3 +386,11 @@ def test_letters_of_printed_formulas_are_typeset_whole():
     ("(-M2, M1), x = -y >= 0, 3-1-2", "(−M2, M1), x = −y ≥ 0, 3-1-2"), ("liquid_cavity in a/x_y.toml", "liquid_cavity in a/x_y.toml")])
 def test_indices_and_powers_are_set_as_in_a_book(plain, page):
     assert str(html.book(plain)) == page
+
+
+def test_the_squares_of_two_frequencies_are_typeset_as_squares_where_a_paper_s_formulas_hold_them():
+    from stabilab.theories.audit import paper
+    top = paper("newtonian-field-top")
+    (row,) = [row for row in top.rows if row.equation == "10"]
+    shown = html_text("".join(map(str, audit_page.typeset(top, row.printed, audit_page.squares(row)))))
+    assert shown.count("<msup><mi>\u03a9</mi><mn>2</mn></msup>") == 4 == shown.count("<mi>\u03a9</mi>")

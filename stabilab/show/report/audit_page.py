@@ -40,8 +40,8 @@ def _row(paper, finding):
         "verdict": finding.verdict,
         "condition": _in_full(finding.condition),
         "says": row.says,
-        "printed": typeset(paper, row.printed, _squares(row)),
-        "correction": typeset(paper, row.corrected, _squares(row)) if row.corrected else [finding.correction] if finding.correction else [],
+        "printed": typeset(paper, row.printed, squares(row)),
+        "correction": typeset(paper, row.corrected, squares(row)) if row.corrected else [finding.correction] if finding.correction else [],
         "where": _texts(row.where),
         "corrected_where": _texts(row.corrected_where),
         "repairs": finding.repairs,
@@ -62,9 +62,9 @@ def _texts(table):
     return [f"{name} = {text}" for name, text in table.items()]
 
 
-def _squares(row) -> tuple[str, ...]:
+def squares(row) -> tuple[str, ...]:
     """The names of a row that stand for the square of their letter: those of the top's (10), which tells the squares of two frequencies."""
-    return ("Om", "om") if row.where.get("Om") == "Om_10" else ()
+    return ("Om", "om") if {"Om", "om"} <= row.where.keys() else ()
 
 
 def typeset(paper, formulas, squares=()) -> list:
