@@ -118,7 +118,7 @@ def _arcs(family):
 
 
 def _few(family):
-    return _done(f"In {SPAN:g} s the body turns {listed([turn(r) for r in runs_of(family)], '{:.2g}')} rad, not a tenth of a turn: with "
+    return _done(f"In {SPAN:g} s the vector (p, q) turns by {listed([turn(r) for r in runs_of(family)], '{:.2g}')} rad, not a tenth of a turn: with "
                  "lambda3 = 0.1 there are no waves. The print must have taken a lambda3 it does not state. ")
 
 

@@ -81,7 +81,7 @@ def cavity() -> list[dict]:
     turning = figures_cavity.turning(base)
     return [
         _row("P0 = 1.9 m^7, a body of 9 kg m^2", f"a sphere of {radius:.3g} m radius: {mass / 1000:.3g} t of liquid"),
-        _row("p and q are waves for all data", f"with lambda3 = 0.1 the body turns {figures_cavity.turn(base):.2g} rad about axis 3 in 20 "
+        _row("p and q are waves for all data", f"with lambda3 = 0.1 the vector (p, q) turns by {figures_cavity.turn(base):.2g} rad in 20 "
              f"s; waves need a lambda3 that the text does not give"),
         _row("a larger lambda3 increases the frequency", f"from 0.1 to 0.2 it falls: "
             f"{listed([figures_cavity.turn(r) for r in family['small']], '{:.2g}')} rad in 20 s; from 15 to 25 "
