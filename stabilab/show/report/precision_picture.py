@@ -7,6 +7,7 @@ import textwrap
 from ...cost.accuracy import EPS, digit_price
 from ...errors import InputError
 from .. import style
+from ..terminal.letters import RAISED
 from ..text.cost.words import FORMULAS, caption, methods, price, title
 
 LOOKS = {  # method -> how its line is drawn; the same in every picture
@@ -21,7 +22,6 @@ LOOKS = {  # method -> how its line is drawn; the same in every picture
     "averaged1": {"color": style.GREEN, "marker": "2", "linestyle": "none"},
     "averaged2": {"color": style.BLUE, "marker": "3", "linestyle": "none"},
     "lindstedt": {"color": style.GREEN, "marker": "4", "linestyle": ":"}}
-RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 WORST, LEAST = 10.0, 1e-17  # errors beyond are drawn at the edge
 PANEL = (3.4, 2.6)  # inches that a panel needs at least
 NOTED = 1.5  # digits: stretches of the front at least so long have their price written on them
@@ -51,7 +51,8 @@ def picture(plt, found, size=None):
         return figure  # without the note, which a small figure has no room for
     formulas = "Dotted: the error of a formula, at whatever time. " if any(p.method in FORMULAS for p in found.points) else ""
     power = math.ceil(math.log10(found.reference.error.max() or LEAST))
-    note = f"Thin lines reach up to the slowest of several runs. {formulas}Error of the reference at most 10{str(power).translate(RAISED)}. {caption()}"
+    ten = f"10{'⁻' * (power < 0)}{str(abs(power)).translate(RAISED)}"
+    note = f"Thin lines reach up to the slowest of several runs. {formulas}Error of the reference at most {ten}. {caption()}"
     width = int((150 if columns == 2 else 84) * figure.get_figwidth() / usual[0])
     figure.legends[0].set_title("\n".join(textwrap.wrap(note, width)), prop={"size": 7.5})
     figure.legends[0].get_title().set(color=style.GREY, parse_math=False)
