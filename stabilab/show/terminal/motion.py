@@ -90,7 +90,8 @@ def why(case, motion, units: Units, proofs: bool) -> list[str]:
     if proofs and motion.velocity_because:
         lines.append(f"  {'' if motion.velocity_bounds else 'margin, rate unknown: '}{reason(motion.velocity_because, units)}")
     if proofs:
-        lines += [row(names(motion).get(name, name.replace("_", " ")), quantity(name, value, units)) for found in (motion.invariants, motion.evidence)
+        called = names(motion)
+        lines += [row(called.get(name, name.replace("_", " ")), quantity(name, value, units)) for found in (motion.invariants, motion.evidence)
                   for name, value in found.items() if value is not None]
     return lines
 

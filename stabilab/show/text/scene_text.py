@@ -18,32 +18,31 @@ SHORT = 12  # letters of a ratio that is told as such
 
 
 def of_all(cases) -> str:
-    """`text` of a case, or of all combinations of its [sweep]: those with the same equations and laws together, the first whole, the others by their values."""
+    """What `stabilab show` prints of a case, or of all combinations of its [sweep]: those with the same equations and laws together, the first whole, the
+    others by their values."""
     kinds: dict[tuple, list] = {}
     for case in cases:
-        equations = derive(case.scene)
-        laws = [law.words for law in (*equations.balances, *invariants(case.scene))]
-        kinds.setdefault((*lines(equations), *laws), []).append(case)
+        equations, own = derive(case.scene), invariants(case.scene)
+        kinds.setdefault((*lines(equations), *(law.words for law in (*equations.balances, *own))), []).append((case, equations, own))
     parts = []
-    for first, *others in kinds.values():
-        parts.append(text(first))
-        if others:
-            columns = swept_columns([first, *others])
+    for alike in kinds.values():
+        parts.append(_whole(*alike[0]))
+        if len(alike) > 1:
+            some_cases = [case for case, _, _ in alike]
+            columns = swept_columns(some_cases)
             rows = [["", *(head for head, _, _ in columns)], ["", *(unit for _, unit, _ in columns)],
-                    *([case.name, *(cells[n] for _, _, cells in columns)] for n, case in enumerate([first, *others]))]
-            told = f"The same equations and laws hold for {some(len(others), 'other combination')}; the numbers in them are those of {first.name}. Swept keys:"
-            parts.append("\n".join([told, *table(rows, 1, width())]))
+                    *([case.name, *(cells[n] for _, _, cells in columns)] for n, case in enumerate(some_cases))]
+            told = f"The same equations and laws hold for {some(len(alike) - 1, 'other combination')}; the numbers in them are those of {some_cases[0].name}."
+            parts.append("\n".join([f"{told} Swept keys:", *table(rows, 1, width())]))
     return "\n\n".join(parts)
 
 
-def text(case) -> str:
-    """Scene, parameters, equations of motion as text and LaTeX, invariants: what `stabilab show` prints."""
-    equations = derive(case.scene)
+def _whole(case, equations, own) -> str:
+    """Scene, parameters, equations of motion as text and LaTeX, invariants. own: the laws of this very scene."""
     parts = [_head(case), _parameters(equations, case.variables == "physical"), "Equations of motion",
              *(f"  {lettered(_products(line))}" for line in lines(equations)), "",
              "In LaTeX", latex(equations), "", "Laws that hold for every value of the parameters"]
     parts += [f"  {lettered(law.words)}" for law in equations.balances]
-    own = invariants(case.scene)
     effects = " and ".join(", ".join(effect_words(effect.name) for effect in case.scene.effects).rsplit(", ", 1)) or "no effect"
     answer = f"{case.name}: a {'scaled gyrostat' if case.variables == 'scaled' else 'body with ' + effects}; laws known of this scene: {len(own)}"
     return "\n".join([answer, *parts, "", "Laws of this scene", *(_laws(own) or ["  none is known"])])
