@@ -9,6 +9,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from ..caveat import Caveat
 from ..errors import CaseError, InputError, printable
 from ..numbers.exact import floats
 from ..numbers.principal import PrincipalAxes
@@ -54,7 +55,7 @@ class Case:
     the file gives [scaled]); where the tensor is diagonal the two frames are one. thrusters, wheels, limits: as stated, in the frame
     of the file; torques of the stuck ones and momenta of the wheels are in the scene. inexact: the keys whose unit holds pi, good to
     240 bits. notes: what was taken for granted, in words. units: "deg" or "si", in which people want to read answers (empty where the file does not
-    say); swept: (key, value as written) of every key of [sweep].
+    say); swept: (key, value as written) of every key of [sweep]. caveats: what the file itself says that limits every answer.
     """
 
     path: str
@@ -81,6 +82,7 @@ class Case:
     notes: tuple[str, ...] = ()
     units: str = ""
     swept: tuple[tuple[str, Any], ...] = ()
+    caveats: tuple[Caveat, ...] = ()
 
     @property
     def exact_state(self) -> Exact3 | None:

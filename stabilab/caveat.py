@@ -1,0 +1,30 @@
+"""What limits an answer: a tilt that it leaves out, a limit that comes first, a law that does not hold, a tensor that no rigid body has, samples in
+place of a proof.
+
+A caveat belongs to the answer: every view of it (text, JSON, CSV, sweep, map, page, explorer) shows its words.
+"""
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from .record import record
+
+KINDS = ("tilt", "limit", "law", "unphysical", "samples")
+
+
+@record
+class Caveat:
+    """kind: one of KINDS; words: a sentence on its own, in SI units, without a full stop."""
+
+    kind: str
+    words: str
+
+
+def key(caveats: Iterable[Caveat]) -> dict[str, list[dict[str, str]]]:
+    """The key "caveats" of a JSON object: a list, empty where nothing limits the answer."""
+    return {"caveats": [{"kind": one.kind, "words": one.words} for one in caveats]}
+
+
+def cell(caveats: Iterable[Caveat]) -> str:
+    """The column "caveats" of a CSV: the words of all, empty where nothing limits the answer."""
+    return "; ".join(one.words for one in caveats)
