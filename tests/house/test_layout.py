@@ -190,37 +190,9 @@ def test_one_state_under_a_constant_torque_loads_neither_numpy_nor_anything_heav
 
 
 def test_one_state_reads_no_more_than_its_answer_needs():
-    """A first answer of a light command takes at most half a second of processor time; some fifth of a millisecond is a module's, and modules can be
-    counted where time cannot. What a question does not need is not loaded: these two take 142 and 148."""
-    code = ("import sys, atexit\nsys.argv = ['stabilab'] + sys.argv[1:]\n"
-            "atexit.register(lambda: print('LOADED', *sorted({m.split('.')[0] for m in sys.modules}), file=sys.stderr))\n"
-            "from stabilab.__main__ import main\nmain()\n")
-    plain = {name: value for name, value in os.environ.items() if not name.startswith("COVERAGE")}  # which loads modules of its own
-    run = subprocess.run([sys.executable, "-c", code, *map(str, arguments)], capture_output=True, text=True, cwd=ROOT, env=plain)
-    assert run.returncode == 0, run.stderr
-    return set(next(line for line in run.stderr.splitlines() if line.startswith("LOADED")).split()[1:])
-
-
-def test_help_loads_neither_numpy_nor_anything_heavy():
-    assert not loaded_by("--help") & (HEAVY | {"numpy", "tomllib", "fractions"})
-
-
-@pytest.mark.parametrize("command", ["classify", "extremes"])
-def test_one_state_under_a_constant_torque_loads_neither_numpy_nor_anything_heavy(command):
-    names = ("minor-axis-100", "middle-axis-300", "wheel-and-thruster", "thruster-negative-minor-axis", "thruster-stuck-major-axis",
-             "torque-free-gyrostat", "symmetric-body", "charged-body")  # of one process: what any of them loads stays loaded
-    loaded = loaded_by(command, *(f"cases/{name}.toml" for name in names), "--json")
-    assert not loaded & (HEAVY | {"numpy"})
-    assert {"stabilab", "fractions", "json"} <= loaded  # the probe sees what is loaded
-
-
-def test_one_state_reads_no_more_than_its_answer_needs():
-    """A small command spends its time on reading modules: some fifth of a millisecond each, so many are counted rather than timed. The limit is what
-    stands today; who needs more says why here. Of the distance from the separatrix: charts beside a turn of a branch on a plane, which take two
-    files and a folder, whether a state is on it exactly, which takes one, and of circles far wider than the distance which pieces of a branch count, and the
-    charts where a loop comes round, which take two. Of the command: its group and the options that groups share, in place of
-    one long file of all commands. The door to what tells how far approximate laws hold; of a charge of constant angle the series along which its law
-    is judged. Of curves of equilibria: their words in the unit of rates, which the report shares."""
+    """A first answer of a light command takes at most half a second of processor time; some fifth of a millisecond is a
+    module's, and modules can be counted where time cannot. What a question does not need is not loaded: these two take
+    142 and 148."""
     code = ("import sys, atexit\nsys.argv = ['stabilab', 'classify', sys.argv[1]]\n"
             "atexit.register(lambda: print('LOADED', sum(m.split('.')[0] == 'stabilab' for m in sys.modules), file=sys.stderr))\n"
             "from stabilab.__main__ import main\nmain()\n")
