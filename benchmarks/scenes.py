@@ -174,16 +174,12 @@ def _surface(scene, name, rounds, cells):
     theirs = _contour(scene, axes)
     their_time = time.process_time() - at
     error = _error(scene, theirs, max(axis[1] - axis[0] for axis in axes))
-    found = []
-    for way in ways():
-        mesh = partial(_mesh, scene, error, way == "numba")
-        ours = statistics.median(_time_of(mesh) for _ in range(rounds + 1))
-        found.append(Measured(f"separatrix surfaces, {way}", name, ours, their_time))
-    return found
+    ours = statistics.median(_time_of(partial(_mesh, scene, error)) for _ in range(rounds + 1))
+    return [Measured("separatrix surfaces", name, ours, their_time)]
 
 
-def _mesh(scene, accuracy, fast):
-    return [triangulate(sheet) for sheet in separatrix(scene, accuracy=accuracy, fast=fast).sheets]
+def _mesh(scene, accuracy):
+    return [triangulate(sheet) for sheet in separatrix(scene, accuracy=accuracy).sheets]
 
 
 def _contour(scene, axes):

@@ -1,25 +1,20 @@
 """The separatrix surface as a mesh."""
 from __future__ import annotations
 
-from functools import partial
-
 import numpy as np
 
 from stabilab import fate, separatrix
 from stabilab.show.surface.mesh import triangulate
 
-from .rows import SCENE, A, Row, numba_available
+from .rows import SCENE, A, Row
 from .timing import side_by_side
 
 HALF = 6.0        # of the side of the cube that the grid of margins fills
 REACH = 5.6       # with it the sheets go beyond every corner of the cube's section
 ACCURACY = 3e-3   # largest distance of our facets from the surface
-ARRAYS = ("ours holds meshing too. What limits it is the number of calls: some hundred of NumPy on arrays of a thousand numbers "
-          "at most (a trial grid, the finished one, the check of the facets) and 80 ends of loops in floats. Tried: columns that "
-          "follow the bend, a grid as coarse as the accuracy allows, triangles from a template, branches kept from surface to "
-          "surface; the row with the compiled kernel shows what calls cost")
-FAST = ("ours holds meshing too, a third of its time. The kernel is loaded before (from numba's cache about half a second, "
-        "compiled once for all)")
+NOTE = ("ours holds meshing too. What limits it is the number of calls: some hundred of NumPy on arrays of a thousand numbers "
+        "at most (a trial grid, the finished one, the check of the facets) and 80 ends of loops in floats")
+
 
 
 def rows(small=False) -> list[Row]:
@@ -35,25 +30,22 @@ def against_flying_edges(cells=512, rounds=7, sample=200_000, checked=24) -> lis
     grid = _field(axis)
     theirs = _contour(grid)
     their_error = _largest_distance(_between(np.asarray(theirs.points, float), theirs.faces.reshape(-1, 4)[:, 1:]), sample, checked)
-    found = []
-    for fast, note in ((False, ARRAYS), (True, FAST))[:1 + numba_available()]:
-        ours = partial(_mesh, fast)
-        meshes = ours()
-        assert all(np.linalg.norm(m.points[:, :2] + [A, 0], axis=1).max() > np.hypot(HALF + A, HALF) for m in meshes)
-        our_error = _largest_distance(np.concatenate([_between(m.points, m.triangles) for m in meshes]), sample, checked)
-        error = f"largest distance of the triangles from the surface: ours {our_error:.1e}, theirs {their_error:.1e}"
-        count = sum(len(m.triangles) for m in meshes)
-        name = f"separatrix mesh{', fast' if fast else ''}, {count} triangles (1/{theirs.n_cells / count:.0f} of theirs)"
-        for other, what in ((lambda: _contour(grid), "contouring alone"),
-                            (lambda: _contour(_field(axis)), "margins and contouring")):
-            timed = side_by_side(ours, other, 1, 1, rounds)
-            found.append(Row(name, f"{timed.ours * 1e3:.2f} ms", f"{timed.theirs * 1e3:.0f} ms Flying Edges at {cells}^3, {what}, "
-                             f"{theirs.n_cells} triangles", timed.ratio, (timed.low, timed.high), error, 1000.0, note))
+    meshes = _mesh()
+    assert all(np.linalg.norm(m.points[:, :2] + [A, 0], axis=1).max() > np.hypot(HALF + A, HALF) for m in meshes)
+    our_error = _largest_distance(np.concatenate([_between(m.points, m.triangles) for m in meshes]), sample, checked)
+    error = f"largest distance of the triangles from the surface: ours {our_error:.1e}, theirs {their_error:.1e}"
+    count, found = sum(len(m.triangles) for m in meshes), []
+    name = f"separatrix mesh, {count} triangles (1/{theirs.n_cells / count:.0f} of theirs)"
+    for other, what in ((lambda: _contour(grid), "contouring alone"),
+                        (lambda: _contour(_field(axis)), "margins and contouring")):
+        timed = side_by_side(_mesh, other, 1, 1, rounds)
+        found.append(Row(name, f"{timed.ours * 1e3:.2f} ms", f"{timed.theirs * 1e3:.0f} ms Flying Edges at {cells}^3, {what}, "
+                         f"{theirs.n_cells} triangles", timed.ratio, (timed.low, timed.high), error, 1000.0, NOTE))
     return found
 
 
-def _mesh(fast):
-    return [triangulate(sheet) for sheet in separatrix(SCENE, reach=REACH, accuracy=ACCURACY, fast=fast).sheets]
+def _mesh():
+    return [triangulate(sheet) for sheet in separatrix(SCENE, reach=REACH, accuracy=ACCURACY).sheets]
 
 
 def _contour(grid):

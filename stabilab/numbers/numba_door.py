@@ -1,13 +1,11 @@
 """When the extra `fast` (numba) is to answer: asked for, or so many states that loading it pays."""
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Sequence
+from collections.abc import Callable, Container
 from functools import lru_cache
 from importlib.util import find_spec
-from pathlib import Path
 from types import FunctionType, ModuleType
 from typing import Any
-from zlib import crc32
 
 from ..errors import InputError
 
@@ -34,34 +32,14 @@ def compiled(module: ModuleType, inlined: Container[str], variant: str = "", **i
     """The names of a module of straight-line kernels with all its functions compiled; kept on disk where there is a place for it.
 
     instead: what stands for names of the module, for compiled code; variant: names the code that has these, which the disk keeps apart."""
-    return _kept(lambda cache: _compiled([module], inlined, cache, variant, instead))
-
-
-def compiled_together(modules: Sequence[ModuleType], inlined: Container[str], variant: str) -> dict[str, Any]:
-    """The same of modules whose functions call one another: of names that several have, those of the last. The disk, which watches the file of each function
-    alone, keeps apart what any of the files says."""
-    said = b"".join(Path(str(module.__file__)).read_bytes() for module in modules)
-    return _kept(lambda cache: _compiled(modules, inlined, cache, f"{variant}{crc32(said):08x}", {}))
+    return _kept(lambda cache: _compiled(module, inlined, cache, variant, instead))
 
 
 def twins(module: ModuleType, make: Callable[[str, FunctionType], Any], variant: str = "", **instead: Any) -> dict[str, Any]:
     """The names of a module with `make` of a twin of each of its functions, which sees these names; instead, variant: as of `compiled`."""
-    return _twins([module], make, variant, instead)
-
-
-def plain_together(modules: Sequence[ModuleType]) -> dict[str, Any]:
-    """What `compiled_together` compiles, as plain Python."""
-    return _twins(modules, lambda name, twin: twin, "", {})
-
-
-def _twins(modules: Sequence[ModuleType], make: Callable[[str, FunctionType], Any], variant: str, instead: dict[str, Any]) -> dict[str, Any]:
-    names: dict[str, Any] = {}
-    for module in modules:
-        names |= vars(module)
-    names |= instead
-    homes = {module.__name__ for module in modules}
+    names: dict[str, Any] = vars(module) | instead
     for name, function in list(names.items()):
-        if isinstance(function, FunctionType) and function.__module__ in homes:
+        if isinstance(function, FunctionType) and function.__module__ == module.__name__:
             twin = FunctionType(function.__code__, names, name)
             twin.__qualname__ += variant
             names[name] = make(name, twin)
@@ -82,6 +60,6 @@ def _kept(make: Callable[[bool], Any]) -> Any:
         return make(False)
 
 
-def _compiled(modules: Sequence[ModuleType], inlined: Container[str], cache: bool, variant: str, instead: dict[str, Any]) -> dict[str, Any]:
+def _compiled(module: ModuleType, inlined: Container[str], cache: bool, variant: str, instead: dict[str, Any]) -> dict[str, Any]:
     from numba import njit
-    return _twins(modules, lambda name, twin: njit(cache=cache, error_model="numpy", forceinline=name in inlined)(twin), variant, instead)
+    return twins(module, lambda name, twin: njit(cache=cache, error_model="numpy", forceinline=name in inlined)(twin), variant, **instead)

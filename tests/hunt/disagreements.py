@@ -322,11 +322,10 @@ def surfaces(scene, problem, state):
     if not acting:
         return NO_QUESTION  # without a torque the axis of the reduction is a choice
     found = [NO_QUESTION]
-    for fast in (False, True):
-        for sheet in stabilab.separatrix(scene, shape=ROWS_AND_COLUMNS, fast=fast).sheets:
-            rows, columns, _ = sheet.points.shape
-            for row, column in ((1, columns // 2), (rows // 2, columns // 4), (rows - 1, columns - 2)):
-                found.append(off_surface(problem, acting[0], sheet, row, column))
+    for sheet in stabilab.separatrix(scene, shape=ROWS_AND_COLUMNS).sheets:
+        rows, columns, _ = sheet.points.shape
+        for row, column in ((1, columns // 2), (rows // 2, columns // 4), (rows - 1, columns - 2)):
+            found.append(off_surface(problem, acting[0], sheet, row, column))
     return worst(*found)
 
 

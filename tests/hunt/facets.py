@@ -38,22 +38,14 @@ def problem_of(knobs):
 
 
 def facets(scene, problem, state):
-    """Of arrays and of what is compiled."""
     share, reach, _ = state
     rough = stabilab.separatrix(scene, reach=reach, shape=(24, 33)).sheets
     if not rough or not any(scene.vector("gyrostat")):
         return NO_QUESTION
     accuracy = share * max(np.abs(sheet.points - sheet.points.mean(axis=(0, 1))).max() for sheet in rough)
     body = homoclinic.Gyrostat(*(tuple(map(float, v)) for v in (scene.body.inertia, scene.vector("gyrostat"), scene.vector("constant_torque"))))
-    found = [NO_QUESTION]
-    before = None
-    for fast in (False, True):
-        sheets = stabilab.separatrix(scene, reach=reach, accuracy=accuracy, fast=fast).sheets
-        told = [(sheet.error, sheet.points.tobytes()) for sheet in sheets]
-        if told != before:  # the same bytes are the same answer
-            found += _judged(body, sheets, accuracy, np.random.default_rng(list(np.array(state).tobytes())), f"fast={fast}, accuracy {accuracy!r}")
-        before = told
-    return worst(*found)
+    sheets = stabilab.separatrix(scene, reach=reach, accuracy=accuracy).sheets
+    return worst(NO_QUESTION, *_judged(body, sheets, accuracy, np.random.default_rng(list(np.array(state).tobytes())), f"accuracy {accuracy!r}"))
 
 
 def _judged(body, sheets, accuracy, rng, words):

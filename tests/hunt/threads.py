@@ -35,7 +35,7 @@ QUESTIONS = {
     "fate": lambda scene, states, fast: [getattr(stabilab.fate(scene, states, fast=fast), n) for n in ("labels", "margins", "axis", "sense", "reasons")],
     "extremes": lambda scene, states, fast: [stabilab.extremes(scene, states[::500], fast=fast)],
     "period": lambda scene, states, fast: [stabilab.period(scene, states[::500], fast=fast)],
-    "separatrix": lambda scene, states, fast: [sheet.points for sheet in stabilab.separatrix(scene, shape=(9, 17), fast=fast).sheets],
+    "separatrix": lambda scene, states, fast: [sheet.points for sheet in stabilab.separatrix(scene, shape=(9, 17)).sheets],
 }
 
 

@@ -36,7 +36,7 @@ SUBJECTS = {
     "kernels": (("orbit/extremes/hyperbola_kernel", "orbit/extremes/parabola_kernel"),
                 ("orbit/extremes/test_hyperbola_kernel", "orbit/extremes/test_parabola_kernel")),
     "separatrix": (("orbit/separatrix/sheets", "orbit/separatrix/homoclinic", "orbit/separatrix/homoclinic_arrays", "orbit/separatrix/saddles"),
-                   ("orbit/separatrix/test_sheets", "orbit/separatrix/test_grid", "orbit/separatrix/test_circle_kernel")),
+                   ("orbit/separatrix/test_sheets", "orbit/separatrix/test_grid")),
     "growth": (tuple(f"unreduced/growth/{name}" for name in ("law", "certificates", "run", "steps", "form")),
                ("unreduced/growth/test_law", "unreduced/growth/test_certificates")),
     "balls": (("orbit/ball_orbit", "orbit/fate/balls", "orbit/extremes/balls", "orbit/period/balls", "orbit/fate/tie", "orbit/fate/one_state"),

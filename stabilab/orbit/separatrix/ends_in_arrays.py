@@ -1,4 +1,4 @@
-"""Where the loops of many saddles end: `circle_kernel.loop_end` on arrays, a row a saddle.
+"""Where the loops of many saddles end: `circle.loop_end` on arrays, a row a saddle.
 
 The same equilibria, the same order of decisions, the same Newton's method in a bracket; rows that have converged are left out.
 """
@@ -8,7 +8,7 @@ import numpy as np
 
 from ...numbers.constants import TURN
 from ..potential import y_minus_sin
-from .circle_kernel import ENDS, LEVEL, LOST, NONE, OWN, SHARED, SPREAD, crossing, real_cubic
+from .circle import ENDS, LEVEL, LOST, NONE, OWN, SHARED, SPREAD, crossing, real_cubic
 
 TINY_STEP = 1e-9   # relative: convergence is quadratic, the next step would be its square
 MOST_STEPS = 12    # of all rows together; of the few that are left each goes on by itself
@@ -93,7 +93,7 @@ def _crossings(pot, x, z, curved, side, low, high):
 
 
 def _others(pot, x, z, side):
-    """(3, n) distances to the other equilibria within one turn on one side, ascending, inf where there is none (`circle_kernel.others`)."""
+    """(3, n) distances to the other equilibria within one turn on one side, ascending, inf where there is none (`circle.others`)."""
     along, across = pot.G * (z - x) * (z + x), pot.d * z - pot.c * x
     a0, a3 = along + across, -(pot.c * z + pot.d * x)
     a1, a2 = a3 - 4 * pot.G * x * z, across - along
@@ -106,7 +106,7 @@ def _others(pot, x, z, side):
 
 
 def real_cubics(a, b, c, d):
-    """(3, n) real roots of a t^3 + b t^2 + c t + d, nan in place of those that are not (`circle_kernel.real_cubic`)."""
+    """(3, n) real roots of a t^3 + b t^2 + c t + d, nan in place of those that are not (`circle.real_cubic`)."""
     with np.errstate(all="ignore"):
         p, q, r = b / a, c / a, d / a
         third = p / 3

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 import math
 
-from .circle_kernel import ENDS, NONE, OWN, real_cubic
-from .circle_kernel import loop_end as _end_on_circle
+from .circle import ENDS, NONE, OWN, real_cubic
+from .circle import loop_end as _end_on_circle
 
 FAR = 700.0       # beside an open plane there is no wall as near as this
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .circle_kernel import NONE, SHARED, SHARPEST
+from .circle import NONE, SHARED, SHARPEST
 from .ends_in_arrays import ends_on_circles
 from .far_centre import replaced, residual_far
 from .homoclinic import loop_end

@@ -14,7 +14,7 @@ from ...physics.scene import AnyScene
 from ..conic import conic_of
 from ..potential import potential
 from ..reduction import reduce
-from .circle_kernel import SHARED
+from .circle import SHARED
 from .homoclinic import loop_end
 from .saddles import limit_of, saddle_branches
 from .words import NO_REDUCTION, what_it_parts, why_none, why_parabolic

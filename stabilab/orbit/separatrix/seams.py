@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .circle_kernel import loop_end, others, settled
+from .circle import loop_end, others, settled
 
 JUMP = 1e-3    # of its length, by which a loop grows at least where a seam is; so near to it a smooth far end moves by less than a millionth
 LOOK = 24      # halvings, after which a smooth far end, which begins like a root of s, moves by a quarter of JUMP at most between the ends

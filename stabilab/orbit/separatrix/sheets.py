@@ -14,17 +14,14 @@ from __future__ import annotations
 import numpy as np
 
 from ...errors import InputError
-from ...numbers.numba_door import wanted
 from ...physics.coefficients import effective
 from ...physics.scene import AnyScene
 from ..far_states import in_range
 from ..landscape import landscape_in_doubles
-from .compiled.sheets_numba import serves, serves_within, sheet_by_kernel, sheets_by_kernel
-from .grid import grid, trial_parts
+from .grid import grid
 from .homoclinic_arrays import residual
 from .result import Separatrix, Sheet
 from .saddles import limit_of, saddle_branches
-from .seams import Part
 from .within import grids_within
 from .words import NO_REDUCTION, what_it_parts, why_none, why_parabolic
 
@@ -42,19 +39,16 @@ def separatrix(scene: AnyScene, reach: float | None = None, shape: tuple[int, in
     and columns as that needs (in a sheet, its rim where `reach` cuts it off may stray by ten times as much), a sheet whose
     loops reach a second saddle as high comes in two parts that meet there, and every sheet tells as `error` what its
     facets were found to reach (more than asked for only where the largest grids, of 1025 rows, still bend as much).
-    fast: compile the work with numba (the extra `fast`): in a given shape on circles with a torque, where points agree to
-    rounding; within an accuracy on hyperbolas too, where each sheet has the rows and columns that it has when it is alone (arrays
-    give some sheets of about one size a common shape), for a tenth of the time and less; loading numba costs as much as some
-    hundred surfaces. Points are in the scene's variables. A scene without saddles gives no sheets and
-    the reason. Raises InputError for a shape, reach or accuracy out of range, and for fast=True without numba.
+    fast: accepted for one version more, without effect. Points are in the scene's variables. A scene without saddles gives
+    no sheets and the reason. Raises InputError for a shape, reach or accuracy out of range.
     """
     _check(reach, shape, accuracy)
     scene = effective(scene)
     with in_range("separatrix"):
-        return _separatrix(scene, reach, shape, accuracy, fast)
+        return _separatrix(scene, reach, shape, accuracy)
 
 
-def _separatrix(scene, reach, shape, accuracy, fast) -> Separatrix:
+def _separatrix(scene, reach, shape, accuracy) -> Separatrix:
     land = landscape_in_doubles(scene)
     if land is None:
         return Separatrix((), NO_REDUCTION)
@@ -66,16 +60,8 @@ def _separatrix(scene, reach, shape, accuracy, fast) -> Separatrix:
     strips = [(branch, side) for branch in branches for side, _ in land.conic.sides(land.sense)]
     rows, columns = shape or SHAPE
     half = None if accuracy else (rows, columns // 2 + 1)
-    make = _by_arrays if not _goes_fast(land, strips, fast, accuracy) else _within_by_kernel if accuracy else _by_kernel
-    made = make(land, strips, half, accuracy)
+    made = _by_arrays(land, strips, half, accuracy)
     return Separatrix(tuple(_sheets(land, made)), what_it_parts(land.potential, land.sense))
-
-
-def _goes_fast(land, strips, fast, accuracy) -> bool:
-    # never on its own: the same case must give the same bytes, whatever was loaded before
-    if not fast:
-        return False
-    return wanted(1, True, False, 1, 1) and (serves(land, strips) if accuracy is None else serves_within(land))
 
 
 def _check(reach, shape, accuracy):
@@ -88,21 +74,6 @@ def _check(reach, shape, accuracy):
         raise InputError(f"reach: expected a multiple of the fold's radius above 1, got {reach!r:.80}")
     if accuracy is not None and not (isinstance(accuracy, (int, float, np.integer, np.floating)) and 0 < accuracy < np.inf):
         raise InputError(f"accuracy: expected a distance above 0 in the unit of the sheet's points, got {accuracy!r:.80}")
-
-
-def _within_by_kernel(land, strips, shape, accuracy):
-    out = []
-    for part, rows in zip(*trial_parts(land, tuple(strips))):
-        points, residual, equilibria, invariant, found, cut, error = sheet_by_kernel(land, part, rows, accuracy)
-        out.append((part, points, residual, *equilibria, invariant, found, int(cut), error))
-    return out
-
-
-def _by_kernel(land, strips, shape, accuracy):
-    points, residual, *places, found, cut, error = sheets_by_kernel(land, strips, shape)
-    states = [land.components(place.transpose(2, 0, 1), np.zeros(found.shape)) for place in places]
-    invariants = land.invariant(places[0].transpose(2, 0, 1))
-    return [(Part(*strip), points[k], residual[k], *(state[k] for state in states), invariants[k], found[k], cut, error[k]) for k, strip in enumerate(strips)]
 
 
 def _by_arrays(land, strips, shape, accuracy):

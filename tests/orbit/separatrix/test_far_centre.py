@@ -10,12 +10,8 @@ import pytest
 
 import stabilab
 from benchmarks.random_scenes import drawn
-from stabilab.numbers.numba_door import plain_together
 from stabilab.orbit.landscape import landscape
-from stabilab.orbit.separatrix import within
-from stabilab.orbit.separatrix.compiled.sheets_numba import WITHIN, serves_within, sheet_by_kernel
 from stabilab.orbit.separatrix.far_centre import Orbits, saddles_of
-from stabilab.orbit.separatrix.grid import trial_parts
 from stabilab.orbit.separatrix.homoclinic_arrays import loops, residual
 from stabilab.orbit.separatrix.saddles import limit_of, saddle_branches
 from tests.oracles import homoclinic
@@ -122,38 +118,14 @@ def strips_of(scene):
     return [(land, branch, side) for branch in branches for side, _ in land.conic.sides(land.sense)]
 
 
-@pytest.mark.parametrize("name", [*SCENES, "number 82", "number 89"])
-def test_the_kernel_in_plain_python_gives_each_sheet_the_grid_of_the_arrays(name, monkeypatch):
-    monkeypatch.setattr(within, "SHARE", -1)  # no sheet takes the shape of another
-    scene = scene_of(name)[0]
-    accuracy, far = 3e-3 * max(np.abs(sheet.points).max() for sheet in stabilab.separatrix(scene, shape=(9, 17)).sheets), 0
-    for land, branch, side in strips_of(scene):
-        assert serves_within(land)
-        strip = branch, side
-        parts, rows = trial_parts(land, (strip,))
-        for made, part, row in zip(within.grids_within(land, [strip], accuracy), parts, rows, strict=True):
-            points, off, (saddle, centre), _, found, cut, error = sheet_by_kernel(land, part, row, accuracy, plain_together(WITHIN[land.base]))
-            expected, far = made.loops, far + made.loops.far.sum()
-            np.testing.assert_array_equal(found, expected.found[0])
-            for places, there in ((points[:, :expected.points.shape[2]], expected.points[0]), (saddle, expected.saddle_state[0]),
-                                  (centre, expected.centre_state[0])):
-                np.testing.assert_allclose(places[found], there[found], atol=1e-9 * np.abs(there).max(), rtol=0)
-            assert cut == made.cut and error == pytest.approx(made.error[0], rel=1e-6) and error <= accuracy
-            assert off[found].max() < 1e-14
-    assert far > 0
-
-
-@pytest.mark.slow  # compiling takes half a minute for each geometry; twenty-two scenes in 80 digits
-@pytest.mark.parametrize("fast", [False, True])
-def test_sheets_of_random_nearly_equal_moments_lie_on_the_surface_and_their_facets_near_it(fast):
+@pytest.mark.slow  # twenty-two scenes in 80 digits
+def test_sheets_of_random_nearly_equal_moments_lie_on_the_surface_and_their_facets_near_it():
     """To first order, at mid-points of edges away from folds and saddles, where no slope leads to the surface, and from rims, which may be coarser."""
-    if fast:
-        pytest.importorskip("numba")
     asked = {"vertices": 0, "edges": 0, "beyond": 0}
     for name, (moments, wheel, torque) in nearly_equal(20).items():
         scene, body, rng = *scene_of(name, moments, wheel, torque), np.random.default_rng(1)
         accuracy = 3e-4 * max(np.abs(sheet.points - sheet.points.mean(axis=(0, 1))).max() for sheet in stabilab.separatrix(scene, shape=(9, 17)).sheets)
-        for sheet in stabilab.separatrix(scene, accuracy=accuracy, fast=fast).sheets:
+        for sheet in stabilab.separatrix(scene, accuracy=accuracy).sheets:
             assert sheet.error <= accuracy, name
             half, centre = sheet.points.shape[1] // 2, np.abs(body.coefficients()[2:]).max()
             for row, column in zip(rng.integers(1, len(sheet.points), 4), rng.integers(1, half + 1, 4)):
@@ -171,11 +143,10 @@ def test_sheets_of_random_nearly_equal_moments_lie_on_the_surface_and_their_face
     assert asked["vertices"] > 20 and asked["beyond"] < 0.2 * asked["edges"], asked
 
 
-@pytest.mark.parametrize("fast", [False, True])
-def test_facets_of_nearly_equal_moments_stray_by_no_more_than_asked(fast):
+def test_facets_of_nearly_equal_moments_stray_by_no_more_than_asked():
     """At mid-points of edges, to first order."""
     scene, body = scene_of("slow wheel, moments equal to 1e-15")
-    sheets = stabilab.separatrix(scene, accuracy=1.0, fast=fast).sheets
+    sheets = stabilab.separatrix(scene, accuracy=1.0).sheets
     for sheet in sheets:
         assert sheet.error <= 1.0
         middles = 0.5 * (sheet.points[2:, 3:20] + sheet.points[1:-1, 3:20])

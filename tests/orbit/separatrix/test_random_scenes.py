@@ -12,23 +12,19 @@ from tests.oracles import homoclinic
 
 SHARE = 1e-3  # of a sheet's size: the accuracy that is asked for
 DEFAULT = (3, 25, 49)  # a rim on a fold and few rows along the saddles; few columns at the outer rim; a figure eight
-COMPILED = [pytest.param(n, True, marks=pytest.mark.slow) for n in range(60)]  # compiling takes half a minute for each geometry
-numbers = pytest.mark.parametrize("number, fast", [*((n, False) for n in DEFAULT), *COMPILED,
-                                                   *(pytest.param(n, False, marks=pytest.mark.slow) for n in range(60) if n not in DEFAULT)])
+numbers = pytest.mark.parametrize("number", [*DEFAULT, *(pytest.param(n, marks=pytest.mark.slow) for n in range(60) if n not in DEFAULT)])
 EPS = 2.0**-52
 
 
-def surface(number, fast=False):
-    """(oracle's gyrostat, sheets, accuracy, generator); skips scenes without a separatrix. fast: the sheets by the kernel."""
-    if fast:
-        pytest.importorskip("numba")
+def surface(number):
+    """(oracle's gyrostat, sheets, accuracy, generator); skips scenes without a separatrix."""
     one = drawn(number + 1)[number]
     rough = separatrix(one.scene, shape=(24, 33)).sheets
     if not rough:
         pytest.skip("no saddle")
     accuracy = SHARE * max(np.abs(sheet.points - sheet.points.mean(axis=(0, 1))).max() for sheet in rough)
     body = homoclinic.Gyrostat(one.moments, one.wheel, one.torque)
-    return body, separatrix(one.scene, accuracy=accuracy, fast=fast).sheets, accuracy, np.random.default_rng(number)
+    return body, separatrix(one.scene, accuracy=accuracy).sheets, accuracy, np.random.default_rng(number)
 
 
 def beside_a_plane(body, sheet):
@@ -39,8 +35,8 @@ def beside_a_plane(body, sheet):
 
 
 @numbers
-def test_vertices_lie_on_the_loop_of_a_saddle_that_no_higher_barrier_hides(number, fast):
-    body, sheets, _, rng = surface(number, fast)
+def test_vertices_lie_on_the_loop_of_a_saddle_that_no_higher_barrier_hides(number):
+    body, sheets, _, rng = surface(number)
     for sheet in sheets:
         rows = np.flatnonzero(~beside_a_plane(body, sheet))[1:]
         for row, column in zip(rng.choice(rows, 4 if len(rows) else 0), rng.integers(0, sheet.points.shape[1], 4)):
@@ -50,9 +46,9 @@ def test_vertices_lie_on_the_loop_of_a_saddle_that_no_higher_barrier_hides(numbe
 
 
 @numbers
-def test_facets_stray_by_no_more_than_asked(number, fast):
+def test_facets_stray_by_no_more_than_asked(number):
     """To first order, at mid-points of edges between inner rows and columns: at folds and saddles, where no slope leads, edges are held as parts of the rim."""
-    body, sheets, accuracy, rng = surface(number, fast)
+    body, sheets, accuracy, rng = surface(number)
     asked = beyond = 0
     for sheet in sheets:
         rows, half = np.flatnonzero(~beside_a_plane(body, sheet))[2:-1], sheet.points.shape[1] // 2
@@ -78,10 +74,10 @@ def test_rows_of_a_long_hyperbola_whose_steps_grow_tenfold_stray_by_no_more_than
 
 
 @numbers
-def test_no_part_of_a_separatrix_is_missing(number, fast):
+def test_no_part_of_a_separatrix_is_missing(number):
     """Places on the loops of saddles that the oracle finds, as far out as half the invariant of the last row, whose rim is a coarser one, have a facet
     nearby; on open curves not so near to the planes that the oracle's doubles lose the invariant."""
-    body, sheets, accuracy, rng = surface(number, fast)
+    body, sheets, accuracy, rng = surface(number)
     limit = max(np.abs(body.invariant(sheet.saddle)).max() for sheet in sheets)
     least = 0.0 if body.closed else 1e-3 * limit
     corner = np.concatenate([mesh.points[mesh.triangles] for mesh in map(triangulate, sheets)])

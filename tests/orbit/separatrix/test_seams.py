@@ -101,15 +101,3 @@ def test_smooth_sheets_are_not_cut():
     for scene, _ in BENDS.values():
         land = landscape_in_doubles(scene)
         assert not any(seam_of(land, branch, -1) for branch in saddle_branches(land.conic, land.potential, limit_of(land.conic, 4.0)))
-
-
-@pytest.mark.slow  # compiling takes half a minute where numba's cache is empty
-def test_compiled_sheets_with_a_seam_have_the_parts_of_the_arrays():
-    pytest.importorskip("numba")
-    scene, accuracy = SEAMS["far apart"]
-    ours, fast = (separatrix(scene, accuracy=accuracy, fast=fast).sheets for fast in (False, True))
-    assert [sheet.name for sheet in ours] == [sheet.name for sheet in fast]
-    assert max(sheet.error for sheet in fast) <= accuracy
-    for one, other in zip(ours, fast):
-        for row in (0, -1):
-            assert np.allclose(one.saddle[row], other.saddle[row], rtol=1e-12)

@@ -28,6 +28,7 @@ SCENES = {
     "minor, other sign": scaled(0.2, 1.4, (0, 0, -1)),
     "minor physical": physical(PAPER_BODY, (100, 0, 0), (0, 0, 204.1)),
     "major physical": physical((3.0, 2.0, 1.5), (0, 0.8, 0.0), (0.2, 0, 0)),
+    "equilibria on lines": physical((3.0, 2.0, 1.5), (0, 0.8, 0.0), (0, 0, 0.2)),
     "both components": physical((3.0, 2.0, 1.5), (0.4, -0.7, 0), (0, 0, 0.3)),
     "middle, c = 3": scaled(0.5, 3.5, (0, 1, 0)),
     "middle, c = -2.5": scaled(2.0, -0.5, (0, 1, 0)),
@@ -525,3 +526,11 @@ def test_a_mesh_that_cannot_be_made_is_refused_and_a_parabola_has_none():
 def test_a_scene_without_sheets_is_told_what_is_true_of_it(scene, words, sheets_of):
     found = sheets_of(scene)
     assert words in (found[1] if isinstance(found, tuple) else found.reason)
+
+
+@scenes
+def test_sheets_are_numbered_from_one_and_lie_on_their_surface_to_rounding(name, sheets):
+    names = [sheet.name for sheet in sheets[name]]
+    numbers = [int("".join(c for c in word if c.isdigit())) for word in names]
+    assert numbers[0] == 1 and len(set(names)) == len(names) and sorted(set(numbers)) == list(range(1, max(numbers) + 1))
+    assert max(sheet.residual.max() for sheet in sheets[name]) < 1e-14

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from fractions import Fraction
 
-from ..circle_kernel import moved, others, slope
+from ..circle import moved, others, slope
 
 
 class Shade:

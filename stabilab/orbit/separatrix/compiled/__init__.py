@@ -1,1 +1,0 @@
-"""Sheets of the separatrix as straight lines of floats, which numba compiles."""
