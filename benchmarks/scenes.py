@@ -32,7 +32,7 @@ PATIENCE = 1.5      # s for a call: of slower questions fewer states are asked
 LONG = 0.05         # s
 CELLS = 256         # of Flying Edges along each side
 WANTED = {"fate, NumPy": 100, "fate, numba": 400, "extremes, NumPy": 5, "extremes, numba": 20, "period, NumPy": 2, "period, numba": 8,
-          "separatrix surfaces, NumPy": 50, "separatrix surfaces, numba": 50}
+          "separatrix surfaces": 5}
 
 
 @dataclass(frozen=True)
