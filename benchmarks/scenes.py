@@ -31,7 +31,7 @@ ROUNDS = 3
 PATIENCE = 1.5      # s for a call: of slower questions fewer states are asked
 LONG = 0.05         # s
 CELLS = 256         # of Flying Edges along each side
-WANTED = {"fate, NumPy": 100, "fate, numba": 400, "extremes, NumPy": 5, "extremes, numba": 20, "period, NumPy": 2, "period, numba": 8,
+WANTED = {"fate, NumPy": 100, "fate, numba": 400, "extremes, NumPy": 5, "extremes, numba": 5, "period, NumPy": 2, "period, numba": 2,
           "separatrix surfaces": 5}
 
 

@@ -6,7 +6,7 @@ import numpy as np
 from ..errors import InputError
 from ..physics.coefficients import effective
 from ..physics.states import checked_states
-from .extremes import circle_numba, hyperbola_numba, parabola_numba
+from .extremes import parabola_numba
 from .extremes.arrays import extremes_of_chunk
 from .extremes.guards import picked, trapped_rows
 from .extremes.turning_points import interval
@@ -17,9 +17,6 @@ from .fine.rows_numba import by_rows
 from .landscape import landscape
 from .period.arrays import period_chunk
 from .reduction import reduce
-
-# Of lanes in doubles, on parabolas of rows; what these leave open on circles and hyperbolas goes on row by row
-KERNELS = {"circle": circle_numba.by_kernel, "hyperbola": hyperbola_numba.by_kernel, "parabola": parabola_numba.by_kernel}
 
 
 def extremes_and_periods(scene, states, fast: bool | None = None, *, box=True, period=True):
@@ -35,9 +32,11 @@ def extremes_and_periods(scene, states, fast: bool | None = None, *, box=True, p
         _fill_far(scene, flat, boxes, periods, far)
         return boxes.reshape(array.shape + (2,)) if box else None, periods.reshape(array.shape[:-1]) if period else None
     land, left_open, tried = landscape(scene), None, False
-    if fast is not False:
-        settled = KERNELS[land.base](land, flat, boxes, periods, fast) if land.base in KERNELS else None
-        left_open, tried = by_rows(land, flat, boxes, periods, fast, settled)
+    if fast is not False and land.base == "parabola":
+        left_open = parabola_numba.by_kernel(land, flat, boxes, periods, fast)
+    elif fast is not False:
+        left_open = by_rows(land, flat, boxes, periods, fast)
+        tried = left_open is not None
     if left_open is None:
         for start in range(0, len(flat), CHUNK):
             rows = slice(start, start + CHUNK)

@@ -152,7 +152,6 @@ class Reduction:
 
     def canonical(self, states: Number) -> Triple:
         """(X, Z, W) of states (..., 3), each an array (...,); elliptic and hyperbolic."""
-        from .extremes.circle_kernel import shifted  # one state is answered without arrays
         g, low = self.constants, self.shift_remainders
         x = g["flip"] * (shifted(states[..., self.j], g["sj"], low[0]) / g["rx"])
         z = shifted(states[..., self.k], g["sk"], low[1]) / g["rz"]
@@ -243,3 +242,10 @@ def reduce(scene: AnyScene) -> Reduction | None:
     if not found:
         return None
     return min(found, key=lambda r: (r.geometry.rank, math.hypot(float(r.s), r.parabolic_shift_size)))
+
+
+def shifted(value, shift, low):
+    """value + (shift + low) to a rounding of the sum, however much of it cancels (Knuth's two-sum); numbers or arrays."""
+    whole = value + shift
+    part = whole - value
+    return whole + ((value - (whole - part)) + (shift - part) + low)

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from stabilab.numbers import numba_door
-from stabilab.orbit.extremes import circle_kernel, circle_numba, hyperbola_kernel, hyperbola_numba, parabola_kernel, parabola_numba
+from stabilab.orbit.extremes import parabola_kernel, parabola_numba
 from stabilab.orbit.fine import rows_numba
 
 
@@ -17,8 +17,6 @@ def kernels(request, monkeypatch):
         yield
         return
     monkeypatch.setattr(numba_door, "installed", lambda: True)
-    monkeypatch.setattr(circle_numba, "kernel", lru_cache(lambda: circle_kernel.orbits))
-    monkeypatch.setattr(hyperbola_numba, "kernel", lru_cache(lambda: hyperbola_kernel.orbits))
     monkeypatch.setattr(parabola_numba, "kernel", lru_cache(lambda: parabola_kernel.orbits))
     monkeypatch.setattr(rows_numba, "kernel", lru_cache(rows_numba.plain))
     with np.errstate(all="ignore"):  # inf - inf and the like, of which compiled code says nothing

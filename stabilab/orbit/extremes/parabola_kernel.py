@@ -11,7 +11,7 @@ from math import acos, acosh, asinh, cos, cosh, pi, sinh, sqrt
 
 EPS = 2.220446049250313e-16
 INFINITY = float("inf")
-BOX, PERIOD = 1, 2  # bits: wanted, and left open, as in `circle_kernel`
+BOX, PERIOD = 1, 2  # bits: wanted, and left open
 DIGITS, PERIOD_DIGITS = 1e-12, 1e-11  # as in `guards` and `period.arrays`
 ROUNDED = 8.0  # roundings of a coefficient, by the size of its terms
 CLEAR = 64.0  # times its error: so far a height is from the energy, and a force from zero, where the side is certain

@@ -12,15 +12,17 @@ import numpy as np
 from ...numbers.numba_door import compiled, wanted
 from ..landscape import Landscape
 from . import parabola_kernel
-from .circle_numba import COLD, WARM
 from .parabola_kernel import BOX, PERIOD
 
+# Loading numba and its cached code costs 1 to 2 s, compiling it once per machine some ten; NumPy takes some 5 us an orbit.
+COLD, WARM = 1_000_000, 20_000
 INLINED = {"exact_sum", "quartic", "cubic", "bend", "haze_of", "blur_of_force"}
 NAMES = "p", "p0", "q", "q0", "kappa", "rho", "sigma", "m"
 
 
 def by_kernel(land: Landscape, states, boxes, periods, fast=None):
-    """As `circle_numba.by_kernel`."""
+    """Fill boxes (n, 3, 2) and periods (n,), each unless it is empty, for states (n, 3). Returns (n,) bits of what the kernel left open (1 box, 2 period),
+    or None where it does not serve this scene or so few states. fast: as of `rows_numba.by_rows`."""
     if not wanted(len(states), fast, bool(kernel.cache_info().currsize), COLD, WARM) or not len(states) or not land.sense:
         return None
     asked = (BOX if len(boxes) else 0) | (PERIOD if len(periods) else 0)

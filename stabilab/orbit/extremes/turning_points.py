@@ -7,8 +7,8 @@ import numpy as np
 
 from ...numbers.constants import EPS
 from ...numbers.roots import bracketed_newton
+from ..fine.rows_kernel import way_of_cosine
 from ..landscape import Landscape
-from .circle_kernel import way_of_cosine
 
 
 @dataclass(frozen=True)

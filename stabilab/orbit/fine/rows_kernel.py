@@ -14,7 +14,7 @@ import numpy as np
 EPS = 2.220446049250313e-16
 TURN, PI = 6.283185307179586, 3.141592653589793
 INFINITY = float("inf")
-BOX, PERIOD = 1, 2  # bits: wanted, and left to the arrays' path, as in `extremes.circle_kernel`
+BOX, PERIOD = 1, 2  # bits: wanted, and left to the arrays' path
 SPLITTER = 134217729.0
 ROUNDINGS = 64.0  # units of rounding allowed for beside a fold, as in `landscape`
 STEPS, SETTLED, ENOUGH, TWOFOLD, DRIFT, SURE = 6, 1e-15, 1e-12, 2.0**-100, 1e-3, 1e-20  # as in `spots` and `places`
@@ -23,7 +23,8 @@ CLEAR, FAR, SCATTERED = 64.0, 1.5, 1e-9  # as in `motion`
 DIGITS, PERIOD_DIGITS = 1e-12, 1e-11  # as in `extremes.guards` and `period.arrays`
 PERIOD_SHARE = 1e-4  # of the energy terms: nearer to a barrier an energy in doubles leaves the period no eleven digits
 ROOT = 1e-9  # relative, the last step to a turning point, which leaves its square
-ALIKE, CONVERGED, FLOOR = 1e-9, 1e-13, 1e-15  # of sums over nodes, as in `extremes.circle_kernel`
+# relative, of sums over nodes: the last change, the error by estimate, a change that is nothing but rounding
+ALIKE, CONVERGED, FLOOR = 1e-9, 1e-13, 1e-15
 NARROW = 0.5  # half-widths below it take series where closed forms cancel
 TERMS = 30  # of a series about an equilibrium
 LOOKS, CLOSER = 64, 4  # as in `period.rules`
@@ -527,7 +528,8 @@ def sharpened_ends(fine, X, Z, turn, wide, ends, turns):
 
 
 def way_of_cosine(psi, near, far):
-    """As in `extremes.circle_kernel`."""
+    """First guess of a turning point between a barrier and a well, as a share of the way: there V is nearly a cosine,
+    and in its angle psi (0 to 1) the way is a cubic with the slopes near, far that the curvatures at both ends give."""
     return psi * (near * (1 - psi) * (1 - psi) + psi * (3 - 2 * psi) - far * psi * (1 - psi))
 
 
@@ -762,7 +764,13 @@ def terms_at(series, count, data, sizes, rho, whole_s, whole_c, left):
 
 
 def converged(now, last, middle, first):
-    """As in `extremes.circle_kernel`."""
+    """Whether a sum over nodes is its integral, given what it changed by as its nodes were doubled: the last, the middle and the first of three
+    such changes; any numbers.
+
+    Doubling squares the error of the trapezoidal rule, C r^n for n nodes, and of the double-exponential one, so a last change of `ALIKE` leaves nothing. But
+    the sign of an error goes round, and it may be next to nothing by chance. So the rate r^n is told by either ratio of changes too, and a size by its own
+    change or by the one before; the larger counts each time, and what these leave must be `CONVERGED`: four products, asked without a division.
+    """
     c, b, a = last / now, middle / now + FLOOR, first / now + FLOOR
     a2, b2 = a * a, b * b
     return (c <= ALIKE) & (c * c * c <= CONVERGED * b2) & (c * b2 * b2 <= CONVERGED * a2 * a2) & (b * c * c <= CONVERGED * a2) & (

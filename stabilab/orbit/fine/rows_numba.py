@@ -5,14 +5,13 @@ It serves circles and hyperbolas with a torque whose equilibria lie on a conic t
 from __future__ import annotations
 
 from fractions import Fraction
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import numpy as np
 
 from ...numbers.numba_door import compiled, twins, wanted
-from ..extremes.circle_kernel import NODES
 from ..landscape import CENTRE, Landscape
-from ..period.rules import FIRST_LEVEL, LAST_LEVEL, nodes_of
+from ..period.rules import FIRST_LEVEL, LAST_LEVEL, NODES, nodes_of
 from . import rows_kernel
 from .places import twofold_constant
 
@@ -24,19 +23,21 @@ COLD, WARM = 1_000_000, 100
 STRAIGHT = 1e-6  # of the slopes, as in `conic`: a circle so small hardly sees the bend of its equilibria
 
 
-def by_rows(land: Landscape, states, boxes, periods, fast=None, left_open=None):
-    """Fill boxes (n, 3, 2) and periods (n,), each unless it is empty, of those of the states (n, 3) that another kernel has left open (None: of all).
+def by_rows(land: Landscape, states, boxes, periods, fast=None):
+    """Fill boxes (n, 3, 2) and periods (n,), each unless it is empty, of bounded states (n, 3).
 
-    Returns (n,) bits of what is open still (1 box, 2 period), None where neither kernel serves; and whether the rows were tried here. fast: as of
-    `circle_numba.by_kernel`.
+    Returns (n,) bits of what is left open (1 box, 2 period), None where it does not serve this scene or so few states. fast: True, or None for "where
+    it pays and numba is installed"; InputError where True finds no numba.
     """
+    if land.base not in COMPILED:
+        return None
+    loaded = bool(COMPILED[land.base].cache_info().currsize)
+    if not len(states) or not wanted(len(states), fast, loaded, COLD, WARM) or kernel_input(land) is None:
+        return None
     asked = (rows_kernel.BOX if len(boxes) else 0) | (rows_kernel.PERIOD if len(periods) else 0)
-    count = len(states) if left_open is None else int(np.count_nonzero(left_open))
-    if not count or not wanted(count, fast, bool(kernel.cache_info().currsize), COLD, WARM) or kernel_input(land) is None:
-        return left_open, False
-    left_open = np.full(len(states), asked, np.uint8) if left_open is None else left_open
+    left_open = np.full(len(states), asked, np.uint8)
     settle_rows(kernel, land, states, boxes, periods, left_open)
-    return left_open, True
+    return left_open
 
 
 @lru_cache(maxsize=64)
@@ -75,11 +76,17 @@ def rules():
     return NODES, near, np.concatenate([weight for _, weight, _ in made]), np.cumsum([0] + [len(way) for way, _, _ in made])
 
 
-@lru_cache(maxsize=2)
-def kernel(base: str):
-    """`rows_kernel.rows` on a geometry, named as landscapes name it, compiled."""
+def _compiled(base: str):
     geometry = rows_kernel.GEOMETRIES[base]
     return compiled(rows_kernel, INLINED, geometry.__name__, **rows_kernel.functions_of(geometry))["rows"]
+
+
+COMPILED = {base: lru_cache(maxsize=1)(partial(_compiled, base)) for base in rows_kernel.GEOMETRIES}
+
+
+def kernel(base: str):
+    """`rows_kernel.rows` on a geometry, named as landscapes name it, compiled."""
+    return COMPILED[base]()
 
 
 def one_by_one(land: Landscape, states, asked):

@@ -109,7 +109,7 @@ def power_of_error(first, middle, last) -> float:
     """Power of ten of the error of a sum over nodes, given the powers of ten of its last three changes as its nodes were doubled.
 
     The error is C r^n for n nodes, but its sign goes round, and two sums may agree by chance. So the rate is told by either ratio of changes, the size by
-    its own change or by the one before, and the largest error counts; as `converged` in `extremes.circle_kernel`, which needs NumPy.
+    its own change or by the one before, and the largest error counts; as `converged` in `fine.rows_kernel`, which needs NumPy.
     """
     a, b, c = first, middle, last
     return max(3 * c - 2 * b, c + 4 * (b - a), b + 2 * (c - a), 7 * b - 6 * a)

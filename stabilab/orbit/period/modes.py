@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ..extremes.circle_kernel import divided_pair
+from ..fine.rows_kernel import sinc_minus_cos
 from ..landscape import Landscape
 
 
@@ -215,3 +215,21 @@ def _exp_series(rho, left, right):
         factor = factor / (n + 2)
         series = series + factor * homogeneous
     return series
+
+
+def divided_pair(u, fu, cu, rho, whole_s, whole_c, p1, q1, p2, q2, narrow):
+    """(even, odd): V[l, r, theta] is their sum at the node whose distance from l is 2u, and their difference at its
+    mirror image. With v = rho - u the modes cos, sin have the divided differences -sinc u sinc v/2 and
+    (cos u sinc v - sinc u cos v)/(2 rho). fu, cu = sinc u, cos u; narrow: rho < NARROW."""
+    v = rho - u
+    su = u * fu
+    sv, cv = whole_s * cu - whole_c * su, whole_c * cu + whole_s * su
+    fv = sv / v
+    even = -0.5 * fu * fv * (p1 + 4 * p2 * cu * cv)
+    if narrow:
+        gu, gv = sinc_minus_cos(u * u), sinc_minus_cos(v * v)
+        g2u, g2v = sinc_minus_cos(4 * u * u), sinc_minus_cos(4 * v * v)
+        odd = (0.5 * q1 * (fu * gv - fv * gu) + q2 * (fu * cu * g2v - fv * cv * g2u)) / rho
+    else:
+        odd = (0.5 * q1 * (cu * fv - fu * cv) + q2 * ((cu * cu - su * su) * fv * cv - fu * cu * (cv * cv - sv * sv))) / rho
+    return even, odd

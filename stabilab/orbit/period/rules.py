@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...numbers.constants import TURN
-from ..extremes.circle_kernel import NARROW, NODES, converged
+from ..fine.rows_kernel import NARROW, converged
 from .modes import Modes
 
 PAIR_CHUNK = 2048  # a dozen arrays of so many doubles stay in the processor's second cache
@@ -20,6 +20,15 @@ REACH = 3.45  # of t: beyond, the weights are 1e-20
 FIRST_LEVEL, LAST_LEVEL = 0, 8  # steps of 2^-level
 LOOKS = 64  # places among which the least H is sought
 CLOSER = 4  # steps towards it, each to the bottom of a parabola through three places
+
+
+def _rules(*halved):
+    """sin(phi/2)^2 <= 1/2 at the trapezoidal nodes of 8 intervals, then at the midpoints of so many, each twice as many as before."""
+    phi = [np.arange(5) * (np.pi / 8)] + [(np.arange(n // 2) + 0.5) * (np.pi / n) for n in halved]
+    return np.sin(0.5 * np.concatenate(phi)) ** 2
+
+
+NODES = _rules(8, 16, 32, 64)
 
 
 def librations(modes: Modes, half):

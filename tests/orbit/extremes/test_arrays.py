@@ -1,6 +1,9 @@
 """Facts about extremes that small faults break: turning points, small librations, free motions, motions of every size."""
 from __future__ import annotations
 
+import subprocess
+import sys
+
 import mpmath as mp
 import numpy as np
 import pytest
@@ -8,15 +11,18 @@ import pytest
 import stabilab
 from stabilab import Body, Fate, Gyrostat, Scene
 from stabilab.answers.motion import motion
-from stabilab.numbers.numba_door import installed
+from stabilab.orbit.ball_orbit import Orbit
 from stabilab.orbit.extremes import turning_points as turning
+from stabilab.orbit.extremes.balls import precise_extremes
+from stabilab.orbit.extremes_and_periods import extremes_and_periods
+from stabilab.orbit.fate.arrays import circle_margins
 from stabilab.orbit.landscape import landscape
 from stabilab.orbit.reduction import reduce
 from tests.oracles import energy
 from tests.oracles.energy import Reduced, _inner, _levels
-from tests.oracles.pairs import WORDS, exactly, physical, scaled
+from tests.oracles.pairs import WORDS, brink, exactly, physical, scaled
 from tests.orbit.extremes.test_extremes import assert_extremes
-from tests.orbit.fate.test_fate import FAMILIES, axis_of
+from tests.orbit.fate.test_fate import FAMILIES, axis_of, sample
 from tests.shared import PARABOLIC
 
 ALL = FAMILIES | PARABOLIC
@@ -35,11 +41,11 @@ def librations(name, count, low, high):
 
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("name", ["minor scaled +", "minor scaled -", "minor physical", "minor on axis 1", "major physical"])
-def test_a_small_libration_keeps_its_digits_on_either_side_of_its_well(name):
+def test_a_small_libration_keeps_its_digits_on_either_side_of_its_well(name, kernels):
     """A well just behind the state is not a whole turn ahead: over a turn 2 pi mu swamps the small energy above it."""
     scene, problem = FAMILIES[name]
     states = librations(name, 8, -4, -2.5)
-    found = [stabilab.extremes(scene, states, fast=fast) for fast in ((False, True) if installed() else (False,))]
+    found = [stabilab.extremes(scene, states, fast=fast) for fast in (False, True)]
     for n, state in enumerate(states.tolist()):
         exact = energy.extremes(problem, state, digits=40)
         for boxes in found:
@@ -314,3 +320,67 @@ def test_equilibria_beside_the_centre_of_a_hyperbola_stand_where_they_stand():
     scene, problem = scaled(-5.237000681110598, -5.346498528384807, (0.0, 9.052067096902745e-12, 0.0))
     state = tuple(map(float.fromhex, ("0x1.562d0829e194cp+2", "-0x1.c48ca697a8c75p-17", "0x1.951d823f7c0c2p-43")))
     assert_extremes(stabilab.extremes(scene, np.array([state]))[0], energy.extremes(problem, state, digits=120), 1e-11)
+
+
+def test_a_root_of_the_energy_difference_in_theta_loses_half_of_the_digits_next_to_the_separatrix():
+    """The turning point merges with the saddle, where V is flat: bisection on E - V(theta), subtracted, against balls.
+    The arrays' path solves from the saddle instead, in the distance from it."""
+    scene, problem = FAMILIES["minor scaled +"]
+    land, rng, worst = landscape(scene), np.random.default_rng(3), 0.0
+    for _ in range(6):
+        state = brink(problem, rng.normal(size=2) * 2, -1e-13)
+        if state is None or stabilab.fate(scene, np.array(state)).labels != Fate.BOUNDED:
+            continue
+        state = np.array(state, float)
+        place, w, size = land.start(state[None])
+        pot, (x, z) = land.potential, (float(place[0][0]), float(place[1][0]))
+        offset, _, barrier = land.critical(place, True)
+        margins, _ = circle_margins(land, place, w, size)
+        ahead = float(np.nanmin(np.where(barrier, offset, np.nan)))
+
+        def height(y):
+            X, Z = x * np.cos(y) + z * np.sin(y), z * np.cos(y) - x * np.sin(y)
+            return -pot.mu * y - pot.G * X * X / 2 - pot.c * X + pot.d * Z
+        energy, low, high = float(w[0]) ** 2 / 2 + height(0.0), 0.0, ahead
+        for _ in range(100):
+            middle = 0.5 * (low + high)
+            low, high = (middle, high) if height(middle) < energy else (low, middle)
+        X, Z = x * np.cos(low) + z * np.sin(low), z * np.cos(low) - x * np.sin(low)
+        naive = land.components((np.array([X]), np.array([Z])), np.zeros(1))[0]
+        exact, got = precise_extremes(Orbit(land.reduction, state), 0), stabilab.extremes(scene, state)
+        j, k = land.reduction.j, land.reduction.k
+        off = min(np.abs(exact[a] - naive[a]).min() for a in (j, k))
+        assert np.abs(got - exact).max() < 1e-12 * np.abs(exact).max()
+        worst = max(worst, off)
+    assert 1e-11 < worst < 1e-4
+
+
+def test_extremes_and_periods_in_one_go_equal_each_alone():
+    scene = FAMILIES["minor scaled +"][0]
+    states = sample("minor scaled +", 30)
+    boxes, periods = extremes_and_periods(scene, states, fast=False)
+    np.testing.assert_array_equal(boxes, stabilab.extremes(scene, states, fast=False))
+    np.testing.assert_array_equal(periods, stabilab.period(scene, states, fast=False))
+
+
+def test_turning_points_take_few_rounds(monkeypatch):
+    """Counted: a first guess from a cosine between well and barrier, and roots that stay found."""
+    rounds, solve = [], turning.bracketed_newton
+
+    def counting(fun, *args, **kwargs):
+        rounds.append(0)
+
+        def counted(*inner):
+            rounds[-1] += 1
+            return fun(*inner)
+        return solve(counted, *args, **kwargs)
+    monkeypatch.setattr(turning, "bracketed_newton", counting)
+    stabilab.extremes(FAMILIES["minor scaled +"][0], sample("minor scaled +", 500), fast=False)
+    assert rounds and max(rounds) <= 12
+
+
+def test_small_arrays_never_load_numba():
+    code = ("import sys, numpy as np\nfrom benchmarks.rows import SCENE, random_states\n"
+            "from stabilab import extremes, period\nextremes(SCENE, random_states(1000)); period(SCENE, random_states(100))\n"
+            "sys.exit('numba' in sys.modules)")
+    assert subprocess.run([sys.executable, "-c", code]).returncode == 0

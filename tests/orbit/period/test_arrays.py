@@ -10,8 +10,8 @@ import stabilab
 from benchmarks.random_scenes import drawn
 from stabilab import Fate
 from stabilab.orbit.ball_orbit import Orbit
-from stabilab.orbit.extremes.circle_kernel import converged
 from stabilab.orbit.extremes_and_periods import extremes_and_periods
+from stabilab.orbit.fine.rows_kernel import converged
 from stabilab.orbit.period.balls import precise_period
 from stabilab.orbit.reduction import reduce
 from tests.oracles import energy
