@@ -244,7 +244,7 @@ def reduce(scene: AnyScene) -> Reduction | None:
     return min(found, key=lambda r: (r.geometry.rank, math.hypot(float(r.s), r.parabolic_shift_size)))
 
 
-def shifted(value, shift, low):
+def shifted(value: Any, shift: float, low: float) -> Any:
     """value + (shift + low) to a rounding of the sum, however much of it cancels (Knuth's two-sum); numbers or arrays."""
     whole = value + shift
     part = whole - value
