@@ -13,6 +13,7 @@ from ..physics.approximate import limits_of
 from ..physics.coefficients import content, gyrostat_scene
 from ..physics.scene import AnyScene
 from ..physics.state import split
+from .caveats import limited
 from .kinds import following, one
 
 
@@ -28,7 +29,8 @@ def motion(scene: AnyScene, state: Any, span: Any = None, brief: bool = False, e
     """
     found = _found(checked_scene(scene), state, checked_span(span), brief, exact, follow, tell, proof)
     limits = limits_of(scene)
-    return replace(found, validity=limits.of_motion(scene, found)) if limits and found.validity is None else found
+    found = replace(found, validity=limits.of_motion(scene, found)) if limits and found.validity is None else found
+    return limited(found, scene)
 
 
 def _found(scene: AnyScene, state: Any, span: tuple[float, float] | None, brief: bool, exact: Sequence[Fraction] | None,

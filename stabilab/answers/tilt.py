@@ -7,8 +7,7 @@ and a time before which no torque of the cone reaches it (`passage.drift`).
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
-from fractions import Fraction
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -16,10 +15,11 @@ import numpy as np
 from ..asked import checked_scene
 from ..errors import InputError
 from ..numbers.vectors import Exact3
-from ..orbit.result import Fate, Motion
+from ..orbit.result import Fate
 from ..physics.alignment import torque_axis
 from ..physics.scene import AnyScene, Scene
 from ..physics.state import three_floats
+from .caveats import STEADY
 from .extremes import extremes
 from .fate import fate
 from .kinds import kind_of
@@ -65,27 +65,28 @@ class Tilt:
         return self.high is not None
 
 
-def tilt(scene: AnyScene, state: Any, angle: float | None = None, rate: Any = None, case: Any = None, exact: Exact3 | None = None) -> Tilt:
+def tilt(scene: AnyScene, state: Any, angle: float | None = None, rate: Any = None, case: Any = None, exact: Exact3 | None = None,
+         ask: dict[str, Any] | None = None) -> Tilt:
     """What a tilt of the torque does to a bounded motion under a torque on a principal axis.
 
     scene: of a body; state: three rates; angle: rad, the half-angle of the cone of torques (None: what the stuck thrusters of `case` state as
     their misalignment, else one degree); rate: limit of |omega|, rad/s, or three of its components (None: that of the case, else twice the
-    largest rate of the bounded motion). exact: three exact numbers that the state is the rounding of. Raises InputError where the torque is not on an axis,
-    or the motion not bounded.
+    largest rate of the bounded motion). exact: three exact numbers that the state is the rounding of. ask: another limit, by its name as of `time_to`.
+    Raises InputError where the torque is not on an axis, or the motion not bounded.
     """
     scene, state = checked_scene(scene), three_floats(state)
     if scene.variables == "scaled" or not torque_axis(scene) or kind_of(scene) != "orbit":
         raise InputError("tilt: expected a body under a torque along one of its principal axes, without wheel momentum along it")
-    if fate(scene, state).labels != Fate.BOUNDED:
+    if Fate(int(fate(scene, state).labels)) not in STEADY:
         raise InputError("tilt: the motion is not bounded as it is: ask time_to of it")
     if angle is None and not (case is not None and any(t.stuck and t.misalignment for t in case.thrusters)):
         angle = DEGREE
     if angle is not None and not 0 < angle < math.pi / 2:
         raise InputError(f"tilt: expected an angle between 0 and a quarter turn (pi/2 rad), got {angle!r} rad")
-    question, stated = _question(scene, state, rate, case)
+    question, stated = (ask, True) if ask is not None else _question(scene, state, rate, case)
     limit = asked(scene, **question)
     cone = cone_of(scene, case, angle)
-    least = min(math.sqrt(float(most)) for _, most in limit.parts)
+    least = limit.least_rate()
     exactly = time_to(scene, state, **question, exact=exact, work=WORK)
     not_before = stays_below(scene, state, least, *cone.reach())
     azimuths, times, followed = _search(scene, state, limit, cone, not_before)
@@ -100,13 +101,6 @@ def tilt(scene: AnyScene, state: Any, angle: float | None = None, rate: Any = No
                 untilted=(float(exactly.low), float(exactly.high)) if exactly.high < math.inf else None)
 
 
-def with_tilt(case: Any, motion: Motion, angle: float | None = None) -> Motion:
-    """The motion of a case with what a tilt of its torque does to it; as it is where no torque on an axis keeps it bounded."""
-    if motion.fate != Fate.BOUNDED or case.scene.variables == "scaled" or not torque_axis(case.scene) or kind_of(case.scene) != "orbit":
-        return motion
-    return replace(motion, tilt=tilt(case.scene, case.state, angle, None, case, case.exact_state))
-
-
 def _question(scene: AnyScene, state: Any, rate: Any, case: Any) -> Any:
     """(the limit as `time_to` takes it, whether it is stated)."""
     if rate is not None:
@@ -114,8 +108,7 @@ def _question(scene: AnyScene, state: Any, rate: Any, case: Any) -> Any:
     if case is not None and case.limits is not None:
         if case.limits.rate is not None:
             return {"rate": case.limits.rate}, True
-        axes = [case.frame.turned([Fraction(int(n == m)) for n in range(3)]) for m in range(3)]
-        return {"component": list(zip(axes, case.limits.rates))}, True
+        return {"component": case.limits.components(case.frame)}, True
     largest = np.abs(extremes(scene, state)).max(axis=-1)
     return {"rate": TWICE * float(np.linalg.norm(largest))}, False
 

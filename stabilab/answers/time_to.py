@@ -15,6 +15,7 @@ from ..numbers.exact import exact_vector
 from ..physics.coefficients import content, effective
 from ..physics.scene import AnyScene
 from ..physics.states import checked_states, equations_and_start, float_array, start_of
+from .caveats import caveats_of
 from .passage.banded import STEPS as BAND_STEPS
 from .passage.banded import banded
 from .passage.clock import by_clock
@@ -62,7 +63,9 @@ def time_to(scene: AnyScene, states: Any, rate: Any = None, component: Any = Non
     if parts is not None and parts.note:  # what the twin takes for granted of the scene
         found = [replace(one, words=f"{one.words}; {parts.note}") for one in found]
     column = lambda name, kind: np.array([getattr(one, name) for one in found], kind).reshape(shape)[()]
-    return TimeTo(column("low", float), column("high", float), column("level", object), column("words", object), limit.words, given, array)
+    low = column("low", float)
+    return TimeTo(low, column("high", float), column("level", object), column("words", object), limit.words, given, array,
+                  caveats_of(given, bool(np.isinf(low).any())))
 
 
 def time_of_case(case: Any, ask: dict[str, Any], t_max: float | Fraction | None = None) -> TimeTo:

@@ -5,6 +5,7 @@ from fractions import Fraction
 
 from ..errors import InputError
 from ..numbers.exact import exact, sqrt_fraction
+from ..numbers.principal import PrincipalAxes
 from ..numbers.vectors import Exact3, cross, dot
 from ..record import record
 from .table import Table, described
@@ -51,6 +52,10 @@ class Limits:
 
     rate: Fraction | None = None
     rates: Exact3 | None = None
+
+    def components(self, frame: PrincipalAxes) -> list[tuple[Exact3, Fraction]]:
+        """(axis of the input frame as a unit vector along the principal axes, its limit) of `rates`."""
+        return [(frame.turned([Fraction(int(n == m)) for n in range(3)]), most) for m, most in enumerate(self.rates or ())]
 
 
 def thrusters_of(top: Table, centre: Exact3 | None) -> tuple[Thruster, ...]:

@@ -8,7 +8,7 @@ from ..show.text import answers, law, uncertain
 from ..show.text import digits as shown
 from .common.cases import load_cases, one_by_one, tell_radians, units_asked
 from .common.motions import motion_of, over_boxes, tilted
-from .common.output import all_reached, hold_laws, leave_undecided, say_laws, write
+from .common.output import all_reached, hold_laws, leave_undecided, write
 from .common.tables import swept_extremes, swept_motions, tell_all
 
 
@@ -25,7 +25,6 @@ def answer(question, paths, digits, json, strict, csv=False, follow=None, tilt=N
         write(answers.as_json([getattr(shown, question)(*answer) | law.key(answer[1].validity) | uncertain.as_dict(box)
                                for answer, box in zip(answered, boxes)]))
     elif csv:
-        say_laws([(case, motion.validity) for case, motion, _ in answered])
         write(shown.extremes_csv(answered))
     else:
         _tell(question, loaded, answered, systems, digits, boxes, why)

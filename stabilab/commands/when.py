@@ -1,13 +1,16 @@
 """`stabilab when`: the first time at which a motion reaches a limit."""
 from __future__ import annotations
 
-from ..answers.time_to import time_of_case
+from dataclasses import replace
+
+from ..answers.caveats import of_law
+from ..answers.passage.of_case import limited_time
 from ..case.limit_options import stated_limit
 from ..case.read import blamed_on
 from ..show.text import answers, law, uncertain
 from ..show.text import when as shown
 from .common.cases import load_cases, one_by_one, tell_radians, units_asked
-from .common.output import hold_laws, leave_undecided, say_laws, write
+from .common.output import hold_laws, leave_undecided, write
 from .common.tables import tell_all
 
 
@@ -19,12 +22,12 @@ def when(cases, limits, units, json, csv, strict):
     for case in one_by_one(loaded):
         limit = stated_limit(case, **limits)
         with blamed_on(case):
-            answered.append((case, limit, time_of_case(case, limit.ask, limit.until)))
+            answered.append((case, limit, limited_time(case, limit.ask, limit.until)))
     laws = [law.until(case, found.validity, float(found.high)) for case, _, found in answered]
+    answered = [(case, limit, replace(found, caveats=(*found.caveats, *of_law(held)))) for (case, limit, found), held in zip(answered, laws)]
     if json:
         write(answers.as_json([shown.as_dict(*one) | law.key(held) for one, held in zip(answered, laws)]))
     elif csv:
-        say_laws([(case, held) for (case, *_), held in zip(answered, laws)])
         write(shown.csv(answered))
     else:
         texts = [lambda n=n: shown.text(*answered[n], systems[n]) for n in range(len(answered))]

@@ -7,6 +7,7 @@ from dataclasses import field
 from enum import IntEnum
 from typing import TYPE_CHECKING, Any
 
+from ..caveat import Caveat
 from ..numbers.vectors import Float3, Number
 from ..record import record
 from ..shown import Shown
@@ -48,7 +49,8 @@ class Motion(Shown):
     bounds are apart. period: None where the motion does not repeat, or is undecided. extremes: ((min, max),) * 3 over t >= 0, entries +-inf where
     unbounded, None where unknown; extremes_over: "all time" or the span they were searched over. validity: of an approximate
     law (`stabilab.physics.law_limits`), with its largest value along the motion; None where all laws are exact. tilt: what a tilt of its
-    torque off the axis does to a bounded motion (`answers.tilt`), where that was asked. level: of the
+    torque off the axis does to a bounded motion (`answers.tilt`), where that was asked; first: the limit of its case in words and its `TimeTo`,
+    likewise; caveats: all that limits the answer (`answers.caveats`). level: of the
     fate, "exact", "certified" (a theorem applied to a run of machine precision) or "undecided". Of motions that were followed until a
     certificate held, or as long as was asked: cause: what was found on the way, in words; bounds: ((low, high),) * 3 of the rates at
     all t >= 0, wider than the extremes, +-inf where unbounded (None where not known).
@@ -75,6 +77,8 @@ class Motion(Shown):
     bounds: tuple[tuple[float, float], ...] | None = None
     validity: Validity | None = None
     tilt: object = None
+    first: tuple[str, Any] | None = None
+    caveats: tuple[Caveat, ...] = ()
 
 
 def judged(state: Float3, decided: Any) -> dict[str, Any]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 import math
 import re
 from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal, localcontext
+from functools import partial
 from typing import TYPE_CHECKING
 
 from ..errors import InputError
@@ -21,6 +22,7 @@ NUMBER = r"(-?\d+(?:\.\d+)?(?:e[-+]?\d+)?)"
 SPAN = re.compile(r"\b(s|tau) in \[([^],]+), ([^]]+)\]")
 MOMENT = re.compile(rf"\bt = {NUMBER}(?!\w|\.\d|\s*[-+*/^])(?: (?:s|tau)\b)?")
 IN_RADIANS = re.compile(rf"(?<![\w.])(?:{NUMBER}( to | and ))?{NUMBER} rad(/s\^2|/s)?(?![\w/^])")
+AFTER = re.compile(rf"\b(after|before|within) {NUMBER} s(?![\w^])")
 OF_RATES = re.compile(r"\((-?\d[-+.\de]*(?:, -?\d[-+.\de]*)+)\) rad/s(?![\w^])")
 
 
@@ -100,22 +102,23 @@ class Units:
         digits = SHORT if max(abs(start), abs(end)) * one < 10**SHORT else DIGITS
         return f"{number(start * one, digits)} to {number(end * one, digits)} {name}"
 
-    def words(self, words: str) -> str:
+    def words(self, words: str, digits: int = DIGITS - 1) -> str:
         """A sentence of the analysis, whose angles and rates are in rad and rad/s and whose times in s, with all in these units; "s in [0, 20]" becomes
         "0 to 20 s"."""
+        words = AFTER.sub(lambda found: f"{found[1]} {self.time(float(found[2]), digits)}", words)
         words = SPAN.sub(lambda found: self.span(found[1], float(found[2]), float(found[3])), words)
-        words = MOMENT.sub(lambda found: self.moment(float(found[1]), DIGITS - 1), words)
+        words = MOMENT.sub(lambda found: self.moment(float(found[1]), digits), words)
         if self.rates[0] in ("rad/s", ""):
             return words
-        words = OF_RATES.sub(lambda found: self.vector(found[1].split(", "), self.rates, DIGITS - 1), words)
-        return IN_RADIANS.sub(self._turned, words)
+        words = OF_RATES.sub(lambda found: self.vector(found[1].split(", "), self.rates, digits), words)
+        return IN_RADIANS.sub(partial(self._turned, digits), words)
 
-    def _turned(self, found: re.Match[str]) -> str:
+    def _turned(self, digits: int, found: re.Match[str]) -> str:
         """One number of radians, or "1 to 2" of them, by a time or its square, in these units."""
         first, between, last, per = found.groups(default="")
         name, one = self.angles
-        before = f"{number(float(first) * one, DIGITS - 1)}{between}" if first else ""
-        return before + self.told(float(last), (name + per, one), DIGITS - 1)
+        before = f"{number(float(first) * one, digits)}{between}" if first else ""
+        return before + self.told(float(last), (name + per, one), digits)
 
     def of(self, unit: str) -> Unit:
         """The unit in which numbers of this SI unit are told."""

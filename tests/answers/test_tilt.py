@@ -182,7 +182,7 @@ def test_the_headline_says_what_the_word_bounded_rests_on(stabilab, tmp_path, co
     path = tmp_path / "plain.toml"
     path.write_text(CASE)
     code, out, _ = stabilab(command, path)
-    assert code == 0 and "BOUNDED for ever while the torque is exactly along axis 3; largest rate " in out.splitlines()[0]
+    assert code == 0 and "BOUNDED only while the torque is exactly along axis 3; largest rate " in out.splitlines()[0]
     assert json.loads(stabilab(command, path, "--json")[1])[0].get("motion", {"tilt": None})["tilt"] is None
 
 

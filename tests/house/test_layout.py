@@ -40,6 +40,7 @@ DOORS = {
     ("stabilab.show.explore.other", "stabilab.show.plot.subject"): "loads numpy",
     ("stabilab.show.explore.session", "stabilab.orbit.separatrix.sheets"): "loads numpy",
     ("stabilab.show.terminal.completion", "stabilab.show.plot.which"): "loads numpy",
+    ("stabilab.show.text.law", "stabilab.answers.passage.of_case"): "loads numpy",
     ("stabilab.show.text.law", "stabilab.answers.simulate"): "loads numpy",
     ("stabilab.show.text.law", "stabilab.integrate.limits_along"): "loaded for approximate laws alone",
     ("stabilab.unreduced.bounds", "stabilab.unreduced.over_span"): "loads numpy",

@@ -52,7 +52,7 @@ def own(tmp_path):
 def test_a_bounded_motion_is_told_with_the_rate_and_the_period_that_a_run_has(own):
     case = own()
     line = headline(case, told(case))
-    found = re.fullmatch(r"BOUNDED for ever while the torque is exactly along axis 3; largest rate (\S+) deg/s about axis (\d); margin (\S+) deg/s "
+    found = re.fullmatch(r"BOUNDED only while the torque is exactly along axis 3; largest rate (\S+) deg/s about axis (\d); margin (\S+) deg/s "
                          r"\((\S+) J\); period (\S+) s", line)
     t, rates = followed(START, 40)
     largest = np.abs(rates).max(axis=1)
@@ -80,7 +80,7 @@ def test_units_are_those_that_are_asked_for(own):
 
 @pytest.mark.parametrize("name, words", [
     ("minor-axis-100",
-     r"BOUNDED for ever while the torque is exactly along axis 3; largest rate 4.626 about axis 1; margin \S+ in x, 1.632 in energy; period 1.804 tau"),
+     r"BOUNDED only while the torque is exactly along axis 3; largest rate 4.626 about axis 1; margin \S+ in x, 1.632 in energy; period 1.804 tau"),
     ("middle-axis-spin-up", r"SPINS UP about axis 2, positive sense; about the other axes at most \S+"),
     ("off-axis-two", r"SPINS UP about axis 3, positive sense \(certified\); about the other axes at most \S+ deg/s"),
     ("torque-free-body", r"BOUNDED for ever; largest rate 28.65 deg/s about axis [23]; margin \S+ deg/s \(0.0075 J\); period 33.33 s"),

@@ -42,16 +42,20 @@ class Cone:
 def cone_of(scene: Scene, case: Any = None, angle: float | None = None) -> Cone:
     """The cone of a scene's torque: tilted as a whole by `angle`, or, without it, as the stuck thrusters of the case state.
 
-    Azimuth 0 of the whole torque lies towards the axis that follows its own, cyclically; of a thruster, towards the structural axis that is farthest
-    from its force.
+    Azimuth 0 of a torque along an axis lies towards the axis that follows it, cyclically; of another across the axis that is farthest from it; of a
+    thruster, across the structural axis that is farthest from its force.
     """
     torque = np.array([float(v) for v in scene.vector("constant_torque")])
+    axis = int(np.argmax(np.abs(torque)))
     loose = [] if angle is not None or case is None else [t for t in case.thrusters if t.stuck and t.misalignment]
     if loose:
         parts = tuple(_of_force(case, thruster) for thruster in loose)
         return Cone(torque, parts, "the force of " + " and ".join(t.name for t in loose), max(part[-1] for part in parts))
-    axis = int(np.argmax(np.abs(torque)))
     first, second = (abs(torque[axis]) * np.eye(3)[(axis + n) % 3] for n in (1, 2))
+    if np.count_nonzero(torque) > 1:
+        first = np.cross(np.eye(3)[int(np.argmin(np.abs(torque)))], torque)
+        first *= np.linalg.norm(torque) / np.linalg.norm(first)
+        second = np.cross(torque, first) / np.linalg.norm(torque)
     return Cone(torque, ((torque, first, second, angle),), "the torque", cast(float, angle))
 
 

@@ -52,6 +52,10 @@ class Limit:
         return all(_below(terms, [size if any(vector[n] for _, vector in terms) else 0.0 for n, size in enumerate(sizes)], most)
                    for terms, most in self.parts)
 
+    def least_rate(self) -> float:
+        """The largest |omega| below which it is surely not reached."""
+        return min(math.sqrt(float(most / max(c for c, _ in terms))) for terms, most in self.parts)
+
     def beyond_rate(self, rate: float) -> bool:
         """Whether |omega| <= rate keeps the quantity below the limit."""
         return self.kind != "tilt" and math.isfinite(rate) and all(max(c for c, _ in terms) * Fraction(rate) ** 2 < most for terms, most in self.parts)

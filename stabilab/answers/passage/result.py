@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...caveat import Caveat
 from ...physics.approximate import limits_of
 from ...shown import Compared, Shown
 
@@ -22,6 +23,7 @@ class TimeTo(Shown, Compared):
     Both inf: never. high NaN: not known; then the limit is not reached before low. level (...,), texts: "exact" (a law, or all extremes), "proved"
     (the motion enclosed by a proof), "certified" (the theorem of spin-up, applied to a run of machine precision), "run" (roots along a run of
     machine precision, wider by what a second run shows), "undecided". words (...,): how it is known. quantity: what was asked, in words.
+    caveats: what limits the answers (`answers.caveats`).
     """
 
     low: np.ndarray
@@ -31,6 +33,7 @@ class TimeTo(Shown, Compared):
     quantity: str = ""
     scene: Any = field(default=None, repr=False, compare=False)
     states: np.ndarray | None = field(default=None, repr=False, compare=False)
+    caveats: tuple[Caveat, ...] = ()
 
     @cached_property
     def validity(self) -> Validity | None:

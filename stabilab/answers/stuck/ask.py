@@ -12,9 +12,9 @@ from ...numbers.vectors import Exact3
 from ...orbit.result import Fate
 from ...physics.alignment import torque_axis
 from ...physics.scene import Scene
+from ..caveats import STEADY, caveats_of
 from ..tilt import Tilt, tilt
 from .delay import delayed
-from .family import STEADY
 from .fate import Found, found
 from .helpers import helpers
 from .margins import margins
@@ -72,10 +72,13 @@ def _row(scenario: Scenario, thrusters: Sequence[Any]) -> Row:
     axis, sense = axes.number(seen.axis, seen.sense)
     others = [t for t in scenario.case.thrusters if t not in thrusters]
     scene = scenario.scene(torque)
+    off = _tilted(scenario, thrusters, scene, seen)
+    along = axes.number(torque_axis(scene), 1)[0]
+    caveats = caveats_of(scene, seen.fate in STEADY or seen.never, off, file=scenario.case.caveats, axis=f"axis {along}" if along else "")
     return Row(tuple(t.name for t in thrusters), scenario.torque_in_file(thrusters), axes.counted(torque), seen.fate.word, seen.level,
                axis, sense, seen.direction and axes.back(seen.direction), scenario.limit, seen.time, seen.time_level, seen.never, seen.largest, seen.followed,
                seen.because, margins(scenario, scene, seen), tuple(_wheel(scenario, torque, seen, wheel) for wheel in scenario.case.wheels),
-               helpers(scenario, torque, others) if seen.fate not in STEADY else (), _tilted(scenario, thrusters, scene, seen))
+               helpers(scenario, torque, others) if seen.fate not in STEADY else (), off, caveats)
 
 
 def _tilted(scenario: Scenario, thrusters: Sequence[Any], scene: Scene, seen: Found) -> Tilt | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from ...caveat import Caveat
 from ...numbers.vectors import Float3
 from ...shown import Shown
 from ..tilt import Tilt
@@ -83,7 +84,7 @@ class Row:
     in the frame of the file, or None. time_to_limit: (low, high), s, of the first time at the limit; None where it is never within what
     is known. never: whether it is known never to be reached. largest_rate: of |omega|, rad/s, up to that time or for ever.
     followed: s, up to where the limit is known not to be reached. tilt: what becomes of a bounded motion when the torque is a little off its axis
-    (`answers.tilt`), where a limit or a misalignment is stated.
+    (`answers.tilt`), where a limit or a misalignment is stated. caveats: all that limits the row.
     """
 
     thrusters: tuple[str, ...]
@@ -105,6 +106,7 @@ class Row:
     wheels: tuple[WheelAnswer, ...] = ()
     helpers: tuple[Helper, ...] = ()
     tilt: Tilt | None = None
+    caveats: tuple[Caveat, ...] = ()
 
 
 @dataclass(frozen=True, repr=False)

@@ -5,7 +5,7 @@ import math
 from functools import partial
 
 from ..text import frame
-from ..text.headline import rate_margin, span_words, while_on_axis
+from ..text.headline import rate_margin, span_words
 from ..units import DEG, DIGITS, Units, bracket, but_for_rounding, number
 from .letters import greek, lettered
 
@@ -123,7 +123,7 @@ def tilt_lines(case, motion, units: Units, proofs: bool = False) -> list[str]:
     """What a tilt of the torque does, or how to ask for it."""
     found = motion.tilt
     if found is None:
-        asked = not units.scaled and while_on_axis(case, motion, units)
+        asked = not units.scaled and any(one.kind == "tilt" for one in motion.caveats)
         return [row("off that axis", TILTED)] if asked else []
     limit = f"|omega| = {units.rate(found.limit)}{'' if found.stated else ', twice the largest of this motion (no limit is stated)'}"
     lines = [f"  tilted by {_angle(found.angle)}: {found.of}, to {limit}"]

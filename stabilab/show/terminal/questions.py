@@ -5,6 +5,7 @@ import math
 from dataclasses import replace
 
 from ...orbit.result import Fate, no_period
+from .. import limiting
 from ..text.headline import cause, fate_words, headline, largest, rate_margin
 from ..units import DIGITS, Units, number
 from .letters import greek, lettered
@@ -32,8 +33,9 @@ def _energy(told, units, all_digits):
 def extremes(case, motion, told, units: Units, all_digits: bool, say: bool, proofs: bool = False) -> str:
     """The largest rate and the fate, a line a component, and bounds for all times."""
     shown = motion if told.values is None else replace(motion, extremes=tuple(tuple(map(float, pair)) for pair in told.values))
-    parts = [fate_words(case, shown, units), cause(shown, units)]
+    parts = [fate_words(shown, units), cause(shown, units)]
     parts = [*parts, largest(shown, units)] if motion.fate.word == "spin-up" else [largest(shown, units), *parts]
+    parts.insert(0, limiting.reached(motion.caveats, units))
     rows = [f"  extremes: {shown.extremes_over}"]
     if shown.extremes is not None:
         rows = _all_digits(case, shown, told) if all_digits else extreme_lines(case, shown, units)
@@ -71,5 +73,6 @@ def period(case, motion, told, units: Units, all_digits: bool, say: bool, proofs
         value = f"period {told.decimals or number(told.values, max(SHOWN, told.asked))} {case.scene.time_unit}"
     else:
         value = f"period {units.time(told.values)}"
-    lines = [f"{case.name}: {value}", *(why(case, motion, units, proofs) if proofs else ())]
+    parts = [limiting.reached(motion.caveats, units), value + limiting.condition(motion.caveats, units)]
+    lines = [f"{case.name}: {'; '.join(filter(None, parts))}", *(why(case, motion, units, proofs) if proofs else ())]
     return "\n".join([*lines, *([_said(told)] * (say and told.values is not None))])

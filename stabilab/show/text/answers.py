@@ -3,6 +3,8 @@ from __future__ import annotations
 
 import math
 
+from ...answers.caveats import caveats_of
+from ...caveat import cell, key
 from ...physics.blocks import PARTS
 from ..files import comma
 from . import frame, when
@@ -48,7 +50,8 @@ def classification(case, equilibria, motion) -> dict:
             "equilibria": {"kind": equilibria.kind, "reason": equilibria.reason,
                            "points": [_point(p) | _input(case, p.at) for p in equilibria.points],
                            "curves": [_curve(c) for c in equilibria.curves]},
-            "motion": None if motion is None else _motion(motion) | _input(case, motion.at)} | frame.key(case)
+            "motion": None if motion is None else _motion(motion) | _input(case, motion.at)
+            } | key(case.caveats if motion is None else motion.caveats) | frame.key(case)
 
 
 def _input(case, at) -> dict:
@@ -95,14 +98,15 @@ def extremes(case, motion) -> dict:
     """One object of `stabilab extremes --json`; null where a component is unbounded or unknown (see fate)."""
     return {"schema": "stabilab.extremes/1", "case": case.name, "variables": case.variables, "at": motion.at,
             "fate": motion.fate.word, "components": case.scene.components, "extremes": motion.extremes,
-            "over": motion.extremes_over} | followed(motion) | frame.key(case)
+            "over": motion.extremes_over} | followed(motion) | key(motion.caveats) | frame.key(case)
 
 
 def simulation(case, run) -> dict:
     """The object of `stabilab simulate --json`."""
     return {"schema": "stabilab.simulate/1", "case": case.name, "model": run.model, "time": case.scene.time_unit,
             "t": run.t, "state": run.state, "invariant_drift": run.invariant_drift, "counters": run.counters,
-            "method": run.method, "rtol": run.rtol, "status": run.status, "reason": run.reason} | frame.rows(case, run) | frame.key(case)
+            "method": run.method, "rtol": run.rtol, "status": run.status, "reason": run.reason
+            } | key(caveats_of(case.scene, validity=run.validity, file=case.caveats)) | frame.rows(case, run) | frame.key(case)
 
 
 def columns(run) -> tuple[list[str], list[list[float]]]:
@@ -119,8 +123,9 @@ def columns(run) -> tuple[list[str], list[list[float]]]:
 
 def extremes_csv(answered) -> str:
     """One line per case, motion and pairs (numbers or decimals; None where unknown) and component; inf where unbounded, empty where unknown."""
-    return comma.lines([("case", "component", "min", "max", "over"), *(
-        (case.name, name, *pair, m.extremes_over) for case, m, pairs in answered for name, pair in zip(case.scene.components, _pairs(pairs)))])[:-1]
+    return comma.lines([("case", "component", "min", "max", "over", "caveats"), *(
+        (case.name, name, *pair, m.extremes_over, cell(m.caveats))
+        for case, m, pairs in answered for name, pair in zip(case.scene.components, _pairs(pairs)))])[:-1]
 
 
 def _pairs(extremes):

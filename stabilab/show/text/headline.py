@@ -4,12 +4,11 @@ from __future__ import annotations
 import math
 import re
 from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal, localcontext
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING
 
-from ...physics.alignment import torque_axis
+from .. import limiting
 from ..terminal.letters import lettered
 from ..units import SHORT, SPAN, Units, number, units_of
-from .when import unreached
 
 if TYPE_CHECKING:
     from ...case.read import Case
@@ -24,16 +23,16 @@ CLAUSE = 110  # letters of a cause that the line has room for
 def headline(case: Case, motion: Motion, units: Units | None = None) -> str:
     """One line, without the name of the case. units: of the case where None."""
     units = units or units_of(case)
-    parts = [fate_words(case, motion, units), cause(motion, units), largest(motion, units), margin(motion, units), period(motion, units)]
+    told = (fate_words, cause, largest, margin, period)
+    parts = [limiting.reached(motion.caveats, units), *(words(motion, units) for words in told)]
     return "; ".join(part for part in parts if part)
 
 
-def fate_words(case: Case, motion: Motion, units: Units) -> str:
+def fate_words(motion: Motion, units: Units) -> str:
     """The fate, its axis, how well it is known, and the condition that it rests on."""
-    fate = motion.fate.word
-    words, where = WORDS[fate], while_on_axis(case, motion, units)
-    if where.startswith(" only"):
-        words = "BOUNDED"
+    words, where = WORDS[motion.fate.word], limiting.condition(motion.caveats, units)
+    if where:
+        words = words.removesuffix(" for ever")
     about = f" about axis {motion.axis}, {'positive' if motion.sense > 0 else 'negative'} sense" if motion.axis else ""
     return f"{words}{about}{known_as(motion)}{where}"
 
@@ -142,19 +141,3 @@ def bracketed(low: float, high: float, unit: str, digits: int) -> str:
 def period(motion: Motion, units: Units) -> str:
     """The period, where the motion repeats."""
     return "" if motion.period is None else f"period {units.time(motion.period, SHORT)}"
-
-
-def while_on_axis(case: Case, motion: Motion, units: Units) -> str:
-    """What the word "bounded" rests on under a torque along an axis, and what is known of a tilt; empty for other motions."""
-    axis = torque_axis(case.scene) if motion.fate.word == "bounded" else 0
-    if not axis:
-        return ""
-    words, found = f"while the torque is exactly along axis {axis}", cast(Any, motion.tilt)
-    if found is None:
-        return f" {words}"
-    limit, tilted = units.rate(found.limit, SHORT), f"tilted by {math.degrees(found.angle):.6g} deg it"
-    if found.untilted:
-        return f" {words}, and even so it reaches {limit} after {units.time(found.untilted[0], SHORT)}"
-    if found.ends:
-        return f" only {words}: {tilted} reaches {limit} after {units.time(found.low, SHORT)}"
-    return f" {words}; {tilted} {unreached(found, limit, lambda t: units.time(t, SHORT))}"

@@ -4,6 +4,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
+from ...answers.caveats import limited
 from ...case.attitude import vertical_of
 from ...errors import printable
 from ...physics.approximate import limits_of
@@ -64,10 +65,16 @@ def of_case(case, span=None, brief=False):
 
 
 def judged(case, motion, brief=False):
-    """The motion with its law judged along the case's own run, where that hangs on the attitude and the case gives one; else as it is. brief: of
-    `of_case`."""
-    found = None if motion is None or not _open(case, motion.validity) else of_case(case, brief=brief)
-    return motion if found is None else replace(motion, validity=found)
+    """The motion with its law judged along the case's own run, where that hangs on the attitude and the case gives one, and with the caveats of the
+    case. brief: of `of_case`, and without the time to the limit of the case."""
+    if motion is None:
+        return motion
+    found = of_case(case, brief=brief) if _open(case, motion.validity) else None
+    motion = limited(motion if found is None else replace(motion, validity=found), case.scene, case)
+    if case.limits is None or brief:
+        return motion
+    from ...answers.passage.of_case import with_first
+    return with_first(case, motion)
 
 
 def until(case, found, end: float):

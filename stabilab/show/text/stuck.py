@@ -5,17 +5,19 @@ import math
 from collections import Counter
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 
+from ...caveat import cell, key
 from ...errors import printable
+from .. import limiting
 from ..terminal.letters import lettered
 from ..units import DIGITS, SHORT, Units
 from ..units import bracket as _bracket
 from ..units import number as _number
 from .answers import Endless
-from .when import tilt_dict, unreached
+from .when import tilt_dict
 
 WORD = {1: "major", 2: "middle", 3: "minor"}
 CSV = ("case,thrusters,torque_x,torque_y,torque_z,torque_1,torque_2,torque_3,fate,level,axis,sense,limit,time_low,time_high,largest_rate,"
-       "margin_rate,margin_wheel,margin_torque")
+       "margin_rate,margin_wheel,margin_torque,caveats")
 WORDS = {"rate": "rate", "wheel": "wheel momentum", "torque": "torque"}
 FATES = {"bounded": "STAYS BOUNDED", "spin-up": "SPINS UP", "equilibrium": "AT REST in the body's frame", "separatrix": "ON THE SEPARATRIX",
          "undecided": "UNDECIDED"}
@@ -41,7 +43,7 @@ def _row(row) -> dict:
             "margin_until": {name: margin.until if margin.until is None else Endless(margin.until) for name, margin in row.margins.items()},
             "margin_because": {name: margin.because for name, margin in row.margins.items()},
             "helpers": [{"thrusters": list(h.thrusters), "duty": h.duty, "effect": h.effect, "torque_left": h.torque_left, "fate": h.fate,
-                         "time_to_limit": h.time_to_limit} for h in row.helpers]}
+                         "time_to_limit": h.time_to_limit} for h in row.helpers]} | key(row.caveats)
 
 
 def csv(answers) -> str:
@@ -55,7 +57,8 @@ def csv(answers) -> str:
         for row in found.rows:
             limit = "/".join(map(repr, row.limit)) if isinstance(row.limit, tuple) else row.limit
             values = [*row.torque, *row.torque_principal, row.fate, row.level, row.axis, row.sense, limit, *(row.time_to_limit or (None, None)),
-                      row.largest_rate, *(row.margins[name].size if name in row.margins else None for name in ("rate", "wheel", "torque"))]
+                      row.largest_rate, *(row.margins[name].size if name in row.margins else None for name in ("rate", "wheel", "torque")),
+                      cell(row.caveats)]
             cells = ["" if v is None else repr(v) if isinstance(v, float) else v for v in values]
             writer.writerow([printable(found.case), printable("+".join(row.thrusters)), *cells])
     return out.getvalue()
@@ -114,7 +117,7 @@ def answer_line(row, units, axes=WORD) -> str:
     if row.fate == "undecided":
         return f"UNDECIDED{', but ' + when if when else ': ' + _so_far(row, units)}"
     words = FATES[row.fate] + (": every rate stays as it is" if row.fate == "equilibrium" else "")
-    while_ = _while(row, axes, units)
+    while_ = limiting.condition(row.caveats, units)
     if when:
         return f"{words}{while_}, but {when}{_known(row)}"
     largest = "" if row.largest_rate is None else f", |ω| at most {units.rate(row.largest_rate, SHORT)}"
@@ -122,21 +125,6 @@ def answer_line(row, units, axes=WORD) -> str:
     if row.tilt is None:
         return f"{words}{while_}{largest}{below}{_known(row)}"
     return f"{words}{largest}{below}{_known(row)},{while_}"
-
-
-def _while(row, axes, units):
-    """On what a bound rests: a torque on an axis is one direction of many."""
-    acting = [n for n, v in enumerate(row.torque_principal, 1) if v]
-    if row.fate != "bounded" or len(acting) != 1:
-        return ""
-    words, tilt = f"while the torque is exactly along axis {acting[0]} ({axes[acting[0]]})", row.tilt
-    if tilt is None or tilt.untilted:
-        return f" {words}"
-    angle = f"tilted by {_number(math.degrees(tilt.angle))} deg it"
-    limit = units.rate(tilt.limit, SHORT)
-    if tilt.ends:
-        return f" only {words}: {angle} reaches {limit} in {units.time(tilt.low, SHORT)}"
-    return f" {words}; {angle} {unreached(tilt, limit, lambda t: units.time(t, SHORT))}"
 
 
 def _known(row):

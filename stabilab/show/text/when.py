@@ -4,14 +4,16 @@ from __future__ import annotations
 import math
 import re
 
+from ...caveat import cell, key
 from ...errors import printable
+from .. import limiting
 from ..files import comma
 from ..terminal.letters import lettered
 from ..units import DIGITS, Units, bracket, number
 from . import frame
 
 WORDS = {"yes": "reached by", "never": "NEVER by", "unknown": "NOT KNOWN of"}
-CSV = ("case", "quantity", "limit", "time_low", "time_high", "level")
+CSV = ("case", "quantity", "limit", "time_low", "time_high", "level", "caveats")
 
 
 def as_dict(case, limit, found) -> dict:
@@ -21,13 +23,13 @@ def as_dict(case, limit, found) -> dict:
     known = math.isfinite(high)
     return {"schema": "stabilab.when/1", "case": case.name, "variables": case.variables, "kind": limit.kind, "quantities": list(limit.names),
             "limits": list(limit.limits), "reached": _reached(low, high), "time": [low, high] if known else None,
-            "not_before": low if math.isfinite(low) else None, "level": str(found.level), "because": str(found.words)} | frame.key(case)
+            "not_before": low if math.isfinite(low) else None, "level": str(found.level), "because": str(found.words)} | key(found.caveats) | frame.key(case)
 
 
 def csv(answers) -> str:
     """A line a case, SI units: inf where the limit is never reached, an empty upper end where it is not known."""
     rows = [(case.name, "/".join(limit.names), "/".join(map(repr, limit.limits)), *(None if math.isnan(v) else float(v) for v in (found.low, found.high)),
-             str(found.level)) for case, limit, found in answers]
+             str(found.level), cell(found.caveats)) for case, limit, found in answers]
     return comma.lines([CSV, *rows])[:-1]
 
 
@@ -65,7 +67,7 @@ def _reached(low, high):
 def _answer(limit, found, low, high, units):
     aim = asked(limit, units)
     if math.isinf(low):
-        return f"NEVER reaches {aim} ({found.level})"
+        return f"NEVER reaches {aim} ({found.level}){',' * bool(holds := limiting.condition(found.caveats, units))}{holds}"
     if math.isnan(high):
         return f"NOT KNOWN when it reaches {aim}: not before {units.time(low)} ({found.level})"
     if high == 0:
@@ -87,13 +89,6 @@ def asked(limit, units):
 def _named(quantity):
     """The rate about an axis as everywhere else: "|omega 3|" is |ω3|, and "|omega z|" |ωz|."""
     return re.sub(r"\|(omega|x) ([123xyz])\|", r"|\1\2|", quantity)
-
-
-def unreached(found, limit: str, time) -> str:
-    """What is known where no tilt was found that reaches the limit: the longer of what is proved and what was followed. time: writes seconds."""
-    if found.not_before >= found.followed:
-        return f"does not reach {limit} before {time(found.not_before)} (proved)"
-    return f"was not found to reach {limit} within {time(found.followed)}"
 
 
 def tilt_dict(found) -> dict | None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from ....answers.equilibria import equilibria
-from ....answers.tilt import with_tilt
+from ....answers.passage.of_case import with_tilt
 from ....answers.uncertain.verdicts import uncertain
 from ....errors import StabilabError
 from ...plot import which

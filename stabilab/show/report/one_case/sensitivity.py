@@ -8,11 +8,10 @@ from ....case.limit_options import stated_limit
 from ....errors import InputError
 from ....orbit.potential import potential
 from ....orbit.reduction import reduce
-from ....orbit.result import Fate
-from ....physics.alignment import torque_axis
 from ....physics.coefficients import effective
+from ... import limiting
 from ...text.stuck import holds_for
-from ...text.when import asked, unreached
+from ...text.when import asked
 from .measures import spoken, told, vector
 
 UNITS = {"wheel": "N m s", "torque": "N m"}
@@ -44,7 +43,7 @@ def sensitivity(case, motion, measures) -> dict:
     if row.time_to_limit:
         limit = spoken(asked(stated_limit(case), measures.units))
         found["words"].insert(0, f"The limit of the case, {limit}, is reached after {_between_times(row.time_to_limit, measures)} ({row.time_level}).")
-    found["words"] += _tilt(case, motion, measures, motion.tilt or row.tilt)
+    found["words"] += _tilt(motion, measures, motion.tilt or row.tilt)
     return found
 
 
@@ -110,14 +109,10 @@ def _helper(helper, measures):
     return f"With {share}, {left} is left in the mean: {helper.fate}{time}."
 
 
-def _tilt(case, motion, measures, found):
+def _tilt(motion, measures, found):
     """What a torque a little off its axis does to a bounded motion."""
+    words = [f"This {limiting.words(one, measures.units)}." for one in motion.caveats if one.kind == "tilt"]
     if found is None:
-        asked = motion.fate == Fate.BOUNDED and torque_axis(case.scene)
-        return ["This holds while the torque is exactly on its axis; `stabilab fate CASE --tilt \"1 deg\"` says what a tilt does."] if asked else []
-    angle, limit = f"{told(math.degrees(found.angle), digits=4)}°", measures.rate(found.limit)
-    until = f"No torque tilted by up to {angle} reaches {limit} before {measures.time(found.not_before)} (proved)."
-    if found.ends:
-        return [f"Bounded only while the torque is exactly on its axis: tilted by {angle} it reaches {limit} after {measures.time(found.low)} "
-                f"({found.level}). {until}"]
-    return [f"Tilted by up to {angle} it {unreached(found, limit, measures.time)}. {until}"]
+        return [f"{one} `stabilab fate CASE --tilt \"1 deg\"` says what a tilt does." for one in words]
+    return [*words, f"No torque tilted by up to {told(math.degrees(found.angle), digits=4)}° reaches {measures.rate(found.limit)} before "
+                    f"{measures.time(found.not_before)} (proved)."]

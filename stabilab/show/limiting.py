@@ -1,0 +1,41 @@
+"""What limits an answer, in text: a limit that comes first, the condition beside a verdict, and a line for all else."""
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from ..caveat import Caveat
+from ..errors import printable
+from .terminal.letters import lettered
+from .units import SHORT, Units
+
+INSIDE = ("tilt", "limit", "law")  # told in the first line of an answer itself
+
+
+def reached(caveats: Iterable[Caveat], units: Units) -> str:
+    """The limit that is reached, empty where none is."""
+    return _of("limit", caveats, units)
+
+
+def condition(caveats: Iterable[Caveat], units: Units) -> str:
+    """" only while ...", empty where a verdict rests on no condition."""
+    return _of("tilt", caveats, units).replace("holds ", " ", 1)
+
+
+def noted(caveats: Iterable[Caveat], text: str, units: Units) -> str:
+    """The text with a line below its first for every caveat that no first line has room for."""
+    first, *rest = text.split("\n")
+    return "\n".join([first, *lines([one for one in caveats if one.kind not in INSIDE], units), *rest])
+
+
+def lines(caveats: Iterable[Caveat], units: Units) -> list[str]:
+    """A line each."""
+    return [f"  caveat: {words(one, units)}" for one in caveats]
+
+
+def words(caveat: Caveat, units: Units) -> str:
+    """The words in the units and letters of a text."""
+    return lettered(units.words(printable(caveat.words), SHORT))
+
+
+def _of(kind: str, caveats: Iterable[Caveat], units: Units) -> str:
+    return "; ".join(words(one, units) for one in caveats if one.kind == kind)
