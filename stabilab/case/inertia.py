@@ -4,10 +4,13 @@ from __future__ import annotations
 from fractions import Fraction
 
 from ..errors import InputError
+from ..numbers.exact import half_unit
 from ..numbers.principal import IDENTITY, PrincipalAxes, fault_of, principal_axes
 from ..numbers.vectors import Exact3
 from ..physics.body import Body
-from .table import Faults, Table, described
+from .table import Faults, Table, Written, described
+from .uncertainty import plus_minus, states_uncertainty
+from .units import INERTIA, in_dimension, split
 
 KEYS = ("inertia", "products", "mass", "centre_of_mass")
 PAIRS = {"xy": (0, 1), "xz": (0, 2), "yz": (1, 2)}
@@ -27,7 +30,7 @@ def body_of(top: Table) -> tuple[Body | None, PrincipalAxes | None]:
     table.vector("centre_of_mass")
     frame = _frame(table) if table.required("inertia") else None
     try:
-        return (None, None) if frame is None or (mass is None and "mass" in table) else (Body(frame.moments, mass), frame)
+        return (None, None) if frame is None or (mass is None and "mass" in table) else (Body(frame.moments, mass, _slack(table)), frame)
     except InputError as error:
         table.fault(str(error).removeprefix("inertia: "), "inertia")
         return None, None
@@ -89,7 +92,7 @@ def _with_products(table: Table):
 
 
 def _good(table: Table, moments) -> bool:
-    """Whether three principal moments are positive, and possible within their uncertainties; the faults of both."""
+    """Whether three principal moments are positive, within their uncertainties too; the faults of both."""
     negative = [index for index, moment in enumerate(moments) if moment <= 0]
     for index in negative:
         table.fault(f"number {index + 1} is {float(moments[index])!r}; principal moments are positive", "inertia", index)
@@ -97,17 +100,37 @@ def _good(table: Table, moments) -> bool:
 
 
 def _possible(table: Table, moments) -> bool:
-    """Whether every body within the uncertainties exists; a fault where not."""
-    given = [table.faults.uncertain.get(table.path + ("inertia", i)) for i in range(3)]
-    low, high = ([m + sign * u.half if u else m for m, u in zip(moments, given)] for sign in (-1, 1))
-    if not any(given) or 2 * max(moments) > sum(moments):
-        return True  # `Body` says what is wrong with the middle
-    for index in range(3):
-        others = sum(low) - low[index]
-        if low[index] <= 0 or high[index] > others:
-            wrong = (f"moments down to {float(low[index])!r}" if low[index] <= 0 else
-                     f"{float(high[index])!r} beside others of {float(others)!r} together, against the triangle inequality")
-            table.fault(f"number {index + 1}: the uncertainty reaches {wrong}; no rigid body has these: make it smaller",
-                        "inertia", index)
+    """Whether all moments within the uncertainties are positive; a fault where not."""
+    for index, moment in enumerate(moments):
+        given = table.faults.uncertain.get(table.path + ("inertia", index))
+        if given and moment <= given.half:
+            table.fault(f"number {index + 1}: the uncertainty reaches moments down to {float(moment - given.half)!r}; no rigid body has these: "
+                        "make it smaller", "inertia", index)
             return False
     return True
+
+
+def _slack(table: Table) -> Fraction:
+    """How far the digits of the tensor leave open by how much its largest moment exceeds the sum of the others, kg m^2.
+
+    With half units e_ij of the entries that is at most e_11 + e_22 + e_33 + 2 max_i sum_(j != i) e_ij: the trace changes by the
+    first, and an eigenvalue of the tensor less half its trace by at most the largest sum of a row (Gershgorin).
+    """
+    inertia, products = table.data["inertia"], table.data.get("products", {})
+    if isinstance(inertia[0], list):
+        halves = [[_half(value) for value in row] for row in inertia]
+    else:
+        halves = [[_half(inertia[i]) if i == j else Fraction(0) for j in range(3)] for i in range(3)]
+        for name, (i, j) in PAIRS.items():
+            halves[i][j] = halves[j][i] = _half(products.get(name, 0))
+    return sum(halves[i][i] for i in range(3)) + 2 * max(sum(row) - row[i] for i, row in enumerate(halves))
+
+
+def _half(value: object) -> Fraction:
+    """The uncertainty of a number of the file, else half a unit of its last digit, kg m^2."""
+    if not isinstance(value, str) or isinstance(value, Written):
+        return half_unit(value)
+    if states_uncertainty(value):
+        return plus_minus(value, INERTIA)[1]
+    number, unit = split(value) or (value, "")
+    return half_unit(number) * (in_dimension(unit, INERTIA).size if unit else 1)

@@ -198,7 +198,8 @@ def _built(path, text, data, faults, variant="") -> Case:
         raise CaseError(path, sorted(faults.problems, key=lambda p: p.line or 0))
     return Case(path, title, source, scene, variables, physical, scaling, motion.state, span, expect, motion.blocks, text,
                 variant, tuple(faults.uncertain.values()), mu, motion.exact, frame if physical else None, craft.thrusters, craft.wheels,
-                craft.limits, tuple(dict.fromkeys(map(dotted, sorted(faults.inexact, key=str)))), craft.notes, units)
+                craft.limits, tuple(dict.fromkeys(map(dotted, sorted(faults.inexact, key=str)))), craft.notes, units,
+                caveats=physical.body.caveats if physical else ())
 
 
 def _units(output: Table | None) -> str:

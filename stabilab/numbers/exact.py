@@ -62,6 +62,16 @@ def _parse(value: Any) -> Fraction:
     raise InputError(f"expected a number, got {type(value).__name__}")
 
 
+def half_unit(value: object) -> Fraction:
+    """Half a unit of the last digit of a number as it was written, a double in its shortest digits; 0 of a ratio, of a Fraction, and of a whole
+    number of less than four digits: whoever writes 2 or 100 means exactly that."""
+    written = repr(value) if isinstance(value, float) else str(value)
+    digits, _, power = "".join(written.replace("_", "").split()).lower().partition("e")
+    if isinstance(value, Fraction) or "/" in digits or ("." not in digits and len(digits.lstrip("+-")) < 4):
+        return Fraction(0)
+    return Fraction(10) ** (int(power or 0) - len(digits.partition(".")[2])) / 2
+
+
 def exact_vector(values: Iterable[object], name: str) -> Exact3:
     """Three exact numbers; InputError names `name` otherwise."""
     try:

@@ -1,6 +1,6 @@
 """Principal axes of a symmetric tensor of rationals, without a rounding that is not known.
 
-Whether a tensor is that of a rigid body is decided by signs of exact determinants. Its principal moments are the roots of its
+Whether a tensor has positive moments is decided by signs of exact determinants. Its principal moments are the roots of its
 characteristic polynomial, isolated by Sturm's theorem: rational roots are recognised and kept, the others are enclosed. The direction
 of a rational moment is exact, and the other two are exactly across it, so a torque along it has no component across it. A length that
 is irrational has the same error. `error` bounds what is left, proved by the residual and the gaps (Davis and Kahan 1970).
@@ -61,7 +61,8 @@ def without_trace(vector: Exact3, other: Exact3) -> Exact3:
 
 
 def principal_axes(tensor: Sequence[Sequence[Number]]) -> PrincipalAxes:
-    """The principal moments and axes of an inertia tensor: 3 x 3 exact numbers. Raises InputError for one that no body has."""
+    """The principal moments and axes of an inertia tensor: 3 x 3 exact numbers. Raises InputError where it is not symmetric or a
+    moment is not positive; that the largest exceeds the sum of the others, as of no rigid body, is for `Body` to say."""
     rows = tuple(tuple(Fraction(v) for v in row) for row in tensor)
     wrong = fault_of(rows)
     if wrong:
@@ -77,7 +78,7 @@ def principal_axes(tensor: Sequence[Sequence[Number]]) -> PrincipalAxes:
 
 
 def fault_of(rows: Rows) -> str | None:
-    """What keeps a 3 x 3 tensor of rationals from being the inertia tensor of a body, in words; None where nothing does."""
+    """What keeps a 3 x 3 tensor of rationals from being symmetric with positive principal moments, in words; None where nothing does."""
     for i, j in ((0, 1), (0, 2), (1, 2)):
         if rows[i][j] != rows[j][i]:
             return (f"the tensor is not symmetric: its {NAMES[i]}{NAMES[j]} entry is {float(rows[i][j])!r} and its {NAMES[j]}{NAMES[i]} "
@@ -86,12 +87,6 @@ def fault_of(rows: Rows) -> str | None:
         least = float(real_roots(_characteristic(rows))[0])
         return (f"the tensor is not positive definite: its least principal moment is {least:.6g} kg m^2, and those of a body are positive; "
                 "are the products too large, or their sign convention another one?")
-    half = (rows[0][0] + rows[1][1] + rows[2][2]) / 2
-    if any(minor < 0 for minor in _principal_minors(_shifted(rows, half, -1))):
-        largest = real_roots(_characteristic(rows))[-1]
-        return (f"the triangle inequality is broken: the largest principal moment, {float(largest):.12g}, exceeds the sum of the other two, "
-                f"{float(2 * half - largest):.12g}, by {float(2 * (largest - half)):.6g}; no rigid body has this tensor: "
-                "correct a moment, or the sign of a product")
     return None
 
 
@@ -105,9 +100,9 @@ def _determinant(m: Rows) -> Fraction:
     return dot(m[0], cross(m[1], m[2]))
 
 
-def _shifted(m: Rows, shift: Fraction, sign: int = 1) -> Rows:
-    """sign m - sign shift I."""
-    return tuple(tuple(sign * (v - (shift if i == j else 0)) for j, v in enumerate(row)) for i, row in enumerate(m))
+def _shifted(m: Rows, shift: Fraction) -> Rows:
+    """m - shift I."""
+    return tuple(tuple(v - (shift if i == j else 0) for j, v in enumerate(row)) for i, row in enumerate(m))
 
 
 def _characteristic(m: Rows) -> Poly:

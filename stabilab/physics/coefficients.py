@@ -52,6 +52,13 @@ class Content:
         return bool(self.c or (self.kappa and len(set(self.D)) + any(self.Lambda) + self.directed > 1))
 
     @property
+    def unproved_loss(self) -> str:
+        """Why the liquid may give energy: T' = -kappa/(D1 D2 D3) sum (Di - Dj)^2 (Di + Dj - Dk) wi^2 wj^2 falls for the moments of a mass
+        distribution alone. Empty where it only takes energy, as far as this sum goes, or there is none."""
+        broken = self.kappa and 2 * max(self.D) > sum(self.D)
+        return "undecided: the liquid takes energy for the moments of a rigid body alone, and no rigid body has these" if broken else ""
+
+    @property
     def kind(self) -> str:
         """"gyrostat" (Lambda and M alone), "dissipative", "directed" or "directed and dissipative"."""
         words = [word for word, there in (("directed", self.directed), ("dissipative", self.dissipative)) if there]

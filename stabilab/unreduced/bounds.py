@@ -44,6 +44,8 @@ def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
 
 def judged(parts: Content, omega, gamma) -> tuple[Fate, str, dict]:
     """(fate, proof in words, the numbers in it)."""
+    if parts.unproved_loss:
+        return Fate.UNDECIDED, parts.unproved_loss, {}
     if gamma:
         return _directed(parts, omega, gamma)
     T0 = sum(float(d) * w * w for d, w in zip(parts.D, omega)) / 2

@@ -96,7 +96,6 @@ FAULTS = [
     (BODY + '[motion]\nangular_velocity = [1, 2, 3]\nspan = "20 min"\n', 5, "motion.span", 'got the text "20 min"; write [0, "20 min"]'),
     ("[body]\ninertia = [1, 2]\n", 2, "body.inertia", "expected three numbers, got 2"),
     ("[body]\ninertia = [1,\n # half\n -2, 2]\n", 4, "body.inertia", "number 2 is -2.0; principal moments are positive"),
-    ("[body]\ninertia = [1, 2, 3.5]\n", 2, "body.inertia", "the triangle inequality is broken"),
     ("[body]\ninertia = [1, nan, 1]\n", 2, "body.inertia", "number 2: expected a finite number, got nan"),
     ("[body]\ninertia = [1, 1e400, 1]\n", 2, "body.inertia", "larger than the largest double"),
     ("[body]\ninertia = [1, 1e-400, 1]\n", 2, "body.inertia", "smaller than the smallest double"),

@@ -154,9 +154,6 @@ STUCK = THRUSTER + "stuck = true\n"
 MOTION = "[motion]\nangular_velocity = [0.1, 0.2, 0.2]\n"
 FAULTS = [
     ("[body]\ninertia = [[3, 0.1, 0], [0.2, 2, 0.2], [0, 0.2, 1.5]]\n", 2, "body.inertia", "not symmetric"),
-    ("[body]\ninertia = [[3, 0, 0], [0, 2, 0.1], [0, 0.1, 0.5]]\n", 2, "body.inertia",
-     "triangle inequality is broken: the largest principal moment, 3, exceeds the sum of the other two, 2.5, by 0.5"),
-    ("[body]\ninertia = [3, 2, 0.5]\n", 2, "body.inertia", "2.5, by 0.5;"),
     ("[body]\ninertia = [[1, 2, 0], [2, 1, 0], [0, 0, 1]]\n", 2, "body.inertia", "not positive definite"),
     ("[body]\ninertia = [[3, 0], [0, 2]]\n", 2, "body.inertia", "three rows of three numbers"),
     ("[body]\ninertia = [[3, 0, 0], [0, 2, 0],\n [0, 0, true]]\n", 3, "body.inertia", "row 3, number 3: expected a number"),
@@ -311,7 +308,7 @@ def test_a_dictionary_of_basilisk_becomes_a_case(tmp_path, stabilab, ending, wri
 
 @pytest.mark.parametrize("text, words", [("hello", "expected a NASA 42 spacecraft file"), ("{}", "IHubPntBc_B"), ("x = {'a': open('b')}", "plain numbers"),
                                          ('{"IHubPntBc_B": [1, 2]}', "nine numbers"), ('{"IHubPntBc_B": [1, 1, "x"]}', "expected a number"),
-                                         ('{"IHubPntBc_B": [1, 1, 9]}', "by 7"), (FORTY_TWO.replace("100.  200.0", "100. x"), "Moments of Inertia")])
+                                         ('{"IHubPntBc_B": [1, 1, -9]}', "positive"), (FORTY_TWO.replace("100.  200.0", "100. x"), "Moments of Inertia")])
 def test_what_cannot_be_imported_is_refused(tmp_path, stabilab, text, words):
     path = tmp_path / "own.json"
     path.write_text(text)

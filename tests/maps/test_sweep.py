@@ -124,15 +124,15 @@ def test_a_limit_is_asked_of_scenes_without_arrays_too():
 
 
 def test_words_of_what_is_no_case_are_those_of_no_answer():
-    found = swept("minor-axis-100", {"inertia[1]": "2000, 9000"}, answer="level,when,equilibria,verdict", rate="100")
+    found = swept("minor-axis-100", {"inertia[1]": "2000, -9000"}, answer="level,when,equilibria,verdict", rate="100")
     assert [int(found.records[name][1]) for name in ("level", "when_level", "equilibria", "stable", "open")] == [-1, -1, -3, -3, -3]
 
 
 def test_numbers_that_make_no_case_are_told_and_nothing_else_is_lost():
-    found = swept("minor-axis-100", {"inertia[1]": "2000, 9000"})  # 9000 exceeds 1500 + 1000: no body
-    assert found.records["valid"].tolist() == [1, 0] and found.broken == 1 and "triangle inequality" in found.why
-    with pytest.raises(InputError, match="none of the 1 points makes a case: .*triangle"):
-        swept("minor-axis-100", {"inertia[1]": "9000"})
+    found = swept("minor-axis-100", {"inertia[1]": "2000, -9000"})
+    assert found.records["valid"].tolist() == [1, 0] and found.broken == 1 and "positive" in found.why
+    with pytest.raises(InputError, match="none of the 1 points makes a case: .*positive"):
+        swept("minor-axis-100", {"inertia[1]": "-9000"})
 
 
 def test_samples_lie_in_the_box_and_the_nth_is_the_same_for_any_number():

@@ -28,7 +28,7 @@ def drawn(folder, seed, degenerate):
     try:
         return certified(path, vary, rng.random() < 0.3)
     except InputError as error:
-        told = ("triangle", "proves them at one value")  # curves of equilibria for every value have no certificate
+        told = ("positive", "proves them at one value")  # curves of equilibria for every value have no certificate
         assert any(words in str(error) for words in told), error
         return None
 

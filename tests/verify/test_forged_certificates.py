@@ -325,7 +325,7 @@ def says_what_is_true(claims):
         return True
     try:
         true = true_motion(scene or physical(*arguments), tuple(map(F, motion["state"])))
-    except InputError:  # no rigid body, or beyond doubles: the analysis does not speak of it
+    except InputError:  # a moment that is not positive, or beyond doubles: the analysis does not speak of it
         return True
     return true is None or (meets(motion, true) and (not motion.get("spin_up") or says_what_happens(claims)))
 

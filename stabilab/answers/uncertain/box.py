@@ -89,14 +89,14 @@ class Box:
         return {name: tuple(numbers) for name, numbers in out.items()}
 
     def impossible(self, numbers: Numbers) -> np.ndarray | np.bool_:
-        """True for each sub-box that surely holds no body: a moment of inertia not positive, or the triangle inequality broken
-        (for a body in scaled variables: moments not in falling order)."""
+        """True for each sub-box that surely holds no body: a moment of inertia not positive (for a body in scaled
+        variables: moments not in falling order)."""
         if not self.bodily:
             return np.bool_(False)
         D = numbers["inertia"]
         wrong: np.ndarray | np.bool_ = np.bool_(False)
         for i in range(3):
-            wrong = wrong | (sign_over(D[i]) < 0) | (sign_over(D[(i + 1) % 3] + D[(i + 2) % 3] - D[i]) < 0)
+            wrong = wrong | (sign_over(D[i]) < 0)
         if self.variables == "scaled" or "mu" in self.middle:
             wrong = wrong | (sign_over(D[0] - D[1]) < 0) | (sign_over(D[1] - D[2]) < 0)
         return wrong

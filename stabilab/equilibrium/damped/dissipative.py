@@ -30,6 +30,8 @@ def dissipative_equilibria(parts: Content) -> Equilibria:
     """Equilibria of the angular velocity with resistance, a liquid or both, a wheel, a constant charge and a torque."""
     if not parts.kappa:
         return resisted_equilibria(parts)
+    if parts.unproved_loss:
+        return Equilibria("undecided", parts.unproved_loss)
     if not parts.c and not any(parts.M):
         return liquid_equilibria(parts)
     if not any(parts.M) and not any(parts.Lambda):

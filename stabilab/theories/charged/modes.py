@@ -33,8 +33,7 @@ class ChargedBody:
     k = e H l^2 cos(sigma), kg m^2/s (C T m^2). torque: M1, M2, N m, body axes (a torque about the spin axis would change
     r0: this theory has none). rates: p, q at t = 0, rad/s. attitude: psi, phi, theta at t = 0 (3-1-2 sequence), rad.
     force: f1, f2, f3, N, body axes. mass: kg, None where no translation is asked for. velocity, position: inertial, m/s, m.
-    Raises InputError for numbers that are not finite, moments or masses that are not positive, and moments that break
-    the triangle inequality.
+    Raises InputError for numbers that are not finite, and moments or masses that are not positive.
     """
 
     inertia: Batch
@@ -60,8 +59,6 @@ class ChargedBody:
             raise InputError(f"batch axes do not broadcast together: {self.shapes}") from None
         if np.any(self.inertia <= 0):
             raise InputError(f"inertia: expected three positive moments, got {self.inertia}")
-        if np.any(2 * self.inertia.max(axis=-1) > self.inertia.sum(axis=-1) * (1 + 1e-15)):  # rounding of the limit case
-            raise InputError(f"inertia: one moment exceeds the sum of the other two in {self.inertia}; no rigid body has them")
         if self.mass is not None and np.any(self.mass <= 0):
             raise InputError(f"mass: expected a positive number, got {self.mass}")
 

@@ -21,7 +21,7 @@ STUCK = THRUSTER + "stuck = true\n"
     (BODY + STUCK + STUCK + MOTION, 'own.toml:11: thrusters.name: two thrusters have the name "A": give each its own'),
     (BODY + STUCK.replace("20 mN", "20 mNewton") + MOTION, "own.toml:8: thrusters.force: "),
     (BODY + STUCK.replace("20 mN", "20 mm") + MOTION, "expected force (N), got length (m)"),
-    (BODY.replace("12", "15") + STUCK + MOTION, "own.toml:2: body.inertia: the triangle inequality is broken")])
+    (BODY.replace("12", "-12") + STUCK + MOTION, "own.toml:2: body.inertia: number 1 is -12.0; principal moments are positive")])
 def test_it_is_refused_with_the_file_and_the_cure(stabilab, tmp_path, monkeypatch, text, words):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "own.toml").write_text(text)

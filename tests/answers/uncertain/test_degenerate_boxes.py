@@ -32,10 +32,10 @@ def test_a_box_without_a_motion_has_no_fate(tmp_path):
     assert fate_over(box_of(case)) is None and uncertain(case).fate is None and uncertain(case).equilibria.answer == "holds"
 
 
-def test_where_the_moments_break_the_triangle_inequality_there_is_no_verdict(tmp_path):
+def test_where_a_moment_is_not_positive_there_is_no_verdict(tmp_path):
     box = box_of(case_of(tmp_path, inertia='"20 +- 0.4", 10, "10.9 +- 0.4"', state="0, 0, 1"))
-    assert verdict_at(box, np.array([3.0, -3.0])) is None  # 21.2 > 10 + 9.7
-    assert verdict_at(box, np.array([1.0, 1.0])) == "spin-up about axis 3, positive sense"
+    assert verdict_at(box, np.array([1.0, -30.0])) is None  # 10.9 - 12 < 0
+    assert verdict_at(box, np.array([3.0, -3.0])) == "spin-up about axis 3, positive sense"  # 21.2 > 10 + 9.7: Euler's equations hold all the same
 
 
 @pytest.mark.parametrize("inertia, axis", [("20, 15, 10", 2), ("20, 20, 10", 1)])
