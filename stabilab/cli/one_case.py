@@ -60,12 +60,16 @@ def precision(case: CaseFile, json: Json = False,
 def import_(file: Annotated[Path, typer.Argument(metavar="FILE", help="A NASA 42 spacecraft file, or JSON or a Python dictionary with "
                                                                       "Basilisk's names.", show_default=False)],
             out: Annotated[Path | None, typer.Option(metavar="FILE.toml", help="Write the case to a file.")] = None,
-            stuck: Annotated[list[str] | None, typer.Option(metavar="NAME", help="A thruster that is stuck open; may be repeated.")] = None):
+            stuck: Annotated[list[str] | None, typer.Option(metavar="NAME", help="A thruster that is stuck open; may be repeated.")] = None,
+            body: Annotated[int | None, typer.Option(metavar="N", help="Of several bodies in a NASA 42 file, one alone.",
+                                                     show_default="all, joined")] = None):
     """Write another program's spacecraft as a case.
+
+    Several bodies on joints become one rigid body, the joints locked as the file places them.
 
     What has no counterpart in a case is listed on stderr. Exits with 2 where the case still has faults.
 
     Example: stabilab import SC_Simple.txt --out simple.toml
     """
     from ..commands.foreign import import_ as answer
-    answer(file, out, stuck)
+    answer(file, out, stuck, body)

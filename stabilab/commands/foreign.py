@@ -9,10 +9,15 @@ from ..files import whole_file
 from .common.output import say, write
 
 
-def import_(file, out, stuck):
+def import_(file, out, stuck, body=None):
     """Write the case, name what has no counterpart, and refuse what has faults yet."""
     given = source_text(file)
-    craft = (import_42 if import_42.is_one(given) else import_basilisk).spacecraft(given, file)
+    if import_42.is_one(given):
+        craft = import_42.spacecraft(given, file, body)
+    elif body is None:
+        craft = import_basilisk.spacecraft(given, file)
+    else:
+        raise InputError(f"--body counts the bodies of a NASA 42 spacecraft file, and {printable(str(file))} is none")
     text = case_text(craft, file, stuck or ())
     if out:
         with whole_file(out) as waiting:
@@ -20,6 +25,8 @@ def import_(file, out, stuck):
         say(f"written: {out}")
     else:
         write(text)
+    for words in craft.said:
+        say(f"{printable(str(file))}: {printable(words)}")
     for words in craft.omitted:
         say(f"{printable(str(file))}: no counterpart: {printable(words)}")
     faults = faults_of(text, out or file)

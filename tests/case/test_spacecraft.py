@@ -2,6 +2,8 @@
 import json
 import math
 import random
+import re
+import tomllib
 from fractions import Fraction
 from pathlib import Path
 
@@ -314,3 +316,155 @@ def test_what_cannot_be_imported_is_refused(tmp_path, stabilab, text, words):
     path.write_text(text)
     code, _, err = stabilab("import", path)
     assert code == 2 and words in err and "Traceback" not in err
+
+
+JOINED = """<<<<<<<<  42: Spacecraft Description File   >>>>>>>>
+Own chain                   !  Description
+*************** Initial Attitude ***************
+NAN                         ! Ang Vel wrt [NL], Att [QA] wrt [NLF]
+1.0    2.0    3.0           ! Ang Vel (deg/sec)
+***************  Dynamics Flags  ***************
+REFERENCE                   ! Mass Props referenced to REFPT_CM or REFPT_JOINT
+*************** Body Parameters ***************
+3                           ! Number of Bodies
+=============== Body 0 ===============
+10.0                        ! Mass
+4.0  5.0  6.0               ! Moments of Inertia (kg-m^2)
+0.2  -.1  0.3               ! Products of Inertia (xy,xz,yz)
+0.1  0.2  0.3               ! Location of mass center, m
+0.0  0.0  1.0               ! Constant Embedded Momentum (Nms)
+=============== Body 1 ===============
+4.0                         ! Mass
+2.0  2.5  3.0               ! Moments of Inertia (kg-m^2)
+0.1  0.2  -.3               ! Products of Inertia (xy,xz,yz)
+0.0  0.1  -0.2              ! Location of mass center, m
+0.5  0.0  0.0               ! Constant Embedded Momentum (Nms)
+=============== Body 2 ===============
+2.0                         ! Mass
+1.0  1.25  1.5              ! Moments of Inertia (kg-m^2)
+0.0  0.0  0.0               ! Products of Inertia (xy,xz,yz)
+0.3  0.0  0.0               ! Location of mass center, m
+0.0  0.0  0.0               ! Constant Embedded Momentum (Nms)
+*************** Joint Parameters ***************
+=============== Joint 0 ===============
+0 1                         ! Inner, outer body indices
+2   231   GIMBAL            ! RotDOF, Seq, GIMBAL or SPHERICAL
+1   312                     ! TrnDOF, Seq
+20.0   30.0    77.0         ! Initial Angles [deg]
+0.4    9.0    9.0           ! Initial Displacements [m]
+10.0   20.0  30.0  312      ! Bi to Gi Static Angles [deg] & Seq
+-15.0  25.0  35.0  123      ! Go to Bo Static Angles [deg] & Seq
+0.5   0.6  0.7              ! Position wrt inner body origin, m
+0.1  -0.2  0.3              ! Position wrt outer body origin, m
+=============== Joint 1 ===============
+1 2                         ! Inner, outer body indices
+3   321   SPHERICAL         ! RotDOF, Seq, GIMBAL or SPHERICAL
+0   123                     ! TrnDOF, Seq
+5.0   -50.0    60.0         ! Initial Angles [deg]
+9.0    9.0    9.0           ! Initial Displacements [m]
+0.0   0.0  0.0  312         ! Bi to Gi Static Angles [deg] & Seq
+0.0   90.0  0.0  312        ! Go to Bo Static Angles [deg] & Seq
+0.0   1.0  0.0              ! Position wrt inner body origin, m
+0.0   0.0  -1.0             ! Position wrt outer body origin, m
+*************** Wheel Parameters ***************
+1                           ! Number of wheels
+=============== Wheel 0 ===============
+4.0                         ! Initial Momentum, N-m-sec
+0.0   1.0   1.0             ! Wheel Axis Components, [X, Y, Z]
+2                           ! Body
+*************** Thruster Parameters ***************
+1                           ! Number of Thrusters
+=============== Thr 0 ===============
+ 1.5                        ! Thrust Force (N)
+0.0  0.0  -1.0              ! Thrust Axis
+2                           ! Body
+3                           ! Node
+"""
+
+
+def _masses(mass, tensor, centre):
+    """Six equal point masses with this mass, centre and tensor: two on each principal axis, at the roots of the second moments."""
+    import numpy as np
+    moments, axes = np.linalg.eigh(tensor)
+    arms = [np.sqrt(3 * (moments.sum() / 2 - m) / mass) * axis for m, axis in zip(moments, axes.T)]
+    return mass / 6, [np.array(centre) + sign * arm for arm in arms for sign in (1, -1)]
+
+
+def _chain(about_origin):
+    """(tensor about the common centre, that centre, turns of bodies 1 and 2) of the bodies above, in the frame of body 0, by SciPy and point masses."""
+    import numpy as np
+    from scipy.spatial.transform import Rotation
+    to = lambda sequence, *angles: Rotation.from_euler("".join("XYZ"[int(n) - 1] for n in sequence), angles, degrees=True).as_matrix().T
+    before = to("312", 10, 20, 30)
+    one = to("123", -15, 25, 35) @ to("231", 20, 30, 0) @ before  # two of three angles are free
+    at = np.array([0.5, 0.6, 0.7]) + before.T @ [0, 0, 0.4] - one.T @ [0.1, -0.2, 0.3]  # one displacement, along axis 3
+    two = to("312", 0, 90, 0) @ to("321", 5, -50, 60)
+    far = np.array([0, 1, 0]) - two.T @ [0, 0, -1]
+    turns, origins = [np.eye(3), one, two @ one], [np.zeros(3), at, at + one.T @ far]
+    points, weights = [], []
+    for turn, origin, (mass, moments, (xy, xz, yz), centre) in zip(turns, origins, (
+            (10, (4, 5, 6), (0.2, -0.1, 0.3), (0.1, 0.2, 0.3)), (4, (2, 2.5, 3), (0.1, 0.2, -0.3), (0, 0.1, -0.2)),
+            (2, (1, 1.25, 1.5), (0, 0, 0), (0.3, 0, 0)))):
+        tensor, centre = np.diag(moments) - [[0, xy, xz], [xy, 0, yz], [xz, yz, 0]], np.array(centre)
+        if about_origin:
+            tensor = tensor - mass * (centre @ centre * np.eye(3) - np.outer(centre, centre))
+        weight, places = _masses(mass, tensor, centre)
+        points += [origin + turn.T @ place for place in places]
+        weights += [weight] * 6
+    weights, points = np.array(weights), np.array(points)
+    centre = weights @ points / weights.sum()
+    arms = points - centre
+    return sum(w * (a @ a * np.eye(3) - np.outer(a, a)) for w, a in zip(weights, arms)), centre, turns
+
+
+@pytest.mark.parametrize("reference", ["REFPT_CM", "REFPT_JOINT"])
+def test_several_bodies_are_one_with_their_joints_locked(tmp_path, stabilab, reference):
+    (tmp_path / "SC_Own.txt").write_text(JOINED.replace("REFERENCE", reference))
+    code, out, err = stabilab("import", tmp_path / "SC_Own.txt")
+    assert code == 0 and "3 bodies are combined into one rigid body" in err and "joints locked" in err
+    found, (tensor, centre, turns) = tomllib.loads(out), _chain(reference == "REFPT_JOINT")
+    assert found["body"]["mass"] == 16 and found["body"]["centre_of_mass"] == pytest.approx(centre, rel=1e-10)
+    for row, wanted in zip(found["body"]["inertia"], tensor):
+        assert row == pytest.approx(wanted, rel=1e-10)
+    assert found["effects"]["gyrostat"]["momentum"] == pytest.approx(turns[0].T @ [0, 0, 1] + turns[1].T @ [0.5, 0, 0], rel=1e-10)
+    assert found["wheels"][0]["axis"] == pytest.approx(turns[2].T @ [0, 1, 1], rel=1e-10)
+    along = re.search(r"thr 0: 1.5 N along \[(.*?)\]", err)[1]
+    assert list(map(float, along.split(","))) == pytest.approx(turns[2].T @ [0, 0, -1], rel=1e-10)
+
+
+def test_one_of_several_bodies_alone(tmp_path, stabilab):
+    path = tmp_path / "SC_Own.txt"
+    path.write_text(JOINED.replace("REFERENCE", "REFPT_CM"))
+    code, out, err = stabilab("import", path, "--body", 2)
+    found, (_, _, turns) = tomllib.loads(out), _chain(False)
+    assert code == 0 and found["body"] == {"inertia": [1, 1.25, 1.5], "mass": 2, "centre_of_mass": [0.3, 0, 0]} and "combined" not in err
+    assert found["wheels"] == [{"name": "wheel 0", "axis": [0, 1, 1], "momentum": 4}]
+    assert [float(v.split()[0]) for v in found["motion"]["angular_velocity"]] == pytest.approx(turns[2] @ [1, 2, 3], rel=1e-10)
+    assert "wheels" not in tomllib.loads(stabilab("import", path, "--body", 0)[1])
+    assert stabilab("import", path, "--body", 3)[0] == 2 and "bodies 0 to 2" in stabilab("import", path, "--body", 3)[2]
+
+
+def test_four_booms_about_a_spinner_by_hand():
+    """Demo/SC_TumbleSat of NASA's 42: booms of 94.25 kg with moments (0.47, 8.09, 8.09), their centres 1 m from the axis, at 0, 90, 180, 270 deg."""
+    from stabilab.case.foreign.joined import Joint, Part, joined, places, turn
+    none, boom = (Fraction(0),) * 3, [[Fraction(v) if i == j else 0 for j in range(3)] for i, v in enumerate(("0.47", "8.09", "8.09"))]
+    parts = [Part(Fraction("1963.5"), [[5174, 0, 0], [0, 3593, 0], [0, 0, Fraction("245.4")]], (0, 0, Fraction("2.5")), none)]
+    joints = []
+    for n, (x, y) in enumerate(((1, 0), (0, 1), (-1, 0), (0, -1))):
+        parts.append(Part(Fraction("94.25"), boom, (Fraction(1, 2), 0, 0), none))
+        joints.append(Joint(0, n + 1, turn((Fraction(90 * n), 0, 0), "312"), (Fraction(x, 2), Fraction(y, 2), Fraction("2.5"))))
+    found = joined(parts, places(joints, 5))
+    across = 2 * Fraction("0.47") + 2 * (Fraction("8.09") + Fraction("94.25"))  # two booms along the axis, two at 1 m from it
+    along = 4 * (Fraction("8.09") + Fraction("94.25"))
+    assert found.tensor == ((5174 + across, 0, 0), (0, 3593 + across, 0), (0, 0, Fraction("245.4") + along)) and found.centre == (0, 0, Fraction("2.5"))
+
+
+def test_a_line_with_a_number_too_many_is_named(tmp_path, stabilab):
+    path, four = tmp_path / "SC_Own.txt", FORTY_TWO.replace("1.0   0.0   0.0             ! Wheel", "0  1.0   0.0   0.0          ! Wheel")
+    line = 1 + four.splitlines().index(next(words for words in four.splitlines() if "Wheel Axis" in words))
+    path.write_text(four)
+    code, _, err = stabilab("import", path)
+    assert code == 2 and f'SC_Own.txt:{line}: Wheel Axis Components, [X, Y, Z]: expected three numbers, got "0  1.0   0.0   0.0"' in err
+    path.write_text(four.replace("4.0                         ! Initial", "0.0                         ! Initial"))
+    code, out, err = stabilab("import", path)
+    assert code == 0 and "wheels" not in out and f"line {line}: Wheel Axis" in err and "no momentum and is left out" in err

@@ -1,20 +1,25 @@
 """The spacecraft description file of NASA's simulator 42 (SC_*.txt): a value and its label a line, in titled sections.
 
 42 states rates in deg/s, products of inertia as positive integrals, and puts thrusters at nodes whose places are in a file of their
-own; a thruster without a place cannot be used and is listed.
+own; a thruster without a place cannot be used and is listed. Several bodies are combined, their joints locked (`joined`).
 """
 from __future__ import annotations
 
 import re
+from fractions import Fraction
 from typing import Any, NamedTuple
 
 from ...errors import InputError
+from ...numbers.vectors import Exact3
 from .imported import Craft
+from .joined import Joint, Part, about, added, decimals, joined, places, product, times, turn, turned_back
 
 _TITLE = re.compile(r"\s*([*=<]{3,})\s*(.*?)\s*[*=>]*\s*")
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 USED = {"mass", "moments of inertia", "products of inertia", "location of mass center", "constant embedded momentum", "initial momentum",
-        "wheel axis", "thrust force", "thrust axis", "ang vel (", "description", "label"}
+        "wheel axis", "thrust force", "thrust axis", "ang vel (", "description", "label", "body"}
+PLACED = {"inner, outer", "rotdof, seq", "trndof, seq", "initial angles", "initial displacements", "bi to gi", "go to bo", "position wrt"}
+WORDS = {1: "a number", 2: "two numbers", 3: "three numbers", 4: "three angles and a sequence"}
 
 
 class Entry(NamedTuple):
@@ -30,32 +35,148 @@ def is_one(text: str) -> bool:
     return "42:" in text[:200] and "!" in text
 
 
-def spacecraft(text: str, path) -> Craft:
-    """What the file says. Raises InputError where it says no inertia."""
+def spacecraft(text: str, path, body: int | None = None) -> Craft:
+    """What the file says of all its bodies as one, or of one of them alone, in that body's frame. Raises InputError where it says no inertia."""
     entries = _used(_entries(text))
     craft = Craft(_value(entries, "", "description") or "spacecraft")
-    body = [e for e in entries if e.section.startswith("body") and e.block in ("body 0", "")]
-    craft.mass = (_numbers(body, "mass", 1, path) or [None])[0]
-    craft.inertia = _numbers(body, "moments of inertia", 3, path)
-    if craft.inertia is None:
-        raise InputError(f"{path}: expected a line with three numbers and the label Moments of Inertia in the section Body Parameters")
-    craft.products = _acting(_numbers(body, "products of inertia", 3, path))
-    craft.centre = _numbers(body, "location of mass center", 3, path)
-    craft.momentum = _acting(_numbers(body, "constant embedded momentum", 3, path))
+    bodies = [rows for _, rows in _blocks(entries, "body")] or [[e for e in entries if e.section.startswith("body")]]
+    if body is not None and not 0 <= body < len(bodies):
+        raise InputError(f"--body {body}: no such body; the file has {f'bodies 0 to {len(bodies) - 1}' if len(bodies) > 1 else 'body 0 alone'}")
+    where = _places(entries, len(bodies), path)
+    alone, whole = bodies[body or 0], body is None and len(bodies) > 1
     craft.rate, craft.rate_unit = _numbers(entries, "ang vel (", 3, path), "deg/s"
+    if body and craft.rate:
+        craft.rate = decimals(times(where[body][0], [Fraction(v) for v in craft.rate]))
+    if whole:
+        parts = [_part(rows, _at_joint(entries), path) for rows in bodies]
+        if sum(part.mass for part in parts) <= 0:
+            raise InputError(f"{path}: {len(parts)} bodies without a mass have no common mass centre; --body N takes one alone")
+        _together(craft, joined(parts, where), len(bodies))
+    else:
+        _alone(craft, alone, _at_joint(entries), path)
     for block, rows in _blocks(entries, "wheel"):
-        axis, momentum = _numbers(rows, "wheel axis", 3, path), _numbers(rows, "initial momentum", 1, path)
-        if axis and momentum:
-            craft.wheels.append({"name": block, "axis": axis, "momentum": momentum[0]})
+        _wheel(craft, block, rows, where, body, path)
     for block, rows in _blocks(entries, "thr"):
-        _thruster(craft, block, rows, path)
+        on = _on(rows, len(bodies), path)
+        if whole or on == (body or 0):
+            _thruster(craft, block, rows, where[on] if whole else None, path)
     craft.omitted += _warnings(entries) + _left(entries)
     return craft
 
 
-def _thruster(craft, block, rows, path):
+def _alone(craft: Craft, rows, at_joint: bool, path):
+    """One body as the file writes it."""
+    craft.mass = (_numbers(rows, "mass", 1, path) or [None])[0]
+    craft.inertia, craft.products = _moments(rows, path), _acting(_numbers(rows, "products of inertia", 3, path))
+    craft.centre = _numbers(rows, "location of mass center", 3, path)
+    craft.momentum = _acting(_numbers(rows, "constant embedded momentum", 3, path))
+    if at_joint and _acting(craft.centre):
+        craft.inertia, craft.products = _rows(_part(rows, at_joint, path)), None
+        craft.said.append("moments about the body's origin (REFPT_JOINT) are brought to its mass centre")
+
+
+def _together(craft: Craft, whole: Part, count: int):
+    """Several bodies as one."""
+    craft.mass, craft.inertia = decimals([whole.mass])[0], _rows(whole)
+    craft.centre, craft.momentum = decimals(whole.centre), _acting(decimals(whole.momentum))
+    craft.said.append(f"{count} bodies are combined into one rigid body about their common mass centre, in the frame of body 0, the joints "
+                      "locked as the file places them (--body N takes one alone)")
+
+
+def _rows(part: Part) -> list:
+    """The tensor of a part, or its moments where it is diagonal."""
+    flat = decimals([v for row in part.tensor for v in row])
+    return flat[::4] if not any(float(flat[i]) for i in (1, 2, 5)) else [flat[i:i + 3] for i in (0, 3, 6)]
+
+
+def _moments(rows, path) -> list[str]:
+    found = _numbers(rows, "moments of inertia", 3, path)
+    if found is None:
+        raise InputError(f"{path}: expected a line with three numbers and the label Moments of Inertia in the section Body Parameters")
+    return found
+
+
+def _part(rows, at_joint: bool, path) -> Part:
+    """A body in exact numbers."""
+    mass, = _exact(rows, "mass", 1, path)
+    x, y, z = (Fraction(v) for v in _moments(rows, path))
+    xy, xz, yz = (-v for v in _exact(rows, "products of inertia", 3, path))
+    tensor, centre = ((x, xy, xz), (xy, y, yz), (xz, yz, z)), _exact(rows, "location of mass center", 3, path)
+    return Part(mass, added(tensor, about(mass, centre), -1) if at_joint else tensor, centre, _exact(rows, "constant embedded momentum", 3, path))
+
+
+def _exact(rows, label: str, count: int, path) -> Exact3:
+    """The numbers of a line, zeros where it is missing."""
+    return tuple(Fraction(v) for v in _numbers(rows, label, count, path) or ["0"] * count)
+
+
+def _at_joint(entries) -> bool:
+    return _value(entries, "dynamics", "mass props") == "REFPT_JOINT"
+
+
+def _places(entries, count: int, path):
+    """Of every body, what turns components of body 0 to its own, and its origin. Raises InputError where no joint leads to it."""
+    found = places([_joint(rows, path) for _, rows in _blocks(entries, "joint")], count) if count > 1 else places((), 1)
+    missing = [str(n) for n in range(count) if n not in found]
+    if missing:
+        raise InputError(f"{path}: no joint of the section Joint Parameters ties body {', '.join(missing)} to body 0; --body N takes one body alone")
+    return found
+
+
+def _joint(rows, path) -> Joint:
+    inner, outer = (int(v) for v in _exact(rows, "inner, outer", 2, path))
+    (free, sequence), (slides, along) = (_exact(rows, label, 2, path) for label in ("rotdof, seq", "trndof, seq"))
+    angles = _exact(rows, "initial angles", 3, path)[:int(free)]
+    before, after = (_static(rows, label, path) for label in ("bi to gi", "go to bo"))
+    slid = [Fraction(0)] * 3
+    for axis, way in zip(str(along), _exact(rows, "initial displacements", 3, path)[:int(slides)]):
+        slid[int(axis) - 1] += way
+    turned = product(after, product(turn(angles, str(sequence)), before))
+    inside, outside = (_exact(rows, f"position wrt {word}", 3, path) for word in ("inner", "outer"))
+    back = zip(inside, times(turned_back(before), slid), times(turned_back(turned), outside))
+    return Joint(inner, outer, turned, tuple(a + b - c for a, b, c in back))
+
+
+def _static(rows, label, path):
+    *angles, sequence = _exact(rows, label, 4, path)
+    return turn(angles, str(sequence))
+
+
+def _on(rows, count: int, path) -> int:
+    """The body that a wheel or a thruster stands on."""
+    found = int(_exact(rows, "body", 1, path)[0])
+    if not 0 <= found < count:
+        raise InputError(f"{path}:{next(e.line for e in rows if e.label.lower().startswith('body'))}: Body: the file has no body {found}")
+    return found
+
+
+def _wheel(craft: Craft, block, rows, where, body, path):
+    momentum = _numbers(rows, "initial momentum", 1, path)
+    if momentum is None or (on := _on(rows, len(where), path)) != body is not None:
+        return
+    try:
+        axis = _numbers(rows, "wheel axis", 3, path)
+    except InputError as error:
+        if float(momentum[0]):
+            raise
+        craft.said.append(f"line {str(error).removeprefix(f'{path}:')}; {block} has no momentum and is left out")
+        return
+    if axis:
+        craft.wheels.append({"name": block, "axis": axis if not on or body else _turned(where[on], axis), "momentum": momentum[0]})
+
+
+def _turned(place, vector) -> list[str]:
+    """A vector of a body in the frame of body 0."""
+    return decimals(times(turned_back(place[0]), [Fraction(v) for v in vector]))
+
+
+def _thruster(craft, block, rows, where, path):
     axis, force = _numbers(rows, "thrust axis", 3, path), _numbers(rows, "thrust force", 1, path)
     place = _numbers(rows, "location", 3, path)
+    if axis and where:
+        axis = _turned(where, axis)
+    if place and where:
+        place = decimals([a + Fraction(b) for a, b in zip(where[1], _turned(where, place))])
     if axis and force and place:
         craft.thrusters.append({"name": block, "position": place, "direction": axis, "force": force[0]})
     elif axis and force:
@@ -102,8 +223,8 @@ def _numbers(entries, label, count, path):
     if entry is None:
         return None
     words = entry.value.split()
-    if len(words) < count or not all(_NUMBER.fullmatch(word) for word in words[:count]):
-        raise InputError(f"{path}:{entry.line}: {entry.label}: expected {'three numbers' if count == 3 else 'a number'}, got \"{entry.value[:60]}\"")
+    if len(words) < count or not all(_NUMBER.fullmatch(word) for word in words[:count]) or (len(words) > count and _NUMBER.fullmatch(words[count])):
+        raise InputError(f"{path}:{entry.line}: {entry.label}: expected {WORDS[count]}, got \"{entry.value[:60]}\"")
     return [_written(word) for word in words[:count]]
 
 
@@ -124,11 +245,6 @@ def _warnings(entries) -> list[str]:
     frame = _value(entries, "", "ang vel wrt")
     if frame and not frame.upper().startswith("N"):
         notes.append("the angular velocity is relative to the orbit frame (Ang Vel wrt L): it is taken as relative to inertial space")
-    bodies = _value(entries, "body", "number of bodies")
-    if bodies not in (None, "1"):
-        notes.append(f"{bodies} bodies joined together: body 0 alone is taken, as one rigid body")
-    if _value(entries, "dynamics", "mass props") not in (None, "REFPT_CM"):
-        notes.append("mass properties that refer to a joint: the moments are taken as those about the mass centre")
     return notes
 
 
@@ -136,6 +252,6 @@ def _left(entries) -> list[str]:
     """What was not used, a line a section."""
     sections: dict[str, Any] = {}
     for e in entries:
-        if not e.label.lower().startswith((*USED, "number of")) and e.value not in ("0", "NONE"):
+        if not e.label.lower().startswith((*USED, *PLACED, "mass props", "number of")) and e.value not in ("0", "NONE"):
             sections.setdefault(e.section or "head", []).append(e.label.split("(")[0].split(",")[0].strip())
     return [f"{section}: {', '.join(dict.fromkeys(labels))}" for section, labels in sections.items()]

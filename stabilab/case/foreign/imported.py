@@ -14,7 +14,7 @@ class Craft:
     """What a file says of a spacecraft, every number as it is written there.
 
     inertia: three texts, or three rows of three; products: texts xy, xz, yz whose integrals are positive, or None; thrusters and
-    wheels: {key of the case: text or three texts}; omitted: what has no counterpart in a case, in words.
+    wheels: {key of the case: text or three texts}; omitted: what has no counterpart in a case, in words; said: what was done with the rest.
     """
 
     title: str
@@ -28,6 +28,7 @@ class Craft:
     rate: list | None = None
     rate_unit: str = ""
     omitted: list = field(default_factory=list)
+    said: list = field(default_factory=list)
 
 
 def case_text(craft: Craft, path, stuck=()) -> str:
