@@ -14,7 +14,7 @@ import numpy as np
 
 from ..answers.digits.reduced import ladder, reduced
 from ..errors import InputError
-from ..integrate.to_heyoka import TAYLOR_TOLERANCE, heyoka_available, heyoka_form, to_taylor
+from ..integrate.to_heyoka import TAYLOR_TOLERANCE, heyoka, heyoka_available, heyoka_form, to_taylor
 from ..integrate.trajectory import ATOL_SHARE, SCIPY_METHODS
 from ..physics.attitude import quaternion
 from ..physics.blocks import slices
@@ -118,12 +118,10 @@ def _taylor(task, tolerance):
 
 def _batch(task, tolerance):
     """One lane is the motion, the others start next to it; cost is counted for one lane."""
-    import heyoka
-
     rates = form(task.equations, task.equations.rhs)
     variables, expressions = heyoka_form(rates.state, rates.symbols, rates.expressions)
     spread = task.start[:, None] * (1 + NUDGE * np.arange(LANES))
-    integrator = heyoka.taylor_adaptive_batch(list(zip(variables, expressions)), spread.copy(), tol=tolerance,
+    integrator = heyoka().taylor_adaptive_batch(list(zip(variables, expressions)), spread.copy(), tol=tolerance,
                                               pars=np.repeat(np.array(rates.numbers)[:, None], LANES, axis=1))
 
     def run(times):

@@ -22,10 +22,17 @@ FEATHER = 2.0**-300
 def heyoka_available() -> bool:
     """Whether the Taylor integrator is installed (Linux wheels only); SciPy stands in where it is not."""
     try:
-        import heyoka  # noqa: F401 - only whether it is there
+        heyoka()
     except ImportError:
         return False
     return True
+
+
+def heyoka():
+    """The package. It logs to stdout, among the answers, so it is left no message: of a cache on disk without a home, of a step that fails."""
+    import heyoka
+    heyoka.set_logger_level_critical()
+    return heyoka
 
 
 def to_taylor(equations: Equations, quadratures=(), tolerance: float = TAYLOR_TOLERANCE):
@@ -117,36 +124,32 @@ class _Note:
 
 
 def heyoka_form(state, symbols, expressions):
-    import heyoka
-    variables = heyoka.make_vars(*map(str, state))
-    swap = dict(zip(state, variables)) | {s: heyoka.par[i] for i, s in enumerate(symbols)}
-    return variables, [_from_sympy(heyoka, e, swap) for e in expressions]
+    variables = heyoka().make_vars(*map(str, state))
+    swap = dict(zip(state, variables)) | {s: heyoka().par[i] for i, s in enumerate(symbols)}
+    return variables, [_from_sympy(e, swap) for e in expressions]
 
 
-def _from_sympy(heyoka, expression, swap):
+def _from_sympy(expression, swap):
     """heyoka.from_sympy turns away ratios and lone numbers; `form` has left only integers and symbols."""
-    return heyoka.expression(float(expression)) if expression.is_number else heyoka.from_sympy(expression, swap)
+    return heyoka().expression(float(expression)) if expression.is_number else heyoka().from_sympy(expression, swap)
 
 
 @lru_cache(maxsize=64)
 def _integrator(structure, tolerance, lanes=0):
-    import heyoka
     n, count = len(structure.state), len(structure.expressions)
     variables, rates = heyoka_form(structure.state, structure.symbols, structure.expressions)
-    extra = heyoka.make_vars(*(f"quadrature{i}" for i in range(count - n))) if count > n else []
+    extra = heyoka().make_vars(*(f"quadrature{i}" for i in range(count - n))) if count > n else []
     extra = extra if isinstance(extra, list) else [extra]
     rates[n:] = [FEATHER * r for r in rates[n:]]
-    make, shape = (heyoka.taylor_adaptive_batch, (lanes,)) if lanes else (heyoka.taylor_adaptive, ())
+    make, shape = (heyoka().taylor_adaptive_batch, (lanes,)) if lanes else (heyoka().taylor_adaptive, ())
     return make(list(zip([*variables, *extra], rates)), np.zeros((count, *shape)), pars=np.zeros((len(structure.symbols), *shape)), tol=tolerance)
 
 
 @lru_cache(maxsize=64)
 def _event_integrator(structure, tolerance):
-    import heyoka
-    heyoka.set_logger_level_error()  # its warnings go to stdout, among the answers
     n, recorder = len(structure.state), _Recorder()
     variables, everything = heyoka_form(structure.state, structure.symbols, structure.expressions)
-    events = [heyoka.nt_event(e, _Note(i, recorder, n)) for i, e in enumerate(everything[n:])
+    events = [heyoka().nt_event(e, _Note(i, recorder, n)) for i, e in enumerate(everything[n:])
               if structure.expressions[n + i].free_symbols & set(structure.state)]
-    integrator = heyoka.taylor_adaptive(list(zip(variables, everything[:n])), [0.0] * n, tol=tolerance, nt_events=events)
+    integrator = heyoka().taylor_adaptive(list(zip(variables, everything[:n])), [0.0] * n, tol=tolerance, nt_events=events)
     return integrator, recorder

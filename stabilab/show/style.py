@@ -72,9 +72,16 @@ def colour_of(kind: str) -> str:
     return GREY if kind == "undecided" else str(MEANING["fold" if kind == "degenerate" else kind]["color"])
 
 
+def quiet_matplotlib() -> None:
+    """Leave Matplotlib no message below an error: without a home that can be written it warns at length, and draws all the same."""
+    import logging
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)
+
+
 @contextmanager
 def drawing():
     """matplotlib.pyplot with this style and the file back end; figures opened inside are closed at the end."""
+    quiet_matplotlib()
     import matplotlib
     matplotlib.use("Agg", force=False)
     import matplotlib.pyplot as plt

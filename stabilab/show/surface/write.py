@@ -171,6 +171,7 @@ def equilibrium_lines(curves, size, number=240):
 def plotter(scene, found, meshes):
     """A pyvista plotter with the sheets, the equilibrium curves and the three axes; the caller closes it."""
     use()
+    style.quiet_matplotlib()  # pyvista loads it
     import pyvista
     stage = pyvista.Plotter(off_screen=True, window_size=(1000, 800))
     stage.set_background("white")

@@ -12,6 +12,7 @@ from ....maps.atlas.pointed import AXES
 from ....maps.atlas.run import Atlas
 from ....maps.columns import ISLANDS, LEVELS, LIMIT_LEVELS
 from ....packages import demand
+from ... import style
 from ...report import html
 from ...units import SHORT, Units
 from ..words import COUNTS
@@ -79,6 +80,7 @@ def _flags(values: np.ndarray, words: Any) -> tuple[np.ndarray, dict[str, Any]]:
 
 def _shaded(atlas: Atlas, units: Units) -> tuple[np.ndarray, dict[str, Any]]:
     """Times in shades by their logarithm; what is never reached and what is not known beside them."""
+    style.quiet_matplotlib()
     import matplotlib
     low, high = atlas.records["when_low"], atlas.records["when_high"]
     known = np.isfinite(low) & np.isfinite(high)
