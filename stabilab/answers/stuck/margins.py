@@ -19,7 +19,7 @@ from .fate import Found
 from .rate_roots import Ray
 from .result import Margin
 from .scenario import Scenario
-from .wheel import Intervals, across, pieces
+from .wheel import Intervals, across, loose, pieces
 from .wheel_roots import candidates
 
 TURN = 2000  # places on the turn at which the rise of the potential is looked at, to find a direction
@@ -28,6 +28,7 @@ BESIDE = 2 * math.pi * np.geomspace(1e-4, 1e-2, 5)  # of a turn: directions besi
 FEW = 5  # nearest places that are looked at in exact numbers
 DIRECTIONS, CLOSER = 180, 26  # of a change of wheel momentum, at first; steps nearer and nearer to the best of them
 TURNS = (0.0, 1e-5, -1e-5, 1e-4, -1e-4, 1e-3, -1e-3)  # rad: the nearest place may be the tip where two separatrices meet, with nothing straight behind it
+FREE = "the motion spins up on a set of measure zero: nearly every change, however small, makes it bounded"
 ALONE = "to the separatrix, where alone the fate is another: beyond it the motion is bounded again"
 CLOSE = Fraction(1, 10**6)  # of a change: how near to it, as doubles saw it, the exact change is looked for
 
@@ -40,6 +41,9 @@ def margins(scenario: Scenario, scene: Scene, seen: Found) -> dict[str, Margin]:
     if seen.motion is None or (family is None and any(scene.vector("constant_torque"))):
         why = "the torque is off the principal axes: no separatrix is known"
         return {name: Margin(because=why) for name in ("rate", "wheel", "torque")}
+    if family is not None and seen.fate == Fate.SPIN_UP and _walled(family):
+        any_change = Margin(0.0, None, FREE, math.inf)
+        return {"rate": any_change, "wheel": any_change, "torque": _torque(scenario, family, False)}
     return {"rate": _rate(scenario, seen.motion, family), **_parameters(scenario, family)}
 
 
@@ -87,7 +91,10 @@ def _parameters(scenario: Scenario, family: Family | None) -> dict[str, Margin]:
     """Those of torque and wheel momentum."""
     words = _no_barrier(family)
     if words or family is None:
-        return {name: Margin(because=words) for name in ("wheel", "torque")}
+        found = {name: Margin(because=words) for name in ("wheel", "torque")}
+        if family is not None and _on_plane(family):
+            found["torque"] = _torque(scenario, family, True)
+        return found
     steady = family.fate() in STEADY
     return {"wheel": _wheel(scenario, family, steady), "torque": _torque(scenario, family, steady)}
 
@@ -101,24 +108,35 @@ def _no_barrier(family: Family | None) -> str:
     return "" if not _walled(family) else "every motion is bounded but for a set of measure zero: the fate does not change"
 
 
+def _on_plane(family: Family) -> bool:
+    """Whether the start is where no wall need hold it: the torque may let it go."""
+    reduction = family.reduction(family.wheel)
+    return reduction is not None and reduction.geometry.walled and not any(loose(reduction, family.state))
+
+
 def _torque(scenario: Scenario, family: Family, steady: bool) -> Margin:
-    """Along the torque's axis: the more torque in one sense the lower every barrier ahead, so one size in each sense divides the fates."""
+    """Along the torque's axis: the more torque one way the lower every barrier ahead, so one size each way divides
+    the fates."""
     size = abs(family.torque)
     now = 1 if family.torque > 0 else -1
-    if not steady:
-        ends = [change_between(lambda m: family.clearly(False, torque=now * m), size, Fraction(0), size)[1]]
-        changes = [now * ends[0] - family.torque]
+    if steady:
+        ends = ((sign, _least_torque(family, sign, size)) for sign in (-now, now))
+        changes, until = [sign * end - family.torque for sign, end in ends if end is not None], math.inf
     else:
-        changes = [sign * end - family.torque for sign in (now, -now) if (end := _least_torque(family, sign, size)) is not None]
+        less = change_between(lambda m: family.clearly(False, torque=now * m), size, Fraction(0), size)[1]
+        opposite = _least_torque(family, -now, size)
+        changes = [now * less - family.torque]
+        until = math.inf if opposite is None else float(size + opposite)
     change = min(changes, key=abs, default=None)
     if change is None:
         return Margin(because="no torque along this axis changes the fate")
     words = "of a torque that stays on its axis" if family.torque + change else "to no torque at all: along this axis any torque spins it up"
-    return Margin(float(abs(change)), _direction(scenario, family, {family.axis: 1 if change > 0 else -1}), words, math.inf)
+    direction = _direction(scenario, family, {family.axis: 1 if change > 0 else -1})
+    return Margin(float(abs(change)), direction, words, until)
 
 
 def _least_torque(family: Family, sign: int, size: Fraction) -> Fraction | None:
-    """The least size of a torque in this sense that spins the start up."""
+    """The least size of a torque in this direction that spins the start up."""
     steady = Fraction(0)
     for _ in range(TRIES):
         if family.fate(torque=sign * size) == Fate.SPIN_UP:

@@ -12,7 +12,7 @@ from typing import Any
 
 from ...numbers.vectors import Number, Triple
 from ...orbit.reduction import Reduction
-from .wheel_roots import LEAST, Pair
+from .wheel_roots import Pair, real_roots
 
 
 class Ray:
@@ -25,7 +25,7 @@ class Ray:
         self.z = (state[k] + g["sk"]) / g["rz"], step[k] / g["rz"]
         self.speed = g["n"] * (state[reduction.axis] + reduction.s), g["n"] * step[reduction.axis]
         v0, v1 = self.speed
-        self.energy = (v1 * v1 / 2, v0 * v1, v0 * v0 / 2) if v0 or v1 else (Fraction(0), Fraction(0), LEAST * self.mu)
+        self.energy = v1 * v1 / 2, v0 * v1, v0 * v0 / 2
 
     def pair(self, ball: Callable[[Any], Any]) -> Pair:
         """The two quadratics with its numbers as balls."""
@@ -36,10 +36,12 @@ class Ray:
         """What s is multiplied by in the unknown of the quadratics."""
         return 1.0
 
-    def others(self) -> list[Fraction]:
-        """The s at which there is no energy: the start may be an equilibrium."""
-        v0, v1 = self.speed
-        return [-v0 / v1] if v1 else []
+    def others(self) -> list[float]:
+        """The s at which the start may be an equilibrium: no energy, or the torque is balanced, F(0, s) = 0."""
+        (v0, v1), (x0, x1), (z0, z1), G, c, d = self.speed, self.x, self.z, self.G, self.c, self.d
+        slope, level = G * (x0 * z1 + x1 * z0) + c * z1 + d * x1, self.mu + G * x0 * z0 + c * z0 + d * x0
+        balance = G * x1 * z1, slope, level
+        return [*([float(-v0 / v1)] if v1 else []), *real_roots([float(v) for v in balance])]
 
 
 def quadratics(numbers: Sequence[Number], h: Number) -> tuple[Triple, Triple]:

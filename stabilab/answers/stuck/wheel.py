@@ -6,7 +6,9 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import Any, TypeAlias
 
+from ...numbers.exact import sqrt_fraction
 from ...numbers.vectors import Exact3, dot
+from ...orbit.reduction import Reduction
 from ...physics.quadratic import rests
 from ...physics.scene import Scene
 from .family import STEADY, Family, change_between, family_of
@@ -50,7 +52,10 @@ def _sphere(torque: Sequence[Fraction], wheel: Exact3, axis: Exact3) -> Answer:
     if slope:
         s = -level / slope
         return (((float(s),) * 2,) if any(w + s * a for w, a in zip(wheel, axis)) else ()), words
-    return (() if level else EVERY), words
+    if level:
+        return (), words
+    s = next(-w / a for w, a in zip(wheel, axis) if a)  # with this, if with any, the wheels have none together
+    return EVERY if any(w + s * a for w, a in zip(wheel, axis)) else without([s]), words
 
 
 def _off_axis(scene: Scene, state: Sequence[Fraction], axis: Exact3) -> Answer:
@@ -82,13 +87,55 @@ def across(family: Family, start: Sequence[Fraction], step: Sequence[Fraction]) 
     at_1: Any
     at_0, at_1 = (family.reduction(family.along(start, step, s)) for s in (Fraction(0), Fraction(1)))
     if at_0.geometry.walled:
-        return EVERY, f"the torque is on {at_0.geometry.where}: the potential has walls on both sides, so every motion is bounded but for a set of measure zero"
+        return _between_walls(family, start, step)
     found = candidates(Circle(at_0, at_1, family.state))
     if found is None:
         return (), "not known: the balls did not isolate the momenta at which the start lies on a separatrix"
     clearly = lambda s: family.clearly(wheel=family.along(start, step, s))
     return pieces(clearly, Fraction(family.momentum_unit), sorted(set(found))), ("the ends are momenta at which the start lies on a separatrix: "
                                                              f"of {len(found)} candidates, isolated as roots, those where the exact fate changes")
+
+
+def _between_walls(family: Family, start: Sequence[Fraction], step: Sequence[Fraction]) -> Answer:
+    """Every momentum but those at which the start lies in the set of measure zero that no wall holds: exact roots
+    of a quadratic in s. A root that is not rational is no momentum that a number can give."""
+    wheels = [family.along(start, step, Fraction(s)) for s in (-1, 0, 1)]
+    reductions: Any = [family.reduction(wheel) for wheel in wheels]  # none has a part along the torque
+    words = (f"the torque is on {reductions[0].geometry.where}: the potential has walls on both sides, so every motion "
+             "is bounded but for a set of measure zero")
+    for before, at, after in zip(*(loose(reduction, family.state) for reduction in reductions)):
+        a, b, c = (before + after) / 2 - at, (after - before) / 2, at
+        if a or b or c:
+            roots = _rational_roots(a, b, c)
+            return without([s for s in roots if not family.steady(family.along(start, step, s))]), words
+    return (), f"not known: {words}, in which the start lies with every momentum of this wheel"
+
+
+def loose(reduction: Reduction, state: Sequence[Fraction]) -> tuple[Fraction, ...]:
+    """Numbers that all vanish where the walls need not hold a start: on a hyperbola the invariant Q; along a
+    parabola the slopes of the component that is linear in the angle, and of the force."""
+    r, u, v = reduction, state[reduction.j], state[reduction.k]
+    if r.geometry.centred:
+        sj, sk = r.centre
+        return ((v + sk) ** 2 * abs(r.p) - (u + sj) ** 2 * abs(r.q),)
+    if r.p:
+        return r.q0, (r.kappa * v + r.sigma) * (r.p * v + r.p0)
+    return r.p0, (r.kappa * u + r.rho) * (r.q * u + r.q0)
+
+
+def _rational_roots(a: Fraction, b: Fraction, c: Fraction) -> list[Fraction]:
+    """Those of a s^2 + b s + c."""
+    if not a:
+        return [-c / b] if b else []
+    square = b * b - 4 * a * c
+    root = sqrt_fraction(max(square, Fraction(0)))
+    return sorted({(-b - root) / (2 * a), (-b + root) / (2 * a)}) if root * root == square else []
+
+
+def without(momenta: Sequence[Fraction]) -> Intervals:
+    """All momenta but these, rising: each between intervals that end at its neighbours among the doubles."""
+    ends = [-INF, *(math.nextafter(float(s), end) for s in momenta for end in (-INF, INF)), INF]
+    return tuple(zip(ends[::2], ends[1::2]))
 
 
 def pieces(clearly: Callable[[Fraction], tuple[bool, float]], unit: Fraction, cuts: Sequence[float]) -> Intervals:

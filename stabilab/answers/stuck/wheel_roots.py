@@ -15,8 +15,11 @@ w = Z K - X S, u = X K + Z S,
 and the terms in s^2 of R and of F vanish at S = 0 like S^2 and S, because the rate at the start is linear in s. So sigma = S s is the
 unknown: both quadratics are regular on the whole turn, and no zero stands for an infinite s.
 
-A start without energy, or nearly (E = 0: no rate about the torque's axis), has a double zero at y = 0; it is given the least energy `LEAST`, which moves the
-momenta a little: they are where a change of fate is looked for, and that is then decided for the start as it is.
+A zero may be double. From rest, or from a spin about the torque's axis alone, R and F are even in s and share
+two roots at once, s and -s; along a change of that spin alone F does not depend on s. A cell with such a zero is
+halved until it is `NARROW`, and every real root of f there is a candidate: one too many changes no fate. Without
+energy (no rate about the torque's axis) y = 0 is a zero for every s. There, and as near to it as `NARROW`, only
+an equilibrium at the start itself changes the fate.
 """
 from __future__ import annotations
 
@@ -34,9 +37,6 @@ CELLS = 16  # the turn at first
 ORDER = 12  # of Taylor's polynomial: the balls' overestimate is less by the cell's reach to this power
 NARROW = 1e-13  # a cell of h as narrow holds a zero as far as anybody can see
 MOST = 2_000  # cells that are looked at
-LEAST = Fraction(1, 10**10)  # of the torque's own potential mu
-
-
 Pair: TypeAlias = Callable[[Any], tuple[Triple, Triple]]  # half a turn h -> the two quadratics, highest coefficient first
 
 
@@ -45,7 +45,7 @@ class Line(Protocol):
 
     def pair(self, ball: Callable[[Any], Any]) -> Pair: ...
     def unit(self, h: float) -> float: ...
-    def others(self) -> list[Fraction]: ...
+    def others(self) -> list[float]: ...
 
 
 class Circle:
@@ -58,7 +58,7 @@ class Circle:
         self.c, self.d = ((g0[name], g1[name] - g0[name]) for name in "cd")
         self.x, self.z = (x0, x1 - x0), (z0, z1 - z0)
         speed = g0["n"] * (state[at_0.axis] + at_0.s)
-        self.energy = max(speed * speed / 2, LEAST * self.mu)
+        self.energy = speed * speed / 2
 
     def pair(self, ball: Callable[[Any], Any]) -> Pair:
         """The two quadratics with its numbers as balls."""
@@ -69,12 +69,12 @@ class Circle:
         """What s is multiplied by in the unknown of the quadratics."""
         return math.sin(h)
 
-    def others(self) -> list[Fraction]:
+    def others(self) -> list[float]:
         """The s at which the torque is balanced at the start, F(0, s) = 0, if there is one."""
         (c0, c1), (d0, d1), (x0, x1), (z0, z1), G = self.c, self.d, self.x, self.z, self.G
         level = self.mu + G * x0 * z0 + c0 * z0 + d0 * x0
         slope = G * (x0 * z1 + x1 * z0) + c0 * z1 + c1 * z0 + d0 * x1 + d1 * x0
-        return [-level / slope] if slope else []
+        return [float(-level / slope)] if slope else []
 
 
 def _place(reduction: Reduction, state: Sequence[Fraction]) -> Triple:
@@ -108,8 +108,8 @@ def candidates(line: Line) -> list[float] | None:
     with working(BITS, ORDER + 1) as numbers:
         pair = line.pair(numbers.ball)
         kept = _isolated(pair)
-        found = None if kept is None else [s for h in kept for s in _shared(pair, h, line.unit(h))]
-    return None if found is None else sorted([*found, *map(float, line.others())])
+        found = None if kept is None else [s for h in kept for s in _roots_at(pair, h, line.unit(h))]
+    return None if found is None else sorted([*found, *line.others()])
 
 
 def _isolated(pair: Pair) -> list[float] | None:
@@ -160,12 +160,16 @@ def _narrowed(pair: Pair, low: Number, high: Number) -> tuple[Number, Number] | 
     return (low, high) if low <= high else None
 
 
-def _shared(pair: Pair, h: float, unit: float) -> list[float]:
-    """The s of a zero at h: the root that the quadratics share."""
+def _roots_at(pair: Pair, h: float, unit: float) -> list[float]:
+    """The s at which the start may lie on a separatrix with a zero at h: real roots of f, one or both shared by g."""
     from flint import arb
-    (f2, f1, f0), (g2, g1, g0) = ([float(v.mid()) for v in row] for row in pair(arb(h)))
-    line = f2 * g1 - g2 * f1
-    if not unit or not line:
+    if h < NARROW or not unit:
         return []
-    s = -(f2 * g0 - g2 * f0) / line / unit
-    return [s] if math.isfinite(s) else []
+    return [s / unit for s in real_roots([float(v.mid()) for v in pair(arb(h))[0]])]
+
+
+def real_roots(quadratic: Sequence[float]) -> list[float]:
+    """Its finite real roots (highest coefficient first), a double one twice, also where rounding hides it."""
+    a, b, c = quadratic
+    q = -0.5 * (b + math.copysign(math.sqrt(max(b * b - 4 * a * c, 0.0)), b))
+    return [s for top, bottom in ((q, a), (c, q)) if bottom for s in [top / bottom] if math.isfinite(s)]

@@ -176,7 +176,8 @@ def _margins(row, units) -> str:
     if not known:
         because = next((row.margins[name].because for name in ("wheel", "rate", "torque") if name in row.margins), "")
         return f"margin: none: {lettered(because)}" if because else ""
-    told = [" or ".join(f"{_span(name, m, units)} of {WORDS[name]}" for name, m in known.items() if m.beyond == beyond) for beyond in (True, False)]
+    told = [" or ".join(f"{_span(name, m, units)} of {WORDS[name]}" for name, m in known.items()
+                        if (m.beyond or name == "torque") == beyond) for beyond in (True, False)]
     return "; ".join(words + sizes for words, sizes in zip(("the fate changes with ", "only on a separatrix the fate is another, nearest "), told) if sizes)
 
 
@@ -208,7 +209,8 @@ def _unit(name, units):
 def _wheel(wheel, units) -> str:
     name = printable(wheel.wheel)
     if wheel.keeps_bounded:
-        return f"wheel {name}, now {_number(wheel.now)} N m s, keeps it bounded at {' or '.join(map(_interval, wheel.keeps_bounded))}"
+        momenta = " or ".join(map(_interval, merged(wheel.keeps_bounded)))
+        return f"wheel {name}, now {_number(wheel.now)} N m s, keeps it bounded at {momenta}"
     if wheel.best is None:
         return f"wheel {name}: no momentum is known to keep it bounded: {wheel.because}"
     later = "not reached while followed" if wheel.best_time is None else f"{units.time(wheel.best_time[0], SHORT)}"
@@ -218,8 +220,24 @@ def _wheel(wheel, units) -> str:
     return f"wheel {name}, now {_number(wheel.now)} N m s: {_number(wheel.best)} N m s {most} within {_number(low)} to {_number(high)}: {later}{gain}"
 
 
-def _interval(ends) -> str:
-    low, high = ends
+def merged(intervals):
+    """[(low, high, momenta between that do not keep it bounded)]: intervals a single number apart are one."""
+    out = []
+    for low, high in intervals:
+        one = math.nextafter(low, -math.inf)
+        if out and math.nextafter(out[-1][1], math.inf) == one:
+            out[-1] = out[-1][0], high, (*out[-1][2], one)
+        else:
+            out.append((low, high, ()))
+    return out
+
+
+def _interval(part) -> str:
+    low, high, without = part
+    return _span_of(low, high) + "".join(f" but {_number(s, 12)} N m s" for s in without)
+
+
+def _span_of(low, high) -> str:
     if low == high:
         return f"{_number(low, 12)} N m s alone"
     if math.isinf(low) and math.isinf(high):
@@ -260,7 +278,8 @@ def _details(row, units) -> list[str]:
     for name, margin in row.margins.items():
         told = lettered(holds_for(name, margin, units))
         if margin.size is not None:
-            told = f"{_amount(name, margin.size, units, DIGITS)} along {_vector(margin.direction)}" + (f": {told}" if told else "")
+            along = f" along {_vector(margin.direction)}" if margin.direction else ""
+            told = f"{_amount(name, margin.size, units, DIGITS)}{along}" + (f": {told}" if told else "")
         margins[name] = told
     if len(margins) > 1 and len(set(margins.values())) == 1:  # nothing is known of any, for one reason
         lines.append(f"  {'margins':<24} {told}")

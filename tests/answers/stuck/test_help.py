@@ -216,8 +216,10 @@ def test_an_end_at_infinity_is_a_number_in_json_and_null_is_what_is_not_known(st
     (wheel,) = row["wheel_intervals"]
     (first, _), (_, last) = wheel["keeps_bounded"]
     assert code == 0 and first == -math.inf and last == math.inf and out.count(" -1e999") == 1
-    assert row["margin_until"] == {"rate": math.inf, "wheel": math.inf, "torque": math.inf}
+    # without the torque alone it is bounded: the smallest one against it spins it up too
+    assert row["margin_until"] == {"rate": math.inf, "wheel": math.inf, "torque": 0.02}
     craft, change = Craft(CASE.replace("{spin}", "0.9")), np.array(row["margin_direction"]["rate"])
+    assert energy_fate(craft.J, -1e-9 * craft.torque(), craft.l, craft.start)[0] == "spin-up"
     for s in row["margin"]["rate"] * np.array([1 - 1e-6, 1 + 1e-6, 1.1, 3, 30, 1e3]):
         fate = energy_fate(craft.J, craft.torque(), craft.l, craft.start + s * change)[0]
         assert (fate == row["fate"]) == (s < row["margin"]["rate"])

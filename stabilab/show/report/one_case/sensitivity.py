@@ -10,7 +10,7 @@ from ....orbit.potential import potential
 from ....orbit.reduction import reduce
 from ....physics.coefficients import effective
 from ... import limiting
-from ...text.stuck import holds_for
+from ...text.stuck import holds_for, merged
 from ...text.when import asked
 from .measures import spoken, told, vector
 
@@ -90,11 +90,16 @@ def _wheel(wheel):
     now = f"Wheel {wheel.wheel} has {told(wheel.now, 'N m s')}"
     if not wheel.keeps_bounded:
         return f"{now}: no momentum of it is known to keep the motion bounded ({wheel.because})."
-    return f"{now}; the motion is bounded for a momentum {' or '.join(map(_between, wheel.keeps_bounded))} ({wheel.because})."
+    momenta = " or ".join(map(_between, merged(wheel.keeps_bounded)))
+    return f"{now}; the motion is bounded for a momentum {momenta} ({wheel.because})."
 
 
-def _between(ends):
-    low, high = ends
+def _between(part):
+    low, high, without = part
+    return _range(low, high) + "".join(f" but {told(s, 'N m s')}" for s in without)
+
+
+def _range(low, high):
     if math.isinf(low) and math.isinf(high):
         return "of any size"
     if math.isinf(low) or math.isinf(high):

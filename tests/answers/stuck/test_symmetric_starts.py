@@ -1,0 +1,153 @@
+"""Rest, spins about one axis and states of one plane: resultants of such starts have double zeros, and some
+lie where no wall holds a motion.
+
+Expected values are by the balance of energy in mpmath (`symmetric.least`) and by runs of Euler's equations
+(`oracles.brute`); neither shares code with the package.
+"""
+import math
+import random
+from fractions import Fraction
+
+import pytest
+
+from stabilab import Body, ConstantTorque, Gyrostat, Scene, load, stuck
+from stabilab.answers.stuck.rate_roots import Ray
+from stabilab.answers.stuck.wheel import intervals
+from stabilab.answers.stuck.wheel_roots import candidates
+from stabilab.orbit.reduction import reduce
+from stabilab.show.text.stuck import merged
+from tests.answers.stuck.symmetric import least, scene
+from tests.oracles import brute
+from tests.oracles.model import physical
+
+INF = math.inf
+CASE = """[body]
+inertia = [12, 9, 5]
+[[wheels]]
+name = "W"
+axis = [1, 0, 0]
+momentum = {}
+[effects.constant_torque]
+torque = {}
+[motion]
+angular_velocity = {}
+"""
+# s^2 = min M x/q(x), q = T(x) of s = 1 from rest: by mpmath at 30 digits, from Euler's equations by hand
+THRESHOLD = 0.426671927192811570753
+ENOUGH = 0.3  # of the scenes: have a run that decides, and an end
+
+
+def asked(tmp_path, momentum, torque, start):
+    path = tmp_path / "own.toml"
+    path.write_text(CASE.format(momentum, torque, start))
+    return stuck(load(path)).rows[0]
+
+
+def at(given, s):
+    """The momentum of all wheels with s on the one that is asked about."""
+    _, _, _, l, _, axis = given
+    return [a + Fraction(s) * b for a, b in zip(l, axis)]
+
+
+def bounded(given, s):
+    D, i, M, _, w, _ = given
+    return least(D, i, M, at(given, s), w) < 0
+
+
+def kept(given):
+    D, i, M, l, w, axis = given
+    torque = [M if n == i else 0 for n in range(3)]
+    return intervals(Scene(Body(D), Gyrostat(l), ConstantTorque(torque)), w, axis)[0]
+
+
+@pytest.mark.parametrize("torque, threshold", [("0.02", THRESHOLD), ("0.2", THRESHOLD * math.sqrt(10))])
+def test_every_greater_momentum_keeps_a_body_at_rest_bounded(tmp_path, torque, threshold):
+    """The square of the threshold is as the torque, by dimension."""
+    row = asked(tmp_path, 0.8, [0, 0, float(torque)], [0, 0, 0])
+    ((low, most), (some, high)) = row.wheels[0].keeps_bounded
+    assert (low, high) == (-INF, INF) and -most == some == pytest.approx(threshold, rel=1e-14)
+    assert (row.fate == "bounded") == (threshold < 0.8)
+    given = (12, 9, 5), 2, Fraction(torque), (0, 0, 0), (0, 0, 0), (1, 0, 0)
+    assert bounded(given, threshold * (1 + 1e-9)) and not bounded(given, threshold * (1 - 1e-9))
+
+
+def agree(seed):
+    """(momenta of one scene at which the intervals are right, if a run decides one, if there is an end)."""
+    rng = random.Random(seed)
+    D, i, M, _, w, _ = given = scene(rng)
+    found = kept(given)
+    size = float(max(D)) * max(map(abs, map(float, w))) + math.sqrt(float(abs(M) * max(D)))
+    momenta = [0.0, *(rng.uniform(-1, 1) * size * 10 ** rng.uniform(-2, 1) for _ in range(3))]
+    ends = [end for pair in found for end in pair if math.isfinite(end)]
+    for end in ends:
+        step = 1e-7 * max(abs(end), 1e-3 * size)
+        momenta += [end - step, end + step]
+    for s in momenta:
+        assert bounded(given, s) == any(low <= s <= high for low, high in found), (seed, s, found)
+    model = physical(D, list(map(float, at(given, momenta[1]))), [M if n == i else 0 for n in range(3)])
+    try:
+        ran = brute.label(model, list(map(float, w)), patience=500)
+    except brute.Undecided:
+        ran = None
+    assert ran in (None, "bounded" if bounded(given, momenta[1]) else "spin-up"), seed
+    return len(momenta), ran is not None, bool(ends)
+
+
+SLOW = [pytest.param(n, 100, marks=pytest.mark.slow) for n in range(0, 2000, 100)]
+
+
+@pytest.mark.parametrize("first, many", [(0, 20), *SLOW])
+def test_no_momentum_contradicts_energy_or_a_run(first, many):
+    momenta, ran, ends = map(sum, zip(*map(agree, range(first, first + many))))
+    assert momenta > 4 * many and ran > ENOUGH * many and ends > ENOUGH * many
+
+
+@pytest.mark.parametrize("inertia, torque, where", [
+    ((12, 9, 5), (0, "0.02", 0), "middle axis"), ((9, 9, 5), ("0.02", 0, 0), "between two equal moments"),
+    ((9, 9, 9), (0, "0.02", 0), "three equal moments")])
+@pytest.mark.parametrize("spin", [0, "0.3"])
+def test_a_pure_spin_that_no_wall_holds_is_bounded_with_any_momentum_but_none(inertia, torque, where, spin):
+    """Without a wheel D_i w_i' = M for ever, by hand; with one, however small, the energy sets a bound."""
+    i = next(n for n in range(3) if torque[n])
+    start, axis = ([Fraction(v) if n == m % 3 else Fraction(0) for n in range(3)]
+                   for v, m in ((spin, i), (1, i + 1)))
+    scene = Scene(Body(inertia), Gyrostat((0, 0, 0)), ConstantTorque(torque))
+    ((_, below), (above, _)), because = intervals(scene, start, axis)
+    assert where in because and (-below, above) == (5e-324, 5e-324)
+    if len(set(inertia)) > 1:
+        given = inertia, i, Fraction("0.02"), (0, 0, 0), start, axis
+        assert [bounded(given, s) for s in (-1e-12, 0, 1e-12)] == [True, False, True]
+
+
+def test_the_one_momentum_that_puts_the_start_on_the_decaying_plane_is_left_out():
+    """Moments (6, 5, 3), torque on axis 2, momentum s on axis 1: with x the angle about axis 2,
+    w3' = (w1 + s)/3 and (w1 + s)' = w3/3, by hand. From (1, 0, -2) both decay at s = 1 alone, and T, 9 at the
+    start, stays below it; at s = -3 both grow."""
+    start, axis = [Fraction(1), Fraction(0), Fraction(-2)], [Fraction(1), Fraction(0), Fraction(0)]
+    given = [Fraction(6), Fraction(5), Fraction(3)], 1, Fraction("0.02"), (0, 0, 0), start, axis
+    ((_, below), (above, _)) = kept(given)
+    assert below < 1 < above and above - below < 1e-15
+    assert [bounded(given, s) for s in (-3, 1 - 1e-12, 1, 1 + 1e-12)] == [True, True, False, True]
+
+
+def test_words_name_the_single_momentum_that_is_left_out(tmp_path):
+    row = asked(tmp_path, 0, [0, 0.02, 0], [0, 0, 0])
+    assert row.fate == "spin-up" and merged(row.wheels[0].keeps_bounded) == [(-INF, INF, (0.0,))]
+    assert merged([(-INF, 1.0), (2.0, INF)]) == [(-INF, 1.0, ()), (2.0, INF, ())]
+
+
+def test_a_motion_that_no_wall_holds_is_made_bounded_by_any_change(tmp_path):
+    margins = asked(tmp_path, 0, [0, 0.02, 0], [0, 0, 0]).margins
+    assert margins["rate"].size == margins["wheel"].size == 0
+    assert margins["torque"].size == 0.02 == margins["torque"].until  # beyond none it spins up against it
+
+
+def test_along_a_change_of_the_spin_both_separatrices_are_candidates():
+    """The torque does not depend on that spin, so the resultant is a square times F^2. S = 5 (w3 + s)^2/2 + S_0,
+    S_0 at w3 = 0: s = -w3 +- sqrt(-2 S_0/5)."""
+    M, wheel, start = Fraction("0.02"), (Fraction("0.8"), 0, 0), (0, 0, Fraction(-1, 2))
+    reduction = reduce(Scene(Body((12, 9, 5)), Gyrostat(wheel), ConstantTorque((0, 0, M))))
+    half = math.sqrt(-2 * least((12, 9, 5), 2, M, wheel, (0, 0, 0)) / 5)
+    found = candidates(Ray(reduction, start, (Fraction(0), Fraction(0), Fraction(1))))
+    for s in (0.5 - half, 0.5 + half):
+        assert min(abs(c - s) for c in found) < 1e-12
