@@ -14,6 +14,10 @@ from ..physics.coefficients import effective
 from ..physics.scene import AnyScene
 
 STEADY = (Fate.BOUNDED, Fate.EQUILIBRIUM)
+IN_PLANE, THIS = 4, 5
+ONLY = "holds only while the torque is exactly"
+HOLDS = ("", f"{ONLY} along axis 1", f"{ONLY} along axis 2", f"{ONLY} along axis 3", f"{ONLY} in the plane of the equal moments", f"{ONLY} this one")
+UNPHYSICAL = "no rigid body has these moments of inertia"
 
 
 def caveats_of(scene: AnyScene, steady: bool = False, tilt: Any = None, first: tuple[str, Any] | None = None, validity: Any = None,
@@ -37,15 +41,12 @@ def limited(motion: Motion, scene: AnyScene, case: Any = None) -> Motion:
     return replace(motion, caveats=caveats_of(scene, motion.fate in STEADY, motion.tilt, motion.first, motion.validity, case.caveats if case else ()))
 
 
-def condition(scene: AnyScene, axis: str = "") -> str:
-    """On what a steady motion rests: a constant torque is one of many; empty without one, and where liquid, medium or field bound the motion."""
+def condition(scene: AnyScene) -> int:
+    """On what a steady motion rests, a constant torque being one of many: an index of HOLDS; 0 without one, and where liquid, medium or field bound the
+    motion."""
     twin = effective(scene)
     acting = sum(m != 0 for m in twin.quadratic().m) if twin.plain else 0
-    if not acting:
-        return ""
-    if acting == 1:
-        return f"the torque is exactly along {axis or f'axis {torque_axis(twin)}'}"
-    return "the torque is exactly in the plane of the equal moments" if aligned(twin) else "the torque is exactly this one"
+    return 0 if not acting else torque_axis(twin) if acting == 1 else IN_PLANE if aligned(twin) else THIS
 
 
 def stated(limits: Any) -> str:
@@ -68,10 +69,10 @@ def _reached(scene: AnyScene, first: tuple[str, Any] | None) -> list[Caveat]:
 
 def _tilted(scene: AnyScene, steady: bool, found: Any, axis: str) -> list[Caveat]:
     """The condition of a steady motion, and what is known of a tilt."""
-    holds = condition(scene, axis) if steady else ""
-    if not holds:
+    number = condition(scene) if steady else 0
+    if not number:
         return []
-    words = f"holds only while {holds}"
+    words = HOLDS[number] if not axis or number > 3 else HOLDS[number].replace(f"axis {number}", axis)
     if found is None or found.untilted:
         return [Caveat("tilt", words)]
     limit, by = f"{found.limit:.6g} rad/s", f"tilted by {found.angle:.6g} rad it"

@@ -68,11 +68,11 @@ def time_to(scene: AnyScene, states: Any, rate: Any = None, component: Any = Non
                   caveats_of(given, bool(np.isinf(low).any())))
 
 
-def time_of_case(case: Any, ask: dict[str, Any], t_max: float | Fraction | None = None) -> TimeTo:
-    """The answer for the motion of a case; ask: the one limit, by its name as of `time_to`."""
+def time_of_case(case: Any, ask: dict[str, Any], t_max: float | Fraction | None = None, work: int = WORK) -> TimeTo:
+    """The answer for the motion of a case; ask: the one limit, by its name as of `time_to`; work: likewise."""
     if case.scene.plain:
-        return time_to(case.scene, case.state, **ask, t_max=t_max, exact=case.exact_state)
-    return time_to(case.scene, start_of(case.scene, case.state, case.blocks), **ask, t_max=t_max)
+        return time_to(case.scene, case.state, **ask, t_max=t_max, exact=case.exact_state, work=work)
+    return time_to(case.scene, start_of(case.scene, case.state, case.blocks), **ask, t_max=t_max, work=work)
 
 
 def _rows(states: Any) -> Any:

@@ -12,7 +12,7 @@ from ..show.text.cost import precision as shown
 from ..theories.comparison import compare as set_side_by_side
 from ..theories.follow import models_of
 from .common.cases import load_cases, one_by_one, time_asked, units_asked
-from .common.output import all_reached, hold_laws, say_laws, tell, write, write_each, write_json
+from .common.output import all_reached, hold_laws, tell, write, write_each, write_json
 
 
 def compare(case, order, out, json, strict, units):
@@ -25,9 +25,10 @@ def compare(case, order, out, json, strict, units):
     if out:
         write_each(out, [(one, partial(comparison.write, one, found)) for one, found in compared])
     if json:
-        write_json(loaded, [comparison.as_dict(one, found) | law.key(found.validity) for one, found in compared])
+        write_json(loaded, [comparison.as_dict(one, found) | law.key(found.validity, one) for one, found in compared])
     else:
-        tell("\n\n".join(law.first(found.validity, comparison.text(one, found, system), system) for (one, found), system in zip(compared, systems)))
+        tell("\n\n".join(law.first(found.validity, comparison.text(one, found, system), system, one.caveats)
+                         for (one, found), system in zip(compared, systems)))
     hold_laws(strict, (found.validity for _, found in compared))
 
 
@@ -52,11 +53,10 @@ def precision(case, json, csv, out, until, quick, strict):
     if out:
         write_each(out, [(found.case, partial(shown.write, found)) for found in measured])
     if json:
-        write_json(loaded, [shown.as_dict(found) | law.key(found.validity) for found in measured])
+        write_json(loaded, [shown.as_dict(found) | law.key(found.validity, found.case) for found in measured])
     elif csv:
-        say_laws([(found.case, found.validity) for found in measured])
         write(shown.csv(*measured))
     else:
-        tell("\n\n".join(law.first(found.validity, shown.text(found)) for found in measured))
+        tell("\n\n".join(law.first(found.validity, shown.text(found), caveats=found.case.caveats) for found in measured))
     all_reached((found.case, found.reference.reason) for found in measured if not found.questions)
     hold_laws(strict, (found.validity for found in measured))

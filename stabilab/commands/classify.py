@@ -24,7 +24,7 @@ def classify(cases, json, strict, certify, out, follow, tilt, units, why):
     boxes = over_boxes(loaded, "equilibria", "fate")
     laws = [law.worst(found.validity, motion and motion.validity) for _, found, motion in answered]
     if json:
-        write(answers.as_json([answers.classification(*answer) | law.key(held) | uncertain.as_dict(box)
+        write(answers.as_json([answers.classification(*answer) | law.key(held, answer[0] if answer[2] is None else None) | uncertain.as_dict(box)
                                for answer, held, box in zip(answered, laws, boxes)]))
     else:
         texts = [lambda n=n: uncertain.first(boxes[n], classification.text(*answered[n], systems[n], why)) for n in range(len(answered))]

@@ -9,6 +9,7 @@ from ..answers.chaos import Order, row_of
 from ..answers.chaos import chaos as ask_chaos
 from ..case.read import blamed_on, load
 from ..errors import RenderingUnavailable, printable
+from ..show import limiting
 from ..show.files import endings
 from ..show.maps import picture
 from ..show.maps.atlas import to_file as atlas_files
@@ -19,8 +20,9 @@ from ..show.surface import words
 from ..show.surface.write import write_all
 from ..show.terminal.letters import lettered
 from ..show.text import law
+from ..show.units import units_of
 from .common.cases import load_cases, one_by_one, time_asked, units_asked
-from .common.output import hold_laws, leave_undecided, say, say_laws, say_written, tell, write, write_json, written
+from .common.output import hold_laws, leave_undecided, say, say_written, tell, write, write_json, written
 from .common.tables import tell_all
 
 AN_EXAMPLE = Path(__file__).parents[1] / "cases" / "thruster-stuck-major-axis.toml"
@@ -37,9 +39,9 @@ def surface(case, out, json, strict):
             raise
         summaries, unavailable = error.summaries, error
     if json:
-        write_json(loaded, [summary | law.key(held) for summary, held in zip(summaries, laws)])
+        write_json(loaded, [summary | law.key(held, one, True) for one, summary, held in zip(loaded, summaries, laws)])
     else:
-        tell("\n".join(law.first(held, words.text(summary, out)) for summary, held in zip(summaries, laws)))
+        tell("\n".join(law.first(held, words.text(summary, out), caveats=one.caveats) for one, summary, held in zip(loaded, summaries, laws)))
     for one, summary in zip(loaded, summaries if json else ()):
         if not summary["sheets"]:
             say(f"{one.name}: no surface to write: {summary['reason']}")
@@ -61,7 +63,9 @@ def plot(case, kind, out, size, dpi, until, neighbours, units, strict):
             end = time_asked(until, one, "until")
             drawn.append(to_file.write(one, endings.labelled(target, one), kind, to_file.inches(size), dpi, units, end, neighbours))
     laws = [law.of_case(one) for one in loaded]
-    for held, path in zip(laws, drawn):
+    for one, held, path in zip(loaded, laws, drawn):
+        for line in limiting.beside(one.caveats, units_of(one, units)):
+            tell(line)
         if held is not None:
             tell(lettered(held.words))
         write(str(path))
@@ -88,8 +92,7 @@ def chaos(cases, until, out, csv, json, strict):
     if json:
         write(chaos_words.json(rows, laws))
     elif csv:
-        say_laws(list(zip(loaded, laws)))
-        write(chaos_words.csv(rows))
+        write(chaos_words.csv(rows, laws))
     else:
         texts = [partial(chaos_words.text, [row]) for row in rows]
         tell_all(loaded, texts, laws, [""] * len(rows), False, "\n", lambda of: chaos_words.swept([rows[n] for n in of]), units_asked(loaded, None))

@@ -68,14 +68,14 @@ def _with_angles(case, run, model, order):
 
 def _as_dict(case, run, reached) -> dict:
     told = reached and {"asked": reached.asked, "reached": reached.digits, "because": reached.because}
-    return answers.simulation(case, run) | {"digits": told} | {"theory": _theory(case, run)} | law.key(run.validity)
+    return answers.simulation(case, run) | {"digits": told} | {"theory": _theory(case, run)} | law.key(run.validity, case)
 
 
 def _as_text(case, run, reached, digits, units, width) -> str:
     checked = "checked to " if digits is None else ""
     last = f"\n# {checked}{reached.digits:.1f} digits: {reached.because}" if reached else ""
     told = "".join(f"\n# {lettered(units.words(line))}" for line in _theory(case, run, words=True))
-    return law.first(run.validity, text(case, run, units, None if digits is None else _known(reached, digits), width) + last + told, units)
+    return law.first(run.validity, text(case, run, units, None if digits is None else _known(reached, digits), width) + last + told, units, case.caveats)
 
 
 def _known(reached, digits) -> int:

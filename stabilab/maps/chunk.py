@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ..answers.caveats import HOLDS, STEADY, condition
 from ..answers.chaos import chaos, long_enough, row_of
 from ..answers.equilibria import equilibria
 from ..answers.extremes import extremes, period
@@ -63,6 +64,17 @@ def _scene(plan: Plan, scene: int, chunk: Chunk, out: np.ndarray) -> None:
                 _chaos(plan, case, states, out)
         if "equilibria" in plan.answers or "verdict" in plan.answers:
             _equilibria(case, out)
+    if "caveats" in out.dtype.names:
+        out["caveats"] = _caveats(case, out)
+
+
+def _caveats(case: Case, out: np.ndarray) -> np.ndarray:
+    """Of each point, by its place in `columns.CAVEATS`."""
+    steady = np.isin(out["fate"], STEADY) if "fate" in out.dtype.names else np.zeros(len(out), bool)
+    if "when_low" in out.dtype.names:
+        steady |= np.isposinf(out["when_low"])
+    unphysical = any(one.kind == "unphysical" for one in case.caveats)
+    return np.where(steady, condition(case.scene), 0) + len(HOLDS) * unphysical
 
 
 def _many(plan: Plan, case: Case, states: np.ndarray, out: np.ndarray) -> None:

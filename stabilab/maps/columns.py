@@ -1,10 +1,12 @@
 """What a sweep may be asked, and the columns that each answer fills."""
 from __future__ import annotations
 
+from itertools import product
 from typing import NamedTuple
 
 import numpy as np
 
+from ..answers.caveats import HOLDS, UNPHYSICAL
 from ..answers.chaos import Order
 from ..errors import InputError, printable
 from ..orbit.fate.reasons import Reason
@@ -61,6 +63,8 @@ ANSWERS: dict[str, tuple[Column, ...]] = {
                      note="mean exponential growth of nearby orbits; NaN where the motion spins up or leaves the doubles"),
               Column("lyapunov", "f8", PACE, "rate at which neighbours part", note="0 where regular, NaN where it is not known")),
 }
+CAVEATS = Column("caveats", "i1", "", "what limits the answer",
+                 tuple("; ".join(filter(None, words)) for words in product(("", UNPHYSICAL), HOLDS)))  # those of a point, which its numbers make
 DEFAULT = ("fate", "level", "margin")
 VALID = Column("valid", "i1", "", "whether the numbers make a case", ("no", "yes"))
 
@@ -78,7 +82,8 @@ def asked_answers(asked) -> tuple[str, ...]:
 
 def columns_of(answers: tuple[str, ...]) -> tuple[Column, ...]:
     """The columns of some answers."""
-    return (VALID, *(column for name in answers for column in ANSWERS[name]))
+    steady = {"fate", "when"} & set(answers)  # what says that a motion stays bounded, or never reaches a limit
+    return (VALID, *(column for name in answers for column in ANSWERS[name]), *([CAVEATS] if steady else []))
 
 
 def record(answers: tuple[str, ...]) -> np.dtype:

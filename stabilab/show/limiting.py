@@ -1,7 +1,9 @@
 """What limits an answer, in text: a limit that comes first, the condition beside a verdict, and a line for all else."""
 from __future__ import annotations
 
-from collections.abc import Iterable
+import re
+from collections import Counter
+from collections.abc import Iterable, Sequence
 
 from ..caveat import Caveat
 from ..errors import printable
@@ -21,10 +23,21 @@ def condition(caveats: Iterable[Caveat], units: Units) -> str:
     return _of("tilt", caveats, units).replace("holds ", " ", 1)
 
 
+def shared(answers: Sequence[Iterable[Caveat]], units: Units) -> str:
+    """" only while ...", or of how many answers it is said, for several answers in one line; what a tilt does to each is left to each."""
+    told = Counter(re.split("[:;]", condition(caveats, units))[0] for caveats in answers)
+    return "".join(f"{words}" if count == len(answers) else f" ({count} of them{words})" for words, count in told.items() if words)
+
+
 def noted(caveats: Iterable[Caveat], text: str, units: Units) -> str:
     """The text with a line below its first for every caveat that no first line has room for."""
     first, *rest = text.split("\n")
     return "\n".join([first, *lines([one for one in caveats if one.kind not in INSIDE], units), *rest])
+
+
+def beside(caveats: Iterable[Caveat], units: Units) -> list[str]:
+    """A sentence for every caveat that no first line has room for."""
+    return [f"{words(one, units)}." for one in caveats if one.kind not in INSIDE]
 
 
 def lines(caveats: Iterable[Caveat], units: Units) -> list[str]:

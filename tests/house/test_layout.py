@@ -38,6 +38,7 @@ DOORS = {
     ("stabilab.physics.state", "stabilab.physics.states"): "loads numpy",
     ("stabilab.show.explore.other", "stabilab.show.plot.path"): "loads numpy",
     ("stabilab.show.explore.other", "stabilab.show.plot.subject"): "loads numpy",
+    ("stabilab.show.explore.session", "stabilab.answers.passage.of_case"): "loads numpy",
     ("stabilab.show.explore.session", "stabilab.orbit.separatrix.sheets"): "loads numpy",
     ("stabilab.show.terminal.completion", "stabilab.show.plot.which"): "loads numpy",
     ("stabilab.show.text.law", "stabilab.answers.passage.of_case"): "loads numpy",

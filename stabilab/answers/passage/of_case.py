@@ -12,6 +12,7 @@ from ..caveats import STEADY, caveats_of, limited, stated
 from ..kinds import kind_of
 from ..tilt import tilt
 from ..time_to import time_of_case
+from .enclosed import WORK
 from .result import TimeTo
 
 
@@ -23,12 +24,12 @@ def limited_time(case: Any, ask: dict[str, Any], t_max: float | Fraction | None 
     return replace(found, caveats=caveats_of(case.scene, never, off, file=case.caveats))
 
 
-def with_first(case: Any, motion: Motion) -> Motion:
-    """The motion with the time at which it reaches the limit of its case, where that states one."""
+def with_first(case: Any, motion: Motion, work: int = WORK) -> Motion:
+    """The motion with the time at which it reaches the limit of its case, where that states one. work: as of `time_to`."""
     if case.limits is None or motion.first is not None:
         return motion
     ask = {"rate": case.limits.rate} if case.limits.rate is not None else {"component": case.limits.components(case.frame)}
-    return limited(replace(motion, first=(stated(case.limits), time_of_case(case, ask))), case.scene, case)
+    return limited(replace(motion, first=(stated(case.limits), time_of_case(case, ask, work=work))), case.scene, case)
 
 
 def with_tilt(case: Any, motion: Motion, angle: float | None = None) -> Motion:

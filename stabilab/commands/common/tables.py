@@ -1,7 +1,6 @@
 """The answers of several cases as text: one after the other, or the combinations of a [sweep] as one table."""
 from __future__ import annotations
 
-from ...show import limiting
 from ...show.terminal import page, sweep
 from ...show.text import law
 
@@ -10,14 +9,14 @@ def tell_all(cases, texts, laws, boxes, full, between, swept, systems):
     """Text of every case to stdout; the combinations of a [sweep] as one table, unless all is asked for in full. texts: functions, a case each;
     swept(indices): (answer in a line, columns, rows) of a table; systems: the units of each."""
     if full or not any(case.variant for case in cases):
-        page.tell(between.join(law.first(held, limiting.noted(case.caveats, text(), units), units) + box
+        page.tell(between.join(law.first(held, text(), units, case.caveats) + box
                                for case, text, held, box, units in zip(cases, texts, laws, boxes, systems)))
         return
     told = []
     for of in sweep.groups(cases):
         words = sweep.text([cases[n] for n in of], *swept(of)) if cases[of[0]].variant else texts[of[0]]()
-        words = limiting.noted(dict.fromkeys(one for n in of for one in cases[n].caveats), words, systems[of[0]])
-        told.append(law.first(law.worst(*(laws[n] for n in of)), words, systems[of[0]]) + "".join(dict.fromkeys(boxes[n] for n in of)))
+        caveats = dict.fromkeys(one for n in of for one in cases[n].caveats)
+        told.append(law.first(law.worst(*(laws[n] for n in of)), words, systems[of[0]], caveats) + "".join(dict.fromkeys(boxes[n] for n in of)))
     page.tell("\n\n".join(told))
 
 

@@ -23,6 +23,7 @@ from ...physics.coefficients import content, gyrostat_scene
 from ...physics.effects import effect_class
 from ...physics.quadratic import QuadraticForm
 from ...physics.scene import AnyScene, ScaledGyrostat, Scene
+from .. import limiting
 from ..terminal.letters import greek, lettered, written
 from ..text import law
 from ..text.headline import headline
@@ -43,6 +44,7 @@ WORKED_OUT = "keep still, and this motion is worked out"
 NO_ARRAYS = "this motion has to be followed, which needs NumPy, and that is not here"
 SWEPT = "The file has a [sweep]: the page is about the numbers in its body; stabilab fate and report answer every combination."
 UNCERTAIN = "Numbers of the file are uncertain: the page is about the middles; stabilab classify answers for all that they may be."
+QUICK = 2_000_000  # multiplications for the proof of a time at a limit: some tenths of a second
 PATIENCE = 0.12  # s: a motion whose kind took longer the last time waits until the hand rests
 
 
@@ -87,8 +89,11 @@ class Session:
             clicked = planes.clicked(self._twin(case), case.state, asked["click"], self.units)
             case, note = changed(self.case, asked | {"start": clicked, "click": None}, self.units)
         found, words = self._motion(case, moving, stopped)
-        found = law.judged(case, found, brief=True)
-        words = words if found is None else law.warned(found.validity, words)
+        if found is not None:
+            found = law.judged(case, found, brief=True)
+            if case.limits is not None and not moving and present("numpy"):
+                found = self._first(case, found)
+            words = law.warned(found.validity, headline(case, found, self.units))
         settled = time.process_time()
         twin = self._twin(case)
         at_rest = self._at_rest(case, twin, moving)
@@ -96,7 +101,8 @@ class Session:
         times, path = self._once("line", (case.scene, case.state, case.span, moving), lambda: line(case, form, _length(case, form), moving))
         picture = self._space(bag, case, twin, found, at_rest, path, asked.get("box"), moving)
         made = {"headline": greek(words), "fate": "undecided" if found is None else found.fate.word, "moving": moving, "start": clicked,
-                "note": " ".join(filter(None, (note, self._swept, UNCERTAIN if case.uncertain else "", _law(found)))),
+                "note": " ".join(filter(None, (note, self._swept, UNCERTAIN if case.uncertain else "", _law(found),
+                                                   *limiting.beside(case.caveats, self.units)))),
                 "toml": case.text, "rows": [] if found is None else tables.rows(case, found, self.units), "space": picture,
                 "plane": None if twin is None else planes.drawn(bag, twin, case.state, self.units),
                 "time": planes.over_time(bag, case, found, times, path, self.units)}
@@ -121,7 +127,12 @@ class Session:
                 raise
             return None, f"UNDECIDED: {NO_ARRAYS}"
         self._cost[kind] = time.process_time() - began
-        return found, headline(case, found, self.units)
+        return found, ""
+
+    def _first(self, case: Case, found: Motion) -> Motion:
+        """The motion with the time at which it reaches the limit of its case, by work that a hand waits for."""
+        from ...answers.passage.of_case import with_first
+        return with_first(case, found, QUICK)
 
     def _twin(self, case: Case) -> AnyScene | None:
         """The scene of wheel and torque alone with the same rates; None where there is none."""

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...case.read import Case
+from ...caveat import cell
 from ...errors import printable
 from ...files import whole_file
 from ...maps.columns import VALID, columns_of
@@ -17,7 +18,7 @@ from ...maps.run import Swept, run
 from ...packages import demand
 from ...version import __version__
 from ..files import endings
-from .labels import SAMPLE, dimensions, names, unit
+from .labels import SAMPLE, dimensions, limiting, meanings, names, unit
 
 if TYPE_CHECKING:
     import xarray
@@ -79,7 +80,7 @@ def dataset(found: Swept) -> xarray.Dataset:
 def _variable(found: Swept, column: Any, dims: list[str]) -> tuple[Any, ...]:
     words = {"long_name": column.words} | ({"units": unit(found.plan, column)} if column.kind == "f8" else {})
     if column.flags:
-        words |= {"flag_values": np.arange(len(column.flags), dtype=np.int8), "flag_meanings": " ".join(column.flags)}
+        words |= {"flag_values": np.arange(len(column.flags), dtype=np.int8), "flag_meanings": meanings(column)}
     if column.note:
         words |= {"comment": column.note}
     return (*dims, *(["axis"] if column.shape else [])), np.ascontiguousarray(found.records[column.name]).astype(column.kind), words
@@ -97,4 +98,5 @@ def _attributes(found: Swept) -> dict[str, Any]:
     plan, case = found.plan, found.plan.case
     broken = {"no_case": f"{found.broken} points: {printable(found.why)}"} if found.broken else {}
     return {"Conventions": "CF-1.11", "title": case.title or case.name, "source": f"stabilab {__version__}", "references": case.source,
-            "history": plan.command, "case_variables": case.variables, "case": plan.text, "sweep": plan.as_json(brief=True), **broken}
+            "history": plan.command, "case_variables": case.variables, "case": plan.text, "sweep": plan.as_json(brief=True),
+            "caveats": cell(limiting(case, found.records)), **broken}

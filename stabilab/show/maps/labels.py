@@ -2,8 +2,12 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Sequence
+from typing import Any
 
+from ...answers.caveats import HOLDS, UNPHYSICAL, stated
+from ...caveat import Caveat
 from ...maps.columns import ENERGY, PACE, RATE, TIME, Column
 from ...maps.plan import Plan
 
@@ -49,3 +53,21 @@ def dimensions(plan: Plan) -> list[str]:
 def unit(plan: Plan, column: Column) -> str:
     """The unit of a column; "1" where it has none."""
     return {RATE: "rad/s", ENERGY: "J", TIME: "s", PACE: "1/s"}.get(column.unit, "1") if plan.case.variables == "physical" else "1"
+
+
+def meanings(column: Column) -> str:
+    """The flags as NetCDF lists them, a word each."""
+    return " ".join(flag.replace(" ", "_") or "none" for flag in column.flags)
+
+
+def limiting(case: Any, records: Any) -> list[Caveat]:
+    """What limits the answers of a map: what the file says itself, on what its points rest, a limit that was not looked at."""
+    found, numbers = list(case.caveats), records["caveats"].ravel().tolist() if "caveats" in records.dtype.names else []
+    told = Counter(number % len(HOLDS) for number in numbers)
+    parts = [("tilt", HOLDS[n], count) for n, count in sorted(told.items()) if n]
+    if all(one.kind != "unphysical" for one in found):
+        parts += [("unphysical", UNPHYSICAL, sum(number >= len(HOLDS) for number in numbers))]
+    found += [Caveat(kind, words if count == len(numbers) else f"{words} ({count:,} of {len(numbers):,} points)") for kind, words, count in parts if count]
+    if case.limits is not None and "when_low" not in records.dtype.names:
+        found.append(Caveat("limit", f"the limit of the file, {stated(case.limits)}, is not looked at here"))
+    return found

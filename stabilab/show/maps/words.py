@@ -7,11 +7,13 @@ from typing import Any
 
 import numpy as np
 
+from ...caveat import key
 from ...errors import printable
-from ...maps.columns import ENDLESS, NO_CASE, NONE, OPEN, TIME, Column, columns_of
+from ...maps.columns import CAVEATS, ENDLESS, NO_CASE, NONE, OPEN, TIME, Column, columns_of
 from ...maps.plan import Plan
 from ...maps.run import Swept
 from ...orbit.result import Fate
+from .. import limiting
 from ..files import comma
 from ..terminal import page
 from ..terminal.letters import greek
@@ -19,6 +21,7 @@ from ..text import law
 from ..text.answers import Endless, as_json
 from ..units import Unit, units_of
 from .labels import SAMPLE, said, unit
+from .labels import limiting as caveats_of
 
 SCHEMA = "stabilab.sweep/1"
 ROWS = 40  # points of a table
@@ -40,7 +43,7 @@ def text(found: Swept) -> str:
     """The answer first; then what else was asked, in ranges; a table of the points where there are few."""
     plan = found.plan
     lines = [f"{plan.case.name}: {_answer(found)}", *_details(found)]
-    lines += law.beside(plan.case)
+    lines += limiting.lines(caveats_of(plan.case, found.records), units_of(plan.case)) + law.beside(plan.case)
     if found.broken:
         told = f"{found.broken:,} points are no case; the first" if found.broken > 1 else "one point is no case"
         lines.append(f"  {told}: {printable(found.why)}")
@@ -168,7 +171,7 @@ def json(found: Swept) -> str:
     if plan.sampled:
         told["samples"] = {"count": plan.sampled.count, "seed": plan.sampled.seed, "keys": [key.name for key in plan.sampled.keys],
                            "values": plan.sampled.values(0, plan.sampled.count).tolist()}
-    return as_json(told | {"no_case": {"points": found.broken, "because": found.why}, "columns": columns})
+    return as_json(told | key(caveats_of(plan.case, found.records)) | {"no_case": {"points": found.broken, "because": found.why}, "columns": columns})
 
 
 def _plain(values: np.ndarray) -> list[Any]:
@@ -179,6 +182,10 @@ def _plain(values: np.ndarray) -> list[Any]:
 def _table(found: Swept) -> list[str]:
     """A row a point under short names and units, rates in the units of the case."""
     plan, columns = found.plan, columns_of(found.plan.answers)[1:]
+    if columns[-1:] == (CAVEATS,):  # in words above the table
+        columns, told = columns[:-1], [row[:-1] for row in rows(found)]
+    else:
+        told = list(rows(found))
     keys = [(axis.key.name, axis.shown_unit) for axis in plan.axes]
     sampled = [(key.name, plan.sampled.unit(n)) for n, key in enumerate(plan.sampled.keys)] if plan.sampled else []
     names = said([key for key, _ in keys + sampled])
@@ -190,7 +197,7 @@ def _table(found: Swept) -> list[str]:
         titles += [f"{greek(component)} {name}" for component in plan.case.scene.components] if column.shape else [name]
         places = math.prod(column.shape)
         units, factors, kinds = units + [of] * places, factors + [one] * places, kinds + [column.name] * places
-    cells = [[_cell(value, one, kind) for value, one, kind in zip(row, factors, kinds)] for row in rows(found)]
+    cells = [[_cell(value, one, kind) for value, one, kind in zip(row, factors, kinds)] for row in told]
     said_of = [n for n in range(len(titles)) if any(row[n] for row in cells)]
     return page.table([[row[n] for n in said_of] for row in (titles, units, *cells)], len(keys + sampled), page.width())
 

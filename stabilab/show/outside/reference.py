@@ -6,11 +6,13 @@ import shlex
 from fractions import Fraction
 from pathlib import Path
 
+from ...answers.caveats import limited
 from ...answers.certificate import subject
 from ...answers.digits.ask import ask
 from ...answers.motion import motion
 from ...answers.tabulated.ask import tabulated
 from ...answers.tabulated.result import Tabulated
+from ...caveat import key
 from ...files import whole_file
 from ...numbers.balls import working
 from ...physics.coefficients import effective
@@ -34,7 +36,8 @@ def as_dict(case, times, digits: int, arguments=()) -> tuple[dict, Tabulated]:
                            "rows": [{"t": decimal(t), "values": texts, "within": within(row, texts)}
                                     for t, row in zip(run.t, run.states) for texts in [[written(v, digits) for v in row]]]},
             "events": {"because": run.events_because, "list": [_event(one, run, digits) for one in run.events]},
-            "period": _told(told["period"]), "extremes": _told(told["extremes"]) | {"over": known.extremes_over}}, run
+            "period": _told(told["period"]), "extremes": _told(told["extremes"]) | {"over": known.extremes_over}
+            } | key(limited(known, case.scene, case).caveats), run
 
 
 def _provenance(case, arguments):
@@ -103,6 +106,7 @@ def csv(made: dict) -> str:
     rows.append(("period", None, made["time"], period["value"], None, period["because"]))
     for name, pair in zip(course["components"], extremes["value"] or ()):
         rows += [(f"{word} over {extremes['over']}", None, name, value, None, extremes["because"]) for word, value in zip(("least", "greatest"), pair)]
+    rows += [("caveat", None, one["kind"], one["words"], None, None) for one in made["caveats"]]
     return comma.lines(rows)
 
 

@@ -72,7 +72,7 @@ def listed(stem, made) -> dict:
     found = made.get("sweep") or made["case"]
     beyond = re.match(r"BEYOND THE LAW: .*?, limit [\d.]+", found["law"])  # by how much; why that matters stands on the page
     return {"file": f"{stem}.html", "name": stem, "title": found["title"], "headline": found["headline"], "css": verdict.css(found.get("fate", "")),
-            "beyond": beyond[0] if beyond else ""}
+            "beyond": " ".join(filter(None, [beyond and beyond[0], *found["caveats"]]))}
 
 
 def pages(cases, folder: Path, tell, wanted: Wanted, workers=None, **around) -> list[tuple[str, bool]]:

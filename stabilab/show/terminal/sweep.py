@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from ...case.units import DIMENSIONS, NAMES
+from .. import limiting
 from ..text.headline import WORDS, known_as, rate_margin
 from ..units import SHORT, Units, but_for_rounding, number
 from . import page
@@ -72,7 +73,9 @@ def _alone(key, swept) -> bool:
 def fates(motions: Sequence, units: Units) -> str:
     """How many motions have which fate, and the range of their largest rates."""
     counts = Counter(motion.fate.word for motion in motions)
-    words = ", ".join(f"{WORDS[fate]}: {count}" if len(counts) > 1 else f"each {WORDS[fate]}" for fate, count in counts.most_common())
+    while_ = {fate: limiting.shared([motion.caveats for motion in motions if motion.fate.word == fate], units) for fate in counts}
+    told = {fate: f"{WORDS[fate].removesuffix(' for ever') if where else WORDS[fate]}{where}" for fate, where in while_.items()}
+    words = ", ".join(f"{told[fate]}: {count}" if len(counts) > 1 else f"each {told[fate]}" for fate, count in counts.most_common())
     sizes = [size for size in map(_largest, motions) if size is not None]
     if not sizes:
         return words
@@ -95,7 +98,7 @@ def of_motions(motions: Sequence, units: Units) -> tuple[list[tuple[str, str]], 
     name, one = units.rates
     longest = max((m.period for m in motions if m.period is not None), default=0.0)
     time, per_time = units.times(longest)
-    columns = [("fate", "", lambda m: m.fate.word + known_as(m)), ("axis", "", _axis),
+    columns = [("limit", "", lambda m: limiting.reached(m.caveats, units)), ("fate", "", lambda m: m.fate.word + known_as(m)), ("axis", "", _axis),
              ("largest rate", name, lambda m: "" if _largest(m) is None else number(_largest(m) * one, 6)),
              ("margin", name, lambda m: rate_margin(m, units, 6).removesuffix(f" {name}") if name else rate_margin(m, units, 6)),
              ("to barrier", units.plain("J")[0], lambda m: "" if m.margin_energy is None else shown(m.margin_energy)),

@@ -3,7 +3,6 @@ from __future__ import annotations
 
 import math
 
-from ...answers.caveats import caveats_of
 from ...caveat import cell, key
 from ...physics.blocks import PARTS
 from ..files import comma
@@ -51,7 +50,7 @@ def classification(case, equilibria, motion) -> dict:
                            "points": [_point(p) | _input(case, p.at) for p in equilibria.points],
                            "curves": [_curve(c) for c in equilibria.curves]},
             "motion": None if motion is None else _motion(motion) | _input(case, motion.at)
-            } | key(case.caveats if motion is None else motion.caveats) | frame.key(case)
+            } | ({} if motion is None else key(motion.caveats)) | frame.key(case)
 
 
 def _input(case, at) -> dict:
@@ -105,8 +104,7 @@ def simulation(case, run) -> dict:
     """The object of `stabilab simulate --json`."""
     return {"schema": "stabilab.simulate/1", "case": case.name, "model": run.model, "time": case.scene.time_unit,
             "t": run.t, "state": run.state, "invariant_drift": run.invariant_drift, "counters": run.counters,
-            "method": run.method, "rtol": run.rtol, "status": run.status, "reason": run.reason
-            } | key(caveats_of(case.scene, validity=run.validity, file=case.caveats)) | frame.rows(case, run) | frame.key(case)
+            "method": run.method, "rtol": run.rtol, "status": run.status, "reason": run.reason} | frame.rows(case, run) | frame.key(case)
 
 
 def columns(run) -> tuple[list[str], list[list[float]]]:

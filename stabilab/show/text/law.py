@@ -4,17 +4,20 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from ...answers.caveats import limited
+from ... import caveat
+from ...answers.caveats import caveats_of, limited
 from ...case.attitude import vertical_of
 from ...errors import printable
 from ...physics.approximate import limits_of
+from .. import limiting
 from ..terminal.letters import lettered
 from ..units import SI, Units, units_of
 
 
-def first(validity, text: str, units: Units = SI) -> str:
-    """The text with what is to be said of its law: behind the answer where the law holds; where it does not, as what follows is then no motion of such
-    a body, that it does not before the answer, and by how much in a line below. The text as it is where all laws are exact. units: of times."""
+def first(validity, text: str, units: Units = SI, caveats=()) -> str:
+    """The text with the caveats of its case, and with what is to be said of its law: behind the answer where the law holds; where it does not, as what
+    follows is then no motion of such a body, that it does not before the answer, and by how much in a line below. units: of times."""
+    text = limiting.noted(caveats, text, units)
     if validity is None:
         return text
     answer, *rest = text.split("\n")
@@ -29,9 +32,11 @@ def warned(validity, answer: str) -> str:
     return f"{validity.status.upper()}; by that law: {answer}" if beyond(validity) else answer
 
 
-def key(validity) -> dict:
-    """The key of a JSON object; null where all laws are exact."""
-    return {"validity": None if validity is None else validity.as_dict()}
+def key(validity, case=None, steady: bool = False) -> dict:
+    """The key "validity" of a JSON object, null where all laws are exact; of a case also its caveats, where the answer is no motion, which has them.
+    steady: as of `caveats_of`."""
+    told = {"validity": None if validity is None else validity.as_dict()}
+    return told if case is None else told | caveat.key(caveats_of(case.scene, steady, validity=validity, file=case.caveats))
 
 
 def worst(*found):

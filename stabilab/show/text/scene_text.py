@@ -7,6 +7,7 @@ from fractions import Fraction
 from ...physics.effects.base import effect_words
 from ...physics.equations import derive
 from ...physics.laws import invariants
+from .. import limiting
 from ..terminal.letters import lettered, some, written
 from ..terminal.page import table, width
 from ..terminal.sweep import swept_columns
@@ -26,7 +27,7 @@ def of_all(cases) -> str:
         kinds.setdefault((*lines(equations), *(law.words for law in (*equations.balances, *own))), []).append((case, equations, own))
     parts = []
     for alike in kinds.values():
-        parts.append(_whole(*alike[0]))
+        parts.append(limiting.noted(alike[0][0].caveats, _whole(*alike[0]), units_of(alike[0][0])))
         if len(alike) > 1:
             some_cases = [case for case, _, _ in alike]
             columns = swept_columns(some_cases)

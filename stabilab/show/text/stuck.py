@@ -78,7 +78,8 @@ def swept(answers, units: Units):
     """(the answer in a line, columns, rows) of a sweep: what becomes of each, about which axis, and when the limit is reached."""
     rows = [found.rows[0] for found in answers]
     fates = Counter(row.fate for row in rows)
-    counts = "; ".join(f"{FATES[fate]}: {n}" if len(fates) > 1 else f"each {FATES[fate]}" for fate, n in fates.most_common())
+    told = {fate: FATES[fate] + limiting.shared([row.caveats for row in rows if row.fate == fate], units) for fate in fates}
+    counts = "; ".join(f"{told[fate]}: {n}" if len(fates) > 1 else f"each {told[fate]}" for fate, n in fates.most_common())
     ends = [row.time_to_limit[1] for row in rows if row.time_to_limit]
     name, one = units.times(max(ends, default=0.0))
     cells = [[row.fate, f"{'+' if row.sense > 0 else '-'}{row.axis}" if row.axis else "",

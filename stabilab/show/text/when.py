@@ -12,7 +12,7 @@ from ..terminal.letters import lettered
 from ..units import DIGITS, Units, bracket, number
 from . import frame
 
-WORDS = {"yes": "reached by", "never": "NEVER by", "unknown": "NOT KNOWN of"}
+WORDS = {"yes": "reached by", "unknown": "NOT KNOWN of", "never": "NEVER by"}
 CSV = ("case", "quantity", "limit", "time_low", "time_high", "level", "caveats")
 
 
@@ -48,6 +48,7 @@ def swept(answers, units: Units):
     """(the answer in a line, columns, rows) of a sweep: whether, when and how well known."""
     kinds = [_reached(float(found.low), float(found.high)) for *_, found in answers]
     counts = "; ".join(f"{words} {kinds.count(kind)}" for kind, words in WORDS.items() if kind in kinds)
+    counts += limiting.shared([found.caveats for kind, (*_, found) in zip(kinds, answers) if kind == "never"], units)
     ends = [float(found.high) for *_, found in answers if math.isfinite(found.high)]
     name, one = units.times(max(ends, default=0.0))
     told = f"{asked(answers[0][1], units)}: {counts}" + (f"; first in {units.time(min(ends), 4)}" if ends else "")

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ....case.read import Case, read_text
+from ....caveat import cell
 from ....errors import InputError, printable
 from ....maps.atlas.asked import LEVEL, REFINE, Asked, asked
 from ....maps.atlas.cells import corners, directions
@@ -18,7 +19,7 @@ from ....maps.columns import columns_of, record
 from ....packages import demand
 from ....version import __version__
 from ..dataset import checked, write
-from ..labels import unit
+from ..labels import limiting, meanings, unit
 from .labels import point_name
 
 if TYPE_CHECKING:
@@ -82,7 +83,7 @@ def _corners(leaves: Leaves) -> np.ndarray:
 def _variable(found: Atlas, column: Any, dimension: str, records: np.ndarray) -> tuple[Any, ...]:
     words = {"long_name": column.words} | ({"units": unit(found.asked.plan(()), column)} if column.kind == "f8" else {})
     if column.flags:
-        words |= {"flag_values": np.arange(len(column.flags), dtype=np.int8), "flag_meanings": " ".join(column.flags)}
+        words |= {"flag_values": np.arange(len(column.flags), dtype=np.int8), "flag_meanings": meanings(column)}
     if column.note:
         words |= {"comment": column.note}
     return dimension, np.ascontiguousarray(records[column.name]).astype(column.kind), words
@@ -93,7 +94,8 @@ def _attributes(found: Atlas) -> dict[str, Any]:
     told = {"path": os.path.basename(of.path), "options": dict(of.options), "level": of.level, "refine": of.refine, "certify": of.certify,
             "limit": dict(of.limit), "timed": of.timed, "computed": found.asked_points}
     return {"Conventions": "CF-1.11", "title": of.case.title or of.case.name, "source": f"stabilab {__version__}", "references": of.case.source,
-            "history": of.command, "torque": float(of.torque), "case": of.text, "atlas": json.dumps(told)}
+            "history": of.command, "torque": float(of.torque), "case": of.text, "atlas": json.dumps(told),
+            "caveats": cell(limiting(of.case, found.records))}
 
 
 def atlas_of(data: xarray.Dataset, path: Path) -> Atlas:

@@ -6,15 +6,18 @@ from typing import Any
 
 import numpy as np
 
+from ....caveat import key
 from ....errors import printable
 from ....maps.atlas.cells import area
 from ....maps.atlas.pointed import AXES, THRUSTERS
 from ....maps.atlas.run import Atlas
 from ....maps.columns import ISLANDS, LEVELS, LIMIT_LEVELS, columns_of
 from ....orbit.result import Fate
+from ... import limiting
 from ...files import comma
 from ...text.answers import Endless, as_json
 from ...units import SHORT, Units
+from ..labels import limiting as caveats_of
 from ..labels import unit
 from ..words import COUNTS
 from .labels import DOES, axis_names, direction_words, kinds, other_axis, point_name, wheel_words
@@ -25,7 +28,13 @@ ROWS = 12  # wheel momenta that are told one by one
 
 def text(atlas: Atlas, units: Units) -> str:
     """The answer in the first line; then what is behind it."""
-    return "\n".join([f"{atlas.asked.case.name}: {answer(atlas, units)}", *_wheels(atlas, units), *_details(atlas, units), *_named(atlas, units)])
+    told = limiting.lines(caveats_of(atlas.asked.case, _all(atlas)), units)
+    return "\n".join([f"{atlas.asked.case.name}: {answer(atlas, units)}", *told, *_wheels(atlas, units), *_details(atlas, units), *_named(atlas, units)])
+
+
+def _all(atlas: Atlas) -> np.ndarray:
+    """The answers of cells and of directions with a name."""
+    return np.concatenate([atlas.records, atlas.named_records])
 
 
 def answer(atlas: Atlas, units: Units, rows: np.ndarray | None = None) -> str:
@@ -219,7 +228,7 @@ def json(atlas: Atlas, units: Units) -> str:
         "flags": {column.name: list(column.flags) for column in columns_of(asked.answers)[1:] if column.flags},
         "units": {column.name: unit(plan, column) for column in columns_of(asked.answers)[1:] if column.kind == "f8"},
         "cells": cells | {column.name: _plain(atlas.records[column.name]) for column in columns_of(asked.answers)[1:]}}
-    return as_json(told)
+    return as_json(told | key(caveats_of(asked.case, _all(atlas))))
 
 
 def _as_dict(asked: Any, record: Any) -> dict[str, Any]:

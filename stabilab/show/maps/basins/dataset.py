@@ -8,13 +8,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ....case.read import Case
+from ....caveat import cell
 from ....maps.basins.ask import DEPTH, Basins, basins, label_of
 from ....maps.basins.dimension import dimension
 from ....maps.basins.mesh import Mesh
-from ....maps.columns import ANSWERS, LEVELS, record
+from ....maps.columns import ANSWERS, CAVEATS, LEVELS, record
 from ....maps.plan import from_json
 from ....version import __version__
 from ..dataset import checked, write
+from ..labels import limiting, meanings
 from .words import cells_of, command
 
 if TYPE_CHECKING:
@@ -44,11 +46,11 @@ def dataset(found: Basins) -> xarray.Dataset:
     import xarray
     mesh, rough, cells = found.mesh, found.dimension, cells_of(found)
     places = mesh.places(mesh.keys)
-    words = {"fate": ANSWERS["fate"][0], "spin_axis": ANSWERS["fate"][1], "level": ANSWERS["level"][0]}
+    words = {"fate": ANSWERS["fate"][0], "spin_axis": ANSWERS["fate"][1], "level": ANSWERS["level"][0], "caveats": CAVEATS}
     values: dict[str, Any] = {f"coordinate{n + 1}": (("state",), np.array(axis.values)[places[n]], {"long_name": axis.key.name, "units": axis.shown_unit})
                               for n, axis in enumerate(found.plan.axes)}
     for name, column in words.items():
-        flags = {"flag_values": np.arange(len(column.flags), dtype=np.int8), "flag_meanings": " ".join(column.flags)} if column.flags else {}
+        flags = {"flag_values": np.arange(len(column.flags), dtype=np.int8), "flag_meanings": meanings(column)} if column.flags else {}
         values[name] = (("state",), np.ascontiguousarray(found.records[name]), {"long_name": column.words, **flags})
     values["place"] = (("state", "axis"), np.stack(places, axis=1).astype(np.int32), {"long_name": "place of a state on the grid of finest cells, from 0"})
     values["cell"] = (("cell", "axis"), np.stack([cells["first"], cells["second"]], axis=1).astype(np.int32),
@@ -60,6 +62,7 @@ def dataset(found: Basins) -> xarray.Dataset:
     made = xarray.Dataset(values, {"depth": (("depth",), np.array(rough.depths, np.int8), {"long_name": "depth of refinement"})}, {
         "Conventions": "CF-1.11", "title": case.title or case.name, "source": f"stabilab {__version__}", "references": case.source,
         "history": command(found), "case_variables": case.variables, "case": found.plan.text, "basin": found.plan.as_json(brief=True),
+        "caveats": cell(limiting(case, found.records)),
         "coarse_cells": np.array(mesh.cells, np.int32), "depth_asked": np.int32(found.asked), "depth_reached": np.int32(mesh.depth),
         "complete": np.int8(not mesh.full), "box_dimension": rough.value, "box_dimension_uncertainty": rough.uncertainty,
         "box_dimension_because": rough.reason})
@@ -73,7 +76,7 @@ def opened(data: xarray.Dataset) -> Basins:
     plan = from_json(data.attrs["basin"])
     cells, depth = tuple(int(n) for n in data.attrs["coarse_cells"]), int(data.attrs["depth_reached"])
     records = np.zeros(data.sizes["state"], record(plan.answers))
-    for name in ("fate", "spin_axis", "level"):
+    for name in ("fate", "spin_axis", "level", "caveats"):
         records[name] = data[name].values
     records["valid"] = 1
     mesh = Mesh(cells, depth, full=not int(data.attrs["complete"]))  # type: ignore[arg-type]  # two of them

@@ -6,13 +6,17 @@ from typing import Any
 
 import numpy as np
 
+from ....caveat import cell, key
 from ....errors import printable
 from ....maps.basins.ask import BOUNDED, NO_AXIS, UNDECIDED, Basins
 from ....maps.basins.mesh import leaves
 from ....maps.columns import LEVELS
+from ... import limiting
 from ...files import comma
 from ...text import law
 from ...text.answers import as_json
+from ...units import units_of
+from ..labels import limiting as caveats_of
 
 SCHEMA = "stabilab.basin/1"
 SMOOTH = 0.1  # of the dimension: less than this above 1 is told as smooth where the uncertainty allows
@@ -30,7 +34,7 @@ def text(found: Basins) -> str:
     lines += [f"  {line}" for line in (*_boundary(found), _known(found))]
     full = (mesh.cells[0] << mesh.depth) + 1, (mesh.cells[1] << mesh.depth) + 1
     lines.append(f"  {len(mesh.keys):,} states asked, of {full[0] * full[1]:,} of the grid of finest cells ({full[0]:,} x {full[1]:,})")
-    lines += law.beside(found.plan.case)
+    lines += limiting.lines(caveats_of(found.plan.case, found.records), units_of(found.plan.case)) + law.beside(found.plan.case)
     if mesh.full:
         lines.append("  refinement ended before the depth asked for: more than the largest number of states would be needed; take a smaller depth or plane")
     return "\n".join(lines)
@@ -100,7 +104,8 @@ def csv(found: Basins) -> str:
     values = [np.array(axis.values) for axis in found.plan.axes]
     columns = [values[n][cells[name] + more].tolist() for n, name in enumerate(("first", "second")) for more in (0, cells["width"])]
     words = ["boundary" if mixed else basin_name(label) for mixed, label in zip(cells["mixed"].tolist(), cells["label"].tolist())]
-    return comma.lines([[*heads, "depth", "basin"], *zip(*columns, cells["depth"].tolist(), words)])
+    told = [cell(caveats_of(found.plan.case, found.records))] * len(words)
+    return comma.lines([[*heads, "depth", "basin", "caveats"], *zip(*columns, cells["depth"].tolist(), words, told)])
 
 
 def json(found: Basins) -> str:
@@ -110,7 +115,7 @@ def json(found: Basins) -> str:
     lower = [np.array(axis.values)[place] for axis, place in zip(found.plan.axes, (row, column))]
     axes = [{"key": axis.key.name, "unit": axis.shown_unit, "from": axis.values[0], "to": axis.values[-1], "cells": cells, "finest_cell": step}
             for axis, cells, step in zip(found.plan.axes, mesh.cells, found.steps)]
-    return as_json({
+    return as_json(key(caveats_of(found.plan.case, found.records)) | {
         "schema": SCHEMA, "case": found.plan.case.name, "variables": found.plan.case.variables, "command": command(found), "axes": axes,
         "depth": mesh.depth, "complete": not mesh.full, "states_asked": len(mesh.keys),
         "basins": [{"basin": basin_name(label), "share": share} for label, share in found.shares.items()], "share_uncertainty": found.blur,

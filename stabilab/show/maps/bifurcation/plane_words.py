@@ -3,9 +3,11 @@ from __future__ import annotations
 
 from typing import Any
 
+from ....caveat import cell, key
 from ....maps.bifurcation.plane import Plane, rows
 from ....maps.bifurcation.result import ENDLESS, Piece
 from ....maps.bifurcation.system import BORDERS
+from ... import limiting
 from ...files import comma
 from ...text import frame
 from ...text.answers import as_json
@@ -42,7 +44,8 @@ def text(found: Plane) -> str:
     """The answer, what is counted, an example for each number of equilibria, the cusps."""
     units = units_of(found.family.case)
     first, second = found.family.spans
-    lines = [f"{found.family.case.name}: {answer(found)}", f"  {found.what}", *(f"  {note}" for note in found.notes)]
+    lines = [f"{found.family.case.name}: {answer(found)}", f"  {found.what}", *(f"  {note}" for note in found.notes),
+             *limiting.lines(found.family.case.caveats, units)]
     of = [f"{span.label}{'' if span.shown_unit == '1' else f' ({span.shown_unit})'}" for span in (first, second)]
     border = found.kind == BORDERS
     table = [["changes" if border else "equilibria", *([] if border else ["stable"]), "such as at", of[0], of[1]]]
@@ -79,7 +82,8 @@ def csv(found: Plane) -> str:
     """A line for each point of each curve, then the cusps."""
     names = [span.key.name + ("" if span.shown_unit == "1" else f" ({span.shown_unit})") for span in found.family.spans]
     head: list[Any] = ["kind", "strip", "arc", *names]
-    return comma.lines([head, *curve_points(found), *(("cusp", None, None, *cusp.at) for cusp in found.cusps)])
+    told = cell(found.family.case.caveats)
+    return comma.lines([[*head, "caveats"], *([*row, told] for row in (*curve_points(found), *(("cusp", None, None, *cusp.at) for cusp in found.cusps)))])
 
 
 def json(found: Plane) -> str:
@@ -96,4 +100,4 @@ def json(found: Plane) -> str:
                                          for arc, event in zip(strip.arcs, strip.line.events)]} for strip in found.strips],
                     "walls": [{"value": wall.value, "low": wall.low, "high": wall.high, "kinds": list(wall.kinds)} for wall in found.walls],
                     "cusps": [{"at": list(cusp.at), "state": list(cusp.state), "polynomial": [str(c) for c in cusp.polynomial], "root": cusp.root}
-                              for cusp in found.cusps], "notes": list(found.notes)} | frame.key(case))
+                              for cusp in found.cusps], "notes": list(found.notes)} | key(case.caveats) | frame.key(case))

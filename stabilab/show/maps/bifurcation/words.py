@@ -3,10 +3,12 @@ from __future__ import annotations
 
 from typing import Any
 
+from ....caveat import cell, key
 from ....maps.bifurcation.branches import branches
 from ....maps.bifurcation.result import CURVES, ENDLESS, Diagram, Event, Piece, State
 from ....maps.bifurcation.system import BORDERS
 from ....maps.span import Span
+from ... import limiting
 from ...files import comma
 from ...terminal.letters import greek
 from ...text import frame
@@ -22,7 +24,7 @@ NAMES = {"fold": "fold", "pitchfork": "pitchfork", "crossing": "crossing", "touc
 def text(found: Diagram) -> str:
     """The answer first, then what is counted, the table, notes."""
     lines = [f"{found.family.case.name}: {answer(found).replace('<=', '≤')}", f"  {found.what}"]
-    lines += [f"  {note}" for note in found.notes]
+    lines += [f"  {note}" for note in found.notes] + limiting.lines(found.family.case.caveats, units_of(found.family.case))
     return "\n".join([*lines, *_table(found), *frame.note(found.family.case)])
 
 
@@ -131,13 +133,13 @@ def csv(found: Diagram) -> str:
     span, case = found.family.spans[0], found.family.case
     of = "rad/s" if case.variables == "physical" else ""
     head = [span.key.name + ("" if span.shown_unit == "1" else f" ({span.shown_unit})"), "piece", "branch",
-            *(f"{name} ({of})" if of else name for name in case.scene.components), "verdict", "event"]
+            *(f"{name} ({of})" if of else name for name in case.scene.components), "verdict", "event", "caveats"]
     rows: list[list[Any]] = [[value, branch.piece + 1, branch.number + 1, *state, branch.verdict, None]
                              for branch in branches(found) for value, state in zip(branch.values, branch.states)]
     for event in (*found.events, *found.connections):
         rows += [[event.value, None, None, *state.at, state.verdict, event.kinds[0] if state.times > 1 else None] for state in event.states] or \
             [[event.value, None, None, None, None, None, None, event.kinds[0]]]
-    return comma.lines([head, *rows])
+    return comma.lines([head, *([*row, cell(case.caveats)] for row in rows)])
 
 
 def json(found: Diagram) -> str:
@@ -148,7 +150,8 @@ def json(found: Diagram) -> str:
                     "pieces": [{"low": piece.low, "high": piece.high, "sample": str(piece.sample)} | _states(piece.count, piece.states)
                                | ({"words": piece.words} if piece.words else {})
                                for piece in found.pieces],
-                    "events": [event_row(event) for event in (*found.events, *found.connections)], "notes": list(found.notes)} | frame.key(case))
+                    "events": [event_row(event) for event in (*found.events, *found.connections)], "notes": list(found.notes)
+                    } | key(case.caveats) | frame.key(case))
 
 
 def axis(span: Span) -> dict[str, Any]:

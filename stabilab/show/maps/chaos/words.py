@@ -5,7 +5,9 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
+from ....answers.caveats import caveats_of
 from ....answers.chaos import FLAT, Chaos, Order
+from ....caveat import cell
 from ....errors import printable
 from ...files import comma
 from ...text import law
@@ -64,12 +66,13 @@ def as_dict(case: Any, found: Chaos) -> dict[str, Any]:
 
 def json(rows: list[tuple[Any, Chaos]], laws: Sequence[Any]) -> str:
     """One object a case, a list of them for several. laws: how far the approximate laws of each hold, or None."""
-    told = [as_dict(*row) | law.key(held) for row, held in zip(rows, laws)]
+    told = [as_dict(*row) | law.key(held, row[0]) for row, held in zip(rows, laws)]
     return as_json(told if len(told) > 1 else told[0])
 
 
-def csv(rows: list[tuple[Any, Chaos]]) -> str:
-    """A line for each case and time."""
-    return comma.lines([["case", "answer", "time", "megno"],
-                        *([case.name, Order(int(found.labels)).word, time, None if math.isnan(value) else value]
-                          for case, found in rows for time, value in zip(found.times.tolist(), found.history.tolist()))])
+def csv(rows: list[tuple[Any, Chaos]], laws: Sequence[Any]) -> str:
+    """A line for each case and time. laws: as of `json`."""
+    told = [cell(caveats_of(case.scene, validity=held, file=case.caveats)) for (case, _), held in zip(rows, laws)]
+    return comma.lines([["case", "answer", "time", "megno", "caveats"],
+                        *([case.name, Order(int(found.labels)).word, time, None if math.isnan(value) else value, caveats]
+                          for (case, found), caveats in zip(rows, told) for time, value in zip(found.times.tolist(), found.history.tolist()))])

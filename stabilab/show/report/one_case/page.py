@@ -7,6 +7,7 @@ from ....answers.equilibria import equilibria
 from ....answers.passage.of_case import with_tilt
 from ....answers.uncertain.verdicts import uncertain
 from ....errors import StabilabError
+from ... import limiting
 from ...plot import which
 from ...plot.subject import subject
 from ...terminal.letters import greek
@@ -39,7 +40,8 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
     box = _tried(absent, "Uncertain numbers", lambda: uncertain(case, asked)) if case.uncertain else None
     answer = "; ".join(filter(None, (verdict.headline(case, moved, found, measures), shown.what_changes(box))))
     page = {"name": case.name, "title": case.heading, "source": case.source, "path": case.path, "text": case.text, "headline": answer,
-            "law": verdict.law(moved, measures), "fate": "" if moved is None else "undecided" if shown.open_fate(box) else moved.fate.word,
+            "law": verdict.law(moved, measures), "caveats": [spoken(line) for line in limiting.beside(case.caveats, units)],
+            "fate": "" if moved is None else "undecided" if shown.open_fate(box) else moved.fate.word,
             "facts": [], "extremes": [], "invariants": [], "over": "", "pictures": [], "sensitivity": None, "certificate": None,
             "equilibria": found and table(found, measures), "equations": _tried(absent, "Equations", lambda: equations(case))}
     if moved is not None:

@@ -8,7 +8,7 @@ import numpy as np
 from ....answers.equilibria import equilibria
 from ....answers.motion import motion
 from ....errors import StabilabError
-from ... import style
+from ... import limiting, style
 from ...plot.path import along
 from ...plot.subject import subject
 from ...terminal.letters import some
@@ -17,7 +17,7 @@ from ...text.law import judged, lines_of
 from ...units import units_of
 from . import pictures, verdict
 from .equations import equations
-from .measures import Measures
+from .measures import Measures, spoken
 
 STYLES = ("-", "--", ":", "-.")
 WIDTHS = (1.0, 1.8, 2.6)
@@ -34,7 +34,9 @@ def sections(cases, folder: Path, stem: str) -> dict:
     moved = [(case, found) for case, found, _ in answered if found is not None]
     kept = [n for n in range(len(HEADS)) if any(row["told"][n] for row in rows)]  # no column that says nothing
     rows = [row | {"told": [row["told"][n] for n in kept]} for row in rows]
-    return {"name": stem, "heads": [HEADS[n] for n in kept], "title": first.title or stem,
+    caveats = dict.fromkeys(one for case in cases for one in case.caveats)
+    return {"name": stem, "caveats": [spoken(line) for line in limiting.beside(caveats, measures.units)],
+            "heads": [HEADS[n] for n in kept], "title": first.title or stem,
             "source": first.source, "path": first.path, "text": first.text, "rows": rows,
             "keys": [_head(label, unit) for key in keys for label, unit, _ in key], "equations": _equations(first),
             "picture": _picture(moved, keys, cases, measures, folder / f"{stem}-sweep.png") if moved else None,

@@ -4,6 +4,8 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
+from ....answers.caveats import caveats_of
+from ....caveat import cell
 from ....cost.accuracy import digit_price
 from ....machine import machine, versions
 from ....packages import demand
@@ -69,7 +71,11 @@ def _row(found, p) -> dict:
 
 def csv(*measured) -> str:
     """One line per point of every case; empty where a count does not exist, inf where no answer came."""
-    return comma.lines([COLUMNS, *(_row(found, p).values() for found in measured for p in found.points)])[:-1]
+    return comma.lines([(*COLUMNS, "caveats"), *((*_row(found, p).values(), _limits(found)) for found in measured for p in found.points)])[:-1]
+
+
+def _limits(found) -> str:
+    return cell(caveats_of(found.case.scene, validity=found.validity, file=found.case.caveats))
 
 
 def write(found, path) -> Path:
