@@ -24,7 +24,8 @@ def caveats_of(scene: AnyScene, steady: bool = False, tilt: Any = None, first: t
                file: Iterable[Caveat] = (), axis: str = "") -> tuple[Caveat, ...]:
     """The caveats of one answer.
 
-    steady: whether it says that the motion is bounded or an equilibrium, or that it never reaches a limit; tilt: a `Tilt`, where that was asked;
+    steady: whether it says that the motion is bounded or an equilibrium, or that it never reaches a limit; tilt: a `Tilt` or a `Spread`,
+    where that was asked;
     first: (limit of the case in words, `TimeTo` of it), where that was asked; validity: of an approximate law; file: the caveats of the case;
     axis: name of the axis of the torque, where that is not its number.
     """
@@ -38,7 +39,19 @@ def of_law(validity: Any) -> tuple[Caveat, ...]:
 
 def limited(motion: Motion, scene: AnyScene, case: Any = None) -> Motion:
     """The motion with its caveats; case: whose motion it is."""
-    return replace(motion, caveats=caveats_of(scene, motion.fate in STEADY, motion.tilt, motion.first, motion.validity, case.caveats if case else ()))
+    file = () if case is None else (*case.caveats, *(unseen(case) if motion.tilt is None else ()))
+    return replace(motion, caveats=caveats_of(scene, motion.fate in STEADY, motion.tilt, motion.first, motion.validity, file))
+
+
+def misaligned(case: Any) -> tuple[str, ...]:
+    """The thrusters that fire for ever and state by how much they may point elsewhere."""
+    return tuple(thruster.name for thruster in case.thrusters if thruster.stuck and thruster.misalignment)
+
+
+def unseen(case: Any) -> tuple[Caveat, ...]:
+    """That a misalignment which the case states is left out of an answer."""
+    names = misaligned(case)
+    return (Caveat("tilt", f"a tilt of the torque, by the misalignment of {' and '.join(names)}, is not looked at here"),) if names else ()
 
 
 def condition(scene: AnyScene) -> int:
@@ -70,9 +83,11 @@ def _reached(scene: AnyScene, first: tuple[str, Any] | None) -> list[Caveat]:
 def _tilted(scene: AnyScene, steady: bool, found: Any, axis: str) -> list[Caveat]:
     """The condition of a steady motion, and what is known of a tilt."""
     number = condition(scene) if steady else 0
+    words = HOLDS[number] if not axis or number > 3 else HOLDS[number].replace(f"axis {number}", axis)
+    if found is not None and found.ranges:
+        return [Caveat("tilt", one) for one in (words, found.words) if one]
     if not number:
         return []
-    words = HOLDS[number] if not axis or number > 3 else HOLDS[number].replace(f"axis {number}", axis)
     if found is None or found.untilted:
         return [Caveat("tilt", words)]
     limit, by = f"{found.limit:.6g} rad/s", f"tilted by {found.angle:.6g} rad it"

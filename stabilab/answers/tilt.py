@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -43,6 +43,8 @@ class Tilt:
     at azimuth (rad) under torque (3,) N m, principal axes; None where none was found, and followed says how long. azimuths, times: (n,) of those that were
     looked at (one, where a run falls short of not_before), inf where the limit was not reached. untilted: (low, high) of the time at which the bounded
     motion itself reaches the limit, None where it never does."""
+
+    ranges: ClassVar[bool] = False
 
     angle: float
     of: str

@@ -20,7 +20,12 @@ def reached(caveats: Iterable[Caveat], units: Units) -> str:
 
 def condition(caveats: Iterable[Caveat], units: Units) -> str:
     """" only while ...", empty where a verdict rests on no condition."""
-    return _of("tilt", caveats, units).replace("holds ", " ", 1)
+    return " " * bool(words := _of("tilt", caveats, units, "holds ")) + words.removeprefix("holds ")
+
+
+def tilted(caveats: Iterable[Caveat], units: Units) -> str:
+    """What the torques of a cone do, where no verdict rests on the torque's direction."""
+    return _of("tilt", caveats, units, "tilted by ") or _of("tilt", caveats, units, "a tilt ")
 
 
 def shared(answers: Sequence[Iterable[Caveat]], units: Units) -> str:
@@ -50,5 +55,5 @@ def words(caveat: Caveat, units: Units) -> str:
     return lettered(units.words(printable(caveat.words), SHORT))
 
 
-def _of(kind: str, caveats: Iterable[Caveat], units: Units) -> str:
-    return "; ".join(words(one, units) for one in caveats if one.kind == kind)
+def _of(kind: str, caveats: Iterable[Caveat], units: Units, begins: str = "") -> str:
+    return "; ".join(words(one, units) for one in caveats if one.kind == kind and one.words.startswith(begins))

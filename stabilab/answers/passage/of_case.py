@@ -8,19 +8,21 @@ from typing import Any
 
 from ...orbit.result import Motion
 from ...physics.alignment import torque_axis
-from ..caveats import STEADY, caveats_of, limited, stated
+from ..caveats import STEADY, caveats_of, limited, misaligned, stated
 from ..kinds import kind_of
 from ..tilt import tilt
 from ..time_to import time_of_case
+from .cone import cone_of
 from .enclosed import WORK
 from .result import TimeTo
+from .spread import Spread, spread
 
 
 def limited_time(case: Any, ask: dict[str, Any], t_max: float | Fraction | None = None) -> TimeTo:
     """As `time_of_case`; where it is never, with what a tilt of the torque does, by what the case states as misalignment, else by one degree."""
     found = time_of_case(case, ask, t_max)
     never = math.isinf(found.low)
-    off = tilt(case.scene, case.state, None, case=case, exact=case.exact_state, ask=ask) if never and _on_axis(case.scene) else None
+    off = tilt(case.scene, case.state, None, case=case, exact=case.exact_state, ask=ask) if never and _on_axis(case.scene) else _spread(case, None, ask)
     return replace(found, caveats=caveats_of(case.scene, never, off, file=case.caveats))
 
 
@@ -28,15 +30,33 @@ def with_first(case: Any, motion: Motion, work: int = WORK) -> Motion:
     """The motion with the time at which it reaches the limit of its case, where that states one. work: as of `time_to`."""
     if case.limits is None or motion.first is not None:
         return motion
-    ask = {"rate": case.limits.rate} if case.limits.rate is not None else {"component": case.limits.components(case.frame)}
-    return limited(replace(motion, first=(stated(case.limits), time_of_case(case, ask, work=work))), case.scene, case)
+    return limited(replace(motion, first=(stated(case.limits), time_of_case(case, limit_of(case), work=work))), case.scene, case)
 
 
 def with_tilt(case: Any, motion: Motion, angle: float | None = None) -> Motion:
     """The motion of a case with what a tilt of its torque does to it. angle: rad; None: what its stuck thrusters state, else one degree."""
-    if motion.fate not in STEADY or not _on_axis(case.scene):
-        return motion
-    return limited(replace(motion, tilt=tilt(case.scene, case.state, angle, None, case, case.exact_state)), case.scene, case)
+    steady = motion.fate in STEADY and _on_axis(case.scene)
+    found = tilt(case.scene, case.state, angle, None, case, case.exact_state) if steady else _spread(case, angle, limit_of(case))
+    return limited(replace(motion, tilt=found), case.scene, case)
+
+
+def limit_of(case: Any) -> dict[str, Any] | None:
+    """The limit of a case as `time_to` takes it."""
+    limits = case.limits
+    if limits is None:
+        return None
+    return {"rate": limits.rate} if limits.rate is not None else {"component": limits.components(case.frame)}
+
+
+def _spread(case: Any, angle: float | None, ask: dict[str, Any] | None) -> Spread | None:
+    """What the torques of the cone do, where a tilt is asked for or stated; why not, where it is not looked at."""
+    if angle is None and not misaligned(case):
+        return None
+    why = ("in scaled variables" if case.variables == "scaled" else "with other effects than wheel and torque" if not case.scene.plain else
+           "of the angle of an axis" if ask and "tilt" in ask else "" if any(case.scene.vector("constant_torque")) else "without a torque")
+    if why:
+        return Spread(angle or 0.0, "the torque", 0, because=why)
+    return spread(case.scene, case.state, cone_of(case.scene, case, angle), ask, case.exact_state)
 
 
 def _on_axis(scene: Any) -> bool:

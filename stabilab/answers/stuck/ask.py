@@ -9,10 +9,12 @@ from typing import Any
 from ...errors import InputError
 from ...numbers.principal import NOTHING, without_trace
 from ...numbers.vectors import Exact3
-from ...orbit.result import Fate
 from ...physics.alignment import torque_axis
 from ...physics.scene import Scene
 from ..caveats import STEADY, caveats_of
+from ..passage.cone import cone_of
+from ..passage.of_case import limit_of
+from ..passage.spread import Spread, spread
 from ..tilt import Tilt, tilt
 from .delay import delayed
 from .fate import Found, found
@@ -81,12 +83,15 @@ def _row(scenario: Scenario, thrusters: Sequence[Any]) -> Row:
                helpers(scenario, torque, others) if seen.fate not in STEADY else (), off, caveats)
 
 
-def _tilted(scenario: Scenario, thrusters: Sequence[Any], scene: Scene, seen: Found) -> Tilt | None:
-    """What a tilt of an axis torque does to a bounded motion: by the misalignment of the thrusters that fire, else by one degree."""
-    stated = scenario.limit is not None or any(t.misalignment for t in thrusters)
-    if not stated or seen.fate != Fate.BOUNDED or seen.kind != "orbit" or not torque_axis(scene):
-        return None
+def _tilted(scenario: Scenario, thrusters: Sequence[Any], scene: Scene, seen: Found) -> Tilt | Spread | None:
+    """What a tilt of the torque does: to a bounded motion under one on an axis by the misalignment of the thrusters that fire, else by one degree; else by
+    that misalignment alone."""
+    loose = any(t.misalignment for t in thrusters)
     case = replace(scenario.case, thrusters=tuple(replace(t, stuck=t in thrusters) for t in scenario.case.thrusters))
+    if seen.fate not in STEADY or seen.kind != "orbit" or not torque_axis(scene):
+        return spread(scene, scenario.start, cone_of(scene, case), limit_of(case), scenario.state) if loose else None
+    if scenario.limit is None and not loose:
+        return None
     return tilt(scene, scenario.start, None, None, case, scenario.state)
 
 

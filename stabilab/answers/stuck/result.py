@@ -7,6 +7,7 @@ from typing import NamedTuple
 from ...caveat import Caveat
 from ...numbers.vectors import Float3
 from ...shown import Shown
+from ..passage.spread import Spread
 from ..tilt import Tilt
 
 
@@ -105,7 +106,7 @@ class Row:
     margins: dict[str, Margin]
     wheels: tuple[WheelAnswer, ...] = ()
     helpers: tuple[Helper, ...] = ()
-    tilt: Tilt | None = None
+    tilt: Tilt | Spread | None = None
     caveats: tuple[Caveat, ...] = ()
 
 

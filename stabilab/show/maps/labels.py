@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Sequence
 from typing import Any
 
-from ...answers.caveats import HOLDS, UNPHYSICAL, stated
+from ...answers.caveats import HOLDS, UNPHYSICAL, stated, unseen
 from ...caveat import Caveat
 from ...maps.columns import ENERGY, PACE, RATE, TIME, Column
 from ...maps.plan import Plan
@@ -62,7 +62,7 @@ def meanings(column: Column) -> str:
 
 def limiting(case: Any, records: Any) -> list[Caveat]:
     """What limits the answers of a map: what the file says itself, on what its points rest, a limit that was not looked at."""
-    found, numbers = list(case.caveats), records["caveats"].ravel().tolist() if "caveats" in records.dtype.names else []
+    found, numbers = [*case.caveats, *unseen(case)], records["caveats"].ravel().tolist() if "caveats" in records.dtype.names else []
     told = Counter(number % len(HOLDS) for number in numbers)
     parts = [("tilt", HOLDS[n], count) for n, count in sorted(told.items()) if n]
     if all(one.kind != "unphysical" for one in found):

@@ -4,6 +4,7 @@ from __future__ import annotations
 import math
 from functools import partial
 
+from .. import limiting
 from ..text import frame
 from ..text.headline import rate_margin, span_words
 from ..units import DEG, DIGITS, Units, bracket, but_for_rounding, number
@@ -122,8 +123,8 @@ def quantity(name: str, value, units: Units) -> str:
 def tilt_lines(case, motion, units: Units, proofs: bool = False) -> list[str]:
     """What a tilt of the torque does, or how to ask for it."""
     found = motion.tilt
-    if found is None:
-        asked = not units.scaled and any(one.kind == "tilt" for one in motion.caveats)
+    if found is None or found.ranges:
+        asked = found is None and not units.scaled and limiting.condition(motion.caveats, units)
         return [row("off that axis", TILTED)] if asked else []
     limit = f"|omega| = {units.rate(found.limit)}{'' if found.stated else ', twice the largest of this motion (no limit is stated)'}"
     lines = [f"  tilted by {_angle(found.angle)}: {found.of}, to {limit}"]

@@ -35,7 +35,7 @@ def extremes(case, motion, told, units: Units, all_digits: bool, say: bool, proo
     shown = motion if told.values is None else replace(motion, extremes=tuple(tuple(map(float, pair)) for pair in told.values))
     parts = [fate_words(shown, units), cause(shown, units)]
     parts = [*parts, largest(shown, units)] if motion.fate.word == "spin-up" else [largest(shown, units), *parts]
-    parts.insert(0, limiting.reached(motion.caveats, units))
+    parts = [limiting.reached(motion.caveats, units), *parts, limiting.tilted(motion.caveats, units)]
     rows = [f"  extremes: {shown.extremes_over}"]
     if shown.extremes is not None:
         rows = _all_digits(case, shown, told) if all_digits else extreme_lines(case, shown, units)

@@ -23,8 +23,8 @@ CLAUSE = 110  # letters of a cause that the line has room for
 def headline(case: Case, motion: Motion, units: Units | None = None) -> str:
     """One line, without the name of the case. units: of the case where None."""
     units = units or units_of(case)
-    told = (fate_words, cause, largest, margin, period)
-    parts = [limiting.reached(motion.caveats, units), *(words(motion, units) for words in told)]
+    parts = [limiting.reached(motion.caveats, units), fate_words(motion, units), limiting.tilted(motion.caveats, units), cause(motion, units),
+             largest(motion, units), margin(motion, units), period(motion, units)]
     return "; ".join(part for part in parts if part)
 
 

@@ -112,6 +112,10 @@ def row_name(row) -> str:
 
 def answer_line(row, units, axes=WORD) -> str:
     """What becomes of the motion, in one line."""
+    return "; ".join(filter(None, [_answer(row, units, axes), limiting.tilted(row.caveats, units)]))
+
+
+def _answer(row, units, axes):
     when = _when(row, units)
     if row.fate == "spin-up":
         return f"SPINS UP {_about(row, axes)}{', ' + when if when else ''}{_known(row)}"
@@ -286,7 +290,7 @@ def _details(row, units) -> list[str]:
         lines.append(f"  {'margins':<24} {told}")
     else:
         lines += [f"  {'margin, ' + name:<24} {told}" for name, told in margins.items()]
-    if row.tilt is not None:
+    if row.tilt is not None and not row.tilt.ranges:
         early = f"{units.time(row.tilt.not_before)}"
         lines.append(f"  {'tilted, not before':<24} {early}, whatever the azimuth and for any smaller tilt (proved)")
     lines += [f"  {_wheel(w, units)}{f' ({w.because})' if w.keeps_bounded or w.best is not None else ''}" for w in row.wheels]

@@ -36,7 +36,8 @@ def csv(answers) -> str:
 def text(case, limit, found, units: Units) -> str:
     """The answer in one line with its two ends, how far these are apart, and the reason; `as_dict` has all digits of the ends."""
     low, high = float(found.low), float(found.high)
-    lines = [f"{printable(case.name)}: {_answer(limit, found, low, high, units)}"]
+    parts = [_answer(limit, found, low, high, units), limiting.tilted(found.caveats, units)]
+    lines = [f"{printable(case.name)}: {'; '.join(filter(None, parts))}"]
     if math.isfinite(high) and high > 0:
         apart = f"{units.time(high - low, 2)} apart" if high > low else "the same number"
         lines.append(f"  its two ends are {apart}; --json tells all digits")
@@ -96,6 +97,10 @@ def tilt_dict(found) -> dict | None:
     """The key "tilt" of a motion in JSON: SI units."""
     if found is None:
         return None
+    if found.ranges:
+        return {"angle": found.angle, "of": found.of, "directions": found.directions, "limit": found.limit, "earliest": found.earliest,
+                "latest": found.latest, "level": found.level, "fates": dict(found.fates),
+                "because": found.because}
     return {"angle": found.angle, "of": found.of, "limit": found.limit, "limit_stated": found.stated, "not_before": found.not_before,
             "time": [found.low, found.high] if found.ends else None, "level": found.level if found.ends else None, "azimuth": found.azimuth,
             "torque": found.torque, "azimuths": found.azimuths, "times": found.times, "untilted": found.untilted}

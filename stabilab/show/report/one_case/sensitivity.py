@@ -43,7 +43,7 @@ def sensitivity(case, motion, measures) -> dict:
     if row.time_to_limit:
         limit = spoken(asked(stated_limit(case), measures.units))
         found["words"].insert(0, f"The limit of the case, {limit}, is reached after {_between_times(row.time_to_limit, measures)} ({row.time_level}).")
-    found["words"] += _tilt(motion, measures, motion.tilt or row.tilt)
+    found["words"] += _tilt(motion if motion.tilt else row, measures)
     return found
 
 
@@ -114,10 +114,11 @@ def _helper(helper, measures):
     return f"With {share}, {left} is left in the mean: {helper.fate}{time}."
 
 
-def _tilt(motion, measures, found):
-    """What a torque a little off its axis does to a bounded motion."""
-    words = [f"This {limiting.words(one, measures.units)}." for one in motion.caveats if one.kind == "tilt"]
+def _tilt(answer, measures):
+    """What a tilt of the torque does; answer: what was asked with it."""
+    found, words = answer.tilt, [f"{spoken(limiting.words(one, measures.units))}." for one in answer.caveats if one.kind == "tilt"]
+    told = [("This " if one.startswith("holds") else "") + one for one in words]
     if found is None:
-        return [f"{one} `stabilab fate CASE --tilt \"1 deg\"` says what a tilt does." for one in words]
-    return [*words, f"No torque tilted by up to {told(math.degrees(found.angle), digits=4)}° reaches {measures.rate(found.limit)} before "
-                    f"{measures.time(found.not_before)} (proved)."]
+        return [f"{one} `stabilab fate CASE --tilt \"1 deg\"` says what a tilt does." for one in told]
+    return told if found.ranges else [*told, f"No torque tilted by up to {found.angle * 180 / math.pi:.4g}° reaches {measures.rate(found.limit)} before "
+                                             f"{measures.time(found.not_before)} (proved)."]
