@@ -2,10 +2,13 @@
 from __future__ import annotations
 
 import math
-from functools import partial
+from dataclasses import replace
+from functools import lru_cache, partial
 
 import numpy as np
 
+from ...theories.cavity.averaged import RTOL
+from ...theories.cavity.polar import polar
 from . import panels
 from .figure import Figure, listed
 
@@ -26,13 +29,8 @@ PLANES = (panels.phase("omega", 0, "$p$", "rad/s"), panels.phase("omega", 1, "$q
 
 
 def _slow(name):
-    """pick of the amplitude, spin or phase: the model's own, or sqrt(p^2 + q^2), r and the angle of (p, -q) of the motion."""
-    def pick(run):
-        if name in run.state:
-            return run.t, run.state[name]
-        p, q, r = np.asarray(run.state["omega"]).T
-        return run.t, {"amplitude": np.hypot(p, q), "spin": r, "phase": np.unwrap(np.arctan2(-q, p))}[name]
-    return pick
+    """pick of the amplitude, spin or phase, of the exact motion by `polar`."""
+    return lambda run: (run.t, run.state[name])
 
 
 SLOW = (panels.Row(panels.TIME, "$a$ (rad/s)", _slow("amplitude")), panels.Row(panels.TIME, "$r$ (rad/s)", _slow("spin")),
@@ -42,7 +40,7 @@ SLOW = (panels.Row(panels.TIME, "$a$ (rad/s)", _slow("amplitude")), panels.Row(p
 def _lines(family, rows):
     """(row, columns) of every row of the figure."""
     symbol, unit, files = FAMILIES[family]
-    columns = [panels.Column(rf"${symbol}={value:g}$ {unit}", panels.motions(name, "", SPAN, POINTS, crowd=2),
+    columns = [panels.Column(rf"${symbol}={value:g}$ {unit}", _runs(name),
                              refused=panels.refusals(name, "", SPAN, POINTS, crowd=2)) for value, name in files.items()]
     return [(row, columns) for row in rows]
 
@@ -54,20 +52,28 @@ def _family(plt, family, rows, title, own=False):
 # -- captions, with their numbers ------------------------------------------------------------------------------------------
 
 
+@lru_cache(maxsize=16)
+def _runs(name) -> dict:
+    """model -> run of a case, the exact one with its amplitude, spin and phase: how the angle of (p, -q) goes on when p and q have died out is lost in
+    p and q themselves."""
+    runs, case = panels.motions(name, "", SPAN, POINTS, crowd=2), panels.sweep(name)[""]
+    exact = runs["exact"]
+    return runs | {"exact": replace(exact, state=exact.state | polar(case.scene, case.state, exact.t))}
+
+
 def runs_of(family) -> list[dict]:
     """model -> run of each value of a family, over the figures' span."""
-    return [panels.motions(name, "", SPAN, POINTS, crowd=2) for name in FAMILIES[family][2].values()]
+    return [_runs(name) for name in FAMILIES[family][2].values()]
 
 
 def turn(runs) -> float:
     """Angle of (p, -q) of the exact motion at the end, rad, from 0."""
-    return float(_slow("phase")(runs["exact"])[1][-1])
+    return float(runs["exact"].state["phase"][-1])
 
 
 def gone(runs) -> float:
     """Last time at which the amplitude of the exact motion is above 1 %, s."""
-    t, amplitude = _slow("amplitude")(runs["exact"])
-    return float(t[np.nonzero(amplitude > 0.01)[0][-1]])
+    return float(runs["exact"].t[np.nonzero(runs["exact"].state["amplitude"] > 0.01)[0][-1]])
 
 
 def turning(runs) -> float:
@@ -128,7 +134,7 @@ def _charge(family, more="", own=False):
 
 
 def _exactness(family, more=""):
-    return (f"{panels.exactness(runs_of(family))}; averaged: relative tolerance 1e-12; printed: its polynomials; {POINTS} points{more}")
+    return (f"{panels.exactness(runs_of(family))}; averaged: relative tolerance {RTOL:g}; printed: its polynomials; {POINTS} points{more}")
 
 
 def _figures():

@@ -103,7 +103,7 @@ def cavity() -> list[dict]:
 
 
 def _left(runs):
-    return float(np.hypot(*np.asarray(runs["exact"].state["omega"]).T[:2])[-1])
+    return float(runs["exact"].state["amplitude"][-1])
 
 
 # -- the top ---------------------------------------------------------------------------------------------------------

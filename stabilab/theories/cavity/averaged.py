@@ -2,10 +2,12 @@
 
 p = A cos phi, q = -A sin phi, r: A and r change slowly while phi turns at about nu = (d r - Gamma)/J0. The equations
 come from `averaging_form`; they are integrated in W = A exp(i (phi - psi)), r, psi, which is regular at A = 0, at
-r < 0 and through nu = 0.
+r < 0 and through nu = 0. Without a torque across axis 3 no amplitude reaches 0, and log W is followed, which keeps an
+amplitude and its phase far below the rounding of r.
 """
 from __future__ import annotations
 
+import cmath
 import math
 from dataclasses import dataclass
 from functools import lru_cache
@@ -25,6 +27,7 @@ SHARE = 0.4
 GUARD = 4.0
 SAMPLES = 400  # between asked-for times, to follow the angle of W
 INVERSIONS = 100
+LEAST = -230.0  # log A below which relative rates are those at A = 1e-100, which leaves out a share of A of them
 
 
 @dataclass(frozen=True)
@@ -170,6 +173,7 @@ class _Model:
         size = float(np.linalg.norm(omega))
         harmonics = abs(h) * size / J + (math.hypot(*self.parameters[6:8]) / (J * size) if size else 0.0)
         self.width = max(SHARE * (abs(d) * size + abs(g)) / J, GUARD * harmonics)
+        self.logarithmic = not any(self.parameters[6:8]) and bool(omega[0] or omega[1])
         self.means, self.kept, self.near = _functions(normal_form(scene), order, frozenset(n for n in NAMES if not numbers[n]))
 
     def removal(self, nu):
@@ -220,8 +224,15 @@ class _Model:
                          f"variables does not converge (off by {np.abs(miss).max():.2g} rad/s); use order 1 or the exact motion")
 
     def rates(self, t, y):
-        """Rates of (Re W, Im W, r, psi)."""
-        W, r, psi = complex(y[0], y[1]), y[2], y[3]
+        """Rates of (Re W, Im W, r, psi), or of (log |W|, arg W, r, psi); none where an amplitude leaves the range of doubles."""
+        try:
+            return self._rates(y)
+        except OverflowError:
+            return [math.nan] * 4
+
+    def _rates(self, y):
+        W = cmath.exp(complex(max(y[0], LEAST), y[1])) if self.logarithmic else complex(y[0], y[1])
+        r, psi = y[2], y[3]
         nu = self.slope * r - self.offset
         if self.order == 1:
             turn, spin = self.means(abs(W) ** 2, r, 0.0, 0.0, 0.0, *self.parameters)
@@ -236,20 +247,20 @@ class _Model:
                 kept_W, kept_r = self.kept(Z, Z.conjugate(), r, *removal, *self.parameters)
                 kept_W = kept_W * unit.conjugate()
         turn = complex(turn)
-        dW = W * turn.real + kept_W
+        dW = turn.real + kept_W / W if self.logarithmic else W * turn.real + kept_W
         return [dW.real, dW.imag, complex(spin + kept_r).real, nu + turn.imag]
 
     def run(self, w0, r0, grid, sense):
         """([(W, r, psi, unwrapped angle of W)] at the times of grid, failure or None); grid > 0, run backward for sense -1."""
         from scipy.integrate import solve_ivp
         fine = np.union1d(grid, np.linspace(0.0, grid[-1], SAMPLES))
-        y0 = [w0.real, w0.imag, r0, 0.0]
+        W = cmath.log(w0) if self.logarithmic else w0
         floor = RTOL * 1e-2 * max(abs(w0), abs(r0), self.width, 1e-300)
         with np.errstate(all="ignore"):
-            run = solve_ivp(lambda t, y: [sense * v for v in self.rates(t, y)], (0.0, grid[-1]), y0, "DOP853", t_eval=fine,
-                            rtol=RTOL, atol=floor)
+            run = solve_ivp(lambda t, y: [sense * v for v in self.rates(t, y)], (0.0, grid[-1]), [W.real, W.imag, r0, 0.0], "DOP853",
+                            t_eval=fine, rtol=RTOL, atol=[RTOL, RTOL, floor, floor] if self.logarithmic else floor)
         W = run.y[0] + 1j * run.y[1]
-        angle = np.unwrap(np.angle(W))
+        W, angle = (np.exp(W), W.imag) if self.logarithmic else (W, np.unwrap(np.angle(W)))
         wanted = np.isin(run.t, grid)
         rows = list(zip(W[wanted], run.y[2][wanted], run.y[3][wanted], angle[wanted]))
         return rows, None if run.success else f"the run stopped at t = {sense * run.t[-1]:.6g}: {run.message}"

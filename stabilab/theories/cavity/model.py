@@ -27,7 +27,7 @@ def follow(model, case, times, order=None) -> Simulation:
     """The case's motion by an averaged model, or by the paper's polynomials."""
     run: PrintedMotion | AveragedMotion
     if model == "printed":
-        run = printed(case.scene, case.state, times, compare=False)
+        run = printed(case.scene, case.state, times)
         how, reason = "Galal et al. (24)-(26)", run.reason
     else:
         found = run = averaged(case.scene, case.state, times, order=int(model[-1]))

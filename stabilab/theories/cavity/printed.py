@@ -1,4 +1,4 @@
-"""The printed Taylor polynomials of the body with a liquid, and the time at which they stop being true.
+"""The printed Taylor polynomials of the body with a liquid.
 
 Galal, Amer, Elneklawy, El-Kafly, "Studying the influence of a gyrostatic moment on the motion of a charged rigid body
 containing a viscous incompressible liquid", eqs (13), (14), (24)-(29). The formulas are
@@ -18,18 +18,14 @@ The polynomials are of second degree in t and turn back, the phase among them: t
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
-from ...answers.trajectory import trajectory
 from ...errors import InputError
 from ..audit.evaluate import printed_formulas
 from .averaged import omega_of, times_row
 from .normal_form import check, constants
-
-GRID = 2001  # times at which the departure is looked for; the crossing is interpolated
-LEVELS = (0.01, 0.1)
 
 
 @dataclass(frozen=True)
@@ -47,7 +43,6 @@ class PrintedMotion:
     spin: np.ndarray
     phase: np.ndarray
     omega: np.ndarray
-    stops: dict = field(default_factory=dict)
     status: str = "reached"
     reason: str = "all times reached"
 
@@ -98,10 +93,9 @@ def formulas():
     return printed_formulas("liquid-cavity")
 
 
-def printed(scene, state, times, compare: bool = True) -> PrintedMotion:
+def printed(scene, state, times) -> PrintedMotion:
     """The paper's solution from `state` (three numbers, rad/s, or {"omega": ...}) at times (n,) >= 0, increasing, s.
 
-    compare: integrate the exact motion too and say when the polynomials stop being true (over the span of the times).
     Raises InputError where the scene is not the paper's (as `averaged`) and where the printed formulas have no real
     value at the start.
     """
@@ -112,44 +106,7 @@ def printed(scene, state, times, compare: bool = True) -> PrintedMotion:
     a, r, phi, w = poly.at(times)
     good = np.isfinite(w).all(axis=1)
     count = len(times) if good.all() else int(np.argmin(good))
-    stops = departures(scene, omega, poly, float(times[-1])) if compare and times[-1] > 0 else {}
     reason = ("all times reached" if count == len(times) else
               f"the printed q has no real value at t = {times[count]:.6g}: (D1'r - g)(D2'r - g) is not positive there")
-    return PrintedMotion(times[:count], a[:count], r[:count], phi[:count], w[:count], stops,
+    return PrintedMotion(times[:count], a[:count], r[:count], phi[:count], w[:count],
                          "reached" if count == len(times) else "stopped", reason)
-
-
-def departures(scene, omega, poly, end) -> dict:
-    """Quantity -> times of the first 1 % and 10 % departure of the polynomials from the exact motion up to `end`.
-
-    The amplitude and phase of the exact motion are those of (13) for its own r. Where the printed motion ceases to
-    exist counts as a full departure.
-    """
-    t = np.linspace(0.0, end, GRID)
-    run = trajectory(scene, omega, t)
-    t, exact = run.t, run.states
-    a, r, phi, w = poly.at(t)
-    x1, x2 = (d * exact[:, 2] - poly.gamma for d in poly.d)
-    with np.errstate(all="ignore"):
-        stretch = np.sqrt(np.where(x1 * x2 > 0, x2 / x1, np.nan))
-    amplitude = np.hypot(exact[:, 0], exact[:, 1] * stretch)
-    turn = np.unwrap(np.nan_to_num(np.arctan2(-exact[:, 1] * np.sign(x2) * stretch, exact[:, 0])))
-    turn = np.where(np.isnan(stretch), np.nan, turn)
-    size = np.linalg.norm(exact, axis=1)
-    pairs = {"omega": (np.linalg.norm(w - exact, axis=1), size), "amplitude": (np.abs(a - amplitude), amplitude),
-             "spin": (np.abs(r - exact[:, 2]), np.abs(exact[:, 2])), "phase": (np.abs(phi - turn), np.full(t.size, 2 * math.pi))}
-    return {name: tuple(_first(t, error, np.fmax.accumulate(scale), level) for level in LEVELS)
-            for name, (error, scale) in pairs.items()}
-
-
-def _first(t, error, scale, level):
-    """Time at which error/scale first passes the level, between two grid times by a straight line; None if never."""
-    with np.errstate(all="ignore"):
-        share = np.where(scale > 0, error / scale, np.where(error > 0, np.inf, 0.0))
-    over = ~(share <= level)  # NaN: the quantity does not exist, a departure
-    if not over.any():
-        return None
-    i = int(np.argmax(over))
-    if i == 0 or not np.isfinite(share[i]):
-        return float(t[i])
-    return float(t[i - 1] + (t[i] - t[i - 1]) * (level - share[i - 1]) / (share[i] - share[i - 1]))

@@ -330,27 +330,13 @@ def test_printed_polynomials_are_the_taylor_polynomials_of_the_printed_averages(
     second = [f.diff(a) * rate[0] + f.diff(r) * rate[1] for f in rate]
     at, t = {a: 1, r: 1, phi: 0}, np.array([0.5, 4.0, 17.0])
     expected = [float(x0) + float(f.subs(at)) * t + float(s.subs(at)) * t**2 / 2 for x0, f, s in zip((1, 1, 0), rate, second)]
-    answer = printed(scene, (1, 0, 1), t, compare=False)
+    answer = printed(scene, (1, 0, 1), t)
     assert np.array([answer.amplitude, answer.spin, answer.phase]) == pytest.approx(np.array(expected), rel=1e-12)
-
-
-def test_printed_solution_says_when_it_stops_being_true():
-    scene = full_scene()
-    answer = printed(scene, (1, 0, 1), np.linspace(0, 20, 41))
-    assert answer.status == "reached" and answer.omega[0] == pytest.approx((1, 0, 1), abs=1e-15)
-    one_percent, ten = answer.stops["omega"]
-    charge = scene.effect("charge").strength
-    uncharged = Scene(scene.body, Gyrostat((0, 0, 0.1 - charge)), *(x for x in scene.effects if x.name not in ("gyrostat", "charge")))
-    exact = by_hand(uncharged, (1, 0, 1), np.array([one_percent / 2, one_percent]))
-    there = printed(scene, (1, 0, 1), [one_percent / 2, one_percent], compare=False).omega
-    gap = np.linalg.norm(there - exact, axis=1) / math.sqrt(2)
-    assert gap[0] < 0.01 and gap[1] == pytest.approx(0.01, rel=0.02)
-    assert ten is None or ten > one_percent
 
 
 def test_printed_solution_ends_where_it_has_no_real_value():
     case = load(CASES / "liquid-lambda3-0_2.toml")
-    answer = printed(case.scene, case.state, np.linspace(0, 20, 201), compare=False)
+    answer = printed(case.scene, case.state, np.linspace(0, 20, 201))
     assert answer.status == "stopped" and "no real value" in answer.reason and np.isfinite(answer.omega).all()
     with pytest.raises(InputError, match="does not exist"):
         printed(case.scene, (1, 0, 0.5), [1.0])  # d2 r < lambda3 < d1 r
