@@ -11,9 +11,9 @@ from typing import Any, NamedTuple
 
 from ..caveat import Caveat
 from ..errors import CaseError, InputError, printable
-from ..numbers.exact import floats
+from ..numbers.exact import floats, sqrt_fraction
 from ..numbers.principal import PrincipalAxes
-from ..numbers.vectors import Exact3, Float3
+from ..numbers.vectors import Exact3, Float3, dot
 from ..physics.body import Body
 from ..physics.effects import REGISTRY, effect_class
 from ..physics.scaling import Scaling, to_scaled, torque_from_mu
@@ -34,7 +34,7 @@ TABLES = ("title", "source", "body", "effects", "thrusters", "wheels", "limits",
 SYSTEMS = ("deg", "si")  # of units in which text is printed
 STATES, SPANS = ("angular_velocity", "x"), ("span", "tau")
 BLOCKS = {"attitude": "attitude", "vertical": "gamma", "velocity": "velocity", "position": "position"}  # key: block
-UNIT_SLACK = 1e-6  # a direction given to six decimals counts as a unit vector; the laws show |gamma| as it is
+UNIT_SLACK = 1e-6  # a vertical given to six decimals counts as a unit vector and stays as it is
 STAND_IN = Body((3, 2, 1))  # lets the faults of the effects show where the body itself is at fault
 
 
@@ -207,7 +207,7 @@ def _units(output: Table | None) -> str:
     if output is None:
         return ""
     output.known(("units",))
-    wanted = output.text("units")
+    wanted = output.text("units").lower()
     if wanted and wanted not in SYSTEMS:
         output.fault(f"expected {' or '.join(SYSTEMS)} (deg/s and min, or rad/s and s), got {described(wanted)}", "units")
     return wanted
@@ -331,8 +331,19 @@ def _motion(top: Table) -> _Motion:
             if key in table:
                 table.fault(f"a [scaled] system has no body to convert {key} with: give {other}", key)
     vectors = {block: vector for key, block in BLOCKS.items() if (vector := table.vector(key)) is not None}
+    if "gamma" in vectors:
+        vectors["gamma"] = _unit(table, vectors["gamma"])
     blocks = {block: floats(vector) for block, vector in vectors.items()}
     return _Motion(table, state_key, floats(state) if state else None, span_key, span, blocks, state, vectors.get("gamma"))
+
+
+def _unit(table: Table, vertical: Exact3) -> Exact3:
+    """The vertical as a unit vector, whatever its length is."""
+    length = sqrt_fraction(dot(vertical, vertical))
+    if not length:
+        table.fault("expected a direction, got zero: give a vector of any length but that", "vertical")
+        return (Fraction(0), Fraction(0), Fraction(1))
+    return vertical if abs(length - 1) <= UNIT_SLACK else tuple(v / length for v in vertical)
 
 
 def _judge_blocks(motion: _Motion, scene):
@@ -345,13 +356,10 @@ def _judge_blocks(motion: _Motion, scene):
     for key in ("velocity", "position"):
         if key in given and scene is not None and scene.body.mass is None:
             table.fault("motion through space needs the mass of the body: give body.mass in kg", key)
-    length = math.hypot(*given["gamma"]) if "gamma" in given else 1.0
-    if abs(length - 1) > UNIT_SLACK:
-        table.fault(f"expected a unit vector, got one of length {length:.17g}", "vertical")
     if motion.state is not None and scene is not None and "gamma" in scene.blocks and "gamma" not in given:
         angles = given.get("attitude")
         told = f"; the attitude given has [{', '.join(f'{v:.10g}' for v in vertical_of(*angles))}]" if angles else ""
-        table.fault(f"vertical is missing: an effect of this scene asks where the vertical is (a unit vector, body frame){told}")
+        table.fault(f"vertical is missing: an effect of this scene asks where the vertical is (a direction, body frame){told}")
     judge_attitude(table, given, scene)
 
 

@@ -34,11 +34,17 @@ BASE = {"m": (1, 0, 0, 0, 0), "g": (0, 1, 0, 0, 0), "s": (0, 0, 1, 0, 0), "A": (
         "N": (1, 1, -2, 0, 0), "J": (2, 1, -2, 0, 0), "W": (2, 1, -3, 0, 0), "Pa": (-1, 1, -2, 0, 0), "C": (0, 0, 1, 1, 0),
         "V": (2, 1, -3, -1, 0), "T": (0, 1, -2, -1, 0), "Nm": (2, 1, -2, 0, 0), "Nms": (2, 1, -1, 0, 0)}
 TURNS = {"deg": 360, "°": 360, "arcmin": 21600, "arcsec": 1296000, "rev": 1}  # how many make a turn
-OTHERS = {"min": ("60", "s"), "h": ("3600", "s"), "hr": ("3600", "s"), "day": ("86400", "s"), "lb": ("453.59237", "g"),
+OTHERS = {"min": ("60", "s"), "h": ("3600", "s"), "day": ("86400", "s"), "week": ("604800", "s"), "lb": ("453.59237", "g"), "t": ("1000000", "g"),
           "in": ("0.0254", "m"), "ft": ("0.3048", "m"), "lbf": ("4.4482216152605", "N"), "slug": ("44482216152605/3048000000", "g")}
-WHOLE = {"sec": "s", "kilogram": "kg", "newton": "N"}  # other words for a unit
-ACCEPTED = ("m, kg, g, s, A, rad, N, J, W, Pa, C, V, T with the prefixes n u m c d k M G; deg, arcmin, arcsec, rev, rpm; "
-            "min, h, day; in, ft, lb, lbf, slug; and products, powers and quotients of these such as N m s, kg m^2, deg/s")
+WORDS = {name: symbol for symbol, names in {
+    "s": "second sec", "min": "minute min", "h": "hour hr", "day": "day", "week": "week", "m": "metre meter", "g": "gram", "kg": "kilogram kg",
+    "t": "tonne", "N": "newton", "J": "joule", "W": "watt", "Pa": "pascal", "C": "coulomb", "V": "volt", "T": "tesla", "A": "ampere amp",
+    "rad": "radian rad", "deg": "degree deg", "arcmin": "arcminute arcmin", "arcsec": "arcsecond arcsec", "rev": "revolution rev turn",
+    "rpm": "rpm", "in": "inch inches", "ft": "foot feet ft", "lb": "pound lb", "lbf": "lbf", "slug": "slug"}.items() for name in names.split()}
+CAPITALS = {"S": "s", "M": "m"}  # alone they mean no other unit, as in DEG/S and KG M^2; N M S is three words, NM would be nm
+ACCEPTED = ("m, kg, g, s, A, rad, N, J, W, Pa, C, V, T with the prefixes n u m c d k M G; deg, arcmin, arcsec, rev, rpm; min, h, day, week; t; "
+            "in, ft, lb, lbf, slug; their English names such as hours, degrees, newtons, in small or capital letters; "
+            "and products, powers and quotients of these such as N m s, kg m^2, deg/s")
 NONE, LENGTH, MASS, TIME, ANGLE = (0,) * 5, (1, 0, 0, 0, 0), (0, 1, 0, 0, 0), (0, 0, 1, 0, 0), (0, 0, 0, 0, 1)
 RATE, FORCE, TORQUE, MOMENTUM = (0, 0, -1, 0, 1), (1, 1, -2, 0, 0), (2, 1, -2, 0, 0), (2, 1, -1, 0, 0)
 INERTIA, VELOCITY, CHARGE, FLUX = (2, 1, 0, 0, 0), (1, 0, -1, 0, 0), (0, 0, 1, 1, 0), (0, 1, -2, -1, 0)
@@ -140,7 +146,6 @@ def named(dimension: Dimension) -> str:
 
 
 def _single(word: str, words: str) -> Unit:
-    word = WHOLE.get(word, word)
     if word == "1":
         return Unit(Fraction(1), NONE)
     if word == "rpm":
@@ -156,14 +161,18 @@ def _single(word: str, words: str) -> Unit:
     if word[:1] in PREFIXES and word[1:] in BASE:
         base = _single(word[1:], words)
         return Unit(Fraction(10) ** PREFIXES[word[0]] * base.size, base.dimension)
-    if word == "Hz":
-        raise InputError('"Hz" may mean rad/s or turns a second: write rad/s, rev/s or 1/s')
+    lower = word.lower()
+    known = WORDS.get(lower) or WORDS.get(lower.removesuffix("s")) or CAPITALS.get(word)
+    if known:
+        return _single(known, words)
+    if lower == "hz":
+        raise InputError(f'"{word}" may mean rad/s or turns a second: write rad/s, rev/s or 1/s')
     raise UnknownUnit(f'unknown unit "{word[:60]}"{_near(word)}; accepted are {ACCEPTED}')
 
 
 def _near(word: str) -> str:
     from difflib import get_close_matches
-    known = [*BASE, *TURNS, *OTHERS, "rpm", "kg", "mN", "cm", "mm", "km", "kN"]
+    known = [*BASE, *TURNS, *OTHERS, *WORDS, "mN", "cm", "mm", "km", "kN"]
     near = get_close_matches(word, known, n=1, cutoff=0.6) or get_close_matches(word.lower(), known, n=1, cutoff=0.6)
     return f", did you mean {near[0]}?" if near else ""
 

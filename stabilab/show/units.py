@@ -139,9 +139,10 @@ SYSTEMS = {"deg": DEG, "si": SI}
 
 def units_of(case: Case, asked: str | None = None) -> Units:
     """The units for a case: those asked for, else those of its [output], else degrees. A scaled case has none."""
-    if asked is not None and asked not in SYSTEMS:
+    named = asked.lower() if isinstance(asked, str) else asked
+    if named is not None and named not in SYSTEMS:
         raise InputError(f"--units: expected {' or '.join(SYSTEMS)}, got {asked!r:.40}")
-    return SCALED if case.variables == "scaled" else SYSTEMS[asked or case.units or "deg"]
+    return SCALED if case.variables == "scaled" else SYSTEMS[named or case.units or "deg"]
 
 
 PARAMETERS = (("lambda", "N m s"), ("D", "kg m^2"), ("M", "N m"), ("mass", "kg"), ("f", "N"), ("k", "N m s"), ("eHl2", "N m s"),

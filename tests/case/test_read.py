@@ -287,11 +287,11 @@ def test_an_attitude_left_out_is_asked_for_where_zero_angles_contradict_the_vert
 def test_a_bad_value_of_a_sweep_is_shown_where_it_stands(tmp_path):
     path = tmp_path / "sweep.toml"
     path.write_text(BODY + "[effects.gravity]\nweight = 1\ncentre_of_mass = [0, 0, 1]\n[motion]\nangular_velocity = [0, 0, 1]\n"
-                    'vertical = [0, 0, 1]\n[sweep]\n"motion.vertical" = [[0, 0, 1], [0, 1, 1]]\n')
+                    'vertical = [0, 0, 1]\n[sweep]\n"motion.vertical" = [[0, 0, 1], [0, 0, 0]]\n')
     with pytest.raises(CaseError) as caught:
         load_all(path)
     (problem,) = caught.value.problems
-    assert (problem.line, problem.key) == (10, "motion.vertical") and "unit vector" in problem.message and "[sweep]" in problem.message
+    assert (problem.line, problem.key) == (10, "motion.vertical") and "got zero" in problem.message and "[sweep]" in problem.message
 
 
 def test_a_motion_in_many_digits_starts_from_the_decimals(tmp_path):
@@ -302,3 +302,19 @@ def test_a_motion_in_many_digits_starts_from_the_decimals(tmp_path):
     # On the separatrix omega3/omega1 stays 3/4: twice the energy times D2 equals |H|^2 along the motion.
     omega = found.run.state["omega"][0]
     assert found.enough and omega[2] / omega[0] == pytest.approx(0.75, rel=1e-13)
+
+
+@pytest.mark.parametrize("given, unit", [("[0, 3, 4]", (0, 0.6, 0.8)), ("[0, 0, 2e-9]", (0, 0, 1)), ("[1, 1, 1]", (3**-0.5,) * 3),
+                                         ("[0.666667, 0.666667, 0.333333]", (0.666667, 0.666667, 0.333333))])  # six decimals stay as they are
+def test_a_vertical_has_any_length(tmp_path, given, unit):
+    path = tmp_path / "own.toml"
+    path.write_text(BODY + f"[effects.gravity]\nweight = 1\ncentre_of_mass = [0, 0, 1]\n[motion]\nangular_velocity = [0, 0, 1]\nvertical = {given}\n")
+    assert load(path).blocks["gamma"] == pytest.approx(unit, abs=1e-16)
+
+
+def test_systems_of_units_are_named_in_any_case(tmp_path, stabilab):
+    path = tmp_path / "own.toml"
+    path.write_text(BODY + "[motion]\nangular_velocity = [0.1, 0.2, 0.3]\n")
+    assert stabilab("fate", path, "--units", "SI") == stabilab("fate", path, "--units", "si") != stabilab("fate", path)
+    path.write_text(path.read_text() + '[output]\nunits = "SI"\n')
+    assert load(path).units == "si"

@@ -33,7 +33,7 @@ def test_turns_are_good_to_240_bits_and_not_called_exact(text, dimension, turns)
 
 
 @pytest.mark.parametrize("text, dimension, words", [
-    ("3 nweton", units.FORCE, ('unknown unit "nweton"', "accepted are", "deg/s")), ("3 KG", units.MASS, ("did you mean kg?",)),
+    ("3 nweton", units.FORCE, ('unknown unit "nweton"', "accepted are", "deg/s")), ("3 NM", units.TORQUE, ('unknown unit "NM"',)),
     ("2 kg", units.FORCE, ("expected force (N)", "got mass (kg)")), ("2 deg", units.RATE, ("expected angular velocity (rad/s)", "got angle (rad)")),
     ("2 N", units.NONE, ("expected a number without a unit", "got force (N)")), ("5 Hz", units.RATE, ("rad/s, rev/s or 1/s",)),
     ("2 m/s/s", units.VELOCITY, ("divides twice",)), ("2 m kg", units.FORCE, ("got m kg",)), ("N", units.FORCE, ("expected a decimal",)),
@@ -61,3 +61,33 @@ def test_a_wrong_uncertainty_with_a_unit_is_refused(text, words):
     with pytest.raises(InputError) as caught:
         plus_minus(text, units.FORCE)
     assert words in str(caught.value)
+
+
+@pytest.mark.parametrize("text, dimension, value", [  # counted by hand: 60 s, 3600 s, 86400 s, 604800 s; a tonne is 1000 kg
+    ("2 hour", units.TIME, 7200), ("2 Hours", units.TIME, 7200), ("1 hrs", units.TIME, 3600), ("3 days", units.TIME, 259200), ("1 WEEK", units.TIME, 604800),
+    ("2 weeks", units.TIME, 1209600), ("5 sec", units.TIME, 5), ("5 Seconds", units.TIME, 5), ("2 MIN", units.TIME, 120), ("2 minutes", units.TIME, 120),
+    ("1.5 t", units.MASS, 1500), ("2 tonnes", units.MASS, 2000), ("3 KG", units.MASS, 3), ("3 kgs", units.MASS, 3), ("2 Newtons", units.FORCE, 2),
+    ("2 NEWTON METRES", units.TORQUE, 2), ("2 N M S", units.MOMENTUM, 2), ("4 KG M^2", units.INERTIA, 4), ("2 newton-meters", units.TORQUE, 2),
+    ("1 inch", units.LENGTH, Fraction("0.0254")), ("2 Feet", units.LENGTH, Fraction("0.6096")), ("1 lbs", units.MASS, Fraction("0.45359237")),
+    ("2 m/sec", units.VELOCITY, 2), ("2 Mg", units.MASS, 2000), ("2 mN", units.FORCE, Fraction(1, 500)), ("2 MN", units.FORCE, 2000000)])
+def test_words_plurals_and_capitals_are_units_too(text, dimension, value):
+    assert units.quantity(text, dimension) == (value, True)
+
+
+@pytest.mark.parametrize("word, same", [("RPM", "rpm"), ("Rpm", "rpm"), ("DEG/S", "deg/s"), ("degrees/second", "deg/s"), ("degs/sec", "deg/s"),
+                                        ("Rad/s", "rad/s"), ("revolutions per minute", None), ("NM", None), ("REV/MIN", "rev/min")])
+def test_turns_in_other_words(word, same):
+    if same:
+        assert units.quantity(f"7 {word}", units.RATE) == units.quantity(f"7 {same}", units.RATE)
+    else:
+        with pytest.raises(InputError, match="accepted are|expected"):
+            units.quantity(f"7 {word}", units.RATE)
+
+
+def test_what_works_is_in_the_list_of_the_error():
+    """Every unit that the list names is read."""
+    with pytest.raises(InputError) as caught:
+        units.quantity("3 nweton", units.FORCE)
+    named = str(caught.value).split("accepted are ")[1].split(" with the prefixes")[0].split(", ")
+    named += [word for part in units.ACCEPTED.split("; ")[1:5] for word in part.split(", ")]
+    assert {"week", "t", "slug", "rpm", "kg"} <= set(named) and all(units.unit_of(word).size > 0 for word in named)

@@ -99,5 +99,5 @@ def _start(state):
         raise InputError(f"{expected}; got {len(omega)} and {len(gamma)}")
     length = math.hypot(*map(float, gamma))
     if abs(length - 1) > UNIT_SLACK:
-        raise InputError(f"gamma: expected a unit vector, got one of length {length:.17g}")
+        raise InputError(f"gamma: expected a unit vector, got one of length {length:.12g}")
     return omega, gamma
