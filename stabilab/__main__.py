@@ -1,5 +1,6 @@
 """The program: `python -m stabilab` and the command `stabilab`."""
 import gc
+import os
 import sys
 
 from . import interrupt, streams
@@ -15,7 +16,7 @@ def main() -> None:
     streams.occupy()
     interrupt.arm()
     try:
-        _commands()()
+        _commands()(None if os.environ.get("STABILAB_QUIET") else streams.SILENCE)
     finally:
         interrupt.disarm()
         gc.freeze()  # the process ends: its last look for rubbish among all that was read in costs a tenth of a small command

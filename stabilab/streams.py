@@ -1,6 +1,7 @@
-"""The standard streams, which may be closed, full or without a reader: what is lost there, and how that is told."""
+"""The standard streams, which may be closed, full or without a reader: what is lost there, and how that is told; and a sign on stderr of a long silence."""
 from __future__ import annotations
 
+import _thread
 import errno
 import os
 import sys
@@ -10,6 +11,7 @@ from contextlib import contextmanager
 from .errors import BAD_INPUT, StabilabError
 
 PIPE_CLOSED = 141  # what a shell reports for a program that a closed pipe ended
+SILENCE, WORKING = 1.0, "stabilab: working ..."  # s after which a program that has not written anything says so; not where STABILAB_QUIET is set
 LOST = (errno.EPIPE, errno.ENOSPC, errno.EDQUOT, errno.EBADF, errno.EIO, errno.EFBIG)
 
 
@@ -34,15 +36,48 @@ def occupy():
 
 
 @contextmanager
-def guarded():
+def guarded(silence: float | None = None):
     """While the block runs, a write to stdout that fails raises OutputLost, and one to stderr is passed over: nobody
-    could read of it."""
-    before = sys.stdout, sys.stderr
-    sys.stdout, sys.stderr = _Guarded(sys.stdout, _lose), _Guarded(sys.stderr, lambda number: None)
+    could read of it. silence: seconds after which stderr says that the program works, where neither has been written to."""
+    before, sign = (sys.stdout, sys.stderr), Sign(sys.stderr)
+    sys.stdout, sys.stderr = _Guarded(sys.stdout, _lose, sign.end), _Guarded(sys.stderr, lambda number: None, sign.end)
+    if silence is not None:
+        _thread.start_new_thread(sign.wait, (silence,))
     try:
         yield
     finally:
+        sign.end()
         sys.stdout, sys.stderr = before
+
+
+class Sign:
+    """A line that the program works, after a silence: on a terminal until something else is written, elsewhere once."""
+
+    def __init__(self, stream):
+        self._stream, self._silent, self._waiting, self._shown = stream, _thread.allocate_lock(), True, False
+        self._silent.acquire()
+
+    def wait(self, seconds: float) -> None:
+        """Write the line, unless the silence ends within so many seconds."""
+        if self._stream is not None and not self._silent.acquire(timeout=seconds):
+            self._shown = self._stream.isatty()
+            self._write(WORKING + ("" if self._shown else "\n"))
+
+    def end(self) -> None:
+        """Something is about to be written."""
+        if self._waiting:
+            self._waiting = False
+            self._silent.release()
+        if self._shown:
+            self._shown = False
+            self._write("\r\x1b[K")
+
+    def _write(self, text):
+        try:
+            self._stream.write(text)
+            self._stream.flush()
+        except (OSError, ValueError):  # nobody reads it
+            pass
 
 
 class Progress:
@@ -77,13 +112,14 @@ def _lose(number):
 
 
 class _Guarded:
-    """A text stream (None: a closed one) that hands its loss to lost(errno or None), and again whenever it is written to."""
+    """A text stream (None: a closed one) that hands its loss to lost(errno or None), and again whenever it is written to; before(): first of all then."""
 
-    def __init__(self, stream, lost):
-        self._stream, self._lost = stream, lost
+    def __init__(self, stream, lost, before):
+        self._stream, self._lost, self._before = stream, lost, before
         self._gone, self._number = stream is None, None
 
     def write(self, text):
+        self._before()
         self._tried(lambda: self._stream.write(text))
         return len(text)
 

@@ -14,6 +14,7 @@ from stabilab import cli
 from stabilab.__main__ import OBJECTS_BETWEEN_COLLECTIONS
 
 os.environ.pop("STABILAB_CACHE", None)
+os.environ["STABILAB_QUIET"] = "1"  # whether a command takes longer than a second hangs on the machine
 if "PYTEST_XDIST_WORKER" not in os.environ:  # nothing that a run left is an answer of the next one; the workers of one run share what it keeps
     os.environ["XDG_CACHE_HOME"] = tempfile.mkdtemp()
     atexit.register(shutil.rmtree, os.environ["XDG_CACHE_HOME"], ignore_errors=True)

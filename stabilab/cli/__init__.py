@@ -73,11 +73,11 @@ def say(text: str):
     page.say(text)
 
 
-def main() -> None:
-    """Run a command and end the process with its exit code."""
+def main(silence: float | None = None) -> None:
+    """Run a command and end the process with its exit code; stderr hears of a silence of so many seconds."""
     if hasattr(sys.stdout, "reconfigure"):
         sys.stdout.reconfigure(errors="backslashreplace")  # a terminal or pipe that does not take every letter
-    with guarded():
+    with guarded(silence):
         sys.exit(_run())
 
 

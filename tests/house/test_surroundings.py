@@ -2,6 +2,7 @@
 
 What was written before stays as it was, no half file bears its final name, and a run after it completes.
 """
+import io
 import json
 import os
 import re
@@ -15,7 +16,7 @@ from pathlib import Path
 
 import pytest
 
-from stabilab import files
+from stabilab import files, streams
 from stabilab.errors import BAD_INPUT, INTERRUPTED, InputError
 from stabilab.show.files import manifest
 
@@ -144,6 +145,38 @@ def test_what_is_printed_to_a_closed_stdout_goes_into_no_file(tmp_path):
             "    os.write(1, b'a library speaks')\n    os.write(2, b'and warns')\n    data.write('1,2')\n")
     assert subprocess.run(["sh", "-c", f'exec {sys.executable} -c "$0" <&- >&- 2>&-', code], cwd=tmp_path, env=environment(tmp_path)).returncode == 0
     assert (tmp_path / "data.csv").read_text() == "1,2"
+
+
+class Screen(io.StringIO):
+    """What is written to a terminal."""
+
+    def isatty(self):
+        return True
+
+
+@pytest.mark.parametrize("stream, during", [(io.StringIO(), "stabilab: working ...\n"), (Screen(), "stabilab: working ...")])
+def test_a_silence_ends_in_one_line_which_a_terminal_loses_with_what_comes_next(stream, during):
+    sign = streams.Sign(stream)
+    sign.wait(0)
+    assert stream.getvalue() == during
+    for _ in range(2):
+        sign.end()
+    assert stream.getvalue() == during + ("\r\x1b[K" if stream.isatty() else "")
+
+
+def test_what_is_written_first_leaves_no_sign_of_a_silence(monkeypatch):
+    monkeypatch.setattr(sys, "stderr", stream := Screen())
+    with streams.guarded(3600):  # whose thread ends with the first word, not in an hour
+        print("an answer", file=sys.stderr)
+    assert stream.getvalue() == "an answer\n"
+
+
+@pytest.mark.parametrize("quiet, words", [("", "stabilab: working ...\n"), ("1", "")])
+def test_a_command_says_on_stderr_that_it_works(tmp_path, quiet, words):
+    code = "from stabilab import __main__, streams\nstreams.SILENCE = 0\n__main__.main()"
+    run = subprocess.run([sys.executable, "-c", code, "show", MINOR], capture_output=True, text=True, cwd=tmp_path,
+                         env=environment(tmp_path) | {"STABILAB_QUIET": quiet})
+    assert run.returncode == 0 and run.stderr == words and run.stdout.startswith("minor-axis-100: ")
 
 
 # -- packages that are not there ---------------------------------------------------------------------------------------
