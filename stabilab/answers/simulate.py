@@ -9,9 +9,9 @@ import numpy as np
 
 from ..asked import checked_scene
 from ..integrate.trajectory import Trajectory
-from ..physics.attitude import angles, beyond, body_momentum, to_space, unwrapped
+from ..physics.attitude import angles, beyond, body_momentum, scalar_last, to_space, unwrapped
 from ..physics.scene import AnyScene, Scene
-from ..physics.states import checked_times, equations_and_start, start_of
+from ..physics.states import as_quaternion, checked_times, equations_and_start, start_of
 from ..physics.to_numpy import to_numpy
 from ..shown import Compared, Shown
 from .trajectory import trajectory
@@ -34,7 +34,7 @@ class Simulation(Shown, Compared):
     """States of one model at the asked-for times.
 
     t: (n,), s (tau when scaled); state: name -> (n, m): omega (x when scaled), gamma, angles (psi, phi, theta,
-    continuous from the start, rad), momentum (inertial, kg m^2/s), velocity, position (inertial), and for averaged
+    continuous from the start, rad) or quaternion (x, y, z, w), momentum (inertial, kg m^2/s), velocity, position (inertial), and for averaged
     models amplitude, spin, phase (n,). model: "exact", "linear", ...; the rest as of Trajectory.
     validity: of the scene's laws; what a formula assumes beyond them stands in `reason`.
     """
@@ -56,7 +56,8 @@ def simulate(scene: AnyScene, omega: Sequence[float], times: ArrayLike, blocks: 
     """The exact motion of a scene from angular velocity `omega` at the given times.
 
     blocks: the rest of the state at time 0 ("gamma", "velocity", "position": three numbers, "attitude": psi, phi,
-    theta, rad); those that the scene needs and blocks leaves out start at gamma = e3, zero angles, rest. method: None
+    theta, rad, or a quaternion from body to space, scalar last, which is then told in place of angles); those that the
+    scene needs and blocks leaves out start at gamma = e3, zero angles, rest. method: None
     is "taylor", or Radau where the decay is so fast that an explicit method would crawl (the reason says so). Raises
     InputError as `trajectory` does.
     """
@@ -73,7 +74,18 @@ def simulate(scene: AnyScene, omega: Sequence[float], times: ArrayLike, blocks: 
     if "attitude" not in start:
         run = trajectory(scene, start, times, method, rtol)
         return _simulation(run, {name: run.block(name) for name in run.blocks}, why)
-    return _with_attitude(scene, start, blocks.get("attitude", (0.0, 0.0, 0.0)), times, method, rtol, why)
+    first = blocks.get("attitude", (0.0, 0.0, 0.0))
+    if as_quaternion(first):
+        run = trajectory(scene, start, times, method, rtol)
+        return _simulation(run, in_quaternions(scene, {name: run.block(name) for name in run.blocks}), why)
+    return _with_attitude(scene, start, first, times, method, rtol, why)
+
+
+def in_quaternions(scene: Scene, state: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """The blocks with the quaternion scalar last, and the angular momentum in space."""
+    q = state.pop("attitude")
+    first = {name: state.pop(name) for name in ("omega", "gamma") if name in state}
+    return first | {"quaternion": scalar_last(q), "momentum": to_space(q, body_momentum(scene, first["omega"]))} | state
 
 
 def _simulation(run: Trajectory, state: dict[str, np.ndarray], why: str = "") -> Simulation:

@@ -28,6 +28,7 @@ def simulate(case: CaseFile,
                                                            "them, or exit with 5. Without it 10 are the aim, unless "
                                                            "--model, --method or --rtol is given.")] = None,
              angles: Annotated[bool, typer.Option("--angles", help="Euler angles ψ, θ, φ of the vertical, too.")] = False,
+             attitude: Annotated[bool, typer.Option("--attitude", help="The attitude as a quaternion and the angular momentum in space, too.")] = False,
              out: Annotated[Path | None, typer.Option(metavar="FILE.nc|.csv", help="Write the states to a file.")] = None,
              json: Json = False, strict: Strict = False, units: UnitsOption = None):
     """Follow a motion in time.
@@ -37,7 +38,7 @@ def simulate(case: CaseFile,
     Example: stabilab simulate cases/major-axis-100.toml --at 0,5,10,15 --json
     """
     from ..commands.simulate import simulate as answer
-    answer(case, at, model, order, method, rtol, digits, angles, out, json, strict, units)
+    answer(case, at, model, order, method, rtol, digits, angles, attitude, out, json, strict, units)
 
 
 @commands.command()

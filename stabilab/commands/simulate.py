@@ -6,6 +6,7 @@ from functools import partial
 
 from ..answers.digits.checked import DEFAULT
 from ..answers.digits.run import best_reached, missed
+from ..case.quaternion import with_quaternion
 from ..case.read import blamed_on
 from ..errors import InputError, ToleranceNotMet
 from ..show.files import trajectory_files
@@ -21,9 +22,13 @@ from .common.cases import exact_times_asked, load_cases, one_by_one, say_repeate
 from .common.output import all_reached, hold_laws, say, say_laws, tell, write, write_each, write_json
 
 
-def simulate(case, at, model, order, method, rtol, digits, angles, out, json, strict, units):
+def simulate(case, at, model, order, method, rtol, digits, angles, attitude, out, json, strict, units):
     """Follow the motion of a case, of every combination where it has a [sweep]."""
     loaded = load_cases([case], motion=True)
+    if attitude:
+        if model != "exact" or angles:
+            raise InputError("--attitude: the quaternion is that of the exact motion: give it without --model and --angles")
+        loaded = [with_quaternion(one) for one in loaded]
     systems = units_asked(loaded, units)
     say_repeated(loaded[0], at)
     if out:

@@ -23,6 +23,11 @@ def quaternion(psi: float, phi: float, theta: float) -> np.ndarray:
     return np.array([a * cy - c * sy, b * cy - d * sy, a * sy + c * cy, d * cy + b * sy])
 
 
+def scalar_last(q: ArrayLike) -> np.ndarray:
+    """(x, y, z, w) of quaternions (w, x, y, z): (..., 4)."""
+    return np.roll(np.asarray(q, float), -1, axis=-1)
+
+
 def angles(q: ArrayLike) -> np.ndarray:
     """(psi, phi, theta) in (-pi, pi], psi in [-pi/2, pi/2], of quaternions (..., 4): array (..., 3)."""
     r = rotation(np.moveaxis(np.asarray(q, float), -1, 0))

@@ -27,6 +27,8 @@ ORDER = tuple(BLOCKS)
 PARTS = BLOCKS | {part.name: part for part in (
     Block("x", ("x1", "x2", "x3"), "", "angular velocity, body frame, scaled"),
     Block("angles", ("psi", "phi", "theta"), "rad", "psi, phi, theta of the 3-1-2 sequence, continuous"),
+    Block("quaternion", ("qx", "qy", "qz", "qw"), "", "attitude as a unit quaternion, scalar last: turns components along the axes of the rates to "
+          "inertial ones"),
     Block("euler", ("precession psi", "nutation theta", "rotation phi"), "rad", "classical Euler angles of the vertical, continuous"),
     Block("momentum", ("H1", "H2", "H3"), "kg m^2/s", "angular momentum, inertial frame"),
     Block("amplitude", ("amplitude",), "rad/s", "amplitude of the transverse rate"),

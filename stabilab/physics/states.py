@@ -1,6 +1,7 @@
 """States, starts and times as the program takes them, checked once: arrays."""
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -130,11 +131,27 @@ def checked_starts(equations: Equations, states: Any) -> np.ndarray:
 
 
 def start_of(scene: AnyScene, omega: Sequence[float], blocks: Mapping[str, Sequence[float]]) -> dict[str, Sequence[float]]:
-    """The blocks of the state at time 0 as `trajectory` takes them; attitude from its 3-1-2 angles."""
+    """The blocks of the state at time 0 as `trajectory` takes them; attitude from its 3-1-2 angles, or a quaternion with its scalar last."""
     if not isinstance(blocks, Mapping):
         raise InputError(f"blocks: expected blocks of the state by name, such as {{'gamma': (0, 0, 1)}}, got {blocks!r:.80}")
     start = {"omega": omega, **blocks}
     for name in ordered((*scene.blocks, *blocks)):
         if name == "attitude":
-            start[name] = tuple(quaternion(*three_numbers(blocks.get("attitude", (0.0, 0.0, 0.0)), "state: attitude").tolist()))
+            start[name] = _attitude(blocks.get("attitude", (0.0, 0.0, 0.0)))
     return start
+
+
+def _attitude(given: Sequence[float]) -> tuple[float, ...]:
+    """The unit quaternion, scalar first, of three angles, or of four numbers: a quaternion with its scalar last."""
+    if not as_quaternion(given):
+        return tuple(quaternion(*three_numbers(given, "state: attitude").tolist()))
+    x, y, z, w = float_array(given, f"state: attitude: expected four numbers, got {given!r:.80}").tolist()
+    length = math.hypot(x, y, z, w)
+    if not 0 < length < math.inf:
+        raise InputError(f"state: attitude: expected a quaternion that is not zero, got {given!r:.80}")
+    return w / length, x / length, y / length, z / length
+
+
+def as_quaternion(attitude: Sequence[float]) -> bool:
+    """Whether an attitude is given, and shown, as a quaternion, not in angles."""
+    return hasattr(attitude, "__len__") and len(attitude) == 4

@@ -20,9 +20,9 @@ from ...physics.approximate import limits_of
 from ...physics.attitude import angles, beyond, body_momentum, to_space
 from ...physics.equations import derive
 from ...physics.scene import AnyScene
-from ...physics.states import equations_and_start, moved_row, start_of
+from ...physics.states import as_quaternion, equations_and_start, moved_row, start_of
 from ...physics.to_numpy import to_numpy
-from ..simulate import STIFF_METHOD, Simulation, simulate
+from ..simulate import STIFF_METHOD, Simulation, in_quaternions, simulate
 from .checked import CAUTION, DEFAULT, MOST, NEAR, checked_digits, digits_of
 from .front import SAFETY, front
 from .reduced import ladder, reduced
@@ -232,7 +232,9 @@ def _many_digits(case: Any, times: np.ndarray, asked: int) -> Reached | None:
     validity = _validity(case.scene, {name: states[:, part] for name, part in found.slices.items()})
     parts: Any = {_first(case) if name == "omega" else name: states[:, part] for name, part in found.slices.items()}
     error = float(found.error.max()) + 2.0**-53
-    if "attitude" in parts:
+    if as_quaternion(case.blocks.get("attitude", ())):
+        parts = in_quaternions(case.scene, parts)
+    elif "attitude" in parts:
         parts = _with_angles(case, times, parts)
         if parts is None:
             return None

@@ -23,6 +23,7 @@ def text(case, run, units: Units, known: int | None = None, width: int | None = 
     laws = [f"# {lettered(name)}: largest relative departure {value:.3g}" for name, value in run.invariant_drift.items()]
     how = f"# {run.method}, rtol {run.rtol:.3g}" if run.rtol else f"# {run.model}: {lettered(run.method)}"
     notes = [f"# {lettered(units.words(run.reason))}"] if run.reason and run.reason != "all times reached" else []
+    notes += [f"# {', '.join(PARTS[name].components)}: {PARTS[name].words}" for name in run.state if name == "quaternion"]
     return "\n".join([f"{case.name}: {headline(case, run, units)}", *_columns(head, cells, width, 13 if known is None else ALL + 7), how, *laws, *notes,
                       *(f"# {line.strip()}" for line in frame.note(case))])
 

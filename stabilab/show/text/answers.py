@@ -104,7 +104,9 @@ def simulation(case, run) -> dict:
     """The object of `stabilab simulate --json`."""
     return {"schema": "stabilab.simulate/1", "case": case.name, "model": run.model, "time": case.scene.time_unit,
             "t": run.t, "state": run.state, "invariant_drift": run.invariant_drift, "counters": run.counters,
-            "method": run.method, "rtol": run.rtol, "status": run.status, "reason": run.reason} | frame.rows(case, run) | frame.key(case)
+            "method": run.method, "rtol": run.rtol, "status": run.status, "reason": run.reason,
+            **({"quaternion": PARTS["quaternion"].words} if "quaternion" in run.state else {})
+            } | frame.rows(case, run) | frame.key(case)
 
 
 def columns(run) -> tuple[list[str], list[list[float]]]:
