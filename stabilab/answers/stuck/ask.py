@@ -80,7 +80,7 @@ def _row(scenario: Scenario, thrusters: Sequence[Any]) -> Row:
     return Row(tuple(t.name for t in thrusters), scenario.torque_in_file(thrusters), axes.counted(torque), seen.fate.word, seen.level,
                axis, sense, seen.direction and axes.back(seen.direction), scenario.limit, seen.time, seen.time_level, seen.never, seen.largest, seen.followed,
                seen.because, margins(scenario, scene, seen), tuple(_wheel(scenario, torque, seen, wheel) for wheel in scenario.case.wheels),
-               helpers(scenario, torque, others) if seen.fate not in STEADY else (), off, caveats)
+               helpers(scenario, torque, others, seen) if seen.fate not in STEADY else (), off, caveats)
 
 
 def _tilted(scenario: Scenario, thrusters: Sequence[Any], scene: Scene, seen: Found) -> Tilt | Spread | None:

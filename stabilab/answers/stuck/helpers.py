@@ -1,18 +1,23 @@
-"""Other thrusters, alone or in pairs, that fired together with the stuck ones leave no torque, or one that keeps the motion bounded, or the least.
+"""Other thrusters, alone or in pairs, that fired together with the stuck ones keep the motion bounded, or delay its limit.
 
-A thruster that fires for a share of the time is taken as its mean torque: that is right where its pulses are short beside the motion.
+What leaves less torque need not come to the limit later: what is left may lie nearer to an axis about which the body
+spins up. So times are compared with the time without help, and what brings the limit sooner is said not to help. A
+thruster that fires for a share of the time is taken as its mean torque: that is right where its pulses are short beside the motion.
 """
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from fractions import Fraction
 from itertools import combinations
 from typing import Any, TypeAlias, TypeGuard
 
 from ...numbers.vectors import CYCLE, Exact3, dot
+from .delay import BUDGET, PATIENCE
 from .family import STEADY, Family
-from .fate import found
+from .fate import Found, found, time_under
+from .reach import first_time
 from .result import Helper
 from .scenario import Scenario
 
@@ -20,35 +25,63 @@ NOTHING = Fraction(1, 10**9)  # of the torque: what is left of it counts as none
 WORTH = Fraction(999, 1000)  # of the torque: a helper that leaves more is none
 Duty: TypeAlias = tuple[Fraction, ...]  # the share of the time that each fires
 MOST = 12  # helpers that are told
+TRIED = 6  # thrusters, and pairs, whose times are compared: those that leave the least torque
+SHARES = (Fraction(1), Fraction(3, 4), Fraction(1, 2), Fraction(1, 4))  # of the duty that leaves the least
 
 
-def helpers(scenario: Scenario, torque: Sequence[Fraction], others: Sequence[Any]) -> tuple[Helper, ...]:
-    """The helpers among `others` (thrusters that do not fire) against a torque (exact, scene's axes), the best first."""
+def helpers(scenario: Scenario, torque: Sequence[Fraction], others: Sequence[Any], seen: Found) -> tuple[Helper, ...]:
+    """The helpers among `others` (thrusters that do not fire) against a torque (exact, scene's axes), the best first.
+
+    seen: what becomes of the motion without them.
+    """
     if not any(torque):
         return ()
     turned = [(t.name, scenario.axes.turned(t.torque)) for t in others]
     turned = [(name, arm) for name, arm in turned if any(arm)]
     sets = [(one,) for one in turned] + list(combinations(turned, 2))
-    told: list[Helper] = []
+    told: list[tuple[Helper, Exact3]] = []
     done: set[str] = set()
     for chosen in sets:
         names = tuple(name for name, _ in chosen)
-        if not done & set(names) and (helper := _stops(scenario, torque, names, [arm for _, arm in chosen])):
-            told.append(helper)
+        if not done & set(names) and (one := _stops(scenario, torque, names, [arm for _, arm in chosen])):
+            told.append(one)
             if len(names) == 1:
                 done.add(names[0])
-    told.sort(key=lambda h: (h.effect != "zero", len(h.thrusters), h.torque_left))
-    return tuple(told[:MOST] or _least(scenario, torque, sets))
+    told.sort(key=lambda one: (one[0].effect != "zero", len(one[0].thrusters), one[0].torque_left))
+    tried = [_timed(scenario, helper, left, seen) for helper, left in told[:MOST]]
+    if all(helper.effect == "none" for helper in tried):
+        tried += _slowest(scenario, torque, sets, seen)
+    tried.sort(key=_rank)
+    return tuple([helper for helper in tried if helper.effect != "none"] or tried[:1])
 
 
-def _stops(scenario: Scenario, torque: Sequence[Fraction], names: tuple[str, ...], arms: Sequence[Sequence[Fraction]]) -> Helper | None:
-    """The helper that these make, where they leave no torque or a bounded motion."""
+def _rank(helper: Helper) -> tuple[bool, bool, float]:
+    """In front: what helps, what never comes to the limit as far as is known, then what comes to it late."""
+    time = helper.time_to_limit
+    return helper.effect == "none", time is not None, 0.0 if time is None else -time[0]
+
+
+def _later(time: tuple[float, float] | None, seen: Found) -> bool:
+    """Whether a limit that is reached at `time`, if at all, is reached later than without help."""
+    return time is None or (seen.time is not None and time[0] > seen.time[1])
+
+
+def _timed(scenario: Scenario, helper: Helper, left: Exact3, seen: Found) -> Helper:
+    """With the time of its limit: a bounded motion may come to it all the same."""
+    time = None if scenario.limit is None else time_under(scenario, left, scenario.wheel)
+    return replace(helper, time_to_limit=time, effect=helper.effect if _later(time, seen) else "none")
+
+
+def _stops(scenario: Scenario, torque: Sequence[Fraction], names: tuple[str, ...], arms: Sequence[Sequence[Fraction]]
+           ) -> tuple[Helper, Exact3] | None:
+    """The helper that these make, and the torque, where they leave none or a bounded motion."""
     duty = _least_squares(torque, arms)
     if _possible(duty):
         left = _left(torque, arms, duty)
         if dot(left, left) <= NOTHING**2 * dot(torque, torque):
-            return Helper(names, tuple(map(float, duty)), "zero", math.sqrt(float(dot(left, left))), "bounded", None)
-    best = None
+            helper = Helper(names, tuple(map(float, duty)), "zero", math.sqrt(float(dot(left, left))), "bounded", None)
+            return helper, (Fraction(0),) * 3
+    best, axis = None, 0
     for i in range(3):
         duty = _onto_axis(torque, arms, i)
         if not _possible(duty):
@@ -56,8 +89,12 @@ def _stops(scenario: Scenario, torque: Sequence[Fraction], names: tuple[str, ...
         size = _left(torque, arms, duty)[i]
         if size and (best is None or abs(size) < abs(best[1])):
             fate = Family(scenario.body, i, size, scenario.wheel, tuple(map(Fraction, scenario.state))).fate()
-            best = (duty, size, fate) if fate in STEADY else best
-    return None if best is None else Helper(names, tuple(map(float, best[0])), "bounded", abs(float(best[1])), best[2].word, None)
+            best, axis = ((duty, size, fate), i) if fate in STEADY else (best, axis)
+    if best is None:
+        return None
+    duty, size, fate = best
+    helper = Helper(names, tuple(map(float, duty)), "bounded", abs(float(size)), fate.word, None)
+    return helper, tuple(size * (n == axis) for n in range(3))
 
 
 def _possible(duty: Duty | None) -> TypeGuard[Duty]:
@@ -96,19 +133,35 @@ def _solved(p: Fraction, q: Fraction, r: Fraction, s: Fraction, x: Fraction, y: 
     return None if det * det <= NOTHING**2 * (p * p + q * q) * (r * r + s * s) else ((x * s - q * y) / det, (p * y - r * x) / det)
 
 
-def _least(scenario: Scenario, torque: Sequence[Fraction], sets: Any) -> list[Helper]:
-    """The thruster and the pair that leave the least torque."""
-    out: list[tuple[Fraction, Any, Duty]] = []
+def _slowest(scenario: Scenario, torque: Sequence[Fraction], sets: Any, seen: Found) -> list[Helper]:
+    """The thruster and the pair with the latest limit; without a limit those that leave the least torque."""
+    out: list[tuple[float, Helper]] = []
     size = dot(torque, torque)
     for many in (1, 2):
         tried = [(dot(left, left), chosen, duty) for chosen in sets if len(chosen) == many
-                 for duty in _in_the_box(torque, [arm for _, arm in chosen]) for left in [_left(torque, [arm for _, arm in chosen], duty)]]
+                 for duty in _in_the_box(torque, [arm for _, arm in chosen]) if all(duty)
+                 for left in [_left(torque, [arm for _, arm in chosen], duty)]]
+        tried = sorted((one for one in tried if one[0] < WORTH**2 * size), key=lambda one: one[0])[:TRIED]
         if not tried:
             continue
-        square, chosen, duty = min(tried, key=lambda one: one[0])
-        if square < WORTH**2 * size and all(duty) and (not out or square < WORTH * out[0][0]):
-            out.append((square, chosen, duty))
-    return [_slower(scenario, torque, *one) for one in out]
+        if scenario.limit is None:
+            square, chosen, duty = tried[0]
+            best = math.sqrt(float(square)), chosen, duty
+            better = not out or best[0] < WORTH * out[0][0]
+        else:
+            best = max(((_run(scenario, torque, chosen, scaled, seen), chosen, scaled) for _, chosen, duty in tried
+                        for share in SHARES for scaled in [tuple(share * u for u in duty)]), key=lambda one: one[0])
+            better = not out or out[0][0] < WORTH * best[0]
+        if better:
+            out.append((best[0], _slower(scenario, torque, seen, *best)))
+    return [helper for _, helper in out]
+
+
+def _run(scenario: Scenario, torque: Sequence[Fraction], chosen: Any, duty: Duty, seen: Found) -> float:
+    """The time of the limit by a plain run, inf where it is not reached for long."""
+    left = _left(torque, [arm for _, arm in chosen], duty)
+    t_max = PATIENCE * (seen.time[0] if seen.time else seen.followed)
+    return first_time(scenario.scene(left), scenario.start, scenario.limit, scenario.rows, t_max, BUDGET)
 
 
 def _in_the_box(torque: Sequence[Fraction], arms: Sequence[Sequence[Fraction]]) -> list[Duty]:
@@ -127,6 +180,11 @@ def _in_the_box(torque: Sequence[Fraction], arms: Sequence[Sequence[Fraction]]) 
     return out
 
 
-def _slower(scenario: Scenario, torque: Sequence[Fraction], square: Fraction, chosen: Any, duty: Duty) -> Helper:
-    seen = found(scenario, _left(torque, [arm for _, arm in chosen], duty))
-    return Helper(tuple(name for name, _ in chosen), tuple(map(float, duty)), "slower", math.sqrt(float(square)), seen.fate.word, seen.time)
+def _slower(scenario: Scenario, torque: Sequence[Fraction], seen: Found, run: float, chosen: Any, duty: Duty) -> Helper:
+    """run: the time of the limit by a plain run, which counts where none is enclosed."""
+    left, effect, time = _left(torque, [arm for _, arm in chosen], duty), "slower", None
+    if scenario.limit is not None:
+        time = time_under(scenario, left, scenario.wheel)
+        effect = "slower" if _later(time or (run, run), seen) else "none"
+    fate = found(replace(scenario, limit=None), left).fate.word
+    return Helper(tuple(name for name, _ in chosen), tuple(map(float, duty)), effect, math.sqrt(float(dot(left, left))), fate, time)

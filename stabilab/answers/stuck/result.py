@@ -63,7 +63,8 @@ class WheelAnswer:
 class Helper:
     """Other thrusters fired together with the stuck ones, each for a share of the time (`duty`, 0 to 1), as a mean torque.
 
-    effect: "zero" (no torque is left), "bounded" (what is left keeps the motion bounded), "slower" (less is left). torque_left: N m.
+    effect: "zero" (no torque is left), "bounded" (what is left keeps the motion bounded), "slower" (the limit comes
+    later; without a limit: less torque is left), "none" (it is not known to come later: no help). torque_left: N m.
     fate: of the motion under what is left. time_to_limit: (low, high), s, or None.
     """
 

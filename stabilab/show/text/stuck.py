@@ -267,10 +267,9 @@ def _inward(value: float, way: str, digits: int) -> str:
 def _helper(helper, units) -> str:
     fired = " and ".join(f"{printable(name)} for {_number(100 * duty)} % of the time" for name, duty in zip(helper.thrusters, helper.duty))
     rest = f"{_number(helper.torque_left)} N m is left"
-    left = {"zero": "no torque is left", "bounded": f"{rest}, and the motion stays bounded while that is exactly on its axis", "slower": rest}[helper.effect]
-    known = helper.effect == "slower" and helper.time_to_limit is not None
-    then = f", and the limit comes in {units.time(helper.time_to_limit[0], SHORT)}" if known else ""
-    return f"with {fired}, in the mean, {left}{then}"
+    left = {"zero": "no torque is left", "bounded": f"{rest}, and the motion stays bounded while that is exactly on its axis"}.get(helper.effect, rest)
+    then = "" if helper.time_to_limit is None else f", and the limit comes in {units.time(helper.time_to_limit[0], SHORT)}"
+    return f"with {fired}, in the mean, {left}{then}{': does not help' if helper.effect == 'none' else ''}"
 
 
 def _details(row, units) -> list[str]:

@@ -130,6 +130,68 @@ def test_a_helper_that_leaves_an_axis_torque_keeps_it_bounded(asked):
     assert helper.torque_left == pytest.approx(0.002, rel=1e-9)
 
 
+HURTS = """[body]
+inertia = [[100, 2, -1], [2, 90, 3], [-1, 3, 40]]
+[[wheels]]
+name = "W"
+axis = [0, 0, 1]
+momentum = 6.283
+[[thrusters]]
+name = "A1"
+position = [0.6, 0.1, 0]
+direction = [0, 0.1, 1]
+force = 1
+stuck = true
+[[thrusters]]
+name = "B1"
+position = [-0.6, 0.1, 0]
+direction = [0, 0, {}]
+force = 1
+[limits]
+rate = 0.5
+[motion]
+angular_velocity = [0, 0, 0]
+"""
+
+
+def test_what_leaves_the_least_torque_is_no_help_where_the_limit_comes_sooner(asked):
+    """B1 takes two thirds of the torque away for 94.13 % of the time, and the limit comes sooner; less of it delays, by
+    DOP853 in the frame of the file."""
+    text = HURTS.format(1)
+    row, craft = asked(text).rows[0], Craft(text)
+    (helper,) = row.helpers
+    without = craft.run(1e4)[0]
+    with_b1 = lambda duty: craft.run(1e4, torque=craft.torque() + duty * craft.torque(["B1"]))[0]
+    assert with_b1(0.9413) < without < helper.time_to_limit[0] == pytest.approx(with_b1(helper.duty[0]), rel=1e-8)
+    assert (helper.thrusters, helper.effect) == (("B1",), "slower")
+
+
+def test_a_helper_that_brings_the_limit_sooner_is_said_not_to_help(asked, stabilab, tmp_path):
+    """B1 ahead of the centre takes a third of a per cent away, at best: any share of that brings the limit sooner, by
+    DOP853."""
+    text = HURTS.format(1).replace("[-0.6, 0.1, 0]", "[0, -0.5, 0]").replace("rate = 0.5", "rate = 0.2")
+    row, craft = asked(text).rows[0], Craft(text)
+    (helper,) = row.helpers
+    assert (helper.thrusters, helper.effect) == (("B1",), "none")
+    least = -craft.torque() @ craft.torque(["B1"]) / (craft.torque(["B1"]) @ craft.torque(["B1"]))
+    times = [craft.run(1e4, torque=craft.torque() + share * least * craft.torque(["B1"]))[0] for share in (1, 0.75, 0.5, 0.25)]
+    assert max(times) < craft.run(1e4)[0] and helper.time_to_limit[0] == pytest.approx(max(times), rel=1e-8)
+    code, out, _ = stabilab("stuck", tmp_path / "own.toml")
+    assert code == 0 and out.count(": does not help\n") == 2
+
+
+@pytest.mark.slow
+def test_no_torque_is_no_help_where_the_free_motion_comes_to_the_limit_sooner(asked):
+    """Near the middle axis, which it leaves: 22 s without the torque, 72 s with it, by DOP853."""
+    text = CASE.replace("[0.1, 0.05, {spin}]", "[0.08, 0.72, -0.54]").replace('"60 deg/s"', "0.98944")
+    row, craft = asked(text).rows[0], Craft(text)
+    (helper,) = row.helpers  # none of the four that leave no torque
+    delayed = craft.run(1e3, torque=craft.torque() + helper.duty[0] * craft.torque(helper.thrusters))[0]
+    free, now = (craft.run(100.0, torque=torque)[0] for torque in (np.zeros(3), None))
+    assert helper.effect == "slower" and helper.time_to_limit[0] == pytest.approx(delayed, rel=1e-8)
+    assert free < now < delayed
+
+
 def test_a_wheel_that_only_delays_delays_by_what_is_told(asked, tmp_path):
     row = asked(OFF).rows[0]
     (wheel,) = row.wheels

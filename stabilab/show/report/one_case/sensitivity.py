@@ -111,7 +111,7 @@ def _helper(helper, measures):
     share = " and ".join(f"{name} for {told(100 * duty, digits=3)} % of the time" for name, duty in zip(helper.thrusters, helper.duty))
     left = "no torque" if helper.effect == "zero" else told(helper.torque_left, "N m")
     time = f"; the limit then comes at {measures.time(helper.time_to_limit[0])}" if helper.time_to_limit else ""
-    return f"With {share}, {left} is left in the mean: {helper.fate}{time}."
+    return f"With {share}, {left} is left in the mean: {helper.fate}{time}{'. That does not help' if helper.effect == 'none' else ''}."
 
 
 def _tilt(answer, measures):
