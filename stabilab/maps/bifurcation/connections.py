@@ -34,8 +34,13 @@ if TYPE_CHECKING:
 BITS = 160
 NEAR = Fraction(1, 10**9)  # of a piece: so near to its ends, where a saddle is lost, nothing is looked for
 DEPTH = 48  # halvings of an interval
+MOST = 5000  # enclosures of a rise in one diagram: some ten seconds
 PARTS = (Fraction(1, 2), Fraction(5, 11), Fraction(6, 11))  # places where an interval may be divided
 WORDS = "two saddles are at one height: the separatrix of each ends at the other"
+
+
+class Spent(Exception):
+    """The enclosures that one diagram may take are used up: no bisection may go on, whatever it makes of an open sign."""
 
 
 def with_connections(found: Diagram) -> Diagram:
@@ -45,7 +50,7 @@ def with_connections(found: Diagram) -> Diagram:
     system = chosen(found.family, False)[2]
     try:
         return replace(found, connections=tuple(connections(found.family, system, found.pieces)))
-    except Unclear:
+    except (Unclear, Spent):
         return replace(found, notes=(*found.notes, "undecided: whether two saddles come to one height somewhere; enclosures did not settle it"))
 
 
@@ -53,14 +58,14 @@ def connections(family: Family, system: Any, pieces: tuple[Piece, ...]) -> list[
     """All of them in the range of one number, rising; none where the motion keeps to no circle."""
     if not isinstance(system, Conics):
         return []
-    eliminated, found = Eliminated(family, system), []
+    eliminated, found, budget = Eliminated(family, system), [], [MOST]
     for piece in pieces:
         if sum(state.linear == "unstable" for state in piece.states) == 2:
-            found += _of_piece(family, eliminated, system.axis, piece)
+            found += _of_piece(family, eliminated, system.axis, piece, budget)
     return _once(sorted(found, key=lambda event: event.value))
 
 
-def _of_piece(family: Family, eliminated: Eliminated, axis: int, piece: Piece) -> list[Event]:
+def _of_piece(family: Family, eliminated: Eliminated, axis: int, piece: Piece, budget: list[int]) -> list[Event]:
     """Those of a piece: inside each part of it where the motion keeps to a circle, and at each seam between two such parts."""
     width = Fraction(piece.high) - Fraction(piece.low)
     off = max(NEAR * width, max(abs(Fraction(piece.low)), abs(Fraction(piece.high))) / (1 << 50))  # the ends are rounded to doubles
@@ -73,7 +78,7 @@ def _of_piece(family: Family, eliminated: Eliminated, axis: int, piece: Piece) -
         if eliminated.main.lean:
             raise Unclear
         saddles = [n for n, state in enumerate(part.states) if state.linear == "unstable"]
-        rises = [_Rise(family, eliminated, saddles, way) for way in (0, 1)]
+        rises = [_Rise(family, eliminated, saddles, way, budget) for way in (0, 1)]
         for rise in rises:
             found += [_event(family, eliminated, piece, value) for value in _zeros(rise, low, high)]
         if piece.seams and before is not None:
@@ -122,15 +127,20 @@ def _on_a_circle(family: Family, axis: int, value: Fraction) -> bool:
 class _Rise:
     """The rise of U from one saddle to the next, and its slope, over an interval of the number that varies.
 
-    A saddle's angle may be held while the number varies: U is stationary in it.
+    A saddle's angle may be held while the number varies: U is stationary in it. budget: how many enclosures are left, a list of one count, which all
+    rises of a diagram share; Spent where it is used up.
     """
 
-    def __init__(self, family: Family, eliminated: Eliminated, saddles: list[int], way: int) -> None:
-        self.family, self.eliminated, self.saddles, self.way = family, eliminated, saddles, way
+    def __init__(self, family: Family, eliminated: Eliminated, saddles: list[int], way: int, budget: list[int]) -> None:
+        self.family, self.eliminated, self.saddles, self.way, self.budget = family, eliminated, saddles, way, budget
+        self.known: dict[Fraction, arb] = {}
+        f = eliminated.main.f
+        self.top, self.bottom = of_power(f, 1, 0), of_power(f, 1, 1)  # y = -top/bottom, with its slopes' numerators
+        self.slopes = [self.top * self.bottom.derivative(name) - self.top.derivative(name) * self.bottom for name in ("x", "p")]
 
     def sign(self, value: Fraction) -> int:
         """At one value; Unclear where so many bits leave it open."""
-        rise, _ = self._of(value, value)
+        rise = self._at(value)
         if rise > 0 or rise < 0:
             return 1 if rise > 0 else -1
         raise Unclear
@@ -141,11 +151,20 @@ class _Rise:
         middle = (low + high) / 2
         rise, slope = self._of(low, high)
         with working(BITS):
-            centred = self._of(middle, middle)[0] + slope * arb(0, rational((high - low) / 2))
+            centred = self._at(middle) + slope * arb(0, rational((high - low) / 2))
             return centred if centred.rad() < rise.rad() else rise, slope
+
+    def _at(self, value: Fraction) -> arb:
+        """At one value, where an interval is centred before it is divided there."""
+        if value not in self.known:
+            self.known[value], _ = self._of(value, value)
+        return self.known[value]
 
     def _of(self, low: Fraction, high: Fraction) -> tuple[arb, arb]:
         from flint import arb, arb_series
+        self.budget[0] -= 1
+        if self.budget[0] < 0:
+            raise Spent
         middle = (low + high) / 2
         with working(BITS, terms=2):
             off = arb(0, rational((high - low) / 2))
@@ -159,17 +178,23 @@ class _Rise:
     def _saddle(self, x: arb, middle: Fraction, off: arb, p: arb) -> tuple[arb, arb]:
         """(x, y) of a saddle. R is moved to its place at the middle of the interval first, where small balls stay small."""
         from flint import arb
-        R, f = self.eliminated.reduced, self.eliminated.main.f
-        ring = self.family.ring
+        R, ring = self.eliminated.reduced, self.family.ring
         first, second, third, fourth = ring.gens()
         at = _exactly(x)
         moved = R.compose(first + at, second, third + rational(middle), fourth, ctx=ring)
-        coefficients = [evaluated(of_power(moved, 0, n), [arb(0), arb(0), off]) for n in range(R.degrees()[0] + 1)]
+        powers, coefficients = [arb(1)], [arb(0)] * (R.degrees()[0] + 1)
+        for _ in range(R.degrees()[2]):
+            powers.append(powers[-1] * off)  # arb's own power of a ball about zero is NaN
+        for (n, _, m, _), c in moved.to_dict().items():
+            coefficients[n] += powers[m] * c
         place = arb(at) + _enclosed(coefficients, arb(0))
-        bottom = evaluated(of_power(f, 1, 1), [place, arb(0), p])
+        here, inside = [arb(at), arb(0), arb(rational(middle))], [place.union(arb(at)), arb(0), p]
+        bottom, bottom_here = evaluated(self.bottom, inside), evaluated(self.bottom, here)
         if bottom.contains(0):
             raise Unclear
-        return place, -evaluated(of_power(f, 1, 0), [place, arb(0), p]) / bottom
+        # By its slopes from the middle on: far out on the conic y hardly moves, while x does.
+        along_x, along_p = (evaluated(slope, inside) / (bottom * bottom) for slope in self.slopes)
+        return place, along_x * (place - at) + along_p * off - evaluated(self.top, here) / bottom_here
 
     def _rise(self, at: arb_series, ends: list[tuple[arb, arb]]) -> tuple[arb, arb]:
         from flint import arb
@@ -194,7 +219,9 @@ class _Rise:
             Z = -head(p) * Y / head(n)
             angles.append(_angle(Z, X))
             X, Y = size * (X / head(size)), size * (Z / head(size)) * -n / p
-            heights.append(-kappa * X * X / (2 * p) - c * X / p - d * Y / q)
+            # On a circle q X^2 - p Y^2 is constant: of the two squares the one that stays small where the circle becomes a parabola.
+            square = X * X / p if abs(head(p).mid()) <= abs(head(q).mid()) else Y * Y / q
+            heights.append(-kappa * square / 2 - c * X / p - d * Y / q)
         rise = heights[1] - heights[0] - force * _once_round(angles[1] - angles[0]) / n
         return head(rise), tail(rise)
 
@@ -281,11 +308,11 @@ def _zeros(rise: _Rise, low: Fraction, high: Fraction) -> list[Fraction]:
                 if first != last:
                     out.append(_bisected(rise.sign, a, b, first))
                 continue
+            middle = _divided(rise, a, b)
         except (Unclear, ZeroDivisionError):
-            pass
+            middle = a + (b - a) * PARTS[1]
         if depth == DEPTH:
             raise Unclear
-        middle = _divided(rise, a, b)
         stack += [(a, middle, depth + 1), (middle, b, depth + 1)]
     return out
 

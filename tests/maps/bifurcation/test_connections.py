@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import stabilab
+from stabilab.maps.bifurcation import connections
 from tests.maps.bifurcation.leaf import rises
 from tests.maps.bifurcation.test_line import written
 
@@ -84,3 +85,33 @@ def test_connections_are_looked_for_up_to_the_moment_of_inertia_at_which_the_cir
     brackets = sign_changes(lambda value: rises((2, 3.25, value), lam, M, omega, 2), 3.2501, 4.0)
     assert not found.notes and len(found.connections) == len(brackets)
     assert all(a <= event.value <= b for event, (a, b) in zip(found.connections, brackets))
+
+
+CROSSING = ((7, 6, 3), (0, 0, "1/2"), ("1/50", 0, 0), (0, -1, 1)), {"inertia[1]": "25/8:9"}  # beyond D1 = D2 the circle opens, and two saddles go far away
+
+
+@pytest.mark.slow
+def test_saddles_that_go_far_away_where_the_circle_opens_take_a_bounded_number_of_enclosures(tmp_path, monkeypatch):
+    monkeypatch.setattr(connections, "MOST", 2500)
+    numbers, vary = CROSSING
+    found = stabilab.bifurcation(written(tmp_path, *numbers), vary)
+    assert not found.notes and not found.connections
+    heights = lambda value: rises((value, 6, 3), (0, 0, 0.5), (0.02, 0, 0), numbers[3], 0)  # NumPy along the ellipse
+    assert not sign_changes(heights, 6.0001, 9.0, 101)
+
+
+def test_connections_that_the_enclosures_do_not_reach_are_said_to_be_undecided(tmp_path, monkeypatch):
+    monkeypatch.setattr(connections, "MOST", 60)
+    numbers, vary = CROSSING
+    found = stabilab.bifurcation(written(tmp_path, *numbers), vary)
+    assert not found.connections and any("undecided: whether two saddles come to one height" in note for note in found.notes)
+    assert [piece.count for piece in found.pieces] == [2, 4]  # what the polynomials tell stays
+
+
+def test_a_spent_budget_is_never_taken_for_a_zero(tmp_path, monkeypatch):
+    # without a torque the mirrored saddles are at one height, at torque 0 by hand (above): a bisection that is cut short tells nothing
+    case = written(tmp_path, (12, 9, 5), ("0.8", 0, 0), (0, 0, "0.02"), ("0.1", "0.05", "0.02"))
+    for most in (5, 20, 40, 60, 100):
+        monkeypatch.setattr(connections, "MOST", most)
+        found = stabilab.bifurcation(case, {"torque[3]": ("-0.01", "0.013")})
+        assert [event.value for event in found.connections] == [0.0] or (not found.connections and found.notes)
