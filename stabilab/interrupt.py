@@ -40,13 +40,15 @@ def undoing(action):
         _undo.remove(action)
 
 
-def end_with_parent():
-    """From now on the process ends when its standard input does: a child whose parent was killed shall not go on writing."""
+def end_with_parent(hear=lambda line: None):
+    """From now on the process ends when its standard input does: a child whose parent was ended, by whatever, shall not go on. hear(line) is given what
+    comes before."""
     import _thread
 
     def listen():
-        while os.read(0, 1):
-            pass
+        with open(0, "rb", closefd=False) as lines:
+            for line in lines:
+                hear(line)
         _end()
     _thread.start_new_thread(listen, ())
 

@@ -31,7 +31,7 @@ from .samples import Samples, samples_of
 
 AXES = 4
 RATES = ("angular_velocity", "x")  # keys of [motion] whose numbers leave the scene as it is
-CHUNK_SECONDS, LARGEST = 2.0, 1 << 17  # of one processor that a chunk takes, roughly; its most points
+CHUNK_SECONDS, LARGEST = 1.0, 1 << 17  # of one processor that a chunk takes, roughly, so that a killed run keeps something; its most points
 # answer -> seconds for a state of a scene with an orbit, for one whose motions are followed; measured, to size chunks alone
 COST = {"fate": (1e-6, 1e-3), "level": (0, 0), "reason": (0, 0), "margin": (0, 0), "distance": (3e-2, 0), "extremes": (1e-5, 2e-2), "period": (1e-5, 0),
         "when": (0.1, 0.1), "island": (0, 0), "equilibria": (0, 0), "verdict": (0, 0), "chaos": (2e-2, 5e-2)}

@@ -9,10 +9,11 @@ import sys
 import threading
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 from ..errors import InputError, StabilabError
 from ..files import whole_file
+from ..interrupt import end_with_parent
 from ..processes import helpers
 from . import parts
 from .chunk import answered
@@ -74,19 +75,19 @@ def _feed(worker, waiting, told) -> None:
         return
 
 
-def main(folder: Path) -> None:
-    """What a worker does: numbers in, parts into the folder, until there are no more."""
+def main(folder: Path) -> NoReturn:
+    """What a worker does: numbers in, parts into the folder, until whoever started it ends it or is gone."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the one that started it hears of it, and ends it
     answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
     os.dup2(2, 1)  # what a library prints is no answer
+    asked: queue.SimpleQueue[bytes] = queue.SimpleQueue()
+    end_with_parent(asked.put)
     plan = from_json((folder / WORK).read_text(encoding="utf-8"))
-    for line in sys.stdin:
+    while True:
+        number = int(asked.get())
         try:
-            rows = answered(plan, int(line)).tobytes()
-            if not (folder / WORK).exists():  # whoever waited for it is gone, and another run has finished the sweep
-                return
-            parts.write(plan, folder, int(line), rows)
-            answers.write(f"{DONE} {line.strip()}\n")
+            parts.write(plan, folder, number, answered(plan, number).tobytes())
+            answers.write(f"{DONE} {number}\n")
         except StabilabError as error:
             answers.write(f"{FAILED} {str(error)}\n".replace("\n", "\x1f", str(error).count("\n")))
         answers.flush()

@@ -14,14 +14,14 @@ from pathlib import Path
 import pytest
 
 from stabilab.errors import BAD_INPUT, InputError
-from stabilab.maps import cluster
+from stabilab.maps import cluster, workers
 from stabilab.maps.parts import place_of
 from stabilab.maps.plan import planned
 from stabilab.maps.run import run
 from tests.shared import CASES
 
 MINOR = CASES / "minor-axis-100.toml"
-ASKED = ("sweep", MINOR, "--vary", "x[1]=-4:4:60", "--vary", "x[3]=-3:3:4", "--answer", "fate,margin,distance")  # four chunks, each some seconds
+ASKED = ("sweep", MINOR, "--vary", "x[1]=-4:4:60", "--vary", "x[3]=-3:3:4", "--answer", "fate,margin,distance")  # eight chunks of a second or two
 posix = pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
 
 
@@ -130,6 +130,60 @@ def test_a_killed_sweep_goes_on_with_any_number_of_processes_to_the_same_bytes(t
     finished = {path.name: path.stat().st_mtime_ns for path in place_of(out).glob("part-*")}
     assert made(out, "--workers", "1") == made(tmp_path / "whole.nc", "--workers", "2") and len(finished) >= 2
     assert [path.name for path in tmp_path.iterdir() if path.suffix != ".nc"] == []
+
+
+ENDLESS = """
+import sys, time
+from pathlib import Path
+from stabilab.maps import workers
+def answered(plan, number):
+    workers.parts.write(plan, Path(sys.argv[1]), number, b"begun")
+    time.sleep(600)
+workers.answered = answered
+workers.main(Path(sys.argv[1]))
+"""
+PARENT = """
+import signal, sys
+from pathlib import Path
+from stabilab.processes import helpers
+with helpers("endless", Path(sys.argv[1]), 2) as found:
+    for number, one in enumerate(found):
+        one.stdin.write(b"%d\\n" % number)
+        one.stdin.flush()
+    signal.pause()
+"""
+
+
+@posix
+@pytest.mark.parametrize("how", [signal.SIGKILL, *(pytest.param(one, marks=pytest.mark.slow) for one in (signal.SIGTERM, signal.SIGHUP))])
+def test_workers_end_in_the_middle_of_a_chunk_with_the_process_that_started_them(tmp_path, how):
+    (tmp_path / "endless.py").write_text(ENDLESS)
+    plan = planned(MINOR, {"x[1]": "0:1:2"})
+    (tmp_path / workers.WORK).write_text(plan.as_json())
+    around = os.environ | {"PYTHONPATH": os.pathsep.join([str(tmp_path), str(CASES.parent)])}
+    parent = subprocess.Popen([sys.executable, "-c", PARENT, tmp_path], stdout=subprocess.PIPE, env=around)
+    begin = time.monotonic()
+    while len(list(tmp_path.glob("part-*"))) < 2:
+        assert parent.poll() is None and time.monotonic() < begin + 300
+        time.sleep(0.02)
+    parent.send_signal(how)
+    parent.communicate(timeout=300)  # its stdout is that of its workers: it is closed when all of them have ended, whose chunks last ten minutes
+    assert parent.returncode == -how
+
+
+@posix
+@pytest.mark.slow
+@pytest.mark.parametrize("how", [signal.SIGTERM, signal.SIGHUP, signal.SIGKILL])
+def test_a_sweep_ended_by_a_signal_keeps_its_parts_and_goes_on(tmp_path, how):
+    out = tmp_path / "killed.nc"
+    command = started(*ASKED, "--out", out, "--workers", "2")
+    until(1, out, command)
+    command.send_signal(how)
+    command.communicate(timeout=300)
+    finished = {path.name: path.stat().st_mtime_ns for path in place_of(out).glob("part-*")}
+    time.sleep(2)
+    assert finished == {path.name: path.stat().st_mtime_ns for path in place_of(out).glob("part-*")} != {} and command.returncode == -how
+    assert made(out, "--workers", "1")
 
 
 LARGE = {"a million on the minor axis": (MINOR, "x[1]=-4:4:1000", "x[3]=-3:3:1000"),
