@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -26,6 +26,7 @@ TURNING = 700  # decays per radian of turn below which an attitude or gamma, whi
 STIFF_METHOD, STIFF_RTOL = "Radau", 1e-10
 SHORT_WAY = 1.5  # rad: a step of phi or theta below half a turn by this margin cannot hide a whole one
 ROUNDS, POINTS = 12, 400_000  # of refining the times between the asked-for ones for unwrapping
+ROUNDING = 2.0**-53
 INSIDE = 5  # points a step: a Taylor step to the last digit turns the body by up to three radians
 
 
@@ -36,7 +37,8 @@ class Simulation(Shown, Compared):
     t: (n,), s (tau when scaled); state: name -> (n, m): omega (x when scaled), gamma, angles (psi, phi, theta,
     continuous from the start, rad) or quaternion (x, y, z, w), momentum (inertial, kg m^2/s), velocity, position (inertial), and for averaged
     models amplitude, spin, phase (n,). model: "exact", "linear", ...; the rest as of Trajectory.
-    validity: of the scene's laws; what a formula assumes beyond them stands in `reason`.
+    validity: of the scene's laws; what a formula assumes beyond them stands in `reason`. error: name -> size, () or (m,), below
+    which a component is not told from 0: what a check of the digits showed, else the tolerance of the run; none where neither is known.
     """
 
     t: np.ndarray
@@ -49,6 +51,12 @@ class Simulation(Shown, Compared):
     status: str = "reached"
     reason: str = ""
     validity: Validity | None = None
+    error: dict[str, np.ndarray] = field(default_factory=dict)
+
+
+def errors_of(state: Mapping[str, np.ndarray], share: float) -> dict[str, np.ndarray]:
+    """The error of each component of the parts of a state, a share of the part's largest size over the times."""
+    return {name: np.full(values.shape[1:], share * np.abs(values).max(initial=0.0)) for name, values in state.items()}
 
 
 def simulate(scene: AnyScene, omega: Sequence[float], times: ArrayLike, blocks: Mapping[str, Sequence[float]] | None = None,
@@ -88,9 +96,9 @@ def in_quaternions(scene: Scene, state: dict[str, np.ndarray]) -> dict[str, np.n
     return first | {"quaternion": scalar_last(q), "momentum": to_space(q, body_momentum(scene, first["omega"]))} | state
 
 
-def _simulation(run: Trajectory, state: dict[str, np.ndarray], why: str = "") -> Simulation:
-    return Simulation(run.t, state, "exact", run.method, run.rtol, run.invariant_drift, run.counters, run.status, _reason(run, why),
-                      run.validity)
+def _simulation(run: Trajectory, state: dict[str, np.ndarray], *why: str) -> Simulation:
+    return Simulation(run.t, state, "exact", run.method, run.rtol, run.invariant_drift, run.counters, run.status, _reason(run, *why),
+                      run.validity, errors_of(state, max(run.rtol or 0.0, ROUNDING)))
 
 
 def _reason(run: Trajectory, *why: str) -> str:
@@ -137,8 +145,7 @@ def _with_attitude(scene: Scene, start: Any, first: Any, times: np.ndarray, meth
     state = {name: run.block(name)[at] for name in run.blocks if name != "attitude"}
     state = {"omega": state.pop("omega"), **({"gamma": state.pop("gamma")} if "gamma" in state else {}),
              "angles": path[at], "momentum": to_space(q[at], body_momentum(scene, run.block("omega")[at])), **state}
-    return Simulation(run.t[at], state, "exact", run.method, run.rtol, run.invariant_drift, run.counters, run.status,
-                      _reason(run, why, doubtful), run.validity)
+    return _simulation(replace(run, t=run.t[at]), state, why, doubtful)
 
 
 def _grid(scene: Scene, start: Any, times: np.ndarray, method: str, rtol: float | None) -> np.ndarray:

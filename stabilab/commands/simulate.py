@@ -13,7 +13,7 @@ from ..show.files import trajectory_files
 from ..show.outside import reference as outside
 from ..show.terminal import page
 from ..show.terminal.letters import lettered
-from ..show.terminal.run import text
+from ..show.terminal.run import text, zero_within
 from ..show.text import answers, law
 from ..theories.follow import follow
 from ..theories.theory import lines, theory
@@ -45,6 +45,7 @@ def simulate(case, at, model, order, method, rtol, digits, angles, attitude, out
     else:
         say_laws([(case, run.validity) for case, run, _ in runs])
         _say_digits(runs)
+        _say_lost(runs)
     _judge(runs, digits)
     hold_laws(strict, (run.validity for _, run, _ in runs))
 
@@ -101,6 +102,15 @@ def _say_digits(runs):
     for case, _, reached in runs:
         if reached and not reached.enough:
             say(f"{case.place}: checked to {reached.digits:.1f} digits: {reached.because}")
+
+
+def _say_lost(runs):
+    """Which columns of a file hold numbers that are no more than their error."""
+    for case, run, _ in runs:
+        names, rows = answers.columns(run)
+        for name, error, values in zip(names, answers.errors(run), zip(*rows)):
+            if any(answers.lost(t, value, error) for t, value in zip(run.t, values)):
+                say(f"{case.place}: {name}: {zero_within(error)} where it is smaller than that")
 
 
 def _judge(runs, digits):

@@ -22,7 +22,7 @@ from ...physics.equations import derive
 from ...physics.scene import AnyScene
 from ...physics.states import as_quaternion, equations_and_start, moved_row, start_of
 from ...physics.to_numpy import to_numpy
-from ..simulate import STIFF_METHOD, Simulation, in_quaternions, simulate
+from ..simulate import STIFF_METHOD, Simulation, errors_of, in_quaternions, simulate
 from .checked import CAUTION, DEFAULT, MOST, NEAR, checked_digits, digits_of
 from .front import SAFETY, front
 from .reduced import ladder, reduced
@@ -42,7 +42,7 @@ COUNTED = 1.0  # rad: angles this near to those of a run in doubles have the sam
 
 @dataclass(frozen=True)
 class Reached:
-    """A motion and the digits that the check showed. because: how they were checked."""
+    """A motion, with the errors that the check showed, and its digits. because: how they were checked."""
 
     run: Simulation
     asked: int
@@ -159,8 +159,14 @@ def _checked(case: Any, times: np.ndarray, method: str, value: Any, asked: int) 
     if other.status != "reached":
         return Reached(run, asked, 0.0, f"the check of {method} stopped early")
     gap = _distance(run, other)
-    return Reached(run, asked, digits_of(CAUTION * gap), f"{method} with rtol {other_value:.2g} "
-                   f"from a start moved in its last place differs by {gap:.1e}")
+    return _told(run, asked, CAUTION * gap, f"{method} with rtol {other_value:.2g} from a start moved in its last place differs by {gap:.1e}")
+
+
+def _told(run: Simulation, asked: int, error: float, because: str) -> Reached:
+    """A run whose parts are off by so much of their size."""
+    digits = digits_of(error)
+    known = replace(run, error=errors_of(run.state, 10.0**-digits)) if digits >= 1 else run
+    return Reached(known, asked, digits, because)
 
 
 def _checked_reduced(case: Any, times: np.ndarray, run: Simulation, nodes: float, asked: int) -> Reached | None:
@@ -172,8 +178,8 @@ def _checked_reduced(case: Any, times: np.ndarray, run: Simulation, nodes: float
         return None
     own, far = _distance(run, finer), _distance(finer, moved)
     gap = max(own, far / SHIFT) if far < STRAIGHT else 1.0
-    return Reached(run, asked, digits_of(CAUTION * gap), f"reduced with {2 * nodes:g} nodes differs by {own:.1e}, and a start moved in its last "
-                   f"place by {far / SHIFT:.1e}" if far < STRAIGHT else "the motion goes too far for its start in doubles")
+    return _told(run, asked, CAUTION * gap, f"reduced with {2 * nodes:g} nodes differs by {own:.1e}, and a start moved in its last "
+                 f"place by {far / SHIFT:.1e}" if far < STRAIGHT else "the motion goes too far for its start in doubles")
 
 
 def _other(method: str, value: float) -> float:
@@ -241,7 +247,7 @@ def _many_digits(case: Any, times: np.ndarray, asked: int) -> Reached | None:
         error += 2.0**-51 / np.abs(np.cos(parts["angles"][:, 0])).min()  # phi and theta magnify the rounding of the quaternion
     because = f"Taylor series in {found.digits[0]} and {found.digits[1]} digits differ by {found.error.max():.0e}; rounded once"
     run = Simulation(times, parts, "exact", MANY, None, counters={"multiplications": found.work}, reason=because, validity=validity)
-    return Reached(run, asked, digits_of(error), because)
+    return _told(run, asked, error, because)
 
 
 def _validity(scene: AnyScene, blocks: Any) -> Validity | None:

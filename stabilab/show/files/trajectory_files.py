@@ -36,7 +36,7 @@ def _netcdf(case, run, path):
     import xarray
     time = "t" if case.variables == "physical" else "tau"
     data = xarray.Dataset(
-        of_parts(run.state, time), {time: ((time,), run.t, {"units": "s" if case.variables == "physical" else "1"}), "axis": [1, 2, 3]},
+        of_parts(run.state, time, run.error), {time: ((time,), run.t, {"units": "s" if case.variables == "physical" else "1"}), "axis": [1, 2, 3]},
         {"title": case.title, "source": case.source, "case": case.text, "program": f"stabilab {__version__}",
          "model": run.model, "method": run.method, **({"rtol": run.rtol} if run.rtol else {}), "status": run.status,
          **{f"departure_from_{name}": value for name, value in run.invariant_drift.items()}})

@@ -28,10 +28,12 @@ def variables(result: Any) -> Variables:
     return OF[type(result).__name__](result)
 
 
-def of_parts(parts: Mapping[str, Any], time: str = "time") -> dict[str, tuple[tuple[str, ...], Any, dict[str, str]]]:
-    """Parts of the state over time, with units and words; time: the name of their first dimension."""
+def of_parts(parts: Mapping[str, Any], time: str = "time", errors: Mapping[str, Any] | None = None) -> dict[str, tuple[tuple[str, ...], Any, dict[str, Any]]]:
+    """Parts of the state over time, with units and words; time: the name of their first dimension; errors: of their components, where known."""
+    known = errors or {}
     return {name: ((time, _across(name, np.asarray(values)))[:np.ndim(values)], np.asarray(values),
-                   {"units": PARTS[name].unit or "1", "long_name": PARTS[name].words}) for name, values in parts.items()}
+                   {"units": PARTS[name].unit or "1", "long_name": PARTS[name].words} | ({"error": known[name]} if name in known else {}))
+            for name, values in parts.items()}
 
 
 def _across(name, values):
@@ -41,7 +43,7 @@ def _across(name, values):
 def _simulation(run):
     scaled = "x" in run.state
     notes = {f"departure_from_{name}": value for name, value in run.invariant_drift.items()}
-    return Variables(("time",), of_parts(run.state), {"time": (run.t, {"units": "1" if scaled else "s"}), **AXIS},
+    return Variables(("time",), of_parts(run.state, errors=run.error), {"time": (run.t, {"units": "1" if scaled else "s"}), **AXIS},
                      {"model": run.model, "method": run.method, "status": run.status, "reason": run.reason} | notes)
 
 

@@ -1,6 +1,11 @@
 """A run in time, as `simulate` prints it: how far it went, times and states in columns with units, departures from the laws."""
 from __future__ import annotations
 
+import math
+from decimal import ROUND_CEILING, Decimal, localcontext
+
+import numpy as np
+
 from ...physics.blocks import PARTS
 from ..text import answers, frame
 from ..units import DIGITS, SHORT, Units
@@ -19,13 +24,22 @@ def text(case, run, units: Units, known: int | None = None, width: int | None = 
     head, scale = [f"t ({written(case.scene.time_unit)})"], [1.0]
     head += [lettered(f"{name} ({unit})" if unit else name) for name, (unit, _) in zip(names, factors)]
     scale += [one for _, one in factors]
-    cells = [[f"{value * one + 0.0:.{digits}g}" for value, one in zip((t, *row), scale)] for t, row in zip(run.t, rows)]
+    errors = [0.0, *answers.errors(run)]
+    cells = [[zero_within(error * one) if answers.lost(t, value, error) else f"{value * one + 0.0:.{digits}g}"
+              for value, one, error in zip((t, *row), scale, errors)] for t, row in zip(run.t, rows)]
     laws = [f"# {lettered(name)}: largest relative departure {value:.3g}" for name, value in run.invariant_drift.items()]
     how = f"# {run.method}, rtol {run.rtol:.3g}" if run.rtol else f"# {run.model}: {lettered(run.method)}"
     notes = [f"# {lettered(units.words(run.reason))}"] if run.reason and run.reason != "all times reached" else []
     notes += [f"# {', '.join(PARTS[name].components)}: {PARTS[name].words}" for name in run.state if name == "quaternion"]
     return "\n".join([f"{case.name}: {headline(case, run, units)}", *_columns(head, cells, width, 13 if known is None else ALL + 7), how, *laws, *notes,
                       *(f"# {line.strip()}" for line in frame.note(case))])
+
+
+def zero_within(error: float) -> str:
+    """What stands for a number that is no more than its error, which is told by one digit, rounded up."""
+    with localcontext() as context:
+        context.prec, context.rounding = 1, ROUND_CEILING
+        return f"0 within {float(+Decimal(error)):.0e}"
 
 
 def headline(case, run, units: Units) -> str:
@@ -38,13 +52,18 @@ def headline(case, run, units: Units) -> str:
 
 
 def _sizes(run, units):
-    import math
-    rates = next((run.state[name] for name in ("omega", "x") if name in run.state), None)
-    if rates is None:
+    part = next((name for name in ("omega", "x") if name in run.state), None)
+    if part is None:
         return ""
-    first, last = (units.rate(math.hypot(*map(float, rates[n])), SHORT) for n in (0, -1))
+    error = max((float(v) for v in np.ravel(run.error.get(part, 0.0))), default=0.0)
+    first, last = (_size(float(run.t[n]), math.hypot(*map(float, run.state[part][n])), error, units) for n in (0, -1))
     name = "|x|" if units.scaled else "|ω|"
     return f"; {name} = {last} there" if len(run.t) == 1 else f"; {name} = {first} first, {last} last"
+
+
+def _size(t, size, error, units):
+    unit, one = units.rates
+    return f"{zero_within(error * one)} {unit}".rstrip() if answers.lost(t, size, error) else units.rate(size, SHORT)
 
 
 def _factors(run, units) -> list[tuple[str, float]]:

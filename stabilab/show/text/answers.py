@@ -103,7 +103,7 @@ def extremes(case, motion) -> dict:
 def simulation(case, run) -> dict:
     """The object of `stabilab simulate --json`."""
     return {"schema": "stabilab.simulate/1", "case": case.name, "model": run.model, "time": case.scene.time_unit,
-            "t": run.t, "state": run.state, "invariant_drift": run.invariant_drift, "counters": run.counters,
+            "t": run.t, "state": run.state, "error": run.error, "invariant_drift": run.invariant_drift, "counters": run.counters,
             "method": run.method, "rtol": run.rtol, "status": run.status, "reason": run.reason,
             **({"quaternion": PARTS["quaternion"].words} if "quaternion" in run.state else {})
             } | frame.rows(case, run) | frame.key(case)
@@ -119,6 +119,17 @@ def columns(run) -> tuple[list[str], list[list[float]]]:
         names += PARTS[name].components
         parts.append(values.reshape(len(run.t), values.shape[-1] if values.ndim == 2 else 1))
     return names, np.hstack(parts).tolist()
+
+
+def errors(run) -> list[float]:
+    """The error of each of the columns, 0 where none is known."""
+    import numpy as np
+    return [float(v) for name, values in run.state.items() for v in np.broadcast_to(run.error.get(name, 0.0), np.shape(values)[1:]).ravel()]
+
+
+def lost(t: float, value: float, error: float) -> bool:
+    """Whether a number is no more than its error: rounding. What a start gives is known."""
+    return t != 0 and 0 < abs(value) <= error
 
 
 def extremes_csv(answered) -> str:

@@ -36,7 +36,8 @@ class AveragedMotion:
 
     t: (n,) s; amplitude A, rad/s, spin r, rad/s, phase phi, rad, unwrapped: (n,), the averaged variables; omega: (n, 3)
     rad/s, body frame, rebuilt from them (second order: with the near-identity change of variables, so omega at t = 0 is
-    the given state). At A = 0 the phase is that of the turn alone. order: 1 or 2; eps: the small parameter. status:
+    the given state). At A = 0 the phase is that of the turn alone. order: 1 or 2; eps: the small parameter. floor: absolute
+    tolerance of the spin, and of p and q where a torque lies across axis 3, rad/s; else these are as well known as their size. status:
     "reached", or "stopped" with t up to where the run came; reason: why; horizon: in words, how far to trust it.
     """
 
@@ -47,6 +48,7 @@ class AveragedMotion:
     omega: np.ndarray
     order: int
     eps: float
+    floor: tuple[float, float, float]
     status: str
     reason: str
     horizon: str
@@ -82,7 +84,7 @@ def averaged(scene, state, times, order: int = 1, eps: float | None = None) -> A
     reached = np.array([t for t in times if t in rows])
     W, r, psi, angle = (np.array([rows[t][i] for t in reached]) for i in range(4))
     omega = model.outward(W * np.exp(1j * psi), r.real)
-    return AveragedMotion(reached, np.abs(W), r.real, psi.real + angle.real, omega, order, small.eps,
+    return AveragedMotion(reached, np.abs(W), r.real, psi.real + angle.real, omega, order, small.eps, model.floor,
                           "stopped" if failures else "reached", "; ".join(failures) or "all times reached",
                           small.horizon(order))
 
@@ -174,6 +176,8 @@ class _Model:
         harmonics = abs(h) * size / J + (math.hypot(*self.parameters[6:8]) / (J * size) if size else 0.0)
         self.width = max(SHARE * (abs(d) * size + abs(g)) / J, GUARD * harmonics)
         self.logarithmic = not any(self.parameters[6:8]) and bool(omega[0] or omega[1])
+        least = RTOL * 1e-2 * max(float(np.abs(omega).max()), self.width, 1e-300)
+        self.floor = (0.0, 0.0, least) if self.logarithmic else (least,) * 3
         self.means, self.kept, self.near = _functions(normal_form(scene), order, frozenset(n for n in NAMES if not numbers[n]))
 
     def removal(self, nu):
@@ -255,10 +259,9 @@ class _Model:
         from scipy.integrate import solve_ivp
         fine = np.union1d(grid, np.linspace(0.0, grid[-1], SAMPLES))
         W = cmath.log(w0) if self.logarithmic else w0
-        floor = RTOL * 1e-2 * max(abs(w0), abs(r0), self.width, 1e-300)
         with np.errstate(all="ignore"):
             run = solve_ivp(lambda t, y: [sense * v for v in self.rates(t, y)], (0.0, grid[-1]), [W.real, W.imag, r0, 0.0], "DOP853",
-                            t_eval=fine, rtol=RTOL, atol=[RTOL, RTOL, floor, floor] if self.logarithmic else floor)
+                            t_eval=fine, rtol=RTOL, atol=[RTOL, RTOL, self.floor[2], self.floor[2]] if self.logarithmic else self.floor[2])
         W = run.y[0] + 1j * run.y[1]
         W, angle = (np.exp(W), W.imag) if self.logarithmic else (W, np.unwrap(np.angle(W)))
         wanted = np.isin(run.t, grid)
