@@ -78,10 +78,6 @@ def _with_products(table: Table):
         keys = () if convention is None else ("convention",)
         products.fault(f"products of inertia are printed with either sign: add convention = {CONVENTIONS}{came}", *keys)
         return None
-    if any(path[:2] == ("body", "inertia") for path in table.faults.uncertain):
-        table.fault("moments with an uncertainty stand beside products, and no box is known for a tensor that turns: "
-                    "give numbers without uncertainty, or principal moments", "inertia")
-        return None
     rows = [[moments[i] if i == j else Fraction(0) for j in range(3)] for i in range(3)]
     for name, (i, j) in PAIRS.items():
         value = products.number(name) if name in products else Fraction(0)

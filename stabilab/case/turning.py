@@ -57,7 +57,7 @@ def _at_right_angles(effects: list) -> list:
 
 
 def judge_oblique(top: Table, frame: PrincipalAxes | None):
-    """Note every number that speaks of principal axes or of a box beside a tensor that is not diagonal."""
+    """Note every number that speaks of principal axes beside a tensor that is not diagonal."""
     if frame is None or frame.as_given:
         return
     motion, torque = top.data.get("motion"), top.data.get("effects")
@@ -67,9 +67,6 @@ def judge_oblique(top: Table, frame: PrincipalAxes | None):
     torque = torque.get("constant_torque") if isinstance(torque, dict) else None
     if isinstance(torque, dict) and "mu" in torque:
         top.fault(f"{OBLIQUE} mu counts along principal axes: give torque in N m, in the frame of the tensor", "effects", "constant_torque", "mu")
-    for path in top.faults.uncertain:
-        top.fault(f"{OBLIQUE} a number with an uncertainty is not followed through the turn to principal axes: give numbers without "
-                  "uncertainty, or principal moments", *path)
 
 
 def turned_motion(motion, frame: PrincipalAxes | None):

@@ -6,7 +6,7 @@ from ..case.read import blamed_on
 from ..show.terminal import classification
 from ..show.text import answers, law, uncertain
 from .common.cases import load_cases, one_by_one, tell_radians, units_asked
-from .common.motions import motion_of, over_boxes, tilted
+from .common.motions import motion_of, over_boxes, sampled, tilted
 from .common.output import leave_undecided, write
 from .common.tables import swept_motions, tell_all
 
@@ -22,6 +22,7 @@ def classify(cases, json, strict, certify, out, follow, tilt, units, why):
     answered = [(case, _equilibria(case), tilted(case, motion_of(case, follow=follow, proof=certify), tilt) if case.state else None)
                 for case in one_by_one(loaded)]
     boxes = over_boxes(loaded, "equilibria", "fate")
+    answered = [(case, found, sampled(motion, box)) for (case, found, motion), box in zip(answered, boxes)]
     laws = [law.worst(found.validity, motion and motion.validity) for _, found, motion in answered]
     if json:
         write(answers.as_json([answers.classification(*answer) | law.key(held, answer[0] if answer[2] is None else None) | uncertain.as_dict(box)

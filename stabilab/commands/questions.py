@@ -7,7 +7,7 @@ from ..show.terminal import questions
 from ..show.text import answers, law, uncertain
 from ..show.text import digits as shown
 from .common.cases import load_cases, one_by_one, tell_radians, units_asked
-from .common.motions import motion_of, over_boxes, tilted
+from .common.motions import motion_of, over_boxes, sampled, tilted
 from .common.output import all_reached, hold_laws, leave_undecided, write
 from .common.tables import swept_extremes, swept_motions, tell_all
 
@@ -21,6 +21,7 @@ def answer(question, paths, digits, json, strict, csv=False, follow=None, tilt=N
                 for plain in [motion_of(case, brief=question == "extremes", follow=follow, proof=proof)]
                 for found in [tilted(case, plain, tilt) if question == "fate" else plain]]
     boxes = over_boxes([case for case, *_ in answered], *(["fate"] if question == "fate" else []))
+    answered = [(case, sampled(found, box), told) for (case, found, told), box in zip(answered, boxes)]
     if json:
         write(answers.as_json([getattr(shown, question)(*answer) | law.key(answer[1].validity) | uncertain.as_dict(box)
                                for answer, box in zip(answered, boxes)]))
@@ -30,7 +31,7 @@ def answer(question, paths, digits, json, strict, csv=False, follow=None, tilt=N
         _tell(question, loaded, answered, systems, digits, boxes, why)
     if digits is not None:
         all_reached((case, f"{question}: {short(told)}") for case, _, told in answered if not told.enough)
-    leave_undecided(strict, any(motion.fate.word == "undecided" for _, motion, _ in answered))
+    leave_undecided(strict, any(motion.fate.word == "undecided" for _, motion, _ in answered) or any(map(uncertain.undecided, boxes)))
     hold_laws(strict, (motion.validity for _, motion, _ in answered))
 
 

@@ -17,6 +17,8 @@ import numpy as np
 
 from ...errors import InputError
 from ...numbers.affine import EPS, LEAST, Affine, root, sign_over, squared
+from ...numbers.exact import floats
+from ...numbers.principal import PrincipalAxes, principal_axes, without_trace
 from ...numbers.vectors import Float3, Number, Triple
 from ...physics.body import Body
 from ...physics.effects import effect_class
@@ -24,6 +26,7 @@ from ...physics.quadratic import QuadraticForm, euler_form, scaled_form
 from ...physics.scaling import to_scaled, torque_from_mu
 from ...physics.scene import AnyScene, ScaledGyrostat, Scene
 
+TRACE = Fraction(1, 1 << 180)  # of the largest number: what axes good to 240 bits leave, there and back
 Point: TypeAlias = Any  # of a box: a number in [-1, 1] for each place, an array or a sequence
 Numbers: TypeAlias = dict[str, tuple[Number, ...]]  # "inertia", "momentum", "torque" ... -> its numbers
 
@@ -32,11 +35,13 @@ Numbers: TypeAlias = dict[str, tuple[Number, ...]]  # "inertia", "momentum", "to
 class Box:
     """middle: name -> exact numbers, of "inertia", "momentum", "torque" or "mu" (a body), or "a", "b", "mu" (a scaled
     system), and "state" (three, or absent); half: name -> their half-widths, zero where certain. variables: those of scene
-    and state, "physical" or "scaled" (a body may be asked in scaled variables)."""
+    and state, "physical" or "scaled" (a body may be asked in scaled variables). frame: None where all numbers are along the principal axes; else the
+    principal axes of the middle, and all numbers are in the frame of the file, with "products", the xy, xz and yz entries of the tensor."""
 
     middle: Numbers
     half: Numbers
     variables: str
+    frame: PrincipalAxes | None = None
 
     @cached_property
     def places(self) -> tuple[tuple[str, int], ...]:
@@ -68,6 +73,8 @@ class Box:
         state = tuple(map(float, values["state"])) if "state" in values else None
         if not self.bodily:
             return ScaledGyrostat(values["a"][0], values["b"][0], values["mu"]), state
+        if self.frame is not None:
+            return _turned(values)
         body, mu = Body(values["inertia"]), values.get("mu")
         torque = values["torque"] if mu is None else torque_from_mu(body, mu)
         scene = Scene(body, effect_class("gyrostat")(values["momentum"]), effect_class("constant_torque")(torque))
@@ -117,26 +124,54 @@ def box_of(case: Any) -> Box:
         raise InputError("what uncertain numbers do to the verdicts is known for a gyrostat under a constant torque alone; "
                          "this scene has other effects")
     middle = {}
-    if case.physical is not None:
+    oblique = case.frame if case.frame is not None and not case.frame.as_given else None
+    if oblique:
+        middle = _in_the_file(case, oblique)
+    elif case.physical is not None:
         middle["inertia"] = case.physical.body.exact
         middle["momentum"] = case.physical.vector("gyrostat")
         middle.update({"torque": case.physical.vector("constant_torque")} if case.mu is None else {"mu": case.mu})
     else:
         a, b = case.scene.exact_ab
         middle.update({"a": (a,), "b": (b,), "mu": case.scene.exact_mu})
-    if case.state is not None:
+    if case.state is not None and not oblique:
         middle["state"] = tuple(map(Fraction, case.state))
     half = {name: [Fraction(0)] * len(numbers) for name, numbers in middle.items()}
     for found in case.uncertain:
         half[_name(found.path)][found.path[-1] if isinstance(found.path[-1], int) else 0] = found.half
-    box = Box(middle, {name: tuple(widths) for name, widths in half.items()}, case.variables)
+    box = Box(middle, {name: tuple(widths) for name, widths in half.items()}, case.variables, oblique)
     _scalable(box)
     return box
 
 
+def _in_the_file(case: Any, frame: PrincipalAxes) -> Numbers:
+    """The numbers of a case along principal axes, turned back to the frame of its file."""
+    tensor = [[sum(m * axis[i] * axis[j] for m, axis in zip(frame.moments, frame.axes)) for j in range(3)] for i in range(3)]
+    found = {"inertia": tuple(tensor[i][i] for i in range(3)), "products": (tensor[0][1], tensor[0][2], tensor[1][2]),
+             "momentum": frame.back(case.physical.vector("gyrostat")), "torque": frame.back(case.physical.vector("constant_torque"))}
+    found |= {"state": frame.back(case.exact_state)} if case.state is not None else {}
+    return {name: tuple(_as_written(v, max(map(abs, values))) for v in values) for name, values in found.items()}
+
+
+def _as_written(value: Fraction, size: Fraction) -> Fraction:
+    """The decimal that a number good to 240 bits denotes, where there is one, or zero; size: of the largest number beside it."""
+    near, slack = Fraction(repr(float(value))) if value else value, size * TRACE
+    return Fraction(0) if abs(value) <= slack else near if abs(near - value) <= slack else value
+
+
+def _turned(values: Numbers) -> tuple[AnyScene, Float3 | None]:
+    """(scene, state or None) along the principal axes of a tensor, of numbers in the frame of the file."""
+    (x, y, z), (xy, xz, yz) = values["inertia"], values["products"]
+    frame = principal_axes(((x, xy, xz), (xy, y, yz), (xz, yz, z)))
+    wheel, torque = (frame.turned(values[name]) for name in ("momentum", "torque"))
+    wheel = without_trace(wheel, torque) if any(torque) else wheel
+    scene = Scene(Body(frame.moments), effect_class("gyrostat")(wheel), effect_class("constant_torque")(torque))
+    return scene, floats(frame.turned(values["state"])) if "state" in values else None
+
+
 def _scalable(box: Box) -> None:
     """Scaled variables, and mu, need three moments in falling order and the gyrostatic moment along axis 1."""
-    if not box.bodily or (box.variables == "physical" and "mu" not in box.middle):
+    if not box.bodily or box.frame is not None or (box.variables == "physical" and "mu" not in box.middle):
         return
     D, h = box.middle["inertia"], box.half["inertia"]
     if not all(D[i] - h[i] > D[i + 1] + h[i + 1] for i in (0, 1)):

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -13,7 +14,7 @@ from ..equilibria import equilibria
 from .box import Box, Point
 from .branch_and_bound import Parts, Proof, branch_and_bound, importance, whole
 from .conditions import Condition, Unknown, conditions, known
-from .result import FEWER, Over, bracketed, by_trial
+from .result import FEWER, Over, bracketed, by_sample, by_trial
 from .search import UNKNOWN, Answer, confirmed, nearest_change
 
 
@@ -24,6 +25,9 @@ def equilibria_over(box: Box) -> Over:
     here = answer(np.zeros(len(box.places)))
     if not box.places:
         return Over("holds", here, "no uncertain number has a part in the equilibria", proved=np.inf)
+    if box.frame is not None:
+        return by_sample(box, here, lambda point: (answer(point), np.nan), "within the uncertainties the principal axes turn with the tensor, and no "
+                                                                           "proof follows that turn")
     try:
         return _by_conditions(box, here, answer)
     except Unknown as unknown:
@@ -32,7 +36,7 @@ def equilibria_over(box: Box) -> Over:
 
 def _without_state(box: Box) -> Box:
     keep = lambda numbers: {name: v for name, v in numbers.items() if name != "state"}
-    return Box(keep(box.middle), keep(box.half), box.variables)
+    return replace(box, middle=keep(box.middle), half=keep(box.half))
 
 
 def signature_at(box: Box, point: Point) -> str | None:

@@ -33,7 +33,10 @@ def fate_over(box: Box) -> Over | None:
     """What becomes of the motion over the box; None where the box has no state. See `uncertain.uncertain`."""
     if "state" not in box.middle:
         return None
-    answer = partial(verdict_at, box)
+    answer, look = partial(verdict_at, box), partial(verdict_and_margin, box)
+    if box.frame is not None:
+        return by_sample(box, answer(np.zeros(len(box.places))), look, "within the uncertainties the principal axes turn with the tensor, and no proof follows "
+                                                                       "that turn")
     numbers = _root(box)
     form = box.rates(numbers)
     acting = [i for i in range(3) if _there(form.m[i])]
@@ -42,7 +45,7 @@ def fate_over(box: Box) -> Over | None:
         return Over("holds", here, REASONS[Reason.TORQUE_FREE], proved=np.inf)
     if len(acting) > 1:
         axes = " and ".join(str(i + 1) for i in acting)
-        return by_sample(box, here, answer, f"the torque may act about axes {axes} together, off the principal axes, where motions are "
+        return by_sample(box, here, look, f"the torque may act about axes {axes} together, off the principal axes, where motions are "
                                             "followed one by one: the middle's answer is no proof for the box")
     reduction = reduction_over(form, acting[0])
     if reduction is None:
@@ -50,7 +53,7 @@ def fate_over(box: Box) -> Over | None:
     signs = _signs(reduction)
     if signs is None:
         return by_trial(box, here, answer, "two of the moments of inertia may be equal within the box, where the geometry of "
-                                           "the motion changes from circles to hyperbolas: no proof is at hand")
+                                           "the motion changes from circles to hyperbolas: no proof is at hand", look)
     if signs[0] * signs[1] >= 0:
         return _between_walls(box, here, answer, reduction, numbers, signs)
     return _on_circles(box, here, answer, Family(box, acting[0], signs))
@@ -70,6 +73,18 @@ def verdict_at(box: Box, point: Point) -> str | None:
         return words(Fate(int(one.labels)), int(one.axis), int(one.sense))
     found = fate_of(scene, Orbit(reduction, state))  # type: ignore[arg-type]  # asked of boxes that have a state
     return words(found.label, found.axis, found.sense)
+
+
+def verdict_and_margin(box: Box, point: Point) -> tuple[str | None, float]:
+    """(fate at a point of the box as of `verdict_at`, barrier minus energy, NaN where the motion has none)."""
+    try:
+        scene, state = box.at(point)
+    except InputError:
+        return None, np.nan
+    if kind_of(scene) == "growth":
+        return UNBOUNDED, np.nan
+    one = fate(scene, np.array(state))
+    return words(Fate(int(one.labels)), int(one.axis), int(one.sense)), float(one.margins)
 
 
 def words(label: Fate, axis: int, sense: int) -> str:
@@ -167,13 +182,14 @@ def _between_walls(box: Box, here: Any, answer: Answer, r: Reduction, numbers: N
         flat = not signs[0] * signs[1] and _flat(r, state) or _spins(r, state)
         if flat and here.startswith("spin-up") and int(np.ravel(sign_over(r.m))[0]):
             return Over("holds", here, REASONS[Reason.PURE_SPIN], proved=1.0)
-        return by_trial(box, here, answer, "the middle lies on a set of measure zero, and no proof covers what is around it")
+        return by_trial(box, here, answer, "the middle lies on a set of measure zero, and no proof covers what is around it",
+                        partial(verdict_and_margin, box))
     if not signs[0] * signs[1]:
         return Over("holds", here, REASONS[Reason.WALLS], proved=1.0,
                     but="where the force is the same all along the parabola, nothing holds the spin back")
     if _certain_plane(r, state):
-        return Over("undecided", here, "every motion of the box lies on an invariant plane Q = 0, where a barrier decides, and "
-                    "the plane's motions are not followed over a box")
+        return by_sample(box, here, partial(verdict_and_margin, box), "every motion of the box lies on an invariant plane Q = 0, where a "
+                         "barrier decides, and the plane's motions are not followed over a box")
     with np.errstate(all="ignore"):
         orbit = orbit_of(r, state, signs)
         clear = all(int(np.ravel(sign_over(lifted(side)))[0]) for side in (orbit.x + orbit.z, orbit.x - orbit.z))

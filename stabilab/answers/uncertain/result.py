@@ -1,9 +1,10 @@
-"""What an uncertain box does to a verdict: holds, depends or undecided, and how far from a change."""
+"""What an uncertain box does to a verdict: holds, depends, sampled or undecided, and how far from a change."""
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -16,6 +17,8 @@ PARTS, FEWER = 60_000, 2_500  # of the box: for the question asked, and for each
 NEARER = (0.5, 0.75, 0.9, 0.99, 0.999)  # shares of a change that is there, tried as proved stretches until one fails
 SMALLER = (0.3, 0.15, 0.05, 0.01, 0.001)  # tried where even the first of these fails
 SAMPLE, TIRED, SEED = 64, 4, 20261122  # points of the box drawn at random where motions can only be followed one by one
+UNDECIDED = "undecided"  # as the signature of equilibria begins and ends where nothing is known of them
+Look: TypeAlias = Callable[[Point], tuple[str | None, float]]
 FARTHER = (2.0, 5.0, 10.0, 30.0, MOST)
 
 
@@ -28,10 +31,37 @@ class Witness:
 
 
 @dataclass(frozen=True)
+class Sampled:
+    """What points of the box, drawn uniformly at random, do. number: of points with an answer; seed: of NumPy's default generator; counts: verdict ->
+    how many, most first; margins: the 5, 50 and 95 % quantiles of barrier minus energy (J; scaled energy), None where a motion has none."""
+
+    number: int
+    seed: int
+    counts: dict[str, int]
+    margins: tuple[float, float, float] | None = None
+
+    @property
+    def otherwise(self) -> float:
+        """The share of the box that may do otherwise though all points agree: 95 % confidence, 1 - 0.05^(1/n)."""
+        return 1 - float(0.05 ** (1 / self.number))
+
+    @property
+    def words(self) -> str:
+        """The counts, and what they leave open or how the margins spread."""
+        agree = len(self.counts) == 1
+        told = ", ".join(f"{'all' if agree else count}: {word}" for word, count in self.counts.items())
+        rest = f"; with 95 % confidence at most {100 * self.otherwise:.2g} % of the box does otherwise" if agree else ""
+        if self.margins:
+            rest += "; margins in energy: 5, 50 and 95 % quantiles " + ", ".join(f"{v:.4g}" for v in self.margins)
+        return f"of {self.number} sampled points (seed {self.seed}) {told}{rest}"
+
+
+@dataclass(frozen=True)
 class Over:
     """A verdict over a box.
 
-    answer: "holds" (proved for the whole box), "depends" (with a witness on each side) or "undecided". verdict: the middle's.
+    answer: "holds" (proved for the whole box), "depends" (with a witness on each side), "sampled" (no proof is to be had, and all points of `samples`
+    do as the middle does) or "undecided". verdict: the middle's.
     but: the set of measure zero that "holds" leaves out, if it does. Every change of the numbers by less than `proved` times
     the stated uncertainties is proved to leave the verdict; `changes_at` times these flips it (an upper bound of the least
     such factor: found by search and checked; None where none was found up to 100 times). parts: of the box, looked at.
@@ -45,6 +75,7 @@ class Over:
     changes_at: float | None = None
     witnesses: tuple[Witness, ...] = ()
     parts: int = 0
+    samples: Sampled | None = None
 
 
 def bracketed(box: Box, here: Any, answer: Answer, change: Change | None, attempt: Callable[[float, int], Proof], because: str) -> Over:
@@ -96,8 +127,8 @@ def _of_point(point: Point, answer: Answer, here: str) -> Change | None:
     return Change(np.array(point) / size, size, 0.0)
 
 
-def by_trial(box: Box, here: Any, answer: Answer, because: str) -> Over:
-    """Where no proof is at hand: what single points of the box say, by the ordinary code."""
+def by_trial(box: Box, here: Any, answer: Answer, because: str, look: Look | None = None) -> Over:
+    """Where no proof is at hand: what single points of the box say, by the ordinary code, and where these agree, samples."""
     n = len(box.places)
     trial = np.concatenate([np.eye(n), -np.eye(n), np.ones((1, n)), -np.ones((1, n))])
     stretches = (1e-6, 1e-3, 1.0)
@@ -110,23 +141,31 @@ def by_trial(box: Box, here: Any, answer: Answer, because: str) -> Over:
                 sides = tuple(Witness(answer(p), box.values(p)) for p in (np.zeros(n), point))
                 return Over("depends", here, because, changes_at=float(np.abs(point).max()), witnesses=sides)
     tried = len(trial) * len(stretches)
-    return Over("undecided", here, f"{because}; {tried} other points of the box, tried one by one, do as the middle does")
+    return by_sample(box, here, look or (lambda point: (answer(point), math.nan)),
+                     f"{because}; {tried} other points of the box, tried one by one, do as the middle does")
 
 
-def by_sample(box: Box, here: Any, answer: Answer, because: str) -> Over:
-    """Where no proof is at hand and answers cost a run: what points of the box drawn at random say, by the ordinary code."""
+def by_sample(box: Box, here: Any, look: Look, because: str, seed: int = SEED) -> Over:
+    """Where no proof is at hand: what points of the box drawn at random say, by the ordinary code. look: point -> (verdict or None, margin in energy or
+    NaN)."""
     counts: dict[str, int] = {}
     places: dict[str, Point] = {}
-    for point in np.random.default_rng(SEED).uniform(-1, 1, (SAMPLE, len(box.places))):
+    margins = []
+    for point in np.random.default_rng(seed).uniform(-1, 1, (SAMPLE, len(box.places))):
         if counts.get(Fate.UNDECIDED.word, 0) == TIRED:  # each costs a second
             break
-        if word := answer(point):
+        word, margin = look(point)
+        if word:
             counts[word] = counts.get(word, 0) + 1
             places.setdefault(word, point)
-    told = [f"{'all' if len(counts) == 1 else count}: {word}" for word, count in sorted(counts.items(), key=lambda pair: -pair[1])]
-    because = f"{because}; of {sum(counts.values())} sampled motions {', '.join(told)}"
-    other = next((word for word in places if word not in (here, Fate.UNDECIDED.word)), None)
-    if other is None or here == Fate.UNDECIDED.word:
+            margins.append(margin)
+    if not counts or here is None:
         return Over("undecided", here, because)
+    spread = tuple(np.quantile(margins, (0.05, 0.5, 0.95)).tolist()) if np.isfinite(margins).all() else None
+    found = Sampled(len(margins), seed, dict(sorted(counts.items(), key=lambda pair: -pair[1])), spread)
+    because = f"{because}; {found.words}"
+    other = next((word for word in places if word not in (here, Fate.UNDECIDED.word, UNDECIDED)), None)
+    if other is None or here in (Fate.UNDECIDED.word, UNDECIDED):
+        return Over("sampled" if set(counts) == {here} and here not in (Fate.UNDECIDED.word, UNDECIDED) else "undecided", here, because, samples=found)
     sides = (Witness(here, box.values(np.zeros(len(box.places)))), Witness(other, box.values(places[other])))
-    return Over("depends", here, because, changes_at=float(np.abs(places[other]).max()), witnesses=sides)
+    return Over("depends", here, because, changes_at=float(np.abs(places[other]).max()), witnesses=sides, samples=found)

@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from ...caveat import Caveat
 from ...errors import InputError
 from .box import box_of
 from .equilibria import equilibria_over
@@ -21,11 +22,16 @@ from .result import Over
 @dataclass(frozen=True)
 class Uncertainty:
     """numbers: the uncertain numbers of the case; equilibria, fate: what they do to each, None where not asked (and the fate
-    where there is no state)."""
+    where there is no state). caveats: that samples stand in place of a proof, where they do."""
 
     numbers: tuple[Any, ...]
     equilibria: Over | None
     fate: Over | None
+
+    @property
+    def caveats(self) -> tuple[Caveat, ...]:
+        sampled = ((name, over.samples) for name, over in (("equilibria", self.equilibria), ("fate", self.fate)) if over)
+        return tuple(Caveat("samples", f"{name} over the uncertain numbers by samples, not by proof: {found.words}") for name, found in sampled if found)
 
 
 def uncertain(case: Any, questions: Sequence[str] = ("equilibria", "fate")) -> Uncertainty | None:

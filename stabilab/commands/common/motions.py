@@ -1,6 +1,8 @@
 """The motion of a case, with what a tilt of its torque and uncertain numbers do to it."""
 from __future__ import annotations
 
+from dataclasses import replace
+
 from ...answers.motion import motion
 from ...case.read import blamed_on
 from ...errors import printable
@@ -25,6 +27,11 @@ def tilted(case, motion, angle: str | None):
         return motion
     from .tilt import with_angle
     return with_angle(case, motion, angle)
+
+
+def sampled(motion, box):
+    """The motion with what uncertain numbers do to it by samples, not by proof, as a caveat."""
+    return motion if motion is None or box is None else replace(motion, caveats=(*motion.caveats, *box.caveats))
 
 
 def over_boxes(cases, *questions):

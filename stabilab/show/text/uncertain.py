@@ -11,7 +11,7 @@ from ..units import number as told
 
 SUBJECTS = {"equilibria": ("hold", "depend"), "fate": ("holds", "depends")}
 LONG = 8  # letters of a number in a line
-UNITS = {"inertia": "kg m^2", "momentum": "N m s", "torque": "N m"}  # of the numbers of a witness
+UNITS = {"inertia": "kg m^2", "products": "kg m^2", "momentum": "N m s", "torque": "N m"}  # of the numbers of a witness
 
 
 def as_dict(found) -> dict:
@@ -27,9 +27,13 @@ def _over(over) -> dict | None:
     if over is None:
         return None
     return {"answer": over.answer, "verdict": over.verdict, "because": over.because, "except": over.but or None,
-            "proved_up_to": over.proved, "changes_at": over.changes_at, "parts": over.parts,
+            "proved_up_to": over.proved, "changes_at": over.changes_at, "parts": over.parts, "samples": _samples(over.samples),
             "witnesses": [{"verdict": w.verdict, **_numbers(w)}
                           for w in over.witnesses]}
+
+
+def _samples(samples) -> dict | None:
+    return samples and {"number": samples.number, "seed": samples.seed, "counts": samples.counts, "margin_quantiles": samples.margins}
 
 
 def key(uncertain) -> str:
@@ -93,6 +97,7 @@ def what_changes(found) -> str:
     subject = "the fate is" if over is found.fate else "they are"
     return {"holds": f"{subject} the same for all that the uncertain numbers may be" + (", but for a set of measure zero" if over.but else ""),
              "depends": f"BUT within the uncertainties also {' or '.join(others) or 'another answer'}",
+             "sampled": f"{subject} the same at {over.samples and over.samples.number} sampled points within the uncertainties, without a proof",
              "undecided": f"{subject} undecided within the uncertainties"}[over.answer]
 
 
@@ -103,8 +108,9 @@ def middles(case) -> str:
 
 def _lines(subject, over, units) -> list[str]:
     holds, depends = SUBJECTS[subject]
-    lead = {"holds": f"{holds} all over the box", "depends": f"{depends} on them", "undecided": "undecided over the box"}
-    lines = [f"  {subject}: {lead[over.answer]}" + (f": {over.verdict}" if over.answer == "holds" else ""), f"    {lettered(over.because)}"]
+    lead = {"holds": f"{holds} all over the box", "depends": f"{depends} on them", "sampled": "the same at all sampled points of the box, without a proof",
+            "undecided": "undecided over the box"}
+    lines = [f"  {subject}: {lead[over.answer]}" + (f": {over.verdict}" if over.answer in ("holds", "sampled") else ""), f"    {lettered(over.because)}"]
     if over.but:
         lines.append(f"    but for a set of measure zero: {over.but}")
     if over.proved and math.isfinite(over.proved):
@@ -131,5 +137,5 @@ def open_fate(found) -> bool:
 
 
 def undecided(found) -> bool:
-    """Whether a verdict stays undecided over the box."""
-    return found is not None and any(over is not None and over.answer == "undecided" for over in (found.equilibria, found.fate))
+    """Whether a verdict stays without a proof over the box."""
+    return found is not None and any(over is not None and over.answer in ("undecided", "sampled") for over in (found.equilibria, found.fate))

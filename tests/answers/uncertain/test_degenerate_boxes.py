@@ -59,12 +59,12 @@ def test_on_a_parabola_motions_stay_between_walls_but_where_the_force_is_constan
     assert (over.answer, over.verdict) == ("holds", "bounded") and "parabola" in over.but
 
 
-def test_motions_that_surely_lie_on_an_invariant_plane_are_left_open(tmp_path):
+def test_motions_that_surely_lie_on_an_invariant_plane_are_left_to_samples(tmp_path):
     """D = (9, 5, 4) about axis 2: p = (D1 - D2)/D3 = 1 and q = (D2 - D3)/D1 = 1/9, so omega_1^2 = omega_3^2/9 is the plane."""
     over = fate_of(tmp_path, inertia="9, 5, 4", torque='0, "1 +- 10 %", 0', state='1, "0.5 +- 0.1", 3')
     other = fate_of(tmp_path, inertia="9, 5, 4", torque='0, "1 +- 10 %", 0', state='-1, "0.5 +- 0.1", 3')
     assert {over.verdict, other.verdict} == {"bounded", SPIN_2}  # one plane grows ahead, the other decays
-    assert all(one.answer == "undecided" for one in (over, other))
+    assert all(one.answer == "sampled" for one in (over, other))
     assert "every motion of the box lies on an invariant plane" in (over if over.verdict == "bounded" else other).because
     beside = fate_of(tmp_path, inertia="9, 5, 4", torque='0, "1 +- 10 %", 0', state='1, "0.5 +- 0.1", 4')
     assert (beside.answer, beside.verdict, beside.but) == ("holds", "bounded", "")
@@ -122,14 +122,14 @@ def equilibria_of(folder, **numbers):
     return uncertain(case, ("equilibria",)).equilibria, box_of(case)
 
 
-def test_without_a_torque_a_wheel_leaves_the_equilibria_open(tmp_path):
+def test_without_a_torque_a_wheel_leaves_the_equilibria_to_samples(tmp_path):
     over, _ = equilibria_of(tmp_path, momentum='"3 +- 1 %", 1, 2', torque="0, 0, 0")
-    assert over.answer == "undecided" and "without a torque" in over.because
+    assert over.answer == "sampled" and "without a torque" in over.because and over.samples.number == 64
 
 
-def test_a_torque_in_the_plane_of_two_equal_moments_is_left_open(tmp_path):
+def test_a_torque_in_the_plane_of_two_equal_moments_is_left_to_samples(tmp_path):
     over, _ = equilibria_of(tmp_path, inertia="20, 20, 10", torque='"1 +- 10 %", 2, 0')
-    assert over.answer == "undecided" and "two equal moments" in over.because
+    assert over.answer == "sampled" and "two equal moments" in over.because and over.samples.number == 64
 
 
 @pytest.mark.parametrize("inertia", ["15, 15, 10", "10, 10, 10"])

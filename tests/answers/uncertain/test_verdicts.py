@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 from stabilab.answers.uncertain.box import box_of
 from stabilab.answers.uncertain.equilibria import signature_at
@@ -235,20 +236,26 @@ def test_a_wheel_along_the_torque_leaves_nothing_bounded_and_may_not_vanish(tmp_
     always = uncertain(case_of(tmp_path, momentum='"3 +- 10 %", 0, 0', torque="1, 0, 0", state="0.1, 0, 0")).fate
     assert (always.answer, always.verdict) == ("holds", "unbounded")
     maybe = uncertain(case_of(tmp_path, momentum='"0 +- 0.1", 5, 0', torque="0.01, 0, 0", state="0, 0, 0")).fate
-    assert maybe.answer in ("depends", "undecided") and "may vanish" in maybe.because
+    assert maybe.answer in ("depends", "sampled") and "may vanish" in maybe.because
 
 
-def test_off_the_axes_the_fate_stays_undecided_and_says_why(tmp_path):
+def test_off_the_axes_the_fate_is_sampled_and_says_why(tmp_path):
     over = uncertain(case_of(tmp_path, torque='0, "0 +- 0.1", 1', state="0, 0, 1"))
-    assert over.fate.answer == "undecided" and "off the principal axes" in over.fate.because
-    assert "no proof for the box; of 64 sampled motions all: spin-up about axis 3, positive sense" in over.fate.because
+    assert over.fate.answer == "sampled" and "off the principal axes" in over.fate.because
+    assert "no proof for the box; of 64 sampled points (seed 20261122) all: spin-up about axis 3, positive sense" in over.fate.because
+    assert over.fate.samples.counts == {over.fate.verdict: 64} and over.fate.samples.otherwise == pytest.approx(1 - 0.05**(1 / 64))
+    assert [one.kind for one in over.caveats] == ["samples"]
     assert over.fate.verdict == "spin-up about axis 3, positive sense"
 
 
 def test_moments_that_may_be_equal_are_no_ground_for_a_proof(tmp_path):
     case = case_of(tmp_path, inertia='"20 +- 1", "20 +- 1", 10', torque="1, 0, 0", state="0.3, 0.2, 0.1", momentum="0, 1, 1")
     over = uncertain(case, ("fate",)).fate
-    assert over.answer == "undecided" and "may be equal" in over.because
+    assert over.answer == "depends" and "may be equal" in over.because and over.samples.counts["bounded"] == 63
+    for witness in over.witnesses:  # by DOP853: a spin-up passes every bound in the end, as omega' -> M/D
+        D, h, M, w = (np.array([float(v) for v in witness.values[name]]) for name in ("inertia", "momentum", "torque", "state"))
+        run = solve_ivp(lambda t, x, D=D, h=h, M=M: (np.cross(D * x + h, x) + M) / D, (0, 300), w, method="DOP853", rtol=1e-9, atol=1e-10)
+        assert (np.abs(run.y[0]).max() > 0.5 * 300 * M[0] / D[0]) == witness.verdict.startswith("spin-up")
 
 
 def test_a_torque_of_either_sign_cannot_say_which_way_a_body_spins_up(tmp_path):
