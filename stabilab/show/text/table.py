@@ -9,6 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from ...answers.digits.ask import ask
 from ...answers.motion import motion
 from ...case.read import load
 from ...equilibrium.torque_table import torque_table
@@ -17,6 +18,7 @@ from .. import style
 from ..figures import paper
 from ..files import comma
 
+DECIMALS = 20  # of periods and extremes, from balls: the double next to each is the right one
 SHOWN_DIGITS = 6  # in the readable formats; the CSV holds every double in full
 
 
@@ -118,9 +120,9 @@ def extremes_table(number: int, folder: Path | None = None) -> Table:
 
 def _extremes_row(path, lam):
     case = load(path)
-    found = motion(case.scene, case.start, case.span, exact=case.exact_state)  # of one state: the same bytes on every processor
-    low_high = [float(v) for pair in found.extremes for v in pair]
-    return (case.name, lam, case.scene.a, case.scene.b, *case.state, found.fate.word, found.period, *low_high)
+    found = motion(case.scene, case.start, case.span, exact=case.exact_state)
+    period, extremes = (ask(name, case.scene, case.start, DECIMALS, case.span, found, case.exact_state).decimals for name in ("period", "extremes"))
+    return (case.name, lam, case.scene.a, case.scene.b, *case.state, found.fate.word, float(period), *(float(v) for pair in extremes for v in pair))
 
 
 def tables(tell: Callable[[int, int, str], None] | None = None) -> tuple[Table, ...]:
@@ -224,7 +226,7 @@ def html_page(table: Table) -> str:
 
 # what tables() reads
 STEMS = tuple(f"{family}-{lam}" for families, *_ in EXTREMES.values() for family in families for lam in paper.LAMBDAS)
-TOLERANCES = {"equilibria and verdicts": "exact", "extremes and periods": "roots of the rates and of the reduced potential, to rounding"}
+TOLERANCES = {"equilibria and verdicts": "exact", "extremes and periods": "roots of the rates and of the reduced potential in balls, rounded once"}
 FORMATS = {"txt": text, "csv": comma_separated, "md": markdown, "tex": latex, "html": html_page}
 
 
