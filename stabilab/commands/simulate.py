@@ -93,7 +93,7 @@ def _theory(case, run, words=False):
     """What the theory of an analytic model says, as rows or lines; nothing of an exact run."""
     if run.model == "exact":
         return []
-    found = theory(case, model=run.model)
+    found = theory(case, model=run.model, end=max(map(float, run.t), key=abs, default=None))
     return lines(found) if words else found
 
 

@@ -21,7 +21,7 @@ SUBSAMPLES = 16
 
 @dataclass(frozen=True)
 class RateRoots:
-    """Roots of the rates, in the order of the motion.
+    """Roots of the rates of all components of the state, in the order of the motion.
 
     t: (n,) times; component: (n,) index of the rate that vanishes; states: (n, N) there; start, end: (N,)
     states at t = 0 and at t_reached (the end of the span, or earlier where the run had to stop: `reason` says why);
@@ -38,13 +38,13 @@ class RateRoots:
     steps: int
     reason: str
 
-    def extremes(self):
-        """(3, 2) smallest and largest value of the first three components over the span, its two ends included."""
-        result = np.sort(np.stack([self.start[:3], self.end[:3]], axis=1), axis=1)
-        for i in range(3):
+    def extremes(self, components=(0, 1, 2)):
+        """(m, 2) smallest and largest value of the components over the span, its two ends included."""
+        result = np.sort(np.stack([self.start[list(components)], self.end[list(components)]], axis=1), axis=1)
+        for n, i in enumerate(components):
             values = self.states[self.component == i, i]
             if values.size:
-                result[i] = min(result[i, 0], values.min()), max(result[i, 1], values.max())
+                result[n] = min(result[n, 0], values.min()), max(result[n, 1], values.max())
         return result
 
 
@@ -119,7 +119,7 @@ def _step_roots(system, solver, before, run):
     dense, hits = solver.dense_output(), []
     times = np.linspace(solver.t_old, solver.t, SUBSAMPLES + 1)
     rates = system(dense(times).T)
-    for i in range(3):
+    for i in range(len(before)):
         for left in sign_changes(rates[:, i]):
             t = root_between(lambda y, i=i: system.rate(y.tolist())[i], dense, times[left], times[left + 1])
             hits.append((t, i, _land(run, solver.t_old, before, t)))

@@ -72,7 +72,7 @@ def compare(case: Any, times: ArrayLike | None = None, order: int | None = None)
     for name, run in list(runs.items())[1:]:
         for part in (p for p in SHARED if p in run.state and p in exact.state):
             found.append(_departure(case, name, part, run, exact, order))
-    return Comparison(times, runs, tuple(found), refused, tuple(theory(case, order)))
+    return Comparison(times, runs, tuple(found), refused, tuple(theory(case, order, end=float(times[-1]))))
 
 
 def side_by_side(case, times, order: int | None = None) -> tuple[dict, dict]:

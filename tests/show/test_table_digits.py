@@ -36,7 +36,8 @@ def oracle(case):
         return min(values), max(values)
     middle, half = (low + high) / 2, (high - low) / 2
     speed = mp.sqrt(2 * (E - most(U)[0]))
-    period = 2 * mp.quad(lambda u: half * mp.cos(u) / mp.sqrt(2 * (E - U(middle + half * mp.sin(u)))), mp.linspace(-mp.pi / 2, mp.pi / 2, 5), method="gauss-legendre")
+    inverse = lambda u: half * mp.cos(u) / mp.sqrt(2 * (E - U(middle + half * mp.sin(u))))
+    period = 2 * mp.quad(inverse, mp.linspace(-mp.pi / 2, mp.pi / 2, 5), method="gauss-legendre")
     found = dict(zip(pair, (most(first), most(second), (-speed, speed))))
     return [period, *(v for n in range(3) for v in found[n])]
 

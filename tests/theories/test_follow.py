@@ -166,14 +166,14 @@ def test_compare_names_the_attracting_spin_of_a_body_with_a_liquid():
     assert any(rate == pytest.approx([-0.02, 0]) for rate in found["rates"])
 
 
-def test_the_mean_precession_told_is_that_of_the_exact_motion():
+def test_the_periodic_motion_precesses_as_the_exact_one_through_it():
     from stabilab.theories.theory import theory
     from stabilab.theories.top.run_angles import with_euler_angles
     case = load(CASES / "top-fast.toml")
     rows = {row["about"]: row["values"] for row in theory(case, 8)}
     turns = rows["periodic motion"]["period"] * np.array([0.0, 24.0])
     psi = with_euler_angles(case, follow(case, turns)).state["euler"][:, 0]
-    assert (psi[1] - psi[0]) / turns[1] == pytest.approx(rows["mean precession"]["rate"], rel=1e-4)
+    assert (psi[1] - psi[0]) / turns[1] == pytest.approx(rows["periodic motion"]["precession"], rel=1e-4)
 
 
 def test_simulate_gives_classical_euler_angles_when_asked_for(stabilab):

@@ -94,5 +94,5 @@ def verdict(tilt, t, until, small):
     if np.all(tilt <= small):
         return WITHIN, promise
     first = np.min(np.abs(np.broadcast_to(t, tilt.shape)[tilt > small]))
-    return BEYOND, (f"the tilt reaches {np.max(tilt):.4g} rad and exceeds {small:g} rad at t = {first:.6g} s or before: "
+    return BEYOND, (f"the model's tilt reaches {np.max(tilt):.4g} rad and exceeds {small:g} rad at t = {first:.6g} s or before: "
                     f"the small-angle equations no longer describe the body; {promise}")

@@ -49,7 +49,7 @@ def spin_words(body: ChargedBody, omega, t) -> str:
     if D1 == D2:
         return "D1 = D2: r is constant and p, q are those of Euler's equations"
     change = abs(D1 - D2) / (2 * D3) * float((omega[..., 0]**2 + omega[..., 1]**2).max(initial=0.0)) * float(np.abs(t).max(initial=0.0))
-    return f"r is held at r0; with D1 - D2 = {D1 - D2:.6g} kg m^2 it changes by {change:.2g} rad/s at most over these times, by this motion's p and q"
+    return f"r is held at r0; with D1 - D2 = {D1 - D2:.6g} kg m^2 it changes by {change:.2g} rad/s at most over these times, by the model's p and q"
 
 
 @dataclass(frozen=True, eq=False)

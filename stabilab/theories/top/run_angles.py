@@ -7,7 +7,7 @@ import numpy as np
 
 from ...errors import InputError
 from ..follow import follow
-from .euler_angles import euler_angles
+from .euler_angles import EulerAngles, euler_angles
 
 TO_A_TURN = 60  # points to a turn of the fastest rate: psi is then known to some 1e-7
 MOST = 400_000
@@ -24,14 +24,20 @@ def with_euler_angles(case, run, model: str = "exact", order: int | None = None)
                          "newtonian_field, a charge with angle = \"attitude\"), or vertical in [motion]")
     if not len(run.t):
         return replace(run, state=run.state | {"euler": np.empty((0, 3))})
-    reach, fastest = float(np.abs(run.t).max()), float(np.linalg.norm(run.state["omega"], axis=1).max())
-    count = int(min(MOST, 2 + np.ceil(reach * fastest * TO_A_TURN / (2 * np.pi))))
-    sides = [sign * np.linspace(0.0, reach, count) for sign in (1, -1) if (sign * run.t > 0).any()]
-    fine = np.unique(np.concatenate([[0.0], run.t, *sides]))
-    whole = follow(case, fine, model, order=order)
-    found = euler_angles(whole.t, whole.state["omega"], whole.state["gamma"])
-    at, start = np.searchsorted(whole.t, run.t), int(np.argmin(np.abs(whole.t)))
+    found = angles_along(case, run.t, model, order)
+    at, start = np.searchsorted(found.t, run.t), int(np.argmin(np.abs(found.t)))
     angles = np.stack([found.psi - found.psi[start], found.theta, found.phi], axis=-1)[at]
     words = f"Euler angles: {found.reason}, psi known to about {found.error:.1g} rad"
     reason = words if run.reason in ("", "all times reached") else f"{run.reason}; {words}"
     return replace(run, state=run.state | {"euler": angles}, reason=reason)
+
+
+def angles_along(case, times, model: str = "exact", order: int | None = None) -> EulerAngles:
+    """The angles from 0 to the farthest of the times (n,), s, on both sides of 0 where they lie so; at those times, at 0, and close enough for psi."""
+    times = np.asarray(times, float)
+    reach, row = float(np.abs(times).max()), np.asarray(follow(case, times, model, order=order).state["omega"])
+    fastest = float(np.linalg.norm(np.vstack([row, case.state]), axis=1).max())
+    count = int(min(MOST, 2 + np.ceil(reach * fastest * TO_A_TURN / (2 * np.pi))))
+    sides = [sign * np.linspace(0.0, reach, count) for sign in (1, -1) if (sign * times > 0).any()]
+    whole = follow(case, np.unique(np.concatenate([[0.0], times, *sides])), model, order=order)
+    return euler_angles(whole.t, whole.state["omega"], whole.state["gamma"])
