@@ -1,5 +1,5 @@
 """What limits an answer: a tilt that it leaves out, a limit that comes first, a law that does not hold, a tensor that no rigid body has, samples in
-place of a proof.
+place of a proof, numbers that are the middles of uncertain ones.
 
 A caveat belongs to the answer: every view of it (text, JSON, CSV, sweep, map, page, explorer) shows its words.
 """
@@ -9,7 +9,7 @@ from collections.abc import Iterable
 
 from .record import record
 
-KINDS = ("tilt", "limit", "law", "unphysical", "samples")
+KINDS = ("tilt", "limit", "law", "unphysical", "samples", "uncertain")
 
 
 @record

@@ -35,6 +35,7 @@ SYSTEMS = ("deg", "si")  # of units in which text is printed
 STATES, SPANS = ("angular_velocity", "x"), ("span", "tau")
 BLOCKS = {"attitude": "attitude", "vertical": "gamma", "velocity": "velocity", "position": "position"}  # key: block
 UNIT_SLACK = 1e-6  # a vertical given to six decimals counts as a unit vector and stays as it is
+MIDDLES = Caveat("uncertain", "of the middles of the uncertain numbers; stabilab fate says what their box does")
 STAND_IN = Body((3, 2, 1))  # lets the faults of the effects show where the body itself is at fault
 
 
@@ -199,7 +200,7 @@ def _built(path, text, data, faults, variant="") -> Case:
     return Case(path, title, source, scene, variables, physical, scaling, motion.state, span, expect, motion.blocks, text,
                 variant, tuple(faults.uncertain.values()), mu, motion.exact, frame if physical else None, craft.thrusters, craft.wheels,
                 craft.limits, tuple(dict.fromkeys(map(dotted, sorted(faults.inexact, key=str)))), craft.notes, units,
-                caveats=physical.body.caveats if physical else ())
+                caveats=(*(physical.body.caveats if physical else ()), *([MIDDLES] if faults.uncertain else [])))
 
 
 def _units(output: Table | None) -> str:

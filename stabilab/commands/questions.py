@@ -41,7 +41,7 @@ def _tell(question, loaded, answered, systems, digits, boxes, why):
     texts = [lambda n=n: uncertain.first(boxes[n], told(*answered[n], systems[n], digits is not None, digits is not None or not answered[n][2].enough, why))
              for n in range(len(answered))]
     table = swept_extremes(loaded, motions, systems) if question == "extremes" else swept_motions(motions, systems)
-    boxed = [uncertain.text(box) or uncertain.middles(case) for box, (case, *_) in zip(boxes, answered)]
+    boxed = [uncertain.text(box) for box in boxes]
     tell_all(loaded, texts, [m.validity for m in motions], boxed, why or digits is not None, "\n", table, systems)
 
 

@@ -7,7 +7,7 @@ from ..answers.caveats import of_law
 from ..answers.passage.of_case import limited_time
 from ..case.limit_options import stated_limit
 from ..case.read import blamed_on
-from ..show.text import answers, law, uncertain
+from ..show.text import answers, law
 from ..show.text import when as shown
 from .common.cases import load_cases, one_by_one, tell_radians, units_asked
 from .common.output import hold_laws, leave_undecided, write
@@ -31,7 +31,7 @@ def when(cases, limits, units, json, csv, strict):
         write(shown.csv(answered))
     else:
         texts = [lambda n=n: shown.text(*answered[n], systems[n]) for n in range(len(answered))]
-        tell_all(loaded, texts, laws, [uncertain.middles(case) for case in loaded], False, "\n",
+        tell_all(loaded, texts, laws, [""] * len(loaded), False, "\n",
                  lambda of: shown.swept([answered[n] for n in of], systems[of[0]]), systems)
     leave_undecided(strict, any(shown.unknown(found) for *_, found in answered))
     hold_laws(strict, laws)

@@ -9,15 +9,20 @@ def tell_all(cases, texts, laws, boxes, full, between, swept, systems):
     """Text of every case to stdout; the combinations of a [sweep] as one table, unless all is asked for in full. texts: functions, a case each;
     swept(indices): (answer in a line, columns, rows) of a table; systems: the units of each."""
     if full or not any(case.variant for case in cases):
-        page.tell(between.join(law.first(held, text(), units, case.caveats) + box
+        page.tell(between.join(law.first(held, text(), units, _of(case, box)) + box
                                for case, text, held, box, units in zip(cases, texts, laws, boxes, systems)))
         return
     told = []
     for of in sweep.groups(cases):
         words = sweep.text([cases[n] for n in of], *swept(of)) if cases[of[0]].variant else texts[of[0]]()
-        caveats = dict.fromkeys(one for n in of for one in cases[n].caveats)
+        caveats = dict.fromkeys(one for n in of for one in _of(cases[n], boxes[n]))
         told.append(law.first(law.worst(*(laws[n] for n in of)), words, systems[of[0]], caveats) + "".join(dict.fromkeys(boxes[n] for n in of)))
     page.tell("\n\n".join(told))
+
+
+def _of(case, box):
+    """The caveats of a case; without that on uncertain numbers where the words on their box follow."""
+    return [one for one in case.caveats if not box or one.kind != "uncertain"]
 
 
 def swept_motions(motions, systems):

@@ -43,7 +43,6 @@ FOLLOWED = "the torque is off the principal axes: keep still, and the motion is 
 WORKED_OUT = "keep still, and this motion is worked out"
 NO_ARRAYS = "this motion has to be followed, which needs NumPy, and that is not here"
 SWEPT = "The file has a [sweep]: the page is about the numbers in its body; stabilab fate and report answer every combination."
-UNCERTAIN = "Numbers of the file are uncertain: the page is about the middles; stabilab classify answers for all that they may be."
 QUICK = 2_000_000  # multiplications for the proof of a time at a limit: some tenths of a second
 PATIENCE = 0.12  # s: a motion whose kind took longer the last time waits until the hand rests
 
@@ -101,7 +100,7 @@ class Session:
         times, path = self._once("line", (case.scene, case.state, case.span, moving), lambda: line(case, form, _length(case, form), moving))
         picture = self._space(bag, case, twin, found, at_rest, path, asked.get("box"), moving)
         made = {"headline": greek(words), "fate": "undecided" if found is None else found.fate.word, "moving": moving, "start": clicked,
-                "note": " ".join(filter(None, (note, self._swept, UNCERTAIN if case.uncertain else "", _law(found),
+                "note": " ".join(filter(None, (note, self._swept, _law(found),
                                                    *limiting.beside(case.caveats, self.units)))),
                 "toml": case.text, "rows": [] if found is None else tables.rows(case, found, self.units), "space": picture,
                 "plane": None if twin is None else planes.drawn(bag, twin, case.state, self.units),

@@ -101,11 +101,6 @@ def what_changes(found) -> str:
              "undecided": f"{subject} undecided within the uncertainties"}[over.answer]
 
 
-def middles(case) -> str:
-    """A line that follows an answer which the box is not asked for."""
-    return "\n  of the middles of the uncertain numbers; stabilab fate says what their box does" if case.uncertain else ""
-
-
 def _lines(subject, over, units) -> list[str]:
     holds, depends = SUBJECTS[subject]
     lead = {"holds": f"{holds} all over the box", "depends": f"{depends} on them", "sampled": "the same at all sampled points of the box, without a proof",

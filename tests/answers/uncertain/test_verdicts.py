@@ -374,7 +374,7 @@ def test_commands_say_what_the_box_does_in_text_and_json(stabilab):
     assert "fate: holds all over the box: bounded" in out and "equilibria" not in out
     _, plain, _ = stabilab("extremes", path)
     _, certain, _ = stabilab("extremes", str(CASES / "minor-axis-300.toml"))
-    middles = "  of the middles of the uncertain numbers; stabilab fate says what their box does"
+    middles = "  caveat: of the middles of the uncertain numbers; stabilab fate says what their box does"
     assert [line for line in plain.splitlines()[1:] if line != middles] == certain.splitlines()[1:] and middles in plain.splitlines()
 
 

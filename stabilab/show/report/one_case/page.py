@@ -40,7 +40,8 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
     box = _tried(absent, "Uncertain numbers", lambda: uncertain(case, asked)) if case.uncertain else None
     answer = "; ".join(filter(None, (verdict.headline(case, moved, found, measures), shown.what_changes(box))))
     page = {"name": case.name, "title": case.heading, "source": case.source, "path": case.path, "text": case.text, "headline": answer,
-            "law": verdict.law(moved, measures), "caveats": [spoken(line) for line in limiting.beside(case.caveats, units)],
+            "law": verdict.law(moved, measures),
+            "caveats": [spoken(line) for line in limiting.beside((one for one in case.caveats if one.kind != "uncertain"), units)],
             "fate": "" if moved is None else "undecided" if shown.open_fate(box) else moved.fate.word,
             "facts": [], "extremes": [], "invariants": [], "over": "", "pictures": [], "sensitivity": None, "certificate": None,
             "equilibria": found and table(found, measures), "equations": _tried(absent, "Equations", lambda: equations(case))}
