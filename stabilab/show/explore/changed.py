@@ -11,12 +11,14 @@ from typing import Any
 
 from ...case.read import Case, read_text
 from ...errors import CaseError, InputError
+from ...verify.numbers import shown
 from ..units import Units
 from .controls import torque_of
 from .toml import Written, data_of, exact_text, text_of
 
 SPOKEN_FOR = ("expect", "sweep")  # tables that speak of the file's own numbers
 LENGTH = 40  # letters of a number at most
+SMALLEST = 1e-300  # but zero: what is drawn of smaller ones has fewer digits than doubles
 LARGEST = 1e8  # beyond it doubles that are drawn run into overflows and lost digits; no body has such numbers
 
 
@@ -98,7 +100,7 @@ def _numbers(asked: dict[str, Any], name: str, count: int) -> list[Any] | None:
     """The changed numbers of a group, None for one that stays; None where all do."""
     values = asked.get(name)
     if values is not None and (not isinstance(values, list) or len(values) != count):
-        raise InputError(f"{name}: expected a list of {count} numbers or nulls, got {values!r:.60}")
+        raise InputError(f"{name}: expected a list of {count} numbers or nulls, got {shown(values)}")
     if values is None or not any(value is not None for value in values):
         return None
     return [None if value is None else number(value, name) for value in values]
@@ -111,14 +113,14 @@ def number(value: Any, name: str) -> str:
     except ValueError:
         found = math.nan
     if not math.isfinite(found):
-        raise InputError(f"{name}: expected a number, got {value!r:.40}")
-    if abs(found) > LARGEST:
-        raise InputError(f"{name}: expected a number of at most {LARGEST:g}, which can still be drawn, got {value}")
+        raise InputError(f"{name}: expected a number, got {shown(value)}")
+    if found and not SMALLEST <= abs(found) <= LARGEST:
+        raise InputError(f"{name}: expected 0 or a number of {SMALLEST:g} to {LARGEST:g}, which can still be drawn, got {value}")
     return f"{found:.12g}"
 
 
 def _torque(asked: Any) -> tuple[float, ...]:
     axis = asked.get("axis") if isinstance(asked, dict) else None
-    if axis not in (1, 2, 3) or isinstance(axis, bool):
-        raise InputError(f"torque: expected an axis of 1, 2 or 3, got {axis!r:.40}")
+    if type(axis) is not int or axis not in (1, 2, 3):  # neither true nor 1.0
+        raise InputError(f"torque: expected an axis of 1, 2 or 3, got {shown(axis)}")
     return torque_of(axis, *(float(number(asked.get(name), name)) for name in ("size", "tilt", "azimuth")))

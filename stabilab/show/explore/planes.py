@@ -8,6 +8,7 @@ from ...case.read import Case
 from ...errors import InputError
 from ...orbit.result import Motion
 from ...physics.scene import AnyScene
+from ...verify.numbers import shown
 from ..units import Units
 from .bag import Bag
 from .plane import plane_of
@@ -42,8 +43,8 @@ def clicked(scene: AnyScene, state: tuple[float, ...], at: Any, units: Units) ->
     plane = plane_of(scene, state)
     try:
         turn, rate = float(at["turn"]), float(at["rate"])
-    except (KeyError, TypeError, ValueError):
-        raise InputError(f"click: expected a turn and a rate, got {at!r:.60}") from None
+    except (KeyError, OverflowError, TypeError, ValueError):
+        raise InputError(f"click: expected a turn and a rate, got {shown(at)}") from None
     if plane is None or not (math.isfinite(turn) and math.isfinite(rate)):
         raise InputError("click: this motion has no phase plane")
     angle = 1.0 if units.scaled else units.angles[1]

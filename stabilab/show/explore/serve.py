@@ -63,7 +63,7 @@ class Explorer(ThreadingHTTPServer):
             return None
 
     def handle_error(self, request: Any, client_address: Any) -> None:
-        """A page that went away is no fault; anything else is told."""
+        """A page that went away is no fault; anything else, outside of any request, is told."""
         error = sys.exception() if hasattr(sys, "exception") else sys.exc_info()[1]
         if not isinstance(error, (ConnectionError, TimeoutError)):
             super().handle_error(request, client_address)
@@ -94,7 +94,11 @@ class _Handler(BaseHTTPRequestHandler):
         if way is None:
             self._refuse(404, "there is nothing here")
         elif asked is not None:
-            found = way(asked)
+            try:
+                found = way(asked)
+            except Exception as error:  # of any kind: whoever asked is told, and the terminal stays as it is
+                self._refuse(500, f"stabilab failed unexpectedly: {type(error).__name__}: {error!s:.200}")
+                return
             self._send(204 if found is None else 200, found or b"", "application/octet-stream")
 
     def _allowed(self) -> bool:
@@ -117,15 +121,17 @@ class _Handler(BaseHTTPRequestHandler):
 
     def _asked(self) -> dict[str, Any] | None:
         """The question in the body; refuses what is none."""
-        try:
-            length = int(self.headers.get("Content-Length", ""))
-        except ValueError:
-            length = -1
+        told = self.headers.get("Content-Length", "")
+        length = int(told) if told.isascii() and told.isdigit() and len(told) < 10 else -1
         if self.headers.get_content_type() != "application/json" or not 0 <= length <= LONGEST:
             self._refuse(400, f"expected JSON of at most {LONGEST} bytes with its length")
             return None
         try:
-            asked = json.loads(self.rfile.read(length))
+            body = self.rfile.read(length)
+            asked = json.loads(body) if len(body) == length else None
+        except TimeoutError:
+            self._refuse(408, "the body is shorter than its length")
+            return None
         except (ValueError, RecursionError):
             asked = None
         if not isinstance(asked, dict):
@@ -135,7 +141,7 @@ class _Handler(BaseHTTPRequestHandler):
 
     def _refuse(self, status: int, words: str) -> None:
         self.close_connection = True  # what it may still send is not read
-        self._send(status, f"{words}\n".encode(), "text/plain; charset=utf-8")
+        self._send(status, f"{words}\n".encode(errors="backslashreplace"), "text/plain; charset=utf-8")
 
     def _send(self, status: int, body: bytes, kind: str) -> None:
         self.send_response(status)

@@ -13,6 +13,7 @@ from ...equilibrium.result import Equilibria
 from ...errors import InputError
 from ...orbit.result import Fate, Motion
 from ...orbit.separatrix.plain_sheets import PlainSheet
+from ...verify.numbers import shown
 from .. import style
 from .bag import Bag
 
@@ -73,10 +74,10 @@ def _given(asked: Any) -> Box:
     """The box of a request."""
     try:
         numbers = [float(v) for v in (*asked["middle"], asked["half"])]
-    except (KeyError, TypeError, ValueError):
+    except (KeyError, OverflowError, TypeError, ValueError):
         numbers = []
     if len(numbers) != 4 or not all(map(math.isfinite, numbers)) or not numbers[3] > 0:
-        raise InputError(f"box: expected a middle of three numbers and half an edge, got {asked!r:.80}")
+        raise InputError(f"box: expected a middle of three numbers and half an edge, got {shown(asked)}")
     return Box(tuple(numbers[:3]), numbers[3])
 
 

@@ -1,8 +1,10 @@
 """Who is answered: a page that knows the token, from this machine, under the address that was printed."""
 import http.client
 import json
+import math
 import os
 import signal
+import socket
 import subprocess
 import sys
 import threading
@@ -13,7 +15,7 @@ from stabilab import load, motion
 from stabilab.answers.certificate import certificate
 from stabilab.errors import InputError
 from stabilab.show.explore.bag import unframed
-from stabilab.show.explore.serve import LONGEST, Explorer
+from stabilab.show.explore.serve import LONGEST, Explorer, _Handler
 
 CASE = "cases/thruster-stuck-major-axis.toml"
 
@@ -75,6 +77,69 @@ def test_the_page_itself_is_answered(server):
 def test_what_is_no_question_is_refused(server, body, headers):
     status, _, told = ask(server, "POST", "/{token}/answer", body, **headers)
     assert status == 400 and b"expected" in told
+
+
+TORQUE = {"axis": 1, "size": "0.02", "tilt": "0", "azimuth": "0"}
+WRONG = [True, 1.0, -1, 4, 10**400, math.nan, math.inf, "", "x", "1e400", "9" * 60, "\ud800", "1e-300", [], [1], [[[]]], {}, {"a": {}},
+         json.loads("[" * 900 + "]" * 900)]
+
+
+def wrong_bodies():
+    """Questions of the right form with one value of a wrong kind, or one that is missing."""
+    yield from ({name: value} for name in ("torque", "wheel", "start", "box", "click") for value in WRONG)
+    yield from ({"torque": {**TORQUE, name: value}} for name in TORQUE for value in WRONG)
+    yield from ({"torque": {key: value for key, value in TORQUE.items() if key != name}} for name in TORQUE)
+    yield from ({name: [None, value, None]} for name in ("wheel", "start") for value in WRONG)
+    yield from ({"box": {"middle": [0, value, 0], "half": 1}} for value in WRONG)
+    yield from ({"box": {"middle": [0, 0, 0], "half": value}} for value in WRONG)
+    yield from ({"click": {"turn": value, "rate": 0.1}} for value in WRONG)
+
+
+def test_every_question_of_a_wrong_kind_gets_a_reply_in_words(server, capfd):
+    shown, fine = 0, 0
+    for body in wrong_bodies():
+        status, _, told = ask(server, "POST", "/{token}/answer", json.dumps({**body, "moving": True}))
+        assert status == 200, (status, told, str(body)[:80])
+        error = unframed(told)[0].get("error")
+        shown, fine = shown + (error is not None and "expected" in error), fine + (error is None)
+        assert error is None or "expected" in error or "phase plane" in error, error
+    assert shown > 150 and fine < 30  # no torque, an empty list of clicks and the like are questions
+    assert capfd.readouterr() == ("", "")
+
+
+def test_a_fault_of_the_program_is_told_to_the_page_and_not_to_the_terminal(server, capfd, monkeypatch):
+    def fails(question, stopped):
+        raise ZeroDivisionError("by \ud800")
+    monkeypatch.setattr(server.session, "answer", fails)
+    status, headers, told = ask(server, "POST", "/{token}/answer", "{}")
+    assert status == 500 and told.startswith(b"stabilab failed unexpectedly: ZeroDivisionError: by") and headers["Connection"] == "close"
+    assert capfd.readouterr() == ("", "")
+
+
+@pytest.mark.parametrize("sent, expected", [
+    (b"GARBAGE\r\n\r\n", b"400"), (b"POST /{token}/answer HTTP/1.1\r\nHost: {host}\r\nContent-Type: application/json\r\nContent-Length: 9\r\n\r\n{}", b"400"),
+    (b"POST /{token}/answer HTTP/1.1\r\nHost: {host}\r\nContent-Type: application/json\r\nContent-Length: 1_0\r\n\r\n{}", b"400"),
+    (b"POST /{token}/answer HTTP/1.1\r\nHost: {host}\r\nContent-Type: application/json\r\nContent-Length: 1\r\n\r\n{}", b"400"),
+    (b"POST /{token}/answer HTTP/1.1\r\nHost: {host}\r\nContent-Type: application/json\r\nTransfer-Encoding: chunked\r\n\r\n2\r\n{}\r\n0\r\n\r\n", b"400"),
+    (b"PATCH /{token}/answer HTTP/1.1\r\nHost: {host}\r\n\r\n", b"501"), (b"GET /{token}/" + b"x" * 70000 + b" HTTP/1.1\r\n\r\n", b"414")])
+def test_what_is_no_request_gets_a_reply_too(server, capfd, sent, expected):
+    with socket.create_connection(("127.0.0.1", server.server_port), timeout=20) as line:
+        line.sendall(sent.replace(b"{token}", server.token.encode()).replace(b"{host}", server.hosts[0].encode()))
+        line.shutdown(socket.SHUT_WR)
+        reply = b""
+        while part := line.recv(4096):
+            reply += part
+    assert expected in reply and b"expected" in reply or b"Error code" in reply  # in words: those of the server, or of the library it stands on
+    assert capfd.readouterr() == ("", "")
+
+
+def test_a_body_that_does_not_come_is_waited_for_only_so_long(server, capfd, monkeypatch):
+    monkeypatch.setattr(_Handler, "timeout", 0.2)
+    head = f"POST /{server.token}/answer HTTP/1.1\r\nHost: {server.hosts[0]}\r\nContent-Type: application/json\r\nContent-Length: 9\r\n\r\n{{}}"
+    with socket.create_connection(("127.0.0.1", server.server_port), timeout=20) as line:
+        line.sendall(head.encode())
+        assert b" 408 " in line.recv(4096)
+    assert capfd.readouterr() == ("", "")
 
 
 def test_other_methods_are_not_known(server):
