@@ -1,20 +1,24 @@
 """What is finished of a sweep: a folder beside its file with a part for every chunk, whole or absent.
 
-A part is the records of a chunk as they lie in memory, with a digest of them and of the sweep before them. The folder says of which sweep it is; a run
-that was killed leaves it there, and the same sweep goes on from it.
+A part is the records of a chunk as they lie in memory, with a digest of them and of the sweep before them. The folder says of which sweep it is, and by
+which command; a run that was killed leaves it there, and the same command goes on from it. Refinements, each a sweep, have folders of their own.
 """
 from __future__ import annotations
 
 import hashlib
+import json
+import re
+import shlex
 import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import partial
+from glob import escape
 from pathlib import Path
 
 import numpy as np
 
-from ..errors import InputError
+from ..errors import InputError, printable
 from ..files import alone_in, whole_file
 from ..interrupt import undoing
 from .columns import record
@@ -30,14 +34,15 @@ def place_of(out: Path) -> Path:
 
 
 @contextmanager
-def kept(plan: Plan, folder: Path) -> Iterator[Path]:
-    """The folder for the parts of this sweep alone, made where it is not there. Raises InputError where it holds another sweep, or another run is at it."""
+def kept(plan: Plan, folder: Path, command: str = "") -> Iterator[Path]:
+    """The folder for the parts of this sweep alone, made where it is not there. command: that asks for it, if it is part of something else. Raises
+    InputError where the folder holds another sweep, or another run is at it."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with alone_in(folder, wait=False):
             with undoing(partial(_remove_if_empty, folder)):
                 try:
-                    _claim(plan, folder)
+                    _claim(plan, folder, command or plan.command)
                     yield folder
                 finally:
                     _remove_if_empty(folder)
@@ -57,17 +62,32 @@ def _remove_if_empty(folder: Path) -> None:
         folder.rmdir()
 
 
-def _claim(plan: Plan, folder: Path) -> None:
+def _claim(plan: Plan, folder: Path, command: str) -> None:
     claim = folder / PLAN
     if not claim.exists() and any(not entry.name.startswith(".") for entry in folder.iterdir()):
         raise InputError(f"{folder}: holds files that are no sweep's, and would be removed with its parts: move them, or give another --out")
     if claim.exists() and any(folder.glob("part-*")):  # of one killed before its first part nothing is lost
         if plan.digest not in claim.read_text(encoding="utf-8"):
-            raise InputError(f"{folder}: holds what is finished of another sweep (or of another version): run that one again, remove the folder, or give "
-                             "another --out")
+            raise InputError(_of_another(folder, claim, command))
         return
     with whole_file(claim) as waiting:
-        waiting.write_text(f'{{"digest": "{plan.digest}"}}\n', encoding="utf-8")
+        waiting.write_text(json.dumps({"digest": plan.digest, "command": command}) + "\n", encoding="utf-8")
+
+
+def _of_another(folder: Path, claim: Path, command: str) -> str:
+    """What stands there, how it goes on, and how it is replaced."""
+    try:
+        told = json.loads(claim.read_text(encoding="utf-8"))["command"]
+    except (ValueError, TypeError, KeyError):  # an older version did not say
+        told = None
+    file = re.sub(r"(\.\d+)?\.parts$", "", folder.name)
+    folders = sorted(path for path in folder.parent.glob(f"{escape(file)}*.parts") if re.fullmatch(r"(\.\d+)?\.parts", path.name.removeprefix(file)))
+    number = sum(1 for path in folders for _ in path.glob("part-*"))
+    if told == command:
+        what = "this command, before the case file or the program changed"
+    else:
+        what = f"another command, which goes on from them: {printable(told)} --out {file}" if told else "another command or version"
+    return f"{folder}: holds finished parts ({number}) of {what}; to replace them: rm -r {shlex.join(map(str, folders))}; or give another --out"
 
 
 def write(plan: Plan, folder: Path, number: int, rows: bytes) -> None:

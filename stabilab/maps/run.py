@@ -39,12 +39,12 @@ class Swept:
 
 
 @contextmanager
-def run(plan: Plan, out: Path | None = None, workers: int | None = None, scheduler: str | None = None) -> Iterator[Swept]:
+def run(plan: Plan, out: Path | None = None, workers: int | None = None, scheduler: str | None = None, command: str = "") -> Iterator[Swept]:
     """The finished sweep as a context; the parts of `out` are removed when its block ends well, and stay otherwise. out: the file that the parts are
     for, None to keep none. workers: processes on this machine; None: one a core where that pays.
-    scheduler: address of a Dask scheduler whose workers do it instead."""
+    scheduler: address of a Dask scheduler whose workers do it instead. command: of what the sweep is part of."""
     _judge(workers)
-    with _folder(plan, out) as folder:
+    with _folder(plan, out, command) as folder:
         left = parts.missing(plan, folder)
         points = sum(plan.chunks[number].points for number in left)
         with _counted(plan, points) as tell:
@@ -61,9 +61,9 @@ def _judge(workers: int | None) -> None:
 
 
 @contextmanager
-def _folder(plan, out):
+def _folder(plan, out, command):
     if out is not None:
-        with parts.kept(plan, parts.place_of(Path(out))) as folder:
+        with parts.kept(plan, parts.place_of(Path(out)), command) as folder:
             yield folder
     else:
         with tempfile.TemporaryDirectory(prefix="stabilab-") as folder, undoing(partial(shutil.rmtree, folder, True)):

@@ -5,6 +5,8 @@ import itertools
 import os
 import subprocess
 import sys
+from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -177,8 +179,37 @@ def test_parts_of_another_sweep_are_left_alone(tmp_path):
     one, other = (planned(CASES / "minor-axis-100.toml", {"x[1]": text}) for text in ("0:1:3", "0:1:4"))
     with parts.kept(one, tmp_path / "f.nc.parts") as folder:
         parts.write(one, folder, 0, answered(one, 0).tobytes())
-    with pytest.raises(InputError, match="of another sweep"), run(other, tmp_path / "f.nc", workers=1):
+    goes_on = "finished parts .1. of another command, which goes on from them: stabilab sweep minor-axis-100.toml "
+    with pytest.raises(InputError, match=goes_on) as error, run(other, tmp_path / "f.nc", workers=1):
         pass
+    assert str(error.value).endswith(f"; to replace them: rm -r {folder}; or give another --out") and "0:1:3" in str(error.value)
+    edited = replace(one, text=one.text + "# changed")
+    with pytest.raises(InputError, match="of this command, before the case file or the program changed; to replace them: "), run(edited, tmp_path / "f.nc"):
+        pass
+
+
+@pytest.mark.parametrize("line, other", [
+    (("atlas", "off-axis-two", "--level", "1", "--refine", "1", "--no-time"), ("--level", "0")),
+    (("basin", "minor-axis-100", "--vary", "x[1]=-4:4:5", "--vary", "x[3]=-3:3:5", "--depth", "2"), ("--depth", "1"))], ids=["atlas", "basin"])
+def test_a_map_killed_after_a_refinement_goes_on_by_its_command_or_says_how_it_is_replaced(tmp_path, stabilab, monkeypatch, line, other):
+    monkeypatch.chdir(tmp_path)
+    line = (line[0], CASES / f"{line[1]}.toml", *line[2:], "--out", "map.nc", "--workers", "1")
+    assert stabilab(*line)[0] == 0
+    whole = Path("map.nc").read_bytes()
+    with monkeypatch.context() as killed:  # before its file is written
+        killed.setattr("stabilab.show.maps.dataset.write", lambda *_: 1 / 0)
+        assert stabilab(*line)[0] == 1
+    left = sorted(path.name for path in Path().glob("*.parts"))
+    assert {"map.nc.1.parts", "map.nc.parts"} <= set(left)
+    next(Path("map.nc.1.parts").glob("part-*")).unlink()
+    code, _, err = stabilab(*line, *other)
+    assert code == 2 and f"stabilab {line[0]} {line[1].name} " in err and f"--out map.nc; to replace them: rm -r {' '.join(left)}; or " in err
+    made = []
+    monkeypatch.setattr("stabilab.maps.run.answered", lambda plan, number: made.append(number) or answered(plan, number))
+    code, out, err = stabilab(*line)
+    assert code == 0 and Path("map.nc").read_bytes() == whole and len(made) == 1 and not list(Path().glob("*.parts"))
+
+
 
 
 def test_a_run_that_ended_before_its_first_part_stands_in_nobodys_way(tmp_path):

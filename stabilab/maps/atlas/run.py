@@ -79,7 +79,7 @@ def drawn(asked: Asked, out: Path | None = None, workers: int | None = None, sch
         def told(points: tuple[Point, ...]) -> np.ndarray:
             nonlocal done, resumed
             place = None if out is None else out.with_name(f"{out.name}.{number}") if number else out
-            found = rounds.enter_context(run(asked.plan(points), place, workers, scheduler))
+            found = rounds.enter_context(run(asked.plan(points), place, workers, scheduler, asked.command))
             done, resumed = done + len(points), resumed + found.resumed
             return found.records
 

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import os
+import shlex
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, replace
@@ -139,7 +140,7 @@ def basins(case: Case | str | os.PathLike[str], vary: Any, depth: int = DEPTH, o
         def ask(keys: np.ndarray) -> np.ndarray:
             number = found["rounds"] = found.get("rounds", -1) + 1
             beside = None if out is None else out.with_name(f"{out.name}.{number}") if number else out
-            swept = rounds.enter_context(run(replace(fine, listed=packed(keys)), beside, workers, scheduler))
+            swept = rounds.enter_context(run(replace(fine, listed=packed(keys)), beside, workers, scheduler, _command(coarse, depth)))
             order = np.argsort(every := np.concatenate([found["keys"], keys]), kind="stable")
             found["keys"], found["rows"] = every[order], np.concatenate([found["rows"], swept.records])[order]
             found["resumed"] += swept.resumed
@@ -166,6 +167,11 @@ def _planned(case, vary, depth, follow) -> Plan:
         raise InputError(f"{' x '.join(map(str, plan.shape))} are {plan.points:,} points before any is refined; at most {MOST:,} are asked: take fewer, "
                          "and a depth")
     return plan
+
+
+def _command(coarse: Plan, depth: int) -> str:
+    words = [*(f"--vary={name}={text}" for name, text in coarse.vary), f"--depth={depth}", *([f"--follow={coarse.follow}"] if coarse.follow else [])]
+    return shlex.join(["stabilab", "basin", os.path.basename(coarse.path), *words])
 
 
 def _range(name: str, text: Any) -> str:

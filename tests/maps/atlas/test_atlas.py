@@ -181,7 +181,7 @@ def test_directions_of_a_full_tensor_are_told_in_the_frame_of_the_file():
 
 def test_a_run_that_was_stopped_goes_on_with_the_same_bytes(tmp_path, monkeypatch):
     case = case_of(wheel=(0.0, 0.2, 0.0), start=(0.3, -0.2, 0.5))
-    monkeypatch.setattr("stabilab.maps.plan.POINTED_COST", 0.2)  # ten points a chunk
+    monkeypatch.setattr("stabilab.maps.plan.POINTED_COST", 0.1)  # ten points a chunk
     whole, answered, counted = made(case, refine=1), machinery.answered, itertools.count()
 
     def stopping(plan, number):
