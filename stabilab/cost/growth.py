@@ -16,8 +16,7 @@ from ..answers.extremes import extremes, period
 from ..answers.fate import fate
 from ..integrate.reference import WORK, one_run, pairs, relative_errors
 from ..integrate.taylor_digits import Recursion
-from ..numbers.balls import sign, working
-from ..numbers.double_ball import Unclear
+from ..numbers.balls import Unclear, sign, working
 from ..orbit.ball_geometry import ball_orbit
 from ..orbit.ball_orbit import Orbit
 from ..orbit.extremes.balls import extreme_balls

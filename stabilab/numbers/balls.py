@@ -1,8 +1,7 @@
-"""Balls: numbers that surely hold the true value, in doubles first and in as many digits as a question needs.
+"""Balls: numbers that surely hold the true value, by python-flint, in as many digits as a question needs.
 
 The kind of ball is a value: a question takes it as its argument and hands it on to whatever computes. One that the balls
-leave open raises `Unclear`, and `settled` asks it again with twice the bits. A question asked from DOUBLE_BITS on is tried
-with balls of doubles first (`double_balls`), which need no library.
+leave open raises `Unclear`, and `settled` asks it again with twice the bits.
 """
 from __future__ import annotations
 
@@ -13,7 +12,6 @@ from threading import RLock
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from ..record import record
-from .double_ball import Doubles, Unclear
 from .polynomial import Poly, real_roots
 from .vectors import Number
 
@@ -21,9 +19,14 @@ if TYPE_CHECKING:
     from flint import arb, fmpq, fmpq_poly
 
 T = TypeVar("T")
-DOUBLE_BITS = Doubles.bits
+DOUBLE_BITS = 53
+FIRST_BITS = 64  # of a first try, which settles ordinary motions
 START_BITS = 128
 APART_BITS = 256  # roots that so many bits do not tell apart would cost flint's iteration a long time
+
+
+class Unclear(Exception):
+    """The balls overlap at this precision."""
 
 
 @contextmanager
@@ -45,8 +48,7 @@ def working(bits: int, terms: int = 10) -> Iterator[Digits]:
 
 @record
 class Digits:
-    """Where python-flint's balls come from, to be used while it is `working` with so many bits; `double_balls.Doubles` has
-    the same interface."""
+    """Where python-flint's balls come from, to be used while it is `working` with so many bits."""
 
     bits: int
 
@@ -88,22 +90,11 @@ class Digits:
         return real_roots_of(polynomial(*coefficients))
 
 
-DOUBLES = Doubles()
+def settled(question: Callable[[Digits], T], bits: int = START_BITS, most: int = 1 << 17) -> T:
+    """question(numbers), with twice the bits as long as it is `Unclear`; the last Unclear when `most` are not enough.
 
-
-def settled(question: Callable[[Doubles | Digits], T], bits: int = START_BITS, most: int = 1 << 17) -> T:
-    """question(numbers), with more bits as long as it is `Unclear`; the last Unclear when `most` are not enough.
-
-    numbers: the kind, a `Doubles` or a `Digits`, with its `bits`. bits: at first. DOUBLE_BITS: with balls of doubles, then
-    from START_BITS on, unless DOUBLE_BITS is also the `most`.
+    numbers: a `Digits`, with its `bits`. bits: at first.
     """
-    if bits == DOUBLE_BITS:
-        try:
-            return question(DOUBLES)
-        except (Unclear, ArithmeticError):
-            if most == DOUBLE_BITS:
-                raise Unclear from None
-            bits = START_BITS
     while True:
         try:
             with working(bits) as numbers:

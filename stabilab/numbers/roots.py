@@ -169,3 +169,40 @@ def between(lo: float, hi: float) -> float:
     if lo == 0 or hi == 0:
         return (lo + hi) * 2.0**-16
     return 0.5 * lo + 0.5 * hi
+
+
+# --- real roots of polynomials in floats, highest power first
+def _value_and_size(c: Sequence[float], t: float) -> tuple[float, float]:
+    """The value, and the sum of its terms' sizes, which its rounding is a share of."""
+    value = size = 0.0
+    for a in c:
+        value, size = value * t + a, size * abs(t) + abs(a)
+    return value, size
+
+
+def _derivative(c: Sequence[float]) -> list[float]:
+    return [a * (len(c) - 1 - i) for i, a in enumerate(c[:-1])]
+
+
+def real_roots_of(c: Sequence[float]) -> list[float]:
+    """Real roots of odd multiplicity, ascending: between those of the derivative, by Newton's method in a bracket. A pair
+    that rounding hides lies where the polynomial is flat to rounding."""
+    if len(c) < 2:
+        return []
+    if len(c) == 2:
+        return [-c[1] / c[0]]
+    # Fujiwara: no root exceeds twice the largest |a_i/a_0|^(1/i)
+    bound = 2.0 * max(abs(a / c[0]) ** (1 / i) for i, a in enumerate(c) if i) or 1.0
+    ends = [-bound, *(t for t in real_roots_of(_derivative(c)) if abs(t) < bound), bound]
+    return [_crossing(c, low, high) for low, high in zip(ends, ends[1:])
+            if (_value_and_size(c, low)[0] > 0) != (_value_and_size(c, high)[0] > 0)]
+
+
+def _crossing(c: Sequence[float], low: float, high: float) -> float:
+    """The root between low and high, where the signs differ."""
+    slopes, rising = _derivative(c), _value_and_size(c, high)[0] > 0
+
+    def look(x: float) -> tuple[float, float, bool | None]:
+        value = _value_and_size(c, x)[0]
+        return value, _value_and_size(slopes, x)[0], (value > 0) == rising if value else None
+    return held_newton(look, low, high, 0.5, EPS)

@@ -1,7 +1,7 @@
 """The reduced potential of one state in ball arithmetic: where doubles cannot decide, or would lose digits.
 
 Inputs (the state's doubles or fractions, the scene's rationals) are exact; every number is a ball that surely holds the true
-value (`balls`). The mechanics is the same for balls of doubles and of many digits; what it is on a circle, a hyperbola and a
+value (`balls`). The mechanics is the same for any number of digits; what it is on a circle, a hyperbola and a
 parabola, `ball_geometry` says.
 """
 from __future__ import annotations
@@ -11,8 +11,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any, NamedTuple
 
-from ..numbers.balls import sign
-from ..numbers.double_ball import Unclear
+from ..numbers.balls import Unclear, sign
 from ..numbers.vectors import Number
 
 

@@ -3,8 +3,7 @@ from __future__ import annotations
 
 from functools import cached_property
 
-from ..numbers.balls import sign
-from ..numbers.double_ball import Unclear
+from ..numbers.balls import Unclear, sign
 from .ball_base import BallOrbit, Spot
 from .ball_conic import BallConic
 from .potential import derivatives_on_parabola

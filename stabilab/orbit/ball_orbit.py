@@ -4,7 +4,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from ..numbers.balls import DOUBLE_BITS, START_BITS, settled
+from ..numbers.balls import FIRST_BITS, START_BITS, settled
 from ..numbers.vectors import Number
 from .ball_base import BallOrbit
 from .ball_geometry import ball_orbit
@@ -28,7 +28,7 @@ class Orbit:
     def invariants(self) -> dict[str, float]:
         """Q (the squared radius of the circle, or Z^2 - X^2 on a hyperbola) in canonical units, and the energy W^2/2 + V in
         the scene's, with the turn angle counted from the direction X = 0; nothing on a parabola."""
-        return self.settled(lambda found: found.invariants(), DOUBLE_BITS)
+        return self.settled(lambda found: found.invariants(), FIRST_BITS)
 
     def _in(self, numbers: Any) -> BallOrbit:
         if numbers not in self._built:

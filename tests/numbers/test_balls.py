@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 from stabilab.numbers import balls
-from stabilab.numbers.balls import DOUBLE_BITS, Digits, settled, working
-from stabilab.numbers.double_ball import Unclear
+from stabilab.numbers.balls import FIRST_BITS, Digits, Unclear, settled, working
 from stabilab.numbers.polynomial import Poly
 
 
@@ -27,8 +26,8 @@ def test_a_question_that_stays_unclear_is_unclear_in_the_end():
         settled(never, 128, 512)
     assert asked == [128, 256, 512]
     with pytest.raises(Unclear):
-        settled(never, DOUBLE_BITS, DOUBLE_BITS)
-    assert asked[3:] == [DOUBLE_BITS] and Digits.real_roots([Fraction(3)]) == [] and Digits.real_roots([]) == []
+        settled(never, FIRST_BITS, FIRST_BITS)
+    assert asked[3:] == [FIRST_BITS] and Digits.real_roots([Fraction(3)]) == [] and Digits.real_roots([]) == []
 
 
 @pytest.mark.one_in(2)

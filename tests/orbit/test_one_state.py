@@ -1,5 +1,6 @@
 """The motion of one state: one orbit answers all its questions."""
 import collections
+import math
 from fractions import Fraction
 
 import pytest
@@ -7,7 +8,7 @@ import pytest
 import stabilab
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
 from stabilab.orbit.ball_base import BallOrbit
-from tests.shared import PARABOLIC, case
+from tests.shared import PARABOLIC
 
 
 def body(inertia, wheel, torque):
@@ -37,13 +38,14 @@ def test_the_orbit_of_a_state_is_built_once_in_each_kind_of_number(name, monkeyp
     assert found.fate == label and set(built.values()) == {1} and len({(r, s) for r, s, _ in built}) == 1
 
 
-def test_a_motion_that_doubles_leave_open_builds_one_orbit_more_for_each_number_of_bits(monkeypatch):
-    found = case("middle-axis-double-well")
+def test_a_motion_that_the_first_bits_leave_open_builds_one_orbit_more_for_each_number_of_bits(monkeypatch):
+    scene = ScaledGyrostat("0.2", "0.4", (0, 0, 1))
+    edge = math.sqrt(2 * stabilab.motion(scene, (2.0, 1.0, 0.0)).margin_energy)  # the scaled energy is x3^2/2 + U
     bits, build = [], BallOrbit.__init__
 
     def counted(self, reduction, state, numbers):
         bits.append(numbers.bits)
         build(self, reduction, state, numbers)
     monkeypatch.setattr(BallOrbit, "__init__", counted)
-    stabilab.motion(found.scene, found.start, exact=found.exact_state)
+    stabilab.motion(scene, (2.0, 1.0, edge * (1 - 1e-13)))
     assert len(bits) == len(set(bits)) > 1

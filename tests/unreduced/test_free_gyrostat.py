@@ -11,8 +11,7 @@ from stabilab import Body, ConstantTorque, Fate, Gyrostat, Scene
 from stabilab.answers.digits.ask import ask
 from stabilab.answers.kinds import kind_of
 from stabilab.errors import InputError
-from stabilab.numbers.balls import DOUBLES
-from stabilab.numbers.double_ball import Unclear
+from stabilab.numbers.balls import Unclear, working
 from stabilab.orbit.fate.free_margin import _nearest, free_margin
 from stabilab.unreduced.free_gyrostat import extremes_over_period
 from tests.oracles import sphere
@@ -122,7 +121,8 @@ def test_large_arrays_of_free_motions_keep_their_digits_and_rarely_need_many():
 
 def test_two_saddles_as_far_above_as_below_give_the_margin_of_the_one_above():
     """The energy halfway between two saddles of one momentum, where no choice of the axes may decide."""
-    high, low = DOUBLES.ball(Fraction(1, 3)), DOUBLES.ball(Fraction(-1, 3))
+    with working(128) as numbers:
+        high, low = numbers.ball(Fraction(1, 3)), numbers.ball(Fraction(-1, 3))
     assert _nearest([low, high], 1024) is high and _nearest([high, low], 1024) is high
     with pytest.raises(Unclear):
         _nearest([low, high], 128)

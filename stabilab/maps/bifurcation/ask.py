@@ -8,7 +8,7 @@ from typing import Any
 from ...case.read import Case, read_text
 from ...case.source import parsed
 from ...errors import InputError
-from ...numbers.double_ball import Unclear
+from ...numbers.balls import Unclear
 from ...physics.coefficients import effective
 from ..plan import place_and_text
 from ..span import spans_of

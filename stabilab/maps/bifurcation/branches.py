@@ -6,8 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
-from ...numbers.balls import rational, settled
-from ...numbers.double_ball import Unclear
+from ...numbers.balls import Unclear, rational, settled
 from ...numbers.vectors import Float3
 from .choice import chosen
 from .eliminated import Eliminated

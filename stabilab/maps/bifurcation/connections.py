@@ -16,8 +16,7 @@ from fractions import Fraction
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from ...numbers.balls import rational, real_roots_of, settled, working
-from ...numbers.double_ball import Unclear
+from ...numbers.balls import Unclear, rational, real_roots_of, settled, working
 from ...numbers.vectors import Float3
 from .choice import chosen
 from .critical import between

@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from ...numbers.balls import rational, real_roots_of, settled
-from ...numbers.double_ball import Unclear
+from ...numbers.balls import Unclear, rational, real_roots_of, settled
 from .field.algebraic import Algebraic
 
 if TYPE_CHECKING:

@@ -11,8 +11,7 @@ from fractions import Fraction
 from functools import cache, partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ...numbers.balls import settled
-from ...numbers.double_ball import Unclear
+from ...numbers.balls import Unclear, settled
 from .critical import cuts
 from .eliminated import Eliminated, evaluated, of_power, univariate
 from .family import Family

@@ -12,8 +12,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ...numbers.balls import rational, real_roots_of
-from ...numbers.double_ball import Unclear
+from ...numbers.balls import Unclear, rational, real_roots_of
 from .family import Family
 from .field.algebraic import Algebraic, Powers
 from .system import LEANS, Conics, OnLine

@@ -14,8 +14,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ...errors import InputError
-from ...numbers.balls import rational, real_roots_of, settled
-from ...numbers.double_ball import Unclear
+from ...numbers.balls import Unclear, rational, real_roots_of, settled
 from ..keys import put
 from .choice import chosen
 from .critical import Cut, between, cuts

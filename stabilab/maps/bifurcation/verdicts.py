@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Any
 from ...equilibrium.conics import WELL
 from ...equilibrium.spectrum import invariants
 from ...equilibrium.stability import POSITIVE_EIGENVALUE, isolated_verdict, linear_word
-from ...numbers.balls import rational, sign
-from ...numbers.double_ball import Unclear
+from ...numbers.balls import Unclear, rational, sign
 from ...physics.quadratic import QuadraticForm, euler_form
 from .eliminated import Eliminated, Leant, Root, evaluated
 from .family import Family

@@ -2,13 +2,12 @@
 wherever else doubles would lose digits. Every digit returned is certain."""
 from __future__ import annotations
 
-from ...numbers.balls import DOUBLE_BITS, START_BITS, sign, working
-from ...numbers.double_ball import Unclear
+from ...numbers.balls import FIRST_BITS, START_BITS, Unclear, sign, working
 from ..ball_orbit import TIE_BITS, Orbit
 from ..result import Fate
 
 CERTAIN_BITS = 56  # the balls of the extremes are this much narrower than the component is large
-DOUBLE_CERTAIN = 40  # the same for balls of doubles: 1e-12, as the extremes of arrays promise
+DOUBLE_CERTAIN = 40  # the same for 64 bits: 1e-12, as the extremes of arrays promise
 # A root's ball in units of the height's over the slope: y is exact, so its height may be much narrower than its neighbours'.
 WIDER = 4, 64, 4096
 STEPS = 128  # of Newton's method, after which a bracket's ends count by their powers of two
@@ -23,15 +22,15 @@ def precise_extremes(orbit: Orbit, label: int):
 
 def extreme_balls(orbit: Orbit, label: int, certain: int = CERTAIN_BITS, doubles: bool = False):
     """[(least, greatest)] of the three components as balls, 2^-certain of the component's size wide at most; floats
-    (infinite) where unbounded. doubles: balls of doubles will do where they are certain to DOUBLE_CERTAIN bits."""
+    (infinite) where unbounded. doubles: 64 bits will do where the balls are certain to DOUBLE_CERTAIN bits."""
     if label == Fate.EQUILIBRIUM:
         with working(START_BITS) as numbers:
             return [(numbers.ball(v), numbers.ball(v)) for v in orbit.state]
     how = {Fate.SPIN_UP: _unbounded, Fate.SEPARATRIX: _asymptotic, Fate.BOUNDED: _bounded}[Fate(label)]
 
     def question(orbit):
-        return _ranges(orbit, *how(orbit), DOUBLE_CERTAIN if orbit.numbers.bits == DOUBLE_BITS else certain)
-    start = TIE_BITS if label == Fate.SEPARATRIX else DOUBLE_BITS if doubles else max(START_BITS, 2 * certain)
+        return _ranges(orbit, *how(orbit), DOUBLE_CERTAIN if orbit.numbers.bits == FIRST_BITS else certain)
+    start = TIE_BITS if label == Fate.SEPARATRIX else FIRST_BITS if doubles else max(START_BITS, 2 * certain)
     return orbit.settled(question, start)
 
 

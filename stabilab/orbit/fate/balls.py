@@ -3,8 +3,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from ...numbers.balls import START_BITS, sign
-from ...numbers.double_ball import Unclear
+from ...numbers.balls import START_BITS, Unclear, sign
 from ..ball_orbit import MOST_BITS, Orbit
 from .tie import exact_tie
 

@@ -19,13 +19,12 @@ from fractions import Fraction
 from math import isinf, nan
 from typing import NamedTuple
 
-from ...numbers.balls import DOUBLE_BITS, START_BITS, polynomial, settled, shares_root, sign
-from ...numbers.double_ball import Unclear
+from ...numbers.balls import FIRST_BITS, START_BITS, Unclear, polynomial, settled, shares_root, sign
 from ...numbers.polynomial import Poly
 from ...numbers.vectors import Number
 
 EQUAL_BITS = 512  # two distances in energy that agree to so many bits count as equal
-SHARE = 1e-12  # of the margin: with less certainty balls of doubles do not settle it
+SHARE = 1e-12  # of the margin: with less certainty 64 bits do not settle it
 
 
 def is_free(scene) -> bool:
@@ -59,17 +58,17 @@ class FreeMargin(NamedTuple):
 def free_margin(scene, state, digits: int = 17, doubles: bool = False) -> FreeMargin:
     """The margin of one state (three floats or Fractions, taken exactly) to `digits` decimal digits, in J.
 
-    scene: physical, with no torque. doubles: balls of doubles will do where they are certain to twelve digits.
+    scene: physical, with no torque. doubles: 64 bits will do where the margin is certain to twelve digits.
     """
     body = _Momenta(scene, state)
 
     def question(numbers):
         bits = numbers.bits
-        sharp = 10**digits if bits > DOUBLE_BITS else 1 / SHARE
+        sharp = 10**digits if bits > FIRST_BITS else 1 / SHARE
         excesses = [(height - numbers.ball(body.energy), same) for height, same in body.saddles(numbers)]
         for excess, same in excesses:
             if 0 in excess:
-                if bits == DOUBLE_BITS:
+                if bits == FIRST_BITS:
                     raise Unclear
                 if same():
                     return FreeMargin(excess * 0, True)
@@ -80,7 +79,7 @@ def free_margin(scene, state, digits: int = 17, doubles: bool = False) -> FreeMa
         if not abs(nearest) > sharp * nearest.rad():
             raise Unclear
         return FreeMargin(nearest, False)
-    return settled(question, DOUBLE_BITS if doubles else START_BITS)
+    return settled(question, FIRST_BITS if doubles else START_BITS)
 
 
 def _nearest(excesses, bits):

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from ...numbers.balls import DOUBLE_BITS
+from ...numbers.balls import FIRST_BITS
 from .balls import decide
 
 
@@ -19,9 +19,9 @@ def on_separatrix(orbit) -> bool:
         return _saddle(*slopes)
     if r.geometry.centred and (r.sense or (u + r.centre[0], v + r.centre[1]) == (0, 0)):
         return False
-    if not r.geometry.centred and not any(orbit.settled(lambda found: found.taylor[1:], DOUBLE_BITS)):
+    if not r.geometry.centred and not any(orbit.settled(lambda found: found.taylor[1:], FIRST_BITS)):
         return False
-    return decide(orbit, DOUBLE_BITS).sign == 0
+    return decide(orbit, FIRST_BITS).sign == 0
 
 
 def _force(r, u, v):

@@ -1,7 +1,7 @@
 """The fate of one state of a scene with a reduction, without arrays.
 
-The mechanics is that of `ball_orbit` (the orbit, its equilibria, its turning points); it is asked in balls of doubles first
-and in many digits where these leave a question open. So a single state needs neither NumPy nor, as a rule, python-flint,
+The mechanics is that of `ball_orbit` (the orbit, its equilibria, its turning points); it is asked with 64 bits first
+and in many digits where these leave a question open. So a single state needs no NumPy,
 every answer is certain to at least twelve digits, and near a separatrix there is no second formula to disagree with.
 Answers are those of `fate`, `extremes` and `period` for arrays: the same labels and reasons, numbers to rounding.
 """
@@ -11,7 +11,7 @@ import math
 from fractions import Fraction
 from typing import NamedTuple
 
-from ...numbers.balls import DOUBLE_BITS, working
+from ...numbers.balls import DOUBLE_BITS, FIRST_BITS, working
 from ...physics.quadratic import rests
 from ..ball_orbit import Orbit
 from ..result import Fate
@@ -75,7 +75,7 @@ def _on_circle(orbit) -> OneFate:
     if _shifted(orbit) == (0, 0):  # the circle is a point: pure spin, and nothing stands in its way
         found = None
     else:
-        found = decide(orbit, DOUBLE_BITS)
+        found = decide(orbit, FIRST_BITS)
         if found.sign == 0:
             return _tie()
     margin = -INF if found is None else found.margin
@@ -95,7 +95,7 @@ def _shifted(orbit) -> tuple[Fraction, Fraction]:
 
 def _valley(orbit) -> OneFate:
     """Between walls: bounded on either side of a barrier, if there is one."""
-    tie = decide(orbit, DOUBLE_BITS)
+    tie = decide(orbit, FIRST_BITS)
     if tie.sign == 0:
         return _tie()
     return OneFate(Fate.BOUNDED, Reason.WALLS, INF if tie.margin == -INF else tie.margin)
@@ -109,14 +109,14 @@ def _on_hyperbola(orbit) -> OneFate:
         return _spin_up(r, Reason.PURE_SPIN, -INF)
     if (u > 0) == (v > 0) and r.sense * r.p > 0 or (u > 0) != (v > 0) and r.sense * r.p < 0:
         return OneFate(Fate.BOUNDED, Reason.WALLS, INF)  # eta = 0: it grows ahead, and the torque's tilt rises behind
-    tie = decide(orbit, DOUBLE_BITS)
+    tie = decide(orbit, FIRST_BITS)
     if tie.sign > 0:
         return OneFate(Fate.BOUNDED, Reason.PLANE_CAPTURED, tie.margin)
     return _tie() if tie.sign == 0 else _spin_up(r, Reason.PLANE_ESCAPES, tie.margin)
 
 
 def _on_parabola(orbit) -> OneFate:
-    if not any(orbit.settled(lambda found: found.taylor[1:], DOUBLE_BITS)):
+    if not any(orbit.settled(lambda found: found.taylor[1:], FIRST_BITS)):
         return _spin_up(orbit.reduction, Reason.PURE_SPIN, -INF)  # the force is the same all along the orbit
     return _valley(orbit)
 

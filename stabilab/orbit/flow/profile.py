@@ -13,7 +13,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from ...numbers.double_ball import Unclear
+from ...numbers.balls import Unclear
 from ..ball_orbit import TIE_BITS, Orbit
 
 SURE_BITS = 60  # relative accuracy of a ball that is rounded to a double

@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from functools import lru_cache
 
-from ...numbers.balls import sign, working
-from ...numbers.double_ball import Unclear
+from ...numbers.balls import Unclear, sign, working
 from ..ball_orbit import Orbit
 from ..extremes.balls import turning_points
 from ..result import Fate, without_return

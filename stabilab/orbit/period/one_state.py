@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import math
 
-from ...numbers.balls import DOUBLE_BITS
-from ...numbers.double_ball import EPS, Unclear
+from ...numbers.balls import FIRST_BITS, Unclear
+from ...numbers.roots import EPS
 from ..ball_orbit import Orbit
 from ..extremes.balls import turning_points
 from ..potential import potential
@@ -33,8 +33,8 @@ def period_of(orbit: Orbit, label: Fate) -> float:
         ends = turning_points(orbit)
         return _rotation(orbit) if ends is None else _libration(orbit, *ends)
     try:
-        return orbit.settled(question, DOUBLE_BITS, DOUBLE_BITS)
-    except Unclear:
+        return orbit.settled(question, FIRST_BITS, FIRST_BITS)
+    except (Unclear, ArithmeticError):  # the integrand is formed in doubles
         return precise_period(orbit, label)
 
 

@@ -8,7 +8,7 @@ import math
 from functools import lru_cache
 from typing import Any, NamedTuple
 
-from ...numbers.double_ball import real_roots_of
+from ...numbers.roots import real_roots_of
 
 ON_PLANE = 1e-9  # of a branch's first invariant: below that its end lies on a plane Q = 0
 OPEN, FOLD, PLANE = "open", "fold", "plane"

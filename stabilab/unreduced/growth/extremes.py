@@ -17,8 +17,7 @@ from fractions import Fraction
 import numpy as np
 
 from ...integrate.extrema import roots_of_rates
-from ...numbers.balls import DOUBLE_BITS, settled
-from ...numbers.double_ball import Unclear
+from ...numbers.balls import FIRST_BITS, Unclear, settled
 from ...numbers.vectors import CYCLE
 from ...orbit.extremes.balls import CERTAIN_BITS, DOUBLE_CERTAIN
 from .certificates import angle_of, spin_up_margin
@@ -104,11 +103,11 @@ def law_extremes(scene, state, certificate, bits: int | None = None):
 
     def question(numbers):
         pairs = [_drifting(scene, x, a, numbers) for a in range(3)] if across else _about_axis(form, x, i, numbers)
-        certain = DOUBLE_CERTAIN if numbers.bits == DOUBLE_BITS else bits or CERTAIN_BITS
+        certain = DOUBLE_CERTAIN if numbers.bits == FIRST_BITS else bits or CERTAIN_BITS
         if not all(_narrow(pair, certain) for pair in pairs):
             raise Unclear
         return tuple(pairs)
-    return settled(question, DOUBLE_BITS if bits is None else 2 * bits)
+    return settled(question, FIRST_BITS if bits is None else 2 * bits)
 
 
 def _narrow(pair, certain) -> bool:

@@ -9,8 +9,7 @@ from scipy.optimize import brentq
 
 import stabilab
 from stabilab import Fate, ScaledGyrostat
-from stabilab.numbers.balls import Digits, settled, working
-from stabilab.numbers.double_ball import Unclear
+from stabilab.numbers.balls import Digits, Unclear, settled, working
 from stabilab.orbit.ball_orbit import Orbit, ball_orbit
 from stabilab.orbit.extremes.balls import turning_points
 from stabilab.orbit.period import balls

@@ -10,8 +10,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from ....numbers.balls import real_roots_of, working
-from ....numbers.double_ball import Unclear
+from ....numbers.balls import Unclear, real_roots_of, working
 from .gcd import field_gcd
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from fractions import Fraction
 
-from ....numbers.double_ball import Unclear
+from ....numbers.balls import Unclear
 from ....physics.alignment import aligned
 from ...ball_orbit import Orbit
 from ...fate.on_separatrix import on_separatrix

@@ -13,7 +13,7 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import Any, NamedTuple
 
-from ....numbers.balls import DOUBLE_BITS
+from ....numbers.balls import FIRST_BITS
 from ...conic import conic_of
 from ...fate.balls import decide
 from ...potential import slope_at
@@ -95,7 +95,7 @@ class _OnCircles(_Arc):
     def shade(orbit, arcs):
         """What may shade a sheet: only a state that a barrier holds sees the difference, and only where there are two barriers."""
         reduction = orbit.reduction
-        if not reduction.sense or len(arcs) < 2 or decide(orbit, DOUBLE_BITS).sign < 0:
+        if not reduction.sense or len(arcs) < 2 or decide(orbit, FIRST_BITS).sign < 0:
             return None
         g = reduction.constants
         return Shade((g["G"], g["c"], g["d"], g["mu"]))
