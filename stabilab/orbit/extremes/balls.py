@@ -7,7 +7,6 @@ from ..ball_orbit import TIE_BITS, Orbit
 from ..result import Fate
 
 CERTAIN_BITS = 56  # the balls of the extremes are this much narrower than the component is large
-DOUBLE_CERTAIN = 40  # the same for 64 bits: 1e-12, as the extremes of arrays promise
 # A root's ball in units of the height's over the slope: y is exact, so its height may be much narrower than its neighbours'.
 WIDER = 4, 64, 4096
 STEPS = 128  # of Newton's method, after which a bracket's ends count by their powers of two
@@ -20,17 +19,17 @@ def precise_extremes(orbit: Orbit, label: int):
     return np.array([[float(v if isinstance(v, float) else v.mid()) for v in pair] for pair in extreme_balls(orbit, label)])
 
 
-def extreme_balls(orbit: Orbit, label: int, certain: int = CERTAIN_BITS, doubles: bool = False):
+def extreme_balls(orbit: Orbit, label: int, certain: int = CERTAIN_BITS):
     """[(least, greatest)] of the three components as balls, 2^-certain of the component's size wide at most; floats
-    (infinite) where unbounded. doubles: 64 bits will do where the balls are certain to DOUBLE_CERTAIN bits."""
+    (infinite) where unbounded."""
     if label == Fate.EQUILIBRIUM:
         with working(START_BITS) as numbers:
             return [(numbers.ball(v), numbers.ball(v)) for v in orbit.state]
     how = {Fate.SPIN_UP: _unbounded, Fate.SEPARATRIX: _asymptotic, Fate.BOUNDED: _bounded}[Fate(label)]
 
     def question(orbit):
-        return _ranges(orbit, *how(orbit), DOUBLE_CERTAIN if orbit.numbers.bits == FIRST_BITS else certain)
-    start = TIE_BITS if label == Fate.SEPARATRIX else FIRST_BITS if doubles else max(START_BITS, 2 * certain)
+        return _ranges(orbit, *how(orbit), certain)
+    start = TIE_BITS if label == Fate.SEPARATRIX else FIRST_BITS if certain <= CERTAIN_BITS else 2 * certain
     return orbit.settled(question, start)
 
 

@@ -14,6 +14,6 @@ def extremes_of(orbit: Orbit, label: Fate, k: int = 0) -> tuple:
     here = [as_double(Fraction(v) * Fraction(2) ** k) for v in orbit.state]
     if label == Fate.EQUILIBRIUM:
         return tuple((v, v) for v in here)
-    balls = extreme_balls(orbit, label, doubles=True)
+    balls = extreme_balls(orbit, label)
     # rounding must not exclude the state itself
     return tuple((min(scaled_double(low, k), v), max(scaled_double(high, k), v)) for (low, high), v in zip(balls, here))

@@ -19,7 +19,7 @@ import numpy as np
 from ...integrate.extrema import roots_of_rates
 from ...numbers.balls import FIRST_BITS, Unclear, settled
 from ...numbers.vectors import CYCLE
-from ...orbit.extremes.balls import CERTAIN_BITS, DOUBLE_CERTAIN
+from ...orbit.extremes.balls import CERTAIN_BITS
 from .certificates import angle_of, spin_up_margin
 from .form import standard_form
 
@@ -103,7 +103,7 @@ def law_extremes(scene, state, certificate, bits: int | None = None):
 
     def question(numbers):
         pairs = [_drifting(scene, x, a, numbers) for a in range(3)] if across else _about_axis(form, x, i, numbers)
-        certain = DOUBLE_CERTAIN if numbers.bits == FIRST_BITS else bits or CERTAIN_BITS
+        certain = bits or CERTAIN_BITS
         if not all(_narrow(pair, certain) for pair in pairs):
             raise Unclear
         return tuple(pairs)
