@@ -143,11 +143,55 @@ def test_a_motion_that_no_wall_holds_is_made_bounded_by_any_change(tmp_path):
 
 
 def test_along_a_change_of_the_spin_both_separatrices_are_candidates():
-    """The torque does not depend on that spin, so the resultant is a square times F^2. S = 5 (w3 + s)^2/2 + S_0,
-    S_0 at w3 = 0: s = -w3 +- sqrt(-2 S_0/5)."""
+    """The torque does not depend on that spin, so the resultant is a square times F^2. S = 5 (w3 + s)^2/2 +
+    S_0, S_0 at w3 = 0: s = -w3 +- sqrt(-2 S_0/5)."""
     M, wheel, start = Fraction("0.02"), (Fraction("0.8"), 0, 0), (0, 0, Fraction(-1, 2))
     reduction = reduce(Scene(Body((12, 9, 5)), Gyrostat(wheel), ConstantTorque((0, 0, M))))
     half = math.sqrt(-2 * least((12, 9, 5), 2, M, wheel, (0, 0, 0)) / 5)
     found = candidates(Ray(reduction, start, (Fraction(0), Fraction(0), Fraction(1))))
     for s in (0.5 - half, 0.5 + half):
         assert min(abs(c - s) for c in found) < 1e-12
+
+
+def numbers(values):
+    return "[" + ", ".join(f'"{v}"' for v in values) + "]"
+
+
+@pytest.mark.parametrize("first, many", [(400, 4), pytest.param(404, 60, marks=pytest.mark.slow)])
+def test_the_fate_changes_at_every_margin_and_not_before(tmp_path, first, many):
+    """By energy, a millionth of the change before and beyond, where it ends, and at smaller changes all round."""
+    compared = 0
+    for seed in range(first, first + many):
+        rng = random.Random(seed)
+        D, i, M, l, w, _ = scene(rng)
+        if len(set(D)) == 1:
+            continue
+        torque = [M if n == i else 0 for n in range(3)]
+        path = tmp_path / "own.toml"
+        text = "[body]\ninertia = {}\n[effects.constant_torque]\ntorque = {}\n[effects.gyrostat]\nmomentum = {}\n"
+        path.write_text((text + "[motion]\nangular_velocity = {}\n").format(*map(numbers, (D, torque, l, w))))
+        row = stuck(load(path)).rows[0]
+
+        def changed(name, change, D=D, i=i, M=M, l=l, w=w):
+            parts = {"rate": [Fraction(0)] * 3, "wheel": [Fraction(0)] * 3, "torque": [Fraction(0)] * 3, name: change}
+            l = [a + b * (n != i) for n, (a, b) in enumerate(zip(l, parts["wheel"]))]
+            torque, w = M + parts["torque"][i], [a + b for a, b in zip(w, parts["rate"])]
+            return torque == 0 or least(D, i, torque, l, w) < 0
+        now = changed("rate", [Fraction(0)] * 3)
+        assert row.fate == ("equilibrium" if row.fate == "equilibrium" else "bounded" if now else "spin-up")
+        for name, margin in row.margins.items():
+            if not margin.size:
+                continue
+            way = list(map(Fraction, margin.direction))
+            along = lambda s, name=name, way=way: changed(name, [Fraction(s) * v for v in way])
+            assert along(margin.size * (1 - 1e-6)) == now, (seed, name, margin)
+            if margin.until is None or margin.until > margin.size * (1 + 1e-5):
+                assert along(margin.size * (1 + 1e-6)) != now, (seed, name, margin)
+            if margin.until is not None and margin.until < 1e6 * margin.size:
+                assert along(margin.until * (1 + 1e-6)) == now, (seed, name, margin)
+            for _ in range(6):
+                way = [rng.gauss(0, 1) * (name == "rate" or (n == i) == (name == "torque")) for n in range(3)]
+                size = margin.size * rng.uniform(0.5, 0.9999) / math.hypot(*way)
+                assert changed(name, [Fraction(size * v) for v in way]) == now, (seed, name, margin, way)
+            compared += 1
+    assert compared >= many / 2
